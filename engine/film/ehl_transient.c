@@ -50,38 +50,44 @@ static SbStatus settle(SbFilmTransient *t) {
   return status;
 }
 
-// Steady state from the spectral solution at `speed` [m/s].
-static SbStatus lay_steady(SbFilmTransient *t, const SbFilm *steady, double speed,
-                           SbReport *report) {
+// Total pressure and gap of a profile; beyond its ends those of the surroundings.
+static void lay_profile(SbFilmTransient *t, const SbFilm *film) {
   SbTransientState *s = &t->now;
   const SbFilmScale *scale = &t->scale;
-  const double flux = steady->film_flux / scale->film;
-  s->speed = 0.5 * speed / scale->half_width;
   for (int i = 0; i < t->nodes; i++) {
     const double X = t->X[i], x = (scale->middle + X) * scale->half_width;
     s->Q[i] = X < 0.0 ? scale->inlet : scale->outlet;
-    s->H[i] = flux + sb_film_dry_gap(X);
-    if (x >= steady->x[0] && x <= steady->x[steady->points - 1]) {
-      const size_t k = sb_interval(steady->x, steady->points, x);
-      const double share = (x - steady->x[k]) / (steady->x[k + 1] - steady->x[k]);
-      const double *p = &steady->pressure[k], *h = &steady->film[k];
+    s->H[i] = film->film_flux / scale->film + sb_film_dry_gap(X);
+    if (x >= film->x[0] && x <= film->x[film->points - 1]) {
+      const size_t k = sb_interval(film->x, film->points, x);
+      const double share = (x - film->x[k]) / (film->x[k + 1] - film->x[k]);
+      const double *p = &film->pressure[k], *h = &film->film[k];
       const double pressure = p[0] + share * (p[1] - p[0]) - t->problem.film.rupture_pressure;
       s->Q[i] = pressure / scale->pressure;
       s->H[i] = (h[0] + share * (h[1] - h[0])) / scale->film;
     }
     s->cavity[i] = false;
   }
+  s->H0 = 0.0;
+}
+
+// Steady state from the spectral solution at `speed` [m/s].
+static SbStatus lay_steady(SbFilmTransient *t, const SbFilm *steady, double speed,
+                           SbReport *report) {
+  SbTransientState *s = &t->now;
+  const SbFilmScale *scale = &t->scale;
+  // Between asperities the points of the profile leave a little pressure in the cavity.
+  const double none = t->rough ? 1e-5 : 0.0;
+  s->speed = 0.5 * speed / scale->half_width;
+  lay_profile(t, steady);
   sb_transient_bear(t, s, true);
-  const double none = t->rough ? 1e-5 : 0.0; // the profile's points do not match to the last
   for (int i = 0; i < t->nodes; i++) {
     const double x = (scale->middle + t->X[i]) * scale->half_width;
     const bool beyond = (x - steady->position_rupture) * speed > 0.0;
-    s->P[i] = fmax(s->P[i], 0.0);
     s->cavity[i] = steady->ruptured && beyond && i > 0 && i + 1 < t->nodes && s->P[i] <= none;
-    s->P[i] = s->cavity[i] ? 0.0 : s->P[i];
-    s->m[i] = s->cavity[i] ? flux : s->H[i];
+    s->P[i] = s->cavity[i] ? 0.0 : fmax(s->P[i], 0.0);
+    s->m[i] = s->cavity[i] ? steady->film_flux / scale->film : s->H[i];
   }
-  s->H0 = 0.0;
   const SbStatus status = settle(t);
   return status == SB_OK ? status
                          : sb_fail(report, status,
@@ -89,9 +95,21 @@ static SbStatus lay_steady(SbFilmTransient *t, const SbFilm *steady, double spee
 }
 
 // Contact at rest, parted by the film `rest`: the pressure of the dry contact; the first step finds
-// the mesh's own for that film.
-static void lay_rest(SbFilmTransient *t, double rest) {
+// the mesh's own for that film. Asperities hold what they part further by themselves.
+static void lay_rest(SbFilmTransient *t, double rest, const SbFilm *standing) {
   SbTransientState *s = &t->now;
+  s->speed = 0.0;
+  if (t->rough) {
+    lay_profile(t, standing);
+    for (int i = 0; i < t->nodes; i++) {
+      s->m[i] = s->H[i] = fmax(s->H[i], rest);
+    }
+    sb_transient_bear(t, s, true);
+    for (int i = 0; i < t->nodes; i++) {
+      s->P[i] = fmax(s->P[i], 0.0);
+    }
+    return;
+  }
   SbEhlLayers layers = t->layers;
   layers.inlet = t->scale.inlet;
   layers.outlet = t->scale.outlet;
@@ -99,7 +117,6 @@ static void lay_rest(SbFilmTransient *t, double rest) {
     s->P[i] = sb_ehl_layers_dry_pressure(&layers, t->X[i]);
     s->cavity[i] = false;
   }
-  s->speed = 0.0;
   s->H0 = 0.0;
   sb_transient_bear(t, s, false);
   sb_transient_gap(s->H, t, s);
@@ -162,7 +179,7 @@ static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
   return SB_OK;
 }
 
-// The steady films at speed_scale and, unless it is at rest, at the start.
+// The steady films at speed_scale and at the start, there unless it is at rest without asperities.
 typedef struct {
   double speed[2];
   SbFilm film[2];
@@ -174,7 +191,8 @@ static SbStatus solve_steady(Steady *out, const SbFilmTransientProblem *problem,
   out->speed[0] = (problem->film.speed < 0.0 ? -1.0 : 1.0) * problem->speed_scale;
   out->speed[1] = problem->film.speed;
   SbStatus status = SB_OK;
-  const int count = out->speed[1] == 0.0 || out->speed[1] == out->speed[0] ? 1 : 2;
+  const bool standing = out->speed[1] == 0.0 && !sb_film_rough(&problem->film);
+  const int count = standing || out->speed[1] == out->speed[0] ? 1 : 2;
   for (int k = 0; k < count && status == SB_OK; k++) {
     SbFilmProblem film = problem->film;
     film.speed = out->speed[k];
@@ -186,6 +204,22 @@ static SbStatus solve_steady(Steady *out, const SbFilmTransientProblem *problem,
     }
   }
   return status;
+}
+
+// A film on its way to rest passes every gap: there must be none that the pull closes.
+static SbStatus refuse_closing(const SbFilmTransient *t, SbReport *report) {
+  const SbFilmProblem *film = &t->problem.film;
+  const SbSnapContact contact = {.hamaker = film->hamaker,
+                                 .modulus = film->modulus,
+                                 .width = 2.0 * t->scale.half_width,
+                                 .viscosity = film->viscosity};
+  const double closed = sb_rough_snap_in(t->surface.rough.law, &contact);
+  return !(closed > 0.0)
+             ? SB_OK
+             : sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "surface.hamaker_constant",
+                                 "transient film: at rest adhesion closes gaps below %.3g nm; "
+                                 "follow the film without it",
+                                 1e9 * closed);
 }
 
 // One resolution from the steady films.
@@ -216,13 +250,18 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   if (sb_film_rough(&problem->film)) {
     t->surface = (SbEhlCase){.layers = t->layers};
     solver->problem = &t->problem.film;
-    const SbStatus status = sb_ehl_rough_case(&t->surface, solver, scale, report);
+    SbStatus status = sb_ehl_rough_case(&t->surface, solver, scale, report);
+    if (status == SB_OK && scaled.hamaker > 0.0) {
+      status = refuse_closing(t, report);
+    }
     if (status != SB_OK) {
       return status;
     }
     t->rough = true;
   }
-  const double rest = problem->rest_film / scale->film;
+  const double standing = t->rough ? steady->film[1].film_central : 0.0;
+  const double rest =
+      problem->rest_film > 0.0 ? fmax(problem->rest_film, standing) / scale->film : 0.0;
   const double length = scale->film / scale->half_width;
   t->diffusion = length * length * scale->pressure / (12.0 * scaled.viscosity);
   t->flow = 0.5 * problem->speed_scale / scale->half_width * largest->film_flux / scale->film;
@@ -240,7 +279,7 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   result->error_film_min = result->error_film_central = result->error_mesh;
   t->known_times = 1;
   if (rest > 0.0) {
-    lay_rest(t, rest);
+    lay_rest(t, rest, &steady->film[1]);
   } else if (steady->speed[1] != steady->speed[0]) {
     status = lay_steady(t, &steady->film[1], steady->speed[1], report);
   }

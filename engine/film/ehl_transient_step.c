@@ -112,8 +112,7 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const double
     for (int j = first; j <= last; j++) {
       const int k = j - i + MIDDLE;
       // Where the film is full its gap is the fluid's height.
-      const double by_gap =
-          by_H[k] + (s->cavity[j] ? 0.0 : by_m[k] - by_P[k] * t->solid_H[j]);
+      const double by_gap = by_H[k] + (s->cavity[j] ? 0.0 : by_m[k] - by_P[k] * t->solid_H[j]);
       right += by_gap * (elastic[j] - s->H[j]);
       by_H0 += by_gap;
       if (whole && by_gap != 0.0) {
@@ -178,7 +177,7 @@ static bool number(bool *lifted, SbFilmTransient *t, SbTransientState *s) {
     }
   }
   t->order = next + 1;
-  return t->order <= SB_TRANSIENT_NODES_MAX;
+  return t->order <= SB_TRANSIENT_ORDER_MAX;
 }
 
 // Whether the last factors may serve again: the same unknowns and nearly the same step.

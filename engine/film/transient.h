@@ -16,9 +16,12 @@
 // form whatever the step; nodes crowd about what the fluid carries and go along with it
 // (`resolve`). A companion at twice the spacing and twice the step runs beside: the estimate of the
 // least film is the largest difference between the two that the fluid still in the contact has
-// seen, of the central one half of it, and the mesh's own error in steady sliding. Range:
-// isoviscous (Barus' and Eyring's options are refused), flooded surroundings, M >= 1; the pressure
-// must stay that of one contact.
+// seen, of the central one half of it, and the mesh's own error in steady sliding.
+//
+// Asperities and adhesion are those of ehl.h: q = p + p_a(h) - p_v(h) deflects and bears the load,
+// in a cavity too, and the fluid flows through the mean gap h. A pull that closes gaps at rest
+// (film-snap-in) is refused. Range: isoviscous (Barus' and Eyring's options are refused), flooded
+// surroundings, M >= 1 of the smooth film; the pressure must stay that of one contact.
 #pragma once
 
 #include "engine/film/film.h"
@@ -27,7 +30,8 @@ typedef struct {
   SbFilmProblem film; // sizes, load and speed at the start; tolerance of the film history
   double speed_scale; // greatest |speed| to come [m/s]: lays the mesh
   double rest_film;   // 0: start in the steady state of film.speed; else at rest, the contact
-                      // parted by this film [m] and the surroundings full
+                      // parted by this film [m], or further by its asperities, and the
+                      // surroundings full
   bool resolve;       // spacing and steps for the narrow dip that a reversal carries through the
                       // contact; else for the mean film
 } SbFilmTransientProblem;
