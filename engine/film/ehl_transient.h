@@ -55,6 +55,7 @@ struct SbFilmTransient {
   SbFilmTransientProblem problem;
   SbFilmScale scale;
   SbEhlLayers layers; // of the contact at speed_scale, without end pressures
+  double supply[2];   // fluid's height at a starved end of the mesh; infinite: flooded
   bool rough;         // asperities or adhesion: the total pressure is not the film's
   SbEhlCase surface;  // they, of rough rows
   int nodes;

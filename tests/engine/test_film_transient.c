@@ -486,6 +486,45 @@ static void test_rough_start(void) {
   g_free(steady);
 }
 
+// A wall that brings little holds the steady starved film, smooth and rough, and brings it back
+// after a stop and a reversal; one that brings more than the film takes floods it. The error that
+// the film tells holds.
+static void test_starved(void) {
+  static const struct {
+    SbRoughModel surface;
+    double layer;
+  } row[] = {{SB_ROUGH_NONE, 5e-9},
+             {SB_ROUGH_GREENWOOD_TRIPP, 5e-9},
+             {SB_ROUGH_NONE, 1e-6},
+             {SB_ROUGH_GREENWOOD_TRIPP, 1e-6}};
+  SbFilm *steady = g_new(SbFilm, 1);
+  for (size_t i = 0; i < G_N_ELEMENTS(row); i++) {
+    SbFilmTransientProblem p = rough(row[i].surface, 0.2e-6, 0.1);
+    p.film.tolerance = 3e-3;
+    p.resolve = false;
+    p.inlet_film[0] = p.inlet_film[1] = row[i].layer;
+    const double transit = 4.0 * half_width(&p) / p.film.speed;
+    SbFilmTransient *t = begin(&p);
+    p.film.inlet_film = row[i].layer;
+    g_assert_cmpint(sb_film_solve(steady, &p.film, NULL, NULL), ==, SB_OK);
+    step(t, 0.2 * transit, 0.1);
+    for (int back = 0; back < (row[i].layer < 1e-8 ? 2 : 1); back++) {
+      const SbFilmTransientResult film = sb_film_transient_result(t);
+      g_test_message("%.3g %.3g", film.film_min / steady->film_min - 1.0,
+                     film.film_central / steady->film_central - 1.0);
+      assert_near(film.film_min, steady->film_min, fmin(film.error_film_min, 8e-3));
+      assert_near(film.film_central, steady->film_central, fmin(film.error_film_central, 3e-3));
+      if (back == 0) {
+        step(t, 0.05 * transit, 0.0);
+        step(t, 0.05 * transit, -0.1);
+        step(t, 2.8 * transit, -0.1);
+      }
+    }
+    sb_film_transient_destroy(t);
+  }
+  g_free(steady);
+}
+
 // What it cannot solve is refused.
 static void test_refused(void) {
   SbFilmTransient *t = NULL;
@@ -528,6 +567,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film-transient/rough-steady", test_rough_steady);
   g_test_add_func("/film-transient/rough-history", test_rough_history);
   g_test_add_func("/film-transient/rough-start", test_rough_start);
+  g_test_add_func("/film-transient/starved", test_starved);
   g_test_add_func("/film-transient/refused", test_refused);
   return g_test_run();
 }
