@@ -322,7 +322,9 @@ static bool read_history(SbModelSeries *series, SbFilmProblem *problem, const ch
 // The film at every row of the series; rows behind a failure stay unknown.
 static SbStatus follow(SbResultsHistory *out, const SbFilmProblem *problem,
                        const SbModelSeries *series, SbReport *report) {
-  SbFilmTransientProblem transient = {.film = *problem, .resolve = true};
+  SbFilmTransientProblem transient = {
+      .film = *problem, .inlet_film = {problem->inlet_film, problem->inlet_film}, .resolve = true};
+  transient.film.inlet_film = 0;
   for (size_t i = 0; i < series->count; i++) {
     transient.speed_scale = fmax(transient.speed_scale, fabs(series->value[i]));
     out->film_min[i] = out->film_central[i] = out->error_min[i] = out->error_central[i] = NAN;

@@ -16,6 +16,9 @@
 // Of the largest local error of a step against the mean's: the least film is local.
 static const double LOCAL = 0.3;
 
+// Less film pressure is none, where a profile is laid on the mesh.
+static const double NOTHING = 1e-10;
+
 // Way that the fluid goes before a mesh is due [b].
 static const double AHEAD = 0.03;
 
@@ -50,38 +53,44 @@ static SbStatus settle(SbFilmTransient *t) {
   return status;
 }
 
+// Total pressure, film pressure and gap of a profile; beyond its ends those of the surroundings.
+static void lay_profile(SbFilmTransient *t, const SbFilm *film) {
+  SbTransientState *s = &t->now;
+  const SbFilmScale *scale = &t->scale;
+  for (int i = 0; i < t->nodes; i++) {
+    const double X = t->X[i], x = (scale->middle + X) * scale->half_width;
+    s->P[i] = s->Q[i] = X < 0.0 ? scale->inlet : scale->outlet;
+    s->H[i] = film->film_flux / scale->film + sb_film_dry_gap(X);
+    if (x >= film->x[0] && x <= film->x[film->points - 1]) {
+      const size_t k = sb_interval(film->x, film->points, x);
+      const double share = (x - film->x[k]) / (film->x[k + 1] - film->x[k]);
+      const double *p = &film->pressure[k], *h = &film->film[k], *a = &film->asperity_pressure[k];
+      const double pressure = p[0] + share * (p[1] - p[0]) - t->problem.film.rupture_pressure;
+      s->Q[i] = pressure / scale->pressure;
+      s->P[i] = s->Q[i] - (a[0] + share * (a[1] - a[0])) / scale->pressure;
+      s->H[i] = (h[0] + share * (h[1] - h[0])) / scale->film;
+    }
+    s->cavity[i] = false;
+  }
+  s->H0 = 0.0;
+}
+
 // Steady state from the spectral solution at `speed` [m/s].
 static SbStatus lay_steady(SbFilmTransient *t, const SbFilm *steady, double speed,
                            SbReport *report) {
   SbTransientState *s = &t->now;
   const SbFilmScale *scale = &t->scale;
-  const double flux = steady->film_flux / scale->film;
   s->speed = 0.5 * speed / scale->half_width;
-  for (int i = 0; i < t->nodes; i++) {
-    const double X = t->X[i], x = (scale->middle + X) * scale->half_width;
-    s->Q[i] = X < 0.0 ? scale->inlet : scale->outlet;
-    s->H[i] = flux + sb_film_dry_gap(X);
-    if (x >= steady->x[0] && x <= steady->x[steady->points - 1]) {
-      const size_t k = sb_interval(steady->x, steady->points, x);
-      const double share = (x - steady->x[k]) / (steady->x[k + 1] - steady->x[k]);
-      const double *p = &steady->pressure[k], *h = &steady->film[k];
-      const double pressure = p[0] + share * (p[1] - p[0]) - t->problem.film.rupture_pressure;
-      s->Q[i] = pressure / scale->pressure;
-      s->H[i] = (h[0] + share * (h[1] - h[0])) / scale->film;
-    }
-    s->cavity[i] = false;
-  }
-  sb_transient_bear(t, s, true);
-  const double none = t->rough ? 1e-5 : 0.0; // the profile's points do not match to the last
+  lay_profile(t, steady);
   for (int i = 0; i < t->nodes; i++) {
     const double x = (scale->middle + t->X[i]) * scale->half_width;
-    const bool beyond = (x - steady->position_rupture) * speed > 0.0;
+    const bool beyond = steady->ruptured && (x - steady->position_rupture) * speed > 0.0;
+    const bool before = isfinite(t->supply[speed < 0.0]) && t->X[i] * speed < 0.0;
     s->P[i] = fmax(s->P[i], 0.0);
-    s->cavity[i] = steady->ruptured && beyond && i > 0 && i + 1 < t->nodes && s->P[i] <= none;
+    s->cavity[i] = (beyond || before) && i > 0 && i + 1 < t->nodes && s->P[i] <= NOTHING;
     s->P[i] = s->cavity[i] ? 0.0 : s->P[i];
-    s->m[i] = s->cavity[i] ? flux : s->H[i];
+    s->m[i] = s->cavity[i] ? steady->film_flux / scale->film : s->H[i];
   }
-  s->H0 = 0.0;
   const SbStatus status = settle(t);
   return status == SB_OK ? status
                          : sb_fail(report, status,
@@ -89,9 +98,21 @@ static SbStatus lay_steady(SbFilmTransient *t, const SbFilm *steady, double spee
 }
 
 // Contact at rest, parted by the film `rest`: the pressure of the dry contact; the first step finds
-// the mesh's own for that film.
-static void lay_rest(SbFilmTransient *t, double rest) {
+// the mesh's own for that film. Asperities hold what they part further by themselves.
+static void lay_rest(SbFilmTransient *t, double rest, const SbFilm *standing) {
   SbTransientState *s = &t->now;
+  s->speed = 0.0;
+  if (t->rough) {
+    lay_profile(t, standing);
+    for (int i = 0; i < t->nodes; i++) {
+      s->m[i] = s->H[i] = fmax(s->H[i], rest);
+    }
+    sb_transient_bear(t, s, true);
+    for (int i = 0; i < t->nodes; i++) {
+      s->P[i] = fmax(s->P[i], 0.0);
+    }
+    return;
+  }
   SbEhlLayers layers = t->layers;
   layers.inlet = t->scale.inlet;
   layers.outlet = t->scale.outlet;
@@ -99,7 +120,6 @@ static void lay_rest(SbFilmTransient *t, double rest) {
     s->P[i] = sb_ehl_layers_dry_pressure(&layers, t->X[i]);
     s->cavity[i] = false;
   }
-  s->speed = 0.0;
   s->H0 = 0.0;
   sb_transient_bear(t, s, false);
   sb_transient_gap(s->H, t, s);
@@ -107,6 +127,20 @@ static void lay_rest(SbFilmTransient *t, double rest) {
   for (int i = 0; i < t->nodes; i++) {
     s->m[i] = s->H[i] = fabs(t->X[i]) < 1.0 ? rest : fmax(s->H[i] + s->H0, rest);
   }
+}
+
+// Takes away at a starved end what the wall does not bring.
+static void starve(SbFilmTransient *t) {
+  SbTransientState *s = &t->now;
+  for (int i = 0; i < t->nodes; i++) {
+    const double supply = t->supply[t->X[i] > 0.0];
+    if (fabs(t->X[i]) > 1.0 && s->H[i] > supply) {
+      s->cavity[i] = true;
+      s->m[i] = supply;
+      s->P[i] = 0.0;
+    }
+  }
+  sb_transient_bear(t, s, false);
 }
 
 // Least film, by a parabola through the lowest node and its neighbours, and the central one,
@@ -145,13 +179,20 @@ static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
   const SbFilmProblem *film = &problem->film;
   if (film->model != SB_FILM_REYNOLDS || film->pressure_viscosity != 0.0 ||
       film->eyring_stress != 0.0 || film->inlet_film != 0.0) {
-    return sb_fail(report, SB_ERROR_INPUT,
-                   "transient film: only the isoviscous, flooded reynolds model");
+    return sb_fail(report, SB_ERROR_INPUT, "transient film: only the isoviscous reynolds model");
   }
   if (!(problem->speed_scale >= fabs(film->speed) && problem->speed_scale > 0.0)) {
     return sb_fail_parameter(report, SB_ERROR_RANGE, "drive.speed",
                              "transient film: speed scale %g m/s is below the speed %g m/s",
                              problem->speed_scale, film->speed);
+  }
+  const double ends[] = {film->pressure_left, film->pressure_right};
+  for (int k = 0; k < 2; k++) {
+    const double layer = problem->inlet_film[k];
+    if (!(layer >= 0.0) || (layer > 0.0 && ends[k] > ends[1 - k])) {
+      return sb_fail(report, SB_ERROR_INPUT,
+                     "transient film: layer of %g m at the end of higher pressure", layer);
+    }
   }
   const bool rest = problem->rest_film > 0.0;
   if (!(problem->rest_film >= 0.0 && problem->rest_film < film->radius) ||
@@ -162,9 +203,11 @@ static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
   return SB_OK;
 }
 
-// The steady films at speed_scale and, unless it is at rest, at the start.
+// The steady films at speed_scale, flooded, and at the start, there unless it is at rest without
+// asperities.
 typedef struct {
   double speed[2];
+  bool same; // there is no second one
   SbFilm film[2];
   SbFilmProfile profile[2];
 } Steady;
@@ -174,11 +217,14 @@ static SbStatus solve_steady(Steady *out, const SbFilmTransientProblem *problem,
   out->speed[0] = (problem->film.speed < 0.0 ? -1.0 : 1.0) * problem->speed_scale;
   out->speed[1] = problem->film.speed;
   SbStatus status = SB_OK;
-  const int count = out->speed[1] == 0.0 || out->speed[1] == out->speed[0] ? 1 : 2;
-  for (int k = 0; k < count && status == SB_OK; k++) {
+  const double supply = problem->inlet_film[out->speed[1] < 0.0];
+  out->same = out->speed[1] == 0.0 ? !sb_film_rough(&problem->film)
+                                   : out->speed[1] == out->speed[0] && !(supply > 0.0);
+  for (int k = 0; k < (out->same ? 1 : 2) && status == SB_OK; k++) {
     SbFilmProblem film = problem->film;
     film.speed = out->speed[k];
     film.profile = &out->profile[k];
+    film.inlet_film = k > 0 && film.speed != 0.0 ? supply : 0.0;
     status = sb_film_solve(&out->film[k], &film, solver, report);
     if (status == SB_OK && k == 0 && out->film[0].moes_M < 1.0) {
       status = sb_fail_parameter(report, SB_ERROR_RANGE, "drive.speed",
@@ -186,6 +232,34 @@ static SbStatus solve_steady(Steady *out, const SbFilmTransientProblem *problem,
     }
   }
   return status;
+}
+
+// A film on its way to rest passes every gap: there must be none that the pull closes.
+static SbStatus refuse_closing(const SbFilmTransient *t, SbReport *report) {
+  const SbFilmProblem *film = &t->problem.film;
+  const SbSnapContact contact = {.hamaker = film->hamaker,
+                                 .modulus = film->modulus,
+                                 .width = 2.0 * t->scale.half_width,
+                                 .viscosity = film->viscosity};
+  const double closed = sb_rough_snap_in(t->surface.rough.law, &contact);
+  return !(closed > 0.0)
+             ? SB_OK
+             : sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "surface.hamaker_constant",
+                                 "transient film: at rest adhesion closes gaps below %.3g nm; "
+                                 "follow the film without it",
+                                 1e9 * closed);
+}
+
+// The mesh's own error, by the present state and its spectral solution; the largest stays.
+static void compare_steady(SbFilmTransient *t, const SbFilm *steady) {
+  double film[2];
+  SbFilmTransientResult *result = &t->result;
+  (void)read_films(film, t);
+  const double apart = fmax(fabs(film[0] * t->scale.film / steady->film_min - 1.0),
+                            fabs(film[1] * t->scale.film / steady->film_central - 1.0));
+  const double own = fmax(steady->solver.error_film_min, steady->solver.error_film_central);
+  result->error_mesh = fmax(result->error_mesh, apart + own);
+  result->error_film_min = result->error_film_central = result->error_mesh;
 }
 
 // One resolution from the steady films.
@@ -216,43 +290,64 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   if (sb_film_rough(&problem->film)) {
     t->surface = (SbEhlCase){.layers = t->layers};
     solver->problem = &t->problem.film;
-    const SbStatus status = sb_ehl_rough_case(&t->surface, solver, scale, report);
+    SbStatus status = sb_ehl_rough_case(&t->surface, solver, scale, report);
+    if (status == SB_OK && scaled.hamaker > 0.0) {
+      status = refuse_closing(t, report);
+    }
     if (status != SB_OK) {
       return status;
     }
     t->rough = true;
   }
-  const double rest = problem->rest_film / scale->film;
+  const double standing = t->rough ? steady->film[1].film_central : 0.0;
+  const double rest =
+      problem->rest_film > 0.0 ? fmax(problem->rest_film, standing) / scale->film : 0.0;
   const double length = scale->film / scale->half_width;
   t->diffusion = length * length * scale->pressure / (12.0 * scaled.viscosity);
   t->flow = 0.5 * problem->speed_scale / scale->half_width * largest->film_flux / scale->film;
   sb_transient_mesh(t, rest);
+  t->supply[0] = t->supply[1] = INFINITY;
   SbStatus status = lay_steady(t, largest, steady->speed[0], report);
   if (status != SB_OK) {
     return status;
   }
-  double film[2];
-  (void)read_films(film, t);
-  SbFilmTransientResult *result = &t->result;
-  result->error_mesh = fmax(fabs(film[0] * scale->film / largest->film_min - 1.0),
-                            fabs(film[1] * scale->film / largest->film_central - 1.0)) +
-                       fmax(largest->solver.error_film_min, largest->solver.error_film_central);
-  result->error_film_min = result->error_film_central = result->error_mesh;
+  compare_steady(t, largest);
   t->known_times = 1;
-  if (rest > 0.0) {
-    lay_rest(t, rest);
-  } else if (steady->speed[1] != steady->speed[0]) {
-    status = lay_steady(t, &steady->film[1], steady->speed[1], report);
+  double supply[2];
+  for (int k = 0; k < 2; k++) {
+    const double layer = 2.0 * problem->inlet_film[k] / scale->film;
+    supply[k] = layer > 0.0 ? layer : INFINITY;
   }
+  if (rest > 0.0) {
+    memcpy(t->supply, supply, sizeof supply);
+    lay_rest(t, rest, &steady->film[1]);
+    starve(t);
+  } else if (!steady->same) {
+    // What it does not take gathers before it; without that there is no steady state.
+    const int inlet = steady->speed[1] < 0.0;
+    const bool takes = steady->film[1].film_flux / scale->film > 0.999 * supply[inlet];
+    t->supply[inlet] = takes ? supply[inlet] : INFINITY;
+    status = lay_steady(t, &steady->film[1], steady->speed[1], report);
+    compare_steady(t, &steady->film[1]);
+  }
+  memcpy(t->supply, supply, sizeof supply);
   return status;
 }
 
-SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientProblem *problem,
+SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientProblem *wanted,
                                   SbReport *report) {
   *out = NULL;
-  SbStatus status = check(problem, report);
+  SbStatus status = check(wanted, report);
   if (status != SB_OK) {
     return status;
+  }
+  SbFilmTransientProblem own = *wanted;
+  const SbFilmTransientProblem *problem = &own;
+  const double ends[] = {own.film.pressure_left, own.film.pressure_right};
+  for (int k = 0; k < 2; k++) {
+    if (own.inlet_film[k] > 0.0) { // the gas' pressure fills all cavities
+      own.film.rupture_pressure = fmax(own.film.rupture_pressure, ends[k]);
+    }
   }
   Steady *steady = malloc(sizeof *steady);
   SbFilmSolver *solver = NULL;

@@ -4,7 +4,7 @@
 #include "engine/film/ehl.h"
 #include "engine/film/transient.h"
 
-enum { SB_TRANSIENT_NODES_MAX = 1000 };
+enum { SB_TRANSIENT_NODES_MAX = 1000, SB_TRANSIENT_ORDER_MAX = 1400 };
 
 // Everything is scaled by the steady problem's b, p_H and b^2/R; time stays in seconds. Nodes are
 // at x = middle + X, in units of b.
@@ -55,6 +55,7 @@ struct SbFilmTransient {
   SbFilmTransientProblem problem;
   SbFilmScale scale;
   SbEhlLayers layers; // of the contact at speed_scale, without end pressures
+  double supply[2];   // fluid's height at a starved end of the mesh; infinite: flooded
   bool rough;         // asperities or adhesion: the total pressure is not the film's
   SbEhlCase surface;  // they, of rough rows
   int nodes;
@@ -85,12 +86,12 @@ struct SbFilmTransient {
   // [nodes][nodes]: gap by the pressures; factors for the step c0 and the unknowns below, c0 = 0:
   // none.
   double kernel[SB_TRANSIENT_NODES_MAX * SB_TRANSIENT_NODES_MAX];
-  double matrix[SB_TRANSIENT_NODES_MAX * SB_TRANSIENT_NODES_MAX];
+  double matrix[SB_TRANSIENT_ORDER_MAX * SB_TRANSIENT_ORDER_MAX];
   double factored_c0;
   bool factored_cavity[SB_TRANSIENT_NODES_MAX];
   int factored_extra[SB_TRANSIENT_NODES_MAX];
-  int pivot[SB_TRANSIENT_NODES_MAX];
-  double right[SB_TRANSIENT_NODES_MAX];
+  int pivot[SB_TRANSIENT_ORDER_MAX];
+  double right[SB_TRANSIENT_ORDER_MAX];
   // Of a fitted body: its polynomials at the nodes, and S times these.
   double mode[2][SB_TRANSIENT_NODES_MAX][SB_COMPLIANCE_MODES];
   // The step: m' = c0 m + old, zero when steady, and the faces' velocity over their carried share.

@@ -231,7 +231,12 @@ void sb_transient_mesh(SbFilmTransient *t, double rest) {
       t->coarseness * cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
   t->share = 0.15 * fine;
   t->inner_share = t->problem.resolve ? 0.10 * fine : t->share;
+  // A film trapped at rest may be much thinner than those of the speeds: its neck lies where the
+  // dry gap, some (X - 1)^(3/2), reaches it.
   t->finest = 0.5 * width;
+  if (rest > 0.0) {
+    t->finest = fmin(t->finest, 0.3 * pow(rest, 2.0 / 3.0));
+  }
   t->cell = 0.03 * fine;
   t->ramp = fmax(CARRIED * width, t->problem.resolve ? RAMP * fine : 0.0);
   t->bend = BEND * fine * fine;

@@ -16,15 +16,17 @@
 #include <string.h>
 
 // Height that the fluid goes through a face with, by van Albada's mean of the slopes between its
-// upstream nodes and across it, smooth where both vanish; derivatives into by_m. False where there
-// are no such nodes.
-static bool limited_height(double *height, SbTransientFace *f, const SbFilmTransient *t,
+// upstream nodes and across it, smooth where both vanish; derivatives into by_m.
+static void limited_height(double *height, SbTransientFace *f, const SbFilmTransient *t,
                            const double *m, int i, bool back) {
   const int C = back ? i + 1 : i;
   const int D = back ? i : i + 1;
   const int U = back ? i + 2 : i - 1;
-  if (U < 0 || U >= t->nodes) {
-    return false;
+  if (U < 0 || U >= t->nodes) { // what comes in from beyond the mesh
+    memset(f->by_m, 0, sizeof f->by_m);
+    f->by_m[C - f->first] = 1.0;
+    *height = m[C];
+    return;
   }
   const double u = t->X[U], c = t->X[C], d = t->X[D];
   const double a = (m[C] - m[U]) / (c - u);
@@ -39,7 +41,6 @@ static bool limited_height(double *height, SbTransientFace *f, const SbFilmTrans
   f->by_m[C - f->first] = 1.0 + (by_a / (c - u) - by_b / (d - c)) * (f->X - c);
   f->by_m[D - f->first] = by_b / (d - c) * (f->X - c);
   *height = m[C] + slope * (f->X - c);
-  return true;
 }
 
 // Flow through the face behind node i. Beside a cavity its gap and the slope of the pressure are
@@ -49,7 +50,9 @@ static void flow_through(SbFilmTransient *t, const SbTransientState *s, int i) {
   const double velocity = s->speed - t->carried_rate * f->carried;
   const bool back = velocity < 0.0;
   double height;
-  if (!f->monotonic || !limited_height(&height, f, t, s->m, i, back)) {
+  if (f->monotonic) {
+    limited_height(&height, f, t, s->m, i, back);
+  } else {
     memcpy(f->by_m, f->upwind[back], sizeof f->by_m);
     height = cblas_ddot(4, f->by_m, 1, s->m + f->first, 1);
   }
@@ -112,8 +115,7 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const double
     for (int j = first; j <= last; j++) {
       const int k = j - i + MIDDLE;
       // Where the film is full its gap is the fluid's height.
-      const double by_gap =
-          by_H[k] + (s->cavity[j] ? 0.0 : by_m[k] - by_P[k] * t->solid_H[j]);
+      const double by_gap = by_H[k] + (s->cavity[j] ? 0.0 : by_m[k] - by_P[k] * t->solid_H[j]);
       right += by_gap * (elastic[j] - s->H[j]);
       by_H0 += by_gap;
       if (whole && by_gap != 0.0) {
@@ -178,7 +180,7 @@ static bool number(bool *lifted, SbFilmTransient *t, SbTransientState *s) {
     }
   }
   t->order = next + 1;
-  return t->order <= SB_TRANSIENT_NODES_MAX;
+  return t->order <= SB_TRANSIENT_ORDER_MAX;
 }
 
 // Whether the last factors may serve again: the same unknowns and nearly the same step.
@@ -268,13 +270,24 @@ static double take_step(double *factor, SbFilmTransient *t, SbTransientState *s,
   return largest;
 }
 
+// Pressure at an end of the mesh, and what is there of fluid: all of the gap's, or of a starved end
+// what the wall brings, or takes away from the node beside.
+static void set_end(const SbFilmTransient *t, SbTransientState *s, int i, int beside) {
+  const double supply = t->supply[i > 0];
+  s->P[i] = i > 0 ? t->scale.outlet : t->scale.inlet;
+  s->cavity[i] = isfinite(supply);
+  if (s->cavity[i]) {
+    s->m[i] = s->speed * (beside - i) < 0.0 ? s->m[beside] : supply;
+  }
+}
+
 SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
   enum { ITERATIONS_MAX = 30 };
   const int n = t->nodes;
   double elastic[SB_TRANSIENT_NODES_MAX];
   SbFilmTransientResult *result = &t->result;
-  s->P[0] = t->scale.inlet;
-  s->P[n - 1] = t->scale.outlet;
+  set_end(t, s, 0, 1);
+  set_end(t, s, n - 1, n - 2);
   sb_transient_bear(t, s, false);
   bool fresh = false;
   bool settled = false;

@@ -9,6 +9,9 @@
 // ends of the mesh on; what has left the contact as a thin layer comes back as a starved inlet
 // after a reversal until the liquid has followed.
 //
+// An end of the mesh may be starved: gas stands there at its pressure, which the film then breaks
+// at, and the wall brings a layer l. It moves with the wall, the fluid of the gap at u/2: m = 2 l.
+//
 // Space: finite volumes on a mesh refined at both edges of the contact, second order; pressure by
 // parabolas, the elastic kernel exact for these. Time: BDF2 with steps chosen from its own
 // error, Newton's method with the cavity's complementarity as an active set. Between the edges'
@@ -16,20 +19,26 @@
 // form whatever the step; nodes crowd about what the fluid carries and go along with it
 // (`resolve`). A companion at twice the spacing and twice the step runs beside: the estimate of the
 // least film is the largest difference between the two that the fluid still in the contact has
-// seen, of the central one half of it, and the mesh's own error in steady sliding. Range:
-// isoviscous (Barus' and Eyring's options are refused), flooded surroundings, M >= 1; the pressure
-// must stay that of one contact.
+// seen, of the central one half of it, and the mesh's own error in steady sliding.
+//
+// Asperities and adhesion are those of ehl.h: q = p + p_a(h) - p_v(h) deflects and bears the load,
+// in a cavity too, and the fluid flows through the mean gap h. A pull that closes gaps at rest
+// (film-snap-in) is refused. Range: isoviscous (Barus' and Eyring's options are refused), M >= 1 of
+// the smooth film; the pressure must stay that of one contact.
 #pragma once
 
 #include "engine/film/film.h"
 
 typedef struct {
-  SbFilmProblem film; // sizes, load and speed at the start; tolerance of the film history
-  double speed_scale; // greatest |speed| to come [m/s]: lays the mesh
-  double rest_film;   // 0: start in the steady state of film.speed; else at rest, the contact
-                      // parted by this film [m] and the surroundings full
-  bool resolve;       // spacing and steps for the narrow dip that a reversal carries through the
-                      // contact; else for the mean film
+  SbFilmProblem film;   // sizes, load and speed at the start; tolerance of the film history
+  double speed_scale;   // greatest |speed| to come [m/s]: lays the mesh
+  double rest_film;     // 0: start in the steady state of film.speed; else at rest, the contact
+                        // parted by this film [m], or further by its asperities, and the
+                        // surroundings full
+  double inlet_film[2]; // layer [m] that the wall brings from the left and from the right; 0 floods
+                        // that end. A starved end is no higher in pressure than the other one
+  bool resolve;         // spacing and steps for the narrow dip that a reversal carries through the
+                        // contact; else for the mean film
 } SbFilmTransientProblem;
 
 // The present film with its error estimates; counters and checks since the start.

@@ -6,8 +6,9 @@ film_volumes.py, time in seconds:
   d(h - z)/dt + d/dX(v (h - z) - kappa h^3 P') = 0,  P >= 0,  z >= 0,  one of both nil
 
 v = u/(2 b), kappa = film^2 p_H/(12 eta b^2); z is what a cavity lacks of its gap. Transport by the mean
-of two full cells, else from upstream. The cells are fixed; a Newton step takes the factors of an
-earlier one while these still bring it on. Needs Python alone.
+of two full cells, else from upstream. Asperities bear p_a(h) beside P: the gap follows the film's pressure
+by the kernel (I - K p_a')^-1 K. The cells are fixed; a Newton step takes the factors of an earlier one
+while these still bring it on. Needs Python alone.
 """
 import math
 from operator import mul
@@ -55,10 +56,12 @@ class Moving:
         self.h, self.H0 = s.h, s.H0
         self.z = [0.0 if i <= last else max(0.0, h - left) for i, h in enumerate(s.h)]
         self.full = [z <= 0 for z in self.z]
+        self.bear()
         self.p = [p if full else 0.0 for p, full in zip(s.p, self.full)]
         self.old = [[h - z for h, z in zip(self.h, self.z)]] * 2
         self.before = None
         self.kappa = 1 / (2 * contact.b * contact.speed_scale)
+        self.kernel, self.rise = grid.kernel, [1.0] * grid.n
         self.factors = None
         self.solves = self.factored = 0
 
@@ -96,28 +99,52 @@ class Moving:
                          (-a[5], -dx * c0 + b[5] - a[6], b[6])))
         return rows
 
+    def bear(self):
+        """Asperities' pressure and its slope."""
+        self.solid, self.slope = zip(*map(self.c.asperity, self.h))
+
+    def yielding(self):
+        """The kernel of the film's pressure, asperities giving way, and the gap's rise by H0."""
+        if not self.c.law:
+            return
+        n = self.g.n
+        matrix = [[(i == k) - a * s for k, (a, s) in enumerate(zip(row, self.slope))]
+                  for i, row in enumerate(self.g.kernel)]
+        self.elastic = (matrix, factor(matrix))
+        columns = [backward(*self.elastic, [row[k] for row in self.g.kernel]) for k in range(n)]
+        self.kernel = list(zip(*columns))
+        self.rise = backward(*self.elastic, [1.0] * n)
+        # Of the load to the film's pressure and H0.
+        borne = [d * s for d, s in zip(self.g.dx, self.slope)]
+        self.borne = borne
+        self.by_load = [d + sum(map(mul, borne, column)) for d, column in zip(self.g.dx, columns)]
+        self.by_load.append(sum(map(mul, borne, self.rise)))
+
     def refactor(self, rows):
         g, n = self.g, self.g.n
+        self.yielding()
         matrix = []
         for i, (dp, dh, dz) in enumerate(rows):
             cells = [k for k in (i - 1, i, i + 1) if 0 <= k < n]
             row = [0.0] * n
             for k in cells:
                 by = dh[k - i + 1]
-                row = [a + by * b for a, b in zip(row, g.kernel[k])]
+                row = [a + by * b for a, b in zip(row, self.kernel[k])]
             row = [a if full else 0.0 for a, full in zip(row, self.full)]
-            row.append(sum(dh[k - i + 1] for k in cells))
+            row.append(sum(dh[k - i + 1] * self.rise[k] for k in cells))
             for k in cells:
                 row[k] += dp[k - i + 1] if self.full[k] else dz[k - i + 1]
             matrix.append(row)
-        matrix.append([d if full else 0.0 for d, full in zip(g.dx, self.full)] + [0.0])
+        load = self.by_load if self.c.law else list(g.dx) + [0.0]
+        matrix.append([d if full else 0.0 for d, full in zip(load, self.full)] + [load[n]])
         scale = [1 / max(map(abs, row)) for row in matrix]
         matrix = [[a * s for a in row] for row, s in zip(matrix, scale)]
         self.factors = (matrix, factor(matrix), scale, list(self.full))
         self.factored += 1
 
-    def deflect(self):
-        self.h = [self.H0 + 0.5 * x * x + sum(map(mul, row, self.p)) for x, row in zip(self.g.x, self.g.kernel)]
+    def gap(self):
+        q = [p + a for p, a in zip(self.p, self.solid)]
+        return [self.H0 + 0.5 * x * x + sum(map(mul, row, q)) for x, row in zip(self.g.x, self.g.kernel)]
 
     def step(self, dt, speed):
         g, n = self.g, self.g.n
@@ -137,22 +164,31 @@ class Moving:
                 self.refactor(rows)
                 self.c0 = c0
             matrix, order, scale, _full = self.factors
+            lacks = [0.0] * n  # of the gap, which the asperities' pressure hangs on
+            if self.c.law:
+                lacks = backward(*self.elastic, [a - h for a, h in zip(self.gap(), self.h)])
             right = [-(dx * (c0 * (h - z) + old) + face[i + 1][0] - face[i][0])
                      for i, (dx, h, z, old) in enumerate(zip(g.dx, self.h, self.z, past))]
-            right.append(math.pi / 2 - sum(map(mul, g.dx, self.p)))
+            right.append(math.pi / 2 - sum(d * (p + a) for d, p, a in zip(g.dx, self.p, self.solid)))
+            if self.c.law:
+                for i, (_, dh, _) in enumerate(rows):
+                    right[i] -= sum(dh[k - i + 1] * lacks[k] for k in (i - 1, i, i + 1) if 0 <= k < n)
+                right[n] -= sum(map(mul, self.borne, lacks))
             y = backward(matrix, order, [a * b for a, b in zip(right, scale)])
             self.solves += 1
             was = self.h
             share = 1.0
-            change = [sum(map(mul, row, [a if full else 0.0 for a, full in zip(y, self.full)])) + y[n]
-                      for row in g.kernel]
+            pushed = [a if full else 0.0 for a, full in zip(y, self.full)]
+            change = [sum(map(mul, row, pushed)) + y[n] * up + r
+                      for row, up, r in zip(self.kernel, self.rise, lacks)]
             for h, d in zip(was, change):
                 if d < -0.6 * h:
                     share = min(share, -0.6 * h / d)
             self.p = [p + share * a if full else 0.0 for p, a, full in zip(self.p, y, self.full)]
             self.z = [0.0 if full else z + share * a for z, a, full in zip(self.z, y, self.full)]
             self.H0 += share * y[n]
-            self.deflect()
+            self.h = [h + share * d for h, d in zip(was, change)] if self.c.law else self.gap()
+            self.bear()
             moved = max(abs(a / b) for a, b in zip(change, was))
             turned = [k for k in range(n) if (self.p[k] < 0 if self.full[k] else self.z[k] < 0)]
             for k in turned:
@@ -168,11 +204,11 @@ class Moving:
         self.before = dt
 
     def least(self):
-        return fv.figures(self.c, fv.State(self.g, self.p, self.h, self.H0, self.p))[0]
+        return fv.figures(self.c, fv.State(self.g, self.p, self.h, self.H0, self.p))
 
 
 def stop_and_rest(contact, speed, stop, end, finest, growth, steps):
-    """Least film [m] at `end`, after sliding steadily at `speed`, evenly to rest in `stop`."""
+    """The film at `end`, after sliding steadily at `speed`, evenly to rest in `stop`."""
     coarse = fv.Grid(0.008, 0.12)
     start = fv.start(coarse, contact, 8.0)
     now = 8.0

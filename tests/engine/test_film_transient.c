@@ -280,6 +280,32 @@ static void test_start(void) {
   g_free(steady);
 }
 
+// Trapped at rest, a film a thousand times thinner than those of the speeds to come is squeezed at
+// its necks; spacing finer by another third does not change them.
+static void test_thin_rest(void) {
+  double least[2];
+  for (int k = 0; k < 2; k++) {
+    SbFilmTransientProblem p = seal(20000.0);
+    p.film.load = 1045.4;
+    p.film.radius = 0.93619e-3;
+    p.film.viscosity = 0.75836e-3;
+    p.film.speed = 0.0;
+    p.film.pressure_left = 168549.0;
+    p.film.tolerance = k == 0 ? 3e-3 : 1e-3;
+    p.speed_scale = 0.34;
+    p.rest_film = 0.126e-9;
+    SbFilmTransient *t = begin(&p);
+    step(t, 5.3, 0.0);
+    const SbFilmTransientResult film = sb_film_transient_result(t);
+    least[k] = film.film_min;
+    g_assert_cmpfloat_with_epsilon(film.film_central / p.rest_film, 1.0, 2e-3);
+    g_assert_cmpfloat(film.error_film_min, <, 0.03);
+    sb_film_transient_destroy(t);
+  }
+  g_assert_cmpfloat(least[1], <, 0.6 * 0.126e-9);
+  g_assert_cmpfloat_with_epsilon(least[0] / least[1], 1.0, 0.01);
+}
+
 // Values of the least film that others know better. Never further off than three estimates and the
 // reference's own uncertainty, whatever the resolution.
 typedef struct {
@@ -338,6 +364,167 @@ static void test_dwell(void) {
   history(row, G_N_ELEMENTS(row), true);
 }
 
+// The seal between rough surfaces.
+static SbFilmTransientProblem rough(SbRoughModel surface, double sigma, double speed) {
+  SbFilmTransientProblem p = seal(1000.0);
+  p.film.surface = surface;
+  p.film.gt_product = 0.1289;
+  p.film.sigma = sigma;
+  p.film.sigma_over_beta = 0.1;
+  p.film.shear_strength = 3.5e6;
+  p.film.load_coefficient = 0.19;
+  p.film.speed = p.speed_scale = speed;
+  p.film.tolerance = 3e-4;
+  p.resolve = true;
+  return p;
+}
+
+static void assert_near(double a, double b, double share) {
+  g_assert_cmpfloat(fabs(a - b), <=, share * fabs(b));
+}
+
+// Held at its speed the film with asperities, and adhesion, is the steady one, with its friction,
+// load and real area.
+static void test_rough_steady(void) {
+  static const struct {
+    SbRoughModel surface;
+    double sigma, speed, hamaker, off;
+  } row[] = {{SB_ROUGH_GREENWOOD_TRIPP, 1e-6, 0.1, 0.0, 1e-4},
+             {SB_ROUGH_GREENWOOD_TRIPP, 0.2e-6, -0.01, 1.35e-19, 1e-4},
+             {SB_ROUGH_PERSSON, 0.2e-6, 0.1, 0.0, 1e-4}};
+  SbFilm *steady = g_new(SbFilm, 1);
+  for (size_t i = 0; i < G_N_ELEMENTS(row); i++) {
+    SbFilmTransientProblem p = rough(row[i].surface, row[i].sigma, fabs(row[i].speed));
+    p.film.speed = row[i].speed;
+    p.film.hamaker = row[i].hamaker;
+    SbFilmTransient *t = begin(&p);
+    step(t, 0.1 * half_width(&p) / p.speed_scale, p.film.speed);
+    const SbFilmTransientResult film = sb_film_transient_result(t);
+    g_assert_cmpint(sb_film_solve(steady, &p.film, NULL, NULL), ==, SB_OK);
+    g_test_message("%.3g %.3g %.3g %.3g", film.film_min / steady->film_min - 1.0,
+                   film.film_central / steady->film_central - 1.0,
+                   film.asperity_load / steady->asperity_load - 1.0,
+                   film.friction_couette / steady->friction_couette - 1.0);
+    assert_near(film.film_min, steady->film_min, 3.0 * row[i].off);
+    assert_near(film.film_central, steady->film_central, row[i].off);
+    assert_near(film.asperity_load, steady->asperity_load, row[i].off);
+    assert_near(film.real_area, steady->real_area, row[i].off);
+    assert_near(film.friction_boundary, steady->friction_boundary, row[i].off);
+    assert_near(film.friction_couette, steady->friction_couette, 5.0 * row[i].off);
+    // It ends with a cell.
+    assert_near(film.friction_cavity, steady->friction_cavity, 0.05);
+    g_assert_cmpfloat(film.load_error, <, 1e-10);
+    g_assert_cmpfloat(film.mass_error, <, 1e-10);
+    sb_film_transient_destroy(t);
+  }
+  g_free(steady);
+}
+
+// Slides, stops, waits and slides back. Hardly any roughness: the smooth film. With more the
+// squeezed film hands its load to the asperities, to friction at rest, and comes back.
+static void test_rough_history(void) {
+  double least[2][4];
+  for (int k = 0; k < 3; k++) {
+    SbFilmTransientProblem p =
+        rough(k > 0 ? SB_ROUGH_GREENWOOD_TRIPP : SB_ROUGH_NONE, k == 2 ? 0.5e-6 : 1e-10, 0.1);
+    p.film.tolerance = 3e-3;
+    p.resolve = false;
+    const double transit = 4.0 * half_width(&p) / p.film.speed;
+    SbFilmTransient *t = begin(&p);
+    const double speed[] = {0.0, 0.0, -0.05, -0.1};
+    double borne = 0.0;
+    for (int i = 0; i < 4; i++) {
+      step(t, 0.3 * transit, speed[i]);
+      const SbFilmTransientResult film = sb_film_transient_result(t);
+      if (k < 2) {
+        least[k][i] = film.film_min;
+      } else if (i < 2) {
+        g_assert_cmpfloat(film.asperity_load, >, borne);
+        borne = film.asperity_load;
+      }
+      g_assert_cmpfloat(film.friction_boundary * speed[i], >=, 0.0);
+      g_assert_cmpfloat(film.load_error, <, 1e-10);
+      g_assert_cmpfloat(film.mass_error, <, 1e-10);
+    }
+    if (k == 2) {
+      step(t, 2.5 * transit, -0.1);
+      SbFilm *steady = g_new(SbFilm, 1);
+      p.film.speed = -0.1;
+      g_assert_cmpint(sb_film_solve(steady, &p.film, NULL, NULL), ==, SB_OK);
+      const SbFilmTransientResult film = sb_film_transient_result(t);
+      assert_near(film.film_min, steady->film_min, 1e-2);
+      assert_near(film.asperity_load, steady->asperity_load, 1e-2);
+      g_free(steady);
+    }
+    sb_film_transient_destroy(t);
+  }
+  for (int i = 0; i < 4; i++) {
+    assert_near(least[1][i], least[0][i], 1e-6);
+  }
+}
+
+// At rest asperities hold the surfaces apart, whatever less film is asked for; sliding brings the
+// steady film.
+static void test_rough_start(void) {
+  SbFilmTransientProblem p = rough(SB_ROUGH_GREENWOOD_TRIPP, 0.2e-6, 0.0);
+  SbFilm *rest = g_new(SbFilm, 1), *steady = g_new(SbFilm, 1);
+  g_assert_cmpint(sb_film_solve(rest, &p.film, NULL, NULL), ==, SB_OK);
+  p.speed_scale = 0.1;
+  p.rest_film = 1e-10;
+  p.film.tolerance = 3e-3;
+  p.resolve = false;
+  SbFilmTransient *t = begin(&p);
+  assert_near(sb_film_transient_result(t).film_central, rest->film_central, 1e-3);
+  const double transit = 4.0 * half_width(&p) / p.speed_scale;
+  step(t, 0.01 * transit, 0.1);
+  step(t, 2.5 * transit, 0.1);
+  p.film.speed = 0.1;
+  g_assert_cmpint(sb_film_solve(steady, &p.film, NULL, NULL), ==, SB_OK);
+  assert_near(sb_film_transient_result(t).film_min, steady->film_min, 3e-3);
+  sb_film_transient_destroy(t);
+  g_free(rest);
+  g_free(steady);
+}
+
+// A wall that brings little holds the steady starved film, smooth and rough, and brings it back
+// after a stop and a reversal; one that brings more than the film takes floods it. The error that
+// the film tells holds.
+static void test_starved(void) {
+  static const struct {
+    SbRoughModel surface;
+    double layer;
+  } row[] = {{SB_ROUGH_NONE, 5e-9},
+             {SB_ROUGH_GREENWOOD_TRIPP, 5e-9},
+             {SB_ROUGH_NONE, 1e-6},
+             {SB_ROUGH_GREENWOOD_TRIPP, 1e-6}};
+  SbFilm *steady = g_new(SbFilm, 1);
+  for (size_t i = 0; i < G_N_ELEMENTS(row); i++) {
+    SbFilmTransientProblem p = rough(row[i].surface, 0.2e-6, 0.1);
+    p.film.tolerance = 3e-3;
+    p.resolve = false;
+    p.inlet_film[0] = p.inlet_film[1] = row[i].layer;
+    const double transit = 4.0 * half_width(&p) / p.film.speed;
+    SbFilmTransient *t = begin(&p);
+    p.film.inlet_film = row[i].layer;
+    g_assert_cmpint(sb_film_solve(steady, &p.film, NULL, NULL), ==, SB_OK);
+    step(t, 0.2 * transit, 0.1);
+    for (int back = 0; back < (row[i].layer < 1e-8 ? 2 : 1); back++) {
+      const SbFilmTransientResult film = sb_film_transient_result(t);
+      g_test_message("%.3g %.3g", film.film_min / steady->film_min - 1.0,
+                     film.film_central / steady->film_central - 1.0);
+      assert_near(film.film_min, steady->film_min, fmin(film.error_film_min, 8e-3));
+      assert_near(film.film_central, steady->film_central, fmin(film.error_film_central, 3e-3));
+      if (back == 0) {
+        step(t, 0.05 * transit, 0.0);
+        step(t, 0.05 * transit, -0.1);
+        step(t, 2.8 * transit, -0.1);
+      }
+    }
+    sb_film_transient_destroy(t);
+  }
+  g_free(steady);
+}
+
 // What it cannot solve is refused.
 static void test_refused(void) {
   SbFilmTransient *t = NULL;
@@ -354,6 +541,9 @@ static void test_refused(void) {
   p.film.speed = p.speed_scale = p.film.speed * 4e6;
   g_assert_cmpint(sb_film_transient_create(&t, &p, NULL), ==, SB_ERROR_RANGE);
   p = seal(1000.0);
+  p.film.hamaker = 1e-19; // closes smooth surfaces
+  g_assert_cmpint(sb_film_transient_create(&t, &p, NULL), ==, SB_ERROR_INFEASIBLE);
+  p = seal(1000.0);
   t = begin(&p);
   g_assert_cmpint(sb_film_transient_step(t, 1.0, 2.0 * p.film.speed, NULL), ==, SB_ERROR_RANGE);
   g_assert_cmpint(sb_film_transient_step(t, -1.0, p.film.speed, NULL), ==, SB_ERROR_RANGE);
@@ -369,10 +559,15 @@ int main(int argc, char **argv) {
   g_test_add_func("/film-transient/steps", test_steps);
   g_test_add_func("/film-transient/squeeze", test_squeeze);
   g_test_add_func("/film-transient/start", test_start);
+  g_test_add_func("/film-transient/thin-rest", test_thin_rest);
   g_test_add_func("/film-transient/history", test_history);
   if (g_test_slow()) {
     g_test_add_func("/film-transient/dwell", test_dwell);
   }
+  g_test_add_func("/film-transient/rough-steady", test_rough_steady);
+  g_test_add_func("/film-transient/rough-history", test_rough_history);
+  g_test_add_func("/film-transient/rough-start", test_rough_start);
+  g_test_add_func("/film-transient/starved", test_starved);
   g_test_add_func("/film-transient/refused", test_refused);
   return g_test_run();
 }
