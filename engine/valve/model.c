@@ -58,6 +58,8 @@ static void take_values(SbModel *model, const SbParams *params) {
   model->surface = model->persson ? SB_ROUGH_PERSSON : SB_ROUGH_GREENWOOD_TRIPP;
   model->life_shown = model->life_shown > 0 ? model->life_shown : model->life_actuations;
   model->rubber.terms = 3;
+  const bool glass = model->rubber.glass_temperature > sb_param(SB_P_RUBBER_GLASS_TEMPERATURE)->min;
+  model->rubber.glass_temperature = glass ? model->rubber.glass_temperature : 0;
   model->rubber.fluid_density = model->density;
   // stem.pressure_diameter keeps its value, so that the pressure force is the pressure's alone.
   const double grown = 1 + model->housing_expansion * (model->temperature - SB_SIZES_TEMPERATURE);
@@ -498,7 +500,7 @@ int sb_model_number(const SbModel *model, SbParamId id) {
 
 bool sb_model_default(SbParamDefault *out, const SbModel *model, SbParamId id) {
   sb_params_default(out, &model->params, id);
-  return !model->params.given[id] && out->giver >= 0;
+  return !model->params.given[id] && out->from != NULL;
 }
 
 void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t size) {
@@ -583,6 +585,14 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
   }
   if (stored_only(model)) {
     sb_warn(warnings, "storage-only", "storage.temperature", "%s", stored_only_text);
+  }
+  SbParamDefault swell;
+  sb_params_default(&swell, &model->params, SB_P_RUBBER_SWELL_MASS);
+  if (model->params.rubber != NULL && model->storage_time > 0 && swell.from == NULL &&
+      !model->params.given[SB_P_RUBBER_SWELL_MASS]) {
+    sb_warn(warnings, "swell-unknown", "rubber.swell_mass",
+            "%s has no figure of its swell in this fluid: none is taken",
+            model->params.rubber->name);
   }
   SbFluidState state;
   if (model->fluid > 0) {
