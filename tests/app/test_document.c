@@ -485,6 +485,7 @@ static void test_own_rubber(void) {
   }
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(SbDocument) document = with_rubber(folder, "[rubber]\nname = none\n", issues);
+  g_assert_nonnull(document);
   g_autofree char *line = sb_issue_line(issues->pdata[0]);
   g_assert_nonnull(strstr(line, "[rubber] name: there is no rubber \"none\""));
   remove_folder(folder);
