@@ -20,11 +20,13 @@ static void print_derived(const SbDocument *document) {
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     SbParamDefault derived;
     sb_params_default(&derived, &params, (SbParamId)i);
-    if (!params.given[i] && derived.giver >= 0 && sb_param((SbParamId)i)->parent < 0) {
+    if (!params.given[i] && derived.from != NULL && sb_param((SbParamId)i)->parent < 0) {
       g_autofree char *value = sb_document_text(document, (SbParamId)i);
-      g_autofree char *giver = sb_document_text(document, (SbParamId)derived.giver);
-      printf("%s = %s (%s = %s; %s: %s)\n", sb_param((SbParamId)i)->key, value,
-             sb_param((SbParamId)derived.giver)->key, giver, derived.tag, derived.source);
+      g_autofree char *giver = derived.name != NULL
+                                   ? g_strdup(derived.name)
+                                   : sb_document_text(document, (SbParamId)derived.giver);
+      printf("%s = %s (%s = %s; %s: %s)\n", sb_param((SbParamId)i)->key, value, derived.from, giver,
+             derived.tag, derived.source);
     }
   }
 }

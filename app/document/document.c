@@ -6,6 +6,7 @@
 #include "app/document/document_parts.h"
 #include "app/document/document_private.h"
 #include "app/document/picture.h"
+#include "app/document/rubber_sheet.h"
 #include "app/document/series.h"
 
 #include <math.h>
@@ -41,6 +42,7 @@ void sb_document_free(SbDocument *document) {
   g_free(document->valve_name);
   g_free(document->series_name);
   g_free(document->series_path);
+  g_free(document->rubber_path);
   sb_model_data_release(document->data);
   g_free(document->text);
   g_ptr_array_unref(document->entries);
@@ -103,6 +105,35 @@ static bool check_group(const SbEntry *entry, const char *shown, GPtrArray *issu
   return false;
 }
 
+static SbModelData *data_of(SbDocument *document) {
+  if (document->data == NULL && sb_model_data_create(&document->data) != SB_OK) {
+    g_error("no memory for a document"); // as g_malloc() does
+  }
+  return document->data;
+}
+
+bool sb_document_take_rubber(SbDocument *document, const char *name, const char *directory,
+                             const char *shown, int line, GPtrArray *issues) {
+  SbModelData *before = document->data;
+  g_autofree SbRubberSheet *sheet = g_new0(SbRubberSheet, 1);
+  char *path = sb_rubber_sheet_read(sheet, name, directory, shown, line, issues);
+  if (path == NULL) {
+    return false;
+  }
+  g_free(document->rubber_path);
+  document->rubber_path = path;
+  document->data = NULL; // models may hold the one before, which nobody changes
+  SbModelData *data = data_of(document);
+  if (before != NULL) {
+    data->measured = before->measured;
+    data->outlines = before->outlines;
+  }
+  data->rubber = *sheet;
+  sb_model_data_release(before);
+  document->serial++;
+  return true;
+}
+
 // Moves the values of a scanned file into `params`, which lie upon `base` (NULL: on nothing).
 static void read_values(SbDocument *document, SbParams *params, const SbParams *base,
                         const GPtrArray *entries, const char *shown, const char *directory,
@@ -123,7 +154,9 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
     }
     char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
     int id = sb_param_find(key);
-    if (strcmp(key, SB_SERIES_KEY) == 0) {
+    if (strcmp(key, SB_RUBBER_KEY) == 0) {
+      (void)sb_document_take_rubber(document, entry->value, directory, shown, entry->line, issues);
+    } else if (strcmp(key, SB_SERIES_KEY) == 0) {
       // A file's name, no value: read_series.
     } else if (id < 0) {
       g_autofree char *hint = issues->len < SB_ISSUES_MAX ? sb_document_key_hint(key) : NULL;
@@ -228,13 +261,6 @@ static void read_valve(SbDocument *document, const char *directory, const char *
   g_free(beside);
   g_ptr_array_unref(entries);
   g_free(text);
-}
-
-static SbModelData *data_of(SbDocument *document) {
-  if (document->data == NULL && sb_model_data_create(&document->data) != SB_OK) {
-    g_error("no memory for a document"); // as g_malloc() does
-  }
-  return document->data;
 }
 
 // Reads the measured series that [drive] file names, if it does.
@@ -410,6 +436,8 @@ const char *sb_document_title(const SbDocument *document) {
 
 SbParams sb_document_params(const SbDocument *document) {
   SbParams params = document->base;
+  params.rubber =
+      document->data != NULL && document->data->rubber.count > 0 ? &document->data->rubber : NULL;
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     if (document->own.given[i]) {
       params.given[i] = true;

@@ -115,7 +115,9 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
   double value = 0;
   GError *error = NULL;
   bool good = false;
-  if (id < 0) {
+  if (strcmp(key, SB_RUBBER_KEY) == 0) {
+    good = sb_document_take_rubber(document, equal + 1, NULL, "--set", 0, issues);
+  } else if (id < 0) {
     g_autofree char *hint = issues->len < SB_ISSUES_MAX ? sb_document_key_hint(key) : NULL;
     sb_issues_add(issues, "--set", 0, key, NULL, "unknown key%s", hint != NULL ? hint : "");
   } else if (!sb_document_read_value(&value, document, (SbParamId)id, equal + 1, &error)) {

@@ -13,6 +13,8 @@
 
 // The one key that names a file and no value.
 #define SB_SERIES_KEY "drive.file"
+// The one that names a rubber (rubber_sheet.h).
+#define SB_RUBBER_KEY "rubber.name"
 
 typedef struct {
   SbParamId id;
@@ -29,7 +31,8 @@ struct SbDocument {
   char *valve_name;   // scenes: as the file has it
   char *series_name;  // value of drive.file, NULL without one
   char *series_path;  // path to open
-  SbModelData *data;  // series and outlines, for its models; NULL: neither
+  char *rubber_path;  // of the rubber that rubber.name names, the valve's or its own; NULL: none
+  SbModelData *data;  // series, outlines and rubber, for its models; NULL: none
   char *text;         // of the file as last read or written
   GPtrArray *entries; // of that text
   SbParams base;      // what the valve gives (scenes)
@@ -73,6 +76,11 @@ char *sb_document_problem_range(const SbProblem *problem, const SbParam *param);
 // A value with unit, or a change of the value in force ("+5 %").
 bool sb_document_read_value(double *out, const SbDocument *document, SbParamId id, const char *text,
                             GError **error);
+
+// Takes the rubber of a name or path beside the files of `directory`; `shown` and `line` are where
+// that stands. False with an issue.
+bool sb_document_take_rubber(SbDocument *document, const char *name, const char *directory,
+                             const char *shown, int line, GPtrArray *issues);
 
 // Adds to the notes that a value in force is not what a shape makes it; `shown` names who says so.
 // Nothing where they agree.

@@ -112,15 +112,18 @@ static void append_group(GString *text, const SbParams *params, const char *grou
     const SbParam *param = sb_param((SbParamId)i);
     // What nobody gave and follows from another parameter needs no line; the stem's mass follows
     // its parts'.
+    SbParamDefault derived;
     bool follows = i == SB_P_STEM_MASS || sb_param_follows((SbParamId)i);
-    bool needed = params->given[i] || !follows;
+    // A rubber's file may not be there when the text is read again: its figures become values.
+    sb_params_default(&derived, params, (SbParamId)i);
+    bool needed = params->given[i] || !follows || g_strcmp0(derived.from, SB_RUBBER_KEY) == 0;
     const char *dot = strrchr(param->key, '.');
     if (needed && (size_t)(dot - param->key) == length && strncmp(param->key, group, length) == 0) {
       if (!heading) {
         g_string_append_printf(text, "\n[%.*s]\n", (int)length, group);
         heading = true;
       }
-      char *value = sb_param_format((SbParamId)i, params->value[i]);
+      char *value = sb_param_format((SbParamId)i, sb_params_get(params, (SbParamId)i));
       g_string_append_printf(text, "%s = %s\n", dot + 1, value);
       g_free(value);
     }

@@ -103,6 +103,7 @@ const SbLifeColumn sb_life_columns[] = {
     {"lambda", "1", offsetof(SbLifeActuation, lambda)},
     {"leakage", "m3", offsetof(SbLifeActuation, leakage)},
     {"leakage_carried", "m3", offsetof(SbLifeActuation, carried)},
+    {"dose", "kg", offsetof(SbLifeActuation, dose)},
     {0}};
 
 double sb_life_value(const SbLifeActuation *of, const SbLifeColumn *column) {

@@ -237,8 +237,10 @@ static void put_follows(SbJson *json, const SbModel *model) {
     SbParamDefault derived;
     const SbParam *param = sb_param((SbParamId)i);
     if (param->parent < 0 && sb_model_default(&derived, model, (SbParamId)i)) {
-      g_autofree char *from = sb_param_format((SbParamId)derived.giver,
-                                              sb_model_value(model, (SbParamId)derived.giver));
+      const SbParamId giver = (SbParamId)derived.giver;
+      g_autofree char *name = derived.name != NULL
+                                  ? g_strdup(derived.name)
+                                  : sb_param_format(giver, sb_model_value(model, giver));
       sb_json_object(json, param->key);
       if (param->kind == SB_PARAM_CHOICE) {
         put_choice(json, "value", model, (SbParamId)i);
@@ -246,8 +248,8 @@ static void put_follows(SbJson *json, const SbModel *model) {
         sb_json_number(json, "value", derived.value);
       }
       sb_json_string(json, "unit", param->si);
-      sb_json_string(json, "from", sb_param((SbParamId)derived.giver)->key);
-      sb_json_string(json, "name", from);
+      sb_json_string(json, "from", derived.from);
+      sb_json_string(json, "name", name);
       sb_json_string(json, "source", derived.source);
       sb_json_string(json, "tag", derived.tag);
       sb_json_object_end(json);

@@ -127,9 +127,24 @@ double sb_chamber_metered_volume(const SbDoseGeometry *g) {
   return volume;
 }
 
-long sb_chamber_doses(double metered_volume, double liquid, double left) {
-  if (!(metered_volume > 0.0) || !(liquid > left)) {
-    return 0;
+// Doses that the liquid is good for, with fractions.
+static double supply_of(const SbDoseSupply *s) {
+  if (!(s->volume > 0.0) || !(s->liquid > s->residue)) {
+    return 0.0;
   }
-  return (long)floor((liquid - left) / metered_volume * (1.0 + 1e-12));
+  return (s->liquid - s->residue) / s->volume * (1.0 - s->vapour / s->density) * (1.0 + 1e-12);
+}
+
+long sb_chamber_doses(const SbDoseSupply *supply) {
+  return (long)floor(supply_of(supply));
+}
+
+double sb_chamber_dose(const SbDoseSupply *supply, long n) {
+  const double before = (double)(n - 1 - (supply->empty ? 1 : 0));
+  const double left = supply_of(supply) - before;
+  return before < 0.0 ? 0.0 : supply->volume * supply->density * fmin(fmax(left, 0.0), 1.0);
+}
+
+double sb_chamber_filling(double volume, double area, double drop, double density) {
+  return drop > 0.0 && area > 0.0 ? volume / (area * sqrt(2.0 * drop / density)) : NAN;
 }

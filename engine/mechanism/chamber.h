@@ -73,5 +73,22 @@ typedef struct {
 // that lie symmetrically in their grooves. May be negative if the rings overfill it.
 double sb_chamber_metered_volume(const SbDoseGeometry *geometry);
 
-// Whole doses in a fill of `liquid` m3 until `left` m3 can no longer be drawn.
-long sb_chamber_doses(double metered_volume, double liquid, double left);
+// What the canister gives the dose chamber over its life, its pressure held by what boils: each
+// dose leaves a room that vapour fills, which boils off liquid besides, so that the liquid falls by
+// V rho/(rho - rho_v) with each. Leaves out leaks, and what boiling cools.
+typedef struct {
+  double volume;          // metered, V [m3]
+  double density, vapour; // rho, rho_v at saturation; rho_v 0: unknown [kg/m3]
+  double liquid, residue; // in a new canister, and what can no longer be drawn [m3]
+  bool empty;             // the chamber is before the first actuation, which fills it for the next
+} SbDoseSupply;
+
+// Whole doses in the canister.
+long sb_chamber_doses(const SbDoseSupply *supply);
+
+// Mass [kg] that actuation n, from 1, delivers: the liquid's share of the last one falls short.
+double sb_chamber_dose(const SbDoseSupply *supply, long n);
+
+// Time [s] in which liquid fills a volume through an effective area [m2] under a pressure drop
+// [Pa], as through an orifice; NAN without a drop or an area.
+double sb_chamber_filling(double volume, double area, double drop, double density);

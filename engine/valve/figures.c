@@ -86,13 +86,14 @@ void sb_figures_clear(SbSummary *summary) {
 }
 
 void sb_figures_of_model(SbSummary *summary, const SbModel *model) {
-  summary->metered_volume = model->metered_volume;
-  summary->doses = (double)model->doses;
+  summary->metered_volume = model->supply.volume;
+  summary->doses = (double)sb_chamber_doses(&model->supply);
   if (model->motion == SB_MODEL_MOTION_RIG) {
     return; // the plate has no glands and gives no dose
   }
   // Nothing drives out what is not above ambient.
-  summary->dose_mass = model->canister_pressure > 0 ? model->metered_volume * model->density : 0;
+  summary->dose_mass = model->canister_pressure > 0 ? model->supply.volume * model->density : 0;
+  summary->filling_time = model->filling_time;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     summary->seal[i].squeeze = model->seal[i].squeeze;
     summary->seal[i].stretch_inner = model->seal[i].stretch_inner;

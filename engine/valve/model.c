@@ -63,6 +63,8 @@ static void take_values(SbModel *model, const SbParams *params) {
   model->surface = model->persson ? SB_ROUGH_PERSSON : SB_ROUGH_GREENWOOD_TRIPP;
   model->life_shown = model->life_shown > 0 ? model->life_shown : model->life_actuations;
   model->rubber.terms = 3;
+  const bool glass = model->rubber.glass_temperature > sb_param(SB_P_RUBBER_GLASS_TEMPERATURE)->min;
+  model->rubber.glass_temperature = glass ? model->rubber.glass_temperature : 0;
   model->rubber.fluid_density = model->density;
   // stem.pressure_diameter keeps its value, so that the pressure force is the pressure's alone.
   const double grown = 1 + model->housing_expansion * (model->temperature - SB_SIZES_TEMPERATURE);
@@ -256,24 +258,35 @@ static void check_fluid(const SbModel *model, SbProblems *problems) {
 // Metered volume and doses; with ports there must be a chamber.
 static void compile_dose(SbModel *model, SbProblems *problems) {
   const SbValveShape *shape = &model->shape;
-  model->metered_volume = sb_chamber_metered_volume(&(SbDoseGeometry){
+  // Housing and stem expand alike, and with them the room between them.
+  const double grown = model->bore_diameter / sb_model_value(model, SB_P_BORE_DIAMETER);
+  model->supply.volume = sb_chamber_metered_volume(&(SbDoseGeometry){
       .bore = model->bore_diameter,
-      .land = model->stem_diameter,
+      .land = model->stem_diameter * grown,
       .floor = model->bore_diameter - 2 * model->radial_space,
-      .spacing = shape->seal_spacing,
-      .groove = model->axial_width,
-      .recess_depth = shape->chamber_depth,
-      .recess_length = shape->chamber_length,
+      .spacing = shape->seal_spacing * grown,
+      .groove = model->axial_width * grown,
+      .recess_depth = shape->chamber_depth * grown,
+      .recess_length = shape->chamber_length * grown,
       .rings = {{model->seal[SB_OUTER].section_diameter, model->seal[SB_OUTER].inner_diameter},
                 {model->seal[SB_INNER].section_diameter, model->seal[SB_INNER].inner_diameter}},
   });
-  model->doses =
-      sb_chamber_doses(model->metered_volume, model->canister_fill, model->canister_residue);
-  if (model->pressure_map == SB_MAP_PORTS && !(model->metered_volume > 0)) {
+  model->supply.density = model->density;
+  SbFluidState state;
+  if (model->fluid > 0 && sb_fluid_state(&state, NULL, &sb_fluids[model->fluid], model->temperature,
+                                         model->ethanol, NULL) == SB_OK) {
+    const double vapour = state.figure[SB_FLUID_VAPOUR].value;
+    model->supply.vapour = isnan(vapour) ? 0 : fmin(vapour, model->density);
+  }
+  const double gap = M_PI / 4 * (model->bore_diameter - model->stem_diameter) *
+                     (model->bore_diameter + model->stem_diameter);
+  model->filling_time = sb_chamber_filling(model->supply.volume, model->discharge_coefficient * gap,
+                                           model->canister_pressure, model->density);
+  if (model->pressure_map == SB_MAP_PORTS && !(model->supply.volume > 0)) {
     refuse(problems, "stem.seal_spacing", NAN, NAN,
            "leaves no dose chamber between the seals (%.3g µl), which canister.pressure_map = "
            "ports needs",
-           model->metered_volume * 1e9);
+           model->supply.volume * 1e9);
   }
 }
 
@@ -507,7 +520,7 @@ int sb_model_number(const SbModel *model, SbParamId id) {
 
 bool sb_model_default(SbParamDefault *out, const SbModel *model, SbParamId id) {
   sb_params_default(out, &model->params, id);
-  return !model->params.given[id] && out->giver >= 0;
+  return !model->params.given[id] && out->from != NULL;
 }
 
 void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t size) {
@@ -592,6 +605,14 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
   }
   if (stored_only(model)) {
     sb_warn(warnings, "storage-only", "storage.temperature", "%s", stored_only_text);
+  }
+  SbParamDefault swell;
+  sb_params_default(&swell, &model->params, SB_P_RUBBER_SWELL_MASS);
+  if (model->params.rubber != NULL && model->storage_time > 0 && swell.from == NULL &&
+      !model->params.given[SB_P_RUBBER_SWELL_MASS]) {
+    sb_warn(warnings, "swell-unknown", "rubber.swell_mass",
+            "%s has no figure of its swell in this fluid: none is taken",
+            model->params.rubber->name);
   }
   SbFluidState state;
   if (model->fluid > 0) {

@@ -4,6 +4,7 @@
 
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
+#include "engine/mechanism/chamber.h"
 #include "engine/valve/valve.h"
 
 // Roughness before actuation n, 0 the first: end + (start - end) exp(-n/actuations).
@@ -31,8 +32,8 @@ struct SbModel {
   SbSealModel seal[SB_SEAL_COUNT];
   SbRubber rubber;           // how storage changes it
   double bore_circumference; // pi D: the friction area's length [m]
-  double metered_volume;     // of the dose chamber between the two seals [m3]
-  long doses;                // whole ones in the canister
+  SbDoseSupply supply;       // of the dose chamber between the two seals
+  double filling_time;       // of that, past the land's edge [s]; NAN: nothing drives liquid in
   double pressure_force;     // p pi D_p^2/4, pushes the stem out [N]
   SbValveParts parts;        // the stem's share stem_mass
   double moving_mass;        // stem, seals and block [kg]

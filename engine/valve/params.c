@@ -44,8 +44,11 @@ bool sb_params_brought(SbParamDefault *out, int *choice, SbParamId id, int index
   for (size_t i = 0; i < sizeof brought / sizeof brought[0]; i++) {
     if (brought[i].id == id && index-- == 0) {
       *choice = brought[i].choice;
-      *out = (SbParamDefault){brought[i].value, (int)brought[i].giver, brought[i].source,
-                              brought[i].tag};
+      *out = (SbParamDefault){.value = brought[i].value,
+                              .from = table[brought[i].giver].key,
+                              .giver = (int)brought[i].giver,
+                              .source = brought[i].source,
+                              .tag = brought[i].tag};
       return true;
     }
   }
@@ -66,6 +69,7 @@ int sb_param_find(const char *key) {
 }
 
 void sb_params_init(SbParams *params) {
+  params->rubber = NULL;
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     params->value[i] = table[i].fallback;
     params->given[i] = false;
@@ -75,8 +79,11 @@ void sb_params_init(SbParams *params) {
 static bool from_parent(SbParamDefault *out, const SbParams *params, SbParamId id) {
   const int parent = table[id].parent;
   if (parent >= 0) {
-    *out = (SbParamDefault){sb_params_get(params, (SbParamId)parent), parent, "as for both seals",
-                            table[id].tag};
+    *out = (SbParamDefault){.value = sb_params_get(params, (SbParamId)parent),
+                            .from = table[parent].key,
+                            .giver = parent,
+                            .source = "as for both seals",
+                            .tag = table[id].tag};
   }
   return parent >= 0;
 }
@@ -115,8 +122,11 @@ static bool from_fluid(SbParamDefault *out, const SbParams *params, SbParamId id
   if (fluid == 0) {
     return false;
   }
-  *out = (SbParamDefault){NAN, SB_P_FLUID_NAME, "beyond the range of the fluid's figures",
-                          "published"};
+  *out = (SbParamDefault){.value = NAN,
+                          .from = table[SB_P_FLUID_NAME].key,
+                          .giver = SB_P_FLUID_NAME,
+                          .source = "beyond the range of the fluid's figures",
+                          .tag = "published"};
   if (sb_fluid_state(&state, NULL, &sb_fluids[fluid],
                      sb_params_get(params, SB_P_CANISTER_TEMPERATURE),
                      sb_params_get(params, SB_P_FLUID_ETHANOL), NULL) == SB_OK) {
@@ -130,14 +140,38 @@ static bool from_fluid(SbParamDefault *out, const SbParams *params, SbParamId id
   return true;
 }
 
+bool sb_param_of_rubber(SbParamId id) {
+  return strncmp(table[id].key, "rubber.", 7) == 0 || id == SB_P_SEAL_MODULUS ||
+         id == SB_P_SEAL_POISSON_RATIO || id == SB_P_SEAL_MOONEY_SHARE;
+}
+
+static bool from_rubber(SbParamDefault *out, const SbParams *params, SbParamId id) {
+  const SbRubberSheet *rubber = params->rubber;
+  for (size_t i = 0; rubber != NULL && i < rubber->count; i++) {
+    const int fluid = rubber->figure[i].fluid;
+    if (rubber->figure[i].id == id &&
+        (fluid < 0 || fluid == (int)sb_params_get(params, SB_P_FLUID_NAME))) {
+      *out = (SbParamDefault){.value = rubber->figure[i].value,
+                              .from = "rubber.name",
+                              .giver = -1,
+                              .name = rubber->name,
+                              .source = rubber->figure[i].source,
+                              .tag = rubber->figure[i].typical ? "typical" : "published"};
+      return true;
+    }
+  }
+  return false;
+}
+
 static bool from_catalogue(SbParamDefault *out, const SbParams *params, SbParamId id) {
-  *out = (SbParamDefault){table[id].fallback, -1, table[id].source, table[id].tag};
+  *out = (SbParamDefault){
+      .value = table[id].fallback, .giver = -1, .source = table[id].source, .tag = table[id].tag};
   return true;
 }
 
 void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id) {
   static bool (*const sources[])(SbParamDefault *, const SbParams *, SbParamId) = {
-      from_parent, from_choice, from_fluid, from_catalogue};
+      from_parent, from_choice, from_fluid, from_rubber, from_catalogue};
   for (size_t i = 0; !sources[i](out, params, id); i++) {
   }
 }
@@ -146,7 +180,7 @@ bool sb_param_follows(SbParamId id) {
   SbParamDefault derived;
   int choice;
   return table[id].parent >= 0 || sb_params_brought(&derived, &choice, id, 0) ||
-         place_of_fluid(id) < OF_FLUID;
+         place_of_fluid(id) < OF_FLUID || sb_param_of_rubber(id);
 }
 
 double sb_params_get(const SbParams *params, SbParamId id) {
@@ -159,6 +193,7 @@ double sb_params_get(const SbParams *params, SbParamId id) {
 }
 
 void sb_params_resolve(SbParams *effective, const SbParams *given) {
+  effective->rubber = given->rubber;
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     effective->value[i] = sb_params_get(given, (SbParamId)i);
     effective->given[i] = given->given[i];

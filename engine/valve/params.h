@@ -2,10 +2,10 @@
 //
 // SbParams holds one double per parameter (SI; an index for a choice, a bit mask for flags) and
 // whether it was given. What was not given follows: one seal's value from both seals', where
-// SB_DEFAULT rows say so from a choice (models.set), and from a named fluid at the canister's
-// temperature (fluid.name). That is resolved whenever it is asked for, so that a choice that
-// changes takes with it what follows from it. The catalogue knows ranges and texts; what a
-// combination of values means is model.h.
+// SB_DEFAULT rows say so from a choice (models.set), from a named fluid at the canister's
+// temperature (fluid.name), and from a named rubber (rubber.name). That is resolved whenever it is
+// asked for, so that a choice that changes takes with it what follows from it. The catalogue knows
+// ranges and texts; what a combination of values means is model.h.
 #pragma once
 
 #include "engine/base/status.h"
@@ -38,13 +38,29 @@ typedef struct {
   const char *label;   // "Radial space"
   const char *help;    // one line
   const char *source;  // where the default comes from
-  const char *tag;     // "thesis", "inferred", "ours" or "published"
+  const char *tag;     // "thesis", "inferred", "ours", "published" or "typical"
   int parent;          // for seal.outer.X and seal.inner.X the id of seal.X, whose value they take
                        // when not given; -1 for every other parameter
 } SbParam;
 
+// A rubber by name: figures that stand where nobody gives them, each with its source. Whoever reads
+// a file fills it.
+enum { SB_RUBBER_FIGURES_MAX = 48 };
+typedef struct {
+  char name[48]; // as the file has it; empty: none
+  size_t count;
+  struct {
+    SbParamId id;
+    int fluid;    // choice of fluid.name that it holds for, -1: any
+    double value; // SI
+    bool typical; // usual of such rubbers, no figure of one
+    char source[120];
+  } figure[SB_RUBBER_FIGURES_MAX];
+} SbRubberSheet;
+
 typedef struct {
   double value[SB_PARAM_COUNT]; // SI
+  const SbRubberSheet *rubber;  // borrowed; NULL: none
   bool given[SB_PARAM_COUNT];
 } SbParams;
 
@@ -57,17 +73,22 @@ int sb_param_find(const char *key);
 // All defaults, nothing given.
 void sb_params_init(SbParams *params);
 
-// What a parameter is while nobody gives it, and why. Strings are static.
+// What a parameter is while nobody gives it, and why. Strings are static, or the rubber's.
 typedef struct {
   double value;       // SI; NAN: of a fluid beyond the range of its figures
-  int giver;          // the parameter that it follows from, -1: the catalogue's own default
+  const char *from;   // key that it follows from; NULL: the catalogue's own default
+  int giver;          // that key's parameter; -1: it names no parameter
+  const char *name;   // what that key is; NULL: the parameter's value
   const char *source; // where the value comes from
   const char *tag;    // as SbParam's
 } SbParamDefault;
 
 // That of `id` beside the given values of `params`: from the first source that has one, its parent,
-// a choice that brings defaults, a named fluid, the catalogue.
+// a choice that brings defaults, a named fluid, a named rubber, the catalogue.
 void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id);
+
+// Whether a parameter may be a figure of a rubber.
+bool sb_param_of_rubber(SbParamId id);
 
 // Whether a parameter has sources of its default beside the catalogue.
 bool sb_param_follows(SbParamId id);

@@ -189,6 +189,7 @@ typedef struct {
   atomic_uint holders;
   SbModelSeries measured; // count 0: none
   SbValveOutlines outlines;
+  SbRubberSheet rubber; // of the parameters that it comes with, which borrow it
 } SbModelData;
 
 // *out is all zero and held once; to be filled before a model is made with it. SB_ERROR_MEMORY.

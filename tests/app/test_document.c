@@ -48,7 +48,7 @@ static void remove_folder(char *folder) {
 }
 
 // The shipped valve gives every physical key that the thesis has or leaves to be inferred, with the
-// catalogue's default, exactly, and none that follows a set of models or a fluid.
+// catalogue's default, exactly, and none that follows a set of models, a fluid or a rubber.
 static void test_piston(void) {
   char *path = asset("valves/piston.valve");
   SbDocument *document = load(path);
@@ -399,6 +399,99 @@ static void test_protected(void) {
   remove_folder(folder);
 }
 
+static SbDocument *with_rubber(const char *folder, const char *more, GPtrArray *issues) {
+  g_autofree char *text = g_strdup_printf("[sealbench]\nformat=1\nkind=valve\n%s", more);
+  return sb_document_parse(text, strlen(text), "x.valve", folder, issues);
+}
+
+// Every rubber that ships is sound: each of its figures stands where nobody gives another, says
+// where it comes from, and what is not of a source is called typical. A given value stays, also in
+// the text that stands alone.
+static void test_rubbers(void) {
+  static const char *const names[] = {"nitrile",    "epdm",        "butyl",
+                                      "bromobutyl", "chloroprene", "tpe"};
+  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autofree char *more = g_strdup_printf("[rubber]\nname = %s\ndensity = 999 kg/m3\n", names[i]);
+    g_autofree char *beside = asset("valves"), *epdm = asset("rubbers/epdm.rubber"),
+                    *nitrile = asset("rubbers/nitrile.rubber");
+    g_autoptr(SbDocument) document = with_rubber(beside, more, issues);
+    for (guint k = 0; k < issues->len; k++) {
+      g_error("%s", sb_issue_line(issues->pdata[k]));
+    }
+    const SbParams params = sb_document_params(document);
+    static const SbParamId ids[] = {SB_P_SEAL_MODULUS, SB_P_SEAL_POISSON_RATIO,
+                                    SB_P_RUBBER_GLASS_TEMPERATURE, SB_P_RUBBER_THERMAL_EXPANSION};
+    for (size_t k = 0; k < G_N_ELEMENTS(ids); k++) {
+      SbParamDefault derived;
+      sb_params_default(&derived, &params, ids[k]);
+      g_assert_cmpstr(derived.from, ==, "rubber.name");
+      g_assert_cmpstr(derived.name, ==, names[i]);
+      g_assert_cmpstr(derived.tag, ==,
+                      g_str_has_prefix(derived.source, "typical") ? "typical" : "published");
+      g_assert_cmpfloat(sb_document_value(document, ids[k]), ==, derived.value);
+    }
+    g_assert_cmpfloat(sb_document_value(document, SB_P_RUBBER_GLASS_TEMPERATURE), <, 250);
+    g_assert_cmpfloat(sb_document_value(document, SB_P_RUBBER_DENSITY), ==, 999);
+    // Swell is that of the fluid, where there is a figure.
+    const double swell = i == 0 ? 0.17 : 0;
+    g_assert_cmpfloat(sb_document_value(document, SB_P_RUBBER_SWELL_MASS), ==, 0);
+    g_assert_true(sb_document_set(document, SB_P_FLUID_NAME, "hfa-134a", NULL));
+    g_assert_cmpfloat(sb_document_value(document, SB_P_RUBBER_SWELL_MASS), ==, swell);
+    g_autofree char *flat = sb_document_to_flat_text(document);
+    g_autoptr(SbDocument) copy = sb_document_parse(flat, strlen(flat), "flat", NULL, issues);
+    g_autofree char *one = sb_document_sha256(document), *two = sb_document_sha256(copy);
+    g_assert_cmpstr(one, ==, two);
+    g_assert_cmpuint(issues->len, ==, 0);
+    // Another one by --set, which a model of the first does not see.
+    SbModel *model = NULL;
+    g_assert_true(sb_document_compile(document, &model, issues));
+    const double before = sb_model_value(model, SB_P_RUBBER_GLASS_TEMPERATURE);
+    g_autofree char *other = g_strconcat("rubber.name=", i == 1 ? nitrile : epdm, NULL);
+    g_assert_true(sb_document_set_option(document, other, issues));
+    g_assert_cmpfloat(sb_model_value(model, SB_P_RUBBER_GLASS_TEMPERATURE), ==, before);
+    g_assert_cmpfloat(sb_document_value(document, SB_P_RUBBER_GLASS_TEMPERATURE), !=, before);
+    sb_model_destroy(model);
+  }
+}
+
+// A rubber of one's own beside the valve; what is wrong with it is told with its file and line.
+static void test_own_rubber(void) {
+#define RUBBER "[sealbench]\nformat = 1\nkind = rubber\n"
+  static const struct {
+    const char *text, *says; // NULL: it is sound
+  } rows[] = {
+      {RUBBER "[seal]\nmodulus = 4 MPa\n[source]\nseal.modulus = own tensile test\n", NULL},
+      {RUBBER "[seal]\nmodulus = 4 MPa\n", "own.rubber: [seal] modulus: has no source"},
+      {RUBBER "[seal]\nmodulus = 4 mm\n[source]\nseal.modulus = own\n", "[seal] modulus: "},
+      {RUBBER "[gland]\nradial_space = 1 mm\n", "is no figure of a rubber"},
+      {RUBBER "[swell]\nhfa-1 = 4 %\n[source]\nswell.hfa-1 = own\n", "names no fluid"},
+      {RUBBER "[source]\nseal.modulus = own\n", "source: seal.modulus is no figure"},
+      {"[sealbench]\nformat = 1\nkind = valve\n", "is no rubber"},
+  };
+  char *folder = temporary_folder();
+  g_autofree char *path = g_build_filename(folder, "own.rubber", NULL);
+  for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+    g_assert_true(g_file_set_contents(path, rows[i].text, -1, NULL));
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autoptr(SbDocument) document = with_rubber(folder, "[rubber]\nname = own\n", issues);
+    g_assert_cmpuint(issues->len, ==, rows[i].says != NULL);
+    if (rows[i].says != NULL) {
+      g_autofree char *line = sb_issue_line(issues->pdata[0]);
+      g_assert_nonnull(strstr(line, rows[i].says));
+    } else {
+      g_assert_cmpfloat(sb_document_value(document, SB_P_SEAL_OUTER_MODULUS), ==, 4e6);
+    }
+  }
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) document = with_rubber(folder, "[rubber]\nname = none\n", issues);
+  g_assert_nonnull(document);
+  g_autofree char *line = sb_issue_line(issues->pdata[0]);
+  g_assert_nonnull(strstr(line, "[rubber] name: there is no rubber \"none\""));
+  remove_folder(folder);
+#undef RUBBER
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/document/piston", test_piston);
@@ -409,6 +502,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/document/moved-scene", test_moved_scene);
   g_test_add_func("/document/picture", test_picture);
   g_test_add_func("/document/links", test_links);
+  g_test_add_func("/document/rubbers", test_rubbers);
+  g_test_add_func("/document/own-rubber", test_own_rubber);
   g_test_add_func("/document/protected", test_protected);
   return g_test_run();
 }

@@ -148,6 +148,11 @@ static void test_round_trip(void) {
   GRand *random = g_rand_new_with_seed(7);
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     const SbParam *param = sb_param((SbParamId)id);
+    // The unit that people read is one that they may write.
+    g_autofree char *unit_text = g_strdup_printf("1 %s", param->unit);
+    double ignored;
+    g_assert_true(param->kind != SB_PARAM_REAL ||
+                  sb_quantity_parse(&ignored, unit_text, param->si, param->unit, NULL));
     for (int i = 0; param->kind == SB_PARAM_REAL && i < 300; i++) {
       double share = i == 0 ? 0 : i == 1 ? 1 : g_rand_double(random);
       double value = param->min + share * (param->max - param->min);

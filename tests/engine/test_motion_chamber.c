@@ -223,9 +223,12 @@ static void test_volume(void) {
     }
   }
   ASSERT_NEAR(sb_chamber_metered_volume(&g), sum, 1e-5 * sum);
-  g_assert_cmpint(sb_chamber_doses(50e-9, 10e-6, 0.0), ==, 200);
-  g_assert_cmpint(sb_chamber_doses(50e-9, 10e-6, 1e-6), ==, 180);
-  g_assert_cmpint(sb_chamber_doses(0.0, 10e-6, 1e-6), ==, 0);
+  SbDoseSupply supply = {.volume = 50e-9, .density = 1200, .liquid = 10e-6};
+  g_assert_cmpint(sb_chamber_doses(&supply), ==, 200);
+  supply.residue = 1e-6;
+  g_assert_cmpint(sb_chamber_doses(&supply), ==, 180);
+  supply.volume = 0;
+  g_assert_cmpint(sb_chamber_doses(&supply), ==, 0);
   // A port needs a stretch, an area and a pressure; the chamber a volume.
   SbReport report = {0};
   SbChamberModel bad = reading_of(1, 1e-9);
@@ -239,11 +242,46 @@ static void test_volume(void) {
   g_assert_cmpint(sb_chamber_check(&bad, &report), ==, SB_ERROR_RANGE);
 }
 
+// A can's life: liquid and vapour at saturation share a fixed room, and doses take liquid; followed
+// dose by dose until no liquid is left. The chamber that was empty gives its first dose with the
+// second actuation.
+static void test_supply(void) {
+  const SbDoseSupply supply = {
+      .volume = 58e-9, .density = 1225, .vapour = 27.8, .liquid = 10.01e-6};
+  const double room = 14e-6, dose = 58e-9 * 1225;
+  double mass = 1225 * 10.01e-6 + 27.8 * (room - 10.01e-6), sum = 0;
+  long n = 1;
+  for (double liquid = 1; liquid > 0; n++) {
+    liquid = (mass - 27.8 * room) / (1225 - 27.8); // before actuation n
+    const double gives = sb_chamber_dose(&supply, n);
+    if (liquid * (1225 - 27.8) >= dose) {
+      ASSERT_NEAR(gives, dose, 1e-9 * dose);
+    } else {
+      ASSERT_NEAR(gives, fmax(liquid, 0) * (1225 - 27.8), 1e-6 * dose);
+      g_assert_cmpint(sb_chamber_doses(&supply), ==, liquid > 0 ? n - 1 : n - 2);
+    }
+    mass -= gives;
+    sum += gives;
+  }
+  g_assert_cmpfloat(sb_chamber_dose(&supply, n), ==, 0);
+  g_assert_cmpfloat(sb_chamber_dose(&supply, n - 2), >, 0);
+  SbDoseSupply empty = supply;
+  empty.empty = true;
+  g_assert_cmpfloat(sb_chamber_dose(&empty, 1), ==, 0);
+  for (long k = 2; k < n + 2; k++) {
+    g_assert_cmpfloat(sb_chamber_dose(&empty, k), ==, sb_chamber_dose(&supply, k - 1));
+  }
+  // As long as the jet of a full stream takes.
+  ASSERT_NEAR(sb_chamber_filling(58e-9, 1e-6, 0.55e6, 1225), 58e-9 / (1e-6 * 29.966), 1e-6);
+  g_assert_true(isnan(sb_chamber_filling(58e-9, 1e-6, -1, 1225)));
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/motion/chamber/readings", test_readings);
   g_test_add_func("/motion/chamber/vent", test_vent);
   g_test_add_func("/motion/chamber/valve", test_valve);
   g_test_add_func("/motion/chamber/volume", test_volume);
+  g_test_add_func("/motion/chamber/supply", test_supply);
   return g_test_run();
 }

@@ -245,6 +245,8 @@ static void test_tolerance(void) {
   g_assert_cmpfloat(cell(study, load, "by d, inner"), ==, 0);
   NEAR(cell(study, force, "by stem"), 0.55e6 * M_PI / 2 * 5.794e-3 * 0.02e-3, 1e-6);
   g_assert_cmpfloat(cell(study, "least return force", "by g"), >, 0);
+  NEAR(cell(study, "dose", "nominal"), model.supply.volume * model.density, 1e-12);
+  g_assert_cmpfloat(cell(study, "dose", "by bore"), >, 0);
   for (size_t r = 0; r < study->row_count; r++) {
     const double *v = study->row[r].value;
     double squares = 0, sum = 0;

@@ -264,6 +264,65 @@ static void test_parts(void) {
   g_free(study);
 }
 
+// The doses of a life: an empty chamber is primed first, vapour takes the place of what is drawn,
+// the last dose falls short; a chamber that is open too shortly is not filled; a leak takes the
+// prime.
+static void test_doses(void) {
+  enum { LIFE = 6 };
+  for (int fluid = 0; fluid <= R134A; fluid++) {
+    const Setting settings[] = {
+        {SB_P_FLUID_NAME, fluid},     {SB_P_CANISTER_TEMPERATURE, zero + 40},
+        {SB_P_CANISTER_FILL, 200e-9}, {SB_P_LIFE_ACTUATIONS, LIFE},
+        {SB_P_LIFE_CHAMBER, 1},       {SB_P_FRICTION_LOAD_COEFFICIENT, 0.05}};
+    SbModel model;
+    compile(&model, settings, G_N_ELEMENTS(settings));
+    const double dose = model.supply.volume * model.density;
+    const double vapour = fluid > 0 ? 50.085 / 1146.74 : 0; // fluids.csv
+    SbRun *run = run_of(&model, SB_OK, NULL);
+    size_t count;
+    const SbLifeActuation *each = sb_run_life(run, &count);
+    g_assert_cmpuint(count, ==, LIFE);
+    const double last = 200e-9 / model.supply.volume * (1 - vapour) - 3;
+    const double expected[LIFE] = {0, 1, 1, 1, last, 0};
+    g_assert_cmpfloat(last, >, 0.05);
+    g_assert_cmpfloat(last, <, 0.95);
+    for (int n = 0; n < LIFE; n++) {
+      g_assert_cmpfloat(fabs(each[n].dose - expected[n] * dose), <=, 1e-5 * dose);
+    }
+    g_assert_cmpfloat(sb_run_summary(run)->doses, ==, 3);
+    g_assert_cmpfloat(sb_run_summary(run)->dose_mass, ==, dose);
+    g_assert_cmpfloat(sb_run_summary(run)->filled_share, ==, 1);
+    sb_run_destroy(run);
+  }
+  const Setting fast[] = {{SB_P_DRIVE_SPEED, 10}, {SB_P_CHAMBER_DISCHARGE_COEFFICIENT, 0.05}};
+  SbModel model;
+  compile(&model, fast, G_N_ELEMENTS(fast));
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  const SbSummary *summary = sb_run_summary(run);
+  const double gap = M_PI / 4 * (6e-3 * 6e-3 - 5.794e-3 * 5.794e-3);
+  assert_close(summary->filling_time, model.supply.volume / (0.05 * gap * sqrt(2 * 0.55e6 / 1226)),
+               1e-9);
+  assert_close(summary->filled_share,
+               (summary->stage[SB_STAGE_F].time - summary->stage[SB_STAGE_C].time) /
+                   summary->filling_time,
+               1e-12);
+  g_assert_cmpfloat(summary->filled_share, <, 0.5);
+  g_assert_true(warned(&summary->warnings, "chamber-not-filled"));
+  sb_run_destroy(run);
+  const Setting leaks[] = {{SB_P_MODELS_SURFACE, 1},
+                           {SB_P_MODELS_FIT, SB_FIT_DISC},
+                           {SB_P_SURFACE_SIGMA_OVER_BETA, 1},
+                           {SB_P_SURFACE_GT_PRODUCT, 0.05},
+                           {SB_P_GLAND_RADIAL_SPACE, 1.5e-3}};
+  compile(&model, leaks, G_N_ELEMENTS(leaks));
+  run = run_of(&model, SB_OK, NULL);
+  summary = sb_run_summary(run);
+  g_assert_cmpfloat(summary->seal[SB_OUTER].leakage_static, >, 0);
+  assert_close(summary->prime_loss,
+               86400 * summary->seal[SB_OUTER].leakage_static / model.supply.volume, 1e-12);
+  sb_run_destroy(run);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/temperature/names", test_names);
@@ -273,5 +332,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/temperature/below-ambient", test_below_ambient);
   g_test_add_func("/temperature/expansion", test_expansion);
   g_test_add_func("/temperature/parts", test_parts);
+  g_test_add_func("/temperature/doses", test_doses);
   return g_test_run();
 }

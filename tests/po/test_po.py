@@ -60,6 +60,11 @@ def catalogues_are_sound():
         template = os.path.join(folder, "sealbench.pot")
         subprocess.run(["xgettext", "--from-code=UTF-8", "--files-from=po/POTFILES", "-o", template,
                         *arguments], check=True, stderr=subprocess.DEVNULL)
+        # Each macro's label is where the keywords say.
+        texts = open(template).read()
+        for label in ("Section diameter", "Break-away force", "Contact width", "Closing pressure",
+                      "External work"):
+            assert 'msgid "%s"' % label in texts, label
         languages = [line.strip() for line in open("po/LINGUAS") if not line.startswith("#")]
         assert languages
         for language in languages:

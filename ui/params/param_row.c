@@ -275,9 +275,7 @@ static void refresh_tooltip(SbParamRow *row, const SbParamDefault *derived, cons
   const SbParam *param = sb_param(row->id);
   g_autofree char *value = sb_param_format(row->id, derived->value);
   g_autofree char *fallback =
-      derived->giver >= 0
-          ? g_strdup_printf("%s (%s)", value, sb_param((SbParamId)derived->giver)->key)
-          : g_strdup(value);
+      derived->from != NULL ? g_strdup_printf("%s (%s)", value, derived->from) : g_strdup(value);
   g_autofree char *text =
       g_markup_printf_escaped(_("%s%s%s.\n<small>%s, default %s (%s: %s)</small>"),
                               lock != NULL   ? lock
@@ -336,7 +334,7 @@ void sb_param_row_refresh(SbParamRow *row) {
       gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(row->flags[i]), (mask >> i & 1u) != 0);
     }
   } else {
-    refresh_entry(row, derived.giver >= 0 && !params.given[row->id], lock, note);
+    refresh_entry(row, derived.from != NULL && !params.given[row->id], lock, note);
   }
   if (row->field != NULL) {
     gtk_widget_set_sensitive(row->field, lock == NULL);

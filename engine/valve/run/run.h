@@ -124,6 +124,7 @@ typedef struct {
   double force_breakaway; // at the first slip [N]; NaN if there was none
   double force_return;    // least [N]
   double returned;        // [1] 1: the stem comes back to rest, 0: it does not
+  double dose;            // delivered [kg]
 } SbLifeActuation;
 
 typedef struct {

@@ -161,6 +161,12 @@ static void fill_contact(SbContact *out, const SbSealState *state, double speed)
   };
 }
 
+double sb_run_filled_share(const SbSummary *summary, const SbModel *model) {
+  const SbStageMark *opens = &summary->stage[SB_STAGE_C], *closes = &summary->stage[SB_STAGE_F];
+  const bool both = opens->reached && closes->reached && isfinite(model->filling_time);
+  return both ? fmin(1, (closes->time - opens->time) / model->filling_time) : NAN;
+}
+
 void sb_run_summarise_seals(SbRun *run) {
   const SbModel *model = run->model;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
@@ -192,6 +198,14 @@ void sb_run_summarise_seals(SbRun *run) {
     }
   }
   sb_figures_of_model(&run->summary, model);
+  SbSummary *summary = &run->summary;
+  summary->prime_loss = summary->seal[SB_OUTER].leakage_static * 86400 / model->supply.volume;
+  summary->filled_share = sb_run_filled_share(summary, model);
+  if (summary->filled_share < 1) {
+    sb_warn(&summary->warnings, "chamber-not-filled", "drive.speed",
+            "the chamber takes %.3g ms to fill and is open to the canister for %.0f %% of that",
+            1e3 * model->filling_time, 100 * summary->filled_share);
+  }
 }
 
 void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore, bool back) {
@@ -252,6 +266,10 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
       {rig, "seals.*", "the sliding plate (models.motion = rig) has no valve's seals"},
       {rig, "solver.*", "the sliding plate (models.motion = rig) solves no film or fit"},
       {well, "cycle.force_breakaway_N", "the stem never slips: stage B is not reached"},
+      {rig, "dose.*", "the sliding plate (models.motion = rig) gives no dose"},
+      {!(model->canister_pressure > 0), "dose.fill*", "nothing drives liquid into the chamber"},
+      {well, "dose.filled_share", "the stem does not open and close the chamber: C to F"},
+      {well, "dose.prime_loss_per_day", "the outer seal's leak at rest is not known"},
   };
   give(summary, -1, before, sizeof before / sizeof before[0]);
   for (int i = 0; well && i < SB_STAGE_COUNT; i++) {

@@ -67,10 +67,11 @@ static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const 
   return status;
 }
 
-static SbLifeActuation yield_of(const SbRun *run, double roughness) {
+static SbLifeActuation yield_of(const SbRun *run, long n, double roughness) {
   const SbSummary *summary = &run->summary;
   const SbSealState *outer = &run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   const SbStageMark *slip = &summary->stage[SB_STAGE_B];
+  const double filled = sb_run_filled_share(summary, run->model);
   return (SbLifeActuation){
       .roughness = roughness,
       .lambda = outer->lambda,
@@ -80,6 +81,10 @@ static SbLifeActuation yield_of(const SbRun *run, double roughness) {
       .force_breakaway = slip->reached ? slip->force : NAN,
       .force_return = summary->force_return_min,
       .returned = summary->returned,
+      // Filled by the actuation before, which was like this one.
+      .dose = run->model->canister_pressure > 0
+                  ? sb_chamber_dose(&run->model->supply, n + 1) * (isnan(filled) ? 1 : filled)
+                  : 0,
   };
 }
 
@@ -124,7 +129,7 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     if (status != SB_OK) {
       break;
     }
-    const SbLifeActuation now = yield_of(n > 0 ? one : run, roughness);
+    const SbLifeActuation now = yield_of(n > 0 ? one : run, n, roughness);
     run->life[n] = now;
     life->leakage += now.leakage;
     life->carried += now.carried;

@@ -203,6 +203,9 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report);
 // Figures of each seal at the middle of B-C (run_figures.c).
 void sb_run_summarise_seals(SbRun *run);
 
+// Share of the chamber that there is time to fill between C and F; NaN where they are not reached.
+double sb_run_filled_share(const SbSummary *summary, const SbModel *model);
+
 // Makes the first `count` frames visible to other threads.
 void sb_run_publish(SbRun *run, size_t count);
 

@@ -278,7 +278,7 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
   double canister = model->canister_pressure;
   SbChamberModel *chamber = &valve->chamber_model;
   *chamber = (SbChamberModel){.canister = canister,
-                              .volume = model->metered_volume,
+                              .volume = model->supply.volume,
                               .stiffness = model->chamber_stiffness,
                               .density = model->density};
 

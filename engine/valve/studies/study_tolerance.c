@@ -1,6 +1,6 @@
-// What the tolerances of the sizes do to the valve: load of both seals, break-away force and least
-// return force, each size moved over its own tolerance band, the worst case and the root of the sum
-// of squares.
+// What the tolerances of the sizes do to the valve: load of both seals, break-away force, least
+// return force and dose, each size moved over its own tolerance band, the worst case and the root
+// of the sum of squares.
 //
 // Every point is a whole quasi-static cycle of its own. Abscissa: the size's place in its band, -1
 // to +1. Root sum of squares: nominal -+ sqrt(sum of half differences squared), independent sizes,
@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { SIZES = 7, STEPS = 2, FIGURES = 4 }; // STEPS on either side of the nominal size
-enum { LOAD_OUTER, BREAKAWAY, RETURN, LOAD_INNER };
+enum { SIZES = 7, STEPS = 2, FIGURES = 5 }; // STEPS on either side of the nominal size
+enum { LOAD_OUTER, BREAKAWAY, RETURN, LOAD_INNER, DOSE };
 
 // A line of the study is a set of sizes, a bit for each, and those of it that move the other way.
 enum { EVERY = (1 << SIZES) - 1, REVERSED = SIZES };
@@ -38,7 +38,8 @@ static const struct {
 // The figures with the sizes of a line at x of their bands, about the base's own.
 static void solve(double *value, SbStudyWork *work, int line, double x) {
   static const char *const paths[FIGURES] = {"seals.outer.load_N", "cycle.force_breakaway_N",
-                                             "cycle.force_return_min_N", "seals.inner.load_N"};
+                                             "cycle.force_return_min_N", "seals.inner.load_N",
+                                             "cycle.dose_mass_kg"};
   if (x == 0 && line != 0) {
     memcpy(value, sb_study_at(work, 0, 0), FIGURES * sizeof *value); // nominal, whatever moves
     return;
@@ -99,6 +100,10 @@ static void make(SbStudyWork *work) {
   put_row(work, "load of the inner seal", LOAD_INNER);
   put_row(work, "break-away force", BREAKAWAY);
   put_row(work, "least return force", RETURN);
+  put_row(work, "dose", DOSE);
+  SbStudyRow *dose = &out->row[out->row_count - 1];
+  sb_text(dose->si, sizeof dose->si, "kg");
+  sb_text(dose->unit, sizeof dose->unit, "mg");
   sb_text(out->models, sizeof out->models, "fit %s, film %s, quasi-static cycle of the machine",
           sb_fit_model_name(model->fit), sb_film_model_name(model->film));
   sb_study_note(out,

@@ -1,0 +1,25 @@
+// Rubbers by name: files NAME.rubber of kind `rubber`, beside the file that names one, in
+// ../rubbers of it, among the user's own ($XDG_DATA_HOME/sealbench/rubbers) or among what ships.
+//
+//   [sealbench]    format, kind = rubber, title
+//   [seal]         modulus, poisson_ratio, mooney_share
+//   [rubber]       every key of that group
+//   [swell]        FLUID = mass taken up over the dry mass
+//   [source]       of each of them, by its key ("seal.modulus", "swell.hfa-134a"): where it comes
+//   from.
+//                  One that begins with "typical" is usual of such rubbers and no measurement.
+//
+// A figure without a source is a problem. What a rubber gives are defaults: a value that a valve, a
+// scene or --set gives stays.
+#pragma once
+
+#include "app/base/issue.h"
+
+#include "engine/valve/params.h"
+
+enum { SB_RUBBER_BYTES_MAX = 1 << 16 };
+
+// Reads the rubber `name`, or the file of a name with a folder or the ending; `shown` and `line`
+// say where it is named. The path, owned by the caller; NULL with at least one issue.
+char *sb_rubber_sheet_read(SbRubberSheet *out, const char *name, const char *directory,
+                           const char *shown, int line, GPtrArray *issues);
