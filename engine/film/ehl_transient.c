@@ -241,10 +241,12 @@ static SbStatus refuse_closing(const SbFilmTransient *t, SbReport *report) {
                                  .modulus = film->modulus,
                                  .width = 2.0 * t->scale.half_width,
                                  .viscosity = film->viscosity};
-  const double closed = sb_rough_snap_in(t->surface.rough.law, &contact);
+  const double closed = sb_rough_snap_in(t->surface.rough.law, &contact).high;
+  const char *key =
+      film->work_of_adhesion > 0.0 ? "surface.work_of_adhesion" : "surface.hamaker_constant";
   return !(closed > 0.0)
              ? SB_OK
-             : sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "surface.hamaker_constant",
+             : sb_fail_parameter(report, SB_ERROR_INFEASIBLE, key,
                                  "transient film: at rest adhesion closes gaps below %.3g nm; "
                                  "follow the film without it",
                                  1e9 * closed);
