@@ -40,6 +40,37 @@ static void test_against_quasi_static(void) {
   sb_run_destroy(fast);
 }
 
+// The motion takes friction as straight bands over the speed, a frame as it is: at a steady speed
+// the forces are out of balance by the difference, which the error of force covers and is not far
+// above.
+static void test_straight_bands(void) {
+  Setting smooth[] = {{SB_P_FRICTION_STATIC_RATIO, 1}, {SB_P_DRIVE_DAMPING_RATIO, 1}};
+  SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, smooth, 2);
+  const SbSummary *summary = sb_run_summary(run);
+  const double speed = sb_run_model(run)->speed;
+  double worst = 0;
+  size_t count, steady = 0;
+  const SbFrame *frames = sb_run_frames(run, &count);
+  for (size_t i = 0; i < count; i++) {
+    const SbFrame *frame = &frames[i];
+    if (fabs(fabs(frame->velocity) / speed - 1) < 1e-6) {
+      double off = frame->force - frame->pressure_force - frame->stop_force - frame->spring_force;
+      for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+        off -= frame->seal[seal].friction;
+      }
+      worst = fmax(worst, fabs(off) / summary->force_peak);
+      steady++;
+    }
+  }
+  g_test_message("%zu frames out of balance by %.2e, told %.2e", steady, worst,
+                 summary->error_force);
+  g_assert_cmpuint(steady, >, 100);
+  g_assert_cmpfloat(worst, >, 1e-6);
+  g_assert_cmpfloat(worst, <=, summary->error_force);
+  g_assert_cmpfloat(summary->error_force, <=, 10 * worst);
+  sb_run_destroy(run);
+}
+
 // With the static peak the stem of an undamped seal sticks and slips between the same bounds.
 static void test_stick_slip(void) {
   SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, NULL, 0);
@@ -403,6 +434,7 @@ static void test_stiff(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/run-dynamic/straight-bands", test_straight_bands);
   g_test_add_func("/run-dynamic/against-quasi-static", test_against_quasi_static);
   g_test_add_func("/run-dynamic/stick-slip", test_stick_slip);
   g_test_add_func("/run-dynamic/drives", test_drives);

@@ -82,6 +82,118 @@ static void test_hand(void) {
   sb_run_destroy(run);
 }
 
+// A seal's state solved at a speed by itself, on the supply that a run gives it.
+static void solve_alone(SbSealState *out, const SbRun *run, int seal, int chamber, int direction,
+                        double speed) {
+  SbSlidingMemory *memory;
+  SbCounters counts = {0};
+  g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
+  const SbSlidingTask task = {
+      .model = sb_run_model(run),
+      .seal = seal,
+      .pressure = sb_model_seal_pressure(sb_run_model(run), seal, (SbChamber)chamber),
+      .speed = direction == SB_CYCLE_IN ? speed : -speed,
+      .memory = memory,
+      .counts = &counts,
+      .supply = sb_run_supply(run, seal, (SbChamber)chamber, direction)};
+  g_assert_cmpint(sb_sliding_solve(out, &task, NULL), ==, SB_OK);
+  sb_sliding_memory_destroy(memory);
+}
+
+// The same press with solved films, flooded and on what the stroke before left, which a fast return
+// would take many times: each frame against a solve of its own; no film is solved over and over.
+static void test_hand_solved(void) {
+  for (int carried = 0; carried < 2; carried++) {
+    const Setting hand[] = {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
+                            {SB_P_DRIVE_FINGER_DAMPING, 100},
+                            {SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
+                            {SB_P_MODELS_INLET, carried},
+                            {SB_P_OUTPUT_FRAMES, 600}};
+    SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, hand, G_N_ELEMENTS(hand));
+    const SbCounters *counters = &sb_run_summary(run)->counters;
+    size_t count, seen = 0;
+    const SbFrame *frames = sb_run_frames(run, &count);
+    double worst = 0, fastest = 0;
+    for (size_t i = 0; i < count; i += 3) {
+      const SbFrame *frame = &frames[i];
+      const double speed = fabs(frame->velocity);
+      for (int k = 0; k < SB_SEAL_COUNT && speed > 1e-6; k++) {
+        const SbSealFrame *seal = &frame->seal[k];
+        if (seal->land_fraction == 1) {
+          SbSealState alone;
+          solve_alone(&alone, run, k, frame->chamber,
+                      frame->velocity > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT, speed);
+          check_identities(sb_run_model(run), seal);
+          relative("friction", fabs(seal->friction), sb_sliding_friction(&alone), 1e-3);
+          relative("film", seal->film_central, alone.film_central, 1e-3);
+          relative("least film", seal->film_min, alone.film_min, 1e-3);
+          worst = fmax(worst, fabs(seal->film_central / alone.film_central - 1));
+          fastest = fmax(fastest, speed);
+          seen++;
+        }
+      }
+    }
+    g_test_message("%zu seals, film off by %.1e; %zu films, %zu Newton steps", seen, worst,
+                   counters->reynolds_solves, counters->newton_iterations);
+    g_assert_cmpuint(seen, >, 20);
+    g_assert_cmpfloat(fastest, >, 1);
+    g_assert_cmpuint(counters->reynolds_solves, <=, 120);
+    g_assert_cmpuint(counters->newton_iterations, <=, 8000);
+    sb_run_destroy(run);
+  }
+}
+
+// Beyond the speed at which a supply shapes the film, the solver's own film, where it still finds
+// one, is the film that stands for it: by what is told.
+static void test_starved(void) {
+  const Setting settings[] = {
+      {SB_P_MODELS_FILM, SB_FILM_REYNOLDS}, {SB_P_DRIVE_SPEED, 1e-3}, {SB_P_OUTPUT_FRAMES, 50}};
+  SbRun *run = run_with(SB_MODEL_MOTION_QUASI_STATIC, settings, G_N_ELEMENTS(settings));
+  const SbModel *model = sb_run_model(run);
+  const SbSealState *state = &run->cycle.state[SB_OUTER][SB_CHAMBER_CLOSED][SB_CYCLE_OUT];
+  for (int i = 0; i < 2; i++) {
+    // Beyond a fifth of what a flooded film passes the solver finds none, and before it stays above
+    // its tolerance.
+    SbSealState given = *state;
+    SbSlidingMemory *memory;
+    SbCounters counts = {0};
+    g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
+    const SbSlidingTask task = {.model = model,
+                                .seal = SB_OUTER,
+                                .pressure =
+                                    sb_model_seal_pressure(model, SB_OUTER, SB_CHAMBER_CLOSED),
+                                .speed = -1e-3,
+                                .memory = memory,
+                                .counts = &counts,
+                                .supply = {true, state->layer / (i == 0 ? 4.5 : 5)}};
+    g_assert_cmpint(sb_sliding_solve(&given, &task, NULL), ==, SB_OK);
+    SbFilmProblem problem;
+    SbFilm *film = g_new0(SbFilm, 1);
+    SbFilmSolver *solver;
+    g_assert_cmpint(sb_film_solver_create(&solver, NULL), ==, SB_OK);
+    sb_sliding_film_problem(&problem, model, SB_OUTER, task.pressure, given.load_net, -1e-3);
+    problem.model = SB_FILM_REYNOLDS;
+    problem.inlet_film = task.supply.layer;
+    for (double share = 0.3; share < 1.01; share += 0.1) { // slowly there
+      problem.speed = -1e-3 * share;
+      SbStatus status = sb_film_solve(film, &problem, solver, NULL);
+      g_assert_true(status == SB_OK || status == SB_ERROR_NOT_CONVERGED); // on its finest mesh
+    }
+    sb_film_solver_destroy(solver);
+    double central = fabs(given.film_central / film->film_central - 1);
+    double least = fabs(given.film_min / film->film_min - 1);
+    g_test_message("%zu Newton steps for %d: film off by %.1e, told %.1e; least %.1e, told %.1e",
+                   counts.newton_iterations, film->solver.newton_iterations, central,
+                   given.central_error, least, given.film_error);
+    g_assert_cmpfloat(central, <=, 3 * given.central_error);
+    g_assert_cmpfloat(least, <=, 3 * given.film_error);
+    relative("what passes", given.layer, task.supply.layer, 1e-6);
+    g_free(film);
+    sb_sliding_memory_destroy(memory);
+  }
+  sb_run_destroy(run);
+}
+
 // States between the solved ones against solved ones: thesis' law, solved films, with asperities.
 static void test_sweep(void) {
   const Setting kinds[][3] = {
@@ -162,6 +274,8 @@ static void test_history(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-speeds/hand", test_hand);
+  g_test_add_func("/run-speeds/hand-solved", test_hand_solved);
+  g_test_add_func("/run-speeds/starved", test_starved);
   g_test_add_func("/run-speeds/sweep", test_sweep);
   g_test_add_func("/run-speeds/slowest", test_slowest);
   g_test_add_func("/run-speeds/history", test_history);

@@ -343,6 +343,21 @@ SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRu
   return status;
 }
 
+// What the straight friction of the bands of speed is off by, over the greatest force.
+static double straight_force(const SbRun *run) {
+  double most = 0;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    double level = 0; // without a film
+    for (int i = 0; i < SB_CYCLE_CHAMBERS * SB_RUN_REST; i++) {
+      const SbSealState *state = &run->cycle.state[seal][i / SB_RUN_REST][i % SB_RUN_REST];
+      level = fmax(level, state->touches ? state->rest_area + state->rest_load : 0);
+    }
+    most += level;
+  }
+  const double peak = run->summary.force_peak;
+  return peak > 0 ? run->straight_error * most / peak : 0;
+}
+
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbModel *model = run->model;
   SbSummary *summary = &run->summary;
@@ -398,7 +413,11 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbStatus speeds = sb_run_close_speeds(run, status == SB_OK ? report : NULL);
   status = status != SB_OK ? status : speeds;
   double states = summary->error_load + sb_run_error_friction(run);
-  summary->error_force = isnan(force) ? NAN : fmax(states, force);
-  summary->error_energy = isnan(work) ? NAN : fmax(fmax(states, work), summary->energy.closure);
+  summary->error_force = isnan(force) ? NAN : fmax(states, force) + straight_force(run);
+  const SbEnergy *energy = &summary->energy;
+  double straight = energy->external_max > 0
+                        ? run->straight_error * fabs(energy->friction) / energy->external_max
+                        : 0;
+  summary->error_energy = isnan(work) ? NAN : fmax(fmax(states, work), energy->closure) + straight;
   return status;
 }

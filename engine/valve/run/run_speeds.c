@@ -32,17 +32,21 @@ static SbStatus make(SbRun *run, int seal, int chamber, int direction, const SbS
   SbSpeedStates **table = &run->speeds[seal][chamber][direction];
   const SbSealState *state = &run->cycle.state[seal][chamber][direction];
   const SbSlidingTask task = task_of(run, seal, chamber, direction, run->speed);
-  if (*table != NULL && same_contact(&(*table)->base, state)) {
-    // What it holds stands: the same contact, solved at another speed.
+  const SbSupply *was = *table != NULL ? &(*table)->task.supply : NULL;
+  if (was != NULL && same_contact(&(*table)->base, state) && was->limited == task.supply.limited &&
+      was->layer == task.supply.layer) {
+    // What it holds stands: the same contact on the same supply, solved at another speed.
     (*table)->base = *state;
     (*table)->task = task;
     return SB_OK;
   }
+  const size_t solves = *table != NULL ? (*table)->solves : 0;
   *table = *table != NULL ? *table : malloc(sizeof **table);
   if (*table == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for states over the speed");
   }
   sb_speed_states_init(*table, &task, state, body);
+  (*table)->solves = solves;
   (*table)->roughness = run->roughness;
   (*table)->near = !run->plan.inertia;
   return SB_OK;

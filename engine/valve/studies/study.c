@@ -423,7 +423,15 @@ void sb_study_contact(double value[SB_STUDY_CONTACT], SbStudyWork *work, const S
                       size_t overrides) {
   static const char *const paths[] = {"seals.outer.load_N", "seals.outer.pressure_peak_Pa",
                                       "seals.outer.contact_width_m"};
-  sb_study_ask(work, value, paths, SB_STUDY_CONTACT, override, overrides);
+  enum { MOST = 12 };
+  // Nothing drags it.
+  SbOverride all[2 + MOST] = {{SB_P_FRICTION_SHEAR_STRENGTH, 0},
+                              {SB_P_FRICTION_LOAD_COEFFICIENT, 0}};
+  overrides = overrides < MOST ? overrides : MOST;
+  for (size_t i = 0; i < overrides; i++) {
+    all[2 + i] = override[i];
+  }
+  sb_study_ask(work, value, paths, SB_STUDY_CONTACT, all, 2 + overrides);
 }
 
 double sb_study_net_load(SbStudyWork *work) {

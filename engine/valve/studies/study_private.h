@@ -89,7 +89,8 @@ void sb_study_squeezed(SbOverride out[SB_STUDY_SQUEEZED], const SbStudyWork *wor
 void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, size_t paths,
                   const SbOverride *override, size_t overrides);
 
-// The outer seal's load [N], peak pressure [Pa] and contact width [m] by overrides of the base.
+// The outer seal's load [N], peak pressure [Pa] and contact width [m] by overrides of the base,
+// without friction: as fitted, whatever drags it in the scene.
 enum { SB_STUDY_CONTACT = 3 };
 void sb_study_contact(double value[SB_STUDY_CONTACT], SbStudyWork *work, const SbOverride *override,
                       size_t overrides);

@@ -39,12 +39,14 @@ static void solve(double *value, SbStudyWork *work, int line, double squeeze) {
   const SbModel *scene = work->scene;
   double floor = scene->bore_diameter - 2 * scene->radial_space;
   double inner = models[line].stretched ? scene->seal[SB_OUTER].inner_diameter : floor;
-  SbOverride override[SB_STUDY_SQUEEZED + 3];
+  SbOverride override[SB_STUDY_SQUEEZED + 4];
   sb_study_squeezed(override, work, squeeze);
   override[3] = (SbOverride){SB_P_MODELS_FIT, models[line].model};
   override[4] = (SbOverride){SB_P_SEAL_OUTER_INNER_DIAMETER, inner};
   override[5] = (SbOverride){SB_P_CANISTER_PRESSURE, 0};
-  sb_study_contact(value, work, override, SB_STUDY_SQUEEZED + 3);
+  // No wall stands near, nor is the groove ever full.
+  override[6] = (SbOverride){SB_P_GLAND_AXIAL_WIDTH, 4 * scene->seal[SB_OUTER].section_diameter};
+  sb_study_contact(value, work, override, SB_STUDY_SQUEEZED + 4);
 }
 
 static double against_ring(SbStudyWork *work, int line, double squeeze, int quantity) {
