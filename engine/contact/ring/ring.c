@@ -481,7 +481,12 @@ SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *opt
     return status;
   }
   (*out)->options = *options;
-  status = remesh(*out, ring, options->element_size, 0.2, report);
+  // Fine ends show where the contact ends; friction may stumble over them.
+  static const double FINE = 0.2, EVEN = 1.0;
+  status = remesh(*out, ring, options->element_size, FINE, report);
+  if (status == SB_ERROR_NOT_CONVERGED) {
+    status = remesh(*out, ring, options->element_size, EVEN, report);
+  }
   if (status != SB_OK) {
     sb_ring_destroy(*out);
     *out = NULL;
