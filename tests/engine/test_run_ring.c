@@ -197,6 +197,30 @@ static void test_mirrored(void) {
   sb_model_destroy(model);
 }
 
+// No film lies on a ring at rest beside asperities: its surface is not made, nor its mesh for it.
+static void test_rest(void) {
+  const SbOverride film[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS}};
+  SbModel *model = ring_model(film, 1);
+  SbCounters counts = {0};
+  SbSlidingMemory *memory;
+  g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
+  const SbSlidingTask task = {.model = model,
+                              .seal = SB_INNER,
+                              .pressure =
+                                  sb_model_seal_pressure(model, SB_INNER, SB_CHAMBER_AT_REST),
+                              .memory = memory,
+                              .counts = &counts};
+  SbSealState state;
+  g_assert_cmpint(sb_sliding_solve(&state, &task, NULL), ==, SB_OK);
+  const SbFit *fit = sb_sliding_fit(memory);
+  g_assert_cmpint(fit->surface.modes, ==, 0);
+  g_assert_cmpfloat(fit->solver.error_estimate.load, <=, model->tolerance);
+  g_test_message("%zu unknowns", fit->solver.unknowns);
+  g_assert_cmpuint(fit->solver.unknowns, <, 4500);
+  sb_sliding_memory_destroy(memory);
+  sb_model_destroy(model);
+}
+
 // One thread or two: the same bits.
 static void test_threads(void) {
   const SbOverride quick[] = {{SB_P_OUTPUT_TOLERANCE, 1e-2}, {SB_P_FRICTION_SHEAR_STRENGTH, 1e6}};
@@ -285,6 +309,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-ring/one-state", test_one_state);
   g_test_add_func("/run-ring/balance", test_balance);
   g_test_add_func("/run-ring/mirrored", test_mirrored);
+  g_test_add_func("/run-ring/rest", test_rest);
   g_test_add_func("/run-ring/threads", test_threads);
   g_test_add_func("/run-ring/cancelled", test_cancelled);
   g_test_add_func("/run-ring/rolls", test_rolls);

@@ -32,9 +32,6 @@ enum { FLIPS_MAX = 5 };
 // friction is taken up again in the next step, and what is missing is reported.
 enum { CATCHES_MAX = 3 };
 
-// A node that alone is caught so often, without friction at the end, has no state.
-enum { CYCLE = CATCHES_MAX + 3 };
-
 SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report) {
   *out = NULL;
   SbRingContact *contact = calloc(1, sizeof *contact);
@@ -85,10 +82,6 @@ void sb_ring_contact_detect(SbRingContact *contact) {
       touch->slip = 0;
     }
   }
-}
-
-bool sb_ring_contact_cycles(const SbRingContact *contact) {
-  return contact->unsteady >= 0 && contact->is.touch[contact->unsteady].catches >= CYCLE;
 }
 
 // ---- friction

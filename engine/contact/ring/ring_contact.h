@@ -148,9 +148,6 @@ double sb_ring_contact_limit(const SbRingContact *contact);
 // Returns how many changed. With `single` only the worst offender of each kind changes.
 int sb_ring_contact_update(SbRingContact *contact, bool single);
 
-// Whether the node that changed last, the only one, goes on changing without end.
-bool sb_ring_contact_cycles(const SbRingContact *contact);
-
 // At convergence: forces of all touches from the residual.
 void sb_ring_contact_forces(SbRingContact *contact);
 

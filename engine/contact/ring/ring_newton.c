@@ -179,8 +179,7 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
     stumbles += step < STUMBLE ? 1 : 0;
     // A steady contact near its balance may take a little longer.
     bool near = changes == 0 && residual < NEARLY && it < iterations_max + MORE;
-    bool cycles = changes == 1 && step == 1.0 && sb_ring_contact_cycles(contact);
-    bool spent = cycles || (it >= iterations_max && !near);
+    bool spent = it >= iterations_max && !near;
     if (spent || stumbles > STUMBLES_MAX || !isfinite(residual)) {
       fail(contact, residual, changes, it, report);
       if (report != NULL) {
