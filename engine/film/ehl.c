@@ -172,7 +172,19 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
       continue;
     }
     if (status == SB_ERROR_RANGE) {
+      if (*levels == 0) {
+        return SB_ERROR_NOT_CONVERGED;
+      }
       break; // no room for a finer mesh: the error so far decides
+    }
+    if (status == SB_ERROR_NOT_CONVERGED && rough && *levels >= 2 && !solver->now->c.rough.upwind) {
+      // The finer one is not found: the same, its rate of convergence not believed.
+      static const double UNSEEN = 5;
+      for (int i = 0; i < 3; i++) {
+        solver->error[i] *= UNSEEN;
+      }
+      solver->info->error_contact *= UNSEEN;
+      break;
     }
     if (status != SB_OK) {
       return status;
@@ -190,7 +202,7 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
       estimate(solver, change, *levels, results);
     }
     // Rough rows whose film has sharp ends follow these on the first degree.
-    bool again = rough && sb_ehl_rough_fronts(solver->now, now) && *levels == 1;
+    bool again = rough && sb_ehl_rough_fronts(&solver->now->c, solver->now, now) && *levels == 1;
     if (*levels >= least && degree > DEGREE_FIRST && worst(solver) <= 0.1 * wanted) {
       break;
     }

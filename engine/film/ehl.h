@@ -76,6 +76,7 @@ typedef struct {
   double pressure;       // scale of the law's pressure [Pa]
   double smooth_gap;     // unit of t without a law, scaled
   double hamaker;        // A_H [J]; 0 = off
+  bool upwind;           // Reynolds' equation of first order, for a start
   bool sealed;        // at rest without flow: film pressure by the end pressures, cavity all over
   double flux, inlet; // guesses of the flux film and of where the film's pressure begins, scaled
   struct {
@@ -288,10 +289,10 @@ void sb_ehl_rough_guess(SbEhlSolution *s);
 // not fit.
 SB_CHECKED bool sb_ehl_rough_mesh(SbEhlSolution *s);
 
-// Where the film takes the load over from the asperities and hands it back, and how sharply, into
-// the case's rough.front for the next mesh; false if neither is sharp enough to need elements of
-// its own.
-bool sb_ehl_rough_fronts(SbEhlSolution *s, const SbEhlResults *results);
+// Where the film of the solver's last solution takes the load over from the asperities and hands it
+// back, and how sharply, into a case's rough.front for its mesh; false if neither is sharp enough
+// to need elements of its own.
+bool sb_ehl_rough_fronts(SbEhlCase *c, const SbEhlSolution *s, const SbEhlResults *results);
 
 // Gap and solid pressures at t, and the parameter of a gap.
 void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t);

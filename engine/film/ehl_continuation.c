@@ -8,7 +8,11 @@
 // would take. Rough rows find cavity and meniscus themselves.
 #include "engine/film/ehl.h"
 
+#include <limits.h>
 #include <math.h>
+
+// Newton's solves after which a start is given up, and of one path.
+enum { STARTS_MAX = 70, STEPS_MAX = 38 };
 
 // Pressure below the rupture pressure that counts as tension: less is the lowest degree's error in
 // the far inlet.
@@ -22,13 +26,13 @@ static bool lay_out(SbEhlSolution *s) {
 // where the film forms again, is moved until the film's pressure starts there from the one before
 // it, by the pressure's slope.
 static SbStatus iterate(SbEhlSolution *s) {
-  enum { STEPS_MAX = 40 };
+  enum { MOVES_MAX = 40 };
   SbFilmSolver *solver = s->solver;
   const SbEhlMesh *mesh = &s->mesh;
   SbEhlLayers *l = &s->c.layers;
   const bool rough = s->c.rough.rows, reform = l->end == SB_EHL_REFORM;
   double *place = reform ? &l->reform : &l->meniscus;
-  for (int i = 0; i < STEPS_MAX; i++) {
+  for (int i = 0; i < MOVES_MAX; i++) {
     solver->info->continuation_steps++;
     SbStatus status = sb_ehl_newton(s);
     if (status != SB_OK || rough || !(reform || isfinite(s->c.supply))) {
@@ -85,6 +89,20 @@ static double expected(const SbEhlCase *c) {
   return !(layers.lambda > 0.0) ? 1.0 : starved ? c->supply : sb_ehl_layers_flux(&layers);
 }
 
+// Scales the film of rough rows where it carries about the flux, as the flux is expected to change.
+static void scale_film(SbEhlSolution *to, const SbEhlSolution *from) {
+  const double ratio = to->c.rough.flux / from->c.rough.flux;
+  const double film = from->state.flow / from->c.layers.lambda;
+  for (int i = 0; i < to->mesh.dofs; i++) {
+    SbEhlRoughPoint at;
+    sb_ehl_rough_point(&at, &to->c, to->state.t[i]);
+    if (fabs(at.h / film - 1.0) < 0.4) {
+      to->state.t[i] = sb_ehl_rough_of_gap(&to->c, ratio * at.h);
+    }
+  }
+  to->state.flow *= ratio * to->c.layers.lambda / from->c.layers.lambda;
+}
+
 // From the last solution to a case near it; on failure that solution stands.
 static SbStatus take(SbFilmSolver *solver, const SbEhlCase *c) {
   const SbEhlSolution *from = solver->now;
@@ -95,6 +113,9 @@ static SbStatus take(SbFilmSolver *solver, const SbEhlCase *c) {
     return c->rough.rows ? SB_ERROR_RANGE : SB_ERROR_NOT_CONVERGED; // no room for it
   }
   sb_ehl_carry(to, from, expected(c) / expected(&from->c));
+  if (to->c.rough.upwind && to->c.layers.lambda != from->c.layers.lambda) {
+    scale_film(to, from);
+  }
   SbStatus status = iterate(to);
   if (status == SB_OK) {
     solver->now = to;
@@ -123,22 +144,26 @@ static SbEhlCase between(const SbEhlCase *a, const SbEhlCase *b, double t) {
   return c;
 }
 
-// From the last solution, which is that of `start`, to `target`, first by `step` of the way.
+// From the last solution, which is that of `start`, to `target`, first by `step` of the way; a step
+// that serves is followed by one `growth` times as long. Given up when the account of Newton's
+// solves passes `last`.
 static SbStatus follow_path(SbFilmSolver *solver, const SbEhlCase *start, const SbEhlCase *target,
-                            double step) {
-  enum { STEPS_MAX = 60 };
+                            double step, double growth, int last) {
   const double least = 1e-3 * step;
   double done = 0.0;
   for (int i = 0; done < 1.0; i++) {
     double t = fmin(1.0, done + step);
     SbEhlCase next = between(start, target, t);
+    if (next.rough.upwind) {
+      sb_ehl_rough_flux(&next);
+    }
     SbStatus status = take(solver, &next);
     if (status == SB_ERROR_CANCELLED) {
       return status;
     }
     done = status == SB_OK ? t : done;
-    step *= status == SB_OK ? 1.8 : 0.4;
-    if (step < least || i > STEPS_MAX) {
+    step *= status == SB_OK ? growth : 0.4;
+    if (step < least || i > STEPS_MAX || solver->info->continuation_steps > last) {
       return SB_ERROR_NOT_CONVERGED;
     }
   }
@@ -181,13 +206,62 @@ static bool easier(SbEhlCase *c, const SbEhlCase *target, int k) {
          (k < 5 && target->layers.end == SB_EHL_REFORM);
 }
 
-static SbStatus start_flooded(SbFilmSolver *solver, const SbEhlCase *target) {
-  SbEhlCase start;
+// The last solution, of rough rows, with elements at its film's ends.
+static SbStatus follow_fronts(SbFilmSolver *solver, bool upwind) {
+  SbEhlResults results;
+  sb_ehl_results(&results, solver->now);
+  SbEhlCase next = solver->now->c;
+  (void)sb_ehl_rough_fronts(&next, solver->now, &results);
+  next.rough.upwind = upwind;
+  SbStatus status = take(solver, &next);
+  if (status == SB_ERROR_RANGE) { // no room for them
+    next = solver->now->c;
+    next.rough.upwind = upwind;
+    status = take(solver, &next);
+  }
+  return status;
+}
+
+// From a solution of first order to the same case's own: the film's ends first find their place,
+// for no element may be much longer than the layer there.
+static SbStatus sharpen(SbFilmSolver *solver) {
+  SbStatus status = follow_fronts(solver, true);
+  status = status == SB_OK ? follow_fronts(solver, true) : status;
+  return status == SB_OK ? follow_fronts(solver, false) : status;
+}
+
+// Rough rows that do not start directly: of first order, where the film's ends may lie anywhere
+// between the nodes, from a faster case slowed down.
+static SbStatus start_upwind(SbFilmSolver *solver, const SbEhlCase *target) {
+  SbEhlCase start, low = *target;
+  low.rough.upwind = true;
+  const int last = solver->info->continuation_steps + STARTS_MAX;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
-  for (int k = 0; status == SB_ERROR_NOT_CONVERGED && easier(&start, target, k); k++) {
+  for (int k = 0; status == SB_ERROR_NOT_CONVERGED && easier(&start, &low, k) &&
+                  solver->info->continuation_steps < last;
+       k++) {
     status = start_at(solver, &start);
     if (status == SB_OK && k > 0) {
-      status = follow_path(solver, &start, target, 0.25);
+      status = follow_path(solver, &start, &low,
+                           log(2.5) / log(start.layers.lambda / low.layers.lambda), 1.3, last);
+    }
+    status = status == SB_OK ? sharpen(solver) : status;
+  }
+  return status;
+}
+
+static SbStatus start_flooded(SbFilmSolver *solver, const SbEhlCase *target) {
+  SbEhlCase start;
+  SbStatus status = start_at(solver, target);
+  if (target->rough.rows) {
+    return status == SB_ERROR_NOT_CONVERGED && target->layers.lambda > 0.0
+               ? start_upwind(solver, target)
+               : status;
+  }
+  for (int k = 1; status == SB_ERROR_NOT_CONVERGED && easier(&start, target, k); k++) {
+    status = start_at(solver, &start);
+    if (status == SB_OK) {
+      status = follow_path(solver, &start, target, 0.25, 1.8, INT_MAX);
     }
   }
   return status;
@@ -206,14 +280,14 @@ static bool torn(const SbEhlSolution *s) {
 // Draws the meniscus in from a flooded inlet until the contact takes no more than `supply`: by
 // secants of the flux over the logarithm of its distance to the edge; last, the supply is given.
 static SbStatus draw_meniscus(SbFilmSolver *solver, double supply, double full) {
-  enum { STEPS_MAX = 80 };
+  enum { MOVES_MAX = 80 };
   static const double FIRST = 30.0, FARTHEST = 1e5; // flooded layer widths
   const double close = 0.03 * (1.0 - supply / full) + 1e-5;
   const double width = sb_ehl_layers_width(&solver->now->c.layers);
   SbEhlCase c = solver->now->c;
   double x = log(FIRST), step = 0.0;
   double done = NAN, before = NAN; // the last place, and ln of the flux over the supply there
-  for (int i = 0; i < STEPS_MAX && x < log(FARTHEST); i++) {
+  for (int i = 0; i < MOVES_MAX && x < log(FARTHEST); i++) {
     c.layers.meniscus = -1.0 - exp(x) * width;
     SbStatus status = take(solver, &c);
     if (status == SB_ERROR_NOT_CONVERGED && fabs(step) > 0.005) {
@@ -260,7 +334,8 @@ static SbStatus starve(SbFilmSolver *solver, double supply) {
   end.layers.starvation = supply / start.supply;
   return supply >= (1.0 - NEARLY) * start.supply
              ? SB_OK
-             : follow_path(solver, &start, &end, log(1.3) / -log(end.layers.starvation));
+             : follow_path(solver, &start, &end, log(1.3) / -log(end.layers.starvation), 1.8,
+                           INT_MAX);
 }
 
 SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply) {
@@ -286,7 +361,13 @@ SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply) {
 SbStatus sb_ehl_refine(SbFilmSolver *solver, int degree) {
   SbEhlCase next = solver->now->c;
   next.layers.degree = degree;
-  return take(solver, &next);
+  SbStatus status = take(solver, &next);
+  if (status == SB_ERROR_NOT_CONVERGED && next.rough.rows && next.layers.lambda > 0.0) {
+    next.rough.upwind = true;
+    status = take(solver, &next);
+    status = status == SB_OK ? sharpen(solver) : status;
+  }
+  return status;
 }
 
 SbStatus sb_ehl_follow(SbFilmSolver *solver, const SbEhlCase *c) {

@@ -94,8 +94,8 @@ void sb_ehl_rough_flux(SbEhlCase *c) {
   if (c->rough.law == NULL || !(c->layers.lambda > 0)) {
     return;
   }
-  double low = log(gap_under(c, 0.999999));
-  c->rough.flux = hypot(exp(sb_bisect(lacking_slope, c, low, low + 40)), smooth);
+  double low = fmin(log(gap_under(c, 0.999999)), log(smooth) - 40);
+  c->rough.flux = hypot(exp(sb_bisect(lacking_slope, c, low, log(smooth) + 40)), smooth);
   double p = carried(c, c->rough.flux);
   c->rough.inlet = sqrt(1 - p * p);
 }
@@ -113,7 +113,8 @@ void sb_ehl_rough_guess(SbEhlSolution *solution) {
     double X = mesh->x[i];
     double q = sb_ehl_layers_dry_pressure(&c->layers, X);
     double dry = sb_ehl_layers_dry_gap(&c->layers, X);
-    double ambient = sb_film_ends(X, c->layers.inlet, c->layers.outlet);
+    double ambient = c->layers.lambda > 0 ? (X < 0 ? c->layers.inlet : c->layers.outlet)
+                                          : sb_film_ends(X, c->layers.inlet, c->layers.outlet);
     double fluid = film > 0 ? film * (1 + 1.2 * exp(-fabs(X + 1) / width)) : 0;
     if (layered) {
       double h;

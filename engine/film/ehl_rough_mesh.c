@@ -131,8 +131,7 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
 // Where the film takes the load over from the asperities and hands it back, and how sharply: there
 // Reynolds' equation and q = p + p_a(h) leave a layer of length k h^3 / lambda, k the asperities'
 // stiffness.
-bool sb_ehl_rough_fronts(SbEhlSolution *s, const SbEhlResults *results) {
-  SbEhlCase *c = &s->c;
+bool sb_ehl_rough_fronts(SbEhlCase *c, const SbEhlSolution *s, const SbEhlResults *results) {
   c->rough.front[0].X = c->rough.front[1].X = INFINITY;
   if (c->rough.law == NULL || !(c->layers.lambda > 0)) {
     return false;
