@@ -244,6 +244,9 @@ SbFilmScale sb_film_scale(const SbFilmProblem *problem) {
   // Only the coupled solver knows a rupture pressure; it works with pressures above it.
   bool coupled = problem->model == SB_FILM_REYNOLDS && problem->speed != 0.0;
   double rupture = coupled ? problem->rupture_pressure : 0.0;
+  if (sb_film_rough(problem) && problem->speed == 0.0) {
+    rupture = fmin(problem->rupture_pressure, 0.0); // nothing breaks at rest, but below ambient
+  }
   s.inlet = ((forward ? problem->pressure_left : problem->pressure_right) - rupture) / s.pressure;
   s.outlet = ((forward ? problem->pressure_right : problem->pressure_left) - rupture) / s.pressure;
   s.kappa = 1.0 - (s.inlet - s.outlet) / M_PI;

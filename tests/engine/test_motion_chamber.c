@@ -249,7 +249,7 @@ static void test_supply(void) {
   const SbDoseSupply supply = {
       .volume = 58e-9, .density = 1225, .vapour = 27.8, .liquid = 10.01e-6};
   const double room = 14e-6, dose = 58e-9 * 1225;
-  double mass = 1225 * 10.01e-6 + 27.8 * (room - 10.01e-6), sum = 0;
+  double mass = 1225 * 10.01e-6 + 27.8 * (room - 10.01e-6);
   long n = 1;
   for (double liquid = 1; liquid > 0; n++) {
     liquid = (mass - 27.8 * room) / (1225 - 27.8); // before actuation n
@@ -261,7 +261,6 @@ static void test_supply(void) {
       g_assert_cmpint(sb_chamber_doses(&supply), ==, liquid > 0 ? n - 1 : n - 2);
     }
     mass -= gives;
-    sum += gives;
   }
   g_assert_cmpfloat(sb_chamber_dose(&supply, n), ==, 0);
   g_assert_cmpfloat(sb_chamber_dose(&supply, n - 2), >, 0);
