@@ -599,6 +599,7 @@ SbFilmTransientResult sb_film_transient_result(const SbFilmTransient *t) {
   (void)read_films(film, t);
   result.film_min = film[0] * t->scale.film;
   result.film_central = film[1] * t->scale.film;
+  result.half_width = t->scale.half_width;
   sb_transient_rub(&result, t);
   return result;
 }

@@ -45,8 +45,9 @@ typedef struct {
 typedef struct {
   double film_min;     // [m]
   double film_central; // at x = 0, or in the middle of a fitted body's contact [m]
+  double half_width;   // of the dry contact [m]
   double friction_couette, friction_poiseuille, friction_cavity, friction_boundary; // as in SbFilm
-  double asperity_load, real_area;                                                  // the same
+  double asperity_load, asperity_share, real_area;                                  // the same
   double error_film_min, error_film_central; // relative; NaN: the companion failed
   double error_time; // estimate, relative, of the film in the contact by the time steps
   double error_mesh; // the same by the mesh: against the spectral steady film at speed_scale

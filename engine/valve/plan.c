@@ -155,7 +155,7 @@ static void plan_valve(SbPlan *plan, const SbModel *model, unsigned views) {
              body = plan->ring || model->fit == SB_FIT_DISC;
   const unsigned sections = views & (SB_VIEW_SECTION | SB_VIEW_DASHBOARD);
   const unsigned drawn = sections | (views & SB_VIEW_PROFILES);
-  plan->film_history = solved && !coupled && model->film_history;
+  plan->film_history = plan->reynolds && model->film_history;
   plan->bodies = model->motion == SB_MODEL_MOTION_BODIES;
   plan->profiles = drawn != 0;
   plan->section_fields = sections != 0 && plan->ring;
@@ -212,9 +212,8 @@ static void plan_valve(SbPlan *plan, const SbModel *model, unsigned views) {
       // Fronts that cross the contact set its steps, hardly the frames.
       {plan->film_history, "film history", "finite volumes", SB_SEAL_COUNT * SB_COST_FILM_HISTORY,
        0.03, "models.film_time = transient; the motion keeps to the steady film's friction",
-       coupled               ? NULL
-       : model->film_history ? "models.film has no history, only reynolds"
-                             : "models.film_time = steady: every frame has the film of its speed"},
+       model->film_history ? "models.film has no history, only reynolds"
+                           : "models.film_time = steady: every frame has the film of its speed"},
       {true, "real contact area", sb_rough_model_name(model->surface), FILM_STATES * SB_COST_ROUGH,
        0, "boundary friction needs it", NULL},
       {true, "leak at rest", "percolation", SB_SEAL_COUNT * SB_COST_LEAK, 0,

@@ -467,10 +467,10 @@ static void strength_warning(const Task *task, double share) {
 
 // What a film says of the asperities in it. Lengths of the half-plane's contact are over that, of a
 // fitted body's over the fitted one; forces over the fitted circumference.
-static void take_asperities(SbSealState *out, const SbModel *model, const Solved *solved) {
-  const SbFilm *film = &solved->film;
+static void take_asperities(SbSealState *out, const SbModel *model, const SbFilm *film,
+                            bool fitted) {
   const double fit_width = out->contact_right - out->contact_left;
-  const double width = solved->fitted ? fit_width : 2 * film->hertz_half_width;
+  const double width = fitted ? fit_width : 2 * film->hertz_half_width;
   const double area = fit_width * model->bore_circumference;
   out->lambda = film->film_ratio;
   out->real_area_share = fmin(film->real_area / width, 1);
@@ -509,11 +509,11 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
   const SbFilm *film = &memory->last->film, *rest = &memory->rest.film;
   sb_warnings_merge(task->warnings, &film->warnings);
   if (take_film(out, memory->last, status, &memory->now->fit)) {
-    take_asperities(out, model, memory->last);
+    take_asperities(out, model, &memory->last->film, memory->last->fitted);
   }
   if (memory->rested || rest->film_central > 0) {
     SbSealState dry = *out;
-    take_asperities(&dry, model, &memory->rest);
+    take_asperities(&dry, model, &memory->rest.film, memory->rest.fitted);
     out->rest_area_share = dry.real_area_share;
     out->rest_area = dry.boundary_area;
     out->rest_load = dry.boundary_load;
@@ -662,23 +662,40 @@ static SbStatus opened_by_fluid(SbSealState *out, SbStatus status, const SbRepor
   return SB_OK;
 }
 
+void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSlidingTask *task,
+                        const SbSlidingBody *body) {
+  const SbModel *model = task->model;
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  sb_sliding_film_problem(out, model, task->seal, task->pressure, state->load_net, task->speed);
+  out->model = coupled ? SB_FILM_REYNOLDS : model->film;
+  const bool solved = out->model == SB_FILM_REYNOLDS;
+  out->inlet_film = task->supply.limited && solved ? task->supply.layer : 0;
+  if (coupled) {
+    add_asperities(out, model);
+  }
+  if (body != NULL) {
+    lay_on(out, body);
+  }
+}
+
+void sb_sliding_take(SbSealState *state, const SbSlidingTask *task, const SbFilm *film, bool fitted,
+                     double roughness) {
+  state->film_min = film->film_min;
+  state->film_central = film->film_central;
+  if (task->model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
+    take_asperities(state, task->model, film, fitted);
+  }
+  (void)sb_sliding_refilm(state, task, roughness, NULL);
+}
+
 SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
                             const SbSlidingBody *body, SbReport *report) {
   const SbModel *model = task->model;
   SbSlidingMemory *memory = task->memory;
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   SbFilmProblem problem;
-  sb_sliding_film_problem(&problem, model, task->seal, task->pressure, state->load_net,
-                          task->speed);
-  problem.model = coupled ? SB_FILM_REYNOLDS : model->film;
+  sb_sliding_film_of(&problem, state, task, body);
   const bool solved = problem.model == SB_FILM_REYNOLDS;
-  problem.inlet_film = task->supply.limited && solved ? task->supply.layer : 0;
-  if (coupled) {
-    add_asperities(&problem, model);
-  }
-  if (body != NULL) {
-    lay_on(&problem, body);
-  }
   Solved *on = body != NULL ? &memory->fitted : &memory->plane;
   memory->last = on;
   SbStatus status = solve_on(task, on, &problem, report);
@@ -693,7 +710,7 @@ SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
     limit_law(state, task);
   }
   if (coupled) {
-    take_asperities(state, model, on);
+    take_asperities(state, model, &on->film, on->fitted);
   }
   SbStatus rubbed = sb_sliding_refilm(state, task, 1, report);
   return rubbed != SB_OK ? rubbed : status;

@@ -118,6 +118,14 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
 SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
                             const SbSlidingBody *body, SbReport *report);
 
+// The problem of a film at the task's speed under `state`, on `body` or, NULL, the half-plane.
+void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSlidingTask *task,
+                        const SbSlidingBody *body);
+
+// Gives a task's state another film, on the fitted body or not, and what follows from it.
+void sb_sliding_take(SbSealState *state, const SbSlidingTask *task, const SbFilm *film, bool fitted,
+                     double roughness);
+
 // What follows from the films in a task's state, with a surface `roughness` times as rough as the
 // model's: lambda, real area, kinetic friction. With coupled asperities roughness must be 1; real
 // area, and what a section that bears all has of boundary_load and friction_viscous, are then given

@@ -2,11 +2,13 @@
 // transient film (film/transient.h), so that stops squeeze the film, reversals carry the old one
 // back through the contact, and the frames show that in place of the steady film.
 //
-// A stretch is as long as the seal's whole contact lies on the land between the same pressures; the
-// next begins with the film that was there, evened out. The first begins with fluid.rest_film. The
-// load is the stretch's own. Lambda, real area and friction of a frame follow its film; the motion
-// and the figures of a seal keep to the steady one. From where a film fails its frames have none.
-// Left out: the land's edge under the contact and the step of the pressures themselves.
+// A stretch is as long as the seal's whole contact lies on the land between the same pressures, and
+// slides one way where the two ways have contacts of their own; the next begins with the film that
+// was there, evened out. The first begins with fluid.rest_film. Body, load and inlets are the
+// steady states' (run_supply.c); while a seal slides out of a room without liquid it has no film.
+// Lambda, real area and friction of a frame follow its film; the motion and the figures of a seal
+// keep to the steady one. From where a film fails its frames have none. Left out: the land's edge
+// under the contact and the step of the pressures themselves.
 #include <math.h>
 
 #include "engine/film/transient.h"
@@ -20,6 +22,8 @@ typedef struct {
   double speed_scale;
   SbFilmTransient *film; // of the present stretch, NULL between stretches
   int chamber;           // of the stretch
+  int direction;         // of sliding; below 0: not yet
+  bool fitted;           // the film lies on the fitted body
   double central;        // last film [m], what the next stretch begins with
   size_t frame;          // that it has come to
   double error;          // largest estimate of the least film
@@ -41,21 +45,28 @@ static void end_stretch(History *history) {
   history->film = NULL;
 }
 
+// Whether a seal has one contact for both ways of sliding: a stretch then goes on through a
+// reversal.
+static bool both_alike(const SbRun *run, int seal, int chamber) {
+  const SbSealState *in = &run->cycle.state[seal][chamber][SB_CYCLE_IN];
+  const SbSealState *back = &run->cycle.state[seal][chamber][SB_CYCLE_OUT];
+  return in->load_net == back->load_net && in->contact_left == back->contact_left &&
+         in->contact_right == back->contact_right;
+}
+
 // Begins a stretch at rest.
 static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *hooks,
                               SbReport *report) {
-  const SbRun *run = history->run;
-  const SbSealState *state = &run->cycle.state[history->seal][chamber][SB_CYCLE_IN];
-  const SbSealPressure pressure =
-      sb_model_seal_pressure(run->model, history->seal, (SbChamber)chamber);
+  SbRun *run = history->run;
+  const int seal = history->seal;
   SbFilmTransientProblem problem = {.speed_scale = history->speed_scale,
-                                    .rest_film = history->central};
-  sb_sliding_film_problem(&problem.film, run->model, history->seal, pressure, state->load_net, 0);
-  const SbRunSurface *surface = &run->surface[history->seal][chamber];
-  if (state->film_fitted && surface->known) {
-    problem.film.compliance = &surface->compliance;
-    problem.film.load = surface->load;
-    problem.film.modulus = surface->compliance.modulus;
+                                    .rest_film = history->central > 0 ? history->central
+                                                                      : run->model->rest_film};
+  history->fitted = sb_run_film_of(&problem.film, run, seal, chamber, history->direction) != NULL;
+  problem.film.speed = problem.film.inlet_film = 0;
+  for (int way = SB_CYCLE_IN; way <= SB_CYCLE_OUT; way++) {
+    const SbSupply supply = sb_run_supply(run, seal, (SbChamber)chamber, way);
+    problem.inlet_film[way] = supply.limited ? supply.layer : 0;
   }
   problem.film.cancelled = hooks->cancelled;
   problem.film.cancelled_data = hooks->data;
@@ -64,7 +75,40 @@ static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *h
   // than a drawing gains.
   problem.film.tolerance = fmax(run->model->tolerance, 3e-3);
   history->chamber = chamber;
-  return sb_film_transient_create(&history->film, &problem, report);
+  SbStatus status = sb_film_transient_create(&history->film, &problem, report);
+  if (status == SB_ERROR_INFEASIBLE && problem.film.hamaker > 0) {
+    sb_warn(&run->summary.warnings, "film-snap-in", "surface.hamaker_constant",
+            "the %s seal's film in time is that without adhesion: %s", sb_seal_name(seal),
+            report->text);
+    problem.film.hamaker = 0;
+    status = sb_film_transient_create(&history->film, &problem, report);
+  }
+  return status;
+}
+
+// The present film into a frame.
+static void show(const History *history, const SbFilmTransientResult *result, SbFrame *frame) {
+  const SbFilm film = {.film_min = result->film_min,
+                       .film_central = result->film_central,
+                       .film_ratio = result->film_central / history->run->model->sigma,
+                       .hertz_half_width = result->half_width,
+                       .friction_couette = result->friction_couette,
+                       .friction_cavity = result->friction_cavity,
+                       .asperity_load = result->asperity_load,
+                       .asperity_share = result->asperity_share,
+                       .real_area = result->real_area};
+  sb_run_frame_film(frame, history->run, history->seal, &film, history->fitted);
+}
+
+// The way of sliding in a frame; at rest that before, or at the start the first to come.
+static int way_of(const History *history, size_t i, size_t count) {
+  const SbFrame *frames = history->run->frames;
+  for (size_t k = i; k < count && (k == i || history->direction < 0); k++) {
+    if (frames[k].velocity != 0) {
+      return frames[k].velocity < 0 ? SB_CYCLE_OUT : SB_CYCLE_IN;
+    }
+  }
+  return history->direction < 0 ? SB_CYCLE_IN : history->direction;
 }
 
 // One seal through all frames.
@@ -74,12 +118,19 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
     SbFrame *frame = &run->frames[i];
     history->frame = i;
     const double dt = i > 0 ? frame->time - run->frames[i - 1].time : 0;
-    if (!whole_contact(frame, history->seal) ||
-        (history->film != NULL && history->chamber != (int)frame->chamber)) {
+    const int before = history->direction;
+    history->direction = way_of(history, i, count);
+    const SbSupply supply =
+        sb_run_supply(run, history->seal, (SbChamber)frame->chamber, history->direction);
+    const bool dry = supply.limited && !(supply.layer > 0);
+    const bool turned =
+        before != history->direction && !both_alike(run, history->seal, (int)frame->chamber);
+    if (dry || turned || !whole_contact(frame, history->seal) ||
+        history->chamber != (int)frame->chamber) {
       end_stretch(history);
     }
-    if (!whole_contact(frame, history->seal)) {
-      continue;
+    if (dry || !whole_contact(frame, history->seal)) {
+      continue; // without liquid as without a contact the frame stays as it is
     }
     if (i % 16 == 0 && sb_run_cancelled(hooks, report)) {
       return SB_ERROR_CANCELLED;
@@ -99,7 +150,7 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
     // does not know. Without the companion nothing is known.
     const double least = result.error_film_min;
     history->error = isnan(least) ? INFINITY : fmax(history->error, least);
-    sb_run_frame_film(frame, run, history->seal, result.film_min, result.film_central);
+    show(history, &result, frame);
   }
   return SB_OK;
 }
@@ -110,7 +161,7 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
   SbStatus worst = SB_OK;
   summary->error_film_history = 0;
   for (int seal = 0; seal < SB_SEAL_COUNT && worst != SB_ERROR_CANCELLED; seal++) {
-    History history = {.run = run, .seal = seal, .central = run->model->rest_film};
+    History history = {.run = run, .seal = seal, .direction = -1, .central = run->model->rest_film};
     for (size_t i = 0; i < count; i++) {
       history.speed_scale = fmax(history.speed_scale, fabs(run->frames[i].velocity));
     }

@@ -15,13 +15,6 @@ enum {
   SB_RUN_EVENT_FRAMES = 2 * SB_CYCLE_SEGMENTS_MAX + 800
 };
 
-// Surface of a seal's fitted body for the film, of one chamber state.
-typedef struct {
-  bool known;
-  double load; // net, that goes with it [N/m]
-  SbSurfaceCompliance compliance;
-} SbRunSurface;
-
 typedef struct {
   SbContactProfile view;
   double *data; // x, pressure, film, asperity pressure
@@ -107,7 +100,6 @@ struct SbRun {
   SbFilm film;                         // of whoever solves one beside the states
   double friction_error, static_error; // of any state's frictions by its films [N]
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
-  SbRunSurface surface[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS];
   SbRunShape shape[SB_RUN_SHAPES];
   SbRunEdge edge[2];     // of the inner ring, by way of sliding
   SbReport lacks;        // why there can be no motion; SB_OK: nothing is missing
@@ -281,6 +273,14 @@ void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled,
 void sb_run_refilm(SbSealState *state, SbRun *run, int seal, int chamber, int direction,
                    double speed);
 
+// The problem of the film of a sliding state, and the body that it lies on; NULL: the half-plane.
+const SbSlidingBody *sb_run_film_of(SbFilmProblem *out, SbRun *run, int seal, int chamber,
+                                    int direction);
+
+// Gives a state another film, see sb_sliding_take().
+void sb_run_take(SbSealState *state, SbRun *run, int seal, int chamber, int direction, double speed,
+                 const SbFilm *film, bool fitted);
+
 // Keeps the body under the film of a state just solved, for films at other speeds on it; NULL: it
 // lies on the half-plane.
 SbStatus sb_run_keep_body(SbRun *run, int seal, int chamber, int direction,
@@ -317,8 +317,8 @@ typedef struct {
 // slides are those of one steady state, at the sample's speed and the chamber's pressure.
 void sb_run_fill_frame(SbFrame *out, SbRun *run, const SbInstant *at);
 
-// Gives a seal in a frame another film [m] and what follows from it there.
-void sb_run_frame_film(SbFrame *frame, SbRun *run, int seal, double least, double central);
+// Gives a seal in a frame another film, on the fitted body or not, and what follows from it there.
+void sb_run_frame_film(SbFrame *frame, SbRun *run, int seal, const SbFilm *film, bool fitted);
 
 // Makes the first `count` frames visible and tells the progress every now and then; true: stop.
 bool sb_run_poll(SbRun *run, const SbRunHooks *hooks, size_t count, double fraction,

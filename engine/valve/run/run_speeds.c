@@ -101,6 +101,22 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
   sb_speed_state(out, *table, speed);
 }
 
+const SbSlidingBody *sb_run_film_of(SbFilmProblem *out, SbRun *run, int seal, int chamber,
+                                    int direction) {
+  const SbSpeedStates *table = run->speeds[seal][chamber][direction];
+  const SbSlidingBody *body = table != NULL && table->on_body ? &table->body : NULL;
+  SbSlidingTask task = task_of(run, seal, chamber, direction, run->speed);
+  sb_sliding_film_of(out, &run->cycle.state[seal][chamber][direction], &task, body);
+  return body;
+}
+
+void sb_run_take(SbSealState *state, SbRun *run, int seal, int chamber, int direction, double speed,
+                 const SbFilm *film, bool fitted) {
+  SbSlidingTask task = task_of(run, seal, chamber, direction, fmax(fabs(speed), SB_SPEED_LEAST));
+  task.warnings = NULL;
+  sb_sliding_take(state, &task, film, fitted, run->roughness);
+}
+
 void sb_run_refilm(SbSealState *state, SbRun *run, int seal, int chamber, int direction,
                    double speed) {
   SbSlidingTask task = task_of(run, seal, chamber, direction, fmax(fabs(speed), SB_SPEED_LEAST));

@@ -292,11 +292,6 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
     }
   }
   const SbFit *fit = sb_sliding_fit(memory);
-  SbRunSurface *surface = &run->surface[of->seal][of->chamber];
-  if (state->film_fitted && run->plan.film_history) {
-    surface->known = sb_sliding_surface(&surface->compliance, &surface->load, fit, run->model,
-                                        of->seal, of->pressure, NULL, NULL) == SB_OK;
-  }
   if (isfinite(state->load)) {
     lane->error_load = fmax(lane->error_load, fit->solver.error_estimate.load);
     lane->error_width = fmax(lane->error_width, fit->solver.error_estimate.contact_width);

@@ -581,7 +581,7 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
   }
 }
 
-void sb_run_frame_film(SbFrame *frame, SbRun *run, int seal, double least, double central) {
+void sb_run_frame_film(SbFrame *frame, SbRun *run, int seal, const SbFilm *film, bool fitted) {
   SbSealFrame *out = &frame->seal[seal];
   const int direction = frame->velocity < 0 ? SB_CYCLE_OUT : SB_CYCLE_IN;
   const double speed = frame->velocity != 0 ? frame->velocity : run->speed;
@@ -589,11 +589,9 @@ void sb_run_frame_film(SbFrame *frame, SbRun *run, int seal, double least, doubl
   const bool slides = out->friction_viscous > 0 || out->friction_viscous < 0;
   SbSealState state;
   sb_run_state_at(&state, run, seal, frame->chamber, direction, speed);
-  state.film_min = least;
-  state.film_central = central;
-  sb_run_refilm(&state, run, seal, frame->chamber, direction, speed);
-  out->film_min = least;
-  out->film_central = central;
+  sb_run_take(&state, run, seal, frame->chamber, direction, speed, film, fitted);
+  out->film_min = film->film_min;
+  out->film_central = film->film_central;
   out->lambda = state.lambda;
   out->real_area_share = state.real_area_share;
   if (slides) {
