@@ -1,7 +1,6 @@
 // The ring's elements: consistent tangent, patch test, thick-walled cylinder and sphere against the
 // incompressible closed forms, bending without locking.
 #include "engine/contact/ring/ring_fem.h"
-#include "engine/contact/ring/ring_fronts.h"
 
 #include <glib.h>
 #include <math.h>
@@ -360,62 +359,9 @@ static void test_cook(void) {
   g_assert_cmpfloat(fabs(middle / fine - 1.0), <, error);
 }
 
-// The fronts' factors of unsymmetric matrices with a mesh's pattern, eliminated in any order; a
-// vanishing pivot is told.
-static void test_fronts(void) {
-  SbRingMesh *mesh;
-  g_assert_cmpint(create_rectangle(&mesh, 1.0, 2.0, 0.0, 1.0, 9, 14, NULL), ==, SB_OK);
-  SbRingFem *fem;
-  const SbRingMaterial material = {0.5, 0.0, 100.0};
-  g_assert_cmpint(sb_ring_fem_create(&fem, mesh, material, false, NULL), ==, SB_OK);
-  const int n = 2 * mesh->nodes;
-  GRand *random = g_rand_new_with_seed(5);
-  int *order = g_new(int, n);
-  double *wanted = g_new(double, n), *x = g_new(double, n);
-  for (int round = 0; round < 3; round++) {
-    for (int i = 0; i < n; i++) {
-      order[i] = round == 0 ? i : n - 1 - i;
-      wanted[i] = g_rand_double_range(random, -1, 1);
-    }
-    for (int i = 0; i < n / 2 && round == 2; i++) {
-      int other = g_rand_int_range(random, 0, n), was = order[i];
-      order[i] = order[other];
-      order[other] = was;
-    }
-    SbRingFronts *fronts = sb_ring_fronts_create(mesh->nodes, fem->row_start, fem->column, order);
-    g_assert_nonnull(fronts);
-    for (int again = 0; again < 2; again++) {
-      for (int i = 0; i < n; i++) {
-        x[i] = 0.0;
-        for (int k = fem->row_start[i]; k < fem->row_start[i + 1]; k++) {
-          fem->value[k] = g_rand_double_range(random, -1, 1) + (fem->column[k] == i ? 40.0 : 0.0);
-          x[i] += fem->value[k] * wanted[fem->column[k]];
-        }
-      }
-      g_assert_true(sb_ring_fronts_factor(fronts, fem->value));
-      sb_ring_fronts_solve(fronts, x);
-      for (int i = 0; i < n; i++) {
-        g_assert_cmpfloat_with_epsilon(x[i], wanted[i], 1e-13);
-      }
-    }
-    for (int k = fem->row_start[7]; k < fem->row_start[8]; k++) {
-      fem->value[k] = 0.0;
-    }
-    g_assert_false(sb_ring_fronts_factor(fronts, fem->value));
-    sb_ring_fronts_destroy(fronts);
-  }
-  g_free(order);
-  g_free(wanted);
-  g_free(x);
-  g_rand_free(random);
-  sb_ring_fem_destroy(fem);
-  sb_ring_mesh_destroy(mesh);
-}
-
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/ring-fem/tangent", test_tangent);
-  g_test_add_func("/ring-fem/fronts", test_fronts);
   g_test_add_func("/ring-fem/patch", test_patch);
   g_test_add_func("/ring-fem/tube", test_tube);
   g_test_add_func("/ring-fem/sphere", test_sphere);
