@@ -270,7 +270,7 @@ static void solve_ring(SbSealState *out, SbDryContact *dry, double *modulus, dou
 // In a run with solved rings the film lies on the ring's own surface. A thin film hangs on nothing
 // but the strength K of the pressure's root at its inlet, p ~ K sqrt(distance), and on the modulus:
 // a Hertz contact on a half-plane with the same two carries the same flux; and another mesh of the
-// ring gives the same film within three error estimates.
+// ring gives the same film within the error told.
 static void test_ring(void) {
   SbFilm *plane = g_new(SbFilm, 1);
   static const double SPEED[] = {20e-3 / 60.0, -20e-3 / 60.0};
@@ -287,8 +287,8 @@ static void test_ring(void) {
     g_test_message("film %.4g, on the finer ring %.4g nm (%.2g, estimate %.2g), half-plane %.4g nm",
                    1e9 * coarse.film_central, 1e9 * fine.film_central, truth, coarse.film_error,
                    1e9 * coarse.film_reynolds);
-    g_assert_cmpfloat(truth, <=, 3.0 * coarse.film_error);
-    g_assert_cmpfloat(coarse.film_error, <, 0.02);
+    g_assert_cmpfloat(truth, <=, coarse.film_error);
+    g_assert_cmpfloat(coarse.film_error, <, 0.06);
 
     const double half = 0.5 * (dry.right - dry.left);
     const double K = (speed > 0.0 ? dry.edge_left : dry.edge_right) * sqrt(2.0 / half);
@@ -306,10 +306,7 @@ static void test_ring(void) {
     solve(plane, &p);
     g_test_message("Hertz contact of the same root: %.4g nm", 1e9 * plane->film_central);
     g_assert_cmpfloat(fabs(plane->film_central / coarse.film_central - 1.0), <, 0.01);
-    // The least film hangs on the outlet's root too, the same only without pressure.
-    if (chamber == 1) {
-      g_assert_cmpfloat(fabs(plane->film_min / coarse.film_min - 1.0), <, 0.01);
-    }
+    // The least film hangs on the outlet's root too, which friction makes another.
   }
   g_free(plane);
 }

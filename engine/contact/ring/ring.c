@@ -481,11 +481,11 @@ SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *opt
     return status;
   }
   (*out)->options = *options;
-  // Fine ends show where the contact ends; friction may stumble over them.
-  static const double FINE = 0.2, EVEN = 1.0;
-  status = remesh(*out, ring, options->element_size, FINE, report);
-  if (status == SB_ERROR_NOT_CONVERGED) {
-    status = remesh(*out, ring, options->element_size, EVEN, report);
+  // Fine ends show where the contact ends; friction stumbles over some, others do.
+  static const double EDGE[] = {0.3, 0.2, 0.4, 1.0};
+  status = SB_ERROR_NOT_CONVERGED;
+  for (size_t i = 0; i < sizeof EDGE / sizeof *EDGE && status == SB_ERROR_NOT_CONVERGED; i++) {
+    status = remesh(*out, ring, options->element_size, EDGE[i], report);
   }
   if (status != SB_OK) {
     sb_ring_destroy(*out);
