@@ -34,7 +34,7 @@ static void solve(double *value, SbStudyWork *work, int line, double squeeze) {
   static const char *const paths[] = {"seals.outer.leakage_static_m3_per_s",
                                       "seals.outer.leakage_per_stroke_m3"};
   static const char *const width[] = {"seals.outer.contact_width_m"};
-  enum { COUNT = SB_STUDY_SQUEEZED + 4 };
+  enum { COUNT = SB_STUDY_SQUEEZED + 6 };
   SbOverride override[COUNT];
   sb_study_squeezed(override, work, squeeze);
   override[3] = (SbOverride){SB_P_MODELS_FIT, fit_of(line)};
@@ -43,6 +43,9 @@ static void solve(double *value, SbStudyWork *work, int line, double squeeze) {
       (SbOverride){SB_P_OUTPUT_TOLERANCE,
                    fmax(work->scene->tolerance, fit_of(line) == SB_FIT_RING ? 1e-2 : 1e-3)};
   override[6] = (SbOverride){SB_P_MODELS_SURFACE, 1}; // percolation needs Persson's
+  override[7] =
+      (SbOverride){SB_P_FRICTION_SHEAR_STRENGTH, 0}; // the ring as fitted: nothing drags it
+  override[8] = (SbOverride){SB_P_FRICTION_LOAD_COEFFICIENT, 0};
   // A ring that does not touch by itself lets the fluid past before any pressure could press it on.
   override[5] = (SbOverride){SB_P_CANISTER_PRESSURE, 0};
   double free;
