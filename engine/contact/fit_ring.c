@@ -96,12 +96,13 @@ static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
 }
 
 // What two meshes differ by. Rubbing on floor and walls under pressure a dragged ring keeps besides
-// what the coarse meshes of its path have left there: other meshes and path tolerances give loads
-// up to 1.2 % and widths up to 0.5 % apart (measured), which the last two meshes do not see.
+// what the coarse meshes of its path have left there: by a law that is not Coulomb's other meshes
+// and path tolerances give loads up to 1.2 % and widths up to 0.5 % apart (measured), which the
+// last two meshes do not see.
 static void take_errors(SbFit *out, const SbFitProblem *in, const SbRingResult *result) {
   static const double PATH_LOAD = 0.012, PATH_PEAK = 0.005, PATH_WIDTH = 0.005;
   const bool rubs = in->floor_friction > 0.0 || in->wall_friction > 0.0;
-  const double path = in->dragged && rubs && in->pressure != 0.0 ? 1.0 : 0.0;
+  const double path = in->shear != NULL && rubs && in->pressure != 0.0 ? 1.0 : 0.0;
   sb_fit_errors(out, fmax(result->error.load, PATH_LOAD * path),
                 fmax(result->error.peak, PATH_PEAK * path),
                 fmax(result->error.width, PATH_WIDTH * path));

@@ -111,8 +111,8 @@ static void interpolate(double out[SB_SPEED_VALUES], const SbSpeedCell *cell, do
 }
 
 // How far the parabola through the ends and the middle misses the quarter: films and friction,
-// relative.
-static double miss_of(const SbSpeedStates *states, const SbSpeedCell *cell) {
+// relative; *rubs is that of friction alone.
+static double miss_of(double *rubs, const SbSpeedStates *states, const SbSpeedCell *cell) {
   const int place = cell->place + cell->width / 4;
   double guess[SB_SPEED_VALUES];
   for (int k = 0; k < SB_SPEED_VALUES; k++) {
@@ -128,7 +128,8 @@ static double miss_of(const SbSpeedStates *states, const SbSpeedCell *cell) {
                         states->task.model->shear_strength / friction *
                         (solved.contact_right - solved.contact_left) *
                         states->task.model->bore_circumference);
-  return fmax(miss, fabs(sb_sliding_friction(&guessed) / friction - 1));
+  *rubs = fabs(sb_sliding_friction(&guessed) / friction - 1);
+  return fmax(miss, *rubs);
 }
 
 // The cell that holds a place, made if there is none; NULL if there is no room.
@@ -145,7 +146,7 @@ static const SbSpeedCell *cell_at(SbSpeedStates *states, double place) {
   SbSpeedCell cell = {.width = states->near ? GRID / 4 : GRID};
   cell.place =
       cell.width * (int)fmin(fmax(floor(place / cell.width), 0), WIDE * GRID / cell.width - 1);
-  double miss = 0;
+  double miss = 0, rubs = 0;
   for (;;) {
     const int at[] = {cell.place, cell.place + cell.width / 4, cell.place + cell.width / 2,
                       cell.place + cell.width};
@@ -157,7 +158,7 @@ static const SbSpeedCell *cell_at(SbSpeedStates *states, double place) {
         memcpy(cell.value[i], node->value, sizeof node->value);
       }
     }
-    miss = cell.usable ? miss_of(states, &cell) : NAN;
+    miss = cell.usable ? miss_of(&rubs, states, &cell) : NAN;
     if (miss <= SB_SPEED_TOLERANCE || cell.width == 4 || states->status != SB_OK) {
       break;
     }
@@ -166,6 +167,7 @@ static const SbSpeedCell *cell_at(SbSpeedStates *states, double place) {
   }
   if (cell.usable) {
     states->error = fmax(states->error, miss);
+    states->friction_error = fmax(states->friction_error, rubs);
   } else if (states->status == SB_OK) {
     sb_warn(states->task.warnings, "film-speed", "models.film",
             "no film of the %s seal about %.3g mm/s: it follows the power 0.6 of the speed from "

@@ -204,7 +204,7 @@ SbStatus sb_run_close_speeds(SbRun *run, SbReport *report) {
     if (table->error > 0) {
       summary->error_film = fmax(summary->error_film, table->error);
       run->friction_error =
-          fmax(run->friction_error, table->error * sb_sliding_friction(&table->base));
+          fmax(run->friction_error, table->friction_error * sb_sliding_friction(&table->base));
     }
   }
   return status == SB_OK
