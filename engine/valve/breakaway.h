@@ -21,8 +21,8 @@
 // 279, give B of 0.01 to 0.1 for polymers below and elastomers above the glass transition, and for
 // t_c the age of contacts that slide, their size over the speed. Leaves out: rest at other speeds
 // than the cycle's (the film of its state stands for the last sliding's), what a stop's own
-// deceleration squeezes (with inertia friction follows the speed down to the dry level, the least that
-// then holds), ageing under shear.
+// deceleration squeezes (with inertia friction follows the speed down to the dry level, the least
+// that then holds), ageing under shear.
 #pragma once
 
 #include "engine/mechanism/dwell.h"

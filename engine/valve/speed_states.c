@@ -110,13 +110,17 @@ static void interpolate(double out[SB_SPEED_VALUES], const SbSpeedCell *cell, do
   }
 }
 
-// How far the parabola through the ends and the middle misses the quarter: films and friction,
-// relative; *rubs is that of friction alone.
-static double miss_of(double *rubs, const SbSpeedStates *states, const SbSpeedCell *cell) {
+// How far the straight line through the ends, or the parabola through ends and middle, misses the
+// quarter: films and friction, relative; *rubs is that of friction alone.
+static double miss_of(double *rubs, const SbSpeedStates *states, const SbSpeedCell *cell,
+                      bool parabola) {
+  static const double WEIGHT[2][3] = {{0.75, 0, 0.25}, {0.375, 0.75, -0.125}};
+  const double *weight = WEIGHT[parabola];
   const int place = cell->place + cell->width / 4;
   double guess[SB_SPEED_VALUES];
   for (int k = 0; k < SB_SPEED_VALUES; k++) {
-    guess[k] = 0.375 * cell->value[0][k] + 0.75 * cell->value[2][k] - 0.125 * cell->value[3][k];
+    guess[k] = weight[0] * cell->value[0][k] + weight[1] * cell->value[2][k] +
+               weight[2] * cell->value[3][k];
   }
   SbSealState solved = states->base, guessed = states->base;
   give(&solved, states, speed_of(place), cell->value[1]);
@@ -130,6 +134,12 @@ static double miss_of(double *rubs, const SbSpeedStates *states, const SbSpeedCe
                         states->task.model->bore_circumference);
   *rubs = fabs(sb_sliding_friction(&guessed) / friction - 1);
   return fmax(miss, *rubs);
+}
+
+// What the cubic leaves in friction: less than the parabola by half the factor of that to the
+// straight line.
+static double left(double straight, double parabola) {
+  return parabola * (straight > 0 ? fmin(1, 2 * parabola / straight) : 1);
 }
 
 // The cell that holds a place, made if there is none; NULL if there is no room.
@@ -158,7 +168,7 @@ static const SbSpeedCell *cell_at(SbSpeedStates *states, double place) {
         memcpy(cell.value[i], node->value, sizeof node->value);
       }
     }
-    miss = cell.usable ? miss_of(&rubs, states, &cell) : NAN;
+    miss = cell.usable ? miss_of(&rubs, states, &cell, true) : NAN;
     if (miss <= SB_SPEED_TOLERANCE || cell.width == 4 || states->status != SB_OK) {
       break;
     }
@@ -166,8 +176,10 @@ static const SbSpeedCell *cell_at(SbSpeedStates *states, double place) {
     cell.place += place >= cell.place + cell.width ? cell.width : 0;
   }
   if (cell.usable) {
+    double straight_rubs;
+    (void)miss_of(&straight_rubs, states, &cell, false);
     states->error = fmax(states->error, miss);
-    states->friction_error = fmax(states->friction_error, rubs);
+    states->friction_error = fmax(states->friction_error, left(straight_rubs, rubs));
   } else if (states->status == SB_OK) {
     sb_warn(states->task.warnings, "film-speed", "models.film",
             "no film of the %s seal about %.3g mm/s: it follows the power 0.6 of the speed from "

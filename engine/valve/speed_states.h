@@ -44,7 +44,7 @@ typedef struct {
   bool near;     // to be set: asked for speeds near the reference only; cells are half a decade
   double power;  // of a film that is a power law, else NAN
   size_t solves; // to be read: nodes solved
-  // To be read: largest miss of a cell in use, relative, and that of friction alone.
+  // To be read: largest miss of a cell in use, relative, and what the cubic leaves in friction.
   double error, friction_error;
   SbStatus
       status; // to be read: SB_ERROR_CANCELLED or _MEMORY ended it; it answers with what it has

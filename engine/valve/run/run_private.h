@@ -286,8 +286,8 @@ void sb_run_take(SbSealState *state, SbRun *run, int seal, int chamber, int dire
 SbStatus sb_run_keep_body(SbRun *run, int seal, int chamber, int direction,
                           const SbSlidingBody *body, SbReport *report);
 
-// Gives `one` the speeds' states of `run` where it has none, and all of them its surface and states.
-// What it solved before stays: films know no roughness.
+// Gives `one` the speeds' states of `run` where it has none, and all of them its surface and
+// states. What it solved before stays: films know no roughness.
 SbStatus sb_run_copy_speeds(SbRun *one, const SbRun *run, SbReport *report);
 
 // Adds what interpolation over the speed leaves in the errors. SB_ERROR_CANCELLED or _MEMORY if
