@@ -18,11 +18,17 @@ static SbRun *run_scene(const char *path, int frames_factor, unsigned views) {
   g_assert_nonnull(document);
   g_autoptr(SbModel) scene = NULL, model = NULL;
   g_assert_true(sb_document_compile(document, &scene, issues));
-  const SbOverride change[] = {
-      {SB_P_OUTPUT_FRAMES, frames_factor * sb_model_number(scene, SB_P_OUTPUT_FRAMES)},
-      {SB_P_OUTPUT_VIEWS, views},
-  };
-  g_assert_cmpint(sb_model_derive(&model, scene, change, views != 0 ? 2 : 1, NULL), ==, SB_OK);
+  SbOverride change[3] = {
+      {SB_P_OUTPUT_FRAMES, frames_factor * sb_model_number(scene, SB_P_OUTPUT_FRAMES)}};
+  size_t changes = 1;
+  if (views != 0) {
+    change[changes++] = (SbOverride){SB_P_OUTPUT_VIEWS, views};
+  }
+  // What frames do and what a sanitizer finds hang on no mesh: solved rings are halved in time.
+  if (views != 0 || SB_SANITIZED) {
+    change[changes++] = (SbOverride){SB_P_OUTPUT_TOLERANCE, 1e-2};
+  }
+  g_assert_cmpint(sb_model_derive(&model, scene, change, changes, NULL), ==, SB_OK);
   return executed_run(model);
 }
 
