@@ -263,7 +263,8 @@ static double take_step(double *factor, SbFilmTransient *t, SbTransientState *s,
     const double before = s->m[i];
     s->H[i] += *factor * (wanted[i] - s->H[i]);
     s->Q[i] += *factor * change[i];
-    s->m[i] = s->cavity[i] ? before - *factor * t->right[i - 1] : s->H[i];
+    const double step = i > 0 && i + 1 < n ? t->right[i - 1] : 0.0; // what the ends have is given
+    s->m[i] = s->cavity[i] ? before - *factor * step : s->H[i];
     largest = fmax(largest, fabs(s->m[i] - before) / fmax(fabs(s->m[i]), 1e-300));
   }
   s->H0 += *factor * rise;
