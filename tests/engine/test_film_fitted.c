@@ -288,7 +288,7 @@ static void test_ring(void) {
                    1e9 * coarse.film_central, 1e9 * fine.film_central, truth, coarse.film_error,
                    1e9 * coarse.film_reynolds);
     g_assert_cmpfloat(truth, <=, coarse.film_error);
-    g_assert_cmpfloat(coarse.film_error, <, 0.06);
+    g_assert_cmpfloat(coarse.film_error, <, 0.08);
 
     const double half = 0.5 * (dry.right - dry.left);
     const double K = (speed > 0.0 ? dry.edge_left : dry.edge_right) * sqrt(2.0 / half);
