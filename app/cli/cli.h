@@ -170,4 +170,6 @@ int sb_command_fluid(int argc, char **argv);
 int sb_command_plan(int argc, char **argv);
 int sb_command_render(int argc, char **argv);
 int sb_command_bench(int argc, char **argv);
+int sb_command_study(int argc, char **argv);
+int sb_command_merge(int argc, char **argv);
 int sb_command_open(int argc, char **argv);

@@ -1,0 +1,342 @@
+// sealbench study and merge: many valves of one scene, and stores joined.
+#include "app/cli/cli.h"
+
+#include "app/base/output.h"
+#include "app/export/study_results.h"
+
+#include "engine/numeric/statistics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  char *store, *jobs, *shard, *csv, *json;
+  char **settings;
+  int threads;
+  size_t shard_index, shard_count; // from 0; count 0: no shards
+} Options;
+
+// A whole number and nothing else.
+static bool read_whole(int *out, const char *text, int most) {
+  double value = 0;
+  if (!sb_number_parse(&value, text) || value != floor(value) || value < 1 || value > most) {
+    return false;
+  }
+  *out = (int)value;
+  return true;
+}
+
+static int read_options(Options *options) {
+  options->threads = (int)g_get_num_processors();
+  if (options->jobs != NULL && !read_whole(&options->threads, options->jobs, 256)) {
+    return sb_cli_fail("--jobs: \"%.40s\" is no number of threads (1 to 256)", options->jobs);
+  }
+  if (options->shard != NULL) {
+    g_auto(GStrv) parts = g_strsplit(options->shard, "/", -1);
+    int index = 0, count = 0;
+    if (g_strv_length(parts) != 2 || !read_whole(&count, parts[1], 100000) ||
+        !read_whole(&index, parts[0], count)) {
+      return sb_cli_fail("--shard: \"%.40s\" is no I/N, from 1/N to N/N", options->shard);
+    }
+    options->shard_index = (size_t)index - 1;
+    options->shard_count = (size_t)count;
+  }
+  return SB_EXIT_DONE;
+}
+
+// The store's file: given, or NAME.store beside the study; NULL for a study from standard input.
+static char *store_path(const Options *options, const SbStudyFile *study) {
+  if (options->store != NULL || study->path == NULL) {
+    return g_strdup(options->store);
+  }
+  const char *dot = strrchr(study->path, '.');
+  const bool ending = dot != NULL && strcmp(dot, ".study") == 0;
+  return g_strdup_printf("%.*s.store", ending ? (int)(dot - study->path) : (int)strlen(study->path),
+                         study->path);
+}
+
+// A store that is there is added to; it must not be what the study is read from.
+static int check_targets(const Options *options, const char *store) {
+  if (store != NULL && !g_file_test(store, G_FILE_TEST_EXISTS)) {
+    const int code = sb_cli_check_outputs(NULL, NULL, store);
+    if (code != SB_EXIT_DONE) {
+      return code;
+    }
+  }
+  if (store != NULL && options->csv != NULL && strcmp(store, options->csv) == 0) {
+    return sb_cli_fail("--csv: %s is the store", store);
+  }
+  const int code = sb_cli_check_outputs(NULL, NULL, options->csv);
+  return code == SB_EXIT_DONE ? sb_cli_check_outputs(NULL, NULL, options->json) : code;
+}
+
+static void on_progress(void *data, size_t done, size_t of) {
+  sb_progress_update(data, of > 0 ? (double)done / (double)of : 1);
+}
+
+static bool set_list(SbStore *store, const SbStudyFile *study, GError **error) {
+  g_autoptr(GPtrArray) parameters = g_ptr_array_new(), figures = g_ptr_array_new();
+  for (guint i = 0; i < study->vary->len; i++) {
+    const SbParam *param = sb_param(g_array_index(study->vary, SbVary, i).id);
+    g_ptr_array_add(parameters, (gpointer)param->key);
+  }
+  for (guint i = 0; i < study->figures->len; i++) {
+    g_ptr_array_add(figures, (gpointer)sb_figure(g_array_index(study->figures, int, i))->path);
+  }
+  g_ptr_array_add(parameters, NULL);
+  g_ptr_array_add(figures, NULL);
+  return sb_store_set_list(store, (const char *const *)parameters->pdata,
+                           (const char *const *)figures->pdata, error);
+}
+
+// ---- What people read ----
+
+static void print_limits(const SbStudyFile *study, const SbAnswers *answers) {
+  for (size_t i = 0; i < study->limits.count; i++) {
+    const SbLimit *limit = &study->limits.item[i];
+    const SbFigure *figure = sb_figure(limit->figure);
+    const bool low = isfinite(limit->low), high = isfinite(limit->high);
+    g_autofree char *first = sb_figure_format(limit->figure, low ? limit->low : limit->high, NAN);
+    g_autofree char *second =
+        low && high ? sb_figure_format(limit->figure, limit->high, NAN) : g_strdup("");
+    SbLimitShare share;
+    sb_study_limit_share(&share, study, answers, i);
+    g_autofree char *text = g_strdup_printf("%s%s%s%s",
+                                            low && high ? ""
+                                            : low       ? ">= "
+                                                        : "<= ",
+                                            first, low && high ? " .. " : "", second);
+    printf("  %-38s %-18s", figure->path, text);
+    if (share.of == 0) {
+      puts(" no sample has it");
+    } else if (study->method == SB_METHOD_MONTE_CARLO) {
+      printf(" %zu of %zu beyond: %.3g %% (95 %%: %.3g to %.3g %%)\n", share.beyond, share.of,
+             100 * share.probability, 100 * share.interval[0], 100 * share.interval[1]);
+    } else {
+      printf(" %zu of %zu beyond\n", share.beyond, share.of);
+    }
+  }
+}
+
+static int print_table(const SbStudyFile *study, const SbAnswers *answers) {
+  enum { ROWS = 24 };
+  printf("%s: %s, %zu samples\n", study->title, sb_study_method_name(study->method),
+         study->samples);
+  printf("  %-38s %12s %12s %12s %12s %12s\n", "", "mean", "deviation", "5 %", "median", "95 %");
+  size_t shown = 0, with = 0;
+  for (size_t k = 0; k < answers->figures; k++) {
+    const int index = g_array_index(study->figures, int, k);
+    SbSummaryOfSamples of;
+    SbReport report = {0};
+    const SbStatus status =
+        sb_samples_summary(&of, answers->value + k, answers->samples, answers->figures, &report);
+    if (status != SB_OK) {
+      return sb_cli_status(status, &report);
+    }
+    with += of.count > 0;
+    if (of.count == 0 || shown == ROWS) {
+      continue;
+    }
+    shown++;
+    const double cell[] = {of.mean, of.deviation, of.quantile[1], of.quantile[2], of.quantile[3]};
+    const SbFigure *figure = sb_figure(index);
+    printf("  %-38s", figure->path);
+    for (size_t i = 0; i < G_N_ELEMENTS(cell); i++) {
+      char digits[SB_NUMBER_SIZE];
+      g_autofree char *text =
+          isfinite(cell[i])
+              ? g_strdup_printf(
+                    "%s %s",
+                    sb_number_round(digits,
+                                    sb_quantity_to_shown(cell[i], figure->si, figure->shown), 4),
+                    figure->shown)
+              : g_strdup("-");
+      // Columns of characters, which units such as µl have fewer of than bytes.
+      printf(" %*s%s", MAX(12 - (int)g_utf8_strlen(text, -1), 0), "", text);
+    }
+    putchar('\n');
+  }
+  if (with > shown) {
+    printf("  and %zu more figures: --csv, --json, or figures = in [study]\n", with - shown);
+  }
+  print_limits(study, answers);
+  return SB_EXIT_DONE;
+}
+
+// ---- The command ----
+
+static int write_outputs(const Options *options, const SbStudyFile *study, const double *value,
+                         const double *unit, const SbAnswers *answers, const char *cpus) {
+  GError *error = NULL;
+  if (options->csv != NULL) {
+    SbOutput out = {0};
+    if (!sb_output_begin(&out, options->csv, &error)) {
+      return sb_cli_error(error);
+    }
+    sb_study_csv(out.stream, study, value, answers);
+    if (!sb_output_commit(&out, &error)) {
+      return sb_cli_error(error);
+    }
+  }
+  if (options->json != NULL) {
+    SbReport report = {0};
+    g_autofree char *json = sb_study_json(study, unit, answers, cpus, &report);
+    return json != NULL ? sb_cli_emit(json, options->json) : sb_cli_status(report.status, &report);
+  }
+  const bool streamed = options->csv != NULL && strcmp(options->csv, "-") == 0;
+  return sb_cli_quiet() || streamed ? SB_EXIT_DONE : print_table(study, answers);
+}
+
+// Exit code of samples that failed: of a solver 2; a design that cannot be is an answer.
+static int judge(const SbAnswers *answers) {
+  size_t count[256] = {0};
+  for (size_t i = 0; i < answers->samples; i++) {
+    count[answers->status[i]]++;
+  }
+  const size_t unsolved = count[SB_ERROR_NOT_CONVERGED];
+  const size_t impossible = sb_study_failed(answers) - unsolved;
+  if (impossible > 0) {
+    sb_cli_note("%zu of %zu samples are no valves: their values do not go together", impossible,
+                answers->samples);
+  }
+  return unsolved == 0 ? SB_EXIT_DONE
+                       : (sb_cli_fail("in %zu of %zu samples a solver did not converge", unsolved,
+                                      answers->samples),
+                          SB_EXIT_NOT_CONVERGED);
+}
+
+static int solve(const Options *options, const SbStudyFile *study, SbStore *store,
+                 const double *value, const double *unit) {
+  SbParamId parameter[SB_VARY_MAX];
+  for (guint i = 0; i < study->vary->len; i++) {
+    parameter[i] = g_array_index(study->vary, SbVary, i).id;
+  }
+  SbProgress progress;
+  const SbQuestions asked = {
+      .base = study->base,
+      .base_sha256 = study->base_sha256,
+      .parameter = parameter,
+      .parameters = study->vary->len,
+      .figure = (const int *)(const void *)study->figures->data,
+      .figures = study->figures->len,
+      .value = value,
+      .samples = study->samples,
+      .shard = options->shard_index,
+      .shards = options->shard_count,
+      .jobs = options->threads,
+      .store = store,
+      .progress = on_progress,
+      .cancelled = sb_cli_interrupted,
+      .data = &progress,
+  };
+  SbAnswers answers;
+  GError *error = NULL;
+  sb_progress_start(&progress, "study ");
+  sb_cli_catch_interrupts();
+  const bool good = sb_answers_get(&answers, &asked, &error);
+  sb_progress_end(&progress);
+  int code = SB_EXIT_DONE;
+  if (!good) {
+    code = error->code == SB_APP_ERROR_CANCELLED ? SB_EXIT_INTERRUPTED : SB_EXIT_DONE;
+    const int told = sb_cli_error(error);
+    code = code == SB_EXIT_INTERRUPTED ? code : told;
+  }
+  if (answers.computed > 0) {
+    sb_cli_note("%zu samples in %.3g s on %d threads, %.3g a second", answers.computed,
+                answers.seconds, options->threads, (double)answers.computed / answers.seconds);
+  }
+  if (good || code == SB_EXIT_INTERRUPTED) {
+    g_autofree char *cpus = sb_store_cpus(store);
+    const int written = write_outputs(options, study, value, unit, &answers, cpus);
+    const int judged = judge(&answers);
+    code = MAX(code, MAX(written, judged));
+  }
+  sb_answers_release(&answers);
+  return code;
+}
+
+static int study_file(const Options *options, const SbStudyFile *study) {
+  GError *error = NULL;
+  g_autofree char *path = store_path(options, study);
+  int code = check_targets(options, path);
+  if (code != SB_EXIT_DONE || !sb_cli_has_memory(study->base)) {
+    return MAX(code, code == SB_EXIT_DONE ? SB_EXIT_IO : code);
+  }
+  double *value = NULL, *unit = NULL;
+  SbReport report = {0};
+  const SbStatus status = sb_study_file_points(&value, &unit, study, &report);
+  if (status != SB_OK) {
+    return sb_cli_status(status, &report);
+  }
+  SbStore *store = sb_store_open(path, &error);
+  if (store == NULL || !set_list(store, study, &error)) {
+    code = sb_cli_error(error);
+  } else {
+    code = solve(options, study, store, value, unit);
+  }
+  error = NULL;
+  if (!sb_store_close(store, &error)) {
+    const int told = sb_cli_error(error);
+    code = MAX(code, told);
+  }
+  free(value);
+  free(unit);
+  return code;
+}
+
+int sb_command_study(int argc, char **argv) {
+  Options options = {0};
+  const GOptionEntry entries[] = {
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.store,
+       "Store of the answers, added to if it is there; default NAME.store beside the study",
+       "STORE"},
+      {"jobs", 0, 0, G_OPTION_ARG_FILENAME, &options.jobs, "Threads; default one a processor", "N"},
+      {"shard", 0, 0, G_OPTION_ARG_FILENAME, &options.shard,
+       "Computes the part I of N alone, from 1; `sealbench merge` joins the stores", "I/N"},
+      {"csv", 0, 0, G_OPTION_ARG_FILENAME, &options.csv, "A row a sample, to a file or -", "FILE"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  if (sb_cli_parse(&argc, &argv, entries, 1, 1, NULL) &&
+      (code = read_options(&options)) == SB_EXIT_DONE) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autoptr(SbStudyFile) study = sb_study_file_load(argv[1], options.settings, issues);
+    sb_cli_issues(issues);
+    code = study != NULL ? study_file(&options, study) : SB_EXIT_INPUT;
+  }
+  g_free(options.store);
+  g_free(options.jobs);
+  g_free(options.shard);
+  g_free(options.csv);
+  g_free(options.json);
+  g_strfreev(options.settings);
+  return code;
+}
+
+int sb_command_merge(int argc, char **argv) {
+  if (!sb_cli_parse(&argc, &argv, NULL, 2, SB_CLI_FILES_MAX, NULL)) {
+    return SB_EXIT_INPUT;
+  }
+  for (int i = 2; i < argc; i++) {
+    if (!g_file_test(argv[i], G_FILE_TEST_IS_REGULAR)) {
+      return sb_cli_fail("%s: is no file", argv[i]);
+    }
+  }
+  GError *error = NULL;
+  SbStore *store = sb_store_open(argv[1], &error);
+  bool good = store != NULL;
+  for (int i = 2; good && i < argc; i++) {
+    good = sb_store_merge(store, argv[i], &error);
+  }
+  if (good && !sb_cli_quiet()) {
+    printf("%s: %" G_GUINT64_FORMAT " answers\n", argv[1], sb_store_count(store));
+  }
+  if (!good) {
+    (void)sb_store_close(store, NULL);
+    return sb_cli_error(error);
+  }
+  return sb_store_close(store, &error) ? SB_EXIT_DONE : sb_cli_error(error);
+}

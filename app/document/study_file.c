@@ -1,0 +1,640 @@
+// Reads study files and lays out their points; see the header.
+#include "app/document/study_file.h"
+
+#include "app/base/nearest.h"
+#include "app/base/reader.h"
+#include "app/document/document_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define GROUP_VARY        "vary"
+#define GROUP_STUDY       "study"
+#define GROUP_CORRELATION "correlation"
+
+static const char *const methods[SB_METHOD_COUNT] = {
+#define METHOD_NAME(code, name) [code] = name,
+    SB_STUDY_METHODS(METHOD_NAME)
+#undef METHOD_NAME
+};
+
+const char *sb_study_method_name(SbStudyMethod method) {
+  return (unsigned)method < SB_METHOD_COUNT ? methods[method] : "";
+}
+
+// What is being read.
+typedef struct {
+  SbStudyFile *study;
+  const GPtrArray *entries;
+  const char *shown;
+  GPtrArray *issues;
+} Reader;
+
+static const char vary_forms[] = "uniform A .. B[, N], loguniform A .. B[, N], normal MEAN, "
+                                 "DEVIATION [within A .. B], levels A, B, ...";
+
+static char *full_key(const SbEntry *entry) {
+  return g_strdup_printf("%s.%s", entry->group, entry->name);
+}
+
+static void complain(const Reader *reader, const SbEntry *entry, const char *allowed,
+                     const char *text) {
+  g_autofree char *key = full_key(entry);
+  sb_issues_add(reader->issues, reader->shown, entry->line, key, allowed, "%s", text);
+}
+
+static bool fail(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
+static bool fail(GError **error, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  if (error != NULL) {
+    *error = g_error_new_valist(SB_APP_ERROR, SB_APP_ERROR_INPUT, format, arguments);
+  }
+  va_end(arguments);
+  return false;
+}
+
+// ---- [vary] ----
+
+// A value of the parameter, within its range.
+static bool read_value(double *out, SbParamId id, const char *text, GError **error) {
+  g_autofree char *trimmed = g_strstrip(g_strdup(text));
+  return sb_param_parse(out, id, trimmed, error);
+}
+
+// "A .. B".
+static bool read_range(double *low, double *high, SbParamId id, const char *text, GError **error) {
+  const char *dots = strstr(text, "..");
+  if (dots == NULL) {
+    return fail(error, "\"%.60s\" is no range", text);
+  }
+  g_autofree char *first = g_strndup(text, (gsize)(dots - text));
+  if (!read_value(low, id, first, error) || !read_value(high, id, dots + 2, error)) {
+    return false;
+  }
+  return *low < *high || fail(error, "the range \"%.60s\" does not rise", text);
+}
+
+// "A .. B" or "A .. B, N".
+static bool read_uniform(SbVary *vary, const char *text, GError **error) {
+  SbDistribution *of = &vary->distribution;
+  const char *comma = strchr(text, ',');
+  if (comma != NULL) {
+    double count = 0;
+    g_autofree char *digits = g_strstrip(g_strdup(comma + 1));
+    if (!sb_number_parse(&count, digits) || count != floor(count) || count < 2 ||
+        count > SB_SAMPLES_MAX) {
+      return fail(error, "\"%.60s\" is no number of points (2 and more)", digits);
+    }
+    of->count = (size_t)count;
+  }
+  g_autofree char *range = g_strndup(text, comma != NULL ? (gsize)(comma - text) : strlen(text));
+  if (!read_range(&of->a, &of->b, vary->id, range, error)) {
+    return false;
+  }
+  return of->kind != SB_DISTRIBUTION_LOGUNIFORM || of->a > 0 ||
+         fail(error, "a logarithm needs values above 0");
+}
+
+// "MEAN, DEVIATION" or "MEAN, DEVIATION within A .. B".
+static bool read_normal(SbVary *vary, const char *text, GError **error) {
+  SbDistribution *of = &vary->distribution;
+  const SbParam *param = sb_param(vary->id);
+  const char *comma = strchr(text, ','), *within = strstr(text, " within ");
+  if (comma == NULL || (within != NULL && within < comma)) {
+    return fail(error, "\"%.60s\" is no mean with a deviation", text);
+  }
+  g_autofree char *mean = g_strndup(text, (gsize)(comma - text));
+  g_autofree char *deviation = g_strstrip(
+      g_strndup(comma + 1, within != NULL ? (gsize)(within - comma - 1) : strlen(comma + 1)));
+  const char *shown = sb_quantity_is_point(param->unit) ? "K" : param->unit;
+  if (!read_value(&of->a, vary->id, mean, error) ||
+      !sb_quantity_parse(&of->b, deviation, param->si, shown, error)) {
+    return false;
+  }
+  if (!(of->b > 0)) {
+    return fail(error, "the deviation \"%.60s\" is not above 0", deviation);
+  }
+  of->low = -INFINITY;
+  of->high = INFINITY;
+  if (within != NULL) {
+    if (!read_range(&of->low, &of->high, vary->id, within + strlen(" within "), error)) {
+      return false;
+    }
+    // Six deviations out there is one value in 1e9.
+    if (of->low > of->a + 6 * of->b || of->high < of->a - 6 * of->b) {
+      return fail(error, "the range lies more than 6 deviations from the mean");
+    }
+  }
+  return true;
+}
+
+static bool read_levels(SbVary *vary, const char *text, GError **error) {
+  g_auto(GStrv) parts = g_strsplit(text, ",", -1);
+  const size_t count = g_strv_length(parts);
+  if (count > SB_SAMPLES_MAX / 10) {
+    return fail(error, "there are too many levels");
+  }
+  vary->levels = g_new(double, count + 1);
+  for (size_t i = 0; i < count; i++) {
+    if (!read_value(&vary->levels[i], vary->id, parts[i], error)) {
+      return false;
+    }
+  }
+  vary->distribution.level = vary->levels;
+  vary->distribution.count = count;
+  return count > 0 || fail(error, "there are no levels");
+}
+
+static bool read_distribution(SbVary *vary, const char *text, GError **error) {
+  static const struct {
+    const char *name;
+    SbDistributionKind kind;
+    bool (*read)(SbVary *vary, const char *text, GError **error);
+  } forms[] = {{"uniform", SB_DISTRIBUTION_UNIFORM, read_uniform},
+               {"loguniform", SB_DISTRIBUTION_LOGUNIFORM, read_uniform},
+               {"normal", SB_DISTRIBUTION_NORMAL, read_normal},
+               {"levels", SB_DISTRIBUTION_LEVELS, read_levels}};
+  const size_t length = strcspn(text, " \t");
+  const SbParamKind kind = sb_param(vary->id)->kind;
+  for (size_t i = 0; i < G_N_ELEMENTS(forms); i++) {
+    if (strlen(forms[i].name) == length && strncmp(text, forms[i].name, length) == 0) {
+      vary->distribution.kind = forms[i].kind;
+      if ((kind == SB_PARAM_CHOICE || kind == SB_PARAM_INT) &&
+          forms[i].kind != SB_DISTRIBUTION_LEVELS) {
+        return fail(error, "only levels suit %s",
+                    kind == SB_PARAM_INT ? "a whole number" : "a choice");
+      }
+      return forms[i].read(vary, text + length, error);
+    }
+  }
+  return fail(error, "\"%.60s\" says no distribution", text);
+}
+
+static void read_vary(Reader *reader, const SbEntry *entry) {
+  SbStudyFile *study = reader->study;
+  const int id = sb_param_find(entry->name);
+  SbVary vary = {.id = (SbParamId)id};
+  g_autoptr(GError) error = NULL;
+  if (id < 0) {
+    g_autofree char *hint = sb_document_key_hint(entry->name);
+    g_autofree char *text = g_strdup_printf("there is no such parameter%s", hint);
+    complain(reader, entry, NULL, text);
+  } else if (sb_param(vary.id)->kind == SB_PARAM_FLAGS) {
+    complain(reader, entry, NULL, "a list of words does not vary");
+  } else if (study->vary->len == SB_VARY_MAX) {
+    complain(reader, entry, NULL, "is more than the 64 parameters that may vary");
+  } else if (!read_distribution(&vary, entry->value, &error)) {
+    // The range where a value was out of it, else the forms.
+    g_autofree char *range = sb_param_range(vary.id);
+    const bool value = strstr(error->message, "out of range") != NULL ||
+                       sb_param(vary.id)->kind == SB_PARAM_CHOICE;
+    complain(reader, entry, value ? range : vary_forms, error->message);
+    g_free(vary.levels);
+  } else {
+    g_array_append_val(study->vary, vary);
+  }
+}
+
+// ---- [correlation] ----
+
+static int vary_index(const SbStudyFile *study, const char *key) {
+  for (guint i = 0; i < study->vary->len; i++) {
+    if (strcmp(sb_param(g_array_index(study->vary, SbVary, i).id)->key, key) == 0) {
+      return (int)i;
+    }
+  }
+  return -1;
+}
+
+// "KEY, KEY = 0.3" into the matrix.
+static void read_correlation(Reader *reader, const SbEntry *entry, double *matrix) {
+  SbStudyFile *study = reader->study;
+  g_auto(GStrv) keys = g_strsplit(entry->name, ",", -1);
+  int at[2] = {-1, -1};
+  for (int i = 0; g_strv_length(keys) == 2 && i < 2; i++) {
+    at[i] = vary_index(study, g_strstrip(keys[i]));
+  }
+  double share = 0;
+  if (at[0] < 0 || at[1] < 0 || at[0] == at[1]) {
+    complain(reader, entry, "KEY, KEY = NUMBER", "does not name two parameters of [vary]");
+  } else if (!sb_number_parse(&share, entry->value) || !(fabs(share) < 1)) {
+    complain(reader, entry, "between -1 and 1", "is no correlation");
+  } else {
+    const size_t n = study->vary->len;
+    matrix[(size_t)at[0] * n + (size_t)at[1]] = matrix[(size_t)at[1] * n + (size_t)at[0]] = share;
+  }
+}
+
+// Cholesky's lower root in place; false if the matrix has none.
+static bool take_root(double *a, size_t n) {
+  for (size_t i = 0; i < n; i++) {
+    for (size_t j = 0; j <= i; j++) {
+      double sum = a[i * n + j];
+      for (size_t k = 0; k < j; k++) {
+        sum -= a[i * n + k] * a[j * n + k];
+      }
+      if (i == j && !(sum > 1e-12)) {
+        return false;
+      }
+      a[i * n + j] = i == j ? sqrt(sum) : sum / a[j * n + j];
+    }
+  }
+  return true;
+}
+
+static void read_correlations(Reader *reader) {
+  SbStudyFile *study = reader->study;
+  const size_t n = study->vary->len;
+  double *matrix = NULL;
+  int line = 0;
+  for (guint i = 0; i < reader->entries->len; i++) {
+    const SbEntry *entry = reader->entries->pdata[i];
+    if (entry->name == NULL || strcmp(entry->group, GROUP_CORRELATION) != 0) {
+      continue;
+    }
+    if (matrix == NULL) {
+      matrix = g_new0(double, n *n + 1);
+      for (size_t k = 0; k < n; k++) {
+        matrix[k * n + k] = 1;
+      }
+    }
+    line = line > 0 ? line : entry->line;
+    read_correlation(reader, entry, matrix);
+  }
+  if (matrix != NULL && !take_root(matrix, n)) {
+    sb_issues_add(reader->issues, reader->shown, line, GROUP_CORRELATION, NULL,
+                  "no parameters are correlated like this: the matrix is not positive definite");
+  } else if (matrix != NULL &&
+             (study->method == SB_METHOD_GRID || study->method == SB_METHOD_MORRIS ||
+              study->method == SB_METHOD_SOBOL_INDICES)) {
+    sb_issues_add(reader->issues, reader->shown, line, GROUP_CORRELATION, NULL,
+                  "the method %s takes its parameters as independent", methods[study->method]);
+  }
+  study->root = matrix;
+}
+
+// ---- [study] ----
+
+static void take_figure(GArray *figures, int figure) {
+  for (guint i = 0; i < figures->len; i++) {
+    if (g_array_index(figures, int, i) == figure) {
+      return;
+    }
+  }
+  g_array_append_val(figures, figure);
+}
+
+static void read_figures(Reader *reader, const SbEntry *entry) {
+  g_auto(GStrv) paths = g_strsplit_set(entry->value, ",;", -1);
+  for (char **path = paths; *path != NULL; path++) {
+    if (*g_strstrip(*path) == '\0') {
+      continue;
+    }
+    const int figure = sb_figure_find(*path);
+    if (figure < 0) {
+      SbNearest nearest = sb_nearest(*path);
+      for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+        sb_nearest_try(&nearest, sb_figure(i)->path);
+      }
+      g_autofree char *hint = sb_nearest_hint(&nearest);
+      g_autofree char *text = g_strdup_printf("there is no figure \"%.60s\"%s", *path, hint);
+      complain(reader, entry, NULL, text);
+    } else {
+      take_figure(reader->study->figures, figure);
+    }
+  }
+}
+
+static bool read_count(double *out, const char *text, double least, double most) {
+  double value = 0;
+  if (!sb_number_parse(&value, text) || value != floor(value) || value < least || value > most) {
+    return false;
+  }
+  *out = value;
+  return true;
+}
+
+static void read_study(Reader *reader, const SbEntry *entry, bool *has_samples) {
+  SbStudyFile *study = reader->study;
+  double count = 0;
+  if (strcmp(entry->name, "method") == 0) {
+    int method = 0;
+    while (method < SB_METHOD_COUNT && strcmp(methods[method], entry->value) != 0) {
+      method++;
+    }
+    if (method == SB_METHOD_COUNT) {
+      g_autofree char *list = g_strdup(methods[0]);
+      for (int i = 1; i < SB_METHOD_COUNT; i++) {
+        char *longer = g_strdup_printf("%s, %s", list, methods[i]);
+        g_free(list);
+        list = longer;
+      }
+      complain(reader, entry, list, "there is no such method");
+    } else {
+      study->method = (SbStudyMethod)method;
+    }
+  } else if (strcmp(entry->name, "samples") == 0) {
+    *has_samples = true;
+    if (read_count(&count, entry->value, 1, SB_SAMPLES_MAX)) {
+      study->samples = (size_t)count;
+    } else {
+      complain(reader, entry, "1 to 10000000", "is no number of samples");
+    }
+  } else if (strcmp(entry->name, "seed") == 0) {
+    if (read_count(&count, entry->value, 0, 9007199254740992.0)) {
+      study->seed = (guint64)count;
+    } else {
+      complain(reader, entry, "0 to 2^53", "is no seed");
+    }
+  } else if (strcmp(entry->name, "figures") == 0) {
+    read_figures(reader, entry);
+  } else {
+    complain(reader, entry, "method, samples, seed, figures", "unknown key");
+  }
+}
+
+// How many samples the method makes of those that were asked for, 0 with an issue.
+static void settle_samples(Reader *reader, bool has_samples) {
+  SbStudyFile *study = reader->study;
+  const size_t n = study->vary->len;
+  size_t block = 1;
+  if (study->method == SB_METHOD_GRID) {
+    size_t points = 1;
+    for (guint i = 0; i < n; i++) {
+      const SbVary *vary = &g_array_index(study->vary, SbVary, i);
+      if (vary->distribution.count == 0) {
+        sb_issues_add(reader->issues, reader->shown, 0, sb_param(vary->id)->key, vary_forms,
+                      "a grid needs levels, or a range with a number of points");
+        return;
+      }
+      if (vary->distribution.count > SB_SAMPLES_MAX / points) {
+        sb_issues_add(reader->issues, reader->shown, 0, GROUP_VARY, NULL,
+                      "the grid has more than %d points", SB_SAMPLES_MAX);
+        return;
+      }
+      points *= vary->distribution.count;
+    }
+    if (has_samples && study->samples != points) {
+      sb_issues_add(reader->issues, reader->shown, 0, "study.samples", NULL,
+                    "the grid has %zu points, not %zu: leave it out", points, study->samples);
+    }
+    study->samples = points;
+    return;
+  }
+  if (study->method == SB_METHOD_MORRIS) {
+    block = n + 1;
+  } else if (study->method == SB_METHOD_SOBOL_INDICES) {
+    block = n + 2;
+  }
+  if (!has_samples) {
+    sb_issues_add(reader->issues, reader->shown, 0, "study.samples", "1 to 10000000",
+                  "is missing: how many samples there are");
+  } else if (study->samples < 2 * block && block > 1) {
+    sb_issues_add(reader->issues, reader->shown, 0, "study.samples", NULL,
+                  "%s of %zu parameters takes %zu at least, whole blocks of %zu",
+                  methods[study->method], n, 2 * block, block);
+  } else if (study->method == SB_METHOD_SOBOL_SEQUENCE && n > SB_SOBOL_DIMENSIONS) {
+    sb_issues_add(reader->issues, reader->shown, 0, GROUP_VARY, NULL,
+                  "a Sobol sequence takes at most %d parameters", SB_SOBOL_DIMENSIONS);
+  }
+  study->samples -= study->samples % block;
+}
+
+// ---- The file ----
+
+static bool read_meta(Reader *reader, char **scene) {
+  const GPtrArray *entries = reader->entries;
+  const SbEntry *first = entries->len > 0 ? entries->pdata[0] : NULL;
+  if (first == NULL || strcmp(first->group, SB_META_GROUP) != 0) {
+    sb_issues_add(reader->issues, reader->shown, 0, NULL, NULL,
+                  "is no study: the first group must be [sealbench]");
+    return false;
+  }
+  const char *format = NULL, *kind = NULL;
+  for (guint i = 0; i < entries->len; i++) {
+    const SbEntry *entry = entries->pdata[i];
+    if (entry->name == NULL || strcmp(entry->group, SB_META_GROUP) != 0) {
+      continue;
+    }
+    if (strcmp(entry->name, "format") == 0) {
+      format = entry->value;
+    } else if (strcmp(entry->name, "kind") == 0) {
+      kind = entry->value;
+    } else if (strcmp(entry->name, "scene") == 0) {
+      *scene = g_strdup(entry->value);
+    } else if (strcmp(entry->name, "title") == 0) {
+      g_free(reader->study->title);
+      reader->study->title = sb_printable(entry->value, strlen(entry->value));
+    } else {
+      complain(reader, entry, "format, kind, title, scene", "unknown key");
+    }
+  }
+  if (format == NULL || strcmp(format, "1") != 0) {
+    sb_issues_add(reader->issues, reader->shown, 0, "sealbench.format", "1", "%s",
+                  format == NULL ? "is missing" : "is a format that this version cannot read");
+  }
+  if (kind == NULL || strcmp(kind, "study") != 0) {
+    sb_issues_add(reader->issues, reader->shown, 0, "sealbench.kind", "study", "%s",
+                  kind == NULL ? "is missing" : "is no study");
+    return false;
+  }
+  if (*scene == NULL || **scene == '\0') {
+    sb_issues_add(reader->issues, reader->shown, 0, "sealbench.scene", NULL,
+                  "is missing: a study names its scene's file");
+    return false;
+  }
+  return true;
+}
+
+static bool read_groups(Reader *reader) {
+  SbStudyFile *study = reader->study;
+  bool has_samples = false, known = true;
+  const char *bad = NULL;
+  for (guint i = 0; i < reader->entries->len; i++) {
+    const SbEntry *entry = reader->entries->pdata[i];
+    const char *group = entry->group;
+    if (entry->name == NULL) {
+      static const char *const names[] = {SB_META_GROUP,     GROUP_VARY, GROUP_STUDY,
+                                          GROUP_CORRELATION, "limits",   "design",
+                                          "tolerances",      "data",     NULL};
+      known = g_strv_contains(names, group) || g_str_has_prefix(group, "data ");
+      if (!known && (bad == NULL || strcmp(bad, group) != 0)) {
+        bad = group;
+        sb_issues_add(reader->issues, reader->shown, entry->line, NULL,
+                      "vary, correlation, study, limits, design, tolerances, data",
+                      "unknown group [%.60s]", group);
+      }
+    } else if (strcmp(group, GROUP_VARY) == 0) {
+      read_vary(reader, entry);
+    } else if (strcmp(group, GROUP_STUDY) == 0) {
+      read_study(reader, entry, &has_samples);
+    }
+  }
+  if (study->vary->len == 0) {
+    sb_issues_add(reader->issues, reader->shown, 0, GROUP_VARY, vary_forms, "nothing varies");
+    return false;
+  }
+  settle_samples(reader, has_samples);
+  read_correlations(reader);
+  sb_document_read_limits(&study->limits, reader->entries, reader->shown, reader->issues);
+  return true;
+}
+
+// The scene as a model, and what tells it from every other.
+static void open_scene(Reader *reader, const char *name, char **settings, const char *directory) {
+  SbStudyFile *study = reader->study;
+  g_autofree char *path = g_path_is_absolute(name) || directory == NULL
+                              ? g_strdup(name)
+                              : g_build_filename(directory, name, NULL);
+  study->scene = sb_document_load(path, reader->issues);
+  if (study->scene == NULL) {
+    return;
+  }
+  for (char **setting = settings; setting != NULL && *setting != NULL; setting++) {
+    (void)sb_document_set_option(study->scene, *setting, reader->issues);
+  }
+  if (reader->issues->len == 0 && sb_document_compile(study->scene, &study->base, reader->issues)) {
+    study->base_sha256 = sb_document_sha256(study->scene);
+    study->limits = study->scene->limits;
+  }
+}
+
+SbStudyFile *sb_study_file_load(const char *path, char **settings, GPtrArray *issues) {
+  const bool stream = strcmp(path, "-") == 0;
+  const char *shown = stream ? "standard input" : path;
+  const guint before = issues->len;
+  size_t length = 0;
+  g_autofree char *text =
+      stream ? sb_reader_load_stream(&length, STDIN_FILENO, shown, SB_DOCUMENT_BYTES_MAX, issues)
+             : sb_reader_load(&length, path, shown, SB_DOCUMENT_BYTES_MAX, issues);
+  if (text == NULL) {
+    return NULL;
+  }
+  g_autoptr(GPtrArray) entries = sb_reader_scan(text, length, shown, issues);
+  g_autoptr(SbStudyFile) study = g_new0(SbStudyFile, 1);
+  g_autofree char *scene = NULL;
+  g_autofree char *directory = stream ? NULL : g_path_get_dirname(path);
+  study->path = stream ? NULL : g_strdup(path);
+  study->title = stream ? g_strdup("standard input") : g_path_get_basename(path);
+  study->vary = g_array_new(FALSE, FALSE, sizeof(SbVary));
+  study->figures = g_array_new(FALSE, FALSE, sizeof(int));
+  study->method = SB_METHOD_MONTE_CARLO;
+  study->seed = 1;
+  Reader reader = {study, entries, shown, issues};
+  if (read_meta(&reader, &scene)) {
+    open_scene(&reader, scene, settings, directory);
+    (void)read_groups(&reader);
+  }
+  if (issues->len > before) {
+    return NULL;
+  }
+  const bool all = study->figures->len == 0;
+  for (int i = 0; all && i < SB_FIGURE_COUNT; i++) {
+    g_array_append_val(study->figures, i);
+  }
+  for (size_t i = 0; i < study->limits.count; i++) {
+    take_figure(study->figures, study->limits.item[i].figure);
+  }
+  return g_steal_pointer(&study);
+}
+
+void sb_study_file_free(SbStudyFile *study) {
+  if (study == NULL) {
+    return;
+  }
+  for (guint i = 0; i < study->vary->len; i++) {
+    g_free(g_array_index(study->vary, SbVary, i).levels);
+  }
+  g_array_unref(study->vary);
+  g_array_unref(study->figures);
+  sb_document_free(study->scene);
+  sb_model_destroy(study->base);
+  g_free(study->base_sha256);
+  g_free(study->root);
+  g_free(study->path);
+  g_free(study->title);
+  g_free(study);
+}
+
+// ---- Points ----
+
+static void fill_grid(double *value, const SbStudyFile *study) {
+  const size_t n = study->vary->len;
+  for (size_t i = 0; i < study->samples; i++) {
+    // The last parameter runs fastest.
+    size_t rest = i;
+    for (size_t k = n; k-- > 0;) {
+      const SbDistribution *of = &g_array_index(study->vary, SbVary, k).distribution;
+      value[i * n + k] = sb_distribution_grid(of, rest % of->count);
+      rest /= of->count;
+    }
+  }
+}
+
+// Turns a point of the unit cube into values.
+static void place(double *value, const double *unit, const SbStudyFile *study) {
+  const size_t n = study->vary->len;
+  double z[SB_VARY_MAX];
+  for (size_t k = 0; study->root != NULL && k < n; k++) {
+    z[k] = sb_normal_quantile(unit[k]);
+  }
+  for (size_t k = 0; k < n; k++) {
+    const SbDistribution *of = &g_array_index(study->vary, SbVary, k).distribution;
+    if (study->root == NULL) {
+      value[k] = sb_distribution_quantile(of, unit[k]);
+      continue;
+    }
+    double variate = 0;
+    for (size_t j = 0; j <= k; j++) {
+      variate += study->root[k * n + j] * z[j];
+    }
+    value[k] = sb_distribution_at_normal(of, variate);
+  }
+}
+
+SbStatus sb_study_file_points(double **value, double **unit, const SbStudyFile *study,
+                              SbReport *report) {
+  const size_t n = study->vary->len, samples = study->samples;
+  double *values = calloc(samples * n + 1, sizeof *values);
+  double *points = calloc(samples * n + 1, sizeof *points);
+  SbStatus status = values != NULL && points != NULL
+                        ? SB_OK
+                        : sb_fail(report, SB_ERROR_MEMORY, "no memory for %zu samples", samples);
+  if (status == SB_OK) {
+    switch (study->method) {
+    case SB_METHOD_GRID:
+      fill_grid(values, study);
+      break;
+    case SB_METHOD_SOBOL_SEQUENCE:
+      status = sb_sample_sobol(points, samples, n, study->seed, report);
+      break;
+    case SB_METHOD_MORRIS:
+      sb_sample_morris(points, samples, n, study->seed);
+      break;
+    case SB_METHOD_SOBOL_INDICES:
+      status = sb_sample_saltelli(points, samples / (n + 2), n, study->seed, report);
+      break;
+    default:
+      sb_sample_random(points, samples, n, study->seed);
+    }
+  }
+  for (size_t i = 0; status == SB_OK && study->method != SB_METHOD_GRID && i < samples; i++) {
+    place(values + i * n, points + i * n, study);
+  }
+  if (status != SB_OK || unit == NULL) {
+    free(points);
+    points = NULL;
+  }
+  if (status != SB_OK) {
+    free(values);
+    values = NULL;
+  }
+  *value = values;
+  if (unit != NULL) {
+    *unit = points;
+  }
+  return status;
+}

@@ -1,0 +1,65 @@
+// A study file: the scene that is asked, the parameters that vary and how, what is asked for.
+//
+// GKeyFile text like a scene's: [sealbench] with kind = study and scene = FILE; [vary] a line a
+// parameter; [correlation]; [study]; [limits]. [design], [tolerances] and [data] belong to other
+// commands and are passed over here.
+#pragma once
+
+#include "app/document/document.h"
+
+#include "engine/numeric/sampling.h"
+
+// code, name
+#define SB_STUDY_METHODS(X)                                                                        \
+  X(SB_METHOD_GRID, "grid")                                                                        \
+  X(SB_METHOD_MONTE_CARLO, "monte-carlo")                                                          \
+  X(SB_METHOD_SOBOL_SEQUENCE, "sobol-sequence")                                                    \
+  X(SB_METHOD_MORRIS, "morris")                                                                    \
+  X(SB_METHOD_SOBOL_INDICES, "sobol-indices")
+
+typedef enum {
+#define SB_STUDY_METHOD_ENUM(code, name) code,
+  SB_STUDY_METHODS(SB_STUDY_METHOD_ENUM)
+#undef SB_STUDY_METHOD_ENUM
+      SB_METHOD_COUNT
+} SbStudyMethod;
+
+// Borrowed, static.
+const char *sb_study_method_name(SbStudyMethod method);
+
+enum { SB_VARY_MAX = 64, SB_SAMPLES_MAX = 10000000 };
+
+// One line of [vary].
+typedef struct {
+  SbParamId id;
+  SbDistribution distribution; // its levels are owned by the file
+  double *levels;
+} SbVary;
+
+typedef struct {
+  char *path;        // NULL: standard input
+  char *title;       // of [sealbench], else the file's name
+  SbDocument *scene; //
+  SbModel *base;     // the scene, --set included
+  char *base_sha256; // hex, of the scene's values and of what it reads beside them
+  GArray *vary;      // of SbVary
+  double *root;      // [vary][vary] lower root of the normal variates' correlation; NULL: none
+  SbStudyMethod method;
+  size_t samples; // points of the method, rounded down to whole trajectories or blocks
+  guint64 seed;
+  GArray *figures; // of int, figures.def: those named (default all), then those of limits
+  SbLimits limits; // the scene's, its own in their place
+} SbStudyFile;
+
+// Reads a study ("-": standard input) and its scene, with KEY=VALUE settings upon that. NULL with
+// at least one issue. Owned by the caller.
+SbStudyFile *sb_study_file_load(const char *path, char **settings, GPtrArray *issues);
+
+// Takes NULL.
+void sb_study_file_free(SbStudyFile *study);
+G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbStudyFile, sb_study_file_free)
+
+// Values [samples][vary] of all points in SI (the index of a choice), and where `unit` is not NULL,
+// the points in the unit cube [samples][vary] that the method's estimates need. SB_ERROR_MEMORY.
+SbStatus sb_study_file_points(double **value, double **unit, const SbStudyFile *study,
+                              SbReport *report);

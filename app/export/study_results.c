@@ -1,0 +1,286 @@
+// Tables of a study; see the header.
+#include "app/export/study_results.h"
+
+#include "app/export/json.h"
+
+#include "engine/numeric/statistics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+int sb_study_column_of(const SbStudyFile *study, int figure) {
+  for (guint i = 0; i < study->figures->len; i++) {
+    if (g_array_index(study->figures, int, i) == figure) {
+      return (int)i;
+    }
+  }
+  return -1;
+}
+
+size_t sb_study_done(const SbAnswers *answers) {
+  size_t done = 0;
+  for (size_t i = 0; i < answers->samples; i++) {
+    done += answers->status[i] != SB_ANSWER_MISSING;
+  }
+  return done;
+}
+
+size_t sb_study_failed(const SbAnswers *answers) {
+  size_t failed = 0;
+  for (size_t i = 0; i < answers->samples; i++) {
+    failed += answers->status[i] != SB_ANSWER_MISSING && answers->status[i] != SB_OK;
+  }
+  return failed;
+}
+
+const char *sb_study_status_name(uint8_t status) {
+  switch (status) {
+  case SB_OK:
+    return "ok";
+  case SB_ERROR_NOT_CONVERGED:
+    return "not-converged";
+  case SB_ERROR_INFEASIBLE:
+    return "infeasible";
+  case SB_ANSWER_MISSING:
+    return "not-computed";
+  default:
+    return "refused";
+  }
+}
+
+// ---- Limits ----
+
+void sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study, const SbAnswers *answers,
+                          size_t limit) {
+  const SbLimit *of = &study->limits.item[limit];
+  const int column = sb_study_column_of(study, of->figure);
+  *out = (SbLimitShare){.probability = NAN, .interval = {NAN, NAN}, .beta = NAN};
+  for (size_t i = 0; column >= 0 && i < answers->samples; i++) {
+    const double value = answers->value[i * answers->figures + (size_t)column];
+    if (!isnan(value)) {
+      out->of++;
+      out->beyond += value < of->low || value > of->high;
+    }
+  }
+  if (out->of > 0) {
+    out->probability = (double)out->beyond / (double)out->of;
+    sb_probability_interval(out->interval, out->beyond, out->of);
+    out->beta =
+        out->beyond > 0 && out->beyond < out->of ? -sb_normal_quantile(out->probability) : NAN;
+  }
+}
+
+// ---- CSV ----
+
+static void put_parameter(FILE *stream, SbParamId id, double value) {
+  const SbParam *param = sb_param(id);
+  char digits[SB_NUMBER_SIZE];
+  if (param->kind == SB_PARAM_CHOICE) {
+    char name[64];
+    sb_param_choice_name(param, (int)value, name, sizeof name);
+    fprintf(stream, ",%s", name);
+  } else {
+    fprintf(stream, ",%s", sb_number_format(digits, value));
+  }
+}
+
+void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
+                  const SbAnswers *answers) {
+  const size_t n = study->vary->len;
+  fputs("sample", stream);
+  for (size_t k = 0; k < n; k++) {
+    const SbParam *param = sb_param(g_array_index(study->vary, SbVary, k).id);
+    fprintf(stream, ",%s [%s]", param->key, param->si);
+  }
+  for (guint k = 0; k < study->figures->len; k++) {
+    fprintf(stream, ",%s", sb_figure(g_array_index(study->figures, int, k))->path);
+  }
+  fputs(",status\n", stream);
+  for (size_t i = 0; i < answers->samples && ferror(stream) == 0; i++) {
+    fprintf(stream, "%zu", i + 1);
+    for (size_t k = 0; k < n; k++) {
+      put_parameter(stream, g_array_index(study->vary, SbVary, k).id, value[i * n + k]);
+    }
+    for (size_t k = 0; k < answers->figures; k++) {
+      char digits[SB_NUMBER_SIZE];
+      const double figure = answers->value[i * answers->figures + k];
+      fprintf(stream, ",%s", isnan(figure) ? "" : sb_number_format(digits, figure));
+    }
+    fprintf(stream, ",%s\n", sb_study_status_name(answers->status[i]));
+  }
+}
+
+// ---- JSON ----
+
+static void put_interval(SbJson *json, const char *key, double low, double high) {
+  const double ends[] = {low, high};
+  sb_json_numbers(json, key, ends, 2);
+}
+
+static SbStatus put_figures(SbJson *json, const SbStudyFile *study, const SbAnswers *answers,
+                            SbReport *report) {
+  static const char *const shares[SB_QUANTILES] = {"0.001", "0.05", "0.5", "0.95", "0.999"};
+  SbStatus status = SB_OK;
+  sb_json_object(json, "figures");
+  for (size_t k = 0; status == SB_OK && k < answers->figures; k++) {
+    SbSummaryOfSamples of;
+    status =
+        sb_samples_summary(&of, answers->value + k, answers->samples, answers->figures, report);
+    sb_json_object(json, sb_figure(g_array_index(study->figures, int, k))->path);
+    sb_json_count(json, "samples", of.count);
+    sb_json_number(json, "mean", of.mean);
+    sb_json_number(json, "standard_deviation", of.deviation);
+    sb_json_number(json, "min", of.min);
+    sb_json_number(json, "max", of.max);
+    sb_json_object(json, "quantiles");
+    for (int q = 0; q < SB_QUANTILES; q++) {
+      sb_json_number(json, shares[q], of.quantile[q]);
+    }
+    sb_json_object_end(json);
+    sb_json_object_end(json);
+  }
+  sb_json_object_end(json);
+  return status;
+}
+
+static void put_limit(SbJson *json, const SbStudyFile *study, const SbAnswers *answers,
+                      size_t limit) {
+  const SbLimit *of = &study->limits.item[limit];
+  const bool low = isfinite(of->low), high = isfinite(of->high);
+  SbLimitShare share;
+  sb_study_limit_share(&share, study, answers, limit);
+  sb_json_object(json, NULL);
+  sb_json_string(json, "figure", sb_figure(of->figure)->path);
+  sb_json_string(json, "relation", low && high ? ".." : low ? ">=" : "<=");
+  if (low && high) {
+    put_interval(json, "limit", of->low, of->high);
+  } else {
+    sb_json_number(json, "limit", low ? of->low : of->high);
+  }
+  // Points of a grid or of a screening are no draws.
+  const bool drawn = study->method == SB_METHOD_MONTE_CARLO;
+  sb_json_count(json, "samples", share.of);
+  sb_json_count(json, "beyond", share.beyond);
+  sb_json_number(json, "probability_of_failure",
+                 drawn || study->method == SB_METHOD_SOBOL_SEQUENCE ? share.probability : NAN);
+  put_interval(json, "interval_95", drawn ? share.interval[0] : NAN,
+               drawn ? share.interval[1] : NAN);
+  sb_json_number(json, "beta", drawn ? share.beta : NAN);
+  sb_json_object_end(json);
+}
+
+static const char *vary_key(const SbStudyFile *study, size_t k) {
+  return sb_param(g_array_index(study->vary, SbVary, k).id)->key;
+}
+
+static SbStatus put_sobol(SbJson *json, const SbStudyFile *study, const double *column,
+                          SbReport *report) {
+  const size_t n = study->vary->len;
+  SbIndex first[SB_VARY_MAX], total[SB_VARY_MAX];
+  SbStatus status =
+      sb_sobol_indices(first, total, column, study->samples / (n + 2), n, study->seed, report);
+  for (size_t k = 0; status == SB_OK && k < n; k++) {
+    sb_json_object(json, vary_key(study, k));
+    sb_json_number(json, "first", first[k].value);
+    sb_json_number(json, "total", total[k].value);
+    put_interval(json, "interval_95", first[k].low, first[k].high);
+    put_interval(json, "total_interval_95", total[k].low, total[k].high);
+    sb_json_object_end(json);
+  }
+  return status;
+}
+
+static void put_morris(SbJson *json, const SbStudyFile *study, const double *column,
+                       const double *unit) {
+  const size_t n = study->vary->len;
+  SbElementaryEffects effect[SB_VARY_MAX];
+  sb_morris_effects(effect, column, unit, study->samples, n);
+  for (size_t k = 0; k < n; k++) {
+    sb_json_object(json, vary_key(study, k));
+    sb_json_number(json, "mean", effect[k].mean);
+    sb_json_number(json, "mean_magnitude", effect[k].magnitude);
+    sb_json_number(json, "standard_deviation", effect[k].deviation);
+    sb_json_count(json, "effects", effect[k].count);
+    sb_json_object_end(json);
+  }
+}
+
+static SbStatus put_indices(SbJson *json, const SbStudyFile *study, const double *unit,
+                            const SbAnswers *answers, SbReport *report) {
+  if (study->method != SB_METHOD_SOBOL_INDICES && study->method != SB_METHOD_MORRIS) {
+    return SB_OK;
+  }
+  double *column = malloc((answers->samples + 1) * sizeof *column);
+  SbStatus status = column != NULL ? SB_OK : sb_fail(report, SB_ERROR_MEMORY, "no memory");
+  sb_json_object(json, "indices");
+  for (size_t k = 0; status == SB_OK && k < answers->figures; k++) {
+    for (size_t i = 0; i < answers->samples; i++) {
+      column[i] = answers->value[i * answers->figures + k];
+    }
+    sb_json_object(json, sb_figure(g_array_index(study->figures, int, k))->path);
+    if (study->method == SB_METHOD_MORRIS) {
+      put_morris(json, study, column, unit);
+    } else {
+      status = put_sobol(json, study, column, report);
+    }
+    sb_json_object_end(json);
+  }
+  sb_json_object_end(json);
+  free(column);
+  return status;
+}
+
+// Why samples failed, the first hundred of them.
+static void put_failures(SbJson *json, const SbAnswers *answers) {
+  enum { MOST = 100 };
+  sb_json_array(json, "failures");
+  int shown = 0;
+  for (size_t i = 0; shown < MOST && i < answers->samples; i++) {
+    const uint8_t status = answers->status[i];
+    if (status == SB_OK || status == SB_ANSWER_MISSING) {
+      continue;
+    }
+    sb_json_object(json, NULL);
+    sb_json_count(json, "sample", i + 1);
+    sb_json_string(json, "status", sb_study_status_name(status));
+    sb_json_string(json, "reason", g_hash_table_lookup(answers->reason, GSIZE_TO_POINTER(i)));
+    sb_json_object_end(json);
+    shown++;
+  }
+  sb_json_array_end(json);
+}
+
+char *sb_study_json(const SbStudyFile *study, const double *unit, const SbAnswers *answers,
+                    const char *cpus, SbReport *report) {
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_object(&json, NULL);
+  sb_json_string(&json, "study", study->title);
+  sb_json_string(&json, "version", sb_version());
+  sb_json_string(&json, "method", sb_study_method_name(study->method));
+  sb_json_count(&json, "seed", study->seed);
+  sb_json_count(&json, "samples", study->samples);
+  sb_json_count(&json, "done", sb_study_done(answers));
+  sb_json_count(&json, "failed", sb_study_failed(answers));
+  sb_json_string(&json, "cpu", cpus);
+  SbStatus status = put_figures(&json, study, answers, report);
+  if (study->limits.count > 0) {
+    sb_json_array(&json, "limits");
+    for (size_t i = 0; i < study->limits.count; i++) {
+      put_limit(&json, study, answers, i);
+    }
+    sb_json_array_end(&json);
+  }
+  if (status == SB_OK) {
+    status = put_indices(&json, study, unit, answers, report);
+  }
+  put_failures(&json, answers);
+  sb_json_object_end(&json);
+  char *text = sb_json_finish(&json);
+  if (status != SB_OK) {
+    g_free(text);
+    return NULL;
+  }
+  return text;
+}

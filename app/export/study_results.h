@@ -1,0 +1,36 @@
+// What a study's answers say: a table of all samples, statistics as JSON and for people.
+#pragma once
+
+#include "app/document/study_file.h"
+#include "app/study/answers.h"
+
+#include <stdio.h>
+
+// Share of samples beyond a limit, of those that have the figure.
+typedef struct {
+  size_t beyond, of;
+  double probability, interval[2], beta; // Clopper and Pearson's 95 %; beta: its normal quantile
+} SbLimitShare;
+
+void sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study, const SbAnswers *answers,
+                          size_t limit);
+
+// Column of a figure among the answers', -1: not asked.
+int sb_study_column_of(const SbStudyFile *study, int figure);
+
+// Samples with an answer, and those of them that failed.
+size_t sb_study_done(const SbAnswers *answers);
+size_t sb_study_failed(const SbAnswers *answers);
+
+// "ok", "not-converged", "infeasible", "refused", "not-computed"; borrowed.
+const char *sb_study_status_name(uint8_t status);
+
+// A row a sample: number from 1, parameters, figures (empty: none), status. The bytes hang on the
+// answers alone; errors show in the stream.
+void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
+                  const SbAnswers *answers);
+
+// The contract's JSON. `unit` is that of sb_study_file_points(). Owned by the caller; NULL without
+// memory.
+char *sb_study_json(const SbStudyFile *study, const double *unit, const SbAnswers *answers,
+                    const char *cpus, SbReport *report);
