@@ -54,8 +54,12 @@ char *sb_issue_line(const SbIssue *issue) {
     g_string_append_printf(line, "%s: ", issue->file);
   }
   if (issue->key != NULL) {
-    // Names in [limits] and [cases] have dots of their own.
-    bool named = g_str_has_prefix(issue->key, "limits.") || g_str_has_prefix(issue->key, "cases.");
+    // Names in these have dots of their own.
+    static const char *const groups[] = {"limits.", "cases.", "vary.", "correlation."};
+    bool named = false;
+    for (size_t i = 0; i < G_N_ELEMENTS(groups); i++) {
+      named |= g_str_has_prefix(issue->key, groups[i]);
+    }
     const char *dot = named ? strchr(issue->key, '.') : strrchr(issue->key, '.');
     if (dot != NULL) {
       g_string_append_printf(line, "[%.*s] %s: ", (int)(dot - issue->key), issue->key, dot + 1);

@@ -45,12 +45,16 @@ static void complain(const Reader *reader, const SbEntry *entry, const char *all
   sb_issues_add(reader->issues, reader->shown, entry->line, key, allowed, "%s", text);
 }
 
+// The code of an error in a line's form, which the forms answer; of a value its range does. It
+// stays in this file.
+enum { BAD_FORM = 100 };
+
 static bool fail(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
 static bool fail(GError **error, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
   if (error != NULL) {
-    *error = g_error_new_valist(SB_APP_ERROR, SB_APP_ERROR_INPUT, format, arguments);
+    *error = g_error_new_valist(SB_APP_ERROR, BAD_FORM, format, arguments);
   }
   va_end(arguments);
   return false;
@@ -187,11 +191,8 @@ static void read_vary(Reader *reader, const SbEntry *entry) {
   } else if (study->vary->len == SB_VARY_MAX) {
     complain(reader, entry, NULL, "is more than the 64 parameters that may vary");
   } else if (!read_distribution(&vary, entry->value, &error)) {
-    // The range where a value was out of it, else the forms.
     g_autofree char *range = sb_param_range(vary.id);
-    const bool value = strstr(error->message, "out of range") != NULL ||
-                       sb_param(vary.id)->kind == SB_PARAM_CHOICE;
-    complain(reader, entry, value ? range : vary_forms, error->message);
+    complain(reader, entry, error->code == BAD_FORM ? vary_forms : range, error->message);
     g_free(vary.levels);
   } else {
     g_array_append_val(study->vary, vary);
@@ -366,7 +367,8 @@ static void settle_samples(Reader *reader, bool has_samples) {
     for (guint i = 0; i < n; i++) {
       const SbVary *vary = &g_array_index(study->vary, SbVary, i);
       if (vary->distribution.count == 0) {
-        sb_issues_add(reader->issues, reader->shown, 0, sb_param(vary->id)->key, vary_forms,
+        g_autofree char *key = g_strconcat(GROUP_VARY ".", sb_param(vary->id)->key, NULL);
+        sb_issues_add(reader->issues, reader->shown, 0, key, vary_forms,
                       "a grid needs levels, or a range with a number of points");
         return;
       }
@@ -449,9 +451,9 @@ static bool read_meta(Reader *reader, char **scene) {
   return true;
 }
 
-static bool read_groups(Reader *reader) {
+static void read_groups(Reader *reader) {
   SbStudyFile *study = reader->study;
-  bool has_samples = false, known = true;
+  bool has_samples = false, known = true, varies = false;
   const char *bad = NULL;
   for (guint i = 0; i < reader->entries->len; i++) {
     const SbEntry *entry = reader->entries->pdata[i];
@@ -468,28 +470,32 @@ static bool read_groups(Reader *reader) {
                       "unknown group [%.60s]", group);
       }
     } else if (strcmp(group, GROUP_VARY) == 0) {
+      varies = true;
       read_vary(reader, entry);
     } else if (strcmp(group, GROUP_STUDY) == 0) {
       read_study(reader, entry, &has_samples);
     }
   }
-  if (study->vary->len == 0) {
+  if (!varies) {
     sb_issues_add(reader->issues, reader->shown, 0, GROUP_VARY, vary_forms, "nothing varies");
-    return false;
+  }
+  sb_document_read_limits(&study->limits, reader->entries, reader->shown, reader->issues);
+  if (study->vary->len == 0) {
+    return;
   }
   settle_samples(reader, has_samples);
   read_correlations(reader);
-  sb_document_read_limits(&study->limits, reader->entries, reader->shown, reader->issues);
-  return true;
 }
 
 // The scene as a model, and what tells it from every other.
 static void open_scene(Reader *reader, const char *name, char **settings, const char *directory) {
   SbStudyFile *study = reader->study;
-  g_autofree char *path = g_path_is_absolute(name) || directory == NULL
-                              ? g_strdup(name)
-                              : g_build_filename(directory, name, NULL);
-  study->scene = sb_document_load(path, reader->issues);
+  if (study->scene == NULL) {
+    g_autofree char *path = g_path_is_absolute(name) || directory == NULL
+                                ? g_strdup(name)
+                                : g_build_filename(directory, name, NULL);
+    study->scene = sb_document_load(path, reader->issues);
+  }
   if (study->scene == NULL) {
     return;
   }
@@ -502,31 +508,23 @@ static void open_scene(Reader *reader, const char *name, char **settings, const 
   }
 }
 
-SbStudyFile *sb_study_file_load(const char *path, char **settings, GPtrArray *issues) {
-  const bool stream = strcmp(path, "-") == 0;
-  const char *shown = stream ? "standard input" : path;
+SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *name,
+                                 const char *directory, char **settings, SbDocument *scene,
+                                 GPtrArray *issues) {
   const guint before = issues->len;
-  size_t length = 0;
-  g_autofree char *text =
-      stream ? sb_reader_load_stream(&length, STDIN_FILENO, shown, SB_DOCUMENT_BYTES_MAX, issues)
-             : sb_reader_load(&length, path, shown, SB_DOCUMENT_BYTES_MAX, issues);
-  if (text == NULL) {
-    return NULL;
-  }
-  g_autoptr(GPtrArray) entries = sb_reader_scan(text, length, shown, issues);
+  g_autoptr(GPtrArray) entries = sb_reader_scan(text, length, name, issues);
   g_autoptr(SbStudyFile) study = g_new0(SbStudyFile, 1);
-  g_autofree char *scene = NULL;
-  g_autofree char *directory = stream ? NULL : g_path_get_dirname(path);
-  study->path = stream ? NULL : g_strdup(path);
-  study->title = stream ? g_strdup("standard input") : g_path_get_basename(path);
+  g_autofree char *scene_name = NULL;
+  study->title = g_path_get_basename(name);
+  study->scene = scene;
   study->vary = g_array_new(FALSE, FALSE, sizeof(SbVary));
   study->figures = g_array_new(FALSE, FALSE, sizeof(int));
   study->method = SB_METHOD_MONTE_CARLO;
   study->seed = 1;
-  Reader reader = {study, entries, shown, issues};
-  if (read_meta(&reader, &scene)) {
-    open_scene(&reader, scene, settings, directory);
-    (void)read_groups(&reader);
+  Reader reader = {study, entries, name, issues};
+  if (read_meta(&reader, &scene_name)) {
+    open_scene(&reader, scene_name, settings, directory);
+    read_groups(&reader);
   }
   if (issues->len > before) {
     return NULL;
@@ -539,6 +537,24 @@ SbStudyFile *sb_study_file_load(const char *path, char **settings, GPtrArray *is
     take_figure(study->figures, study->limits.item[i].figure);
   }
   return g_steal_pointer(&study);
+}
+
+SbStudyFile *sb_study_file_load(const char *path, char **settings, GPtrArray *issues) {
+  const bool stream = strcmp(path, "-") == 0;
+  const char *shown = stream ? "standard input" : path;
+  size_t length = 0;
+  g_autofree char *text =
+      stream ? sb_reader_load_stream(&length, STDIN_FILENO, shown, SB_DOCUMENT_BYTES_MAX, issues)
+             : sb_reader_load(&length, path, shown, SB_DOCUMENT_BYTES_MAX, issues);
+  if (text == NULL) {
+    return NULL;
+  }
+  g_autofree char *directory = stream ? NULL : g_path_get_dirname(path);
+  SbStudyFile *study = sb_study_file_parse(text, length, shown, directory, settings, NULL, issues);
+  if (study != NULL && !stream) {
+    study->path = g_strdup(path);
+  }
+  return study;
 }
 
 void sb_study_file_free(SbStudyFile *study) {

@@ -55,6 +55,13 @@ typedef struct {
 // at least one issue. Owned by the caller.
 SbStudyFile *sb_study_file_load(const char *path, char **settings, GPtrArray *issues);
 
+// The same from memory; `name` stands in messages, `directory` is where the scene is looked for
+// (NULL: the current one). A `scene` that is not NULL is taken in place of that which the text
+// names, and owned from then on.
+SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *name,
+                                 const char *directory, char **settings, SbDocument *scene,
+                                 GPtrArray *issues);
+
 // Takes NULL.
 void sb_study_file_free(SbStudyFile *study);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbStudyFile, sb_study_file_free)

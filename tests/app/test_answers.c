@@ -1,0 +1,259 @@
+// Answers and their store: the same from any number of threads, in shards, after an interruption,
+// from a store that was joined; what is no store is refused.
+#include "app/study/answers.h"
+
+#include "app/base/error.h"
+
+#include "engine/valve/sealbench.h"
+
+#include <glib/gstdio.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SAMPLES = 24, FIGURES = 3 };
+
+static char *folder;
+static SbModel *base;
+static double value[SAMPLES];
+static int figure[FIGURES];
+static const SbParamId parameter[] = {SB_P_GLAND_RADIAL_SPACE};
+
+static char *in_folder(const char *name) {
+  return g_build_filename(folder, name, NULL);
+}
+
+static SbStore *open_store(const char *path) {
+  static const char *const parameters[] = {"gland.radial_space", NULL};
+  static const char *const figures[] = {"a", "b", "c", NULL};
+  g_autoptr(GError) error = NULL;
+  SbStore *store = sb_store_open(path, &error);
+  g_assert_no_error(error);
+  g_assert_true(sb_store_set_list(store, parameters, figures, &error));
+  return store;
+}
+
+static void close_store(SbStore *store) {
+  g_assert_true(sb_store_close(store, NULL));
+}
+
+static SbQuestions questions(SbStore *store, int jobs) {
+  return (SbQuestions){.base = base,
+                       .base_sha256 = "base",
+                       .parameter = parameter,
+                       .parameters = 1,
+                       .figure = figure,
+                       .figures = FIGURES,
+                       .value = value,
+                       .samples = SAMPLES,
+                       .jobs = jobs,
+                       .store = store};
+}
+
+static void same(const SbAnswers *a, const SbAnswers *b) {
+  g_assert_cmpmem(a->status, SAMPLES, b->status, SAMPLES);
+  g_assert_cmpmem(a->value, SAMPLES * FIGURES * sizeof(double), b->value,
+                  SAMPLES * FIGURES * sizeof(double));
+}
+
+static void test_threads(void) {
+  SbAnswers one, four;
+  SbStore *store = open_store(NULL), *other = open_store(NULL);
+  SbQuestions asked = questions(store, 1);
+  g_assert_true(sb_answers_get(&one, &asked, NULL));
+  asked = questions(other, 4);
+  g_assert_true(sb_answers_get(&four, &asked, NULL));
+  g_assert_cmpuint(four.computed, ==, SAMPLES);
+  same(&one, &four);
+  // The last sample's radial space is more than its ring: no valve, and why.
+  g_assert_cmpint(one.status[SAMPLES - 1], !=, SB_OK);
+  g_assert_nonnull(g_hash_table_lookup(one.reason, GSIZE_TO_POINTER(SAMPLES - 1)));
+  g_assert_true(isnan(one.value[(SAMPLES - 1) * FIGURES]));
+  g_assert_cmpint(one.status[0], ==, SB_OK);
+  g_assert_true(one.value[0] > one.value[FIGURES]); // less space, more load
+  sb_answers_release(&one);
+  sb_answers_release(&four);
+  close_store(store);
+  close_store(other);
+}
+
+static bool after_five(void *data) {
+  return *(size_t *)data >= 5;
+}
+
+static void count(void *data, size_t done, size_t of) {
+  *(size_t *)data = done;
+}
+
+// What was finished is not computed again.
+static void test_resume(void) {
+  g_autofree char *path = in_folder("resumed.store");
+  SbAnswers whole, part;
+  SbStore *fresh = open_store(NULL), *store = open_store(path);
+  SbQuestions asked = questions(fresh, 2);
+  g_assert_true(sb_answers_get(&whole, &asked, NULL));
+  size_t done = 0;
+  asked = questions(store, 1);
+  asked.progress = count;
+  asked.cancelled = after_five;
+  asked.data = &done;
+  g_autoptr(GError) error = NULL;
+  if (!sb_answers_get(&part, &asked, &error)) {
+    g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_CANCELLED);
+  }
+  const size_t before = part.computed;
+  g_assert_cmpuint(before, >=, 5);
+  sb_answers_release(&part);
+  close_store(store);
+  store = open_store(path);
+  g_assert_cmpuint(sb_store_count(store), ==, before);
+  asked = questions(store, 2);
+  g_assert_true(sb_answers_get(&part, &asked, NULL));
+  g_assert_cmpuint(part.computed, ==, SAMPLES - before);
+  same(&whole, &part);
+  g_assert_nonnull(g_hash_table_lookup(part.reason, GSIZE_TO_POINTER(SAMPLES - 1)));
+  sb_answers_release(&part);
+  // Another base is another question.
+  asked.base_sha256 = "other";
+  g_assert_true(sb_answers_get(&part, &asked, NULL));
+  g_assert_cmpuint(part.computed, ==, SAMPLES);
+  sb_answers_release(&part);
+  sb_answers_release(&whole);
+  close_store(store);
+  close_store(fresh);
+  g_unlink(path);
+}
+
+// Four shards, joined in two orders.
+static void test_shards(void) {
+  enum { SHARDS = 4 };
+  SbAnswers whole, joined;
+  SbStore *fresh = open_store(NULL);
+  SbQuestions asked = questions(fresh, 2);
+  g_assert_true(sb_answers_get(&whole, &asked, NULL));
+  char *path[SHARDS];
+  size_t computed = 0;
+  for (size_t i = 0; i < SHARDS; i++) {
+    g_autofree char *name = g_strdup_printf("shard-%zu.store", i);
+    path[i] = in_folder(name);
+    SbStore *store = open_store(path[i]);
+    SbAnswers part;
+    asked = questions(store, 1);
+    asked.shard = i;
+    asked.shards = SHARDS;
+    g_assert_true(sb_answers_get(&part, &asked, NULL));
+    g_assert_cmpint(part.status[(i + 1) % SHARDS], ==, SB_ANSWER_MISSING);
+    computed += part.computed;
+    sb_answers_release(&part);
+    close_store(store);
+  }
+  g_assert_cmpuint(computed, ==, SAMPLES);
+  static const int order[][SHARDS] = {{0, 1, 2, 3}, {2, 3, 1, 0}};
+  for (size_t k = 0; k < G_N_ELEMENTS(order); k++) {
+    SbStore *all = open_store(NULL);
+    g_autoptr(GError) error = NULL;
+    for (int i = 0; i < SHARDS; i++) {
+      g_assert_true(sb_store_merge(all, path[order[k][i]], &error));
+      g_assert_no_error(error);
+    }
+    asked = questions(all, 1);
+    g_assert_true(sb_answers_get(&joined, &asked, NULL));
+    g_assert_cmpuint(joined.computed, ==, 0);
+    same(&whole, &joined);
+    sb_answers_release(&joined);
+    close_store(all);
+  }
+  for (int i = 0; i < SHARDS; i++) {
+    g_unlink(path[i]);
+    g_free(path[i]);
+  }
+  sb_answers_release(&whole);
+  close_store(fresh);
+}
+
+// Stores that disagree are joined to the same whatever the order.
+static void test_disagree(void) {
+  guint8 key[SB_STORE_KEY] = {7};
+  const double at = 1, low[] = {1, 2, 3}, high[] = {1, 2, 4};
+  g_autofree char *paths[] = {in_folder("a.store"), in_folder("b.store"), NULL};
+  for (int i = 0; i < 2; i++) {
+    SbStore *store = open_store(paths[i]);
+    const SbStoredAnswer answer = {.value = (double *)(i == 0 ? low : high)};
+    g_assert_true(sb_store_put(store, key, &at, &answer, NULL));
+    close_store(store);
+  }
+  double got[2][FIGURES];
+  for (int k = 0; k < 2; k++) {
+    SbStore *all = open_store(NULL);
+    g_assert_true(sb_store_merge(all, paths[k], NULL) && sb_store_merge(all, paths[1 - k], NULL));
+    SbStoredAnswer answer = {.value = got[k]};
+    g_assert_true(sb_store_get(all, key, &answer));
+    close_store(all);
+  }
+  g_assert_cmpmem(got[0], sizeof got[0], got[1], sizeof got[1]);
+  g_unlink(paths[0]);
+  g_unlink(paths[1]);
+}
+
+static void test_no_store(void) {
+  g_autofree char *path = in_folder("x.store");
+  g_autoptr(GError) error = NULL;
+  g_assert_true(g_file_set_contents(path, "seal = 1\nbench = 2, and no database at all", -1, NULL));
+  g_assert_null(sb_store_open(path, &error));
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+  g_clear_error(&error);
+  // Every cut of a store's file is told, or has fewer answers; nothing else happens.
+  g_unlink(path);
+  SbStore *store = open_store(path);
+  SbAnswers answers;
+  SbQuestions asked = questions(store, 1);
+  g_assert_true(sb_answers_get(&answers, &asked, NULL));
+  sb_answers_release(&answers);
+  // It is one process' alone.
+  g_assert_null(sb_store_open(path, &error));
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_IO);
+  g_assert_nonnull(strstr(error->message, "is in use by another process"));
+  g_clear_error(&error);
+  close_store(store);
+  char *bytes = NULL;
+  gsize length = 0;
+  g_assert_true(g_file_get_contents(path, &bytes, &length, NULL));
+  for (gsize cut = 100; cut < length; cut += length / 7) {
+    g_assert_true(g_file_set_contents(path, bytes, (gssize)cut, NULL));
+    SbStore *torn = sb_store_open(path, &error);
+    if (torn != NULL) {
+      g_assert_cmpuint(sb_store_count(torn), <=, SAMPLES);
+      (void)sb_store_close(torn, NULL);
+    }
+    g_clear_error(&error);
+  }
+  g_free(bytes);
+  g_unlink(path);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  folder = g_dir_make_tmp("sealbench-answers-XXXXXX", NULL);
+  SbParams params;
+  sb_params_init(&params);
+  const SbLimits limits = {0};
+  SbProblems problems;
+  g_assert_cmpint(sb_model_create(&base, &params, NULL, &limits, &problems), ==, SB_OK);
+  for (int i = 0; i < SAMPLES; i++) {
+    value[i] = (1.33 + 0.002 * i) * 1e-3;
+  }
+  value[SAMPLES - 1] = 3e-3;
+  figure[0] = sb_figure_find("seals.outer.load_N");
+  figure[1] = sb_figure_find("seals.outer.pressure_peak_Pa");
+  figure[2] = sb_figure_find("cycle.dose_mass_kg");
+  g_test_add_func("/answers/threads", test_threads);
+  g_test_add_func("/answers/resume", test_resume);
+  g_test_add_func("/answers/shards", test_shards);
+  g_test_add_func("/answers/disagree", test_disagree);
+  g_test_add_func("/answers/no-store", test_no_store);
+  const int failed = g_test_run();
+  sb_model_destroy(base);
+  g_rmdir(folder);
+  g_free(folder);
+  return failed;
+}

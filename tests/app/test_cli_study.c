@@ -1,0 +1,169 @@
+// sealbench study and merge: bytes that hang on the study alone, the JSON, and what is told.
+#include "tests/app/cli_fixture.h"
+
+#include <glib/gstdio.h>
+#include <math.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/wait.h>
+
+static char *path_of(const char *name) {
+  return g_build_filename(cli.folder, name, NULL);
+}
+
+static char *write_study(const char *method, const char *rest) {
+  char *path = path_of("x.study");
+  g_autofree char *text = g_strdup_printf(
+      "[sealbench]\nformat = 1\nkind = study\ntitle = Two sizes\nscene = %s\n\n[vary]\n"
+      "seal.section_diameter = uniform 1.59 mm .. 1.63 mm\n"
+      "gland.radial_space = normal 1.36 mm, 0.01 mm within 1.33 mm .. 1.39 mm\n\n"
+      "[study]\nmethod = %s\nfigures = cycle.force_return_min_N, seals.outer.load_N\n%s",
+      cli.scene, method, rest);
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+  return path;
+}
+
+static void remove_named(const char *name) {
+  g_autofree char *path = path_of(name);
+  g_unlink(path);
+}
+
+#define CLOSED "--set", "models.film=thesis"
+
+static void test_json(void) {
+  g_autofree char *study =
+      write_study("monte-carlo", "samples = 64\n[limits]\ncycle.force_breakaway_N = <= 28 N\n");
+  CliResult result = CLI("study", study, CLOSED, "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  g_autoptr(JsonNode) root = cli_parse(result.out);
+  cli_has_keys(root, "study method samples done failed figures limits");
+  g_assert_cmpfloat(cli_number(root, "done"), ==, 64);
+  cli_has_keys(cli_at(root, "limits.0"), "figure relation limit probability_of_failure interval_95 "
+                                         "beta");
+  const double share = cli_number(root, "limits.0.probability_of_failure");
+  g_assert_cmpfloat(share, >, cli_number(root, "limits.0.interval_95.0"));
+  g_assert_cmpfloat(share, <, cli_number(root, "limits.0.interval_95.1"));
+  cli_clear(&result);
+  // The store is beside the study: a second time nothing is computed.
+  g_autofree char *store = path_of("x.store");
+  g_assert_true(g_file_test(store, G_FILE_TEST_EXISTS));
+  result = CLI("study", study, CLOSED, "--progress", "lines", "-q");
+  g_assert_cmpint(result.code, ==, 0);
+  g_assert_null(strstr(result.err, "a second"));
+  cli_clear(&result);
+  g_unlink(store);
+  g_unlink(study);
+}
+
+static void test_indices(void) {
+  g_autofree char *study = write_study("sobol-indices", "samples = 256\n");
+  CliResult result = CLI("study", study, CLOSED, "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  g_autoptr(JsonNode) root = cli_parse(result.out);
+  JsonNode *load =
+      json_object_get_member(json_node_get_object(cli_at(root, "indices")), "seals.outer.load_N");
+  JsonObject *of = json_node_get_object(load);
+  JsonObject *space = json_object_get_object_member(of, "gland.radial_space");
+  JsonObject *section = json_object_get_object_member(of, "seal.section_diameter");
+  // The load hangs on d - g: uniform over 40 um against a deviation of 10 um cut off at 3.
+  const double expected = 40.0 * 40 / 12 / (40.0 * 40 / 12 + 10.0 * 10 * 0.973);
+  g_assert_cmpfloat(fabs(json_object_get_double_member(section, "first") - expected), <, 0.12);
+  g_assert_cmpfloat(fabs(json_object_get_double_member(space, "total") + expected - 1), <, 0.12);
+  cli_clear(&result);
+  g_unlink(study);
+  remove_named("x.store");
+}
+
+static char *csv_of(const char *study, const char *store) {
+  g_autofree char *csv = path_of("x.csv");
+  CliResult result = CLI("study", study, CLOSED, "-o", store, "--csv", csv, "-q");
+  g_assert_cmpint(result.code, ==, 0);
+  cli_clear(&result);
+  char *text = cli_contents(cli.folder, "x.csv");
+  g_unlink(csv);
+  return text;
+}
+
+// Killed at ten moments, then finished: the bytes of a study that nobody touched. Shards alike.
+static void test_killed(void) {
+  g_autofree char *study = write_study("sobol-sequence", "samples = 1500\n");
+  g_autofree char *whole = path_of("whole.store"), *torn = path_of("torn.store");
+  g_autofree char *expected = csv_of(study, whole);
+  g_assert_true(g_str_has_prefix(expected, "sample,seal.section_diameter [m],gland.radial_space "
+                                           "[m],cycle.force_return_min_N,seals.outer.load_N,"
+                                           "status\n1,"));
+  int killed = 0;
+  for (int i = 0; i < 10; i++) {
+    const char *const arguments[] = {cli.program, "study", study,    CLOSED, "-o",
+                                     torn,        "-q",    "--jobs", "2",    NULL};
+    GPid child = 0;
+    g_assert_true(g_spawn_async(NULL, (char **)arguments, NULL,
+                                G_SPAWN_DO_NOT_REAP_CHILD | G_SPAWN_STDOUT_TO_DEV_NULL, NULL, NULL,
+                                &child, NULL));
+    g_usleep((gulong)(3000 + 25000 * i));
+    kill(child, SIGKILL);
+    int status = 0;
+    g_assert_cmpint(waitpid(child, &status, 0), ==, child);
+    killed += WIFSIGNALED(status);
+    g_spawn_close_pid(child);
+  }
+  g_assert_cmpint(killed, >, 0);
+  g_autofree char *resumed = csv_of(study, torn);
+  g_assert_cmpstr(resumed, ==, expected);
+  g_autofree char *parts[] = {path_of("1.store"), path_of("2.store"), path_of("3.store"), NULL};
+  static const char *const shard[] = {"1/3", "2/3", "3/3"};
+  for (int i = 0; i < 3; i++) {
+    CliResult result = CLI("study", study, CLOSED, "-o", parts[i], "--shard", shard[i], "-q");
+    g_assert_cmpint(result.code, ==, 0);
+    cli_clear(&result);
+  }
+  g_autofree char *joined = path_of("joined.store");
+  CliResult result = CLI("merge", joined, parts[2], parts[0], parts[1]);
+  g_assert_cmpint(result.code, ==, 0);
+  g_assert_nonnull(strstr(result.out, "1500 answers"));
+  cli_clear(&result);
+  g_autofree char *merged = csv_of(study, joined);
+  g_assert_cmpstr(merged, ==, expected);
+  for (int i = 0; i < 3; i++) {
+    g_unlink(parts[i]);
+  }
+  g_unlink(joined);
+  g_unlink(whole);
+  g_unlink(torn);
+  g_autofree char *journal = g_strconcat(torn, "-journal", NULL);
+  g_unlink(journal);
+  g_unlink(study);
+}
+
+static void test_told(void) {
+  g_autofree char *study = write_study("monte-carlo", "samples = 0\n");
+  CliResult result = CLI("study", study);
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "x.study: [study] samples: is no number of samples"));
+  cli_clear(&result);
+  g_autofree char *store = path_of("x.store");
+  g_assert_false(g_file_test(store, G_FILE_TEST_EXISTS)); // nothing was begun
+  g_free(write_study("grid", ""));
+  result = CLI("study", study, "--shard", "3/2");
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "--shard: \"3/2\" is no I/N"));
+  cli_clear(&result);
+  result = CLI("merge", store, study);
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "is no store, or damaged"));
+  cli_clear(&result);
+  g_unlink(store);
+  g_unlink(study);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  cli_set_up();
+  g_test_add_func("/cli-study/json", test_json);
+  g_test_add_func("/cli-study/indices", test_indices);
+  g_test_add_func("/cli-study/killed", test_killed);
+  g_test_add_func("/cli-study/told", test_told);
+  const int failed = g_test_run();
+  cli_tear_down();
+  return failed;
+}

@@ -1,0 +1,163 @@
+// Study files: what is refused and where, and the points that are laid out.
+#include "app/document/study_file.h"
+
+#include "engine/valve/sealbench.h"
+
+#include <glib/gstdio.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static char *folder;
+
+static SbStudyFile *load(const char *groups, GPtrArray *issues) {
+  g_autofree char *path = g_build_filename(folder, "x.study", NULL);
+  g_autofree char *text = g_strdup_printf("[sealbench]\nformat = 1\nkind = study\n"
+                                          "scene = %s/scenes/thesis-cycle.scene\n%s",
+                                          g_getenv("SEALBENCH_ASSETS"), groups);
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+  return sb_study_file_load(path, NULL, issues);
+}
+
+#define STUDY  "\n[study]\nsamples = 100\n"
+#define LEVELS "gland.radial_space = levels 1.36 mm\n"
+
+// One line each, with the place.
+static void test_refused(void) {
+  static const struct {
+    const char *groups, *said;
+  } cases[] = {
+      {"[vary]\ngland.radialspace = levels 1 mm" STUDY,
+       "[vary] gland.radialspace: there is no such parameter, do you mean gland.radial_space?"},
+      {"[vary]\ngland.radial_space = uniform 1.3 mm .. 1.4 N" STUDY,
+       "\"N\" is a unit of another kind, expected mm"},
+      {"[vary]\ngland.radial_space = uniform 1.4 mm .. 1.3 mm" STUDY, "does not rise"},
+      {"[vary]\ngland.radial_space = uniform 1.3 mm .. 1.3 mm" STUDY, "does not rise"},
+      {"[vary]\ngland.radial_space = uniform 1.3 mm .. 9 m" STUDY,
+       "9000 mm is out of range (allowed 0.1 to 20 mm)"},
+      {"[vary]\ngland.radial_space = uniform 1.3 mm .. 1.4 mm # wide" STUDY, "x.study:"},
+      {"[vary]\ngland.radial_space = normal 1.36 mm, -0.01 mm" STUDY,
+       "the deviation \"-0.01 mm\" is not above 0"},
+      {"[vary]\ngland.radial_space = normal 1.36 mm, 0.01 mm within 1.5 mm .. 1.6 mm" STUDY,
+       "more than 6 deviations"},
+      {"[vary]\ncanister.temperature = normal 20 °C, 2 °C" STUDY, "canister.temperature"},
+      {"[vary]\ngland.radial_space = triangle 1 mm, 2 mm" STUDY,
+       "\"triangle 1 mm, 2 mm\" says no distribution (allowed uniform A .. B[, N]"},
+      {"[vary]\nsurface.gt_product = loguniform 0 .. 0.2" STUDY, "surface.gt_product"},
+      {"[vary]\nfluid.name = uniform custom .. hfa-134a" STUDY, "only levels suit a choice"},
+      {"[vary]\nfluid.name = levels hfa-134b" STUDY, "fluid.name"},
+      {STUDY, "vary: nothing varies"},
+      {"[vary]\n" LEVELS, "samples: is missing"},
+      {"[vary]\n" LEVELS "[study]\nsamples = 0\n", "is no number of samples"},
+      {"[vary]\n" LEVELS "[study]\nsamples = 1e9\n", "is no number of samples"},
+      {"[vary]\n" LEVELS STUDY "method = guess\n",
+       "there is no such method (allowed grid, monte-carlo, "},
+      {"[vary]\n" LEVELS STUDY "figures = cycle.force\n", "there is no figure \"cycle.force\""},
+      {"[vary]\n" LEVELS STUDY "colour = red\n", "[study] colour: unknown key"},
+      {"[vary]\n" LEVELS STUDY "[limits]\ncycle.force_braekaway_N = <= 30 N\n",
+       "there is no such figure, do you mean cycle.force_breakaway_N?"},
+      {"[vary]\n" LEVELS STUDY "[limits]\ncycle.force_breakaway_N = <= 30 mm\n",
+       "\"mm\" is a unit of another kind, expected N"},
+      {"[vary]\ngland.radial_space = uniform 1.3 mm .. 1.4 mm\n[study]\nmethod = grid\n",
+       "a grid needs levels, or a range with a number of points"},
+      {"[vary]\n" LEVELS "bore.diameter = levels 6 mm" STUDY
+       "method = monte-carlo\n[correlation]\ngland.radial_space, stem.mass = 0.2\n",
+       "does not name two parameters of [vary]"},
+      {"[vary]\n" LEVELS "bore.diameter = levels 6 mm" STUDY
+       "[correlation]\ngland.radial_space, bore.diameter = 1.2\n",
+       "is no correlation (allowed between -1 and 1)"},
+      {"[varied]\n" LEVELS STUDY, "unknown group [varied]"},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autoptr(SbStudyFile) study = load(cases[i].groups, issues);
+    g_assert_null(study);
+    g_assert_cmpuint(issues->len, >=, 1);
+    g_autofree char *line = sb_issue_line(issues->pdata[0]);
+    if (strstr(line, cases[i].said) == NULL || strstr(line, "x.study") == NULL) {
+      g_error("case %zu: \"%s\" lacks \"%s\"", i, line, cases[i].said);
+    }
+    // One complaint of a line: nothing is said twice.
+    if (issues->len > 1 && strstr(cases[i].groups, "[varied]") == NULL) {
+      g_autofree char *second = sb_issue_line(issues->pdata[1]);
+      g_error("case %zu: \"%s\" and \"%s\"", i, line, second);
+    }
+  }
+}
+
+// A grid runs every combination, the last parameter fastest, ends exactly.
+static void test_grid(void) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbStudyFile) study =
+      load("[vary]\ngland.radial_space = uniform 1.3 mm .. 1.4 mm, 3\n"
+           "fluid.name = levels hfa-134a, hfa-152a\n[study]\nmethod = grid\n",
+           issues);
+  g_assert_nonnull(study);
+  g_assert_cmpuint(study->samples, ==, 6);
+  g_assert_cmpuint(study->figures->len, ==, SB_FIGURE_COUNT);
+  double *value = NULL;
+  g_assert_cmpint(sb_study_file_points(&value, NULL, study, NULL), ==, SB_OK);
+  g_assert_cmpfloat(value[0], ==, 1.3e-3);
+  g_assert_cmpfloat(value[2], ==, 1.3e-3);
+  g_assert_cmpfloat(value[10], ==, 1.4e-3);
+  g_assert_cmpfloat(value[1], ==, value[5]);
+  g_assert_cmpfloat(value[1], !=, value[3]);
+  free(value);
+}
+
+// Normal variates with the correlation that was asked for.
+static void test_correlation(void) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbStudyFile) study = load("[vary]\ngland.radial_space = normal 1.36 mm, 0.01 mm\n"
+                                      "bore.diameter = normal 6 mm, 0.02 mm\n"
+                                      "[study]\nsamples = 20000\n"
+                                      "[correlation]\nbore.diameter, gland.radial_space = 0.8\n",
+                                      issues);
+  g_assert_nonnull(study);
+  double *value = NULL, moment[5] = {0};
+  g_assert_cmpint(sb_study_file_points(&value, NULL, study, NULL), ==, SB_OK);
+  for (size_t i = 0; i < study->samples; i++) {
+    const double x = (value[2 * i] - 1.36e-3) / 1e-5, y = (value[2 * i + 1] - 6e-3) / 2e-5;
+    const double of[] = {x, y, x * x, y * y, x * y};
+    for (int k = 0; k < 5; k++) {
+      moment[k] += of[k] / 20000;
+    }
+  }
+  // Four deviations of each.
+  g_assert_cmpfloat(fabs(moment[0]), <, 0.03);
+  g_assert_cmpfloat(fabs(moment[2] - 1), <, 0.04);
+  g_assert_cmpfloat(fabs(moment[3] - 1), <, 0.04);
+  g_assert_cmpfloat(fabs(moment[4] - 0.8), <, 0.04);
+  free(value);
+}
+
+// Samples are whole trajectories and blocks; settings reach the scene and its hash.
+static void test_blocks(void) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbStudyFile) study = load("[vary]\ngland.radial_space = uniform 1.3 mm .. 1.4 mm\n"
+                                      "bore.diameter = uniform 5.9 mm .. 6 mm\n"
+                                      "[study]\nmethod = sobol-indices\nsamples = 103\n",
+                                      issues);
+  g_assert_nonnull(study);
+  g_assert_cmpuint(study->samples, ==, 100);
+  char *settings[] = {(char *)"friction.shear_strength=2MPa", NULL};
+  g_autofree char *path = g_build_filename(folder, "x.study", NULL);
+  g_autoptr(SbStudyFile) other = sb_study_file_load(path, settings, issues);
+  g_assert_nonnull(other);
+  g_assert_cmpstr(other->base_sha256, !=, study->base_sha256);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  folder = g_dir_make_tmp("sealbench-study-XXXXXX", NULL);
+  g_test_add_func("/study-file/refused", test_refused);
+  g_test_add_func("/study-file/grid", test_grid);
+  g_test_add_func("/study-file/correlation", test_correlation);
+  g_test_add_func("/study-file/blocks", test_blocks);
+  const int failed = g_test_run();
+  g_autofree char *path = g_build_filename(folder, "x.study", NULL);
+  g_unlink(path);
+  g_rmdir(folder);
+  g_free(folder);
+  return failed;
+}
