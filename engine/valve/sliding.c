@@ -6,7 +6,7 @@
 // total load W leaves W - p_left (0 - l) - p_right (r - 0) to the film (README, Definitions). What
 // it leaves out: beside the film, asperities do not take load off it (they carry 1 to 14 % of it at
 // its least, docs/thesis.md, 10; coupled they share it); the closed forms know no inlet starvation.
-#include "engine/valve/sliding.h"
+#include "engine/valve/sliding_private.h"
 
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
@@ -15,44 +15,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-// A film with what is drawn of it.
-typedef struct {
-  SbFilm film;
-  SbFilmProfile profile;
-  bool fitted;  // on the fitted body, not on the half-plane
-  double speed; // [m/s]
-} Solved;
-
-enum { IN, OUT, REST }; // ways of sliding
-
-// A fitment with its ring, where it is one, for one way of sliding.
-typedef struct {
-  SbFit fit;
-  SbRing *ring; // owned, NULL for other models
-  bool known;
-  double pressure; // difference for which it stands
-  int seal;
-  SbSlidingLaw law; // of the friction that drags it
-} Fitment;
-
-struct SbSlidingMemory {
-  Fitment fitment[SB_RUN_MOTIONS]; // by way of sliding where friction drags the seal, else at rest
-  Fitment *now;                    // of the last evaluation
-  Solved plane, fitted;            // on the half-plane (or of a law), and on the fitted body
-  Solved rest;                     // dry rough contact, coupled asperities only
-  const Solved *last;              // which of them the last evaluation gave
-  bool rested;                     // it stands for the fit, with
-  double rest_left;                // this pressure on the left
-  const Fitment *rest_on;
-  SbSlidingBody body;        // of the last film on one
-  SbFilmSolver *solver;      // NULL until a film is solved: laws need none
-  SbWarnings warnings;       // of one round of a ring's friction
-  bool (*cancelled)(void *); // NULL: nobody asks to stop
-  void *cancelled_data;
-};
-
-typedef SbSlidingTask Task;
 
 double sb_sliding_friction(const SbSealState *state) {
   return state->boundary_area + state->boundary_load + state->friction_viscous;
@@ -110,98 +72,8 @@ const SbSlidingBody *sb_sliding_body(const SbSlidingMemory *memory) {
   return memory->last->fitted ? &memory->body : NULL;
 }
 
-static bool is_ring(const Task *task) {
-  return task->model->fit == SB_FIT_RING;
-}
-
-// Whether friction drags this seal's section: the ring's, while it slides.
-static bool drags(const Task *task) {
-  return is_ring(task) && task->speed != 0;
-}
-
-void sb_sliding_law(SbSlidingLaw *out, const SbModel *model, const SbSealState *state) {
-  double share = isnan(state->asperity_share) ? 1 : state->asperity_share;
-  double width = state->contact_right - state->contact_left;
-  double viscous = state->friction_viscous / (width * model->bore_circumference);
-  *out = (SbSlidingLaw){.coefficient = model->load_coefficient * share,
-                        .shear = model->shear_strength * state->real_area_share + viscous};
-}
-
-double sb_sliding_shear(double pressure, double *slope, const void *data) {
-  const SbSlidingLaw *law = data;
-  bool limited = pressure < law->shear;
-  *slope = law->coefficient + (limited ? 1 : 0);
-  return law->coefficient * pressure + (limited ? pressure : law->shear);
-}
-
-// A law's friction on a fitment's contact [N].
-static double law_force(const SbSlidingLaw *law, const SbFit *fit) {
-  double sum = 0, before = 0, slope;
-  for (size_t i = 0; i < fit->profile_count; i++) {
-    double now = sb_sliding_shear(fit->profile_p[i], &slope, law);
-    sum += i > 0 ? 0.5 * (before + now) * (fit->profile_x[i] - fit->profile_x[i - 1]) : 0;
-    before = now;
-  }
-  return sum * fit->circumference;
-}
-
-static bool cancelled(void *data) {
-  const SbSlidingMemory *memory = data;
-  return memory->cancelled != NULL && memory->cancelled(memory->cancelled_data);
-}
-
-// The problem of a task's fitment, dragged by a law where one is given.
-static void fit_problem(SbFitProblem *problem, const Task *task, Fitment *on,
-                        const SbSlidingLaw *law) {
-  SbSlidingMemory *memory = task->memory;
-  const SbModel *model = task->model;
-  double pressure = task->pressure.left - task->pressure.right;
-  sb_model_fit_problem(problem, model, task->seal, pressure);
-  problem->cancel = cancelled; // a kept ring asks whoever waits then
-  problem->cancel_data = memory;
-  // No film lies on a ring at rest, but that of coupled asperities.
-  const bool film = model->film == SB_FILM_REYNOLDS && (task->speed != 0 || !is_ring(task));
-  problem->surface_wanted = film || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  problem->kept = &on->ring;
-  if (law != NULL) {
-    on->law = *law;
-    problem->dragged = true;
-    problem->drag = (task->speed > 0) == (pressure >= 0) ? 1 : -1;
-    problem->shear = sb_sliding_shear;
-    problem->law = &on->law;
-  }
-}
-
-// The task's fitment, anew if it is not the last one of these pressures or a `law` of friction is
-// given to drag it.
-static SbStatus solve_fit(const Task *task, const SbSlidingLaw *law, SbReport *report) {
-  SbSlidingMemory *memory = task->memory;
-  double pressure = task->pressure.left - task->pressure.right;
-  Fitment *now = &memory->fitment[!drags(task) ? REST : task->speed > 0 ? IN : OUT];
-  memory->now = now;
-  const bool known = now->known && now->pressure == pressure && now->seal == task->seal;
-  if (law == NULL && known) {
-    return SB_OK;
-  }
-  SbFitProblem problem;
-  fit_problem(&problem, task, now, law);
-  memory->rested = false;
-  bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES;
-  SbStatus status = near ? sb_fit_again(&now->fit, &problem, report) : SB_ERROR_NOT_CONVERGED;
-  status =
-      near && status != SB_ERROR_NOT_CONVERGED ? status : sb_fit_solve(&now->fit, &problem, report);
-  task->counts->fit_solves++;
-  task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
-  task->counts->ring_solves += problem.model == SB_FIT_RING;
-  task->counts->newton_iterations += now->fit.solver.newton_iterations;
-  now->known = status == SB_OK;
-  now->pressure = pressure;
-  now->seal = task->seal;
-  return status;
-}
-
 // One solve of a film, counted.
-static SbStatus solve_once(const Task *task, SbFilm *film, const SbFilmProblem *problem,
+static SbStatus solve_once(const SbSlidingTask *task, SbFilm *film, const SbFilmProblem *problem,
                            SbReport *report) {
   SbStatus status = sb_film_solve(film, problem, task->memory->solver, report);
   if (problem->model == SB_FILM_REYNOLDS) {
@@ -215,7 +87,7 @@ static SbStatus solve_once(const Task *task, SbFilm *film, const SbFilmProblem *
 // Once a flooded film would be several times as thick, nothing but the supply shapes it: what
 // passes is given, and the film is twice the layer, but for what pressure moves, which is less the
 // faster it goes (2e-4 of it at four times).
-static double starved_share(Solved *out, const SbFilmProblem *problem) {
+static double starved_share(SbSlidingSolved *out, const SbFilmProblem *problem) {
   static const double TIMES = 4, POWER = 0.6; // of a flooded film over the speed
   SbFilmProblem law = *problem;
   law.model = SB_FILM_THESIS;
@@ -232,8 +104,8 @@ static double starved_share(Solved *out, const SbFilmProblem *problem) {
 // Solves a film; where it is given, at the share of its speed that is enough, or lower where the
 // solver fails there. How far it then is from twice the layer is added to its error; the
 // constriction at the outlet goes on towards that as well, but slowly: it is half way.
-static SbStatus solve_supplied(const Task *task, Solved *out, SbFilmProblem *problem,
-                               SbReport *report) {
+static SbStatus solve_supplied(const SbSlidingTask *task, SbSlidingSolved *out,
+                               SbFilmProblem *problem, SbReport *report) {
   static const double STEP = 1.0 / 3, LEAST = 1e-3;
   SbFilm *film = &out->film;
   const double speed = problem->speed, first = starved_share(out, problem);
@@ -271,8 +143,8 @@ static SbStatus solve_supplied(const Task *task, Solved *out, SbFilmProblem *pro
   return sb_succeed(report);
 }
 
-static SbStatus solve_on(const Task *task, Solved *out, const SbFilmProblem *problem,
-                         SbReport *report) {
+SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
+                             const SbFilmProblem *problem, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   bool solved = problem->model == SB_FILM_REYNOLDS;
   if (solved && memory->solver == NULL) {
@@ -297,7 +169,8 @@ static void lay_on(SbFilmProblem *problem, const SbSlidingBody *body) {
 }
 
 // The film on the fitted body in place of the half-plane's; false where there is none or it fails.
-static bool solve_fitted(const Task *task, Solved *out, const SbFilmProblem *plane) {
+static bool solve_fitted(const SbSlidingTask *task, SbSlidingSolved *out,
+                         const SbFilmProblem *plane) {
   const SbFit *fit = &task->memory->now->fit;
   if (fit->model != SB_FIT_DISC && fit->model != SB_FIT_RING) {
     return false;
@@ -309,7 +182,7 @@ static bool solve_fitted(const Task *task, Solved *out, const SbFilmProblem *pla
                                        task->pressure, task->warnings, &report);
   if (status == SB_OK) {
     lay_on(&problem, body);
-    status = solve_on(task, out, &problem, &report);
+    status = sb_sliding_solve_on(task, out, &problem, &report);
   }
   if (status != SB_OK) {
     sb_warn(task->warnings, "film-half-plane", "models.fit",
@@ -320,13 +193,14 @@ static bool solve_fitted(const Task *task, Solved *out, const SbFilmProblem *pla
 }
 
 // A solver that stopped above the tolerance has the figures of its last solution, with their error.
-static bool usable(SbStatus status) {
+bool sb_sliding_usable(SbStatus status) {
   return status == SB_OK || status == SB_ERROR_NOT_CONVERGED;
 }
 
 // A seal's film figures are those of `solved`; NaN stays where the solver stopped before its first
 // solution (false).
-static bool take_film(SbSealState *out, const Solved *solved, SbStatus status, const SbFit *fit) {
+static bool take_film(SbSealState *out, const SbSlidingSolved *solved, SbStatus status,
+                      const SbFit *fit) {
   const SbFilm *film = &solved->film;
   if (status != SB_OK && !(film->film_central > 0)) {
     return false;
@@ -353,12 +227,12 @@ static bool take_film(SbSealState *out, const Solved *solved, SbStatus status, c
 }
 
 // Whether there is a film: something moves, and the inlet finds liquid.
-static bool has_film(const Task *task) {
+static bool has_film(const SbSlidingTask *task) {
   return task->speed != 0 && !(task->supply.limited && !(task->supply.layer > 0));
 }
 
 // What a run's options cannot reach, told once.
-static void option_warnings(const Task *task, const SbFilmProblem *problem) {
+static void option_warnings(const SbSlidingTask *task, const SbFilmProblem *problem) {
   const SbModel *model = task->model;
   bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   bool asked =
@@ -382,7 +256,7 @@ static void option_warnings(const Task *task, const SbFilmProblem *problem) {
 }
 
 // A law's film carries half of itself along (thesis eq. 5.20), and no more than the supply.
-static void limit_law(SbSealState *out, const Task *task) {
+static void limit_law(SbSealState *out, const SbSlidingTask *task) {
   out->layer = out->film_central / 2;
   if (task->supply.limited && task->supply.layer < out->layer) {
     out->layer = task->supply.layer;
@@ -391,7 +265,7 @@ static void limit_law(SbSealState *out, const Task *task) {
   }
 }
 
-static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report) {
+static SbStatus solve_film(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   SbFilmProblem problem;
   sb_sliding_film_problem(&problem, task->model, task->seal, task->pressure, out->load_net,
@@ -400,9 +274,9 @@ static SbStatus solve_film(const Task *task, SbSealState *out, SbReport *report)
   option_warnings(task, &problem);
   bool solved = problem.model == SB_FILM_REYNOLDS;
   problem.inlet_film = task->supply.limited && solved ? task->supply.layer : 0;
-  SbStatus status = solve_on(task, &memory->plane, &problem, report);
+  SbStatus status = sb_sliding_solve_on(task, &memory->plane, &problem, report);
   memory->last = &memory->plane;
-  if (!usable(status)) {
+  if (!sb_sliding_usable(status)) {
     return status;
   }
   take_film(out, &memory->plane, status, &memory->now->fit);
@@ -432,8 +306,8 @@ static void add_asperities(SbFilmProblem *problem, const SbModel *model) {
 }
 
 // The film with asperities in it: on the fitted body, or on the half-plane where that cannot be.
-static SbStatus solve_rough(const Task *task, Solved *out, double load_net, double speed,
-                            SbReport *report) {
+static SbStatus solve_rough(const SbSlidingTask *task, SbSlidingSolved *out, double load_net,
+                            double speed, SbReport *report) {
   const SbModel *model = task->model;
   SbFilmProblem problem;
   sb_sliding_film_problem(&problem, model, task->seal, task->pressure, load_net, speed);
@@ -442,11 +316,12 @@ static SbStatus solve_rough(const Task *task, Solved *out, double load_net, doub
     problem.inlet_film = task->supply.limited ? task->supply.layer : 0;
     option_warnings(task, &problem);
   }
-  return solve_fitted(task, out, &problem) ? SB_OK : solve_on(task, out, &problem, report);
+  return solve_fitted(task, out, &problem) ? SB_OK
+                                           : sb_sliding_solve_on(task, out, &problem, report);
 }
 
 // Break-away after the rest before the first stroke.
-static SbStatus set_static(SbSealState *out, const Task *task, SbReport *report) {
+static SbStatus set_static(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   SbDwellLaw law;
   SbStatus status =
       sb_breakaway_law(&law, &out->squeeze_out_time, task->model, task->seal, out, report);
@@ -455,7 +330,7 @@ static SbStatus set_static(SbSealState *out, const Task *task, SbReport *report)
 }
 
 // The thesis' shear strength goes with its own real area.
-static void strength_warning(const Task *task, double share) {
+static void strength_warning(const SbSlidingTask *task, double share) {
   const SbModel *model = task->model;
   const bool thesis = model->set == SB_MODEL_SET_THESIS;
   if (model->surface == SB_ROUGH_PERSSON && thesis &&
@@ -485,14 +360,14 @@ static void take_asperities(SbSealState *out, const SbModel *model, const SbFilm
 }
 
 // Film, rough contact and friction from one solution each, sliding and at rest.
-static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *report) {
+static SbStatus solve_coupled(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
   const SbModel *model = task->model;
   SbSlidingMemory *memory = task->memory;
   SbStatus at_rest = SB_OK;
   if (!memory->rested || memory->rest_on != memory->now ||
       memory->rest_left != task->pressure.left) {
     at_rest = solve_rough(task, &memory->rest, out->load_net, 0, report);
-    if (!usable(at_rest)) {
+    if (!sb_sliding_usable(at_rest)) {
       return at_rest;
     }
     memory->rested = at_rest == SB_OK;
@@ -505,7 +380,7 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
     memory->last = &memory->plane;
     status = solve_rough(task, &memory->plane, out->load_net, task->speed,
                          at_rest == SB_OK ? report : NULL);
-    if (!usable(status)) {
+    if (!sb_sliding_usable(status)) {
       return status;
     }
   }
@@ -534,7 +409,8 @@ static SbStatus solve_coupled(const Task *task, SbSealState *out, SbReport *repo
 
 // Share of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
 // film, Persson's on the net pressure that the solids must carry.
-static SbStatus real_area(SbSealState *out, const Task *task, double roughness, SbReport *report) {
+static SbStatus real_area(SbSealState *out, const SbSlidingTask *task, double roughness,
+                          SbReport *report) {
   const SbModel *model = task->model;
   const SbRoughSurface surface = sb_model_surface(model, task->seal, roughness);
   if (model->surface == SB_ROUGH_PERSSON) {
@@ -573,7 +449,8 @@ static SbStatus real_area(SbSealState *out, const Task *task, double roughness, 
 
 // What the surfaces make of a contact that slides, whose load, width and film are known: real area,
 // kinetic friction.
-static SbStatus rub(SbSealState *out, const Task *task, double roughness, SbReport *report) {
+static SbStatus rub(SbSealState *out, const SbSlidingTask *task, double roughness,
+                    SbReport *report) {
   const SbModel *model = task->model;
   double area = (out->contact_right - out->contact_left) * model->bore_circumference;
   out->lambda = out->film_central / (roughness * model->sigma);
@@ -602,8 +479,8 @@ static SbStatus rub(SbSealState *out, const Task *task, double roughness, SbRepo
 }
 
 // The same, and of what stands.
-static SbStatus rough_contact(SbSealState *out, const Task *task, double roughness,
-                              SbReport *report) {
+SbStatus sb_sliding_rough_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
+                                  SbReport *report) {
   const SbModel *model = task->model;
   SbStatus status = rub(out, task, roughness, report);
   if (status != SB_OK) {
@@ -628,7 +505,7 @@ static void share_kinetic(SbSealState *out) {
 }
 
 // Leaves of a law's friction what the section bears (bear()).
-static SbStatus share_out(SbSealState *out, const Task *task, SbReport *report) {
+SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   if (isnan(out->borne_share)) {
     return SB_OK;
   }
@@ -699,10 +576,10 @@ SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
   SbFilmProblem problem;
   sb_sliding_film_of(&problem, state, task, body);
   const bool solved = problem.model == SB_FILM_REYNOLDS;
-  Solved *on = body != NULL ? &memory->fitted : &memory->plane;
+  SbSlidingSolved *on = body != NULL ? &memory->fitted : &memory->plane;
   memory->last = on;
-  SbStatus status = solve_on(task, on, &problem, report);
-  if (!usable(status) || !(on->film.film_central > 0)) {
+  SbStatus status = sb_sliding_solve_on(task, on, &problem, report);
+  if (!sb_sliding_usable(status) || !(on->film.film_central > 0)) {
     return status != SB_OK ? status : sb_fail(report, SB_ERROR_NOT_CONVERGED, "no film");
   }
   const double error = state->film_error, central = state->central_error;
@@ -740,9 +617,9 @@ SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double
 SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report) {
   sb_warn_about(task->warnings, about(task->seal));
-  SbStatus status =
-      state->touches ? rough_contact(state, task, roughness, report) : sb_succeed(report);
-  status = status == SB_OK ? share_out(state, task, report) : status;
+  SbStatus status = state->touches ? sb_sliding_rough_contact(state, task, roughness, report)
+                                   : sb_succeed(report);
+  status = status == SB_OK ? sb_sliding_share_out(state, task, report) : status;
   sb_warn_about(task->warnings, NULL);
   return status;
 }
@@ -763,67 +640,13 @@ void sb_sliding_clear(SbSealState *out) {
 #include "engine/valve/figures.def"
 }
 
-// Contact and loads of a seal that touches.
-static void take_contact(SbSealState *out, const Task *task, const SbFit *fit) {
-  SbSealPressure pressure = task->pressure;
-  out->contact_left = fit->contact_left;
-  out->contact_right = fit->contact_right;
-  out->load = fit->load;
-  out->load_per_length = fit->load_per_length;
-  out->pressure_peak = fit->pressure_peak;
-  // Closed forms that know no pressure give the rubber's share alone: nothing to take off.
-  bool holds_fluid = fit->model != SB_FIT_HERTZ && fit->model != SB_FIT_LINDLEY &&
-                     fit->model != SB_FIT_GREEN_ENGLISH;
-  double fluid = fabs(pressure.left - pressure.right) * fit->contact_width / 2;
-  out->load_net = fit->load_per_length - (holds_fluid ? fluid : 0);
-  if (fit->model == SB_FIT_RING) {
-    double way = task->speed < 0 ? -1 : 1;
-    out->rotation = way * (pressure.left < pressure.right ? -1 : 1) * fit->ring.turn * 180 / M_PI;
-    out->section = fit->ring.state;
-  }
-}
-
-// Fitment: contact and loads. *known tells whether there is a contact to go on with.
-static SbStatus fit_contact(const Task *task, const SbSlidingLaw *law, SbSealState *out,
-                            bool *known, SbReport *report) {
-  (void)sb_succeed(report);
-  sb_sliding_clear(out);
-  *known = false;
-  // The fit takes the difference; the common part only shifts the fluid's level.
-  SbStatus status = solve_fit(task, law, report);
-  if (!usable(status)) {
-    return status;
-  }
-  const SbFit *fit = &task->memory->now->fit;
-  if (!drags(task) || fit->ring.state == SB_RING_SLIDES || fit->ring.state == SB_RING_NO_CONTACT) {
-    sb_warnings_merge(task->warnings, &fit->warnings); // else solve_dragged() tells
-  }
-  // One that stopped above the tolerance counts, with its error; else it holds another load's.
-  bool close = fit->solver.error_estimate.load > 0 && fit->solver.error_estimate.load < 1;
-  out->touches = fit->touches || status != SB_OK;
-  if (status != SB_OK && !(fit->touches && close)) {
-    return status;
-  }
-  if (!fit->touches) {
-    out->section = SB_RING_NO_CONTACT;
-    out->contact_left = out->contact_right = 0;
-    out->load = out->load_per_length = out->load_net = out->pressure_peak = 0;
-    out->boundary_area = out->boundary_load = out->friction_viscous = out->friction_static = 0;
-    out->rest_area = out->rest_load = 0;
-    return status;
-  }
-  take_contact(out, task, fit);
-  *known = true;
-  return status;
-}
-
 // Fitment, film and friction; a ring dragged as given, else as it is known.
-static SbStatus solve_with(const Task *task, const SbSlidingLaw *law, SbSealState *out,
-                           SbReport *report) {
+SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
+                               SbReport *report) {
   SbWarnings *warnings = task->warnings;
   int seal = task->seal;
   bool known;
-  SbStatus status = fit_contact(task, law, out, &known, report);
+  SbStatus status = sb_sliding_fit_contact(task, law, out, &known, report);
   if (!known) {
     return status;
   }
@@ -845,13 +668,13 @@ static SbStatus solve_with(const Task *task, const SbSlidingLaw *law, SbSealStat
   } else {
     SbStatus film = solve_film(task, out, &own);
     film = opened_by_fluid(out, film, &own, seal, warnings, first);
-    if (!usable(film)) {
+    if (!sb_sliding_usable(film)) {
       return film;
     }
     status = film != SB_OK ? film : status;
   }
 
-  SbStatus area_status = rough_contact(out, task, 1, status == SB_OK ? report : NULL);
+  SbStatus area_status = sb_sliding_rough_contact(out, task, 1, status == SB_OK ? report : NULL);
   if (area_status != SB_OK) {
     return area_status;
   }
@@ -865,120 +688,9 @@ static SbStatus solve_with(const Task *task, const SbSlidingLaw *law, SbSealStat
   return status;
 }
 
-// The friction of a contact by closed forms, near that of a ring; none where they have none.
-static void guess(SbSlidingLaw *law, const Task *task, Fitment *on) {
-  SbFitProblem fit;
-  SbFilmProblem film;
-  SbSealState state;
-  Task quiet = *task;
-  quiet.warnings = NULL;
-  *law = (SbSlidingLaw){0};
-  sb_model_fit_problem(&fit, task->model, task->seal, task->pressure.left - task->pressure.right);
-  fit.model = SB_FIT_KARASZKIEWICZ;
-  sb_sliding_clear(&state);
-  if (sb_fit_solve(&on->fit, &fit, NULL) != SB_OK || !on->fit.touches) {
-    return;
-  }
-  take_contact(&state, task, &on->fit);
-  sb_sliding_film_problem(&film, task->model, task->seal, task->pressure, state.load_net,
-                          task->speed);
-  film.model = SB_FILM_THESIS;
-  if (solve_on(&quiet, &task->memory->plane, &film, NULL) == SB_OK) {
-    state.film_central = task->memory->plane.film.film_central;
-    SbSlidingLaw found;
-    if (rough_contact(&state, &quiet, 1, NULL) == SB_OK) {
-      sb_sliding_law(&found, task->model, &state);
-      *law = isfinite(found.shear) ? found : *law;
-    }
-  }
-}
-
-// What the dragged section bears of the law's friction: all of it while it slides, each part alike
-// at the greatest drag of one that rolls or jams, which no rest makes greater.
-static SbStatus bear(SbSealState *out, const Task *task, const Fitment *on, double asked,
-                     SbReport *report) {
-  const SbFit *fit = &on->fit;
-  double area = asked - out->boundary_load - out->friction_viscous;
-  out->area_cut = out->boundary_area > 0 ? area / out->boundary_area : 1;
-  out->borne_share = fabs(fit->ring.drag) / asked;
-  return share_out(out, task, report);
-}
-
-// Without fluid a ring that slides one way is the mirror image of one that slides the other way.
-// False where that is not known.
-static bool mirror(const Task *task, Fitment *on) {
-  const Fitment *other = &task->memory->fitment[task->speed > 0 ? OUT : IN];
-  if (task->pressure.left != task->pressure.right || !other->known || other->pressure != 0 ||
-      other->seal != task->seal) {
-    return false;
-  }
-  SbFitProblem problem;
-  fit_problem(&problem, task, on, &other->law);
-  on->known = sb_fit_mirror(&on->fit, &problem, &other->fit, other->ring, NULL) == SB_OK;
-  on->pressure = 0;
-  on->seal = task->seal;
-  return on->known;
-}
-
-// A ring's states: friction drags it, and hangs on the film that lies on the dragged ring. Solved
-// in turns until the friction that drags it is that of its own film. A ring whose greatest drag is
-// less than its friction rolls or jams; the film is then that of this last state.
-static SbStatus solve_dragged(const Task *task, SbSealState *out, SbReport *report) {
-  enum { ROUNDS = 6 };
-  const double close = 0.5 * task->model->tolerance;
-  const double pressure = task->pressure.left - task->pressure.right;
-  SbSlidingMemory *memory = task->memory;
-  Fitment *on = &memory->fitment[task->speed > 0 ? IN : OUT];
-  bool known =
-      (on->known && on->pressure == pressure && on->seal == task->seal) || mirror(task, on);
-  SbSlidingLaw law;
-  if (!known) {
-    guess(&law, task, on);
-  }
-  SbWarnings *own = &memory->warnings;
-  SbStatus status = SB_OK;
-  for (int round = 0;; round++) {
-    Task like = *task;
-    memset(own, 0, sizeof *own); // of the last round
-    own->subject = task->warnings != NULL ? task->warnings->subject : NULL;
-    like.warnings = own;
-    status = solve_with(&like, known && round == 0 ? NULL : &law, out, report);
-    if (!usable(status) || !(out->load > 0)) {
-      break;
-    }
-    sb_sliding_law(&law, task->model, out);
-    double asked = law_force(&law, &on->fit), before = law_force(&on->law, &on->fit);
-    if (!isfinite(asked)) {
-      break;
-    }
-    bool slides = on->fit.ring.state == SB_RING_SLIDES;
-    bool agree = slides ? fabs(asked - before) <= close * asked
-                        : asked >= (1 - close) * fabs(on->fit.ring.drag);
-    if (!agree && round + 1 < ROUNDS) {
-      continue;
-    }
-    SbStatus borne = bear(out, &like, on, asked, status == SB_OK ? report : NULL);
-    status = borne != SB_OK ? borne : status;
-    if (!agree) {
-      status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
-                       "fitment and friction of the %s seal do not agree: %.5g N and %.5g N",
-                       sb_seal_name(task->seal), before, asked);
-    } else if (!slides) {
-      bool rolls = on->fit.ring.state == SB_RING_ROLLS;
-      sb_warn(own, rolls ? "ring-rolls" : "ring-jams", "gland.floor_friction",
-              "the %s ring %s %s: its section bears %.0f %% of its friction, turned by %.0f°",
-              sb_seal_name(task->seal), rolls ? "rolls" : "jams",
-              task->speed > 0 ? "on the in-stroke" : "on the return", 100 * out->borne_share,
-              out->rotation);
-    }
-    break;
-  }
-  sb_warnings_merge(task->warnings, own);
-  return status;
-}
-
-static SbStatus solve(const Task *task, SbSealState *out, SbReport *report) {
-  return drags(task) ? solve_dragged(task, out, report) : solve_with(task, NULL, out, report);
+static SbStatus solve(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
+  return sb_sliding_drags(task) ? sb_sliding_drag(task, out, report)
+                                : sb_sliding_solve_with(task, NULL, out, report);
 }
 
 SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
@@ -991,7 +703,7 @@ SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport 
 SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   bool known;
   sb_warn_about(task->warnings, about(task->seal));
-  SbStatus status = fit_contact(task, NULL, out, &known, report);
+  SbStatus status = sb_sliding_fit_contact(task, NULL, out, &known, report);
   sb_warn_about(task->warnings, NULL);
   return status;
 }

@@ -1,0 +1,266 @@
+// One seal's fitment, and a ring dragged by its own friction.
+#include "engine/valve/sliding_private.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { IN, OUT, REST }; // ways of sliding
+
+static bool is_ring(const SbSlidingTask *task) {
+  return task->model->fit == SB_FIT_RING;
+}
+
+// Whether friction drags this seal's section: the ring's, while it slides.
+bool sb_sliding_drags(const SbSlidingTask *task) {
+  return is_ring(task) && task->speed != 0;
+}
+
+void sb_sliding_law(SbSlidingLaw *out, const SbModel *model, const SbSealState *state) {
+  double share = isnan(state->asperity_share) ? 1 : state->asperity_share;
+  double width = state->contact_right - state->contact_left;
+  double viscous = state->friction_viscous / (width * model->bore_circumference);
+  *out = (SbSlidingLaw){.coefficient = model->load_coefficient * share,
+                        .shear = model->shear_strength * state->real_area_share + viscous};
+}
+
+double sb_sliding_shear(double pressure, double *slope, const void *data) {
+  const SbSlidingLaw *law = data;
+  bool limited = pressure < law->shear;
+  *slope = law->coefficient + (limited ? 1 : 0);
+  return law->coefficient * pressure + (limited ? pressure : law->shear);
+}
+
+// A law's friction on a fitment's contact [N].
+static double law_force(const SbSlidingLaw *law, const SbFit *fit) {
+  double sum = 0, before = 0, slope;
+  for (size_t i = 0; i < fit->profile_count; i++) {
+    double now = sb_sliding_shear(fit->profile_p[i], &slope, law);
+    sum += i > 0 ? 0.5 * (before + now) * (fit->profile_x[i] - fit->profile_x[i - 1]) : 0;
+    before = now;
+  }
+  return sum * fit->circumference;
+}
+
+static bool cancelled(void *data) {
+  const SbSlidingMemory *memory = data;
+  return memory->cancelled != NULL && memory->cancelled(memory->cancelled_data);
+}
+
+// The problem of a task's fitment, dragged by a law where one is given.
+static void fit_problem(SbFitProblem *problem, const SbSlidingTask *task, SbSlidingFitment *on,
+                        const SbSlidingLaw *law) {
+  SbSlidingMemory *memory = task->memory;
+  const SbModel *model = task->model;
+  double pressure = task->pressure.left - task->pressure.right;
+  sb_model_fit_problem(problem, model, task->seal, pressure);
+  problem->cancel = cancelled; // a kept ring asks whoever waits then
+  problem->cancel_data = memory;
+  // No film lies on a ring at rest, but that of coupled asperities.
+  const bool film = model->film == SB_FILM_REYNOLDS && (task->speed != 0 || !is_ring(task));
+  problem->surface_wanted = film || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  problem->kept = &on->ring;
+  if (law != NULL) {
+    on->law = *law;
+    problem->dragged = true;
+    problem->drag = (task->speed > 0) == (pressure >= 0) ? 1 : -1;
+    problem->shear = sb_sliding_shear;
+    problem->law = &on->law;
+  }
+}
+
+// The task's fitment, anew if it is not the last one of these pressures or a `law` of friction is
+// given to drag it.
+static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, SbReport *report) {
+  SbSlidingMemory *memory = task->memory;
+  double pressure = task->pressure.left - task->pressure.right;
+  SbSlidingFitment *now = &memory->fitment[!sb_sliding_drags(task) ? REST
+                                           : task->speed > 0       ? IN
+                                                                   : OUT];
+  memory->now = now;
+  const bool known = now->known && now->pressure == pressure && now->seal == task->seal;
+  if (law == NULL && known) {
+    return SB_OK;
+  }
+  SbFitProblem problem;
+  fit_problem(&problem, task, now, law);
+  memory->rested = false;
+  bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES;
+  SbStatus status = near ? sb_fit_again(&now->fit, &problem, report) : SB_ERROR_NOT_CONVERGED;
+  status =
+      near && status != SB_ERROR_NOT_CONVERGED ? status : sb_fit_solve(&now->fit, &problem, report);
+  task->counts->fit_solves++;
+  task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
+  task->counts->ring_solves += problem.model == SB_FIT_RING;
+  task->counts->newton_iterations += now->fit.solver.newton_iterations;
+  now->known = status == SB_OK;
+  now->pressure = pressure;
+  now->seal = task->seal;
+  return status;
+}
+
+// Contact and loads of a seal that touches.
+static void take_contact(SbSealState *out, const SbSlidingTask *task, const SbFit *fit) {
+  SbSealPressure pressure = task->pressure;
+  out->contact_left = fit->contact_left;
+  out->contact_right = fit->contact_right;
+  out->load = fit->load;
+  out->load_per_length = fit->load_per_length;
+  out->pressure_peak = fit->pressure_peak;
+  // Closed forms that know no pressure give the rubber's share alone: nothing to take off.
+  bool holds_fluid = fit->model != SB_FIT_HERTZ && fit->model != SB_FIT_LINDLEY &&
+                     fit->model != SB_FIT_GREEN_ENGLISH;
+  double fluid = fabs(pressure.left - pressure.right) * fit->contact_width / 2;
+  out->load_net = fit->load_per_length - (holds_fluid ? fluid : 0);
+  if (fit->model == SB_FIT_RING) {
+    double way = task->speed < 0 ? -1 : 1;
+    out->rotation = way * (pressure.left < pressure.right ? -1 : 1) * fit->ring.turn * 180 / M_PI;
+    out->section = fit->ring.state;
+  }
+}
+
+// Fitment: contact and loads. *known tells whether there is a contact to go on with.
+SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *law,
+                                SbSealState *out, bool *known, SbReport *report) {
+  (void)sb_succeed(report);
+  sb_sliding_clear(out);
+  *known = false;
+  // The fit takes the difference; the common part only shifts the fluid's level.
+  SbStatus status = solve_fit(task, law, report);
+  if (!sb_sliding_usable(status)) {
+    return status;
+  }
+  const SbFit *fit = &task->memory->now->fit;
+  if (!sb_sliding_drags(task) || fit->ring.state == SB_RING_SLIDES ||
+      fit->ring.state == SB_RING_NO_CONTACT) {
+    sb_warnings_merge(task->warnings, &fit->warnings); // else sb_sliding_drag() tells
+  }
+  // One that stopped above the tolerance counts, with its error; else it holds another load's.
+  bool close = fit->solver.error_estimate.load > 0 && fit->solver.error_estimate.load < 1;
+  out->touches = fit->touches || status != SB_OK;
+  if (status != SB_OK && !(fit->touches && close)) {
+    return status;
+  }
+  if (!fit->touches) {
+    out->section = SB_RING_NO_CONTACT;
+    out->contact_left = out->contact_right = 0;
+    out->load = out->load_per_length = out->load_net = out->pressure_peak = 0;
+    out->boundary_area = out->boundary_load = out->friction_viscous = out->friction_static = 0;
+    out->rest_area = out->rest_load = 0;
+    return status;
+  }
+  take_contact(out, task, fit);
+  *known = true;
+  return status;
+}
+
+// The friction of a contact by closed forms, near that of a ring; none where they have none.
+static void guess(SbSlidingLaw *law, const SbSlidingTask *task, SbSlidingFitment *on) {
+  SbFitProblem fit;
+  SbFilmProblem film;
+  SbSealState state;
+  SbSlidingTask quiet = *task;
+  quiet.warnings = NULL;
+  *law = (SbSlidingLaw){0};
+  sb_model_fit_problem(&fit, task->model, task->seal, task->pressure.left - task->pressure.right);
+  fit.model = SB_FIT_KARASZKIEWICZ;
+  sb_sliding_clear(&state);
+  if (sb_fit_solve(&on->fit, &fit, NULL) != SB_OK || !on->fit.touches) {
+    return;
+  }
+  take_contact(&state, task, &on->fit);
+  sb_sliding_film_problem(&film, task->model, task->seal, task->pressure, state.load_net,
+                          task->speed);
+  film.model = SB_FILM_THESIS;
+  if (sb_sliding_solve_on(&quiet, &task->memory->plane, &film, NULL) == SB_OK) {
+    state.film_central = task->memory->plane.film.film_central;
+    SbSlidingLaw found;
+    if (sb_sliding_rough_contact(&state, &quiet, 1, NULL) == SB_OK) {
+      sb_sliding_law(&found, task->model, &state);
+      *law = isfinite(found.shear) ? found : *law;
+    }
+  }
+}
+
+// What the dragged section bears of the law's friction: all of it while it slides, each part alike
+// at the greatest drag of one that rolls or jams, which no rest makes greater.
+static SbStatus bear(SbSealState *out, const SbSlidingTask *task, const SbSlidingFitment *on,
+                     double asked, SbReport *report) {
+  const SbFit *fit = &on->fit;
+  double area = asked - out->boundary_load - out->friction_viscous;
+  out->area_cut = out->boundary_area > 0 ? area / out->boundary_area : 1;
+  out->borne_share = fabs(fit->ring.drag) / asked;
+  return sb_sliding_share_out(out, task, report);
+}
+
+// Without fluid a ring that slides one way is the mirror image of one that slides the other way.
+// False where that is not known.
+static bool mirror(const SbSlidingTask *task, SbSlidingFitment *on) {
+  const SbSlidingFitment *other = &task->memory->fitment[task->speed > 0 ? OUT : IN];
+  if (task->pressure.left != task->pressure.right || !other->known || other->pressure != 0 ||
+      other->seal != task->seal) {
+    return false;
+  }
+  SbFitProblem problem;
+  fit_problem(&problem, task, on, &other->law);
+  on->known = sb_fit_mirror(&on->fit, &problem, &other->fit, other->ring, NULL) == SB_OK;
+  on->pressure = 0;
+  on->seal = task->seal;
+  return on->known;
+}
+
+// A ring's states: friction drags it, and hangs on the film that lies on the dragged ring.
+// SbSlidingSolved in turns until the friction that drags it is that of its own film. A ring whose
+// greatest drag is less than its friction rolls or jams; the film is then that of this last state.
+SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
+  enum { ROUNDS = 6 };
+  const double close = 0.5 * task->model->tolerance;
+  const double pressure = task->pressure.left - task->pressure.right;
+  SbSlidingMemory *memory = task->memory;
+  SbSlidingFitment *on = &memory->fitment[task->speed > 0 ? IN : OUT];
+  bool known =
+      (on->known && on->pressure == pressure && on->seal == task->seal) || mirror(task, on);
+  SbSlidingLaw law;
+  if (!known) {
+    guess(&law, task, on);
+  }
+  SbWarnings *own = &memory->warnings;
+  SbStatus status = SB_OK;
+  for (int round = 0;; round++) {
+    SbSlidingTask like = *task;
+    memset(own, 0, sizeof *own); // of the last round
+    own->subject = task->warnings != NULL ? task->warnings->subject : NULL;
+    like.warnings = own;
+    status = sb_sliding_solve_with(&like, known && round == 0 ? NULL : &law, out, report);
+    if (!sb_sliding_usable(status) || !(out->load > 0)) {
+      break;
+    }
+    sb_sliding_law(&law, task->model, out);
+    double asked = law_force(&law, &on->fit), before = law_force(&on->law, &on->fit);
+    if (!isfinite(asked)) {
+      break;
+    }
+    bool slides = on->fit.ring.state == SB_RING_SLIDES;
+    bool agree = slides ? fabs(asked - before) <= close * asked
+                        : asked >= (1 - close) * fabs(on->fit.ring.drag);
+    if (!agree && round + 1 < ROUNDS) {
+      continue;
+    }
+    SbStatus borne = bear(out, &like, on, asked, status == SB_OK ? report : NULL);
+    status = borne != SB_OK ? borne : status;
+    if (!agree) {
+      status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                       "fitment and friction of the %s seal do not agree: %.5g N and %.5g N",
+                       sb_seal_name(task->seal), before, asked);
+    } else if (!slides) {
+      bool rolls = on->fit.ring.state == SB_RING_ROLLS;
+      sb_warn(own, rolls ? "ring-rolls" : "ring-jams", "gland.floor_friction",
+              "the %s ring %s %s: its section bears %.0f %% of its friction, turned by %.0f°",
+              sb_seal_name(task->seal), rolls ? "rolls" : "jams",
+              task->speed > 0 ? "on the in-stroke" : "on the return", 100 * out->borne_share,
+              out->rotation);
+    }
+    break;
+  }
+  sb_warnings_merge(task->warnings, own);
+  return status;
+}

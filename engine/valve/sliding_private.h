@@ -1,0 +1,68 @@
+// What the parts of a steady sliding state share. Internal to sliding.c and sliding_fit.c.
+#pragma once
+
+#include "engine/valve/sliding.h"
+
+// A film with what is drawn of it.
+typedef struct {
+  SbFilm film;
+  SbFilmProfile profile;
+  bool fitted;  // on the fitted body, not on the half-plane
+  double speed; // [m/s]
+} SbSlidingSolved;
+
+// A fitment with its ring, where it is one, for one way of sliding.
+typedef struct {
+  SbFit fit;
+  SbRing *ring; // owned, NULL for other models
+  bool known;
+  double pressure; // difference for which it stands
+  int seal;
+  SbSlidingLaw law; // of the friction that drags it
+} SbSlidingFitment;
+
+struct SbSlidingMemory {
+  // By way of sliding where friction drags the seal, else at rest.
+  SbSlidingFitment fitment[SB_RUN_MOTIONS];
+  SbSlidingFitment *now;         // of the last evaluation
+  SbSlidingSolved plane, fitted; // on the half-plane (or of a law), and on the fitted body
+  SbSlidingSolved rest;          // dry rough contact, coupled asperities only
+  const SbSlidingSolved *last;   // which of them the last evaluation gave
+  bool rested;                   // it stands for the fit, with
+  double rest_left;              // this pressure on the left
+  const SbSlidingFitment *rest_on;
+  SbSlidingBody body;        // of the last film on one
+  SbFilmSolver *solver;      // NULL until a film is solved: laws need none
+  SbWarnings warnings;       // of one round of a ring's friction
+  bool (*cancelled)(void *); // NULL: nobody asks to stop
+  void *cancelled_data;
+};
+
+// Whether friction drags this seal's section: the ring's, while it slides.
+bool sb_sliding_drags(const SbSlidingTask *task);
+
+// A solver that stopped above the tolerance has the figures of its last solution, with their error.
+bool sb_sliding_usable(SbStatus status);
+
+// Fitment: contact and loads; a ring dragged by `law`, NULL: as it is known. *known tells whether
+// there is a contact to go on with.
+SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *law,
+                                SbSealState *out, bool *known, SbReport *report);
+
+// Fitment, film and friction; a ring dragged by `law`, NULL: as it is known.
+SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
+                               SbReport *report);
+
+// A film.
+SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
+                             const SbFilmProblem *problem, SbReport *report);
+
+// What the surfaces make of a contact whose load, width and film are known: real area, friction.
+SbStatus sb_sliding_rough_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
+                                  SbReport *report);
+
+// Leaves of a law's friction what the section bears, borne_share and area_cut.
+SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbReport *report);
+
+// A ring's state: friction drags it, and hangs on the film that lies on the dragged ring.
+SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *report);
