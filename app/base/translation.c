@@ -23,7 +23,7 @@ G_GNUC_UNUSED static const char *const listed[] = {
     N_("Leak over squeeze"),
     N_("leak at rest and leakage per stroke over the squeeze: where too little squeeze leaks"),
     N_("Stribeck curve"),
-    N_("friction, the asperities' share and the film over the speed, solved together"),
+    N_("friction, real contact and film of both seals over the speed, as the cycle takes them"),
     N_("Tolerances"),
     N_("loads, break-away and return force over the tolerances of the sizes: worst case and RSS"),
     // app/section/section.c

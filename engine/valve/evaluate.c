@@ -76,3 +76,8 @@ const SbModel *sb_evaluator_model(const SbEvaluator *evaluator) {
 const SbSummary *sb_evaluator_summary(const SbEvaluator *evaluator) {
   return evaluator->answered ? sb_run_summary(evaluator->run) : NULL;
 }
+
+SbStatus sb_evaluator_sliding(SbSealState *out, SbEvaluator *evaluator, int seal, int way,
+                              double speed, SbReport *report) {
+  return sb_run_sliding(out, evaluator->run, seal, way, speed, report);
+}

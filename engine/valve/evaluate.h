@@ -48,6 +48,11 @@ SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestio
 // question.
 const char *sb_evaluator_reason(const SbEvaluator *evaluator, int figure);
 
+// A seal's steady state at a speed [m/s] > 0 in the model of the last question, which asked for a
+// figure of the return: sb_run_sliding(). NaN where the run has none.
+SbStatus sb_evaluator_sliding(SbSealState *out, SbEvaluator *evaluator, int seal, int way,
+                              double speed, SbReport *report);
+
 // The model that the last question was answered for, and its whole summary, of which only what the
 // figures asked for needed means something; NULL after one that was refused. Borrowed until the
 // next question.

@@ -68,6 +68,10 @@ const SbFilm *sb_sliding_film(const SbSlidingMemory *memory) {
   return &memory->last->film;
 }
 
+double sb_sliding_film_share(const SbSlidingMemory *memory) {
+  return memory->last->share;
+}
+
 const SbSlidingBody *sb_sliding_body(const SbSlidingMemory *memory) {
   return memory->last->fitted ? &memory->body : NULL;
 }
@@ -83,22 +87,27 @@ static SbStatus solve_once(const SbSlidingTask *task, SbFilm *film, const SbFilm
   return status;
 }
 
-// Share of its speed at which a given film stands for that at the whole of it, 1 where none does.
+// Speed from which on a given film stands for that at any higher one; infinite where none does.
 // Once a flooded film would be several times as thick, nothing but the supply shapes it: what
 // passes is given, and the film is twice the layer, but for what pressure moves, which is less the
 // faster it goes (2e-4 of it at four times).
-static double starved_share(SbSlidingSolved *out, const SbFilmProblem *problem) {
-  static const double TIMES = 4, POWER = 0.6; // of a flooded film over the speed
+static double starved_speed(SbFilm *film, const SbFilmProblem *problem) {
+  enum { ROUNDS = 4 };
+  static const double TIMES = 4, POWER = 0.6; // of a flooded film over the speed, nearly
   SbFilmProblem law = *problem;
   law.model = SB_FILM_THESIS;
   law.surface = SB_ROUGH_NONE;
   law.compliance = NULL;
   law.profile = NULL;
   law.inlet_film = 0;
-  if (!(problem->inlet_film > 0) || sb_film_solve(&out->film, &law, NULL, NULL) != SB_OK) {
-    return 1;
+  law.speed = fabs(problem->speed);
+  for (int round = 0; round < ROUNDS; round++) {
+    if (!(problem->inlet_film > 0) || sb_film_solve(film, &law, NULL, NULL) != SB_OK) {
+      return INFINITY;
+    }
+    law.speed *= pow(TIMES * 2 * problem->inlet_film / film->film_central, 1 / POWER);
   }
-  return fmin(pow(TIMES * 2 * problem->inlet_film / out->film.film_central, 1 / POWER), 1);
+  return law.speed;
 }
 
 // Solves a film; where it is given, at the share of its speed that is enough, or lower where the
@@ -108,7 +117,7 @@ static SbStatus solve_supplied(const SbSlidingTask *task, SbSlidingSolved *out,
                                SbFilmProblem *problem, SbReport *report) {
   static const double STEP = 1.0 / 3, LEAST = 1e-3;
   SbFilm *film = &out->film;
-  const double speed = problem->speed, first = starved_share(out, problem);
+  const double speed = problem->speed, first = fmin(starved_speed(film, problem) / fabs(speed), 1);
   double share = first;
   problem->speed = share * speed;
   SbStatus status = solve_once(task, film, problem, report);
@@ -125,6 +134,7 @@ static SbStatus solve_supplied(const SbSlidingTask *task, SbSlidingSolved *out,
     status = status == SB_OK && !film->starved ? SB_ERROR_NOT_CONVERGED : status;
   }
   problem->speed = speed;
+  out->share = share;
   if (share == 1 || status != SB_OK) {
     return status;
   }
@@ -504,6 +514,15 @@ static void share_kinetic(SbSealState *out) {
   }
 }
 
+void sb_sliding_whole(SbSealState *state) {
+  const double slides = state->section == SB_RING_SLIDES ? state->borne_share : 1;
+  if (state->borne_share > 0 && state->area_cut > 0) {
+    state->real_area_share /= state->area_cut * slides;
+    state->boundary_load /= state->borne_share;
+    state->friction_viscous /= state->borne_share;
+  }
+}
+
 // Leaves of a law's friction what the section bears (bear()).
 SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   if (isnan(out->borne_share)) {
@@ -566,6 +585,13 @@ void sb_sliding_take(SbSealState *state, const SbSlidingTask *task, const SbFilm
     take_asperities(state, task->model, film, fitted);
   }
   (void)sb_sliding_refilm(state, task, roughness, NULL);
+}
+
+double sb_sliding_starved_speed(const SbSealState *state, const SbSlidingTask *task,
+                                const SbSlidingBody *body) {
+  SbFilmProblem problem;
+  sb_sliding_film_of(&problem, state, task, body);
+  return starved_speed(&task->memory->plane.film, &problem);
 }
 
 SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,

@@ -60,6 +60,9 @@ const SbFit *sb_sliding_fit(const SbSlidingMemory *memory);
 const SbRing *sb_sliding_ring(const SbSlidingMemory *memory); // NULL for other fitment models
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
 
+// Share of its speed at which that film was solved: less than 1 where the supply alone shapes it.
+double sb_sliding_film_share(const SbSlidingMemory *memory);
+
 // Surface of a fitted body for films on it.
 typedef struct {
   double load; // net, that goes with it [N/m]
@@ -126,10 +129,17 @@ void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSl
 void sb_sliding_take(SbSealState *state, const SbSlidingTask *task, const SbFilm *film, bool fitted,
                      double roughness);
 
+// The speed [m/s] from which on nothing but the supply shapes the film of a state: higher ones have
+// that film, and viscous friction in proportion to the speed; infinite without such a supply.
+double sb_sliding_starved_speed(const SbSealState *state, const SbSlidingTask *task,
+                                const SbSlidingBody *body);
+
+// Gives a state the real area, boundary_load and friction_viscous of a section that bears all.
+void sb_sliding_whole(SbSealState *state);
+
 // What follows from the films in a task's state, with a surface `roughness` times as rough as the
-// model's: lambda, real area, kinetic friction. With coupled asperities roughness must be 1; real
-// area, and what a section that bears all has of boundary_load and friction_viscous, are then given
-// beside the films.
+// model's: lambda, real area, kinetic friction. With coupled asperities roughness must be 1; what a
+// section that bears all has (sb_sliding_whole()) is then given beside the films.
 SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double roughness,
                            SbReport *report);
 

@@ -9,6 +9,7 @@ typedef struct {
   SbFilmProfile profile;
   bool fitted;  // on the fitted body, not on the half-plane
   double speed; // [m/s]
+  double share; // of it, at which it was solved
 } SbSlidingSolved;
 
 // A fitment with its ring, where it is one, for one way of sliding.

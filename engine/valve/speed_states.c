@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEAST_FILM, CENTRAL_FILM, LAYER, AREA, LOAD, VISCOUS };
+enum { LEAST_FILM, CENTRAL_FILM, LAYER, AREA, LOAD, VISCOUS, SHARE };
 
 // A cell of two decades has GRID places; halved DEPTH times its nodes are still on the grid. Four
 // of them reach from 10 m/s below the least speed.
@@ -28,14 +28,15 @@ static SbSlidingTask task_at(const SbSpeedStates *states, double speed) {
 }
 
 static void take(double value[SB_SPEED_VALUES], const SbSealState *state) {
+  SbSealState whole = *state;
+  sb_sliding_whole(&whole);
   value[LEAST_FILM] = log(state->film_min);
   value[CENTRAL_FILM] = log(state->film_central);
   value[LAYER] = log(state->layer);
-  value[AREA] = state->real_area_share;
-  // Those of a section that bears all.
-  const double borne = state->borne_share > 0 ? state->borne_share : 1;
-  value[LOAD] = state->boundary_load / borne;
-  value[VISCOUS] = log(fmax(state->friction_viscous / borne, 1e-300));
+  value[AREA] = whole.real_area_share;
+  value[LOAD] = whole.boundary_load;
+  value[VISCOUS] = log(fmax(whole.friction_viscous, 1e-300));
+  value[SHARE] = state->asperity_share;
 }
 
 // The state that these values are.
@@ -48,6 +49,7 @@ static void give(SbSealState *out, const SbSpeedStates *states, double speed,
     out->real_area_share = fmin(fmax(value[AREA], 0), 1);
     out->boundary_load = fmax(value[LOAD], 0);
     out->friction_viscous = exp(value[VISCOUS]);
+    out->asperity_share = value[SHARE];
   }
   const SbSlidingTask task = task_at(states, speed);
   (void)sb_sliding_refilm(out, &task, states->roughness, NULL);
@@ -59,7 +61,7 @@ void sb_speed_states_init(SbSpeedStates *out, const SbSlidingTask *task, const S
   out->task = *task;
   out->base = *at;
   out->roughness = 1;
-  out->power = NAN;
+  out->power = out->starved_from = NAN;
   out->on_body = body != NULL;
   if (body != NULL) {
     out->body = *body;
@@ -74,6 +76,41 @@ void sb_speed_states_init(SbSpeedStates *out, const SbSlidingTask *task, const S
   }
 }
 
+// Solves the state at a speed; false: there is none.
+static bool solve(double value[SB_SPEED_VALUES], SbSpeedStates *states, double speed) {
+  SbSealState state = states->base;
+  const SbSlidingTask task = task_at(states, speed);
+  SbStatus status = sb_sliding_respeed(&state, &task, states->on_body ? &states->body : NULL, NULL);
+  bool fatal = status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY;
+  states->status = fatal ? status : SB_OK;
+  states->solves++;
+  take(value, &state);
+  if (status == SB_OK && task.supply.limited) { // that of one that stands for another speed
+    const SbFilmSolverInfo *info = &sb_sliding_film(task.memory)->solver;
+    states->error = fmax(states->error, fmax(info->error_film_min, info->error_film_central));
+  }
+  return status == SB_OK;
+}
+
+// Whether the supply alone shapes the film at a speed, which then is that of `starved`.
+static bool is_starved(SbSpeedStates *states, double speed) {
+  if (!states->task.supply.limited || states->status != SB_OK) {
+    return false;
+  }
+  if (isnan(states->starved_from)) {
+    const SbSlidingBody *body = states->on_body ? &states->body : NULL;
+    double from = sb_sliding_starved_speed(&states->base, &states->task, body);
+    const bool solved = from < SB_SPEED_MOST && solve(states->starved, states, from);
+    const SbSlidingMemory *memory = states->task.memory;
+    const bool starved = solved && sb_sliding_film(memory)->starved;
+    // Where the solver took a lower speed the film is that from there on.
+    const double share = starved ? sb_sliding_film_share(memory) : 1;
+    states->starved[VISCOUS] += log(share);
+    states->starved_from = starved ? share * from : INFINITY;
+  }
+  return speed >= states->starved_from;
+}
+
 // The node at a place, solved if it is not; NULL if there is no room.
 static const SbSpeedNode *node_at(SbSpeedStates *states, int place) {
   for (size_t i = 0; i < states->nodes; i++) {
@@ -85,15 +122,15 @@ static const SbSpeedNode *node_at(SbSpeedStates *states, int place) {
     return NULL;
   }
   SbSpeedNode *node = &states->node[states->nodes++];
-  SbSealState state = states->base;
-  const SbSlidingTask task = task_at(states, speed_of(place));
-  SbStatus status = sb_sliding_respeed(&state, &task, states->on_body ? &states->body : NULL, NULL);
-  bool fatal = status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY;
-  states->status = fatal ? status : SB_OK;
-  states->solves++;
   node->place = place;
-  node->solved = status == SB_OK;
-  take(node->value, &state);
+  const double speed = speed_of(place);
+  if (is_starved(states, speed)) {
+    node->solved = true;
+    memcpy(node->value, states->starved, sizeof node->value);
+    node->value[VISCOUS] += log(speed / states->starved_from);
+  } else {
+    node->solved = solve(node->value, states, speed);
+  }
   return node;
 }
 
@@ -204,6 +241,12 @@ void sb_speed_state(SbSealState *out, SbSpeedStates *states, double speed) {
     const SbSlidingTask task = task_at(states, speed);
     (void)sb_sliding_respeed(out, &task, NULL, NULL);
     (void)sb_sliding_refilm(out, &task, states->roughness, NULL);
+    return;
+  }
+  if (!law && is_starved(states, speed)) {
+    memcpy(value, states->starved, sizeof value);
+    value[VISCOUS] += log(speed / states->starved_from);
+    give(out, states, speed, value);
     return;
   }
   const SbSpeedCell *cell = NULL;

@@ -8,7 +8,8 @@
 // than SB_SPEED_TOLERANCE in film or friction the cell is halved. That miss is told as the error,
 // and is larger than the cubic's. Interpolated are the logarithms of the films and, with coupled
 // asperities, their real area, load and viscous friction; all else follows from them by the same
-// functions as in a solved state, so that its identities hold exactly.
+// functions as in a solved state, so that its identities hold exactly. From the speed on at which
+// the supply alone shapes the film one state stands for all, but for its viscous friction.
 //
 // Below 1 um/s and above 10 m/s the film is that at these speeds. A film that cannot be solved
 // there goes on from the reference state with the power 0.6 of the speed, with a warning.
@@ -20,7 +21,7 @@
 #define SB_SPEED_MOST      10.0 // m/s
 #define SB_SPEED_TOLERANCE 5e-4 // relative, of films and friction
 
-enum { SB_SPEED_NODES = 80, SB_SPEED_CELLS = 40, SB_SPEED_VALUES = 6 };
+enum { SB_SPEED_NODES = 80, SB_SPEED_CELLS = 40, SB_SPEED_VALUES = 7 };
 
 typedef struct {
   int place; // on the grid of nodes
@@ -41,8 +42,10 @@ typedef struct {
   double roughness;   // over the model's
   bool on_body;       // `body` is that of the film
   SbSlidingBody body;
-  bool near;     // to be set: asked for speeds near the reference only; cells are half a decade
-  double power;  // of a film that is a power law, else NAN
+  bool near;    // to be set: asked for speeds near the reference only; cells are half a decade
+  double power; // of a film that is a power law, else NAN
+  double starved_from; // speed from which on `starved` stands [m/s]; NAN: not yet asked
+  double starved[SB_SPEED_VALUES];
   size_t solves; // to be read: nodes solved
   // To be read: largest miss of a cell in use, relative, and what the cubic leaves in friction.
   double error, friction_error;

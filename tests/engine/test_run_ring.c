@@ -1,6 +1,7 @@
 // Solved rings in a run: each state of contact is one dragged ring, in figures, friction and
 // picture; the same with one thread and with two; a ring that rolls is a result.
-#include "engine/valve/figures.h"
+#include "engine/valve/cycle.h"
+#include "engine/valve/evaluate.h"
 #include "engine/valve/sliding.h"
 #include "tests/engine/models.h"
 
@@ -107,6 +108,32 @@ static void test_one_state(void) {
   g_assert_true(outer->in_stroke.speed > 0 && outer->back.speed == -outer->in_stroke.speed);
   sb_run_destroy(run);
   sb_model_destroy(model);
+}
+
+// A ring with its asperities in the film, at speeds beside its own: no step from the solved state
+// to those between solved speeds, though the pressure cuts its real area.
+static void test_beside(void) {
+  const Setting settings[] = {{SB_P_MODELS_SET, SB_MODEL_SET_CONSISTENT},
+                              {SB_P_OUTPUT_TOLERANCE, 1e-2}};
+  SbModel model;
+  compile(&model, settings, G_N_ELEMENTS(settings));
+  SbEvaluator *evaluator;
+  g_assert_cmpint(sb_evaluator_create(&evaluator, NULL), ==, SB_OK);
+  const int figure = sb_figure_find("seals.inner.friction_boundary_N");
+  const SbQuestion question = {.base = &model, .figure = &figure, .figure_count = 1};
+  double boundary;
+  g_assert_cmpint(sb_evaluator_ask(&boundary, evaluator, &question, NULL), ==, SB_OK);
+  SbSealState state[2];
+  for (int i = 0; i < 2; i++) {
+    SbStatus status = sb_evaluator_sliding(&state[i], evaluator, SB_INNER, SB_CYCLE_IN,
+                                           model.speed * (1 + 1e-4 * i), NULL);
+    g_assert_cmpint(status, ==, SB_OK);
+  }
+  g_assert_true(state[0].boundary_area + state[0].boundary_load == boundary);
+  g_assert_cmpfloat(state[0].area_cut, <, 0.995);
+  g_assert_cmpfloat(fabs(state[1].real_area_share / state[0].real_area_share - 1), <, 1e-3);
+  g_assert_cmpfloat(fabs(sb_sliding_friction(&state[1]) / boundary - 1), <, 1e-3);
+  sb_evaluator_destroy(evaluator);
 }
 
 // Friction is the law's over the pressure that is drawn, and forces balance: both seals, both ways.
@@ -307,6 +334,7 @@ static void test_rolls(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-ring/one-state", test_one_state);
+  g_test_add_func("/run-ring/beside", test_beside);
   g_test_add_func("/run-ring/balance", test_balance);
   g_test_add_func("/run-ring/mirrored", test_mirrored);
   g_test_add_func("/run-ring/rest", test_rest);

@@ -227,6 +227,13 @@ const SbSealShape *sb_run_shape(const SbRun *run, uint32_t index);
 // sb_run_execute() returned; borrowed.
 const SbLifeActuation *sb_run_life(const SbRun *run, size_t *count);
 
+// After sb_run_execute(): the steady state of a seal at a speed [m/s] > 0 by way of sliding,
+// SB_CYCLE_IN or SB_CYCLE_OUT (cycle.h), under the pressures at the middle of B-C or of F-A: those
+// states that the motion's friction is taken from (speed_states.h), more of which are solved where
+// need be. Their errors, counts and warnings go to the summary. SB_ERROR_CANCELLED, _MEMORY.
+SbStatus sb_run_sliding(SbSealState *out, SbRun *run, int seal, int way, double speed,
+                        SbReport *report);
+
 // Only after sb_run_execute() returned; borrowed.
 const SbSummary *sb_run_summary(const SbRun *run);
 

@@ -172,11 +172,11 @@ void sb_run_summarise_seals(SbRun *run) {
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     SbSealState *out = &run->summary.seal[seal];
     const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-    sb_run_state_at(out, run, seal, SB_CHAMBER_AT_REST, SB_CYCLE_IN, run->mid_speed);
+    (void)sb_run_sliding(out, run, seal, SB_CYCLE_IN, run->mid_speed, NULL);
     fill_contact(&run->summary.contact[seal].in_stroke, out, run->mid_speed);
     if (run->plan.seal[seal] == SB_DEPTH_WHOLE) {
       SbSealState back;
-      sb_run_state_at(&back, run, seal, SB_CHAMBER_CLOSED, SB_CYCLE_OUT, run->back_speed);
+      (void)sb_run_sliding(&back, run, seal, SB_CYCLE_OUT, run->back_speed, NULL);
       fill_contact(&run->summary.contact[seal].back, &back, -run->back_speed);
     }
     out->contact_width = out->contact_right - out->contact_left;

@@ -101,6 +101,13 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
   sb_speed_state(out, *table, speed);
 }
 
+SbStatus sb_run_sliding(SbSealState *out, SbRun *run, int seal, int way, double speed,
+                        SbReport *report) {
+  const SbChamber chamber = way == SB_CYCLE_IN ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
+  sb_run_state_at(out, run, seal, (int)chamber, way, speed);
+  return sb_run_close_speeds(run, report);
+}
+
 const SbSlidingBody *sb_run_film_of(SbFilmProblem *out, SbRun *run, int seal, int chamber,
                                     int direction) {
   const SbSpeedStates *table = run->speeds[seal][chamber][direction];
@@ -149,12 +156,14 @@ void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled,
                                     offsetof(SbSealState, real_area_share),
                                     offsetof(SbSealState, boundary_load),
                                     offsetof(SbSealState, friction_viscous),
+                                    offsetof(SbSealState, asperity_share),
                                     offsetof(SbSealState, layer)};
   for (size_t i = 0; i < sizeof straight / sizeof straight[0]; i++) {
     double *a = (double *)((char *)out + straight[i]);
     *a = between(*a, *(const double *)((const char *)&full + straight[i]), filled);
   }
   if (out->touches && full.touches) {
+    sb_sliding_whole(out);
     sb_run_refilm(out, run, seal, SB_CHAMBER_AT_REST, direction, speed);
   }
   out->touches = out->touches || full.touches;

@@ -54,8 +54,7 @@ double sb_study_cost(SbStudyKind kind, const SbModel *model) {
   const SbStudySolves none = {0}, *solves = design != NULL ? &design->solves : &none;
   return solves->rings * SB_COST_RING + solves->discs * SB_COST_DISC +
          solves->fits * sb_cost_fit(model->fit) + solves->films * sb_cost_film(model->film) +
-         solves->reynolds * SB_COST_FILM + solves->mixed * SB_COST_FILM_MIXED +
-         solves->cycles * SB_COST_ACTUATION;
+         solves->reynolds * SB_COST_FILM + solves->cycles * SB_COST_ACTUATION;
 }
 
 // Index for one more. A study that asks for more than its struct holds is wrong.
@@ -453,7 +452,7 @@ SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport
   }
   SbStatus status = sb_film_solve(&work->film, problem, work->solver, report);
   work->out->solves++;
-  work->spent += problem->surface != SB_ROUGH_NONE ? SB_COST_FILM_MIXED : SB_COST_FILM;
+  work->spent += SB_COST_FILM;
   if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     (void)sb_study_goes_on(work, status, report);
   } else if (status == SB_OK) {

@@ -19,7 +19,6 @@ typedef struct {
   int rings, discs; // fitments
   int fits, films;  // by the scene's own models
   int reynolds;     // films on the half-plane
-  int mixed;        // with asperities in them
   int cycles;       // quasi-static
 } SbStudySolves;
 

@@ -1,77 +1,115 @@
-// Stribeck curve: coefficient of friction, the asperities' share of the load, and the film against
-// the sliding speed, film and asperities solved in one Newton (film/ehl.h).
+// Stribeck curve: coefficient of friction, real contact and film of both seals over the sliding
+// speed, in the middle of the in-stroke (chamber as at rest) and of the return.
 //
-// The outer seal's net load at its pressures of B-C without its end pressures, both surface models
-// beside each other: Greenwood and Tripp (whose real area the default shear strength was set with)
-// and Persson (whose real area is much larger for a soft seal, so that the same shear strength
-// gives too much friction; docs/thesis.md, 10). The load coefficient m acts on the asperities' load
-// here, where the cycle takes the total. The cycle's own friction, film and roughness not knowing
-// of each other, is drawn as a reference.
+// The states are those that the cycle's friction of the instant is taken from (speed_states.h),
+// asked of a run of the scene: curve and cycle are one solution, and a point stands at the cycle's
+// own speed. Film, asperities and friction are the scene's models; with models.asperities = coupled
+// film and asperities share the load (film/ehl.h). The contact of a ring keeps the drag of the
+// cycle's speed. Between solved speeds the curve is interpolated, with its error told.
+#include "engine/valve/cycle.h"
+#include "engine/valve/speed_states.h"
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
+#include <string.h>
 
-enum { POINTS = 41, MODELS = 2 };
-enum { COEFFICIENT, SHARE, RATIO, CENTRAL, LEAST, BOUNDARY, VISCOUS, AREA };
+enum { POINTS = 41, LINES = 4 };
+enum { COEFFICIENT, AREA, RATIO, CENTRAL, LEAST, BOUNDARY, VISCOUS, SHARE };
 
 static const struct {
-  const char *name;
-  SbRoughModel model;
-} models[MODELS] = {{"Greenwood & Tripp", SB_ROUGH_GREENWOOD_TRIPP}, {"Persson", SB_ROUGH_PERSSON}};
+  const char *name, *friction;
+  int seal, way;
+} lines[LINES] = {
+    {"outer seal, in", "seals.outer.contact.in_stroke.friction_N", SB_OUTER, SB_CYCLE_IN},
+    {"outer seal, back", "seals.outer.contact.return.friction_N", SB_OUTER, SB_CYCLE_OUT},
+    {"inner seal, in", "seals.inner.contact.in_stroke.friction_N", SB_INNER, SB_CYCLE_IN},
+    {"inner seal, back", "seals.inner.contact.return.friction_N", SB_INNER, SB_CYCLE_OUT}};
 
-// What one surface model has at a speed: the panels' values and those of the table.
 static void solve(double *value, SbStudyWork *work, int line, double speed) {
-  SbStudy *out = work->out;
-  const SbModel *model = work->scene;
-  SbFilmProblem problem;
-  SbReport report = {0};
-  sb_study_film_problem(&problem, work, work->load, speed);
-  problem.surface = models[line].model;
-  problem.gt_product = model->gt_product;
-  problem.sigma = model->sigma;
-  problem.sigma_over_beta = model->sigma_over_beta;
-  problem.shear_strength = model->shear_strength;
-  problem.load_coefficient = model->load_coefficient;
-  SbStatus status = sb_study_film(work, &problem, &report);
-  if (status != SB_OK) {
-    if (status == SB_ERROR_NOT_CONVERGED) {
-      // The scene's own surface is the subject; gaps of the other are a warning.
-      out->complete = out->complete && model->surface != models[line].model;
-      sb_warn(&out->warnings, "study-gap-stribeck", "study.speed_min",
-              "%s: the mixed film did not converge at %.3g mm/s and perhaps elsewhere",
-              models[line].name, speed * 1e3);
-    } else if (work->status == SB_OK) {
-      // This surface model has no answer at all: the other may.
-      sb_warn(&out->warnings, "study-gap-surface", report.parameter, "%s: %s", models[line].name,
-              report.text);
-    }
+  SbSealState state;
+  SbReport report;
+  if (work->status != SB_OK) {
     return;
   }
-  const SbFilm *film = &work->film;
-  value[RATIO] = film->film_ratio;
-  value[CENTRAL] = film->film_central;
-  value[LEAST] = film->film_min;
-  value[BOUNDARY] = film->friction_boundary;
-  value[VISCOUS] = film->friction_couette + film->friction_cavity; // full film and ruptured one
-  value[COEFFICIENT] = (value[BOUNDARY] + value[VISCOUS]) / work->load;
-  value[SHARE] = film->asperity_share;
-  value[AREA] = film->real_area_share;
+  SbStatus status = sb_evaluator_sliding(&state, work->evaluator, lines[line].seal, lines[line].way,
+                                         speed, &report);
+  if (!sb_study_goes_on(work, status, &report) || !(state.film_central > 0)) {
+    return;
+  }
+  value[RATIO] = state.lambda;
+  value[CENTRAL] = state.film_central;
+  value[LEAST] = state.film_min;
+  value[BOUNDARY] = state.boundary_area + state.boundary_load;
+  value[VISCOUS] = state.friction_viscous;
+  value[COEFFICIENT] = sb_sliding_friction(&state) / state.load;
+  value[SHARE] = state.asperity_share;
+  value[AREA] = state.real_area_share;
+}
+
+// Speeds at which a line is drawn: evenly, and that of the cycle.
+static int places(double at[POINTS + 1], const SbStudyWork *work, double own) {
+  int count = 0;
+  bool open = own >= work->lo && own <= work->hi;
+  for (int i = 0; i < POINTS; i++) {
+    const double even = sb_study_place(work, i, POINTS);
+    if (open && own <= even) {
+      at[count++] = own;
+      open = false;
+    }
+    if (even != own) {
+      at[count++] = even;
+    }
+  }
+  return count;
+}
+
+// What the states over the speed leave in films and friction, and where they had no film.
+static void account(SbStudyWork *work) {
+  SbStudy *out = work->out;
+  const SbSummary *summary = sb_evaluator_summary(work->evaluator);
+  out->error = fmax(out->error, summary->error_film);
+  out->solves += summary->counters.speed_nodes;
+  for (size_t i = 0; i < summary->warnings.count; i++) {
+    const SbWarning *warning = &summary->warnings.item[i];
+    if (strcmp(warning->code, "film-speed") == 0) {
+      out->complete = false;
+      sb_warn(&out->warnings, warning->code, warning->parameter, "%s", warning->text);
+    }
+  }
 }
 
 static void make(SbStudyWork *work) {
-  static const char *const cycle[] = {"seals.outer.coefficient_of_friction"};
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
-  work->load = sb_study_net_load(work);
-  if (work->status == SB_OK && !(work->load > 0)) {
+  const SbOverride once = {SB_P_LIFE_ACTUATIONS, 1};
+  const char *path[LINES];
+  double friction[LINES], at[POINTS + 1];
+  if (model->motion != SB_MODEL_MOTION_RIG) {
+    work->base = *model; // as it moves
+  }
+  if (work->hi > SB_SPEED_MOST) {
+    work->hi = SB_SPEED_MOST;
+    sb_study_note(out, "The cycle knows films to %g m/s: the curves end there.", SB_SPEED_MOST);
+  }
+  for (int i = 0; i < LINES; i++) {
+    path[i] = lines[i].friction;
+  }
+  sb_study_ask(work, friction, path, LINES, &once, 1);
+  const SbSummary *summary = sb_evaluator_summary(work->evaluator);
+  if (work->status == SB_OK && (summary == NULL || !(summary->seal[SB_OUTER].film_central > 0))) {
     work->status = sb_fail_parameter(work->report, SB_ERROR_INFEASIBLE, "seal.section_diameter",
                                      "the outer seal bears no load: there is no film to speak of");
   }
   if (work->status != SB_OK) {
     return;
   }
-  for (int m = 0; m < MODELS; m++) {
-    sb_study_curves(work, SB_STUDY_CURVE, models[m].name, m, NULL, POINTS);
+  double own[2];
+  for (int i = 0; i < LINES; i++) {
+    const SbContacts *contact = &summary->contact[lines[i].seal];
+    const bool in = lines[i].way == SB_CYCLE_IN;
+    own[!in] = fabs(in ? contact->in_stroke.speed : contact->back.speed);
+    const int count = places(at, work, own[!in]);
+    sb_study_curves(work, SB_STUDY_CURVE, lines[i].name, i, at, count);
   }
   for (int i = 0; i < POINTS; i += 5) {
     const double speed = sb_study_place(work, i, POINTS);
@@ -79,40 +117,33 @@ static void make(SbStudyWork *work) {
                                 : sb_study_row(out, "%.3g m/s", speed);
     sb_study_cells(row->value, work, speed, 0);
   }
-  // The cycle's friction at the same speeds, its parts independent of each other.
-  SbStudySeries *friction =
-      sb_study_series(&out->panel[0], SB_STUDY_REFERENCE, "as the cycle takes it");
-  for (int i = 0; i < POINTS; i++) {
-    SbOverride at = {SB_P_DRIVE_SPEED, sb_study_place(work, i, POINTS)};
-    double value;
-    sb_study_ask(work, &value, cycle, 1, &at, 1);
-    sb_study_point(friction, at.value, value);
-  }
   sb_study_level(work, &out->panel[2], "film = roughness", 1);
-  sb_study_mark(work, model->speed, "drive");
-  sb_study_note(out,
-                "Net load %.0f N/m, roughness %.3g \xc2\xb5m, shear strength %.3g MPa, m %.3g on "
-                "the asperities' load (the cycle: on the total).",
-                work->load, model->sigma * 1e6, model->shear_strength * 1e-6,
-                model->load_coefficient);
+  sb_study_mark(work, own[0], own[0] == own[1] ? "cycle" : "cycle, in");
+  if (own[0] != own[1]) {
+    sb_study_mark(work, own[1], "cycle, back");
+  }
+  account(work);
+  sb_study_note(out, "Roughness %.3g \xc2\xb5m, shear strength %.3g MPa, m %.3g on %s.",
+                model->sigma * 1e6, model->shear_strength * 1e-6, model->load_coefficient,
+                model->asperities == SB_MODEL_ASPERITIES_COUPLED ? "the asperities' load"
+                                                                 : "the total load");
 }
 
 const SbStudyDesign sb_study_stribeck = {
     .x = "sliding speed [mm/s]",
     .x_logarithmic = true,
-    .panel = {"coefficient of friction", "load that asperities bear [%]",
-              "central film over roughness"},
+    .panel = {"coefficient of friction", "real contact [%]", "central film over roughness"},
     .logarithmic = {true, false, true},
     .range = offsetof(SbStudyRange, speed_min),
-    .row_heading = "Greenwood & Tripp at",
+    .row_heading = "outer seal, in, at",
     .column = {"central film [nm]", "least film [nm]", "film over roughness",
-               "boundary friction [N/m]", "viscous friction [N/m]", "coefficient",
-               "asperities bear [%]", "real area [%]"},
+               "boundary friction [N]", "viscous friction [N]", "coefficient",
+               "asperities bear [%]", "real contact [%]"},
     .value = {CENTRAL, LEAST, RATIO, BOUNDARY, VISCOUS, COEFFICIENT, SHARE, AREA},
-    .models = "mixed film: reynolds with Greenwood & Tripp or Persson in one solve, half-plane",
-    .validity = "isoviscous, no end pressures; Greenwood & Tripp: small real area; the shear "
-                "strength was set with Greenwood & Tripp's",
-    .solves = {.mixed = MODELS * POINTS},
+    .models = "the scene's own, at the pressures of the cycle",
+    .validity =
+        "steady sliding; 1 \xc2\xb5m/s to 10 m/s; a ring's contact is that of the cycle's speed",
+    .solves = {.fits = 5, .films = LINES * POINTS},
     .solve = solve,
     .make = make,
 };
