@@ -2,6 +2,7 @@
 #include "app/export/studies.h"
 
 #include "app/chart/page.h"
+#include "app/chart/propellants.h"
 #include "app/chart/study.h"
 #include "app/export/still.h"
 
@@ -11,7 +12,15 @@
 
 // ---- page ----
 
+// The swap page's least height; a page of less has no table below it.
+#define SWAP 720.0
+
 void sb_study_page_size(double *width, double *height, const SbStudy *study) {
+  if (study->kind == SB_STUDY_PROPELLANTS) {
+    *width = 1600;
+    *height = ceil(SB_PAGE_HEADER + SWAP + 40 + 16 + sb_study_table_height(study) + SB_PAGE_FOOTER);
+    return;
+  }
   *width = study->column_count > 6 || study->panel_count > 2 ? 1600 : 1280;
   double charts = study->panel_count == 0 ? 0 : study->panel_count > 3 ? 640 : 400;
   double table = sb_study_table_height(study);
@@ -31,6 +40,21 @@ static void errors_text(char *out, size_t size, const SbStudy *study) {
   }
 }
 
+static void draw_swap(cairo_t *cr, SbRect body, const SbTheme *theme, const SbStudy *study,
+                      const SbModel *model) {
+  const double table = sb_study_table_height(study);
+  if (body.height >= SWAP + 16 + table) {
+    body.height -= 16 + table;
+    SbCanvas canvas;
+    sb_canvas_init(&canvas, cr, theme);
+    sb_study_table_draw(&canvas, (SbRect){body.x, body.y + body.height + 16, body.width, table},
+                        study);
+    sb_canvas_finish(&canvas);
+  }
+  const SbPropellantsLook look = sb_propellants_look(model);
+  sb_propellants_draw(cr, body, theme, study, model, &look);
+}
+
 void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const SbStudyPage *page) {
   const SbTheme *theme = sb_theme(page->dark);
   double width, height;
@@ -47,7 +71,11 @@ void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const Sb
   data.run.state = SB_CHART_DONE;
   data.failure = study->complete ? NULL : "incomplete: a solver did not converge at every point";
   sb_page_header_draw(cr, frame.whole, theme, &data, SB_CHART_WHOLE);
-  sb_study_draw(cr, frame.body, theme, study);
+  if (study->kind == SB_STUDY_PROPELLANTS) {
+    draw_swap(cr, frame.body, theme, study, page->model);
+  } else {
+    sb_study_draw(cr, frame.body, theme, study);
+  }
 
   char errors[160], version[64];
   errors_text(errors, sizeof errors, study);

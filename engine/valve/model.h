@@ -20,6 +20,7 @@ typedef struct {
   double load_min, load_max;               // net, per length [N/m]
   double time_min, time_max;               // in storage [s]
   double temperature_min, temperature_max; // of canister and valve [K]
+  bool rings_solved;                       // in every cycle over the temperature
 } SbStudyRange;
 
 struct SbModel {

@@ -2,8 +2,10 @@
 // layout.
 #include "tests/app/picture.h"
 
+#include "app/chart/propellants.h"
 #include "app/chart/study.h"
 #include "app/export/studies.h"
+#include "engine/valve/figures.h"
 
 #include <glib.h>
 #include <math.h>
@@ -236,6 +238,93 @@ static void test_layout(void) {
   g_free(study);
 }
 
+// Ground of the region where the stem does not return, in pixels of a page.
+static int pixels_of(cairo_surface_t *surface, SbColor color) {
+  cairo_surface_flush(surface);
+  const unsigned char *data = cairo_image_surface_get_data(surface);
+  const int stride = cairo_image_surface_get_stride(surface);
+  const unsigned wanted = (unsigned)lround(255 * color.r) << 16 |
+                          (unsigned)lround(255 * color.g) << 8 | (unsigned)lround(255 * color.b);
+  int count = 0;
+  for (int y = 0; y < cairo_image_surface_get_height(surface); y++) {
+    for (int x = 0; x < cairo_image_surface_get_width(surface); x++) {
+      unsigned pixel;
+      memcpy(&pixel, data + y * stride + 4 * x, sizeof pixel);
+      count += (pixel & 0xFFFFFFu) == wanted;
+    }
+  }
+  return count;
+}
+
+static cairo_surface_t *swap_page(const SbStudy *study, const SbModel *model,
+                                  const SbPropellantsLook *look, int width, int height) {
+  cairo_surface_t *surface = picture_new(width, height, 1);
+  cairo_t *cr = cairo_create(surface);
+  sb_propellants_draw(cr, (SbRect){0, 0, width, height}, sb_theme(false), study, model, look);
+  cairo_destroy(cr);
+  return surface;
+}
+
+// The swap page: where the stem stays is there if it stays somewhere, and nowhere else; the pointer
+// finds the temperature it stands on; a small page shows one chart and short cards; in words it
+// says what the cards say, and a limit of the scene stands for 2 N.
+static void test_swap(void) {
+  SbParams params;
+  SbModel *model;
+  sb_params_init(&params);
+  g_assert_cmpint(sb_params_set(&params, SB_P_FLUID_NAME, 1, NULL), ==, SB_OK);
+  SbLimits limits = {.count = 1};
+  limits.item[0] = (SbLimit){sb_figure_find("cycle.force_return_min_N"), 3, INFINITY};
+  g_assert_cmpint(sb_model_create(&model, &params, NULL, &limits, NULL), ==, SB_OK);
+  SbStudy *study = g_new(SbStudy, 1);
+  g_assert_cmpint(sb_study_make(study, SB_STUDY_PROPELLANTS, model, NULL, NULL), ==, SB_OK);
+  SbPropellantsLook look = sb_propellants_look(model);
+  g_assert_cmpfloat(look.temperature, ==, 293.15);
+  const SbColor stays = sb_theme(false)->role[SB_ROLE_ERROR_GROUND];
+  for (int small = 0; small < 2; small++) {
+    const int width = small ? 1024 : 1600, height = small ? 560 : 860;
+    cairo_surface_t *page = swap_page(study, model, &look, width, height);
+    picture_show(page, small ? "swap-small" : "swap");
+    g_assert_cmpint(pixels_of(page, stays), >, 2000);
+    cairo_surface_destroy(page);
+    SbPropellantsLayout layout;
+    sb_propellants_layout(&layout, (SbRect){0, 0, width, height}, &look);
+    for (int i = 0; i < SB_PROPELLANTS_CHARTS; i++) {
+      const SbRect r = layout.plot[i];
+      g_assert_true((r.width > 0) == (!small || i == SB_PROPELLANTS_RETURN));
+      if (r.width > 0) {
+        const double middle = sb_propellants_at(&layout, study, r.x + r.width / 2, r.y + 20);
+        g_assert_cmpfloat(fabs(middle - 288.15), <, 1e-6); // of -20 to 50
+      }
+    }
+    g_assert_true(isnan(sb_propellants_at(&layout, study, 2, height - 2)));
+  }
+  g_autofree char *text = sb_propellants_text(study, model, &look);
+
+  // No line breaks between a number and its unit.
+  g_auto(GStrv) parts = g_strsplit(text, "\u00a0", -1);
+  g_autofree char *plain = g_strjoinv(" ", parts);
+  g_assert_nonnull(strstr(plain, "HFA-134a: does not return, \u22120.10 N at 20 \u00b0C; from "
+                                 "20 \u00b0C, 3 N from 28 \u00b0C."));
+  look.temperature = 243.15;
+  look.hidden = 1 << 2;
+  g_autofree char *cold = sb_propellants_text(study, model, &look);
+  g_assert_nonnull(strstr(cold, "HFA-227ea: delivers nothing"));
+  g_assert_null(strstr(cold, "HFA-152a"));
+  // A valve that always returns has no such region.
+  for (size_t s = 0; s < study->panel[SB_PROPELLANTS_RETURN].series_count; s++) {
+    SbStudySeries *series = &study->panel[SB_PROPELLANTS_RETURN].series[s];
+    for (size_t i = 0; i < series->count; i++) {
+      series->y[i] += 20;
+    }
+  }
+  cairo_surface_t *page = swap_page(study, model, &look, 1600, 860);
+  g_assert_cmpint(pixels_of(page, stays), ==, 0);
+  cairo_surface_destroy(page);
+  g_free(study);
+  sb_model_destroy(model);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/study/pictures", test_pictures);
@@ -243,5 +332,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/study/tables", test_tables);
   g_test_add_func("/study/inside-the-card", test_inside_the_card);
   g_test_add_func("/study/layout", test_layout);
+  g_test_add_func("/study/swap", test_swap);
   return g_test_run();
 }

@@ -9,6 +9,7 @@
 
 #include <glib.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static SbModel thesis_model(double tolerance) {
@@ -411,6 +412,85 @@ static void test_hooks(void) {
   g_free(study);
 }
 
+// Propellants with solved rings: some pressures are solved, and friction in between is told with
+// its error: where nothing was solved a cycle agrees within it.
+static void test_rings(void) {
+  SbParams params;
+  SbModel model;
+  // Little friction: rings that are dragged much take seconds.
+  const SbOverride few[] = {
+      {SB_P_MODELS_FIT, SB_FIT_RING},       {SB_P_FRICTION_LOAD_COEFFICIENT, 0.02},
+      {SB_P_FRICTION_SHEAR_STRENGTH, 1e5},  {SB_P_STUDY_TEMPERATURE_MIN, 263.15},
+      {SB_P_STUDY_TEMPERATURE_MAX, 305.15}, {SB_P_OUTPUT_TOLERANCE, 1e-2}};
+  sb_params_init(&params);
+  for (size_t i = 0; i < G_N_ELEMENTS(few); i++) {
+    g_assert_cmpint(sb_params_set(&params, few[i].id, few[i].value, NULL), ==, SB_OK);
+  }
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  SbStudy *study = make(SB_STUDY_PROPELLANTS, &model);
+  g_assert_true(study->complete);
+  g_assert_nonnull(strstr(study->models, "rings solved at"));
+  int pressures = 0;
+  double told = NAN;
+  g_assert_cmpint(sscanf(study->models, "rings solved at %d", &pressures), ==, 1);
+  g_assert_cmpint(sscanf(strstr(study->models, "within"), "within %lf", &told), ==, 1);
+  g_assert_cmpfloat(told, <, 2);
+  g_assert_cmpint(pressures, >=, 5);
+  g_assert_cmpint(pressures, <=, 11);
+  const SbOverride here[] = {{SB_P_FLUID_NAME, 3}, {SB_P_CANISTER_TEMPERATURE, 293.15}};
+  SbEvaluator *evaluator;
+  const int figure[] = {sb_figure_find("cycle.force_breakaway_N"),
+                        sb_figure_find("cycle.force_return_min_N")};
+  double value[2];
+  const SbQuestion question = {
+      .base = &model, .override = here, .override_count = 2, .figure = figure, .figure_count = 2};
+  g_assert_cmpint(sb_evaluator_create(&evaluator, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_evaluator_ask(value, evaluator, &question, NULL), ==, SB_OK);
+  const double force = sb_model_pressure_force(sb_evaluator_model(evaluator));
+  const char *row = "HFA-152a, 20 \xc2\xb0"
+                    "C";
+  const double within = 0.01 * fmax(told, 0.1);
+  NEAR(cell(study, row, "break-away") - force, value[0] - force, within);
+  NEAR(force - cell(study, row, "least return"), force - value[1], within);
+  sb_evaluator_destroy(evaluator);
+  g_free(study);
+}
+
+// Places solved side by side are those solved one after the other, to the bit, and a cancel ends
+// them.
+static void test_side_by_side(void) {
+  SbModel model = thesis_model(1e-3);
+  SbStudy *study = make(SB_STUDY_PROPELLANTS, &model), *again = make(SB_STUDY_PROPELLANTS, &model);
+  g_assert_cmpmem(study, sizeof *study, again, sizeof *again);
+  const double *x = series(study, "least return force", "HFA-134a")->x;
+  g_assert_cmpfloat(fabs(x[0] - 253.15), <, 1e-9);
+  SbEvaluator *evaluator;
+  g_assert_cmpint(sb_evaluator_create(&evaluator, NULL), ==, SB_OK);
+  const int figure = sb_figure_find("cycle.force_return_min_N");
+  for (int i = 0; i < 29; i += 7) {
+    const SbOverride here[] = {{SB_P_FLUID_NAME, 1}, {SB_P_CANISTER_TEMPERATURE, x[i]}};
+    const SbQuestion question = {.base = &model,
+                                 .override = here,
+                                 .override_count = 2,
+                                 .figure = &figure,
+                                 .figure_count = 1};
+    double value;
+    g_assert_cmpint(sb_evaluator_ask(&value, evaluator, &question, NULL), ==, SB_OK);
+    g_assert_cmpfloat(series(study, "least return force", "HFA-134a")->y[i], ==, value);
+  }
+  sb_evaluator_destroy(evaluator);
+  Watch watch = {.stop_after = 20, .rises = true};
+  SbStudyHooks hooks = {on_progress, is_cancelled, &watch};
+  g_assert_cmpint(sb_study_make(again, SB_STUDY_PROPELLANTS, &model, &hooks, NULL), ==,
+                  SB_ERROR_CANCELLED);
+  g_assert_true(watch.rises);
+  watch = (Watch){.stop_after = 1 << 30, .rises = true};
+  g_assert_cmpint(sb_study_make(again, SB_STUDY_PROPELLANTS, &model, &hooks, NULL), ==, SB_OK);
+  g_assert_true(watch.rises);
+  g_free(again);
+  g_free(study);
+}
+
 // A range that falls is refused with its key.
 static void test_range(void) {
   SbParams params;
@@ -436,9 +516,11 @@ int main(int argc, char **argv) {
   g_test_add_func("/study/hooks", test_hooks);
   g_test_add_func("/study/cancelled", test_cancelled);
   g_test_add_func("/study/range", test_range);
+  g_test_add_func("/study/side-by-side", test_side_by_side);
   if (g_test_slow()) {
     g_test_add_func("/study/squeeze", test_squeeze);
     g_test_add_func("/study/leak-fine", test_leak_fine);
+    g_test_add_func("/study/rings", test_rings);
   }
   return g_test_run();
 }

@@ -6,6 +6,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -66,6 +67,8 @@ static size_t next(size_t *count, size_t capacity) {
 SbStudyPanel *sb_study_panel(SbStudy *out, const SbStudyAxis *y, const char *empty) {
   SbStudyPanel *panel = &out->panel[next(&out->panel_count, SB_STUDY_PANELS)];
   panel->y = *y;
+  panel->limit_low = -INFINITY;
+  panel->limit_high = INFINITY;
   sb_text(panel->empty, sizeof panel->empty, "%s", empty);
   return panel;
 }
@@ -281,7 +284,9 @@ double sb_study_place(const SbStudyWork *work, int index, int count) {
   return work->out->x.logarithmic ? lo * pow(hi / lo, t) : lo + (hi - lo) * index / (count - 1);
 }
 
-const double *sb_study_at(SbStudyWork *work, int line, double x) {
+// The answer of a line at x, NaN if there was none yet (*is_new).
+static double *answer_at(SbStudyWork *work, int line, double x, bool *is_new) {
+  *is_new = false;
   for (size_t i = 0; i < work->answers; i++) {
     if (work->answer[i].line == line && fabs(work->answer[i].x - x) <= 1e-9 * fabs(x)) {
       return work->answer[i].value;
@@ -293,8 +298,167 @@ const double *sb_study_at(SbStudyWork *work, int line, double x) {
   for (int i = 0; i < SB_STUDY_VALUES; i++) {
     work->answer[at].value[i] = NAN;
   }
-  work->design->solve(work->answer[at].value, work, line, x);
+  *is_new = true;
   return work->answer[at].value;
+}
+
+const double *sb_study_at(SbStudyWork *work, int line, double x) {
+  bool is_new;
+  double *value = answer_at(work, line, x, &is_new);
+  if (is_new) {
+    work->design->solve(value, work, line, x);
+  }
+  return value;
+}
+
+// ---- places side by side ----
+
+enum { LANES = 2 };
+
+typedef struct Team Team;
+
+// One thread's places: every LANES-th, so that who solves what does not depend on the time it
+// takes. It works on a study of its own, whose findings are added in order at the end.
+typedef struct {
+  Team *team;
+  int index;
+  SbStudyWork *work;
+} Lane;
+
+struct Team {
+  SbStudyWork *work;
+  const SbStudyPlace *place;
+  double **value;
+  size_t count, done;
+  double from, to;
+  pthread_mutex_t lock; // of the hooks and `done`
+  Lane lane[LANES];
+};
+
+static bool team_cancelled(void *data) {
+  Team *team = data;
+  const SbStudyHooks *hooks = &team->work->hooks;
+  if (hooks->cancelled == NULL) {
+    return false;
+  }
+  pthread_mutex_lock(&team->lock);
+  const bool yes = hooks->cancelled(hooks->data);
+  pthread_mutex_unlock(&team->lock);
+  return yes;
+}
+
+static void *solve_lane(void *data) {
+  Lane *lane = data;
+  Team *team = lane->team;
+  const SbStudyHooks *hooks = &team->work->hooks;
+  for (size_t i = (size_t)lane->index; i < team->count; i += LANES) {
+    const SbStudyPlace *place = &team->place[i];
+    if (team->value[i] == NULL) {
+      continue; // there already
+    }
+    lane->work->design->solve(team->value[i], lane->work, place->line, place->x);
+    pthread_mutex_lock(&team->lock);
+    team->done++;
+    if (hooks->progress != NULL && lane->work->status == SB_OK) {
+      hooks->progress(hooks->data, team->from + (team->to - team->from) * (double)team->done /
+                                                    (double)team->count);
+    }
+    pthread_mutex_unlock(&team->lock);
+  }
+  return NULL;
+}
+
+static Lane *lane_create(Team *team, int index) {
+  const SbStudyWork *work = team->work;
+  Lane *lane = &team->lane[index];
+  *lane = (Lane){team, index, malloc(sizeof *lane->work)};
+  SbStudy *out = calloc(1, sizeof *out);
+  SbReport *report = calloc(1, sizeof *report);
+  if (lane->work == NULL || out == NULL || report == NULL) {
+    free(lane->work);
+    free(out);
+    free(report);
+    lane->work = NULL;
+    return NULL;
+  }
+  *lane->work = *work;
+  lane->work->out = out;
+  lane->work->report = report;
+  lane->work->evaluator = NULL;
+  lane->work->solver = NULL;
+  lane->work->spent = 0;
+  lane->work->hooks = (SbStudyHooks){.cancelled = team_cancelled, .data = team};
+  out->complete = true;
+  lane->work->status = sb_evaluator_create(&lane->work->evaluator, report);
+  return lane;
+}
+
+static void lane_merge(SbStudyWork *work, Lane *lane) {
+  SbStudyWork *own = lane->work;
+  (void)sb_study_goes_on(work, own->status, own->report);
+  work->spent += own->spent;
+  for (int i = 0; i < 2; i++) {
+    work->error[i] = fmax(work->error[i], own->error[i]);
+    work->largest[i] = fmax(work->largest[i], own->largest[i]);
+  }
+  work->out->error = fmax(work->out->error, own->out->error);
+  work->out->solves += own->out->solves;
+  work->out->complete = work->out->complete && own->out->complete;
+  sb_warnings_merge(&work->out->warnings, &own->out->warnings);
+  sb_evaluator_destroy(own->evaluator);
+  free(own->report);
+  free(own->out);
+  free(own);
+}
+
+void sb_study_solve(SbStudyWork *work, const SbStudyPlace *place, size_t count, double from,
+                    double to) {
+  double *value[SB_STUDY_ANSWERS];
+  assert(count <= SB_STUDY_ANSWERS);
+  if (work->status != SB_OK) {
+    return;
+  }
+  for (size_t i = 0; i < count; i++) {
+    bool is_new;
+    value[i] = answer_at(work, place[i].line, place[i].x, &is_new);
+    value[i] = is_new ? value[i] : NULL;
+  }
+  Team team = {.work = work,
+               .place = place,
+               .value = value,
+               .count = count,
+               .from = from,
+               .to = to,
+               .lock = PTHREAD_MUTEX_INITIALIZER};
+  Lane *lane[LANES];
+  pthread_t thread[LANES];
+  bool runs[LANES] = {false};
+  for (int i = 0; i < LANES; i++) {
+    lane[i] = lane_create(&team, i);
+  }
+  for (int i = 0; i < LANES; i++) {
+    if (lane[i] == NULL) {
+      work->status = sb_fail(work->report, SB_ERROR_MEMORY, "no memory for a study");
+    }
+  }
+  for (int i = 1; i < LANES && work->status == SB_OK; i++) {
+    runs[i] = pthread_create(&thread[i], NULL, solve_lane, lane[i]) == 0;
+  }
+  for (int i = 0; i < LANES && work->status == SB_OK; i++) {
+    if (!runs[i]) {
+      (void)solve_lane(lane[i]);
+    }
+  }
+  for (int i = 0; i < LANES; i++) {
+    if (runs[i]) {
+      pthread_join(thread[i], NULL);
+    }
+    if (lane[i] != NULL) {
+      lane_merge(work, lane[i]);
+    }
+  }
+  pthread_mutex_destroy(&team.lock);
+  step(work, to);
 }
 
 void sb_study_cells(double *value, SbStudyWork *work, double x, int shift) {

@@ -68,7 +68,8 @@ typedef struct {
 
 typedef struct {
   SbStudyAxis y;
-  char empty[64]; // what it means if no curve has a value
+  char empty[64];               // what it means if no curve has a value
+  double limit_low, limit_high; // of the scene on this figure [SI]; infinite: none
   size_t series_count;
   SbStudySeries series[SB_STUDY_SERIES];
 } SbStudyPanel;

@@ -100,6 +100,17 @@ double sb_study_net_load(SbStudyWork *work);
 // Values of a line at x by the design's solve(), which is called once for each place.
 const double *sb_study_at(SbStudyWork *work, int line, double x);
 
+// Places of lines solved side by side, for sb_study_at() to find; what comes out does not depend on
+// how many threads there are. Tells the progress from `from` to `to`. For a solve() that asks
+// questions alone, without the study's film solver.
+typedef struct {
+  int line;
+  double x;
+} SbStudyPlace;
+
+void sb_study_solve(SbStudyWork *work, const SbStudyPlace *place, size_t count, double from,
+                    double to);
+
 // Place `index` of `count` from lo to hi, even on the abscissa.
 double sb_study_place(const SbStudyWork *work, int index, int count);
 

@@ -7,17 +7,28 @@
 // Every point is a whole quasi-static cycle, the propellant saturated, whatever liquid the scene
 // has. Parts are taken one at a time with all else as at 20 degC; what is left of their sum is how
 // they act on each other. Leaves out: swell by another propellant, and what evaporation cools.
+//
+// Solved rings, of which a cycle takes seconds, are solved at some pressures alone (study.rings).
+// At each, what is not the pressure's force in break-away and return, the friction, is compared
+// with that of closed forms. A ring's load over E d^2 depends on its squeeze, its friction
+// coefficients and p/E: the ratio is interpolated over p/E (monotone cubic, Steffen 1990), and the
+// closed forms carry what temperature and propellant do besides. The error told is the
+// largest that leaving out one pressure in between makes; more are solved, two by two, until it is
+// below 1 % or eleven are. Beyond the ends the ratio stays, with a warning.
 #include "engine/fluid/fluid.h"
 #include "engine/valve/studies/study_private.h"
 
+#include <gsl/gsl_interp.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { FORCE, BREAKAWAY, RETURN, DOSE, FIGURES };
+enum { FORCE, BREAKAWAY, RETURN, DOSE, FIGURES, STRAIN = FIGURES }; // and p/E
 // A line is a fluid, and what of it is at the temperature: all, or one of the parts.
-enum { ALL, PRESSURE, FILM, RUBBER, EXPANSION, PARTS };
-enum { POINTS = 13, FLUIDS = 4, TABLE = 5 };
+enum { ALL, PRESSURE, FILM, RUBBER, EXPANSION, PARTS, SOLVED = PARTS };
+// A full cycle at 15 temperatures, every 5 degC of the default range; where it costs little 29.
+enum { POINTS = 29, CYCLES = 15, FLUIDS = 4, TABLE = 5, FIRST = 5, MORE = 2, MOST = 11 };
 
 // Propellants come first behind the fluid without figures.
 static int line_of(int fluid, int part) {
@@ -34,15 +45,22 @@ static double of_fluid(const SbModel *scene, SbParamId id, int fluid, double T) 
   return derived.value;
 }
 
+// Whether cycles with solved rings are compared with closed forms.
+static bool interpolates(const SbStudyWork *work) {
+  return work->scene->fit == SB_FIT_RING;
+}
+
 static void solve(double *value, SbStudyWork *work, int line, double x) {
   static const char *const paths[] = {"cycle.force_breakaway_N", "cycle.force_return_min_N",
                                       "cycle.dose_mass_kg"};
   enum { SIZES = 7 };
   const SbModel *base = &work->base;
-  const int fluid = line % (FLUIDS + 1), part = line / (FLUIDS + 1);
+  const int fluid = line % (FLUIDS + 1);
+  const bool solved = line / (FLUIDS + 1) == SOLVED;
+  const int part = solved ? ALL : line / (FLUIDS + 1);
   const double T0 = SB_SIZES_TEMPERATURE, of_pressure = part == ALL || part == PRESSURE ? x : T0;
   const double of_film = part == ALL || part == FILM ? x : T0;
-  SbOverride override[SIZES + 6] = {
+  SbOverride override[SIZES + 10] = {
       {SB_P_FLUID_NAME, fluid},
       {SB_P_CANISTER_TEMPERATURE, part == ALL ? x : T0},
       {SB_P_CANISTER_PRESSURE, of_fluid(base, SB_P_CANISTER_PRESSURE, fluid, of_pressure)},
@@ -76,15 +94,208 @@ static void solve(double *value, SbStudyWork *work, int line, double x) {
     count += sizeof sizes / sizeof sizes[0];
   }
   sb_model_destroy(then);
+  if (interpolates(work) && !solved) {
+    const SbOverride closed[] = {{SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ},
+                                 {SB_P_MODELS_FILM, SB_FILM_THESIS},
+                                 {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE},
+                                 {SB_P_MODELS_ADHESION, SB_MODEL_ADHESION_OFF},
+                                 {SB_P_MODELS_INLET, 0},
+                                 {SB_P_MODELS_FILM_TIME, 0},
+                                 {SB_P_MODELS_VISCOSITY, 0}};
+    memcpy(override + count, closed, sizeof closed);
+    count += sizeof closed / sizeof closed[0];
+  }
   sb_study_ask(work, value + BREAKAWAY, paths, 3, override, count);
   const SbModel *model = sb_evaluator_model(work->evaluator);
   value[FORCE] = model != NULL ? model->pressure_force : NAN;
+  value[STRAIN] = model != NULL ? model->canister_pressure / model->seal[SB_OUTER].modulus : NAN;
+}
+
+// Ratios of friction over p/E: of the break-away, of the least return.
+enum { WAYS = 2 };
+typedef struct {
+  size_t count;
+  double least, largest; // pressure's force [N]
+  double strain[CYCLES], ratio[WAYS][CYCLES];
+} Ratios;
+
+static double friction(const double *value, int way) {
+  return way == 0 ? value[BREAKAWAY] - value[FORCE] : value[FORCE] - value[RETURN];
+}
+
+// Adds what was solved of a fluid at T, in the order of p/E; left out: what was not solved, and one
+// at the same place.
+static void add(Ratios *out, SbStudyWork *work, int fluid, double T) {
+  const double *solved = sb_study_at(work, line_of(fluid, SOLVED), T);
+  const double *closed = sb_study_at(work, line_of(fluid, ALL), T);
+  const double strain = solved[STRAIN];
+  double ratio[WAYS];
+  for (int way = 0; way < WAYS; way++) {
+    const double by_closed = friction(closed, way);
+    ratio[way] = by_closed > 0 ? friction(solved, way) / by_closed : 1;
+    if (!isfinite(ratio[way])) {
+      return;
+    }
+  }
+  size_t at = out->count;
+  while (at > 0 && out->strain[at - 1] > strain) {
+    at--;
+  }
+  const double last = at > 0 ? out->strain[at - 1] : -INFINITY;
+  if (out->count == CYCLES || strain - last < 1e-6 * fabs(strain)) {
+    return;
+  }
+  out->least = out->count == 0 ? solved[FORCE] : fmin(out->least, solved[FORCE]);
+  out->largest = out->count == 0 ? solved[FORCE] : fmax(out->largest, solved[FORCE]);
+  const size_t behind = out->count++ - at;
+  memmove(out->strain + at + 1, out->strain + at, behind * sizeof(double));
+  out->strain[at] = strain;
+  for (int way = 0; way < WAYS; way++) {
+    memmove(out->ratio[way] + at + 1, out->ratio[way] + at, behind * sizeof(double));
+    out->ratio[way][at] = ratio[way];
+  }
+}
+
+static double ratio_at(const Ratios *ratios, int way, double strain) {
+  const size_t count = ratios->count;
+  if (count == 0) {
+    return NAN;
+  }
+  const double *x = ratios->strain, *y = ratios->ratio[way];
+  strain = fmin(fmax(strain, x[0]), x[count - 1]);
+  if (count < 3) { // a straight line, or one value
+    return count == 1 ? y[0] : y[0] + (y[1] - y[0]) * (strain - x[0]) / (x[1] - x[0]);
+  }
+  gsl_interp *interp = gsl_interp_alloc(gsl_interp_steffen, count);
+  double out = NAN;
+  if (interp != NULL && gsl_interp_init(interp, x, y, count) == 0) {
+    (void)gsl_interp_eval_e(interp, x, y, strain, NULL, &out);
+  }
+  gsl_interp_free(interp);
+  return out;
+}
+
+// What closed forms say, with the solved rings' friction.
+static void correct(double *value, const Ratios *ratios) {
+  value[BREAKAWAY] = value[FORCE] + friction(value, 0) * ratio_at(ratios, 0, value[STRAIN]);
+  value[RETURN] = value[FORCE] - friction(value, 1) * ratio_at(ratios, 1, value[STRAIN]);
+}
+
+// Relative error that the interpolation has at the pressures in between if each is left out.
+static double left_out(const Ratios *ratios) {
+  double worst = NAN;
+  for (size_t i = 1; i + 1 < ratios->count; i++) {
+    Ratios rest = *ratios;
+    const size_t behind = --rest.count - i;
+    memmove(rest.strain + i, rest.strain + i + 1, behind * sizeof(double));
+    for (int way = 0; way < WAYS; way++) {
+      memmove(rest.ratio[way] + i, rest.ratio[way] + i + 1, behind * sizeof(double));
+      const double error = ratio_at(&rest, way, ratios->strain[i]) / ratios->ratio[way][i] - 1;
+      worst = fmax(worst, fabs(error));
+    }
+  }
+  return worst;
+}
+
+// Solves rings at as many pressures as it takes; the error that interpolation leaves.
+static double solve_rings(Ratios *out, SbStudyWork *work) {
+  // By the fluid and the share of the range, from the least pressure to the largest; then, two by
+  // two, in the gaps.
+  static const struct {
+    int fluid;
+    double share;
+  } place[MOST] = {{2, 0},    {4, 0.25}, {3, 0.5},  {3, 0.75}, {1, 1},   {2, 0.68},
+                   {3, 0.94}, {1, 0.42}, {4, 0.14}, {4, 0.8},  {1, 0.86}};
+  double error = NAN;
+  for (int from = 0, until = FIRST; until <= MOST; from = until, until += MORE) {
+    SbStudyPlace of[FIRST];
+    for (int i = from; i < until; i++) {
+      of[i - from] = (SbStudyPlace){line_of(place[i].fluid, SOLVED),
+                                    work->lo + (work->hi - work->lo) * place[i].share};
+    }
+    const size_t count = (size_t)(until - from);
+    sb_study_solve(work, of, count, 0.9 * from / MOST, 0.9 * until / MOST);
+    for (size_t i = 0; i < count; i++) {
+      add(out, work, of[i].line % (FLUIDS + 1), of[i].x);
+    }
+    error = left_out(out);
+    if (work->status != SB_OK || error < 0.01) {
+      break;
+    }
+  }
+  return error;
+}
+
+// Gives all that closed forms answered the friction of solved rings.
+static void correct_all(SbStudyWork *work, const Ratios ratios[FLUIDS + 1]) {
+  for (size_t i = 0; i < work->answers; i++) {
+    const int fluid = work->answer[i].line % (FLUIDS + 1);
+    const Ratios *of = &ratios[fluid];
+    if (work->answer[i].line / (FLUIDS + 1) != SOLVED) {
+      const double strain = work->answer[i].value[STRAIN];
+      if (of->count > 0 &&
+          (strain < of->strain[0] - 1e-9 || strain > of->strain[of->count - 1] + 1e-9)) {
+        sb_warn(&work->out->warnings, "friction-held", "study.rings",
+                "some pressures are beyond those at which rings were solved: the friction there is "
+                "that of closed forms times the ratio at the nearest one");
+      }
+      correct(work->answer[i].value, of);
+    }
+  }
+}
+
+// Every answer that the charts and the table need, in as few full cycles as do.
+static void ask_all(SbStudyWork *work, int points, const double table[TABLE]) {
+  const bool rings = interpolates(work), every = work->scene->study.rings_solved;
+  SbStudyPlace place[FLUIDS * (POINTS + TABLE * PARTS)] = {{0, 0}};
+  Ratios ratios[FLUIDS + 1] = {0};
+  size_t count = 0;
+  for (int fluid = 1; rings && every && fluid <= FLUIDS; fluid++) {
+    for (int i = 0; i < CYCLES; i++) {
+      place[count++] = (SbStudyPlace){line_of(fluid, SOLVED), sb_study_place(work, i, CYCLES)};
+    }
+  }
+  if (count > 0) {
+    sb_study_solve(work, place, count, 0, 0.9);
+  }
+  for (size_t i = 0; i < count; i++) {
+    const int fluid = place[i].line % (FLUIDS + 1);
+    add(&ratios[fluid], work, fluid, place[i].x);
+  }
+  SbStudy *out = work->out;
+  if (rings && !every) {
+    const double error = solve_rings(&ratios[0], work);
+    const Ratios *of = &ratios[0];
+    for (int fluid = 1; fluid <= FLUIDS; fluid++) {
+      ratios[fluid] = *of;
+    }
+    const double across = work->scene->stem_diameter, area = M_PI / 4 * across * across;
+    if (of->count > 0) {
+      sb_text(out->models, sizeof out->models,
+              "rings solved at %zu pressures, %.2f to %.2f MPa, interpolated within %.2g %%",
+              of->count, 1e-6 * of->least / area, 1e-6 * of->largest / area, 100 * error);
+    }
+    out->error = fmax(out->error, error);
+  }
+  count = 0;
+  for (int fluid = 1; fluid <= FLUIDS; fluid++) {
+    for (int i = 0; i < points; i++) {
+      place[count++] = (SbStudyPlace){line_of(fluid, ALL), sb_study_place(work, i, points)};
+    }
+    for (int i = 0; i < TABLE * PARTS; i++) {
+      place[count++] = (SbStudyPlace){line_of(fluid, i % PARTS), table[i / PARTS]};
+    }
+  }
+  sb_study_solve(work, place, count, rings ? 0.9 : 0, 1);
+  if (rings) {
+    correct_all(work, ratios);
+  }
 }
 
 // Where a propellant's least return force rises through zero; NaN: nowhere in the range.
-static double begins(SbStudyWork *work, int fluid) {
-  for (int i = 1; i < POINTS; i++) {
-    const double x0 = sb_study_place(work, i - 1, POINTS), x1 = sb_study_place(work, i, POINTS);
+static double begins(SbStudyWork *work, int fluid, int points) {
+  for (int i = 1; i < points; i++) {
+    const double x0 = sb_study_place(work, i - 1, points), x1 = sb_study_place(work, i, points);
     const double y0 = sb_study_at(work, line_of(fluid, ALL), x0)[RETURN];
     const double y1 = sb_study_at(work, line_of(fluid, ALL), x1)[RETURN];
     if (y0 <= 0 && y1 > 0) {
@@ -95,7 +306,7 @@ static double begins(SbStudyWork *work, int fluid) {
 }
 
 static void make(SbStudyWork *work) {
-  static const double celsius[TABLE] = {-10, 0, 20, 40, 50};
+  static const double table[TABLE] = {263.15, 273.15, 293.15, 313.15, 323.15};
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
   if (model->motion == SB_MODEL_MOTION_RIG) {
@@ -103,11 +314,25 @@ static void make(SbStudyWork *work) {
                                      "the rig has no valve and no propellant");
     return;
   }
+  const bool cheap = model->fit <= SB_FIT_KARASZKIEWICZ || interpolates(work);
+  const int points = cheap && !model->study.rings_solved ? POINTS : CYCLES;
+  static const char *const limited[FIGURES] = {NULL, "cycle.force_breakaway_N",
+                                               "cycle.force_return_min_N", "cycle.dose_mass_kg"};
+  for (size_t i = 0; i < model->limits.count; i++) {
+    const SbLimit *limit = &model->limits.item[i];
+    for (int p = BREAKAWAY; p < FIGURES; p++) {
+      if (sb_figure_find(limited[p]) == limit->figure) {
+        out->panel[p].limit_low = limit->low;
+        out->panel[p].limit_high = limit->high;
+      }
+    }
+  }
+  ask_all(work, points, table);
   char starts[160] = "";
   for (int fluid = 1; fluid <= FLUIDS; fluid++) {
     const char *label = sb_fluids[fluid].label;
-    sb_study_curves(work, SB_STUDY_CURVE, label, line_of(fluid, ALL), NULL, POINTS);
-    const double from = begins(work, fluid);
+    sb_study_curves(work, SB_STUDY_CURVE, label, line_of(fluid, ALL), NULL, points);
+    const double from = begins(work, fluid, points);
     const size_t used = strlen(starts);
     if (isfinite(from)) {
       snprintf(starts + used, sizeof starts - used, "%s%s %.1f", used > 0 ? ", " : "", label,
@@ -118,13 +343,13 @@ static void make(SbStudyWork *work) {
                well ? "in all of the range" : "nowhere in the range");
     }
     for (int i = 0; i < TABLE; i++) {
-      const double x = celsius[i] + 273.15;
+      const double x = table[i];
       const double *all = sb_study_at(work, line_of(fluid, ALL), x);
       const double still = sb_study_at(work, line_of(fluid, ALL), SB_SIZES_TEMPERATURE)[RETURN];
       SbStudyRow *row = sb_study_row(out,
                                      "%s, %.0f \xc2\xb0"
                                      "C",
-                                     label, celsius[i]);
+                                     label, x - 273.15);
       memcpy(row->value, all, FIGURES * sizeof *all);
       row->value[FIGURES] = all[RETURN] - still;
       for (int part = PRESSURE; part < PARTS; part++) {
@@ -139,11 +364,13 @@ static void make(SbStudyWork *work) {
   sb_study_note(out, "\"by\": change of the least return force from 20 \xc2\xb0"
                      "C, all else as there.");
   sb_study_mark(work, model->temperature, "this scene");
-  sb_text(out->models, sizeof out->models, "fit %s, film %s, quasi-static cycle of the machine",
-          sb_fit_model_name(model->fit), sb_film_model_name(model->film));
+  if (out->models[0] == '\0') {
+    sb_text(out->models, sizeof out->models, "fit %s, film %s, a cycle at each temperature",
+            sb_fit_model_name(model->fit), sb_film_model_name(model->film));
+  }
 }
 
-enum { CYCLES = FLUIDS * (POINTS + TABLE * PARTS) };
+enum { ANSWERS = FLUIDS * (POINTS + TABLE * PARTS) };
 
 const SbStudyDesign sb_study_propellants = {
     .x = "canister temperature [\xc2\xb0"
@@ -156,7 +383,7 @@ const SbStudyDesign sb_study_propellants = {
     .validity = "saturated propellant; the range of its figures, -40 to 80 \xc2\xb0"
                 "C, and above the "
                 "rubber's glass transition",
-    .solves = {.fits = 2 * CYCLES, .films = 10 * CYCLES, .cycles = CYCLES},
+    .solves = {.fits = 2 * ANSWERS, .films = 10 * ANSWERS, .cycles = ANSWERS},
     .solve = solve,
     .make = make,
 };
