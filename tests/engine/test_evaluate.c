@@ -284,7 +284,7 @@ static void test_cancel(void) {
   sb_evaluator_destroy(evaluator);
 }
 
-enum { THREADS = 2, QUESTIONS = 24 };
+enum { THREADS = 2, QUESTIONS = 6 }; // every pair of models once
 
 typedef struct {
   const SbModel *base;
@@ -299,7 +299,7 @@ static gpointer work(gpointer data) {
                         sb_figure_find("seals.inner.film_central_m")};
   for (int i = 0; i < QUESTIONS; i++) {
     int n = (i + worker->offset) % QUESTIONS;
-    const SbOverride change[] = {{SB_P_GLAND_RADIAL_SPACE, 1.3e-3 + 4e-6 * n},
+    const SbOverride change[] = {{SB_P_GLAND_RADIAL_SPACE, 1.3e-3 + 16e-6 * n},
                                  {SB_P_MODELS_FIT, n % 3 == 0 ? SB_FIT_DISC : 0},
                                  {SB_P_MODELS_FILM, n % 2 == 0 ? SB_FILM_REYNOLDS : 0}};
     ask(worker->value[n], evaluator, worker->base, change, 3, figure, 2, SB_OK);
@@ -314,7 +314,7 @@ static void test_threads(void) {
   Worker worker[THREADS];
   GThread *thread[THREADS];
   for (int i = 0; i < THREADS; i++) {
-    worker[i] = (Worker){.base = &base, .offset = i * 7};
+    worker[i] = (Worker){.base = &base, .offset = i * 3};
     thread[i] = g_thread_new("evaluate", work, &worker[i]);
   }
   for (int i = 0; i < THREADS; i++) {
