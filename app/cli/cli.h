@@ -170,6 +170,11 @@ int sb_command_fluid(int argc, char **argv);
 int sb_command_plan(int argc, char **argv);
 int sb_command_render(int argc, char **argv);
 int sb_command_bench(int argc, char **argv);
+// Who computes the samples of a study (app/study/answers.h); borrowed. NULL, as at the start:
+// threads of this process.
+typedef struct SbAnswerPool SbAnswerPool;
+void sb_cli_set_pool(const SbAnswerPool *pool);
+
 int sb_command_study(int argc, char **argv);
 int sb_command_merge(int argc, char **argv);
 int sb_command_open(int argc, char **argv);

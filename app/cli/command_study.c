@@ -11,11 +11,17 @@
 #include <string.h>
 
 typedef struct {
-  char *store, *jobs, *shard, *csv, *json;
+  char *store, *jobs, *shard, *csv, *json, *slurm;
   char **settings;
   int threads;
   size_t shard_index, shard_count; // from 0; count 0: no shards
 } Options;
+
+static const SbAnswerPool *answer_pool;
+
+void sb_cli_set_pool(const SbAnswerPool *pool) {
+  answer_pool = pool;
+}
 
 // A whole number and nothing else.
 static bool read_whole(int *out, const char *text, int most) {
@@ -225,11 +231,16 @@ static int solve(const Options *options, const SbStudyFile *study, SbStore *stor
       .shard = options->shard_index,
       .shards = options->shard_count,
       .jobs = options->threads,
+      .pool = answer_pool,
       .store = store,
       .progress = on_progress,
       .cancelled = sb_cli_interrupted,
       .data = &progress,
   };
+  if (answer_pool != NULL && answer_pool->serve != NULL) {
+    answer_pool->serve(&asked);
+    return SB_EXIT_DONE;
+  }
   SbAnswers answers;
   GError *error = NULL;
   sb_progress_start(&progress, "study ");
@@ -243,8 +254,8 @@ static int solve(const Options *options, const SbStudyFile *study, SbStore *stor
     code = code == SB_EXIT_INTERRUPTED ? code : told;
   }
   if (answers.computed > 0) {
-    sb_cli_note("%zu samples in %.3g s on %d threads, %.3g a second", answers.computed,
-                answers.seconds, options->threads, (double)answers.computed / answers.seconds);
+    sb_cli_note("%zu samples in %.3g s, %.3g a second", answers.computed, answers.seconds,
+                (double)answers.computed / answers.seconds);
   }
   if (good || code == SB_EXIT_INTERRUPTED) {
     g_autofree char *cpus = sb_store_cpus(store);
@@ -256,10 +267,54 @@ static int solve(const Options *options, const SbStudyFile *study, SbStore *stor
   return code;
 }
 
+// A store of one shard beside the whole one: NAME-I-of-N.store.
+static char *shard_path(const char *store, const char *index, size_t count) {
+  const bool ending = g_str_has_suffix(store, ".store");
+  return g_strdup_printf("%.*s-%s-of-%zu.store", (int)strlen(store) - (ending ? 6 : 0), store,
+                         index, count);
+}
+
+// The job script of an array of shards, each with a store of its own, on one thread each.
+static int emit_slurm(const Options *options, const SbStudyFile *study) {
+  g_autofree char *store = store_path(options, study);
+  if (study->path == NULL || store == NULL || options->shard_count == 0) {
+    return sb_cli_fail("--emit-slurm: takes a study's file, and --shard 1/N for how many jobs");
+  }
+  GError *error = NULL;
+  g_autofree char *program = g_file_read_link("/proc/self/exe", NULL);
+  g_autofree char *file = g_canonicalize_filename(study->path, NULL);
+  g_autofree char *whole = g_canonicalize_filename(store, NULL);
+  g_autofree char *part = shard_path(whole, "$SLURM_ARRAY_TASK_ID", options->shard_count);
+  g_autofree char *quoted[] = {g_shell_quote(program != NULL ? program : "sealbench"),
+                               g_shell_quote(file), g_shell_quote(whole), NULL};
+  if (strpbrk(whole, "\"$`\\") != NULL) {
+    return sb_cli_fail("-o: %s has characters that a shell takes for its own", whole);
+  }
+  GString *settings = g_string_new(NULL);
+  for (char **setting = options->settings; setting != NULL && *setting != NULL; setting++) {
+    g_autofree char *text = g_shell_quote(*setting);
+    g_string_append_printf(settings, " --set %s", text);
+  }
+  g_autofree char *text = g_strdup_printf(
+      "#!/bin/sh\n"
+      "#SBATCH --job-name=sealbench\n"
+      "#SBATCH --array=1-%zu\n"
+      "#SBATCH --cpus-per-task=1\n"
+      "# A job that fails is sent again alone: sbatch --array=I. When all are done:\n"
+      "#   sealbench merge %s %s\n"
+      "exec %s study %s%s -q --jobs 1 --shard \"$SLURM_ARRAY_TASK_ID/%zu\" -o \"%s\"\n",
+      options->shard_count, quoted[2], "the stores of the jobs", quoted[0], quoted[1],
+      settings->str, options->shard_count, part);
+  g_string_free(settings, TRUE);
+  return sb_output_write(options->slurm, text, strlen(text), &error) ? SB_EXIT_DONE
+                                                                     : sb_cli_error(error);
+}
+
 static int study_file(const Options *options, const SbStudyFile *study) {
   GError *error = NULL;
-  g_autofree char *path = store_path(options, study);
-  int code = check_targets(options, path);
+  const bool serves = answer_pool != NULL && answer_pool->serve != NULL;
+  g_autofree char *path = serves ? NULL : store_path(options, study);
+  int code = serves ? SB_EXIT_DONE : check_targets(options, path);
   if (code != SB_EXIT_DONE || !sb_cli_has_memory(study->base)) {
     return MAX(code, code == SB_EXIT_DONE ? SB_EXIT_IO : code);
   }
@@ -294,6 +349,8 @@ int sb_command_study(int argc, char **argv) {
       {"jobs", 0, 0, G_OPTION_ARG_FILENAME, &options.jobs, "Threads; default one a processor", "N"},
       {"shard", 0, 0, G_OPTION_ARG_FILENAME, &options.shard,
        "Computes the part I of N alone, from 1; `sealbench merge` joins the stores", "I/N"},
+      {"emit-slurm", 0, 0, G_OPTION_ARG_FILENAME, &options.slurm,
+       "Computes nothing: writes a job script for an array of the N shards", "FILE"},
       {"csv", 0, 0, G_OPTION_ARG_FILENAME, &options.csv, "A row a sample, to a file or -", "FILE"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
@@ -305,13 +362,16 @@ int sb_command_study(int argc, char **argv) {
     g_autoptr(GPtrArray) issues = sb_issues_new();
     g_autoptr(SbStudyFile) study = sb_study_file_load(argv[1], options.settings, issues);
     sb_cli_issues(issues);
-    code = study != NULL ? study_file(&options, study) : SB_EXIT_INPUT;
+    code = study == NULL           ? SB_EXIT_INPUT
+           : options.slurm != NULL ? emit_slurm(&options, study)
+                                   : study_file(&options, study);
   }
   g_free(options.store);
   g_free(options.jobs);
   g_free(options.shard);
   g_free(options.csv);
   g_free(options.json);
+  g_free(options.slurm);
   g_strfreev(options.settings);
   return code;
 }

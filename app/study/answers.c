@@ -12,25 +12,15 @@
 
 enum { JOBS_MAX = 256 };
 
-typedef struct {
+struct SbAnswerSink {
   const SbQuestions *asked;
   SbAnswers *out;
-  uint32_t *todo; // samples to compute
-  size_t count;
-  atomic_bool stop;
-  atomic_size_t next; // of them
-  pthread_mutex_t lock;
-  pthread_cond_t ready;
-  // Under the lock:
-  uint32_t *done; // [count] samples answered, in the order in which they were
-  char **reason;  // [count] of each, or NULL
-  size_t finished;
-  int running;
-} Pool;
-
-static bool is_stopped(void *data) {
-  return atomic_load(&((Pool *)data)->stop);
-}
+  GChecksum *common; // what the keys of all samples begin with
+  size_t todo, taken;
+  double committed; // when
+  bool failed;      // the store
+  GError **error;
+};
 
 static double now(void) {
   struct timespec time;
@@ -38,63 +28,31 @@ static double now(void) {
   return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-// Why a sample failed; NULL for one that did not.
-static char *reason_of(SbStatus status, const SbReport *report) {
-  if (status == SB_OK) {
-    return NULL;
-  }
-  return report->parameter[0] != '\0' && strstr(report->text, report->parameter) == NULL
-             ? g_strdup_printf("%s: %s", report->parameter, report->text)
-             : g_strdup(report->text[0] != '\0' ? report->text : sb_status_text(status));
-}
+// ---- One answer ----
 
-static void answer_one(Pool *pool, SbEvaluator *evaluator, uint32_t sample) {
-  const SbQuestions *asked = pool->asked;
+SbStatus sb_answer(double *value, char **reason, SbEvaluator *evaluator, const SbQuestions *asked,
+                   size_t sample, bool (*cancelled)(void *data), void *data) {
   SbOverride override[SB_QUESTION_PARAMETERS];
-  SbQuestion question = {.base = asked->base,
-                         .override = override,
-                         .override_count = asked->parameters,
-                         .figure = asked->figure,
-                         .figure_count = asked->figures,
-                         .cancelled = is_stopped,
-                         .data = pool};
+  const SbQuestion question = {.base = asked->base,
+                               .override = override,
+                               .override_count = asked->parameters,
+                               .figure = asked->figure,
+                               .figure_count = asked->figures,
+                               .cancelled = cancelled,
+                               .data = data};
   for (size_t k = 0; k < asked->parameters; k++) {
     override[k] = (SbOverride){asked->parameter[k], asked->value[sample * asked->parameters + k]};
   }
   SbReport report = {0};
-  double *value = pool->out->value + sample * asked->figures;
   const SbStatus status = sb_evaluator_ask(value, evaluator, &question, &report);
-  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
-    atomic_store(&pool->stop, status == SB_ERROR_MEMORY || is_stopped(pool));
-    for (size_t i = 0; i < asked->figures; i++) {
-      value[i] = NAN;
-    }
-    return;
+  *reason = NULL;
+  if (status != SB_OK) {
+    const bool unnamed =
+        report.parameter[0] != '\0' && strstr(report.text, report.parameter) == NULL;
+    *reason = unnamed ? g_strdup_printf("%s: %s", report.parameter, report.text)
+                      : g_strdup(report.text[0] != '\0' ? report.text : sb_status_text(status));
   }
-  char *reason = reason_of(status, &report);
-  pthread_mutex_lock(&pool->lock);
-  pool->out->status[sample] = (uint8_t)status;
-  pool->reason[pool->finished] = reason;
-  pool->done[pool->finished++] = sample;
-  pthread_cond_signal(&pool->ready);
-  pthread_mutex_unlock(&pool->lock);
-}
-
-static void *work(void *data) {
-  Pool *pool = data;
-  SbEvaluator *evaluator = NULL;
-  if (sb_evaluator_create(&evaluator, NULL) == SB_OK) {
-    size_t at;
-    while (!is_stopped(pool) && (at = atomic_fetch_add(&pool->next, 1)) < pool->count) {
-      answer_one(pool, evaluator, pool->todo[at]);
-    }
-  }
-  sb_evaluator_destroy(evaluator);
-  pthread_mutex_lock(&pool->lock);
-  pool->running--;
-  pthread_cond_signal(&pool->ready);
-  pthread_mutex_unlock(&pool->lock);
-  return NULL;
+  return status;
 }
 
 // SHA-256 of what an answer depends on: the program, the base, the parameters' names and values,
@@ -123,59 +81,108 @@ static void sample_key(guint8 key[SB_STORE_KEY], const GChecksum *common, const 
   g_checksum_free(sum);
 }
 
-static bool is_ours(const SbQuestions *asked, size_t sample) {
-  return asked->shards == 0 || sample % asked->shards == asked->shard;
+// ---- Where answers go ----
+
+double *sb_answer_place(SbAnswerSink *sink, size_t sample) {
+  return sink->out->value + sample * sink->asked->figures;
 }
 
-// Takes what the store has and lists the rest.
-static void look_up(Pool *pool, const GChecksum *common) {
-  const SbQuestions *asked = pool->asked;
-  for (size_t i = 0; i < asked->samples; i++) {
-    guint8 key[SB_STORE_KEY];
-    SbStoredAnswer answer = {.value = pool->out->value + i * asked->figures};
-    sample_key(key, common, asked, i);
-    if (sb_store_get(asked->store, key, &answer)) {
-      pool->out->status[i] = (uint8_t)answer.status;
-      if (answer.reason != NULL) {
-        g_hash_table_insert(pool->out->reason, GSIZE_TO_POINTER(i), answer.reason);
-      }
-    } else if (is_ours(asked, i)) {
-      pool->todo[pool->count++] = (uint32_t)i;
-    }
+void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStatus status, char *reason) {
+  const SbQuestions *asked = sink->asked;
+  guint8 key[SB_STORE_KEY];
+  const SbStoredAnswer answer = {status, reason, sb_answer_place(sink, sample)};
+  sample_key(key, sink->common, asked, sample);
+  sink->out->status[sample] = (uint8_t)status;
+  sink->taken++;
+  if (reason != NULL) {
+    g_hash_table_insert(sink->out->reason, GSIZE_TO_POINTER(sample), reason);
+  }
+  if (!sink->failed) {
+    const double *parameter = asked->value + sample * asked->parameters;
+    sink->failed = !sb_store_put(asked->store, key, parameter, &answer, sink->error);
   }
 }
 
-// Puts what has been answered since `from` into the store; false on its failure.
-static bool put(Pool *pool, size_t from, size_t to, const GChecksum *common, GError **error) {
-  const SbQuestions *asked = pool->asked;
-  for (size_t i = from; i < to; i++) {
-    const size_t sample = pool->done[i];
-    guint8 key[SB_STORE_KEY];
-    const SbStoredAnswer answer = {.status = (SbStatus)pool->out->status[sample],
-                                   .reason = pool->reason[i],
-                                   .value = pool->out->value + sample * asked->figures};
-    sample_key(key, common, asked, sample);
-    if (pool->reason[i] != NULL) {
-      g_hash_table_insert(pool->out->reason, GSIZE_TO_POINTER(sample), pool->reason[i]);
-      pool->reason[i] = NULL; // the table's
-    }
-    if (!sb_store_put(asked->store, key, asked->value + sample * asked->parameters, &answer,
-                      error)) {
-      return false;
-    }
+bool sb_answer_goes_on(SbAnswerSink *sink) {
+  const SbQuestions *asked = sink->asked;
+  if (!sink->failed && now() > sink->committed + 1) {
+    sink->failed = !sb_store_commit(asked->store, sink->error);
+    sink->committed = now();
   }
-  return true;
+  if (asked->progress != NULL) {
+    asked->progress(asked->data, asked->samples - sink->todo + sink->taken, asked->samples);
+  }
+  return !sink->failed && (asked->cancelled == NULL || !asked->cancelled(asked->data));
 }
 
-// Waits for answers, stores them, tells the progress, looks for a cancel. With the lock held.
-static bool collect(Pool *pool, const GChecksum *common, GError **error) {
-  const SbQuestions *asked = pool->asked;
-  const size_t before = asked->samples - pool->count;
-  size_t stored = 0;
-  double committed = now();
-  bool good = true;
-  while (pool->running > 0 || stored < pool->finished) {
-    if (stored == pool->finished) {
+// ---- Threads ----
+
+typedef struct {
+  const SbQuestions *asked;
+  SbAnswerSink *sink;
+  const uint32_t *todo; // samples to compute
+  size_t count;
+  atomic_bool stop;
+  atomic_size_t next; // of them
+  pthread_mutex_t lock;
+  pthread_cond_t ready;
+  // Under the lock:
+  struct {
+    uint32_t sample;
+    SbStatus status;
+    char *reason;
+  } * done; // [count] in the order in which they were answered
+  size_t finished;
+  int running;
+} Threads;
+
+static bool is_stopped(void *data) {
+  return atomic_load(&((Threads *)data)->stop);
+}
+
+static void answer_one(Threads *pool, SbEvaluator *evaluator, uint32_t sample) {
+  char *reason = NULL;
+  double *value = sb_answer_place(pool->sink, sample);
+  const SbStatus status =
+      sb_answer(value, &reason, evaluator, pool->asked, sample, is_stopped, pool);
+  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    atomic_store(&pool->stop, true);
+    for (size_t i = 0; i < pool->asked->figures; i++) {
+      value[i] = NAN;
+    }
+    g_free(reason);
+    return;
+  }
+  pthread_mutex_lock(&pool->lock);
+  pool->done[pool->finished].sample = sample;
+  pool->done[pool->finished].status = status;
+  pool->done[pool->finished++].reason = reason;
+  pthread_cond_signal(&pool->ready);
+  pthread_mutex_unlock(&pool->lock);
+}
+
+static void *work(void *data) {
+  Threads *pool = data;
+  SbEvaluator *evaluator = NULL;
+  if (sb_evaluator_create(&evaluator, NULL) == SB_OK) {
+    size_t at;
+    while (!is_stopped(pool) && (at = atomic_fetch_add(&pool->next, 1)) < pool->count) {
+      answer_one(pool, evaluator, pool->todo[at]);
+    }
+  }
+  sb_evaluator_destroy(evaluator);
+  pthread_mutex_lock(&pool->lock);
+  pool->running--;
+  pthread_cond_signal(&pool->ready);
+  pthread_mutex_unlock(&pool->lock);
+  return NULL;
+}
+
+// Hands answers on as they come. With the lock held.
+static void collect(Threads *pool) {
+  size_t taken = 0;
+  while (pool->running > 0 || taken < pool->finished) {
+    if (taken == pool->finished) {
       struct timespec until;
       clock_gettime(CLOCK_MONOTONIC, &until);
       until.tv_nsec += 50000000;
@@ -185,64 +192,84 @@ static bool collect(Pool *pool, const GChecksum *common, GError **error) {
     }
     const size_t to = pool->finished;
     pthread_mutex_unlock(&pool->lock);
-    good = good && put(pool, stored, to, common, error);
-    stored = to;
-    if (good && now() > committed + 1) {
-      good = sb_store_commit(asked->store, error);
-      committed = now();
+    for (; taken < to; taken++) {
+      sb_answer_take(pool->sink, pool->done[taken].sample, pool->done[taken].status,
+                     pool->done[taken].reason);
     }
-    if (asked->progress != NULL) {
-      asked->progress(asked->data, before + to, asked->samples);
-    }
-    if (!good || (asked->cancelled != NULL && asked->cancelled(asked->data))) {
+    if (!sb_answer_goes_on(pool->sink)) {
       atomic_store(&pool->stop, true);
     }
     pthread_mutex_lock(&pool->lock);
   }
-  return good;
 }
 
-static bool compute(Pool *pool, const GChecksum *common, GError **error) {
+static void compute_on_threads(SbAnswerSink *sink, const SbQuestions *asked, const uint32_t *todo,
+                               size_t count) {
+  Threads pool = {.asked = asked, .sink = sink, .todo = todo, .count = count};
   pthread_t thread[JOBS_MAX];
-  const int jobs = CLAMP((int)MIN((size_t)pool->asked->jobs, pool->count), 1, JOBS_MAX);
+  const int jobs = CLAMP((int)MIN((size_t)asked->jobs, count), 1, JOBS_MAX);
   pthread_condattr_t attributes;
   pthread_condattr_init(&attributes);
   pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
-  pthread_mutex_init(&pool->lock, NULL);
-  pthread_cond_init(&pool->ready, &attributes);
+  pthread_mutex_init(&pool.lock, NULL);
+  pthread_cond_init(&pool.ready, &attributes);
   pthread_condattr_destroy(&attributes);
-  pool->done = g_new(uint32_t, pool->count);
-  pool->reason = g_new0(char *, pool->count);
-  const double start = now();
+  pool.done = g_malloc_n(count, sizeof *pool.done);
   int started = 0;
-  pthread_mutex_lock(&pool->lock);
-  while (started < jobs && pthread_create(&thread[started], NULL, work, pool) == 0) {
+  pthread_mutex_lock(&pool.lock);
+  while (started < jobs && pthread_create(&thread[started], NULL, work, &pool) == 0) {
     started++;
-    pool->running++;
+    pool.running++;
   }
-  bool good = collect(pool, common, error);
-  pthread_mutex_unlock(&pool->lock);
+  collect(&pool);
+  pthread_mutex_unlock(&pool.lock);
   for (int i = 0; i < started; i++) {
     pthread_join(thread[i], NULL);
   }
-  pool->out->computed = pool->finished;
-  pool->out->seconds = now() - start;
-  for (size_t i = 0; i < pool->count; i++) {
-    g_free(pool->reason[i]);
+  g_free(pool.done);
+  pthread_cond_destroy(&pool.ready);
+  pthread_mutex_destroy(&pool.lock);
+}
+
+// ---- Many ----
+
+static bool is_ours(const SbQuestions *asked, size_t sample) {
+  return asked->shards == 0 || sample % asked->shards == asked->shard;
+}
+
+// Takes what the store has and lists the rest.
+static void look_up(SbAnswerSink *sink, uint32_t *todo) {
+  const SbQuestions *asked = sink->asked;
+  for (size_t i = 0; i < asked->samples; i++) {
+    guint8 key[SB_STORE_KEY];
+    SbStoredAnswer answer = {.value = sb_answer_place(sink, i)};
+    sample_key(key, sink->common, asked, i);
+    if (sb_store_get(asked->store, key, &answer)) {
+      sink->out->status[i] = (uint8_t)answer.status;
+      if (answer.reason != NULL) {
+        g_hash_table_insert(sink->out->reason, GSIZE_TO_POINTER(i), answer.reason);
+      }
+    } else if (is_ours(asked, i)) {
+      todo[sink->todo++] = (uint32_t)i;
+    }
   }
-  g_free(pool->reason);
-  g_free(pool->done);
-  pthread_cond_destroy(&pool->ready);
-  pthread_mutex_destroy(&pool->lock);
-  good = sb_store_commit(pool->asked->store, good ? error : NULL) && good;
-  if (good && pool->finished < pool->count) {
-    const bool cancelled = atomic_load(&pool->stop) || started > 0;
-    g_set_error(error, SB_APP_ERROR, cancelled ? SB_APP_ERROR_CANCELLED : SB_APP_ERROR_IO, "%s",
-                cancelled ? "interrupted: what was finished is in the store"
-                          : "no thread could be started");
-    good = false;
+}
+
+static bool compute(SbAnswerSink *sink, const uint32_t *todo) {
+  const SbQuestions *asked = sink->asked;
+  const double start = now();
+  sink->committed = start;
+  (asked->pool != NULL ? asked->pool->compute : compute_on_threads)(sink, asked, todo, sink->todo);
+  sink->out->computed = sink->taken;
+  sink->out->seconds = now() - start;
+  if (!sb_store_commit(asked->store, sink->failed ? NULL : sink->error) || sink->failed) {
+    return false;
   }
-  return good;
+  if (sink->taken < sink->todo) {
+    g_set_error(sink->error, SB_APP_ERROR, SB_APP_ERROR_CANCELLED,
+                "interrupted: what was finished is in the store");
+  }
+  return sink->taken == sink->todo;
 }
 
 bool sb_answers_get(SbAnswers *out, const SbQuestions *asked, GError **error) {
@@ -262,12 +289,12 @@ bool sb_answers_get(SbAnswers *out, const SbQuestions *asked, GError **error) {
   for (size_t i = 0; i < asked->samples * asked->figures; i++) {
     out->value[i] = NAN;
   }
-  GChecksum *common = g_checksum_new(G_CHECKSUM_SHA256);
-  common_key(common, asked);
-  Pool pool = {.asked = asked, .out = out, .todo = todo};
-  look_up(&pool, common);
-  const bool good = pool.count == 0 || compute(&pool, common, error);
-  g_checksum_free(common);
+  SbAnswerSink sink = {
+      .asked = asked, .out = out, .common = g_checksum_new(G_CHECKSUM_SHA256), .error = error};
+  common_key(sink.common, asked);
+  look_up(&sink, todo);
+  const bool good = sink.todo == 0 || compute(&sink, todo);
+  g_checksum_free(sink.common);
   free(todo);
   return good;
 }

@@ -13,6 +13,8 @@
 
 enum { SB_QUESTION_PARAMETERS = 64 };
 
+typedef struct SbAnswerPool SbAnswerPool;
+
 // What is asked. Everything is borrowed.
 typedef struct {
   const SbModel *base;
@@ -23,8 +25,9 @@ typedef struct {
   size_t figures;
   const double *value; // [samples][parameters], SI
   size_t samples;
-  size_t shard, shards; // samples of this number modulo `shards` alone, from 0; shards 0: all
-  int jobs;             // threads, at least 1
+  size_t shard, shards;     // samples of this number modulo `shards` alone, from 0; shards 0: all
+  int jobs;                 // threads, at least 1
+  const SbAnswerPool *pool; // who computes; NULL: threads of this process
   SbStore *store;
   void (*progress)(void *data, size_t done, size_t of); // from the calling thread
   bool (*cancelled)(void *data);                        // the same
@@ -41,6 +44,27 @@ typedef struct {
   size_t computed;    // of this call
   double seconds;     // it took for them
 } SbAnswers;
+
+// Answers one sample into value[figures]; *reason is owned by the caller, NULL where nothing
+// failed.
+SbStatus sb_answer(double *value, char **reason, SbEvaluator *evaluator, const SbQuestions *asked,
+                   size_t sample, bool (*cancelled)(void *data), void *data);
+
+// Where a pool puts its answers, from the one thread that has the store.
+typedef struct SbAnswerSink SbAnswerSink;
+
+// Takes the answer to a sample, whose values lie in their place (sb_answer_place()); `reason` is
+// given over. And whether to go on: no failure of the store, nobody cancelled.
+void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStatus status, char *reason);
+double *sb_answer_place(SbAnswerSink *sink, size_t sample);
+bool sb_answer_goes_on(SbAnswerSink *sink);
+
+struct SbAnswerPool {
+  // Computes samples until all are taken or it need not go on.
+  void (*compute)(SbAnswerSink *sink, const SbQuestions *asked, const uint32_t *todo, size_t count);
+  // Not NULL: this process answers what another one's pool asks, and has no store.
+  void (*serve)(const SbQuestions *asked);
+};
 
 // Fills *out, to be released in any case. False with SB_APP_ERROR_IO (store), _CANCELLED (what was
 // finished is in the store), _INPUT (too large for the memory).
