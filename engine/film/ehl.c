@@ -16,8 +16,8 @@
 #include <math.h>
 #include <string.h>
 
-// Levels of degree 4, 6 and so on, of rough rows perhaps with two of the first, and the last one's
-// degree; every tolerance takes at least the first levels.
+// Levels of degree 4, 6 and so on, and the last one's degree; every tolerance takes at least the
+// first levels.
 enum { LEVELS = 6, DEGREE_FIRST = 4, DEGREE_LAST = 14, DEGREE_LAST_ROUGH = 8 };
 
 // Scaled residual where Newton's method of smooth rows ends, on a level that may be the last and on
@@ -177,7 +177,7 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
       }
       break; // no room for a finer mesh: the error so far decides
     }
-    if (status == SB_ERROR_NOT_CONVERGED && rough && *levels >= 2 && !solver->now->c.rough.upwind) {
+    if (status == SB_ERROR_NOT_CONVERGED && rough && *levels >= 2) {
       // The finer one is not found: the same, its rate of convergence not believed.
       static const double UNSEEN = 5;
       for (int i = 0; i < 3; i++) {
@@ -201,12 +201,13 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
       }
       estimate(solver, change, *levels, results);
     }
-    // Rough rows whose film has sharp ends follow these on the first degree.
-    bool again = rough && sb_ehl_rough_fronts(&solver->now->c, solver->now, now) && *levels == 1;
+    if (rough) { // the next mesh follows the film's ends
+      (void)sb_ehl_rough_fronts(&solver->now->c, solver->now);
+    }
     if (*levels >= least && degree > DEGREE_FIRST && worst(solver) <= 0.1 * wanted) {
       break;
     }
-    degree += again ? 0 : 2;
+    degree += 2;
   }
   return SB_OK;
 }

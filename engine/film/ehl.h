@@ -65,8 +65,19 @@ typedef struct {
   double t[SB_EHL_DOFS_MAX]; // parameter of the gap
   double s[SB_EHL_DOFS_MAX]; // slope of the film pressure
   bool cavity[SB_EHL_DOFS_MAX];
-  double flow; // kappa
+  double given[SB_EHL_DOFS_MAX]; // film pressure where sealed
+  double flow;                   // kappa
 } SbEhlState;
+
+// Ends of a film between asperities: its inlet's, the least film, the rupture, and where fluid from
+// the outlet meets it.
+enum {
+  SB_EHL_FRONT_INLET,
+  SB_EHL_FRONT_LEAST,
+  SB_EHL_FRONT_RUPTURE,
+  SB_EHL_FRONT_OUTLET,
+  SB_EHL_FRONTS
+};
 
 // Asperities and adhesion of a case.
 typedef struct {
@@ -76,12 +87,11 @@ typedef struct {
   double pressure;       // scale of the law's pressure [Pa]
   double smooth_gap;     // unit of t without a law, scaled
   double hamaker;        // A_H [J]; 0 = off
-  bool upwind;           // Reynolds' equation of first order, for a start
-  bool sealed;        // at rest without flow: film pressure by the end pressures, cavity all over
+  bool sealed;        // no flow: film pressure as given, that of the ends at rest; cavity all over
   double flux, inlet; // guesses of the flux film and of where the film's pressure begins, scaled
   struct {
-    double X, width; // of the layers at the film's two ends, scaled; X infinite: none
-  } front[2];
+    double X, width; // of the layers at the film's ends, scaled; X infinite: none
+  } front[SB_EHL_FRONTS];
 } SbEhlRough;
 
 // The scaled problem in the flow frame.
@@ -128,6 +138,18 @@ typedef struct {
   bool ruptured;
 } SbEhlResults;
 
+// A film marched against the flow over samples of a mesh (ehl_rough_start.c).
+enum { SB_EHL_PARTS = 4, SB_EHL_SAMPLES_MAX = SB_EHL_PARTS * SB_EHL_DOFS_MAX };
+typedef struct {
+  int count;
+  double flow;                       // kappa
+  double x[SB_EHL_SAMPLES_MAX];      // places
+  double offset[SB_EHL_SAMPLES_MAX]; // total pressure of the contact less stiffness times gap
+  double t[SB_EHL_SAMPLES_MAX];      // parameter of the gap
+  double p[SB_EHL_SAMPLES_MAX];      // film pressure
+  bool cavity[SB_EHL_SAMPLES_MAX];
+} SbEhlMarch;
+
 struct SbFilmSolver {
   SbEhlTables tables;
   SbEhlSolution solution[2];
@@ -157,6 +179,7 @@ struct SbFilmSolver {
   SbFilmSolverInfo *info;       // account of all calls
   double tolerance;             // scaled residual where Newton's method ends, of smooth rows
 
+  SbEhlMarch march;
   SbRoughLaw law; // of the last surface
   bool law_ready;
 
@@ -289,10 +312,19 @@ void sb_ehl_rough_guess(SbEhlSolution *s);
 // not fit.
 SB_CHECKED bool sb_ehl_rough_mesh(SbEhlSolution *s);
 
-// Where the film of the solver's last solution takes the load over from the asperities and hands it
-// back, and how sharply, into a case's rough.front for its mesh; false if neither is sharp enough
-// to need elements of its own.
-bool sb_ehl_rough_fronts(SbEhlCase *c, const SbEhlSolution *s, const SbEhlResults *results);
+// Where a film takes the load over from the asperities and hands it back, and how sharply, into a
+// case's rough.front for its mesh: of a solution, or of the solver's last march. False if nothing
+// is sharp enough to need elements of its own.
+bool sb_ehl_rough_fronts(SbEhlCase *c, const SbEhlSolution *s);
+bool sb_ehl_march_fronts(SbEhlCase *c, const SbEhlMarch *march);
+
+// Marches the film over the contact of a solution, sealed or not, into its solver's memory. False
+// if no flow is found that meets both end pressures.
+SB_CHECKED bool sb_ehl_march(const SbEhlSolution *s);
+
+// The last march as the state of a solution on any mesh: of the film, or of the contact sealed with
+// the film's pressure.
+void sb_ehl_march_state(SbEhlSolution *s, bool sealed);
 
 // Gap and solid pressures at t, and the parameter of a gap.
 void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t);

@@ -8,11 +8,10 @@
 // would take. Rough rows find cavity and meniscus themselves.
 #include "engine/film/ehl.h"
 
-#include <limits.h>
 #include <math.h>
 
-// Newton's solves after which a start is given up, and of one path.
-enum { STARTS_MAX = 70, STEPS_MAX = 38 };
+// Newton's solves of a path.
+enum { STEPS_MAX = 38 };
 
 // Pressure below the rupture pressure that counts as tension: less is the lowest degree's error in
 // the far inlet.
@@ -89,20 +88,6 @@ static double expected(const SbEhlCase *c) {
   return !(layers.lambda > 0.0) ? 1.0 : starved ? c->supply : sb_ehl_layers_flux(&layers);
 }
 
-// Scales the film of rough rows where it carries about the flux, as the flux is expected to change.
-static void scale_film(SbEhlSolution *to, const SbEhlSolution *from) {
-  const double ratio = to->c.rough.flux / from->c.rough.flux;
-  const double film = from->state.flow / from->c.layers.lambda;
-  for (int i = 0; i < to->mesh.dofs; i++) {
-    SbEhlRoughPoint at;
-    sb_ehl_rough_point(&at, &to->c, to->state.t[i]);
-    if (fabs(at.h / film - 1.0) < 0.4) {
-      to->state.t[i] = sb_ehl_rough_of_gap(&to->c, ratio * at.h);
-    }
-  }
-  to->state.flow *= ratio * to->c.layers.lambda / from->c.layers.lambda;
-}
-
 // From the last solution to a case near it; on failure that solution stands.
 static SbStatus take(SbFilmSolver *solver, const SbEhlCase *c) {
   const SbEhlSolution *from = solver->now;
@@ -113,9 +98,6 @@ static SbStatus take(SbFilmSolver *solver, const SbEhlCase *c) {
     return c->rough.rows ? SB_ERROR_RANGE : SB_ERROR_NOT_CONVERGED; // no room for it
   }
   sb_ehl_carry(to, from, expected(c) / expected(&from->c));
-  if (to->c.rough.upwind && to->c.layers.lambda != from->c.layers.lambda) {
-    scale_film(to, from);
-  }
   SbStatus status = iterate(to);
   if (status == SB_OK) {
     solver->now = to;
@@ -145,16 +127,16 @@ static SbEhlCase between(const SbEhlCase *a, const SbEhlCase *b, double t) {
 }
 
 // From the last solution, which is that of `start`, to `target`, first by `step` of the way; a step
-// that serves is followed by one `growth` times as long. Given up when the account of Newton's
-// solves passes `last`.
+// that serves is followed by a longer one.
 static SbStatus follow_path(SbFilmSolver *solver, const SbEhlCase *start, const SbEhlCase *target,
-                            double step, double growth, int last) {
+                            double step) {
+  static const double GROWTH = 1.8;
   const double least = 1e-3 * step;
   double done = 0.0;
   for (int i = 0; done < 1.0; i++) {
     double t = fmin(1.0, done + step);
     SbEhlCase next = between(start, target, t);
-    if (next.rough.upwind) {
+    if (next.rough.rows && start->layers.lambda != target->layers.lambda) {
       sb_ehl_rough_flux(&next);
     }
     SbStatus status = take(solver, &next);
@@ -162,8 +144,8 @@ static SbStatus follow_path(SbFilmSolver *solver, const SbEhlCase *start, const 
       return status;
     }
     done = status == SB_OK ? t : done;
-    step *= status == SB_OK ? growth : 0.4;
-    if (step < least || i > STEPS_MAX || solver->info->continuation_steps > last) {
+    step *= status == SB_OK ? GROWTH : 0.4;
+    if (step < least || i > STEPS_MAX) {
       return SB_ERROR_NOT_CONVERGED;
     }
   }
@@ -175,19 +157,18 @@ static SbStatus follow_path(SbFilmSolver *solver, const SbEhlCase *start, const 
 static bool easier(SbEhlCase *c, const SbEhlCase *target, int k) {
   static const double EASY_LAMBDA = 0.0093; // M = 20
   static const double EASY_PRESSURE = 0.3;
-  enum { FASTER = 12, FASTER_SMOOTH = 4 };
+  enum { FASTER = 4 };
   *c = *target;
   if (k == 0) {
     return true;
   }
-  const bool rough = target->rough.rows;
-  if (rough || target->body.compliance != NULL) {
+  if (target->rough.rows || target->body.compliance != NULL) {
     // Faster ones: other end pressures would move a fitted body's contact.
     c->layers.lambda *= pow(8.0, k);
-    if (rough) {
+    if (target->rough.rows) {
       sb_ehl_rough_flux(c);
     }
-    return k < (rough ? FASTER : FASTER_SMOOTH) && target->layers.lambda > 0.0;
+    return k < FASTER && target->layers.lambda > 0.0;
   }
   c->fluid.barus = c->fluid.eyring = 0.0;
   if (k == 1) { // small end pressures, no options and M = 20 if the film is thick
@@ -206,62 +187,61 @@ static bool easier(SbEhlCase *c, const SbEhlCase *target, int k) {
          (k < 5 && target->layers.end == SB_EHL_REFORM);
 }
 
-// The last solution, of rough rows, with elements at its film's ends.
-static SbStatus follow_fronts(SbFilmSolver *solver, bool upwind) {
-  SbEhlResults results;
-  sb_ehl_results(&results, solver->now);
+// The last solution, of rough rows, with elements at its film's ends if these are sharp.
+static SbStatus follow_fronts(SbFilmSolver *solver) {
   SbEhlCase next = solver->now->c;
-  (void)sb_ehl_rough_fronts(&next, solver->now, &results);
-  next.rough.upwind = upwind;
+  if (!sb_ehl_rough_fronts(&next, solver->now)) {
+    return SB_OK;
+  }
   SbStatus status = take(solver, &next);
-  if (status == SB_ERROR_RANGE) { // no room for them
-    next = solver->now->c;
-    next.rough.upwind = upwind;
-    status = take(solver, &next);
-  }
-  return status;
+  return status == SB_ERROR_RANGE ? SB_OK : status; // no room for them
 }
 
-// From a solution of first order to the same case's own: the film's ends first find their place,
-// for no element may be much longer than the layer there.
-static SbStatus sharpen(SbFilmSolver *solver) {
-  SbStatus status = follow_fronts(solver, true);
-  status = status == SB_OK ? follow_fronts(solver, true) : status;
-  return status == SB_OK ? follow_fronts(solver, false) : status;
-}
-
-// Rough rows that do not start directly: of first order, where the film's ends may lie anywhere
-// between the nodes, from a faster case slowed down.
-static SbStatus start_upwind(SbFilmSolver *solver, const SbEhlCase *target) {
-  SbEhlCase start, low = *target;
-  low.rough.upwind = true;
-  const int last = solver->info->continuation_steps + STARTS_MAX;
-  SbStatus status = SB_ERROR_NOT_CONVERGED;
-  for (int k = 0; status == SB_ERROR_NOT_CONVERGED && easier(&start, &low, k) &&
-                  solver->info->continuation_steps < last;
-       k++) {
-    status = start_at(solver, &start);
-    if (status == SB_OK && k > 0) {
-      status = follow_path(solver, &start, &low,
-                           log(2.5) / log(start.layers.lambda / low.layers.lambda), 1.3, last);
+// Rough rows from the contact at rest: the film marched over it, and the contact sealed with that
+// film's pressure in turns until Newton's method holds from a march, on elements at its film's
+// ends.
+static SbStatus start_marched(SbFilmSolver *solver, const SbEhlCase *target) {
+  enum { ROUNDS = 12 };
+  SbEhlCase sealed = *target;
+  sealed.rough.sealed = true;
+  SbStatus status = start_at(solver, &sealed);
+  for (int k = 0; k < ROUNDS && status == SB_OK && sb_ehl_march(solver->now); k++) {
+    if (!sb_ehl_march_fronts(&sealed, &solver->march) || k > 0) {
+      SbEhlSolution *s = solver->now;
+      sb_ehl_march_state(s, false);
+      s->c.rough.sealed = false;
+      status = iterate(s);
+      status = status == SB_OK ? follow_fronts(solver) : status;
+      if (status != SB_ERROR_NOT_CONVERGED) {
+        return status;
+      }
     }
-    status = status == SB_OK ? sharpen(solver) : status;
+    SbEhlSolution *next = sb_ehl_other(solver);
+    next->c = sealed;
+    next->state.shift = solver->now->state.shift;
+    if (!lay_out(next)) {
+      break;
+    }
+    sb_ehl_march_state(next, true);
+    status = iterate(next);
+    solver->now = next;
   }
-  return status;
+  return status == SB_OK ? SB_ERROR_NOT_CONVERGED : status;
 }
 
 static SbStatus start_flooded(SbFilmSolver *solver, const SbEhlCase *target) {
   SbEhlCase start;
   SbStatus status = start_at(solver, target);
   if (target->rough.rows) {
-    return status == SB_ERROR_NOT_CONVERGED && target->layers.lambda > 0.0
-               ? start_upwind(solver, target)
-               : status;
+    status = status == SB_OK ? follow_fronts(solver) : status;
+    if (status == SB_ERROR_NOT_CONVERGED && target->layers.lambda > 0.0) {
+      status = start_marched(solver, target);
+    }
   }
   for (int k = 1; status == SB_ERROR_NOT_CONVERGED && easier(&start, target, k); k++) {
     status = start_at(solver, &start);
     if (status == SB_OK) {
-      status = follow_path(solver, &start, target, 0.25, 1.8, INT_MAX);
+      status = follow_path(solver, &start, target, 0.25);
     }
   }
   return status;
@@ -334,8 +314,7 @@ static SbStatus starve(SbFilmSolver *solver, double supply) {
   end.layers.starvation = supply / start.supply;
   return supply >= (1.0 - NEARLY) * start.supply
              ? SB_OK
-             : follow_path(solver, &start, &end, log(1.3) / -log(end.layers.starvation), 1.8,
-                           INT_MAX);
+             : follow_path(solver, &start, &end, log(1.3) / -log(end.layers.starvation));
 }
 
 SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply) {
@@ -361,13 +340,7 @@ SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply) {
 SbStatus sb_ehl_refine(SbFilmSolver *solver, int degree) {
   SbEhlCase next = solver->now->c;
   next.layers.degree = degree;
-  SbStatus status = take(solver, &next);
-  if (status == SB_ERROR_NOT_CONVERGED && next.rough.rows && next.layers.lambda > 0.0) {
-    next.rough.upwind = true;
-    status = take(solver, &next);
-    status = status == SB_OK ? sharpen(solver) : status;
-  }
-  return status;
+  return take(solver, &next);
 }
 
 SbStatus sb_ehl_follow(SbFilmSolver *solver, const SbEhlCase *c) {

@@ -14,7 +14,7 @@
 enum {
   SB_EHL_DEGREE_MAX = 18,
   SB_EHL_ELEMENTS_MAX = 100,
-  SB_EHL_DOFS_MAX = 440, // nodal pressures
+  SB_EHL_DOFS_MAX = 604, // nodal pressures: every element of degree 6
   SB_EHL_TARGETS_MAX = SB_EHL_DOFS_MAX + SB_EHL_ELEMENTS_MAX + 4,
   SB_EHL_ORDER_MAX = SB_EHL_DOFS_MAX + 4, // with the unknowns beside the pressures
   SB_EHL_QUAD = 24,                       // points of the fine rule for smooth remainders

@@ -260,6 +260,8 @@ static int choose(SbEhlSolution *solution, double doubt) {
   const SbEhlRoughPoint *point = solution->solver->point;
   SbEhlState *state = &solution->state;
   int changed = 0;
+  // Driven back by the outlet the pressure rises all along: nothing breaks.
+  const bool back = state->flow < 0 && solution->c.layers.outlet > 0;
   // Against the flow, as the end of the film depends on what lies behind.
   state->cavity[mesh->dofs - 1] = state->cavity[mesh->dofs - 2];
   for (int i = mesh->dofs - 2; i >= 0; i--) {
@@ -277,7 +279,7 @@ static int choose(SbEhlSolution *solution, double doubt) {
     }
     // Changed only where the last step leaves no doubt about the sign.
     bool cavitated = fabs(sign) < doubt * point[i].asperity ? state->cavity[i] : sign < 0;
-    cavitated = cavitated && !(i == 0 && !isfinite(solution->c.supply));
+    cavitated = cavitated && !(i == 0 && !isfinite(solution->c.supply)) && !back;
     changed += cavitated != state->cavity[i];
     state->cavity[i] = cavitated;
   }
@@ -300,28 +302,6 @@ static void add_node(double *row, double *right, const SbEhlSolution *s, int n, 
 static void give_pressure(double *row, double *right, const SbEhlSolution *s, int n, double p) {
   *right = p - s->solver->point[n].p;
   add_node(row, right, s, n, 0, 1);
-}
-
-// The same of first order, after Engquist and Osher (Math. Comput. 36 (1981) 321): the slope S(h) =
-// (lambda h - kappa)/h^3 is largest at the film 3/2 kappa/lambda; below, what the wall drags along
-// decides by the node before, above, the pressure by the one behind.
-static void give_upwind_step(double *row, double *right, const SbEhlSolution *s, int i) {
-  const SbEhlRoughPoint *point = s->solver->point;
-  const double lambda = s->c.layers.lambda, kappa = s->state.flow;
-  const double width = s->mesh.x[i + 1] - s->mesh.x[i];
-  const double film = 1.5 * kappa / lambda;
-  const bool use[] = {point[i].h < film, !(point[i + 1].h < film)};
-  const double rest = width * (1 - use[0] - use[1]);
-  const double most = rest != 0 ? 4.0 / 27 * lambda * lambda * lambda / (kappa * kappa) : 0;
-  *right = point[i].p - point[i + 1].p + rest * most;
-  row[s->mesh.dofs + 1] += rest != 0 ? 2 * rest * most / kappa : 0;
-  for (int k = 0; k < 2; k++) {
-    int n = i + k;
-    double w = use[k] ? width : 0;
-    *right += w * (s->state.s[n] + point[n].s0);
-    add_node(row, right, s, n, -w * point[n].s_h, -w * point[n].s_p + (k == 1 ? 1 : -1));
-    row[s->mesh.dofs + 1] -= w * point[n].s_flow;
-  }
 }
 
 // Reynolds' equation from node i to the next, or to the end of the film between them.
@@ -357,11 +337,7 @@ static void assemble_rough(const SbEhlSolution *s) {
     } else if (i == nodes + 1) {
       give_load(row, right, s);
     } else if (state->cavity[i - 1]) {
-      give_pressure(
-          row, right, s, i - 1,
-          c->rough.sealed ? sb_film_ends(s->mesh.x[i - 1], c->layers.inlet, c->layers.outlet) : 0);
-    } else if (c->rough.upwind) {
-      give_upwind_step(row, right, s, i - 1);
+      give_pressure(row, right, s, i - 1, c->rough.sealed ? state->given[i - 1] : 0);
     } else {
       give_step(row, right, s, i - 1);
     }
@@ -375,7 +351,7 @@ static void assemble_rough(const SbEhlSolution *s) {
 static bool ready_rough(Progress *p, SbEhlSolution *s) {
   localise(s);
   int changed =
-      s->c.layers.lambda > 0 && p->before < 0.3 && !s->c.rough.upwind ? choose(s, p->before) : 0;
+      s->c.layers.lambda > 0 && p->before < 0.3 && !s->c.rough.sealed ? choose(s, p->before) : 0;
   p->factored = p->factored && changed == 0;
   assemble_rough(s);
   // Converged where no node wants to change sides after a last step that was small; one at the very
@@ -431,9 +407,6 @@ static bool step_rough(Progress *p, SbEhlSolution *s) {
   // A start that is none shows soon: a good one is below 1 after five steps. Only a meniscus takes
   // its time to find its node.
   bool hopeless = (p->iteration > 7 && largest > 3) || (p->iteration > 20 && largest > 0.1);
-  if (c->rough.upwind) {
-    hopeless = p->iteration > 15 && largest > 10;
-  }
   return !(c->layers.lambda > 0 && !isfinite(c->supply) && hopeless);
 }
 

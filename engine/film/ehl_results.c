@@ -29,6 +29,7 @@ static void carry_rough(SbEhlState *new, const SbEhlState *old, int i, const SbE
   double low = fmin(old->t[n], old->t[n + 1]), high = fmax(old->t[n], old->t[n + 1]);
   double margin = 0.3 * (high - low);
   new->t[i] = fmin(fmax(new->t[i], low - margin), high + margin);
+  new->given[i] = sb_ehl_interpolate(e->table, &old->given[first], r);
   new->cavity[i] = old->cavity[n];
 }
 

@@ -124,6 +124,7 @@ void sb_ehl_rough_guess(SbEhlSolution *solution) {
     double rough = c->rough.law != NULL ? gap_under(c, fmax(q - ambient, floor)) : 0;
     double lift = pow(pow(fluid, 6) + pow(rough, 6), 1 / 6.0);
     state->nodal[i] = q;
+    state->given[i] = sb_film_ends(X, c->layers.inlet, c->layers.outlet);
     state->t[i] = fmax(sb_ehl_rough_of_gap(c, lift + dry), -3);
   }
   // Flow: by the film, and by the end pressures through the gap (Poiseuille).
@@ -188,7 +189,7 @@ SbStatus sb_ehl_rough_case(SbEhlCase *c, SbFilmSolver *solver, const SbFilmScale
       .hamaker = problem->hamaker,
       .smooth_gap = 0.01 * sb_ehl_layers_flux(&c->layers),
       .sealed = !(scale->lambda > 0) && c->layers.inlet == c->layers.outlet, // no flow at all
-      .front = {{INFINITY, 0.0}, {INFINITY, 0.0}},
+      .front = {{INFINITY, 0.0}, {INFINITY, 0.0}, {INFINITY, 0.0}, {INFINITY, 0.0}},
   };
   if (problem->surface != SB_ROUGH_NONE) {
     SbStatus made = sb_ehl_rough_law(&c->rough.law, solver, problem, report);

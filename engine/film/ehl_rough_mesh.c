@@ -90,7 +90,7 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
 
   // The edges: the flux needs the inlet's layer, the least film the outlet's, which is finer.
   const double outlet = c->layers.lambda > 0 ? sb_ehl_layers_outlet(l) : 1;
-  Feature feature[6] = {
+  Feature feature[3 + SB_EHL_FRONTS] = {
       {thick ? -0.6 * unit : -1, fmin(edge_width(c, thick ? 0.6 * unit : thin), unit)},
       {thick ? 0.7 * unit : outlet, fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin), unit)}};
   int features = 2;
@@ -105,9 +105,9 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
     features = add_feature(feature, features, 0, 0.4, left); // no coarser in the middle
   }
   // The ends of a film between asperities, where it hands the load over.
-  for (int i = 0; i < 2; i++) {
-    features =
-        add_feature(feature, features, c->rough.front[i].X, c->rough.front[i].width, 0.98 * left);
+  for (int i = 0; i < SB_EHL_FRONTS; i++) {
+    features = add_feature(feature, features, c->rough.front[i].X, c->rough.front[i].width,
+                           0.98 * fmin(left, right));
   }
 
   // From every feature halfway to its neighbours.
@@ -128,40 +128,95 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
   return sb_ehl_mesh_build(mesh, true);
 }
 
-// Where the film takes the load over from the asperities and hands it back, and how sharply: there
-// Reynolds' equation and q = p + p_a(h) leave a layer of length k h^3 / lambda, k the asperities'
-// stiffness.
-bool sb_ehl_rough_fronts(SbEhlCase *c, const SbEhlSolution *s, const SbEhlResults *results) {
-  c->rough.front[0].X = c->rough.front[1].X = INFINITY;
-  if (c->rough.law == NULL || !(c->layers.lambda > 0)) {
-    return false;
+// Nodes of a film.
+typedef struct {
+  int count;
+  double flow;
+  const double *x, *t;
+  const bool *cavity;
+  const SbEhlSolution *solution; // that they are of, or NULL
+} Nodes;
+
+// Where the film ends between node i and the next one, in the cavity.
+static double rupture_behind(const Nodes *at, int i) {
+  const SbEhlSolution *s = at->solution;
+  if (s == NULL) {
+    return 0.5 * (at->x[i] + at->x[i + 1]);
   }
-  const SbEhlMesh *mesh = &s->mesh;
-  const SbEhlState *state = &s->state;
-  double place[2] = {0, results->ruptured ? results->position_rupture - state->shift : INFINITY};
-  double steepest = 0, steepest_end = 0;
+  const SbEhlElement *e = &s->mesh.element[s->mesh.owner[i]];
+  double weight[SB_EHL_DEGREE_MAX + 1];
+  return sb_ehl_position(e, sb_ehl_rough_weights(weight, s, e, i - e->first_dof));
+}
+
+// The film's ends: where it passes 3/2 of the flux film, with the largest slope of its pressure,
+// the least film, with the steepest fall, unless it breaks, and those of its cavity.
+static void find_ends(double place[SB_EHL_FRONTS], const SbEhlCase *c, const Nodes *at) {
+  static const double DIP = 0.95; // of the flux film; asperities that carry most leave less
+  const double steepest = 1.5 * at->flow / c->layers.lambda;
+  double least = DIP * at->flow / c->layers.lambda;
+  SbEhlRoughPoint p;
+  sb_ehl_rough_point(&p, c, at->t[0]);
+  for (int i = 0; i + 1 < at->count; i++) {
+    const double here = p.h;
+    sb_ehl_rough_point(&p, c, at->t[i + 1]);
+    const double X = at->x[i] + (at->x[i + 1] - at->x[i]) * (steepest - here) / (p.h - here);
+    if (at->cavity[i + 1] && !at->cavity[i]) {
+      place[SB_EHL_FRONT_RUPTURE] = rupture_behind(at, i);
+      place[SB_EHL_FRONT_LEAST] = INFINITY;
+      least = 0;
+    } else if (at->cavity[i] && !at->cavity[i + 1]) {
+      place[SB_EHL_FRONT_OUTLET] = 0.5 * (at->x[i] + at->x[i + 1]);
+    } else if (!at->cavity[i] && here < steepest && p.h >= steepest) {
+      place[SB_EHL_FRONT_OUTLET] = X;
+    } else if (here >= steepest && p.h < steepest && !isfinite(place[SB_EHL_FRONT_INLET])) {
+      place[SB_EHL_FRONT_INLET] = X;
+    }
+    if (p.h < least) {
+      least = p.h;
+      place[SB_EHL_FRONT_LEAST] = at->x[i + 1];
+    }
+  }
+}
+
+// How sharp the ends are: there Reynolds' equation and q = p + p_a(h) leave a layer of length k h^3
+// / lambda, k the asperities' stiffness.
+static bool take_ends(SbEhlCase *c, const double place[SB_EHL_FRONTS], double flow) {
+  static const double EDGE = 1e-6; // so close to an edge its elements serve
   bool follow = false;
-  for (int i = 0; i < mesh->dofs; i++) {
-    if (!state->cavity[i] && state->s[i] > steepest) {
-      steepest = state->s[i];
-      place[0] = mesh->x[i];
+  for (int k = 0; k < SB_EHL_FRONTS; k++) {
+    const double inside = fabs(1 - fabs(place[k]));
+    c->rough.front[k].X = INFINITY;
+    if (!(isfinite(place[k]) && inside > EDGE)) {
+      continue;
     }
-    if (!results->ruptured && -state->s[i] > steepest_end) {
-      steepest_end = -state->s[i];
-      place[1] = mesh->x[i];
-    }
-  }
-  for (int k = 0; k < 2; k++) {
-    const SbEhlElement *e = &mesh->element[sb_ehl_find(mesh, place[k])];
-    const SbEhlRoughPoint *at = &s->solver->point[e->first_dof + e->degree / 2];
-    double layer = -at->solid_t / at->h_t * at->h * at->h * at->h / c->layers.lambda;
-    double inside = fabs(1 - fabs(place[k]));
-    bool sharp = layer < 0.5 * inside && at->asperity > 1e-3;
-    if (sharp || (k == 1 && results->ruptured && at->asperity > 1e-3)) {
+    SbEhlRoughPoint p;
+    sb_ehl_rough_point(&p, c, sb_ehl_rough_of_gap(c, flow / c->layers.lambda));
+    double layer = -p.solid_t / p.h_t * p.h * p.h * p.h / c->layers.lambda;
+    bool sharp = layer < 0.5 * inside && p.asperity > 1e-3;
+    if (sharp || (k == SB_EHL_FRONT_RUPTURE && p.asperity > 1e-3)) {
       c->rough.front[k].X = place[k];
-      c->rough.front[k].width = fmin(fmax(layer, 1e-3 * inside), 0.5 * inside);
+      const double finest = k == SB_EHL_FRONT_LEAST ? 0.05 : 1e-3; // a least film is no kink
+      c->rough.front[k].width = fmin(fmax(layer, finest * inside), 0.5 * inside);
     }
     follow = follow || sharp;
   }
   return follow;
+}
+
+static bool find_fronts(SbEhlCase *c, const Nodes *at) {
+  double place[SB_EHL_FRONTS] = {INFINITY, INFINITY, INFINITY, INFINITY};
+  if (c->rough.law != NULL && at->flow > 0 && c->layers.lambda > 0) {
+    find_ends(place, c, at);
+  }
+  return take_ends(c, place, at->flow);
+}
+
+bool sb_ehl_rough_fronts(SbEhlCase *c, const SbEhlSolution *s) {
+  return find_fronts(
+      c, &(Nodes){s->mesh.dofs, s->state.flow, s->mesh.x, s->state.t, s->state.cavity, s});
+}
+
+bool sb_ehl_march_fronts(SbEhlCase *c, const SbEhlMarch *march) {
+  return find_fronts(c,
+                     &(Nodes){march->count, march->flow, march->x, march->t, march->cavity, NULL});
 }

@@ -1,7 +1,8 @@
 // Random pressurised valves with the film on the fitted body, up to a fluid pressure of the
 // rubber's modulus: every seal that its fitment keeps closed has its film there, sliding in and
-// out, smooth and with coupled asperities; where it lies on the half-plane instead, a warning says
-// so, which is to be in less than one per cent.
+// out, smooth and with coupled asperities, in at most 40 continuation steps; where it lies on the
+// half-plane instead, a warning says so, which is to be in less than one per cent, failures counted
+// with them.
 //
 // test-engine-film-body-campaign [COUNT [SEED [FIT]]]: 12 discs in the tests.
 #include "engine/valve/model.h"
@@ -11,6 +12,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { STEPS_MAX = 40 }; // of one film
 
 static int count = 12;
 static guint32 seed = 1;
@@ -80,7 +83,7 @@ static const SbWarning *find(const SbWarnings *warnings, const char *code) {
 static void test_bodies(void) {
   GRand *random = g_rand_new_with_seed(seed);
   SbSlidingMemory *memory = NULL;
-  int films = 0, open = 0, fell = 0, failed = 0, refused = 0;
+  int films = 0, open = 0, fell = 0, failed = 0, unfitted = 0, refused = 0, steps = 0;
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
   for (int i = 0; i < count;) {
     SbParams params;
@@ -114,29 +117,32 @@ static void test_bodies(void) {
                        plane != NULL ? plane->text : "", state.opened ? " opened" : "",
                        report.text);
       }
-      if (status != SB_OK) {
-        failed++;
-      } else if (!state.touches || state.opened) {
+      if (status != SB_OK && isnan(state.load)) {
+        unfitted++;
+      } else if (plane == NULL && (!state.touches || state.opened)) {
         open++;
       } else {
         films++;
-        fell += !state.film_fitted;
-        g_assert_true(state.film_fitted || plane != NULL);
+        failed += status != SB_OK;
+        fell += status == SB_OK && plane != NULL;
+        g_assert_true(status != SB_OK || state.film_fitted || plane != NULL);
+        steps = MAX(steps, sb_sliding_film(memory)->solver.continuation_steps);
       }
     }
   }
-  g_test_message("%d films, %d on the half-plane, %d open, %d failed, %d valves refused", films,
-                 fell, open, failed, refused);
-  g_assert_cmpint(100 * fell, <, MAX(films, 101));
-  g_assert_cmpint(100 * failed, <, films);
+  g_test_message("%d films, %d on the half-plane, %d failed, at most %d steps; %d open, %d without "
+                 "a fitment, %d valves refused",
+                 films, fell, failed, steps, open, unfitted, refused);
+  g_assert_cmpint(100 * (fell + failed), <, MAX(films, 100));
+  g_assert_cmpint(steps, <=, STEPS_MAX);
   sb_sliding_memory_destroy(memory);
   g_rand_free(random);
 }
 
 // Discs of seed 1 whose films end sharply between coupled asperities before an outlet under
-// pressure: on the fitted body, in few steps.
+// pressure, or whose outlet drives fluid back through them: on the fitted body, in few steps.
 static void test_fronts(void) {
-  static const int discs[] = {15, 16, 37, 183};
+  static const int discs[] = {16, 68, 72, 129, 171, 183, 262};
   GRand *random = g_rand_new_with_seed(1);
   SbSlidingMemory *memory = NULL;
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
@@ -167,7 +173,7 @@ static void test_fronts(void) {
                    film->solver.continuation_steps, 1e9 * film->film_min);
     g_assert_true(state.film_fitted);
     g_assert_cmpfloat(film->film_min, >, 0);
-    g_assert_cmpint(film->solver.continuation_steps, <=, 40);
+    g_assert_cmpint(film->solver.continuation_steps, <=, STEPS_MAX);
   }
   sb_sliding_memory_destroy(memory);
   g_rand_free(random);
