@@ -131,6 +131,7 @@ static void add_row(Conditions *c, size_t n, const SbJoint *joint, const Pose *p
   const SbBody *i = p->body[0], *j = p->body[1];
   size_t r = c->rows++, at[2] = {6 * joint->body[0], 6 * joint->body[1]};
   double turned[3], relative[3];
+  memset(c->jacobian[r], 0, sizeof c->jacobian[r]);
   c->joint[r] = n;
   c->turns[r] = turns;
   c->error[r] = error;
@@ -166,7 +167,7 @@ static void add_row(Conditions *c, size_t n, const SbJoint *joint, const Pose *p
 }
 
 void sb_bodies_conditions(Conditions *c, const SbAssembly *a, double length) {
-  memset(c, 0, sizeof *c);
+  c->rows = 0;
   for (size_t n = 0; n < a->joints; n++) {
     const SbJoint *joint = &a->joint[n];
     Pose p = {.length = length};

@@ -67,12 +67,14 @@ typedef struct {
   size_t joint[SB_ASSEMBLY_ROWS];
 } SbAssemblyConditions;
 
-// Work memory of the functions below, whose content means nothing between calls; one serves any
-// assembly, but one thread at a time. Half a megabyte: not for the stack.
+// Work memory of the functions below, whose content means nothing between calls, but that
+// sb_assembly_slide() knows a tangent found with it; one serves any assembly, but one thread at a
+// time. Half a megabyte: not for the stack.
 typedef struct {
   SbAssemblyConditions conditions;
   double matrix[SB_ASSEMBLY_SIZE * SB_ASSEMBLY_SIZE], right[SB_ASSEMBLY_SIZE];
   int pivot[SB_ASSEMBLY_SIZE];
+  double tangent_jacobian[SB_ASSEMBLY_ROWS][SB_ASSEMBLY_COLUMNS]; // of the last tangent
 } SbAssemblyWork;
 
 typedef struct {

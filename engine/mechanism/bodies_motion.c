@@ -176,6 +176,7 @@ SbStatus sb_assembly_tangent(SbAssemblyTangent *t, const SbAssembly *a, size_t b
                          mobility.text);
   }
   sb_bodies_free_motion(motion, work, a, c->rows, 0);
+  memcpy(work->tangent_jacobian, c->jacobian, c->rows * sizeof *c->jacobian);
   // `axis` may be that of *t.
   double unit = sqrt(dot(axis, axis));
   *t = (SbAssemblyTangent){.body = body, .axis = {axis[0] / unit, axis[1] / unit, axis[2] / unit}};
@@ -195,6 +196,28 @@ SbStatus sb_assembly_tangent(SbAssemblyTangent *t, const SbAssembly *a, size_t b
     t->mass += a->body[b].mass * dot(t->velocity[b], t->velocity[b]) + dot(t->spin[b], momentum);
   }
   return sb_succeed(report);
+}
+
+// Whether the parts lie on their joints, and these have the Jacobian of the last tangent, but for
+// rounding: parts that slide as one. *off is what the joints are violated by [m].
+static bool stays_tangent(double *off, const SbAssembly *a, SbAssemblyWork *work) {
+  static const double ROUNDING = 1e-13;
+  const double length = sb_bodies_extent(a);
+  Conditions *c = &work->conditions;
+  sb_bodies_conditions(c, a, length);
+  *off = 0.0;
+  for (size_t r = 0; r < c->rows; r++) {
+    *off = fmax(*off, fabs(c->error[r]));
+    if (!(fabs(c->error[r]) <= ROUNDING * length)) {
+      return false;
+    }
+    for (size_t k = 0; k < 6 * a->bodies; k++) {
+      if (!(fabs(c->jacobian[r][k] - work->tangent_jacobian[r][k]) <= ROUNDING)) {
+        return false;
+      }
+    }
+  }
+  return true;
 }
 
 SbStatus sb_assembly_slide(SbAssembly *a, SbAssemblyTangent *t, double distance, double speed,
@@ -219,6 +242,10 @@ SbStatus sb_assembly_slide(SbAssembly *a, SbAssemblyTangent *t, double distance,
     before = fabs(left);
     for (size_t b = 0; b < a->bodies; b++) {
       move(&a->body[b], t->velocity[b], t->spin[b], left);
+    }
+    if (stays_tangent(&off, a, work)) {
+      worst = fmax(worst, off);
+      continue;
     }
     SbStatus status = sb_bodies_settle_positions(a, &off, work, report);
     status = status != SB_OK ? status : sb_assembly_tangent(t, a, t->body, t->axis, work, report);

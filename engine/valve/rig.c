@@ -26,13 +26,15 @@ SbStatus sb_rig_start(SbDynamics *motion, SbDynamicsModel *model, const SbRig *r
     return sb_fail(report, SB_ERROR_RANGE,
                    "the rig's load, coefficient, duration or rate is wrong");
   }
+  const double until = rig->duration + 1.0 / rig->rate;
   *model = (SbDynamicsModel){.mass = rig->mass,
                              .contacts = SB_RIG_RINGS,
                              .loads = rig_loads,
                              .user = (void *)rig,
+                             // No longer than it is looked at: what lies ahead is told by it.
                              .drive = {.kind = SB_DRIVE_PRESS,
-                                       .end = 1e3,
-                                       .rise = 1e3 / rig->speed,
+                                       .end = rig->speed * until,
+                                       .rise = until,
                                        .hold = INFINITY,
                                        .fall = 1.0,
                                        .cycles = 1},

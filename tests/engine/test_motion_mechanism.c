@@ -282,6 +282,41 @@ static void part_loads(SbAssembly *a, double time, void *user) {
   b[SB_VALVE_HOUSING].force[0] = back + 14.5 - stop;
 }
 
+// Parts that slide as one keep their tangent: it is not factored again, and is that found anew
+// there.
+static void test_as_one(void) {
+  SbParams params;
+  SbModel valve;
+  SbAssembly a;
+  SbAssemblyTangent t, anew;
+  SbReport report = {0};
+  sb_params_init(&params);
+  g_assert_cmpint(sb_model_compile(&valve, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_assembly_valve(&a, &valve.parts, &report), ==, SB_OK);
+  g_assert_cmpint(
+      sb_assembly_tangent(&t, &a, SB_VALVE_STEM_CENTRE, x_axis, &assembly_work, &report), ==,
+      SB_OK);
+  double error = 1.0, worst = 0.0;
+  int factored = 0;
+  for (int i = 0; i < 1000; i++) {
+    assembly_work.matrix[0] = 123.0;
+    SbStatus status =
+        sb_assembly_slide(&a, &t, i % 2 == 0 ? 6e-6 : -4e-6, 0.1, &error, &assembly_work, &report);
+    g_assert_cmpint(status, ==, SB_OK);
+    factored += assembly_work.matrix[0] != 123.0;
+    worst = fmax(worst, error);
+  }
+  g_test_message("%d of 1000 factored anew, joints open by %.1e m", factored, worst);
+  g_assert_cmpint(factored, <, 50); // once rounding has added up
+  g_assert_cmpfloat(worst, <, 5e-15);
+  g_assert_cmpfloat_with_epsilon(a.body[SB_VALVE_STEM_CENTRE].position[0], 1e-3, 1e-15);
+  g_assert_cmpfloat_with_epsilon(a.body[SB_VALVE_STEM_TOP].velocity[0], 0.1, 1e-15);
+  g_assert_cmpint(
+      sb_assembly_tangent(&anew, &a, SB_VALVE_STEM_CENTRE, x_axis, &assembly_work, &report), ==,
+      SB_OK);
+  g_assert_cmpfloat_with_epsilon(anew.mass / t.mass, 1.0, 1e-13);
+}
+
 // From event to event of the reduced form, stick-slip and all. The bodies go on from where they
 // were, in all coordinates with the multipliers' accelerations at every stage; the reduced form
 // only tells which contact slides. Every 40th segment, from the reduced state; with -m slow all, or
@@ -384,6 +419,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/motion/mechanism/slider-crank", test_slider_crank);
   g_test_add_func("/motion/mechanism/tangent", test_tangent);
   g_test_add_func("/motion/mechanism/refused", test_refused);
+  g_test_add_func("/motion/mechanism/as-one", test_as_one);
   g_test_add_func("/motion/mechanism/cycle", test_cycle);
   return g_test_run();
 }

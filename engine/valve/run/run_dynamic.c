@@ -246,6 +246,7 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double toleranc
     corner += turn == even;
     time = fmin(turn, even);
     status = sb_dynamics_advance(&r->motion, time, report);
+    r->report = status == SB_OK ? report : NULL; // the first failure is told
     add_frame(r, false);
     status = status != SB_OK ? status : r->status;
     if (frames ? sb_run_poll(run, hooks, r->count, (double)next / (double)total, report)
