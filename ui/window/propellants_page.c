@@ -343,7 +343,8 @@ static void add_toolbar(Page *page) {
   g_signal_connect(page->temperature, "activate", G_CALLBACK(on_temperature), page);
   g_signal_connect(page->temperature, "focus-out-event", G_CALLBACK(on_focus_out), page);
   gtk_box_pack_end(GTK_BOX(bar), page->temperature, FALSE, FALSE, 0);
-  gtk_box_pack_end(GTK_BOX(bar), sb_style_label(_("Temperature"), "sb-row-label", 1), FALSE, FALSE, 0);
+  gtk_box_pack_end(GTK_BOX(bar), sb_style_label(_("Temperature"), "sb-row-label", 1), FALSE, FALSE,
+                   0);
   page->stop = gtk_button_new_with_label(_("Cancel"));
   gtk_widget_set_tooltip_text(page->stop, _("Stop computing; the study shown stays"));
   g_signal_connect(page->stop, "clicked", G_CALLBACK(on_stop), page);
