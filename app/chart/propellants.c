@@ -618,9 +618,11 @@ static void draw_card(SbCanvas *c, const SbPropellantsLayout *layout, const SbSt
   }
   const SbTextStyle title = sb_canvas_style(c, SB_TYPE_PANEL_WINDOW, 700, SB_ROLE_INK);
   const SbTextStyle note = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
-  sample(c, k, x, card.y + 24, 34);
-  sb_canvas_text_fit(c, sb_propellants_name(k), &title, x + 42, card.y + 29, width - 42 - 82);
-  if (own) {
+  const double line = layout->small ? 18 : 34;
+  sample(c, k, x, card.y + 24, line);
+  sb_canvas_text_fit(c, sb_propellants_name(k), &title, x + line + 8, card.y + 29,
+                     width - line - 8 - (layout->small && own ? 0 : 76));
+  if (own && !layout->small) {
     sb_canvas_text(c, "in this design", &note, x + width, card.y + 28, SB_RIGHT);
   }
   if (layout->small) {

@@ -6,7 +6,6 @@
 #include "app/document/document_parts.h"
 #include "app/document/document_private.h"
 #include "app/document/picture.h"
-#include "app/document/rubber_sheet.h"
 #include "app/document/series.h"
 
 #include <math.h>
@@ -22,6 +21,7 @@ SbDocument *sb_document_new(void) {
   document->entries = sb_reader_scan(document->text, strlen(document->text), "", none);
   g_ptr_array_unref(none);
   document->edits = g_array_new(FALSE, FALSE, sizeof(Edit));
+  g_array_set_clear_func(document->edits, sb_document_clear_edit);
   document->notes = g_ptr_array_new_with_free_func(g_free);
   document->cases = sb_document_cases_new();
   document->shapes = sb_shapes_new();
@@ -42,7 +42,9 @@ void sb_document_free(SbDocument *document) {
   g_free(document->valve_name);
   g_free(document->series_name);
   g_free(document->series_path);
-  g_free(document->rubber_path);
+  sb_named_rubber_release(document->base_rubber);
+  sb_named_rubber_release(document->own_rubber);
+  sb_named_rubber_release(document->saved_rubber);
   sb_model_data_release(document->data);
   g_free(document->text);
   g_ptr_array_unref(document->entries);
@@ -112,28 +114,6 @@ static SbModelData *data_of(SbDocument *document) {
   return document->data;
 }
 
-bool sb_document_take_rubber(SbDocument *document, const char *name, const char *directory,
-                             const char *shown, int line, GPtrArray *issues) {
-  SbModelData *before = document->data;
-  g_autofree SbRubberSheet *sheet = g_new0(SbRubberSheet, 1);
-  char *path = sb_rubber_sheet_read(sheet, name, directory, shown, line, issues);
-  if (path == NULL) {
-    return false;
-  }
-  g_free(document->rubber_path);
-  document->rubber_path = path;
-  document->data = NULL; // models may hold the one before, which nobody changes
-  SbModelData *data = data_of(document);
-  if (before != NULL) {
-    data->measured = before->measured;
-    data->outlines = before->outlines;
-  }
-  data->rubber = *sheet;
-  sb_model_data_release(before);
-  document->serial++;
-  return true;
-}
-
 // Moves the values of a scanned file into `params`, which lie upon `base` (NULL: on nothing).
 static void read_values(SbDocument *document, SbParams *params, const SbParams *base,
                         const GPtrArray *entries, const char *shown, const char *directory,
@@ -155,7 +135,13 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
     char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
     int id = sb_param_find(key);
     if (strcmp(key, SB_RUBBER_KEY) == 0) {
-      (void)sb_document_take_rubber(document, entry->value, directory, shown, entry->line, issues);
+      SbNamedRubber *rubber =
+          sb_named_rubber_read(entry->value, directory, shown, entry->line, issues);
+      if (rubber != NULL) {
+        sb_document_put_rubber(
+            document, params == &document->base ? &document->base_rubber : &document->own_rubber,
+            rubber);
+      }
     } else if (strcmp(key, SB_SERIES_KEY) == 0) {
       // A file's name, no value: read_series.
     } else if (id < 0) {
@@ -338,6 +324,7 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
     data_of(document)->outlines = *outlines;
   }
   document->saved = document->own;
+  document->saved_rubber = sb_named_rubber_hold(document->own_rubber);
   sb_document_refresh_title(document);
   document->name = g_strdup(name);
   if (issues->len == before) {

@@ -122,7 +122,17 @@ bool sb_document_differs(const SbDocument *document, SbParamId id);
 // True if any key does: there is something to save.
 bool sb_document_is_modified(const SbDocument *document);
 
-// Undo and redo; each returns the parameter that changed, or -1 if there was nothing to do.
+// The rubber in force by its name, NULL if none is; an undoable edit of the document's own one
+// (NULL: the valve's again), false with an issue; whether it has one; and the names that there are
+// (g_strfreev).
+const char *sb_document_rubber(const SbDocument *document);
+SB_CHECKED bool sb_document_set_rubber(SbDocument *document, const char *name, GPtrArray *issues);
+bool sb_document_gives_rubber(const SbDocument *document);
+char **sb_document_rubbers(const SbDocument *document);
+
+// Undo and redo; each returns the parameter that changed, SB_DOCUMENT_RUBBER, or -1 if there was
+// nothing to do.
+enum { SB_DOCUMENT_RUBBER = SB_PARAM_COUNT };
 int sb_document_undo(SbDocument *document);
 int sb_document_redo(SbDocument *document);
 bool sb_document_can_undo(const SbDocument *document);

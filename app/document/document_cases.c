@@ -68,8 +68,10 @@ const char *sb_document_case_name(const SbDocument *document, size_t index) {
 }
 
 // Puts one "KEY=VALUE" into `params`; what is wrong becomes an issue on the case `path`.
-static void put_setting(SbParams *params, bool *set, const SbDocument *document, const Case *one,
-                        const char *path, const char *setting, GPtrArray *issues) {
+// A rubber goes to *rubber.
+static void put_setting(SbParams *params, bool *set, SbNamedRubber **rubber,
+                        const SbDocument *document, const Case *one, const char *path,
+                        const char *setting, GPtrArray *issues) {
   const char *equal = strchr(setting, '=');
   if (equal == NULL || equal == setting) {
     sb_issues_add(issues, one->shown, 0, path, "KEY=VALUE; KEY=VALUE", "\"%.60s\" is no KEY=VALUE",
@@ -79,6 +81,12 @@ static void put_setting(SbParams *params, bool *set, const SbDocument *document,
   g_autofree char *key = g_strstrip(g_strndup(setting, (gsize)(equal - setting)));
   g_autofree char *value_text = g_strstrip(g_strdup(equal + 1));
   int id = sb_param_find(key);
+  if (strcmp(key, SB_RUBBER_KEY) == 0) {
+    g_autofree char *folder = document->path != NULL ? g_path_get_dirname(document->path) : NULL;
+    sb_named_rubber_release(*rubber);
+    *rubber = sb_named_rubber_read(value_text, folder, one->shown, 0, issues);
+    return;
+  }
   if (id < 0) {
     g_autofree char *hint = sb_document_key_hint(key);
     sb_issues_add(issues, one->shown, 0, path, NULL, "%s: unknown key%s", key, hint);
@@ -106,18 +114,28 @@ bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel 
   guint before = issues->len;
   SbParams params = sb_document_params(document);
   bool set[SB_PARAM_COUNT] = {false};
+  SbNamedRubber *rubber = NULL;
   g_auto(GStrv) settings = g_strsplit(one->settings, ";", -1);
   char **setting = settings;
   do {
-    put_setting(&params, set, document, one, path, *setting != NULL ? g_strstrip(*setting) : "",
-                issues);
+    put_setting(&params, set, &rubber, document, one, path,
+                *setting != NULL ? g_strstrip(*setting) : "", issues);
     setting += *setting != NULL;
   } while (*setting != NULL && *g_strstrip(*setting) != '\0'); // a last semicolon is fine
   if (issues->len > before) {
+    sb_named_rubber_release(rubber);
     return false;
   }
+  SbModelData *data = rubber != NULL ? sb_document_data_with(document, rubber) : document->data;
+  if (rubber != NULL) {
+    params.rubber = &data->rubber;
+  }
   SbProblems problems = {0};
-  SbStatus status = sb_model_create(out, &params, document->data, &document->limits, &problems);
+  SbStatus status = sb_model_create(out, &params, data, &document->limits, &problems);
+  if (rubber != NULL) {
+    sb_model_data_release(data); // the model has its own hold
+    sb_named_rubber_release(rubber);
+  }
   if (status != SB_OK && problems.count == 0) {
     sb_issues_add(issues, one->shown, 0, path, NULL, "%s", sb_status_text(status));
   }

@@ -6,6 +6,11 @@
 
 // Puts one side of an edit in force.
 static void apply(SbDocument *document, const Edit *edit, int side) {
+  if (edit->id == SB_DOCUMENT_RUBBER) {
+    sb_document_put_rubber(document, &document->own_rubber,
+                           sb_named_rubber_hold(edit->rubber[side]));
+    return;
+  }
   document->own.given[edit->id] = edit->given[side];
   document->own.value[edit->id] = edit->value[side];
   document->serial++;
@@ -20,17 +25,37 @@ static void edit_key(SbDocument *document, SbParamId id, bool given, double valu
   g_array_set_size(document->edits, document->done);
   Edit *last =
       document->done > 0 ? &g_array_index(document->edits, Edit, document->done - 1) : NULL;
-  if (merge && document->mergeable && last != NULL && last->id == id) {
+  if (merge && document->mergeable && last != NULL && last->id == (int)id) {
     last->given[1] = given;
     last->value[1] = value;
   } else {
-    Edit edit = {id, {own->given[id], given}, {own->value[id], value}};
+    Edit edit = {(int)id, {own->given[id], given}, {own->value[id], value}, {NULL, NULL}};
     g_array_append_val(document->edits, edit);
     document->done++;
   }
   document->mergeable = merge;
   Edit made = g_array_index(document->edits, Edit, document->done - 1);
   apply(document, &made, 1);
+}
+
+void sb_document_clear_edit(gpointer data) {
+  Edit *edit = data;
+  sb_named_rubber_release(edit->rubber[0]);
+  sb_named_rubber_release(edit->rubber[1]);
+}
+
+void sb_document_edit_rubber(SbDocument *document, SbNamedRubber *rubber) {
+  if (sb_named_rubber_same(document->own_rubber, rubber)) {
+    sb_named_rubber_release(rubber);
+    return;
+  }
+  g_array_set_size(document->edits, document->done);
+  Edit edit = {.id = SB_DOCUMENT_RUBBER,
+               .rubber = {sb_named_rubber_hold(document->own_rubber), rubber}};
+  g_array_append_val(document->edits, edit);
+  document->done++;
+  document->mergeable = false;
+  apply(document, &edit, 1);
 }
 
 // Adds the allowed range to a message.
@@ -116,7 +141,11 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
   GError *error = NULL;
   bool good = false;
   if (strcmp(key, SB_RUBBER_KEY) == 0) {
-    good = sb_document_take_rubber(document, equal + 1, NULL, "--set", 0, issues);
+    SbNamedRubber *rubber = sb_named_rubber_read(equal + 1, NULL, "--set", 0, issues);
+    good = rubber != NULL;
+    if (good) {
+      sb_document_put_rubber(document, &document->own_rubber, rubber);
+    }
   } else if (id < 0) {
     g_autofree char *hint = issues->len < SB_ISSUES_MAX ? sb_document_key_hint(key) : NULL;
     sb_issues_add(issues, "--set", 0, key, NULL, "unknown key%s", hint != NULL ? hint : "");
@@ -148,6 +177,9 @@ bool sb_document_differs(const SbDocument *document, SbParamId id) {
 }
 
 bool sb_document_is_modified(const SbDocument *document) {
+  if (!sb_named_rubber_same(document->own_rubber, document->saved_rubber)) {
+    return true;
+  }
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     if (sb_document_differs(document, (SbParamId)i)) {
       return true;
@@ -163,7 +195,7 @@ int sb_document_undo(SbDocument *document) {
   Edit edit = g_array_index(document->edits, Edit, --document->done);
   document->mergeable = false;
   apply(document, &edit, 0);
-  return (int)edit.id;
+  return edit.id;
 }
 
 int sb_document_redo(SbDocument *document) {
@@ -173,7 +205,7 @@ int sb_document_redo(SbDocument *document) {
   Edit edit = g_array_index(document->edits, Edit, document->done++);
   document->mergeable = false;
   apply(document, &edit, 1);
-  return (int)edit.id;
+  return edit.id;
 }
 
 bool sb_document_can_undo(const SbDocument *document) {

@@ -16,22 +16,29 @@
 // The one that names a rubber (rubber_sheet.h).
 #define SB_RUBBER_KEY "rubber.name"
 
+// A rubber as a document names it, shared by the edits that change it.
 typedef struct {
-  SbParamId id;
+  char *name, *path; // as it is written; to open
+  SbRubberSheet sheet;
+} SbNamedRubber;
+
+typedef struct {
+  int id;        // of a parameter, or SB_DOCUMENT_RUBBER
   bool given[2]; // before, after
   double value[2];
+  SbNamedRubber *rubber[2]; // held; NULL: none of its own
 } Edit;
 
 struct SbDocument {
   SbDocumentKind kind;
-  char *path;         // NULL before the first save
-  char *name;         // stands for it in messages then
-  char *title;        //
-  char *valve_path;   // scenes: path to open, else NULL
-  char *valve_name;   // scenes: as the file has it
-  char *series_name;  // value of drive.file, NULL without one
-  char *series_path;  // path to open
-  char *rubber_path;  // of the rubber that rubber.name names, the valve's or its own; NULL: none
+  char *path;                                             // NULL before the first save
+  char *name;                                             // stands for it in messages then
+  char *title;                                            //
+  char *valve_path;                                       // scenes: path to open, else NULL
+  char *valve_name;                                       // scenes: as the file has it
+  char *series_name;                                      // value of drive.file, NULL without one
+  char *series_path;                                      // path to open
+  SbNamedRubber *base_rubber, *own_rubber, *saved_rubber; // as the params; NULL: none
   SbModelData *data;  // series, outlines and rubber, for its models; NULL: none
   char *text;         // of the file as last read or written
   GPtrArray *entries; // of that text
@@ -77,10 +84,27 @@ char *sb_document_problem_range(const SbProblem *problem, const SbParam *param);
 bool sb_document_read_value(double *out, const SbDocument *document, SbParamId id, const char *text,
                             GError **error);
 
-// Takes the rubber of a name or path beside the files of `directory`; `shown` and `line` are where
-// that stands. False with an issue.
-bool sb_document_take_rubber(SbDocument *document, const char *name, const char *directory,
-                             const char *shown, int line, GPtrArray *issues);
+// Reads the rubber of a name or path beside the files of `directory`; `shown` and `line` are where
+// that stands. NULL with an issue (document_rubber.c).
+SbNamedRubber *sb_named_rubber_read(const char *name, const char *directory, const char *shown,
+                                    int line, GPtrArray *issues);
+SbNamedRubber *sb_named_rubber_hold(SbNamedRubber *rubber);
+void sb_named_rubber_release(SbNamedRubber *rubber); // takes NULL
+bool sb_named_rubber_same(const SbNamedRubber *a, const SbNamedRubber *b);
+
+// Puts a rubber (taken over, NULL: none) into the document's base_rubber or own_rubber, and what is
+// in force then into its data; data with another one in its place, for the caller to release.
+void sb_document_put_rubber(SbDocument *document, SbNamedRubber **place, SbNamedRubber *rubber);
+SbModelData *sb_document_data_with(const SbDocument *document, const SbNamedRubber *rubber);
+
+// Of an Edit.
+void sb_document_clear_edit(gpointer edit);
+
+// An undoable edit of the document's own rubber, which it takes over.
+void sb_document_edit_rubber(SbDocument *document, SbNamedRubber *rubber);
+
+// What a document in `directory` must call its own rubber; NULL: it has none. Owned by the caller.
+char *sb_document_rubber_name_at(const SbDocument *document, const char *directory);
 
 // Adds to the notes that a value in force is not what a shape makes it; `shown` names who says so.
 // Nothing where they agree.

@@ -88,6 +88,15 @@ char *sb_document_to_text(const SbDocument *document, const char *path) {
     SbChange change = {g_strdup("drive"), g_strdup("file"), series};
     g_array_append_val(changes, change);
   }
+  g_autofree char *folder = path != NULL ? g_path_get_dirname(path) : NULL;
+  char *rubber = sb_document_rubber_name_at(document, folder);
+  const bool was = document->saved_rubber != NULL;
+  if (g_strcmp0(rubber, was ? document->saved_rubber->name : NULL) != 0) {
+    SbChange change = {g_strdup("rubber"), g_strdup("name"), rubber};
+    g_array_append_val(changes, change);
+  } else {
+    g_free(rubber);
+  }
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     if (sb_document_differs(document, (SbParamId)i)) {
       char *group = NULL;
@@ -211,6 +220,14 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
   g_free(document->path);
   document->path = kept;
   document->saved = document->own;
+  if (document->own_rubber != NULL) {
+    g_autofree char *folder = g_path_get_dirname(path);
+    char *name = sb_document_rubber_name_at(document, folder);
+    g_free(document->own_rubber->name);
+    document->own_rubber->name = name;
+  }
+  sb_named_rubber_release(document->saved_rubber);
+  document->saved_rubber = sb_named_rubber_hold(document->own_rubber);
   document->mergeable = false;
   sb_document_refresh_title(document);
   return true;

@@ -29,20 +29,25 @@ static int by_name(const void *a, const void *b) {
   return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-// "butyl, epdm, nitrile". Owned by the caller.
-static char *names_of(const GPtrArray *places) {
-  g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
+char **sb_rubber_sheet_names(const char *directory) {
+  g_autoptr(GPtrArray) places = folders(directory);
+  if (directory != NULL) {
+    g_ptr_array_add(places, g_strdup(directory));
+  }
+  GPtrArray *names = g_ptr_array_new();
   for (guint i = 0; i < places->len; i++) {
     g_autoptr(GDir) dir = g_dir_open(places->pdata[i], 0, NULL);
-    for (const char *name; dir != NULL && (name = g_dir_read_name(dir)) != NULL;) {
-      if (g_str_has_suffix(name, ENDING)) {
-        g_ptr_array_add(names, g_strndup(name, strlen(name) - strlen(ENDING)));
+    for (const char *file; dir != NULL && (file = g_dir_read_name(dir)) != NULL;) {
+      g_autofree char *name =
+          g_str_has_suffix(file, ENDING) ? g_strndup(file, strlen(file) - strlen(ENDING)) : NULL;
+      if (name != NULL && !g_ptr_array_find_with_equal_func(names, name, g_str_equal, NULL)) {
+        g_ptr_array_add(names, g_steal_pointer(&name));
       }
     }
   }
   g_ptr_array_sort(names, by_name);
   g_ptr_array_add(names, NULL);
-  return g_strjoinv(", ", (char **)names->pdata);
+  return (char **)g_ptr_array_free(names, FALSE);
 }
 
 // Owned by the caller; NULL: there is none.
@@ -153,7 +158,8 @@ char *sb_rubber_sheet_read(SbRubberSheet *out, const char *name, const char *dir
   g_autofree char *path = find(name, directory, places);
   *out = (SbRubberSheet){0};
   if (path == NULL) {
-    g_autofree char *names = names_of(places);
+    g_auto(GStrv) list = sb_rubber_sheet_names(directory);
+    g_autofree char *names = g_strjoinv(", ", list);
     sb_issues_add(issues, shown, line, "rubber.name", names, "there is no rubber \"%.40s\"", name);
     return NULL;
   }

@@ -23,3 +23,7 @@ enum { SB_RUBBER_BYTES_MAX = 1 << 16 };
 // say where it is named. The path, owned by the caller; NULL with at least one issue.
 char *sb_rubber_sheet_read(SbRubberSheet *out, const char *name, const char *directory,
                            const char *shown, int line, GPtrArray *issues);
+
+// Names of those that are found from `directory` (NULL: of no file), sorted. By the caller
+// (g_strfreev).
+char **sb_rubber_sheet_names(const char *directory);

@@ -94,6 +94,11 @@ gboolean sb_session_restore(SbSession *session, const char *path, const char *te
   if (changed_one == NULL) {
     return FALSE;
   }
+  const char *rubber =
+      sb_document_gives_rubber(changed_one) ? sb_document_rubber(changed_one) : NULL;
+  if (!sb_document_set_rubber(document, rubber, issues)) {
+    return FALSE;
+  }
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     SbParamId id = (SbParamId)i;
     double value = sb_document_value(changed_one, id);
@@ -168,20 +173,27 @@ void sb_session_unset(SbSession *session, SbParamId id) {
   changed(session);
 }
 
-void sb_session_undo(SbSession *session) {
-  int id = sb_document_undo(session->document);
-  if (id >= 0) {
+gboolean sb_session_set_rubber(SbSession *session, const char *name, GPtrArray *issues) {
+  gboolean good = sb_document_set_rubber(session->document, name, issues);
+  changed(session);
+  return good;
+}
+
+static void changed_by(SbSession *session, int id) {
+  if (id >= 0 && id < SB_PARAM_COUNT) {
     forget_rejected(session, id);
+  }
+  if (id >= 0) {
     changed(session);
   }
 }
 
+void sb_session_undo(SbSession *session) {
+  changed_by(session, sb_document_undo(session->document));
+}
+
 void sb_session_redo(SbSession *session) {
-  int id = sb_document_redo(session->document);
-  if (id >= 0) {
-    forget_rejected(session, id);
-    changed(session);
-  }
+  changed_by(session, sb_document_redo(session->document));
 }
 
 const char *sb_session_error(SbSession *session, SbParamId id) {

@@ -64,6 +64,9 @@ gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text);
 // The same by value; successive calls merge into one undo step.
 gboolean sb_session_edit_value(SbSession *session, SbParamId id, double value);
 
+// Names the rubber of both rings (NULL: the valve's again); false with an issue.
+gboolean sb_session_set_rubber(SbSession *session, const char *name, GPtrArray *issues);
+
 // The value of the valve, the parent or the catalogue again; clears the field's error.
 void sb_session_unset(SbSession *session, SbParamId id);
 

@@ -105,12 +105,6 @@ static double balance_at(double s, const void *context) {
   return p->cycle->model->pressure_force + sign_of(p->direction) * friction_at(s, p);
 }
 
-// Force on a stem at s beyond the balance, in the direction of sliding.
-static double excess_force(double s, const void *context) {
-  const Place *p = context;
-  return sign_of(p->direction) * (p->cycle->model->stiffness * (p->platen - s) - balance_at(s, p));
-}
-
 // dX/ds of balanced sliding at s; the inner seal's friction falls while the edge passes, by the
 // same ellipse as its share of the load.
 static double rate_at(double s, const void *context) {
@@ -129,6 +123,13 @@ static double rate_at(double s, const void *context) {
 
 double sb_cycle_force(const SbCycle *cycle, double X, double s) {
   return fmax(cycle->model->stiffness * (X - s), 0);
+}
+
+// Force on a stem at s beyond the balance, in the direction of sliding. The platen only pushes: a
+// stem that the pressure below ambient draws in runs ahead of it.
+static double excess_force(double s, const void *context) {
+  const Place *p = context;
+  return sign_of(p->direction) * (sb_cycle_force(p->cycle, p->platen, s) - balance_at(s, p));
 }
 
 // ---------------------------------------------------------------------------------------------------

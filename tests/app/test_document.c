@@ -455,6 +455,90 @@ static void test_rubbers(void) {
   }
 }
 
+// The rubber is edited like a value: undone, redone, told to be saved, written, carried along to
+// another folder, and named in a case; the valve's comes back where the scene's own goes.
+static void test_edited_rubber(void) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  char *folder = temporary_folder();
+  g_autofree char *valve = g_build_filename(folder, "a.valve", NULL),
+                  *scene = g_build_filename(folder, "a.scene", NULL),
+                  *sub = g_build_filename(folder, "other", NULL),
+                  *moved = g_build_filename(sub, "b.scene", NULL),
+                  *own = g_build_filename(folder, "mine.rubber", NULL);
+  g_assert_true(g_file_set_contents(
+      valve, "[sealbench]\nformat=1\nkind=valve\n[rubber]\nname = epdm\n", -1, NULL));
+  g_assert_true(g_file_set_contents(
+      scene,
+      "[sealbench]\nformat=1\nkind=scene\nvalve = a.valve\n[cases]\nwith = rubber.name=nitrile\n"
+      "plain = drive.speed=10 mm/min\n",
+      -1, NULL));
+  g_assert_true(g_file_set_contents(own,
+                                    "[sealbench]\nformat = 1\nkind = rubber\n[seal]\nmodulus = 4 "
+                                    "MPa\n[source]\nseal.modulus = own\n",
+                                    -1, NULL));
+  static const char *const shipped[] = {"epdm", "nitrile", "tpe"};
+  for (size_t i = 0; i < G_N_ELEMENTS(shipped); i++) {
+    g_autofree char *file = g_strconcat(shipped[i], ".rubber", NULL);
+    g_autofree char *path = g_build_filename("rubbers", file, NULL), *from = asset(path);
+    g_autofree char *to = g_build_filename(folder, file, NULL), *text = NULL;
+    g_assert_true(g_file_get_contents(from, &text, NULL, NULL));
+    g_assert_true(g_file_set_contents(to, text, -1, NULL));
+  }
+  g_autoptr(SbDocument) document = sb_document_load(scene, issues);
+  g_assert_nonnull(document);
+  const double epdm = sb_document_value(document, SB_P_RUBBER_GLASS_TEMPERATURE);
+  g_assert_cmpstr(sb_document_rubber(document), ==, "epdm");
+  g_assert_false(sb_document_gives_rubber(document));
+  g_assert_true(sb_document_set_rubber(document, "nitrile", issues));
+  const double nitrile = sb_document_value(document, SB_P_RUBBER_GLASS_TEMPERATURE);
+  g_assert_cmpfloat(nitrile, !=, epdm);
+  g_assert_true(sb_document_is_modified(document));
+  g_assert_cmpint(sb_document_undo(document), ==, SB_DOCUMENT_RUBBER);
+  g_assert_cmpfloat(sb_document_value(document, SB_P_RUBBER_GLASS_TEMPERATURE), ==, epdm);
+  g_assert_false(sb_document_is_modified(document));
+  // A case names its own.
+  SbModel *model;
+  g_assert_true(sb_document_compile_case(document, 0, &model, issues));
+  g_assert_cmpfloat(sb_model_value(model, SB_P_RUBBER_GLASS_TEMPERATURE), ==, nitrile);
+  sb_model_destroy(model);
+  g_assert_true(sb_document_compile_case(document, 1, &model, issues));
+  g_assert_cmpfloat(sb_model_value(model, SB_P_RUBBER_GLASS_TEMPERATURE), ==, epdm);
+  sb_model_destroy(model);
+  g_assert_cmpint(sb_document_redo(document), ==, SB_DOCUMENT_RUBBER);
+  g_assert_cmpstr(sb_document_rubber(document), ==, "nitrile");
+  // One that is not there changes nothing.
+  g_assert_false(sb_document_set_rubber(document, "none", issues));
+  g_assert_cmpstr(sb_document_rubber(document), ==, "nitrile");
+  g_ptr_array_set_size(issues, 0);
+  g_auto(GStrv) names = sb_document_rubbers(document);
+  g_assert_true(g_strv_contains((const char *const *)names, "tpe"));
+  // Saved, beside and elsewhere: a file of one's own is found again.
+  g_assert_true(sb_document_set_rubber(document, "mine", issues));
+  g_assert_true(sb_document_save(document, scene, NULL));
+  g_assert_false(sb_document_is_modified(document));
+  g_autofree char *text = NULL;
+  g_assert_true(g_file_get_contents(scene, &text, NULL, NULL));
+  g_assert_nonnull(strstr(text, "[rubber]\nname = mine\n"));
+  g_assert_cmpint(g_mkdir(sub, 0700), ==, 0);
+  g_assert_true(sb_document_save(document, moved, NULL));
+  g_autoptr(SbDocument) again = sb_document_load(moved, issues);
+  g_assert_nonnull(again);
+  g_assert_cmpuint(issues->len, ==, 1); // the case's rubber was beside the scene
+  g_ptr_array_set_size(issues, 0);
+  g_assert_cmpfloat(sb_document_value(again, SB_P_SEAL_MODULUS), ==, 4e6);
+  // Taken out again it is the valve's.
+  g_assert_true(sb_document_set_rubber(again, NULL, issues));
+  g_assert_true(sb_document_save(again, moved, NULL));
+  g_autofree char *without = NULL;
+  g_assert_true(g_file_get_contents(moved, &without, NULL, NULL));
+  g_assert_null(strstr(without, "name ="));
+  g_assert_cmpstr(sb_document_rubber(again), ==, "epdm");
+  g_assert_cmpuint(issues->len, ==, 0);
+  g_unlink(moved);
+  g_rmdir(sub);
+  remove_folder(folder);
+}
+
 // A rubber of one's own beside the valve; what is wrong with it is told with its file and line.
 static void test_own_rubber(void) {
 #define RUBBER "[sealbench]\nformat = 1\nkind = rubber\n"
@@ -504,6 +588,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/document/links", test_links);
   g_test_add_func("/document/rubbers", test_rubbers);
   g_test_add_func("/document/own-rubber", test_own_rubber);
+  g_test_add_func("/document/edited-rubber", test_edited_rubber);
   g_test_add_func("/document/protected", test_protected);
   return g_test_run();
 }

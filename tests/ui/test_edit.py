@@ -61,6 +61,15 @@ def undo_and_redo(folder):
         wait("1.4 again", lambda: app.value("Radial space") == "1.4 mm")
         app.press("push button", "Reset Radial space")
         wait("1.36 again", lambda: app.value("Radial space") == "1.36 mm")
+        # The rubber is no value, and edited like one.
+        app.unfold("Rubber")
+        app.choose("Rubber of both rings", "epdm")
+        glass = lambda: app.value("Glass transition")
+        wait("the rubber's", lambda: glass() == "-54 °C")
+        app.press("push button", "Undo")
+        wait("none again", lambda: glass() != "-54 °C")
+        app.press("push button", "Redo")
+        wait("the rubber's again", lambda: glass() == "-54 °C")
 
 
 def saved_values_come_back(folder):

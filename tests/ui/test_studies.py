@@ -56,5 +56,33 @@ def glands_of_both_seals(folder):
         app.find("label", re.compile(r"^Squeeze outer 15\.5\s% inner 9\.33\s% below"))
 
 
+def propellants_are_swapped(folder):
+    """The page follows edits by itself, a propellant is chosen and the choice undone, and one that is
+    hidden has no card."""
+    path = os.path.join(os.path.dirname(scene(folder)), "propellant-swap.scene")
+    with App(path) as app:
+        wait("the first run", app.run_done)
+        app.key("ctrl+4")
+        chart = app.find("chart", "Propellants over the temperature")
+        wait("the study", lambda: "HFA-134a: does not return" in (chart.description or ""))
+        # The one of the scene has no button.
+        app.find("push button", "Choose HFA-134a")
+        assert not app.has("push button", "Choose HFO-1234ze(E)")
+        app.press("push button", "Choose HFA-134a")
+        app.find("push button", "Choose HFO-1234ze(E)")
+        app.key("ctrl+z")
+        wait("the choice undone", lambda: not app.has("push button", "Choose HFO-1234ze(E)"))
+        app.edit("Temperature of the cursor", "45 °C")
+        wait("the cursor", lambda: re.search(r"HFA-134a: returns with 12.*45", chart.description))
+        app.key("ctrl+1")
+        app.edit("Radial space", "1.45 mm")
+        app.key("ctrl+4")
+        wait("the study again", lambda: "HFA-134a: returns with 12" not in chart.description)
+        app.press("toggle button", "HFA-227ea")
+        wait("three", lambda: "HFA-227ea" not in chart.description)
+        app.key("ctrl+1")
+        app.find("chart", "Force and displacement")
+
+
 if __name__ == "__main__":
-    main(a_study_of_the_document, a_study_can_be_cancelled, glands_of_both_seals)
+    main(propellants_are_swapped, a_study_of_the_document, a_study_can_be_cancelled, glands_of_both_seals)

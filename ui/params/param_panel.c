@@ -4,6 +4,7 @@
 #include "ui/params/param_panel.h"
 
 #include "ui/params/param_row.h"
+#include "ui/params/rubber_row.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -20,6 +21,7 @@ struct _SbParamPanel {
   SbSession *session;
   GtkWidget *search, *scroller, *list, *nothing;
   GtkWidget *row[SB_PARAM_COUNT];
+  GtkWidget *rubber; // the one row that is of no parameter
   int group_of[SB_PARAM_COUNT];
   GArray *groups; // of Group
   gboolean searching;
@@ -119,6 +121,7 @@ static void refresh(SbParamPanel *panel) {
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     sb_param_row_refresh(SB_PARAM_ROW(panel->row[id]));
   }
+  sb_rubber_row_refresh(panel->rubber);
 
   // The groups of single seals say how much of them is in force.
   for (guint g = 0; g < panel->groups->len; g++) {
@@ -160,6 +163,12 @@ static void on_search(GtkSearchEntry *entry, SbParamPanel *panel) {
         gtk_widget_set_visible(panel->row[id], match);
         in_group += match;
       }
+    }
+    if (group->box == gtk_widget_get_parent(panel->rubber)) {
+      const gboolean match = !searching || strstr("rubber.name", needle) != NULL ||
+                             strstr(_("rubber"), needle) != NULL;
+      gtk_widget_set_visible(panel->rubber, match);
+      in_group += match;
     }
     found += in_group;
     gtk_widget_set_visible(group->expander, in_group > 0);
@@ -213,6 +222,11 @@ GtkWidget *sb_param_panel_new(SbSession *session) {
   g_autoptr(GtkSizeGroup) fields = gtk_size_group_new(GTK_SIZE_GROUP_HORIZONTAL);
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     panel->group_of[id] = group_for(panel, by_title, sb_param((SbParamId)id)->key);
+    if (panel->rubber == NULL && g_str_has_prefix(sb_param((SbParamId)id)->key, "rubber.")) {
+      panel->rubber = sb_rubber_row_new(session);
+      gtk_box_pack_start(GTK_BOX(group_at(panel, panel->group_of[id])->box), panel->rubber, FALSE,
+                         FALSE, 0);
+    }
     panel->row[id] = sb_param_row_new(session, (SbParamId)id, fields);
     gtk_box_pack_start(GTK_BOX(group_at(panel, panel->group_of[id])->box), panel->row[id], FALSE,
                        FALSE, 0);

@@ -78,6 +78,8 @@ static void set_accels(GtkApplication *application) {
       {"win.run-or-stop", {"<Primary>r"}},
       {"win.export", {"<Primary>e"}},
       {"win.studies", {"<Primary>t"}},
+      {"win.page::valve", {"<Primary>1"}},
+      {"win.page::propellants", {"<Primary>4"}},
       {"win.close", {"<Primary>w"}},
       {"win.pin", {"<Primary>p"}},
       {"win.zoom-in", {"<Primary>plus", "<Primary>equal"}},

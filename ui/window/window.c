@@ -15,6 +15,7 @@
 #include "ui/window/export_dialog.h"
 #include "ui/window/paned_layout.h"
 #include "ui/window/preferences.h"
+#include "ui/window/propellants_page.h"
 #include "ui/window/status_bar.h"
 #include "ui/window/study_window.h"
 #include "ui/window/window_files.h"
@@ -26,7 +27,8 @@
 struct _SbWindow {
   GtkApplicationWindow parent_instance;
   SbSession *session; // owned
-  GtkWidget *header, *recent_button, *run_button, *run_icon, *run_label;
+  GtkWidget *header, *document_title, *document_file, *pages, *recent_button, *run_button,
+      *run_icon, *run_label;
   GtkWidget *run_state_icon, *run_state_label, *run_progress;
   GtkWidget *columns, *views, *left_column, *centre_column, *right_column, *bottom;
   GtkWidget *strip_revealer, *strip, *strip_icon, *strip_label, *strip_button;
@@ -75,9 +77,8 @@ static void refresh_titles(SbWindow *window) {
   g_autofree char *title =
       g_strdup_printf("%s (%s) – Sealbench", sb_document_title(document), subtitle);
   gtk_window_set_title(GTK_WINDOW(window), title);
-  // The header bar copies the window's title, so its own, shorter one comes last.
-  gtk_header_bar_set_title(GTK_HEADER_BAR(window->header), sb_document_title(document));
-  gtk_header_bar_set_subtitle(GTK_HEADER_BAR(window->header), subtitle);
+  gtk_label_set_text(GTK_LABEL(window->document_title), sb_document_title(document));
+  gtk_label_set_text(GTK_LABEL(window->document_file), subtitle);
 }
 
 static void set_strip(SbWindow *window, const char *kind, const char *text, const char *button) {
@@ -393,7 +394,8 @@ static gboolean on_key(GtkWidget *widget, GdkEventKey *event, gpointer data) {
   GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
   gboolean plain =
       (event->state & gtk_accelerator_get_default_mod_mask() & ~(guint)GDK_SHIFT_MASK) == 0;
-  if (!plain || GTK_IS_ENTRY(focus)) {
+  const char *page = gtk_stack_get_visible_child_name(GTK_STACK(window->pages));
+  if (!plain || GTK_IS_ENTRY(focus) || g_strcmp0(page, "valve") != 0) {
     return GDK_EVENT_PROPAGATE;
   }
   size_t count = 0;
@@ -463,6 +465,9 @@ static void sb_window_class_init(SbWindowClass *class) {
   gtk_widget_class_set_template_from_resource(widget, "/org/sealbench/ui/window.ui");
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, SbWindow, name)
   CHILD(header);
+  CHILD(document_title);
+  CHILD(document_file);
+  CHILD(pages);
   CHILD(recent_button);
   CHILD(run_button);
   CHILD(run_icon);
@@ -518,6 +523,10 @@ static void sb_window_init(SbWindow *window) {
   };
   g_action_map_add_action_entries(G_ACTION_MAP(window), entries, G_N_ELEMENTS(entries), window);
 
+  g_autoptr(GPropertyAction) page =
+      g_property_action_new("page", window->pages, "visible-child-name");
+  g_action_map_add_action(G_ACTION_MAP(window), G_ACTION(page));
+
   sb_style_window(GTK_WIDGET(window));
 
   // The parts.
@@ -553,6 +562,8 @@ static void sb_window_init(SbWindow *window) {
   gtk_box_pack_start(GTK_BOX(window->bottom), sb_timeline_view_new(window->session), FALSE, FALSE,
                      0);
   gtk_box_pack_start(GTK_BOX(window->bottom), sb_status_bar_new(window->session), FALSE, FALSE, 0);
+  gtk_stack_add_titled(GTK_STACK(window->pages), sb_propellants_page_new(window->session),
+                       "propellants", _("Propellants"));
   window->files = sb_window_files_new_for(GTK_WINDOW(window), window->session,
                                           GTK_MENU_BUTTON(window->recent_button));
   window->autosave = sb_autosave_new(window->session, GTK_WINDOW(window));
