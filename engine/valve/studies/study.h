@@ -22,7 +22,7 @@
   X(SB_STUDY_LEAK, leak, "leak", "Leak over squeeze",                                              \
     "leak at rest and leakage per stroke over the squeeze: where too little squeeze leaks")        \
   X(SB_STUDY_STRIBECK, stribeck, "stribeck", "Stribeck curve",                                     \
-    "friction, real contact and film of both seals over the speed, as the cycle takes them")                \
+    "friction, real contact and film of both seals over the speed, as the cycle takes them")       \
   X(SB_STUDY_TOLERANCE, tolerance, "tolerance", "Tolerances",                                      \
     "loads, break-away and return force over the tolerances of the sizes: worst case and RSS")     \
   X(SB_STUDY_PROPELLANTS, propellants, "propellants", "Propellants over the temperature",          \
