@@ -207,17 +207,8 @@ static void put_reasons(SbJson *json, const SbRun *run) {
   sb_json_object_end(json);
 }
 
-static void put_run_solver(SbJson *json, const SbSummary *summary) {
-  sb_json_object(json, "solver");
-  sb_json_bool(json, "converged", summary->converged);
-  sb_json_count(json, "frames", summary->frames);
-  sb_json_count(json, "steps", summary->steps);
-  sb_json_count(json, "rejected_steps", summary->rejected_steps);
-  sb_json_count(json, "newton_iterations", summary->counters.newton_iterations);
-  sb_json_number(json, "wall_s", summary->wall_s);
-  put_figures(json, summary, "solver.");
-  const SbCounters *counters = &summary->counters;
-  sb_json_object(json, "counters");
+static void put_counters(SbJson *json, const char *key, const SbCounters *counters) {
+  sb_json_object(json, key);
   sb_json_count(json, "reynolds_solves", counters->reynolds_solves);
   sb_json_count(json, "film_steps", counters->film_steps);
   sb_json_count(json, "speed_nodes", counters->speed_nodes);
@@ -227,6 +218,18 @@ static void put_run_solver(SbJson *json, const SbSummary *summary) {
   sb_json_count(json, "field_evaluations", counters->field_evaluations);
   sb_json_count(json, "profile_evaluations", counters->profile_evaluations);
   sb_json_object_end(json);
+}
+
+static void put_run_solver(SbJson *json, const SbSummary *summary) {
+  sb_json_object(json, "solver");
+  sb_json_bool(json, "converged", summary->converged);
+  sb_json_count(json, "frames", summary->frames);
+  sb_json_count(json, "steps", summary->steps);
+  sb_json_count(json, "rejected_steps", summary->rejected_steps);
+  sb_json_count(json, "newton_iterations", summary->counters.newton_iterations);
+  sb_json_number(json, "wall_s", summary->wall_s);
+  put_figures(json, summary, "solver.");
+  put_counters(json, "counters", &summary->counters);
   sb_json_object_end(json);
 }
 
@@ -334,6 +337,7 @@ char *sb_results_plan(const SbPlan *plan, const char *scene) {
     sb_json_object_end(&json);
   }
   sb_json_array_end(&json);
+  put_counters(&json, "expected", &plan->expected);
   sb_json_array(&json, "skipped");
   for (size_t i = 0; i < plan->skipped_count; i++) {
     sb_json_object(&json, NULL);

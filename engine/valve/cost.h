@@ -9,13 +9,13 @@
 #define SB_COST_CLOSED       2e-6
 #define SB_COST_DISC         0.8e-3
 #define SB_COST_RING         70e-3  // fitted; pressed against its wall a little more
-#define SB_COST_RING_SURFACE 0.1    // its compliance for a film, besides
-#define SB_COST_RING_SHAPE   0.4    // to draw: finer, dragged, or over the land's edge
-#define SB_COST_FILM         3e-3   // coupled film on the half-plane
+#define SB_COST_RING_DRAGGED 1.1    // sliding: squeezed, pressed and dragged, its error told
+#define SB_COST_RING_SHAPE   35e-3  // to draw, from a state: over the land's edge
+#define SB_COST_FILM         4e-3   // coupled film on the half-plane
 #define SB_COST_FILM_FITTED  8e-3   // on a disc's or ring's own surface
-#define SB_COST_FILM_MIXED   8e-3   // with asperities in it
+#define SB_COST_FILM_MIXED   12e-3  // with asperities in it
 #define SB_COST_FILM_PROFILE 1e-3   // 1500 points of a solved film
-#define SB_COST_FILM_HISTORY 0.6    // of a seal's film through a cycle
+#define SB_COST_FILM_STEP    2.5e-3 // of a film's history
 #define SB_COST_ROUGH        1e-5   // real area at a film
 #define SB_COST_LEAK         0.2e-3 // percolation at rest
 #define SB_COST_FRAME        3e-7
@@ -34,4 +34,13 @@ static inline double sb_cost_fit(SbFitModel model) {
 // One film of a film model, on the half-plane.
 static inline double sb_cost_film(SbFilmModel model) {
   return model == SB_FILM_REYNOLDS ? SB_COST_FILM : SB_COST_CLOSED;
+}
+
+// One film of a state at another speed, on what its films lie on.
+static inline double sb_cost_speed_state(const SbModel *model) {
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool body = model->fit == SB_FIT_RING || model->fit == SB_FIT_DISC;
+  return coupled                                   ? SB_COST_FILM_MIXED
+         : model->film == SB_FILM_REYNOLDS && body ? SB_COST_FILM_FITTED
+                                                   : sb_cost_film(model->film);
 }

@@ -1,10 +1,10 @@
 // Decides what a scene computes: its views and figures pull in fields, and nothing else is
 // computed.
 //
-// Predicted cost is the number of solves times a typical time of one (cost.h). Predicted error is
-// what the solvers usually reach at the tolerance, which is less than that where a mesh of few
-// unknowns is already better; closed forms have none of discretisation. The counters in a run's
-// results are the proof of the plan.
+// Predicted cost is the number of solves (`expected`) times a typical time of one (cost.h).
+// Predicted error is what the solvers usually reach at the tolerance, which is less than that where
+// a mesh of few unknowns is already better; closed forms have none of discretisation. The counters
+// in a run's results are the proof of the plan.
 #include "engine/valve/plan.h"
 
 #include "engine/contact/fit.h"
@@ -29,6 +29,10 @@ enum { OWN_SPEED_ROUNDS = 2 };
 
 // States solved over the speed, where films are solved: near a machine's speed, or over decades.
 enum { NEAR_STATES = 16, SPEED_STATES = 40 };
+
+// Steps of a seal's film through a cycle: fronts that cross the contact set them, hardly the
+// frames.
+enum { FILM_STEPS = 500 };
 
 // Adds a field that is computed, or one that is skipped, of which only name and reason are told.
 static void SB_PRINTF(7, 8) add(SbPlan *plan, bool wanted, const char *name, const char *model,
@@ -146,6 +150,29 @@ typedef struct {
   const char *why, *why_not;
 } Row;
 
+// How often solvers will be called. A ring slides both ways at each pressure difference, fitted
+// anew with its film until the friction that drags it is that of this film, and rests at each.
+static SbCounters expect(const SbPlan *plan, const SbModel *model) {
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool disc = model->fit == SB_FIT_DISC || model->fit == SB_FIT_DISC_THESIS;
+  const size_t rounds = finds_speed(model) && !plan->ring ? OWN_SPEED_ROUNDS : 1;
+  const size_t fits = (size_t)count_fits(model), way = coupled ? 5 : 3; // rounds of both ways
+  const size_t drags = plan->ring ? way * fits : 0;
+  const size_t films = FILM_STATES + drags - (plan->ring ? 2 * fits : 0);
+  const size_t each = plan->ring || (model->fit == SB_FIT_DISC && !coupled) ? 2 : 1;
+  const size_t shapes = SB_RUN_MOTIONS * fits + 2 * SB_RUN_EDGES + 1;
+  SbCounters out = {.fit_solves = drags + fits,
+                    .disc_solves = disc ? fits : 0,
+                    .ring_solves = drags + (plan->ring ? fits : 0) +
+                                   (plan->section_fields ? 2 * SB_RUN_EDGES + 1 : 0),
+                    .speed_nodes = plan->reynolds ? plan->inertia ? SPEED_STATES : NEAR_STATES : 0,
+                    .film_steps = plan->film_history ? SB_SEAL_COUNT * FILM_STEPS : 0,
+                    .field_evaluations = plan->section_fields ? shapes : 0,
+                    .profile_evaluations = plan->profiles ? rounds * PROFILE_STATES : 0};
+  out.reynolds_solves = plan->reynolds ? rounds * films * each + out.speed_nodes : 0;
+  return out;
+}
+
 // What the valve's views and figures need. Profiles over x where they are drawn, and interior
 // fields only where the fitment model has an interior.
 static void plan_valve(SbPlan *plan, const SbModel *model, unsigned views) {
@@ -162,13 +189,18 @@ static void plan_valve(SbPlan *plan, const SbModel *model, unsigned views) {
 
   const char *fit = sb_fit_model_name(model->fit);
   const double fit_off = fit_error(model), film_off = film_error(model);
-  const int fits = count_fits(model), shapes = SB_RUN_MOTIONS * fits + 2 * SB_RUN_EDGES + 1;
-  // A machine's speed is known; a finger's is found by running the motion, films and all.
-  const int rounds = finds && !plan->ring ? OWN_SPEED_ROUNDS : 1;
+  plan->expected = expect(plan, model);
+  const SbCounters *n = &plan->expected;
+  const int fits = count_fits(model), shapes = (int)n->field_evaluations;
   const double on_body = plan->reynolds && body ? SB_COST_FILM_FITTED : 0;
   const double film = coupled ? SB_COST_FILM_MIXED : sb_cost_film(model->film);
-  const int over_speed = inertia ? SPEED_STATES : NEAR_STATES;
-  const double at_speed = on_body > 0 ? on_body : film;
+  const double films = solved || coupled ? (double)(n->reynolds_solves - n->speed_nodes)
+                                         : FILM_STATES * (finds ? OWN_SPEED_ROUNDS : 1);
+  const double at_speed = sb_cost_speed_state(model);
+  // Each film on the half-plane has one on the fitted body beside it.
+  const double states = on_body > 0 && !coupled ? films / 2 * (film + on_body) : films * at_speed;
+  const double rests = fits; // of rings
+  const double ring = rests * SB_COST_RING + ((double)n->fit_solves - rests) * SB_COST_RING_DRAGGED;
   const double once = !inertia ? 0
                       : finds  ? (1 + OWN_SPEED_ROUNDS) * SB_COST_DYNAMICS_OWN
                                : SB_COST_DYNAMICS;
@@ -194,11 +226,9 @@ static void plan_valve(SbPlan *plan, const SbModel *model, unsigned views) {
           SB_VALVE_JOINTS);
   const Row rows[] = {
       {true, "contact load and width", fit,
-       fits * (sb_cost_fit(model->fit) + (solved && plan->ring ? SB_COST_RING_SURFACE : 0)),
-       fit_off, text[0], NULL},
+       plan->ring ? ring : (double)n->fit_solves * sb_cost_fit(model->fit), fit_off, text[0], NULL},
       {plan->ring, "ring", "", 0, 0, NULL, text[1]},
-      {true, "film", coupled ? "reynolds with asperities" : law,
-       rounds * FILM_STATES * (film + on_body), film_off,
+      {true, "film", coupled ? "reynolds with asperities" : law, states, film_off,
        coupled ? "models.asperities = coupled: film and asperities share the load"
        : on_body > 0
            ? "boundary share, viscous friction and leakage need it; on the half-plane and "
@@ -206,12 +236,12 @@ static void plan_valve(SbPlan *plan, const SbModel *model, unsigned views) {
            : "boundary share, viscous friction and leakage need it",
        NULL},
       {plan->reynolds, "film over speed", coupled ? "reynolds with asperities" : law,
-       over_speed * at_speed, SB_SPEED_TOLERANCE,
+       (double)n->speed_nodes * at_speed, SB_SPEED_TOLERANCE,
        "film and friction of every frame are those of its own speed", NULL},
       {plan->reynolds, "reynolds film", "", 0, 0, NULL, text[2]},
-      // Fronts that cross the contact set its steps, hardly the frames.
-      {plan->film_history, "film history", "finite volumes", SB_SEAL_COUNT * SB_COST_FILM_HISTORY,
-       0.03, "models.film_time = transient; the motion keeps to the steady film's friction",
+      {plan->film_history, "film history", "finite volumes",
+       (double)n->film_steps * SB_COST_FILM_STEP, 0.03,
+       "models.film_time = transient; the motion keeps to the steady film's friction",
        model->film_history ? "models.film has no history, only reynolds"
                            : "models.film_time = steady: every frame has the film of its speed"},
       {true, "real contact area", sb_rough_model_name(model->surface), FILM_STATES * SB_COST_ROUGH,
@@ -226,7 +256,7 @@ static void plan_valve(SbPlan *plan, const SbModel *model, unsigned views) {
       {plan->bodies, "joint reactions", "constrained bodies", 0.1 + model->frames * 1e-4, 0, joints,
        "nobody asks for them: one coordinate gives the same motion"},
       {plan->profiles, "contact profiles", plan->reynolds ? "reynolds" : fit,
-       PROFILE_STATES * (plan->reynolds ? SB_COST_FILM_PROFILE : SB_COST_CLOSED),
+       (double)n->profile_evaluations * (plan->reynolds ? SB_COST_FILM_PROFILE : SB_COST_CLOSED),
        fmax(fit_off, film_off), text[4], "no view draws them"},
       {plan->section_fields, "interior fields", "ring", shapes * SB_COST_RING_SHAPE, fit_off,
        text[5],

@@ -32,6 +32,7 @@ typedef struct {
   size_t field_count, skipped_count;
   SbPlanItem field[SB_PLAN_ITEMS_MAX];
   SbPlanItem skipped[SB_PLAN_ITEMS_MAX];
+  SbCounters expected; // what the run will count, within a factor of two; newton_iterations is 0
   bool profiles;       // contact pressure and film over x are kept
   bool section_fields; // interior fields at drawn frames
   bool reynolds;       // the film is solved

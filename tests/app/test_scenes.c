@@ -70,6 +70,26 @@ static void keeps_plan(const SbRun *run) {
   g_assert_cmpint(plan->film_history, ==, counters->film_steps > 0);
   g_assert_cmpint(plan->ring, ==, counters->ring_solves > 0);
   g_assert_cmpint(plan->section_fields, ==, counters->field_evaluations > 0);
+  // How often, within a factor of two: what its predicted time is reckoned with.
+  static const struct {
+    const char *name;
+    size_t place;
+  } counts[] = {{"fits", offsetof(SbCounters, fit_solves)},
+                {"discs", offsetof(SbCounters, disc_solves)},
+                {"rings", offsetof(SbCounters, ring_solves)},
+                {"films", offsetof(SbCounters, reynolds_solves)},
+                {"nodes", offsetof(SbCounters, speed_nodes)},
+                {"steps of films", offsetof(SbCounters, film_steps)},
+                {"fields", offsetof(SbCounters, field_evaluations)},
+                {"profiles", offsetof(SbCounters, profile_evaluations)}};
+  for (size_t i = 0; i < G_N_ELEMENTS(counts) && !sb_model_is_rig(sb_run_model(run)); i++) {
+    const size_t told = *(const size_t *)((const char *)&plan->expected + counts[i].place);
+    const size_t done = *(const size_t *)((const char *)counters + counts[i].place);
+    if (told > 2 * done || done > 2 * told) {
+      g_test_message("%s: %zu expected, %zu counted", counts[i].name, told, done);
+      g_test_fail();
+    }
+  }
 }
 
 // All of a scene; then its loop alone, which takes no more than that; then at half the step, where

@@ -1,6 +1,7 @@
 // The table of studies and the pieces that they are made of.
 #include "engine/valve/studies/study.h"
 
+#include "engine/valve/plan.h"
 #include "engine/valve/sliding.h"
 #include "engine/valve/studies/study_private.h"
 
@@ -53,9 +54,18 @@ bool sb_study_from_name(SbStudyKind *out, const char *name) {
 double sb_study_cost(SbStudyKind kind, const SbModel *model) {
   const SbStudyDesign *design = find(kind)->design;
   const SbStudySolves none = {0}, *solves = design != NULL ? &design->solves : &none;
-  return solves->rings * SB_COST_RING + solves->discs * SB_COST_DISC +
-         solves->fits * sb_cost_fit(model->fit) + solves->films * sb_cost_film(model->film) +
-         solves->reynolds * SB_COST_FILM + solves->cycles * SB_COST_ACTUATION;
+  double runs = 0;
+  if (solves->runs > 0) {
+    SbPlan plan;
+    sb_plan_wished(&plan, model, &(SbPlanWishes){0});
+    for (size_t i = 0; i < plan.field_count; i++) {
+      runs += solves->runs * plan.field[i].cost_s;
+    }
+  }
+  return runs + solves->speeds * sb_cost_speed_state(model) + solves->rings * SB_COST_RING +
+         solves->discs * SB_COST_DISC + solves->fits * sb_cost_fit(model->fit) +
+         solves->films * sb_cost_film(model->film) + solves->reynolds * SB_COST_FILM +
+         solves->cycles * SB_COST_ACTUATION;
 }
 
 // Index for one more. A study that asks for more than its struct holds is wrong.

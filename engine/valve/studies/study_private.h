@@ -20,6 +20,8 @@ typedef struct {
   int fits, films;  // by the scene's own models
   int reynolds;     // films on the half-plane
   int cycles;       // quasi-static
+  int runs;         // of the scene as it is
+  int speeds;       // films of its states at other speeds
 } SbStudySolves;
 
 // A study as data. What depends on the scene its make() adds. Quantities are texts with the unit
