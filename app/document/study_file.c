@@ -6,7 +6,6 @@
 #include "app/document/document_private.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -573,84 +572,4 @@ void sb_study_file_free(SbStudyFile *study) {
   g_free(study->path);
   g_free(study->title);
   g_free(study);
-}
-
-// ---- Points ----
-
-static void fill_grid(double *value, const SbStudyFile *study) {
-  const size_t n = study->vary->len;
-  for (size_t i = 0; i < study->samples; i++) {
-    // The last parameter runs fastest.
-    size_t rest = i;
-    for (size_t k = n; k-- > 0;) {
-      const SbDistribution *of = &g_array_index(study->vary, SbVary, k).distribution;
-      value[i * n + k] = sb_distribution_grid(of, rest % of->count);
-      rest /= of->count;
-    }
-  }
-}
-
-// Turns a point of the unit cube into values.
-static void place(double *value, const double *unit, const SbStudyFile *study) {
-  const size_t n = study->vary->len;
-  double z[SB_VARY_MAX];
-  for (size_t k = 0; study->root != NULL && k < n; k++) {
-    z[k] = sb_normal_quantile(unit[k]);
-  }
-  for (size_t k = 0; k < n; k++) {
-    const SbDistribution *of = &g_array_index(study->vary, SbVary, k).distribution;
-    if (study->root == NULL) {
-      value[k] = sb_distribution_quantile(of, unit[k]);
-      continue;
-    }
-    double variate = 0;
-    for (size_t j = 0; j <= k; j++) {
-      variate += study->root[k * n + j] * z[j];
-    }
-    value[k] = sb_distribution_at_normal(of, variate);
-  }
-}
-
-SbStatus sb_study_file_points(double **value, double **unit, const SbStudyFile *study,
-                              SbReport *report) {
-  const size_t n = study->vary->len, samples = study->samples;
-  double *values = calloc(samples * n + 1, sizeof *values);
-  double *points = calloc(samples * n + 1, sizeof *points);
-  SbStatus status = values != NULL && points != NULL
-                        ? SB_OK
-                        : sb_fail(report, SB_ERROR_MEMORY, "no memory for %zu samples", samples);
-  if (status == SB_OK) {
-    switch (study->method) {
-    case SB_METHOD_GRID:
-      fill_grid(values, study);
-      break;
-    case SB_METHOD_SOBOL_SEQUENCE:
-      status = sb_sample_sobol(points, samples, n, study->seed, report);
-      break;
-    case SB_METHOD_MORRIS:
-      sb_sample_morris(points, samples, n, study->seed);
-      break;
-    case SB_METHOD_SOBOL_INDICES:
-      status = sb_sample_saltelli(points, samples / (n + 2), n, study->seed, report);
-      break;
-    default:
-      sb_sample_random(points, samples, n, study->seed);
-    }
-  }
-  for (size_t i = 0; status == SB_OK && study->method != SB_METHOD_GRID && i < samples; i++) {
-    place(values + i * n, points + i * n, study);
-  }
-  if (status != SB_OK || unit == NULL) {
-    free(points);
-    points = NULL;
-  }
-  if (status != SB_OK) {
-    free(values);
-    values = NULL;
-  }
-  *value = values;
-  if (unit != NULL) {
-    *unit = points;
-  }
-  return status;
 }
