@@ -339,9 +339,9 @@ static void draw_cursor(const Chart *chart) {
   if (count == 0) {
     return;
   }
-  const double width = 178, line = 20, height = 12 + line * count;
+  const double width = 188, line = 20, height = 12 + line * count;
   double left = x - 8 - width;
-  left = left < r.x ? x + 8 : left;
+  left = left < r.x - 10 ? x + 8 : left;
   const SbRect box = {left, r.y + 8, width, height};
   sb_canvas_rounded(c, box, 4);
   sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_PANEL), 0.94);
@@ -353,7 +353,7 @@ static void draw_cursor(const Chart *chart) {
   for (int i = 0; i < count; i++) {
     const double y = box.y + 6 + line * i + 14;
     sample(c, order[i], box.x + 8, y - 4, 20);
-    sb_canvas_text(c, sb_propellants_name(order[i]), &plain, box.x + 36, y, SB_LEFT);
+    sb_canvas_text(c, sb_propellants_name(order[i]), &plain, box.x + 34, y, SB_LEFT);
     SbTextStyle style = bold;
     const Answer answer = answer_of(chart->study, value[order[i]]);
     if (chart->panel == RETURN && answer != RETURNS) {

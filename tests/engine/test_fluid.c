@@ -198,6 +198,11 @@ static void test_properties(void) {
     }
     g_assert_true(sb_fluid_find(fluid->label, 1) == NULL);
   }
+  // IPCC AR6, working group I, table 7.SM.7.
+  g_assert_cmpfloat(named("hfa-134a")->gwp100, ==, 1530);
+  g_assert_cmpfloat(named("hfa-227ea")->gwp100, ==, 3600);
+  g_assert_cmpfloat(named("hfa-152a")->gwp100, ==, 164);
+  g_assert_cmpfloat(named("hfo-1234ze(e)")->gwp100, ==, 1.37);
   g_assert_true(named("HFO-1234ZE(E)") == named("hfo-1234ze(e)"));
   // Of a silicone oil at 25 degC the kinematic viscosity is its grade; 0.604 of it is lost from 38
   // to 99 degC (viscosity-temperature coefficient of the trade: 0.59 to 0.62), here to 80 degC.

@@ -14,7 +14,7 @@
 // coefficients and p/E: the ratio is interpolated over p/E (monotone cubic, Steffen 1990), and the
 // closed forms carry what temperature and propellant do besides. The error told is the
 // largest that leaving out one pressure in between makes; more are solved, two by two, until it is
-// below 1 % or eleven are. Beyond the ends the ratio stays, with a warning.
+// below 2 % or eleven are. Beyond the ends the ratio stays, with a warning.
 #include "engine/fluid/fluid.h"
 #include "engine/valve/studies/study_private.h"
 
@@ -219,7 +219,7 @@ static double solve_rings(Ratios *out, SbStudyWork *work) {
       add(out, work, of[i].line % (FLUIDS + 1), of[i].x);
     }
     error = left_out(out);
-    if (work->status != SB_OK || error < 0.01) {
+    if (work->status != SB_OK || error < 0.02) {
       break;
     }
   }
@@ -228,19 +228,29 @@ static double solve_rings(Ratios *out, SbStudyWork *work) {
 
 // Gives all that closed forms answered the friction of solved rings.
 static void correct_all(SbStudyWork *work, const Ratios ratios[FLUIDS + 1]) {
+  bool held[2] = {false, false}; // beyond the pressures that were solved: of all, of a part
   for (size_t i = 0; i < work->answers; i++) {
     const int fluid = work->answer[i].line % (FLUIDS + 1);
     const Ratios *of = &ratios[fluid];
     if (work->answer[i].line / (FLUIDS + 1) != SOLVED) {
       const double strain = work->answer[i].value[STRAIN];
+      const bool part = work->answer[i].line > FLUIDS;
       if (of->count > 0 &&
           (strain < of->strain[0] - 1e-9 || strain > of->strain[of->count - 1] + 1e-9)) {
-        sb_warn(&work->out->warnings, "friction-held", "study.rings",
-                "some pressures are beyond those at which rings were solved: the friction there is "
-                "that of closed forms times the ratio at the nearest one");
+        held[part] = true;
       }
       correct(work->answer[i].value, of);
     }
+  }
+  if (held[0]) {
+    sb_warn(
+        &work->out->warnings, "friction-held", "study.rings",
+        "some pressures are beyond those at which rings were solved: the friction there is that "
+        "of closed forms times the ratio at the nearest one");
+  }
+  if (held[1]) {
+    sb_study_note(work->out, "Some parts alone are at a p/E beyond what was solved: their friction "
+                             "has the ratio of the nearest one.");
   }
 }
 
