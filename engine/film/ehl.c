@@ -285,7 +285,7 @@ static SbStatus solve_cold(SbEhlResults *results, int *levels, SbFilmSolver *sol
 
 SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                       SbFilmSolver *solver, SbReport *report) {
-  const bool rough = sb_film_rough(problem);
+  bool rough = sb_film_rough(problem);
   SbFilmSolverInfo *info = &out->solver;
   SbEhlCase c = scaled_case(problem, scale);
   solver->problem = problem;
@@ -321,6 +321,13 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
   status = warm ? solve_warm(results, solver, &c) : SB_ERROR_NOT_CONVERGED;
   if (status == SB_ERROR_NOT_CONVERGED) {
     status = solve_cold(results, &levels, solver, &c, supply, &out->warnings);
+    if (status == SB_ERROR_NOT_CONVERGED && !rough && !isfinite(supply)) {
+      // Rough rows take a smooth film as well, and find its cavity themselves.
+      rough = true;
+      status = sb_ehl_rough_case(&c, solver, scale, report);
+      status = status == SB_OK ? solve_cold(results, &levels, solver, &c, supply, &out->warnings)
+                               : status;
+    }
   }
   if (status == SB_ERROR_CANCELLED) {
     return sb_fail(report, status, "film: cancelled");

@@ -10,8 +10,9 @@
 
 #include <math.h>
 
-// Newton's solves of a path.
-enum { STEPS_MAX = 38 };
+// Newton's solves after which smooth rows give up a flooded start, of all levels together, and
+// those of a path.
+enum { STARTS_MAX = 24, STEPS_MAX = 38 };
 
 // Pressure below the rupture pressure that counts as tension: less is the lowest degree's error in
 // the far inlet.
@@ -58,6 +59,9 @@ static SbStatus iterate(SbEhlSolution *s) {
 // Cold start.
 static SbStatus start_at(SbFilmSolver *solver, const SbEhlCase *c) {
   SbEhlSolution *s = solver->now;
+  if (!c->rough.rows && solver->info->continuation_steps > STARTS_MAX) {
+    return SB_ERROR_NOT_CONVERGED;
+  }
   s->c = *c;
   if (c->layers.end == SB_EHL_REFORM) {
     s->c.layers.reform = sb_ehl_layers_reform(&c->layers);
@@ -145,7 +149,9 @@ static SbStatus follow_path(SbFilmSolver *solver, const SbEhlCase *start, const 
     }
     done = status == SB_OK ? t : done;
     step *= status == SB_OK ? GROWTH : 0.4;
-    if (step < least || i > STEPS_MAX) {
+    const bool spent =
+        !start->rough.rows && solver->info->continuation_steps > STARTS_MAX && done < 1.0;
+    if (step < least || i > STEPS_MAX || spent) {
       return SB_ERROR_NOT_CONVERGED;
     }
   }
@@ -234,7 +240,8 @@ static SbStatus start_flooded(SbFilmSolver *solver, const SbEhlCase *target) {
   SbStatus status = start_at(solver, target);
   if (target->rough.rows) {
     status = status == SB_OK ? follow_fronts(solver) : status;
-    if (status == SB_ERROR_NOT_CONVERGED && target->layers.lambda > 0.0) {
+    if (status == SB_ERROR_NOT_CONVERGED && target->layers.lambda > 0.0 &&
+        target->rough.law != NULL) {
       status = start_marched(solver, target);
     }
   }

@@ -286,19 +286,26 @@ static SbStatus solve_film(const SbSlidingTask *task, SbSealState *out, SbReport
   problem.inlet_film = task->supply.limited && solved ? task->supply.layer : 0;
   SbStatus status = sb_sliding_solve_on(task, &memory->plane, &problem, report);
   memory->last = &memory->plane;
-  if (!sb_sliding_usable(status)) {
+  if (status == SB_ERROR_CANCELLED || (!solved && !sb_sliding_usable(status))) {
     return status;
   }
-  take_film(out, &memory->plane, status, &memory->now->fit);
+  if (sb_sliding_usable(status)) {
+    take_film(out, &memory->plane, status, &memory->now->fit);
+  }
   if (solved) {
     out->film_reynolds = out->film_central;
   } else {
     out->film_error = out->central_error = NAN;
     limit_law(out, task);
   }
-  if (solved && status == SB_OK && solve_fitted(task, &memory->fitted, &problem)) {
+  // The half-plane may be opened or lost by end pressures that the fitted body bears.
+  if (solved && solve_fitted(task, &memory->fitted, &problem)) {
     take_film(out, &memory->fitted, SB_OK, &memory->now->fit);
     memory->last = &memory->fitted;
+    status = sb_succeed(report);
+  }
+  if (!sb_sliding_usable(status)) {
+    return status;
   }
   sb_warnings_merge(task->warnings, &memory->last->film.warnings);
   return status;
