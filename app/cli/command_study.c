@@ -206,10 +206,10 @@ static int judge(const SbAnswers *answers) {
     sb_cli_note("%zu of %zu samples are no valves: their values do not go together", impossible,
                 answers->samples);
   }
-  return unsolved == 0 ? SB_EXIT_DONE
-                       : (sb_cli_fail("in %zu of %zu samples a solver did not converge", unsolved,
-                                      answers->samples),
-                          SB_EXIT_NOT_CONVERGED);
+  if (unsolved > 0) {
+    sb_cli_fail("in %zu of %zu samples a solver did not converge", unsolved, answers->samples);
+  }
+  return unsolved > 0 ? SB_EXIT_NOT_CONVERGED : SB_EXIT_DONE;
 }
 
 static int solve(const Options *options, const SbStudyFile *study, SbStore *store,
