@@ -208,23 +208,11 @@ static bool mirror(const SbSlidingTask *task, SbSlidingFitment *on) {
   return on->known;
 }
 
-// The law to drag with next, between the greatest that was too small and the least too great: one
-// node more or less in the contact lets what is found jump, so that the laws go to and fro.
-static void near_law(SbSlidingLaw *found, const SbSlidingLaw *before, double bracket[2]) {
-  bracket[found->shear > before->shear ? 0 : 1] = before->shear;
-  if (found->shear <= bracket[0] || found->shear >= bracket[1]) {
-    const double part =
-        (0.5 * (bracket[0] + bracket[1]) - before->shear) / (found->shear - before->shear);
-    found->shear = before->shear + part * (found->shear - before->shear);
-    found->coefficient = before->coefficient + part * (found->coefficient - before->coefficient);
-  }
-}
-
 // A ring's states: friction drags it, and hangs on the film that lies on the dragged ring.
 // SbSlidingSolved in turns until the friction that drags it is that of its own film. A ring whose
 // greatest drag is less than its friction rolls or jams; the film is then that of this last state.
 SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
-  enum { ROUNDS = 8 };
+  enum { ROUNDS = 6 };
   const double close = 0.5 * task->model->tolerance;
   const double pressure = task->pressure.left - task->pressure.right;
   SbSlidingMemory *memory = task->memory;
@@ -237,8 +225,6 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
   }
   SbWarnings *own = &memory->warnings;
   SbStatus status = SB_OK;
-  double bracket[2] = {-INFINITY, INFINITY};
-  on->jump = known ? on->jump : 0;
   for (int round = 0;; round++) {
     SbSlidingTask like = *task;
     memset(own, 0, sizeof *own); // of the last round
@@ -254,17 +240,11 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
       break;
     }
     bool slides = on->fit.ring.state == SB_RING_SLIDES;
-    double jump = fabs(asked - before) / asked;
-    if (slides && jump > fmax(close, on->jump)) {
-      near_law(&law, &on->law, bracket);
-      on->jump = bracket[1] - bracket[0] <= 2 * close * law.shear ? jump : on->jump;
-    }
-    bool agree =
-        slides ? jump <= fmax(close, on->jump) : asked >= (1 - close) * fabs(on->fit.ring.drag);
+    bool agree = slides ? fabs(asked - before) <= close * asked
+                        : asked >= (1 - close) * fabs(on->fit.ring.drag);
     if (!agree && round + 1 < ROUNDS) {
       continue;
     }
-    out->friction_error += slides && jump > close ? jump * asked : 0;
     SbStatus borne = bear(out, &like, on, asked, status == SB_OK ? report : NULL);
     status = borne != SB_OK ? borne : status;
     if (!agree) {

@@ -20,7 +20,6 @@ typedef struct {
   double pressure; // difference for which it stands
   int seal;
   SbSlidingLaw law; // of the friction that drags it
-  double jump;      // by which its friction and that law differ at a jump, relative; 0: none
 } SbSlidingFitment;
 
 struct SbSlidingMemory {

@@ -22,9 +22,6 @@
 // turn after which the mesh is fitted anew.
 static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 5e-4, SECANT = 0.02, REFIT_TURN = 0.1;
 
-// Part of what is left that is tried where the whole failed.
-static const double PART = 0.6;
-
 // Newton iterations of a quick and of a slow step, and of a whole path at most; meshes that are
 // tried at a place where no step succeeds, and by how much each is finer.
 enum { QUICK = 7, SLOW = 14, ITERATIONS_MOST = 900, MESHES = 3 };
@@ -92,25 +89,19 @@ static SbStatus end_of_path(const SbRing *ring, SbReport *report) {
                  ring->contact->is.now.friction_bore, ring->contact->is.turn, reason.text);
 }
 
-// The next state of the path, at most the one at the wanted coefficient. *failed: what was left of
-// the path where going to its end at once failed.
+// The next state of the path, at most the one at the wanted coefficient.
 static SbStatus next_state(SbRing *ring, const double direction[2], double length, double unit,
-                           double aim, double *failed, SbReport *report) {
+                           double aim, SbReport *report) {
   SbRingContactState *is = &ring->contact->is;
   ring->arc.free = false;
-  // Near its end it needs no step that is too long by what is left; where that fails, part of it.
-  const double left = aim - is->now.friction_bore;
-  if (length * direction[1] / unit >= left) {
-    if (left < PART * *failed) {
-      sb_ring_save(ring->contact, SB_RING_START);
-      is->now.friction_bore = aim;
-      SbStatus at_once = sb_ring_attempt(ring, SB_RING_DIRECT, report);
-      if (at_once != SB_ERROR_NOT_CONVERGED) {
-        return at_once;
-      }
-      *failed = left;
+  // Near its end it needs no step that is too long by what is left.
+  if (is->now.friction_bore + length * direction[1] / unit >= aim) {
+    sb_ring_save(ring->contact, SB_RING_START);
+    is->now.friction_bore = aim;
+    SbStatus at_once = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+    if (at_once != SB_ERROR_NOT_CONVERGED) {
+      return at_once;
     }
-    length = fmin(length, PART * left * unit / direction[1]);
   }
   ring->arc = (SbRingArc){
       true, {direction[0], direction[1]}, {is->turn, unit * is->now.friction_bore}, length, unit};
@@ -130,13 +121,12 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   double fitted = ring->contact->is.turn, drag = 0.0, limit = 0.0;
   double unit, now, still = bore_load(ring->contact, &drag, &unit);
   double anchor[2] = {fitted, unit * ring->contact->is.now.friction_bore};
-  double failed = INFINITY;                       // what was left where going on to the end failed
   int meshes = 0, first = ring->count.iterations; // meshes tried since the last step
   ring->state = SB_RING_SLIDES;
   while (ring->contact->is.now.friction_bore < aim) {
     const SbRingContactState *is = &ring->contact->is;
     int before = ring->count.iterations;
-    SbStatus status = next_state(ring, direction, length, unit, aim, &failed, report);
+    SbStatus status = next_state(ring, direction, length, unit, aim, report);
     int used = ring->count.iterations - before;
     bool refit = fabs(is->turn - fitted) > REFIT_TURN;
     if (status == SB_ERROR_NOT_CONVERGED) {
