@@ -19,10 +19,6 @@ static const double WIDE = 0.3, NARROW_LEAST = 0.12;
 // fitted anew: their short elements end there.
 static const double OUTGROWN = 0.1;
 
-// Gap of a node, over the elements' size, within the contact of another mesh, up to which it is
-// held.
-static const double NEAR = 2e-3;
-
 // Largest change of the friction by another mesh at a held turn.
 static const double SAME_STATE = 0.05;
 
@@ -354,53 +350,6 @@ static void plan_patch(SbRingMeshPlan *plan, const SbRingPatch *patch, double si
   }
 }
 
-// How friction and the held set of another mesh are taken over at first.
-typedef enum { GIVEN, FIXED, LOOSE } SbCarry;
-
-// Solves on a mesh from the state on another, whose contacts are `patch`: same setting and, by
-// material angle, the same held nodes, their end between a node that was held and one that was not.
-static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch *patch,
-                           const bool *touches, SbCarry way, SbReport *report) {
-  SbRingContact *contact = fresh->contact;
-  const double *from = ring->mesh->angle;
-  const int count = ring->contact->count;
-  sb_ring_fem_transfer(fresh->fem, ring->fem);
-  contact->is.now = ring->contact->is.now;
-  contact->is.turn = ring->contact->is.turn;
-  sb_ring_fem_save(fresh->fem, SB_RING_START);
-  for (int at = 0; at < SB_RING_SURFACES * contact->count; at++) {
-    const int i = at / SB_RING_SURFACES, s = at % SB_RING_SURFACES;
-    const double gap = sb_ring_frame_at(contact, i, (SbRingSurface)s).gap;
-    contact->is.touch[at] = (SbRingTouch){0};
-    for (int turn = 0; turn < 2 && touches[s]; turn++) {
-      const double angle = fresh->mesh->angle[i] + 2.0 * M_PI * turn;
-      const int last = patch[s].last;
-      const double to = from[last % count] + 2.0 * M_PI * (last / count);
-      const bool inside = angle > from[patch[s].first] - 1e-9 && angle < to + 1e-9;
-      const bool within = angle > patch[s].angle[0] - 1e-9 && angle < patch[s].angle[1] + 1e-9;
-      contact->is.touch[at].held = contact->is.touch[at].held || inside ||
-                                   (within && gap < NEAR * fresh->options.element_size);
-    }
-  }
-  contact->fixed = way != LOOSE && sb_ring_rubs(&contact->is.now);
-  if (way == GIVEN) {
-    sb_ring_contact_give_friction(contact, ring->contact);
-  }
-  SbStatus status = sb_ring_newton(fresh, SB_RING_FOLLOW, report);
-  contact->fixed = false;
-  if (contact->given) {
-    sb_ring_contact_take_friction(contact);
-    sb_ring_save(contact, SB_RING_START);
-    status = status == SB_OK ? sb_ring_newton(fresh, SB_RING_FOLLOW, report) : status;
-  }
-  // Where the turn is held its coefficient is the mesh's; one far off is another state's.
-  const double share = contact->is.now.friction_bore / ring->contact->is.now.friction_bore;
-  if (fresh->arc.free && status == SB_OK && !(fabs(share - 1.0) < SAME_STATE)) {
-    status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the finer mesh slides in another state");
-  }
-  return status;
-}
-
 // The ring's state on a mesh fitted to its contacts, in `fresh`, which has no mesh of its own yet
 // and keeps none where that fails. `edge`: size of the elements at the contacts' ends over that of
 // the others; 0 as friction asks for.
@@ -430,29 +379,42 @@ static SbStatus remesh(SbRing *fresh, const SbRing *ring, double element_size, d
     drop(fresh);
     return status;
   }
-  // The friction that sticks is that of its place on the mesh before, or else what holds it there.
+  // Same setting and, by material angle, the same held nodes.
+  sb_ring_fem_transfer(fresh->fem, ring->fem);
   SbRingContact *contact = fresh->contact;
-  static const SbCarry WAYS[2][3] = {{GIVEN, FIXED, LOOSE}, {LOOSE, FIXED, GIVEN}};
-  status = SB_ERROR_NOT_CONVERGED;
-  for (int i = 0; i < 3 && status == SB_ERROR_NOT_CONVERGED; i++) {
-    if (i == 0 || sb_ring_rubs(&ring->contact->is.now)) {
-      status = carry_over(fresh, ring, patch, touches, WAYS[fresh->arc.free][i], report);
+  contact->is.now = ring->contact->is.now;
+  contact->is.turn = ring->contact->is.turn;
+  sb_ring_fem_save(fresh->fem, SB_RING_START);
+  for (int i = 0; i < contact->count; i++) {
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      bool held = false;
+      for (int turn = 0; turn < 2 && touches[s]; turn++) {
+        double angle = fresh->mesh->angle[i] + 2.0 * M_PI * turn;
+        held = held || (angle > patch[s].angle[0] - 1e-9 && angle < patch[s].angle[1] + 1e-9);
+      }
+      sb_ring_touch(contact, i, s)->held = held;
     }
   }
+  status = sb_ring_newton(fresh, SB_RING_FOLLOW, report);
   if (status == SB_ERROR_NOT_CONVERGED && !sb_ring_rubs(&contact->is.now)) {
     // Too far from the transferred state: follow the whole path again on the new mesh.
     SbRingLoad setting = ring->contact->is.now;
     status = sb_ring_fit_and_press(fresh, &setting, report);
   }
+  // Where the turn is held its coefficient is the mesh's; one far off is another state's.
+  double share = 1.0;
+  if (fresh->arc.free && status == SB_OK) {
+    share = contact->is.now.friction_bore / ring->contact->is.now.friction_bore;
+    if (!(fabs(share - 1.0) < SAME_STATE)) {
+      status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the finer mesh slides in another state");
+    }
+  }
   if (status != SB_OK) {
     drop(fresh);
     return status;
   }
-  if (fresh->arc.free) {
-    double share = contact->is.now.friction_bore / ring->contact->is.now.friction_bore;
-    fresh->share_limit *= share;
-    fresh->drag_limit *= share;
-  }
+  fresh->share_limit *= share;
+  fresh->drag_limit *= share;
   fresh->fitted_size = element_size;
   for (int k = 0; k < 2; k++) {
     fresh->fitted_end[k] = touches[SB_RING_BORE] ? patch[SB_RING_BORE].angle[k] : NAN;

@@ -26,15 +26,11 @@ static const double EDGE_SHARE = 0.5;
 // left sticking after this many changes, and what exceeds the law is reported.
 enum { FLIPS_MAX = 5 };
 
-// An end node of a contact can have no state: pulled when held, inside the surface when let go.
-// (With friction the discrete problem need not have a solution; under fluid friction jumps by mu p
-// when a node is caught.) One that is caught more often than this is held in the same solve against
-// a pull up to this share of the greatest nodal force; what is pulled is reported.
-enum { CATCHES_MAX = 1 };
-static const double PULL = 5e-3;
-
-// Stiffness of given friction against sliding, in shear moduli per section diameter.
-static const double TETHER = 50.0;
+// An end node of a contact can have no state with friction at all: pulled when held, whether it
+// sticks or slides, and inside the surface when let go. (Under fluid it jumps by mu p when caught.)
+// After being caught so often it is held without friction, which always has a solution; its
+// friction is taken up again in the next step, and what is missing is reported.
+enum { CATCHES_MAX = 3 };
 
 SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report) {
   *out = NULL;
@@ -47,13 +43,12 @@ SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *r
   contact->count = (int)n;
   contact->force_scale = 1.0;
   contact->is.touch = calloc(3 * n * SB_RING_SURFACES, sizeof(SbRingTouch)); // and the saved ones
-  contact->closed = calloc(n * (1 + SB_RING_SURFACES), sizeof(bool));        // and what follows it
-  contact->share = calloc(8 * n, sizeof(double));                            // and what follows it
+  contact->closed = calloc(n, sizeof(bool));
+  contact->share = calloc(8 * n, sizeof(double)); // and what follows it
   if (contact->is.touch == NULL || contact->closed == NULL || contact->share == NULL) {
     sb_ring_contact_destroy(contact);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's contact");
   }
-  contact->turns = contact->closed + n;
   contact->pressed = contact->share + 2 * n;
   contact->fluid = contact->share + 4 * n;
   contact->weight = contact->share + 6 * n;
@@ -121,7 +116,7 @@ static double bears(const SbRingContact *contact, int i, SbRingSurface surface) 
 
 bool sb_ring_contact_sticks(const SbRingContact *contact, int i, SbRingSurface surface) {
   const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
-  return !contact->given && touch->slip == 0 && rubs(contact, i, surface);
+  return !touch->smooth && touch->slip == 0 && rubs(contact, i, surface);
 }
 
 // Motion of a boundary node along t relative to the surface since the start of the step.
@@ -143,7 +138,7 @@ static double slip_fault(const SbRingContact *contact, SbRingSurface surface, in
                          signed char *state) {
   const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
   *state = touch->slip;
-  if (contact->given || !rubs(contact, i, surface)) {
+  if (!rubs(contact, i, surface) || touch->smooth) {
     return 0.0;
   }
   if (touch->slip == 0) {
@@ -204,99 +199,26 @@ static void begin_friction(SbRingContact *contact, int i, SbRingSurface surface)
     int state = moved > 1e-9 ? -1 : moved < -1e-9 ? 1 : 0, turn = touch->catches % 3;
     touch->slip = (signed char)(turn < 2 ? state * (1 - turn) : -state);
   }
+  touch->smooth = touch->catches >= CATCHES_MAX;
   touch->catches++;
 }
 
-// Sum of what exceeds Coulomb's law at sticking nodes.
+// Sum of what exceeds Coulomb's law at sticking nodes and of the friction that is left out.
 static double slip_excess(const SbRingContact *contact) {
   double sum = 0.0;
   for (int i = 0; i < contact->count; i++) {
     for (int s = 0; s < SB_RING_SURFACES; s++) {
       const SbRingTouch *touch = sb_ring_touch(contact, i, s);
-      if (rubs(contact, i, (SbRingSurface)s) && touch->slip == 0) {
-        sum += fmax(0.0, fabs(touch->tangent) - bears(contact, i, (SbRingSurface)s));
+      if (rubs(contact, i, (SbRingSurface)s) && (touch->smooth || touch->slip == 0)) {
+        double limit = bears(contact, i, (SbRingSurface)s);
+        sum += touch->smooth ? limit : fmax(0.0, fabs(touch->tangent) - limit);
       }
     }
   }
   return sum;
 }
 
-// The share of a node's friction in its normal force, at most the coefficient.
-static double friction_ratio(const SbRingContact *contact, int i, SbRingSurface surface) {
-  const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
-  const double most = sb_ring_friction(&contact->is.now, surface);
-  return touch->force > 0.0 ? fmin(most, fmax(-most, touch->tangent / touch->force)) : 0.0;
-}
-
-void sb_ring_contact_give_friction(SbRingContact *to, const SbRingContact *from) {
-  const double *angle = from->fem->mesh->angle;
-  for (int s = 0; s < SB_RING_SURFACES; s++) {
-    int any = -1; // a held node after an open one
-    for (int i = 0; i < from->count; i++) {
-      if (rubs(from, i, (SbRingSurface)s) && !rubs(from, i - 1, (SbRingSurface)s)) {
-        any = i;
-      }
-    }
-    to->given = to->given || any >= 0;
-    for (int k = 0; k < to->count; k++) {
-      double ratio = 0.0, nearest = INFINITY;
-      for (int i = any; any >= 0 && i < any + from->count; i++) {
-        if (!rubs(from, i, (SbRingSurface)s)) {
-          continue;
-        }
-        const double at = angle[sb_ring_wrap(from, i)];
-        const double away = remainder(to->fem->mesh->angle[k] - at, 2.0 * M_PI);
-        if (fabs(away) < nearest) {
-          nearest = fabs(away);
-          ratio = friction_ratio(from, i, (SbRingSurface)s);
-          const int next = away > 0.0 ? i + 1 : i - 1;
-          if (rubs(from, next, (SbRingSurface)s)) {
-            const double span = remainder(angle[sb_ring_wrap(from, next)] - at, 2.0 * M_PI);
-            ratio += away / span * (friction_ratio(from, next, (SbRingSurface)s) - ratio);
-          }
-        }
-      }
-      sb_ring_touch(to, k, s)->ratio = ratio;
-    }
-  }
-}
-
-void sb_ring_contact_take_friction(SbRingContact *contact) {
-  contact->given = false;
-  for (int at = 0; at < SB_RING_SURFACES * contact->count; at++) {
-    SbRingTouch *touch = &contact->is.touch[at];
-    const SbRingSurface surface = (SbRingSurface)(at % SB_RING_SURFACES);
-    const double most = sb_ring_friction(&contact->is.now, surface);
-    if (rubs(contact, at / SB_RING_SURFACES, surface)) {
-      touch->slip = fabs(touch->tangent) < most * touch->force ? 0 : touch->tangent > 0.0 ? 1 : -1;
-    }
-  }
-}
-
 // ---- conditions and forces
-
-// A law that is not Coulomb's drives a node in proportion to its area, which its sides' nodes move.
-static void lean_on_area(const SbRingContact *contact, int i, SbRingCondition *condition) {
-  const bool closed_only = contact->rubbed[i] > 0.0;
-  const double area = closed_only ? contact->rubbed[i] : contact->weight[i];
-  const int first = i - (i % 2 != 0 ? 1 : 2), count = i % 2 != 0 ? 3 : SB_RING_BESIDE;
-  condition->beside_count = count;
-  for (int k = 0; k < count; k++) {
-    condition->beside[k] = contact->fem->mesh->loop[sb_ring_wrap(contact, first + k)];
-  }
-  for (int from = first; from + 2 < first + count; from += 2) {
-    const int side = sb_ring_wrap(contact, from) / 2;
-    double slope[3][2];
-    if (contact->closed[side] || !closed_only) {
-      sb_ring_side_area_slope(contact, side, i - from, slope);
-      for (int k = 0; k < 3; k++) {
-        for (int c = 0; c < 2; c++) {
-          condition->drive_slope[from - first + k][c] += condition->drive / area * slope[k][c];
-        }
-      }
-    }
-  }
-}
 
 double sb_ring_contact_apply(SbRingContact *contact) {
   SbRingFem *fem = contact->fem;
@@ -321,13 +243,7 @@ double sb_ring_contact_apply(SbRingContact *contact) {
       condition->count = 1;
       memcpy(condition->direction[1], frame.t, sizeof frame.t);
       condition->curve = frame.curvature;
-      if (contact->stuck) {
-        bool corner = false;
-        for (int other = s + 1; other < SB_RING_SURFACES; other++) {
-          corner = corner || sb_ring_touch(contact, i, other)->held;
-        }
-        condition->count = corner ? 1 : 2;
-      } else if (s == SB_RING_BORE && contact->is.now.use_bore_traction) {
+      if (s == SB_RING_BORE && contact->is.now.use_bore_traction) {
         condition->drive = contact->is.now.bore_traction * contact->weight[i];
       } else if (sb_ring_contact_sticks(contact, i, (SbRingSurface)s)) {
         condition->gap[1] = -slipped(contact, (SbRingSurface)s, i, frame.t);
@@ -336,16 +252,7 @@ double sb_ring_contact_apply(SbRingContact *contact) {
           corner = corner || sb_ring_touch(contact, i, other)->held;
         }
         condition->count = corner ? 1 : 2;
-      } else if (contact->given && rubs(contact, i, (SbRingSurface)s)) {
-        // What interpolation has displaced it by changes little; a ring that slides off is held.
-        const double *t = frame.t, grip = TETHER * contact->weight[i];
-        condition->mix = -touch->ratio;
-        condition->drive = -grip * slipped(contact, (SbRingSurface)s, i, t);
-        condition->beside_count = 1;
-        condition->beside[0] = fem->mesh->loop[i];
-        condition->drive_slope[0][0] = -grip * t[0];
-        condition->drive_slope[0][1] = -grip * t[1];
-      } else {
+      } else if (!touch->smooth) {
         bool known = s == SB_RING_BORE && contact->is.now.bore_slides != 0;
         int slip = known ? contact->is.now.bore_slides : touch->slip;
         const double *force = &fem->residual[2 * fem->mesh->loop[i]];
@@ -354,9 +261,6 @@ double sb_ring_contact_apply(SbRingContact *contact) {
         double grip = sb_ring_grip(contact, i, (SbRingSurface)s, normal, &slope);
         condition->mix = -share * slope;
         condition->drive = share * (grip - slope * normal);
-        if (condition->drive != 0.0) {
-          lean_on_area(contact, i, condition);
-        }
       }
     }
   }
@@ -400,76 +304,45 @@ static void toggle(SbRingContact *contact, int at) {
   }
 }
 
-// By how much a surface pushes a held node more than the fluid would push it off.
-static double excess_at(const SbRingContact *contact, int i, int surface) {
-  SbRingFrame frame = sb_ring_frame_at(contact, i, (SbRingSurface)surface);
-  const double *share = &contact->share[2 * sb_ring_wrap(contact, i)];
-  return sb_ring_touch(contact, i, surface)->force - frame.n[0] * share[0] - frame.n[1] * share[1];
-}
-
-// Whether a held node is to be let go. The fluid comes in from an end of the contact: it finds no
-// way to a node within that is pressed.
-static bool opens(const SbRingContact *contact, int i, int surface, double least) {
-  if (excess_at(contact, i, surface) >= least) {
-    return false;
-  }
-  bool opened = sb_ring_touch(contact, i, surface)->force < least;
-  for (int step = -1; step <= 1; step += 2) {
-    int at = i, left = contact->count;
-    while (left-- > 0 && sb_ring_touch(contact, at, surface)->held &&
-           excess_at(contact, at, surface) < least) {
-      at += step;
-    }
-    opened = opened || !sb_ring_touch(contact, at, surface)->held;
-  }
-  return opened;
-}
-
 int sb_ring_contact_update(SbRingContact *contact, bool single) {
   SbRingFem *fem = contact->fem;
   int changes = 0;
-  if (contact->fixed) {
-    return 0;
-  }
   int worst[2] = {-1, -1}; // to be let go, to be caught
-  const double let_go = -1e-11 * contact->force_scale;
-  double least = 0.0, deepest = -1e-11, most[SB_RING_SURFACES] = {0.0};
+  double least = -1e-11 * contact->force_scale, deepest = -1e-11;
   for (int i = 0; i < contact->count; i++) {
     int node = fem->mesh->loop[i];
+    const double *share = &contact->share[2 * i];
     if (fem->condition[node].count > 0) {
       double force[2];
       sb_ring_fem_reaction(fem, node, force);
       split_force(contact, i, force);
     }
     for (int s = 0; s < SB_RING_SURFACES; s++) {
-      most[s] = fmax(most[s], sb_ring_touch(contact, i, s)->force);
+      int at = SB_RING_SURFACES * i + s;
+      const SbRingTouch *touch = &contact->is.touch[at];
+      SbRingFrame frame = sb_ring_frame_at(contact, i, (SbRingSurface)s);
+      // The fluid would push this node off the surface, along n, by its share.
+      double excess = touch->force - frame.n[0] * share[0] - frame.n[1] * share[1];
+      if (!touch->held && frame.gap < deepest) {
+        worst[1] = at;
+        deepest = single ? frame.gap : deepest;
+      } else if (touch->held && excess < least) {
+        worst[0] = at;
+        least = single ? excess : least;
+      } else {
+        continue;
+      }
+      if (!single) {
+        toggle(contact, at);
+        changes++;
+      }
     }
   }
-  for (int at = 0; at < SB_RING_SURFACES * contact->count; at++) {
-    const int i = at / SB_RING_SURFACES, s = at % SB_RING_SURFACES;
-    const SbRingTouch *touch = &contact->is.touch[at];
-    const double gap = sb_ring_frame_at(contact, i, (SbRingSurface)s).gap;
-    contact->turns[at] =
-        touch->held ? opens(contact, i, s, touch->catches > CATCHES_MAX ? -PULL * most[s] : let_go)
-                    : gap < (single ? deepest : -1e-11);
-    if (contact->turns[at] && touch->held && excess_at(contact, i, s) < least) {
-      least = excess_at(contact, i, s);
-      worst[0] = at;
-    } else if (contact->turns[at] && !touch->held) {
-      deepest = gap;
-      worst[1] = at;
-    }
-  }
-  for (int at = 0; at < SB_RING_SURFACES * contact->count && !single; at++) {
-    if (contact->turns[at]) {
-      toggle(contact, at);
+  for (int k = 0; k < 2 && single; k++) {
+    if (worst[k] >= 0) {
+      toggle(contact, worst[k]);
       changes++;
     }
-  }
-  if (single && (worst[0] >= 0 || worst[1] >= 0)) {
-    // One at a time: a node let go here and one caught there undo each other in turn.
-    toggle(contact, worst[1] >= 0 ? worst[1] : worst[0]);
-    changes++;
   }
   // Friction follows once the contact is steady: changing both at once does not converge.
   return changes > 0 ? changes : update_slip(contact, single);
@@ -497,6 +370,7 @@ void sb_ring_contact_begin(SbRingContact *contact) {
   contact->unsteady = -1;
   for (int i = 0; i < SB_RING_SURFACES * contact->count; i++) {
     contact->is.touch[i].flips = contact->is.touch[i].catches = 0;
+    contact->is.touch[i].smooth = false;
   }
 }
 

@@ -30,12 +30,12 @@ typedef struct {
 // One boundary node against one surface.
 typedef struct {
   bool held;
+  bool smooth;           // its friction is left out in this solve
   signed char slip;      // 0 sticks; +-1 slides with the friction force on the ring along +-t
   unsigned char flips;   // changes of the slip state in this solve
   unsigned char catches; // times this node was caught in this solve
   double force;          // normal contact force on the ring, >= 0 when held
   double tangent;        // tangential contact force along t
-  double ratio;          // what it is given over the normal force, where `given` tells so
 } SbRingTouch;
 
 // What a state of the contact is beside its displacements.
@@ -55,16 +55,12 @@ typedef struct {
   int count;      // boundary nodes
   SbRingContactState is, saved[3];
   bool *closed;       // [count / 2] boundary sides closed by contact
-  bool *turns;        // [count][SB_RING_SURFACES] to be caught or let go; scratch
   double *share;      // [2 count] force of the fluid that held nodes must exceed
   double *pressed;    // [2 count] the part of it from open sides
   double *fluid;      // [2 count] fluid force on the open sides' nodes
   double *weight;     // [count] current area of the boundary nodes
   double *rubbed;     // [count] the part of it on closed sides
   bool settled;       // the state stands still: its crests stay
-  bool fixed;         // the held set stays
-  bool stuck;         // and every held node stays at its place
-  bool given;         // Coulomb friction is given at each node, by `ratio`
   double slip_excess; // departure from Coulomb's law at nodes that could not settle
   double force_scale; // for tolerances
   double stress;      // unit of stress, Pa
@@ -126,9 +122,6 @@ typedef struct {
 void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressure pressure,
                        double force[3][2], double tangent[3][2][3][2], double area[3]);
 
-// What the share of a side's node `a` of its area changes with the places of its nodes.
-void sb_ring_side_area_slope(const SbRingContact *contact, int side, int a, double slope[3][2]);
-
 // Friction force of the whole law of a surface at a boundary node (of Coulomb's with a coefficient
 // of 1) under a normal force, and its slope.
 double sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surface, double normal,
@@ -142,11 +135,6 @@ void sb_ring_contact_detect(SbRingContact *contact);
 
 // Before a solve: forgets how often slip states have changed.
 void sb_ring_contact_begin(SbRingContact *contact);
-
-// Gives each node the Coulomb friction that is at its place of another mesh, over its normal force,
-// until sb_ring_contact_take_friction() lets it follow the motion from there.
-void sb_ring_contact_give_friction(SbRingContact *to, const SbRingContact *from);
-void sb_ring_contact_take_friction(SbRingContact *contact);
 
 // After assembly: adds fluid to residual and tangent, writes the nodes' conditions. Returns the
 // largest penetration or gap of a held node.

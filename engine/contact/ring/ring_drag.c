@@ -93,16 +93,6 @@ static SbStatus end_of_path(const SbRing *ring, SbReport *report) {
 static SbStatus next_state(SbRing *ring, const double direction[2], double length, double unit,
                            double aim, SbReport *report) {
   SbRingContactState *is = &ring->contact->is;
-  ring->arc.free = false;
-  // Near its end it needs no step that is too long by what is left.
-  if (is->now.friction_bore + length * direction[1] / unit >= aim) {
-    sb_ring_save(ring->contact, SB_RING_START);
-    is->now.friction_bore = aim;
-    SbStatus at_once = sb_ring_attempt(ring, SB_RING_DIRECT, report);
-    if (at_once != SB_ERROR_NOT_CONVERGED) {
-      return at_once;
-    }
-  }
   ring->arc = (SbRingArc){
       true, {direction[0], direction[1]}, {is->turn, unit * is->now.friction_bore}, length, unit};
   sb_ring_save(ring->contact, SB_RING_START);

@@ -15,10 +15,6 @@ enum { SINGLE_AFTER = 14, RECENTRES_MAX = 6, MORE = 10 };
 
 static const double NEARLY = 1e-2;
 
-// A held set that another mesh has given stays until the balance is so near, or so many iterations.
-static const double NEAR_FIXED = 1e-3;
-enum { FIXED_MAX = 8, STUCK = 2 };
-
 static const double DET_SHARE = 0.35, DAMPING = 10.0;
 static const double RESIDUAL_TOLERANCE = 1e-11, GAP_TOLERANCE = 1e-11, PATH_TOLERANCE = 1e-9,
                     DRIFT_FORCE = 1e-13;
@@ -106,7 +102,7 @@ static SbStatus correct(SbRing *ring, double *change, SbReport *report) {
   const SbRingContact *contact = ring->contact;
   SbStatus status = sb_ring_fem_solve(fem, report);
   *change = 0.0;
-  if (status != SB_OK || !ring->arc.free || contact->stuck) {
+  if (status != SB_OK || !ring->arc.free) {
     return status;
   }
   size_t n = 2 * (size_t)fem->mesh->nodes;
@@ -116,7 +112,7 @@ static SbStatus correct(SbRing *ring, double *change, SbReport *report) {
     const SbRingTouch *touch = sb_ring_touch(contact, i, SB_RING_BORE);
     int node = fem->mesh->loop[i];
     const double *r = &fem->residual[2 * node], *normal = fem->condition[node].direction[0];
-    if (touch->held && fem->condition[node].count == 1) {
+    if (touch->held && !touch->smooth && fem->condition[node].count == 1) {
       int row = fabs(normal[0]) >= fabs(normal[1]) ? 1 : 0;
       double slope, force = normal[0] * r[0] + normal[1] * r[1];
       fem->rhs[2 * node + row] =
@@ -168,10 +164,9 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
       return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's mesh turned inside out");
     }
     det_before = fem->det_min;
-    contact->stuck = contact->fixed && it < STUCK;
     double gap = sb_ring_contact_apply(contact);
     double residual = sb_ring_fem_free_residual(fem) / contact->force_scale;
-    if (it > 0 && changes == 0 && !slack && !contact->fixed && residual <= RESIDUAL_TOLERANCE &&
+    if (it > 0 && changes == 0 && !slack && residual <= RESIDUAL_TOLERANCE &&
         gap <= GAP_TOLERANCE && fabs(off_path(ring)) <= PATH_TOLERANCE) {
       slack = recentres++ < RECENTRES_MAX && recentre(fem, contact->force_scale);
       if (slack) {
@@ -180,7 +175,6 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
       sb_ring_contact_forces(contact);
       return SB_OK;
     }
-    contact->fixed = contact->fixed && residual > NEAR_FIXED && it < FIXED_MAX;
     slack = false;
     stumbles += step < STUMBLE ? 1 : 0;
     // A steady contact near its balance may take a little longer.

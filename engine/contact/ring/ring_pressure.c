@@ -173,7 +173,7 @@ static double solve(Fit *fit, const double end[2], double *residual) {
 // Both ends by Gauss-Newton's method; the mean square, negative if there is none.
 static double find_ends(Fit *fit, double end[2]) {
   double *here = fit->here, *there = fit->there, (*slope)[ROWS_MAX] = fit->slope;
-  double width = end[1] - end[0], step = 1e-6 * width, best = solve(fit, end, here);
+  double width = end[1] - end[0], step = 1e-5 * width, best = solve(fit, end, here);
   for (int it = 0; it < ENDS_MAX && best >= 0.0; it++) {
     double m[3] = {0.0}, b[2] = {0.0};
     for (int k = 0; k < 2; k++) {
