@@ -285,8 +285,9 @@ static int emit_slurm(const Options *options, const SbStudyFile *study) {
   g_autofree char *file = g_canonicalize_filename(study->path, NULL);
   g_autofree char *whole = g_canonicalize_filename(store, NULL);
   g_autofree char *part = shard_path(whole, "$SLURM_ARRAY_TASK_ID", options->shard_count);
-  g_autofree char *quoted[] = {g_shell_quote(program != NULL ? program : "sealbench"),
-                               g_shell_quote(file), g_shell_quote(whole), NULL};
+  g_autofree char *run = g_shell_quote(program != NULL ? program : "sealbench");
+  g_autofree char *of = g_shell_quote(file);
+  g_autofree char *into = g_shell_quote(whole);
   if (strpbrk(whole, "\"$`\\") != NULL) {
     return sb_cli_fail("-o: %s has characters that a shell takes for its own", whole);
   }
@@ -303,8 +304,8 @@ static int emit_slurm(const Options *options, const SbStudyFile *study) {
       "# A job that fails is sent again alone: sbatch --array=I. When all are done:\n"
       "#   sealbench merge %s %s\n"
       "exec %s study %s%s -q --jobs 1 --shard \"$SLURM_ARRAY_TASK_ID/%zu\" -o \"%s\"\n",
-      options->shard_count, quoted[2], "the stores of the jobs", quoted[0], quoted[1],
-      settings->str, options->shard_count, part);
+      options->shard_count, into, "the stores of the jobs", run, of, settings->str,
+      options->shard_count, part);
   g_string_free(settings, TRUE);
   return sb_output_write(options->slurm, text, strlen(text), &error) ? SB_EXIT_DONE
                                                                      : sb_cli_error(error);

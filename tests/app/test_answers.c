@@ -175,7 +175,7 @@ static void test_shards(void) {
 static void test_disagree(void) {
   guint8 key[SB_STORE_KEY] = {7};
   const double at = 1, low[] = {1, 2, 3}, high[] = {1, 2, 4};
-  g_autofree char *paths[] = {in_folder("a.store"), in_folder("b.store"), NULL};
+  char *paths[] = {in_folder("a.store"), in_folder("b.store")};
   for (int i = 0; i < 2; i++) {
     SbStore *store = open_store(paths[i]);
     const SbStoredAnswer answer = {.value = (double *)(i == 0 ? low : high)};
@@ -191,8 +191,10 @@ static void test_disagree(void) {
     close_store(all);
   }
   g_assert_cmpmem(got[0], sizeof got[0], got[1], sizeof got[1]);
-  g_unlink(paths[0]);
-  g_unlink(paths[1]);
+  for (int i = 0; i < 2; i++) {
+    g_unlink(paths[i]);
+    g_free(paths[i]);
+  }
 }
 
 static void test_no_store(void) {

@@ -110,7 +110,7 @@ static void test_killed(void) {
   g_assert_cmpint(killed, >, 0);
   g_autofree char *resumed = csv_of(study, torn);
   g_assert_cmpstr(resumed, ==, expected);
-  g_autofree char *parts[] = {path_of("1.store"), path_of("2.store"), path_of("3.store"), NULL};
+  char *parts[] = {path_of("1.store"), path_of("2.store"), path_of("3.store")};
   static const char *const shard[] = {"1/3", "2/3", "3/3"};
   for (int i = 0; i < 3; i++) {
     CliResult result = CLI("study", study, CLOSED, "-o", parts[i], "--shard", shard[i], "-q");
@@ -126,6 +126,7 @@ static void test_killed(void) {
   g_assert_cmpstr(merged, ==, expected);
   for (int i = 0; i < 3; i++) {
     g_unlink(parts[i]);
+    g_free(parts[i]);
   }
   g_unlink(joined);
   g_unlink(whole);
