@@ -17,6 +17,8 @@ typedef struct {
   size_t shard_index, shard_count; // from 0; count 0: no shards
 } Options;
 
+_Static_assert((int)SB_VARY_MAX <= (int)SB_QUESTION_PARAMETERS, "a question takes all that varies");
+
 static const SbAnswerPool *answer_pool;
 
 void sb_cli_set_pool(const SbAnswerPool *pool) {

@@ -486,6 +486,23 @@ static void read_groups(Reader *reader) {
   read_correlations(reader);
 }
 
+// Hash of the scene's values and of its rubber's figures, which other values of [vary] may bring
+// into force. Owned by the caller.
+static char *hash_scene(const SbDocument *scene) {
+  g_autofree char *values = sb_document_sha256(scene);
+  GString *text = g_string_new(values);
+  const SbRubberSheet *rubber = scene->data != NULL ? &scene->data->rubber : NULL;
+  for (size_t i = 0; rubber != NULL && i < rubber->count; i++) {
+    char digits[SB_NUMBER_SIZE];
+    g_string_append_printf(text, "\n%s,%d,%s", sb_param(rubber->figure[i].id)->key,
+                           rubber->figure[i].fluid,
+                           sb_number_format(digits, rubber->figure[i].value));
+  }
+  char *hash = g_compute_checksum_for_string(G_CHECKSUM_SHA256, text->str, -1);
+  g_string_free(text, TRUE);
+  return hash;
+}
+
 // The scene as a model, and what tells it from every other.
 static void open_scene(Reader *reader, const char *name, char **settings, const char *directory) {
   SbStudyFile *study = reader->study;
@@ -502,7 +519,7 @@ static void open_scene(Reader *reader, const char *name, char **settings, const 
     (void)sb_document_set_option(study->scene, *setting, reader->issues);
   }
   if (reader->issues->len == 0 && sb_document_compile(study->scene, &study->base, reader->issues)) {
-    study->base_sha256 = sb_document_sha256(study->scene);
+    study->base_sha256 = hash_scene(study->scene);
     study->limits = study->scene->limits;
   }
 }

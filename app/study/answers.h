@@ -53,10 +53,13 @@ SbStatus sb_answer(double *value, char **reason, SbEvaluator *evaluator, const S
 // Where a pool puts its answers, from the one thread that has the store.
 typedef struct SbAnswerSink SbAnswerSink;
 
-// Takes the answer to a sample, whose values lie in their place (sb_answer_place()); `reason` is
-// given over. And whether to go on: no failure of the store, nobody cancelled.
-void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStatus status, char *reason);
+// Place of a sample's figures [figures].
 double *sb_answer_place(SbAnswerSink *sink, size_t sample);
+
+// Takes the answer to a sample, whose figures lie in their place; `reason` is given over.
+void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStatus status, char *reason);
+
+// Whether to go on: no failure of the store, nobody cancelled. Tells the progress.
 bool sb_answer_goes_on(SbAnswerSink *sink);
 
 struct SbAnswerPool {

@@ -147,6 +147,36 @@ static void test_blocks(void) {
   g_assert_cmpstr(other->base_sha256, !=, study->base_sha256);
 }
 
+// A figure of the rubber that only another propellant brings into force tells bases apart.
+static void test_rubber(void) {
+  static const char *const swell[] = {"hfa-134a = 17 %", "hfa-134a = 16 %"};
+  g_autofree char *source =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "rubbers", "nitrile.rubber", NULL);
+  g_autofree char *path = g_build_filename(folder, "x.study", NULL);
+  g_autofree char *rubber = g_build_filename(folder, "own.rubber", NULL);
+  g_autofree char *shipped = NULL;
+  char *hash[2];
+  g_assert_true(g_file_get_contents(source, &shipped, NULL, NULL));
+  for (int i = 0; i < 2; i++) {
+    g_auto(GStrv) parts = g_strsplit(shipped, swell[0], 2);
+    g_assert_cmpuint(g_strv_length(parts), ==, 2);
+    g_autofree char *text = g_strjoin(swell[i], parts[0], parts[1], NULL);
+    g_autofree char *setting = g_strconcat("rubber.name=", rubber, NULL);
+    char *settings[] = {setting, NULL};
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_assert_true(g_file_set_contents(rubber, text, -1, NULL));
+    sb_study_file_free(
+        load("[vary]\nfluid.name = levels custom, hfa-134a\n[study]\nmethod = grid\n", issues));
+    g_autoptr(SbStudyFile) study = sb_study_file_load(path, settings, issues);
+    g_assert_cmpuint(issues->len, ==, 0);
+    hash[i] = g_strdup(study->base_sha256);
+  }
+  g_assert_cmpstr(hash[0], !=, hash[1]);
+  g_free(hash[0]);
+  g_free(hash[1]);
+  g_unlink(rubber);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   folder = g_dir_make_tmp("sealbench-study-XXXXXX", NULL);
@@ -154,6 +184,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/study-file/grid", test_grid);
   g_test_add_func("/study-file/correlation", test_correlation);
   g_test_add_func("/study-file/blocks", test_blocks);
+  g_test_add_func("/study-file/rubber", test_rubber);
   const int failed = g_test_run();
   g_autofree char *path = g_build_filename(folder, "x.study", NULL);
   g_unlink(path);
