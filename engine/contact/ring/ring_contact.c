@@ -220,6 +220,29 @@ static double slip_excess(const SbRingContact *contact) {
 
 // ---- conditions and forces
 
+// A law that is not Coulomb's drives a node in proportion to its area, which its sides' nodes move.
+static void lean_on_area(const SbRingContact *contact, int i, SbRingCondition *condition) {
+  const bool closed_only = contact->rubbed[i] > 0.0;
+  const double area = closed_only ? contact->rubbed[i] : contact->weight[i];
+  const int first = i - (i % 2 != 0 ? 1 : 2), count = i % 2 != 0 ? 3 : SB_RING_BESIDE;
+  condition->beside_count = count;
+  for (int k = 0; k < count; k++) {
+    condition->beside[k] = contact->fem->mesh->loop[sb_ring_wrap(contact, first + k)];
+  }
+  for (int from = first; from + 2 < first + count; from += 2) {
+    const int side = sb_ring_wrap(contact, from) / 2;
+    double slope[3][2];
+    if (contact->closed[side] || !closed_only) {
+      sb_ring_side_area_slope(contact, side, i - from, slope);
+      for (int k = 0; k < 3; k++) {
+        for (int c = 0; c < 2; c++) {
+          condition->drive_slope[from - first + k][c] += condition->drive / area * slope[k][c];
+        }
+      }
+    }
+  }
+}
+
 double sb_ring_contact_apply(SbRingContact *contact) {
   SbRingFem *fem = contact->fem;
   sb_ring_contact_load_fluid(contact);
@@ -261,6 +284,9 @@ double sb_ring_contact_apply(SbRingContact *contact) {
         double grip = sb_ring_grip(contact, i, (SbRingSurface)s, normal, &slope);
         condition->mix = -share * slope;
         condition->drive = share * (grip - slope * normal);
+        if (condition->drive != 0.0) {
+          lean_on_area(contact, i, condition);
+        }
       }
     }
   }

@@ -122,6 +122,9 @@ typedef struct {
 void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressure pressure,
                        double force[3][2], double tangent[3][2][3][2], double area[3]);
 
+// What the share of a side's node `a` of its area changes with the places of its nodes.
+void sb_ring_side_area_slope(const SbRingContact *contact, int side, int a, double slope[3][2]);
+
 // Friction force of the whole law of a surface at a boundary node (of Coulomb's with a coefficient
 // of 1) under a normal force, and its slope.
 double sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surface, double normal,
