@@ -30,7 +30,8 @@ enum { FLIPS_MAX = 5 };
 // sticks or slides, and inside the surface when let go. (Under fluid it jumps by mu p when caught.)
 // After being caught so often it is held without friction, which always has a solution; its
 // friction is taken up again in the next step, and what is missing is reported.
-enum { CATCHES_MAX = 3 };
+// On a path, whose states lead to others only, such a node stays held.
+enum { CATCHES_MAX = 3, PASSED_MAX = 1 };
 
 SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report) {
   *out = NULL;
@@ -352,7 +353,8 @@ int sb_ring_contact_update(SbRingContact *contact, bool single) {
       if (!touch->held && frame.gap < deepest) {
         worst[1] = at;
         deepest = single ? frame.gap : deepest;
-      } else if (touch->held && excess < least) {
+      } else if (touch->held && excess < least &&
+                 !(contact->passed && touch->catches > PASSED_MAX)) {
         worst[0] = at;
         least = single ? excess : least;
       } else {

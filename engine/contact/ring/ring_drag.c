@@ -113,6 +113,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   double anchor[2] = {fitted, unit * ring->contact->is.now.friction_bore};
   int meshes = 0, first = ring->count.iterations; // meshes tried since the last step
   ring->state = SB_RING_SLIDES;
+  ring->passing = true;
   while (ring->contact->is.now.friction_bore < aim) {
     const SbRingContactState *is = &ring->contact->is;
     int before = ring->count.iterations;
@@ -165,6 +166,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   }
   // Another mesh at a held turn may have passed the coefficient.
   ring->arc.free = false;
+  ring->passing = false;
   sb_ring_save(ring->contact, SB_RING_START);
   ring->contact->is.now.friction_bore = aim;
   return sb_ring_attempt(ring, SB_RING_DIRECT, report);
@@ -172,6 +174,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
 
 SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
   SbStatus status = follow(ring, aim, report);
+  ring->passing = false;
   sb_ring_end_best(ring, status == SB_OK && ring->state != SB_RING_SLIDES);
   return status;
 }

@@ -16,7 +16,7 @@ enum { SINGLE_AFTER = 14, RECENTRES_MAX = 6, MORE = 10 };
 static const double NEARLY = 1e-2;
 
 static const double DET_SHARE = 0.35, DAMPING = 10.0;
-static const double RESIDUAL_TOLERANCE = 1e-11, GAP_TOLERANCE = 1e-11, PATH_TOLERANCE = 1e-9,
+static const double RESIDUAL_TOLERANCE = 1e-11, PASSED_TOLERANCE = 1e-7, PATH_TOLERANCE = 1e-9,
                     DRIFT_FORCE = 1e-13;
 
 // Far below any elastic stiffness (about 10): it only fixes where a ring that nothing holds axially
@@ -140,6 +140,8 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
   bool slack = false;
   double step = 1.0, det_before = 1.0, friction = contact->is.now.friction_bore, change = 0.0;
   sb_ring_contact_begin(contact);
+  contact->passed = ring->passing;
+  const double tolerance = ring->passing ? PASSED_TOLERANCE : RESIDUAL_TOLERANCE;
   fem->axial_rest = 0.0;
   fem->axial_damping = DAMPING / fem->mesh->nodes;
   for (int it = 0;; it++) {
@@ -166,8 +168,8 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
     det_before = fem->det_min;
     double gap = sb_ring_contact_apply(contact);
     double residual = sb_ring_fem_free_residual(fem) / contact->force_scale;
-    if (it > 0 && changes == 0 && !slack && residual <= RESIDUAL_TOLERANCE &&
-        gap <= GAP_TOLERANCE && fabs(off_path(ring)) <= PATH_TOLERANCE) {
+    if (it > 0 && changes == 0 && !slack && residual <= tolerance &&
+        gap <= tolerance && fabs(off_path(ring)) <= PATH_TOLERANCE) {
       slack = recentres++ < RECENTRES_MAX && recentre(fem, contact->force_scale);
       if (slack) {
         continue; // assembled anew, then solved once more
