@@ -350,6 +350,23 @@ static void plan_patch(SbRingMeshPlan *plan, const SbRingPatch *patch, double si
   }
 }
 
+// Slip states of a mesh's held nodes: those of the nearest nodes of another.
+static void carry_slip(SbRingContact *to, const SbRingContact *from) {
+  for (int i = 0; i < to->count; i++) {
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      double nearest = INFINITY;
+      for (int k = 0; k < from->count && sb_ring_touch(to, i, s)->held; k++) {
+        const double away =
+            fabs(remainder(to->fem->mesh->angle[i] - from->fem->mesh->angle[k], 2.0 * M_PI));
+        if (sb_ring_touch(from, k, s)->held && away < nearest) {
+          nearest = away;
+          sb_ring_touch(to, i, s)->slip = sb_ring_touch(from, k, s)->slip;
+        }
+      }
+    }
+  }
+}
+
 // The ring's state on a mesh fitted to its contacts, in `fresh`, which has no mesh of its own yet
 // and keeps none where that fails. `edge`: size of the elements at the contacts' ends over that of
 // the others; 0 as friction asks for.
@@ -395,7 +412,12 @@ static SbStatus remesh(SbRing *fresh, const SbRing *ring, double element_size, d
       sb_ring_touch(contact, i, s)->held = held;
     }
   }
+  if (sb_ring_rubs(&contact->is.now)) {
+    carry_slip(contact, ring->contact);
+    contact->fixed = true;
+  }
   status = sb_ring_newton(fresh, SB_RING_FOLLOW, report);
+  contact->fixed = contact->stuck = false;
   if (status == SB_ERROR_NOT_CONVERGED && !sb_ring_rubs(&contact->is.now)) {
     // Too far from the transferred state: follow the whole path again on the new mesh.
     SbRingLoad setting = ring->contact->is.now;

@@ -244,6 +244,16 @@ static void lean_on_area(const SbRingContact *contact, int i, SbRingCondition *c
   }
 }
 
+// Whether a surface after this one holds the node too.
+static bool corner(const SbRingContact *contact, int i, int surface) {
+  for (int other = surface + 1; other < SB_RING_SURFACES; other++) {
+    if (sb_ring_touch(contact, i, other)->held) {
+      return true;
+    }
+  }
+  return false;
+}
+
 double sb_ring_contact_apply(SbRingContact *contact) {
   SbRingFem *fem = contact->fem;
   sb_ring_contact_load_fluid(contact);
@@ -267,15 +277,13 @@ double sb_ring_contact_apply(SbRingContact *contact) {
       condition->count = 1;
       memcpy(condition->direction[1], frame.t, sizeof frame.t);
       condition->curve = frame.curvature;
-      if (s == SB_RING_BORE && contact->is.now.use_bore_traction) {
+      if (contact->stuck) {
+        condition->count = corner(contact, i, s) ? 1 : 2;
+      } else if (s == SB_RING_BORE && contact->is.now.use_bore_traction) {
         condition->drive = contact->is.now.bore_traction * contact->weight[i];
       } else if (sb_ring_contact_sticks(contact, i, (SbRingSurface)s)) {
         condition->gap[1] = -slipped(contact, (SbRingSurface)s, i, frame.t);
-        bool corner = false;
-        for (int other = s + 1; other < SB_RING_SURFACES; other++) {
-          corner = corner || sb_ring_touch(contact, i, other)->held;
-        }
-        condition->count = corner ? 1 : 2;
+        condition->count = corner(contact, i, s) ? 1 : 2;
       } else if (!touch->smooth) {
         bool known = s == SB_RING_BORE && contact->is.now.bore_slides != 0;
         int slip = known ? contact->is.now.bore_slides : touch->slip;
@@ -334,6 +342,9 @@ static void toggle(SbRingContact *contact, int at) {
 int sb_ring_contact_update(SbRingContact *contact, bool single) {
   SbRingFem *fem = contact->fem;
   int changes = 0;
+  if (contact->fixed) {
+    return 0;
+  }
   int worst[2] = {-1, -1}; // to be let go, to be caught
   double least = -1e-11 * contact->force_scale, deepest = -1e-11;
   for (int i = 0; i < contact->count; i++) {

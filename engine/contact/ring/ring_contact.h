@@ -61,6 +61,8 @@ typedef struct {
   double *weight;     // [count] current area of the boundary nodes
   double *rubbed;     // [count] the part of it on closed sides
   bool settled;       // the state stands still: its crests stay
+  bool fixed;         // the held set and the slip states stay
+  bool stuck;         // and every held node stays at its place
   bool passed;        // the state is one of a path: nodes that come and go stay held
   double slip_excess; // departure from Coulomb's law at nodes that could not settle
   double force_scale; // for tolerances
