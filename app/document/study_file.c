@@ -404,6 +404,23 @@ static void settle_samples(Reader *reader, bool has_samples) {
   study->samples -= study->samples % block;
 }
 
+// Failures are looked for along the slopes of figures with limits.
+static void check_reliability(Reader *reader) {
+  const SbStudyFile *study = reader->study;
+  for (guint i = 0; i < study->vary->len; i++) {
+    const SbVary *vary = &g_array_index(study->vary, SbVary, i);
+    if (vary->distribution.kind == SB_DISTRIBUTION_LEVELS && vary->distribution.count > 1) {
+      g_autofree char *key = g_strconcat(GROUP_VARY ".", sb_param(vary->id)->key, NULL);
+      sb_issues_add(reader->issues, reader->shown, 0, key, "uniform, loguniform, normal, one level",
+                    "the method reliability takes no levels: a study of each");
+    }
+  }
+  if (study->limits.count == 0) {
+    sb_issues_add(reader->issues, reader->shown, 0, SB_LIMITS_GROUP, "FIGURE = >= A, <= B, A .. B",
+                  "the method reliability needs limits, here or in the scene");
+  }
+}
+
 // ---- The file ----
 
 static bool read_meta(Reader *reader, char **scene) {
@@ -483,6 +500,9 @@ static void read_groups(Reader *reader) {
     return;
   }
   settle_samples(reader, has_samples);
+  if (study->method == SB_METHOD_RELIABILITY) {
+    check_reliability(reader);
+  }
   read_correlations(reader);
 }
 
@@ -545,7 +565,8 @@ SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *na
   if (issues->len > before) {
     return NULL;
   }
-  const bool all = study->figures->len == 0;
+  // Probabilities of limits need no other figure.
+  const bool all = study->figures->len == 0 && study->method != SB_METHOD_RELIABILITY;
   for (int i = 0; all && i < SB_FIGURE_COUNT; i++) {
     g_array_append_val(study->figures, i);
   }

@@ -15,7 +15,8 @@
   X(SB_METHOD_MONTE_CARLO, "monte-carlo")                                                          \
   X(SB_METHOD_SOBOL_SEQUENCE, "sobol-sequence")                                                    \
   X(SB_METHOD_MORRIS, "morris")                                                                    \
-  X(SB_METHOD_SOBOL_INDICES, "sobol-indices")
+  X(SB_METHOD_SOBOL_INDICES, "sobol-indices")                                                      \
+  X(SB_METHOD_RELIABILITY, "reliability")
 
 typedef enum {
 #define SB_STUDY_METHOD_ENUM(code, name) code,
@@ -66,7 +67,12 @@ SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *na
 void sb_study_file_free(SbStudyFile *study);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbStudyFile, sb_study_file_free)
 
+// Values [vary] in SI at independent standard normal variates u[vary], and where `slope` is not
+// NULL the derivative [vary][vary] of each value by each variate.
+void sb_study_file_place(double *value, double *slope, const SbStudyFile *study, const double *u);
+
 // Values [samples][vary] of all points in SI (the index of a choice), and where `unit` is not NULL,
-// the points in the unit cube [samples][vary] that the method's estimates need. SB_ERROR_MEMORY.
+// the points in the unit cube [samples][vary] that the method's estimates need. Those of
+// `reliability` are in app/study/reliability.h. SB_ERROR_MEMORY.
 SbStatus sb_study_file_points(double **value, double **unit, const SbStudyFile *study,
                               SbReport *report);

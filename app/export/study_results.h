@@ -3,17 +3,28 @@
 
 #include "app/document/study_file.h"
 #include "app/study/answers.h"
+#include "app/study/reliability.h"
 
 #include <stdio.h>
 
-// Share of samples beyond a limit, of those that have the figure.
+// What the method drew: points, and where `reliability` looked for failures.
+typedef struct {
+  const double *unit;               // of sb_study_file_points() or sb_reliability_points()
+  const SbReliability *reliability; // NULL: of another method
+} SbStudyDesign;
+
+// Probability of values beyond a limit, among valves: samples that are none are left out, those of
+// which a solver did not converge widen the interval. NaN where samples about failures are missing.
 typedef struct {
   size_t beyond, of;
-  double probability, interval[2], beta; // Clopper and Pearson's 95 %; beta: its normal quantile
+  double probability, interval[2], beta; // beta: normal quantile of the probability
+  char reason[160];                      // why it is 0, or nothing
 } SbLimitShare;
 
-void sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study, const SbAnswers *answers,
-                          size_t limit);
+// `limit` of the study, or one past them: any of them. SB_ERROR_MEMORY.
+SbStatus sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study,
+                              const SbStudyDesign *design, const SbAnswers *answers, size_t limit,
+                              SbReport *report);
 
 // Column of a figure among the answers', -1: not asked.
 int sb_study_column_of(const SbStudyFile *study, int figure);
@@ -30,7 +41,6 @@ const char *sb_study_status_name(uint8_t status);
 void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
                   const SbAnswers *answers);
 
-// The contract's JSON. `unit` is that of sb_study_file_points(). Owned by the caller; NULL without
-// memory.
-char *sb_study_json(const SbStudyFile *study, const double *unit, const SbAnswers *answers,
+// The contract's JSON. Owned by the caller; NULL without memory.
+char *sb_study_json(const SbStudyFile *study, const SbStudyDesign *design, const SbAnswers *answers,
                     const char *cpus, SbReport *report);

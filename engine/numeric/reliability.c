@@ -214,38 +214,41 @@ double sb_importance_weight(const double *u, size_t dimensions, const double *ce
 
 void sb_weighted_share(SbWeightedShare *out, const double *weight, const uint8_t *trial,
                        size_t samples) {
-  *out = (SbWeightedShare){.probability = NAN, .interval = {NAN, NAN}, .unknown_share = NAN};
+  *out = (SbWeightedShare){.probability = NAN, .interval = {NAN, NAN}};
+  size_t count[SB_TRIAL_LEFT_OUT + 1] = {0};
+  double share[SB_TRIAL_LEFT_OUT + 1] = {0}, square = 0;
   const double n = (double)samples;
-  double failed = 0, unknown = 0, square = 0, heaviest = 0, lightest = INFINITY;
   for (size_t i = 0; i < samples; i++) {
-    heaviest = fmax(heaviest, weight[i]);
-    lightest = fmin(lightest, weight[i]);
-    out->failed += trial[i] == SB_TRIAL_FAILS;
-    out->unknown += trial[i] == SB_TRIAL_UNKNOWN;
-    failed += trial[i] == SB_TRIAL_FAILS ? weight[i] / n : 0;
-    unknown += trial[i] == SB_TRIAL_UNKNOWN ? weight[i] / n : 0;
+    count[trial[i]]++;
+    share[trial[i]] += (weight != NULL ? weight[i] : 1) / n;
   }
-  const size_t known = samples - out->unknown;
-  out->unknown_share = samples > 0 ? fmin(unknown, 1) : NAN;
-  if (known == 0) {
+  out->failed = count[SB_TRIAL_FAILS];
+  out->known = out->failed + count[SB_TRIAL_HOLDS];
+  if (out->known == 0) {
     return;
   }
-  for (size_t i = 0; i < samples; i++) {
-    const double off = (trial[i] == SB_TRIAL_FAILS ? weight[i] : 0) - failed;
-    square += off * off / (n * fmax(n - 1, 1));
-  }
-  const bool alike = heaviest == lightest;
-  // Of the weights of what is known: 1 on average, where everything is.
-  const double of = out->unknown > 0 ? fmax(1 - unknown, DBL_MIN) : 1;
-  out->probability = alike ? (double)out->failed / (double)known : fmin(failed / of, 1);
-  if (alike || out->failed == 0) {
-    // None failed: as if every sample were plain, with the heaviest weight.
-    sb_probability_interval(out->interval, out->failed, known);
-    out->interval[1] *= out->failed == 0 ? fmin(heaviest, 1 / out->interval[1]) : 1;
+  // Weights are 1 on average: all of them are a probability of 1, but for what they scatter.
+  const double lost = share[SB_TRIAL_UNKNOWN] + share[SB_TRIAL_LEFT_OUT];
+  const double of = out->known < samples ? fmax(1 - lost, share[SB_TRIAL_FAILS]) : 1;
+  const double failed = share[SB_TRIAL_FAILS];
+  if (weight == NULL) {
+    out->probability = (double)out->failed / (double)out->known;
+    sb_probability_interval(out->interval, out->failed, out->known);
+  } else if (out->failed == 0) {
+    // As if every trial were a plain one with the greatest weight.
+    out->probability = 0;
+    sb_probability_interval(out->interval, 0, out->known);
+    out->interval[1] = fmin(PLAIN * out->interval[1], 1);
   } else {
+    for (size_t i = 0; i < samples; i++) {
+      const double off = (trial[i] == SB_TRIAL_FAILS ? weight[i] : 0) - failed;
+      square += off * off / (n * fmax(n - 1, 1));
+    }
     const double spread = exp(1.959963984540054 * sqrt(square) / failed);
+    out->probability = fmin(failed / of, 1);
     out->interval[0] = out->probability / spread;
     out->interval[1] = fmin(out->probability * spread, 1);
   }
-  out->interval[1] = fmin(out->interval[1] + (out->unknown > 0 ? out->unknown_share : 0), 1);
+  const double drawn = share[SB_TRIAL_FAILS] + share[SB_TRIAL_HOLDS] + share[SB_TRIAL_UNKNOWN];
+  out->interval[1] = fmin(out->interval[1] + share[SB_TRIAL_UNKNOWN] / drawn, 1);
 }

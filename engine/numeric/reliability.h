@@ -59,15 +59,17 @@ void sb_sample_importance(double *u, size_t samples, size_t dimensions, const do
 double sb_importance_weight(const double *u, size_t dimensions, const double *centre,
                             size_t centres);
 
-typedef enum { SB_TRIAL_HOLDS, SB_TRIAL_FAILS, SB_TRIAL_UNKNOWN } SbTrial;
+// LEFT_OUT is none of those that the probability is of; UNKNOWN is one of them without an answer.
+typedef enum { SB_TRIAL_HOLDS, SB_TRIAL_FAILS, SB_TRIAL_UNKNOWN, SB_TRIAL_LEFT_OUT } SbTrial;
 
-// Probability of failure among weighted trials that have an answer, with its interval of 95 % (of
-// the logarithm, by the central limit theorem; Clopper and Pearson's where the weights are 1),
-// which those without one widen.
+// Probability of failure among trials that have an answer, with its interval of 95 %, which those
+// without one widen: of the logarithm by the central limit theorem; of plain trials Clopper and
+// Pearson's.
 typedef struct {
-  size_t failed, unknown;
-  double probability, interval[2], unknown_share;
+  size_t failed, known;
+  double probability, interval[2];
 } SbWeightedShare;
 
+// `weight` [samples]; NULL: plain trials.
 void sb_weighted_share(SbWeightedShare *out, const double *weight, const uint8_t *trial,
                        size_t samples);

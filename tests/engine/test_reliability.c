@@ -124,7 +124,7 @@ static SbWeightedShare draw(SbLimitState state, Case *of, const double *centre, 
     trial[i] = value < 0 ? SB_TRIAL_FAILS : SB_TRIAL_HOLDS;
   }
   SbWeightedShare share;
-  sb_weighted_share(&share, weight, trial, SAMPLES);
+  sb_weighted_share(&share, centres > 0 ? weight : NULL, trial, SAMPLES);
   return share;
 }
 
@@ -186,14 +186,20 @@ static void test_none(void) {
   const SbWeightedShare share = draw(plane, &of, centre, 1, 1);
   g_assert_cmpfloat(share.probability, ==, 0);
   g_assert_cmpfloat(share.interval[1], >, 3.0 / SAMPLES);
-  const double weight[] = {1, 1, 1, 1};
-  uint8_t trial[] = {SB_TRIAL_UNKNOWN, SB_TRIAL_FAILS, SB_TRIAL_HOLDS, SB_TRIAL_HOLDS};
+  uint8_t trial[] = {SB_TRIAL_UNKNOWN, SB_TRIAL_FAILS, SB_TRIAL_HOLDS, SB_TRIAL_HOLDS,
+                     SB_TRIAL_LEFT_OUT};
   SbWeightedShare some;
-  sb_weighted_share(&some, weight, trial, 4);
+  double interval[2];
+  sb_weighted_share(&some, NULL, trial, 5);
+  sb_probability_interval(interval, 1, 3);
   assert_close(some.probability, 1 / 3.0, 1e-12);
-  assert_close(some.unknown_share, 0.25, 1e-12);
+  assert_close(some.interval[0], interval[0], 1e-12);
+  assert_close(some.interval[1], fmin(interval[1] + 0.25, 1), 1e-12);
+  const double weight[] = {1, 2, 0.5, 0.5, 1};
+  sb_weighted_share(&some, weight, trial, 5);
+  assert_close(some.probability, 2 / 3.0, 1e-12);
   memset(trial, SB_TRIAL_UNKNOWN, sizeof trial);
-  sb_weighted_share(&some, weight, trial, 4);
+  sb_weighted_share(&some, NULL, trial, 5);
   g_assert_true(isnan(some.probability));
 }
 
