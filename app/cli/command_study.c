@@ -150,12 +150,12 @@ static void print_modes(const SbStudyFile *study, const SbReliability *reliabili
   }
 }
 
-static SbStatus print_limits(const SbStudyFile *study, const SbStudyDesign *design,
+static SbStatus print_limits(const SbStudyFile *study, const SbStudyDrawn *drawn,
                              const SbAnswers *answers, SbReport *report) {
   SbStatus status = SB_OK;
   for (size_t i = 0; status == SB_OK && study->limits.count > 0 && i <= study->limits.count; i++) {
     SbLimitShare share;
-    status = sb_study_limit_share(&share, study, design, answers, i, report);
+    status = sb_study_limit_share(&share, study, drawn, answers, i, report);
     if (i == study->limits.count) {
       printf("  %-38s %-18s", "any limit", "");
       print_share(study, &share);
@@ -165,21 +165,21 @@ static SbStatus print_limits(const SbStudyFile *study, const SbStudyDesign *desi
     g_autofree char *text = sb_limit_format(limit->figure, limit->low, limit->high);
     printf("  %-38s %-18s", sb_figure(limit->figure)->path, text);
     print_share(study, &share);
-    if (design->reliability != NULL) {
-      print_modes(study, design->reliability, i);
+    if (drawn->reliability != NULL) {
+      print_modes(study, drawn->reliability, i);
     }
   }
   return status;
 }
 
-static int print_table(const SbStudyFile *study, const SbStudyDesign *design,
+static int print_table(const SbStudyFile *study, const SbStudyDrawn *drawn,
                        const SbAnswers *answers) {
   enum { ROWS = 24 };
   SbReport report = {0};
   printf("%s: %s, %zu samples\n", study->title, sb_study_method_name(study->method),
          study->samples);
-  if (design->reliability != NULL) {
-    return sb_cli_status(print_limits(study, design, answers, &report), &report);
+  if (drawn->reliability != NULL) {
+    return sb_cli_status(print_limits(study, drawn, answers, &report), &report);
   }
   printf("  %-38s %12s %12s %12s %12s %12s\n", "", "mean", "deviation", "5 %", "median", "95 %");
   size_t shown = 0, with = 0;
@@ -217,13 +217,13 @@ static int print_table(const SbStudyFile *study, const SbStudyDesign *design,
   if (with > shown) {
     printf("  and %zu more figures: --csv, --json, or figures = in [study]\n", with - shown);
   }
-  return sb_cli_status(print_limits(study, design, answers, &report), &report);
+  return sb_cli_status(print_limits(study, drawn, answers, &report), &report);
 }
 
 // ---- The command ----
 
 static int write_outputs(const Options *options, const SbStudyFile *study, const double *value,
-                         const SbStudyDesign *design, const SbAnswers *answers, const char *cpus) {
+                         const SbStudyDrawn *drawn, const SbAnswers *answers, const char *cpus) {
   GError *error = NULL;
   if (options->csv != NULL) {
     SbOutput out = {0};
@@ -237,11 +237,11 @@ static int write_outputs(const Options *options, const SbStudyFile *study, const
   }
   if (options->json != NULL) {
     SbReport report = {0};
-    g_autofree char *json = sb_study_json(study, design, answers, cpus, &report);
+    g_autofree char *json = sb_study_json(study, drawn, answers, cpus, &report);
     return json != NULL ? sb_cli_emit(json, options->json) : sb_cli_status(report.status, &report);
   }
   const bool streamed = options->csv != NULL && strcmp(options->csv, "-") == 0;
-  return sb_cli_quiet() || streamed ? SB_EXIT_DONE : print_table(study, design, answers);
+  return sb_cli_quiet() || streamed ? SB_EXIT_DONE : print_table(study, drawn, answers);
 }
 
 // Exit code of samples that failed: of a solver 2; a design that cannot be is an answer.
@@ -263,7 +263,7 @@ static int judge(const SbAnswers *answers) {
 }
 
 static int solve(const Options *options, const SbStudyFile *study, SbStore *store,
-                 const double *value, const SbStudyDesign *design) {
+                 const double *value, const SbStudyDrawn *drawn) {
   SbParamId parameter[SB_VARY_MAX];
   for (guint i = 0; i < study->vary->len; i++) {
     parameter[i] = g_array_index(study->vary, SbVary, i).id;
@@ -309,7 +309,7 @@ static int solve(const Options *options, const SbStudyFile *study, SbStore *stor
   }
   if (good || code == SB_EXIT_INTERRUPTED) {
     g_autofree char *cpus = sb_store_cpus(store);
-    const int written = write_outputs(options, study, value, design, &answers, cpus);
+    const int written = write_outputs(options, study, value, drawn, &answers, cpus);
     const int judged = judge(&answers);
     code = MAX(code, MAX(written, judged));
   }
@@ -403,9 +403,8 @@ static int study_file(const Options *options, const SbStudyFile *study) {
   if (store == NULL || !set_list(store, study, &error)) {
     code = sb_cli_error(error);
   } else {
-    const SbStudyDesign design = {unit,
-                                  study->method == SB_METHOD_RELIABILITY ? &reliability : NULL};
-    code = solve(options, study, store, value, &design);
+    const SbStudyDrawn drawn = {unit, study->method == SB_METHOD_RELIABILITY ? &reliability : NULL};
+    code = solve(options, study, store, value, &drawn);
   }
   error = NULL;
   if (!sb_store_close(store, &error)) {

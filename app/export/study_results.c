@@ -9,15 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-int sb_study_column_of(const SbStudyFile *study, int figure) {
-  for (guint i = 0; i < study->figures->len; i++) {
-    if (g_array_index(study->figures, int, i) == figure) {
-      return (int)i;
-    }
-  }
-  return -1;
-}
-
 size_t sb_study_done(const SbAnswers *answers) {
   size_t done = 0;
   for (size_t i = 0; i < answers->samples; i++) {
@@ -47,85 +38,6 @@ const char *sb_study_status_name(uint8_t status) {
   default:
     return "refused";
   }
-}
-
-// ---- Limits ----
-
-static SbTrial trial_of(const SbStudyFile *study, const SbAnswers *answers, size_t sample,
-                        size_t limit) {
-  const SbLimit *of = &study->limits.item[limit];
-  const int column = sb_study_column_of(study, of->figure);
-  const double value = answers->value[sample * answers->figures + (size_t)column];
-  return value < of->low || value > of->high                 ? SB_TRIAL_FAILS
-         : !isnan(value)                                     ? SB_TRIAL_HOLDS
-         : answers->status[sample] == SB_ERROR_NOT_CONVERGED ? SB_TRIAL_UNKNOWN
-                                                             : SB_TRIAL_LEFT_OUT;
-}
-
-// Of any limit: one that fails decides, then one that is not known.
-static SbTrial trial_of_any(const SbStudyFile *study, const SbAnswers *answers, size_t sample) {
-  SbTrial all = SB_TRIAL_LEFT_OUT;
-  for (size_t limit = 0; limit < study->limits.count; limit++) {
-    static const int rank[] = {[SB_TRIAL_LEFT_OUT] = 0,
-                               [SB_TRIAL_HOLDS] = 1,
-                               [SB_TRIAL_UNKNOWN] = 2,
-                               [SB_TRIAL_FAILS] = 3};
-    const SbTrial one = trial_of(study, answers, sample, limit);
-    all = rank[one] > rank[all] ? one : all;
-  }
-  return all;
-}
-
-// Why nothing failed: what the searches of the limit's sides ended with.
-static void tell_nothing(SbLimitShare *out, const SbStudyDesign *design, size_t limit) {
-  const char *said = NULL;
-  for (size_t i = 0; design->reliability != NULL && i < design->reliability->count; i++) {
-    const SbFailureMode *mode = &design->reliability->mode[i];
-    if (mode->limit == limit && mode->found.end != SB_SEARCH_FOUND) {
-      said = sb_search_text(mode->found.end);
-    }
-  }
-  sb_text(out->reason, sizeof out->reason, "none of %zu samples is beyond it%s%s", out->of,
-          said != NULL ? "; " : "", said != NULL ? said : "");
-}
-
-SbStatus sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study,
-                              const SbStudyDesign *design, const SbAnswers *answers, size_t limit,
-                              SbReport *report) {
-  const size_t samples = answers->samples, n = study->vary->len;
-  const SbReliability *about = design->reliability;
-  *out = (SbLimitShare){.probability = NAN, .interval = {NAN, NAN}, .beta = NAN};
-  uint8_t *trial = malloc(samples + 1);
-  double *weight = malloc((samples + 1) * sizeof *weight);
-  const bool memory = trial != NULL && weight != NULL;
-  bool whole = true;
-  for (size_t i = 0; memory && i < samples; i++) {
-    trial[i] = (uint8_t)(limit < study->limits.count ? trial_of(study, answers, i, limit)
-                                                     : trial_of_any(study, answers, i));
-    whole &= answers->status[i] != SB_ANSWER_MISSING;
-    if (about != NULL) {
-      weight[i] = sb_importance_weight(design->unit + i * n, n, about->centre, about->centres);
-    }
-  }
-  if (memory) {
-    SbWeightedShare share;
-    sb_weighted_share(&share, about != NULL && about->centres > 0 ? weight : NULL, trial, samples);
-    out->beyond = share.failed;
-    out->of = share.known;
-    // Some of the samples about failures have not the density that the weights are for.
-    if (whole || about == NULL) {
-      out->probability = share.probability;
-      memcpy(out->interval, share.interval, sizeof out->interval);
-    }
-    if (out->probability > 0 && out->probability < 1) {
-      out->beta = -sb_normal_quantile(out->probability);
-    } else if (out->probability == 0) {
-      tell_nothing(out, design, limit);
-    }
-  }
-  free(trial);
-  free(weight);
-  return memory ? SB_OK : sb_fail(report, SB_ERROR_MEMORY, "no memory for %zu samples", samples);
 }
 
 // ---- CSV ----
@@ -233,27 +145,28 @@ static void put_mode(SbJson *json, const SbStudyFile *study, const SbFailureMode
 }
 
 // Members of a limit, or of all together.
-static SbStatus put_share(SbJson *json, const SbStudyFile *study, const SbStudyDesign *design,
+static SbStatus put_share(SbJson *json, const SbStudyFile *study, const SbStudyDrawn *drawn,
                           const SbAnswers *answers, size_t limit, SbReport *report) {
   // Points of a grid or of a screening are no draws; those of a sequence no independent ones.
-  const bool drawn =
+  const bool independent =
       study->method == SB_METHOD_MONTE_CARLO || study->method == SB_METHOD_RELIABILITY;
   SbLimitShare share;
-  const SbStatus status = sb_study_limit_share(&share, study, design, answers, limit, report);
+  const SbStatus status = sb_study_limit_share(&share, study, drawn, answers, limit, report);
   sb_json_count(json, "samples", share.of);
   sb_json_count(json, "beyond", share.beyond);
   sb_json_number(json, "probability_of_failure",
-                 drawn || study->method == SB_METHOD_SOBOL_SEQUENCE ? share.probability : NAN);
-  put_interval(json, "interval_95", drawn ? share.interval[0] : NAN,
-               drawn ? share.interval[1] : NAN);
-  sb_json_number(json, "beta", drawn ? share.beta : NAN);
-  if (drawn && share.reason[0] != '\0') {
+                 independent || study->method == SB_METHOD_SOBOL_SEQUENCE ? share.probability
+                                                                          : NAN);
+  put_interval(json, "interval_95", independent ? share.interval[0] : NAN,
+               independent ? share.interval[1] : NAN);
+  sb_json_number(json, "beta", independent ? share.beta : NAN);
+  if (independent && share.reason[0] != '\0') {
     sb_json_string(json, "reason", share.reason);
   }
   return status;
 }
 
-static SbStatus put_limits(SbJson *json, const SbStudyFile *study, const SbStudyDesign *design,
+static SbStatus put_limits(SbJson *json, const SbStudyFile *study, const SbStudyDrawn *drawn,
                            const SbAnswers *answers, SbReport *report) {
   SbStatus status = SB_OK;
   sb_json_array(json, "limits");
@@ -268,12 +181,12 @@ static SbStatus put_limits(SbJson *json, const SbStudyFile *study, const SbStudy
     } else {
       sb_json_number(json, "limit", low ? of->low : of->high);
     }
-    status = put_share(json, study, design, answers, limit, report);
-    if (design->reliability != NULL) {
+    status = put_share(json, study, drawn, answers, limit, report);
+    if (drawn->reliability != NULL) {
       sb_json_array(json, "failure_points");
-      for (size_t i = 0; i < design->reliability->count; i++) {
-        if (design->reliability->mode[i].limit == limit) {
-          put_mode(json, study, &design->reliability->mode[i]);
+      for (size_t i = 0; i < drawn->reliability->count; i++) {
+        if (drawn->reliability->mode[i].limit == limit) {
+          put_mode(json, study, &drawn->reliability->mode[i]);
         }
       }
       sb_json_array_end(json);
@@ -283,7 +196,7 @@ static SbStatus put_limits(SbJson *json, const SbStudyFile *study, const SbStudy
   sb_json_array_end(json);
   if (status == SB_OK) {
     sb_json_object(json, "any_limit");
-    status = put_share(json, study, design, answers, study->limits.count, report);
+    status = put_share(json, study, drawn, answers, study->limits.count, report);
     sb_json_object_end(json);
   }
   return status;
@@ -366,7 +279,7 @@ static void put_failures(SbJson *json, const SbAnswers *answers) {
   sb_json_array_end(json);
 }
 
-char *sb_study_json(const SbStudyFile *study, const SbStudyDesign *design, const SbAnswers *answers,
+char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const SbAnswers *answers,
                     const char *cpus, SbReport *report) {
   SbJson json;
   sb_json_init(&json);
@@ -380,13 +293,12 @@ char *sb_study_json(const SbStudyFile *study, const SbStudyDesign *design, const
   sb_json_count(&json, "failed", sb_study_failed(answers));
   sb_json_string(&json, "cpu", cpus);
   // Of samples about failures no statistics of figures.
-  SbStatus status =
-      design->reliability == NULL ? put_figures(&json, study, answers, report) : SB_OK;
+  SbStatus status = drawn->reliability == NULL ? put_figures(&json, study, answers, report) : SB_OK;
   if (status == SB_OK && study->limits.count > 0) {
-    status = put_limits(&json, study, design, answers, report);
+    status = put_limits(&json, study, drawn, answers, report);
   }
   if (status == SB_OK) {
-    status = put_indices(&json, study, design->unit, answers, report);
+    status = put_indices(&json, study, drawn->unit, answers, report);
   }
   put_failures(&json, answers);
   sb_json_object_end(&json);

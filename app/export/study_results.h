@@ -2,32 +2,9 @@
 #pragma once
 
 #include "app/document/study_file.h"
-#include "app/study/answers.h"
-#include "app/study/reliability.h"
+#include "app/study/shares.h"
 
 #include <stdio.h>
-
-// What the method drew: points, and where `reliability` looked for failures.
-typedef struct {
-  const double *unit;               // of sb_study_file_points() or sb_reliability_points()
-  const SbReliability *reliability; // NULL: of another method
-} SbStudyDesign;
-
-// Probability of values beyond a limit, among valves: samples that are none are left out, those of
-// which a solver did not converge widen the interval. NaN where samples about failures are missing.
-typedef struct {
-  size_t beyond, of;
-  double probability, interval[2], beta; // beta: normal quantile of the probability
-  char reason[160];                      // why it is 0, or nothing
-} SbLimitShare;
-
-// `limit` of the study, or one past them: any of them. SB_ERROR_MEMORY.
-SbStatus sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study,
-                              const SbStudyDesign *design, const SbAnswers *answers, size_t limit,
-                              SbReport *report);
-
-// Column of a figure among the answers', -1: not asked.
-int sb_study_column_of(const SbStudyFile *study, int figure);
 
 // Samples with an answer, and those of them that failed.
 size_t sb_study_done(const SbAnswers *answers);
@@ -42,5 +19,5 @@ void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
                   const SbAnswers *answers);
 
 // The contract's JSON. Owned by the caller; NULL without memory.
-char *sb_study_json(const SbStudyFile *study, const SbStudyDesign *design, const SbAnswers *answers,
+char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const SbAnswers *answers,
                     const char *cpus, SbReport *report);

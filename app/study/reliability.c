@@ -31,17 +31,17 @@ static SbStatus limit_state(double *value, double *gradient, const double *u, vo
   const SbLimit *limit = &study->limits.item[search->mode->limit];
   const size_t n = study->vary->len;
   SbParamId parameter[SB_VARY_MAX];
-  double x[SB_VARY_MAX], step[SB_VARY_MAX], slope[SB_VARY_MAX];
+  double x[SB_VARY_MAX], slope[SB_VARY_MAX];
+  bool fixed[SB_VARY_MAX];
   sb_study_file_place(x, search->by, study, u);
   for (size_t k = 0; k < n; k++) {
     const SbVary *vary = &g_array_index(study->vary, SbVary, k);
     parameter[k] = vary->id;
-    // Of the change of x by a deviation at the median, where it is not squeezed against an end.
-    step[k] = 1e-3 * sb_distribution_slope(&vary->distribution, 0);
+    fixed[k] = vary->distribution.kind == SB_DISTRIBUTION_LEVELS;
   }
   const SbSlopesAsked asked = {.base = study->base,
                                .parameter = parameter,
-                               .step = step,
+                               .fixed = fixed,
                                .parameters = n,
                                .figure = &limit->figure,
                                .figures = 1,

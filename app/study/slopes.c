@@ -1,6 +1,8 @@
 // Slopes of figures and threads for tasks; see the header.
 #include "app/study/slopes.h"
 
+#include "engine/valve/gradient.h"
+
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -8,49 +10,54 @@
 
 // ---- Slopes ----
 
-static SbStatus ask(double *value, SbEvaluator *evaluator, const SbSlopesAsked *asked,
-                    const double *x, SbReport *report) {
-  SbOverride override[SB_SLOPES_PARAMETERS];
-  for (size_t k = 0; k < asked->parameters; k++) {
-    override[k] = (SbOverride){asked->parameter[k], x[k]};
-  }
-  const SbQuestion question = {.base = asked->base,
-                               .override = override,
-                               .override_count = asked->parameters,
-                               .figure = asked->figure,
-                               .figure_count = asked->figures,
-                               .cancelled = asked->cancelled,
-                               .data = asked->data};
-  const SbStatus status = sb_evaluator_ask(value, evaluator, &question, report);
+// A valve that cannot be, or whose solver gave up, is an answer.
+static SbStatus settle(SbStatus status, SbReport *report) {
   return status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY ? status : sb_succeed(report);
 }
 
 SbStatus sb_slopes(double *value, double *slope, SbEvaluator *evaluator, const SbSlopesAsked *asked,
                    const double *x, SbReport *report) {
   const size_t n = asked->parameters;
-  if (n > SB_SLOPES_PARAMETERS || asked->figures > SB_SLOPES_FIGURES) {
-    return sb_fail(report, SB_ERROR_RANGE, "slopes of at most %d figures by %d parameters",
-                   SB_SLOPES_FIGURES, SB_SLOPES_PARAMETERS);
+  SbOverride override[SB_SLOPES_PARAMETERS];
+  SbParamId moved[SB_SLOPES_PARAMETERS];
+  size_t column[SB_SLOPES_PARAMETERS], count = 0;
+  if (n > SB_SLOPES_PARAMETERS) {
+    return sb_fail(report, SB_ERROR_RANGE, "slopes by at most %d parameters", SB_SLOPES_PARAMETERS);
   }
-  SbStatus status = ask(value, evaluator, asked, x, report);
-  for (size_t k = 0; status == SB_OK && slope != NULL && k < n; k++) {
-    double end[2][SB_SLOPES_FIGURES], at[2], moved[SB_SLOPES_PARAMETERS];
-    const SbParam *param = sb_param(asked->parameter[k]);
-    for (size_t j = 0; j < n; j++) {
-      moved[j] = x[j];
-    }
-    at[0] = fmax(x[k] - asked->step[k], param->min);
-    at[1] = fmin(x[k] + asked->step[k], param->max);
-    const bool constant = !(at[1] > at[0]);
-    for (int side = 0; status == SB_OK && !constant && side < 2; side++) {
-      moved[k] = at[side];
-      status = ask(end[side], evaluator, asked, moved, report);
-    }
-    for (size_t i = 0; status == SB_OK && i < asked->figures; i++) {
-      slope[i * n + k] = constant ? 0 : (end[1][i] - end[0][i]) / (at[1] - at[0]);
+  for (size_t k = 0; k < n; k++) {
+    override[k] = (SbOverride){asked->parameter[k], x[k]};
+    if (!asked->fixed[k]) {
+      column[count] = k;
+      moved[count++] = asked->parameter[k];
     }
   }
-  return status;
+  for (size_t i = 0; i < asked->figures; i++) {
+    value[i] = NAN;
+    for (size_t k = 0; slope != NULL && k < n; k++) {
+      slope[i * n + k] = asked->fixed[k] ? 0 : NAN;
+    }
+  }
+  const SbQuestion question = {.base = asked->base,
+                               .override = override,
+                               .override_count = n,
+                               .figure = asked->figure,
+                               .figure_count = asked->figures,
+                               .cancelled = asked->cancelled,
+                               .data = asked->data};
+  if (slope == NULL) {
+    return settle(sb_evaluator_ask(value, evaluator, &question, report), report);
+  }
+  SbGradient *gradient = NULL;
+  const SbStatus status =
+      sb_gradient_create(&gradient, evaluator, &question, moved, count, NULL, report);
+  for (size_t i = 0; gradient != NULL && i < asked->figures; i++) {
+    value[i] = sb_gradient_value(gradient, i);
+    for (size_t c = 0; c < count; c++) {
+      slope[i * n + column[c]] = sb_gradient_slope(gradient, i, c);
+    }
+  }
+  sb_gradient_destroy(gradient);
+  return settle(status, report);
 }
 
 // ---- Tasks ----

@@ -7,13 +7,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { SB_SLOPES_PARAMETERS = 64, SB_SLOPES_FIGURES = 130 };
+enum { SB_SLOPES_PARAMETERS = 64 };
 
 // What is asked; everything is borrowed.
 typedef struct {
   const SbModel *base;
   const SbParamId *parameter; // [parameters]
-  const double *step;         // [parameters] SI, of central differences; 0: the slope is 0
+  const bool *fixed;          // [parameters]: does not move, its slope is 0; others are real
   size_t parameters;
   const int *figure; // [figures], figures.def
   size_t figures;
@@ -22,8 +22,9 @@ typedef struct {
 } SbSlopesAsked;
 
 // Figures value[figures] at x[parameters], NaN: none, and where `slope` is not NULL their slopes
-// [figures][parameters], NaN: none. Values that make no valve, or are out of range, and solvers
-// that do not converge are no errors but figures without a value. SB_ERROR_CANCELLED, _MEMORY.
+// [figures][parameters] (engine/valve/gradient.h), NaN: none. Values that make no valve, or are out
+// of range, and solvers that do not converge are no errors but figures without a value.
+// SB_ERROR_CANCELLED, _MEMORY.
 SbStatus sb_slopes(double *value, double *slope, SbEvaluator *evaluator, const SbSlopesAsked *asked,
                    const double *x, SbReport *report);
 
