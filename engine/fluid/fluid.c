@@ -2,6 +2,7 @@
 #include "engine/fluid/fluid.h"
 
 #include "engine/base/check.h"
+#include "engine/numeric/root.h"
 
 #include <math.h>
 #include <string.h>
@@ -176,4 +177,25 @@ SbStatus sb_fluid_state(SbFluidState *out, SbWarnings *warnings, const SbFluid *
     }
   }
   return status;
+}
+
+typedef struct {
+  const SbHelmholtz *equation;
+  double temperature, pressure;
+} Vapour;
+
+static double lacks(double density, const void *context) {
+  const Vapour *v = context;
+  return v->pressure - sb_helmholtz_pressure(v->equation, density, v->temperature);
+}
+
+double sb_fluid_vapour(const SbFluid *fluid, double temperature, double pressure) {
+  SbSaturation at;
+  if (fluid->equation == NULL || check_temperature(fluid, temperature, NULL) != SB_OK ||
+      sb_helmholtz_saturation(&at, fluid->equation, temperature, NULL) != SB_OK ||
+      !(pressure <= at.pressure)) {
+    return NAN;
+  }
+  const Vapour vapour = {fluid->equation, temperature, pressure};
+  return fluid->mass * sb_bisect(lacks, &vapour, 0, at.vapour);
 }

@@ -106,3 +106,7 @@ typedef struct {
 // outside the fluid's range, SB_ERROR_INPUT for `custom` and for ethanol in what is no propellant.
 SbStatus sb_fluid_state(SbFluidState *out, SbWarnings *warnings, const SbFluid *fluid,
                         double temperature, double ethanol, SbReport *report);
+
+// Density [kg/m3] of a fluid's vapour at a temperature [K] in its range and an absolute pressure
+// [Pa] not above saturation; NAN for one without an equation of state.
+double sb_fluid_vapour(const SbFluid *fluid, double temperature, double pressure);

@@ -393,6 +393,11 @@ static void test_valve(void) {
   }
   assert_close(state_at("hfa-134a", 24.3).figure[SB_FLUID_PRESSURE].value - 101325, 0.55e6, 0.003);
   assert_close(state_at("hfa-134a", 19).figure[SB_FLUID_VISCOSITY].value, 0.211e-3, 0.01);
+  // Vapour at ambient pressure, by the program of test_reference().
+  assert_close(sb_fluid_vapour(named("hfa-134a"), 313.15, 101325), 4.0397411, 1e-7);
+  assert_close(sb_fluid_vapour(named("hfo-1234ze(e)"), 293.15, 101325), 4.8630012, 1e-7);
+  g_assert_true(isnan(sb_fluid_vapour(named("hfa-134a"), 293.15, 0.6e6))); // liquid
+  g_assert_true(isnan(sb_fluid_vapour(named("silicone-100"), 293.15, 1e5)));
 }
 
 int main(int argc, char **argv) {
