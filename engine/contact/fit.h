@@ -70,10 +70,19 @@ typedef struct {
   const void *law;     // its data, borrowed
   bool start_at_wall;  // else in the middle
   bool surface_wanted; // by the film: gives `surface` too
+  // A solved one near this, borrowed: the ring goes on from there where it can, with the errors
+  // told of that one; NULL: cold.
+  const struct SbFitStart *start;
   SbRing **kept; // takes the ring in place of what it holds (owned, NULL if none); NULL: not wanted
   bool (*cancel)(void *); // polled by models that can last; true stops. May be NULL
   void *cancel_data;
 } SbFitProblem;
+
+// A ring's fitment from which another one can start.
+typedef struct SbFitStart {
+  double error_load, error_peak, error_width; // relative, told of it
+  const SbRing *ring;
+} SbFitStart;
 
 // Name of a model's variant (Green & English's rows, the kernel of the disc, ...), counted from 0;
 // NULL beyond the last. Borrowed. A model without variants has the one name "default".

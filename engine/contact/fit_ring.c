@@ -129,7 +129,18 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
                                  .poll_data = in->cancel_data};
   SbRing *ring = NULL;
   SbRingResult result;
-  SbStatus status = sb_ring_fit(&ring, &result, &body, &load, &options, &out->warnings, report);
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  if (in->start != NULL) {
+    status = sb_ring_near(&ring, in->start->ring, &body, &load, &options, NULL);
+  }
+  if (status == SB_OK) {
+    sb_ring_result(ring, &result);
+    result.error.load = in->start->error_load;
+    result.error.peak = in->start->error_peak;
+    result.error.width = in->start->error_width;
+  } else if (status == SB_ERROR_NOT_CONVERGED) {
+    status = sb_ring_fit(&ring, &result, &body, &load, &options, &out->warnings, report);
+  }
   if (status != SB_OK) {
     return status;
   }

@@ -47,10 +47,17 @@ SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestio
   SbStatus status = prepare(evaluator, question, &own);
   evaluator->answered = status == SB_OK;
   if (evaluator->answered) {
+    sb_run_start_from(evaluator->run, question->start != NULL ? question->start->run : NULL);
+    if (question->keep) {
+      sb_run_keep_rings(evaluator->run);
+    }
     // Whoever asks many questions asks them side by side.
     const SbRunHooks hooks = {
         .cancelled = question->cancelled, .data = question->data, .alone = true};
     status = sb_run_execute(evaluator->run, &hooks, &own);
+    if (question->keep) {
+      sb_run_end_rings(evaluator->run);
+    }
   }
   for (size_t i = 0; i < question->figure_count; i++) {
     value[i] = evaluator->answered

@@ -6,7 +6,9 @@
 //
 // An evaluator is the memory of one thread: nothing is shared between two of them but the base,
 // which nobody writes. What an answer is does not depend on what the evaluator was asked before:
-// solvers start warm only from states of the same question, in the order of a run.
+// solvers start warm only from states of the same question, in the order of a run, or of a base
+// that the question names: a ring's friction on floor and walls then has another history, within
+// the errors that are told.
 //
 // Leaves out: derivatives; frames, profiles and shapes (run.h has them); wall times and counts.
 #pragma once
@@ -22,6 +24,11 @@ typedef struct {
   size_t override_count;
   const int *figure; // [figure_count], indices of figures.def (sb_figure_find)
   size_t figure_count;
+  // An evaluator that has answered a question with `keep` and none since, borrowed: rings start
+  // from its states, and what is answered hangs on them and the question alone, however many ask at
+  // the same time. NULL: cold. `keep`: keeps them for others.
+  const SbEvaluator *start;
+  bool keep;
   // Polled as in a run (SbRunHooks), at least every 50 ms; may be NULL.
   bool (*cancelled)(void *data);
   void *data;

@@ -36,6 +36,9 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
     for (int i = 0; i < SB_RUN_MOTIONS; i++) {
       sb_ring_destroy(memory->fitment[i].ring);
     }
+    for (int i = 0; i < memory->kept_count; i++) {
+      sb_ring_destroy(memory->kept[i].ring);
+    }
     free(memory);
   }
 }
@@ -49,6 +52,25 @@ void sb_sliding_memory_forget(SbSlidingMemory *memory) {
   if (memory->solver != NULL) {
     sb_film_solver_forget(memory->solver);
   }
+}
+
+void sb_sliding_memory_keep(SbSlidingMemory *memory) {
+  for (int i = 0; i < memory->kept_count; i++) {
+    sb_ring_destroy(memory->kept[i].ring);
+  }
+  memory->kept_count = 0;
+  memory->keeps = true;
+}
+
+void sb_sliding_memory_end(SbSlidingMemory *memory) {
+  for (int way = 0; way < SB_RUN_MOTIONS; way++) {
+    sb_sliding_keep(memory, way);
+  }
+  memory->keeps = false;
+}
+
+void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *from) {
+  memory->from = from;
 }
 
 void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data) {

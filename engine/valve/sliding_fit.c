@@ -46,6 +46,45 @@ static bool cancelled(void *data) {
   return memory->cancelled != NULL && memory->cancelled(memory->cancelled_data);
 }
 
+void sb_sliding_keep(SbSlidingMemory *memory, int way) {
+  SbSlidingFitment *on = &memory->fitment[way];
+  const SbFit *fit = &on->fit;
+  if (!memory->keeps || !on->known || on->ring == NULL || fit->model != SB_FIT_RING ||
+      fit->ring.state != SB_RING_SLIDES || memory->kept_count == SB_SLIDING_STARTS) {
+    return;
+  }
+  memory->kept[memory->kept_count++] =
+      (SbSlidingStart){{fit->solver.error_estimate.load, fit->solver.error_estimate.pressure_peak,
+                        fit->solver.error_estimate.contact_width, on->ring},
+                       on->ring,
+                       way,
+                       on->pressure,
+                       on->law};
+  on->ring = NULL;
+  on->known = false;
+}
+
+static int way_of(const SbSlidingTask *task) {
+  return !sb_sliding_drags(task) ? REST : task->speed > 0 ? IN : OUT;
+}
+
+// The kept state that a task's ring starts from; NULL: none.
+static const SbSlidingStart *start_of(const SbSlidingTask *task) {
+  const SbSlidingMemory *from = task->memory->from;
+  const double pressure = task->pressure.left - task->pressure.right;
+  const SbSlidingStart *best = NULL;
+  for (int i = 0; from != NULL && is_ring(task) && i < from->kept_count; i++) {
+    const SbSlidingStart *one = &from->kept[i];
+    const bool alike = one->way == way_of(task) && (one->pressure > 0) == (pressure > 0) &&
+                       (one->pressure < 0) == (pressure < 0);
+    if (alike &&
+        (best == NULL || fabs(one->pressure - pressure) < fabs(best->pressure - pressure))) {
+      best = one;
+    }
+  }
+  return best;
+}
+
 // The problem of a task's fitment, dragged by a law where one is given.
 static void fit_problem(SbFitProblem *problem, const SbSlidingTask *task, SbSlidingFitment *on,
                         const SbSlidingLaw *law) {
@@ -73,16 +112,19 @@ static void fit_problem(SbFitProblem *problem, const SbSlidingTask *task, SbSlid
 static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   double pressure = task->pressure.left - task->pressure.right;
-  SbSlidingFitment *now = &memory->fitment[!sb_sliding_drags(task) ? REST
-                                           : task->speed > 0       ? IN
-                                                                   : OUT];
+  SbSlidingFitment *now = &memory->fitment[way_of(task)];
   memory->now = now;
   const bool known = now->known && now->pressure == pressure && now->seal == task->seal;
   if (law == NULL && known) {
     return SB_OK;
   }
+  if (!known) {
+    sb_sliding_keep(memory, way_of(task));
+  }
+  const SbSlidingStart *start = start_of(task);
   SbFitProblem problem;
   fit_problem(&problem, task, now, law);
+  problem.start = start != NULL ? &start->start : NULL;
   memory->rested = false;
   bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES;
   SbStatus status = near ? sb_fit_again(&now->fit, &problem, report) : SB_ERROR_NOT_CONVERGED;
@@ -217,10 +259,16 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
   const double pressure = task->pressure.left - task->pressure.right;
   SbSlidingMemory *memory = task->memory;
   SbSlidingFitment *on = &memory->fitment[task->speed > 0 ? IN : OUT];
-  bool known =
-      (on->known && on->pressure == pressure && on->seal == task->seal) || mirror(task, on);
-  SbSlidingLaw law;
+  bool known = on->known && on->pressure == pressure && on->seal == task->seal;
   if (!known) {
+    sb_sliding_keep(memory, way_of(task));
+    known = mirror(task, on);
+  }
+  SbSlidingLaw law;
+  const SbSlidingStart *start = start_of(task);
+  if (!known && start != NULL) {
+    law = start->law;
+  } else if (!known) {
     guess(&law, task, on);
   }
   SbWarnings *own = &memory->warnings;

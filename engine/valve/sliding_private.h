@@ -22,7 +22,23 @@ typedef struct {
   SbSlidingLaw law; // of the friction that drags it
 } SbSlidingFitment;
 
+// A ring's state that others start from (SbSlidingMemory.kept).
+typedef struct {
+  SbFitStart start;
+  SbRing *ring;     // owned, that of `start`
+  int way;          // of sliding: index of SbSlidingMemory.fitment
+  double pressure;  // difference
+  SbSlidingLaw law; // that drags it
+} SbSlidingStart;
+
+enum { SB_SLIDING_STARTS = 3 * SB_RUN_MOTIONS }; // chamber states and ways
+
 struct SbSlidingMemory {
+  bool keeps; // the states solved are kept for others
+  SbSlidingStart kept[SB_SLIDING_STARTS];
+  int kept_count;
+  const struct SbSlidingMemory *from; // whose states rings start from, borrowed; NULL: cold
+
   // By way of sliding where friction drags the seal, else at rest.
   SbSlidingFitment fitment[SB_RUN_MOTIONS];
   SbSlidingFitment *now;         // of the last evaluation
@@ -38,6 +54,9 @@ struct SbSlidingMemory {
   bool (*cancelled)(void *); // NULL: nobody asks to stop
   void *cancelled_data;
 };
+
+// Moves a way's solved state to those kept, where it is one.
+void sb_sliding_keep(SbSlidingMemory *memory, int way);
 
 // Whether friction drags this seal's section: the ring's, while it slides.
 bool sb_sliding_drags(const SbSlidingTask *task);

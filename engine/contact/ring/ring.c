@@ -220,6 +220,18 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
   return status;
 }
 
+// A body with its units, and the load that it bears.
+static void set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *load) {
+  const double d = body->section_diameter;
+  ring->body = *body;
+  ring->load = *load;
+  ring->length = d;
+  ring->stress = body->modulus / (2.0 * (1.0 + body->poisson_ratio));
+  ring->force = ring->stress * d * (body->plane_strain ? 1.0 : d);
+  ring->centre =
+      body->plane_strain ? load->floor_radius / d + 0.5 : 0.5 * (body->inner_diameter + d) / d;
+}
+
 SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *load,
                         const SbRingOptions *options, SbReport *report) {
   *out = NULL;
@@ -235,17 +247,10 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
     free(ring);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring");
   }
-  ring->body = *body;
-  ring->load = *load;
   ring->options = options != NULL ? *options : (SbRingOptions){0};
   SbRingOptions *o = &ring->options;
   o->element_size = o->element_size > 0.0 ? fmin(0.1, fmax(0.004, o->element_size)) : SIZE_DEFAULT;
-  double d = body->section_diameter;
-  ring->length = d;
-  ring->stress = body->modulus / (2.0 * (1.0 + body->poisson_ratio));
-  ring->force = ring->stress * d * (body->plane_strain ? 1.0 : d);
-  ring->centre =
-      body->plane_strain ? load->floor_radius / d + 0.5 : 0.5 * (body->inner_diameter + d) / d;
+  set_body(ring, body, load);
   const SbRingLoad target = sb_ring_load_in(load, ring->length, ring->stress);
   status = lay_ring(ring, &target, report);
   if (status != SB_OK) {
@@ -274,64 +279,6 @@ static bool outgrown(const SbRing *ring) {
     }
   }
   return moved > OUTGROWN * ring->fitted_size;
-}
-
-// To steady sliding, at once from steady sliding the same way; where that is too far, anew. The
-// ring stays as it is where neither succeeds.
-static SbStatus slide_on(SbRing *ring, const SbRingLoad *target, SbReport *report) {
-  SbRing fresh = *ring;
-  fresh.mesh = NULL;
-  fresh.fem = NULL;
-  fresh.contact = NULL;
-  SbStatus status = SB_ERROR_NOT_CONVERGED;
-  if (ring->state == SB_RING_SLIDES && ring->contact->is.now.bore_slides == target->bore_slides) {
-    ring->arc.free = false;
-    sb_ring_save(ring->contact, SB_RING_START);
-    ring->contact->is.now = *target;
-    status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
-    fresh.count = ring->count;
-  }
-  bool moved = status == SB_OK && outgrown(ring);
-  ring->count.steps += status == SB_OK ? 1 : 0;
-  if (status == SB_ERROR_NOT_CONVERGED) {
-    fresh.count.rejected++;
-    status = lay_ring(&fresh, target, report);
-    if (status == SB_OK) {
-      drop(ring);
-      *ring = fresh;
-    } else {
-      drop(&fresh);
-      sb_ring_contact_settle(ring->contact);
-    }
-    moved = status == SB_OK && ring->fitted_size > 0.0;
-  }
-  return moved ? sb_ring_refit(ring, ring->fitted_size, report) : status;
-}
-
-SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
-  SbStatus status = check_load(&ring->body, load, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  SbRingLoad target = sb_ring_load_in(load, ring->length, ring->stress);
-  const SbRingLoad *now = &ring->contact->is.now;
-  double before = now->pressure_left - now->pressure_right;
-  double after = target.pressure_left - target.pressure_right;
-  if (target.bore_slides != 0) {
-    status = slide_on(ring, &target, report);
-  } else if (before * after < 0.0) {
-    // The pressure changes sides: by way of equal pressures, where the ring may cross the groove.
-    SbRingLoad even = *now;
-    even.pressure_left = even.pressure_right = fmin(target.pressure_left, target.pressure_right);
-    status = sb_ring_advance(ring, &even, SB_RING_FOLLOW, report);
-  }
-  if (status == SB_OK && target.bore_slides == 0) {
-    status = sb_ring_press(ring, &target, report);
-  }
-  ring->load = status == SB_OK ? *load
-                               : sb_ring_load_in(&ring->contact->is.now, 1.0 / ring->length,
-                                                 1.0 / ring->stress);
-  return status;
 }
 
 const SbRingLoad *sb_ring_load(const SbRing *ring) {
@@ -486,6 +433,80 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
   return status;
 }
 
+// To steady sliding that is near; where single nodes of the mesh stand in the way, on others. The
+// ring stays as it is where none helps.
+static SbStatus slide_at_once(SbRing *ring, const SbRingLoad *target, SbReport *report) {
+  static const double FINER[] = {1.0, 0.93, 0.87};
+  const double size = ring->fitted_size;
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  for (int i = 0; i < (size > 0.0 ? 3 : 1) && status == SB_ERROR_NOT_CONVERGED; i++) {
+    status = i > 0 ? refit(ring, FINER[i] * size, report) : SB_OK;
+    if (status == SB_OK) {
+      sb_ring_save(ring->contact, SB_RING_START);
+      ring->contact->is.now = *target;
+      status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+    }
+  }
+  ring->fitted_size = size;
+  return status;
+}
+
+// To steady sliding, at once from steady sliding the same way; where that is too far, anew. The
+// ring stays as it is where neither succeeds.
+static SbStatus slide_on(SbRing *ring, const SbRingLoad *target, SbReport *report) {
+  SbRing fresh = *ring;
+  fresh.mesh = NULL;
+  fresh.fem = NULL;
+  fresh.contact = NULL;
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  if (ring->state == SB_RING_SLIDES && ring->contact->is.now.bore_slides == target->bore_slides) {
+    ring->arc.free = false;
+    status = slide_at_once(ring, target, report);
+    fresh.count = ring->count;
+  }
+  bool moved = status == SB_OK && outgrown(ring);
+  ring->count.steps += status == SB_OK ? 1 : 0;
+  if (status == SB_ERROR_NOT_CONVERGED) {
+    fresh.count.rejected++;
+    status = lay_ring(&fresh, target, report);
+    if (status == SB_OK) {
+      drop(ring);
+      *ring = fresh;
+    } else {
+      drop(&fresh);
+      sb_ring_contact_settle(ring->contact);
+    }
+    moved = status == SB_OK && ring->fitted_size > 0.0;
+  }
+  return moved ? sb_ring_refit(ring, ring->fitted_size, report) : status;
+}
+
+SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
+  SbStatus status = check_load(&ring->body, load, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  SbRingLoad target = sb_ring_load_in(load, ring->length, ring->stress);
+  const SbRingLoad *now = &ring->contact->is.now;
+  double before = now->pressure_left - now->pressure_right;
+  double after = target.pressure_left - target.pressure_right;
+  if (target.bore_slides != 0) {
+    status = slide_on(ring, &target, report);
+  } else if (before * after < 0.0) {
+    // The pressure changes sides: by way of equal pressures, where the ring may cross the groove.
+    SbRingLoad even = *now;
+    even.pressure_left = even.pressure_right = fmin(target.pressure_left, target.pressure_right);
+    status = sb_ring_advance(ring, &even, SB_RING_FOLLOW, report);
+  }
+  if (status == SB_OK && target.bore_slides == 0) {
+    status = sb_ring_press(ring, &target, report);
+  }
+  ring->load = status == SB_OK ? *load
+                               : sb_ring_load_in(&ring->contact->is.now, 1.0 / ring->length,
+                                                 1.0 / ring->stress);
+  return status;
+}
+
 // A ring beside another of the same body, without a mesh yet.
 static SbStatus beside(SbRing **out, const SbRing *ring, SbReport *report) {
   SbRing *other = malloc(sizeof *other);
@@ -526,6 +547,88 @@ SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *opt
     *out = NULL;
   }
   return status;
+}
+
+// The state of another mesh of the same nodes: displacements that leave the ring as it lies on its
+// floor, and its contact.
+static void lay_alike(SbRing *to, const SbRing *from, const SbRingLoad *target) {
+  const double rise = target->floor_radius - from->contact->is.now.floor_radius;
+  SbRingFem *fem = to->fem;
+  SbRingContactState *is = &to->contact->is;
+  for (int i = 0; i < 2 * fem->mesh->nodes; i++) {
+    const double place = from->mesh->x[i] + from->fem->u[i] + (i % 2 == 0 ? rise : 0.0);
+    fem->u[i] = place - fem->mesh->x[i];
+  }
+  memcpy(fem->inner, from->fem->inner,
+         sizeof(double) * SB_RING_INNER * (size_t)fem->mesh->elements);
+  memcpy(is->touch, from->contact->is.touch,
+         sizeof *is->touch * SB_RING_SURFACES * (size_t)to->contact->count);
+  is->turn = from->contact->is.turn;
+  memcpy(is->crest, from->contact->is.crest, sizeof is->crest);
+}
+
+// From a load to another one, at once or in parts.
+static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *to,
+                        SbReport *report) {
+  enum { PARTS = 4 };
+  SbRingLoad start = *from;
+  start.floor_radius = to->floor_radius; // where it lies
+  start.bore_radius += to->floor_radius - from->floor_radius;
+  start.shear = to->shear;
+  start.law = to->law;
+  ring->contact->is.now = start;
+  sb_ring_save(ring->contact, SB_RING_BEFORE);
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  for (int parts = 1; parts <= PARTS && status == SB_ERROR_NOT_CONVERGED; parts *= 2) {
+    sb_ring_restore(ring->contact, SB_RING_BEFORE);
+    status = SB_OK;
+    for (int i = 1; i <= parts && status == SB_OK; i++) {
+      sb_ring_save(ring->contact, SB_RING_START);
+      ring->contact->is.now =
+          i == parts ? *to : sb_ring_load_between(&start, to, (double)i / parts);
+      status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+      ring->count.steps++;
+    }
+  }
+  return status;
+}
+
+SbStatus sb_ring_near(SbRing **out, const SbRing *ring, const SbRingBody *body,
+                      const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
+  SbRing *other = NULL;
+  *out = NULL;
+  SbStatus status = check_body(body, report);
+  status = status == SB_OK ? check_load(body, load, report) : status;
+  if (status == SB_OK && (ring->state != SB_RING_SLIDES || ring->arc.free ||
+                          ring->contact->is.now.bore_slides != load->bore_slides)) {
+    status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring near it does not slide alike");
+  }
+  status = status == SB_OK ? beside(&other, ring, report) : status;
+  if (status != SB_OK) {
+    return status;
+  }
+  const double size = ring->options.element_size;
+  other->options = *options;
+  other->options.element_size = size;
+  set_body(other, body, load);
+  const SbRingLoad target = sb_ring_load_in(load, other->length, other->stress);
+  status = sb_ring_mesh_copy(&other->mesh, ring->mesh, other->centre - ring->centre, report);
+  status = status == SB_OK ? build_on_mesh(other, report) : status;
+  if (status == SB_OK) {
+    lay_alike(other, ring, &target);
+    status = go_near(other, &ring->contact->is.now, &target, report);
+  }
+  // Where the finer ends of the mesh no longer are the contact's: anew, unless that fails.
+  if (status == SB_OK && outgrown(other)) {
+    status = sb_ring_refit(other, other->fitted_size, report);
+    status = status == SB_ERROR_NOT_CONVERGED ? SB_OK : status;
+  }
+  if (status != SB_OK) {
+    sb_ring_destroy(other);
+    return status;
+  }
+  *out = other;
+  return sb_succeed(report);
 }
 
 SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbReport *report) {

@@ -132,6 +132,12 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report);
 // ring that slides the other way. Owned; `law` is the data of its friction.
 SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbReport *report);
 
+// The state of another body at another load, from that of `ring` near it: its mesh, moved, and its
+// contact at first. A ring that slides steadily goes on sliding the same way; friction on floor and
+// walls sees the difference. Owned. SB_ERROR_NOT_CONVERGED where it is too far, or rolls or jams.
+SbStatus sb_ring_near(SbRing **out, const SbRing *ring, const SbRingBody *body,
+                      const SbRingLoad *load, const SbRingOptions *options, SbReport *report);
+
 // The present state on another mesh, of `element_size` throughout its contacts. Owned.
 // SB_ERROR_NOT_CONVERGED where that mesh has no such state.
 SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *options,

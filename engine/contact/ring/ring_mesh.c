@@ -465,6 +465,24 @@ SbStatus sb_ring_mesh_mirror(SbRingMesh **out, const SbRingMesh *mesh, SbReport 
   return SB_OK;
 }
 
+SbStatus sb_ring_mesh_copy(SbRingMesh **out, const SbRingMesh *mesh, double shift,
+                           SbReport *report) {
+  SbRingMesh *copy = *out = sb_ring_mesh_allocate(mesh->nodes, mesh->elements, mesh->loop_count);
+  if (copy == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
+  }
+  copy->nodes = mesh->nodes;
+  copy->elements = mesh->elements;
+  copy->loop_count = mesh->loop_count;
+  for (int i = 0; i < 2 * mesh->nodes; i++) {
+    copy->x[i] = mesh->x[i] + (i % 2 == 0 ? shift : 0.0);
+  }
+  memcpy(copy->tri, mesh->tri, sizeof *copy->tri * 6 * (size_t)mesh->elements);
+  memcpy(copy->loop, mesh->loop, sizeof *copy->loop * (size_t)mesh->loop_count);
+  memcpy(copy->angle, mesh->angle, sizeof *copy->angle * (size_t)mesh->loop_count);
+  return SB_OK;
+}
+
 void sb_ring_side_at(const double v[3], double wanted, double n[3], double d[3]) {
   double xi = 2.0 * (wanted - v[0]) / (v[2] - v[0]) - 1.0;
   for (int i = 0; i < 6; i++) {

@@ -47,6 +47,10 @@ SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbRep
 // becomes -i, vertices 1 and 2 of each triangle change places. Owned.
 SbStatus sb_ring_mesh_mirror(SbRingMesh **out, const SbRingMesh *mesh, SbReport *report);
 
+// The mesh moved by `shift` along r. Owned.
+SbStatus sb_ring_mesh_copy(SbRingMesh **out, const SbRingMesh *mesh, double shift,
+                           SbReport *report);
+
 // Parts of building one, for meshes of other bodies (tests of the elements against closed forms):
 // an empty mesh with room for so many vertices, triangles and boundary nodes; a triangle of three
 // vertices, counter-clockwise in (r, z), with its place; the mid-side nodes of all, straight ones.

@@ -81,6 +81,24 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
   return sb_succeed(report);
 }
 
+void sb_run_keep_rings(SbRun *run) {
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    sb_sliding_memory_keep(run->memory[i]);
+  }
+}
+
+void sb_run_end_rings(SbRun *run) {
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    sb_sliding_memory_end(run->memory[i]);
+  }
+}
+
+void sb_run_start_from(SbRun *run, const SbRun *base) {
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    sb_sliding_memory_start(run->memory[i], base != NULL ? base->memory[i] : NULL);
+  }
+}
+
 void sb_run_destroy(SbRun *run) {
   if (run == NULL) {
     return;

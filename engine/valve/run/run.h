@@ -203,6 +203,15 @@ void sb_run_destroy(SbRun *run);
 // state kept; the summary is valid after any of them.
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
+// Before sb_run_execute(): keeps the rings' states for other runs to start from; after it they are
+// there, and the run must be executed anew for anything else.
+void sb_run_keep_rings(SbRun *run);
+void sb_run_end_rings(SbRun *run);
+
+// Lets this run's rings start from those that `base` kept, borrowed until it is told otherwise;
+// NULL: cold, as at first. Its answers then hang on that base and its own model alone.
+void sb_run_start_from(SbRun *run, const SbRun *base);
+
 // Frames published so far, oldest first; borrowed, valid until sb_run_destroy(). Any thread.
 const SbFrame *sb_run_frames(const SbRun *run, size_t *count);
 
