@@ -87,14 +87,17 @@ static int judge(const SbStudyFile *study, const SbDesign *design) {
     g_autofree char *bound = sb_limit_format(limit->figure, limit->low, limit->high);
     const int column = sb_study_column_of(study, limit->figure);
     g_autofree char *value = sb_figure_format(limit->figure, design->figure[column], NAN);
-    sb_cli_note("nothing feasible was found from %zu starts%s; the least violated limit is %s %s, "
-                "which is %s",
-                design->starts,
-                isfinite(study->design.robust) && least < 0 ? " that is as robust" : "",
-                sb_figure(limit->figure)->path, bound, value);
+    if (least < 0) {
+      (void)sb_cli_fail("nothing feasible was found that is as robust; this one meets the limits "
+                        "themselves");
+    } else {
+      (void)sb_cli_fail("nothing feasible was found from %zu starts; the least violated limit is "
+                        "%s %s: it is %s",
+                        design->starts, sb_figure(limit->figure)->path, bound, value);
+    }
   } else if (isfinite(study->design.robust) && !design->met) {
-    sb_cli_note("all limits hold with %.6g %% only, not with %.6g %%", 100 * design->holds,
-                100 * study->design.robust);
+    (void)sb_cli_fail("all limits hold with %.6g %% only, not with %.6g %%", 100 * design->holds,
+                      100 * study->design.robust);
   }
   if (!design->converged) {
     return MAX(sb_cli_fail("the search did not converge: %s",
