@@ -105,8 +105,12 @@ static SbGradient *make(const SbQuestion *question, const SbParamId *parameter, 
     sb_gradient_destroy(out);
     return NULL;
   }
-  memcpy(out->figure, question->figure, n * sizeof *out->figure);
-  memcpy(out->parameter, parameter, count * sizeof *out->parameter);
+  for (size_t i = 0; i < n; i++) {
+    out->figure[i] = question->figure[i];
+  }
+  for (size_t i = 0; i < count; i++) {
+    out->parameter[i] = parameter[i];
+  }
   return out;
 }
 
@@ -203,8 +207,9 @@ typedef struct {
 
 typedef struct {
   SbGradient *out;
-  SbEvaluator *evaluator;
-  SbQuestion question; // with one more override than asked, that of the parameter
+  SbEvaluator *evaluator; // keeps the base's contacts
+  SbEvaluator *other;     // answers where they are others, owned
+  SbQuestion question;    // with one more override than asked, that of the parameter
   SbOverride *override;
   double *base_value; // of the figures while this parameter is moved [figures]
   double *size;       // of what each figure is the sum of, to which rounding goes [figures]
@@ -229,13 +234,15 @@ static bool ends(SbStatus status) {
 static SbStatus ask(Work *work, double *value, double x, bool tell) {
   work->override[work->question.override_count - 1].value = x;
   SbReport report;
-  SbStatus status = sb_evaluator_ask(value, work->evaluator, &work->question, &report);
+  SbEvaluator *by =
+      sb_evaluator_has_solved(work->evaluator, &work->question) ? work->evaluator : work->other;
+  SbStatus status = sb_evaluator_ask(value, by, &work->question, &report);
   work->refused = status == SB_ERROR_INPUT || status == SB_ERROR_RANGE;
   if (status != SB_OK) {
     work->report = report;
   }
   Outcome now;
-  take_outcome(&now, sb_evaluator_summary(work->evaluator));
+  take_outcome(&now, sb_evaluator_summary(by));
   if (tell && work->changed[0] == '\0') {
     (void)differ(work->changed, sizeof work->changed, &work->outcome, &now);
   }
@@ -503,7 +510,12 @@ static SbStatus set_up(Work *work, const SbQuestion *question) {
       work->value == NULL || work->open == NULL) {
     return SB_ERROR_MEMORY;
   }
-  memcpy(work->override, question->override, question->override_count * sizeof *work->override);
+  if (sb_evaluator_create(&work->other, NULL) != SB_OK) {
+    return SB_ERROR_MEMORY;
+  }
+  for (size_t i = 0; i < question->override_count; i++) {
+    work->override[i] = question->override[i];
+  }
   work->question = *question;
   work->question.override = work->override;
   work->question.override_count = overrides;
@@ -574,6 +586,7 @@ SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQu
   free(work.size);
   free(work.value);
   free(work.open);
+  sb_evaluator_destroy(work.other);
   if (well) {
     *out = work.out;
   } else {
