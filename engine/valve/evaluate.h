@@ -6,7 +6,9 @@
 //
 // An evaluator is the memory of one thread: nothing is shared between two of them but the base,
 // which nobody writes. What an answer is does not depend on what the evaluator was asked before:
-// solvers start warm only from states of the same question, in the order of a run.
+// solvers start warm only from states of the same question, in the order of a run; where a question
+// asks for the very contacts of the one before (another stroke, drive, pressure diameter), those
+// stand.
 //
 // Leaves out: derivatives; frames, profiles and shapes (run.h has them); wall times and counts.
 #pragma once
@@ -43,6 +45,9 @@ void sb_evaluator_destroy(SbEvaluator *evaluator);
 // `report` may be NULL.
 SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestion *question,
                           SbReport *report);
+
+// Whether it would answer without solving a contact, by those of the last question.
+bool sb_evaluator_has_solved(const SbEvaluator *evaluator, const SbQuestion *question);
 
 // Why a figure of the last question has no value; NULL for one that has. Borrowed until the next
 // question.
