@@ -55,7 +55,8 @@ char *sb_issue_line(const SbIssue *issue) {
   }
   if (issue->key != NULL) {
     // Names in these have dots of their own.
-    static const char *const groups[] = {"limits.", "cases.", "vary.", "correlation."};
+    static const char *const groups[] = {"limits.", "cases.", "vary.", "tolerances.",
+                                         "correlation."};
     bool named = false;
     for (size_t i = 0; i < G_N_ELEMENTS(groups); i++) {
       named |= g_str_has_prefix(issue->key, groups[i]);

@@ -41,6 +41,10 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
 #define SB_CLI_SET_HELP                                                                            \
   "Overrides a parameter; a percentage with a sign, +5% or -5%, changes its value in force"
 
+// Help of --jobs; and its number of threads, one a processor without a text. False with a message.
+#define SB_CLI_JOBS_HELP "Threads; default one a processor"
+bool sb_cli_jobs(int *threads, const char *text);
+
 // Help of --json where there may be several files.
 #define SB_CLI_JSON_HELP "JSON to a file or -; of several files an array"
 
@@ -177,5 +181,6 @@ void sb_cli_set_pool(const SbAnswerPool *pool);
 
 int sb_command_study(int argc, char **argv);
 int sb_command_merge(int argc, char **argv);
+int sb_command_design(int argc, char **argv);
 int sb_command_sensitivity(int argc, char **argv);
 int sb_command_open(int argc, char **argv);

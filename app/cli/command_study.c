@@ -35,10 +35,18 @@ static bool read_whole(int *out, const char *text, int most) {
   return true;
 }
 
+bool sb_cli_jobs(int *threads, const char *text) {
+  *threads = (int)g_get_num_processors();
+  if (text != NULL && !read_whole(threads, text, 256)) {
+    (void)sb_cli_fail("--jobs: \"%.40s\" is no number of threads (1 to 256)", text);
+    return false;
+  }
+  return true;
+}
+
 static int read_options(Options *options) {
-  options->threads = (int)g_get_num_processors();
-  if (options->jobs != NULL && !read_whole(&options->threads, options->jobs, 256)) {
-    return sb_cli_fail("--jobs: \"%.40s\" is no number of threads (1 to 256)", options->jobs);
+  if (!sb_cli_jobs(&options->threads, options->jobs)) {
+    return SB_EXIT_INPUT;
   }
   if (options->shard != NULL) {
     g_auto(GStrv) parts = g_strsplit(options->shard, "/", -1);
@@ -395,6 +403,10 @@ static int study_file(const Options *options, const SbStudyFile *study) {
   }
   double *value = NULL, *unit = NULL;
   SbReliability reliability = {0};
+  if (study->samples == 0) {
+    return sb_cli_fail("%s: study.samples: is missing: how many samples there are",
+                       study->path != NULL ? study->path : "standard input");
+  }
   code = lay_out(&value, &unit, &reliability, options, study);
   if (code != SB_EXIT_DONE) {
     return code;
@@ -423,7 +435,7 @@ int sb_command_study(int argc, char **argv) {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.store,
        "Store of the answers, added to if it is there; default NAME.store beside the study",
        "STORE"},
-      {"jobs", 0, 0, G_OPTION_ARG_FILENAME, &options.jobs, "Threads; default one a processor", "N"},
+      {"jobs", 0, 0, G_OPTION_ARG_FILENAME, &options.jobs, SB_CLI_JOBS_HELP, "N"},
       {"shard", 0, 0, G_OPTION_ARG_FILENAME, &options.shard,
        "Computes the part I of N alone, from 1; `sealbench merge` joins the stores", "I/N"},
       {"emit-slurm", 0, 0, G_OPTION_ARG_FILENAME, &options.slurm,

@@ -593,6 +593,9 @@ SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *na
   for (int i = 0; all && i < SB_FIGURE_COUNT; i++) {
     g_array_append_val(study->figures, i);
   }
+  if (study->design.asked) {
+    sb_study_take_figure(study->figures, study->design.figure);
+  }
   for (size_t i = 0; i < study->limits.count; i++) {
     sb_study_take_figure(study->figures, study->limits.item[i].figure);
   }

@@ -93,10 +93,11 @@ static void hand_out(SbAnswerSink *sink, const SbQuestions *asked, const uint32_
   }
 }
 
-static void answer(const SbQuestions *asked, SbEvaluator *evaluator, double *message,
-                   uint32_t sample) {
+static void answer(const SbQuestions *asked, SbEvaluator *evaluator, const SbEvaluator *start,
+                   double *message, uint32_t sample) {
   char *reason = NULL, text[REASON] = "";
-  const SbStatus outcome = sb_answer(message + 2, &reason, evaluator, asked, sample, NULL, NULL);
+  const SbStatus outcome =
+      sb_answer(message + 2, &reason, evaluator, asked, start, sample, NULL, NULL);
   if (outcome == SB_ERROR_MEMORY) {
     MPI_Abort(MPI_COMM_WORLD, SB_EXIT_IO);
   }
@@ -115,6 +116,7 @@ static void serve(const SbQuestions *asked) {
   if (sb_evaluator_create(&evaluator, &report) != SB_OK) {
     MPI_Abort(MPI_COMM_WORLD, SB_EXIT_IO);
   }
+  SbEvaluator *base = sb_answer_start(asked);
   for (;;) {
     uint32_t sample[BLOCK] = {0};
     int count = 0;
@@ -126,9 +128,10 @@ static void serve(const SbQuestions *asked) {
     }
     MPI_Get_count(&status, MPI_UINT32_T, &count);
     for (int i = 0; i < count; i++) {
-      answer(asked, evaluator, message, sample[i]);
+      answer(asked, evaluator, base, message, sample[i]);
     }
   }
+  sb_evaluator_destroy(base);
   sb_evaluator_destroy(evaluator);
   g_free(message);
 }

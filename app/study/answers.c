@@ -30,14 +30,37 @@ static double now(void) {
 
 // ---- One answer ----
 
+SbEvaluator *sb_answer_start(const SbQuestions *asked) {
+  SbEvaluator *start = NULL;
+  if (sb_model_get(asked->base, SB_P_MODELS_FIT) != SB_FIT_RING ||
+      sb_evaluator_create(&start, NULL) != SB_OK) {
+    return NULL;
+  }
+  g_autofree double *value = g_new(double, asked->figures);
+  const SbQuestion question = {.base = asked->base,
+                               .figure = asked->figure,
+                               .figure_count = asked->figures,
+                               .keep = true,
+                               .cancelled = asked->cancelled,
+                               .data = asked->data};
+  const SbStatus status = sb_evaluator_ask(value, start, &question, NULL);
+  if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
+    sb_evaluator_destroy(start);
+    return NULL;
+  }
+  return start;
+}
+
 SbStatus sb_answer(double *value, char **reason, SbEvaluator *evaluator, const SbQuestions *asked,
-                   size_t sample, bool (*cancelled)(void *data), void *data) {
+                   const SbEvaluator *start, size_t sample, bool (*cancelled)(void *data),
+                   void *data) {
   SbOverride override[SB_QUESTION_PARAMETERS];
   const SbQuestion question = {.base = asked->base,
                                .override = override,
                                .override_count = asked->parameters,
                                .figure = asked->figure,
                                .figure_count = asked->figures,
+                               .start = start,
                                .cancelled = cancelled,
                                .data = data};
   for (size_t k = 0; k < asked->parameters; k++) {
@@ -119,6 +142,7 @@ bool sb_answer_goes_on(SbAnswerSink *sink) {
 
 typedef struct {
   const SbQuestions *asked;
+  const SbEvaluator *start;
   SbAnswerSink *sink;
   const uint32_t *todo; // samples to compute
   size_t count;
@@ -144,7 +168,7 @@ static void answer_one(Threads *pool, SbEvaluator *evaluator, uint32_t sample) {
   char *reason = NULL;
   double *value = sb_answer_place(pool->sink, sample);
   const SbStatus status =
-      sb_answer(value, &reason, evaluator, pool->asked, sample, is_stopped, pool);
+      sb_answer(value, &reason, evaluator, pool->asked, pool->start, sample, is_stopped, pool);
   if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     atomic_store(&pool->stop, true);
     for (size_t i = 0; i < pool->asked->figures; i++) {
@@ -205,7 +229,8 @@ static void collect(Threads *pool) {
 
 static void compute_on_threads(SbAnswerSink *sink, const SbQuestions *asked, const uint32_t *todo,
                                size_t count) {
-  Threads pool = {.asked = asked, .sink = sink, .todo = todo, .count = count};
+  SbEvaluator *start = sb_answer_start(asked);
+  Threads pool = {.asked = asked, .start = start, .sink = sink, .todo = todo, .count = count};
   pthread_t thread[JOBS_MAX];
   const int jobs = CLAMP((int)MIN((size_t)asked->jobs, count), 1, JOBS_MAX);
   pthread_condattr_t attributes;
@@ -226,6 +251,7 @@ static void compute_on_threads(SbAnswerSink *sink, const SbQuestions *asked, con
   for (int i = 0; i < started; i++) {
     pthread_join(thread[i], NULL);
   }
+  sb_evaluator_destroy(start);
   g_free(pool.done);
   pthread_cond_destroy(&pool.ready);
   pthread_mutex_destroy(&pool.lock);

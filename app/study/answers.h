@@ -45,10 +45,15 @@ typedef struct {
   double seconds;     // it took for them
 } SbAnswers;
 
+// The base's answer, from whose rings the samples' start; NULL where it has none that are solved.
+// Owned; the same in every process.
+SbEvaluator *sb_answer_start(const SbQuestions *asked);
+
 // Answers one sample into value[figures]; *reason is owned by the caller, NULL where nothing
 // failed.
 SbStatus sb_answer(double *value, char **reason, SbEvaluator *evaluator, const SbQuestions *asked,
-                   size_t sample, bool (*cancelled)(void *data), void *data);
+                   const SbEvaluator *start, size_t sample, bool (*cancelled)(void *data),
+                   void *data);
 
 // Where a pool puts its answers, from the one thread that has the store.
 typedef struct SbAnswerSink SbAnswerSink;

@@ -8,7 +8,8 @@
 // which nobody writes. What an answer is does not depend on what the evaluator was asked before:
 // solvers start warm only from states of the same question, in the order of a run, or of a base
 // that the question names: a ring's friction on floor and walls then has another history, within
-// the errors that are told.
+// the errors that are told. Where a question asks for the very contacts of the one before (another
+// stroke, drive, pressure diameter), those stand.
 //
 // Leaves out: derivatives; frames, profiles and shapes (run.h has them); wall times and counts.
 #pragma once
@@ -50,6 +51,9 @@ void sb_evaluator_destroy(SbEvaluator *evaluator);
 // `report` may be NULL.
 SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestion *question,
                           SbReport *report);
+
+// Whether it would answer without solving a contact, by those of the last question.
+bool sb_evaluator_has_solved(const SbEvaluator *evaluator, const SbQuestion *question);
 
 // Why a figure of the last question has no value; NULL for one that has. Borrowed until the next
 // question.

@@ -105,8 +105,12 @@ static SbGradient *make(const SbQuestion *question, const SbParamId *parameter, 
     sb_gradient_destroy(out);
     return NULL;
   }
-  memcpy(out->figure, question->figure, n * sizeof *out->figure);
-  memcpy(out->parameter, parameter, count * sizeof *out->parameter);
+  for (size_t i = 0; i < n; i++) {
+    out->figure[i] = question->figure[i];
+  }
+  for (size_t i = 0; i < count; i++) {
+    out->parameter[i] = parameter[i];
+  }
   return out;
 }
 
@@ -203,8 +207,9 @@ typedef struct {
 
 typedef struct {
   SbGradient *out;
-  SbEvaluator *evaluator;
-  SbQuestion question; // with one more override than asked, that of the parameter
+  SbEvaluator *evaluator; // keeps the base's contacts
+  SbEvaluator *other;     // answers where they are others, owned
+  SbQuestion question;    // with one more override than asked, that of the parameter
   SbOverride *override;
   double *base_value; // of the figures while this parameter is moved [figures]
   double *size;       // of what each figure is the sum of, to which rounding goes [figures]
@@ -212,6 +217,8 @@ typedef struct {
   Level level[LEVELS];
   bool *open; // figures whose derivative is still sought [figures]
   Outcome outcome;
+  bool rings;              // the model solves them: answers scatter
+  bool scatter;            // those by this parameter do: it enters the contacts
   bool refused;            // the last question, by the parameters alone
   char changed[TEXT_SIZE]; // what another outcome at a smallest step was, or empty
   SbReport report;         // of the last question that was refused or failed
@@ -229,13 +236,15 @@ static bool ends(SbStatus status) {
 static SbStatus ask(Work *work, double *value, double x, bool tell) {
   work->override[work->question.override_count - 1].value = x;
   SbReport report;
-  SbStatus status = sb_evaluator_ask(value, work->evaluator, &work->question, &report);
+  SbEvaluator *by =
+      sb_evaluator_has_solved(work->evaluator, &work->question) ? work->evaluator : work->other;
+  SbStatus status = sb_evaluator_ask(value, by, &work->question, &report);
   work->refused = status == SB_ERROR_INPUT || status == SB_ERROR_RANGE;
   if (status != SB_OK) {
     work->report = report;
   }
   Outcome now;
-  take_outcome(&now, sb_evaluator_summary(work->evaluator));
+  take_outcome(&now, sb_evaluator_summary(by));
   if (tell && work->changed[0] == '\0') {
     (void)differ(work->changed, sizeof work->changed, &work->outcome, &now);
   }
@@ -295,6 +304,28 @@ static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
                                                              : ROUGH;
 }
 
+// Part of a figure by which answers with solved rings scatter, as their meshes follow the contacts:
+// measured on ring-cycle's loads, peaks and forces.
+static const double SCATTER = 2e-4;
+
+// The same of a figure that hangs on solved rings: the widest difference, and how far the half one
+// is from it.
+static void estimate_scattered(Estimate *out, const Work *work, int at, size_t figure) {
+  const Level *level = &work->level[at];
+  const double h = level->h, f0 = work->base_value[figure];
+  double f[POINTS];
+  for (int i = 0; i < POINTS; i++) {
+    f[i] = value_of(work, at, i)[figure];
+  }
+  const double wide = level->one_sided ? (f[PLUS] - f0) / h : (f[PLUS] - f[MINUS]) / (2 * h);
+  const double half =
+      level->one_sided ? 2 * (f[HALF] - f0) / h : (f[PLUS_HALF] - f[MINUS_HALF]) / h;
+  *out = (Estimate){.slope = wide,
+                    .error = 2 * fabs(wide - half) + SCATTER * work->size[figure] / fabs(h),
+                    .step = fabs(h)};
+  out->kind = isfinite(out->slope) && isfinite(out->error) ? SMOOTH : MISSING;
+}
+
 static void set(Work *work, size_t parameter, size_t figure, double slope, double error) {
   const size_t cell = figure * work->out->parameters + parameter;
   work->out->slope[cell] = slope;
@@ -327,7 +358,7 @@ static void settle(Work *work, size_t parameter, size_t figure) {
     if (!work->level[i].asked) {
       continue;
     }
-    estimate(&now, work, i, figure);
+    (work->scatter ? estimate_scattered : estimate)(&now, work, i, figure);
     if (now.kind == MISSING) {
       continue;
     }
@@ -441,7 +472,7 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
     estimate(&now, work, at, i);
     if (same_bits(work, at, POINTS, i)) {
       set(work, parameter, i, 0, 0);
-    } else if (enough(&now, work->size[i], scale)) {
+    } else if (!work->scatter && enough(&now, work->size[i], scale)) {
       set(work, parameter, i, now.slope, now.error);
     } else {
       const bool hidden = now.kind == SMOOTH && now.hidden;
@@ -463,7 +494,9 @@ static SbStatus differentiate(Work *work, size_t parameter) {
   for (size_t i = 0; i < out->figures; i++) {
     work->open[i] = isfinite(out->value[i]);
   }
-  for (int at = FIRST; at < LEVELS; at++) {
+  work->override[work->question.override_count - 1].value = x + parts[FIRST] * scale;
+  work->scatter = work->rings && !sb_evaluator_has_solved(work->evaluator, &work->question);
+  for (int at = work->scatter ? LARGE : FIRST; at < LEVELS; at++) {
     if (at == LARGE ? !larger : !smaller) {
       continue;
     }
@@ -503,7 +536,12 @@ static SbStatus set_up(Work *work, const SbQuestion *question) {
       work->value == NULL || work->open == NULL) {
     return SB_ERROR_MEMORY;
   }
-  memcpy(work->override, question->override, question->override_count * sizeof *work->override);
+  if (sb_evaluator_create(&work->other, NULL) != SB_OK) {
+    return SB_ERROR_MEMORY;
+  }
+  for (size_t i = 0; i < question->override_count; i++) {
+    work->override[i] = question->override[i];
+  }
   work->question = *question;
   work->question.override = work->override;
   work->question.override_count = overrides;
@@ -531,6 +569,8 @@ static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) 
     return status;
   }
   take_outcome(&work->outcome, sb_evaluator_summary(work->evaluator));
+  work->rings =
+      sb_model_number(sb_evaluator_model(work->evaluator), SB_P_MODELS_FIT) == SB_FIT_RING;
   for (size_t i = 0; i < out->parameters; i++) {
     out->at[i] = sb_model_value(sb_evaluator_model(work->evaluator), out->parameter[i]);
   }
@@ -574,6 +614,7 @@ SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQu
   free(work.size);
   free(work.value);
   free(work.open);
+  sb_evaluator_destroy(work.other);
   if (well) {
     *out = work.out;
   } else {

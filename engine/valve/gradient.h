@@ -6,6 +6,11 @@
 // the parameter's range. An error is told with every derivative: what the last extrapolation
 // changed, and the rounding that the step magnifies.
 //
+// Solved rings scatter: their meshes are fitted to the contacts, which a small step moves by less
+// than an element. Their figures are differentiated over a wide step instead, with the scatter over
+// it in the error (some 1 % of a figure in proportion to its parameter). Parameters that do not
+// enter the contacts (sb_evaluator_has_solved()) solve none again, whatever the models.
+//
 // A figure that has the same bits on both sides does not depend on the parameter: its derivative is
 // an exact 0, of error 0. It has none (NaN, with a reason) where the figure itself has no value,
 // where the differences from both sides disagree at the smallest step as well (a kink), where they

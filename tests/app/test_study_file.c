@@ -71,6 +71,28 @@ static void test_refused(void) {
        "[vary] fluid.name: the method reliability takes no levels"},
       {"[vary]\ngland.radial_space = uniform 1.3 mm .. 1.4 mm" STUDY "method = reliability\n",
        "limits: the method reliability needs limits"},
+#define SPACE "[vary]\ngland.radial_space = uniform 1.3 mm .. 1.4 mm\n"
+#define LEAST "[design]\nobjective = minimise cycle.force_breakaway_N\n"
+      {SPACE "[design]\nobjective = minimise cycle.force\n",
+       "[design] objective: there is no figure \"cycle.force\""},
+      {SPACE "[design]\nobjective = least cycle.force_breakaway_N\n", "is no objective"},
+      {SPACE "[design]\nobjective = minimise cycle.returns\n", "a yes or no is no objective"},
+      {SPACE "[design]\nstarts = 3\n", "[design] objective: is missing"},
+      {SPACE LEAST "colour = red\n", "[design] colour: unknown key"},
+      {SPACE LEAST "robust = 1\n", "is no probability that all limits hold"},
+      {SPACE LEAST "robust = 0.99\n", "[design] robust: needs [tolerances]"},
+      {SPACE LEAST "[tolerances]\ngland.radial_space = normal 0 mm, -0.01 mm\n",
+       "[tolerances] gland.radial_space: the deviation \"-0.01 mm\" is not above 0"},
+      {SPACE LEAST "[tolerances]\ngland.radial_space = normal 0 mm, 0.01 N\n",
+       "\"N\" is a unit of another kind, expected mm"},
+      {SPACE LEAST "[tolerances]\ngland.radial_space = levels 0 mm\n", "is no tolerance"},
+      {"[vary]\nseal.outer.section_diameter = uniform 1.5 mm .. 1.6 mm\n" LEAST
+       "[tolerances]\nseal.section_diameter = normal 0 mm, 0.01 mm\n",
+       "[tolerances] seal.section_diameter: seal.outer.section_diameter varies, which this does "
+       "not"},
+      {"[vary]\ngland.radial_space = normal 1.36 mm, 0.01 mm\n" LEAST,
+       "[vary] gland.radial_space: a design takes bounds, or one value"},
+      {"[vary]\n" LEVELS LEAST, "a design needs bounds: nothing is free"},
       {"[varied]\n" LEVELS STUDY, "unknown group [varied]"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {

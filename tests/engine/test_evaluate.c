@@ -176,6 +176,49 @@ static void test_ring(void) {
   sb_run_destroy(run);
 }
 
+// Contacts that a parameter does not enter stand from the question before: whatever is moved, the
+// answer is that of an evaluator that was asked nothing else.
+static void test_stands(void) {
+  const SbOverride change[] = {{SB_P_SURFACE_SIGMA, 0.9e-6},
+                               {SB_P_RUBBER_RELAXATION_SHARE_1, 0.2},
+                               {SB_P_STORAGE_TIME, 3e6},
+                               {SB_P_RUBBER_SWELL_MASS, 0.1}};
+  enum { CHANGED = G_N_ELEMENTS(change) };
+  SbModel base = base_model();
+  SbOverride all[CHANGED + 1];
+  int figure[SB_FIGURE_COUNT];
+  size_t stood = 0;
+  memcpy(all, change, sizeof change);
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    figure[i] = i;
+  }
+  SbEvaluator *evaluator = evaluator_new();
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    const SbParam *param = sb_param((SbParamId)id);
+    double value[SB_FIGURE_COUNT], alone[SB_FIGURE_COUNT];
+    const double is = sb_model_value(&base, (SbParamId)id);
+    all[CHANGED] = (SbOverride){(SbParamId)id, is != 0 ? 1.001 * is : 1e-4 * param->max};
+    const SbQuestion first = {&base, change, CHANGED, figure, SB_FIGURE_COUNT, NULL, NULL};
+    const SbQuestion question = {&base, all, CHANGED + 1, figure, SB_FIGURE_COUNT, NULL, NULL};
+    if (param->kind != SB_PARAM_REAL ||
+        sb_evaluator_ask(alone, evaluator, &question, NULL) != SB_OK) {
+      continue;
+    }
+    g_assert_cmpint(sb_evaluator_ask(value, evaluator, &first, NULL), ==, SB_OK);
+    const bool stands = sb_evaluator_has_solved(evaluator, &question);
+    stood += stands;
+    g_assert_cmpint(sb_evaluator_ask(value, evaluator, &question, NULL), ==, SB_OK);
+    for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+      if (!same_bits(value[i], alone[i])) {
+        g_error("%s by %s: %.17g, %.17g alone", sb_figure(i)->path, param->key, value[i], alone[i]);
+      }
+    }
+  }
+  g_test_message("the contacts stand for %zu parameters", stood);
+  g_assert_cmpuint(stood, >, 80);
+  sb_evaluator_destroy(evaluator);
+}
+
 // Sizes need no solve, a load one fitment, a film one film; the cycle all of them.
 static void test_least(void) {
   const SbOverride change[] = {{SB_P_MODELS_FIT, SB_FIT_DISC},
@@ -359,6 +402,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/evaluate/bits", test_bits);
   g_test_add_func("/evaluate/ring", test_ring);
+  g_test_add_func("/evaluate/stands", test_stands);
   g_test_add_func("/evaluate/least", test_least);
   g_test_add_func("/evaluate/model", test_model);
   g_test_add_func("/evaluate/refused", test_refused);

@@ -38,18 +38,26 @@ SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, Sb
   return status;
 }
 
-// Frees what one execution made.
-static void free_results(SbRun *run) {
+// Frees what one execution made beside the seals' states, and forgets all of it.
+static void clear_execution(SbRun *run) {
   for (int i = 0; i < SB_RUN_PROFILE_SLOTS; i++) {
     free(run->profile[i].data);
   }
   for (int i = 0; i < SB_RUN_SHAPES; i++) {
     free(run->shape[i].data);
   }
-  sb_run_free_speeds(run);
   sb_run_bodies_destroy(run->bodies);
   free(run->life);
   sb_model_destroy(run->model);
+  memset((char *)run + offsetof(SbRun, model), 0, sizeof *run - offsetof(SbRun, model));
+}
+
+static void begin(SbRun *run, const SbModel *model, const SbPlan *plan) {
+  run->model = model;
+  run->plan = *plan;
+  run->speed = run->mid_speed = run->back_speed = model->speed;
+  run->roughness = 1;
+  run->capacity = frames_at_most(model, plan);
 }
 
 SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbReport *report) {
@@ -57,23 +65,22 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
   if (sb_model_copy(&kept, model) != SB_OK) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a run");
   }
-  free_results(run);
-  memset((char *)run + offsetof(SbRun, model), 0, sizeof *run - offsetof(SbRun, model));
-  run->model = kept;
-  run->plan = *plan;
-  run->speed = run->mid_speed = run->back_speed = model->speed;
-  run->roughness = 1;
+  const SbPlan own = *plan;
+  clear_execution(run);
+  sb_run_free_speeds(run);
+  run->solved.solved = run->solved.stand = false;
+  begin(run, kept, &own);
+  plan = &run->plan;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     sb_sliding_memory_forget(run->memory[i]);
   }
-  run->capacity = frames_at_most(model, plan);
   if (run->capacity > run->room) {
     free(run->frames);
     // Left untouched until used: a run that is cancelled early never pays for the rest.
     run->frames = malloc(run->capacity * sizeof *run->frames);
     run->room = run->frames != NULL ? run->capacity : 0;
   }
-  run->life = plan->life ? calloc((size_t)model->life_actuations, sizeof *run->life) : NULL;
+  run->life = plan->life ? calloc((size_t)kept->life_actuations, sizeof *run->life) : NULL;
   if (run->frames == NULL || (plan->life && run->life == NULL)) {
     return sb_fail_parameter(report, SB_ERROR_MEMORY, "output.frames", "no memory for %d frames",
                              plan->frames);
@@ -99,6 +106,21 @@ void sb_run_start_from(SbRun *run, const SbRun *base) {
   }
 }
 
+SbStatus sb_run_renew_same(SbRun *run, const SbModel *model, SbReport *report) {
+  const SbPlan plan = run->plan;
+  SbModel *kept;
+  if (!run->solved.solved) {
+    return sb_run_renew(run, model, &plan, report);
+  }
+  if (sb_model_copy(&kept, model) != SB_OK) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a run");
+  }
+  clear_execution(run);
+  begin(run, kept, &plan);
+  run->solved.stand = true;
+  return sb_succeed(report);
+}
+
 void sb_run_destroy(SbRun *run) {
   if (run == NULL) {
     return;
@@ -106,7 +128,8 @@ void sb_run_destroy(SbRun *run) {
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     sb_sliding_memory_destroy(run->memory[i]);
   }
-  free_results(run);
+  clear_execution(run);
+  sb_run_free_speeds(run);
   free(run->frames);
   free(run);
 }
@@ -239,9 +262,15 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
   // Solved rings take seconds, everything else before the frames milliseconds.
   run->before_frames = plan->ring ? 0.9 : 0;
   run->after_frames = run->life != NULL ? 0.9 * (1 - run->before_frames) : 0;
-  SbStatus status = sb_run_solve_states(run, hooks, report);
-  if (!usable(status)) {
-    return status;
+  SbStatus status = SB_OK;
+  if (run->solved.stand) {
+    sb_run_take_states(run);
+  } else {
+    status = sb_run_solve_states(run, hooks, report);
+    if (!usable(status)) {
+      return status;
+    }
+    sb_run_keep_states(run, status);
   }
   run->hold = plan->film_history;
   if (plan->motion) {

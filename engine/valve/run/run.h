@@ -196,6 +196,10 @@ SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, Sb
 // or destroyed.
 SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbReport *report);
 
+// The same, for a model of the last one's kind whose seals' steady states are those of the last one
+// to the bit, at the same plan: where they were solved they stand and are not solved again.
+SbStatus sb_run_renew_same(SbRun *run, const SbModel *model, SbReport *report);
+
 // Frees a run that no thread executes any more; NULL is allowed.
 void sb_run_destroy(SbRun *run);
 

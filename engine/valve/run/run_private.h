@@ -76,11 +76,26 @@ typedef struct {
   SbValveBand item[SB_VALVE_BANDS];
 } SbValveBands;
 
+// The seals' states as they were solved, and what they left in the summary: for a model that has
+// the same ones (sb_run_renew_same()).
+typedef struct {
+  bool stand;  // in force: nothing is solved
+  bool solved; // what follows is known, and no solver has failed
+  SbCycle cycle;
+  double friction_error, static_error, error_film, error_load, error_width;
+  SbReport lacks;
+  SbCounters counters;
+  SbWarnings warnings;
+} SbRunSolved;
+
 struct SbRun {
   // Kept from one model to the next; what follows is one execution's.
   SbSlidingMemory *memory[SB_SEAL_COUNT];
   SbFrame *frames;
-  size_t room;          // of the array
+  size_t room; // of the array
+  // Kept where the next model's seals have the same states; speeds NULL where nobody has asked.
+  SbSpeedStates *speeds[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_RUN_REST]; // over the speed, owned
+  SbRunSolved solved;
   const SbModel *model; // its own
   SbPlan plan;
   size_t capacity;   // frames at most
@@ -90,9 +105,7 @@ struct SbRun {
   double back_speed; // at the middle of F-A, > 0 [m/s]
   SbDwellLaw rest[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS]; // of contacts that age, over their level
   double roughness;                                  // that the states have, over the model's
-  // The same states over the speed; NULL where nobody has asked. Owned.
-  SbSpeedStates *speeds[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_RUN_REST];
-  bool out_of_memory;    // for one of them
+  bool out_of_memory;                                // for one of them
   double straight_error; // of friction in the motion's bands of speed, over that without a film
   SbValveBands bands[SB_CYCLE_CHAMBERS][SB_RUN_REST]; // of the motion; made when first asked for
   SbSummary summary;
@@ -117,6 +130,11 @@ struct SbRun {
 // the speed of the machine or, where something else drives the stem, at the stem's own at the
 // middle of B-C (run_states.c).
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
+// Remembers the states as just solved, and takes them for another model in their place
+// (run_states.c).
+void sb_run_keep_states(SbRun *run, SbStatus status);
+void sb_run_take_states(SbRun *run);
 
 // What else was solved for a run.
 void sb_run_add_counters(SbCounters *sum, const SbCounters *more);

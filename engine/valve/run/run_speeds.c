@@ -226,5 +226,6 @@ SbStatus sb_run_close_speeds(SbRun *run, SbReport *report) {
 void sb_run_free_speeds(SbRun *run) {
   for (int i = 0; i < TABLES; i++) {
     free(table_at(run, i));
+    (&run->speeds[0][0][0])[i] = NULL;
   }
 }

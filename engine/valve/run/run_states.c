@@ -531,3 +531,44 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   }
   return status;
 }
+
+// A life changes them, and a stem that finds its own speed has them at another.
+void sb_run_keep_states(SbRun *run, SbStatus status) {
+  const SbPlan *plan = &run->plan;
+  const bool own = plan->inertia && run->model->drive != SB_MODEL_DRIVE_MACHINE;
+  SbRunSolved *out = &run->solved;
+  const SbSummary *summary = &run->summary;
+  out->solved = status == SB_OK && !own && !plan->life && !plan->profiles && !plan->film_history;
+  if (out->solved) {
+    out->cycle = run->cycle;
+    out->friction_error = run->friction_error;
+    out->static_error = run->static_error;
+    out->error_film = summary->error_film;
+    out->error_load = summary->error_load;
+    out->error_width = summary->error_width;
+    out->lacks = run->lacks;
+    out->counters = summary->counters;
+    out->warnings = summary->warnings;
+  }
+}
+
+void sb_run_take_states(SbRun *run) {
+  const SbRunSolved *from = &run->solved;
+  SbSummary *summary = &run->summary;
+  run->cycle = from->cycle;
+  run->cycle.model = run->model;
+  run->friction_error = from->friction_error;
+  run->static_error = from->static_error;
+  summary->error_film = from->error_film;
+  summary->error_load = from->error_load;
+  summary->error_width = from->error_width;
+  run->lacks = from->lacks;
+  summary->counters = from->counters;
+  summary->warnings = from->warnings;
+  SbSpeedStates *const *table = &run->speeds[0][0][0];
+  for (size_t i = 0; i < sizeof run->speeds / sizeof *table; i++) {
+    if (table[i] != NULL) {
+      table[i]->task.model = run->model;
+    }
+  }
+}

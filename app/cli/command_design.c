@@ -1,0 +1,186 @@
+// sealbench design: the best valve within bounds and limits.
+#include "app/cli/cli.h"
+
+#include "app/base/output.h"
+#include "app/export/design_results.h"
+
+#include <math.h>
+
+typedef struct {
+  char *folder, *jobs, *json;
+  char **settings;
+  int threads;
+} Options;
+
+static const char result_name[] = "results.json";
+
+static void print_parameters(const SbStudyFile *study, const SbDesign *design) {
+  for (guint k = 0; k < study->vary->len; k++) {
+    const SbVary *vary = &g_array_index(study->vary, SbVary, k);
+    const SbParam *param = sb_param(vary->id);
+    if (vary->distribution.kind == SB_DISTRIBUTION_LEVELS) {
+      continue;
+    }
+    char digits[SB_NUMBER_SIZE];
+    const double shown = sb_quantity_to_shown(design->value[k], param->si, param->unit);
+    g_autofree char *text =
+        g_strdup_printf("%s %s", sb_number_round(digits, shown, 6), param->unit);
+    printf("  %-38s %-16s%s\n", param->key, text,
+           design->bound_active[k] < 0   ? " at its lower bound"
+           : design->bound_active[k] > 0 ? " at its upper bound"
+                                         : "");
+  }
+}
+
+static void print_figures(const SbStudyFile *study, const SbDesign *design) {
+  for (guint i = 0; i < study->figures->len; i++) {
+    const int figure = g_array_index(study->figures, int, i);
+    g_autofree char *text = sb_figure_format(figure, design->figure[i], NAN);
+    printf("  %-38s %-16s", sb_figure(figure)->path, text);
+    for (size_t k = 0; k < study->limits.count; k++) {
+      const SbLimit *limit = &study->limits.item[k];
+      if (limit->figure == figure) {
+        g_autofree char *bound = sb_limit_format(figure, limit->low, limit->high);
+        const double margin = sb_design_margin(design, study, k);
+        g_autofree char *by = sb_figure_format(figure, fabs(margin), NAN);
+        const bool active = design->limit_active[2 * k] || design->limit_active[2 * k + 1];
+        printf(" %s: %s%s%s", bound, isnan(margin) ? "not known" : by,
+               isnan(margin) ? ""
+               : margin < 0  ? " beyond it"
+                             : " within it",
+               active ? ", active" : "");
+      }
+    }
+    putchar('\n');
+  }
+}
+
+static void print_table(const SbStudyFile *study, const SbDesign *design) {
+  printf("%s: %s %s\n", study->title, study->design.maximise ? "maximise" : "minimise",
+         sb_figure(study->design.figure)->path);
+  print_parameters(study, design);
+  print_figures(study, design);
+  if (design->checked) {
+    printf(
+        "  over the tolerances all limits hold with %.6g %% (95 %%: %.6g to %.6g %%; by FORM %.6g "
+        "%%)\n",
+        100 * design->holds, 100 * design->interval[0], 100 * design->interval[1],
+        100 * design->by_form);
+  }
+  printf("  %zu of %zu starts end within all limits, %zu evaluations", design->starts_feasible,
+         design->starts, design->evaluations);
+  if (design->feasible) {
+    printf(", optimality %.1e", design->optimality);
+  }
+  putchar('\n');
+}
+
+// What must be said besides: an exit code.
+static int judge(const SbStudyFile *study, const SbDesign *design) {
+  if (!design->found) {
+    return MAX(sb_cli_fail("from no start the figures have values: no valve is there"),
+               SB_EXIT_NOT_CONVERGED);
+  }
+  if (!design->feasible) {
+    const int least = sb_design_least_missed(design, study);
+    const SbLimit *limit = &study->limits.item[MAX(least, 0)];
+    g_autofree char *bound = sb_limit_format(limit->figure, limit->low, limit->high);
+    const int column = sb_study_column_of(study, limit->figure);
+    g_autofree char *value = sb_figure_format(limit->figure, design->figure[column], NAN);
+    if (least < 0) {
+      (void)sb_cli_fail("nothing feasible was found that is as robust; this one meets the limits "
+                        "themselves");
+    } else {
+      (void)sb_cli_fail("nothing feasible was found from %zu starts; the least violated limit is "
+                        "%s %s: it is %s",
+                        design->starts, sb_figure(limit->figure)->path, bound, value);
+    }
+  } else if (isfinite(study->design.robust) && !design->met) {
+    (void)sb_cli_fail("all limits hold with %.6g %% only, not with %.6g %%", 100 * design->holds,
+                      100 * study->design.robust);
+  }
+  if (!design->converged) {
+    return MAX(sb_cli_fail("the search did not converge: %s",
+                           design->feasible ? "no step lessens the objective, and slopes say there "
+                                              "should be one"
+                                            : "it ended at its evaluations"),
+               SB_EXIT_NOT_CONVERGED);
+  }
+  return SB_EXIT_DONE;
+}
+
+static int write_folder(const char *folder, const char *json) {
+  SbOutputFolder *out;
+  GError *error = NULL;
+  g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
+  FILE *stream;
+  bool good = sb_output_folder_open(&out, folder, "design", &error);
+  if (good && (good = sb_output_folder_add(&stream, out, result_name, &error))) {
+    fputs(json, stream);
+  }
+  good = good && sb_output_folder_commit(out, &error) && sb_output_folder_finish(out, kept, &error);
+  sb_output_folder_close(out);
+  sb_cli_kept(folder, kept);
+  return good ? SB_EXIT_DONE : sb_cli_error(error);
+}
+
+static int solve(const Options *options, const SbStudyFile *study) {
+  SbDesign design;
+  SbReport report = {0};
+  sb_cli_catch_interrupts();
+  const SbStatus status =
+      sb_design_search(&design, study, options->threads, sb_cli_interrupted, NULL, &report);
+  int code = SB_EXIT_DONE;
+  if (status == SB_ERROR_CANCELLED) {
+    (void)sb_cli_fail("interrupted: there is no design yet");
+    code = SB_EXIT_INTERRUPTED;
+  } else if (status != SB_OK) {
+    code = sb_cli_status(status, &report);
+  } else {
+    g_autofree char *json = sb_design_json(study, &design);
+    code = options->folder != NULL ? write_folder(options->folder, json) : SB_EXIT_DONE;
+    if (code == SB_EXIT_DONE && options->json != NULL) {
+      code = sb_cli_emit(json, options->json);
+    } else if (code == SB_EXIT_DONE && !sb_cli_quiet()) {
+      print_table(study, &design);
+    }
+    const int judged = judge(study, &design);
+    code = MAX(code, judged);
+  }
+  sb_design_release(&design);
+  return code;
+}
+
+int sb_command_design(int argc, char **argv) {
+  Options options = {0};
+  const GOptionEntry entries[] = {
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.folder, "Folder for results.json", "DIR"},
+      {"jobs", 0, 0, G_OPTION_ARG_FILENAME, &options.jobs, SB_CLI_JOBS_HELP, "N"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  if (sb_cli_parse(&argc, &argv, entries, 1, 1, NULL) &&
+      sb_cli_jobs(&options.threads, options.jobs)) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autoptr(SbStudyFile) study = sb_study_file_load(argv[1], options.settings, issues);
+    if (study != NULL && !study->design.asked) {
+      sb_issues_add(issues, argv[1], 0, "design", "objective = minimise FIGURE",
+                    "is missing: what a design is to be best at");
+    }
+    sb_cli_issues(issues);
+    if (study != NULL && study->design.asked) {
+      char *names[] = {(char *)result_name, NULL};
+      code = sb_cli_check_outputs(options.folder, names, options.json);
+      if (code == SB_EXIT_DONE) {
+        code = sb_cli_has_memory(study->base) ? solve(&options, study) : SB_EXIT_IO;
+      }
+    }
+  }
+  g_free(options.folder);
+  g_free(options.jobs);
+  g_free(options.json);
+  g_strfreev(options.settings);
+  return code;
+}
