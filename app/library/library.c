@@ -469,7 +469,13 @@ SbSceneStatus sb_scene_evaluate(SbScene *scene, const char *const *keys, const d
   if (compiled != SB_SCENE_OK) {
     return compiled;
   }
-  const SbQuestion question = {model, overrides, count, indices, figure_count, is_cancelled, scene};
+  const SbQuestion question = {.base = model,
+                               .override = overrides,
+                               .override_count = count,
+                               .figure = indices,
+                               .figure_count = figure_count,
+                               .cancelled = is_cancelled,
+                               .data = scene};
   return report(scene, sb_evaluator_ask(out, scene->evaluator, &question, &why), &why);
 }
 

@@ -32,7 +32,7 @@ static double now(void) {
 
 SbEvaluator *sb_answer_start(const SbQuestions *asked) {
   SbEvaluator *start = NULL;
-  if (sb_model_get(asked->base, SB_P_MODELS_FIT) != SB_FIT_RING ||
+  if (sb_model_number(asked->base, SB_P_MODELS_FIT) != SB_FIT_RING ||
       sb_evaluator_create(&start, NULL) != SB_OK) {
     return NULL;
   }

@@ -76,7 +76,11 @@ static void ask(double *value, SbEvaluator *evaluator, const SbModel *base,
                 const SbOverride *change, size_t changes, const int *figure, size_t figures,
                 SbStatus wanted) {
   SbReport report;
-  SbQuestion question = {base, change, changes, figure, figures, NULL, NULL};
+  SbQuestion question = {.base = base,
+                         .override = change,
+                         .override_count = changes,
+                         .figure = figure,
+                         .figure_count = figures};
   SbStatus status = sb_evaluator_ask(value, evaluator, &question, &report);
   if (status != wanted) {
     g_error("%s: %s", sb_status_text(status), report.text);
@@ -198,8 +202,16 @@ static void test_stands(void) {
     double value[SB_FIGURE_COUNT], alone[SB_FIGURE_COUNT];
     const double is = sb_model_value(&base, (SbParamId)id);
     all[CHANGED] = (SbOverride){(SbParamId)id, is != 0 ? 1.001 * is : 1e-4 * param->max};
-    const SbQuestion first = {&base, change, CHANGED, figure, SB_FIGURE_COUNT, NULL, NULL};
-    const SbQuestion question = {&base, all, CHANGED + 1, figure, SB_FIGURE_COUNT, NULL, NULL};
+    const SbQuestion first = {.base = &base,
+                              .override = change,
+                              .override_count = CHANGED,
+                              .figure = figure,
+                              .figure_count = SB_FIGURE_COUNT};
+    const SbQuestion question = {.base = &base,
+                                 .override = all,
+                                 .override_count = CHANGED + 1,
+                                 .figure = figure,
+                                 .figure_count = SB_FIGURE_COUNT};
     if (param->kind != SB_PARAM_REAL ||
         sb_evaluator_ask(alone, evaluator, &question, NULL) != SB_OK) {
       continue;
@@ -275,7 +287,11 @@ static void test_refused(void) {
   double value[2];
   for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
     SbReport report;
-    SbQuestion question = {&base, &bad[i].change, 1, figure, 2, NULL, NULL};
+    SbQuestion question = {.base = &base,
+                           .override = &bad[i].change,
+                           .override_count = 1,
+                           .figure = figure,
+                           .figure_count = 2};
     g_assert_cmpint(sb_evaluator_ask(value, evaluator, &question, &report), ==, bad[i].status);
     g_assert_cmpint(report.status, ==, bad[i].status);
     g_assert_cmpstr(report.parameter, ==, bad[i].key);
@@ -314,7 +330,13 @@ static void test_cancel(void) {
   for (int limit = 0; limit < 10; limit += 4) {
     int left = limit;
     SbReport report;
-    SbQuestion question = {&base, change, changes, &figure, 1, after, &left};
+    SbQuestion question = {.base = &base,
+                           .override = change,
+                           .override_count = changes,
+                           .figure = &figure,
+                           .figure_count = 1,
+                           .cancelled = after,
+                           .data = &left};
     SbStatus status = sb_evaluator_ask(&value, evaluator, &question, &report);
     g_assert_cmpint(status, ==, SB_ERROR_CANCELLED);
     g_assert_true(isnan(value));
