@@ -180,6 +180,49 @@ static void test_ring(void) {
   sb_run_destroy(run);
 }
 
+// Rings started from a base's: the same to the bit whoever asks and whatever was asked before, in a
+// third of the iterations, and within the errors told of what they are from the free ring.
+static void test_start(void) {
+  const SbOverride change[] = {{SB_P_MODELS_FIT, SB_FIT_RING},
+                               {SB_P_GLAND_FLOOR_FRICTION, 0.3},
+                               {SB_P_GLAND_WALL_FRICTION, 0.1},
+                               {SB_P_FRICTION_SHEAR_STRENGTH, 2e6}};
+  enum { CHANGED = G_N_ELEMENTS(change) };
+  static const SbOverride beside[] = {{SB_P_CANISTER_PRESSURE, 0.56e6},
+                                      {SB_P_GLAND_RADIAL_SPACE, 1.358e-3},
+                                      {SB_P_SEAL_MODULUS, 2.52e6}};
+  const int figure[] = {sb_figure_find("seals.outer.load_N"), sb_figure_find("seals.inner.load_N")};
+  SbModel base = base_model(), model;
+  g_assert_cmpint(sb_model_override(&model, &base, change, CHANGED, NULL), ==, SB_OK);
+  SbEvaluator *start = evaluator_new(), *evaluator = evaluator_new(), *other = evaluator_new();
+  double value[2], warm[2], again[2];
+  SbQuestion question = {.base = &model, .figure = figure, .figure_count = 2, .keep = true};
+  g_assert_cmpint(sb_evaluator_ask(value, start, &question, NULL), ==, SB_OK);
+  question.keep = false;
+  for (size_t i = 0; i < G_N_ELEMENTS(beside); i++) {
+    question.override = &beside[i];
+    question.override_count = 1;
+    question.start = start;
+    g_assert_cmpint(sb_evaluator_ask(warm, evaluator, &question, NULL), ==, SB_OK);
+    const size_t few = sb_evaluator_summary(evaluator)->counters.newton_iterations;
+    question.start = NULL;
+    g_assert_cmpint(sb_evaluator_ask(value, other, &question, NULL), ==, SB_OK);
+    const SbSummary *cold = sb_evaluator_summary(other);
+    g_assert_cmpuint(3 * few, <=, cold->counters.newton_iterations);
+    for (int k = 0; k < 2; k++) {
+      g_test_message("%s: %.6g N from the base's, %.6g N from the free ring",
+                     sb_figure(figure[k])->path, warm[k], value[k]);
+      g_assert_cmpfloat(fabs(warm[k] / value[k] - 1), <=, cold->error_load);
+    }
+    question.start = start;
+    g_assert_cmpint(sb_evaluator_ask(again, other, &question, NULL), ==, SB_OK);
+    g_assert_true(same_bits(again[0], warm[0]) && same_bits(again[1], warm[1]));
+  }
+  sb_evaluator_destroy(other);
+  sb_evaluator_destroy(evaluator);
+  sb_evaluator_destroy(start);
+}
+
 // Contacts that a parameter does not enter stand from the question before: whatever is moved, the
 // answer is that of an evaluator that was asked nothing else.
 static void test_stands(void) {
@@ -424,6 +467,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/evaluate/bits", test_bits);
   g_test_add_func("/evaluate/ring", test_ring);
+  g_test_add_func("/evaluate/start", test_start);
   g_test_add_func("/evaluate/stands", test_stands);
   g_test_add_func("/evaluate/least", test_least);
   g_test_add_func("/evaluate/model", test_model);

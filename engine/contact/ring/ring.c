@@ -584,9 +584,17 @@ static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *
     status = SB_OK;
     for (int i = 1; i <= parts && status == SB_OK; i++) {
       sb_ring_save(ring->contact, SB_RING_START);
-      ring->contact->is.now =
+      const SbRingLoad next =
           i == parts ? *to : sb_ring_load_between(&start, to, (double)i / parts);
+      ring->contact->is.now = next;
       status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+      // Single nodes that have no state are held, as on a path, against a small pull.
+      if (status == SB_ERROR_NOT_CONVERGED) {
+        ring->contact->is.now = next;
+        ring->passing = true;
+        status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+        ring->passing = false;
+      }
       ring->count.steps++;
     }
   }

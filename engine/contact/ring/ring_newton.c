@@ -34,6 +34,11 @@ static const double AXIAL_SPRING = 1e-7;
 static const double CORRECTION_MAX = 0.15, STUMBLE = 0.1;
 enum { STUMBLES_MAX = 4 };
 
+// Nodes that come and go in turn leave the residual where it is, to this share; after so many of
+// these the solve is given up too.
+static const double SAME = 0.02;
+enum { REPEATS_MAX = 6 };
+
 // Whether something holds the ring axially.
 static bool leans(const SbRingContact *contact) {
   for (int i = 0; i < contact->count; i++) {
@@ -141,7 +146,8 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
   const int iterations_max = path == SB_RING_SEALED ? SEALED_ITERATIONS : ITERATIONS_MAX;
   SbRingContact *contact = ring->contact;
   SbRingFem *fem = ring->fem;
-  int changes = 0, stumbles = 0, recentres = 0;
+  int changes = 0, stumbles = 0, recentres = 0, repeats = 0;
+  double last = INFINITY;
   bool slack = false;
   double step = 1.0, det_before = 1.0, friction = contact->is.now.friction_bore, change = 0.0;
   sb_ring_contact_begin(contact);
@@ -186,10 +192,12 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
     slack = false;
     contact->fixed = contact->fixed && residual > NEAR_FIXED && it < FIXED_MAX;
     stumbles += step < STUMBLE ? 1 : 0;
+    repeats = changes > 0 && fabs(residual - last) < SAME * last ? repeats + 1 : 0;
+    last = residual;
     // A steady contact near its balance may take a little longer.
     bool near = changes == 0 && residual < NEARLY && it < iterations_max + MORE;
     bool spent = it >= iterations_max && !near;
-    if (spent || stumbles > STUMBLES_MAX || !isfinite(residual)) {
+    if (spent || stumbles > STUMBLES_MAX || repeats > REPEATS_MAX || !isfinite(residual)) {
       fail(contact, residual, changes, it, report);
       if (report != NULL) {
         report->residual = residual;
