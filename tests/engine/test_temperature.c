@@ -128,12 +128,13 @@ static void test_refused(void) {
 // point inward, nothing returns and nothing is delivered; in every model of fitment and film, with
 // and without inertia and ports.
 static void test_below_ambient(void) {
-  enum { CHOICES = 4, LEAKS = 4 };
+  enum { CHOICES = 4, LEAKS = 5 };
   static const Setting none = {-1, 0};
   static const Setting choices[][CHOICES] = {
       {{-1, 0}},
       {{SB_P_MODELS_FIT, SB_FIT_HERTZ}, {SB_P_MODELS_FILM, SB_FILM_KARASZKIEWICZ}},
       {{SB_P_MODELS_FIT, SB_FIT_DISC_THESIS}, {SB_P_MODELS_FILM, SB_FILM_ASYMPTOTIC}},
+      {{SB_P_MODELS_FIT, SB_FIT_LINDLEY}},
       {{SB_P_MODELS_FIT, SB_FIT_DISC}, {SB_P_MODELS_FILM, SB_FILM_REYNOLDS}},
       {{SB_P_MODELS_SURFACE, 1},
        {SB_P_MODELS_FIT, SB_FIT_DISC},
@@ -170,6 +171,9 @@ static void test_below_ambient(void) {
     SbRun *run = run_of(&model, SB_OK, NULL);
     const SbSummary *summary = sb_run_summary(run);
     g_assert_true(warned(&summary->warnings, "pressure-below-ambient"));
+    // A fit that knows no pressure takes none, and says so; the others take it with its sign.
+    g_assert_true(warned(&summary->warnings, "pressure-ignored") ==
+                  (model.fit == SB_FIT_HERTZ || model.fit == SB_FIT_LINDLEY));
     g_assert_cmpfloat(summary->returned, ==, 0);
     g_assert_cmpfloat(summary->force_return_min, <, model.pressure_force);
     g_assert_cmpfloat(summary->dose_mass, ==, 0);

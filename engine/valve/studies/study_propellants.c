@@ -326,7 +326,9 @@ static void make(SbStudyWork *work) {
                                      "the rig has no valve and no propellant");
     return;
   }
-  const bool cheap = model->fit <= SB_FIT_KARASZKIEWICZ || interpolates(work);
+  const bool closed = model->fit < SB_FIT_DISC_THESIS && model->film != SB_FILM_REYNOLDS &&
+                      model->asperities == SB_MODEL_ASPERITIES_BESIDE;
+  const bool cheap = closed || interpolates(work);
   const int points = cheap && !model->study.rings_solved ? POINTS : CYCLES;
   static const char *const limited[FIGURES] = {NULL, "cycle.force_breakaway_N",
                                                "cycle.force_return_min_N", "cycle.dose_mass_kg"};
