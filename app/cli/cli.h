@@ -177,4 +177,5 @@ void sb_cli_set_pool(const SbAnswerPool *pool);
 
 int sb_command_study(int argc, char **argv);
 int sb_command_merge(int argc, char **argv);
+int sb_command_sensitivity(int argc, char **argv);
 int sb_command_open(int argc, char **argv);

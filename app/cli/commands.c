@@ -13,6 +13,8 @@ static const SbCommand commands[] = {
     {"asperity", "--lambda L", "Greenwood and Tripp's integrals F2 and F5/2", sb_command_asperity},
     {"fluid", "NAME --temperature T", "Properties of a propellant, ethanol or a silicone oil",
      sb_command_fluid},
+    {"sensitivity", "FILE.scene...", "Derivatives of figures by parameters, with their errors",
+     sb_command_sensitivity},
     {"study", "FILE.study", "Computes figures of many valves: grids, samples, sensitivities",
      sb_command_study},
     {"merge", "STORE FROM...", "Joins stores of studies", sb_command_merge},

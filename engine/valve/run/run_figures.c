@@ -277,6 +277,12 @@ void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore
               1e12 * circumference * bore->out);
     sb_reason(summary, "cycle.leakage_net_all_actuations_m3",
               "the stem does not come back: there is no second actuation");
+  } else if (fabs(net) < summary->error_film * bore->out) {
+    sb_warn(
+        &summary->warnings, "leakage-uncertain", "output.tolerance",
+        "what a cycle leaks, %.2g nl, is less than the error of what the stem carries each way, "
+        "%.2g nl",
+        1e12 * circumference * net, 1e12 * summary->error_film * circumference * bore->out);
   }
 }
 

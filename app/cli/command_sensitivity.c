@@ -1,0 +1,215 @@
+// sealbench sensitivity: derivatives of a scene's figures by its parameters.
+#include "app/base/nearest.h"
+#include "app/cli/cli.h"
+#include "app/export/sensitivity.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+  char *parameters, *figures, *json;
+  char **settings;
+  GArray *parameter, *figure; // SbParamId, int: asked for, else all
+} Options;
+
+static void take(GArray *list, int index) {
+  for (guint i = 0; i < list->len; i++) {
+    if (g_array_index(list, int, i) == index) {
+      return;
+    }
+  }
+  g_array_append_val(list, index);
+}
+
+static const char *parameter_name(int i) {
+  return sb_param((SbParamId)i)->key;
+}
+
+static const char *figure_name(int i) {
+  return sb_figure(i)->path;
+}
+
+// Finds the names of a list among `count` others; an exit code.
+static int read_list(GArray *out, const char *option, const char *text, int (*find)(const char *),
+                     const char *(*name)(int), int count) {
+  g_auto(GStrv) words = g_strsplit(text, ",", -1);
+  for (char **word = words; *word != NULL; word++) {
+    const int index = find(g_strstrip(*word));
+    if (index < 0) {
+      SbNearest nearest = sb_nearest(*word);
+      for (int i = 0; i < count; i++) {
+        sb_nearest_try(&nearest, name(i));
+      }
+      g_autofree char *hint = sb_nearest_hint(&nearest);
+      g_autofree char *shown = sb_printable(*word, strlen(*word));
+      return sb_cli_fail("%s: there is no \"%.60s\"%s", option, shown, hint);
+    }
+    take(out, index);
+  }
+  return SB_EXIT_DONE;
+}
+
+static int read_options(Options *options) {
+  options->parameter = g_array_new(FALSE, FALSE, sizeof(int));
+  options->figure = g_array_new(FALSE, FALSE, sizeof(int));
+  int code = SB_EXIT_DONE;
+  if (options->parameters != NULL) {
+    code = read_list(options->parameter, "--parameters", options->parameters, sb_param_find,
+                     parameter_name, SB_PARAM_COUNT);
+  }
+  for (guint i = 0; i < options->parameter->len && code == SB_EXIT_DONE; i++) {
+    const SbParamId id = (SbParamId)g_array_index(options->parameter, int, i);
+    if (!sb_gradient_wants(id)) {
+      code = sb_cli_fail("--parameters: %s is no real number: there is no derivative by it",
+                         sb_param(id)->key);
+    }
+  }
+  for (int i = 0; i < SB_PARAM_COUNT && options->parameters == NULL; i++) {
+    if (sb_gradient_wants((SbParamId)i)) {
+      take(options->parameter, i);
+    }
+  }
+  if (options->figures != NULL && code == SB_EXIT_DONE) {
+    code = read_list(options->figure, "--figures", options->figures, sb_figure_find, figure_name,
+                     SB_FIGURE_COUNT);
+  }
+  // What tells how well something was solved is no figure of a valve.
+  for (int i = 0; i < SB_FIGURE_COUNT && options->figures == NULL; i++) {
+    if (!g_str_has_prefix(sb_figure(i)->path, "solver.")) {
+      take(options->figure, i);
+    }
+  }
+  return code;
+}
+
+// ---- What people read ----
+
+static char *figure_text(int figure, double value) {
+  const SbFigure *row = sb_figure(figure);
+  char digits[SB_NUMBER_SIZE];
+  return g_strdup_printf(
+      "%s%s%s", sb_number_round(digits, sb_quantity_to_shown(value, row->si, row->shown), 4),
+      *row->shown != '\0' ? " " : "", row->shown);
+}
+
+static void print_figure(const SbGradient *gradient, size_t figure, const SbModel *model) {
+  enum { ROWS = 12 };
+  const int index = sb_gradient_figure(gradient, figure);
+  const double value = sb_gradient_value(gradient, figure);
+  const size_t parameters = sb_gradient_parameters(gradient);
+  g_autofree SbEffect *effects = g_new(SbEffect, parameters + 1);
+  const size_t count = sb_effects(effects, gradient, figure, model);
+  g_autofree char *text = figure_text(index, value);
+  const char *reason = parameters > 0 ? sb_gradient_reason(gradient, figure, 0) : NULL;
+  if (isnan(value)) {
+    printf("%s: - (%s)\n", sb_figure(index)->path, reason != NULL ? reason : "not computed");
+    return;
+  }
+  printf("%s: %s\n", sb_figure(index)->path, text);
+  for (size_t i = 0; i < count && i < ROWS; i++) {
+    const SbEffect *effect = &effects[i];
+    const SbParamId id = sb_gradient_parameter(gradient, effect->parameter);
+    g_autofree char *change = figure_text(index, effect->change);
+    g_autofree char *step = effect->tolerance ? sb_param_format(id, effect->step) : g_strdup("5 %");
+    printf("  %-34s %14s per %-10s error %.1g %%\n", sb_param(id)->key, change, step,
+           100 * effect->error / fabs(effect->change));
+  }
+  if (count > ROWS) {
+    printf("  and %zu parameters of less effect: --json\n", count - ROWS);
+  }
+  for (size_t i = 0, told = 0; i < parameters; i++) {
+    const char *why = sb_gradient_reason(gradient, figure, i);
+    if (why != NULL && g_str_has_prefix(why, "there is no other value")) {
+      continue; // the model has no such parameter
+    }
+    if (why != NULL && told++ < ROWS) {
+      printf("  %-34s no derivative: %s\n", sb_param(sb_gradient_parameter(gradient, i))->key, why);
+    }
+  }
+}
+
+// The short table's figures, or all that were asked for.
+static void print_table(const SbGradient *gradient, const SbCliFile *file, bool asked) {
+  printf("%s\n", sb_document_title(file->document));
+  for (size_t i = 0; i < sb_gradient_figures(gradient); i++) {
+    const bool brief = sb_figure(sb_gradient_figure(gradient, i))->brief;
+    if (asked || (brief && !isnan(sb_gradient_value(gradient, i)))) {
+      print_figure(gradient, i, file->model);
+    }
+  }
+}
+
+// ---- The command ----
+
+static void on_progress(void *data, size_t done, size_t count) {
+  sb_progress_update(data, count > 0 ? (double)done / (double)count : 1);
+}
+
+static int differentiate(SbCliFiles *files, const SbCliFile *file, const Options *options) {
+  if (!sb_cli_has_memory(file->model)) {
+    return SB_EXIT_IO;
+  }
+  SbProgress progress;
+  SbReport report = {0};
+  SbEvaluator *evaluator = NULL;
+  SbGradient *gradient = NULL;
+  const SbQuestion question = {.base = file->model,
+                               .figure = (const int *)(const void *)options->figure->data,
+                               .figure_count = options->figure->len,
+                               .cancelled = sb_cli_interrupted,
+                               .data = &progress};
+  sb_progress_start(&progress, "sensitivity ");
+  sb_cli_catch_interrupts();
+  SbStatus status = sb_evaluator_create(&evaluator, &report);
+  if (status == SB_OK) {
+    status = sb_gradient_create(&gradient, evaluator, &question,
+                                (const SbParamId *)(const void *)options->parameter->data,
+                                options->parameter->len, on_progress, &report);
+  }
+  sb_progress_end(&progress);
+  if (gradient != NULL && options->json != NULL) {
+    g_ptr_array_add(files->json, sb_sensitivity_json(gradient));
+  } else if (gradient != NULL && !sb_cli_quiet()) {
+    sb_cli_files_head(files);
+    print_table(gradient, file, options->figures != NULL);
+  }
+  sb_gradient_destroy(gradient);
+  sb_evaluator_destroy(evaluator);
+  return sb_cli_status(status, &report);
+}
+
+int sb_command_sensitivity(int argc, char **argv) {
+  Options options = {0};
+  const GOptionEntry entries[] = {
+      {"parameters", 0, 0, G_OPTION_ARG_FILENAME, &options.parameters,
+       "Parameters, with commas between them; default every real one (sealbench list params)",
+       "KEY,.."},
+      {"figures", 0, 0, G_OPTION_ARG_FILENAME, &options.figures,
+       "Figures, with commas between them; default all (sealbench list figures)", "FIGURE,.."},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, SB_CLI_JSON_HELP, "FILE|-"},
+      {0},
+  };
+  SbCliFiles files = {.code = SB_EXIT_INPUT};
+  if (sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL)) {
+    files.code = read_options(&options);
+    if (files.code == SB_EXIT_DONE &&
+        sb_cli_files_open(&files, argc, argv, options.settings, NULL)) {
+      const int checked = sb_cli_check_outputs(NULL, NULL, options.json);
+      sb_cli_files_done(&files, checked);
+      for (const SbCliFile *file;
+           checked == SB_EXIT_DONE && (file = sb_cli_files_next(&files)) != NULL;) {
+        sb_cli_files_done(&files, differentiate(&files, file, &options));
+      }
+      sb_cli_files_emit(&files, options.json);
+    }
+    g_array_unref(options.parameter);
+    g_array_unref(options.figure);
+  }
+  sb_cli_files_close(&files);
+  g_strfreev(options.settings);
+  g_free(options.parameters);
+  g_free(options.figures);
+  g_free(options.json);
+  return files.code;
+}

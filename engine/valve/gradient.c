@@ -1,0 +1,586 @@
+// Differences of evaluate's answers, extrapolated, with their errors; see the header.
+//
+// At a step h a smooth figure has, from its values on both sides of its base's f0,
+//   D(h) = (f(+h) - f(-h))/2h = f' + O(h^2),   R = (4 D(h/2) - D(h))/3 = f' + O(h^4)
+// and the slopes towards both sides differ by f'' h: half as much at h/2. At a kink they differ by
+// the same at any step; at a jump, and in rounding, by more the smaller it is. At an end of the
+// range one-sided slopes d(h), d(h/2), d(h/4) are extrapolated twice. The error is |R - D(h/2)|,
+// that of the last but one order, and what rounding leaves in it.
+#include "engine/valve/gradient.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TEXTS_MAX = 64, TEXT_SIZE = 160 };
+
+struct SbGradient {
+  size_t figures, parameters;
+  int *figure;
+  SbParamId *parameter;
+  double *at, *value;    // of each parameter, of each figure
+  double *slope, *error; // [figures][parameters]
+  unsigned char *why;    // text number from 1 of those without, 0: none
+  size_t text_count;
+  char text[TEXTS_MAX][TEXT_SIZE];
+};
+
+// ---- What it holds
+
+void sb_gradient_destroy(SbGradient *gradient) {
+  if (gradient != NULL) {
+    free(gradient->figure);
+    free(gradient->parameter);
+    free(gradient->at);
+    free(gradient->value);
+    free(gradient->slope);
+    free(gradient->error);
+    free(gradient->why);
+    free(gradient);
+  }
+}
+
+size_t sb_gradient_figures(const SbGradient *gradient) {
+  return gradient->figures;
+}
+
+size_t sb_gradient_parameters(const SbGradient *gradient) {
+  return gradient->parameters;
+}
+
+int sb_gradient_figure(const SbGradient *gradient, size_t figure) {
+  return gradient->figure[figure];
+}
+
+SbParamId sb_gradient_parameter(const SbGradient *gradient, size_t parameter) {
+  return gradient->parameter[parameter];
+}
+
+double sb_gradient_at(const SbGradient *gradient, size_t parameter) {
+  return gradient->at[parameter];
+}
+
+double sb_gradient_value(const SbGradient *gradient, size_t figure) {
+  return gradient->value[figure];
+}
+
+double sb_gradient_slope(const SbGradient *gradient, size_t figure, size_t parameter) {
+  return gradient->slope[figure * gradient->parameters + parameter];
+}
+
+double sb_gradient_error(const SbGradient *gradient, size_t figure, size_t parameter) {
+  return gradient->error[figure * gradient->parameters + parameter];
+}
+
+const char *sb_gradient_reason(const SbGradient *gradient, size_t figure, size_t parameter) {
+  const unsigned char number = gradient->why[figure * gradient->parameters + parameter];
+  return number > 0 ? gradient->text[number - 1] : NULL;
+}
+
+bool sb_gradient_wants(SbParamId id) {
+  return sb_param(id)->kind == SB_PARAM_REAL;
+}
+
+static SbGradient *make(const SbQuestion *question, const SbParamId *parameter, size_t count) {
+  SbGradient *out = calloc(1, sizeof *out);
+  if (out == NULL) {
+    return NULL;
+  }
+  const size_t n = question->figure_count, cells = n * count;
+  out->figures = n;
+  out->parameters = count;
+  // One more: an array of none may be NULL.
+  out->figure = calloc(n + 1, sizeof *out->figure);
+  out->parameter = calloc(count + 1, sizeof *out->parameter);
+  out->at = calloc(count + 1, sizeof *out->at);
+  out->value = calloc(n + 1, sizeof *out->value);
+  out->slope = calloc(cells + 1, sizeof *out->slope);
+  out->error = calloc(cells + 1, sizeof *out->error);
+  out->why = calloc(cells + 1, sizeof *out->why);
+  if (out->figure == NULL || out->parameter == NULL || out->at == NULL || out->value == NULL ||
+      out->slope == NULL || out->error == NULL || out->why == NULL) {
+    sb_gradient_destroy(out);
+    return NULL;
+  }
+  memcpy(out->figure, question->figure, n * sizeof *out->figure);
+  memcpy(out->parameter, parameter, count * sizeof *out->parameter);
+  return out;
+}
+
+// Number of a text, from 1. The last place takes what no longer fits.
+static unsigned char text_number(SbGradient *gradient, const char *text) {
+  char own[TEXT_SIZE];
+  sb_text(own, sizeof own, "%s", text);
+  size_t at = 0;
+  while (at < gradient->text_count && strcmp(gradient->text[at], own) != 0) {
+    at++;
+  }
+  if (at == TEXTS_MAX) {
+    sb_text(gradient->text[--at], TEXT_SIZE, "one of several reasons: ask for fewer parameters");
+  } else if (at == gradient->text_count) {
+    memcpy(gradient->text[gradient->text_count++], own, sizeof own);
+  }
+  return (unsigned char)(at + 1);
+}
+
+// ---- Asking
+
+// What happened, beside the figures: of it a step keeps all, or the reason of a jump is told.
+typedef struct {
+  bool known, stage[SB_STAGE_COUNT], returns;
+  struct {
+    bool touches, opened, film_fitted;
+    SbLeakState leak;
+    SbRingState in, out;
+  } seal[SB_SEAL_COUNT];
+} Outcome;
+
+static void take_outcome(Outcome *out, const SbSummary *summary) {
+  *out = (Outcome){.known = summary != NULL};
+  for (int i = 0; summary != NULL && i < SB_STAGE_COUNT; i++) {
+    out->stage[i] = summary->stage[i].reached;
+  }
+  for (int i = 0; summary != NULL && i < SB_SEAL_COUNT; i++) {
+    const SbSealState *seal = &summary->seal[i];
+    out->seal[i].touches = seal->touches;
+    out->seal[i].opened = seal->opened;
+    out->seal[i].film_fitted = seal->film_fitted;
+    out->seal[i].leak = seal->leak_state;
+    out->seal[i].in = summary->contact[i].in_stroke.section;
+    out->seal[i].out = summary->contact[i].back.section;
+  }
+  out->returns = summary != NULL && summary->returns;
+}
+
+// Says in what two outcomes differ (true), or nothing.
+static bool differ(char *text, size_t size, const Outcome *a, const Outcome *b) {
+  if (!a->known || !b->known) {
+    return false;
+  }
+  for (int i = 0; i < SB_STAGE_COUNT; i++) {
+    if (a->stage[i] != b->stage[i]) {
+      sb_text(text, size, "stage %s is reached on one side only", sb_stage_name((SbStage)i));
+      return true;
+    }
+  }
+  if (a->returns != b->returns) {
+    sb_text(text, size, "the stem returns on one side only");
+    return true;
+  }
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const char *what = a->seal[i].touches != b->seal[i].touches ? "touches the bore"
+                       : a->seal[i].opened != b->seal[i].opened ? "is opened by the fluid"
+                       : a->seal[i].film_fitted != b->seal[i].film_fitted
+                           ? "has a film on its fitted body"
+                       : a->seal[i].leak != b->seal[i].leak ? "leaks at rest in one way"
+                       : a->seal[i].in != b->seal[i].in || a->seal[i].out != b->seal[i].out
+                           ? "slides, rolls or jams in one way"
+                           : NULL;
+    if (what != NULL) {
+      sb_text(text, size, "the %s seal %s on one side only", sb_seal_name(i), what);
+      return true;
+    }
+  }
+  return false;
+}
+
+// Points of a level: above and below its base at whole and half steps; where only one side is there
+// (h has its sign) h, h/2, h/4 in their places.
+enum { PLUS, MINUS, PLUS_HALF, MINUS_HALF, POINTS };
+enum { HALF = MINUS, QUARTER = PLUS_HALF };
+
+// Steps: the first, two smaller ones for what is not smooth, a larger one for what rounding hides.
+enum { FIRST, SMALL, SMALLEST, LARGE, LEVELS };
+static const double parts[LEVELS] = {1e-3, 6e-5, 4e-6, 1.6e-2}; // of the parameter's scale
+
+typedef struct {
+  bool asked, one_sided;
+  double h; // [SI]; one-sided: of the side's sign
+} Level;
+
+typedef struct {
+  SbGradient *out;
+  SbEvaluator *evaluator;
+  SbQuestion question; // with one more override than asked, that of the parameter
+  SbOverride *override;
+  double *base_value; // of the figures while this parameter is moved [figures]
+  double *size;       // of what each figure is the sum of, to which rounding goes [figures]
+  double *value;      // [LEVELS][POINTS][figures]
+  Level level[LEVELS];
+  bool *open; // figures whose derivative is still sought [figures]
+  Outcome outcome;
+  bool refused;            // the last question, by the parameters alone
+  char changed[TEXT_SIZE]; // what another outcome at a smallest step was, or empty
+  SbReport report;         // of the last question that was refused or failed
+} Work;
+
+static double *value_of(const Work *work, int level, int point) {
+  return work->value + (size_t)(level * POINTS + point) * work->out->figures;
+}
+
+static bool ends(SbStatus status) {
+  return status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY;
+}
+
+// Figures with the parameter at x; NaN where there are none.
+static SbStatus ask(Work *work, double *value, double x, bool tell) {
+  work->override[work->question.override_count - 1].value = x;
+  SbReport report;
+  SbStatus status = sb_evaluator_ask(value, work->evaluator, &work->question, &report);
+  work->refused = status == SB_ERROR_INPUT || status == SB_ERROR_RANGE;
+  if (status != SB_OK) {
+    work->report = report;
+  }
+  Outcome now;
+  take_outcome(&now, sb_evaluator_summary(work->evaluator));
+  if (tell && work->changed[0] == '\0') {
+    (void)differ(work->changed, sizeof work->changed, &work->outcome, &now);
+  }
+  return status;
+}
+
+// ---- One figure
+
+typedef enum { SMOOTH, ROUGH, MISSING } Kind;
+
+typedef struct {
+  Kind kind;
+  double slope, error;
+  double apart;  // slopes towards both sides at h/2, or one-sided ones in turn [figure/SI]
+  double before; // the same at h
+  double step;   // h/2 or h/4, > 0
+  bool hidden;   // the error is rounding's
+} Estimate;
+
+// Part of a figure by which two answers of one solver may differ.
+static const double ROUNDING = 4e-14;
+
+static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
+  const Level *level = &work->level[at];
+  const double f0 = work->base_value[figure], h = level->h;
+  double f[POINTS], nearest, last;
+  for (int i = 0; i < POINTS; i++) {
+    f[i] = value_of(work, at, i)[figure];
+  }
+  if (level->one_sided) {
+    const double d1 = (f[PLUS] - f0) / h, d2 = 2 * (f[HALF] - f0) / h;
+    const double d4 = 4 * (f[QUARTER] - f0) / h;
+    const double first = 2 * d2 - d1;
+    last = 2 * d4 - d2;
+    *out = (Estimate){.slope = (4 * last - first) / 3,
+                      .apart = fabs(d4 - d2),
+                      .before = fabs(d2 - d1),
+                      .step = fabs(h) / 4};
+    nearest = fabs(d4);
+  } else {
+    const double up = 2 * (f[PLUS_HALF] - f0) / h, down = 2 * (f0 - f[MINUS_HALF]) / h;
+    last = (f[PLUS_HALF] - f[MINUS_HALF]) / h;
+    *out = (Estimate){.slope = (4 * last - (f[PLUS] - f[MINUS]) / (2 * h)) / 3,
+                      .apart = fabs(up - down),
+                      .before = fabs((f[PLUS] - f0) / h - (f0 - f[MINUS]) / h),
+                      .step = h / 2};
+    nearest = fmax(fabs(up), fabs(down));
+  }
+  const double rounding = ROUNDING * work->size[figure] / out->step;
+  out->error = fabs(out->slope - last) + 2 * rounding;
+  out->hidden = 2 * rounding > 0.5 * out->error;
+  const bool falls = out->apart < 0.75 * out->before;
+  const bool small = out->apart <= fmax(1e-4 * nearest, 8 * rounding);
+  out->error += !falls && small ? out->apart / 2 : 0;
+  out->kind = !isfinite(out->slope) || !isfinite(out->error) ? MISSING
+              : falls || small                               ? SMOOTH
+                                                             : ROUGH;
+}
+
+static void set(Work *work, size_t parameter, size_t figure, double slope, double error) {
+  const size_t cell = figure * work->out->parameters + parameter;
+  work->out->slope[cell] = slope;
+  work->out->error[cell] = error;
+  work->open[figure] = false;
+}
+
+static void SB_PRINTF(4, 5)
+    refuse(Work *work, size_t parameter, size_t figure, const char *format, ...) {
+  char text[TEXT_SIZE];
+  va_list arguments;
+  va_start(arguments, format);
+  sb_text_v(text, sizeof text, format, arguments);
+  va_end(arguments);
+  set(work, parameter, figure, NAN, NAN);
+  work->out->why[figure * work->out->parameters + parameter] = text_number(work->out, text);
+}
+
+// Whether a derivative with its error is good enough to ask no more for it: of it, or of what the
+// figure changes by as the parameter does by itself.
+static bool enough(const Estimate *of, double size, double scale) {
+  return of->kind == SMOOTH && of->error <= fmax(1e-6 * fabs(of->slope), 1e-12 * size / scale);
+}
+
+// The best of what all levels say of a figure that none says well.
+static void settle(Work *work, size_t parameter, size_t figure) {
+  Estimate best = {.kind = MISSING}, least = {.kind = MISSING}, most = {.kind = MISSING};
+  for (int i = 0; i < LEVELS; i++) {
+    Estimate now;
+    if (!work->level[i].asked) {
+      continue;
+    }
+    estimate(&now, work, i, figure);
+    if (now.kind == MISSING) {
+      continue;
+    }
+    if (now.kind == SMOOTH && (best.kind == MISSING || now.error < best.error)) {
+      best = now;
+    }
+    least = least.kind == MISSING || now.step < least.step ? now : least;
+    most = most.kind == MISSING || now.step > most.step ? now : most;
+  }
+  if (best.kind == SMOOTH && (least.kind == SMOOTH || best.error < 1e-3 * fabs(best.slope))) {
+    set(work, parameter, figure, best.slope, best.error);
+    return;
+  }
+  if (least.kind == MISSING) {
+    refuse(work, parameter, figure, "%s: %.100s",
+           work->refused ? "there is no other value" : "the figure has no value beside it",
+           work->report.text[0] != '\0' ? work->report.text : work->changed);
+    return;
+  }
+  // The smallest step tells how far a figure jumps, or scatters, beside it.
+  const double jump = least.apart * least.step;
+  const bool scatters = jump < 1e-6 * work->size[figure] && least.apart > 3 * most.apart;
+  if (scatters) {
+    set(work, parameter, figure, most.slope, most.error + jump / most.step);
+  } else if (work->changed[0] != '\0') {
+    refuse(work, parameter, figure, "%s", work->changed);
+  } else if (work->level[FIRST].one_sided) {
+    refuse(work, parameter, figure, "no finite slope at the end of the parameter's range");
+  } else {
+    refuse(work, parameter, figure, "it bends or jumps there: the slopes to both sides differ");
+  }
+}
+
+// ---- One parameter
+
+// What its steps are parts of.
+static double scale_of(SbParamId id, double x) {
+  const SbParam *param = sb_param(id);
+  return x != 0 ? fabs(x) : param->fallback != 0 ? fabs(param->fallback) : param->max - param->min;
+}
+
+// Whether figure `figure`, or every one, has at points up to `points` of a level its base's bits.
+static bool same_bits(const Work *work, int at, int points, size_t figure) {
+  for (int i = 0; i < points; i++) {
+    if (memcmp(&value_of(work, at, i)[figure], &work->base_value[figure], sizeof(double)) != 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+static bool all_same(const Work *work, int at, int points) {
+  for (size_t i = 0; i < work->out->figures; i++) {
+    if (work->open[i] && !same_bits(work, at, points, i)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Asks at the places of a level; which sides the model refused.
+static SbStatus ask_places(Work *work, int at, double x, bool *refused) {
+  static const double sides[POINTS] = {1, -1, 0.5, -0.5}, one[POINTS] = {1, 0.5, 0.25, 0.25};
+  Level *level = &work->level[at];
+  const size_t size = work->out->figures * sizeof *work->value;
+  const double *places = level->one_sided ? one : sides;
+  refused[0] = refused[1] = false;
+  level->asked = true;
+  for (int i = 0; i < POINTS; i++) {
+    // What the outermost points leave as it was, the inner ones do.
+    if ((i == 2 && all_same(work, at, 2)) || (i == 3 && level->one_sided)) {
+      memcpy(value_of(work, at, i), value_of(work, at, i - 1), size);
+      continue;
+    }
+    SbStatus status = ask(work, value_of(work, at, i), x + places[i] * level->h, at == SMALLEST);
+    if (ends(status)) {
+      return status;
+    }
+    refused[places[i] * level->h < 0] |= work->refused;
+  }
+  return SB_OK;
+}
+
+// The same, on one side where the range or the model has no other.
+static SbStatus ask_level(Work *work, int at, double x, double h, const SbParam *param) {
+  bool side[2] = {x + h <= param->max, x - h >= param->min};
+  for (int round = 0; round < 2 && (side[0] || side[1]); round++) {
+    bool refused[2];
+    work->level[at].one_sided = !side[0] || !side[1];
+    work->level[at].h = side[0] ? h : -h;
+    SbStatus status = ask_places(work, at, x, refused);
+    if (ends(status) || work->level[at].one_sided || refused[0] == refused[1]) {
+      return status;
+    }
+    side[0] = !refused[0];
+    side[1] = !refused[1];
+  }
+  return SB_OK;
+}
+
+// Takes what a level is enough for; whether figures are left that a smaller or larger step may
+// tell.
+static void take(Work *work, int at, size_t parameter, double scale, bool *smaller, bool *larger) {
+  *smaller = *larger = false;
+  for (size_t i = 0; i < work->out->figures; i++) {
+    Estimate now;
+    if (!work->open[i] || !work->level[at].asked) {
+      *smaller |= work->open[i];
+      continue;
+    }
+    estimate(&now, work, at, i);
+    if (same_bits(work, at, POINTS, i)) {
+      set(work, parameter, i, 0, 0);
+    } else if (enough(&now, work->size[i], scale)) {
+      set(work, parameter, i, now.slope, now.error);
+    } else {
+      const bool hidden = now.kind == SMOOTH && now.hidden;
+      *larger |= hidden;
+      *smaller |= !hidden;
+    }
+  }
+}
+
+static SbStatus differentiate(Work *work, size_t parameter) {
+  SbGradient *out = work->out;
+  const SbParamId id = out->parameter[parameter];
+  const double x = out->at[parameter], scale = scale_of(id, x);
+  bool smaller = true, larger = true;
+  work->override[work->question.override_count - 1].id = id;
+  work->changed[0] = '\0';
+  memcpy(work->base_value, out->value, out->figures * sizeof *out->value);
+  memset(work->level, 0, sizeof work->level);
+  for (size_t i = 0; i < out->figures; i++) {
+    work->open[i] = isfinite(out->value[i]);
+  }
+  for (int at = FIRST; at < LEVELS; at++) {
+    if (at == LARGE ? !larger : !smaller) {
+      continue;
+    }
+    SbStatus status = ask_level(work, at, x, parts[at] * scale, sb_param(id));
+    bool more;
+    if (ends(status)) {
+      return status;
+    }
+    take(work, at, parameter, scale, &smaller, &more);
+    larger = at == FIRST ? more : larger || more;
+    if (at == FIRST && smaller) { // a value that is given may mean more than the same by default
+      status = ask(work, work->base_value, x, false);
+      if (ends(status)) {
+        return status;
+      }
+      take(work, at, parameter, scale, &smaller, &larger);
+    }
+  }
+  for (size_t i = 0; i < out->figures; i++) {
+    if (work->open[i]) {
+      settle(work, parameter, i);
+    }
+  }
+  return SB_OK;
+}
+
+// ---- All
+
+static SbStatus set_up(Work *work, const SbQuestion *question) {
+  const size_t n = question->figure_count, overrides = question->override_count + 1;
+  work->override = calloc(overrides, sizeof *work->override);
+  work->base_value = calloc(n + 1, sizeof *work->base_value);
+  work->size = calloc(n + 1, sizeof *work->size);
+  work->value = calloc((n + 1) * LEVELS * POINTS, sizeof *work->value);
+  work->open = calloc(n + 1, sizeof *work->open);
+  if (work->override == NULL || work->base_value == NULL || work->size == NULL ||
+      work->value == NULL || work->open == NULL) {
+    return SB_ERROR_MEMORY;
+  }
+  memcpy(work->override, question->override, question->override_count * sizeof *work->override);
+  work->question = *question;
+  work->question.override = work->override;
+  work->question.override_count = overrides;
+  return SB_OK;
+}
+
+// Of what a figure is the sum: of terms that nearly cancel in the balance of energies, and in what
+// a cycle leaks.
+static double size_of(const SbSummary *summary, int figure) {
+  const double value = fabs(sb_figure_value(summary, figure));
+  const SbFigure *row = sb_figure(figure);
+  const bool energy = strcmp(row->si, "J") == 0, leak = strncmp(row->path, "cycle.leak", 10) == 0;
+  const double whole = energy ? summary->energy.external_max
+                       : leak ? summary->leakage_carried
+                       : strcmp(row->path, "cycle.energy_closure") == 0 ? 1
+                                                                        : 0;
+  return fmax(value, whole); // leaves out what is not known
+}
+
+// The base's own answer, and the parameters' values there.
+static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) {
+  SbGradient *out = work->out;
+  SbStatus status = sb_evaluator_ask(out->value, work->evaluator, question, report);
+  if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
+    return status;
+  }
+  take_outcome(&work->outcome, sb_evaluator_summary(work->evaluator));
+  for (size_t i = 0; i < out->parameters; i++) {
+    out->at[i] = sb_model_value(sb_evaluator_model(work->evaluator), out->parameter[i]);
+  }
+  for (size_t i = 0; i < out->figures; i++) {
+    const char *why = sb_evaluator_reason(work->evaluator, out->figure[i]);
+    work->size[i] = size_of(sb_evaluator_summary(work->evaluator), out->figure[i]);
+    for (size_t k = 0; why != NULL && k < out->parameters; k++) {
+      refuse(work, k, i, "%s", why);
+    }
+  }
+  return status;
+}
+
+SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQuestion *question,
+                            const SbParamId *parameter, size_t count, SbGradientProgress progress,
+                            SbReport *report) {
+  *out = NULL;
+  for (size_t i = 0; i < count; i++) {
+    if (!sb_gradient_wants(parameter[i])) {
+      return sb_fail_parameter(report, SB_ERROR_INPUT, sb_param(parameter[i])->key,
+                               "no real number: nothing can be differentiated by it");
+    }
+  }
+  SbReport own = {0};
+  Work work = {.evaluator = evaluator, .out = make(question, parameter, count)};
+  SbStatus status = work.out != NULL ? set_up(&work, question) : SB_ERROR_MEMORY;
+  status = status == SB_OK ? begin(&work, question, &own)
+                           : sb_fail(&own, status, "no memory for derivatives");
+  SbStatus answer = status;
+  for (size_t i = 0; i < count && (status == SB_OK || status == SB_ERROR_NOT_CONVERGED); i++) {
+    status = differentiate(&work, i);
+    if (ends(status)) {
+      own = work.report;
+    } else if (progress != NULL) {
+      progress(question->data, i + 1, count);
+    }
+  }
+  const bool well = status == SB_OK || status == SB_ERROR_NOT_CONVERGED;
+  free(work.override);
+  free(work.base_value);
+  free(work.size);
+  free(work.value);
+  free(work.open);
+  if (well) {
+    *out = work.out;
+  } else {
+    sb_gradient_destroy(work.out);
+  }
+  if (report != NULL) {
+    *report = own;
+  }
+  return well ? answer : status;
+}

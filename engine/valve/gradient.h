@@ -1,0 +1,58 @@
+// Derivatives of figures by real parameters, at one model with overrides.
+//
+// What is differentiated is evaluate.h's answer, a deterministic function of the parameters: closed
+// forms, located events, and equations solved by Newton's method to rounding. It is differentiated
+// by central differences at two or more steps, extrapolated (Richardson), one-sided at an end of
+// the parameter's range. An error is told with every derivative: what the last extrapolation
+// changed, and the rounding that the step magnifies.
+//
+// A figure that has the same bits on both sides does not depend on the parameter: its derivative is
+// an exact 0, of error 0. It has none (NaN, with a reason) where the figure itself has no value,
+// where the differences from both sides disagree at the smallest step as well (a kink), where they
+// grow as the step shrinks (a jump: an event, a stage or an outcome appears or goes), and where no
+// step has values on either side. A yes or no that jumps nowhere has the derivative 0.
+//
+// A parameter is moved as an override moves it: what follows from it (a seal's own size from that
+// of both, a fluid's properties from its temperature) moves with it; one that a choice or another
+// parameter would give keeps what the step gives it.
+//
+// Leaves out: whole numbers, choices and flags; second derivatives.
+#pragma once
+
+#include "engine/valve/evaluate.h"
+
+typedef struct SbGradient SbGradient;
+
+// Derivatives of the question's figures by `count` parameters, all real. On SB_OK *out is owned by
+// the caller; it copies what it needs of the question. Each thread needs an evaluator of its own;
+// after the call that has answered the question itself. SB_ERROR_INPUT: a parameter is not real;
+// else as sb_evaluator_ask(): SB_ERROR_NOT_CONVERGED with *out, whose figures have values, others
+// NaN; *out is NULL otherwise. Progress: `done` of `count` parameters, on this thread; may be NULL.
+typedef void (*SbGradientProgress)(void *data, size_t done, size_t count);
+SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQuestion *question,
+                            const SbParamId *parameter, size_t count, SbGradientProgress progress,
+                            SbReport *report);
+
+// Takes NULL.
+void sb_gradient_destroy(SbGradient *gradient);
+
+// What it holds: figures and parameters in the order of the question. Borrowed.
+size_t sb_gradient_figures(const SbGradient *gradient);
+size_t sb_gradient_parameters(const SbGradient *gradient);
+int sb_gradient_figure(const SbGradient *gradient, size_t figure);             // of figures.def
+SbParamId sb_gradient_parameter(const SbGradient *gradient, size_t parameter); // of params.def
+double sb_gradient_at(const SbGradient *gradient, size_t parameter); // value of it there, SI
+
+// Value of figure `figure` < sb_gradient_figures() at the base, SI; NaN: none.
+double sb_gradient_value(const SbGradient *gradient, size_t figure);
+
+// Its derivative by a parameter, SI, and the estimate of that one's absolute error; both NaN where
+// the reason says why.
+double sb_gradient_slope(const SbGradient *gradient, size_t figure, size_t parameter);
+double sb_gradient_error(const SbGradient *gradient, size_t figure, size_t parameter);
+
+// Why a figure has no derivative by a parameter; NULL where it has one. Borrowed.
+const char *sb_gradient_reason(const SbGradient *gradient, size_t figure, size_t parameter);
+
+// Whether the engine has anything that a derivative by this parameter can be asked of: it is real.
+bool sb_gradient_wants(SbParamId id);
