@@ -1,26 +1,20 @@
 // The swap page; propellants.h says what it shows. Between the temperatures of the study values lie
 // on straight lines, as the curves are drawn.
-#include "app/chart/propellants.h"
-
-#include "app/base/format.h"
 #include "app/base/label.h"
 #include "app/chart/axis.h"
+#include "app/chart/propellants_private.h"
 #include "engine/fluid/fluid.h"
 
-#include <glib.h>
 #include <math.h>
 #include <string.h>
 
 // A page smaller than this shows one chart.
 #define SMALL_WIDTH  1180.0
 #define SMALL_HEIGHT 620.0
-#define ZERO         273.15
 // Least return force that is more than weak where the scene sets no limit [N].
 #define WEAK 2.0
 
-enum { BREAKAWAY = 1, RETURN = SB_PROPELLANTS_RETURN, DOSE };
-
-typedef enum { UNKNOWN, STUCK, WEAKLY, RETURNS } Answer;
+enum { RETURN = SB_PROPELLANTS_RETURN };
 
 static const struct {
   SbRole role;
@@ -52,7 +46,7 @@ static bool shown(const SbPropellantsLook *look, int propellant) {
 // ---------------------------------------------------------------------------------------------------
 // Values
 
-static const SbStudySeries *series_of(const SbStudy *study, int panel, int propellant) {
+const SbStudySeries *sb_propellants_series(const SbStudy *study, int panel, int propellant) {
   for (size_t s = 0; panel < (int)study->panel_count && s < study->panel[panel].series_count; s++) {
     const SbStudySeries *series = &study->panel[panel].series[s];
     if (strcmp(series->name, sb_propellants_name(propellant)) == 0) {
@@ -62,7 +56,7 @@ static const SbStudySeries *series_of(const SbStudy *study, int panel, int prope
   return NULL;
 }
 
-static double value_at(const SbStudySeries *series, double T) {
+double sb_propellants_value(const SbStudySeries *series, double T) {
   for (size_t i = 1; series != NULL && i < series->count; i++) {
     const double a = series->x[i - 1], b = series->x[i], slack = 1e-9 * b;
     if (T >= a - slack && T <= b + slack) {
@@ -73,8 +67,7 @@ static double value_at(const SbStudySeries *series, double T) {
   return NAN;
 }
 
-// Where a series rises through a level; NaN: nowhere.
-static double rises_through(const SbStudySeries *series, double level) {
+double sb_propellants_rises(const SbStudySeries *series, double level) {
   for (size_t i = 1; series != NULL && i < series->count; i++) {
     const double a = series->y[i - 1] - level, b = series->y[i] - level;
     if (a <= 0 && b > 0) {
@@ -84,27 +77,28 @@ static double rises_through(const SbStudySeries *series, double level) {
   return NAN;
 }
 
-static double weak_below(const SbStudy *study) {
+double sb_propellants_weak_below(const SbStudy *study) {
   const double limit = study->panel[RETURN].limit_low;
   return isfinite(limit) && limit > 0 ? limit : WEAK;
 }
 
-static Answer answer_of(const SbStudy *study, double force) {
-  return isnan(force) ? UNKNOWN : force <= 0 ? STUCK : force < weak_below(study) ? WEAKLY : RETURNS;
+SbPropellantsAnswer sb_propellants_answer(const SbStudy *study, double force) {
+  return isnan(force)                               ? SB_PROPELLANT_UNKNOWN
+         : force <= 0                               ? SB_PROPELLANT_STUCK
+         : force < sb_propellants_weak_below(study) ? SB_PROPELLANT_WEAKLY
+                                                    : SB_PROPELLANT_RETURNS;
 }
 
-static SbRole role_of(Answer answer) {
+SbRole sb_propellants_role(SbPropellantsAnswer answer) {
   static const SbRole roles[] = {SB_ROLE_THIRD, SB_ROLE_ERROR, SB_ROLE_WARN, SB_ROLE_PASS};
   return roles[answer];
 }
 
-// "-1.7 N", "-" where there is none.
-static const char *force_text(char *out, double force) {
+const char *sb_propellants_force(char *out, double force) {
   return sb_format_text(out, SB_QUANTITY_FORCE, force, 0);
 }
 
-// Whole degrees, a tenth where they have one.
-static const char *degrees(char *out, double T) {
+const char *sb_propellants_degrees(char *out, double T) {
   const double celsius = T - ZERO;
   return sb_format_fixed(out, celsius, fabs(celsius - round(celsius)) < 0.05 ? 0 : 1);
 }
@@ -144,7 +138,7 @@ void sb_propellants_layout(SbPropellantsLayout *out, SbRect rect, const SbPropel
 
 double sb_propellants_at(const SbPropellantsLayout *layout, const SbStudy *study, double x,
                          double y) {
-  const SbStudySeries *series = series_of(study, 0, 0);
+  const SbStudySeries *series = sb_propellants_series(study, 0, 0);
   for (int i = 0; i < SB_PROPELLANTS_CHARTS && series != NULL && series->count > 1; i++) {
     const SbRect r = layout->plot[i];
     if (r.width > 0 && x >= r.x - 12 && x <= r.x + r.width + 12 && y >= r.y - 24 &&
@@ -172,7 +166,7 @@ static void scales(Chart *chart) {
   const SbStudyPanel *panel = &chart->study->panel[chart->panel];
   double lo = 0, hi = -INFINITY, from = INFINITY, to = -INFINITY;
   for (int k = 0; k < SB_PROPELLANTS; k++) {
-    const SbStudySeries *series = series_of(chart->study, chart->panel, k);
+    const SbStudySeries *series = sb_propellants_series(chart->study, chart->panel, k);
     for (size_t i = 0; series != NULL && i < series->count; i++) {
       from = fmin(from, series->x[i]);
       to = fmax(to, series->x[i]);
@@ -186,7 +180,7 @@ static void scales(Chart *chart) {
     hi = fmax(hi, 1.05 * panel->limit_high);
   }
   if (chart->panel == RETURN) {
-    hi = fmax(hi, 1.5 * weak_below(chart->study));
+    hi = fmax(hi, 1.5 * sb_propellants_weak_below(chart->study));
   }
   hi = hi > lo ? hi : lo + 1;
   lo = lo < 0 ? lo - 0.04 * (hi - lo) : lo;
@@ -210,7 +204,7 @@ static void draw_regions(const Chart *chart) {
   SbCanvas *c = chart->c;
   const SbRect r = chart->plot;
   const double bottom = r.y + r.height, zero = CLAMP(height_of(chart, 0), r.y, bottom);
-  const double weak = CLAMP(height_of(chart, weak_below(chart->study)), r.y, zero);
+  const double weak = CLAMP(height_of(chart, sb_propellants_weak_below(chart->study)), r.y, zero);
   sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_WARN_GROUND), 1);
   cairo_rectangle(c->cr, r.x, weak, r.width, zero - weak);
   cairo_fill(c->cr);
@@ -246,7 +240,7 @@ static void draw_level(const Chart *chart, double value, const char *text, bool 
 
 static void draw_curve(const Chart *chart, int k) {
   SbCanvas *c = chart->c;
-  const SbStudySeries *series = series_of(chart->study, chart->panel, k);
+  const SbStudySeries *series = sb_propellants_series(chart->study, chart->panel, k);
   SbPoint point[SB_STUDY_POINTS];
   for (size_t i = 0; i < series->count; i++) {
     point[i] = (SbPoint){place_of(chart, series->x[i]), height_of(chart, series->y[i])};
@@ -263,7 +257,7 @@ static int sorted(int out[SB_PROPELLANTS], double value[SB_PROPELLANTS], const C
                   double T) {
   int count = 0;
   for (int k = 0; k < SB_PROPELLANTS; k++) {
-    value[k] = value_at(series_of(chart->study, chart->panel, k), T);
+    value[k] = sb_propellants_value(sb_propellants_series(chart->study, chart->panel, k), T);
     if (!shown(chart->look, k) || isnan(value[k])) {
       continue;
     }
@@ -300,7 +294,7 @@ static void name_curves(const Chart *chart) {
   }
 }
 
-static void sample(SbCanvas *c, int k, double x, double y, double width) {
+void sb_propellants_sample(SbCanvas *c, int k, double x, double y, double width) {
   for (int pass = looks[k].outlined ? 0 : 1; pass < 2; pass++) {
     sb_canvas_pen(c, pass == 0 ? looks[k].width + 1.6 : looks[k].width, looks[k].dash);
     sb_canvas_color(c, sb_canvas_role(c, pass == 0 ? SB_ROLE_INK : looks[k].role), 1);
@@ -326,9 +320,7 @@ static void draw_cursor(const Chart *chart) {
   const SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
   const SbTextStyle plain = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
   sb_canvas_hairline(c, x, r.y, x, r.y + r.height, sb_canvas_role(c, SB_ROLE_SECOND));
-  g_autofree char *title = g_strdup_printf("%s \xc2\xb0"
-                                           "C",
-                                           degrees(text, T));
+  g_autofree char *title = g_strdup_printf("%s °C", sb_propellants_degrees(text, T));
   sb_canvas_text(c, title, &bold, x, r.y - 8, SB_MIDDLE);
   for (int i = 0; i < count; i++) {
     const double y = height_of(chart, value[order[i]]);
@@ -352,14 +344,15 @@ static void draw_cursor(const Chart *chart) {
   cairo_stroke(c->cr);
   for (int i = 0; i < count; i++) {
     const double y = box.y + 6 + line * i + 14;
-    sample(c, order[i], box.x + 8, y - 4, 20);
+    sb_propellants_sample(c, order[i], box.x + 8, y - 4, 20);
     sb_canvas_text(c, sb_propellants_name(order[i]), &plain, box.x + 34, y, SB_LEFT);
     SbTextStyle style = bold;
-    const Answer answer = answer_of(chart->study, value[order[i]]);
-    if (chart->panel == RETURN && answer != RETURNS) {
-      style.color = sb_canvas_role(c, role_of(answer));
+    const SbPropellantsAnswer answer = sb_propellants_answer(chart->study, value[order[i]]);
+    if (chart->panel == RETURN && answer != SB_PROPELLANT_RETURNS) {
+      style.color = sb_canvas_role(c, sb_propellants_role(answer));
     }
-    sb_canvas_text(c, force_text(text, value[order[i]]), &style, box.x + width - 8, y, SB_RIGHT);
+    sb_canvas_text(c, sb_propellants_force(text, value[order[i]]), &style, box.x + width - 8, y,
+                   SB_RIGHT);
   }
 }
 
@@ -371,7 +364,7 @@ static void draw_begins(const Chart *chart) {
   double at[SB_PROPELLANTS];
   int count = 0;
   for (int k = 0; k < SB_PROPELLANTS; k++) {
-    const double T = rises_through(series_of(chart->study, RETURN, k), 0);
+    const double T = sb_propellants_rises(sb_propellants_series(chart->study, RETURN, k), 0);
     if (shown(chart->look, k) && isfinite(T)) {
       int i = count++;
       for (; i > 0 && at[i - 1] > T; i--) {
@@ -386,9 +379,7 @@ static void draw_begins(const Chart *chart) {
     sb_canvas_dot(c, x, y, 3.2, sb_canvas_role(c, SB_ROLE_PANEL));
     char text[SB_FORMAT_MAX];
     g_autofree char *label = g_strdup_printf("%s%s", sb_format_fixed(text, at[i] - ZERO, 0),
-                                             i == count - 1 ? " \xc2\xb0"
-                                                              "C"
-                                                            : "");
+                                             i == count - 1 ? " °C" : "");
     sb_canvas_text_halo(c, label, &style, x, i % 2 == 0 ? y - 9 : y + 19, SB_MIDDLE);
   }
 }
@@ -420,10 +411,7 @@ static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbS
   sb_axis_ticks(&x, chart.x.lo, chart.x.hi, (int)CLAMP(r.width / 55, 3, 8));
   sb_axis_ticks(&y, chart.y.lo, chart.y.hi, (int)CLAMP(r.height / 60, 3, 8));
   sb_axis_draw(c, r, &chart.x, &x, &chart.y, &y);
-  sb_canvas_text(c,
-                 "\xc2\xb0"
-                 "C",
-                 &label, r.x + r.width + 12, r.y + r.height + 18, SB_LEFT);
+  sb_canvas_text(c, "°C", &label, r.x + r.width + 12, r.y + r.height + 18, SB_LEFT);
   const double limit = study->panel[panel].limit_high;
   if (isfinite(limit)) {
     g_autofree char *text =
@@ -431,7 +419,7 @@ static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbS
     draw_level(&chart, limit, text, false);
   }
   if (panel == RETURN) {
-    const double weak = weak_below(study), zero = height_of(&chart, 0);
+    const double weak = sb_propellants_weak_below(study), zero = height_of(&chart, 0);
     g_autofree char *text =
         g_strdup_printf("returns under %s", sb_format_given(number, SB_QUANTITY_FORCE, weak));
     draw_level(&chart, weak, text, zero - height_of(&chart, weak) > 22);
@@ -447,7 +435,7 @@ static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbS
     }
   }
   for (int k = SB_PROPELLANTS - 1; k >= 0; k--) {
-    if (shown(look, k) && series_of(study, panel, k) != NULL) {
+    if (shown(look, k) && sb_propellants_series(study, panel, k) != NULL) {
       draw_curve(&chart, k);
     }
   }
@@ -456,219 +444,6 @@ static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbS
     draw_begins(&chart);
   }
   draw_cursor(&chart);
-}
-
-// ---------------------------------------------------------------------------------------------------
-// Cards
-
-// A tick, a triangle, a cross or a dash, 12 px high on the baseline.
-static void draw_sign(SbCanvas *c, Answer answer, double x, double y) {
-  cairo_t *cr = c->cr;
-  sb_canvas_pen(c, 2, NULL);
-  sb_canvas_color(c, sb_canvas_role(c, role_of(answer)), 1);
-  if (answer == RETURNS) {
-    cairo_move_to(cr, x, y - 5);
-    cairo_line_to(cr, x + 4, y - 1);
-    cairo_line_to(cr, x + 11, y - 9);
-  } else if (answer == STUCK) {
-    cairo_move_to(cr, x + 1, y - 9);
-    cairo_line_to(cr, x + 10, y);
-    cairo_move_to(cr, x + 10, y - 9);
-    cairo_line_to(cr, x + 1, y);
-  } else if (answer == WEAKLY) {
-    cairo_move_to(cr, x + 5.5, y - 10);
-    cairo_line_to(cr, x + 11, y);
-    cairo_line_to(cr, x, y);
-    cairo_close_path(cr);
-    cairo_move_to(cr, x + 5.5, y - 6.5);
-    cairo_line_to(cr, x + 5.5, y - 2.5);
-  } else {
-    cairo_move_to(cr, x, y - 4);
-    cairo_line_to(cr, x + 11, y - 4);
-  }
-  cairo_stroke(cr);
-}
-
-static char *answer_text(const SbStudy *study, int k, double T, double gauge) {
-  char force[SB_FORMAT_MAX], at[SB_FORMAT_MAX];
-  const double value = value_at(series_of(study, RETURN, k), T);
-  force_text(force, value);
-  degrees(at, T);
-  if (gauge <= 0) {
-    return g_strdup_printf("delivers nothing at %s \xc2\xb0"
-                           "C: below ambient",
-                           at);
-  }
-  switch (answer_of(study, value)) {
-  case STUCK:
-    return g_strdup_printf("does not return, %s at %s \xc2\xb0"
-                           "C",
-                           force, at);
-  case WEAKLY:
-    return g_strdup_printf("returns weakly, %s at %s \xc2\xb0"
-                           "C",
-                           force, at);
-  case RETURNS:
-    return g_strdup_printf("returns with %s at %s \xc2\xb0"
-                           "C",
-                           force, at);
-  default:
-    return g_strdup_printf("no value at %s \xc2\xb0"
-                           "C",
-                           at);
-  }
-}
-
-// "from 14 degC, 2 N from 19 degC".
-static char *range_text(const SbStudy *study, int k) {
-  const SbStudySeries *series = series_of(study, RETURN, k);
-  char from[SB_FORMAT_MAX], limit[SB_FORMAT_MAX], full[SB_FORMAT_MAX];
-  const double weak = weak_below(study);
-  const double begins = rises_through(series, 0), enough = rises_through(series, weak);
-  const bool always = series != NULL && series->count > 0 && series->y[0] > 0;
-  if (isnan(begins) && !always) {
-    return g_strdup("returns nowhere");
-  }
-  g_autofree char *first = always ? g_strdup("returns everywhere")
-                                  : g_strdup_printf("from %s \xc2\xb0"
-                                                    "C",
-                                                    sb_format_fixed(from, begins - ZERO, 0));
-  if (isnan(enough)) {
-    return g_steal_pointer(&first);
-  }
-  return g_strdup_printf("%s, %s from %s \xc2\xb0"
-                         "C",
-                         first, sb_format_given(limit, SB_QUANTITY_FORCE, weak),
-                         sb_format_fixed(full, enough - ZERO, 0));
-}
-
-// The scale of temperature: red, amber, green, the cursor, and its ends.
-static void draw_strip(SbCanvas *c, SbRect r, const SbStudy *study, int k, double T) {
-  static const double strength[] = {0.15, 0.28, 0.5, 0.5};
-  const SbStudySeries *series = series_of(study, RETURN, k);
-  const int steps = 280;
-  if (series == NULL || series->count < 2) {
-    return;
-  }
-  const double lo = series->x[0], hi = series->x[series->count - 1];
-  for (int i = 0, from = 0; i < steps; i++) {
-    const Answer now = answer_of(study, value_at(series, lo + (hi - lo) * (i + 0.5) / steps));
-    const Answer then =
-        i + 1 < steps ? answer_of(study, value_at(series, lo + (hi - lo) * (i + 1.5) / steps)) : 0;
-    if (i + 1 == steps || then != now) {
-      sb_canvas_color(c, sb_canvas_role(c, role_of(now)), strength[now]);
-      cairo_rectangle(c->cr, r.x + r.width * from / steps, r.y, r.width * (i + 1 - from) / steps,
-                      8);
-      cairo_fill(c->cr);
-      from = i + 1;
-    }
-  }
-  char text[SB_FORMAT_MAX];
-  const SbTextStyle note = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
-  const SbTextStyle bold = sb_canvas_style(c, SB_TYPE_NOTE, 600, SB_ROLE_INK);
-  const double x = r.x + r.width * (T - lo) / (hi - lo);
-  if (x >= r.x - 1 && x <= r.x + r.width + 1) {
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
-    cairo_rectangle(c->cr, x - 1, r.y - 4, 2, 16);
-    cairo_fill(c->cr);
-  }
-  const double base = r.y + 24;
-  const double left = sb_canvas_text(c, degrees(text, lo), &note, r.x, base, SB_LEFT);
-  g_autofree char *end = g_strdup_printf("%s \xc2\xb0"
-                                         "C",
-                                         degrees(text, hi));
-  const double right = sb_canvas_text(c, end, &note, r.x + r.width, base, SB_RIGHT);
-  g_autofree char *range = range_text(study, k);
-  const double room = r.width - left - right - 16;
-  const double width = fmin(sb_canvas_text_width(c, range, &bold), room);
-  sb_canvas_text_fit(c, range, &bold, r.x + left + 8 + (room - width) / 2, base, width + 1);
-}
-
-// A figure under its name; its unit smaller.
-static void draw_figure(SbCanvas *c, const char *name, const char *number, const char *unit,
-                        double x, double y) {
-  const SbTextStyle note = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
-  const SbTextStyle value = sb_canvas_style(c, SB_TYPE_PANEL, 600, SB_ROLE_INK);
-  sb_canvas_text(c, name, &note, x, y, SB_LEFT);
-  const double used = sb_canvas_text(c, number, &value, x, y + 20, SB_LEFT);
-  sb_canvas_text(c, unit, &note, x + used + 4, y + 20, SB_LEFT);
-}
-
-static bool state_of(SbFluidState *out, const SbModel *model, int k, double T) {
-  return sb_fluid_state(out, NULL, &sb_fluids[sb_propellants_fluid(k)], T,
-                        sb_model_value(model, SB_P_FLUID_ETHANOL), NULL) == SB_OK;
-}
-
-static double gauge_of(const SbFluidState *state, const SbModel *model) {
-  return state->figure[SB_FLUID_PRESSURE].value -
-         sb_model_value(model, SB_P_CANISTER_AMBIENT_PRESSURE);
-}
-
-static void draw_card(SbCanvas *c, const SbPropellantsLayout *layout, const SbStudy *study,
-                      const SbModel *model, const SbPropellantsLook *look, int k) {
-  const SbRect card = layout->card[k];
-  const double T = look->temperature, x = card.x + 16, width = card.width - 32;
-  const bool own = sb_model_number(model, SB_P_FLUID_NAME) == sb_propellants_fluid(k);
-  sb_canvas_panel(c, card);
-  if (own) {
-    sb_canvas_rounded(c, card, SB_GRID_RADIUS);
-    sb_canvas_pen(c, 1.6, NULL);
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
-    cairo_stroke(c->cr);
-  }
-  const SbTextStyle title = sb_canvas_style(c, SB_TYPE_PANEL_WINDOW, 700, SB_ROLE_INK);
-  const SbTextStyle note = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
-  const double line = layout->small ? 18 : 34;
-  sample(c, k, x, card.y + 24, line);
-  sb_canvas_text_fit(c, sb_propellants_name(k), &title, x + line + 8, card.y + 29,
-                     width - line - 8 - (layout->small && own ? 0 : 76));
-  if (own && !layout->small) {
-    sb_canvas_text(c, "in this design", &note, x + width, card.y + 28, SB_RIGHT);
-  }
-  if (layout->small) {
-    draw_strip(c, (SbRect){x, card.y + 50, width, 8}, study, k, T);
-    return;
-  }
-  char number[SB_FORMAT_MAX];
-  SbFluidState state;
-  const bool known = state_of(&state, model, k, T);
-  const double gauge = known ? gauge_of(&state, model) : NAN;
-  const struct {
-    const char *name, *unit;
-    double value, at;
-    int decimals; // -1: three digits
-  } figures[] = {
-      {"gauge pressure", "MPa", 1e-6 * gauge, 0, 2},
-      {"density", "kg/m\xc2\xb3", known ? state.figure[SB_FLUID_LIQUID].value : NAN, 0.26, 0},
-      {"viscosity", "mPa s", known ? 1e3 * state.figure[SB_FLUID_VISCOSITY].value : NAN, 0.53, 3},
-      {"GWP", "", known ? state.figure[SB_FLUID_GWP].value : NAN, 0.82, -1}};
-  for (size_t i = 0; i < G_N_ELEMENTS(figures); i++) {
-    const double value = figures[i].value;
-    if (isnan(value)) {
-      g_strlcpy(number, "\xe2\x80\x93", sizeof number);
-    } else if (figures[i].decimals < 0) {
-      sb_format_fixed(number, value, value < 10 ? 1 : 0);
-    } else {
-      sb_format_fixed(number, value, figures[i].decimals);
-    }
-    draw_figure(c, figures[i].name, number, figures[i].unit, x + figures[i].at * width,
-                card.y + 54);
-  }
-  sb_canvas_hairline(c, x, card.y + 92, x + width, card.y + 92,
-                     sb_canvas_role(c, SB_ROLE_HAIRLINE));
-  const double force = value_at(series_of(study, RETURN, k), T);
-  const Answer answer = gauge <= 0 ? STUCK : answer_of(study, force);
-  SbTextStyle verdict = sb_canvas_style(c, SB_TYPE_LABEL, 600, role_of(answer));
-  g_autofree char *text = answer_text(study, k, T, gauge);
-  draw_sign(c, answer, x, card.y + 117);
-  const double dose = value_at(series_of(study, DOSE, k), T);
-  double used = 0;
-  if (isfinite(dose)) {
-    g_autofree char *mass = g_strdup_printf("dose %s mg", sb_format_digits(number, 1e6 * dose, 3));
-    used = sb_canvas_text(c, mass, &note, x + width, card.y + 116, SB_RIGHT) + 8;
-  }
-  sb_canvas_text_fit(c, text, &verdict, x + 20, card.y + 117, width - 20 - used);
-  draw_strip(c, (SbRect){x, card.y + 140, width, 8}, study, k, T);
 }
 
 // ---------------------------------------------------------------------------------------------------
@@ -707,25 +482,9 @@ void sb_propellants_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   }
   for (int k = 0; k < SB_PROPELLANTS; k++) {
     if (layout.card[k].width > 0) {
-      draw_card(&canvas, &layout, study, model, look, k);
+      sb_propellants_card(&canvas, &layout, study, model, look, k);
     }
   }
   draw_foot(&canvas, layout.foot, study);
   sb_canvas_finish(&canvas);
-}
-
-char *sb_propellants_text(const SbStudy *study, const SbModel *model,
-                          const SbPropellantsLook *look) {
-  GString *out = g_string_new(NULL);
-  for (int k = 0; k < SB_PROPELLANTS; k++) {
-    if (shown(look, k)) {
-      SbFluidState state;
-      const bool known = state_of(&state, model, k, look->temperature);
-      g_autofree char *answer =
-          answer_text(study, k, look->temperature, known ? gauge_of(&state, model) : NAN);
-      g_autofree char *range = range_text(study, k);
-      g_string_append_printf(out, "%s: %s; %s.\n", sb_propellants_name(k), answer, range);
-    }
-  }
-  return g_string_free(out, FALSE);
 }

@@ -85,14 +85,23 @@ static const char *text_of(const GPtrArray *entries, const char *group, const ch
 // One figure; what is wrong with it becomes an issue.
 static void take(SbRubberSheet *out, const GPtrArray *entries, const SbEntry *entry,
                  const char *path, GPtrArray *issues) {
-  const bool swell = strcmp(entry->group, "swell") == 0;
+  static const struct {
+    const char *group;
+    SbParamId id;
+  } by_fluid[] = {{"swell", SB_P_RUBBER_SWELL_MASS}, {"permeability", SB_P_RUBBER_PERMEABILITY}};
   g_autofree char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
-  const int id = swell ? SB_P_RUBBER_SWELL_MASS : sb_param_find(key);
-  const int fluid =
-      swell ? sb_param_choice(sb_param(SB_P_FLUID_NAME), entry->name, strlen(entry->name)) : -1;
-  if (id < 0 || !sb_param_of_rubber((SbParamId)id) || (swell && fluid < 0)) {
+  int id = sb_param_find(key), fluid = -1;
+  bool named = false;
+  for (size_t i = 0; i < G_N_ELEMENTS(by_fluid); i++) {
+    if (strcmp(entry->group, by_fluid[i].group) == 0) {
+      named = true;
+      id = by_fluid[i].id;
+      fluid = sb_param_choice(sb_param(SB_P_FLUID_NAME), entry->name, strlen(entry->name));
+    }
+  }
+  if (id < 0 || !sb_param_of_rubber((SbParamId)id) || (named && fluid < 0)) {
     sb_issues_add(issues, path, entry->line, key, NULL,
-                  swell ? "names no fluid" : "is no figure of a rubber");
+                  named ? "names no fluid" : "is no figure of a rubber");
     return;
   }
   double value = 0;

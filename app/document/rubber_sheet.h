@@ -5,6 +5,7 @@
 //   [seal]         modulus, poisson_ratio, mooney_share
 //   [rubber]       every key of that group
 //   [swell]        FLUID = mass taken up over the dry mass
+//   [permeability] FLUID = permeability by partial pressure
 //   [source]       of each of them, by its key ("seal.modulus", "swell.hfa-134a"): where it comes
 //   from.
 //                  One that begins with "typical" is usual of such rubbers and no measurement.

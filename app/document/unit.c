@@ -31,7 +31,8 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 // "mm 10" or "5 mm" inside a unit would be silent factors.
 static bool unit_is_plain(const char *unit) {
   for (const char *c = unit; *c != '\0'; c++) {
-    if (*c == '@' || *c == '(' || *c == ')' || g_ascii_iscntrl(*c)) {
+    // Parentheses as in "mol/(m.s.Pa)", not those of logarithms.
+    if (*c == '@' || (*c == '(' && (c == unit || c[-1] != '/')) || g_ascii_iscntrl(*c)) {
       return false;
     }
     if (g_ascii_isdigit(*c)) {
@@ -55,6 +56,12 @@ static Scale ask(const char *unit, const char *si) {
     if (units == NULL) {
       return (Scale){SCALE_NO_DATABASE, 0, 0};
     }
+    // Of permeability: 3.35e-16 mol/(m.s.Pa).
+    ut_unit *si_permeability = ut_parse(units, "mol/(m.s.Pa)", UT_UTF8);
+    ut_unit *barrer = ut_scale(3.35e-16, si_permeability);
+    (void)ut_map_name_to_unit("barrer", UT_UTF8, barrer);
+    ut_free(barrer);
+    ut_free(si_permeability);
   }
   Scale result = {SCALE_UNKNOWN, 0, 0};
   ut_unit *from = ut_parse(units, unit, UT_UTF8);

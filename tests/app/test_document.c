@@ -545,7 +545,12 @@ static void test_own_rubber(void) {
   static const struct {
     const char *text, *says; // NULL: it is sound
   } rows[] = {
-      {RUBBER "[seal]\nmodulus = 4 MPa\n[source]\nseal.modulus = own tensile test\n", NULL},
+      {RUBBER "[seal]\nmodulus = 4 MPa\n[permeability]\nhfa-134a = 9 barrer\ncustom = 2 barrer\n"
+              "[source]\nseal.modulus = own tensile test\npermeability.hfa-134a = own\n"
+              "permeability.custom = own\n",
+       NULL},
+      {RUBBER "[permeability]\nhfa-134a = 9 MPa\n[source]\npermeability.hfa-134a = own\n",
+       "[permeability] hfa-134a: "},
       {RUBBER "[seal]\nmodulus = 4 MPa\n", "own.rubber: [seal] modulus: has no source"},
       {RUBBER "[seal]\nmodulus = 4 mm\n[source]\nseal.modulus = own\n", "[seal] modulus: "},
       {RUBBER "[gland]\nradial_space = 1 mm\n", "is no figure of a rubber"},
@@ -565,6 +570,7 @@ static void test_own_rubber(void) {
       g_assert_nonnull(strstr(line, rows[i].says));
     } else {
       g_assert_cmpfloat(sb_document_value(document, SB_P_SEAL_OUTER_MODULUS), ==, 4e6);
+      g_assert_cmpfloat(sb_document_value(document, SB_P_RUBBER_PERMEABILITY), ==, 6.7e-16);
     }
   }
   g_autoptr(GPtrArray) issues = sb_issues_new();

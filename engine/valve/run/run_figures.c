@@ -2,6 +2,7 @@
 // figures are missing: what a run that ended early cannot tell, and what its models leave out.
 #include "engine/contact/rough/percolation.h"
 #include "engine/film/laws.h"
+#include "engine/fluid/fluid.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 
@@ -201,6 +202,17 @@ static double kept(const SbRun *run) {
              : NAN;
 }
 
+// Liquid that permeates the outer ring from the chamber [m3/s]: P S p M/rho with the propellant's
+// partial pressure p, none outside, through a slab as high as the radial space g and, as rubber
+// keeps its volume, pi d^2/(4 g) wide, S = 4 D_mean g^2/d^2. 0 without a permeability or by a fluid
+// without a molar mass.
+static double permeation(const SbModel *model) {
+  const double g = model->radial_space, d = model->seal[SB_OUTER].section_diameter;
+  const double shape = 4 * (model->bore_diameter - g) * (g / d) * (g / d);
+  return model->permeability * shape * (model->canister_pressure + model->ambient_pressure) *
+         sb_fluids[model->fluid].mass / model->density;
+}
+
 double sb_run_dose(const SbRun *run, double metered) {
   const double filled = sb_run_filled_share(&run->summary, run->model);
   return run->model->canister_pressure > 0
@@ -240,7 +252,8 @@ void sb_run_summarise_seals(SbRun *run) {
   }
   sb_figures_of_model(&run->summary, model);
   SbSummary *summary = &run->summary;
-  summary->prime_loss = summary->seal[SB_OUTER].leakage_static * 86400 / model->supply.volume;
+  summary->prime_loss =
+      86400 * (summary->seal[SB_OUTER].leakage_static + permeation(model)) / model->supply.volume;
   summary->filled_share = sb_run_filled_share(summary, model);
   summary->kept_mass = model->supply.vapour > 0 ? kept(run) : NAN;
   summary->dose_mass = sb_run_dose(run, model->supply.volume * model->density);

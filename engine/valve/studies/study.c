@@ -85,19 +85,10 @@ SbStudyPanel *sb_study_panel(SbStudy *out, const SbStudyAxis *y, const char *emp
 
 // Splits "quantity [unit]" into its name, the unit, and the SI unit of that.
 static void put_quantity(const char *text, char name[], size_t size, char si[16], char unit[16]) {
-  static const char *const units[][2] = {{"N", "N"},
-                                         {"N/m", "N/m"},
-                                         {"MPa", "Pa"},
-                                         {"mm", "m"},
-                                         {"nm", "m"},
-                                         {"mm/s", "m/s"},
-                                         {"day", "s"},
-                                         {"\xc2\xb0"
-                                          "C",
-                                          "K"},
-                                         {"mg", "kg"},
-                                         {"\xc2\xb5l/h", "m3/s"},
-                                         {"nl", "m3"}};
+  static const char *const units[][2] = {
+      {"N", "N"},   {"N/m", "N/m"},          {"MPa", "Pa"}, {"mm", "m"},
+      {"nm", "m"},  {"mm/s", "m/s"},         {"day", "s"},  {"°C", "K"},
+      {"mg", "kg"}, {"\xc2\xb5l/h", "m3/s"}, {"nl", "m3"}};
   const char *bracket = strstr(text, " [");
   const size_t length = bracket != NULL ? (size_t)(bracket - text) : strlen(text);
   sb_text(name, size, "%.*s", (int)length, text);

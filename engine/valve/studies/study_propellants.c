@@ -326,7 +326,9 @@ static void make(SbStudyWork *work) {
                                      "the rig has no valve and no propellant");
     return;
   }
-  const bool cheap = model->fit <= SB_FIT_KARASZKIEWICZ || interpolates(work);
+  const bool closed = model->fit < SB_FIT_DISC_THESIS && model->film != SB_FILM_REYNOLDS &&
+                      model->asperities == SB_MODEL_ASPERITIES_BESIDE;
+  const bool cheap = closed || interpolates(work);
   const int points = cheap && !model->study.rings_solved ? POINTS : CYCLES;
   static const char *const limited[FIGURES] = {NULL, "cycle.force_breakaway_N",
                                                "cycle.force_return_min_N", "cycle.dose_mass_kg"};
@@ -358,10 +360,7 @@ static void make(SbStudyWork *work) {
       const double x = table[i];
       const double *all = sb_study_at(work, line_of(fluid, ALL), x);
       const double still = sb_study_at(work, line_of(fluid, ALL), SB_SIZES_TEMPERATURE)[RETURN];
-      SbStudyRow *row = sb_study_row(out,
-                                     "%s, %.0f \xc2\xb0"
-                                     "C",
-                                     label, x - 273.15);
+      SbStudyRow *row = sb_study_row(out, "%s, %.0f °C", label, x - 273.15);
       memcpy(row->value, all, FIGURES * sizeof *all);
       row->value[FIGURES] = all[RETURN] - still;
       for (int part = PRESSURE; part < PARTS; part++) {
@@ -369,12 +368,8 @@ static void make(SbStudyWork *work) {
       }
     }
   }
-  sb_study_note(out,
-                "The stem comes back from, in \xc2\xb0"
-                "C: %s.",
-                starts);
-  sb_study_note(out, "\"by\": change of the least return force from 20 \xc2\xb0"
-                     "C, all else as there.");
+  sb_study_note(out, "The stem comes back from, in °C: %s.", starts);
+  sb_study_note(out, "\"by\": change of the least return force from 20 °C, all else as there.");
   sb_study_mark(work, model->temperature, "this scene");
   if (out->models[0] == '\0') {
     sb_text(out->models, sizeof out->models, "fit %s, film %s, a cycle at each temperature",
@@ -385,15 +380,13 @@ static void make(SbStudyWork *work) {
 enum { ANSWERS = FLUIDS * (POINTS + TABLE * PARTS) };
 
 const SbStudyDesign sb_study_propellants = {
-    .x = "canister temperature [\xc2\xb0"
-         "C]",
+    .x = "canister temperature [°C]",
     .panel = {"pressure force [N]", "break-away force [N]", "least return force [N]", "dose [mg]"},
     .range = offsetof(SbStudyRange, temperature_min),
     .row_heading = "propellant",
     .column = {"pressure force [N]", "break-away [N]", "least return [N]", "dose [mg]",
                "change [N]", "by pressure [N]", "by film [N]", "by rubber [N]", "by expansion [N]"},
-    .validity = "saturated propellant; the range of its figures, -40 to 80 \xc2\xb0"
-                "C, and above the "
+    .validity = "saturated propellant; the range of its figures, -40 to 80 °C, and above the "
                 "rubber's glass transition",
     .solves = {.fits = 2 * ANSWERS, .films = 10 * ANSWERS, .cycles = ANSWERS},
     .solve = solve,
