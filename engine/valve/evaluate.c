@@ -9,9 +9,11 @@
 #include <string.h>
 
 struct SbEvaluator {
-  SbRun *run;    // NULL before the first question
-  bool answered; // the run is that of the last question
-  SbReport why;  // there was none
+  SbRun *run;              // NULL before the first question
+  bool keeps;              // solved rings
+  const SbEvaluator *near; // whose rings this one's are found near to; NULL: solved
+  bool answered;           // the run is that of the last question
+  SbReport why;            // there was none
 };
 
 SbStatus sb_evaluator_create(SbEvaluator **out, SbReport *report) {
@@ -108,7 +110,17 @@ static SbStatus prepare(SbEvaluator *evaluator, const SbQuestion *question, SbRe
                  : sb_run_renew(evaluator->run, model, &plan, report);
   }
   sb_model_destroy(model);
+  if (status == SB_OK) {
+    sb_run_near(evaluator->run, evaluator->keeps,
+                evaluator->near != NULL ? evaluator->near->run : NULL);
+  }
   return status;
+}
+
+void sb_evaluator_near(SbEvaluator *evaluator, bool keeps, const SbEvaluator *near) {
+  evaluator->keeps = keeps;
+  evaluator->near = near;
+  evaluator->answered = false; // what stands was found otherwise
 }
 
 SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestion *question,

@@ -6,10 +6,14 @@
 // the parameter's range. An error is told with every derivative: what the last extrapolation
 // changed, and the rounding that the step magnifies.
 //
-// Solved rings scatter: their meshes are fitted to the contacts, which a small step moves by less
-// than an element. Their figures are differentiated over a wide step instead, with the scatter over
-// it in the error (some 1 % of a figure in proportion to its parameter). Parameters that do not
-// enter the contacts (sb_evaluator_has_solved()) solve none again, whatever the models.
+// Solved rings are differentiated by the implicit function theorem: Newton's method from the base's
+// state, on its mesh and with its active set, to rounding, at two neighbours (ring.h,
+// sb_ring_near()), and the fixed point of their friction law with them. Films lie on the base's
+// pressure, stretched to the neighbour's contact and load. What that leaves out is told in the
+// error, roughly: 2 % for meshes that follow the contacts, 30 % where the ring rubs on floor or
+// walls, whose history another ring would have had, and 20 % more of films. Everything else, films
+// and cycle too, goes by differences. A ring that rolls or jams has no tangent. Parameters that do
+// not enter the contacts (sb_evaluator_has_solved()) solve none again, whatever the models.
 //
 // A figure that has the same bits on both sides does not depend on the parameter: its derivative is
 // an exact 0, of error 0. It has none (NaN, with a reason) where the figure itself has no value,

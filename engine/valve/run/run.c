@@ -103,6 +103,12 @@ SbStatus sb_run_renew_same(SbRun *run, const SbModel *model, SbReport *report) {
   return sb_succeed(report);
 }
 
+void sb_run_near(SbRun *run, bool keeps, const SbRun *near) {
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    sb_sliding_memory_near(run->memory[i], keeps, near != NULL ? near->memory[i] : NULL);
+  }
+}
+
 void sb_run_destroy(SbRun *run) {
   if (run == NULL) {
     return;
