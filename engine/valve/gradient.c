@@ -307,9 +307,9 @@ static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
 
 // What the tangent of a solved ring leaves out, over the derivative: its history of friction on
 // floor and walls, which another ring would have had (wide differences of whole solutions on
-// ring-cycle, themselves good to a fifth, are a quarter more in load over radial space); the mesh,
+// ring-cycle, themselves good to a fifth, are a quarter more in loads and widths over radial space); the mesh,
 // which follows a ring's contact; with a film, the pressure's root at the contact's ends.
-static const double HISTORY = 0.3, MESH = 0.02, ROOT = 0.2;
+static const double HISTORY = 0.4, MESH = 0.1, ROOT = 0.2;
 
 // The same of a figure that hangs on rings near the base's.
 static void estimate_near(Estimate *out, const Work *work, int at, size_t figure) {

@@ -10,7 +10,7 @@
 // state, on its mesh and with its active set, to rounding, at two neighbours (ring.h,
 // sb_ring_near()), and the fixed point of their friction law with them. Films lie on the base's
 // pressure, stretched to the neighbour's contact and load. What that leaves out is told in the
-// error, roughly: 2 % for meshes that follow the contacts, 30 % where the ring rubs on floor or
+// error, roughly: 10 % for meshes that follow the contacts, 40 % where the ring rubs on floor or
 // walls, whose history another ring would have had, and 20 % more of films. Everything else, films
 // and cycle too, goes by differences. A ring that rolls or jams has no tangent. Parameters that do
 // not enter the contacts (sb_evaluator_has_solved()) solve none again, whatever the models.
