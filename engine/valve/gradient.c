@@ -84,6 +84,44 @@ bool sb_gradient_wants(SbParamId id) {
   return sb_param(id)->kind == SB_PARAM_REAL;
 }
 
+// Place of a parameter, the number of parameters if it has not got it.
+static size_t place_of(const SbGradient *gradient, SbParamId id) {
+  size_t at = 0;
+  while (at < gradient->parameters && gradient->parameter[at] != id) {
+    at++;
+  }
+  return at;
+}
+
+SbStatus sb_gradient_predict(double *value, const SbGradient *gradient, const SbOverride *override,
+                             size_t count, SbReport *report) {
+  for (size_t i = 0; i < count; i++) {
+    const SbParam *param = sb_param(override[i].id);
+    if (place_of(gradient, override[i].id) == gradient->parameters) {
+      return sb_fail_parameter(report, SB_ERROR_INPUT, param->key, "no derivative by it is known");
+    }
+    if (!(override[i].value >= param->min && override[i].value <= param->max)) {
+      return sb_fail_parameter(report, SB_ERROR_RANGE, param->key, "%g is outside %g to %g (%s)",
+                               override[i].value, param->min, param->max, param->si);
+    }
+  }
+  for (size_t f = 0; f < gradient->figures; f++) {
+    value[f] = gradient->value[f];
+  }
+  for (size_t i = 0; i < count; i++) {
+    const size_t at = place_of(gradient, override[i].id);
+    bool last = true;
+    for (size_t k = i + 1; k < count; k++) {
+      last = last && override[k].id != override[i].id;
+    }
+    const double by = override[i].value - gradient->at[at];
+    for (size_t f = 0; f < gradient->figures && last && by != 0; f++) {
+      value[f] += by * sb_gradient_slope(gradient, f, at);
+    }
+  }
+  return sb_succeed(report);
+}
+
 static SbGradient *make(const SbQuestion *question, const SbParamId *parameter, size_t count) {
   SbGradient *out = calloc(1, sizeof *out);
   if (out == NULL) {
@@ -307,8 +345,9 @@ static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
 
 // What the tangent of a solved ring leaves out, over the derivative: its history of friction on
 // floor and walls, which another ring would have had (wide differences of whole solutions on
-// ring-cycle, themselves good to a fifth, are a quarter more in loads and widths over radial space); the mesh,
-// which follows a ring's contact; with a film, the pressure's root at the contact's ends.
+// ring-cycle, themselves good to a fifth, are a quarter more in loads and widths over radial
+// space); the mesh, which follows a ring's contact; with a film, the pressure's root at the
+// contact's ends.
 static const double HISTORY = 0.4, MESH = 0.1, ROOT = 0.2;
 
 // The same of a figure that hangs on rings near the base's.

@@ -33,10 +33,10 @@
 typedef struct SbGradient SbGradient;
 
 // Derivatives of the question's figures by `count` parameters, all real. On SB_OK *out is owned by
-// the caller; it copies what it needs of the question. Each thread needs an evaluator of its own;
-// after the call that has answered the question itself. SB_ERROR_INPUT: a parameter is not real;
-// else as sb_evaluator_ask(): SB_ERROR_NOT_CONVERGED with *out, whose figures have values, others
-// NaN; *out is NULL otherwise. Progress: `done` of `count` parameters, on this thread; may be NULL.
+// the caller; it copies what it needs of the question. Each thread needs an evaluator of its own,
+// which is left without a last question. SB_ERROR_INPUT: a parameter is not real; else as
+// sb_evaluator_ask(), SB_ERROR_NOT_CONVERGED with *out, whose figures have values, others NaN; *out
+// is NULL otherwise. Progress: `done` of `count` parameters, on this thread; may be NULL.
 typedef void (*SbGradientProgress)(void *data, size_t done, size_t count);
 SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQuestion *question,
                             const SbParamId *parameter, size_t count, SbGradientProgress progress,
@@ -63,5 +63,13 @@ double sb_gradient_error(const SbGradient *gradient, size_t figure, size_t param
 // Why a figure has no derivative by a parameter; NULL where it has one. Borrowed.
 const char *sb_gradient_reason(const SbGradient *gradient, size_t figure, size_t parameter);
 
-// Whether the engine has anything that a derivative by this parameter can be asked of: it is real.
+// Figures with other values of some of its parameters, the last of a parameter counts, by their
+// tangents: value[figure] in SI, first order in every change, microseconds. NaN where the figure
+// has no derivative by a parameter that changes. SB_ERROR_INPUT for a parameter that it has not,
+// SB_ERROR_RANGE for a value beyond its range; nothing is written then. Whether an event comes
+// between is not known here: what it says stands in for a solve that is under way.
+SbStatus sb_gradient_predict(double *value, const SbGradient *gradient, const SbOverride *override,
+                             size_t count, SbReport *report);
+
+// Whether there are derivatives by a parameter: it is real.
 bool sb_gradient_wants(SbParamId id);

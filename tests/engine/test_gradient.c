@@ -230,6 +230,34 @@ static void test_kink(void) {
   clear(&valve);
 }
 
+// Predictions meet the valve to second order; unknown and impossible changes are refused.
+static void test_predict(void) {
+  static const SbParamId parameter[] = {SB_P_GLAND_RADIAL_SPACE, SB_P_SEAL_MODULUS};
+  const SbOverride change[] = {
+      {SB_P_SEAL_MODULUS, 5e6}, {SB_P_GLAND_RADIAL_SPACE, 1.361e-3}, {SB_P_SEAL_MODULUS, 2.505e6}};
+  const SbOverride unknown = {SB_P_FLUID_VISCOSITY, 1e-3}, beyond = {SB_P_SEAL_MODULUS, -1};
+  double value[FIGURES], predicted[FIGURES];
+  Valve valve;
+  SbReport report;
+  set_up(&valve, NULL, 0);
+  SbGradient *gradient = gradient_of(&valve, parameter, G_N_ELEMENTS(parameter));
+  valve.question.override = change;
+  valve.question.override_count = G_N_ELEMENTS(change);
+  g_assert_cmpint(sb_evaluator_ask(value, valve.evaluator, &valve.question, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_gradient_predict(predicted, gradient, change, 3, NULL), ==, SB_OK);
+  for (size_t i = 0; i < FIGURES; i++) {
+    const double was = sb_gradient_value(gradient, i);
+    g_assert_true(fabs(predicted[i] - value[i]) <= 2e-2 * fabs(value[i] - was));
+  }
+  g_assert_cmpint(sb_gradient_predict(predicted, gradient, &unknown, 1, &report), ==,
+                  SB_ERROR_INPUT);
+  g_assert_cmpstr(report.parameter, ==, "fluid.viscosity");
+  g_assert_cmpint(sb_gradient_predict(predicted, gradient, &beyond, 1, &report), ==,
+                  SB_ERROR_RANGE);
+  sb_gradient_destroy(gradient);
+  clear(&valve);
+}
+
 static bool stop(void *data) {
   return ++*(int *)data > 5;
 }
@@ -320,6 +348,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/gradient/disc", test_disc);
   g_test_add_func("/gradient/zeros", test_zeros);
   g_test_add_func("/gradient/kink", test_kink);
+  g_test_add_func("/gradient/predict", test_predict);
   g_test_add_func("/gradient/refused", test_refused);
   g_test_add_func("/gradient/ring-near", test_ring_near);
   g_test_add_func("/gradient/films", test_films);
