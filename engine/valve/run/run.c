@@ -252,6 +252,9 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
   run->after_frames = run->life != NULL ? 0.9 * (1 - run->before_frames) : 0;
   SbStatus status = SB_OK;
   if (run->solved.stand) {
+    if (sb_run_cancelled(hooks, report)) {
+      return SB_ERROR_CANCELLED;
+    }
     sb_run_take_states(run);
   } else {
     status = sb_run_solve_states(run, hooks, report);
