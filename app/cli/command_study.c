@@ -100,43 +100,92 @@ static bool set_list(SbStore *store, const SbStudyFile *study, GError **error) {
 
 // ---- What people read ----
 
-static void print_limits(const SbStudyFile *study, const SbAnswers *answers) {
-  for (size_t i = 0; i < study->limits.count; i++) {
-    const SbLimit *limit = &study->limits.item[i];
-    const SbFigure *figure = sb_figure(limit->figure);
-    const bool low = isfinite(limit->low), high = isfinite(limit->high);
-    g_autofree char *first = sb_figure_format(limit->figure, low ? limit->low : limit->high, NAN);
-    g_autofree char *second =
-        low && high ? sb_figure_format(limit->figure, limit->high, NAN) : g_strdup("");
-    SbLimitShare share;
-    sb_study_limit_share(&share, study, answers, i);
-    g_autofree char *text = g_strdup_printf("%s%s%s%s",
-                                            low && high ? ""
-                                            : low       ? ">= "
-                                                        : "<= ",
-                                            first, low && high ? " .. " : "", second);
-    printf("  %-38s %-18s", figure->path, text);
-    if (share.of == 0) {
-      puts(" no sample has it");
-    } else if (study->method == SB_METHOD_MONTE_CARLO) {
-      printf(" %zu of %zu beyond: %.3g %% (95 %%: %.3g to %.3g %%)\n", share.beyond, share.of,
-             100 * share.probability, 100 * share.interval[0], 100 * share.interval[1]);
-    } else {
-      printf(" %zu of %zu beyond\n", share.beyond, share.of);
+static void print_share(const SbStudyFile *study, const SbLimitShare *share) {
+  const bool reliability = study->method == SB_METHOD_RELIABILITY;
+  if (share->of == 0) {
+    puts(" no sample has it");
+  } else if (reliability && isnan(share->probability)) {
+    puts(" not all samples are there");
+  } else if (reliability || study->method == SB_METHOD_MONTE_CARLO) {
+    if (!reliability) {
+      printf(" %zu of %zu beyond:", share->beyond, share->of);
     }
+    const double unit = reliability ? 1e6 : 100;
+    const char *name = reliability ? "ppm" : "%";
+    printf(" %.3g %s (95 %%: %.3g to %.3g %s)", unit * share->probability, name,
+           unit * share->interval[0], unit * share->interval[1], name);
+    if (reliability && isfinite(share->beta)) {
+      printf(", beta %.3f", share->beta);
+    }
+    printf("%s%s\n", reliability && share->reason[0] != '\0' ? ": " : "",
+           reliability ? share->reason : "");
+  } else {
+    printf(" %zu of %zu beyond\n", share->beyond, share->of);
   }
 }
 
-static int print_table(const SbStudyFile *study, const SbAnswers *answers) {
+// Where the searches found failures to be most probable.
+static void print_modes(const SbStudyFile *study, const SbReliability *reliability, size_t limit) {
+  for (size_t i = 0; i < reliability->count; i++) {
+    const SbFailureMode *mode = &reliability->mode[i];
+    if (mode->limit != limit) {
+      continue;
+    }
+    if (mode->found.end != SB_SEARCH_FOUND) {
+      printf("      sampled without a point of failure: %s\n", sb_search_text(mode->found.end));
+      continue;
+    }
+    printf("      most probable (FORM: beta %.3f) at", mode->found.beta);
+    for (guint k = 0; k < study->vary->len; k++) {
+      const SbParam *param = sb_param(g_array_index(study->vary, SbVary, k).id);
+      char digits[SB_NUMBER_SIZE];
+      if (param->kind == SB_PARAM_REAL) {
+        printf("%s %s %s %s", k > 0 ? "," : "", param->key,
+               sb_number_round(digits, sb_quantity_to_shown(mode->value[k], param->si, param->unit),
+                               5),
+               param->unit);
+      }
+    }
+    putchar('\n');
+  }
+}
+
+static SbStatus print_limits(const SbStudyFile *study, const SbStudyDrawn *drawn,
+                             const SbAnswers *answers, SbReport *report) {
+  SbStatus status = SB_OK;
+  for (size_t i = 0; status == SB_OK && study->limits.count > 0 && i <= study->limits.count; i++) {
+    SbLimitShare share;
+    status = sb_study_limit_share(&share, study, drawn, answers, i, report);
+    if (i == study->limits.count) {
+      printf("  %-38s %-18s", "any limit", "");
+      print_share(study, &share);
+      break;
+    }
+    const SbLimit *limit = &study->limits.item[i];
+    g_autofree char *text = sb_limit_format(limit->figure, limit->low, limit->high);
+    printf("  %-38s %-18s", sb_figure(limit->figure)->path, text);
+    print_share(study, &share);
+    if (drawn->reliability != NULL) {
+      print_modes(study, drawn->reliability, i);
+    }
+  }
+  return status;
+}
+
+static int print_table(const SbStudyFile *study, const SbStudyDrawn *drawn,
+                       const SbAnswers *answers) {
   enum { ROWS = 24 };
+  SbReport report = {0};
   printf("%s: %s, %zu samples\n", study->title, sb_study_method_name(study->method),
          study->samples);
+  if (drawn->reliability != NULL) {
+    return sb_cli_status(print_limits(study, drawn, answers, &report), &report);
+  }
   printf("  %-38s %12s %12s %12s %12s %12s\n", "", "mean", "deviation", "5 %", "median", "95 %");
   size_t shown = 0, with = 0;
   for (size_t k = 0; k < answers->figures; k++) {
     const int index = g_array_index(study->figures, int, k);
     SbSummaryOfSamples of;
-    SbReport report = {0};
     const SbStatus status =
         sb_samples_summary(&of, answers->value + k, answers->samples, answers->figures, &report);
     if (status != SB_OK) {
@@ -168,14 +217,13 @@ static int print_table(const SbStudyFile *study, const SbAnswers *answers) {
   if (with > shown) {
     printf("  and %zu more figures: --csv, --json, or figures = in [study]\n", with - shown);
   }
-  print_limits(study, answers);
-  return SB_EXIT_DONE;
+  return sb_cli_status(print_limits(study, drawn, answers, &report), &report);
 }
 
 // ---- The command ----
 
 static int write_outputs(const Options *options, const SbStudyFile *study, const double *value,
-                         const double *unit, const SbAnswers *answers, const char *cpus) {
+                         const SbStudyDrawn *drawn, const SbAnswers *answers, const char *cpus) {
   GError *error = NULL;
   if (options->csv != NULL) {
     SbOutput out = {0};
@@ -189,11 +237,11 @@ static int write_outputs(const Options *options, const SbStudyFile *study, const
   }
   if (options->json != NULL) {
     SbReport report = {0};
-    g_autofree char *json = sb_study_json(study, unit, answers, cpus, &report);
+    g_autofree char *json = sb_study_json(study, drawn, answers, cpus, &report);
     return json != NULL ? sb_cli_emit(json, options->json) : sb_cli_status(report.status, &report);
   }
   const bool streamed = options->csv != NULL && strcmp(options->csv, "-") == 0;
-  return sb_cli_quiet() || streamed ? SB_EXIT_DONE : print_table(study, answers);
+  return sb_cli_quiet() || streamed ? SB_EXIT_DONE : print_table(study, drawn, answers);
 }
 
 // Exit code of samples that failed: of a solver 2; a design that cannot be is an answer.
@@ -215,7 +263,7 @@ static int judge(const SbAnswers *answers) {
 }
 
 static int solve(const Options *options, const SbStudyFile *study, SbStore *store,
-                 const double *value, const double *unit) {
+                 const double *value, const SbStudyDrawn *drawn) {
   SbParamId parameter[SB_VARY_MAX];
   for (guint i = 0; i < study->vary->len; i++) {
     parameter[i] = g_array_index(study->vary, SbVary, i).id;
@@ -261,7 +309,7 @@ static int solve(const Options *options, const SbStudyFile *study, SbStore *stor
   }
   if (good || code == SB_EXIT_INTERRUPTED) {
     g_autofree char *cpus = sb_store_cpus(store);
-    const int written = write_outputs(options, study, value, unit, &answers, cpus);
+    const int written = write_outputs(options, study, value, drawn, &answers, cpus);
     const int judged = judge(&answers);
     code = MAX(code, MAX(written, judged));
   }
@@ -313,6 +361,30 @@ static int emit_slurm(const Options *options, const SbStudyFile *study) {
                                                                      : sb_cli_error(error);
 }
 
+// The points of the method. An exit code.
+static int lay_out(double **value, double **unit, SbReliability *reliability,
+                   const Options *options, const SbStudyFile *study) {
+  SbReport report = {0};
+  SbStatus status;
+  if (study->method == SB_METHOD_RELIABILITY) {
+    sb_cli_catch_interrupts();
+    status = sb_reliability_search(reliability, study, options->threads, sb_cli_interrupted, NULL,
+                                   &report);
+    status =
+        status == SB_OK ? sb_reliability_points(value, unit, study, reliability, &report) : status;
+    if (status != SB_OK) {
+      sb_reliability_release(reliability);
+    }
+  } else {
+    status = sb_study_file_points(value, unit, study, &report);
+  }
+  if (status == SB_ERROR_CANCELLED) {
+    (void)sb_cli_fail("interrupted before the first sample");
+    return SB_EXIT_INTERRUPTED;
+  }
+  return sb_cli_status(status, &report);
+}
+
 static int study_file(const Options *options, const SbStudyFile *study) {
   GError *error = NULL;
   const bool serves = answer_pool != NULL && answer_pool->serve != NULL;
@@ -322,22 +394,24 @@ static int study_file(const Options *options, const SbStudyFile *study) {
     return MAX(code, code == SB_EXIT_DONE ? SB_EXIT_IO : code);
   }
   double *value = NULL, *unit = NULL;
-  SbReport report = {0};
-  const SbStatus status = sb_study_file_points(&value, &unit, study, &report);
-  if (status != SB_OK) {
-    return sb_cli_status(status, &report);
+  SbReliability reliability = {0};
+  code = lay_out(&value, &unit, &reliability, options, study);
+  if (code != SB_EXIT_DONE) {
+    return code;
   }
   SbStore *store = sb_store_open(path, &error);
   if (store == NULL || !set_list(store, study, &error)) {
     code = sb_cli_error(error);
   } else {
-    code = solve(options, study, store, value, unit);
+    const SbStudyDrawn drawn = {unit, study->method == SB_METHOD_RELIABILITY ? &reliability : NULL};
+    code = solve(options, study, store, value, &drawn);
   }
   error = NULL;
   if (!sb_store_close(store, &error)) {
     const int told = sb_cli_error(error);
     code = MAX(code, told);
   }
+  sb_reliability_release(&reliability);
   free(value);
   free(unit);
   return code;

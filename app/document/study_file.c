@@ -1,17 +1,12 @@
 // Reads study files and lays out their points; see the header.
-#include "app/document/study_file.h"
+#include "app/document/study_file_private.h"
 
 #include "app/base/nearest.h"
 #include "app/base/reader.h"
-#include "app/document/document_private.h"
 
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
-
-#define GROUP_VARY        "vary"
-#define GROUP_STUDY       "study"
-#define GROUP_CORRELATION "correlation"
 
 static const char *const methods[SB_METHOD_COUNT] = {
 #define METHOD_NAME(code, name) [code] = name,
@@ -23,23 +18,17 @@ const char *sb_study_method_name(SbStudyMethod method) {
   return (unsigned)method < SB_METHOD_COUNT ? methods[method] : "";
 }
 
-// What is being read.
-typedef struct {
-  SbStudyFile *study;
-  const GPtrArray *entries;
-  const char *shown;
-  GPtrArray *issues;
-} Reader;
-
 static const char vary_forms[] = "uniform A .. B[, N], loguniform A .. B[, N], normal MEAN, "
                                  "DEVIATION [within A .. B], levels A, B, ...";
+
+static const char tolerance_forms[] = "uniform A .. B, normal MEAN, DEVIATION [within A .. B]";
 
 static char *full_key(const SbEntry *entry) {
   return g_strdup_printf("%s.%s", entry->group, entry->name);
 }
 
-static void complain(const Reader *reader, const SbEntry *entry, const char *allowed,
-                     const char *text) {
+void sb_study_complain(const SbStudyReader *reader, const SbEntry *entry, const char *allowed,
+                       const char *text) {
   g_autofree char *key = full_key(entry);
   sb_issues_add(reader->issues, reader->shown, entry->line, key, allowed, "%s", text);
 }
@@ -61,20 +50,31 @@ static bool fail(GError **error, const char *format, ...) {
 
 // ---- [vary] ----
 
-// A value of the parameter, within its range.
-static bool read_value(double *out, SbParamId id, const char *text, GError **error) {
+// A difference of two values of a parameter.
+static bool read_difference(double *out, const SbParam *param, const char *text, GError **error) {
   g_autofree char *trimmed = g_strstrip(g_strdup(text));
-  return sb_param_parse(out, id, trimmed, error);
+  const char *shown = sb_quantity_is_point(param->unit) ? "K" : param->unit;
+  return sb_quantity_parse(out, trimmed, param->si, shown, error);
+}
+
+// A value of the parameter, within its range, or of a tolerance.
+static bool read_value(double *out, const SbVary *vary, const char *text, GError **error) {
+  if (vary->offset) {
+    return read_difference(out, sb_param(vary->id), text, error);
+  }
+  g_autofree char *trimmed = g_strstrip(g_strdup(text));
+  return sb_param_parse(out, vary->id, trimmed, error);
 }
 
 // "A .. B".
-static bool read_range(double *low, double *high, SbParamId id, const char *text, GError **error) {
+static bool read_range(double *low, double *high, const SbVary *vary, const char *text,
+                       GError **error) {
   const char *dots = strstr(text, "..");
   if (dots == NULL) {
     return fail(error, "\"%.60s\" is no range", text);
   }
   g_autofree char *first = g_strndup(text, (gsize)(dots - text));
-  if (!read_value(low, id, first, error) || !read_value(high, id, dots + 2, error)) {
+  if (!read_value(low, vary, first, error) || !read_value(high, vary, dots + 2, error)) {
     return false;
   }
   return *low < *high || fail(error, "the range \"%.60s\" does not rise", text);
@@ -94,7 +94,7 @@ static bool read_uniform(SbVary *vary, const char *text, GError **error) {
     of->count = (size_t)count;
   }
   g_autofree char *range = g_strndup(text, comma != NULL ? (gsize)(comma - text) : strlen(text));
-  if (!read_range(&of->a, &of->b, vary->id, range, error)) {
+  if (!read_range(&of->a, &of->b, vary, range, error)) {
     return false;
   }
   return of->kind != SB_DISTRIBUTION_LOGUNIFORM || of->a > 0 ||
@@ -104,7 +104,6 @@ static bool read_uniform(SbVary *vary, const char *text, GError **error) {
 // "MEAN, DEVIATION" or "MEAN, DEVIATION within A .. B".
 static bool read_normal(SbVary *vary, const char *text, GError **error) {
   SbDistribution *of = &vary->distribution;
-  const SbParam *param = sb_param(vary->id);
   const char *comma = strchr(text, ','), *within = strstr(text, " within ");
   if (comma == NULL || (within != NULL && within < comma)) {
     return fail(error, "\"%.60s\" is no mean with a deviation", text);
@@ -112,9 +111,8 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
   g_autofree char *mean = g_strndup(text, (gsize)(comma - text));
   g_autofree char *deviation = g_strstrip(
       g_strndup(comma + 1, within != NULL ? (gsize)(within - comma - 1) : strlen(comma + 1)));
-  const char *shown = sb_quantity_is_point(param->unit) ? "K" : param->unit;
-  if (!read_value(&of->a, vary->id, mean, error) ||
-      !sb_quantity_parse(&of->b, deviation, param->si, shown, error)) {
+  if (!read_value(&of->a, vary, mean, error) ||
+      !read_difference(&of->b, sb_param(vary->id), deviation, error)) {
     return false;
   }
   if (!(of->b > 0)) {
@@ -123,7 +121,7 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
   of->low = -INFINITY;
   of->high = INFINITY;
   if (within != NULL) {
-    if (!read_range(&of->low, &of->high, vary->id, within + strlen(" within "), error)) {
+    if (!read_range(&of->low, &of->high, vary, within + strlen(" within "), error)) {
       return false;
     }
     // Six deviations out there is one value in 1e9.
@@ -142,7 +140,7 @@ static bool read_levels(SbVary *vary, const char *text, GError **error) {
   }
   vary->levels = g_new(double, count + 1);
   for (size_t i = 0; i < count; i++) {
-    if (!read_value(&vary->levels[i], vary->id, parts[i], error)) {
+    if (!read_value(&vary->levels[i], vary, parts[i], error)) {
       return false;
     }
   }
@@ -165,6 +163,10 @@ static bool read_distribution(SbVary *vary, const char *text, GError **error) {
   for (size_t i = 0; i < G_N_ELEMENTS(forms); i++) {
     if (strlen(forms[i].name) == length && strncmp(text, forms[i].name, length) == 0) {
       vary->distribution.kind = forms[i].kind;
+      if (vary->offset && (kind != SB_PARAM_REAL || (forms[i].kind != SB_DISTRIBUTION_UNIFORM &&
+                                                     forms[i].kind != SB_DISTRIBUTION_NORMAL))) {
+        return fail(error, "\"%.60s\" is no tolerance", text);
+      }
       if ((kind == SB_PARAM_CHOICE || kind == SB_PARAM_INT) &&
           forms[i].kind != SB_DISTRIBUTION_LEVELS) {
         return fail(error, "only levels suit %s",
@@ -176,31 +178,34 @@ static bool read_distribution(SbVary *vary, const char *text, GError **error) {
   return fail(error, "\"%.60s\" says no distribution", text);
 }
 
-static void read_vary(Reader *reader, const SbEntry *entry) {
-  SbStudyFile *study = reader->study;
+static void read_vary(SbStudyReader *reader, const SbEntry *entry, GArray *list, bool offset) {
   const int id = sb_param_find(entry->name);
-  SbVary vary = {.id = (SbParamId)id};
+  SbVary vary = {.id = (SbParamId)id, .offset = offset};
   g_autoptr(GError) error = NULL;
   if (id < 0) {
     g_autofree char *hint = sb_document_key_hint(entry->name);
     g_autofree char *text = g_strdup_printf("there is no such parameter%s", hint);
-    complain(reader, entry, NULL, text);
+    sb_study_complain(reader, entry, NULL, text);
   } else if (sb_param(vary.id)->kind == SB_PARAM_FLAGS) {
-    complain(reader, entry, NULL, "a list of words does not vary");
-  } else if (study->vary->len == SB_VARY_MAX) {
-    complain(reader, entry, NULL, "is more than the 64 parameters that may vary");
+    sb_study_complain(reader, entry, NULL, "a list of words does not vary");
+  } else if (list->len == SB_VARY_MAX) {
+    sb_study_complain(reader, entry, NULL, "is more than the 64 parameters that may vary");
   } else if (!read_distribution(&vary, entry->value, &error)) {
     g_autofree char *range = sb_param_range(vary.id);
-    complain(reader, entry, error->code == BAD_FORM ? vary_forms : range, error->message);
+    sb_study_complain(reader, entry,
+                      error->code == BAD_FORM ? (offset ? tolerance_forms : vary_forms)
+                      : offset                ? NULL
+                                              : range,
+                      error->message);
     g_free(vary.levels);
   } else {
-    g_array_append_val(study->vary, vary);
+    g_array_append_val(list, vary);
   }
 }
 
 // ---- [correlation] ----
 
-static int vary_index(const SbStudyFile *study, const char *key) {
+int sb_study_vary_index(const SbStudyFile *study, const char *key) {
   for (guint i = 0; i < study->vary->len; i++) {
     if (strcmp(sb_param(g_array_index(study->vary, SbVary, i).id)->key, key) == 0) {
       return (int)i;
@@ -210,18 +215,18 @@ static int vary_index(const SbStudyFile *study, const char *key) {
 }
 
 // "KEY, KEY = 0.3" into the matrix.
-static void read_correlation(Reader *reader, const SbEntry *entry, double *matrix) {
+static void read_correlation(SbStudyReader *reader, const SbEntry *entry, double *matrix) {
   SbStudyFile *study = reader->study;
   g_auto(GStrv) keys = g_strsplit(entry->name, ",", -1);
   int at[2] = {-1, -1};
   for (int i = 0; g_strv_length(keys) == 2 && i < 2; i++) {
-    at[i] = vary_index(study, g_strstrip(keys[i]));
+    at[i] = sb_study_vary_index(study, g_strstrip(keys[i]));
   }
   double share = 0;
   if (at[0] < 0 || at[1] < 0 || at[0] == at[1]) {
-    complain(reader, entry, "KEY, KEY = NUMBER", "does not name two parameters of [vary]");
+    sb_study_complain(reader, entry, "KEY, KEY = NUMBER", "does not name two parameters of [vary]");
   } else if (!sb_number_parse(&share, entry->value) || !(fabs(share) < 1)) {
-    complain(reader, entry, "between -1 and 1", "is no correlation");
+    sb_study_complain(reader, entry, "between -1 and 1", "is no correlation");
   } else {
     const size_t n = study->vary->len;
     matrix[(size_t)at[0] * n + (size_t)at[1]] = matrix[(size_t)at[1] * n + (size_t)at[0]] = share;
@@ -245,7 +250,7 @@ static bool take_root(double *a, size_t n) {
   return true;
 }
 
-static void read_correlations(Reader *reader) {
+static void read_correlations(SbStudyReader *reader) {
   SbStudyFile *study = reader->study;
   const size_t n = study->vary->len;
   double *matrix = NULL;
@@ -278,7 +283,7 @@ static void read_correlations(Reader *reader) {
 
 // ---- [study] ----
 
-static void take_figure(GArray *figures, int figure) {
+void sb_study_take_figure(GArray *figures, int figure) {
   for (guint i = 0; i < figures->len; i++) {
     if (g_array_index(figures, int, i) == figure) {
       return;
@@ -287,28 +292,32 @@ static void take_figure(GArray *figures, int figure) {
   g_array_append_val(figures, figure);
 }
 
-static void read_figures(Reader *reader, const SbEntry *entry) {
+// Index of a figure, -1 with an issue.
+int sb_study_read_figure(const SbStudyReader *reader, const SbEntry *entry, const char *path) {
+  const int figure = sb_figure_find(path);
+  if (figure < 0) {
+    SbNearest nearest = sb_nearest(path);
+    for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+      sb_nearest_try(&nearest, sb_figure(i)->path);
+    }
+    g_autofree char *hint = sb_nearest_hint(&nearest);
+    g_autofree char *text = g_strdup_printf("there is no figure \"%.60s\"%s", path, hint);
+    sb_study_complain(reader, entry, NULL, text);
+  }
+  return figure;
+}
+
+static void read_figures(SbStudyReader *reader, const SbEntry *entry) {
   g_auto(GStrv) paths = g_strsplit_set(entry->value, ",;", -1);
   for (char **path = paths; *path != NULL; path++) {
-    if (*g_strstrip(*path) == '\0') {
-      continue;
-    }
-    const int figure = sb_figure_find(*path);
-    if (figure < 0) {
-      SbNearest nearest = sb_nearest(*path);
-      for (int i = 0; i < SB_FIGURE_COUNT; i++) {
-        sb_nearest_try(&nearest, sb_figure(i)->path);
-      }
-      g_autofree char *hint = sb_nearest_hint(&nearest);
-      g_autofree char *text = g_strdup_printf("there is no figure \"%.60s\"%s", *path, hint);
-      complain(reader, entry, NULL, text);
-    } else {
-      take_figure(reader->study->figures, figure);
+    const int figure = *g_strstrip(*path) != '\0' ? sb_study_read_figure(reader, entry, *path) : -1;
+    if (figure >= 0) {
+      sb_study_take_figure(reader->study->figures, figure);
     }
   }
 }
 
-static bool read_count(double *out, const char *text, double least, double most) {
+bool sb_study_read_count(double *out, const char *text, double least, double most) {
   double value = 0;
   if (!sb_number_parse(&value, text) || value != floor(value) || value < least || value > most) {
     return false;
@@ -317,7 +326,7 @@ static bool read_count(double *out, const char *text, double least, double most)
   return true;
 }
 
-static void read_study(Reader *reader, const SbEntry *entry, bool *has_samples) {
+static void read_study(SbStudyReader *reader, const SbEntry *entry, bool *has_samples) {
   SbStudyFile *study = reader->study;
   double count = 0;
   if (strcmp(entry->name, "method") == 0) {
@@ -332,32 +341,32 @@ static void read_study(Reader *reader, const SbEntry *entry, bool *has_samples) 
         g_free(list);
         list = longer;
       }
-      complain(reader, entry, list, "there is no such method");
+      sb_study_complain(reader, entry, list, "there is no such method");
     } else {
       study->method = (SbStudyMethod)method;
     }
   } else if (strcmp(entry->name, "samples") == 0) {
     *has_samples = true;
-    if (read_count(&count, entry->value, 1, SB_SAMPLES_MAX)) {
+    if (sb_study_read_count(&count, entry->value, 1, SB_SAMPLES_MAX)) {
       study->samples = (size_t)count;
     } else {
-      complain(reader, entry, "1 to 10000000", "is no number of samples");
+      sb_study_complain(reader, entry, "1 to 10000000", "is no number of samples");
     }
   } else if (strcmp(entry->name, "seed") == 0) {
-    if (read_count(&count, entry->value, 0, 9007199254740992.0)) {
+    if (sb_study_read_count(&count, entry->value, 0, 9007199254740992.0)) {
       study->seed = (guint64)count;
     } else {
-      complain(reader, entry, "0 to 2^53", "is no seed");
+      sb_study_complain(reader, entry, "0 to 2^53", "is no seed");
     }
   } else if (strcmp(entry->name, "figures") == 0) {
     read_figures(reader, entry);
   } else {
-    complain(reader, entry, "method, samples, seed, figures", "unknown key");
+    sb_study_complain(reader, entry, "method, samples, seed, figures", "unknown key");
   }
 }
 
 // How many samples the method makes of those that were asked for, 0 with an issue.
-static void settle_samples(Reader *reader, bool has_samples) {
+static void settle_samples(SbStudyReader *reader, bool has_samples) {
   SbStudyFile *study = reader->study;
   const size_t n = study->vary->len;
   size_t block = 1;
@@ -390,7 +399,9 @@ static void settle_samples(Reader *reader, bool has_samples) {
   } else if (study->method == SB_METHOD_SOBOL_INDICES) {
     block = n + 2;
   }
-  if (!has_samples) {
+  if (!has_samples && study->design.asked) {
+    study->samples = 0;
+  } else if (!has_samples) {
     sb_issues_add(reader->issues, reader->shown, 0, "study.samples", "1 to 10000000",
                   "is missing: how many samples there are");
   } else if (study->samples < 2 * block && block > 1) {
@@ -404,9 +415,26 @@ static void settle_samples(Reader *reader, bool has_samples) {
   study->samples -= study->samples % block;
 }
 
+// Failures are looked for along the slopes of figures with limits.
+static void check_reliability(SbStudyReader *reader) {
+  const SbStudyFile *study = reader->study;
+  for (guint i = 0; i < study->vary->len; i++) {
+    const SbVary *vary = &g_array_index(study->vary, SbVary, i);
+    if (vary->distribution.kind == SB_DISTRIBUTION_LEVELS && vary->distribution.count > 1) {
+      g_autofree char *key = g_strconcat(GROUP_VARY ".", sb_param(vary->id)->key, NULL);
+      sb_issues_add(reader->issues, reader->shown, 0, key, "uniform, loguniform, normal, one level",
+                    "the method reliability takes no levels: a study of each");
+    }
+  }
+  if (study->limits.count == 0) {
+    sb_issues_add(reader->issues, reader->shown, 0, SB_LIMITS_GROUP, "FIGURE = >= A, <= B, A .. B",
+                  "the method reliability needs limits, here or in the scene");
+  }
+}
+
 // ---- The file ----
 
-static bool read_meta(Reader *reader, char **scene) {
+static bool read_meta(SbStudyReader *reader, char **scene) {
   const GPtrArray *entries = reader->entries;
   const SbEntry *first = entries->len > 0 ? entries->pdata[0] : NULL;
   if (first == NULL || strcmp(first->group, SB_META_GROUP) != 0) {
@@ -430,7 +458,7 @@ static bool read_meta(Reader *reader, char **scene) {
       g_free(reader->study->title);
       reader->study->title = sb_printable(entry->value, strlen(entry->value));
     } else {
-      complain(reader, entry, "format, kind, title, scene", "unknown key");
+      sb_study_complain(reader, entry, "format, kind, title, scene", "unknown key");
     }
   }
   if (format == NULL || strcmp(format, "1") != 0) {
@@ -450,7 +478,7 @@ static bool read_meta(Reader *reader, char **scene) {
   return true;
 }
 
-static void read_groups(Reader *reader) {
+static void read_groups(SbStudyReader *reader) {
   SbStudyFile *study = reader->study;
   bool has_samples = false, known = true, varies = false;
   const char *bad = NULL;
@@ -458,9 +486,10 @@ static void read_groups(Reader *reader) {
     const SbEntry *entry = reader->entries->pdata[i];
     const char *group = entry->group;
     if (entry->name == NULL) {
-      static const char *const names[] = {SB_META_GROUP,     GROUP_VARY, GROUP_STUDY,
-                                          GROUP_CORRELATION, "limits",   "design",
-                                          "tolerances",      "data",     NULL};
+      static const char *const names[] = {SB_META_GROUP,     GROUP_VARY,      GROUP_STUDY,
+                                          GROUP_CORRELATION, SB_LIMITS_GROUP, GROUP_DESIGN,
+                                          GROUP_TOLERANCES,  "data",          NULL};
+      study->design.asked |= strcmp(group, GROUP_DESIGN) == 0;
       known = g_strv_contains(names, group) || g_str_has_prefix(group, "data ");
       if (!known && (bad == NULL || strcmp(bad, group) != 0)) {
         bad = group;
@@ -470,7 +499,11 @@ static void read_groups(Reader *reader) {
       }
     } else if (strcmp(group, GROUP_VARY) == 0) {
       varies = true;
-      read_vary(reader, entry);
+      read_vary(reader, entry, study->vary, false);
+    } else if (strcmp(group, GROUP_TOLERANCES) == 0) {
+      read_vary(reader, entry, study->design.tolerances, true);
+    } else if (strcmp(group, GROUP_DESIGN) == 0) {
+      sb_study_read_design(reader, entry);
     } else if (strcmp(group, GROUP_STUDY) == 0) {
       read_study(reader, entry, &has_samples);
     }
@@ -482,7 +515,13 @@ static void read_groups(Reader *reader) {
   if (study->vary->len == 0) {
     return;
   }
+  if (study->design.asked) {
+    sb_study_check_design(reader);
+  }
   settle_samples(reader, has_samples);
+  if (study->method == SB_METHOD_RELIABILITY) {
+    check_reliability(reader);
+  }
   read_correlations(reader);
 }
 
@@ -504,7 +543,8 @@ static char *hash_scene(const SbDocument *scene) {
 }
 
 // The scene as a model, and what tells it from every other.
-static void open_scene(Reader *reader, const char *name, char **settings, const char *directory) {
+static void open_scene(SbStudyReader *reader, const char *name, char **settings,
+                       const char *directory) {
   SbStudyFile *study = reader->study;
   if (study->scene == NULL) {
     g_autofree char *path = g_path_is_absolute(name) || directory == NULL
@@ -537,7 +577,9 @@ SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *na
   study->figures = g_array_new(FALSE, FALSE, sizeof(int));
   study->method = SB_METHOD_MONTE_CARLO;
   study->seed = 1;
-  Reader reader = {study, entries, name, issues};
+  study->design = (SbDesignWish){.figure = SB_FIGURE_NONE, .robust = NAN, .starts = 8};
+  study->design.tolerances = g_array_new(FALSE, FALSE, sizeof(SbVary));
+  SbStudyReader reader = {study, entries, name, issues};
   if (read_meta(&reader, &scene_name)) {
     open_scene(&reader, scene_name, settings, directory);
     read_groups(&reader);
@@ -545,12 +587,14 @@ SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *na
   if (issues->len > before) {
     return NULL;
   }
-  const bool all = study->figures->len == 0;
+  // Probabilities of limits need no other figure.
+  const bool all =
+      study->figures->len == 0 && study->method != SB_METHOD_RELIABILITY && !study->design.asked;
   for (int i = 0; all && i < SB_FIGURE_COUNT; i++) {
     g_array_append_val(study->figures, i);
   }
   for (size_t i = 0; i < study->limits.count; i++) {
-    take_figure(study->figures, study->limits.item[i].figure);
+    sb_study_take_figure(study->figures, study->limits.item[i].figure);
   }
   return g_steal_pointer(&study);
 }
@@ -582,6 +626,13 @@ void sb_study_file_free(SbStudyFile *study) {
   }
   g_array_unref(study->vary);
   g_array_unref(study->figures);
+  if (study->design.tolerances != NULL) {
+    g_array_unref(study->design.tolerances);
+  }
+  if (study->borrowed) {
+    g_free(study);
+    return;
+  }
   sb_document_free(study->scene);
   sb_model_destroy(study->base);
   g_free(study->base_sha256);

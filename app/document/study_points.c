@@ -16,24 +16,36 @@ static void fill_grid(double *value, const SbStudyFile *study) {
   }
 }
 
+void sb_study_file_place(double *value, double *slope, const SbStudyFile *study, const double *u) {
+  const size_t n = study->vary->len;
+  for (size_t k = 0; k < n; k++) {
+    const SbDistribution *of = &g_array_index(study->vary, SbVary, k).distribution;
+    double variate = study->root == NULL ? u[k] : 0;
+    for (size_t j = 0; study->root != NULL && j <= k; j++) {
+      variate += study->root[k * n + j] * u[j];
+    }
+    value[k] = sb_distribution_at_normal(of, variate);
+    for (size_t j = 0; slope != NULL && j < n; j++) {
+      const double root = study->root != NULL ? study->root[k * n + j] : j == k;
+      slope[k * n + j] = j <= k ? root * sb_distribution_slope(of, variate) : 0;
+    }
+  }
+}
+
 // Turns a point of the unit cube into values.
 static void place(double *value, const double *unit, const SbStudyFile *study) {
   const size_t n = study->vary->len;
   double z[SB_VARY_MAX];
-  for (size_t k = 0; study->root != NULL && k < n; k++) {
-    z[k] = sb_normal_quantile(unit[k]);
-  }
   for (size_t k = 0; k < n; k++) {
     const SbDistribution *of = &g_array_index(study->vary, SbVary, k).distribution;
     if (study->root == NULL) {
       value[k] = sb_distribution_quantile(of, unit[k]);
-      continue;
+    } else {
+      z[k] = sb_normal_quantile(unit[k]);
     }
-    double variate = 0;
-    for (size_t j = 0; j <= k; j++) {
-      variate += study->root[k * n + j] * z[j];
-    }
-    value[k] = sb_distribution_at_normal(of, variate);
+  }
+  if (study->root != NULL) {
+    sb_study_file_place(value, NULL, study, z);
   }
 }
 

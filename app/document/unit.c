@@ -479,3 +479,11 @@ char *sb_param_range(SbParamId id) {
   g_free(max);
   return range;
 }
+
+char *sb_limit_format(int figure, double low, double high) {
+  g_autofree char *first = sb_figure_format(figure, isfinite(low) ? low : high, NAN);
+  g_autofree char *second = sb_figure_format(figure, high, NAN);
+  return isfinite(low) && isfinite(high)
+             ? g_strdup_printf("%s .. %s", first, second)
+             : g_strdup_printf("%s %s", isfinite(low) ? ">=" : "<=", first);
+}

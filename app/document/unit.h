@@ -44,6 +44,9 @@ char *sb_param_format(SbParamId id, double value);
 // supports; "yes" or "no"; "-" where it is not a number. Owned by the caller.
 char *sb_figure_format(int index, double value, double error);
 
+// A limit on a figure, an open end infinite: ">= 2 N", "8 % .. 25 %". Owned by the caller.
+char *sb_limit_format(int figure, double low, double high);
+
 // Its label with what tells it from others: "Load, outer seal". Owned by the caller.
 char *sb_figure_label(int index);
 

@@ -9,15 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-int sb_study_column_of(const SbStudyFile *study, int figure) {
-  for (guint i = 0; i < study->figures->len; i++) {
-    if (g_array_index(study->figures, int, i) == figure) {
-      return (int)i;
-    }
-  }
-  return -1;
-}
-
 size_t sb_study_done(const SbAnswers *answers) {
   size_t done = 0;
   for (size_t i = 0; i < answers->samples; i++) {
@@ -46,28 +37,6 @@ const char *sb_study_status_name(uint8_t status) {
     return "not-computed";
   default:
     return "refused";
-  }
-}
-
-// ---- Limits ----
-
-void sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study, const SbAnswers *answers,
-                          size_t limit) {
-  const SbLimit *of = &study->limits.item[limit];
-  const int column = sb_study_column_of(study, of->figure);
-  *out = (SbLimitShare){.probability = NAN, .interval = {NAN, NAN}, .beta = NAN};
-  for (size_t i = 0; column >= 0 && i < answers->samples; i++) {
-    const double value = answers->value[i * answers->figures + (size_t)column];
-    if (!isnan(value)) {
-      out->of++;
-      out->beyond += value < of->low || value > of->high;
-    }
-  }
-  if (out->of > 0) {
-    out->probability = (double)out->beyond / (double)out->of;
-    sb_probability_interval(out->interval, out->beyond, out->of);
-    out->beta =
-        out->beyond > 0 && out->beyond < out->of ? -sb_normal_quantile(out->probability) : NAN;
   }
 }
 
@@ -144,34 +113,93 @@ static SbStatus put_figures(SbJson *json, const SbStudyFile *study, const SbAnsw
   return status;
 }
 
-static void put_limit(SbJson *json, const SbStudyFile *study, const SbAnswers *answers,
-                      size_t limit) {
-  const SbLimit *of = &study->limits.item[limit];
-  const bool low = isfinite(of->low), high = isfinite(of->high);
-  SbLimitShare share;
-  sb_study_limit_share(&share, study, answers, limit);
+static const char *vary_key(const SbStudyFile *study, size_t k) {
+  return sb_param(g_array_index(study->vary, SbVary, k).id)->key;
+}
+
+// Where a side of a limit is most probably reached.
+static void put_mode(SbJson *json, const SbStudyFile *study, const SbFailureMode *mode) {
+  const bool found = mode->found.end == SB_SEARCH_FOUND;
   sb_json_object(json, NULL);
-  sb_json_string(json, "figure", sb_figure(of->figure)->path);
-  sb_json_string(json, "relation", low && high ? ".." : low ? ">=" : "<=");
-  if (low && high) {
-    put_interval(json, "limit", of->low, of->high);
-  } else {
-    sb_json_number(json, "limit", low ? of->low : of->high);
+  sb_json_string(json, "relation", mode->upper ? "<=" : ">=");
+  sb_json_bool(json, "found", found);
+  sb_json_string(json, "reason", found ? NULL : sb_search_text(mode->found.end));
+  sb_json_number(json, "beta", mode->found.beta);
+  sb_json_number(json, "probability", sb_normal_share(-mode->found.beta));
+  sb_json_count(json, "evaluations", mode->found.evaluations);
+  sb_json_object(json, "parameters");
+  for (size_t k = 0; k < study->vary->len; k++) {
+    if (sb_param(g_array_index(study->vary, SbVary, k).id)->kind == SB_PARAM_REAL) {
+      sb_json_number(json, vary_key(study, k), found ? mode->value[k] : NAN);
+    }
   }
-  // Points of a grid or of a screening are no draws.
-  const bool drawn = study->method == SB_METHOD_MONTE_CARLO;
-  sb_json_count(json, "samples", share.of);
-  sb_json_count(json, "beyond", share.beyond);
-  sb_json_number(json, "probability_of_failure",
-                 drawn || study->method == SB_METHOD_SOBOL_SEQUENCE ? share.probability : NAN);
-  put_interval(json, "interval_95", drawn ? share.interval[0] : NAN,
-               drawn ? share.interval[1] : NAN);
-  sb_json_number(json, "beta", drawn ? share.beta : NAN);
+  sb_json_object_end(json);
+  // Shares of the squared distance, where the variates are those of the parameters.
+  sb_json_object(json, "importance");
+  for (size_t k = 0; study->root == NULL && k < study->vary->len; k++) {
+    const double part = mode->u[k] / mode->found.beta;
+    sb_json_number(json, vary_key(study, k), part * part);
+  }
+  sb_json_object_end(json);
   sb_json_object_end(json);
 }
 
-static const char *vary_key(const SbStudyFile *study, size_t k) {
-  return sb_param(g_array_index(study->vary, SbVary, k).id)->key;
+// Members of a limit, or of all together.
+static SbStatus put_share(SbJson *json, const SbStudyFile *study, const SbStudyDrawn *drawn,
+                          const SbAnswers *answers, size_t limit, SbReport *report) {
+  // Points of a grid or of a screening are no draws; those of a sequence no independent ones.
+  const bool independent =
+      study->method == SB_METHOD_MONTE_CARLO || study->method == SB_METHOD_RELIABILITY;
+  SbLimitShare share;
+  const SbStatus status = sb_study_limit_share(&share, study, drawn, answers, limit, report);
+  sb_json_count(json, "samples", share.of);
+  sb_json_count(json, "beyond", share.beyond);
+  sb_json_number(json, "probability_of_failure",
+                 independent || study->method == SB_METHOD_SOBOL_SEQUENCE ? share.probability
+                                                                          : NAN);
+  put_interval(json, "interval_95", independent ? share.interval[0] : NAN,
+               independent ? share.interval[1] : NAN);
+  sb_json_number(json, "beta", independent ? share.beta : NAN);
+  if (independent && share.reason[0] != '\0') {
+    sb_json_string(json, "reason", share.reason);
+  }
+  return status;
+}
+
+static SbStatus put_limits(SbJson *json, const SbStudyFile *study, const SbStudyDrawn *drawn,
+                           const SbAnswers *answers, SbReport *report) {
+  SbStatus status = SB_OK;
+  sb_json_array(json, "limits");
+  for (size_t limit = 0; status == SB_OK && limit < study->limits.count; limit++) {
+    const SbLimit *of = &study->limits.item[limit];
+    const bool low = isfinite(of->low), high = isfinite(of->high);
+    sb_json_object(json, NULL);
+    sb_json_string(json, "figure", sb_figure(of->figure)->path);
+    sb_json_string(json, "relation", low && high ? ".." : low ? ">=" : "<=");
+    if (low && high) {
+      put_interval(json, "limit", of->low, of->high);
+    } else {
+      sb_json_number(json, "limit", low ? of->low : of->high);
+    }
+    status = put_share(json, study, drawn, answers, limit, report);
+    if (drawn->reliability != NULL) {
+      sb_json_array(json, "failure_points");
+      for (size_t i = 0; i < drawn->reliability->count; i++) {
+        if (drawn->reliability->mode[i].limit == limit) {
+          put_mode(json, study, &drawn->reliability->mode[i]);
+        }
+      }
+      sb_json_array_end(json);
+    }
+    sb_json_object_end(json);
+  }
+  sb_json_array_end(json);
+  if (status == SB_OK) {
+    sb_json_object(json, "any_limit");
+    status = put_share(json, study, drawn, answers, study->limits.count, report);
+    sb_json_object_end(json);
+  }
+  return status;
 }
 
 static SbStatus put_sobol(SbJson *json, const SbStudyFile *study, const double *column,
@@ -251,7 +279,7 @@ static void put_failures(SbJson *json, const SbAnswers *answers) {
   sb_json_array_end(json);
 }
 
-char *sb_study_json(const SbStudyFile *study, const double *unit, const SbAnswers *answers,
+char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const SbAnswers *answers,
                     const char *cpus, SbReport *report) {
   SbJson json;
   sb_json_init(&json);
@@ -264,16 +292,13 @@ char *sb_study_json(const SbStudyFile *study, const double *unit, const SbAnswer
   sb_json_count(&json, "done", sb_study_done(answers));
   sb_json_count(&json, "failed", sb_study_failed(answers));
   sb_json_string(&json, "cpu", cpus);
-  SbStatus status = put_figures(&json, study, answers, report);
-  if (study->limits.count > 0) {
-    sb_json_array(&json, "limits");
-    for (size_t i = 0; i < study->limits.count; i++) {
-      put_limit(&json, study, answers, i);
-    }
-    sb_json_array_end(&json);
+  // Of samples about failures no statistics of figures.
+  SbStatus status = drawn->reliability == NULL ? put_figures(&json, study, answers, report) : SB_OK;
+  if (status == SB_OK && study->limits.count > 0) {
+    status = put_limits(&json, study, drawn, answers, report);
   }
   if (status == SB_OK) {
-    status = put_indices(&json, study, unit, answers, report);
+    status = put_indices(&json, study, drawn->unit, answers, report);
   }
   put_failures(&json, answers);
   sb_json_object_end(&json);

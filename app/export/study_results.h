@@ -2,21 +2,9 @@
 #pragma once
 
 #include "app/document/study_file.h"
-#include "app/study/answers.h"
+#include "app/study/shares.h"
 
 #include <stdio.h>
-
-// Share of samples beyond a limit, of those that have the figure.
-typedef struct {
-  size_t beyond, of;
-  double probability, interval[2], beta; // Clopper and Pearson's 95 %; beta: its normal quantile
-} SbLimitShare;
-
-void sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study, const SbAnswers *answers,
-                          size_t limit);
-
-// Column of a figure among the answers', -1: not asked.
-int sb_study_column_of(const SbStudyFile *study, int figure);
 
 // Samples with an answer, and those of them that failed.
 size_t sb_study_done(const SbAnswers *answers);
@@ -30,7 +18,6 @@ const char *sb_study_status_name(uint8_t status);
 void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
                   const SbAnswers *answers);
 
-// The contract's JSON. `unit` is that of sb_study_file_points(). Owned by the caller; NULL without
-// memory.
-char *sb_study_json(const SbStudyFile *study, const double *unit, const SbAnswers *answers,
+// The contract's JSON. Owned by the caller; NULL without memory.
+char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const SbAnswers *answers,
                     const char *cpus, SbReport *report);

@@ -95,14 +95,18 @@ static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
   }
 }
 
-// What two meshes differ by. Rubbing on floor and walls under pressure a dragged ring keeps besides
-// what the coarse meshes of its path have left there: by a law that is not Coulomb's other meshes
-// and path tolerances give loads up to 1.2 % and widths up to 0.5 % apart (measured), which the
-// last two meshes do not see.
-static void take_errors(SbFit *out, const SbFitProblem *in, const SbRingResult *result) {
-  static const double PATH_LOAD = 0.012, PATH_PEAK = 0.005, PATH_WIDTH = 0.005;
+// Rubbing on floor and walls under pressure a dragged ring keeps what the coarse meshes of its path
+// have left there: by a law that is not Coulomb's other meshes and path tolerances give loads up to
+// 1.2 % and widths up to 0.5 % apart (measured), which its last two meshes do not see.
+static const double PATH_LOAD = 0.012, PATH_PEAK = 0.005, PATH_WIDTH = 0.005;
+
+static bool keeps_path(const SbFitProblem *in) {
   const bool rubs = in->floor_friction > 0.0 || in->wall_friction > 0.0;
-  const double path = in->shear != NULL && rubs && in->pressure != 0.0 ? 1.0 : 0.0;
+  return in->shear != NULL && rubs && in->pressure != 0.0;
+}
+
+static void take_errors(SbFit *out, const SbFitProblem *in, const SbRingResult *result) {
+  const double path = keeps_path(in) ? 1.0 : 0.0;
   sb_fit_errors(out, fmax(result->error.load, PATH_LOAD * path),
                 fmax(result->error.peak, PATH_PEAK * path),
                 fmax(result->error.width, PATH_WIDTH * path));
@@ -115,11 +119,12 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   const double wanted = in->tolerance > 0.0 ? in->tolerance : 1e-3;
   // A film hangs on the root of the pressure at the contact's ends, which scatters with the mesh
   // about ten times as much as the load does. A dragged ring's load is known to its friction only,
-  // and its finest meshes stumble: a quarter.
-  const double finer = !in->surface_wanted ? 1.0 : in->dragged ? 0.25 : 0.1;
+  // and its finest meshes stumble: a quarter; no finer than asked where its path is all the same.
+  const bool path = keeps_path(in);
+  const double finer = !in->surface_wanted || path ? 1.0 : in->dragged ? 0.25 : 0.1;
   const double aim = finer * wanted;
   const SbRingOptions options = {.tolerance = fmin(0.1, fmax(1e-5, aim)),
-                                 .wanted = wanted,
+                                 .wanted = path ? fmax(wanted, PATH_LOAD) : wanted,
                                  .poll = in->cancel,
                                  .poll_data = in->cancel_data};
   SbRing *ring = NULL;

@@ -2,6 +2,7 @@
 #include "engine/fluid/fluid.h"
 
 #include "engine/base/check.h"
+#include "engine/numeric/root.h"
 
 #include <math.h>
 #include <string.h>
@@ -75,8 +76,8 @@ static void silicone(double *value, const SbFluid *fluid, double temperature) {
   value[SB_FLUID_TENSION] = fluid->tension_25 - 0.06e-3 * above;
 }
 
-static SbStatus pure(SbFluidState *out, const SbFluid *fluid, double temperature,
-                     SbReport *report) {
+static SbStatus pure(SbFluidState *out, SbWarnings *warnings, const SbFluid *fluid,
+                     double temperature, SbReport *report) {
   *out = (SbFluidState){.temperature = temperature};
   double value[SB_FLUID_PROPERTY_COUNT];
   for (int i = 0; i < SB_FLUID_PROPERTY_COUNT; i++) {
@@ -103,6 +104,13 @@ static SbStatus pure(SbFluidState *out, const SbFluid *fluid, double temperature
                                      .uncertainty = uncertainty != 0.0 ? fabs(uncertainty) : NAN,
                                      .source = source,
                                      .estimated = uncertainty < 0.0};
+  }
+  if (temperature < fluid->viscosity_min) {
+    const double zero = 273.15;
+    out->figure[SB_FLUID_VISCOSITY].uncertainty = NAN;
+    sb_warn(warnings, "viscosity-extrapolated", "canister.temperature",
+            "the viscosity of %s at %g °C is extrapolated: its correlation holds from %g °C",
+            fluid->name, temperature - zero, fluid->viscosity_min - zero);
   }
   return sb_succeed(report);
 }
@@ -158,14 +166,36 @@ SbStatus sb_fluid_state(SbFluidState *out, SbWarnings *warnings, const SbFluid *
   SbStatus status =
       SB_CHECK(report, {"", "the share of ethanol", ethanol, 0.0, SB_FLUID_ETHANOL_MAX});
   if (status == SB_OK) {
-    status = pure(out, fluid, temperature, report);
+    status = pure(out, warnings, fluid, temperature, report);
   }
   if (status == SB_OK && ethanol > 0.0) {
     SbFluidState other;
-    status = pure(&other, sb_fluid_find("ethanol", strlen("ethanol")), temperature, report);
+    status =
+        pure(&other, warnings, sb_fluid_find("ethanol", strlen("ethanol")), temperature, report);
     if (status == SB_OK) {
       mix(out, warnings, &other, ethanol);
     }
   }
   return status;
+}
+
+typedef struct {
+  const SbHelmholtz *equation;
+  double temperature, pressure;
+} Vapour;
+
+static double lacks(double density, const void *context) {
+  const Vapour *v = context;
+  return v->pressure - sb_helmholtz_pressure(v->equation, density, v->temperature);
+}
+
+double sb_fluid_vapour(const SbFluid *fluid, double temperature, double pressure) {
+  SbSaturation at;
+  if (fluid->equation == NULL || check_temperature(fluid, temperature, NULL) != SB_OK ||
+      sb_helmholtz_saturation(&at, fluid->equation, temperature, NULL) != SB_OK ||
+      !(pressure <= at.pressure)) {
+    return NAN;
+  }
+  const Vapour vapour = {fluid->equation, temperature, pressure};
+  return fluid->mass * sb_bisect(lacks, &vapour, 0, at.vapour);
 }

@@ -17,8 +17,9 @@
 // Drug Delivery to the Lungs 26, 2015), so that the pressure lies between the estimate and the
 // propellant's own.
 //
-// Valid at saturation in each fluid's range of temperature; never extrapolated. Left out: the
-// dissolved air of a canister that was not evacuated, drug and surfactants.
+// Valid at saturation in each fluid's range of temperature; never extrapolated, but for the
+// viscosity below `viscosity_min`, of which a warning tells. Left out: the dissolved air of a
+// canister that was not evacuated, drug and surfactants.
 #pragma once
 
 #include "engine/fluid/viscosity.h"
@@ -68,6 +69,7 @@ typedef struct {
   double gwp100;                           // NAN: not listed
   const SbHelmholtz *equation;             // NULL: a silicone oil, or no figures at all
   const SbViscosity *viscosity;
+  double viscosity_min;                 // [K] where the correlation begins, 0: with the range
   const SbCorresponding *corresponding; // where viscosity is NULL
   double tension_temperature;           // T_s [K]
   double tension[3][2];                 // s_i [N/m], n_i
@@ -99,9 +101,12 @@ typedef struct {
 // Largest share of ethanol in the mass for which a mixture is estimated.
 #define SB_FLUID_ETHANOL_MAX 0.3
 
-// State of a fluid at a temperature [K], with a share `ethanol` of the mass (0: none), of which
-// `warnings` (may be NULL) tells.
-// SB_ERROR_RANGE outside the fluid's range, SB_ERROR_INPUT for `custom` and for ethanol in what is
-// no propellant.
+// State of a fluid at a temperature [K], with a share `ethanol` of the mass (0: none). `warnings`
+// (may be NULL) tells of an estimate with ethanol and of an extrapolated viscosity. SB_ERROR_RANGE
+// outside the fluid's range, SB_ERROR_INPUT for `custom` and for ethanol in what is no propellant.
 SbStatus sb_fluid_state(SbFluidState *out, SbWarnings *warnings, const SbFluid *fluid,
                         double temperature, double ethanol, SbReport *report);
+
+// Density [kg/m3] of a fluid's vapour at a temperature [K] in its range and an absolute pressure
+// [Pa] not above saturation; NAN for one without an equation of state.
+double sb_fluid_vapour(const SbFluid *fluid, double temperature, double pressure);

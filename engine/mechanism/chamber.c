@@ -148,3 +148,17 @@ double sb_chamber_dose(const SbDoseSupply *supply, long n) {
 double sb_chamber_filling(double volume, double area, double drop, double density) {
   return drop > 0.0 && area > 0.0 ? volume / (area * sqrt(2.0 * drop / density)) : NAN;
 }
+
+double sb_chamber_kept(const SbDoseSupply *s, double area, double drop, double time) {
+  if (isinf(time)) {
+    return s->volume * s->gas;
+  }
+  const double draining = sb_chamber_filling(s->volume, area, drop, s->density);
+  if (!(time > draining)) { // or nothing drives it out
+    const double left = draining > 0.0 ? 1.0 - time / draining : 1.0;
+    return s->volume * (left * s->density + (1.0 - left) * s->vapour);
+  }
+  const double rate =
+      s->vapour > 0.0 ? 0.63 * area * sqrt(s->pressure / s->vapour) / s->volume : 0.0;
+  return s->volume * fmax(s->gas, s->vapour * exp(-rate * (time - draining)));
+}

@@ -81,6 +81,8 @@ typedef struct {
   double density, vapour; // rho, rho_v at saturation; rho_v 0: unknown [kg/m3]
   double liquid, residue; // in a new canister, and what can no longer be drawn [m3]
   bool empty;             // the chamber is before the first actuation, which fills it for the next
+  double gas;             // density of the vapour at ambient pressure; 0: unknown [kg/m3]
+  double pressure;        // absolute, at saturation [Pa]
 } SbDoseSupply;
 
 // Whole doses in the canister.
@@ -92,3 +94,11 @@ double sb_chamber_dose(const SbDoseSupply *supply, long n);
 // Time [s] in which liquid fills a volume through an effective area [m2] under a pressure drop
 // [Pa], as through an orifice; NAN without a drop or an area.
 double sb_chamber_filling(double volume, double area, double drop, double density);
+
+// Mass [kg] that a full chamber keeps after it was open to the outside for a time [s] through an
+// effective area [m2], under a pressure drop [Pa] that boiling holds: liquid leaves as through an
+// orifice, V/(CdA sqrt(2 dp/rho)), then the vapour, choked and at one temperature, rho falling by
+// exp(-0.63 CdA sqrt(p/rho_v) t/V), to that at ambient pressure; an infinite time leaves that
+// alone. 0.63: sqrt(g) (2/(g + 1))^((g + 1)/(2(g - 1))) at g = 1.1. Leaves out: what boils in the
+// hole itself, which takes longer (a short one lets little boil: Fauske 1985), and cooling.
+double sb_chamber_kept(const SbDoseSupply *supply, double area, double drop, double time);

@@ -59,12 +59,54 @@ double sb_distribution_quantile(const SbDistribution *distribution, double p) {
   return NAN;
 }
 
-double sb_distribution_at_normal(const SbDistribution *distribution, double z) {
-  if (distribution->kind == SB_DISTRIBUTION_NORMAL && isinf(distribution->low) &&
-      isinf(distribution->high)) {
-    return distribution->a + distribution->b * z;
+// The same distribution seen from its upper end.
+static SbDistribution mirrored(const SbDistribution *of) {
+  SbDistribution other = *of;
+  if (of->kind == SB_DISTRIBUTION_NORMAL) {
+    other.a = -of->a;
+    other.low = -of->high;
+    other.high = -of->low;
+  } else {
+    other.a = of->b;
+    other.b = of->a;
   }
-  return sb_distribution_quantile(distribution, gsl_cdf_ugaussian_P(z));
+  return other;
+}
+
+double sb_distribution_at_normal(const SbDistribution *of, double z) {
+  if (of->kind == SB_DISTRIBUTION_NORMAL && isinf(of->low) && isinf(of->high)) {
+    return of->a + of->b * z;
+  }
+  // From the nearer end, where shares keep their digits.
+  if (z <= 0 || of->kind == SB_DISTRIBUTION_LEVELS) {
+    return sb_distribution_quantile(of, gsl_cdf_ugaussian_P(z));
+  }
+  const SbDistribution other = mirrored(of);
+  const double value = sb_distribution_quantile(&other, gsl_cdf_ugaussian_Q(z));
+  return of->kind == SB_DISTRIBUTION_NORMAL ? -value : value;
+}
+
+double sb_distribution_slope(const SbDistribution *of, double z) {
+  const double density = exp(-z * z / 2) / sqrt(2 * M_PI);
+  switch (of->kind) {
+  case SB_DISTRIBUTION_UNIFORM:
+    return (of->b - of->a) * density;
+  case SB_DISTRIBUTION_LOGUNIFORM:
+    return sb_distribution_at_normal(of, z) * log(of->b / of->a) * density;
+  case SB_DISTRIBUTION_NORMAL: {
+    if (isinf(of->low) && isinf(of->high)) {
+      return of->b;
+    }
+    const double l = (of->low - of->a) / of->b, h = (of->high - of->a) / of->b;
+    const double share = l > 0 ? gsl_cdf_ugaussian_Q(l) - gsl_cdf_ugaussian_Q(h)
+                               : gsl_cdf_ugaussian_P(h) - gsl_cdf_ugaussian_P(l);
+    const double t = (sb_distribution_at_normal(of, z) - of->a) / of->b;
+    return of->b * share * exp((t * t - z * z) / 2);
+  }
+  case SB_DISTRIBUTION_LEVELS:
+    break;
+  }
+  return 0;
 }
 
 double sb_distribution_grid(const SbDistribution *distribution, size_t index) {

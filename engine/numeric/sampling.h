@@ -31,8 +31,11 @@ typedef struct {
 // Value below which the share `p` of (0, 1) lies.
 double sb_distribution_quantile(const SbDistribution *distribution, double p);
 
-// The same at a standard normal variate, exact far out in the tails.
+// The same at a standard normal variate, exact far out in both tails.
 double sb_distribution_at_normal(const SbDistribution *distribution, double z);
+
+// Derivative of that by the variate; 0 of levels, which are constant between their steps.
+double sb_distribution_slope(const SbDistribution *distribution, double z);
 
 // Place `index` of a grid's `count` points.
 double sb_distribution_grid(const SbDistribution *distribution, size_t index);

@@ -91,8 +91,6 @@ void sb_figures_of_model(SbSummary *summary, const SbModel *model) {
   if (model->motion == SB_MODEL_MOTION_RIG) {
     return; // the plate has no glands and gives no dose
   }
-  // Nothing drives out what is not above ambient.
-  summary->dose_mass = model->canister_pressure > 0 ? model->supply.volume * model->density : 0;
   summary->filling_time = model->filling_time;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     summary->seal[i].squeeze = model->seal[i].squeeze;

@@ -277,6 +277,10 @@ static void compile_dose(SbModel *model, SbProblems *problems) {
                                          model->ethanol, NULL) == SB_OK) {
     const double vapour = state.figure[SB_FLUID_VAPOUR].value;
     model->supply.vapour = isnan(vapour) ? 0 : fmin(vapour, model->density);
+    model->supply.pressure = state.figure[SB_FLUID_PRESSURE].value;
+    const double gas = sb_fluid_vapour(&sb_fluids[model->fluid], model->temperature,
+                                       fmin(model->ambient_pressure, model->supply.pressure));
+    model->supply.gas = model->ethanol > 0 || isnan(gas) ? 0 : gas;
   }
   const double gap = M_PI / 4 * (model->bore_diameter - model->stem_diameter) *
                      (model->bore_diameter + model->stem_diameter);

@@ -157,12 +157,77 @@ static void test_told(void) {
   g_unlink(study);
 }
 
+static double share_beyond(double z) {
+  return erfc(z / sqrt(2)) / 2;
+}
+
+// Of two sizes with normal scatter and a correlation of 0.3: the squeeze (d - g)/d is below s where
+// (1 - s) d < g, which is linear in them.
+static double below_squeeze(double s) {
+  const double d = 1 - s, spread = 0.0067 * sqrt(d * d + 1 - 0.6 * d);
+  return share_beyond((d * 1.61 - 1.36) / spread);
+}
+
+// One in a million in its interval; limits that are never met and never missed are told; shards
+// have the same points.
+static void test_reliability(void) {
+  const double truth = below_squeeze(0.132);
+  g_assert_cmpfloat(truth, <, 1e-6);
+  g_autofree char *study = path_of("x.study");
+  g_autofree char *text = g_strdup_printf(
+      "[sealbench]\nformat = 1\nkind = study\nscene = %s\n[vary]\n"
+      "seal.section_diameter = normal 1.61 mm, 0.0067 mm\n"
+      "gland.radial_space = normal 1.36 mm, 0.0067 mm\n"
+      "[correlation]\nseal.section_diameter, gland.radial_space = 0.3\n"
+      "[study]\nmethod = reliability\nsamples = 2000\n[limits]\nseals.outer.squeeze = >= 13.2 %%\n"
+      "seals.inner.squeeze = 16 %% .. 60 %%\ncycle.dose_mass_kg = >= 1 mg\n",
+      cli.scene);
+  g_assert_true(g_file_set_contents(study, text, -1, NULL));
+  g_autofree char *one = path_of("1.store"), *other = path_of("2.store");
+  CliResult result = CLI("study", study, CLOSED, "-o", one, "--shard", "1/2", "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  g_autoptr(JsonNode) half = cli_parse(result.out);
+  g_assert_true(json_node_is_null(cli_at(half, "limits.0.probability_of_failure")));
+  cli_clear(&result);
+  result = CLI("study", study, CLOSED, "-o", other, "--shard", "2/2", "--jobs", "1", "-q");
+  g_assert_cmpint(result.code, ==, 0);
+  cli_clear(&result);
+  result = CLI("merge", one, other);
+  cli_clear(&result);
+  result = CLI("study", study, CLOSED, "-o", one, "--progress", "lines", "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  g_assert_null(strstr(result.err, "a second")); // the shards had all points
+  g_autoptr(JsonNode) root = cli_parse(result.out);
+  cli_clear(&result);
+  const double low = cli_number(root, "limits.0.interval_95.0"),
+               high = cli_number(root, "limits.0.interval_95.1");
+  g_assert_true(low < truth && truth < high && high < 1.4 * low);
+  g_assert_cmpfloat(
+      fabs(share_beyond(cli_number(root, "limits.0.failure_points.0.beta")) / truth - 1), <, 2e-3);
+  // The second is missed by most, and on its upper side never.
+  const double most = below_squeeze(0.16);
+  g_assert_cmpfloat(most, >, 0.5);
+  g_assert_cmpfloat(cli_number(root, "limits.1.interval_95.0"), <, most);
+  g_assert_cmpfloat(cli_number(root, "limits.1.interval_95.1"), >, most);
+  g_assert_cmpfloat(cli_number(root, "limits.2.probability_of_failure"), ==, 0);
+  g_assert_cmpfloat(cli_number(root, "limits.2.interval_95.1"), >, 0);
+  const char *reason = json_node_get_string(cli_at(root, "limits.2.reason"));
+  g_assert_nonnull(strstr(reason, "none of 2000 samples"));
+  // Of any limit no less than of the worst.
+  g_assert_cmpfloat(cli_number(root, "any_limit.probability_of_failure"), >=,
+                    cli_number(root, "limits.1.probability_of_failure"));
+  g_unlink(one);
+  g_unlink(other);
+  g_unlink(study);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
   g_test_add_func("/cli-study/json", test_json);
   g_test_add_func("/cli-study/indices", test_indices);
   g_test_add_func("/cli-study/killed", test_killed);
+  g_test_add_func("/cli-study/reliability", test_reliability);
   g_test_add_func("/cli-study/told", test_told);
   const int failed = g_test_run();
   cli_tear_down();

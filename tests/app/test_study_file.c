@@ -66,6 +66,11 @@ static void test_refused(void) {
       {"[vary]\n" LEVELS "bore.diameter = levels 6 mm" STUDY
        "[correlation]\ngland.radial_space, bore.diameter = 1.2\n",
        "is no correlation (allowed between -1 and 1)"},
+      {"[vary]\nfluid.name = levels hfa-134a, hfa-152a" STUDY
+       "method = reliability\n[limits]\ncycle.force_breakaway_N = <= 30 N\n",
+       "[vary] fluid.name: the method reliability takes no levels"},
+      {"[vary]\ngland.radial_space = uniform 1.3 mm .. 1.4 mm" STUDY "method = reliability\n",
+       "limits: the method reliability needs limits"},
       {"[varied]\n" LEVELS STUDY, "unknown group [varied]"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {

@@ -228,7 +228,7 @@ static void test_least(void) {
     const char *path;
     size_t fits, films;
   } needs[] = {{"seals.outer.squeeze", 0, 0},
-               {"cycle.dose_mass_kg", 0, 0},
+               {"dose.metered_volume_m3", 0, 0},
                {"seals.outer.load_N", 1, 0},
                {"seals.inner.pressure_peak_Pa", 1, 0},
                {"seals.outer.film_central_m", 1, 2}, // on the half-plane and on the disc

@@ -273,6 +273,18 @@ static void test_supply(void) {
   // As long as the jet of a full stream takes.
   ASSERT_NEAR(sb_chamber_filling(58e-9, 1e-6, 0.55e6, 1225), 58e-9 / (1e-6 * 29.966), 1e-6);
   g_assert_true(isnan(sb_chamber_filling(58e-9, 1e-6, -1, 1225)));
+  // What a vented chamber keeps: all, half of the liquid under vapour, vapour alone, vapour of a
+  // third of the density, that at ambient pressure.
+  const SbDoseSupply vented = {
+      .volume = 58e-9, .density = 1225, .vapour = 28, .gas = 4.2, .pressure = 0.57e6};
+  const double drains = 58e-9 / (1e-7 * 29.966);
+  const double third = drains + log(3) * 58e-9 / (0.63e-7 * sqrt(0.57e6 / 28));
+  const double kept[][2] = {{0, 1225},    {drains / 2, (1225 + 28) / 2.0},
+                            {drains, 28}, {third, 28 / 3.0},
+                            {1, 4.2},     {INFINITY, 4.2}};
+  for (size_t i = 0; i < G_N_ELEMENTS(kept); i++) {
+    assert_close(sb_chamber_kept(&vented, 1e-7, 0.55e6, kept[i][0]), 58e-9 * kept[i][1], 1e-4);
+  }
 }
 
 int main(int argc, char **argv) {

@@ -73,8 +73,12 @@ static void limit(double pressure, double drag, bool friction, double reference,
   near(fit.ring.drag_limit, reference, tolerance);
   near(fabs(fit.ring.drag) / fit.load, fit.ring.drag_limit, 3e-2);
   g_assert_cmpfloat(fit.ring.turn * drag, >, 0.0);
-  g_assert_cmpuint(fit.warnings.count, ==, 1);
-  g_assert_cmpstr(fit.warnings.item[0].code, ==, "ring-rolls");
+  // The maximum is flat: the load of the ring there may be known less well than its limit.
+  g_assert_cmpuint(fit.warnings.count, >=, 1);
+  g_assert_cmpstr(fit.warnings.item[fit.warnings.count - 1].code, ==, "ring-rolls");
+  if (fit.warnings.count > 1) {
+    g_assert_cmpstr(fit.warnings.item[0].code, ==, "ring-tolerance");
+  }
 }
 
 static void test_limit(void) {

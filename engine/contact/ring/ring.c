@@ -349,6 +349,57 @@ static void plan_patch(SbRingMeshPlan *plan, const SbRingPatch *patch, double si
   }
 }
 
+// Slip states of a mesh's held nodes: those of the nearest nodes of another.
+static void carry_slip(SbRingContact *to, const SbRingContact *from) {
+  for (int i = 0; i < to->count; i++) {
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      double nearest = INFINITY;
+      for (int k = 0; k < from->count && sb_ring_touch(to, i, s)->held; k++) {
+        const double away =
+            fabs(remainder(to->fem->mesh->angle[i] - from->fem->mesh->angle[k], 2.0 * M_PI));
+        if (sb_ring_touch(from, k, s)->held && away < nearest) {
+          nearest = away;
+          sb_ring_touch(to, i, s)->slip = sb_ring_touch(from, k, s)->slip;
+        }
+      }
+    }
+  }
+}
+
+// Solves on a mesh from the state on another, whose contacts are `patch`: same setting and, by
+// material angle, the same held nodes; `fixed`: with their slip states, fixed until the balance is
+// near, else sticking at first.
+static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch *patch,
+                           const bool *touches, bool fixed, SbReport *report) {
+  SbRingContact *contact = fresh->contact;
+  sb_ring_fem_transfer(fresh->fem, ring->fem);
+  contact->is.now = ring->contact->is.now;
+  contact->is.turn = ring->contact->is.turn;
+  sb_ring_fem_save(fresh->fem, SB_RING_START);
+  for (int i = 0; i < contact->count; i++) {
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      bool held = false;
+      for (int turn = 0; turn < 2 && touches[s]; turn++) {
+        double angle = fresh->mesh->angle[i] + 2.0 * M_PI * turn;
+        held = held || (angle > patch[s].angle[0] - 1e-9 && angle < patch[s].angle[1] + 1e-9);
+      }
+      *sb_ring_touch(contact, i, s) = (SbRingTouch){.held = held};
+    }
+  }
+  contact->fixed = fixed;
+  if (fixed) {
+    carry_slip(contact, ring->contact);
+  }
+  SbStatus status = sb_ring_newton(fresh, SB_RING_FOLLOW, report);
+  contact->fixed = contact->stuck = false;
+  // Where the turn is held its coefficient is the mesh's; one far off is another state's.
+  const double share = contact->is.now.friction_bore / ring->contact->is.now.friction_bore;
+  if (fresh->arc.free && status == SB_OK && !(fabs(share - 1.0) < SAME_STATE)) {
+    status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the finer mesh slides in another state");
+  }
+  return status;
+}
+
 // The ring's state on a mesh fitted to its contacts, in `fresh`, which has no mesh of its own yet
 // and keeps none where that fails. `edge`: size of the elements at the contacts' ends over that of
 // the others; 0 as friction asks for.
@@ -378,42 +429,25 @@ static SbStatus remesh(SbRing *fresh, const SbRing *ring, double element_size, d
     drop(fresh);
     return status;
   }
-  // Same setting and, by material angle, the same held nodes.
-  sb_ring_fem_transfer(fresh->fem, ring->fem);
   SbRingContact *contact = fresh->contact;
-  contact->is.now = ring->contact->is.now;
-  contact->is.turn = ring->contact->is.turn;
-  sb_ring_fem_save(fresh->fem, SB_RING_START);
-  for (int i = 0; i < contact->count; i++) {
-    for (int s = 0; s < SB_RING_SURFACES; s++) {
-      bool held = false;
-      for (int turn = 0; turn < 2 && touches[s]; turn++) {
-        double angle = fresh->mesh->angle[i] + 2.0 * M_PI * turn;
-        held = held || (angle > patch[s].angle[0] - 1e-9 && angle < patch[s].angle[1] + 1e-9);
-      }
-      sb_ring_touch(contact, i, s)->held = held;
-    }
-  }
-  status = sb_ring_newton(fresh, SB_RING_FOLLOW, report);
-  if (status == SB_ERROR_NOT_CONVERGED && !sb_ring_rubs(&contact->is.now)) {
+  const bool rubs = sb_ring_rubs(&ring->contact->is.now);
+  status = carry_over(fresh, ring, patch, touches, rubs && !fresh->arc.free, report);
+  if (status == SB_ERROR_NOT_CONVERGED && rubs) {
+    status = carry_over(fresh, ring, patch, touches, fresh->arc.free, report);
+  } else if (status == SB_ERROR_NOT_CONVERGED) {
     // Too far from the transferred state: follow the whole path again on the new mesh.
     SbRingLoad setting = ring->contact->is.now;
     status = sb_ring_fit_and_press(fresh, &setting, report);
-  }
-  // Where the turn is held its coefficient is the mesh's; one far off is another state's.
-  double share = 1.0;
-  if (fresh->arc.free && status == SB_OK) {
-    share = contact->is.now.friction_bore / ring->contact->is.now.friction_bore;
-    if (!(fabs(share - 1.0) < SAME_STATE)) {
-      status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the finer mesh slides in another state");
-    }
   }
   if (status != SB_OK) {
     drop(fresh);
     return status;
   }
-  fresh->share_limit *= share;
-  fresh->drag_limit *= share;
+  if (fresh->arc.free) {
+    const double share = contact->is.now.friction_bore / ring->contact->is.now.friction_bore;
+    fresh->share_limit *= share;
+    fresh->drag_limit *= share;
+  }
   fresh->fitted_size = element_size;
   for (int k = 0; k < 2; k++) {
     fresh->fitted_end[k] = touches[SB_RING_BORE] ? patch[SB_RING_BORE].angle[k] : NAN;

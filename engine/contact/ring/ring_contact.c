@@ -30,7 +30,8 @@ enum { FLIPS_MAX = 5 };
 // sticks or slides, and inside the surface when let go. (Under fluid it jumps by mu p when caught.)
 // After being caught so often it is held without friction, which always has a solution; its
 // friction is taken up again in the next step, and what is missing is reported.
-enum { CATCHES_MAX = 3 };
+// On a path, whose states lead to others only, such a node stays held.
+enum { CATCHES_MAX = 3, PASSED_MAX = 1 };
 
 SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report) {
   *out = NULL;
@@ -220,6 +221,39 @@ static double slip_excess(const SbRingContact *contact) {
 
 // ---- conditions and forces
 
+// A law that is not Coulomb's drives a node in proportion to its area, which its sides' nodes move.
+static void lean_on_area(const SbRingContact *contact, int i, SbRingCondition *condition) {
+  const bool closed_only = contact->rubbed[i] > 0.0;
+  const double area = closed_only ? contact->rubbed[i] : contact->weight[i];
+  const int first = i - (i % 2 != 0 ? 1 : 2), count = i % 2 != 0 ? 3 : SB_RING_BESIDE;
+  condition->beside_count = count;
+  for (int k = 0; k < count; k++) {
+    condition->beside[k] = contact->fem->mesh->loop[sb_ring_wrap(contact, first + k)];
+  }
+  for (int from = first; from + 2 < first + count; from += 2) {
+    const int side = sb_ring_wrap(contact, from) / 2;
+    double slope[3][2];
+    if (contact->closed[side] || !closed_only) {
+      sb_ring_side_area_slope(contact, side, i - from, slope);
+      for (int k = 0; k < 3; k++) {
+        for (int c = 0; c < 2; c++) {
+          condition->drive_slope[from - first + k][c] += condition->drive / area * slope[k][c];
+        }
+      }
+    }
+  }
+}
+
+// Whether a surface after this one holds the node too.
+static bool corner(const SbRingContact *contact, int i, int surface) {
+  for (int other = surface + 1; other < SB_RING_SURFACES; other++) {
+    if (sb_ring_touch(contact, i, other)->held) {
+      return true;
+    }
+  }
+  return false;
+}
+
 double sb_ring_contact_apply(SbRingContact *contact) {
   SbRingFem *fem = contact->fem;
   sb_ring_contact_load_fluid(contact);
@@ -243,15 +277,13 @@ double sb_ring_contact_apply(SbRingContact *contact) {
       condition->count = 1;
       memcpy(condition->direction[1], frame.t, sizeof frame.t);
       condition->curve = frame.curvature;
-      if (s == SB_RING_BORE && contact->is.now.use_bore_traction) {
+      if (contact->stuck) {
+        condition->count = corner(contact, i, s) ? 1 : 2;
+      } else if (s == SB_RING_BORE && contact->is.now.use_bore_traction) {
         condition->drive = contact->is.now.bore_traction * contact->weight[i];
       } else if (sb_ring_contact_sticks(contact, i, (SbRingSurface)s)) {
         condition->gap[1] = -slipped(contact, (SbRingSurface)s, i, frame.t);
-        bool corner = false;
-        for (int other = s + 1; other < SB_RING_SURFACES; other++) {
-          corner = corner || sb_ring_touch(contact, i, other)->held;
-        }
-        condition->count = corner ? 1 : 2;
+        condition->count = corner(contact, i, s) ? 1 : 2;
       } else if (!touch->smooth) {
         bool known = s == SB_RING_BORE && contact->is.now.bore_slides != 0;
         int slip = known ? contact->is.now.bore_slides : touch->slip;
@@ -261,6 +293,9 @@ double sb_ring_contact_apply(SbRingContact *contact) {
         double grip = sb_ring_grip(contact, i, (SbRingSurface)s, normal, &slope);
         condition->mix = -share * slope;
         condition->drive = share * (grip - slope * normal);
+        if (condition->drive != 0.0) {
+          lean_on_area(contact, i, condition);
+        }
       }
     }
   }
@@ -307,6 +342,9 @@ static void toggle(SbRingContact *contact, int at) {
 int sb_ring_contact_update(SbRingContact *contact, bool single) {
   SbRingFem *fem = contact->fem;
   int changes = 0;
+  if (contact->fixed) {
+    return 0;
+  }
   int worst[2] = {-1, -1}; // to be let go, to be caught
   double least = -1e-11 * contact->force_scale, deepest = -1e-11;
   for (int i = 0; i < contact->count; i++) {
@@ -326,7 +364,8 @@ int sb_ring_contact_update(SbRingContact *contact, bool single) {
       if (!touch->held && frame.gap < deepest) {
         worst[1] = at;
         deepest = single ? frame.gap : deepest;
-      } else if (touch->held && excess < least) {
+      } else if (touch->held && excess < least &&
+                 !(contact->passed && touch->catches > PASSED_MAX)) {
         worst[0] = at;
         least = single ? excess : least;
       } else {

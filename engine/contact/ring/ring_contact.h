@@ -61,6 +61,9 @@ typedef struct {
   double *weight;     // [count] current area of the boundary nodes
   double *rubbed;     // [count] the part of it on closed sides
   bool settled;       // the state stands still: its crests stay
+  bool fixed;         // the held set and the slip states stay
+  bool stuck;         // and every held node stays at its place
+  bool passed;        // the state is one of a path: nodes that come and go stay held
   double slip_excess; // departure from Coulomb's law at nodes that could not settle
   double force_scale; // for tolerances
   double stress;      // unit of stress, Pa
@@ -121,6 +124,9 @@ typedef struct {
 // nodes' places (subtracted, the tangent's entries), and the nodes' shares of the side's area.
 void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressure pressure,
                        double force[3][2], double tangent[3][2][3][2], double area[3]);
+
+// What the share of a side's node `a` of its area changes with the places of its nodes.
+void sb_ring_side_area_slope(const SbRingContact *contact, int side, int a, double slope[3][2]);
 
 // Friction force of the whole law of a surface at a boundary node (of Coulomb's with a coefficient
 // of 1) under a normal force, and its slope.

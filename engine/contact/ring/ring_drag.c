@@ -113,6 +113,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   double anchor[2] = {fitted, unit * ring->contact->is.now.friction_bore};
   int meshes = 0, first = ring->count.iterations; // meshes tried since the last step
   ring->state = SB_RING_SLIDES;
+  ring->passing = true;
   while (ring->contact->is.now.friction_bore < aim) {
     const SbRingContactState *is = &ring->contact->is;
     int before = ring->count.iterations;
@@ -165,13 +166,38 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   }
   // Another mesh at a held turn may have passed the coefficient.
   ring->arc.free = false;
+  ring->passing = false;
   sb_ring_save(ring->contact, SB_RING_START);
   ring->contact->is.now.friction_bore = aim;
   return sb_ring_attempt(ring, SB_RING_DIRECT, report);
 }
 
+// Solves the state of the greatest friction, at its turn, as strictly as any other; that of the
+// path stays where there is none.
+static void settle_limit(SbRing *ring) {
+  const SbRingState state = ring->state;
+  double before, after, whole;
+  sb_ring_hold_turn(ring);
+  sb_ring_save(ring->contact, SB_RING_START);
+  (void)bore_load(ring->contact, &before, &whole);
+  if (sb_ring_attempt(ring, SB_RING_DIRECT, NULL) == SB_OK) {
+    (void)bore_load(ring->contact, &after, &whole);
+    ring->share_limit = ring->contact->is.now.friction_bore;
+    ring->drag_limit *= after / before;
+  } else {
+    sb_ring_contact_settle(ring->contact);
+  }
+  ring->arc.free = false;
+  ring->state = state;
+}
+
 SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
   SbStatus status = follow(ring, aim, report);
-  sb_ring_end_best(ring, status == SB_OK && ring->state != SB_RING_SLIDES);
+  ring->passing = false;
+  const bool limit = status == SB_OK && ring->state != SB_RING_SLIDES;
+  sb_ring_end_best(ring, limit);
+  if (limit) {
+    settle_limit(ring);
+  }
   return status;
 }

@@ -108,6 +108,29 @@ void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressur
   }
 }
 
+void sb_ring_side_area_slope(const SbRingContact *contact, int side, int a, double slope[3][2]) {
+  const bool axisymmetric = contact->fem->axisymmetric;
+  double r[3], z[3];
+  for (int k = 0; k < 3; k++) {
+    double x[2];
+    sb_ring_contact_place(contact, 2 * side + k, x);
+    r[k] = x[0];
+    z[k] = x[1];
+    slope[k][0] = slope[k][1] = 0.0;
+  }
+  for (int q = 0; q < 3; q++) {
+    double n[3], d[3];
+    sb_ring_side_shape(SB_RING_X3[q], n, d);
+    double dr = sb_ring_side_sum(d, r), dz = sb_ring_side_sum(d, z), length = hypot(dr, dz);
+    double radius = axisymmetric ? sb_ring_side_sum(n, r) : 1.0;
+    double c = SB_RING_W3[q] * (axisymmetric ? 2.0 * M_PI : 1.0) * n[a];
+    for (int b = 0; b < 3; b++) {
+      slope[b][0] += c * ((axisymmetric ? n[b] * length : 0.0) + radius * d[b] * dr / length);
+      slope[b][1] += c * radius * d[b] * dz / length;
+    }
+  }
+}
+
 // Whether a surface holds all three nodes of a side.
 static bool closes(const SbRingContact *contact, int side) {
   for (int s = 0; s < SB_RING_SURFACES; s++) {

@@ -173,7 +173,7 @@ static double solve(Fit *fit, const double end[2], double *residual) {
 // Both ends by Gauss-Newton's method; the mean square, negative if there is none.
 static double find_ends(Fit *fit, double end[2]) {
   double *here = fit->here, *there = fit->there, (*slope)[ROWS_MAX] = fit->slope;
-  double width = end[1] - end[0], step = 1e-5 * width, best = solve(fit, end, here);
+  double width = end[1] - end[0], step = 1e-6 * width, best = solve(fit, end, here);
   for (int it = 0; it < ENDS_MAX && best >= 0.0; it++) {
     double m[3] = {0.0}, b[2] = {0.0};
     for (int k = 0; k < 2; k++) {
@@ -240,15 +240,31 @@ static bool presses(SbDryContact *p) {
   return good;
 }
 
+// The contact without a single held node beyond an open one at either end, where the fluid holds
+// the next node open: its force is small and counts in the total only.
+static SbRingPatch without_strays(const SbRing *ring, SbRingSurface surface, SbRingPatch patch) {
+  const SbRingContact *contact = ring->contact;
+  if (!sb_ring_touch(contact, patch.first + 1, surface)->held &&
+      sb_ring_touch(contact, patch.first + 2, surface)->held) {
+    patch.first += 2;
+  }
+  if (!sb_ring_touch(contact, patch.last - 1, surface)->held &&
+      sb_ring_touch(contact, patch.last - 2, surface)->held) {
+    patch.last -= 2;
+  }
+  return patch;
+}
+
 bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
                   SbDryContact *out) {
   Fit *fit = ring->recovery;
-  if (!collect(fit, ring, surface, patch)) {
+  const SbRingPatch whole = without_strays(ring, surface, *patch);
+  if (!collect(fit, ring, surface, &whole)) {
     return false;
   }
   double sign = surface == SB_RING_BORE || surface == SB_RING_WALL_LEFT ? 1.0 : -1.0;
   double least = HUGE_VAL, end[2] = {sign * patch->place[0], sign * patch->place[1]};
-  int held = patch->last - patch->first - 1, worse = 0;
+  int held = whole.last - whole.first - 1, worse = 0;
   // A term of the wrong parity changes nothing: two that do not help end the search.
   for (int terms = TERMS_LEAST; terms <= TERMS_MOST && terms + 3 < held && worse < 2; terms++) {
     fit->terms = terms;

@@ -94,15 +94,18 @@ void sb_ring_sparse_finish(SbRingFem *fem) {
   }
 }
 
-void sb_ring_fem_add(SbRingFem *fem, int a, int i, int b, int j, double k) {
+static void add(SbRingFem *fem, int row, int column, double k) {
   // Short rows: a linear search is quicker than a map and only boundary terms come here.
-  int row = 2 * a + i, want = 2 * b + j;
   for (int at = fem->row_start[row]; at < fem->row_start[row + 1]; at++) {
-    if (fem->column[at] == want) {
+    if (fem->column[at] == column) {
       fem->value[at] += k;
       return;
     }
   }
+}
+
+void sb_ring_fem_add(SbRingFem *fem, int a, int i, int b, int j, double k) {
+  add(fem, 2 * a + i, 2 * b + j, k);
 }
 
 // Replaces the two rows of a conditioned node; the raw rows are kept for its reaction.
@@ -137,6 +140,11 @@ static void apply_condition(SbRingFem *fem, int node) {
     row[other][diagonal + 1] +=
         c->curve * (c->mix * (t[0] * r0 + t[1] * r1) - (n[0] * r0 + n[1] * r1));
     rhs[other] = c->drive - (w0 * r0 + w1 * r1);
+    for (int b = 0; b < c->beside_count; b++) {
+      for (int k = 0; k < 2; k++) {
+        add(fem, 2 * node + other, 2 * c->beside[b] + k, -c->drive_slope[b][k]);
+      }
+    }
   }
 }
 

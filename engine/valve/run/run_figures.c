@@ -167,6 +167,47 @@ double sb_run_filled_share(const SbSummary *summary, const SbModel *model) {
   return both ? fmin(1, (closes->time - opens->time) / model->filling_time) : NAN;
 }
 
+// Time [s] for which the vent is open: on the way back, or both ways; for good if it is at the end.
+static double vent_time(const SbRun *run, double low, double high) {
+  bool open = false;
+  double time = 0;
+  for (size_t i = 1; i < run->count; i++) {
+    const SbFrame *from = &run->frames[i - 1], *to = &run->frames[i];
+    const double a = from->displacement, b = to->displacement;
+    const double least = fmin(a, b), most = fmax(a, b);
+    const double inside = fmin(most, high) - fmax(least, low);
+    open = inside >= 0 && (open || !run->model->vent_on_return || (b < a && a >= high));
+    if (open) {
+      time += (to->time - from->time) * (most > least ? inside / (most - least) : 1);
+    }
+    open = open && b >= low && b < high;
+  }
+  return open ? INFINITY : time;
+}
+
+// What stays in the chamber once it has been vented [kg]. Where a vent is no part of the model it
+// has all the time it takes.
+static double kept(const SbRun *run) {
+  const SbModel *model = run->model;
+  double low, high, time = INFINITY;
+  if (model->pressure_map == SB_MAP_PORTS && !model->chamber_at_once) {
+    time = sb_run_vent(&low, &high, run) ? vent_time(run, low, high) : 0;
+  }
+  const double hole = model->shape.vent_diameter;
+  return model->canister_pressure > 0
+             ? sb_chamber_kept(&model->supply,
+                               model->discharge_coefficient * M_PI / 4 * hole * hole,
+                               model->canister_pressure, time)
+             : NAN;
+}
+
+double sb_run_dose(const SbRun *run, double metered) {
+  const double filled = sb_run_filled_share(&run->summary, run->model);
+  return run->model->canister_pressure > 0
+             ? fmax(metered * (isnan(filled) ? 1 : filled) - kept(run), 0)
+             : 0; // nothing drives out what is not above ambient
+}
+
 void sb_run_summarise_seals(SbRun *run) {
   const SbModel *model = run->model;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
@@ -201,6 +242,8 @@ void sb_run_summarise_seals(SbRun *run) {
   SbSummary *summary = &run->summary;
   summary->prime_loss = summary->seal[SB_OUTER].leakage_static * 86400 / model->supply.volume;
   summary->filled_share = sb_run_filled_share(summary, model);
+  summary->kept_mass = model->supply.vapour > 0 ? kept(run) : NAN;
+  summary->dose_mass = sb_run_dose(run, model->supply.volume * model->density);
   if (summary->filled_share < 1) {
     sb_warn(&summary->warnings, "chamber-not-filled", "drive.speed",
             "the chamber takes %.3g ms to fill and is open to the canister for %.0f %% of that",
@@ -221,6 +264,12 @@ void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore
               1e12 * circumference * bore->out);
     sb_reason(summary, "cycle.leakage_net_all_actuations_m3",
               "the stem does not come back: there is no second actuation");
+  } else if (fabs(net) < summary->error_film * bore->out) {
+    sb_warn(
+        &summary->warnings, "leakage-uncertain", "output.tolerance",
+        "what a cycle leaks, %.2g nl, is less than the error of what the stem carries each way, "
+        "%.2g nl",
+        1e12 * circumference * net, 1e12 * summary->error_film * circumference * bore->out);
   }
 }
 
@@ -268,6 +317,8 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
       {well, "cycle.force_breakaway_N", "the stem never slips: stage B is not reached"},
       {rig, "dose.*", "the sliding plate (models.motion = rig) gives no dose"},
       {!(model->canister_pressure > 0), "dose.fill*", "nothing drives liquid into the chamber"},
+      {!(model->canister_pressure > 0), "dose.kept_mass_kg", "nothing drives liquid out"},
+      {!(model->supply.vapour > 0), "dose.kept_mass_kg", "the fluid's vapour has no figures"},
       {well, "dose.filled_share", "the stem does not open and close the chamber: C to F"},
       {well, "dose.prime_loss_per_day", "the outer seal's leak at rest is not known"},
   };

@@ -71,7 +71,6 @@ static SbLifeActuation yield_of(const SbRun *run, long n, double roughness) {
   const SbSummary *summary = &run->summary;
   const SbSealState *outer = &run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   const SbStageMark *slip = &summary->stage[SB_STAGE_B];
-  const double filled = sb_run_filled_share(summary, run->model);
   return (SbLifeActuation){
       .roughness = roughness,
       .lambda = outer->lambda,
@@ -82,9 +81,7 @@ static SbLifeActuation yield_of(const SbRun *run, long n, double roughness) {
       .force_return = summary->force_return_min,
       .returned = summary->returned,
       // Filled by the actuation before, which was like this one.
-      .dose = run->model->canister_pressure > 0
-                  ? sb_chamber_dose(&run->model->supply, n + 1) * (isnan(filled) ? 1 : filled)
-                  : 0,
+      .dose = sb_run_dose(run, sb_chamber_dose(&run->model->supply, n + 1)),
   };
 }
 

@@ -216,6 +216,13 @@ void sb_run_summarise_seals(SbRun *run);
 // Share of the chamber that there is time to fill between C and F; NaN where they are not reached.
 double sb_run_filled_share(const SbSummary *summary, const SbModel *model);
 
+// What of a metered mass [kg] the last motion delivers: less what there is no time to fill, and
+// what the emptied chamber keeps.
+double sb_run_dose(const SbRun *run, double metered);
+
+// Stem positions between which the dose chamber is open to the vent; false: nowhere in the stroke.
+bool sb_run_vent(double *low, double *high, const SbRun *run);
+
 // Makes the first `count` frames visible to other threads.
 void sb_run_publish(SbRun *run, size_t count);
 

@@ -267,11 +267,20 @@ static void add_edge(SbDynamicsModel *out, double x) {
   out->edges++;
 }
 
+bool sb_run_vent(double *low, double *high, const SbRun *run) {
+  const SbModel *model = run->model;
+  const SbSealState *inner = &run->cycle.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbSealState *outer = &run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbValveShape *shape = &model->shape;
+  const double hole = shape->vent_diameter, edge = model->land_edge;
+  *low = edge + inner->contact_right - inner->contact_left - shape->vent_position - hole / 2;
+  *high = edge - inner->contact_left + shape->seal_spacing + outer->contact_left -
+          shape->vent_position + hole / 2;
+  return hole > 0 && *high > *low && *high > 0 && *low < model->stroke;
+}
+
 static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report) {
   const SbModel *model = valve->run->model;
-  const SbCycle *cycle = &valve->run->cycle;
-  const SbSealState *inner = &cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-  const SbSealState *outer = &cycle->state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   const SbValveShape *shape = &model->shape;
   bool at_once = model->chamber_at_once;
   double coefficient = model->discharge_coefficient;
@@ -290,13 +299,8 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
   chamber->port[chamber->ports++] =
       (SbChamberPort){opens, INFINITY, SB_PORT_BOTH_WAYS, canister, land_area};
 
-  // The vent.
-  double hole = shape->vent_diameter;
-  double edge = model->land_edge;
-  double low = edge + inner->contact_right - inner->contact_left - shape->vent_position - hole / 2;
-  double high = edge - inner->contact_left + shape->seal_spacing + outer->contact_left -
-                shape->vent_position + hole / 2;
-  bool vents = hole > 0 && high > low && high > 0 && low < model->stroke;
+  double low, high, hole = shape->vent_diameter;
+  const bool vents = sb_run_vent(&low, &high, valve->run);
   if (hole > 0 && !vents) {
     sb_warn(&valve->run->summary.warnings, "ports-no-vent", "bore.vent_position",
             "the dose chamber never reaches the vent: it would at a stem of %.3g to %.3g mm, which "

@@ -1,0 +1,43 @@
+// Inside of the reader of study files, shared by study_file.c and study_design.c.
+#pragma once
+
+#include "app/document/document_private.h"
+#include "app/document/study_file.h"
+
+#include "app/base/reader.h"
+
+#define GROUP_VARY        "vary"
+#define GROUP_STUDY       "study"
+#define GROUP_CORRELATION "correlation"
+#define GROUP_DESIGN      "design"
+#define GROUP_TOLERANCES  "tolerances"
+
+// An objective that was not read, or that is none.
+enum { SB_FIGURE_NONE = -1, SB_FIGURE_REFUSED = -2 };
+
+// What is being read.
+typedef struct {
+  SbStudyFile *study;
+  const GPtrArray *entries;
+  const char *shown;
+  GPtrArray *issues;
+} SbStudyReader;
+
+void sb_study_complain(const SbStudyReader *reader, const SbEntry *entry, const char *allowed,
+                       const char *text);
+
+// Place of a parameter in [vary], or -1.
+int sb_study_vary_index(const SbStudyFile *study, const char *key);
+
+// Adds a figure that the list has not.
+void sb_study_take_figure(GArray *figures, int figure);
+
+// Index of a figure, -1 with an issue.
+int sb_study_read_figure(const SbStudyReader *reader, const SbEntry *entry, const char *path);
+
+// A whole number from `least` to `most`.
+SB_CHECKED bool sb_study_read_count(double *out, const char *text, double least, double most);
+
+// A line of [design]; and when all groups are read, what a design needs of them.
+void sb_study_read_design(SbStudyReader *reader, const SbEntry *entry);
+void sb_study_check_design(SbStudyReader *reader);
