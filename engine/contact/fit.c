@@ -100,7 +100,7 @@ static SbStatus check(const SbFitProblem *in, SbReport *report) {
 
 // ---- what all models share
 
-static void fill_sizes(SbFit *out, const SbFitProblem *in) {
+void sb_fit_sizes(SbFit *out, const SbFitProblem *in) {
   const double d = in->section_diameter;
   const double g = in->radial_space;
   const double mean_free = in->inner_diameter + d;
@@ -151,7 +151,7 @@ SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report)
   if (status != SB_OK) {
     return status;
   }
-  fill_sizes(out, problem);
+  sb_fit_sizes(out, problem);
   status = models[problem->model].solve(out, problem, report);
   judge_validity(out);
   out->valid = out->valid && status == SB_OK;

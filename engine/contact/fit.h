@@ -153,6 +153,11 @@ SbStatus sb_fit_again(SbFit *out, const SbFitProblem *problem, SbReport *report)
 SbStatus sb_fit_mirror(SbFit *out, const SbFitProblem *problem, const SbFit *fit,
                        const SbRing *ring, SbReport *report);
 
+// The ring model's fitment of a problem near that of `fit`, whose kept `ring` it leaves as it is:
+// sb_ring_near(). The estimates of errors are `fit`'s; `problem` keeps the ring.
+SbStatus sb_fit_near(SbFit *out, const SbFitProblem *problem, const SbFit *fit, const SbRing *ring,
+                     SbReport *report);
+
 // The free ring and its groove as the ring model takes them (ring.h): the wall of the lower
 // pressure only.
 void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem *problem);

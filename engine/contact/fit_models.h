@@ -16,5 +16,8 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report);
 enum { SB_FIT_POINTS = 257 };
 void sb_fit_contact(SbFit *out, double left, double right);
 
+// The sizes that follow from a problem alone.
+void sb_fit_sizes(SbFit *out, const SbFitProblem *in);
+
 // Relative errors of load, peak and width.
 void sb_fit_errors(SbFit *out, double load, double peak, double width);

@@ -178,3 +178,24 @@ SbStatus sb_fit_mirror(SbFit *out, const SbFitProblem *in, const SbFit *fit, con
   *in->kept = mirror;
   return sb_succeed(report);
 }
+
+SbStatus sb_fit_near(SbFit *out, const SbFitProblem *in, const SbFit *fit, const SbRing *ring,
+                     SbReport *report) {
+  SbRingBody body;
+  SbRingLoad load;
+  SbRing *near;
+  SbRingResult result;
+  sb_fit_ring_problem(&body, &load, in);
+  SbStatus status = sb_ring_near(&near, ring, &body, &load, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  sb_ring_result(near, &result);
+  *out = *fit;
+  memset(&out->warnings, 0, sizeof out->warnings);
+  sb_fit_sizes(out, in);
+  take_result(out, in, near, &result);
+  sb_ring_destroy(*in->kept);
+  *in->kept = near;
+  return sb_succeed(report);
+}

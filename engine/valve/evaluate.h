@@ -49,6 +49,12 @@ SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestio
 // Whether it would answer without solving a contact, by those of the last question.
 bool sb_evaluator_has_solved(const SbEvaluator *evaluator, const SbQuestion *question);
 
+// For derivatives: the next questions' solved rings are kept (`keeps`); they are found near those
+// that `near` has kept of its last question, by their tangents, in place of solved. Answers are
+// then no run's, but those of neighbours on the same meshes: only their differences mean something.
+// `near`, NULL for none, must outlive this use.
+void sb_evaluator_near(SbEvaluator *evaluator, bool keeps, const SbEvaluator *near);
+
 // Why a figure of the last question has no value; NULL for one that has. Borrowed until the next
 // question.
 const char *sb_evaluator_reason(const SbEvaluator *evaluator, int figure);

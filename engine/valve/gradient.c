@@ -84,6 +84,44 @@ bool sb_gradient_wants(SbParamId id) {
   return sb_param(id)->kind == SB_PARAM_REAL;
 }
 
+// Place of a parameter, the number of parameters if it has not got it.
+static size_t place_of(const SbGradient *gradient, SbParamId id) {
+  size_t at = 0;
+  while (at < gradient->parameters && gradient->parameter[at] != id) {
+    at++;
+  }
+  return at;
+}
+
+SbStatus sb_gradient_predict(double *value, const SbGradient *gradient, const SbOverride *override,
+                             size_t count, SbReport *report) {
+  for (size_t i = 0; i < count; i++) {
+    const SbParam *param = sb_param(override[i].id);
+    if (place_of(gradient, override[i].id) == gradient->parameters) {
+      return sb_fail_parameter(report, SB_ERROR_INPUT, param->key, "no derivative by it is known");
+    }
+    if (!(override[i].value >= param->min && override[i].value <= param->max)) {
+      return sb_fail_parameter(report, SB_ERROR_RANGE, param->key, "%g is outside %g to %g (%s)",
+                               override[i].value, param->min, param->max, param->si);
+    }
+  }
+  for (size_t f = 0; f < gradient->figures; f++) {
+    value[f] = gradient->value[f];
+  }
+  for (size_t i = 0; i < count; i++) {
+    const size_t at = place_of(gradient, override[i].id);
+    bool last = true;
+    for (size_t k = i + 1; k < count; k++) {
+      last = last && override[k].id != override[i].id;
+    }
+    const double by = override[i].value - gradient->at[at];
+    for (size_t f = 0; f < gradient->figures && last && by != 0; f++) {
+      value[f] += by * sb_gradient_slope(gradient, f, at);
+    }
+  }
+  return sb_succeed(report);
+}
+
 static SbGradient *make(const SbQuestion *question, const SbParamId *parameter, size_t count) {
   SbGradient *out = calloc(1, sizeof *out);
   if (out == NULL) {
@@ -197,8 +235,8 @@ enum { PLUS, MINUS, PLUS_HALF, MINUS_HALF, POINTS };
 enum { HALF = MINUS, QUARTER = PLUS_HALF };
 
 // Steps: the first, two smaller ones for what is not smooth, a larger one for what rounding hides.
-enum { FIRST, SMALL, SMALLEST, LARGE, LEVELS };
-static const double parts[LEVELS] = {1e-3, 6e-5, 4e-6, 1.6e-2}; // of the parameter's scale
+enum { FIRST, SMALL, SMALLEST, LARGE, NEAR, LEVELS };
+static const double parts[LEVELS] = {1e-3, 6e-5, 4e-6, 1.6e-2, 2e-5}; // of the parameter's scale
 
 typedef struct {
   bool asked, one_sided;
@@ -217,8 +255,9 @@ typedef struct {
   Level level[LEVELS];
   bool *open; // figures whose derivative is still sought [figures]
   Outcome outcome;
-  bool rings;              // the model solves them: answers scatter
-  bool scatter;            // those by this parameter do: it enters the contacts
+  bool rings;              // the model solves them
+  bool near;               // this parameter enters them: they are found near the base's
+  double left_out;         // of the derivatives then
   bool refused;            // the last question, by the parameters alone
   char changed[TEXT_SIZE]; // what another outcome at a smallest step was, or empty
   SbReport report;         // of the last question that was refused or failed
@@ -265,7 +304,7 @@ typedef struct {
 } Estimate;
 
 // Part of a figure by which two answers of one solver may differ.
-static const double ROUNDING = 4e-14;
+static const double ROUNDING = 4e-14, NEAR_ROUNDING = 1e-9;
 
 static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
   const Level *level = &work->level[at];
@@ -304,26 +343,24 @@ static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
                                                              : ROUGH;
 }
 
-// Part of a figure by which answers with solved rings scatter, as their meshes follow the contacts:
-// measured on ring-cycle's loads, peaks and forces.
-static const double SCATTER = 2e-4;
+// What the tangent of a solved ring leaves out, over the derivative: its history of friction on
+// floor and walls, which another ring would have had (wide differences of whole solutions on
+// ring-cycle, themselves good to a fifth, are a quarter more in loads and widths over radial
+// space); the mesh, which follows a ring's contact; with a film, the pressure's root at the
+// contact's ends.
+static const double HISTORY = 0.4, MESH = 0.1, ROOT = 0.2;
 
-// The same of a figure that hangs on solved rings: the widest difference, and how far the half one
-// is from it.
-static void estimate_scattered(Estimate *out, const Work *work, int at, size_t figure) {
-  const Level *level = &work->level[at];
-  const double h = level->h, f0 = work->base_value[figure];
-  double f[POINTS];
-  for (int i = 0; i < POINTS; i++) {
-    f[i] = value_of(work, at, i)[figure];
-  }
-  const double wide = level->one_sided ? (f[PLUS] - f0) / h : (f[PLUS] - f[MINUS]) / (2 * h);
-  const double half =
-      level->one_sided ? 2 * (f[HALF] - f0) / h : (f[PLUS_HALF] - f[MINUS_HALF]) / h;
-  *out = (Estimate){.slope = wide,
-                    .error = 2 * fabs(wide - half) + SCATTER * work->size[figure] / fabs(h),
-                    .step = fabs(h)};
-  out->kind = isfinite(out->slope) && isfinite(out->error) ? SMOOTH : MISSING;
+// The same of a figure that hangs on rings near the base's.
+static void estimate_near(Estimate *out, const Work *work, int at, size_t figure) {
+  const double h = work->level[at].h, f0 = work->base_value[figure];
+  const double f1 = value_of(work, at, PLUS)[figure], f2 = value_of(work, at, MINUS)[figure];
+  const bool one = work->level[at].one_sided;
+  const double up = (f1 - f0) / h, down = one ? up : (f0 - f2) / h;
+  const bool film = strcmp(sb_figure(work->out->figure[figure])->estimate, "film") == 0;
+  *out = (Estimate){.slope = (up + down) / 2, .apart = fabs(up - down), .step = fabs(h)};
+  out->error = (work->left_out + (film ? ROOT : 0)) * fabs(out->slope) + out->apart / 2 +
+               NEAR_ROUNDING * work->size[figure] / fabs(h);
+  out->kind = !isfinite(out->slope) ? MISSING : SMOOTH;
 }
 
 static void set(Work *work, size_t parameter, size_t figure, double slope, double error) {
@@ -358,7 +395,7 @@ static void settle(Work *work, size_t parameter, size_t figure) {
     if (!work->level[i].asked) {
       continue;
     }
-    (work->scatter ? estimate_scattered : estimate)(&now, work, i, figure);
+    (work->near ? estimate_near : estimate)(&now, work, i, figure);
     if (now.kind == MISSING) {
       continue;
     }
@@ -429,7 +466,7 @@ static SbStatus ask_places(Work *work, int at, double x, bool *refused) {
   level->asked = true;
   for (int i = 0; i < POINTS; i++) {
     // What the outermost points leave as it was, the inner ones do.
-    if ((i == 2 && all_same(work, at, 2)) || (i == 3 && level->one_sided)) {
+    if ((i == 2 && (at == NEAR || all_same(work, at, 2))) || (i == 3 && level->one_sided)) {
       memcpy(value_of(work, at, i), value_of(work, at, i - 1), size);
       continue;
     }
@@ -472,7 +509,7 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
     estimate(&now, work, at, i);
     if (same_bits(work, at, POINTS, i)) {
       set(work, parameter, i, 0, 0);
-    } else if (!work->scatter && enough(&now, work->size[i], scale)) {
+    } else if (!work->near && enough(&now, work->size[i], scale)) {
       set(work, parameter, i, now.slope, now.error);
     } else {
       const bool hidden = now.kind == SMOOTH && now.hidden;
@@ -480,6 +517,22 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
       *smaller |= !hidden;
     }
   }
+}
+
+// Whether a parameter enters solved rings, which are then found near the base's: of those the base
+// too.
+static SbStatus find_near(Work *work, double x, double scale) {
+  work->override[work->question.override_count - 1].value = x + parts[FIRST] * scale;
+  work->near = work->rings && !sb_evaluator_has_solved(work->evaluator, &work->question);
+  sb_evaluator_near(work->other, false, work->near ? work->evaluator : NULL);
+  if (!work->near) {
+    return SB_OK;
+  }
+  work->override[work->question.override_count - 1].value = x;
+  SbReport report;
+  SbStatus status = sb_evaluator_ask(work->base_value, work->other, &work->question, &report);
+  work->report = status != SB_OK ? report : work->report;
+  return status;
 }
 
 static SbStatus differentiate(Work *work, size_t parameter) {
@@ -494,10 +547,12 @@ static SbStatus differentiate(Work *work, size_t parameter) {
   for (size_t i = 0; i < out->figures; i++) {
     work->open[i] = isfinite(out->value[i]);
   }
-  work->override[work->question.override_count - 1].value = x + parts[FIRST] * scale;
-  work->scatter = work->rings && !sb_evaluator_has_solved(work->evaluator, &work->question);
-  for (int at = work->scatter ? LARGE : FIRST; at < LEVELS; at++) {
-    if (at == LARGE ? !larger : !smaller) {
+  SbStatus beside = find_near(work, x, scale);
+  if (ends(beside)) {
+    return beside;
+  }
+  for (int at = work->near ? NEAR : FIRST; at < LEVELS; at++) {
+    if (at == NEAR ? !work->near : at == LARGE ? !larger : !smaller) {
       continue;
     }
     SbStatus status = ask_level(work, at, x, parts[at] * scale, sb_param(id));
@@ -564,13 +619,17 @@ static double size_of(const SbSummary *summary, int figure) {
 // The base's own answer, and the parameters' values there.
 static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) {
   SbGradient *out = work->out;
+  sb_evaluator_near(work->evaluator, true, NULL);
   SbStatus status = sb_evaluator_ask(out->value, work->evaluator, question, report);
   if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
     return status;
   }
   take_outcome(&work->outcome, sb_evaluator_summary(work->evaluator));
-  work->rings =
-      sb_model_number(sb_evaluator_model(work->evaluator), SB_P_MODELS_FIT) == SB_FIT_RING;
+  const SbModel *model = sb_evaluator_model(work->evaluator);
+  const bool rubs = sb_model_value(model, SB_P_GLAND_FLOOR_FRICTION) > 0 ||
+                    sb_model_value(model, SB_P_GLAND_WALL_FRICTION) > 0;
+  work->rings = sb_model_number(model, SB_P_MODELS_FIT) == SB_FIT_RING;
+  work->left_out = rubs ? HISTORY : MESH;
   for (size_t i = 0; i < out->parameters; i++) {
     out->at[i] = sb_model_value(sb_evaluator_model(work->evaluator), out->parameter[i]);
   }
@@ -614,6 +673,7 @@ SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQu
   free(work.size);
   free(work.value);
   free(work.open);
+  sb_evaluator_near(evaluator, false, NULL);
   sb_evaluator_destroy(work.other);
   if (well) {
     *out = work.out;

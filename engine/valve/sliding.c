@@ -30,8 +30,22 @@ SbStatus sb_sliding_memory_create(SbSlidingMemory **out, SbReport *report) {
   return sb_succeed(report);
 }
 
+static void drop_bases(SbSlidingMemory *memory) {
+  for (size_t i = 0; i < memory->bases; i++) {
+    sb_ring_destroy(memory->base[i]->of.ring);
+    free(memory->base[i]);
+  }
+  memory->bases = 0;
+}
+
+void sb_sliding_memory_near(SbSlidingMemory *memory, bool keeps, const SbSlidingMemory *near) {
+  memory->keeps = keeps;
+  memory->near = near;
+}
+
 void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
   if (memory != NULL) {
+    drop_bases(memory);
     sb_film_solver_destroy(memory->solver);
     for (int i = 0; i < SB_RUN_MOTIONS; i++) {
       sb_ring_destroy(memory->fitment[i].ring);
@@ -42,6 +56,7 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
 
 void sb_sliding_memory_forget(SbSlidingMemory *memory) {
   memory->rested = false;
+  drop_bases(memory);
   for (int i = 0; i < SB_RUN_MOTIONS; i++) {
     memory->fitment[i].known = false;
   }
@@ -729,6 +744,8 @@ static SbStatus solve(const SbSlidingTask *task, SbSealState *out, SbReport *rep
 SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   sb_warn_about(task->warnings, about(task->seal));
   SbStatus status = solve(task, out, report);
+  SbStatus kept = sb_sliding_usable(status) ? sb_sliding_keep(task, report) : SB_OK;
+  status = kept != SB_OK ? kept : status;
   sb_warn_about(task->warnings, NULL);
   return status;
 }

@@ -52,6 +52,11 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory);
 // next does not depend on what came before. Keeps the memory.
 void sb_sliding_memory_forget(SbSlidingMemory *memory);
 
+// From now on every ring that is solved is kept beside (`keeps`); and rings are not solved but
+// found near those that `near` has kept, by their tangents (sb_ring_near()), its friction law's
+// fixed point to rounding. NULL: solved. `near` must outlive the memory's use.
+void sb_sliding_memory_near(SbSlidingMemory *memory, bool keeps, const SbSlidingMemory *near);
+
 // Polled while a fitment or a film is solved; true ends it with SB_ERROR_CANCELLED. NULL: nobody.
 void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data);
 

@@ -2,6 +2,7 @@
 #include "engine/valve/sliding_private.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { IN, OUT, REST }; // ways of sliding
@@ -68,22 +69,133 @@ static void fit_problem(SbFitProblem *problem, const SbSlidingTask *task, SbSlid
   }
 }
 
+static int way_of(const SbSlidingTask *task) {
+  return !sb_sliding_drags(task) ? REST : task->speed > 0 ? IN : OUT;
+}
+
+// The kept ring of a way of sliding whose pressure is nearest to the task's; NULL: there is none.
+static const SbSlidingBase *base_of(const SbSlidingTask *task) {
+  const SbSlidingMemory *near = task->memory->near;
+  const double pressure = task->pressure.left - task->pressure.right;
+  const SbSlidingBase *best = NULL;
+  for (size_t i = 0; i < near->bases; i++) {
+    const SbSlidingBase *base = near->base[i];
+    if (base->way == way_of(task) &&
+        (best == NULL || fabs(base->of.pressure - pressure) < fabs(best->of.pressure - pressure))) {
+      best = base;
+    }
+  }
+  return best;
+}
+
+// Gives a near fitment the base's pressure above the fluids' and its surface, moved and stretched
+// to its own contact, with its load: films hang on the root of the pressure at the contact's ends,
+// which a mesh that was fitted to other ends does not tell.
+static void like_base(SbFit *fit, const SbFit *base, double stiffer) {
+  const size_t last = base->profile_count - 1;
+  const double stretch = fit->contact_width / base->contact_width;
+  const double left = fit->profile_p[0], right = fit->profile_p[fit->profile_count - 1];
+  const double was_left = base->profile_p[0], was_right = base->profile_p[last];
+  const double times =
+      (fit->load_per_length - 0.5 * (left + right) * fit->contact_width) /
+      (base->load_per_length - 0.5 * (was_left + was_right) * base->contact_width) / stretch;
+  const double shift = fit->contact_left - base->contact_left;
+  fit->profile_count = base->profile_count;
+  for (size_t i = 0; i <= last; i++) {
+    const double t = (base->profile_x[i] - base->contact_left) / base->contact_width;
+    const double above = base->profile_p[i] - was_left - t * (was_right - was_left);
+    fit->profile_x[i] = fit->contact_left + t * fit->contact_width;
+    fit->profile_p[i] = left + t * (right - left) + times * above;
+  }
+  fit->surface = base->surface;
+  fit->surface.left += shift;
+  fit->surface.right += shift;
+  fit->surface.modulus *= stiffer;
+  for (int k = 0; k < fit->surface.modes; k++) {
+    for (int l = 0; l < fit->surface.modes; l++) {
+      fit->surface.smooth[k][l] /= stiffer;
+    }
+  }
+}
+
+// The task's ring near the kept one, dragged by `law` or, NULL, by that one's.
+static SbStatus near_fit(const SbSlidingTask *task, SbSlidingFitment *now, const SbSlidingLaw *law,
+                         SbReport *report) {
+  const SbSlidingBase *base = base_of(task);
+  if (base == NULL) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE,
+                   "the %s ring rolls, jams or does not touch: it has no tangent",
+                   sb_seal_name(task->seal));
+  }
+  SbFitProblem problem;
+  const bool drags = sb_sliding_drags(task);
+  fit_problem(&problem, task, now, !drags ? NULL : law != NULL ? law : &base->of.law);
+  problem.surface_wanted = false;
+  SbStatus status = sb_fit_near(&now->fit, &problem, &base->of.fit, base->of.ring, report);
+  if (status == SB_OK && now->fit.touches && now->fit.profile_count > 1 &&
+      base->of.fit.profile_count > 1) {
+    like_base(&now->fit, &base->of.fit, problem.modulus / base->modulus);
+  }
+  return status;
+}
+
+SbStatus sb_sliding_keep(const SbSlidingTask *task, SbReport *report) {
+  SbSlidingMemory *memory = task->memory;
+  const double pressure = task->pressure.left - task->pressure.right;
+  const SbSlidingFitment *now = memory->now;
+  if (!memory->keeps || !is_ring(task) || !now->known || memory->bases == SB_SLIDING_BASES) {
+    return SB_OK;
+  }
+  for (size_t i = 0; i < memory->bases; i++) {
+    if (memory->base[i]->way == way_of(task) && memory->base[i]->of.pressure == pressure) {
+      return SB_OK;
+    }
+  }
+  SbSlidingBase *base = calloc(1, sizeof *base);
+  if (base == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a ring");
+  }
+  SbFitProblem problem;
+  fit_problem(&problem, task, &base->of, sb_sliding_drags(task) ? &now->law : NULL);
+  base->way = way_of(task);
+  base->of.pressure = pressure;
+  base->modulus = problem.modulus;
+  SbReport own = {0};
+  SbStatus status = sb_fit_near(&base->of.fit, &problem, &now->fit, now->ring, &own);
+  if (status == SB_OK) {
+    memory->base[memory->bases++] = base;
+    return SB_OK;
+  }
+  free(base);
+  const bool ends = status == SB_ERROR_MEMORY || status == SB_ERROR_CANCELLED;
+  if (ends && report != NULL) {
+    *report = own;
+  }
+  return ends ? status : SB_OK; // one that has no tangent is not kept
+}
+
 // The task's fitment, anew if it is not the last one of these pressures or a `law` of friction is
 // given to drag it.
 static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   double pressure = task->pressure.left - task->pressure.right;
-  SbSlidingFitment *now = &memory->fitment[!sb_sliding_drags(task) ? REST
-                                           : task->speed > 0       ? IN
-                                                                   : OUT];
+  SbSlidingFitment *now = &memory->fitment[way_of(task)];
   memory->now = now;
   const bool known = now->known && now->pressure == pressure && now->seal == task->seal;
   if (law == NULL && known) {
     return SB_OK;
   }
+  memory->rested = false;
+  if (memory->near != NULL && is_ring(task)) {
+    SbStatus found = near_fit(task, now, law, report);
+    task->counts->fit_solves++;
+    now->known = found == SB_OK;
+    now->pressure = pressure;
+    now->seal = task->seal;
+    return found;
+  }
   SbFitProblem problem;
   fit_problem(&problem, task, now, law);
-  memory->rested = false;
   bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES;
   SbStatus status = near ? sb_fit_again(&now->fit, &problem, report) : SB_ERROR_NOT_CONVERGED;
   status =
@@ -212,15 +324,21 @@ static bool mirror(const SbSlidingTask *task, SbSlidingFitment *on) {
 // SbSlidingSolved in turns until the friction that drags it is that of its own film. A ring whose
 // greatest drag is less than its friction rolls or jams; the film is then that of this last state.
 SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
-  enum { ROUNDS = 6 };
-  const double close = 0.5 * task->model->tolerance;
+  // Beside a kept ring the friction law's fixed point is wanted to rounding, to be differentiated.
+  enum { ROUNDS = 6, NEAR_ROUNDS = 12 };
+  const bool beside = task->memory->near != NULL;
+  const double close = beside ? 1e-10 : 0.5 * task->model->tolerance;
+  const int rounds = beside ? NEAR_ROUNDS : ROUNDS;
   const double pressure = task->pressure.left - task->pressure.right;
   SbSlidingMemory *memory = task->memory;
   SbSlidingFitment *on = &memory->fitment[task->speed > 0 ? IN : OUT];
   bool known =
       (on->known && on->pressure == pressure && on->seal == task->seal) || mirror(task, on);
   SbSlidingLaw law;
-  if (!known) {
+  if (!known && beside) {
+    const SbSlidingBase *base = base_of(task);
+    law = base != NULL ? base->of.law : (SbSlidingLaw){0};
+  } else if (!known) {
     guess(&law, task, on);
   }
   SbWarnings *own = &memory->warnings;
@@ -242,7 +360,7 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
     bool slides = on->fit.ring.state == SB_RING_SLIDES;
     bool agree = slides ? fabs(asked - before) <= close * asked
                         : asked >= (1 - close) * fabs(on->fit.ring.drag);
-    if (!agree && round + 1 < ROUNDS) {
+    if (!agree && round + 1 < rounds) {
       continue;
     }
     SbStatus borne = bear(out, &like, on, asked, status == SB_OK ? report : NULL);

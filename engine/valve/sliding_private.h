@@ -1,6 +1,7 @@
 // What the parts of a steady sliding state share. Internal to sliding.c and sliding_fit.c.
 #pragma once
 
+#include "engine/valve/cycle.h"
 #include "engine/valve/sliding.h"
 
 // A film with what is drawn of it.
@@ -22,7 +23,20 @@ typedef struct {
   SbSlidingLaw law; // of the friction that drags it
 } SbSlidingFitment;
 
+// A solved ring as it stood, for others near it.
+typedef struct {
+  int way;        // of sliding
+  double modulus; // of the rubber [Pa]
+  SbSlidingFitment of;
+} SbSlidingBase;
+
+enum { SB_SLIDING_BASES = SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS };
+
 struct SbSlidingMemory {
+  bool keeps; // what is solved, in:
+  size_t bases;
+  SbSlidingBase *base[SB_SLIDING_BASES]; // owned
+  const SbSlidingMemory *near;           // whose kept rings this one's start from; NULL: from none
   // By way of sliding where friction drags the seal, else at rest.
   SbSlidingFitment fitment[SB_RUN_MOTIONS];
   SbSlidingFitment *now;         // of the last evaluation
@@ -49,6 +63,9 @@ bool sb_sliding_usable(SbStatus status);
 // there is a contact to go on with.
 SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *law,
                                 SbSealState *out, bool *known, SbReport *report);
+
+// Keeps the ring of a task just solved, where the memory is to. SB_ERROR_MEMORY, _CANCELLED.
+SbStatus sb_sliding_keep(const SbSlidingTask *task, SbReport *report);
 
 // Fitment, film and friction; a ring dragged by `law`, NULL: as it is known.
 SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,

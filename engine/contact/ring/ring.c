@@ -119,8 +119,7 @@ static SbRingMeshPlan first_plan(const SbRing *ring, const SbRingLoad *s, double
   return plan;
 }
 
-// Elements and contact on the ring's mesh.
-static SbStatus build_on_mesh(SbRing *ring, SbReport *report) {
+SbStatus sb_ring_build(SbRing *ring, SbReport *report) {
   const SbRingBody *body = &ring->body;
   double mu = ring->stress;
   double bulk = body->modulus / (3.0 * (1.0 - 2.0 * body->poisson_ratio));
@@ -140,7 +139,7 @@ static SbStatus build_on_mesh(SbRing *ring, SbReport *report) {
 
 static SbStatus build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report) {
   SbStatus status = sb_ring_mesh_create(&ring->mesh, plan, report);
-  return status == SB_OK ? build_on_mesh(ring, report) : status;
+  return status == SB_OK ? sb_ring_build(ring, report) : status;
 }
 
 static void drop(SbRing *ring) {
@@ -486,8 +485,7 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
   return status;
 }
 
-// A ring beside another of the same body, without a mesh yet.
-static SbStatus beside(SbRing **out, const SbRing *ring, SbReport *report) {
+SbStatus sb_ring_beside(SbRing **out, const SbRing *ring, SbReport *report) {
   SbRing *other = malloc(sizeof *other);
   *out = NULL;
   if (other == NULL) {
@@ -510,7 +508,7 @@ static SbStatus beside(SbRing **out, const SbRing *ring, SbReport *report) {
 
 SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *options,
                       SbReport *report) {
-  SbStatus status = beside(out, ring, report);
+  SbStatus status = sb_ring_beside(out, ring, report);
   if (status != SB_OK) {
     return status;
   }
@@ -534,13 +532,13 @@ SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbRep
                                                         [SB_RING_WALL_RIGHT] = SB_RING_WALL_LEFT,
                                                         [SB_RING_WALL_LEFT] = SB_RING_WALL_RIGHT};
   SbRing *other;
-  SbStatus status = beside(&other, ring, report);
+  SbStatus status = sb_ring_beside(&other, ring, report);
   *out = other;
   if (status != SB_OK) {
     return status;
   }
   status = sb_ring_mesh_mirror(&other->mesh, ring->mesh, report);
-  status = status == SB_OK ? build_on_mesh(other, report) : status;
+  status = status == SB_OK ? sb_ring_build(other, report) : status;
   if (status != SB_OK) {
     sb_ring_destroy(other);
     *out = NULL;

@@ -137,6 +137,15 @@ SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbRep
 SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *options,
                       SbReport *report);
 
+// The ring of another body under another load, both near, by the tangent's Newton iterations from
+// the present state: on its mesh, which goes with the body, with its active set of contact and
+// friction. Differences of such rings are derivatives by the implicit function theorem, to the
+// square of the step; friction on floor and walls counts the motion between them from the present
+// state on, not the history before. Owned. SB_ERROR_NOT_CONVERGED, SB_ERROR_MEMORY, and where the
+// ring rolls or jams SB_ERROR_INFEASIBLE.
+SbStatus sb_ring_near(SbRing **out, const SbRing *ring, const SbRingBody *body,
+                      const SbRingLoad *load, SbReport *report);
+
 // The load of the present state; borrowed.
 const SbRingLoad *sb_ring_load(const SbRing *ring);
 

@@ -137,6 +137,39 @@ static SbStatus correct(SbRing *ring, double *change, SbReport *report) {
   return status;
 }
 
+SbStatus sb_ring_newton_held(SbRing *ring, SbReport *report) {
+  enum { STEPS = 8 };
+  static const double ROUNDING = 1e-10; // where corrections no longer lessen it
+  SbRingContact *contact = ring->contact;
+  SbRingFem *fem = ring->fem;
+  double residual = INFINITY, gap = INFINITY;
+  sb_ring_contact_begin(contact);
+  fem->axial_rest = fem->axial_damping = 0.0;
+  fem->axial_spring = leans(contact) ? 0.0 : AXIAL_SPRING / fem->mesh->nodes;
+  for (int it = 0; it <= STEPS; it++) {
+    if (ring->options.poll != NULL && ring->options.poll(ring->options.poll_data)) {
+      return sb_fail(report, SB_ERROR_CANCELLED, "cancelled");
+    }
+    if (!sb_ring_fem_assemble(fem)) {
+      break;
+    }
+    gap = sb_ring_contact_apply(contact);
+    residual = sb_ring_fem_free_residual(fem) / contact->force_scale;
+    if (it > 0 && residual <= ROUNDING && gap <= ROUNDING) {
+      sb_ring_contact_forces(contact);
+      return SB_OK;
+    }
+    ring->count.iterations++;
+    SbStatus status = sb_ring_fem_solve(fem, report);
+    if (status != SB_OK) {
+      return status;
+    }
+    sb_ring_fem_advance(fem, 1.0);
+  }
+  return sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                 "no balance of forces beside the state (residual %.2g, gap %.2g)", residual, gap);
+}
+
 SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
   const int iterations_max = path == SB_RING_SEALED ? SEALED_ITERATIONS : ITERATIONS_MAX;
   SbRingContact *contact = ring->contact;

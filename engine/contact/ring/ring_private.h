@@ -83,6 +83,11 @@ double sb_ring_profile_place(const SbDryContact *pressure, int i);
 // kept if that fails.
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
 
+// A ring beside another of the same body, without a mesh yet; owned. Elements and contact on a
+// ring's mesh.
+SbStatus sb_ring_beside(SbRing **out, const SbRing *ring, SbReport *report);
+SbStatus sb_ring_build(SbRing *ring, SbReport *report);
+
 // How load steps are taken: followed in viscous steps where the next equilibrium is not near, never
 // so, or as long as the bore is touched.
 typedef enum { SB_RING_FOLLOW, SB_RING_DIRECT, SB_RING_SEALED } SbRingPath;
@@ -90,6 +95,10 @@ typedef enum { SB_RING_FOLLOW, SB_RING_DIRECT, SB_RING_SEALED } SbRingPath;
 // Newton's method with the contact's active set at the load `contact->is.now`; the state is left at
 // the last iterate on failure.
 SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report);
+
+// Newton's method with the contact as it stands: no node is caught or let go, none begins or ceases
+// to slide. The state is left at the last iterate on failure.
+SbStatus sb_ring_newton_held(SbRing *ring, SbReport *report);
 
 // Solves at the present load, unless the section turns too far at once; back to the state of
 // SB_RING_START where that fails.

@@ -104,6 +104,12 @@ SbStatus sb_run_renew_same(SbRun *run, const SbModel *model, SbReport *report) {
   return sb_succeed(report);
 }
 
+void sb_run_near(SbRun *run, bool keeps, const SbRun *near) {
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    sb_sliding_memory_near(run->memory[i], keeps, near != NULL ? near->memory[i] : NULL);
+  }
+}
+
 void sb_run_destroy(SbRun *run) {
   if (run == NULL) {
     return;
@@ -265,6 +271,9 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
   run->after_frames = run->life != NULL ? 0.9 * (1 - run->before_frames) : 0;
   SbStatus status = SB_OK;
   if (run->solved.stand) {
+    if (sb_run_cancelled(hooks, report)) {
+      return SB_ERROR_CANCELLED;
+    }
     sb_run_take_states(run);
   } else {
     status = sb_run_solve_states(run, hooks, report);

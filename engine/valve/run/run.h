@@ -205,6 +205,10 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
 // to the bit, at the same plan: where they were solved they stand and are not solved again.
 SbStatus sb_run_renew_same(SbRun *run, const SbModel *model, SbReport *report);
 
+// From the next execution on: keeps the solved rings; finds its rings near those that `near` has
+// kept, NULL: solves them (sb_sliding_memory_near()).
+void sb_run_near(SbRun *run, bool keeps, const SbRun *near);
+
 // Frees a run that no thread executes any more; NULL is allowed.
 void sb_run_destroy(SbRun *run);
 
