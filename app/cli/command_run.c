@@ -96,6 +96,7 @@ static void print_table(const SbDocument *document, const SbRun *run,
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
     print_stage(summary, (SbStage)i);
   }
+  print_figures(summary, "people.", false);
   if (summary->life.done > 0) {
     printf("Life of %ld actuations\n", summary->life.done);
     print_figures(summary, "life.", false);

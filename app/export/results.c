@@ -299,6 +299,9 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   }
   sb_json_object_end(&json);
   put_bodies(&json, run);
+  sb_json_object(&json, "people");
+  put_figures(&json, summary, "people.");
+  sb_json_object_end(&json);
   sb_json_object(&json, "dose");
   put_figures(&json, summary, "dose.");
   sb_json_object_end(&json);

@@ -11,7 +11,8 @@
 
 enum { SIDES_MAX = 2 * SB_LIMITS_MAX, FIGURES_MAX = SB_LIMITS_MAX + 1 };
 
-// Of a breach, relative to its scale: none; and of what is active.
+// Of a breach, relative to its scale: what a search may end with, by which the bounds are drawn in
+// so that a design keeps its limits to the last digit; and of what is active.
 #define BREACH_NONE 1e-7
 #define ACTIVE      1e-5
 
@@ -96,7 +97,8 @@ static bool has_values(const View *view) {
 static double breach_of(const View *view, size_t side) {
   const Side *of = &view->problem->side[side];
   const double figure = view->value[of->column];
-  return (of->upper ? figure - of->bound + of->shift : of->bound - figure + of->shift) / of->scale;
+  const double beyond = of->upper ? figure - of->bound : of->bound - figure;
+  return (beyond + of->shift) / of->scale + BREACH_NONE;
 }
 
 static double worst_breach(const View *view) {

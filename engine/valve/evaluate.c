@@ -31,37 +31,43 @@ void sb_evaluator_destroy(SbEvaluator *evaluator) {
   }
 }
 
-// Whether the seals' steady states are the same for both: what they do not hang on is taken for
-// alike, by all that sliding.h, what it calls and run_states.c read of a model; what is not named
-// here, they may.
-static bool same_states(SbModel *work, const SbModel *a, const SbModel *b) {
-  *work = *a;
-  work->params = b->params;
-  for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    SbSealModel *to = &work->seal[i];
-    const SbSealModel *from = &b->seal[i];
-    to->stored = from->stored;
-    to->storage = from->storage;
-    to->section_diameter_tolerance = from->section_diameter_tolerance;
-    to->inner_diameter_tolerance = from->inner_diameter_tolerance;
-    to->squeeze = from->squeeze;
-    to->gland_fill = from->gland_fill;
-  }
-#define LIKE(member) work->member = b->member
-  LIKE(storage_time), LIKE(storage_temperature), LIKE(recovery_time), LIKE(rubber);
+// Of a line of params.def: whether two have the same of a member that is declared there.
+#define SAME_OWN(type, place) same = same && a->place == b->place;
+#define SAME_IN(type, place)
+
+static bool same_rings(const SbSealModel *a, const SbSealModel *b) {
+  return a->section_diameter == b->section_diameter && a->inner_diameter == b->inner_diameter &&
+         a->modulus == b->modulus && a->reduced_modulus == b->reduced_modulus &&
+         a->radius == b->radius && a->stretch_mean == b->stretch_mean &&
+         a->section_fitted == b->section_fitted && a->interference == b->interference &&
+         a->poisson_ratio == b->poisson_ratio && a->mooney_share == b->mooney_share;
+}
+
+// Whether the seals' steady states are the same for `b` and the model that `a` is a copy of: what
+// they do not hang on is taken for alike, of all that the states' files (sliding*.c, breakaway.c,
+// run_states.c, run_speeds.c, run_supply.c) read of a model. Any other line of params.def they may.
+static bool same_states(SbModel *a, const SbModel *b) {
+#define LIKE(member) a->member = b->member
+  LIKE(storage_time), LIKE(storage_temperature), LIKE(recovery_time);
   LIKE(radial_space_tolerance), LIKE(axial_width_tolerance), LIKE(bore_diameter_tolerance);
-  LIKE(land_edge), LIKE(shape), LIKE(refill_travel), LIKE(refill_area), LIKE(housing_expansion);
-  LIKE(ethanol), LIKE(temperature), LIKE(ambient_pressure), LIKE(supply), LIKE(filling_time);
-  LIKE(discharge_coefficient), LIKE(chamber_stiffness), LIKE(stem_diameter);
-  LIKE(stem_diameter_tolerance), LIKE(stem_mass), LIKE(density), LIKE(pressure_force);
-  LIKE(parts), LIKE(moving_mass), LIKE(stroke), LIKE(reversal_force), LIKE(stiffness);
-  LIKE(peak_force), LIKE(rise_time), LIKE(hold_time), LIKE(finger_damping), LIKE(damping_ratio);
-  LIKE(amplitude), LIKE(frequency), LIKE(stribeck_speed), LIKE(tangential_stiffness);
-  LIKE(stop_stiffness), LIKE(stop_restitution), LIKE(spring_stiffness), LIKE(spring_preload);
-  LIKE(running_in), LIKE(rig), LIKE(rig_prominence), LIKE(look), LIKE(study);
-  LIKE(motion_tolerance), LIKE(limits);
+  LIKE(land_edge), LIKE(refill_travel), LIKE(refill_area), LIKE(housing_expansion);
+  LIKE(ethanol), LIKE(temperature), LIKE(ambient_pressure), LIKE(discharge_coefficient);
+  LIKE(chamber_stiffness), LIKE(stem_diameter), LIKE(stem_diameter_tolerance), LIKE(stem_mass);
+  LIKE(density), LIKE(stroke), LIKE(reversal_force), LIKE(stiffness), LIKE(peak_force);
+  LIKE(rise_time), LIKE(hold_time), LIKE(finger_damping), LIKE(damping_ratio), LIKE(amplitude);
+  LIKE(frequency), LIKE(stribeck_speed), LIKE(tangential_stiffness), LIKE(stop_stiffness);
+  LIKE(stop_restitution), LIKE(spring_stiffness), LIKE(spring_preload), LIKE(rig_prominence);
+  LIKE(motion_tolerance);
 #undef LIKE
-  return memcmp(work, b, sizeof *work) == 0;
+  bool same = a->bore_circumference == b->bore_circumference && a->surface == b->surface &&
+              a->data == b->data;
+#define SB_REAL(id, where, place, ...)         SAME_##where(double, place)
+#define SB_INT(id, where, place, ...)          SAME_##where(int, place)
+#define SB_CHOICE(id, type, where, place, ...) SAME_##where(type, place)
+#define SB_FLAGS(id, where, place, ...)        SAME_##where(unsigned, place)
+#include "engine/valve/params.def"
+  return same && same_rings(&a->seal[SB_OUTER], &b->seal[SB_OUTER]) &&
+         same_rings(&a->seal[SB_INNER], &b->seal[SB_INNER]);
 }
 
 static bool same_plan(const SbPlan *a, const SbPlan *b) {
@@ -79,7 +85,11 @@ static bool has_solved(const SbEvaluator *evaluator, const SbModel *model, const
     return false;
   }
   SbModel *work = malloc(sizeof *work);
-  const bool same = work != NULL && same_states(work, sb_run_model(evaluator->run), model);
+  bool same = false;
+  if (work != NULL) {
+    *work = *sb_run_model(evaluator->run);
+    same = same_states(work, model);
+  }
   free(work);
   return same;
 }
@@ -112,6 +122,10 @@ static SbStatus prepare(SbEvaluator *evaluator, const SbQuestion *question, SbRe
   }
   sb_model_destroy(model);
   return status;
+}
+
+void sb_evaluator_forget(SbEvaluator *evaluator) {
+  evaluator->answered = false;
 }
 
 SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestion *question,

@@ -55,6 +55,9 @@ SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestio
 // Whether it would answer without solving a contact, by those of the last question.
 bool sb_evaluator_has_solved(const SbEvaluator *evaluator, const SbQuestion *question);
 
+// Forgets the last question: the next one solves all that it needs.
+void sb_evaluator_forget(SbEvaluator *evaluator);
+
 // Why a figure of the last question has no value; NULL for one that has. Borrowed until the next
 // question.
 const char *sb_evaluator_reason(const SbEvaluator *evaluator, int figure);

@@ -84,6 +84,44 @@ bool sb_gradient_wants(SbParamId id) {
   return sb_param(id)->kind == SB_PARAM_REAL;
 }
 
+// Place of a parameter, the number of parameters if it has not got it.
+static size_t place_of(const SbGradient *gradient, SbParamId id) {
+  size_t at = 0;
+  while (at < gradient->parameters && gradient->parameter[at] != id) {
+    at++;
+  }
+  return at;
+}
+
+SbStatus sb_gradient_predict(double *value, const SbGradient *gradient, const SbOverride *override,
+                             size_t count, SbReport *report) {
+  for (size_t i = 0; i < count; i++) {
+    const SbParam *param = sb_param(override[i].id);
+    if (place_of(gradient, override[i].id) == gradient->parameters) {
+      return sb_fail_parameter(report, SB_ERROR_INPUT, param->key, "no derivative by it is known");
+    }
+    if (!(override[i].value >= param->min && override[i].value <= param->max)) {
+      return sb_fail_parameter(report, SB_ERROR_RANGE, param->key, "%g is outside %g to %g (%s)",
+                               override[i].value, param->min, param->max, param->si);
+    }
+  }
+  for (size_t f = 0; f < gradient->figures; f++) {
+    value[f] = gradient->value[f];
+  }
+  for (size_t i = 0; i < count; i++) {
+    const size_t at = place_of(gradient, override[i].id);
+    bool last = true;
+    for (size_t k = i + 1; k < count; k++) {
+      last = last && override[k].id != override[i].id;
+    }
+    const double by = override[i].value - gradient->at[at];
+    for (size_t f = 0; f < gradient->figures && last && by != 0; f++) {
+      value[f] += by * sb_gradient_slope(gradient, f, at);
+    }
+  }
+  return sb_succeed(report);
+}
+
 static SbGradient *make(const SbQuestion *question, const SbParamId *parameter, size_t count) {
   SbGradient *out = calloc(1, sizeof *out);
   if (out == NULL) {
@@ -197,8 +235,8 @@ enum { PLUS, MINUS, PLUS_HALF, MINUS_HALF, POINTS };
 enum { HALF = MINUS, QUARTER = PLUS_HALF };
 
 // Steps: the first, two smaller ones for what is not smooth, a larger one for what rounding hides.
-enum { FIRST, SMALL, SMALLEST, LARGE, LEVELS };
-static const double parts[LEVELS] = {1e-3, 6e-5, 4e-6, 1.6e-2}; // of the parameter's scale
+enum { FIRST, SMALL, SMALLEST, LARGE, NEAR, LEVELS };
+static const double parts[LEVELS] = {1e-3, 6e-5, 4e-6, 1.6e-2, 1.6e-2}; // of the parameter's scale
 
 typedef struct {
   bool asked, one_sided;
@@ -217,8 +255,8 @@ typedef struct {
   Level level[LEVELS];
   bool *open; // figures whose derivative is still sought [figures]
   Outcome outcome;
-  bool rings;              // the model solves them: answers scatter
-  bool scatter;            // those by this parameter do: it enters the contacts
+  SbEvaluator *start;      // from whose rings all others start, owned; NULL: there are none
+  bool near;               // this parameter enters rings that are solved
   bool refused;            // the last question, by the parameters alone
   char changed[TEXT_SIZE]; // what another outcome at a smallest step was, or empty
   SbReport report;         // of the last question that was refused or failed
@@ -304,13 +342,13 @@ static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
                                                              : ROUGH;
 }
 
-// Part of a figure by which answers with solved rings scatter, as their meshes follow the contacts:
-// measured on ring-cycle's loads, peaks and forces.
+// Part of a figure by which answers scatter whose rings start from the same base: their friction is
+// known to half the model's tolerance, and nodes come and go (measured on ring-cycle).
 static const double SCATTER = 2e-4;
 
-// The same of a figure that hangs on solved rings: the widest difference, and how far the half one
-// is from it.
-static void estimate_scattered(Estimate *out, const Work *work, int at, size_t figure) {
+// The same of a figure that hangs on rings: the widest difference, and how far the half one is from
+// it.
+static void estimate_near(Estimate *out, const Work *work, int at, size_t figure) {
   const Level *level = &work->level[at];
   const double h = level->h, f0 = work->base_value[figure];
   double f[POINTS];
@@ -358,7 +396,7 @@ static void settle(Work *work, size_t parameter, size_t figure) {
     if (!work->level[i].asked) {
       continue;
     }
-    (work->scatter ? estimate_scattered : estimate)(&now, work, i, figure);
+    (work->near ? estimate_near : estimate)(&now, work, i, figure);
     if (now.kind == MISSING) {
       continue;
     }
@@ -472,7 +510,7 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
     estimate(&now, work, at, i);
     if (same_bits(work, at, POINTS, i)) {
       set(work, parameter, i, 0, 0);
-    } else if (!work->scatter && enough(&now, work->size[i], scale)) {
+    } else if (!work->near && enough(&now, work->size[i], scale)) {
       set(work, parameter, i, now.slope, now.error);
     } else {
       const bool hidden = now.kind == SMOOTH && now.hidden;
@@ -480,6 +518,12 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
       *smaller |= !hidden;
     }
   }
+}
+
+// Whether a parameter enters solved rings.
+static bool enters_rings(Work *work, double x, double scale) {
+  work->override[work->question.override_count - 1].value = x + parts[FIRST] * scale;
+  return work->start != NULL && !sb_evaluator_has_solved(work->evaluator, &work->question);
 }
 
 static SbStatus differentiate(Work *work, size_t parameter) {
@@ -494,10 +538,9 @@ static SbStatus differentiate(Work *work, size_t parameter) {
   for (size_t i = 0; i < out->figures; i++) {
     work->open[i] = isfinite(out->value[i]);
   }
-  work->override[work->question.override_count - 1].value = x + parts[FIRST] * scale;
-  work->scatter = work->rings && !sb_evaluator_has_solved(work->evaluator, &work->question);
-  for (int at = work->scatter ? LARGE : FIRST; at < LEVELS; at++) {
-    if (at == LARGE ? !larger : !smaller) {
+  work->near = enters_rings(work, x, scale);
+  for (int at = work->near ? NEAR : FIRST; at < LEVELS; at++) {
+    if (at == NEAR ? !work->near : at == LARGE ? !larger : !smaller) {
       continue;
     }
     SbStatus status = ask_level(work, at, x, parts[at] * scale, sb_param(id));
@@ -561,16 +604,35 @@ static double size_of(const SbSummary *summary, int figure) {
   return fmax(value, whole); // leaves out what is not known
 }
 
+// Solves the base's rings, for all others to start from.
+static SbStatus find_start(Work *work, const SbQuestion *question, SbReport *report) {
+  SbQuestion base = *question;
+  SbModel *model;
+  SbStatus status = sb_model_derive(&model, base.base, base.override, base.override_count, report);
+  const bool rings = status == SB_OK && sb_model_number(model, SB_P_MODELS_FIT) == SB_FIT_RING;
+  sb_model_destroy(model);
+  if (status != SB_OK || !rings) {
+    return status;
+  }
+  status = sb_evaluator_create(&work->start, report);
+  base.keep = true;
+  return status == SB_OK ? sb_evaluator_ask(work->out->value, work->start, &base, report) : status;
+}
+
 // The base's own answer, and the parameters' values there.
 static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) {
   SbGradient *out = work->out;
-  SbStatus status = sb_evaluator_ask(out->value, work->evaluator, question, report);
+  SbQuestion base = *question;
+  SbStatus status = find_start(work, question, report);
+  if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
+    return status;
+  }
+  base.start = work->question.start = work->start;
+  status = sb_evaluator_ask(out->value, work->evaluator, &base, report);
   if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
     return status;
   }
   take_outcome(&work->outcome, sb_evaluator_summary(work->evaluator));
-  work->rings =
-      sb_model_number(sb_evaluator_model(work->evaluator), SB_P_MODELS_FIT) == SB_FIT_RING;
   for (size_t i = 0; i < out->parameters; i++) {
     out->at[i] = sb_model_value(sb_evaluator_model(work->evaluator), out->parameter[i]);
   }
@@ -614,7 +676,10 @@ SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQu
   free(work.size);
   free(work.value);
   free(work.open);
+  // The caller's evaluator must not stand on what ends here.
+  sb_evaluator_forget(evaluator);
   sb_evaluator_destroy(work.other);
+  sb_evaluator_destroy(work.start);
   if (well) {
     *out = work.out;
   } else {

@@ -111,6 +111,7 @@ static void test_optimum(void) {
   const double best = cli_number(root, "objective");
   assert_close(best, least_of_grid(9), 1e-4);
   assert_close(member(root, "figures", LOAD), 9.0, 1e-6);
+  g_assert_cmpfloat(member(root, "margins", LOAD), >=, 0);
   g_assert_true(is_active(root, LOAD));
   g_assert_false(is_active(root, RETURN));
   assert_close(member(root, "margins", RETURN), member(root, "figures", RETURN) - 2, 1e-9);

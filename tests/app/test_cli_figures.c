@@ -239,6 +239,49 @@ static void test_table(void) {
   cli_remove_results(out);
 }
 
+// Derivatives by name in SI, the table, and what is told.
+static void test_sensitivity(void) {
+  CliResult result = CLI("sensitivity", cli.scene, cli.scene, "--set", "models.film=thesis",
+                         "--parameters", "gland.radial_space, bore.entry_length,fluid.ethanol",
+                         "--figures", "cycle.force_breakaway_N,rig.first_peak_N", "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  g_autoptr(JsonNode) root = cli_parse(result.out);
+  const JsonNode *first = cli_at(root, "0");
+  g_assert_cmpuint(json_array_get_length(json_node_get_array(root)), ==, 2);
+  cli_has_keys((JsonNode *)first, "figures gradients reasons");
+  JsonObject *object = json_node_get_object((JsonNode *)first);
+  JsonObject *gradients = json_object_get_object_member(object, "gradients");
+  JsonObject *by = json_object_get_object_member(gradients, "cycle.force_breakaway_N");
+  g_assert_cmpfloat(json_object_get_double_member(by, "gland.radial_space"), <, -1e4);
+  g_assert_cmpfloat(json_object_get_double_member(by, "bore.entry_length"), ==, 0);
+  g_assert_true(json_object_get_null_member(by, "fluid.ethanol"));
+  JsonObject *reasons = json_object_get_object_member(object, "reasons");
+  g_assert_nonnull(strstr(
+      json_object_get_string_member(
+          json_object_get_object_member(reasons, "cycle.force_breakaway_N"), "fluid.ethanol"),
+      "needs a propellant by name"));
+  g_assert_true(json_object_get_null_member(json_object_get_object_member(object, "figures"),
+                                            "rig.first_peak_N"));
+  cli_clear(&result);
+  result = CLI("sensitivity", cli.scene, "--set", "models.film=thesis", "--parameters",
+               "gland.radial_space,seal.modulus", "--figures", "seals.outer.load_N");
+  g_assert_cmpint(result.code, ==, 0);
+  g_assert_nonnull(strstr(result.out, "per 0.02 mm"));
+  g_assert_nonnull(strstr(result.out, "per 5 %"));
+  cli_clear(&result);
+  static const struct {
+    const char *option, *value, *says;
+  } wrong[] = {{"--figures", "cycle.force_braekaway_N", "do you mean cycle.force_breakaway_N?"},
+               {"--parameters", "gland.radial_spce", "do you mean gland.radial_space?"},
+               {"--parameters", "models.film", "models.film is no real number"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
+    result = CLI("sensitivity", cli.scene, wrong[i].option, wrong[i].value);
+    g_assert_cmpint(result.code, ==, 1);
+    g_assert_nonnull(strstr(result.err, wrong[i].says));
+    cli_clear(&result);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -247,6 +290,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/set", test_set);
   g_test_add_func("/cli/list-figures", test_list);
   g_test_add_func("/cli/figures-table", test_table);
+  g_test_add_func("/cli/sensitivity", test_sensitivity);
   int result = g_test_run();
   cli_tear_down();
   return result;

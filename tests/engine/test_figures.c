@@ -3,9 +3,11 @@
 #include "engine/valve/run/run_private.h"
 #include "engine/valve/sealbench.h"
 #include "tests/engine/models.h"
+#include "tests/engine/near.h"
 
 #include <glib.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static double value_at(const SbSummary *summary, const char *path) {
@@ -262,6 +264,34 @@ static void test_one_way(void) {
   }
 }
 
+// Shares of people by the normal distribution function; of a plate that nobody presses, none.
+static void test_people(void) {
+  const Setting changes[] = {{SB_P_PEOPLE_MEN_STRENGTH, 30},
+                             {SB_P_MODELS_MOTION, SB_MODEL_MOTION_RIG},
+                             {SB_P_RIG_DURATION, 0.2}};
+  SbModel model;
+  compile(&model, changes, 1);
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  const SbSummary *s = sb_run_summary(run);
+  const double forces[] = {value_at(s, "cycle.force_peak_N"),
+                           value_at(s, "cycle.force_breakaway_N")};
+  static const char *const of[] = {"peak", "breakaway"};
+  check_reasons(s);
+  for (int i = 0; i < 2; i++) {
+    char women[64], men[64];
+    snprintf(women, sizeof women, "people.women_below_%s", of[i]);
+    snprintf(men, sizeof men, "people.men_below_%s", of[i]);
+    assert_close(value_at(s, women), erfc((31.34 - forces[i]) / 9.94 / M_SQRT2) / 2, 1e-12);
+    assert_close(value_at(s, men), erfc((30 - forces[i]) / 5.80 / M_SQRT2) / 2, 1e-12);
+  }
+  sb_run_destroy(run);
+  compile(&model, changes, G_N_ELEMENTS(changes));
+  run = run_of(&model, SB_OK, NULL);
+  check_reasons(sb_run_summary(run));
+  g_assert_nonnull(strstr(reason_at(sb_run_summary(run), "people.men_below_peak"), "nobody"));
+  sb_run_destroy(run);
+}
+
 // A solver that fails names itself and its place; nothing after it is computed, least of all 0.
 static void test_failure(void) {
   // A disc has no state under nearly seven times its modulus.
@@ -466,6 +496,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/figures/dragged-contact", test_dragged_contact);
   g_test_add_func("/figures/shear-strength", test_shear_strength);
   g_test_add_func("/figures/one-way", test_one_way);
+  g_test_add_func("/figures/people", test_people);
   g_test_add_func("/figures/failure", test_failure);
   g_test_add_func("/figures/cancelled", test_cancelled);
   g_test_add_func("/figures/no-work", test_no_work);

@@ -1,5 +1,5 @@
-// Gradients: against differences of whole runs by another stencil; exact zeros; kinks, jumps and
-// ends of ranges; what a choice would give; cancelling.
+// Gradients: against differences of whole runs by another stencil; exact zeros; jumps,
+// what has no derivative, and why; the tangent of a ring; cancelling.
 #include "engine/contact/fit.h"
 #include "engine/valve/gradient.h"
 #include "engine/valve/sealbench.h"
@@ -112,23 +112,15 @@ static bool may_enter(SbParamId id) {
 static void compare(const SbOverride *change, size_t changes, size_t count, guint32 seed,
                     double close) {
   Valve valve;
+  GRand *random = g_rand_new_with_seed(seed);
   SbParamId parameter[SB_PARAM_COUNT];
   size_t compared = 0, moved = 0;
   set_up(&valve, change, changes);
-  // By a hash of their keys, so that another parameter in the catalogue takes the place of one at
-  // most.
-  guint least = 0;
-  for (size_t i = 0; i < count; i++) {
-    guint next = G_MAXUINT;
-    for (int id = 0; id < SB_PARAM_COUNT; id++) {
-      const guint hash = (g_str_hash(sb_param((SbParamId)id)->key) ^ seed) * 2654435761u;
-      if (hash > least && hash < next && sb_gradient_wants((SbParamId)id) &&
-          sb_model_value(valve.model, (SbParamId)id) != 0 && may_enter((SbParamId)id)) {
-        next = hash;
-        parameter[i] = (SbParamId)id;
-      }
+  for (size_t i = 0; i < count;) {
+    SbParamId id = (SbParamId)g_rand_int_range(random, 0, SB_PARAM_COUNT);
+    if (sb_gradient_wants(id) && sb_model_value(valve.model, id) != 0 && may_enter(id)) {
+      parameter[i++] = id;
     }
-    least = next;
   }
   SbGradient *gradient = gradient_of(&valve, parameter, count);
   for (size_t k = 0; k < count; k++) {
@@ -155,6 +147,7 @@ static void compare(const SbOverride *change, size_t changes, size_t count, guin
   g_assert_cmpuint(moved, >, compared / 20);
   sb_gradient_destroy(gradient);
   clear(&valve);
+  g_rand_free(random);
 }
 
 static void test_closed_forms(void) {
@@ -191,10 +184,209 @@ static void test_zeros(void) {
   clear(&valve);
 }
 
+// At the speed at which the chamber just fills its share bends: no derivative, and why; one beside
+// it. A parameter that the models do not take has none either.
+static void test_kink(void) {
+  static const SbParamId parameter[] = {SB_P_CHAMBER_DISCHARGE_COEFFICIENT, SB_P_DRIVE_SPEED,
+                                        SB_P_FRICTION_STRIBECK_SPEED};
+  static const char *const needs[] = {"dose.filled_share", "dose.filling_time_s",
+                                      "cycle.stages.C.time_s", "cycle.stages.F.time_s"};
+  int figure[G_N_ELEMENTS(needs)];
+  double value[G_N_ELEMENTS(needs)];
+  SbOverride speed = {SB_P_DRIVE_SPEED, 0.3};
+  Valve valve;
+  set_up(&valve, NULL, 0);
+  for (size_t i = 0; i < G_N_ELEMENTS(needs); i++) {
+    figure[i] = sb_figure_find(needs[i]);
+  }
+  valve.question = (SbQuestion){.base = valve.model,
+                                .override = &speed,
+                                .override_count = 1,
+                                .figure = figure,
+                                .figure_count = G_N_ELEMENTS(needs)};
+  for (int round = 0; round < 30; round++) {
+    g_assert_cmpint(sb_evaluator_ask(value, valve.evaluator, &valve.question, NULL), ==, SB_OK);
+    speed.value *= (value[3] - value[2]) / value[1];
+  }
+  g_assert_cmpfloat_with_epsilon(value[0], 1, 1e-9);
+  for (int beside = 0; beside < 2; beside++) {
+    speed.value *= beside == 1 ? 1.1 : 1;
+    SbGradient *gradient = gradient_of(&valve, parameter, G_N_ELEMENTS(parameter));
+    const double coefficient = sb_gradient_at(gradient, 0), share = sb_gradient_value(gradient, 0);
+    if (beside == 0) {
+      g_assert_true(isnan(sb_gradient_slope(gradient, 0, 0)));
+      g_assert_true(isnan(sb_gradient_error(gradient, 0, 0)));
+      g_assert_nonnull(strstr(sb_gradient_reason(gradient, 0, 0), "bends"));
+      g_assert_nonnull(sb_gradient_reason(gradient, 0, 1));
+    } else { // in proportion to the coefficient
+      g_assert_cmpfloat(share, <, 0.95);
+      g_assert_true(fabs(sb_gradient_slope(gradient, 0, 0) * coefficient / share - 1) < 1e-8);
+    }
+    g_assert_true(fabs(sb_gradient_slope(gradient, 1, 0) * coefficient + value[1]) <
+                  1e-8 * value[1]);
+    g_assert_nonnull(strstr(sb_gradient_reason(gradient, 0, 2), "needs models.motion = dynamic"));
+    sb_gradient_destroy(gradient);
+  }
+  clear(&valve);
+}
+
+// Predictions meet the valve to second order; unknown and impossible changes are refused.
+static void test_predict(void) {
+  static const SbParamId parameter[] = {SB_P_GLAND_RADIAL_SPACE, SB_P_SEAL_MODULUS};
+  const SbOverride change[] = {
+      {SB_P_SEAL_MODULUS, 5e6}, {SB_P_GLAND_RADIAL_SPACE, 1.361e-3}, {SB_P_SEAL_MODULUS, 2.505e6}};
+  const SbOverride unknown = {SB_P_FLUID_VISCOSITY, 1e-3}, beyond = {SB_P_SEAL_MODULUS, -1};
+  double value[FIGURES], predicted[FIGURES];
+  Valve valve;
+  SbReport report;
+  set_up(&valve, NULL, 0);
+  SbGradient *gradient = gradient_of(&valve, parameter, G_N_ELEMENTS(parameter));
+  valve.question.override = change;
+  valve.question.override_count = G_N_ELEMENTS(change);
+  g_assert_cmpint(sb_evaluator_ask(value, valve.evaluator, &valve.question, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_gradient_predict(predicted, gradient, change, 3, NULL), ==, SB_OK);
+  for (size_t i = 0; i < FIGURES; i++) {
+    const double was = sb_gradient_value(gradient, i);
+    g_assert_true(fabs(predicted[i] - value[i]) <= 2e-2 * fabs(value[i] - was));
+  }
+  g_assert_cmpint(sb_gradient_predict(predicted, gradient, &unknown, 1, &report), ==,
+                  SB_ERROR_INPUT);
+  g_assert_cmpstr(report.parameter, ==, "fluid.viscosity");
+  g_assert_cmpint(sb_gradient_predict(predicted, gradient, &beyond, 1, &report), ==,
+                  SB_ERROR_RANGE);
+  sb_gradient_destroy(gradient);
+  clear(&valve);
+}
+
+static bool stop(void *data) {
+  return ++*(int *)data > 5;
+}
+
+static void test_refused(void) {
+  static const SbParamId number = SB_P_OUTPUT_FRAMES, real = SB_P_SEAL_MODULUS;
+  SbGradient *gradient;
+  SbReport report;
+  Valve valve;
+  set_up(&valve, NULL, 0);
+  g_assert_cmpint(
+      sb_gradient_create(&gradient, valve.evaluator, &valve.question, &number, 1, NULL, &report),
+      ==, SB_ERROR_INPUT);
+  g_assert_null(gradient);
+  g_assert_cmpstr(report.parameter, ==, "output.frames");
+  int asked = 0;
+  valve.question.cancelled = stop;
+  valve.question.data = &asked;
+  g_assert_cmpint(
+      sb_gradient_create(&gradient, valve.evaluator, &valve.question, &real, 1, NULL, &report), ==,
+      SB_ERROR_CANCELLED);
+  g_assert_null(gradient);
+  clear(&valve);
+}
+
+// A ring near another is the one that the solver steps to on the same mesh, and scales as bodies
+// do.
+static void test_ring_near(void) {
+  const SbRingBody body = {.section_diameter = 1.61e-3,
+                           .inner_diameter = 2.84e-3,
+                           .modulus = 2.5e6,
+                           .poisson_ratio = 0.49};
+  SbRingLoad load = SB_RING_LOAD_INIT;
+  load.bore_radius = 3e-3;
+  load.floor_radius = 1.64e-3;
+  const SbRingOptions options = {0};
+  SbRing *ring, *near;
+  SbRingResult is, moved, stepped;
+  g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, NULL), ==, SB_OK);
+  sb_ring_result(ring, &is);
+  const double more = 1e-5;
+  // Stiffer: the load with it. Larger: with the square.
+  SbRingBody other = body;
+  other.modulus *= 1 + more;
+  g_assert_cmpint(sb_ring_near(&near, ring, &other, &load, &options, NULL), ==, SB_OK);
+  sb_ring_result(near, &moved);
+  g_assert_true(fabs(moved.bore_force / is.bore_force - 1 - more) < 1e-9);
+  sb_ring_destroy(near);
+  SbRingLoad larger = load;
+  other = body;
+  other.section_diameter *= 1 + more;
+  other.inner_diameter *= 1 + more;
+  larger.bore_radius *= 1 + more;
+  larger.floor_radius *= 1 + more;
+  g_assert_cmpint(sb_ring_near(&near, ring, &other, &larger, &options, NULL), ==, SB_OK);
+  sb_ring_result(near, &moved);
+  g_assert_true(fabs(moved.bore_force / is.bore_force - (1 + more) * (1 + more)) < 1e-9);
+  sb_ring_destroy(near);
+  // A wider bore: the slope is that of the solver's own step.
+  SbRingLoad wider = load;
+  wider.bore_radius += 1e-8;
+  g_assert_cmpint(sb_ring_near(&near, ring, &body, &wider, &options, NULL), ==, SB_OK);
+  sb_ring_result(near, &moved);
+  g_assert_cmpint(sb_ring_step(ring, &wider, NULL), ==, SB_OK);
+  sb_ring_result(ring, &stepped);
+  const double slope = moved.bore_force - is.bore_force;
+  g_test_message("load %.10g N, slopes %.8g and %.8g", is.bore_force, slope,
+                 stepped.bore_force - is.bore_force);
+  g_assert_cmpfloat(slope, <, 0);
+  g_assert_true(fabs((stepped.bore_force - is.bore_force) / slope - 1) < 1e-4);
+  sb_ring_destroy(near);
+  sb_ring_destroy(ring);
+}
+
+// Solved films, and the consistent set but for its ring.
+static void test_films(void) {
+  const SbOverride films[] = {{SB_P_MODELS_FIT, SB_FIT_DISC}, {SB_P_MODELS_FILM, SB_FILM_REYNOLDS}};
+  const SbOverride consistent[] = {{SB_P_MODELS_SET, SB_MODEL_SET_CONSISTENT},
+                                   {SB_P_MODELS_FIT, SB_FIT_DISC}};
+  if (g_test_slow()) {
+    compare(films, 2, 20, 19, 1e-4);
+    compare(consistent, 2, 8, 20, 1e-3);
+  }
+}
+
+// Solved rings that friction drags, all from the same start: the base's own figures are found again
+// from there; a seal's own modulus moves its own contact alone; stiffer presses more, a wider gland
+// less.
+static void test_rings(void) {
+  static const SbOverride change[] = {{SB_P_MODELS_FIT, SB_FIT_RING},
+                                      {SB_P_GLAND_FLOOR_FRICTION, 0.3},
+                                      {SB_P_GLAND_WALL_FRICTION, 0.1},
+                                      {SB_P_FRICTION_SHEAR_STRENGTH, 1e6}};
+  static const SbParamId parameter[] = {SB_P_SEAL_OUTER_MODULUS, SB_P_GLAND_RADIAL_SPACE,
+                                        SB_P_STEM_PRESSURE_DIAMETER};
+  enum { LOAD = 4, WIDTH = 5 }; // of the outer seal, of the inner one
+  if (!g_test_slow()) {
+    return;
+  }
+  double value[FIGURES];
+  Valve valve;
+  set_up(&valve, change, G_N_ELEMENTS(change));
+  g_assert_cmpint(sb_evaluator_ask(value, valve.evaluator, &valve.question, NULL), ==, SB_OK);
+  SbGradient *gradient = gradient_of(&valve, parameter, G_N_ELEMENTS(parameter));
+  g_assert_cmpfloat(sb_gradient_slope(gradient, LOAD, 0), >, 0);
+  g_assert_cmpfloat(sb_gradient_slope(gradient, WIDTH, 0), ==, 0);
+  g_assert_cmpfloat(sb_gradient_slope(gradient, LOAD, 1), <, 0);
+  g_assert_cmpfloat(sb_gradient_slope(gradient, WIDTH, 1), <, 0);
+  g_assert_cmpfloat(sb_gradient_slope(gradient, LOAD, 2), ==, 0);
+  for (size_t i = 0; i < FIGURES; i++) {
+    g_assert_null(sb_gradient_reason(gradient, i, 1));
+    g_assert_true(fabs(sb_gradient_value(gradient, i) / value[i] - 1) < 1e-3);
+    g_test_message("%s by radial space: %.6g, error %.2g", paths[i],
+                   sb_gradient_slope(gradient, i, 1), sb_gradient_error(gradient, i, 1));
+  }
+  sb_gradient_destroy(gradient);
+  clear(&valve);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/gradient/closed-forms", test_closed_forms);
   g_test_add_func("/gradient/disc", test_disc);
   g_test_add_func("/gradient/zeros", test_zeros);
+  g_test_add_func("/gradient/kink", test_kink);
+  g_test_add_func("/gradient/predict", test_predict);
+  g_test_add_func("/gradient/refused", test_refused);
+  g_test_add_func("/gradient/ring-near", test_ring_near);
+  g_test_add_func("/gradient/films", test_films);
+  g_test_add_func("/gradient/rings", test_rings);
   return g_test_run();
 }

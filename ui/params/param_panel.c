@@ -54,6 +54,7 @@ static const struct {
     {"life.", N_("Life"), NULL, FALSE},
     {"output.", N_("Output"), NULL, FALSE},
     {"part.", N_("Part"), NULL, FALSE},
+    {"people.", N_("People"), NULL, FALSE},
     {"rig.", N_("Rig"), NULL, FALSE},
     {"rubber.", N_("Rubber"), NULL, FALSE},
     {"stem.", N_("Stem"), NULL, FALSE},

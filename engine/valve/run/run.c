@@ -6,6 +6,7 @@
 // is published with release order after each frame is complete, which is what lets another thread
 // read while this one writes.
 #include "engine/base/clock.h"
+#include "engine/numeric/sampling.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 
@@ -232,6 +233,21 @@ static bool usable(SbStatus status) {
   return status == SB_OK || status == SB_ERROR_NOT_CONVERGED;
 }
 
+// Share of people, of normally distributed strength, who are weaker than a force.
+static double weaker(double force, double mean, double deviation) {
+  return isnan(force) ? NAN : sb_normal_share((force - mean) / deviation);
+}
+
+static void weigh_users(SbSummary *summary, const SbModel *model) {
+  const double mean[] = {[SB_WOMEN] = model->women_strength, [SB_MEN] = model->men_strength};
+  const double deviation[] = {[SB_WOMEN] = model->women_deviation, [SB_MEN] = model->men_deviation};
+  for (int users = 0; users < SB_USERS; users++) {
+    summary->below_peak[users] = weaker(summary->force_peak, mean[users], deviation[users]);
+    summary->below_breakaway[users] =
+        weaker(summary->force_breakaway, mean[users], deviation[users]);
+  }
+}
+
 // What the whole motion says of the valve beside its own figures.
 static void conclude(SbRun *run, bool moved) {
   SbSummary *summary = &run->summary;
@@ -240,6 +256,9 @@ static void conclude(SbRun *run, bool moved) {
   summary->leakage_net = run->model->actuations * summary->leakage_per_cycle;
   if (summary->stage[SB_STAGE_B].reached) {
     summary->force_breakaway = summary->stage[SB_STAGE_B].force;
+  }
+  if (moved) {
+    weigh_users(summary, run->model);
   }
   // At rest because nothing moved it.
   bool stays = !summary->stage[SB_STAGE_B].reached && !summary->stage[SB_STAGE_D].reached &&
@@ -264,6 +283,9 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
   run->after_frames = run->life != NULL ? 0.9 * (1 - run->before_frames) : 0;
   SbStatus status = SB_OK;
   if (run->solved.stand) {
+    if (sb_run_cancelled(hooks, report)) {
+      return SB_ERROR_CANCELLED;
+    }
     sb_run_take_states(run);
   } else {
     status = sb_run_solve_states(run, hooks, report);

@@ -114,6 +114,9 @@ typedef struct {
   SbJointSummary joint[SB_VALVE_JOINTS];
 } SbBodiesSummary;
 
+// Who presses the valve, each with a distribution of strength.
+typedef enum { SB_WOMEN, SB_MEN, SB_USERS } SbUsers;
+
 // What one actuation yields.
 typedef struct {
   double roughness;       // over the given one [1]
@@ -176,6 +179,8 @@ typedef struct {
   SbContacts contact[SB_SEAL_COUNT];
   SbBodiesSummary bodies;
   SbEnergy energy;
+  // Shares of users who are weaker than the peak and the break-away force [1].
+  double below_peak[SB_USERS], below_breakaway[SB_USERS];
   SbRigSummary rig; // motion RIG
   SbLife life;      // done = 0: no life was asked for
   SbWarnings warnings;

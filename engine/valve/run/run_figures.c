@@ -328,6 +328,8 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
       {rig, "seals.*", "the sliding plate (models.motion = rig) has no valve's seals"},
       {rig, "solver.*", "the sliding plate (models.motion = rig) solves no film or fit"},
       {well, "cycle.force_breakaway_N", "the stem never slips: stage B is not reached"},
+      {rig, "people.*", "the sliding plate (models.motion = rig) is pressed by nobody"},
+      {well, "people.*", "the stem never slips: stage B is not reached"},
       {rig, "dose.*", "the sliding plate (models.motion = rig) gives no dose"},
       {!(model->canister_pressure > 0), "dose.fill*", "nothing drives liquid into the chamber"},
       {!(model->canister_pressure > 0), "dose.kept_mass_kg", "nothing drives liquid out"},
