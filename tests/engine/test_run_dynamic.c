@@ -419,6 +419,11 @@ static void test_stiff(void) {
     g_test_message("slips: %zu steps, closure %.1e, %.2f s", summary->steps,
                    summary->energy.closure, summary->wall_s);
     g_assert_cmpuint(summary->steps, <, 100000);
+    bool told = false;
+    for (size_t k = 0; k < summary->warnings.count; k++) {
+      told = told || strcmp(summary->warnings.item[k].code, "stick-slip-groups") == 0;
+    }
+    g_assert_true(told);
     sb_run_destroy(run);
   }
 }
