@@ -288,24 +288,31 @@ static void speed_event(SbDynamics *s, int side) {
   s->direction = s->at.v == 0.0 ? -s->direction : s->direction;
 }
 
-static void apply(SbDynamics *s, int event) {
-  s->counters.events +=
-      event != EVENT_BREAK && event != EVENT_SPEED_UP && event != EVENT_SPEED_DOWN;
-  if (event >= EVENT_CONTACT_DOWN) {
-    contact_event(s, (size_t)(event - EVENT_CONTACT_DOWN), -1);
-  } else if (event >= EVENT_CONTACT_UP) {
-    contact_event(s, (size_t)(event - EVENT_CONTACT_UP), 1);
+// Whether a contact that rested slides from then on.
+static bool apply(SbDynamics *s, int event) {
+  const bool rigid_one = event == EVENT_RIGID_UP || event == EVENT_RIGID_DOWN;
+  const size_t i =
+      event >= EVENT_CONTACT_UP ? (size_t)(event - EVENT_CONTACT_UP) % SB_DYNAMICS_CONTACTS : 0;
+  const bool rested =
+      rigid_one ? s->held : event >= EVENT_CONTACT_UP && s->state[i] == SB_CONTACT_STUCK;
+  const bool counts = event != EVENT_BREAK && event != EVENT_SPEED_UP && event != EVENT_SPEED_DOWN;
+  s->counters.events += counts;
+  s->others += counts && !rigid_one && event < EVENT_CONTACT_UP;
+  s->least_stretch = fmin(s->least_stretch, fabs(sb_motion_drive_at(s, s->t).value - s->at.x));
+  if (event >= EVENT_CONTACT_UP) {
+    contact_event(s, i, event >= EVENT_CONTACT_DOWN ? -1 : 1);
   } else if (event >= EVENT_STOP) {
     wall_event(s, (size_t)(event - EVENT_STOP));
   } else if (event >= EVENT_SPEED_UP) {
     speed_event(s, event == EVENT_SPEED_UP ? 1 : -1);
-  } else if (event >= EVENT_RIGID_UP) {
+  } else if (rigid_one) {
     rigid_event(s, event == EVENT_RIGID_UP ? 1 : -1);
   } else if (event == EVENT_PLATEN) {
     wall_event(s, SB_DYNAMICS_PLATEN);
   } else if (event >= EVENT_EDGE_UP) {
     cross_edge(s, event == EVENT_EDGE_UP ? 1 : -1);
   }
+  return rested && (rigid_one ? !s->held : s->state[i] == SB_CONTACT_SLIP);
 }
 
 // ---- public ----
@@ -358,6 +365,7 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
   s->kinetic_start = 0.5 * m->mass * s->at.v * s->at.v;
   s->stored_start = sb_motion_stored_energy(s, 0.0, &s->at);
   s->accumulated_at = -1.0;
+  s->broke.event = s->mark.event = EVENT_NONE;
   return sb_succeed(report);
 }
 
@@ -420,14 +428,9 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
       }
     }
     if (event != EVENT_NONE) {
-      bool rested = s->held;
-      apply(s, event);
-      if (rested && !s->held && (event == EVENT_RIGID_UP || event == EVENT_RIGID_DOWN)) {
-        SbStatus status = sb_motion_repeat(s, event == EVENT_RIGID_UP ? 1 : -1, report);
+      if (apply(s, event)) {
+        sb_motion_repeat(s, event);
         s->now = s->t;
-        if (status != SB_OK) {
-          return status;
-        }
       }
       if (event != EVENT_BREAK && (s->counters.events > EVENTS_MAX || accumulates(s))) {
         return sb_fail(report, SB_ERROR_NOT_CONVERGED, "%s at %.9g s (%ld events)",

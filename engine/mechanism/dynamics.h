@@ -168,7 +168,8 @@ typedef struct {
 
 typedef struct {
   long events, segments, steps, rejected, newton_iterations;
-  long repeated;      // cycles of stick-slip that were not stepped through: equal to the one before
+  long repeated;      // cycles of stick-slip that were not stepped through
+  long grouped;       // of these, those that differ a little from one to the next
   double local_error; // sum of the numerical path's local errors of position, over |x| + 1 mm
 } SbDynamicsCounters;
 
@@ -192,16 +193,29 @@ typedef struct {
 } SbDynamicsWall;
 enum { SB_DYNAMICS_PLATEN = SB_DYNAMICS_STOPS, SB_DYNAMICS_WALLS };
 
-// Where rigid contacts last broke away.
+// Where a contact broke away: what a cycle of stick-slip begins and ends with.
 typedef struct {
-  int direction; // 0: not yet
+  int event; // that began the slip; -1: none yet
   size_t region;
-  long events, segments;
-  double t, x, stretch, piece; // s, m; stretch of the drive's spring [m]; start of its piece [s]
-  double extra;                // the caller's
-  long cycles;                 // in a row that could have been equal
+  long events, others, segments; // so far; others: that no cycle has
+  double t, until;               // s; end of the drive's piece
+  double stretch;                // of the drive's spring [m]
+  SbDynamicsState at;
+  SbContactState state[SB_DYNAMICS_CONTACTS];
+  double rest[SB_DYNAMICS_CONTACTS]; // since it came to rest, if it did [s]
   SbDynamicsEnergy energy;
 } SbDynamicsBreak;
+
+// Cycles passed over that change slowly: power of each term of energy [W] in the middle [s] of the
+// cycles before the last two groups.
+typedef struct {
+  bool open;       // the last group's energies are extrapolated from its begin
+  double from, to; // the last group [s]
+  double span;     // of the last [s]
+  double rest[SB_DYNAMICS_CONTACTS], longer[SB_DYNAMICS_CONTACTS];   // last, and by how much [s]
+  double rested[SB_DYNAMICS_CONTACTS], slower[SB_DYNAMICS_CONTACTS]; // s; its rate since
+  double middle[2], power[2][SB_DYNAMICS_TERMS], taken[SB_DYNAMICS_TERMS];
+} SbDynamicsGroup;
 
 // Working state; on the caller's memory, no pointers owned. Fields are private, but what is to be
 // read.
@@ -229,7 +243,11 @@ typedef struct {
   SbDriveState drive;
   SbDrivePiece piece;
   SbDynamicsEnergy energy;
-  SbDynamicsBreak broke;
+  SbDynamicsBreak broke, mark; // the last, and the one that later ones are compared with
+  long since_mark, mark_after; // break-aways since it was set, and after how many it is set again
+  double least_stretch;        // of the drive's spring at events since then, in size [m]
+  long others;                 // events of other kinds than slip, stick and speed
+  SbDynamicsGroup group;
   double asked;                       // time that is being advanced to
   double stored_start, kinetic_start; // J
   bool ready, linear, held;

@@ -147,9 +147,9 @@ double sb_motion_event_value(const SbDynamics *s, int event, const SbEventFuncti
 // Finds the motion from the anchor and the event that ends it (s->t_end, s->event).
 SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report);
 
-// After rigid contacts broke away at the anchor: goes on by whole cycles of stick-slip if they are
-// equal. SB_ERROR_NOT_CONVERGED if too many unequal ones lie ahead.
-SbStatus sb_motion_repeat(SbDynamics *s, int direction, SbReport *report);
+// After `event`, by which contacts broke away at the anchor: goes on by whole cycles of stick-slip
+// if they are equal, or by a group of them if they change slowly.
+void sb_motion_repeat(SbDynamics *s, int event);
 
 // The state at tau after the anchor, within the segment.
 void sb_motion_state_at(const SbDynamics *s, double tau, SbDynamicsState *z);

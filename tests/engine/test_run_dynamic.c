@@ -385,7 +385,7 @@ static void test_own_speed(void) {
 
 // A machine of 1e10 N/m and a stem of a microgram: critically damped it does not slip, few steps
 // lead it over the land's edge, and the forces are the quasi-static ones. Hardly damped it slips
-// millions of times, over the edge each in another way: refused when that begins.
+// millions of times, over the edge each in another way, and is followed by groups of its slips.
 static void test_stiff(void) {
   Setting stiff[] = {{SB_P_DRIVE_STIFFNESS, 1e10},
                      {SB_P_STEM_MASS, 1e-9},
@@ -413,23 +413,17 @@ static void test_stiff(void) {
 
   static const int motions[] = {SB_MODEL_MOTION_DYNAMIC, SB_MODEL_MOTION_BODIES};
   for (size_t i = 0; i < G_N_ELEMENTS(motions); i++) {
-    const Setting slips[] = {{SB_P_MODELS_MOTION, motions[i]}, stiff[0], stiff[1]};
-    SbParams params;
-    SbModel model;
-    SbPlan plan;
-    SbRun *run = NULL;
-    SbReport report = {0};
-    sb_params_init(&params);
-    for (size_t k = 0; k < G_N_ELEMENTS(slips); k++) {
-      SbStatus status = sb_params_set(&params, (SbParamId)slips[k].id, slips[k].value, &report);
-      g_assert_cmpint(status, ==, SB_OK);
+    const Setting slips[] = {stiff[0], stiff[1]};
+    SbRun *run = run_with(motions[i], slips, G_N_ELEMENTS(slips));
+    const SbSummary *summary = sb_run_summary(run);
+    g_test_message("slips: %zu steps, closure %.1e, %.2f s", summary->steps,
+                   summary->energy.closure, summary->wall_s);
+    g_assert_cmpuint(summary->steps, <, 100000);
+    bool told = false;
+    for (size_t k = 0; k < summary->warnings.count; k++) {
+      told = told || strcmp(summary->warnings.item[k].code, "stick-slip-groups") == 0;
     }
-    g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
-    sb_plan_make(&plan, &model);
-    g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
-    g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_ERROR_NOT_CONVERGED);
-    g_assert_nonnull(strstr(report.text, "stick-slip at"));
-    g_assert_cmpuint(sb_run_summary(run)->steps, <, 20000);
+    g_assert_true(told);
     sb_run_destroy(run);
   }
 }

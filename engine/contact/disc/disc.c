@@ -20,6 +20,12 @@
 // all round only shrinks the disc), so that both contacts end at the pressure of the other. Further
 // fluid pressure is then passed on as by a fluid, the more the closer nu is to 1/2.
 //
+// The fluid creeps under the disc as its pressure rises: the contact's left edge moves in, the
+// faster the softer the bulk, and beyond a limit point there is no contact that could hold the
+// fluid. The path is followed over the place of that edge instead of the pressure, through the
+// greatest pressure that a contact holds; a disc under more is open (warning "disc-opens"), no
+// failure.
+//
 // Fluid acts normally on the open arcs up to the contact edges of the undeformed circle. The disc
 // leans on the wall, which touches it before the pressure comes, and slides frictionless. The
 // stretch shrinks the section; load per length times the fitted mean circumference pi (D - g) is
@@ -58,7 +64,7 @@ typedef struct {
   double pressure;     // of the fluid, times C
   double both, shrink; // hydrostatic displacement by the pressure on both sides, by C times one
   double free_bulge;   // of the dry flank
-  SbBroyden edges[3];  // dry, under pressure, with the corner filled
+  SbBroyden edges[4];  // dry, under pressure, with the corner filled, for a given left edge
 } Work;
 
 // The corner filled to the pressure x[2]: the wall's contact ends where the bore's does.
@@ -106,7 +112,8 @@ static double solve_pressure(Work *w, double target) {
   w->free_bulge = sb_disc_system_bulge(&w->system);
   double done = 0.0;
   double step = target;
-  while (done < target && step > target / 128.0) {
+  // Pressures are over about the modulus: a soft disc's may be hundreds.
+  while (done < target && step > fmin(target / 128.0, 2e-3)) {
     const double next = fmin(target, done + step);
     const bool coarser = w->wet[2] > 0.0 && done == 0.0;
     if (w->wet[2] == 0.0) {
@@ -133,6 +140,51 @@ static double solve_pressure(Work *w, double target) {
     }
   }
   return done;
+}
+
+// Right edge x[0], wall or corner x[1], and the pressure x[2] for the left edge in `wet`.
+static bool given_left(double *residual, const double *x, void *context) {
+  Work *w = context;
+  w->pressure = x[2];
+  if (w->wet[3] > 0.0) {
+    return filled_corner(residual, (double[]){x[0], w->wet[1], x[1]}, w);
+  }
+  w->system.pressure = x[2];
+  w->system.hydrostatic = w->both;
+  return x[2] > 0.0 &&
+         sb_disc_system_solve(residual, (double[]){x[0], w->wet[1], x[1]}, &w->system);
+}
+
+// The greatest pressure that a contact holds, from the edges in `wet` at `pressure` on: INFINITY if
+// none is passed.
+static double find_limit(Work *w, double pressure) {
+  double x[] = {w->wet[0], w->wet[3] > 0.0 ? w->wet[3] : w->wet[2], pressure};
+  double left[3] = {0.0}, found[3] = {0.0}; // the last three points
+  double step = 0.05 * (w->wet[0] - w->wet[1]);
+  int points = 0;
+  for (int i = 0; i < 60 && step > 1e-4; i++) {
+    double trial[3];
+    const double from = w->wet[1];
+    memcpy(trial, x, sizeof trial);
+    w->wet[1] += points > 0 ? step : 0.0;
+    if (!sb_solve_system(given_left, w, trial, 3, 1e-9, &w->edges[3])) {
+      w->wet[1] = from;
+      step *= 0.5;
+      continue;
+    }
+    memcpy(x, trial, sizeof trial);
+    memmove(left, left + 1, 2 * sizeof *left);
+    memmove(found, found + 1, 2 * sizeof *found);
+    left[2] = w->wet[1];
+    found[2] = x[2];
+    if (++points > 2 && found[1] > found[0] && found[1] > found[2]) {
+      // Top of the parabola.
+      const double a = (found[1] - found[0]) / (left[1] - left[0]);
+      const double b = (found[2] - found[1]) / (left[2] - left[1]);
+      return found[1] + 0.25 * a * a * (left[2] - left[0]) / (a - b);
+    }
+  }
+  return INFINITY;
 }
 
 // ---- results of one resolution
@@ -264,16 +316,25 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
   double reached = target;
   double error[FIGURES] = {1.0, 1.0, 1.0};
   double worst = 1.0;
-  for (size_t level = 0; level < LEVELS && worst > wanted && (reached == target || levels == 0);
-       level++) {
+  double limit = INFINITY; // a pressure that no contact holds, by the resolution before
+  bool opens = false;
+  for (size_t level = 0;
+       level < LEVELS && worst > wanted && !opens && (reached == target || levels == 0); level++) {
     sb_disc_system_points(&w->system, points[level]);
     reached = solve_pressure(w, target);
-    if (reached < 0.0 || (reached < target && levels > 0)) {
-      break; // nothing, or nothing better than the coarser resolution
-    }
-    if (reached < target && level < COARSE) {
-      w->wet[2] = 0.0; // so few points do not hold a filled corner of a narrow contact
-      continue;
+    if (reached < target) {
+      const double last = limit;
+      limit = reached > 0.0 && level > 0 ? find_limit(w, reached) : INFINITY;
+      opens = isfinite(limit) && fabs(limit - last) < 0.01 * fmin(limit, target - limit);
+      if (reached >= 0.0 && (level < COARSE || isfinite(limit))) {
+        // So few points do not hold a filled corner of a narrow contact, or too much.
+        w->wet[2] = 0.0;
+        levels = 0;
+        continue;
+      }
+      if (reached < 0.0 || levels > 0) {
+        break; // nothing, or nothing better than the coarser resolution
+      }
     }
     keep(&found[levels++], w);
     if (levels >= 3 && reached == target) {
@@ -288,14 +349,22 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
                                                                      : 1]
                               .residual;
   out->solver.newton_iterations = iterations;
-  out->solver.converged = worst <= wanted;
+  out->solver.converged = opens || worst <= wanted;
   if (levels > 0) {
     fill(out, &found[levels - 1], compliance, both, in->pressure < 0.0);
   }
   const bool lost = reached != target;
-  sb_fit_errors(out, error[LOAD], error[PEAK], error[WIDTH]);
   SbStatus status = SB_OK;
-  if (lost) {
+  if (!opens) {
+    sb_fit_errors(out, error[LOAD], error[PEAK], error[WIDTH]);
+  } else {
+    const double most = limit / compliance + both;
+    sb_warn(&out->warnings, "disc-opens", "canister.pressure",
+            "the fluid creeps under the disc: no contact holds more than %.3g MPa (linear, %.2g of "
+            "the modulus)",
+            1e-6 * most, most / in->modulus);
+  }
+  if (lost && !opens) {
     sb_fit_errors(out, 1.0, 1.0, 1.0);
     status = sb_fail_parameter(
         report, SB_ERROR_NOT_CONVERGED, reached < 0.0 ? "gland.radial_space" : "canister.pressure",

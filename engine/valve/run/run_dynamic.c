@@ -395,6 +395,13 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     summary->energy.closure = 0;
   }
   summary->counters.newton_iterations += (size_t)counters.newton_iterations;
+  if (counters.grouped > 0) {
+    sb_warn(
+        &summary->warnings, "stick-slip-groups", "drive.stiffness",
+        "%.2g slips that change slowly were followed by groups of them: forces and energies are "
+        "theirs, but where in its slip a frame meets the stem is arbitrary",
+        (double)counters.grouped);
+  }
   // Closed form throughout: rounding only.
   double force = 1e-12;
   double work = 1e-12;

@@ -1,0 +1,343 @@
+// Stick-slip that repeats itself, for dynamics.h: a stiff machine has millions of cycles, which are
+// not stepped through.
+//
+// Equal cycles. Where loads and the drive's speed are constant, equal states at two break-aways
+// make equal cycles for ever: the same contacts rest or slide with the same stretch of the drive's
+// spring, deflections, speed and rests. A cycle may have several slips, of contacts that take
+// turns: break-aways are compared with one that is set anew after 1, 2, 4, ... others (Brent 1980).
+// Time goes on by a whole number of periods, the stem by as much as the drive, every energy by as
+// many times what it gained in one period. Exact.
+//
+// Cycles that change slowly, of rigid contacts: loads change with the place, the drive's speed with
+// the time, what holds with the rest. When the contacts break away the stem rests, and its place
+// follows from the balance of forces alone, so that the motion can be taken up again at any later
+// break-away. Between, every term of energy is the integral of its mean power in a cycle, known at
+// both ends of the group and before it: that of the parabola through the three. Groups are as long
+// as the force that breaks the contacts away, known beforehand, is a parabola to the tolerance
+// (envelope following; Petzold 1981, multirevolution methods). The phase of the oscillation behind
+// a group is not that of stepping, which no tolerance would give after 1e5 cycles either.
+//
+// Neither passes a time that was asked for, an edge, a stop or the drive's next piece. Leaves out:
+// slow changes with elastic contacts.
+#include "engine/mechanism/dynamics_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+// Cycles that are worth passing over: fewer are stepped through, and told to the listener.
+static const double worth = 10.0;
+
+// Break-aways after which cycles under constant loads are taken as slowly changing.
+static const long patience = 100;
+
+// What the force that breaks the contacts away and the drive's speed may be off their parabolas in
+// a group, over themselves: so many times the tolerance of the numerical path.
+static const double group_bend = 10.0;
+
+// What is ahead until something else happens.
+typedef struct {
+  double time, way; // s, m
+} Ahead;
+
+// Nothing has happened since `was` but slips, rests and bands of speed, and the machine presses.
+static bool undisturbed(const SbDynamics *s, const SbDynamicsBreak *was) {
+  const SbDynamicsModel *m = s->model;
+  const SbDynamicsBreak *now = &s->broke;
+  bool settled = m->extra_rate == NULL || (s->loads.settled && was->at.extra == now->at.extra);
+  for (size_t i = 0; i < m->stops; i++) {
+    settled = settled && !s->wall[i].on;
+  }
+  return settled && s->wall[SB_DYNAMICS_PLATEN].on && !sb_motion_by_force(m) &&
+         was->event != EVENT_NONE && was->region == now->region && was->others == now->others &&
+         was->until == now->until;
+}
+
+// A cycle from `was` to now.
+static bool comparable(const SbDynamics *s, const SbDynamicsBreak *was) {
+  const SbDynamicsBreak *now = &s->broke;
+  return undisturbed(s, was) && was->event == now->event && now->t > was->t &&
+         now->at.x != was->at.x;
+}
+
+static bool close_to(double a, double b, double noise) {
+  return fabs(a - b) <= 1e-9 * fabs(b) + noise;
+}
+
+// Change of the stretch of the drive's spring with the place of the stem.
+static double drift(const SbDynamics *s) {
+  return s->model->spring_stiffness / s->wall[SB_DYNAMICS_PLATEN].stiffness;
+}
+
+static bool equal(const SbDynamics *s, const SbDynamicsBreak *a, const SbDynamicsBreak *b) {
+  double noise = 4e-16 * (fabs(a->at.x) + fabs(sb_motion_drive_at(s, s->t).value));
+  // A return spring's force rises along the way, and only stretches the drive's spring further.
+  const double yield = drift(s) * (a->at.x - b->at.x);
+  bool same = close_to(a->stretch - yield, b->stretch, noise) &&
+              close_to(a->at.v, b->at.v, 1e-9 * fabs(s->piece.rate));
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    const bool rests = a->state[i] == SB_CONTACT_STUCK;
+    same = same && a->state[i] == b->state[i] && close_to(a->at.d[i], b->at.d[i], noise) &&
+           (!rests || close_to(a->rest[i], b->rest[i], sb_motion_time_noise(s->t)));
+  }
+  return same;
+}
+
+// For a stem that goes in a direction by cycles in which it is nowhere farther from its mean than
+// the drive's spring is long.
+static Ahead look_ahead(const SbDynamics *s, int direction) {
+  const SbDynamicsModel *m = s->model;
+  Ahead ahead = {fmin(s->asked, s->piece.until) - s->t, INFINITY};
+  if (direction > 0 && s->region < m->edges) {
+    ahead.way = m->edge[s->region] - s->at.x;
+  } else if (direction < 0 && s->region > 0) {
+    ahead.way = s->at.x - m->edge[s->region - 1];
+  }
+  for (size_t i = 0; i < m->stops; i++) {
+    if (m->stop[i].side == direction) {
+      ahead.way = fmin(ahead.way, m->stop[i].side * (m->stop[i].position - s->at.x));
+    }
+  }
+  ahead.way -= fabs(s->broke.stretch);
+  return ahead;
+}
+
+// Time goes on to `until`, and the stem to x; all else but energies keeps its state.
+static void pass(SbDynamics *s, double until, double x, double cycles) {
+  const double before = s->t;
+  s->t = until;
+  s->at.x = x;
+  // A stop's fades, and is no part of a cycle.
+  for (size_t i = 0; i < s->model->stops; i++) {
+    s->energy.stop += sb_motion_relaxed(s, i, before, until);
+  }
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    s->since[i] += until - before;
+    s->slipped[i] += until - before;
+  }
+  s->counters.repeated += (long)fmin(cycles, 1e15);
+}
+
+static void note(SbDynamics *s, int event) {
+  SbDynamicsBreak *b = &s->broke;
+  *b = (SbDynamicsBreak){.event = event,
+                         .region = s->region,
+                         .events = s->counters.events,
+                         .others = s->others,
+                         .segments = s->counters.segments,
+                         .t = s->t,
+                         .until = s->piece.until,
+                         .stretch = sb_motion_drive_at(s, s->t).value - s->at.x,
+                         .at = s->at,
+                         .energy = s->energy};
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    b->state[i] = s->state[i];
+    b->rest[i] = s->t - s->since[i];
+  }
+}
+
+// Goes on by cycles equal to the one from `was` to now; false if they are too few.
+static bool pass_equal(SbDynamics *s, const SbDynamicsBreak *was, int event) {
+  const double period = s->t - was->t, step = s->at.x - was->at.x;
+  const double longer = s->broke.stretch - was->stretch; // by the return spring, in each cycle
+  const Ahead ahead = look_ahead(s, step > 0.0 ? 1 : -1);
+  double times = fmin(ahead.time / period, ahead.way / fabs(step));
+  if (drift(s) > 0.0 && step < 0.0 && !s->model->drive_bonded) {
+    // No further than the machine surely presses.
+    times = fmin(times, 0.5 * s->least_stretch / (drift(s) * -step));
+  }
+  times = floor(times) - 2.0;
+  if (!(times >= worth) || !isfinite(times)) {
+    return false;
+  }
+  const double until = s->t + times * period, y = sb_motion_drive_at(s, s->t).value;
+  const double go = sb_motion_drive_at(s, until).value - y, stop = s->energy.stop;
+  for (int i = 0; i < SB_DYNAMICS_TERMS; i++) {
+    s->energy.term[i] += times * (s->energy.term[i] - was->energy.term[i]);
+  }
+  if (drift(s) > 0.0) {
+    // The machine's force rises from cycle to cycle.
+    s->energy.drive += 0.5 * (times + 1.0) * s->wall[SB_DYNAMICS_PLATEN].stiffness * longer * go;
+  }
+  s->energy.stop = stop;
+  pass(s, until, s->at.x + go / (1.0 + drift(s)), times);
+  note(s, event);
+  return true;
+}
+
+// The integral from a to b of the parabola through three points.
+static double under_parabola(const double x[3], const double y[3], double a, double b) {
+  const double first = (y[1] - y[0]) / (x[1] - x[0]);
+  const double second = ((y[2] - y[1]) / (x[2] - x[1]) - first) / (x[2] - x[0]);
+  // From the middle, so that no digits are lost.
+  const double h = 0.5 * (b - a), at = 0.5 * (a + b);
+  const double value = y[0] + (at - x[0]) * (first + second * (at - x[1]));
+  return 2.0 * h * (value + second * h * h / 3.0);
+}
+
+// The last group's energies, now that a cycle behind it is known.
+static void close_group(SbDynamics *s, double middle, const double *power) {
+  const SbDynamicsGroup *g = &s->group;
+  const double x[3] = {g->middle[0], g->middle[1], middle};
+  for (int k = 0; k < SB_DYNAMICS_TERMS; k++) {
+    const double y[3] = {g->power[0][k], g->power[1][k], power[k]};
+    s->energy.term[k] += under_parabola(x, y, g->from, g->to) - g->taken[k];
+  }
+}
+
+// The place of the stem at time t just when its rigid contacts would break away, after a rest that
+// has changed since the last as it did since the group before.
+static double place_at(const SbDynamics *s, double t, int direction) {
+  const SbDynamicsGroup *g = &s->group;
+  SbDynamics there = *s;
+  SbDynamicsState z = s->at;
+  const double k = s->wall[SB_DYNAMICS_PLATEN].stiffness + s->model->spring_stiffness;
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    if (s->state[i] != SB_CONTACT_OFF) {
+      there.state[i] = SB_CONTACT_STUCK;
+      there.since[i] = t - fmax(0.0, s->broke.rest[i] + g->slower[i] * (t - s->t));
+    }
+  }
+  there.held = true;
+  there.banded = false;
+  z.v = 0.0;
+  z.x += sb_motion_drive_at(s, t).value - sb_motion_drive_at(s, s->t).value;
+  for (int step = 0; step < 6; step++) {
+    Point p;
+    sb_motion_point(&p, &there, t, &z);
+    double over = direction * p.sum.f0;
+    for (size_t i = 0; i < s->model->contacts; i++) {
+      over -=
+          there.state[i] == SB_CONTACT_STUCK ? sb_motion_holding(&there, &p, i, direction) : 0.0;
+    }
+    z.x += direction * over / k;
+  }
+  return z.x;
+}
+
+// Parabola through the values at the begin, middle and end of five: how far the others are off it.
+static double off_parabola(const double y[5]) {
+  const double early = 0.375 * y[0] + 0.75 * y[2] - 0.125 * y[4];
+  const double late = -0.125 * y[0] + 0.75 * y[2] + 0.375 * y[4];
+  return fmax(fabs(y[1] - early), fabs(y[3] - late)) / fabs(y[2]);
+}
+
+// The same for the force that breaks the contacts away from now until a time, and the drive's
+// speed.
+static double bend(const SbDynamics *s, double until, int direction) {
+  double force[5], speed[5];
+  for (int i = 0; i < 5; i++) {
+    const double t = s->t + 0.25 * i * (until - s->t);
+    const Moving drive = sb_motion_drive_at(s, t);
+    force[i] = drive.value - place_at(s, t, direction);
+    speed[i] = drive.rate;
+  }
+  return fmax(off_parabola(force), off_parabola(speed));
+}
+
+// Whether what the contacts hold has settled to what changes slowly: where it grows with the rest,
+// an unlike rest before the first cycle fades from rest to rest.
+static bool settled(SbDynamics *s) {
+  SbDynamicsGroup *g = &s->group;
+  const double noise = 8.0 * sb_motion_time_noise(s->t);
+  bool still = true;
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    const double rest = s->broke.rest[i], change = rest - g->rest[i];
+    if (s->state[i] == SB_CONTACT_SLIP &&
+        (s->model->contact[i].dwell_gain > 0.0 || s->loads.rest[i] != NULL)) {
+      still = still && fabs(change - g->longer[i]) <= 1e-7 * rest + noise;
+    }
+    g->rest[i] = rest;
+    g->longer[i] = change;
+  }
+  return still;
+}
+
+// Goes on by a group of cycles that are like the one from `was` to now.
+static void pass_group(SbDynamics *s, const SbDynamicsBreak *was, int event) {
+  SbDynamicsGroup *g = &s->group;
+  const int direction = event == EVENT_RIGID_UP ? 1 : -1;
+  const double period = s->t - was->t, middle = s->t - 0.5 * period;
+  const double speed = direction * (s->at.x - was->at.x) / period;
+  double power[SB_DYNAMICS_TERMS];
+  for (int k = 0; k < SB_DYNAMICS_TERMS; k++) {
+    power[k] = (s->energy.term[k] - was->energy.term[k]) / period;
+  }
+  if (!settled(s)) {
+    return;
+  }
+  if (g->open) {
+    close_group(s, middle, power);
+    s->broke.energy = s->energy;
+    g->open = false;
+  }
+  const bool first = g->middle[1] == 0.0;
+  for (size_t i = 0; i < s->model->contacts && !first; i++) {
+    g->slower[i] = (s->broke.rest[i] - g->rested[i]) / (middle - g->middle[1]);
+  }
+  const double bound = group_bend * (s->model->tolerance > 0.0 ? s->model->tolerance : 1e-9);
+  const Ahead ahead = look_ahead(s, direction);
+  double span = fmax(4.0 * g->span, 2.0 * worth * period);
+  span = fmin(span, fmin(ahead.time, ahead.way / speed) - worth * period); // time to close it
+  while (span >= worth * period && bend(s, s->t + span, direction) > bound) {
+    span *= 0.5;
+  }
+  const double until = s->t + span;
+  const bool goes = !first && speed > 0.0 && span >= worth * period && isfinite(span);
+  const double x = goes ? place_at(s, until, direction) : s->at.x;
+  if (!first && !(direction * (x - s->at.x) > 0.0)) {
+    return;
+  }
+  // Straight on from the last two cycles that are known.
+  for (int k = 0; k < SB_DYNAMICS_TERMS; k++) {
+    const double slope = (power[k] - g->power[1][k]) / (middle - g->middle[1]);
+    g->taken[k] = goes ? span * (power[k] + 0.5 * slope * (span + period)) : 0.0;
+    s->energy.term[k] += g->taken[k];
+    g->power[0][k] = g->power[1][k];
+    g->power[1][k] = power[k];
+  }
+  memcpy(g->rested, s->broke.rest, sizeof g->rested);
+  g->middle[0] = g->middle[1];
+  g->middle[1] = middle;
+  if (goes) {
+    g->from = s->t;
+    g->to = until;
+    g->span = span;
+    g->open = true;
+    s->counters.grouped += (long)fmin(span / period, 1e15);
+    pass(s, until, x, span / period);
+    note(s, event);
+  }
+}
+
+void sb_motion_repeat(SbDynamics *s, int event) {
+  const SbDynamicsModel *m = s->model;
+  const SbDynamicsBreak was = s->broke;
+  note(s, event);
+  bool rigid_ones = event < EVENT_CONTACT_UP;
+  const bool steady = s->loads.constant && !s->piece.curved;
+  if (steady && comparable(s, &s->mark) && equal(s, &s->broke, &s->mark)) {
+    const SbDynamicsBreak mark = s->mark;
+    if (pass_equal(s, &mark, event)) {
+      s->mark = s->broke;
+      s->least_stretch = INFINITY;
+    }
+    return;
+  }
+  if (!undisturbed(s, &was)) {
+    s->mark_after = 0;
+    s->group = (SbDynamicsGroup){0};
+  }
+  if (s->since_mark++ >= s->mark_after) {
+    s->mark = s->broke;
+    s->mark_after = s->mark_after > 0 ? 2 * s->mark_after : 1;
+    s->since_mark = 0;
+    s->least_stretch = INFINITY;
+  }
+  for (size_t i = 0; i < m->contacts; i++) {
+    rigid_ones = rigid_ones && is_rigid(m, i);
+  }
+  const bool patient = steady && s->mark_after < patience;
+  if (rigid_ones && !patient && comparable(s, &was) && was.events + 2 == s->broke.events) {
+    pass_group(s, &was, event);
+  }
+}
