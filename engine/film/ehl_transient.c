@@ -234,16 +234,39 @@ static SbStatus solve_steady(Steady *out, const SbFilmTransientProblem *problem,
   return status;
 }
 
+// Scale of the steady film at speed_scale, which everything goes by.
+static SbStatus find_scale(SbFilmScale *scale, const SbFilmTransientProblem *problem,
+                           SbReport *report) {
+  SbFilmProblem scaled = problem->film;
+  SbDryContact dry;
+  scaled.speed = problem->speed_scale;
+  *scale = sb_film_scale(&scaled);
+  return scaled.compliance != NULL ? sb_film_scale_fitted(scale, &dry, &scaled, report) : SB_OK;
+}
+
 // A film on its way to rest passes every gap: there must be none that the pull closes.
-static SbStatus refuse_closing(const SbFilmTransient *t, SbReport *report) {
-  const SbFilmProblem *film = &t->problem.film;
+static SbStatus refuse_closing(const SbFilmTransientProblem *problem, SbFilmSolver *solver,
+                               SbReport *report) {
+  const SbFilmProblem *film = &problem->film;
+  const bool tips = film->work_of_adhesion > 0.0;
+  if (!(film->hamaker > 0.0) && !tips) {
+    return SB_OK;
+  }
+  SbFilmScale scale;
+  const SbRoughLaw *law = NULL;
+  SbStatus status = find_scale(&scale, problem, report);
+  if (status == SB_OK && film->surface != SB_ROUGH_NONE) {
+    status = sb_ehl_rough_law(&law, solver, film, report);
+  }
+  if (status != SB_OK) {
+    return status;
+  }
   const SbSnapContact contact = {.hamaker = film->hamaker,
                                  .modulus = film->modulus,
-                                 .width = 2.0 * t->scale.half_width,
+                                 .width = 2.0 * scale.half_width,
                                  .viscosity = film->viscosity};
-  const double closed = sb_rough_snap_in(t->surface.rough.law, &contact).high;
-  const char *key =
-      film->work_of_adhesion > 0.0 ? "surface.work_of_adhesion" : "surface.hamaker_constant";
+  const double closed = sb_rough_snap_in(law, &contact).high;
+  const char *key = tips ? "surface.work_of_adhesion" : "surface.hamaker_constant";
   return !(closed > 0.0)
              ? SB_OK
              : sb_fail_parameter(report, SB_ERROR_INFEASIBLE, key,
@@ -276,26 +299,17 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   t->problem = *problem;
   t->coarseness = coarseness;
   t->solver = solver;
-  SbFilmProblem scaled = problem->film;
-  scaled.speed = problem->speed_scale;
   SbFilmScale *scale = &t->scale;
-  *scale = sb_film_scale(&scaled);
-  if (scaled.compliance != NULL) {
-    SbDryContact dry;
-    const SbStatus status = sb_film_scale_fitted(scale, &dry, &scaled, report);
-    if (status != SB_OK) {
-      return status;
-    }
+  SbStatus status = find_scale(scale, problem, report);
+  if (status != SB_OK) {
+    return status;
   }
   t->layers = (SbEhlLayers){.lambda = scale->lambda, .starvation = 1.0};
   memcpy(t->layers.bow, scale->bow, sizeof t->layers.bow);
   if (sb_film_rough(&problem->film)) {
     t->surface = (SbEhlCase){.layers = t->layers};
     solver->problem = &t->problem.film;
-    SbStatus status = sb_ehl_rough_case(&t->surface, solver, scale, report);
-    if (status == SB_OK && scaled.hamaker > 0.0) {
-      status = refuse_closing(t, report);
-    }
+    status = sb_ehl_rough_case(&t->surface, solver, scale, report);
     if (status != SB_OK) {
       return status;
     }
@@ -305,11 +319,11 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   const double rest =
       problem->rest_film > 0.0 ? fmax(problem->rest_film, standing) / scale->film : 0.0;
   const double length = scale->film / scale->half_width;
-  t->diffusion = length * length * scale->pressure / (12.0 * scaled.viscosity);
+  t->diffusion = length * length * scale->pressure / (12.0 * problem->film.viscosity);
   t->flow = 0.5 * problem->speed_scale / scale->half_width * largest->film_flux / scale->film;
   sb_transient_mesh(t, rest);
   t->supply[0] = t->supply[1] = INFINITY;
-  SbStatus status = lay_steady(t, largest, steady->speed[0], report);
+  status = lay_steady(t, largest, steady->speed[0], report);
   if (status != SB_OK) {
     return status;
   }
@@ -356,6 +370,9 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
   SbFilmTransient *t = NULL;
   status = steady != NULL ? sb_film_solver_create(&solver, report)
                           : sb_fail(report, SB_ERROR_MEMORY, "transient film: out of memory");
+  if (status == SB_OK) {
+    status = refuse_closing(problem, solver, report);
+  }
   if (status == SB_OK) {
     status = solve_steady(steady, problem, solver, report);
   }

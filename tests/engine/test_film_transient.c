@@ -486,6 +486,31 @@ static void test_rough_start(void) {
   g_free(steady);
 }
 
+static bool count_step(void *data) {
+  return ++*(int *)data > 1000;
+}
+
+// At rest asperities come to bear nearly all: the film's pressure is then a small difference, known
+// to its rounding only, and no reason to shorten steps. The companion's count as well.
+static void test_rough_rest(void) {
+  int count = 0;
+  SbFilmTransientProblem p = rough(SB_ROUGH_GREENWOOD_TRIPP, 0.3e-6, 0.0);
+  p.speed_scale = 3.3e-4;
+  p.rest_film = 1e-9;
+  p.film.tolerance = 3e-3;
+  p.resolve = false;
+  p.film.pressure_left = 0.55e6;
+  p.film.cancelled = count_step;
+  p.film.cancelled_data = &count;
+  SbFilmTransient *t = begin(&p);
+  count = 0;
+  step(t, 0.4, 0.0);
+  g_test_message("%d steps tried", count);
+  g_assert_cmpint(count, <, 100);
+  g_assert_cmpfloat(sb_film_transient_result(t).error_film_min, <, 0.3);
+  sb_film_transient_destroy(t);
+}
+
 // A wall that brings little holds the steady starved film, smooth and rough, and brings it back
 // after a stop and a reversal; one that brings more than the film takes floods it. The error that
 // the film tells holds.
@@ -543,6 +568,9 @@ static void test_refused(void) {
   p = seal(1000.0);
   p.film.hamaker = 1e-19; // closes smooth surfaces
   g_assert_cmpint(sb_film_transient_create(&t, &p, NULL), ==, SB_ERROR_INFEASIBLE);
+  p = rough(SB_ROUGH_GREENWOOD_TRIPP, 0.1e-6, 0.1);
+  p.film.work_of_adhesion = 0.13; // closes this surface's gaps below 0.45 um
+  g_assert_cmpint(sb_film_transient_create(&t, &p, NULL), ==, SB_ERROR_INFEASIBLE);
   p = seal(1000.0);
   t = begin(&p);
   g_assert_cmpint(sb_film_transient_step(t, 1.0, 2.0 * p.film.speed, NULL), ==, SB_ERROR_RANGE);
@@ -567,6 +595,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film-transient/rough-steady", test_rough_steady);
   g_test_add_func("/film-transient/rough-history", test_rough_history);
   g_test_add_func("/film-transient/rough-start", test_rough_start);
+  g_test_add_func("/film-transient/rough-rest", test_rough_rest);
   g_test_add_func("/film-transient/starved", test_starved);
   g_test_add_func("/film-transient/refused", test_refused);
   return g_test_run();

@@ -76,11 +76,13 @@ static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *h
   problem.film.tolerance = fmax(run->model->tolerance, 3e-3);
   history->chamber = chamber;
   SbStatus status = sb_film_transient_create(&history->film, &problem, report);
-  if (status == SB_ERROR_INFEASIBLE && problem.film.hamaker > 0) {
-    sb_warn(&run->summary.warnings, "film-snap-in", "surface.hamaker_constant",
+  const bool tips = problem.film.work_of_adhesion > 0;
+  if (status == SB_ERROR_INFEASIBLE && (problem.film.hamaker > 0 || tips)) {
+    sb_warn(&run->summary.warnings, "film-snap-in",
+            tips ? "surface.work_of_adhesion" : "surface.hamaker_constant",
             "the %s seal's film in time is that without adhesion: %s", sb_seal_name(seal),
             report->text);
-    problem.film.hamaker = 0;
+    problem.film.hamaker = problem.film.work_of_adhesion = 0;
     status = sb_film_transient_create(&history->film, &problem, report);
   }
   return status;
