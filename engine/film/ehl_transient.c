@@ -384,7 +384,7 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
     if (status == SB_ERROR_NOT_CONVERGED) {
       sb_film_transient_destroy(t->companion);
       t->companion = NULL;
-      t->result.error_film_min = t->result.error_film_central = NAN;
+      t->result.error_film_min = t->result.error_film_central = t->result.error_history = NAN;
       status = SB_OK;
     }
   }
@@ -547,6 +547,38 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, SbReport *repo
   return sb_succeed(report);
 }
 
+// Adds the least films at the present way. At rest nothing moves: films of before are no longer
+// compared with.
+static void trace(SbFilmTransient *t, double way, double fine, double coarse) {
+  enum { LAST = SB_TRANSIENT_TRACE - 1 };
+  if (t->traced > LAST || !(way > 0.0)) {
+    const int kept = way > 0.0 ? LAST : 0;
+    memmove(t->trace, t->trace + t->traced - kept, (size_t)kept * sizeof *t->trace);
+    t->traced = kept;
+  }
+  t->trace[t->traced++] = (SbTransientTrace){t->way, {fine, coarse}};
+}
+
+// Distance of the two histories of the least film at the present instant: the least e for which one
+// was within e of the other's present film, no more than e of the passage through the contact ago
+// (Levy's metric). Where a front leaves the contact, whose place alone is uncertain, a comparison
+// of one instant would take the films before it for errors of those behind.
+static double trace_apart(const SbFilmTransient *t) {
+  const SbTransientTrace *now = &t->trace[t->traced - 1];
+  double best = fabs(now->film[1] / now->film[0] - 1.0);
+  for (const SbTransientTrace *at = now - 1; at >= t->trace; at--) {
+    const double lag = 0.5 * (now->way - at->way), next = 0.5 * (now->way - at[1].way);
+    for (int k = 0; k < 2; k++) {
+      const double film = now->film[1 - k], a = at->film[k], b = at[1].film[k];
+      best = fmin(best, fmax(lag, fabs((k == 1 ? a / film : film / a) - 1.0)));
+      if ((a - film) * (b - film) < 0.0) { // passed in between
+        best = fmin(best, next + (lag - next) * (b - film) / (b - a));
+      }
+    }
+  }
+  return best;
+}
+
 // Takes the companion along, to the end of a piece that the fluid went `way` in; the difference of
 // the films, or what is left in the contact of the largest before. Of the least film all of the
 // difference, the error of a method of first order: fronts and cavities lie between first and
@@ -561,7 +593,7 @@ static SbStatus compare(SbFilmTransient *t, double way) {
   if (status != SB_OK) {
     sb_film_transient_destroy(other);
     t->companion = NULL;
-    *error[0] = *error[1] = NAN;
+    *error[0] = *error[1] = t->result.error_history = NAN;
     return status == SB_ERROR_CANCELLED ? status : SB_OK;
   }
   double fine[2], coarse[2];
@@ -577,6 +609,9 @@ static SbStatus compare(SbFilmTransient *t, double way) {
   const bool unknown = !t->problem.resolve && t->face[at].carried > 0.0;
   const double bend = unknown ? fabs((H[at - 2] + H[at + 1]) / fine[0] - 2.0) : 0.0;
   t->way += way;
+  trace(t, way, fine[0], coarse[0]);
+  t->result.error_history =
+      fmax(t->result.error_history, t->result.error_mesh + trace_apart(t) + bend);
   for (int k = 0; k < 2; k++) {
     const double share = k == 0 ? 1.0 : 0.5;
     const double apart = share * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);

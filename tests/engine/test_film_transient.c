@@ -486,6 +486,56 @@ static void test_rough_start(void) {
   g_free(steady);
 }
 
+typedef struct {
+  double way, film, error; // in half-widths, [m], of the instant
+} Instant;
+
+enum { INSTANTS = 30 };
+
+// A thin film left by a start leaves the contact; the history's error.
+static double leave(Instant *out, double tolerance) {
+  SbFilmTransientProblem p = seal(200.0);
+  const double u = p.film.speed;
+  p.film.tolerance = tolerance;
+  p.film.speed = 0.0;
+  p.rest_film = 20e-9;
+  SbFilmTransient *t = begin(&p);
+  const double transit = 4.0 * half_width(&p) / u;
+  step(t, 0.01 * transit, u);
+  for (int i = 0; i < INSTANTS; i++) {
+    step(t, 1.25 * transit / INSTANTS, u);
+    const SbFilmTransientResult film = sb_film_transient_result(t);
+    out[i] = (Instant){2.5 * (i + 1) / INSTANTS, film.film_min, film.error_film_min};
+  }
+  const double error = sb_film_transient_result(t).error_history;
+  sb_film_transient_destroy(t);
+  return error;
+}
+
+// Films are told within what a finer solution shows of them within so much of the passage; of an
+// instant they are much further off.
+static void test_leave(void) {
+  Instant told[INSTANTS], fine[INSTANTS];
+  const double error = leave(told, 1e-2);
+  (void)leave(fine, 3e-3);
+  double instant = 0.0, apart = 0.0;
+  for (int i = 0; i < INSTANTS; i++) {
+    double best = INFINITY;
+    for (int j = 0; j < INSTANTS * 10 - 9; j++) { // straight between the finer one's instants
+      const Instant *a = &fine[j / 10], *b = j % 10 > 0 ? a + 1 : a;
+      const double share = 0.1 * (j % 10);
+      const double lag = 0.5 * fabs(a->way + share * (b->way - a->way) - told[i].way);
+      const double film = a->film + share * (b->film - a->film);
+      best = fmin(best, fmax(lag, fabs(told[i].film / film - 1.0)));
+    }
+    apart = fmax(apart, best);
+    instant = fmax(instant, told[i].error);
+  }
+  g_test_message("off %.3g, told %.3g, of an instant %.3g", apart, error, instant);
+  g_assert_cmpfloat(apart, <=, 3.0 * error);
+  g_assert_cmpfloat(error, <, 0.5 * instant);
+}
+
 static bool count_step(void *data) {
   return ++*(int *)data > 1000;
 }
@@ -595,6 +645,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film-transient/rough-steady", test_rough_steady);
   g_test_add_func("/film-transient/rough-history", test_rough_history);
   g_test_add_func("/film-transient/rough-start", test_rough_start);
+  g_test_add_func("/film-transient/leave", test_leave);
   g_test_add_func("/film-transient/rough-rest", test_rough_rest);
   g_test_add_func("/film-transient/starved", test_starved);
   g_test_add_func("/film-transient/refused", test_refused);

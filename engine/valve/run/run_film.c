@@ -26,7 +26,7 @@ typedef struct {
   bool fitted;           // the film lies on the fitted body
   double central;        // last film [m], what the next stretch begins with
   size_t frame;          // that it has come to
-  double error;          // largest estimate of the least film
+  double error;          // largest estimate of the least film's history
 } History;
 
 static bool whole_contact(const SbFrame *frame, int seal) {
@@ -148,9 +148,8 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
     }
     const SbFilmTransientResult result = sb_film_transient_result(history->film);
     history->central = result.film_central;
-    // Least film of the coarse setting: the companion's difference and the bend of what its spacing
-    // does not know. Without the companion nothing is known.
-    const double least = result.error_film_min;
+    // Without the companion nothing is known.
+    const double least = result.error_history;
     history->error = isnan(least) ? INFINITY : fmax(history->error, least);
     show(history, &result, frame);
   }
