@@ -207,11 +207,12 @@ static SbStatus follow_fronts(SbFilmSolver *solver) {
 // film's pressure in turns until Newton's method holds from a march, on elements at its film's
 // ends.
 static SbStatus start_marched(SbFilmSolver *solver, const SbEhlCase *target) {
-  enum { ROUNDS = 12 };
+  enum { ROUNDS = 12, RESTS = 4 }; // at rest a contact may be closed beyond any flow
+  const int rounds = target->layers.lambda > 0.0 ? ROUNDS : RESTS;
   SbEhlCase sealed = *target;
   sealed.rough.sealed = true;
   SbStatus status = start_at(solver, &sealed);
-  for (int k = 0; k < ROUNDS && status == SB_OK && sb_ehl_march(solver->now); k++) {
+  for (int k = 0; k < rounds && status == SB_OK && sb_ehl_march(solver->now); k++) {
     if (!sb_ehl_march_fronts(&sealed, &solver->march) || k > 0) {
       SbEhlSolution *s = solver->now;
       sb_ehl_march_state(s, false);
@@ -240,8 +241,7 @@ static SbStatus start_flooded(SbFilmSolver *solver, const SbEhlCase *target) {
   SbStatus status = start_at(solver, target);
   if (target->rough.rows) {
     status = status == SB_OK ? follow_fronts(solver) : status;
-    if (status == SB_ERROR_NOT_CONVERGED && target->layers.lambda > 0.0 &&
-        target->rough.law != NULL) {
+    if (status == SB_ERROR_NOT_CONVERGED && !target->rough.sealed && target->rough.law != NULL) {
       status = start_marched(solver, target);
     }
   }

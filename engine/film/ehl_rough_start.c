@@ -10,7 +10,8 @@
 // decided by what lies behind, what happens above by what lies before (the splitting of Engquist
 // and Osher, Math. Comput. 36 (1981) 321). So a film that the wall drags in is marched against the
 // flow, implicitly below and explicitly above, and a flow that the end pressures drive through gaps
-// above all along with it. kappa is found by the pressure at the other end. Fronts, however sharp,
+// above all along with it. Of a wall at rest S rises with h throughout. kappa, of the wall or of
+// the end pressures, is found by the pressure at the other end. Fronts, however sharp,
 // then lie where they belong. Once q_r and h_r are those of a contact sealed with the film's own
 // pressure, E has no effect: the march over it is a solution but for the discretisation.
 #include "engine/film/ehl.h"
@@ -104,6 +105,7 @@ static double march_along(SbEhlMarch *a, const SbEhlCase *c, double kappa) {
 // negative where more must flow in.
 static double march(SbEhlMarch *a, const SbEhlCase *c, double kappa) {
   const double lambda = c->layers.lambda, steepest = 1.5 * kappa / lambda;
+  const bool moves = lambda > 0;
   const double most = HIGH * (1 + c->layers.outlet);
   int i = a->count - 1;
   Local l = {c, a->offset[i], c->layers.outlet, 0, kappa};
@@ -111,19 +113,21 @@ static double march(SbEhlMarch *a, const SbEhlCase *c, double kappa) {
   bool thin = false, broken = false, again = false;
   double p = l.p;
   if (kappa > 0) {
-    const double t_edge = sb_ehl_rough_of_gap(c, steepest);
-    sb_ehl_rough_point(&edge, c, t_edge);
+    const double t_edge = moves ? sb_ehl_rough_of_gap(c, steepest) : INFINITY;
+    if (moves) {
+      sb_ehl_rough_point(&edge, c, t_edge);
+    }
     double t = settle(&at, &l, a->t[i]);
     put(a, i, t, p, false);
     while (--i >= 0 && p > TENSION && p < most) {
       const double width = a->x[i + 1] - a->x[i];
       l.p = p;
       l.width = 0;
-      double S = slope_at(&l, fmax(at.h, steepest));
+      double S = moves ? slope_at(&l, fmax(at.h, steepest)) : 0;
       l.offset = a->offset[i];
       // An implicit step while that stays below the steepest.
-      const bool below = at.h < steepest && film_pressure(&l, &edge) + width * S > p;
-      thin = thin || at.h < steepest;
+      const bool below = !moves || (at.h < steepest && film_pressure(&l, &edge) + width * S > p);
+      thin = thin || !moves || at.h < steepest;
       if (below) {
         l.width = width;
         t = settle(&at, &l, fmin(t, t_edge));
@@ -169,17 +173,21 @@ static void sample(SbEhlMarch *a, const SbEhlSolution *s) {
 }
 
 bool sb_ehl_march(const SbEhlSolution *s) {
-  enum { DOUBLINGS = 12, DECADES = 20, HALVINGS = 45 };
+  enum { DOUBLINGS = 12, DECADES = 20, HALVINGS = 60 };
   static const double CLOSE = 1e-9;
   SbEhlMarch *a = &s->solver->march;
   const SbEhlCase *c = &s->c;
   sample(a, s);
-  // A bracket: above the flux film expected, below it, or against the wall.
-  double high = c->layers.lambda * c->rough.flux, low = high;
+  // A bracket: above the flux film expected, to what the end pressures may drive, below it, or
+  // against the wall.
+  SbEhlRoughPoint at;
+  sb_ehl_rough_point(&at, c, a->t[a->count / 2]);
+  const bool moves = c->layers.lambda > 0;
+  double high = moves ? c->layers.lambda * c->rough.flux : pow(at.h, 3), low = high;
   bool more = march(a, c, high) < 0;
-  for (int i = 0; more && i < DOUBLINGS; i++) {
+  for (int i = 0; more && i < DOUBLINGS + DECADES; i++) {
     low = high;
-    high *= 2;
+    high *= i < DOUBLINGS ? 2 : 10;
     more = march(a, c, high) < 0;
   }
   bool less = low == high;

@@ -234,16 +234,39 @@ static SbStatus solve_steady(Steady *out, const SbFilmTransientProblem *problem,
   return status;
 }
 
+// Scale of the steady film at speed_scale, which everything goes by.
+static SbStatus find_scale(SbFilmScale *scale, const SbFilmTransientProblem *problem,
+                           SbReport *report) {
+  SbFilmProblem scaled = problem->film;
+  SbDryContact dry;
+  scaled.speed = problem->speed_scale;
+  *scale = sb_film_scale(&scaled);
+  return scaled.compliance != NULL ? sb_film_scale_fitted(scale, &dry, &scaled, report) : SB_OK;
+}
+
 // A film on its way to rest passes every gap: there must be none that the pull closes.
-static SbStatus refuse_closing(const SbFilmTransient *t, SbReport *report) {
-  const SbFilmProblem *film = &t->problem.film;
+static SbStatus refuse_closing(const SbFilmTransientProblem *problem, SbFilmSolver *solver,
+                               SbReport *report) {
+  const SbFilmProblem *film = &problem->film;
+  const bool tips = film->work_of_adhesion > 0.0;
+  if (!(film->hamaker > 0.0) && !tips) {
+    return SB_OK;
+  }
+  SbFilmScale scale;
+  const SbRoughLaw *law = NULL;
+  SbStatus status = find_scale(&scale, problem, report);
+  if (status == SB_OK && film->surface != SB_ROUGH_NONE) {
+    status = sb_ehl_rough_law(&law, solver, film, report);
+  }
+  if (status != SB_OK) {
+    return status;
+  }
   const SbSnapContact contact = {.hamaker = film->hamaker,
                                  .modulus = film->modulus,
-                                 .width = 2.0 * t->scale.half_width,
+                                 .width = 2.0 * scale.half_width,
                                  .viscosity = film->viscosity};
-  const double closed = sb_rough_snap_in(t->surface.rough.law, &contact).high;
-  const char *key =
-      film->work_of_adhesion > 0.0 ? "surface.work_of_adhesion" : "surface.hamaker_constant";
+  const double closed = sb_rough_snap_in(law, &contact).high;
+  const char *key = tips ? "surface.work_of_adhesion" : "surface.hamaker_constant";
   return !(closed > 0.0)
              ? SB_OK
              : sb_fail_parameter(report, SB_ERROR_INFEASIBLE, key,
@@ -276,26 +299,17 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   t->problem = *problem;
   t->coarseness = coarseness;
   t->solver = solver;
-  SbFilmProblem scaled = problem->film;
-  scaled.speed = problem->speed_scale;
   SbFilmScale *scale = &t->scale;
-  *scale = sb_film_scale(&scaled);
-  if (scaled.compliance != NULL) {
-    SbDryContact dry;
-    const SbStatus status = sb_film_scale_fitted(scale, &dry, &scaled, report);
-    if (status != SB_OK) {
-      return status;
-    }
+  SbStatus status = find_scale(scale, problem, report);
+  if (status != SB_OK) {
+    return status;
   }
   t->layers = (SbEhlLayers){.lambda = scale->lambda, .starvation = 1.0};
   memcpy(t->layers.bow, scale->bow, sizeof t->layers.bow);
   if (sb_film_rough(&problem->film)) {
     t->surface = (SbEhlCase){.layers = t->layers};
     solver->problem = &t->problem.film;
-    SbStatus status = sb_ehl_rough_case(&t->surface, solver, scale, report);
-    if (status == SB_OK && scaled.hamaker > 0.0) {
-      status = refuse_closing(t, report);
-    }
+    status = sb_ehl_rough_case(&t->surface, solver, scale, report);
     if (status != SB_OK) {
       return status;
     }
@@ -305,11 +319,11 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   const double rest =
       problem->rest_film > 0.0 ? fmax(problem->rest_film, standing) / scale->film : 0.0;
   const double length = scale->film / scale->half_width;
-  t->diffusion = length * length * scale->pressure / (12.0 * scaled.viscosity);
+  t->diffusion = length * length * scale->pressure / (12.0 * problem->film.viscosity);
   t->flow = 0.5 * problem->speed_scale / scale->half_width * largest->film_flux / scale->film;
   sb_transient_mesh(t, rest);
   t->supply[0] = t->supply[1] = INFINITY;
-  SbStatus status = lay_steady(t, largest, steady->speed[0], report);
+  status = lay_steady(t, largest, steady->speed[0], report);
   if (status != SB_OK) {
     return status;
   }
@@ -357,6 +371,9 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
   status = steady != NULL ? sb_film_solver_create(&solver, report)
                           : sb_fail(report, SB_ERROR_MEMORY, "transient film: out of memory");
   if (status == SB_OK) {
+    status = refuse_closing(problem, solver, report);
+  }
+  if (status == SB_OK) {
     status = solve_steady(steady, problem, solver, report);
   }
   if (status == SB_OK) {
@@ -367,7 +384,7 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
     if (status == SB_ERROR_NOT_CONVERGED) {
       sb_film_transient_destroy(t->companion);
       t->companion = NULL;
-      t->result.error_film_min = t->result.error_film_central = NAN;
+      t->result.error_film_min = t->result.error_film_central = t->result.error_history = NAN;
       status = SB_OK;
     }
   }
@@ -530,6 +547,38 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, SbReport *repo
   return sb_succeed(report);
 }
 
+// Adds the least films at the present way. At rest nothing moves: films of before are no longer
+// compared with.
+static void trace(SbFilmTransient *t, double way, double fine, double coarse) {
+  enum { LAST = SB_TRANSIENT_TRACE - 1 };
+  if (t->traced > LAST || !(way > 0.0)) {
+    const int kept = way > 0.0 ? LAST : 0;
+    memmove(t->trace, t->trace + t->traced - kept, (size_t)kept * sizeof *t->trace);
+    t->traced = kept;
+  }
+  t->trace[t->traced++] = (SbTransientTrace){t->way, {fine, coarse}};
+}
+
+// Distance of the two histories of the least film at the present instant: the least e for which one
+// was within e of the other's present film, no more than e of the passage through the contact ago
+// (Levy's metric). Where a front leaves the contact, whose place alone is uncertain, a comparison
+// of one instant would take the films before it for errors of those behind.
+static double trace_apart(const SbFilmTransient *t) {
+  const SbTransientTrace *now = &t->trace[t->traced - 1];
+  double best = fabs(now->film[1] / now->film[0] - 1.0);
+  for (const SbTransientTrace *at = now - 1; at >= t->trace; at--) {
+    const double lag = 0.5 * (now->way - at->way), next = 0.5 * (now->way - at[1].way);
+    for (int k = 0; k < 2; k++) {
+      const double film = now->film[1 - k], a = at->film[k], b = at[1].film[k];
+      best = fmin(best, fmax(lag, fabs((k == 1 ? a / film : film / a) - 1.0)));
+      if ((a - film) * (b - film) < 0.0) { // passed in between
+        best = fmin(best, next + (lag - next) * (b - film) / (b - a));
+      }
+    }
+  }
+  return best;
+}
+
 // Takes the companion along, to the end of a piece that the fluid went `way` in; the difference of
 // the films, or what is left in the contact of the largest before. Of the least film all of the
 // difference, the error of a method of first order: fronts and cavities lie between first and
@@ -544,7 +593,7 @@ static SbStatus compare(SbFilmTransient *t, double way) {
   if (status != SB_OK) {
     sb_film_transient_destroy(other);
     t->companion = NULL;
-    *error[0] = *error[1] = NAN;
+    *error[0] = *error[1] = t->result.error_history = NAN;
     return status == SB_ERROR_CANCELLED ? status : SB_OK;
   }
   double fine[2], coarse[2];
@@ -560,6 +609,9 @@ static SbStatus compare(SbFilmTransient *t, double way) {
   const bool unknown = !t->problem.resolve && t->face[at].carried > 0.0;
   const double bend = unknown ? fabs((H[at - 2] + H[at + 1]) / fine[0] - 2.0) : 0.0;
   t->way += way;
+  trace(t, way, fine[0], coarse[0]);
+  t->result.error_history =
+      fmax(t->result.error_history, t->result.error_mesh + trace_apart(t) + bend);
   for (int k = 0; k < 2; k++) {
     const double share = k == 0 ? 1.0 : 0.5;
     const double apart = share * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);

@@ -51,6 +51,13 @@ typedef struct {
   double X[SB_TRANSIENT_SAMPLES], spacing[SB_TRANSIENT_SAMPLES], nodes[SB_TRANSIENT_SAMPLES];
 } SbTransientSpacing;
 
+enum { SB_TRANSIENT_TRACE = 64 };
+
+// The least film and the companion's at a way of the fluid.
+typedef struct {
+  double way, film[2];
+} SbTransientTrace;
+
 struct SbFilmTransient {
   SbFilmTransientProblem problem;
   SbFilmScale scale;
@@ -103,10 +110,12 @@ struct SbFilmTransient {
   SbTransientSpacing spacing; // the same
   double old_X[SB_TRANSIENT_NODES_MAX];
   SbTransientState next, now, before, earlier;
-  int known_times;                    // 1 to 3, from now back
-  double way, apart[2], apart_way[2]; // of the fluid; largest difference, and the way then
-  double step;                        // next step to try [s]
-  SbFilmTransientResult result;       // but for the films
+  int known_times;                            // 1 to 3, from now back
+  double way, apart[2], apart_way[2];         // of the fluid; largest difference, and the way then
+  SbTransientTrace trace[SB_TRANSIENT_TRACE]; // the last ones, since the last rest
+  int traced;
+  double step;                  // next step to try [s]
+  SbFilmTransientResult result; // but for the films
 };
 
 // Mesh and kernel for films up to `rest`.

@@ -19,7 +19,9 @@
 // form whatever the step; nodes crowd about what the fluid carries and go along with it
 // (`resolve`). A companion at twice the spacing and twice the step runs beside: the estimate of the
 // least film is the largest difference between the two that the fluid still in the contact has
-// seen, of the central one half of it, and the mesh's own error in steady sliding.
+// seen, of the central one half of it, and the mesh's own error in steady sliding. A film that
+// leaves the contact on the coarse mesh at another time makes that large for an instant: the
+// history's error tells films from times.
 //
 // Asperities and adhesion are those of ehl.h: q = p + p_a(h) - p_v(h) deflects and bears the load,
 // in a cavity too, and the fluid flows through the mean gap h. A pull that closes gaps at rest
@@ -49,6 +51,9 @@ typedef struct {
   double friction_couette, friction_poiseuille, friction_cavity, friction_boundary; // as in SbFilm
   double asperity_load, asperity_share, real_area;                                  // the same
   double error_film_min, error_film_central; // relative; NaN: the companion failed
+  // Of the whole history of the least film: it is within so much of its passage through the contact
+  // as near to the true one, relative (Levy's metric); NaN as above.
+  double error_history;
   double error_time; // estimate, relative, of the film in the contact by the time steps
   double error_mesh; // the same by the mesh: against the spectral steady film at speed_scale
   size_t steps;      // accepted

@@ -486,6 +486,81 @@ static void test_rough_start(void) {
   g_free(steady);
 }
 
+typedef struct {
+  double way, film, error; // in half-widths, [m], of the instant
+} Instant;
+
+enum { INSTANTS = 30 };
+
+// A thin film left by a start leaves the contact; the history's error.
+static double leave(Instant *out, double tolerance) {
+  SbFilmTransientProblem p = seal(200.0);
+  const double u = p.film.speed;
+  p.film.tolerance = tolerance;
+  p.film.speed = 0.0;
+  p.rest_film = 20e-9;
+  SbFilmTransient *t = begin(&p);
+  const double transit = 4.0 * half_width(&p) / u;
+  step(t, 0.01 * transit, u);
+  for (int i = 0; i < INSTANTS; i++) {
+    step(t, 1.25 * transit / INSTANTS, u);
+    const SbFilmTransientResult film = sb_film_transient_result(t);
+    out[i] = (Instant){2.5 * (i + 1) / INSTANTS, film.film_min, film.error_film_min};
+  }
+  const double error = sb_film_transient_result(t).error_history;
+  sb_film_transient_destroy(t);
+  return error;
+}
+
+// Films are told within what a finer solution shows of them within so much of the passage; of an
+// instant they are much further off.
+static void test_leave(void) {
+  Instant told[INSTANTS], fine[INSTANTS];
+  const double error = leave(told, 1e-2);
+  (void)leave(fine, 3e-3);
+  double instant = 0.0, apart = 0.0;
+  for (int i = 0; i < INSTANTS; i++) {
+    double best = INFINITY;
+    for (int j = 0; j < INSTANTS * 10 - 9; j++) { // straight between the finer one's instants
+      const Instant *a = &fine[j / 10], *b = j % 10 > 0 ? a + 1 : a;
+      const double share = 0.1 * (j % 10);
+      const double lag = 0.5 * fabs(a->way + share * (b->way - a->way) - told[i].way);
+      const double film = a->film + share * (b->film - a->film);
+      best = fmin(best, fmax(lag, fabs(told[i].film / film - 1.0)));
+    }
+    apart = fmax(apart, best);
+    instant = fmax(instant, told[i].error);
+  }
+  g_test_message("off %.3g, told %.3g, of an instant %.3g", apart, error, instant);
+  g_assert_cmpfloat(apart, <=, 3.0 * error);
+  g_assert_cmpfloat(error, <, 0.5 * instant);
+}
+
+static bool count_step(void *data) {
+  return ++*(int *)data > 1000;
+}
+
+// At rest asperities come to bear nearly all: the film's pressure is then a small difference, known
+// to its rounding only, and no reason to shorten steps. The companion's count as well.
+static void test_rough_rest(void) {
+  int count = 0;
+  SbFilmTransientProblem p = rough(SB_ROUGH_GREENWOOD_TRIPP, 0.3e-6, 0.0);
+  p.speed_scale = 3.3e-4;
+  p.rest_film = 1e-9;
+  p.film.tolerance = 3e-3;
+  p.resolve = false;
+  p.film.pressure_left = 0.55e6;
+  p.film.cancelled = count_step;
+  p.film.cancelled_data = &count;
+  SbFilmTransient *t = begin(&p);
+  count = 0;
+  step(t, 0.4, 0.0);
+  g_test_message("%d steps tried", count);
+  g_assert_cmpint(count, <, 100);
+  g_assert_cmpfloat(sb_film_transient_result(t).error_film_min, <, 0.3);
+  sb_film_transient_destroy(t);
+}
+
 // A wall that brings little holds the steady starved film, smooth and rough, and brings it back
 // after a stop and a reversal; one that brings more than the film takes floods it. The error that
 // the film tells holds.
@@ -543,6 +618,9 @@ static void test_refused(void) {
   p = seal(1000.0);
   p.film.hamaker = 1e-19; // closes smooth surfaces
   g_assert_cmpint(sb_film_transient_create(&t, &p, NULL), ==, SB_ERROR_INFEASIBLE);
+  p = rough(SB_ROUGH_GREENWOOD_TRIPP, 0.1e-6, 0.1);
+  p.film.work_of_adhesion = 0.13; // closes this surface's gaps below 0.45 um
+  g_assert_cmpint(sb_film_transient_create(&t, &p, NULL), ==, SB_ERROR_INFEASIBLE);
   p = seal(1000.0);
   t = begin(&p);
   g_assert_cmpint(sb_film_transient_step(t, 1.0, 2.0 * p.film.speed, NULL), ==, SB_ERROR_RANGE);
@@ -567,6 +645,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/film-transient/rough-steady", test_rough_steady);
   g_test_add_func("/film-transient/rough-history", test_rough_history);
   g_test_add_func("/film-transient/rough-start", test_rough_start);
+  g_test_add_func("/film-transient/leave", test_leave);
+  g_test_add_func("/film-transient/rough-rest", test_rough_rest);
   g_test_add_func("/film-transient/starved", test_starved);
   g_test_add_func("/film-transient/refused", test_refused);
   return g_test_run();

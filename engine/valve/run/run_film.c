@@ -26,7 +26,7 @@ typedef struct {
   bool fitted;           // the film lies on the fitted body
   double central;        // last film [m], what the next stretch begins with
   size_t frame;          // that it has come to
-  double error;          // largest estimate of the least film
+  double error;          // largest estimate of the least film's history
 } History;
 
 static bool whole_contact(const SbFrame *frame, int seal) {
@@ -76,11 +76,13 @@ static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *h
   problem.film.tolerance = fmax(run->model->tolerance, 3e-3);
   history->chamber = chamber;
   SbStatus status = sb_film_transient_create(&history->film, &problem, report);
-  if (status == SB_ERROR_INFEASIBLE && problem.film.hamaker > 0) {
-    sb_warn(&run->summary.warnings, "film-snap-in", "surface.hamaker_constant",
+  const bool tips = problem.film.work_of_adhesion > 0;
+  if (status == SB_ERROR_INFEASIBLE && (problem.film.hamaker > 0 || tips)) {
+    sb_warn(&run->summary.warnings, "film-snap-in",
+            tips ? "surface.work_of_adhesion" : "surface.hamaker_constant",
             "the %s seal's film in time is that without adhesion: %s", sb_seal_name(seal),
             report->text);
-    problem.film.hamaker = 0;
+    problem.film.hamaker = problem.film.work_of_adhesion = 0;
     status = sb_film_transient_create(&history->film, &problem, report);
   }
   return status;
@@ -146,9 +148,8 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
     }
     const SbFilmTransientResult result = sb_film_transient_result(history->film);
     history->central = result.film_central;
-    // Least film of the coarse setting: the companion's difference and the bend of what its spacing
-    // does not know. Without the companion nothing is known.
-    const double least = result.error_film_min;
+    // Without the companion nothing is known.
+    const double least = result.error_history;
     history->error = isnan(least) ? INFINITY : fmax(history->error, least);
     show(history, &result, frame);
   }
