@@ -352,6 +352,10 @@ static void estimate_near(Estimate *out, const Work *work, int at, size_t figure
   const Level *level = &work->level[at];
   const double h = level->h, f0 = work->base_value[figure];
   double f[POINTS];
+  if (sb_figure(work->out->figure[figure])->needs == SB_DEPTH_SIZES) {
+    estimate(out, work, at, figure); // what the sizes alone give
+    return;
+  }
   for (int i = 0; i < POINTS; i++) {
     f[i] = value_of(work, at, i)[figure];
   }
