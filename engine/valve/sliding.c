@@ -47,6 +47,7 @@ void sb_sliding_memory_forget(SbSlidingMemory *memory) {
   memory->rested = false;
   for (int i = 0; i < SB_RUN_MOTIONS; i++) {
     memory->fitment[i].known = false;
+    (void)sb_succeed(&memory->fitment[i].why);
   }
   memory->last = &memory->plane;
   if (memory->solver != NULL) {
@@ -55,10 +56,6 @@ void sb_sliding_memory_forget(SbSlidingMemory *memory) {
 }
 
 void sb_sliding_memory_keep(SbSlidingMemory *memory) {
-  for (int i = 0; i < memory->kept_count; i++) {
-    sb_ring_destroy(memory->kept[i].ring);
-  }
-  memory->kept_count = 0;
   memory->keeps = true;
 }
 

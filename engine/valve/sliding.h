@@ -52,13 +52,15 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory);
 // next does not depend on what came before. Keeps the memory.
 void sb_sliding_memory_forget(SbSlidingMemory *memory);
 
-// Keeps the rings' states that are solved from now on, for others to start from; those of the last
+// Keeps the rings' states that are solved from now on beside those kept before, for others to start
+// from; those of the last
 // evaluations with `sb_sliding_memory_end`, after which it must be asked nothing more.
 void sb_sliding_memory_keep(SbSlidingMemory *memory);
 void sb_sliding_memory_end(SbSlidingMemory *memory);
 
 // Lets rings start from the kept state of `from`, borrowed, that slides alike at the pressure
-// nearest to theirs; NULL: cold. What is solved then hangs on that memory and the task alone.
+// over modulus nearest to theirs; NULL: cold. What is solved then hangs on that memory and the task
+// alone.
 void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *from);
 
 // Polled while a fitment or a film is solved; true ends it with SB_ERROR_CANCELLED. NULL: nobody.

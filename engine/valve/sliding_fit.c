@@ -58,7 +58,7 @@ void sb_sliding_keep(SbSlidingMemory *memory, int way) {
                         fit->solver.error_estimate.contact_width, on->ring},
                        on->ring,
                        way,
-                       on->pressure,
+                       on->pressure / on->modulus,
                        on->law};
   on->ring = NULL;
   on->known = false;
@@ -71,14 +71,14 @@ static int way_of(const SbSlidingTask *task) {
 // The kept state that a task's ring starts from; NULL: none.
 static const SbSlidingStart *start_of(const SbSlidingTask *task) {
   const SbSlidingMemory *from = task->memory->from;
-  const double pressure = task->pressure.left - task->pressure.right;
+  const double strain =
+      (task->pressure.left - task->pressure.right) / task->model->seal[task->seal].modulus;
   const SbSlidingStart *best = NULL;
   for (int i = 0; from != NULL && is_ring(task) && i < from->kept_count; i++) {
     const SbSlidingStart *one = &from->kept[i];
-    const bool alike = one->way == way_of(task) && (one->pressure > 0) == (pressure > 0) &&
-                       (one->pressure < 0) == (pressure < 0);
-    if (alike &&
-        (best == NULL || fabs(one->pressure - pressure) < fabs(best->pressure - pressure))) {
+    const bool alike = one->way == way_of(task) && (one->strain > 0) == (strain > 0) &&
+                       (one->strain < 0) == (strain < 0);
+    if (alike && (best == NULL || fabs(one->strain - strain) < fabs(best->strain - strain))) {
       best = one;
     }
   }
@@ -114,7 +114,14 @@ static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, Sb
   double pressure = task->pressure.left - task->pressure.right;
   SbSlidingFitment *now = &memory->fitment[way_of(task)];
   memory->now = now;
-  const bool known = now->known && now->pressure == pressure && now->seal == task->seal;
+  const bool same = now->pressure == pressure && now->seal == task->seal;
+  const bool known = now->known && same;
+  if (law == NULL && same && now->why.status == SB_ERROR_NOT_CONVERGED) {
+    if (report != NULL) {
+      *report = now->why;
+    }
+    return now->why.status;
+  }
   if (law == NULL && known) {
     return SB_OK;
   }
@@ -127,15 +134,21 @@ static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, Sb
   problem.start = start != NULL ? &start->start : NULL;
   memory->rested = false;
   bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES;
-  SbStatus status = near ? sb_fit_again(&now->fit, &problem, report) : SB_ERROR_NOT_CONVERGED;
+  SbReport own = {0};
+  SbStatus status = near ? sb_fit_again(&now->fit, &problem, &own) : SB_ERROR_NOT_CONVERGED;
   status =
-      near && status != SB_ERROR_NOT_CONVERGED ? status : sb_fit_solve(&now->fit, &problem, report);
+      near && status != SB_ERROR_NOT_CONVERGED ? status : sb_fit_solve(&now->fit, &problem, &own);
+  if (report != NULL) {
+    *report = own;
+  }
+  now->why = law == NULL ? own : (SbReport){0};
   task->counts->fit_solves++;
   task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
   task->counts->ring_solves += problem.model == SB_FIT_RING;
   task->counts->newton_iterations += now->fit.solver.newton_iterations;
   now->known = status == SB_OK;
   now->pressure = pressure;
+  now->modulus = task->model->seal[task->seal].modulus;
   now->seal = task->seal;
   return status;
 }
@@ -246,6 +259,7 @@ static bool mirror(const SbSlidingTask *task, SbSlidingFitment *on) {
   fit_problem(&problem, task, on, &other->law);
   on->known = sb_fit_mirror(&on->fit, &problem, &other->fit, other->ring, NULL) == SB_OK;
   on->pressure = 0;
+  on->modulus = other->modulus;
   on->seal = task->seal;
   return on->known;
 }

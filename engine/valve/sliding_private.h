@@ -17,7 +17,9 @@ typedef struct {
   SbFit fit;
   SbRing *ring; // owned, NULL for other models
   bool known;
+  SbReport why;    // NOT_CONVERGED: there is none, without friction
   double pressure; // difference for which it stands
+  double modulus;  // of its rubber [Pa]
   int seal;
   SbSlidingLaw law; // of the friction that drags it
 } SbSlidingFitment;
@@ -27,11 +29,11 @@ typedef struct {
   SbFitStart start;
   SbRing *ring;     // owned, that of `start`
   int way;          // of sliding: index of SbSlidingMemory.fitment
-  double pressure;  // difference
+  double strain;    // pressure difference over modulus
   SbSlidingLaw law; // that drags it
 } SbSlidingStart;
 
-enum { SB_SLIDING_STARTS = 3 * SB_RUN_MOTIONS }; // chamber states and ways
+enum { SB_SLIDING_STARTS = 64 }; // of a run at most three chamber states each way
 
 struct SbSlidingMemory {
   bool keeps; // the states solved are kept for others

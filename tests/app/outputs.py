@@ -286,7 +286,7 @@ def several_files():
         stuck = file.read()
     with open(path("several", "stuck.scene"), "w") as file:
         file.write(re.sub(r"\[models\]\n(\w+ = .*\n)*", "", stuck) + "[models]\nfit = disc\n"
-                   "[seal]\nmodulus = 0.3 MPa\n[canister]\npressure = 2 MPa\n")
+                   "[seal]\nmodulus = 0.1 MPa\n[canister]\npressure = 2 MPa\n")
     stuck = path("several", "stuck.scene")
     result = done(run("run", bad, stuck, a, "--json", "-"), 2)
     assert f"{stuck}: [canister] pressure: fitment (disc)" in result.stderr, result.stderr

@@ -117,7 +117,7 @@ static void test_shown(void) {
 // A case that a solver cannot do leaves its questions open, is named, and is flagged.
 static void test_failure(void) {
   write_scene("[limits]\nseals.outer.load_N = >= 1 N\ncycle.force_breakaway_N = <= 30 N\n[cases]\n"
-              "stuck = models.fit=disc; seal.modulus=0.3 MPa; canister.pressure=2 MPa\n"
+              "stuck = models.fit=disc; seal.modulus=0.1 MPa; canister.pressure=2 MPa\n"
               "hot = canister.pressure=0.9 MPa\n");
   CliResult run = CLI("run", path, "--json", "-", "--quiet");
   g_assert_cmpint(run.code, ==, 2);

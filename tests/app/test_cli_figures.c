@@ -37,7 +37,7 @@ static void test_reasons(void) {
        0,
        "cycle.leakage_per_cycle_m3",
        "does not touch"},
-      {{"--set=models.fit=disc", "--set=seal.modulus=0.3MPa", "--set=canister.pressure=2MPa",
+      {{"--set=models.fit=disc", "--set=seal.modulus=0.1MPa", "--set=canister.pressure=2MPa",
         "--quiet", "--quiet"},
        2,
        "cycle.returns",

@@ -247,6 +247,7 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   }
   step(work, 1);
   sb_evaluator_destroy(work->evaluator);
+  sb_evaluator_destroy(work->start);
   sb_film_solver_destroy(work->solver);
   SbStatus status = work->status;
   free(work);
@@ -564,14 +565,17 @@ void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, siz
                          .figure_count = paths,
                          .cancelled = work->hooks.cancelled,
                          .data = work->hooks.data};
+  question.keep = work->keeps;
+  question.start = work->keeps ? NULL : work->start;
   SbReport report;
-  SbStatus status = sb_evaluator_ask(value, work->evaluator, &question, &report);
+  SbEvaluator *evaluator = work->keeps ? work->start : work->evaluator;
+  SbStatus status = sb_evaluator_ask(value, evaluator, &question, &report);
   account(work, status);
   if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     (void)sb_study_goes_on(work, status, &report);
     return;
   }
-  const SbModel *model = sb_evaluator_model(work->evaluator); // NULL: the values were refused
+  const SbModel *model = sb_evaluator_model(evaluator); // NULL: the values were refused
   if (status != SB_OK) {
     const char *what = model != NULL ? sb_fit_model_name((SbFitModel)model->fit) : "study";
     char code[48];

@@ -256,6 +256,19 @@ static void correct_all(SbStudyWork *work, const Ratios ratios[FLUIDS + 1]) {
   }
 }
 
+// Solves the rings at some temperatures, from which those of all cycles start: those of the fluid
+// of the highest pressure, whose steps are less than twice what a ring can start over.
+static void find_starts(SbStudyWork *work) {
+  enum { STARTS = 6, OF = 1 }; // HFA-134a
+  double value[FIGURES + 1];
+  work->status = sb_evaluator_create(&work->start, work->report);
+  work->keeps = true;
+  for (int i = 0; i < STARTS && work->status == SB_OK; i++) {
+    solve(value, work, line_of(OF, SOLVED), sb_study_place(work, i, STARTS));
+  }
+  work->keeps = false;
+}
+
 // Every answer that the charts and the table need, in as few full cycles as do.
 static void ask_all(SbStudyWork *work, int points, const double table[TABLE]) {
   const bool rings = interpolates(work), every = work->scene->study.rings_solved;
@@ -268,7 +281,8 @@ static void ask_all(SbStudyWork *work, int points, const double table[TABLE]) {
     }
   }
   if (count > 0) {
-    sb_study_solve(work, place, count, 0, 0.9);
+    find_starts(work);
+    sb_study_solve(work, place, count, 0.15, 0.9);
   }
   for (size_t i = 0; i < count; i++) {
     const int fluid = place[i].line % (FLUIDS + 1);
