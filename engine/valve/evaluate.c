@@ -140,9 +140,9 @@ SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestio
     if (question->keep) {
       sb_run_keep_rings(evaluator->run);
     }
-    // Whoever asks many questions asks them side by side.
+    // Whoever asks many questions asks them side by side; but for the one that they start from.
     const SbRunHooks hooks = {
-        .cancelled = question->cancelled, .data = question->data, .alone = true};
+        .cancelled = question->cancelled, .data = question->data, .alone = !question->keep};
     status = sb_run_execute(evaluator->run, &hooks, &own);
     if (question->keep) {
       sb_run_end_rings(evaluator->run);

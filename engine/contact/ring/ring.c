@@ -568,13 +568,16 @@ static void lay_alike(SbRing *to, const SbRing *from, const SbRingLoad *target) 
 }
 
 // Whether what friction on floor and walls keeps of the way between two loads is less than what is
-// told of a ring dragged anew: loads within 0.3 % of that over these changes (measured).
+// told of a ring dragged anew: loads within 0.3 % of that over these changes (measured). A ring
+// that nothing drags keeps nothing.
 static bool is_near(const SbRingLoad *a, const SbRingLoad *b) {
-  static const double PRESSURE = 0.25, SPACE = 0.03;
+  static const double PRESSURE = 0.35, PRESSURE_LEAST = 0.1, SPACE = 0.03, FAR = 3.0;
   const double before = a->pressure_left - a->pressure_right;
   const double after = b->pressure_left - b->pressure_right;
   const double space = (a->bore_radius - a->floor_radius) - (b->bore_radius - b->floor_radius);
-  return fabs(after - before) <= PRESSURE * fabs(before) && fabs(space) <= SPACE;
+  const double times = b->bore_slides != 0 ? 1.0 : FAR;
+  const double most = fmax(PRESSURE * fabs(before), before != 0.0 ? PRESSURE_LEAST : 0.0);
+  return fabs(after - before) <= times * most && fabs(space) <= times * SPACE;
 }
 
 // From a load to another one, at once or in parts.
