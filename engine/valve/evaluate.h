@@ -27,7 +27,8 @@ typedef struct {
   size_t figure_count;
   // An evaluator that has answered a question with `keep` and none since, borrowed: rings start
   // from its states, and what is answered hangs on them and the question alone, however many ask at
-  // the same time. NULL: cold. `keep`: keeps them for others, beside those of earlier questions with `keep`.
+  // the same time. NULL: cold. `keep`: keeps them for others, beside those of earlier questions
+  // with `keep`.
   const SbEvaluator *start;
   bool keep;
   // Polled as in a run (SbRunHooks), at least every 50 ms; may be NULL.
