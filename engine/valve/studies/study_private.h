@@ -57,8 +57,8 @@ struct SbStudyWork {
   double lo, hi; // ends of the abscissa: the scene's range, or the study's own
   double load;   // net, of films that the study solves at one load [N/m]
   SbEvaluator *evaluator;
-  SbEvaluator *start; // from whose rings those of the others start, owned; NULL: cold
-  bool keeps;         // what is asked goes there
+  SbEvaluator *start;   // from whose rings those of the others start, owned; NULL: cold
+  bool keeps;           // what is asked goes there
   SbFilmSolver *solver; // of the films that are solved beside questions
   SbFilm film;          // the last of them
   SbStudyHooks hooks;
