@@ -156,7 +156,7 @@ static void test_importance(void) {
   const double truth = under_parabola(of.beta, of.curvature);
   g_assert_cmpfloat(truth, >, 1.2 * sb_normal_share(-4));
   assert_covered(parabola, &of, u, 1, truth, 3);
-  // Two ways to fail, each with its point.
+  // Two failures, each with its point.
   of = (Case){.n = 1, .beta = 4.5};
   const double points[] = {4.5, -4.5};
   assert_covered(both_sides, &of, points, 2, 2 * sb_normal_share(-4.5), 1.5);
