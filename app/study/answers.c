@@ -230,6 +230,10 @@ static void collect(Threads *pool) {
 static void compute_on_threads(SbAnswerSink *sink, const SbQuestions *asked, const uint32_t *todo,
                                size_t count) {
   SbEvaluator *start = sb_answer_start(asked);
+  if (!sb_answer_goes_on(sink)) { // a base that was cancelled is no start: samples would differ
+    sb_evaluator_destroy(start);
+    return;
+  }
   Threads pool = {.asked = asked, .start = start, .sink = sink, .todo = todo, .count = count};
   pthread_t thread[JOBS_MAX];
   const int jobs = CLAMP((int)MIN((size_t)asked->jobs, count), 1, JOBS_MAX);

@@ -434,7 +434,7 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
 }
 
 // To steady sliding that is near; where single nodes of the mesh stand in the way, on others. The
-// ring stays as it is where none helps.
+// ring's state stays where none helps, perhaps on another mesh.
 static SbStatus slide_at_once(SbRing *ring, const SbRingLoad *target, SbReport *report) {
   static const double FINER[] = {1.0, 0.93, 0.87};
   const double size = ring->fitted_size;
