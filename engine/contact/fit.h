@@ -82,6 +82,7 @@ typedef struct {
 typedef struct SbFitStart {
   double error_load, error_peak, error_width; // relative, told of it
   const SbRing *ring;
+  SbRingTangent *tangent; // of that ring, to take it from to first order; NULL: it is solved
 } SbFitStart;
 
 // Name of a model's variant (Green & English's rows, the kernel of the disc, ...), counted from 0;
@@ -118,6 +119,7 @@ typedef struct {
     double axial_imbalance; // sum of all axial forces over the largest force [-]
     double drag;            // of the bore on the ring, > 0 as the problem's [N]
     double drag_limit;      // greatest drag over load where the ring rolls or jams; NAN: not met
+    double fault;           // of one taken from another to first order (ring.h)
     double turn;            // of the section, > 0 as the drag turns it [rad]
     SbRingState state;
     size_t load_steps, rejected_steps;

@@ -35,6 +35,15 @@ static double worst(const SbFilmSolver *solver) {
   return fmax(solver->error[0], solver->error[1]);
 }
 
+// Whether rough rows' film forms again behind its cavity.
+static bool forms_again(const SbEhlSolution *s) {
+  bool again = false;
+  for (int i = 0; i + 1 < s->mesh.dofs; i++) {
+    again = again || (s->state.cavity[i] && !s->state.cavity[i + 1]);
+  }
+  return again;
+}
+
 // Estimate of the errors of the last level: its change from the level below times the rate at which
 // changes shrink, which is not believed to be better than what was found over the range of M and
 // end pressures. Changes are those of the films' surroundings (sb_ehl_change). The flux hangs
@@ -48,6 +57,7 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
   SbFilmSolverInfo *info = solver->info;
   const SbEhlCase *c = &solver->now->c;
   const bool rough = c->rough.rows;
+  const bool again = rough && forms_again(solver->now);
   const SbEhlResults *now = &results[levels - 1], *before = &results[levels - 2];
   double noise = rounding(now, rough) + (rough ? 0.0 : info->residual);
   double *last = change[levels - 1];
@@ -57,10 +67,17 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
   for (int i = 0; i < 3; i++) {
     // A level of rough rows leaves some hundredth of its change, beside the rupture's kink more;
     // two of one degree tell no rate.
-    static const double ROUGH[] = {0.05, 0.02, 0.05};
+    static const double ROUGH[2][3] = {{0.05, 0.02, 0.05}, {0.12, 0.05, 0.12}};
+    // Without asperities nothing rounds the kinks where the film breaks and forms again, which lie
+    // anywhere between nodes: read off smooth rows' films (M from 0.3 to 1e3, ends to p_H).
+    static const double KINK = 0.4, BROKEN[] = {5e-7, 1e-7, 1e-7}, FORMED = 1e-5;
+    const bool sharp = rough && c->rough.law == NULL;
+    const double left = sharp ? again ? FORMED : BROKEN[i] : 0.0;
     double rate = levels > 2 ? last[i] / fmax(change[levels - 2][i], 1e-300) : 0.0;
-    rate = rough ? ROUGH[i] : fmin(fmax(rate, SLOWEST[levels - 1]), 1.0);
-    solver->error[i] = fmax(rate * last[i] + noise, FINEST[levels - 1]);
+    rate = sharp   ? KINK
+           : rough ? ROUGH[c->rough.coarse][i]
+                   : fmin(fmax(rate, SLOWEST[levels - 1]), 1.0);
+    solver->error[i] = fmax(rate * last[i] + noise + left, FINEST[levels - 1]);
   }
   if (rough) {
     static const double RATE = 0.05, RATE_FLOW = 0.02;
@@ -154,9 +171,11 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
   const int least = rough || wanted >= 5e-3 ? 2 : 3;
   *levels = 0;
   const int last = rough ? DEGREE_LAST_ROUGH : DEGREE_LAST;
+  bool coarse = false;
   for (int degree = DEGREE_FIRST; degree <= last;) {
     SbEhlCase c = *cold;
     c.layers.degree = degree;
+    c.rough.coarse = coarse;
     solver->tolerance = *levels + 1 < least ? LEVEL_RESIDUAL[*levels] : RESIDUAL;
     SbStatus status =
         *levels == 0 ? sb_ehl_start(solver, &c, supply) : sb_ehl_refine(solver, degree);
@@ -169,6 +188,13 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
       // So coarse a mesh may hide the load in its own errors: on a finer one from nothing.
       *levels = 0;
       degree += 2;
+      continue;
+    }
+    if (status == SB_ERROR_RANGE && *levels < 2 && rough && !coarse) {
+      // Layers so thin that their elements leave no room for a second level.
+      coarse = true;
+      *levels = 0;
+      degree = DEGREE_FIRST;
       continue;
     }
     if (status == SB_ERROR_RANGE) {

@@ -88,6 +88,7 @@ typedef struct {
   double smooth_gap;     // unit of t without a law, scaled
   double hamaker;        // A_H [J]; 0 = off
   bool sealed;        // no flow: film pressure as given, that of the ends at rest; cavity all over
+  bool coarse;        // elements that grow faster: the others have no room for two levels
   double flux, inlet; // guesses of the flux film and of where the film's pressure begins, scaled
   struct {
     double X, width; // of the layers at the film's ends, scaled; X infinite: none

@@ -26,12 +26,13 @@ static bool lay_out(SbEhlSolution *s) {
 // where the film forms again, is moved until the film's pressure starts there from the one before
 // it, by the pressure's slope.
 static SbStatus iterate(SbEhlSolution *s) {
-  enum { MOVES_MAX = 40 };
+  enum { MOVES_MAX = 40, HALVINGS_MAX = 6 };
   SbFilmSolver *solver = s->solver;
   const SbEhlMesh *mesh = &s->mesh;
   SbEhlLayers *l = &s->c.layers;
   const bool rough = s->c.rough.rows, reform = l->end == SB_EHL_REFORM;
   double *place = reform ? &l->reform : &l->meniscus;
+  int halvings = 0;
   for (int i = 0; i < MOVES_MAX; i++) {
     solver->info->continuation_steps++;
     SbStatus status = sb_ehl_newton(s);
@@ -48,8 +49,11 @@ static SbStatus iterate(SbEhlSolution *s) {
     double room = reform ? *place - mesh->element[mesh->film_end].x1
                          : fmax(fabs(1.0 + *place), sb_ehl_layers_width(l));
     room *= 0.5;
-    *place += fmin(fmax(-excess / slope, -room), room);
-    if (!lay_out(s)) {
+    double move = fmin(fmax(-excess / slope, -room), room);
+    halvings = move <= -room ? halvings + 1 : 0;
+    *place += move;
+    // A cavity that goes on closing is none: the film of this case stays full.
+    if ((reform && halvings > HALVINGS_MAX) || !lay_out(s)) {
       break;
     }
   }
@@ -176,6 +180,11 @@ static bool easier(SbEhlCase *c, const SbEhlCase *target, int k) {
     }
     return k < FASTER && target->layers.lambda > 0.0;
   }
+  const bool reform = target->layers.end == SB_EHL_REFORM;
+  if (reform) { // its own easier case first: at another speed there may be no cavity
+    static const int ORDER[] = {0, 3, 1, 2, 4, 5};
+    k = ORDER[k];
+  }
   c->fluid.barus = c->fluid.eyring = 0.0;
   if (k == 1) { // small end pressures, no options and M = 20 if the film is thick
     c->layers.lambda = fmin(c->layers.lambda, EASY_LAMBDA);
@@ -183,14 +192,13 @@ static bool easier(SbEhlCase *c, const SbEhlCase *target, int k) {
     c->layers.outlet = fmin(c->layers.outlet, EASY_PRESSURE);
   } else if (k == 2) { // no inlet pressure and no options at the same M, a longer cavity
     c->layers.inlet = 0.0;
-    c->layers.outlet *= c->layers.end == SB_EHL_REFORM ? 0.25 : 1.0;
-  } else if (c->layers.end == SB_EHL_REFORM) { // a small outlet pressure at the inlet's own
+    c->layers.outlet *= reform ? 0.25 : 1.0;
+  } else if (reform) { // a small outlet pressure at the inlet's own
     c->layers.outlet *= k == 3 ? 0.25 : 0.05;
   } else { // an outlet pressure that keeps a thick film full
     c->layers.outlet = fmax(2.2 + c->layers.inlet, c->layers.outlet);
   }
-  return k < 3 || (k == 3 && target->layers.end == SB_EHL_FULL) ||
-         (k < 5 && target->layers.end == SB_EHL_REFORM);
+  return k < 3 + (target->layers.end == SB_EHL_FULL) + 2 * reform;
 }
 
 // The last solution, of rough rows, with elements at its film's ends if these are sharp.
@@ -345,9 +353,18 @@ SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply) {
 }
 
 SbStatus sb_ehl_refine(SbFilmSolver *solver, int degree) {
+  enum { WIDENINGS = 6 };
   SbEhlCase next = solver->now->c;
   next.layers.degree = degree;
-  return take(solver, &next);
+  SbStatus status = take(solver, &next);
+  // Ends so sharp that no mesh has room for them all: less of each, and the change tells the error.
+  for (int i = 0; i < WIDENINGS && status == SB_ERROR_RANGE; i++) {
+    for (int k = 0; k < SB_EHL_FRONTS; k++) {
+      next.rough.front[k].width *= 3.0;
+    }
+    status = take(solver, &next);
+  }
+  return status;
 }
 
 SbStatus sb_ehl_follow(SbFilmSolver *solver, const SbEhlCase *c) {

@@ -321,7 +321,7 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   const double length = scale->film / scale->half_width;
   t->diffusion = length * length * scale->pressure / (12.0 * problem->film.viscosity);
   t->flow = 0.5 * problem->speed_scale / scale->half_width * largest->film_flux / scale->film;
-  sb_transient_mesh(t, rest);
+  sb_transient_mesh(t, rest, problem->least_film > 0.0 ? problem->least_film / scale->film : rest);
   t->supply[0] = t->supply[1] = INFINITY;
   status = lay_steady(t, largest, steady->speed[0], report);
   if (status != SB_OK) {

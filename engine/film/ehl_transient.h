@@ -118,8 +118,8 @@ struct SbFilmTransient {
   SbFilmTransientResult result; // but for the films
 };
 
-// Mesh and kernel for films up to `rest`.
-void sb_transient_mesh(SbFilmTransient *t, double rest);
+// Mesh and kernel for films up to `rest`, trapped ones down to `least` (0: none).
+void sb_transient_mesh(SbFilmTransient *t, double rest, double least);
 
 // New mesh in the core, with the states on it, if what the fluid carries there needs another
 // spacing; `ahead` is the way that it will be carried, for which the new spacing is to last.

@@ -225,7 +225,7 @@ static void lay_mesh(SbFilmTransient *t) {
   t->factored_c0 = 0.0;
 }
 
-void sb_transient_mesh(SbFilmTransient *t, double rest) {
+void sb_transient_mesh(SbFilmTransient *t, double rest, double least) {
   const double width = fmin(sb_ehl_layers_width(&t->layers), 2.0);
   const double fine =
       t->coarseness * cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
@@ -234,8 +234,8 @@ void sb_transient_mesh(SbFilmTransient *t, double rest) {
   // A film trapped at rest may be much thinner than those of the speeds: its neck lies where the
   // dry gap, some (X - 1)^(3/2), reaches it.
   t->finest = 0.5 * width;
-  if (rest > 0.0) {
-    t->finest = fmin(t->finest, 0.3 * pow(rest, 2.0 / 3.0));
+  if (least > 0.0) {
+    t->finest = fmin(t->finest, 0.3 * pow(least, 2.0 / 3.0));
   }
   t->cell = 0.03 * fine;
   t->ramp = fmax(CARRIED * width, t->problem.resolve ? RAMP * fine : 0.0);

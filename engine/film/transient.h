@@ -37,6 +37,8 @@ typedef struct {
   double rest_film;     // 0: start in the steady state of film.speed; else at rest, the contact
                         // parted by this film [m], or further by its asperities, and the
                         // surroundings full
+  double least_film;    // thinnest film that comes to rest [m], for whose necks at the edges the
+                        // mesh is made; 0: rest_film
   double inlet_film[2]; // layer [m] that the wall brings from the left and from the right; 0 floods
                         // that end. A starved end is no higher in pressure than the other one
   bool resolve;         // spacing and steps for the narrow dip that a reversal carries through the

@@ -297,7 +297,8 @@ static bool apply(SbDynamics *s, int event) {
       rigid_one ? s->held : event >= EVENT_CONTACT_UP && s->state[i] == SB_CONTACT_STUCK;
   const bool counts = event != EVENT_BREAK && event != EVENT_SPEED_UP && event != EVENT_SPEED_DOWN;
   s->counters.events += counts;
-  s->others += counts && !rigid_one && event < EVENT_CONTACT_UP;
+  s->platens += event == EVENT_PLATEN;
+  s->others += counts && !rigid_one && event != EVENT_PLATEN && event < EVENT_CONTACT_UP;
   s->least_stretch = fmin(s->least_stretch, fabs(sb_motion_drive_at(s, s->t).value - s->at.x));
   if (event >= EVENT_CONTACT_UP) {
     contact_event(s, i, event >= EVENT_CONTACT_DOWN ? -1 : 1);

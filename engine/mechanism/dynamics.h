@@ -197,9 +197,10 @@ enum { SB_DYNAMICS_PLATEN = SB_DYNAMICS_STOPS, SB_DYNAMICS_WALLS };
 typedef struct {
   int event; // that began the slip; -1: none yet
   size_t region;
-  long events, others, segments; // so far; others: that no cycle has
-  double t, until;               // s; end of the drive's piece
-  double stretch;                // of the drive's spring [m]
+  // So far; platens: touched or left; others: that no cycle has.
+  long events, platens, others, segments;
+  double t, until; // s; end of the drive's piece
+  double stretch;  // of the drive's spring [m]
   SbDynamicsState at;
   SbContactState state[SB_DYNAMICS_CONTACTS];
   double rest[SB_DYNAMICS_CONTACTS]; // since it came to rest, if it did [s]
@@ -246,7 +247,7 @@ typedef struct {
   SbDynamicsBreak broke, mark; // the last, and the one that later ones are compared with
   long since_mark, mark_after; // break-aways since it was set, and after how many it is set again
   double least_stretch;        // of the drive's spring at events since then, in size [m]
-  long others;                 // events of other kinds than slip, stick and speed
+  long platens, others;        // events of the platen; of kinds that no cycle has: stops and edges
   SbDynamicsGroup group;
   double asked;                       // time that is being advanced to
   double stored_start, kinetic_start; // J

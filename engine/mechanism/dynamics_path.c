@@ -253,6 +253,11 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
   if (s->piece.curved) {
     h = fmin(h, s->piece.step);
   }
+  if (!s->held && p->sum.c < 0.0) {
+    // What grows a longer step would damp (L-stability), to a solution that is none.
+    h = fmin(h, s->mass / -p->sum.c);
+  }
+  h = fmax(h, 8.0 * DBL_EPSILON * s->t); // the time resolves no less
   double z[SB_RADAU_MAX];
   for (size_t i = 0; i < s->system.n; i++) {
     z[i] = s->at.z[s->unknown[i]];

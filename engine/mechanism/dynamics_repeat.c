@@ -5,6 +5,7 @@
 // make equal cycles for ever: the same contacts rest or slide with the same stretch of the drive's
 // spring, deflections, speed and rests. A cycle may have several slips, of contacts that take
 // turns: break-aways are compared with one that is set anew after 1, 2, 4, ... others (Brent 1980).
+// A stem that is thrown off the platen and met by it again has all that in its cycle.
 // Time goes on by a whole number of periods, the stem by as much as the drive, every energy by as
 // many times what it gained in one period. Exact.
 //
@@ -39,7 +40,8 @@ typedef struct {
   double time, way; // s, m
 } Ahead;
 
-// Nothing has happened since `was` but slips, rests and bands of speed, and the machine presses.
+// Nothing has happened since `was` but slips, rests, bands of speed and the platen's leaving and
+// coming again, and the machine presses.
 static bool undisturbed(const SbDynamics *s, const SbDynamicsBreak *was) {
   const SbDynamicsModel *m = s->model;
   const SbDynamicsBreak *now = &s->broke;
@@ -72,7 +74,9 @@ static bool equal(const SbDynamics *s, const SbDynamicsBreak *a, const SbDynamic
   double noise = 4e-16 * (fabs(a->at.x) + fabs(sb_motion_drive_at(s, s->t).value));
   // A return spring's force rises along the way, and only stretches the drive's spring further.
   const double yield = drift(s) * (a->at.x - b->at.x);
-  bool same = close_to(a->stretch - yield, b->stretch, noise) &&
+  // Off the platen that force alone acts, another in each cycle.
+  const bool pressed = drift(s) == 0.0 || a->platens == b->platens;
+  bool same = pressed && close_to(a->stretch - yield, b->stretch, noise) &&
               close_to(a->at.v, b->at.v, 1e-9 * fabs(s->piece.rate));
   for (size_t i = 0; i < s->model->contacts; i++) {
     const bool rests = a->state[i] == SB_CONTACT_STUCK;
@@ -122,6 +126,7 @@ static void note(SbDynamics *s, int event) {
   *b = (SbDynamicsBreak){.event = event,
                          .region = s->region,
                          .events = s->counters.events,
+                         .platens = s->platens,
                          .others = s->others,
                          .segments = s->counters.segments,
                          .t = s->t,
@@ -337,7 +342,8 @@ void sb_motion_repeat(SbDynamics *s, int event) {
     rigid_ones = rigid_ones && is_rigid(m, i);
   }
   const bool patient = steady && s->mark_after < patience;
-  if (rigid_ones && !patient && comparable(s, &was) && was.events + 2 == s->broke.events) {
+  const long slips = s->broke.events - was.events - (s->broke.platens - was.platens);
+  if (rigid_ones && !patient && comparable(s, &was) && slips == 2) {
     pass_group(s, &was, event);
   }
 }

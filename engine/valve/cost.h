@@ -6,11 +6,13 @@
 #include "engine/contact/fit.h"
 #include "engine/valve/model.h"
 
+#include <math.h>
+
 #define SB_COST_CLOSED       2e-6
 #define SB_COST_DISC         0.8e-3
-#define SB_COST_RING         70e-3  // fitted; pressed against its wall a little more
-#define SB_COST_RING_DRAGGED 1.1    // sliding: squeezed, pressed and dragged, its error told
-#define SB_COST_RING_SHAPE   35e-3  // to draw, from a state: over the land's edge
+#define SB_COST_RING         50e-3  // fitted; pressed against its wall a little more
+#define SB_COST_RING_DRAGGED 0.13   // sliding: squeezed, pressed and dragged, its error told
+#define SB_COST_RING_SHAPE   11e-3  // to draw, from a state: over the land's edge
 #define SB_COST_FILM         4e-3   // coupled film on the half-plane
 #define SB_COST_FILM_FITTED  8e-3   // on a disc's or ring's own surface
 #define SB_COST_FILM_MIXED   12e-3  // with asperities in it
@@ -29,6 +31,12 @@ static inline double sb_cost_fit(SbFitModel model) {
   return model == SB_FIT_RING                                  ? SB_COST_RING
          : model == SB_FIT_DISC || model == SB_FIT_DISC_THESIS ? SB_COST_DISC
                                                                : SB_COST_CLOSED;
+}
+
+// A ring's fitments at a tolerance, over those at the default one: the path that finds a state is
+// followed on a coarse mesh in any case.
+static inline double sb_cost_ring_share(double tolerance) {
+  return pow(1e-3 / tolerance, tolerance < 1e-3 ? 0.27 : 0.1);
 }
 
 // One film of a film model, on the half-plane.

@@ -228,12 +228,6 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
     refuse(problems, "models.adhesion", NAN, NAN,
            "asperities: tips that stick are those of models.surface = greenwood-tripp");
   }
-  // Running-in changes the surface, and with it a film that shares its load with asperities.
-  if (lives && model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
-    refuse(problems, "models.asperities", NAN, NAN,
-           "coupled: a life of %d actuations keeps its film and needs beside",
-           model->life_actuations);
-  }
 }
 
 // A named fluid has figures at the canister's temperature, and takes the ethanol.

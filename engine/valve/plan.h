@@ -35,6 +35,7 @@ typedef struct {
   SbCounters expected; // what the run will count, within a factor of two; newton_iterations is 0
   bool profiles;       // contact pressure and film over x are kept
   bool section_fields; // interior fields at drawn frames
+  bool over_edge;      // and those of the inner ring over the land's edge
   bool reynolds;       // the film is solved
   bool film_history;   // and its history over the frames
   bool ring;           // the ring is solved
@@ -53,12 +54,16 @@ typedef struct {
   unsigned views, studies; // bit masks of SbView and 1 << SbStudyKind
   bool life;               // the actuations after the first, where the model has any
   bool resting;            // a picture at rest will do: the balance of forces, few frames
+  bool coarse;             // a first look will do: no rings over the land's edge
 } SbPlanWishes;
 
 // Plans `model` for all figures and what is wished; sb_plan_make(): what its own parameters ask
 // for. Always succeeds.
 void sb_plan_wished(SbPlan *out, const SbModel *model, const SbPlanWishes *wishes);
 void sb_plan_make(SbPlan *out, const SbModel *model);
+
+// Predicted processor time of all that it computes [s].
+double sb_plan_cost(const SbPlan *plan);
 
 // Plans `model` for `count` figures (indices, engine/valve/figures.h) and nothing to look at;
 // without the lists of fields. A run by this plan leaves figures that nobody wants uncomputed;

@@ -37,6 +37,7 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
       sb_ring_destroy(memory->fitment[i].ring);
     }
     for (int i = 0; i < memory->kept_count; i++) {
+      sb_ring_tangent_destroy(memory->kept[i].tangent);
       sb_ring_destroy(memory->kept[i].ring);
     }
     free(memory);
@@ -66,8 +67,9 @@ void sb_sliding_memory_end(SbSlidingMemory *memory) {
   memory->keeps = false;
 }
 
-void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *from) {
+void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *from, bool tangent) {
   memory->from = from;
+  memory->tangent = tangent;
 }
 
 void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data) {

@@ -1,6 +1,7 @@
 // One seal's fitment, and a ring dragged by its own friction.
 #include "engine/valve/sliding_private.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -49,17 +50,31 @@ static bool cancelled(void *data) {
 void sb_sliding_keep(SbSlidingMemory *memory, int way) {
   SbSlidingFitment *on = &memory->fitment[way];
   const SbFit *fit = &on->fit;
+  const bool apart = fit->ring.state == SB_RING_NO_CONTACT;
   if (!memory->keeps || !on->known || on->ring == NULL || fit->model != SB_FIT_RING ||
-      fit->ring.state != SB_RING_SLIDES || memory->kept_count == SB_SLIDING_STARTS) {
+      (fit->ring.state != SB_RING_SLIDES && !apart) || memory->kept_count == SB_SLIDING_STARTS) {
     return;
   }
-  memory->kept[memory->kept_count++] =
+  SbSlidingStart *kept = &memory->kept[memory->kept_count];
+  *kept =
       (SbSlidingStart){{fit->solver.error_estimate.load, fit->solver.error_estimate.pressure_peak,
-                        fit->solver.error_estimate.contact_width, on->ring},
+                        fit->solver.error_estimate.contact_width, on->ring, NULL},
                        on->ring,
+                       NULL,
                        way,
                        on->pressure / on->modulus,
-                       on->law};
+                       on->law,
+                       on->found};
+  if (apart) { // there is nothing to start from
+    kept->ring = NULL;
+    kept->start.ring = NULL;
+    memory->kept_count++;
+    return;
+  }
+  if (sb_ring_tangent_create(&kept->tangent, on->ring, &kept->law, NULL) != SB_OK) {
+    return;
+  }
+  memory->kept_count++;
   on->ring = NULL;
   on->known = false;
 }
@@ -76,8 +91,8 @@ static const SbSlidingStart *start_of(const SbSlidingTask *task) {
   const SbSlidingStart *best = NULL;
   for (int i = 0; from != NULL && is_ring(task) && i < from->kept_count; i++) {
     const SbSlidingStart *one = &from->kept[i];
-    const bool alike = one->way == way_of(task) && (one->strain > 0) == (strain > 0) &&
-                       (one->strain < 0) == (strain < 0);
+    const bool alike = (one->ring != NULL || task->memory->tangent) && one->way == way_of(task) &&
+                       (one->strain > 0) == (strain > 0) && (one->strain < 0) == (strain < 0);
     if (alike && (best == NULL || fabs(one->strain - strain) < fabs(best->strain - strain))) {
       best = one;
     }
@@ -107,6 +122,13 @@ static void fit_problem(SbFitProblem *problem, const SbSlidingTask *task, SbSlid
   }
 }
 
+// Fails for a ring that the base has not; nothing of another fitment is left.
+static SbStatus no_tangent(const SbSlidingTask *task, SbSlidingFitment *on, SbReport *report) {
+  memset(&on->fit, 0, sizeof on->fit);
+  return sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                 "no tangent of a ring that rolls or jams at the base");
+}
+
 // The task's fitment, anew if it is not the last one of these pressures or a `law` of friction is
 // given to drag it.
 static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, SbReport *report) {
@@ -131,9 +153,15 @@ static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, Sb
   const SbSlidingStart *start = start_of(task);
   SbFitProblem problem;
   fit_problem(&problem, task, now, law);
-  problem.start = start != NULL ? &start->start : NULL;
+  SbFitStart from = start != NULL ? start->start : (SbFitStart){0};
+  from.tangent = memory->tangent && start != NULL ? start->tangent : NULL;
+  problem.start = from.ring != NULL ? &from : NULL;
   memory->rested = false;
-  bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES;
+  if (memory->tangent && is_ring(task) && start == NULL) {
+    now->known = false;
+    return no_tangent(task, now, report);
+  }
+  bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES && !memory->tangent;
   SbReport own = {0};
   SbStatus status = near ? sb_fit_again(&now->fit, &problem, &own) : SB_ERROR_NOT_CONVERGED;
   status =
@@ -260,13 +288,65 @@ static bool mirror(const SbSlidingTask *task, SbSlidingFitment *on) {
   on->known = sb_fit_mirror(&on->fit, &problem, &other->fit, other->ring, NULL) == SB_OK;
   on->pressure = 0;
   on->modulus = other->modulus;
+  on->jump = other->jump;
   on->seal = task->seal;
   return on->known;
+}
+
+// The law to drag with next: what was found, but between the greatest shear that was too small and
+// the least too great.
+static void near_law(SbSlidingLaw *found, const SbSlidingLaw *before, double bracket[2]) {
+  bracket[found->shear > before->shear ? 0 : 1] = before->shear;
+  if (found->shear > before->shear ? found->shear >= bracket[1] : found->shear <= bracket[0]) {
+    const double middle = 0.5 * (bracket[0] + bracket[1]);
+    const double part = (middle - before->shear) / (found->shear - before->shear);
+    found->shear = middle;
+    found->coefficient = before->coefficient + part * (found->coefficient - before->coefficient);
+  }
+}
+
+// The same beside a kept pair of ring and friction. That one agrees to the tolerance only; what it
+// lacks is held, so that the pair is a smooth function of all that it hangs on.
+static SbStatus drag_beside(const SbSlidingTask *task, SbSlidingFitment *on,
+                            const SbSlidingStart *start, bool known, SbSealState *out,
+                            SbReport *report) {
+  enum { ROUNDS = 12 };
+  static const double CLOSE = 1e-9;
+  SbSlidingLaw law = start->law;
+  for (int round = 0;; round++) {
+    SbSlidingLaw found;
+    SbStatus status = sb_sliding_solve_with(task, known ? NULL : &law, out, report);
+    if (!sb_sliding_usable(status) || !(out->load > 0)) {
+      return status;
+    }
+    sb_sliding_law(&found, task->model, out);
+    const double asked = law_force(&found, &on->fit);
+    const SbSlidingLaw next = {found.coefficient + start->law.coefficient -
+                                   start->found.coefficient,
+                               found.shear + start->law.shear - start->found.shear};
+    const double off = law_force(&next, &on->fit) - law_force(&law, &on->fit);
+    if (!isfinite(asked)) {
+      return status;
+    }
+    if (known || fabs(off) <= CLOSE * asked) {
+      SbStatus borne = bear(out, task, on, asked, status == SB_OK ? report : NULL);
+      return borne != SB_OK ? borne : status;
+    }
+    if (round == ROUNDS) {
+      return sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                     "fitment and friction of the %s seal do not agree beside the base's",
+                     sb_seal_name(task->seal));
+    }
+    law = next;
+  }
 }
 
 // A ring's states: friction drags it, and hangs on the film that lies on the dragged ring.
 // SbSlidingSolved in turns until the friction that drags it is that of its own film. A ring whose
 // greatest drag is less than its friction rolls or jams; the film is then that of this last state.
+// The film hangs on the nodes at the contact's inlet (take_film() in sliding.c), and where one
+// comes or goes the friction jumps: a jump inside the film's own error is as near as the two come,
+// and an error of the friction.
 SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
   enum { ROUNDS = 6 };
   const double close = 0.5 * task->model->tolerance;
@@ -274,12 +354,23 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
   SbSlidingMemory *memory = task->memory;
   SbSlidingFitment *on = &memory->fitment[task->speed > 0 ? IN : OUT];
   bool known = on->known && on->pressure == pressure && on->seal == task->seal;
+  const SbSlidingStart *start = start_of(task);
+  if (memory->tangent && start != NULL && start->ring != NULL) {
+    return drag_beside(task, on, start, known, out, report);
+  }
+  if (memory->tangent && start == NULL) {
+    memory->now = on;
+    on->known = false;
+    sb_sliding_clear(out);
+    return no_tangent(task, on, report);
+  }
+  const bool first = !known;
   if (!known) {
     sb_sliding_keep(memory, way_of(task));
+    on->jump = 0;
     known = mirror(task, on);
   }
   SbSlidingLaw law;
-  const SbSlidingStart *start = start_of(task);
   if (!known && start != NULL) {
     law = start->law;
   } else if (!known) {
@@ -287,6 +378,7 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
   }
   SbWarnings *own = &memory->warnings;
   SbStatus status = SB_OK;
+  double bracket[2] = {-INFINITY, INFINITY};
   for (int round = 0;; round++) {
     SbSlidingTask like = *task;
     memset(own, 0, sizeof *own); // of the last round
@@ -302,12 +394,21 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
       break;
     }
     bool slides = on->fit.ring.state == SB_RING_SLIDES;
-    bool agree = slides ? fabs(asked - before) <= close * asked
+    const double apart = fabs(asked - before); // both 0 without friction
+    if (slides && apart > fmax(close, on->jump) * asked) {
+      near_law(&law, &on->law, bracket);
+      const bool last = round + 1 == ROUNDS || bracket[1] - bracket[0] <= 2 * close * law.shear;
+      on->jump = last && apart <= out->central_error * asked ? apart / asked : on->jump;
+    }
+    bool agree = slides ? apart <= fmax(close, on->jump * (1 + 4 * DBL_EPSILON)) * asked
                         : asked >= (1 - close) * fabs(on->fit.ring.drag);
     if (!agree && round + 1 < ROUNDS) {
       continue;
     }
+    on->found = first || round > 0 ? law : on->found;
     SbStatus borne = bear(out, &like, on, asked, status == SB_OK ? report : NULL);
+    out->friction_error +=
+        slides && apart > close * asked ? fabs(asked - fabs(on->fit.ring.drag)) : 0;
     status = borne != SB_OK ? borne : status;
     if (!agree) {
       status = sb_fail(report, SB_ERROR_NOT_CONVERGED,

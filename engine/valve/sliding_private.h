@@ -22,15 +22,19 @@ typedef struct {
   double modulus;  // of its rubber [Pa]
   int seal;
   SbSlidingLaw law; // of the friction that drags it
+  double
+      jump; // of what its film asks from that, relative, where they come no nearer; 0: they agree
+  SbSlidingLaw found; // that of the film which then lies on it
 } SbSlidingFitment;
 
 // A ring's state that others start from (SbSlidingMemory.kept).
 typedef struct {
   SbFitStart start;
-  SbRing *ring;     // owned, that of `start`
-  int way;          // of sliding: index of SbSlidingMemory.fitment
-  double strain;    // pressure difference over modulus
-  SbSlidingLaw law; // that drags it
+  SbRing *ring;            // owned, that of `start`
+  SbRingTangent *tangent;  // owned, its
+  int way;                 // of sliding: index of SbSlidingMemory.fitment
+  double strain;           // pressure difference over modulus
+  SbSlidingLaw law, found; // that drags it, and that of its film
 } SbSlidingStart;
 
 enum { SB_SLIDING_STARTS = 64 }; // of a run at most three chamber states each way
@@ -40,6 +44,7 @@ struct SbSlidingMemory {
   SbSlidingStart kept[SB_SLIDING_STARTS];
   int kept_count;
   const struct SbSlidingMemory *from; // whose states rings start from, borrowed; NULL: cold
+  bool tangent;                       // they are taken from there to first order
 
   // By way of sliding where friction drags the seal, else at rest.
   SbSlidingFitment fitment[SB_RUN_MOTIONS];

@@ -249,6 +249,7 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
   }
   ring->options = options != NULL ? *options : (SbRingOptions){0};
   SbRingOptions *o = &ring->options;
+  ring->passing = o->drawn;
   o->element_size = o->element_size > 0.0 ? fmin(0.1, fmax(0.004, o->element_size)) : SIZE_DEFAULT;
   set_body(ring, body, load);
   const SbRingLoad target = sb_ring_load_in(load, ring->length, ring->stress);
@@ -536,6 +537,7 @@ SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *opt
     return status;
   }
   (*out)->options = *options;
+  (*out)->passing = options->drawn;
   // Fine ends show where the contact ends; friction stumbles over some, others do.
   static const double EDGE[] = {0.3, 0.2, 0.4, 1.0};
   status = SB_ERROR_NOT_CONVERGED;
@@ -614,8 +616,8 @@ static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *
   return status;
 }
 
-SbStatus sb_ring_near(SbRing **out, const SbRing *ring, const SbRingBody *body,
-                      const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
+SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
+                     const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
   SbRing *other = NULL;
   *out = NULL;
   SbStatus status = check_body(body, report);
@@ -632,17 +634,31 @@ SbStatus sb_ring_near(SbRing **out, const SbRing *ring, const SbRingBody *body,
   other->options = *options;
   other->options.element_size = size;
   set_body(other, body, load);
-  const SbRingLoad target = sb_ring_load_in(load, other->length, other->stress);
-  if (!is_near(&ring->contact->is.now, &target)) {
-    sb_ring_destroy(other);
-    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring is not near");
-  }
   status = sb_ring_mesh_copy(&other->mesh, ring->mesh, other->centre - ring->centre, report);
   status = status == SB_OK ? build_on_mesh(other, report) : status;
-  if (status == SB_OK) {
-    lay_alike(other, ring, &target);
-    status = go_near(other, &ring->contact->is.now, &target, report);
+  if (status != SB_OK) {
+    sb_ring_destroy(other);
+    return status;
   }
+  const SbRingLoad target = sb_ring_load_in(load, other->length, other->stress);
+  lay_alike(other, ring, &target);
+  other->contact->is.now = target;
+  *out = other;
+  return SB_OK;
+}
+
+SbStatus sb_ring_near(SbRing **out, const SbRing *ring, const SbRingBody *body,
+                      const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
+  SbRing *other;
+  *out = NULL;
+  SbStatus status = sb_ring_lay(&other, ring, body, load, options, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  const SbRingLoad target = other->contact->is.now;
+  status = is_near(&ring->contact->is.now, &target)
+               ? go_near(other, &ring->contact->is.now, &target, report)
+               : sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring is not near");
   // Where the finer ends of the mesh no longer are the contact's: anew, unless that fails.
   if (status == SB_OK && outgrown(other)) {
     status = sb_ring_refit(other, other->fitted_size, report);
@@ -682,7 +698,11 @@ SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbRep
   to->turn = -from->turn;
   for (int i = 0; i < other->contact->count; i++) {
     for (int s = 0; s < SB_RING_SURFACES; s++) {
-      *sb_ring_touch(other->contact, i, s) = *sb_ring_touch(ring->contact, -i, OTHER[s]);
+      SbRingTouch *touch = sb_ring_touch(other->contact, i, s);
+      *touch = *sb_ring_touch(ring->contact, -i, OTHER[s]);
+      if (s == SB_RING_BORE || s == SB_RING_FLOOR) { // their tangent is axial
+        touch->slip = (signed char)-touch->slip;
+      }
     }
   }
   for (int k = 0; k < 2; k++) {

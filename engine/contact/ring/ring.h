@@ -64,6 +64,7 @@ typedef struct {
 typedef struct {
   double element_size;      // side of the contact's elements over section diameter [0.05]
   bool fit_mesh;            // after the first solution, remesh with nodes at the contact edges
+  bool drawn;               // to be drawn only: the forces balance to 1e-7 of their scale
   bool alone;               // without pressure unless the ring touches the bore by itself
   double tolerance;         // of sb_ring_fit, relative on the load, 1e-5 .. 0.1 [1e-3]
   double wanted;            // estimate of that error above which it warns [tolerance]
@@ -97,6 +98,7 @@ typedef struct {
   double pressure_least;                    // least nodal contact pressure above the fluid's, Pa
   double friction_excess; // N of departure from Coulomb's law at nodes that cannot settle, 0
   double axial_imbalance; // sum of all axial forces over the largest one [-]
+  double fault; // of a state to first order: forces that violate its active set over the bore's [-]
   int unknowns, newton_iterations, load_steps, rejected_steps;
   struct {
     double load, peak, width; // relative
@@ -137,6 +139,20 @@ SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbRep
 // walls sees the difference. Owned. SB_ERROR_NOT_CONVERGED where it is too far, or rolls or jams.
 SbStatus sb_ring_near(SbRing **out, const SbRing *ring, const SbRingBody *body,
                       const SbRingLoad *load, const SbRingOptions *options, SbReport *report);
+
+// States beside that of a ring that slides or rests, to first order in all that is changed, without
+// solving: its active set (contact, stick and slip, wetted faces) is held (ring_tangent.c). `ring`
+// is borrowed and must stay as it is; so is `law`, the data of its friction on the bore as it was
+// solved. Factorised at the first question; several threads may ask at the same time.
+typedef struct SbRingTangent SbRingTangent;
+SbStatus sb_ring_tangent_create(SbRingTangent **out, const SbRing *ring, const void *law,
+                                SbReport *report);
+void sb_ring_tangent_destroy(SbRingTangent *tangent); // takes NULL
+
+// The state of another body at another load that slides alike; owned. It has no equilibrium but to
+// first order: nothing can be solved from it. SB_ERROR_NOT_CONVERGED where there is none.
+SbStatus sb_ring_tangent_at(SbRing **out, SbRingTangent *tangent, const SbRingBody *body,
+                            const SbRingLoad *load, const SbRingOptions *options, SbReport *report);
 
 // The present state on another mesh, of `element_size` throughout its contacts. Owned.
 // SB_ERROR_NOT_CONVERGED where that mesh has no such state.

@@ -33,6 +33,10 @@ enum { FLIPS_MAX = 5 };
 // On a path, whose states lead to others only, such a node stays held.
 enum { CATCHES_MAX = 3, PASSED_MAX = 1 };
 
+// Neighbours at the end of a contact can come and go in turn for ever: a node that was caught or
+// changed its slip so often in a solve changes further only where it is the worst of all.
+enum { FREE = 2 };
+
 SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report) {
   *out = NULL;
   SbRingContact *contact = calloc(1, sizeof *contact);
@@ -154,6 +158,21 @@ static double slip_fault(const SbRingContact *contact, SbRingSurface surface, in
   return against > 1e-11 ? against * contact->weight[i] : 0.0;
 }
 
+double sb_ring_contact_fault(const SbRingContact *contact) {
+  double sum = 0.0;
+  for (int at = 0; at < SB_RING_SURFACES * contact->count; at++) {
+    const int i = at / SB_RING_SURFACES, s = at % SB_RING_SURFACES;
+    const SbRingTouch *touch = &contact->is.touch[at];
+    const SbRingFrame frame = sb_ring_frame_at(contact, i, (SbRingSurface)s);
+    const double *share = &contact->share[2 * i];
+    signed char state;
+    sum += touch->held ? fmax(0.0, frame.n[0] * share[0] + frame.n[1] * share[1] - touch->force)
+                       : fmax(0.0, -frame.gap) * contact->weight[i];
+    sum += slip_fault(contact, (SbRingSurface)s, i, &state);
+  }
+  return sum;
+}
+
 static void flip(SbRingContact *contact, int at, signed char state) {
   SbRingTouch *touch = &contact->is.touch[at];
   touch->flips++;
@@ -173,7 +192,7 @@ static int update_slip(SbRingContact *contact, bool single) {
     if (contact->is.touch[at].flips >= FLIPS_MAX) {
       continue;
     }
-    if (fault > 0.0 && !single) {
+    if (fault > 0.0 && !(single && contact->is.touch[at].flips >= FREE)) {
       flip(contact, at, state);
       changes++;
     } else if (fault > most) {
@@ -346,7 +365,8 @@ int sb_ring_contact_update(SbRingContact *contact, bool single) {
     return 0;
   }
   int worst[2] = {-1, -1}; // to be let go, to be caught
-  double least = -1e-11 * contact->force_scale, deepest = -1e-11;
+  const double none = -1e-11 * contact->force_scale;
+  double least = none, deepest = -1e-11;
   for (int i = 0; i < contact->count; i++) {
     int node = fem->mesh->loop[i];
     const double *share = &contact->share[2 * i];
@@ -361,23 +381,24 @@ int sb_ring_contact_update(SbRingContact *contact, bool single) {
       SbRingFrame frame = sb_ring_frame_at(contact, i, (SbRingSurface)s);
       // The fluid would push this node off the surface, along n, by its share.
       double excess = touch->force - frame.n[0] * share[0] - frame.n[1] * share[1];
-      if (!touch->held && frame.gap < deepest) {
-        worst[1] = at;
-        deepest = single ? frame.gap : deepest;
-      } else if (touch->held && excess < least &&
+      const bool alone = single || touch->catches >= FREE;
+      if (!touch->held && frame.gap < (alone ? deepest : -1e-11)) {
+        worst[1] = alone ? at : worst[1];
+        deepest = alone ? frame.gap : deepest;
+      } else if (touch->held && excess < (alone ? least : none) &&
                  !(contact->passed && touch->catches > PASSED_MAX)) {
-        worst[0] = at;
-        least = single ? excess : least;
+        worst[0] = alone ? at : worst[0];
+        least = alone ? excess : least;
       } else {
         continue;
       }
-      if (!single) {
+      if (!alone) {
         toggle(contact, at);
         changes++;
       }
     }
   }
-  for (int k = 0; k < 2 && single; k++) {
+  for (int k = 0; k < 2; k++) {
     if (worst[k] >= 0) {
       toggle(contact, worst[k]);
       changes++;

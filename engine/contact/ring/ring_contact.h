@@ -157,6 +157,11 @@ int sb_ring_contact_update(SbRingContact *contact, bool single);
 // At convergence: forces of all touches from the residual.
 void sb_ring_contact_forces(SbRingContact *contact);
 
+// Sum of the forces by which a state violates its active set: held nodes that are pulled, open ones
+// inside a surface, stuck ones beyond their friction, sliding ones that go back; the lengths among
+// these by a stiffness of one.
+double sb_ring_contact_fault(const SbRingContact *contact);
+
 // Assembles a state that was an equilibrium anew and leaves its conditions and forces, whatever
 // attempts to go on from it have left behind.
 void sb_ring_contact_settle(SbRingContact *contact);

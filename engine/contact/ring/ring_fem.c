@@ -117,7 +117,7 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->material = material;
   size_t n = (size_t)mesh->nodes, m = (size_t)mesh->elements;
   size_t state = 2 * n + SB_RING_INNER * m;
-  fem->u = calloc(4 * state + 9 * n, sizeof(double)); // and what follows it
+  fem->u = calloc(4 * state + 11 * n, sizeof(double)); // and what follows it
   fem->condition = calloc(n, sizeof(SbRingCondition));
   fem->work_int = calloc(n, sizeof(int));
   fem->gauss = malloc(sizeof(double) * POINT_SIZE * SB_RING_FEM_POINTS * m);
@@ -136,6 +136,7 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->du = fem->residual + 4 * n;
   fem->mass = fem->residual + 6 * n;
   fem->du_path = fem->residual + 7 * n;
+  fem->left = fem->residual + 9 * n;
   for (int e = 0; e < mesh->elements; e++) {
     for (int q = 0; q < SB_RING_FEM_POINTS; q++) {
       if (!point_geometry(fem, e, POINT[q][0], POINT[q][1], POINT[q][2],
@@ -162,7 +163,7 @@ void sb_ring_fem_destroy(SbRingFem *fem) {
   if (fem == NULL) {
     return;
   }
-  sb_ring_sparse_finish(fem);
+  sb_ring_factor_destroy(fem->factor);
   void *owned[] = {fem->u,         fem->condition, fem->work_int, fem->gauss,
                    fem->condensed, fem->row_start, fem->column,   fem->value,
                    fem->raw,       fem->scatter,   fem->diagonal};
@@ -312,7 +313,7 @@ static bool element_system(SbRingFem *fem, int e, System *s) {
 
 bool sb_ring_fem_assemble(SbRingFem *fem) {
   const SbRingMesh *mesh = fem->mesh;
-  memset(fem->value, 0, sizeof(double) * (size_t)fem->row_start[2 * mesh->nodes]);
+  memset(fem->value, 0, sizeof(double) * SB_RING_BLOCK * (size_t)fem->row_start[mesh->nodes]);
   memset(fem->residual, 0, sizeof(double) * 2 * (size_t)mesh->nodes);
   fem->residual_inner = fem->volume = 0.0;
   fem->det_min = INFINITY;
@@ -347,13 +348,12 @@ bool sb_ring_fem_assemble(SbRingFem *fem) {
           s.k[i][j] -= s.k[i][OUTER + m] * inner[m][INNER + j];
         }
       }
-      int row = 2 * tri[i / 2] + i % 2;
-      fem->residual[row] += s.r[i];
+      fem->residual[2 * tri[i / 2] + i % 2] += s.r[i];
       for (int j = i; j < OUTER; j++) {
-        int other = 2 * tri[j / 2] + j % 2;
-        fem->value[fem->row_start[row] + scatter[6 * (i / 2) + j / 2] + j % 2] += s.k[i][j];
+        fem->value[SB_RING_BLOCK * scatter[6 * (i / 2) + j / 2] + 2 * (i % 2) + j % 2] += s.k[i][j];
         if (j > i) {
-          fem->value[fem->row_start[other] + scatter[6 * (j / 2) + i / 2] + i % 2] += s.k[i][j];
+          fem->value[SB_RING_BLOCK * scatter[6 * (j / 2) + i / 2] + 2 * (j % 2) + i % 2] +=
+              s.k[i][j];
         }
       }
     }
@@ -362,12 +362,12 @@ bool sb_ring_fem_assemble(SbRingFem *fem) {
   for (int i = 0; i < mesh->nodes && stiffness > 0.0; i++) {
     double drift = fem->u[2 * i + 1] - fem->saved[1][2 * i + 1] - fem->axial_rest;
     fem->residual[2 * i + 1] += fem->axial_spring * drift;
-    fem->value[fem->row_start[2 * i + 1] + fem->diagonal[i] + 1] += stiffness;
+    fem->value[SB_RING_BLOCK * fem->diagonal[i] + 3] += stiffness;
   }
   for (int i = 0; i < 2 * mesh->nodes && fem->viscosity > 0.0; i++) {
     double resistance = fem->viscosity * fem->mass[i / 2];
     fem->residual[i] += resistance * (fem->u[i] - fem->saved[1][i]);
-    fem->value[fem->row_start[i] + fem->diagonal[i / 2] + i % 2] += resistance;
+    fem->value[SB_RING_BLOCK * fem->diagonal[i / 2] + 3 * (i % 2)] += resistance;
   }
   return true;
 }

@@ -6,6 +6,7 @@
 // set of units (the ring passes lengths in section diameters and stress in initial shear moduli).
 #pragma once
 
+#include "engine/contact/ring/ring_factor.h"
 #include "engine/contact/ring/ring_mesh.h"
 
 #include <stdbool.h>
@@ -34,7 +35,6 @@ typedef struct {
 } SbRingCondition;
 
 typedef struct SbRingFem SbRingFem;
-typedef struct SbRingFactor SbRingFactor;
 struct SbRingFem {
   const SbRingMesh *mesh; // borrowed
   bool axisymmetric;
@@ -61,7 +61,7 @@ struct SbRingFem {
   // Private: quadrature data, condensation, sparse rows, factor.
   double *gauss, *condensed;
   int *row_start, *column, *scatter, *diagonal;
-  double *value, *raw, *rhs;
+  double *value, *raw, *rhs, *left;
   SbRingFactor *factor;
   int *work_int; // [nodes] scratch
 };
@@ -77,9 +77,8 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
                             bool axisymmetric, SbReport *report);
 void sb_ring_fem_destroy(SbRingFem *fem);
 
-// For create and destroy only: the sparse pattern with its symbolic analysis, and their end.
+// For create only: the sparse pattern and room for its factors.
 SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report);
-void sb_ring_sparse_finish(SbRingFem *fem);
 
 // Residual and condensed tangent of the elements at the current state (external terms are added by
 // the caller afterwards). False if some point is turned inside out (det F <= 0).

@@ -66,7 +66,8 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   double floor_load = load_floor(body, load);
   double size = SIZE * fmin(sqrt(tolerance / 1e-3), tolerance / floor_load);
   size = fmin(SIZE_MOST, fmax(SIZE_LEAST, size));
-  first.element_size = fmin(0.08, fmax(SIZE, size) / RATIO);
+  // What is dragged follows its path on this one.
+  first.element_size = load->bore_slides != 0 ? SIZE / RATIO : fmin(0.08, fmax(SIZE, size) / RATIO);
   first.fit_mesh = false;
   // A ring that does not touch lets the fluid past: no pressure rests on it.
   first.alone = true;

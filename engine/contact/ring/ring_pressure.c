@@ -90,6 +90,12 @@ static bool collect(Fit *fit, const SbRing *ring, SbRingSurface surface, const S
   return true;
 }
 
+// The angle t of a place between both ends, to rounding at either.
+static double angle_at(double place, const double end[2]) {
+  double width = end[1] - end[0], share = (place - end[0]) / width;
+  return share < 0.5 ? 2.0 * asin(sqrt(share)) : M_PI - 2.0 * asin(sqrt((end[1] - place) / width));
+}
+
 // Coefficients for given ends; the residual per root of the area, and its mean square over that of
 // the nodal pressures. Negative if there is none.
 static double solve(Fit *fit, const double end[2], double *residual) {
@@ -108,8 +114,7 @@ static double solve(Fit *fit, const double end[2], double *residual) {
     if (!(high > low)) {
       continue;
     }
-    double from = acos(fmin(1.0, fmax(-1.0, (middle - low) / half)));
-    double to = acos(fmin(1.0, fmax(-1.0, (middle - high) / half)));
+    double from = angle_at(low, end), to = angle_at(high, end);
     for (int q = 0; q < POINTS; q++) {
       double t = 0.5 * (from + to) + 0.5 * (to - from) * SB_RING_X4[q], c = cos(t), s = sin(t);
       double at = middle - half * c, n[3], d[3];
@@ -170,33 +175,41 @@ static double solve(Fit *fit, const double end[2], double *residual) {
   return whole > 0.0 ? left / whole : -1.0;
 }
 
-// Both ends by Gauss-Newton's method; the mean square, negative if there is none.
-static double find_ends(Fit *fit, double end[2]) {
+// Gauss-Newton's move of both ends from where the residual is `here`; false if there is none.
+static bool move_ends(Fit *fit, const double end[2], double move[2]) {
   double *here = fit->here, *there = fit->there, (*slope)[ROWS_MAX] = fit->slope;
-  double width = end[1] - end[0], step = 1e-6 * width, best = solve(fit, end, here);
-  for (int it = 0; it < ENDS_MAX && best >= 0.0; it++) {
-    double m[3] = {0.0}, b[2] = {0.0};
-    for (int k = 0; k < 2; k++) {
-      double moved[2] = {end[0], end[1]};
-      moved[k] += step;
-      if (solve(fit, moved, there) < 0.0) {
-        return -1.0;
-      }
-      for (int i = 0; i < fit->rows; i++) {
-        slope[k][i] = (there[i] - here[i]) / step;
-        b[k] -= slope[k][i] * here[i];
-      }
+  double m[3] = {0.0}, b[2] = {0.0}, step = 1e-6 * (end[1] - end[0]);
+  for (int k = 0; k < 2; k++) {
+    double moved[2] = {end[0], end[1]};
+    moved[k] += step;
+    if (solve(fit, moved, there) < 0.0) {
+      return false;
     }
     for (int i = 0; i < fit->rows; i++) {
-      m[0] += slope[0][i] * slope[0][i];
-      m[1] += slope[0][i] * slope[1][i];
-      m[2] += slope[1][i] * slope[1][i];
+      slope[k][i] = (there[i] - here[i]) / step;
+      b[k] -= slope[k][i] * here[i];
     }
-    double det = m[0] * m[2] - m[1] * m[1];
-    if (!(det > 0.0)) {
+  }
+  for (int i = 0; i < fit->rows; i++) {
+    m[0] += slope[0][i] * slope[0][i];
+    m[1] += slope[0][i] * slope[1][i];
+    m[2] += slope[1][i] * slope[1][i];
+  }
+  double det = m[0] * m[2] - m[1] * m[1];
+  move[0] = (m[2] * b[0] - m[1] * b[1]) / det;
+  move[1] = (m[0] * b[1] - m[1] * b[0]) / det;
+  return det > 0.0;
+}
+
+// Both ends by Gauss-Newton's method; the mean square, negative if there is none.
+static double find_ends(Fit *fit, double end[2]) {
+  double *here = fit->here, *there = fit->there;
+  double width = end[1] - end[0], best = solve(fit, end, here);
+  for (int it = 0; it < ENDS_MAX && best >= 0.0; it++) {
+    double move[2];
+    if (!move_ends(fit, end, move)) {
       return -1.0;
     }
-    double move[2] = {(m[2] * b[0] - m[1] * b[1]) / det, (m[0] * b[1] - m[1] * b[0]) / det};
     double most = fmax(fabs(move[0]), fabs(move[1])), share = fmin(1.0, 0.05 * width / most);
     bool better = false;
     for (int half = 0; half < 4 && !better; half++, share *= 0.5) {
@@ -219,6 +232,23 @@ static double find_ends(Fit *fit, double end[2]) {
     }
   }
   return solve(fit, end, here);
+}
+
+// The same, to rounding: a comparison of squares tells an end to the root of that only.
+static double find_held_ends(Fit *fit, double end[2]) {
+  enum { MOVES_MAX = 14 };
+  static const double CLOSE = 3e-11;
+  double width = end[1] - end[0], best = solve(fit, end, fit->here), move[2] = {width, width};
+  for (int it = 0; it < MOVES_MAX && best >= 0.0; it++) {
+    if (fmax(fabs(move[0]), fabs(move[1])) <= CLOSE * width || !move_ends(fit, end, move)) {
+      break;
+    }
+    for (int k = 0; k < 2; k++) {
+      end[k] = fmin(fit->range[k][1], fmax(fit->range[k][0], end[k] + move[k]));
+    }
+    best = solve(fit, end, fit->here);
+  }
+  return best;
 }
 
 double sb_ring_profile_place(const SbDryContact *p, int i) {
@@ -255,14 +285,40 @@ static SbRingPatch without_strays(const SbRing *ring, SbRingSurface surface, SbR
   return patch;
 }
 
+// The last fit's curve between its ends.
+static SbDryContact curve_of(const Fit *fit, const SbRingPatch *patch, const double end[2]) {
+  SbDryContact out = {.left = end[0],
+                      .right = end[1],
+                      .pressure_left = patch->end_pressure[0],
+                      .pressure_right = patch->end_pressure[1],
+                      .count = fit->terms};
+  for (int k = 0; k < fit->terms; k++) {
+    out.a[k] = k % 2 == 0 ? fit->a[k] : -fit->a[k]; // from the other end
+  }
+  return out;
+}
+
 bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
                   SbDryContact *out) {
   Fit *fit = ring->recovery;
+  const SbRingHeld *held_as = &ring->held[surface];
   const SbRingPatch whole = without_strays(ring, surface, *patch);
-  if (!collect(fit, ring, surface, &whole)) {
+  if ((held_as->known && held_as->terms == 0) || !collect(fit, ring, surface, &whole)) {
     return false;
   }
   double sign = surface == SB_RING_BORE || surface == SB_RING_WALL_LEFT ? 1.0 : -1.0;
+  if (held_as->known) {
+    double at[2] = {held_as->end[0], held_as->end[1]};
+    fit->terms = held_as->terms;
+    if (find_held_ends(fit, at) < 0.0) {
+      return false;
+    }
+    *out = curve_of(fit, patch, at);
+    (void)presses(out);
+    patch->place[0] = sign * at[0];
+    patch->place[1] = sign * at[1];
+    return true;
+  }
   double least = HUGE_VAL, end[2] = {sign * patch->place[0], sign * patch->place[1]};
   int held = whole.last - whole.first - 1, worse = 0;
   // A term of the wrong parity changes nothing: two that do not help end the search.
@@ -272,14 +328,7 @@ bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
     double left = find_ends(fit, end);
     double free = 1.0 - (double)(terms + 2) / held;
     if (left >= 0.0 && left < MISFIT * MISFIT && left / (free * free) < least) {
-      SbDryContact trial = {.left = end[0],
-                            .right = end[1],
-                            .pressure_left = patch->end_pressure[0],
-                            .pressure_right = patch->end_pressure[1],
-                            .count = terms};
-      for (int k = 0; k < terms; k++) {
-        trial.a[k] = k % 2 == 0 ? fit->a[k] : -fit->a[k]; // from the other end
-      }
+      SbDryContact trial = curve_of(fit, patch, end);
       if (presses(&trial)) {
         least = left / (free * free);
         worse = 0;

@@ -31,6 +31,14 @@ typedef struct {
   SbRingContact *contact;
 } SbRingBest;
 
+// How a contact's pressure was recovered at the state beside which this one is: so it is here, too,
+// that it be a smooth function of what differs. Not known: as fits best.
+typedef struct {
+  bool known;
+  int terms;     // 0: none fits
+  double end[2]; // of the contact, where to look from
+} SbRingHeld;
+
 struct SbRing {
   SbRingBody body;
   SbRingLoad load;
@@ -50,6 +58,9 @@ struct SbRing {
   double fitted_size;       // elements of the mesh that was last fitted to the contacts, 0: none
   double fitted_end[2];     // material angles of the bore contact's ends that it was fitted to
   SbRingRecovery *recovery; // owned
+  SbRingHeld held[SB_RING_SURFACES]; // of each surface
+  double fault; // of a state to first order, beyond its base's (sb_ring_contact_fault())
+                // of each surface
 };
 
 // One contiguous contact with a surface, in the order of the loop.
@@ -82,6 +93,11 @@ double sb_ring_profile_place(const SbDryContact *pressure, int i);
 // Replaces the mesh by one fitted to the present contacts and solves on it; the state before is
 // kept if that fails.
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
+
+// A ring of another body at another load, not solved: on the mesh of `ring`, moved, in its place on
+// the floor, with its contact. Owned. SB_ERROR_NOT_CONVERGED where that one does not slide alike.
+SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
+                     const SbRingLoad *load, const SbRingOptions *options, SbReport *report);
 
 // How load steps are taken: followed in viscous steps where the next equilibrium is not near, never
 // so, or as long as the bore is touched.

@@ -208,6 +208,7 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   }
   out->axial_imbalance = axial_most > 0.0 ? fabs(axial) / axial_most : 0.0;
   out->friction_excess = contact->slip_excess * f;
+  out->fault = out->bore_force > 0.0 ? ring->fault * f / out->bore_force : 0.0;
   double reference = 0.0;
   for (int i = 0; i < ring->mesh->nodes; i++) {
     reference += ring->fem->mass[i];

@@ -1,49 +1,36 @@
 // The ring's sparse equations: pattern, conditions of nodes, factorisation.
 //
-// Rows are stored by node pairs and handed to KLU (Davis and Palamadai Natarajan 2010) as the
-// transpose. Ordering is found once per mesh and pivots with the first matrix; later ones are
-// factorised along the same pivots, without allocation, in less than half the time that a
-// multifrontal code takes with so few unknowns. Each solution's residual is checked, and the pivots
-// are chosen anew where they no longer serve. A condition replaces the two rows of its node
-// (Dirichlet along a normal, balance with friction along the tangent); the raw rows are kept, since
-// their residual is the reaction.
+// Stored by blocks of node pairs, in rows; ordering and the factors' pattern are found once per
+// mesh. Each solution's residual is checked, and refined where it asks for that. A condition
+// replaces the two rows of its node (Dirichlet along a normal, balance with friction along the
+// tangent); the raw rows are kept, since their residual is the reaction.
 #include "engine/contact/ring/ring_fem.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <suitesparse/klu.h>
 
-// Largest residual of a solution, relative to the terms it is the sum of, that pivots may leave.
+// Largest residual of a solution, relative to the terms it is the sum of, that is left; refinements
+// until then.
 static const double RESIDUAL_MOST = 1e-11;
+enum { REFINEMENTS = 3 };
 
-// What KLU holds for one matrix. `numeric` NULL: no pivots yet.
-struct SbRingFactor {
-  klu_common common;
-  klu_symbolic *symbolic;
-  klu_numeric *numeric;
-};
-
-// Sparse rows: node neighbours, where each element block goes, where the diagonal blocks are.
+// Node neighbours, where each element's blocks go, where the diagonal blocks are.
 SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
   const SbRingMesh *mesh = fem->mesh;
   size_t nodes = (size_t)mesh->nodes, corners = 6 * (size_t)mesh->elements;
-  // Room for rows in which each element has its own entries, though neighbours share theirs.
-  size_t most = 24 * corners;
-  fem->row_start = malloc(sizeof(int) * (2 * nodes + 1));
-  fem->scatter = malloc(sizeof(int) * 6 * corners);
+  // Room for rows in which each element has its own blocks, though neighbours share theirs.
+  size_t most = 6 * corners;
+  fem->row_start = malloc(sizeof(int) * (nodes + 1));
+  fem->scatter = malloc(sizeof(int) * most);
   fem->diagonal = malloc(sizeof(int) * nodes);
   fem->column = malloc(sizeof(int) * most);
-  fem->value = malloc(sizeof(double) * most);
-  fem->raw = malloc(sizeof(double) * most);
-  fem->factor = calloc(1, sizeof *fem->factor);
   // The elements' corners at each node, as lists; of a row's neighbours, which row last had each
   // and where.
   int *next = malloc(sizeof(int) * (corners + 3 * nodes));
   int *first = next + corners, *seen = first + nodes, *place = seen + nodes, at = 0;
   if (fem->row_start == NULL || fem->scatter == NULL || fem->diagonal == NULL ||
-      fem->column == NULL || fem->value == NULL || fem->raw == NULL || fem->factor == NULL ||
-      next == NULL) {
+      fem->column == NULL || next == NULL) {
     free(next);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
   }
@@ -53,69 +40,52 @@ SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
     first[mesh->tri[i]] = i;
   }
   for (int i = 0; i < mesh->nodes; i++) {
-    int width = 0;
+    fem->row_start[i] = at;
     for (int c = first[i]; c >= 0; c = next[c]) {
       for (int b = 0; b < 6; b++) {
         int other = mesh->tri[c / 6 * 6 + b];
         if (seen[other] != i) {
           seen[other] = i;
-          place[other] = width;
-          fem->column[at + width++] = 2 * other;
-          fem->column[at + width++] = 2 * other + 1;
+          place[other] = at;
+          fem->column[at++] = other;
         }
         fem->scatter[6 * c + b] = place[other];
       }
     }
     fem->diagonal[i] = place[i];
-    fem->row_start[2 * i] = at;
-    fem->row_start[2 * i + 1] = at + width;
-    memcpy(&fem->column[at + width], &fem->column[at], sizeof(int) * (size_t)width);
-    at += 2 * width;
   }
-  fem->row_start[2 * nodes] = at;
+  fem->row_start[nodes] = at;
   free(next);
-  SbRingFactor *factor = fem->factor;
-  klu_defaults(&factor->common);
-  factor->common.btf = 0;   // the pattern is that of one connected body
-  factor->common.scale = 0; // conditions are scaled to their rows
-  factor->symbolic = klu_analyze(2 * mesh->nodes, fem->row_start, fem->column, &factor->common);
-  return factor->symbolic != NULL
+  fem->value = calloc(SB_RING_BLOCK * (size_t)at, sizeof(double));
+  fem->raw = calloc(SB_RING_BLOCK * (size_t)at, sizeof(double));
+  fem->factor = sb_ring_factor_create(mesh->nodes, fem->row_start, fem->column);
+  return fem->value != NULL && fem->raw != NULL && fem->factor != NULL
              ? SB_OK
              : sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
 }
 
-void sb_ring_sparse_finish(SbRingFem *fem) {
-  SbRingFactor *factor = fem->factor;
-  if (factor != NULL) {
-    klu_free_numeric(&factor->numeric, &factor->common);
-    klu_free_symbolic(&factor->symbolic, &factor->common);
-    free(factor);
-    fem->factor = NULL;
-  }
-}
-
-static void add(SbRingFem *fem, int row, int column, double k) {
+static void add(SbRingFem *fem, int row, int column, int entry, double k) {
   // Short rows: a linear search is quicker than a map and only boundary terms come here.
   for (int at = fem->row_start[row]; at < fem->row_start[row + 1]; at++) {
     if (fem->column[at] == column) {
-      fem->value[at] += k;
+      fem->value[SB_RING_BLOCK * at + entry] += k;
       return;
     }
   }
 }
 
 void sb_ring_fem_add(SbRingFem *fem, int a, int i, int b, int j, double k) {
-  add(fem, 2 * a + i, 2 * b + j, k);
+  add(fem, a, b, 2 * i + j, k);
 }
 
 // Replaces the two rows of a conditioned node; the raw rows are kept for its reaction.
 static void apply_condition(SbRingFem *fem, int node) {
   const SbRingCondition *c = &fem->condition[node];
-  int start = fem->row_start[2 * node], width = fem->row_start[2 * node + 1] - start;
-  double *row[2] = {&fem->value[start], &fem->value[start + width]};
-  memcpy(&fem->raw[start], row[0], sizeof(double) * 2 * (size_t)width);
-  int diagonal = fem->diagonal[node];
-  double scale = fmax(fabs(row[0][diagonal]), fabs(row[1][diagonal + 1]));
+  const int start = fem->row_start[node], width = fem->row_start[node + 1] - start;
+  double *row = &fem->value[SB_RING_BLOCK * start];
+  memcpy(&fem->raw[SB_RING_BLOCK * start], row, sizeof(double) * SB_RING_BLOCK * (size_t)width);
+  double *diagonal = &fem->value[SB_RING_BLOCK * fem->diagonal[node]];
+  double scale = fmax(fabs(diagonal[0]), fabs(diagonal[3]));
   double r0 = fem->residual[2 * node], r1 = fem->residual[2 * node + 1];
   double *rhs = &fem->rhs[2 * node];
   // The constraint takes the row of its larger component, so that no pivot vanishes, the tangential
@@ -124,47 +94,33 @@ static void apply_condition(SbRingFem *fem, int node) {
   int fixed = fabs(n[0]) >= fabs(n[1]) ? 0 : 1, other = 1 - fixed;
   double w0 = c->count == 1 ? t[0] + c->mix * n[0] : 0.0;
   double w1 = c->count == 1 ? t[1] + c->mix * n[1] : 0.0;
-  for (int k = 0; k < width; k++) {
-    double balance = w0 * row[0][k] + w1 * row[1][k];
-    row[fixed][k] = 0.0;
-    row[other][k] = balance;
+  for (int k = 0; k < width; k++, row += SB_RING_BLOCK) {
+    for (int j = 0; j < 2; j++) {
+      double balance = w0 * row[j] + w1 * row[2 + j];
+      row[2 * fixed + j] = 0.0;
+      row[2 * other + j] = balance;
+    }
   }
-  row[fixed][diagonal] = scale * n[0];
-  row[fixed][diagonal + 1] = scale * n[1];
+  diagonal[2 * fixed] = scale * n[0];
+  diagonal[2 * fixed + 1] = scale * n[1];
   rhs[fixed] = scale * c->gap[0];
   if (c->count == 2) {
-    row[other][diagonal] = scale * t[0];
-    row[other][diagonal + 1] = scale * t[1];
+    diagonal[2 * other] = scale * t[0];
+    diagonal[2 * other + 1] = scale * t[1];
     rhs[other] = scale * c->gap[1];
   } else {
-    row[other][diagonal + 1] +=
+    diagonal[2 * other + 1] +=
         c->curve * (c->mix * (t[0] * r0 + t[1] * r1) - (n[0] * r0 + n[1] * r1));
     rhs[other] = c->drive - (w0 * r0 + w1 * r1);
     for (int b = 0; b < c->beside_count; b++) {
       for (int k = 0; k < 2; k++) {
-        add(fem, 2 * node + other, 2 * c->beside[b] + k, -c->drive_slope[b][k]);
+        add(fem, node, c->beside[b], 2 * other + k, -c->drive_slope[b][k]);
       }
     }
   }
 }
 
-// Factorises with new pivots.
-static SbStatus choose_pivots(SbRingFem *fem, SbReport *report) {
-  SbRingFactor *factor = fem->factor;
-  klu_free_numeric(&factor->numeric, &factor->common);
-  factor->numeric =
-      klu_factor(fem->row_start, fem->column, fem->value, factor->symbolic, &factor->common);
-  if (factor->numeric != NULL && factor->common.status == KLU_OK) {
-    return SB_OK;
-  }
-  klu_free_numeric(&factor->numeric, &factor->common);
-  return factor->common.status == KLU_OUT_OF_MEMORY
-             ? sb_fail(report, SB_ERROR_MEMORY, "no memory to factorise the ring's matrix")
-             : sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's stiffness is singular");
-}
-
 SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report) {
-  SbRingFactor *factor = fem->factor;
   int nodes = fem->mesh->nodes;
   for (int i = 0; i < 2 * nodes; i++) {
     fem->rhs[i] = -fem->residual[i];
@@ -174,48 +130,49 @@ SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report) {
       apply_condition(fem, i);
     }
   }
-  bool good =
-      factor->numeric != NULL && klu_refactor(fem->row_start, fem->column, fem->value,
-                                              factor->symbolic, factor->numeric, &factor->common);
-  return good ? SB_OK : choose_pivots(fem, report);
+  return sb_ring_factor_compute(fem->factor, fem->value)
+             ? SB_OK
+             : sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's stiffness is singular");
 }
 
-// Solves for du with the present factors; the largest residual over the largest sum of its terms'
-// sizes, infinite where the solution is not finite.
-static double solve(SbRingFem *fem) {
-  SbRingFactor *factor = fem->factor;
-  int n = 2 * fem->mesh->nodes;
-  memcpy(fem->du, fem->rhs, sizeof(double) * (size_t)n);
-  if (!klu_tsolve(factor->symbolic, factor->numeric, n, 1, fem->du, &factor->common)) {
-    return INFINITY;
-  }
+// What the present du leaves of rhs, in `left`; the largest over the largest sum of its terms'
+// sizes, infinite where it is not finite.
+static double leaves(const SbRingFem *fem, double *left) {
   double most = 0.0, scale = 0.0;
-  for (int i = 0; i < n; i++) {
-    double sum = -fem->rhs[i], size = fabs(sum);
+  for (int i = 0; i < fem->mesh->nodes; i++) {
+    double sum[2] = {fem->rhs[2 * i], fem->rhs[2 * i + 1]};
+    double size[2] = {fabs(sum[0]), fabs(sum[1])};
     for (int k = fem->row_start[i]; k < fem->row_start[i + 1]; k++) {
-      double term = fem->value[k] * fem->du[fem->column[k]];
-      sum += term;
-      size += fabs(term);
+      const double *a = &fem->value[SB_RING_BLOCK * k], *u = &fem->du[2 * fem->column[k]];
+      for (int r = 0; r < 2; r++) {
+        sum[r] -= a[2 * r] * u[0] + a[2 * r + 1] * u[1];
+        size[r] += fabs(a[2 * r] * u[0]) + fabs(a[2 * r + 1] * u[1]);
+      }
     }
-    if (!isfinite(sum)) {
-      return INFINITY;
+    for (int r = 0; r < 2; r++) {
+      if (!isfinite(sum[r])) {
+        return INFINITY;
+      }
+      left[2 * i + r] = sum[r];
+      most = fmax(most, fabs(sum[r]));
+      scale = fmax(scale, size[r]);
     }
-    most = fmax(most, fabs(sum));
-    scale = fmax(scale, size);
   }
   return scale > 0.0 ? most / scale : 0.0;
 }
 
 SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, SbReport *report) {
-  double residual = solve(fem);
-  if (!(residual <= RESIDUAL_MOST)) {
-    SbStatus status = choose_pivots(fem, report);
-    if (status != SB_OK) {
-      return status;
+  double *left = fem->left;
+  sb_ring_factor_solve(fem->factor, fem->du, fem->rhs);
+  double size = leaves(fem, left);
+  for (int i = 0; i < REFINEMENTS && size > RESIDUAL_MOST && isfinite(size); i++) {
+    sb_ring_factor_solve(fem->factor, left, left);
+    for (int k = 0; k < 2 * fem->mesh->nodes; k++) {
+      fem->du[k] += left[k];
     }
-    residual = solve(fem);
+    size = leaves(fem, left);
   }
-  return isfinite(residual)
+  return size <= RESIDUAL_MOST
              ? SB_OK
              : sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's stiffness is singular");
 }
@@ -226,14 +183,12 @@ SbStatus sb_ring_fem_solve(SbRingFem *fem, SbReport *report) {
 }
 
 void sb_ring_fem_reaction(const SbRingFem *fem, int node, double force[2]) {
-  int start = fem->row_start[2 * node], width = fem->row_start[2 * node + 1] - start;
-  const double *raw = &fem->raw[start];
-  for (int c = 0; c < 2; c++) {
-    double sum = fem->residual[2 * node + c];
-    for (int k = 0; k < width; k++) {
-      sum += raw[c * width + k] * fem->du[fem->column[start + k]];
-    }
-    force[c] = sum;
+  force[0] = fem->residual[2 * node];
+  force[1] = fem->residual[2 * node + 1];
+  for (int k = fem->row_start[node]; k < fem->row_start[node + 1]; k++) {
+    const double *a = &fem->raw[SB_RING_BLOCK * k], *u = &fem->du[2 * fem->column[k]];
+    force[0] += a[0] * u[0] + a[1] * u[1];
+    force[1] += a[2] * u[0] + a[3] * u[1];
   }
 }
 

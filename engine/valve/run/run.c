@@ -101,10 +101,19 @@ void sb_run_end_rings(SbRun *run) {
   }
 }
 
-void sb_run_start_from(SbRun *run, const SbRun *base) {
+static void start_from(SbRun *run, const SbRun *base, bool tangent) {
+  run->predicted = tangent && base != NULL;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    sb_sliding_memory_start(run->memory[i], base != NULL ? base->memory[i] : NULL);
+    sb_sliding_memory_start(run->memory[i], base != NULL ? base->memory[i] : NULL, tangent);
   }
+}
+
+void sb_run_start_from(SbRun *run, const SbRun *base) {
+  start_from(run, base, false);
+}
+
+void sb_run_predict_from(SbRun *run, const SbRun *base) {
+  start_from(run, base, true);
 }
 
 SbStatus sb_run_renew_same(SbRun *run, const SbModel *model, SbReport *report) {

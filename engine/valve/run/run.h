@@ -51,12 +51,11 @@ typedef struct {
 #include "engine/valve/figures.def"
   SbLeakState leak_state;
   bool touches;
-  bool opened;      // by the fluid: the rubber does not press, or the film's ends differ too much
-  bool film_fitted; // film_min and film_central are solved on the fitted body
-  double layer;     // that it leaves on the bore behind it: flow over speed [m]
-  double load_net;  // per length, above the ambient step: what the film carries [N/m]
-  double contact_pressure;     // mean, of the rubber alone: net load over width [Pa]
-  double film_error;           // of the solved film, relative [1]; NaN if closed form
+  bool opened;       // by the fluid: the rubber does not press, or the film's ends differ too much
+  bool film_fitted;  // film_min and film_central are solved on the fitted body
+  double layer;      // that it leaves on the bore behind it: flow over speed [m]
+  double load_net;   // per length, above the ambient step: what the film carries [N/m]
+  double film_error; // of the solved film, relative [1]; NaN if closed form
   double central_error;        // the same of film_central alone, on which friction hangs [1]
   double boundary_area;        // tau_0 A_a, the part of F_b in proportion to the width [N]
   double boundary_load;        // m W, the part in proportion to the load [N]
@@ -189,6 +188,8 @@ typedef struct {
   bool converged;
   size_t frames, steps, rejected_steps;
   double wall_s;      // elapsed time of the computation [s]
+  double ring_fault;  // of a predicted run's rings: forces that violate their active sets, over the
+                      // bore's [1]
   double error_width; // of contact widths, relative as error_load [1]; NaN: does not apply
   SbCounters counters;
 } SbSummary;
@@ -220,6 +221,13 @@ void sb_run_end_rings(SbRun *run);
 // Lets this run's rings start from those that `base` kept, borrowed until it is told otherwise;
 // NULL: cold, as at first. Its answers then hang on that base and its own model alone.
 void sb_run_start_from(SbRun *run, const SbRun *base);
+
+// The same, but rings are not solved: they are the base's to first order in all that the models
+// differ by (ring_tangent.c), with the friction that goes with them; film, motion and frames are
+// then computed as ever. A prediction of the whole run, milliseconds each state: exact at the
+// base, second order beside it, blind to nodes and slips of the contact that come and go. Rings
+// that the base has not (they roll, jam, do not touch) have none: SB_ERROR_NOT_CONVERGED.
+void sb_run_predict_from(SbRun *run, const SbRun *base);
 
 // Frames published so far, oldest first; borrowed, valid until sb_run_destroy(). Any thread.
 const SbFrame *sb_run_frames(const SbRun *run, size_t *count);

@@ -233,7 +233,7 @@ void sb_run_summarise_seals(SbRun *run) {
       fill_contact(&run->summary.contact[seal].back, &back, -run->back_speed);
     }
     out->contact_width = out->contact_right - out->contact_left;
-    out->contact_pressure = out->load_net / out->contact_width;
+    out->contact_pressure = out->contact_width > 0 ? out->load_net / out->contact_width : NAN;
     if (!out->touches) {
       out->contact_left = out->contact_right = NAN;
     }

@@ -7,13 +7,19 @@
 // was there, evened out. The first begins with fluid.rest_film. Body, load and inlets are the
 // steady states' (run_supply.c); while a seal slides out of a room without liquid it has no film.
 // Lambda, real area and friction of a frame follow its film; the motion and the figures of a seal
-// keep to the steady one. From where a film fails its frames have none. Left out: the land's edge
+// keep to the steady one. A stretch whose film collapses is followed again on a mesh for thinner
+// films: it has slowed down to films far below those of its begin, whose necks the edges' spacing
+// does not resolve. From where a film fails its frames have none. Left out: the land's edge
 // under the contact and the step of the pressures themselves.
 #include <math.h>
 
 #include "engine/film/transient.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
+
+// A stretch is followed so many times more, for films thinner by this factor.
+enum { FINER_MAX = 2 };
+static const double THINNER = 0.05;
 
 // One seal's film through the frames.
 typedef struct {
@@ -27,6 +33,10 @@ typedef struct {
   double central;        // last film [m], what the next stretch begins with
   size_t frame;          // that it has come to
   double error;          // largest estimate of the least film's history
+  int finer;             // times that the stretch's mesh was made for thinner films
+  size_t begin;          // of the stretch: frame; film, error and way of sliding before it
+  double begin_central, begin_error;
+  int begin_direction;
 } History;
 
 static bool whole_contact(const SbFrame *frame, int seal) {
@@ -62,6 +72,9 @@ static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *h
   SbFilmTransientProblem problem = {.speed_scale = history->speed_scale,
                                     .rest_film = history->central > 0 ? history->central
                                                                       : run->model->rest_film};
+  if (history->finer > 0) {
+    problem.least_film = problem.rest_film * pow(THINNER, history->finer);
+  }
   history->fitted = sb_run_film_of(&problem.film, run, seal, chamber, history->direction) != NULL;
   problem.film.speed = problem.film.inlet_film = 0;
   for (int way = SB_CYCLE_IN; way <= SB_CYCLE_OUT; way++) {
@@ -116,9 +129,11 @@ static int way_of(const History *history, size_t i, size_t count) {
 // One seal through all frames.
 static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, SbReport *report) {
   SbRun *run = history->run;
-  for (size_t i = 0; i < count; i++) {
+  for (size_t i = 0, next; i < count; i = next) {
     SbFrame *frame = &run->frames[i];
     history->frame = i;
+    next = i + 1;
+    const double error = history->error;
     const double dt = i > 0 ? frame->time - run->frames[i - 1].time : 0;
     const int before = history->direction;
     history->direction = way_of(history, i, count);
@@ -139,9 +154,25 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
     }
     SbStatus status = SB_OK;
     if (history->film == NULL) {
+      if (i != history->begin || history->finer == 0) {
+        history->finer = 0;
+        history->begin = i;
+        history->begin_central = history->central;
+        history->begin_error = error;
+        history->begin_direction = before;
+      }
       status = begin_stretch(history, frame->chamber, hooks, report);
     } else if (dt > 0) {
       status = sb_film_transient_step(history->film, dt, frame->velocity, report);
+    }
+    if (status == SB_ERROR_NOT_CONVERGED && history->film != NULL && history->finer < FINER_MAX) {
+      end_stretch(history);
+      next = history->begin;
+      history->finer++;
+      history->central = history->begin_central;
+      history->error = history->begin_error;
+      history->direction = history->begin_direction;
+      continue;
     }
     if (status != SB_OK) {
       return status;

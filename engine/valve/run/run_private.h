@@ -91,6 +91,7 @@ typedef struct {
 struct SbRun {
   // Kept from one model to the next; what follows is one execution's.
   SbSlidingMemory *memory[SB_SEAL_COUNT];
+  bool predicted; // rings are another run's to first order
   SbFrame *frames;
   size_t room; // of the array
   // Kept where the next model's seals have the same states; speeds NULL where nobody has asked.

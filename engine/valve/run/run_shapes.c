@@ -191,7 +191,7 @@ SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *
   SbRing *ring;
   Budget budget = {options, INT_MAX};
   const SbRingOptions coarse = {
-      .element_size = edge_element_size, .poll = spent, .poll_data = &budget};
+      .element_size = edge_element_size, .drawn = true, .poll = spent, .poll_data = &budget};
   counts->ring_solves++;
   status = state.state == SB_RING_SLIDES ? sb_ring_copy(&ring, from, &coarse, report)
                                          : sb_ring_create(&ring, &body, &held, &coarse, report);

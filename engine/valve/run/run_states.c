@@ -44,9 +44,10 @@ typedef struct {
   int seal;
   SbStatus status; // the worst, with the first report of it
   SbReport report, lacks, failed;
-  double friction_error, static_error, error_film, error_load, error_width;
+  double friction_error, static_error, error_film, error_load, error_width, fault;
   SbCounters counters;
   SbWarnings warnings;
+  bool solved[SB_CYCLE_CHAMBERS][SB_RUN_MOTIONS]; // without a failure
 } Lane;
 
 // One state in work.
@@ -245,15 +246,72 @@ static SbStatus keep_shapes(const Task *of, const SbRing *ring, SbReport *report
   int index = of->chamber * SB_RUN_MOTIONS + of->motion;
   lane->counters.field_evaluations++;
   SbStatus status = sb_run_keep_shape(of->run, of->seal, index, ring, report);
-  if (status != SB_OK || of->seal != SB_INNER || !(in || out)) {
+  if (status != SB_OK || !of->run->plan.over_edge || of->seal != SB_INNER || !(in || out)) {
     return status;
   }
-  status = sb_run_solve_edge(of->run, of->motion, ring, &lane->counters, &options, report);
+  SbReport own = {0}; // `report` may hold why the state did not converge
+  status = sb_run_solve_edge(of->run, of->motion, ring, &lane->counters, &options, &own);
+  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    *report = own;
+  }
   if (status == SB_OK || status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     return status;
   }
   sb_warn(&lane->warnings, "ring-shape", "models.fit",
           "no solved shape of the inner ring over the land's edge: drawn schematically");
+  return SB_OK;
+}
+
+// The earlier chamber whose state is this one: under the same pressures, on the same supply; -1:
+// none. The row over the land's edge begins with a ring solved for it.
+static int find_alike(const Task *of) {
+  const SbRun *run = of->run;
+  const int first = sb_run_first_alike(run, of->seal, of->chamber);
+  const bool row = run->plan.section_fields && run->plan.ring && of->seal == SB_INNER &&
+                   of->chamber == (int)SB_CHAMBER_CLOSED && of->motion == SB_CYCLE_OUT;
+  if (first == of->chamber || row || !of->lane->solved[first][of->motion]) {
+    return -1;
+  }
+  const SbSupply a = sb_run_supply(run, of->seal, (SbChamber)first, of->motion);
+  const SbSupply b = sb_run_supply(run, of->seal, (SbChamber)of->chamber, of->motion);
+  return a.limited == b.limited && a.layer == b.layer ? first : -1;
+}
+
+// Takes the state, the surface and the profile of that chamber.
+static SbStatus take_alike(const Task *of, int from, SbReport *report) {
+  SbRun *run = of->run;
+  const SbRunProfile *profile = &run->profile[sb_run_profile_slot(of->seal, from, of->motion)];
+  *of->state = run->cycle.state[of->seal][from][of->motion];
+  if (of->motion != SB_RUN_REST) {
+    const SbSpeedStates *table = run->speeds[of->seal][from][of->motion];
+    SbStatus kept = sb_run_keep_body(run, of->seal, of->chamber, of->motion,
+                                     table != NULL && table->on_body ? &table->body : NULL, report);
+    if (kept != SB_OK) {
+      return kept;
+    }
+  }
+  if (run->plan.profiles && profile->data != NULL) {
+    const SbContactProfile *view = &profile->view;
+    SbRunProfile *own = &run->profile[sb_run_profile_slot(of->seal, of->chamber, of->motion)];
+    const size_t n = view->count;
+    double *x = malloc(4 * n * sizeof *x + 1);
+    if (x == NULL) {
+      return sb_fail(report, SB_ERROR_MEMORY, "no memory for a profile");
+    }
+    const double *const row[] = {view->x, view->pressure, view->film, view->asperity_pressure};
+    for (size_t i = 0; i < 4; i++) {
+      memcpy(x + i * n, row[i], n * sizeof *x);
+    }
+    free(own->data);
+    own->data = x;
+    own->view = (SbContactProfile){.count = n,
+                                   .x = x,
+                                   .pressure = x + n,
+                                   .film = x + 2 * n,
+                                   .asperity_pressure = x + 3 * n,
+                                   .model = view->model};
+    of->lane->counters.profile_evaluations++;
+  }
   return SB_OK;
 }
 
@@ -294,6 +352,7 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
   const SbFit *fit = sb_sliding_fit(memory);
   if (isfinite(state->load)) {
     lane->error_load = fmax(lane->error_load, fit->solver.error_estimate.load);
+    lane->fault = fmax(lane->fault, fit->ring.fault);
     lane->error_width = fmax(lane->error_width, fit->solver.error_estimate.contact_width);
   }
   // fmax() leaves out what was not computed.
@@ -338,7 +397,9 @@ static void *solve_lane(void *data) {
     }
     task.pressure = sb_model_seal_pressure(run->model, lane->seal, (SbChamber)chamber);
     own = (SbReport){0};
-    SbStatus status = solve_state(&task, &own);
+    const int alike = find_alike(&task);
+    SbStatus status = alike >= 0 ? take_alike(&task, alike, &own) : solve_state(&task, &own);
+    lane->solved[chamber][task.motion] = status == SB_OK;
     if (fatal(status) || (status != SB_OK && lane->status == SB_OK)) {
       lane->report = own; // of failures to converge the first is told
       lane->status = status;
@@ -424,6 +485,7 @@ static void join(SbRun *run, const Lane *lane) {
   summary->error_film = fmax(summary->error_film, lane->error_film);
   summary->error_load = fmax(summary->error_load, lane->error_load);
   summary->error_width = fmax(summary->error_width, lane->error_width);
+  summary->ring_fault = fmax(summary->ring_fault, lane->fault);
 }
 
 static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {

@@ -1,0 +1,253 @@
+// By columns, each gathered from those before it that have a block in its row; U's rows have the
+// pattern of L's columns.
+#include "engine/contact/ring/ring_factor.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <suitesparse/amd.h>
+
+enum { BLOCK = SB_RING_BLOCK };
+
+struct SbRingFactor {
+  int nodes;
+  int *order;             // [nodes] node of each place
+  int *start;             // [nodes + 1] of each column's blocks below the diagonal
+  int *row;               // [start[nodes]] their places, rising
+  int *pattern;           // [nodes + 1] where each place's blocks of A begin in the two lists
+  int *column_of;         // [blocks of A] their place
+  int *block_of;          // [blocks of A] their number in A
+  int *mirror_of;         // [blocks of A] the number of the block across the diagonal
+  int *first;             // [nodes] columns that have a block in a row, as lists
+  int *next, *at;         // [nodes] the next of the list; where each column has got to
+  double *lower, *upper;  // [BLOCK start[nodes]]
+  double *inverse;        // [BLOCK nodes] of the pivots
+  double *below, *beside; // [BLOCK nodes] the column and the row in work
+  double *work;           // [2 nodes]
+};
+
+void sb_ring_factor_destroy(SbRingFactor *factor) {
+  if (factor == NULL) {
+    return;
+  }
+  free(factor->order);
+  free(factor->row);
+  free(factor->pattern);
+  free(factor->lower);
+  free(factor);
+}
+
+static int compare(const void *a, const void *b) {
+  return *(const int *)a - *(const int *)b;
+}
+
+// Pattern of the factor: a column has the rows of A's and those of the columns whose first row it
+// is. `mark` is scratch, [nodes].
+static bool find_pattern(SbRingFactor *f, int *mark) {
+  const int n = f->nodes;
+  size_t room = 0;
+  int *child = f->first, *sibling = f->next;
+  memset(child, -1, sizeof(int) * (size_t)n);
+  memset(mark, -1, sizeof(int) * (size_t)n);
+  f->start[0] = 0;
+  for (int j = 0; j < n; j++) {
+    size_t at = (size_t)f->start[j];
+    if (at + (size_t)n > room) {
+      room = 2 * room + 8 * (size_t)n;
+      int *row = realloc(f->row, room * sizeof *row);
+      if (row == NULL) {
+        return false;
+      }
+      f->row = row;
+    }
+    mark[j] = j;
+    for (int k = f->pattern[j]; k < f->pattern[j + 1]; k++) {
+      if (f->column_of[k] > j) {
+        mark[f->column_of[k]] = j;
+        f->row[at++] = f->column_of[k];
+      }
+    }
+    for (int c = child[j]; c >= 0; c = sibling[c]) {
+      for (int k = f->start[c]; k < f->start[c + 1]; k++) {
+        if (mark[f->row[k]] != j) {
+          mark[f->row[k]] = j;
+          f->row[at++] = f->row[k];
+        }
+      }
+    }
+    qsort(&f->row[f->start[j]], at - (size_t)f->start[j], sizeof(int), compare);
+    f->start[j + 1] = (int)at;
+    if (f->start[j + 1] > f->start[j]) {
+      const int parent = f->row[f->start[j]];
+      sibling[j] = child[parent];
+      child[parent] = j;
+    }
+  }
+  return true;
+}
+
+SbRingFactor *sb_ring_factor_create(int nodes, const int *start, const int *column) {
+  const size_t n = (size_t)nodes, blocks = (size_t)start[nodes];
+  SbRingFactor *f = calloc(1, sizeof *f);
+  int *place = malloc(sizeof(int) * 2 * n), *mark = place + n;
+  if (f != NULL) {
+    f->nodes = nodes;
+    f->order = malloc(sizeof(int) * (5 * n + 1));
+    f->pattern = malloc(sizeof(int) * (n + 1 + 3 * blocks));
+  }
+  bool good = f != NULL && place != NULL && f->order != NULL && f->pattern != NULL &&
+              amd_order(nodes, start, column, f->order, NULL, NULL) >= AMD_OK;
+  if (good) {
+    f->start = f->order + n;
+    f->first = f->start + n + 1;
+    f->next = f->first + n;
+    f->at = f->next + n;
+    f->column_of = f->pattern + n + 1;
+    f->block_of = f->column_of + blocks;
+    f->mirror_of = f->block_of + blocks;
+    for (int i = 0; i < nodes; i++) {
+      place[f->order[i]] = i;
+    }
+    int at = 0;
+    for (int i = 0; i < nodes; i++) {
+      const int node = f->order[i];
+      f->pattern[i] = at;
+      for (int k = start[node]; k < start[node + 1]; k++) {
+        int other = start[column[k]];
+        while (column[other] != node) {
+          other++;
+        }
+        f->column_of[at] = place[column[k]];
+        f->block_of[at] = k;
+        f->mirror_of[at++] = other;
+      }
+    }
+    f->pattern[nodes] = at;
+    good = find_pattern(f, mark);
+  }
+  free(place);
+  if (good) {
+    const size_t filled = (size_t)f->start[nodes];
+    f->lower = calloc(BLOCK * (2 * filled + 3 * n) + 2 * n, sizeof(double));
+    good = f->lower != NULL;
+    f->upper = good ? f->lower + BLOCK * filled : NULL;
+    f->inverse = good ? f->upper + BLOCK * filled : NULL;
+    f->below = good ? f->inverse + BLOCK * n : NULL;
+    f->beside = good ? f->below + BLOCK * n : NULL;
+    f->work = good ? f->beside + BLOCK * n : NULL;
+  }
+  if (!good) {
+    sb_ring_factor_destroy(f);
+    f = NULL;
+  }
+  return f;
+}
+
+// c -= a b
+static inline void subtract(double *restrict c, const double *restrict a,
+                            const double *restrict b) {
+  c[0] -= a[0] * b[0] + a[1] * b[2];
+  c[1] -= a[0] * b[1] + a[1] * b[3];
+  c[2] -= a[2] * b[0] + a[3] * b[2];
+  c[3] -= a[2] * b[1] + a[3] * b[3];
+}
+
+static bool invert(double *out, const double *a) {
+  const double det = a[0] * a[3] - a[1] * a[2];
+  const double scale = 1.0 / det;
+  out[0] = a[3] * scale;
+  out[1] = -a[1] * scale;
+  out[2] = -a[2] * scale;
+  out[3] = a[0] * scale;
+  return isfinite(scale);
+}
+
+// Takes a column that has got to block k to the list of that block's row.
+static void list(SbRingFactor *f, int column, int k) {
+  if (k < f->start[column + 1]) {
+    f->at[column] = k;
+    f->next[column] = f->first[f->row[k]];
+    f->first[f->row[k]] = column;
+  }
+}
+
+bool sb_ring_factor_compute(SbRingFactor *f, const double *value) {
+  const int n = f->nodes;
+  double *restrict below = f->below, *restrict beside = f->beside;
+  memset(f->first, -1, sizeof(int) * (size_t)n);
+  for (int j = 0; j < n; j++) {
+    for (int k = f->pattern[j]; k < f->pattern[j + 1]; k++) {
+      const int i = f->column_of[k];
+      if (i >= j) {
+        memcpy(&below[BLOCK * i], &value[BLOCK * f->mirror_of[k]], BLOCK * sizeof(double));
+        memcpy(&beside[BLOCK * i], &value[BLOCK * f->block_of[k]], BLOCK * sizeof(double));
+      }
+    }
+    for (int c = f->first[j], after; c >= 0; c = after) {
+      after = f->next[c];
+      const int begin = f->at[c], end = f->start[c + 1];
+      const double *left = &f->lower[BLOCK * begin], *right = &f->upper[BLOCK * begin];
+      const double l[BLOCK] = {left[0], left[1], left[2], left[3]};
+      const double u[BLOCK] = {right[0], right[1], right[2], right[3]};
+      subtract(&below[BLOCK * j], l, u);
+      for (int k = begin + 1; k < end; k++) {
+        const int i = BLOCK * f->row[k];
+        subtract(&below[i], &f->lower[BLOCK * k], u);
+        subtract(&beside[i], l, &f->upper[BLOCK * k]);
+      }
+      list(f, c, begin + 1);
+    }
+    double *inverse = &f->inverse[BLOCK * j];
+    const bool good = invert(inverse, &below[BLOCK * j]);
+    for (int k = f->start[j]; k < f->start[j + 1]; k++) {
+      double *b = &below[BLOCK * f->row[k]], *u = &beside[BLOCK * f->row[k]];
+      double *out = &f->lower[BLOCK * k];
+      out[0] = b[0] * inverse[0] + b[1] * inverse[2];
+      out[1] = b[0] * inverse[1] + b[1] * inverse[3];
+      out[2] = b[2] * inverse[0] + b[3] * inverse[2];
+      out[3] = b[2] * inverse[1] + b[3] * inverse[3];
+      memcpy(&f->upper[BLOCK * k], u, BLOCK * sizeof *u);
+      memset(b, 0, BLOCK * sizeof *b);
+      memset(u, 0, BLOCK * sizeof *u);
+    }
+    memset(&below[BLOCK * j], 0, BLOCK * sizeof(double));
+    memset(&beside[BLOCK * j], 0, BLOCK * sizeof(double));
+    if (!good) {
+      return false;
+    }
+    list(f, j, f->start[j]);
+  }
+  return true;
+}
+
+void sb_ring_factor_solve(SbRingFactor *f, double *x, const double *b) {
+  const int n = f->nodes;
+  double *y = f->work;
+  for (int i = 0; i < n; i++) {
+    y[2 * i] = b[2 * f->order[i]];
+    y[2 * i + 1] = b[2 * f->order[i] + 1];
+  }
+  for (int j = 0; j < n; j++) {
+    const double y0 = y[2 * j], y1 = y[2 * j + 1];
+    for (int k = f->start[j]; k < f->start[j + 1]; k++) {
+      const double *l = &f->lower[BLOCK * k];
+      y[2 * f->row[k]] -= l[0] * y0 + l[1] * y1;
+      y[2 * f->row[k] + 1] -= l[2] * y0 + l[3] * y1;
+    }
+  }
+  for (int j = n - 1; j >= 0; j--) {
+    double y0 = y[2 * j], y1 = y[2 * j + 1];
+    for (int k = f->start[j]; k < f->start[j + 1]; k++) {
+      const double *u = &f->upper[BLOCK * k], *z = &y[2 * f->row[k]];
+      y0 -= u[0] * z[0] + u[1] * z[1];
+      y1 -= u[2] * z[0] + u[3] * z[1];
+    }
+    const double *inverse = &f->inverse[BLOCK * j];
+    y[2 * j] = inverse[0] * y0 + inverse[1] * y1;
+    y[2 * j + 1] = inverse[2] * y0 + inverse[3] * y1;
+  }
+  for (int i = 0; i < n; i++) {
+    x[2 * f->order[i]] = y[2 * i];
+    x[2 * f->order[i] + 1] = y[2 * i + 1];
+  }
+}
