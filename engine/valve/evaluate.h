@@ -31,6 +31,7 @@ typedef struct {
   // with `keep`.
   const SbEvaluator *start;
   bool keep;
+  bool tangent; // rings are those of `start` to first order: sb_run_predict_from()
   // Polled as in a run (SbRunHooks), at least every 50 ms; may be NULL.
   bool (*cancelled)(void *data);
   void *data;

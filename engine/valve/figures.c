@@ -92,7 +92,13 @@ void sb_figures_of_model(SbSummary *summary, const SbModel *model) {
     return; // the plate has no glands and gives no dose
   }
   summary->filling_time = model->filling_time;
+  summary->pressure_force = model->pressure_force;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    summary->seal[i].section_diameter = model->seal[i].section_diameter;
+    summary->seal[i].modulus = model->seal[i].modulus;
+    summary->seal[i].network = model->seal[i].storage.network;
+    summary->seal[i].compression_set = model->seal[i].storage.compression_set;
+    summary->seal[i].swell_share = model->seal[i].storage.uptake;
     summary->seal[i].squeeze = model->seal[i].squeeze;
     summary->seal[i].stretch_inner = model->seal[i].stretch_inner;
     summary->seal[i].gland_fill = model->seal[i].gland_fill;

@@ -235,31 +235,40 @@ enum { PLUS, MINUS, PLUS_HALF, MINUS_HALF, POINTS };
 enum { HALF = MINUS, QUARTER = PLUS_HALF };
 
 // Steps: the first, two smaller ones for what is not smooth, a larger one for what rounding hides.
-enum { FIRST, SMALL, SMALLEST, LARGE, NEAR, LEVELS };
-static const double parts[LEVELS] = {1e-3, 6e-5, 4e-6, 1.6e-2, 1.6e-2}; // of the parameter's scale
+// Those of rings beside the base's, whose mesh shows in the figures' curvature soon: one, and a
+// larger one for what the films' rounding hides.
+enum { FIRST, SMALL, SMALLEST, LARGE, RINGS, RINGS_LARGE, LEVELS };
+// Of the parameter's scale.
+static const double parts[LEVELS] = {1e-3, 6e-5, 4e-6, 1.6e-2, 8e-6, 1.3e-4};
 
 typedef struct {
   bool asked, one_sided;
-  double h; // [SI]; one-sided: of the side's sign
+  bool pair;    // no half steps were asked: the outer ones are enough
+  double h;     // [SI]; one-sided: of the side's sign
+  double fault; // of the rings' active sets over the step, the mean of both sides [1/SI]
 } Level;
 
 typedef struct {
   SbGradient *out;
-  SbEvaluator *evaluator; // keeps the base's contacts
+  SbEvaluator *evaluator; // keeps the base's contacts, or those to first order
   SbEvaluator *other;     // answers where they are others, owned
   SbQuestion question;    // with one more override than asked, that of the parameter
   SbOverride *override;
+  double *own_value;  // of the figures by `evaluator` [figures]
   double *base_value; // of the figures while this parameter is moved [figures]
   double *size;       // of what each figure is the sum of, to which rounding goes [figures]
   double *value;      // [LEVELS][POINTS][figures]
   Level level[LEVELS];
   bool *open; // figures whose derivative is still sought [figures]
   Outcome outcome;
-  SbEvaluator *start;      // from whose rings all others start, owned; NULL: there are none
-  bool near;               // this parameter enters rings that are solved
-  bool refused;            // the last question, by the parameters alone
-  char changed[TEXT_SIZE]; // what another outcome at a smallest step was, or empty
-  SbReport report;         // of the last question that was refused or failed
+  double *ring_value;           // of the figures with the base's rings to first order [figures]
+  const SbEvaluator *own_start; // of `evaluator`; NULL: it has solved its own
+  SbEvaluator *start;           // beside whose rings all others are, owned; NULL: there are none
+  bool rings;                   // this parameter enters rings
+  bool refused;                 // the last question, by the parameters alone
+  double fault;                 // of the last answer\'s rings
+  char changed[TEXT_SIZE];      // what another outcome at a smallest step was, or empty
+  SbReport report;              // of the last question that was refused or failed
 } Work;
 
 static double *value_of(const Work *work, int level, int point) {
@@ -274,15 +283,19 @@ static bool ends(SbStatus status) {
 static SbStatus ask(Work *work, double *value, double x, bool tell) {
   work->override[work->question.override_count - 1].value = x;
   SbReport report;
-  SbEvaluator *by =
-      sb_evaluator_has_solved(work->evaluator, &work->question) ? work->evaluator : work->other;
+  const bool own = sb_evaluator_has_solved(work->evaluator, &work->question);
+  SbEvaluator *by = own ? work->evaluator : work->other;
+  work->question.start = own ? work->own_start : work->start;
+  work->question.tangent = work->question.start != NULL;
   SbStatus status = sb_evaluator_ask(value, by, &work->question, &report);
   work->refused = status == SB_ERROR_INPUT || status == SB_ERROR_RANGE;
   if (status != SB_OK) {
     work->report = report;
   }
   Outcome now;
-  take_outcome(&now, sb_evaluator_summary(by));
+  const SbSummary *summary = sb_evaluator_summary(by);
+  work->fault = summary != NULL ? summary->ring_fault : 0;
+  take_outcome(&now, summary);
   if (tell && work->changed[0] == '\0') {
     (void)differ(work->changed, sizeof work->changed, &work->outcome, &now);
   }
@@ -302,8 +315,18 @@ typedef struct {
   bool hidden;   // the error is rounding's
 } Estimate;
 
-// Part of a figure by which two answers of one solver may differ.
-static const double ROUNDING = 4e-14;
+// Part of a figure by which two answers of one solver may differ; of rings beside the base's, whose
+// contacts' ends are found to that.
+static const double ROUNDING = 4e-14, RINGS_ROUNDING = 1e-10;
+
+// Share of a slope by which those towards both sides may differ for the outer pair of points to be
+// enough: what that leaves out is of the order of this share's square. Or what they differ by is
+// this part of the figure where the parameter changes by itself.
+static const double PAIR = 3e-2, LITTLE = 3e-3;
+
+// By how much more than the forces that violate a ring's active set its figures change once that
+// is renewed (measured: 1.3 in the middle, more than 3 only where it is below 2e-3 of the slope).
+static const double RESPONSE = 3;
 
 static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
   const Level *level = &work->level[at];
@@ -322,6 +345,13 @@ static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
                       .before = fabs(d2 - d1),
                       .step = fabs(h) / 4};
     nearest = fabs(d4);
+  } else if (level->pair) {
+    const double up = (f[PLUS] - f0) / h, down = (f0 - f[MINUS]) / h;
+    *out = (Estimate){.slope = (up + down) / 2, .apart = fabs(up - down), .step = h};
+    nearest = fmax(fabs(up), fabs(down));
+    const bool little = out->apart * h / parts[at] <= LITTLE * work->size[figure];
+    out->before = out->apart <= PAIR * nearest || little ? INFINITY : 0;
+    last = out->slope - (nearest > 0 ? out->apart * fmin(out->apart / nearest, 1) : 0);
   } else {
     const double up = 2 * (f[PLUS_HALF] - f0) / h, down = 2 * (f0 - f[MINUS_HALF]) / h;
     last = (f[PLUS_HALF] - f[MINUS_HALF]) / h;
@@ -331,8 +361,10 @@ static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
                       .step = h / 2};
     nearest = fmax(fabs(up), fabs(down));
   }
-  const double rounding = ROUNDING * work->size[figure] / out->step;
-  out->error = fabs(out->slope - last) + 2 * rounding;
+  const double part = at >= RINGS ? RINGS_ROUNDING : ROUNDING;
+  const double rounding = part * work->size[figure] / out->step;
+  out->error =
+      fabs(out->slope - last) + 2 * rounding + RESPONSE * level->fault * work->size[figure];
   out->hidden = 2 * rounding > 0.5 * out->error;
   const bool falls = out->apart < 0.75 * out->before;
   const bool small = out->apart <= fmax(1e-4 * nearest, 8 * rounding);
@@ -340,32 +372,6 @@ static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
   out->kind = !isfinite(out->slope) || !isfinite(out->error) ? MISSING
               : falls || small                               ? SMOOTH
                                                              : ROUGH;
-}
-
-// Part of a figure by which answers scatter whose rings start from the same base: their friction is
-// known to half the model's tolerance, and nodes come and go (measured on ring-cycle).
-static const double SCATTER = 2e-4;
-
-// The same of a figure that hangs on rings: the widest difference, and how far the half one is from
-// it.
-static void estimate_near(Estimate *out, const Work *work, int at, size_t figure) {
-  const Level *level = &work->level[at];
-  const double h = level->h, f0 = work->base_value[figure];
-  double f[POINTS];
-  if (sb_figure(work->out->figure[figure])->needs == SB_DEPTH_SIZES) {
-    estimate(out, work, at, figure); // what the sizes alone give
-    return;
-  }
-  for (int i = 0; i < POINTS; i++) {
-    f[i] = value_of(work, at, i)[figure];
-  }
-  const double wide = level->one_sided ? (f[PLUS] - f0) / h : (f[PLUS] - f[MINUS]) / (2 * h);
-  const double half =
-      level->one_sided ? 2 * (f[HALF] - f0) / h : (f[PLUS_HALF] - f[MINUS_HALF]) / h;
-  *out = (Estimate){.slope = wide,
-                    .error = 2 * fabs(wide - half) + SCATTER * work->size[figure] / fabs(h),
-                    .step = fabs(h)};
-  out->kind = isfinite(out->slope) && isfinite(out->error) ? SMOOTH : MISSING;
 }
 
 static void set(Work *work, size_t parameter, size_t figure, double slope, double error) {
@@ -400,7 +406,7 @@ static void settle(Work *work, size_t parameter, size_t figure) {
     if (!work->level[i].asked) {
       continue;
     }
-    (work->near ? estimate_near : estimate)(&now, work, i, figure);
+    estimate(&now, work, i, figure);
     if (now.kind == MISSING) {
       continue;
     }
@@ -461,6 +467,19 @@ static bool all_same(const Work *work, int at, int points) {
   return true;
 }
 
+// Whether the outer points of a level tell all figures well.
+static bool pair_tells(Work *work, int at) {
+  bool well = true;
+  work->level[at].pair = true;
+  for (size_t i = 0; i < work->out->figures && well; i++) {
+    Estimate now;
+    estimate(&now, work, at, i);
+    well = !work->open[i] || now.kind == SMOOTH;
+  }
+  work->level[at].pair = well;
+  return well;
+}
+
 // Asks at the places of a level; which sides the model refused.
 static SbStatus ask_places(Work *work, int at, double x, bool *refused) {
   static const double sides[POINTS] = {1, -1, 0.5, -0.5}, one[POINTS] = {1, 0.5, 0.25, 0.25};
@@ -469,17 +488,34 @@ static SbStatus ask_places(Work *work, int at, double x, bool *refused) {
   const double *places = level->one_sided ? one : sides;
   refused[0] = refused[1] = false;
   level->asked = true;
+  level->fault = 0;
   for (int i = 0; i < POINTS; i++) {
+    if (i == 2 && at >= RINGS && !level->one_sided) {
+      // A value that is given may mean more than the same by default.
+      if (!pair_tells(work, at)) {
+        SbStatus status = ask(work, work->base_value, x, false);
+        if (ends(status)) {
+          return status;
+        }
+      }
+      if (pair_tells(work, at)) {
+        break;
+      }
+    }
     // What the outermost points leave as it was, the inner ones do.
     if ((i == 2 && all_same(work, at, 2)) || (i == 3 && level->one_sided)) {
       memcpy(value_of(work, at, i), value_of(work, at, i - 1), size);
       continue;
     }
-    SbStatus status = ask(work, value_of(work, at, i), x + places[i] * level->h, at == SMALLEST);
+    SbStatus status =
+        ask(work, value_of(work, at, i), x + places[i] * level->h, at == SMALLEST || at >= RINGS);
     if (ends(status)) {
       return status;
     }
     refused[places[i] * level->h < 0] |= work->refused;
+    if (i < 2) {
+      level->fault += work->fault / fabs(places[i] * level->h) / 2;
+    }
   }
   return SB_OK;
 }
@@ -512,9 +548,10 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
       continue;
     }
     estimate(&now, work, at, i);
-    if (same_bits(work, at, POINTS, i)) {
+    const bool well = at >= RINGS ? now.kind == SMOOTH : enough(&now, work->size[i], scale);
+    if (same_bits(work, at, work->level[at].pair ? 2 : POINTS, i)) {
       set(work, parameter, i, 0, 0);
-    } else if (!work->near && enough(&now, work->size[i], scale)) {
+    } else if (well) {
       set(work, parameter, i, now.slope, now.error);
     } else {
       const bool hidden = now.kind == SMOOTH && now.hidden;
@@ -524,9 +561,9 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
   }
 }
 
-// Whether a parameter enters solved rings.
+// Whether a parameter enters rings.
 static bool enters_rings(Work *work, double x, double scale) {
-  work->override[work->question.override_count - 1].value = x + parts[FIRST] * scale;
+  work->override[work->question.override_count - 1].value = x + parts[RINGS] * scale;
   return work->start != NULL && !sb_evaluator_has_solved(work->evaluator, &work->question);
 }
 
@@ -537,14 +574,15 @@ static SbStatus differentiate(Work *work, size_t parameter) {
   bool smaller = true, larger = true;
   work->override[work->question.override_count - 1].id = id;
   work->changed[0] = '\0';
-  memcpy(work->base_value, out->value, out->figures * sizeof *out->value);
   memset(work->level, 0, sizeof work->level);
   for (size_t i = 0; i < out->figures; i++) {
     work->open[i] = isfinite(out->value[i]);
   }
-  work->near = enters_rings(work, x, scale);
-  for (int at = work->near ? NEAR : FIRST; at < LEVELS; at++) {
-    if (at == NEAR ? !work->near : at == LARGE ? !larger : !smaller) {
+  work->rings = enters_rings(work, x, scale);
+  memcpy(work->base_value, work->rings ? work->ring_value : work->own_value,
+         out->figures * sizeof *out->value);
+  for (int at = work->rings ? RINGS : FIRST; at < (work->rings ? LEVELS : RINGS); at++) {
+    if (at == LARGE ? !larger : !smaller) {
       continue;
     }
     SbStatus status = ask_level(work, at, x, parts[at] * scale, sb_param(id));
@@ -576,13 +614,15 @@ static SbStatus set_up(Work *work, const SbQuestion *question) {
   const size_t n = question->figure_count, overrides = question->override_count + 1;
   work->override = calloc(overrides, sizeof *work->override);
   work->base_value = calloc(n + 1, sizeof *work->base_value);
+  work->own_value = calloc(2 * n + 1, sizeof *work->own_value); // and those of the rings
   work->size = calloc(n + 1, sizeof *work->size);
   work->value = calloc((n + 1) * LEVELS * POINTS, sizeof *work->value);
   work->open = calloc(n + 1, sizeof *work->open);
-  if (work->override == NULL || work->base_value == NULL || work->size == NULL ||
-      work->value == NULL || work->open == NULL) {
+  if (work->override == NULL || work->base_value == NULL || work->own_value == NULL ||
+      work->size == NULL || work->value == NULL || work->open == NULL) {
     return SB_ERROR_MEMORY;
   }
+  work->ring_value = work->own_value + n;
   if (sb_evaluator_create(&work->other, NULL) != SB_OK) {
     return SB_ERROR_MEMORY;
   }
@@ -608,7 +648,7 @@ static double size_of(const SbSummary *summary, int figure) {
   return fmax(value, whole); // leaves out what is not known
 }
 
-// Solves the base's rings, for all others to start from.
+// Solves the base's rings, for all others to be beside.
 static SbStatus find_start(Work *work, const SbQuestion *question, SbReport *report) {
   SbQuestion base = *question;
   SbModel *model;
@@ -623,7 +663,8 @@ static SbStatus find_start(Work *work, const SbQuestion *question, SbReport *rep
   return status == SB_OK ? sb_evaluator_ask(work->out->value, work->start, &base, report) : status;
 }
 
-// The base's own answer, and the parameters' values there.
+// The base's own answer, what it is with its rings to first order, and the parameters' values
+// there.
 static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) {
   SbGradient *out = work->out;
   SbQuestion base = *question;
@@ -631,23 +672,36 @@ static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) 
   if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
     return status;
   }
-  base.start = work->question.start = work->start;
-  status = sb_evaluator_ask(out->value, work->evaluator, &base, report);
+  const SbStatus solved = status;
+  base.start = work->own_start = work->start;
+  base.tangent = work->start != NULL;
+  status = sb_evaluator_ask(work->own_value, work->evaluator, &base, report);
+  memcpy(work->ring_value, work->own_value, out->figures * sizeof *out->value);
+  if (status == SB_ERROR_NOT_CONVERGED && solved == SB_OK && work->start != NULL) {
+    // Rings without a tangent: what does not hang on them has the solved ones.
+    base.start = work->own_start = NULL;
+    base.tangent = false;
+    status = sb_evaluator_ask(work->own_value, work->evaluator, &base, report);
+  }
   if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
     return status;
   }
+  const SbEvaluator *by = work->start != NULL ? work->start : work->evaluator;
+  if (work->start == NULL) {
+    memcpy(out->value, work->own_value, out->figures * sizeof *out->value);
+  }
   take_outcome(&work->outcome, sb_evaluator_summary(work->evaluator));
   for (size_t i = 0; i < out->parameters; i++) {
-    out->at[i] = sb_model_value(sb_evaluator_model(work->evaluator), out->parameter[i]);
+    out->at[i] = sb_model_value(sb_evaluator_model(by), out->parameter[i]);
   }
   for (size_t i = 0; i < out->figures; i++) {
-    const char *why = sb_evaluator_reason(work->evaluator, out->figure[i]);
-    work->size[i] = size_of(sb_evaluator_summary(work->evaluator), out->figure[i]);
+    const char *why = sb_evaluator_reason(by, out->figure[i]);
+    work->size[i] = size_of(sb_evaluator_summary(by), out->figure[i]);
     for (size_t k = 0; why != NULL && k < out->parameters; k++) {
       refuse(work, k, i, "%s", why);
     }
   }
-  return status;
+  return work->start != NULL ? solved : status;
 }
 
 SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQuestion *question,
@@ -677,6 +731,7 @@ SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQu
   const bool well = status == SB_OK || status == SB_ERROR_NOT_CONVERGED;
   free(work.override);
   free(work.base_value);
+  free(work.own_value);
   free(work.size);
   free(work.value);
   free(work.open);

@@ -3,11 +3,11 @@
 
 #include "engine/valve/plan.h"
 #include "engine/valve/sliding.h"
+#include "engine/valve/studies/hold.h"
 #include "engine/valve/studies/study_private.h"
 
 #include <assert.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -159,58 +159,31 @@ static void step(SbStudyWork *work, double fraction) {
   }
 }
 
-static void fix(SbStudyWork *work, const SbOverride *override, size_t count) {
+static void answer_rows(SbStudyWork *work, const double *value, const int *line, const double *x,
+                        size_t rows, double from, double to);
+
+// Gives the base what studies without a grid hold.
+static void hold_base(SbStudyWork *work) {
   SbReport report;
-  if (work->status == SB_OK) {
-    (void)sb_study_goes_on(
-        work, sb_model_override(&work->base, &work->base, override, count, &report), &report);
+  SbModel *held = NULL;
+  const SbStatus status = sb_model_hold(&held, work->scene, SB_HOLD_MACHINE, &report);
+  if (sb_study_goes_on(work, status, &report)) {
+    work->base = *held;
+    sb_model_destroy(held);
   }
 }
 
-// Gives the base what the study holds fixed.
-static void fix_base(SbStudyWork *work) {
-  const SbModel *scene = work->scene;
-  const SbSealModel *ring = &scene->seal[SB_OUTER];
-  const SbOverride machine[] = {
-      {SB_P_MODELS_MOTION, SB_MODEL_MOTION_QUASI_STATIC},
-      {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_MACHINE},
-      // What only the motion with inertia knows, and this cycle has not.
-      {SB_P_DRIVE_CYCLES, 1},
-      {SB_P_FRICTION_DWELL_GAIN, 0},
-      {SB_P_FRICTION_STRIBECK_SPEED, 0},
-      {SB_P_FRICTION_TANGENTIAL_STIFFNESS, 0},
-      {SB_P_STEM_SPRING_STIFFNESS, 0},
-      {SB_P_STEM_SPRING_PRELOAD, 0},
-      {SB_P_CANISTER_PRESSURE_MAP,
-       scene->pressure_map == SB_MAP_PORTS ? SB_MAP_CHAMBER_VENTED : scene->pressure_map},
-  };
-  const SbOverride outer[] = {
-      {SB_P_STORAGE_TIME, 0},
-      {SB_P_STORAGE_TEMPERATURE, scene->rubber.reference_temperature},
-      // What the temperature has made of the rest.
-      {SB_P_CANISTER_TEMPERATURE, SB_SIZES_TEMPERATURE},
-      {SB_P_GLAND_RADIAL_SPACE, scene->radial_space},
-      {SB_P_BORE_DIAMETER, scene->bore_diameter},
-      {SB_P_CANISTER_PRESSURE, scene->canister_pressure},
-      {SB_P_FLUID_VISCOSITY, scene->viscosity},
-      {SB_P_FLUID_DENSITY, scene->density},
-      {SB_P_SEAL_OUTER_SECTION_DIAMETER, ring->section_diameter},
-      {SB_P_SEAL_OUTER_INNER_DIAMETER, ring->inner_diameter},
-      {SB_P_SEAL_OUTER_MODULUS, ring->modulus},
-      {SB_P_SEAL_INNER_SECTION_DIAMETER, ring->section_diameter},
-      {SB_P_SEAL_INNER_INNER_DIAMETER, ring->inner_diameter},
-      {SB_P_SEAL_INNER_MODULUS, ring->modulus},
-      {SB_P_CANISTER_PRESSURE_MAP, SB_MAP_CHAMBER_FILLED},
-  };
-  const SbOverride smooth[] = {{SB_P_MODELS_FILM, SB_FILM_THESIS},
-                               {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE}};
-  fix(work, machine, sizeof machine / sizeof machine[0]);
-  fix(work, outer, work->design->outer ? sizeof outer / sizeof outer[0] : 0);
-  fix(work, smooth, work->design->smooth ? sizeof smooth / sizeof smooth[0] : 0);
+bool sb_study_has_grid(SbStudyKind kind) {
+  return find(kind)->design != NULL && find(kind)->design->grid;
 }
 
-SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
-                       const SbStudyHooks *hooks, SbReport *report) {
+size_t sb_study_extra(const SbParamId **out, SbStudyKind kind) {
+  *out = find(kind)->design->extra;
+  return find(kind)->design->extras;
+}
+
+SbStatus sb_study_view(SbStudy *out, SbStudyKind kind, const SbModel *model,
+                       const SbStudyGrid *grid, const SbStudyHooks *hooks, SbReport *report) {
   const SbStudyDesign *design = find(kind)->design;
   memset(out, 0, sizeof *out);
   if (design == NULL) {
@@ -226,7 +199,8 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   work->out = out;
   work->design = design;
   work->scene = model;
-  work->base = *model;
+  work->base = grid != NULL ? *grid->base : *model;
+  work->grid = grid;
   put_design(work);
   work->report = report;
   work->lo = range[0];
@@ -238,7 +212,12 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
     work->status = sb_film_solver_create(&work->solver, report);
   }
   step(work, 0);
-  fix_base(work);
+  if (grid == NULL) {
+    hold_base(work);
+  } else if (design->asks_grid == NULL || design->asks_grid(model)) {
+    answer_rows(work, grid->value, grid->line, grid->x, grid->samples, 0,
+                design->share > 0 ? design->share : 1);
+  }
   if (work->status == SB_OK) {
     design->make(work);
   }
@@ -247,7 +226,6 @@ SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
   }
   step(work, 1);
   sb_evaluator_destroy(work->evaluator);
-  sb_evaluator_destroy(work->start);
   sb_film_solver_destroy(work->solver);
   SbStatus status = work->status;
   free(work);
@@ -286,12 +264,12 @@ double sb_study_place(const SbStudyWork *work, int index, int count) {
   return work->out->x.logarithmic ? lo * pow(hi / lo, t) : lo + (hi - lo) * index / (count - 1);
 }
 
-// The answer of a line at x, NaN if there was none yet (*is_new).
-static double *answer_at(SbStudyWork *work, int line, double x, bool *is_new) {
+// Where the answer of a line at x is, NaN if there was none yet (*is_new).
+static size_t place_of(SbStudyWork *work, int line, double x, bool *is_new) {
   *is_new = false;
   for (size_t i = 0; i < work->answers; i++) {
     if (work->answer[i].line == line && fabs(work->answer[i].x - x) <= 1e-9 * fabs(x)) {
-      return work->answer[i].value;
+      return i;
     }
   }
   size_t at = next(&work->answers, SB_STUDY_ANSWERS);
@@ -301,166 +279,28 @@ static double *answer_at(SbStudyWork *work, int line, double x, bool *is_new) {
     work->answer[at].value[i] = NAN;
   }
   *is_new = true;
-  return work->answer[at].value;
+  return at;
+}
+
+static double *answer_at(SbStudyWork *work, int line, double x, bool *is_new) {
+  return work->answer[place_of(work, line, x, is_new)].value;
+}
+
+double *sb_study_put(SbStudyWork *work, int line, double x) {
+  bool is_new;
+  return answer_at(work, line, x, &is_new);
 }
 
 const double *sb_study_at(SbStudyWork *work, int line, double x) {
+  const size_t before = work->answers;
   bool is_new;
   double *value = answer_at(work, line, x, &is_new);
-  if (is_new) {
+  if (is_new && work->design->solve != NULL) {
     work->design->solve(value, work, line, x);
+  } else if (is_new) {
+    work->answers = before; // no answer, until one is asked for
   }
   return value;
-}
-
-// ---- places side by side ----
-
-enum { LANES = 2 };
-
-typedef struct Team Team;
-
-// One thread's places: every LANES-th, so that who solves what does not depend on the time it
-// takes. It works on a study of its own, whose findings are added in order at the end.
-typedef struct {
-  Team *team;
-  int index;
-  SbStudyWork *work;
-} Lane;
-
-struct Team {
-  SbStudyWork *work;
-  const SbStudyPlace *place;
-  double **value;
-  size_t count, done;
-  double from, to;
-  pthread_mutex_t lock; // of the hooks and `done`
-  Lane lane[LANES];
-};
-
-static bool team_cancelled(void *data) {
-  Team *team = data;
-  const SbStudyHooks *hooks = &team->work->hooks;
-  if (hooks->cancelled == NULL) {
-    return false;
-  }
-  pthread_mutex_lock(&team->lock);
-  const bool yes = hooks->cancelled(hooks->data);
-  pthread_mutex_unlock(&team->lock);
-  return yes;
-}
-
-static void *solve_lane(void *data) {
-  Lane *lane = data;
-  Team *team = lane->team;
-  const SbStudyHooks *hooks = &team->work->hooks;
-  for (size_t i = (size_t)lane->index; i < team->count; i += LANES) {
-    const SbStudyPlace *place = &team->place[i];
-    if (team->value[i] == NULL) {
-      continue; // there already
-    }
-    lane->work->design->solve(team->value[i], lane->work, place->line, place->x);
-    pthread_mutex_lock(&team->lock);
-    team->done++;
-    if (hooks->progress != NULL && lane->work->status == SB_OK) {
-      hooks->progress(hooks->data, team->from + (team->to - team->from) * (double)team->done /
-                                                    (double)team->count);
-    }
-    pthread_mutex_unlock(&team->lock);
-  }
-  return NULL;
-}
-
-static Lane *lane_create(Team *team, int index) {
-  const SbStudyWork *work = team->work;
-  Lane *lane = &team->lane[index];
-  *lane = (Lane){team, index, malloc(sizeof *lane->work)};
-  SbStudy *out = calloc(1, sizeof *out);
-  SbReport *report = calloc(1, sizeof *report);
-  if (lane->work == NULL || out == NULL || report == NULL) {
-    free(lane->work);
-    free(out);
-    free(report);
-    lane->work = NULL;
-    return NULL;
-  }
-  *lane->work = *work;
-  lane->work->out = out;
-  lane->work->report = report;
-  lane->work->evaluator = NULL;
-  lane->work->solver = NULL;
-  lane->work->spent = 0;
-  lane->work->hooks = (SbStudyHooks){.cancelled = team_cancelled, .data = team};
-  out->complete = true;
-  lane->work->status = sb_evaluator_create(&lane->work->evaluator, report);
-  return lane;
-}
-
-static void lane_merge(SbStudyWork *work, Lane *lane) {
-  SbStudyWork *own = lane->work;
-  (void)sb_study_goes_on(work, own->status, own->report);
-  work->spent += own->spent;
-  for (int i = 0; i < 2; i++) {
-    work->error[i] = fmax(work->error[i], own->error[i]);
-    work->largest[i] = fmax(work->largest[i], own->largest[i]);
-  }
-  work->out->error = fmax(work->out->error, own->out->error);
-  work->out->solves += own->out->solves;
-  work->out->complete = work->out->complete && own->out->complete;
-  sb_warnings_merge(&work->out->warnings, &own->out->warnings);
-  sb_evaluator_destroy(own->evaluator);
-  free(own->report);
-  free(own->out);
-  free(own);
-}
-
-void sb_study_solve(SbStudyWork *work, const SbStudyPlace *place, size_t count, double from,
-                    double to) {
-  double *value[SB_STUDY_ANSWERS];
-  assert(count <= SB_STUDY_ANSWERS);
-  if (work->status != SB_OK) {
-    return;
-  }
-  for (size_t i = 0; i < count; i++) {
-    bool is_new;
-    value[i] = answer_at(work, place[i].line, place[i].x, &is_new);
-    value[i] = is_new ? value[i] : NULL;
-  }
-  Team team = {.work = work,
-               .place = place,
-               .value = value,
-               .count = count,
-               .from = from,
-               .to = to,
-               .lock = PTHREAD_MUTEX_INITIALIZER};
-  Lane *lane[LANES];
-  pthread_t thread[LANES];
-  bool runs[LANES] = {false};
-  for (int i = 0; i < LANES; i++) {
-    lane[i] = lane_create(&team, i);
-  }
-  for (int i = 0; i < LANES; i++) {
-    if (lane[i] == NULL) {
-      work->status = sb_fail(work->report, SB_ERROR_MEMORY, "no memory for a study");
-    }
-  }
-  for (int i = 1; i < LANES && work->status == SB_OK; i++) {
-    runs[i] = pthread_create(&thread[i], NULL, solve_lane, lane[i]) == 0;
-  }
-  for (int i = 0; i < LANES && work->status == SB_OK; i++) {
-    if (!runs[i]) {
-      (void)solve_lane(lane[i]);
-    }
-  }
-  for (int i = 0; i < LANES; i++) {
-    if (runs[i]) {
-      pthread_join(thread[i], NULL);
-    }
-    if (lane[i] != NULL) {
-      lane_merge(work, lane[i]);
-    }
-  }
-  pthread_mutex_destroy(&team.lock);
-  step(work, to);
 }
 
 void sb_study_cells(double *value, SbStudyWork *work, double x, int shift) {
@@ -508,42 +348,177 @@ void sb_study_note(SbStudy *out, const char *format, ...) {
 
 // ---- asking ----
 
-void sb_study_squeezed(SbOverride out[SB_STUDY_SQUEEZED], const SbStudyWork *work, double squeeze) {
-  const SbModel *scene = work->scene;
-  double space = scene->seal[SB_OUTER].section_diameter * (1 - squeeze);
-  double floor = scene->bore_diameter - 2 * scene->radial_space;
-  double land = (scene->stem_diameter - floor) / (2 * scene->radial_space);
-  out[0] = (SbOverride){SB_P_GLAND_RADIAL_SPACE, space};
-  out[1] = (SbOverride){SB_P_BORE_DIAMETER, floor + 2 * space};
-  out[2] = (SbOverride){SB_P_STEM_PRESSURE_DIAMETER, floor + land * 2 * space};
+// What one answer cost, how far it is off, and why it has gaps.
+typedef struct {
+  SbStatus status;
+  SbReport report;
+  int fit; // index of the model, -1: the values were refused
+  size_t rings, discs, films;
+  double size[SB_SEAL_COUNT][2], error[2]; // loads and contact widths
+  double film, force;                      // errors
+} Seen;
+
+static Seen look(SbStatus status, const SbReport *report, const SbEvaluator *evaluator) {
+  const SbSummary *summary = sb_evaluator_summary(evaluator);
+  Seen out = {.status = status, .report = *report, .fit = -1};
+  if (summary == NULL) {
+    return out;
+  }
+  out.fit = (int)sb_evaluator_model(evaluator)->fit;
+  out.rings = summary->counters.ring_solves;
+  out.discs = summary->counters.disc_solves;
+  out.films = summary->counters.reynolds_solves;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    out.size[seal][0] = summary->seal[seal].load;
+    out.size[seal][1] = summary->seal[seal].contact_width;
+  }
+  out.error[0] = summary->error_load;
+  out.error[1] = summary->error_width;
+  out.film = summary->error_film;
+  out.force = summary->error_force;
+  return out;
 }
 
-// What one answer cost and how far it is off.
-static void account(SbStudyWork *work, SbStatus status) {
+static void account(SbStudyWork *work, const Seen *seen) {
   SbStudy *out = work->out;
-  const SbSummary *summary = sb_evaluator_summary(work->evaluator);
-  if (summary == NULL) {
-    return;
-  }
-  const SbCounters *counters = &summary->counters;
-  size_t fits = counters->disc_solves + counters->ring_solves;
-  work->spent += (double)counters->ring_solves * SB_COST_RING +
-                 (double)counters->disc_solves * SB_COST_DISC +
-                 (double)counters->reynolds_solves * SB_COST_FILM;
-  out->solves += fits + counters->reynolds_solves;
-  if (status != SB_OK) {
-    return;
-  }
-  for (int seal = 0; fits > 0 && seal < SB_SEAL_COUNT; seal++) {
-    const double size[] = {summary->seal[seal].load, summary->seal[seal].contact_width};
-    const double error[] = {summary->error_load, summary->error_width};
+  const size_t fits = seen->discs + seen->rings;
+  work->spent += (double)seen->rings * SB_COST_RING + (double)seen->discs * SB_COST_DISC +
+                 (double)seen->films * SB_COST_FILM;
+  out->solves += fits + seen->films;
+  for (int seal = 0; seen->status == SB_OK && fits > 0 && seal < SB_SEAL_COUNT; seal++) {
     for (int i = 0; i < 2; i++) { // fmax() leaves out the seal that was not asked for
-      work->error[i] = fmax(work->error[i], error[i] * size[i]);
-      work->largest[i] = fmax(work->largest[i], size[i]);
+      work->error[i] = fmax(work->error[i], seen->error[i] * seen->size[seal][i]);
+      work->largest[i] = fmax(work->largest[i], seen->size[seal][i]);
     }
   }
-  out->error = fmax(out->error, summary->error_film);
+  if (seen->status == SB_OK) {
+    out->error = fmax(out->error, seen->film);
+    out->error = work->design->forces ? fmax(out->error, seen->force) : out->error;
+    return;
+  }
+  const char *what = seen->fit >= 0 ? sb_fit_model_name((SbFitModel)seen->fit) : "study";
+  char code[48];
+  sb_text(code, sizeof code, "study-gap-%s", what);
+  sb_warn(&out->warnings, code, seen->report.parameter, "%s has no value at some points: %s", what,
+          seen->report.text);
+  out->complete = out->complete && seen->status != SB_ERROR_NOT_CONVERGED;
 }
+
+// ---- the grid ----
+
+// Rows under way.
+typedef struct {
+  SbStudyWork *work;
+  Seen *seen;
+  double from, to;
+  bool cancelled;
+} Asking;
+
+static void on_seen(void *data, size_t row, SbStatus status, const SbReport *report,
+                    const SbEvaluator *evaluator) {
+  Asking *asking = data;
+  asking->seen[row] = look(status, report, evaluator);
+}
+
+static void on_progress(void *data, size_t done, size_t of) {
+  const Asking *asking = data;
+  const SbStudyHooks *hooks = &asking->work->hooks;
+  if (hooks->progress != NULL && !asking->cancelled && of > 0) {
+    hooks->progress(hooks->data,
+                    asking->from + (asking->to - asking->from) * (double)done / (double)of);
+  }
+}
+
+static bool on_cancelled(void *data) {
+  Asking *asking = data;
+  const SbStudyHooks *hooks = &asking->work->hooks;
+  asking->cancelled =
+      asking->cancelled || (hooks->cancelled != NULL && hooks->cancelled(hooks->data));
+  return asking->cancelled;
+}
+
+static void answer_rows(SbStudyWork *work, const double *value, const int *line, const double *x,
+                        size_t rows, double from, double to) {
+  const SbStudyGrid *grid = work->grid;
+  Asking asking = {work, calloc(rows + 1, sizeof(Seen)), from, to, false};
+  double *figures = malloc((rows * grid->figures + 1) * sizeof *figures);
+  SbReport report = {0};
+  if (work->status == SB_OK && (asking.seen == NULL || figures == NULL)) {
+    work->status = sb_fail(work->report, SB_ERROR_MEMORY, "no memory for a study");
+  }
+  if (work->status == SB_OK) {
+    const SbStudyAsk ask = {value, rows, work->start, on_seen, on_progress, on_cancelled, &asking};
+    const SbStatus status = grid->answer(grid->data, figures, &ask);
+    (void)sb_fail(&report, status, "%s", sb_status_text(status));
+    (void)sb_study_goes_on(work, status, &report);
+  }
+  for (size_t i = 0; i < rows && work->status == SB_OK; i++) {
+    bool is_new;
+    const size_t at = place_of(work, line[i], x[i], &is_new);
+    double *out = work->answer[at].value;
+    if (work->answer[at].answered) {
+      continue; // almost the same place
+    }
+    work->answer[at].answered = true;
+    if (work->design->is_no_case != NULL && work->design->is_no_case(work, line[i], x[i])) {
+      continue;
+    }
+    account(work, &asking.seen[i]);
+    memcpy(out, figures + i * grid->figures, grid->figures * sizeof *out);
+    if (work->design->derive != NULL) {
+      work->design->derive(out, work, line[i], x[i]);
+    }
+  }
+  free(asking.seen);
+  free(figures);
+}
+
+void sb_study_more(SbStudyWork *work, const SbStudyPlace *place, size_t count, double from,
+                   double to) {
+  const SbStudyGrid *grid = work->grid;
+  double *value = malloc((count * grid->columns + 1) * sizeof *value);
+  int *line = malloc((count + 1) * sizeof *line);
+  double *x = malloc((count + 1) * sizeof *x);
+  size_t rows = 0;
+  if (work->status == SB_OK && (value == NULL || line == NULL || x == NULL)) {
+    work->status = sb_fail(work->report, SB_ERROR_MEMORY, "no memory for a study");
+  }
+  for (size_t i = 0; i < count && work->status == SB_OK; i++) {
+    bool is_new;
+    (void)answer_at(work, place[i].line, place[i].x, &is_new);
+    double *row = value + rows * grid->columns;
+    if (!is_new) {
+      continue;
+    }
+    if (place[i].fill != NULL) {
+      for (size_t k = 0; k < grid->columns; k++) {
+        row[k] = NAN;
+      }
+      place[i].fill(row, work, place[i].line, place[i].x);
+    }
+    grid->place(grid->data, row, place[i].fill != NULL ? -1 : place[i].line, place[i].x);
+    line[rows] = place[i].line;
+    x[rows++] = place[i].x;
+  }
+  if (rows > 0) {
+    answer_rows(work, value, line, x, rows, from, to);
+  }
+  free(value);
+  free(line);
+  free(x);
+}
+
+int sb_study_grid_column(const SbStudyWork *work, const char *name) {
+  for (size_t k = 0; k < work->grid->columns; k++) {
+    if (strcmp(work->grid->column[k], name) == 0) {
+      return (int)k;
+    }
+  }
+  assert(false); // the study's file has not what its view needs
+  return 0;
+}
+
+// ---- questions ----
 
 void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, size_t paths,
                   const SbOverride *override, size_t overrides) {
@@ -565,48 +540,26 @@ void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, siz
                          .figure_count = paths,
                          .cancelled = work->hooks.cancelled,
                          .data = work->hooks.data};
-  question.keep = work->keeps;
-  question.start = work->keeps ? NULL : work->start;
   SbReport report;
-  SbEvaluator *evaluator = work->keeps ? work->start : work->evaluator;
-  SbStatus status = sb_evaluator_ask(value, evaluator, &question, &report);
-  account(work, status);
+  SbStatus status = sb_evaluator_ask(value, work->evaluator, &question, &report);
   if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     (void)sb_study_goes_on(work, status, &report);
     return;
   }
-  const SbModel *model = sb_evaluator_model(evaluator); // NULL: the values were refused
-  if (status != SB_OK) {
-    const char *what = model != NULL ? sb_fit_model_name((SbFitModel)model->fit) : "study";
-    char code[48];
-    sb_text(code, sizeof code, "study-gap-%s", what);
-    sb_warn(&work->out->warnings, code, report.parameter, "%s has no value at some points: %s",
-            what, report.text);
-    work->out->complete = work->out->complete && status != SB_ERROR_NOT_CONVERGED;
-  }
+  const Seen seen = look(status, &report, work->evaluator);
+  account(work, &seen);
   step(work, fmin(work->spent / work->total, 1));
 }
 
-void sb_study_contact(double value[SB_STUDY_CONTACT], SbStudyWork *work, const SbOverride *override,
-                      size_t overrides) {
-  static const char *const paths[] = {"seals.outer.load_N", "seals.outer.pressure_peak_Pa",
-                                      "seals.outer.contact_width_m"};
-  enum { MOST = 12 };
-  // Nothing drags it.
-  SbOverride all[2 + MOST] = {{SB_P_FRICTION_SHEAR_STRENGTH, 0},
-                              {SB_P_FRICTION_LOAD_COEFFICIENT, 0}};
-  overrides = overrides < MOST ? overrides : MOST;
-  for (size_t i = 0; i < overrides; i++) {
-    all[2 + i] = override[i];
-  }
-  sb_study_ask(work, value, paths, SB_STUDY_CONTACT, all, 2 + overrides);
-}
-
 double sb_study_net_load(SbStudyWork *work) {
-  double contact[SB_STUDY_CONTACT];
-  sb_study_contact(contact, work, NULL, 0);
-  const SbSummary *summary = sb_evaluator_summary(work->evaluator);
-  return summary != NULL ? summary->seal[SB_OUTER].contact_pressure * contact[2] : NAN;
+  static const char *const paths[] = {"seals.outer.contact_pressure_Pa",
+                                      "seals.outer.contact_width_m"};
+  // As fitted: nothing drags it.
+  static const SbOverride smooth[] = {{SB_P_FRICTION_SHEAR_STRENGTH, 0},
+                                      {SB_P_FRICTION_LOAD_COEFFICIENT, 0}};
+  double value[2];
+  sb_study_ask(work, value, paths, 2, smooth, 2);
+  return value[0] * value[1];
 }
 
 void sb_study_film_problem(SbFilmProblem *out, const SbStudyWork *work, double load, double speed) {

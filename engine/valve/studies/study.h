@@ -7,6 +7,7 @@
 #pragma once
 
 #include "engine/base/status.h"
+#include "engine/valve/evaluate.h"
 #include "engine/valve/valve.h"
 
 // enumerator, function's suffix, name, title, help
@@ -144,8 +145,44 @@ SB_CHECKED bool sb_study_from_name(SbStudyKind *out, const char *name);
 // Predicted seconds on one core, for the plan.
 double sb_study_cost(SbStudyKind kind, const SbModel *model);
 
-// Computes a study of `model`. `hooks` and `report` may be NULL. A point that a solver cannot reach
-// is a gap with a warning and complete = false, not a failure. SB_ERROR_CANCELLED,
-// SB_ERROR_MEMORY, SB_ERROR_RANGE with the key at fault; *out then says nothing.
-SbStatus sb_study_make(SbStudy *out, SbStudyKind kind, const SbModel *model,
-                       const SbStudyHooks *hooks, SbReport *report);
+// Rows that a study wants answered.
+typedef struct {
+  const double *value; // [rows][columns]
+  size_t rows;
+  const SbEvaluator *start; // from whose rings theirs start; NULL: cold
+  // Told each row where it was computed, several at the same time.
+  void (*seen)(void *data, size_t row, SbStatus status, const SbReport *report,
+               const SbEvaluator *evaluator);
+  void (*progress)(void *data, size_t done, size_t of);
+  bool (*cancelled)(void *data);
+  void *data; // of the three
+} SbStudyAsk;
+
+// A study's grid as its file lays it out, and who answers it. Lines are the combinations of all but
+// the last parameter of the file's grids, counted from 0; x is that last one.
+typedef struct {
+  const SbModel *base;       // the scene with what the study holds
+  const char *const *column; // [columns]: keys, and names of variables
+  size_t columns, samples, figures;
+  const double *value; // [samples][columns]; NaN: as in the base
+  const int *line;     // [samples]
+  const double *x;     // [samples]
+  // A row of a line at another x; of no line (-1): what follows from the variables that the row
+  // has.
+  void (*place)(void *data, double *row, int line, double x);
+  // Figures [rows][figures]. SB_ERROR_CANCELLED, SB_ERROR_MEMORY.
+  SbStatus (*answer)(void *data, double *value, const SbStudyAsk *ask);
+  void *data;
+} SbStudyGrid;
+
+// Whether a study is a view of a grid, which sb_study_view() needs. Parameters that its columns
+// have behind those of the file: how many, *out borrowed.
+bool sb_study_has_grid(SbStudyKind kind);
+size_t sb_study_extra(const SbParamId **out, SbStudyKind kind);
+
+// Makes a study of `model` from its grid (NULL for one that has none). `hooks` and `report` may be
+// NULL. A point that a solver cannot reach is a gap with a warning and complete = false, not a
+// failure. SB_ERROR_CANCELLED, SB_ERROR_MEMORY, SB_ERROR_RANGE with the key at fault; *out then
+// says nothing.
+SbStatus sb_study_view(SbStudy *out, SbStudyKind kind, const SbModel *model,
+                       const SbStudyGrid *grid, const SbStudyHooks *hooks, SbReport *report);

@@ -7,6 +7,8 @@
 // (least squares of the logarithms, 95 % confidence by Student's t; the residuals
 // are the law's lack of fit, not noise). What the thesis' exponent 0.5434 is: a mesh that is too
 // coarse at low speed (docs/thesis.md, 3); solved in the mesh it is 0.6.
+//
+// Not a grid of valves: the load of these films is given, not that of any ring.
 #include "engine/valve/studies/study_private.h"
 
 #include <gsl/gsl_cdf.h>

@@ -7,7 +7,7 @@
 // that leaks. Leakage per stroke: what the film carries out, q = pi D h L/2 (film/laws.h). As in
 // the study of the squeeze the bore moves and the groove floor stays. The scene's fitment model is
 // set beside the disc and the ring: Karaszkiewicz' mean pressure does not vanish with the squeeze,
-// so that model never leaks at rest and cannot show this.
+// so that model never leaks at rest and cannot show this. The grid is assets/studies/leak.study.
 #include "engine/contact/rough/percolation.h"
 #include "engine/valve/studies/study_private.h"
 
@@ -16,48 +16,36 @@
 #include <string.h>
 
 enum { POINTS = 39, RING_POINTS = 20, FINE = 9, ROWS = 11, LINES = 5 };
-enum { PRESSURE, LEAK, STROKE, FIGURES };
+enum { PRESSURE, LEAK, STROKE, WIDTH, FIGURES = 3 };
 
-// Shares of the canister's pressure.
+// Lines of assets/studies/leak.study: the ring, the disc, the scene's own model, each without
+// pressure, then at shares of the canister's.
+enum { RING, DISC, OWN };
 static const double shares[] = {1, 0.1};
+enum { SHARES = 2 };
 
-// A line of the study: a fitment model at one of the shares.
-static int line_of(SbFitModel fit, int share) {
-  return (int)fit * 2 + share;
+static int line_of(int fit, int share) {
+  return fit * (1 + SHARES) + 1 + share;
 }
 
-static SbFitModel fit_of(int line) {
-  return (SbFitModel)(line / 2);
+static int fit_of(int line) {
+  return line / (1 + SHARES);
 }
 
-static void solve(double *value, SbStudyWork *work, int line, double squeeze) {
-  static const char *const paths[] = {"seals.outer.leakage_static_m3_per_s",
-                                      "seals.outer.leakage_per_stroke_m3"};
-  static const char *const width[] = {"seals.outer.contact_width_m"};
-  enum { COUNT = SB_STUDY_SQUEEZED + 6 };
-  SbOverride override[COUNT];
-  sb_study_squeezed(override, work, squeeze);
-  override[3] = (SbOverride){SB_P_MODELS_FIT, fit_of(line)};
-  // Finer than the roughness theory deserves; a ring that barely touches is costly.
-  override[4] =
-      (SbOverride){SB_P_OUTPUT_TOLERANCE,
-                   fmax(work->scene->tolerance, fit_of(line) == SB_FIT_RING ? 1e-2 : 1e-3)};
-  override[6] = (SbOverride){SB_P_MODELS_SURFACE, 1}; // percolation needs Persson's
-  override[7] =
-      (SbOverride){SB_P_FRICTION_SHEAR_STRENGTH, 0}; // the ring as fitted: nothing drags it
-  override[8] = (SbOverride){SB_P_FRICTION_LOAD_COEFFICIENT, 0};
-  // A ring that does not touch by itself lets the fluid past before any pressure could press it on.
-  override[5] = (SbOverride){SB_P_CANISTER_PRESSURE, 0};
-  double free;
-  sb_study_ask(work, &free, width, 1, override, COUNT);
-  if (!(free > 0)) {
-    return;
-  }
-  override[5].value = shares[line % 2] * work->scene->canister_pressure;
-  sb_study_ask(work, &value[LEAK], paths, 2, override, COUNT);
-  const SbSummary *summary = sb_evaluator_summary(work->evaluator);
-  double pressure = summary != NULL ? summary->seal[SB_OUTER].contact_pressure : NAN;
-  value[PRESSURE] = isnan(pressure) ? NAN : fmax(pressure, 0);
+static const char *name_of(const SbModel *scene, int line) {
+  static const SbFitModel fits[] = {SB_FIT_RING, SB_FIT_DISC};
+  return sb_fit_model_name(fit_of(line) == OWN ? scene->fit : fits[fit_of(line)]);
+}
+
+// A ring that does not touch by itself lets the fluid past before any pressure could press it on.
+static bool is_no_case(SbStudyWork *work, int line, double squeeze) {
+  return line % (1 + SHARES) > 0 &&
+         !(sb_study_at(work, line_of(fit_of(line), -1), squeeze)[WIDTH] > 0);
+}
+
+static void derive(double *value, SbStudyWork *work, int line, double squeeze) {
+  (void)work, (void)line, (void)squeeze;
+  value[PRESSURE] = isnan(value[PRESSURE]) ? NAN : fmax(value[PRESSURE], 0);
 }
 
 // First of `count` pressures that is at least `least`; `count`: none.
@@ -92,10 +80,12 @@ static void note_closing(SbStudy *out, const SbStudySeries *series, double closi
   }
 }
 
+#define SHARE 0.8 // of the work that the grid is, the finer places aside
+
 // Places of a line: even ones, and more between where the ring begins to touch and where its
 // channels close; the leak lies there.
 static int choose_places(double at[POINTS + FINE], SbStudyWork *work, int line, double closing) {
-  int even = fit_of(line) == SB_FIT_RING ? RING_POINTS : POINTS, count = 0;
+  int even = fit_of(line) == RING ? RING_POINTS : POINTS, count = 0;
   double pressure[POINTS];
   for (int i = 0; i < even; i++) {
     at[i] = sb_study_place(work, i, even);
@@ -110,9 +100,13 @@ static int choose_places(double at[POINTS + FINE], SbStudyWork *work, int line, 
     open--;
   }
   double from = at[open], to = at[closed];
+  SbStudyPlace fine[2 * FINE];
   for (int i = 0; i < FINE; i++) {
     at[even + i] = from + (to - from) * (i + 1.0) / (FINE + 1);
+    fine[i] = (SbStudyPlace){line_of(fit_of(line), -1), at[even + i], NULL};
+    fine[FINE + i] = (SbStudyPlace){line, at[even + i], NULL};
   }
+  sb_study_more(work, fine, 2 * FINE, SHARE, 1);
   gsl_sort(at, 1, (size_t)(even + FINE));
   for (int i = 0; i < even + FINE; i++) {
     if (count == 0 || at[i] > at[count - 1] + 1e-9) {
@@ -130,19 +124,20 @@ static void draw(SbStudyWork *work, double closing) {
   SbStudy *out = work->out;
   SbStudyPanel *pressure = &out->panel[PRESSURE], *rest = &out->panel[LEAK];
   sb_text(rest->empty, sizeof rest->empty, "no leak: every contact is closed");
-  const SbFitModel own = work->scene->fit;
-  const int lines[LINES] = {line_of(own, 0), line_of(SB_FIT_DISC, 0), line_of(SB_FIT_RING, 0),
-                            line_of(own, 1), line_of(SB_FIT_RING, 1)};
+  const SbFitModel fit = work->scene->fit;
+  const int own = fit == SB_FIT_RING ? RING : fit == SB_FIT_DISC ? DISC : OWN;
+  const int lines[LINES] = {line_of(own, 0), line_of(DISC, 0), line_of(RING, 0), line_of(own, 1),
+                            line_of(RING, 1)};
   unsigned drawn = 0;
   for (int l = 0; l < LINES; l++) {
-    const int line = lines[l], share = line % 2;
+    const int line = lines[l], share = line % (1 + SHARES) - 1;
     if ((drawn >> line & 1) != 0) {
       continue;
     }
     drawn |= 1U << line;
-    const char *fit = sb_fit_model_name(fit_of(line));
+    const char *model = name_of(work->scene, line);
     char name[40];
-    sb_text(name, sizeof name, "%s, %.2g MPa", fit,
+    sb_text(name, sizeof name, "%s, %.2g MPa", model,
             shares[share] * work->scene->canister_pressure * 1e-6);
     double at[POINTS + FINE];
     int points = choose_places(at, work, line, closing);
@@ -154,7 +149,7 @@ static void draw(SbStudyWork *work, double closing) {
     note_closing(out, &pressure->series[pressure->series_count - 1], closing);
     for (int q = 0; q < FIGURES && share == 0; q++) {
       char text[64];
-      sb_text(text, sizeof text, "%s %s [%s]", column[q][0], fit, column[q][1]);
+      sb_text(text, sizeof text, "%s %s [%s]", column[q][0], model, column[q][1]);
       sb_study_column(work, text, 0, line, q);
     }
   }
@@ -210,12 +205,14 @@ const SbStudyDesign sb_study_leak = {
     .logarithmic = {false, true, false},
     .range = offsetof(SbStudyRange, squeeze_min),
     .row_heading = "squeeze, pressure",
-    .outer = true,
     .validity = "mean contact pressure, liquid without vapour; gaps below 3 \xcf\x83; no figure "
                 "where the ring does not touch by itself",
     .solves = {.rings = 2 * (2 * (RING_POINTS + FINE) + ROWS),
                .discs = POINTS,
                .films = LINES * POINTS},
-    .solve = solve,
+    .grid = true,
+    .share = SHARE,
+    .is_no_case = is_no_case,
+    .derive = derive,
     .make = make,
 };

@@ -19,17 +19,17 @@
 #include <string.h>
 
 enum { THESIS, DISC_THESIS, DISC, RING, KARASZKIEWICZ, MODELS, TABLE_MODELS = 4 };
+enum { CONTACT = 3 }; // load, peak, width
 
 static const struct {
   const char *name;
-  SbFitModel model;
   SbStudyStyle style;
 } models[MODELS] = {
-    [THESIS] = {"thesis, printed", SB_FIT_DISC_THESIS, SB_STUDY_DOTS},
-    [DISC_THESIS] = {"disc-thesis", SB_FIT_DISC_THESIS, SB_STUDY_CURVE},
-    [DISC] = {"disc", SB_FIT_DISC, SB_STUDY_CURVE},
-    [RING] = {"ring", SB_FIT_RING, SB_STUDY_CURVE},
-    [KARASZKIEWICZ] = {"Karaszkiewicz", SB_FIT_KARASZKIEWICZ, SB_STUDY_REFERENCE},
+    [THESIS] = {"thesis, printed", SB_STUDY_DOTS},
+    [DISC_THESIS] = {"disc-thesis", SB_STUDY_CURVE},
+    [DISC] = {"disc", SB_STUDY_CURVE},
+    [RING] = {"ring", SB_STUDY_CURVE},
+    [KARASZKIEWICZ] = {"Karaszkiewicz", SB_STUDY_REFERENCE},
 };
 
 static const double pressures[] = {0, 0.13e6, 0.29e6, 0.55e6, 0.7e6};
@@ -43,7 +43,7 @@ static const struct {
 } sizes[SIZES] = {{0, 0}, {STEP, 0}, {-STEP, 0}, {0, STEP}, {0, -STEP}};
 
 static int line_of(int model, int size) {
-  return size * MODELS + model;
+  return 100 + size * MODELS + model; // behind those of the grid
 }
 
 // Printed "current analysis": tables 7.2, 7.3, 7.4; the loads at 0.13 and 0.7 MPa from W* of 7.9.
@@ -52,7 +52,7 @@ static int line_of(int model, int size) {
 
 static const struct {
   int size;
-  double pressure, contact[SB_STUDY_CONTACT];
+  double pressure, contact[CONTACT];
 } printed[] = {
     {0, 0, {4.371, 637195.3, 0.5900e-3}},        {0, 0.13e6, {WSTAR_LOAD(0.07981), NAN, NAN}},
     {0, 0.29e6, {8.469, 942625.8, 0.7682e-3}},   {0, 0.55e6, {12.395, 1197543.7, 0.8886e-3}},
@@ -80,32 +80,39 @@ static double coefficient(const SbModel *model, double load, double width) {
   return load > 0 ? model->shear_strength * area / load : NAN;
 }
 
-// Contact and coefficient of a model with one of the sizes.
-static void solve(double *value, SbStudyWork *work, int line, double pressure) {
-  const SbSealModel *ring = &work->scene->seal[SB_OUTER];
-  int model = line % MODELS, size = line / MODELS;
-  const SbOverride override[] = {
-      {SB_P_MODELS_FIT, models[model].model},
-      {SB_P_CANISTER_PRESSURE, pressure},
-      {SB_P_SEAL_OUTER_SECTION_DIAMETER, ring->section_diameter + sizes[size].section},
-      {SB_P_SEAL_OUTER_INNER_DIAMETER, ring->inner_diameter + sizes[size].inner},
-  };
-  if (model != THESIS) {
-    sb_study_contact(value, work, override, sizeof override / sizeof override[0]);
-  }
-  for (size_t r = 0; r < sizeof printed / sizeof printed[0] && model == THESIS; r++) {
-    if (is_thesis(work->scene) && size == printed[r].size && near(pressure, printed[r].pressure)) {
-      memcpy(value, printed[r].contact, sizeof printed[r].contact);
-    }
-  }
-  value[3] = coefficient(work->scene, value[0], value[2]);
+// A line of assets/studies/models.study under the number that it has here.
+static void derive(double *value, SbStudyWork *work, int line, double pressure) {
+  enum { GRID = MODELS - 1, SOLVED = GRID - 1 }; // without what is printed, and Karaszkiewicz
+  value[CONTACT] = coefficient(work->scene, value[0], value[2]);
+  const int rest = line - GRID, of = rest % (2 * SOLVED);
+  const int own = line < GRID ? line_of(DISC_THESIS + line, 0)
+                              : line_of(DISC_THESIS + of / 2, 1 + rest / (2 * SOLVED) * 2 + of % 2);
+  memcpy(sb_study_put(work, own, pressure), value, (CONTACT + 1) * sizeof *value);
 }
+
+static void put_printed(SbStudyWork *work) {
+  for (size_t r = 0; r < sizeof printed / sizeof printed[0] && is_thesis(work->scene); r++) {
+    double *value = sb_study_put(work, line_of(THESIS, printed[r].size), printed[r].pressure);
+    memcpy(value, printed[r].contact, sizeof printed[r].contact);
+    value[CONTACT] = coefficient(work->scene, value[0], value[2]);
+  }
+}
+
+// Columns of the table.
+enum { LOAD_DISC = 2, LOAD_RING = 3 };
 
 // Contacts with a size, or half their difference from those with another (`less` > 0).
 static void fill_row(double *value, SbStudyWork *work, int size, int less, double pressure) {
   double other[SB_STUDY_COLUMNS];
   sb_study_cells(value, work, pressure, line_of(0, size));
   sb_study_cells(other, work, pressure, line_of(0, less));
+  const double disc = value[LOAD_DISC], ring = value[LOAD_RING];
+  if (less == 0 && isfinite(disc) && isfinite(ring) && (disc > 0) != (ring > 0)) {
+    sb_warn(&work->out->warnings, "disc-ring-contact", "models.fit",
+            "at %.3g MPa the linear disc %s and the solved ring %s: the ring counts",
+            1e-6 * pressure, disc > 0 ? "touches" : "does not touch",
+            ring > 0 ? "touches" : "does not");
+  }
   for (size_t k = 0; less > 0 && k < work->out->column_count; k++) {
     value[k] = (value[k] - other[k]) / 2;
   }
@@ -141,10 +148,11 @@ static void put_table(SbStudyWork *work) {
 static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
+  put_printed(work);
   work->lo = pressures[0];
   work->hi = pressures[PRESSURES - 1];
   for (int m = 0; m < MODELS; m++) {
-    sb_study_curves(work, models[m].style, models[m].name, m, pressures, PRESSURES);
+    sb_study_curves(work, models[m].style, models[m].name, line_of(m, 0), pressures, PRESSURES);
   }
   sb_study_level(work, &out->panel[3], "measured 0.51", 0.51);
   sb_study_level(work, &out->panel[3], "table 7.8: 0.4", 0.4);
@@ -174,9 +182,8 @@ const SbStudyDesign sb_study_models = {
     .value = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2},
     .validity = "disc-thesis: pressure on both flanks; disc: linear strain; ring: neo-Hookean, "
                 "pressure from the canister against the groove wall",
-    .outer = true,
-    .smooth = true,
+    .grid = true,
+    .derive = derive,
     .solves = {.rings = PRESSURES + SIZES, .discs = 2 * (PRESSURES + SIZES)},
-    .solve = solve,
     .make = make,
 };

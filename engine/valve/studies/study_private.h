@@ -10,7 +10,7 @@
 #include "engine/valve/model.h"
 #include "engine/valve/studies/study.h"
 
-enum { SB_STUDY_VALUES = 8, SB_STUDY_ANSWERS = 512, SB_STUDY_LAW_POINTS = 400 };
+enum { SB_STUDY_VALUES = 20, SB_STUDY_ANSWERS = 1024, SB_STUDY_LAW_POINTS = 400 };
 
 typedef struct SbStudyWork SbStudyWork;
 
@@ -35,14 +35,21 @@ typedef struct {
   int digits[SB_STUDY_COLUMNS];                        // 0: three
   int line[SB_STUDY_COLUMNS], value[SB_STUDY_COLUMNS]; // of each column, for sb_study_cells()
   const char *models, *validity;                       // NULL: make() gives it
-  // Beside the cycle of the test machine, quasi-static, whatever drives the scene, all questions
-  // have fixed: the outer ring as the scene's storage left it, from now on without any, the inner
-  // one like it, so that no gland suits but one of them, and the chamber filled.
-  bool outer;
-  bool smooth; // a film in closed form that leaves the fitment its own tolerance
+  // A view of the grid of assets/studies/NAME.study: a line's values are its figures, then what
+  // derive() (may be NULL) adds to them. `share`: of the progress that the grid is, 0: all.
+  bool grid;
+  double share;
+  bool (*asks_grid)(const SbModel *scene); // NULL: always; else make() asks for what it wants
+  const SbParamId *extra;                  // [extras]: columns behind the file's
+  size_t extras;
+  void (*derive)(double value[SB_STUDY_VALUES], SbStudyWork *work, int line, double x);
+  // Whether a place of a line is left without values, whatever was answered. Lines before it are
+  // there.
+  bool (*is_no_case)(SbStudyWork *work, int line, double x);
+  bool forces; // its error is that of the forces, too
   SbStudySolves solves;
-  // Values of one line of the study (a model, a seal, a size) at x, those of the panels first; NaN
-  // until it sets them.
+  // Without a grid: values of one line of the study at x, those of the panels first; NaN until it
+  // sets them.
   void (*solve)(double value[SB_STUDY_VALUES], SbStudyWork *work, int line, double x);
   void (*make)(SbStudyWork *work);
 } SbStudyDesign;
@@ -53,14 +60,14 @@ struct SbStudyWork {
   SbStudy *out;
   const SbStudyDesign *design;
   const SbModel *scene;
-  SbModel base;  // what is asked: the scene, but for what the study holds fixed
-  double lo, hi; // ends of the abscissa: the scene's range, or the study's own
-  double load;   // net, of films that the study solves at one load [N/m]
+  SbModel base;            // what is asked: the scene, but for what the study holds
+  const SbStudyGrid *grid; // NULL: it has none
+  double lo, hi;           // ends of the abscissa: the scene's range, or the study's own
+  double load;             // net, of films that the study solves at one load [N/m]
   SbEvaluator *evaluator;
-  SbEvaluator *start;   // from whose rings those of the others start, owned; NULL: cold
-  bool keeps;           // what is asked goes there
-  SbFilmSolver *solver; // of the films that are solved beside questions
-  SbFilm film;          // the last of them
+  const SbEvaluator *start; // from whose rings those of the grid start; NULL: cold
+  SbFilmSolver *solver;     // of the films that are solved beside questions
+  SbFilm film;              // the last of them
   SbStudyHooks hooks;
   SbReport *report;
   SbStatus status;
@@ -70,6 +77,7 @@ struct SbStudyWork {
   size_t answers;
   struct {
     int line;
+    bool answered;                    // by the grid
     double x, value[SB_STUDY_VALUES]; // of it there
   } answer[SB_STUDY_ANSWERS];
 };
@@ -79,12 +87,6 @@ struct SbStudyWork {
 SB_STUDY_LIST(SB_STUDY_DECLARE)
 #undef SB_STUDY_DECLARE
 
-// Values that give the outer ring a squeeze: the bore moves and the groove floor stays, D = D_floor
-// + 2 g with g = d (1 - s), so that the stretch on the floor stays as it is. The stem's land keeps
-// its share of the gap. For a study of the outer ring.
-enum { SB_STUDY_SQUEEZED = 3 };
-void sb_study_squeezed(SbOverride out[SB_STUDY_SQUEEZED], const SbStudyWork *work, double squeeze);
-
 // Asks for figures of the base with overrides and tells the progress. Where a solver gives up or
 // the values do not go together what it would have given is NaN, with a warning, and `complete` is
 // cleared in the first case. Warnings of models are not merged: a study runs outside validity on
@@ -92,28 +94,31 @@ void sb_study_squeezed(SbOverride out[SB_STUDY_SQUEEZED], const SbStudyWork *wor
 void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, size_t paths,
                   const SbOverride *override, size_t overrides);
 
-// The outer seal's load [N], peak pressure [Pa] and contact width [m] by overrides of the base,
-// without friction: as fitted, whatever drags it in the scene.
-enum { SB_STUDY_CONTACT = 3 };
-void sb_study_contact(double value[SB_STUDY_CONTACT], SbStudyWork *work, const SbOverride *override,
-                      size_t overrides);
-
 // Net load per length of the scene's outer seal at rest under its pressures [N/m]; NaN: none.
 double sb_study_net_load(SbStudyWork *work);
 
 // Values of a line at x by the design's solve(), which is called once for each place.
 const double *sb_study_at(SbStudyWork *work, int line, double x);
 
-// Places of lines solved side by side, for sb_study_at() to find; what comes out does not depend on
-// how many threads there are. Tells the progress from `from` to `to`. For a solve() that asks
-// questions alone, without the study's film solver.
+// A place that the grid has not: of one of its lines, or of another one whose row fill() lays out
+// by columns, what follows from its variables aside.
 typedef struct {
   int line;
   double x;
+  void (*fill)(double *row, const SbStudyWork *work, int line,
+               double x); // NULL: a line of the grid
 } SbStudyPlace;
 
-void sb_study_solve(SbStudyWork *work, const SbStudyPlace *place, size_t count, double from,
-                    double to);
+// Has places answered that the study does not know yet, for sb_study_at() to find. Tells the
+// progress from `from` to `to`.
+void sb_study_more(SbStudyWork *work, const SbStudyPlace *place, size_t count, double from,
+                   double to);
+
+// Values of a line at x that a view sets itself.
+double *sb_study_put(SbStudyWork *work, int line, double x);
+
+// A column of the grid by its name.
+int sb_study_grid_column(const SbStudyWork *work, const char *name);
 
 // Place `index` of `count` from lo to hi, even on the abscissa.
 double sb_study_place(const SbStudyWork *work, int index, int count);

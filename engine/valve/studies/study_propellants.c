@@ -4,18 +4,19 @@
 // pressure; the liquid's viscosity and density, which the film has; the rubber's modulus; the
 // expansion of ring, radial space and bore.
 //
-// Every point is a whole quasi-static cycle, the propellant saturated, whatever liquid the scene
-// has. Parts are taken one at a time with all else as at 20 degC; what is left of their sum is how
-// they act on each other. Leaves out: swell by another propellant, and what evaporation cools.
+// Every point is a whole quasi-static cycle (assets/studies/propellants.study), the propellant
+// saturated, whatever liquid the scene has. Parts are taken one at a time with all else as at 20
+// degC; what is left of their sum is how they act on each other. Leaves out: swell by another
+// propellant, and what evaporation cools.
 //
 // Solved rings, of which a cycle takes seconds, are solved at some pressures alone (study.rings).
 // At each, what is not the pressure's force in break-away and return, the friction, is compared
 // with that of closed forms. A ring's load over E d^2 depends on its squeeze, its friction
 // coefficients and p/E: the ratio is interpolated over p/E (monotone cubic, Steffen 1990), and the
-// closed forms carry what temperature and propellant do besides. Six places, three rounds for two
-// threads, are closest where the friction of a return changes most, a p/E below 0.15. The error
-// told is the largest that leaving out one of those in between makes, so with gaps twice as wide;
-// two more are solved where it is over 10 %. Beyond the ends the ratio stays, with a warning.
+// closed forms carry what temperature and propellant do besides. Six places are closest where the
+// friction of a return changes most, a p/E below 0.15. The error told is the largest that leaving
+// out one of those in between makes, so with gaps twice as wide; two more are solved where it is
+// over 10 %. Beyond the ends the ratio stays, with a warning.
 #include "engine/fluid/fluid.h"
 #include "engine/valve/studies/study_private.h"
 
@@ -25,15 +26,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FORCE, BREAKAWAY, RETURN, DOSE, FIGURES, STRAIN = FIGURES }; // and p/E
+enum { FORCE, BREAKAWAY, RETURN, DOSE, FIGURES, MODULUS = FIGURES, STRAIN = FIGURES }; // or p/E
 // A line is a fluid, and what of it is at the temperature: all, or one of the parts.
 enum { ALL, PRESSURE, FILM, RUBBER, EXPANSION, PARTS, SOLVED = PARTS };
 // A full cycle at 15 temperatures, every 5 degC of the default range; where it costs little 29.
 enum { POINTS = 29, CYCLES = 15, FLUIDS = 4, TABLE = 5, FIRST = 6, MORE = 2, MOST = 8 };
 
-// Propellants come first behind the fluid without figures.
+// Propellants come first behind the fluid without figures. The grid of
+// assets/studies/propellants.study has all of each.
 static int line_of(int fluid, int part) {
-  return part * (FLUIDS + 1) + fluid;
+  return part * FLUIDS + fluid - 1;
+}
+
+static int fluid_of(int line) {
+  return line % FLUIDS + 1;
+}
+
+static int part_of(int line) {
+  return line / FLUIDS;
 }
 
 static double of_fluid(const SbModel *scene, SbParamId id, int fluid, double T) {
@@ -47,69 +57,81 @@ static double of_fluid(const SbModel *scene, SbParamId id, int fluid, double T) 
 }
 
 // Whether cycles with solved rings are compared with closed forms.
-static bool interpolates(const SbStudyWork *work) {
-  return work->scene->fit == SB_FIT_RING;
+static bool interpolates(const SbModel *scene) {
+  return scene->fit == SB_FIT_RING;
 }
 
-static void solve(double *value, SbStudyWork *work, int line, double x) {
-  static const char *const paths[] = {"cycle.force_breakaway_N", "cycle.force_return_min_N",
-                                      "cycle.dose_mass_kg"};
-  enum { SIZES = 7 };
+// What a row of a part, or of closed forms in place of rings, has beside the grid's columns.
+static const SbParamId extra[] = {SB_P_CANISTER_PRESSURE,
+                                  SB_P_FLUID_VISCOSITY,
+                                  SB_P_FLUID_DENSITY,
+                                  SB_P_SEAL_OUTER_MODULUS,
+                                  SB_P_SEAL_INNER_MODULUS,
+                                  SB_P_SEAL_OUTER_SECTION_DIAMETER,
+                                  SB_P_SEAL_INNER_SECTION_DIAMETER,
+                                  SB_P_SEAL_OUTER_INNER_DIAMETER,
+                                  SB_P_SEAL_INNER_INNER_DIAMETER,
+                                  SB_P_GLAND_RADIAL_SPACE,
+                                  SB_P_BORE_DIAMETER,
+                                  SB_P_MODELS_FIT,
+                                  SB_P_MODELS_FILM,
+                                  SB_P_MODELS_ASPERITIES,
+                                  SB_P_MODELS_ADHESION,
+                                  SB_P_MODELS_INLET,
+                                  SB_P_MODELS_FILM_TIME,
+                                  SB_P_MODELS_VISCOSITY};
+
+static void set(double *row, const SbStudyWork *work, SbParamId id, double value) {
+  row[sb_study_grid_column(work, sb_param(id)->key)] = value;
+}
+
+static void fill(double *row, const SbStudyWork *work, int line, double x) {
   const SbModel *base = &work->base;
-  const int fluid = line % (FLUIDS + 1);
-  const bool solved = line / (FLUIDS + 1) == SOLVED;
-  const int part = solved ? ALL : line / (FLUIDS + 1);
+  const int fluid = fluid_of(line), part = part_of(line) == SOLVED ? ALL : part_of(line);
   const double T0 = SB_SIZES_TEMPERATURE, of_pressure = part == ALL || part == PRESSURE ? x : T0;
   const double of_film = part == ALL || part == FILM ? x : T0;
-  SbOverride override[SIZES + 10] = {
-      {SB_P_FLUID_NAME, fluid},
-      {SB_P_CANISTER_TEMPERATURE, part == ALL ? x : T0},
-      {SB_P_CANISTER_PRESSURE, of_fluid(base, SB_P_CANISTER_PRESSURE, fluid, of_pressure)},
-      {SB_P_FLUID_VISCOSITY, of_fluid(base, SB_P_FLUID_VISCOSITY, fluid, of_film)},
-      {SB_P_FLUID_DENSITY, of_fluid(base, SB_P_FLUID_DENSITY, fluid, of_film)}};
-  size_t count = 5;
-  SbReport report;
+  set(row, work, SB_P_FLUID_NAME, fluid);
+  set(row, work, SB_P_CANISTER_TEMPERATURE, part == ALL ? x : T0);
+  set(row, work, SB_P_CANISTER_PRESSURE,
+      of_fluid(base, SB_P_CANISTER_PRESSURE, fluid, of_pressure));
+  set(row, work, SB_P_FLUID_VISCOSITY, of_fluid(base, SB_P_FLUID_VISCOSITY, fluid, of_film));
+  set(row, work, SB_P_FLUID_DENSITY, of_fluid(base, SB_P_FLUID_DENSITY, fluid, of_film));
   SbModel *then = NULL;
   const SbOverride warm = {SB_P_CANISTER_TEMPERATURE, x};
   if ((part == RUBBER || part == EXPANSION) &&
-      sb_model_derive(&then, base, &warm, 1, &report) != SB_OK) {
-    return;
-  }
-  const SbSealModel *ring = then != NULL ? then->seal : NULL;
-  if (part == RUBBER) {
-    for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-      override[count++] =
-          (SbOverride){seal == SB_OUTER ? SB_P_SEAL_OUTER_MODULUS : SB_P_SEAL_INNER_MODULUS,
-                       ring[seal].stored.modulus * ring[seal].storage.stiffening};
-    }
-  } else if (part == EXPANSION) {
+      sb_model_derive(&then, base, &warm, 1, NULL) == SB_OK) {
+    const SbSealModel *outer = &then->seal[SB_OUTER], *inner = &then->seal[SB_INNER];
     const double grown = 1 + then->rubber.thermal_expansion * (x - T0);
-    const SbOverride sizes[] = {
-        {SB_P_SEAL_OUTER_SECTION_DIAMETER, ring[SB_OUTER].stored.section_diameter * grown},
-        {SB_P_SEAL_INNER_SECTION_DIAMETER, ring[SB_INNER].stored.section_diameter * grown},
-        {SB_P_SEAL_OUTER_INNER_DIAMETER, ring[SB_OUTER].stored.inner_diameter * grown},
-        {SB_P_SEAL_INNER_INNER_DIAMETER, ring[SB_INNER].stored.inner_diameter * grown},
-        {SB_P_GLAND_RADIAL_SPACE, then->radial_space},
-        {SB_P_BORE_DIAMETER, then->bore_diameter}};
-    memcpy(override + count, sizes, sizeof sizes);
-    count += sizeof sizes / sizeof sizes[0];
+    if (part == RUBBER) {
+      set(row, work, SB_P_SEAL_OUTER_MODULUS, outer->stored.modulus * outer->storage.stiffening);
+      set(row, work, SB_P_SEAL_INNER_MODULUS, inner->stored.modulus * inner->storage.stiffening);
+    } else {
+      set(row, work, SB_P_SEAL_OUTER_SECTION_DIAMETER, outer->stored.section_diameter * grown);
+      set(row, work, SB_P_SEAL_INNER_SECTION_DIAMETER, inner->stored.section_diameter * grown);
+      set(row, work, SB_P_SEAL_OUTER_INNER_DIAMETER, outer->stored.inner_diameter * grown);
+      set(row, work, SB_P_SEAL_INNER_INNER_DIAMETER, inner->stored.inner_diameter * grown);
+      set(row, work, SB_P_GLAND_RADIAL_SPACE, then->radial_space);
+      set(row, work, SB_P_BORE_DIAMETER, then->bore_diameter);
+    }
+  } else if (part == RUBBER || part == EXPANSION) {
+    set(row, work, SB_P_CANISTER_TEMPERATURE, x); // refused as there
   }
   sb_model_destroy(then);
-  if (interpolates(work) && !solved) {
-    const SbOverride closed[] = {{SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ},
-                                 {SB_P_MODELS_FILM, SB_FILM_THESIS},
-                                 {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE},
-                                 {SB_P_MODELS_ADHESION, SB_MODEL_ADHESION_OFF},
-                                 {SB_P_MODELS_INLET, 0},
-                                 {SB_P_MODELS_FILM_TIME, 0},
-                                 {SB_P_MODELS_VISCOSITY, 0}};
-    memcpy(override + count, closed, sizeof closed);
-    count += sizeof closed / sizeof closed[0];
+  if (interpolates(work->scene) && part_of(line) != SOLVED) {
+    set(row, work, SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ);
+    set(row, work, SB_P_MODELS_FILM, SB_FILM_THESIS);
+    set(row, work, SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE);
+    set(row, work, SB_P_MODELS_ADHESION, SB_MODEL_ADHESION_OFF);
+    set(row, work, SB_P_MODELS_INLET, 0);
+    set(row, work, SB_P_MODELS_FILM_TIME, 0);
+    set(row, work, SB_P_MODELS_VISCOSITY, 0);
   }
-  sb_study_ask(work, value + BREAKAWAY, paths, 3, override, count);
-  const SbModel *model = sb_evaluator_model(work->evaluator);
-  value[FORCE] = model != NULL ? model->pressure_force : NAN;
-  value[STRAIN] = model != NULL ? model->canister_pressure / model->seal[SB_OUTER].modulus : NAN;
+}
+
+static void derive(double *value, SbStudyWork *work, int line, double x) {
+  (void)line, (void)x;
+  const double across = work->scene->stem_diameter;
+  value[STRAIN] = value[FORCE] / (M_PI / 4 * across * across) / value[MODULUS];
 }
 
 // Ratios of friction over p/E: of the break-away, of the least return.
@@ -210,15 +232,17 @@ static double solve_rings(Ratios *out, SbStudyWork *work) {
                    {3, 0.75}, {1, 1},    {4, 0.14}, {1, 0.86}};
   double error = NAN;
   for (int from = 0, until = FIRST; until <= MOST; from = until, until += MORE) {
-    SbStudyPlace of[FIRST];
-    for (int i = from; i < until; i++) {
-      of[i - from] = (SbStudyPlace){line_of(place[i].fluid, SOLVED),
-                                    work->lo + (work->hi - work->lo) * place[i].share};
-    }
+    SbStudyPlace of[2 * FIRST];
     const size_t count = (size_t)(until - from);
-    sb_study_solve(work, of, count, 0.9 * from / MOST, 0.9 * until / MOST);
     for (size_t i = 0; i < count; i++) {
-      add(out, work, of[i].line % (FLUIDS + 1), of[i].x);
+      const int fluid = place[from + (int)i].fluid;
+      const double T = work->lo + (work->hi - work->lo) * place[from + (int)i].share;
+      of[i] = (SbStudyPlace){line_of(fluid, SOLVED), T, fill};
+      of[count + i] = (SbStudyPlace){line_of(fluid, ALL), T, fill};
+    }
+    sb_study_more(work, of, 2 * count, 0.9 * from / MOST, 0.9 * until / MOST);
+    for (size_t i = 0; i < count; i++) {
+      add(out, work, fluid_of(of[i].line), of[i].x);
     }
     error = left_out(out);
     if (work->status != SB_OK || error < 0.1) {
@@ -232,11 +256,10 @@ static double solve_rings(Ratios *out, SbStudyWork *work) {
 static void correct_all(SbStudyWork *work, const Ratios ratios[FLUIDS + 1]) {
   bool held[2] = {false, false}; // beyond the pressures that were solved: of all, of a part
   for (size_t i = 0; i < work->answers; i++) {
-    const int fluid = work->answer[i].line % (FLUIDS + 1);
-    const Ratios *of = &ratios[fluid];
-    if (work->answer[i].line / (FLUIDS + 1) != SOLVED) {
+    const Ratios *of = &ratios[fluid_of(work->answer[i].line)];
+    if (part_of(work->answer[i].line) != SOLVED) {
       const double strain = work->answer[i].value[STRAIN];
-      const bool part = work->answer[i].line > FLUIDS;
+      const bool part = part_of(work->answer[i].line) != ALL;
       if (of->count > 0 &&
           (strain < of->strain[0] - 1e-9 || strain > of->strain[of->count - 1] + 1e-9)) {
         held[part] = true;
@@ -258,34 +281,61 @@ static void correct_all(SbStudyWork *work, const Ratios ratios[FLUIDS + 1]) {
 
 // Solves the rings at some temperatures, from which those of all cycles start: those of the fluid
 // of the highest pressure, whose steps are less than twice what a ring can start over.
-static void find_starts(SbStudyWork *work) {
+static SbEvaluator *find_starts(SbStudyWork *work) {
   enum { STARTS = 6, OF = 1 }; // HFA-134a
-  double value[FIGURES + 1];
-  work->status = sb_evaluator_create(&work->start, work->report);
-  work->keeps = true;
+  const int figure[] = {sb_figure_find("cycle.force_breakaway_N"),
+                        sb_figure_find("cycle.force_return_min_N")};
+  double value[2];
+  SbEvaluator *start = NULL;
+  work->status = sb_evaluator_create(&start, work->report);
   for (int i = 0; i < STARTS && work->status == SB_OK; i++) {
-    solve(value, work, line_of(OF, SOLVED), sb_study_place(work, i, STARTS));
+    const SbOverride override[] = {{SB_P_FLUID_NAME, OF},
+                                   {SB_P_CANISTER_TEMPERATURE, sb_study_place(work, i, STARTS)}};
+    const SbQuestion question = {.base = &work->base,
+                                 .override = override,
+                                 .override_count = 2,
+                                 .figure = figure,
+                                 .figure_count = 2,
+                                 .keep = true,
+                                 .cancelled = work->hooks.cancelled,
+                                 .data = work->hooks.data};
+    SbReport report;
+    const SbStatus status = sb_evaluator_ask(value, start, &question, &report);
+    if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+      (void)sb_study_goes_on(work, status, &report);
+    }
   }
-  work->keeps = false;
+  return start;
+}
+
+#define SHARE 0.6 // of the work that the grid is, the parts aside
+
+// Whether a cycle costs so little that the whole grid is asked for.
+static bool is_closed(const SbModel *scene) {
+  return scene->fit < SB_FIT_DISC_THESIS && scene->film != SB_FILM_REYNOLDS &&
+         scene->asperities == SB_MODEL_ASPERITIES_BESIDE;
 }
 
 // Every answer that the charts and the table need, in as few full cycles as do.
 static void ask_all(SbStudyWork *work, int points, const double table[TABLE]) {
-  const bool rings = interpolates(work), every = work->scene->study.rings_solved;
-  SbStudyPlace place[FLUIDS * (POINTS + TABLE * PARTS)] = {{0, 0}};
+  const bool rings = interpolates(work->scene), every = work->scene->study.rings_solved;
+  SbStudyPlace place[FLUIDS * (POINTS + TABLE * PARTS)] = {{0, 0, NULL}};
   Ratios ratios[FLUIDS + 1] = {0};
+  SbEvaluator *start = NULL;
   size_t count = 0;
   for (int fluid = 1; rings && every && fluid <= FLUIDS; fluid++) {
     for (int i = 0; i < CYCLES; i++) {
-      place[count++] = (SbStudyPlace){line_of(fluid, SOLVED), sb_study_place(work, i, CYCLES)};
+      place[count++] =
+          (SbStudyPlace){line_of(fluid, SOLVED), sb_study_place(work, i, CYCLES), fill};
+      place[count++] = (SbStudyPlace){line_of(fluid, ALL), sb_study_place(work, i, CYCLES), fill};
     }
   }
   if (count > 0) {
-    find_starts(work);
-    sb_study_solve(work, place, count, 0.15, 0.9);
+    work->start = start = find_starts(work);
+    sb_study_more(work, place, count, 0.15, 0.9);
   }
-  for (size_t i = 0; i < count; i++) {
-    const int fluid = place[i].line % (FLUIDS + 1);
+  for (size_t i = 0; i < count; i += 2) {
+    const int fluid = fluid_of(place[i].line);
     add(&ratios[fluid], work, fluid, place[i].x);
   }
   SbStudy *out = work->out;
@@ -306,13 +356,17 @@ static void ask_all(SbStudyWork *work, int points, const double table[TABLE]) {
   count = 0;
   for (int fluid = 1; fluid <= FLUIDS; fluid++) {
     for (int i = 0; i < points; i++) {
-      place[count++] = (SbStudyPlace){line_of(fluid, ALL), sb_study_place(work, i, points)};
+      place[count++] =
+          (SbStudyPlace){line_of(fluid, ALL), sb_study_place(work, i, points), rings ? fill : NULL};
     }
     for (int i = 0; i < TABLE * PARTS; i++) {
-      place[count++] = (SbStudyPlace){line_of(fluid, i % PARTS), table[i / PARTS]};
+      place[count++] = (SbStudyPlace){line_of(fluid, i % PARTS), table[i / PARTS],
+                                      rings || i % PARTS != ALL ? fill : NULL};
     }
   }
-  sb_study_solve(work, place, count, rings ? 0.9 : 0, 1);
+  sb_study_more(work, place, count, rings ? 0.9 : is_closed(work->scene) ? SHARE : 0, 1);
+  work->start = NULL;
+  sb_evaluator_destroy(start);
   if (rings) {
     correct_all(work, ratios);
   }
@@ -340,9 +394,7 @@ static void make(SbStudyWork *work) {
                                      "the rig has no valve and no propellant");
     return;
   }
-  const bool closed = model->fit < SB_FIT_DISC_THESIS && model->film != SB_FILM_REYNOLDS &&
-                      model->asperities == SB_MODEL_ASPERITIES_BESIDE;
-  const bool cheap = closed || interpolates(work);
+  const bool cheap = is_closed(model) || interpolates(model);
   const int points = cheap && !model->study.rings_solved ? POINTS : CYCLES;
   static const char *const limited[FIGURES] = {NULL, "cycle.force_breakaway_N",
                                                "cycle.force_return_min_N", "cycle.dose_mass_kg"};
@@ -403,6 +455,11 @@ const SbStudyDesign sb_study_propellants = {
     .validity = "saturated propellant; the range of its figures, -40 to 80 °C, and above the "
                 "rubber's glass transition",
     .solves = {.fits = 2 * ANSWERS, .films = 10 * ANSWERS, .cycles = ANSWERS},
-    .solve = solve,
+    .grid = true,
+    .share = SHARE,
+    .asks_grid = is_closed,
+    .extra = extra,
+    .extras = sizeof extra / sizeof extra[0],
+    .derive = derive,
     .make = make,
 };

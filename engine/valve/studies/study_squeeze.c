@@ -1,53 +1,36 @@
 // Load, peak pressure and width of the contact over the squeeze, by every fitment model beside the
 // finite-strain ring.
 //
-// The bore moves and the groove floor stays, D = D_floor + 2 g with g = d (1 - s): the stretch on
-// the floor stays as it is and the squeeze alone changes. No pressure, no walls, no friction. The
-// closed forms and the discs' circumferences are those of the definitions in contact/fit.h.
-// Lindley, Green and English, Hertz and Karaszkiewicz know no stretch, so a second ring without
-// stretch (its inner diameter the floor's) shows how much of a difference that is: a ring stretched
-// by 15 % flattens and does not touch at all below some 7 % of squeeze.
+// The grid is that of assets/studies/squeeze.study; lines in its order. The closed forms and the
+// discs' circumferences are those of the definitions in contact/fit.h. Lindley, Green and English,
+// Hertz and Karaszkiewicz know no stretch, so a second ring without stretch (its inner diameter the
+// floor's) shows how much of a difference that is: a ring stretched by 15 % flattens and does not
+// touch at all below some 7 % of squeeze.
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
 
 enum { RING, RING_UNSTRETCHED, DISC, DISC_THESIS, LINDLEY, GREEN, HERTZ, KARASZKIEWICZ, MODELS };
+enum { CONTACT = 3 }; // load, peak, width
 
 static const struct {
   const char *name;
-  SbFitModel model;
   SbStudyStyle style;
-  int points;     // over the range
-  bool stretched; // as the scene stretches it
+  int points; // over the range
 } models[MODELS] = {
-    [RING] = {"ring", SB_FIT_RING, SB_STUDY_CURVE, 20, true},
-    [RING_UNSTRETCHED] = {"ring, not stretched", SB_FIT_RING, SB_STUDY_CURVE, 20, false},
-    [DISC] = {"disc", SB_FIT_DISC, SB_STUDY_CURVE, 39, true},
-    [DISC_THESIS] = {"disc-thesis", SB_FIT_DISC_THESIS, SB_STUDY_CURVE, 39, true},
-    [LINDLEY] = {"Lindley", SB_FIT_LINDLEY, SB_STUDY_REFERENCE, 77, true},
-    [GREEN] = {"Green & English", SB_FIT_GREEN_ENGLISH, SB_STUDY_REFERENCE, 77, true},
-    [HERTZ] = {"Hertz", SB_FIT_HERTZ, SB_STUDY_REFERENCE, 77, true},
-    [KARASZKIEWICZ] = {"Karaszkiewicz", SB_FIT_KARASZKIEWICZ, SB_STUDY_REFERENCE, 77, true},
+    [RING] = {"ring", SB_STUDY_CURVE, 20},
+    [RING_UNSTRETCHED] = {"ring, not stretched", SB_STUDY_CURVE, 20},
+    [DISC] = {"disc", SB_STUDY_CURVE, 39},
+    [DISC_THESIS] = {"disc-thesis", SB_STUDY_CURVE, 39},
+    [LINDLEY] = {"Lindley", SB_STUDY_REFERENCE, 77},
+    [GREEN] = {"Green & English", SB_STUDY_REFERENCE, 77},
+    [HERTZ] = {"Hertz", SB_STUDY_REFERENCE, 77},
+    [KARASZKIEWICZ] = {"Karaszkiewicz", SB_STUDY_REFERENCE, 77},
 };
 
 // Squeezes of the table beside the design's own.
 static const double table_squeeze[] = {0.10, 0.20, 0.30, 0.40};
 enum { TABLE = sizeof table_squeeze / sizeof table_squeeze[0] };
-
-// One model at one squeeze: its contact.
-static void solve(double *value, SbStudyWork *work, int line, double squeeze) {
-  const SbModel *scene = work->scene;
-  double floor = scene->bore_diameter - 2 * scene->radial_space;
-  double inner = models[line].stretched ? scene->seal[SB_OUTER].inner_diameter : floor;
-  SbOverride override[SB_STUDY_SQUEEZED + 4];
-  sb_study_squeezed(override, work, squeeze);
-  override[3] = (SbOverride){SB_P_MODELS_FIT, models[line].model};
-  override[4] = (SbOverride){SB_P_SEAL_OUTER_INNER_DIAMETER, inner};
-  override[5] = (SbOverride){SB_P_CANISTER_PRESSURE, 0};
-  // No wall stands near, nor is the groove ever full.
-  override[6] = (SbOverride){SB_P_GLAND_AXIAL_WIDTH, 4 * scene->seal[SB_OUTER].section_diameter};
-  sb_study_contact(value, work, override, SB_STUDY_SQUEEZED + 4);
-}
 
 static double against_ring(SbStudyWork *work, int line, double squeeze, int quantity) {
   const double value = sb_study_at(work, line, squeeze)[quantity];
@@ -64,12 +47,12 @@ static void make(SbStudyWork *work) {
   for (int m = 0; m < MODELS; m++) {
     sb_study_curves(work, models[m].style, models[m].name, m, NULL, models[m].points);
     double *value = sb_study_row(out, "%s", models[m].name)->value;
-    for (int q = 0; q < SB_STUDY_CONTACT; q++) {
+    for (int q = 0; q < CONTACT; q++) {
       value[2 * q] = sb_study_at(work, m, design)[q];
       value[2 * q + 1] = against_ring(work, m, design, q);
     }
     for (int k = 0; k < TABLE; k++) {
-      value[2 * SB_STUDY_CONTACT + k] = against_ring(work, m, table_squeeze[k], 0);
+      value[2 * CONTACT + k] = against_ring(work, m, table_squeeze[k], 0);
     }
   }
   sb_study_note(out,
@@ -92,9 +75,7 @@ const SbStudyDesign sb_study_squeeze = {
               "Karaszkiewicz",
     .validity = "Lindley to 25 %, Green & English to 32 %, Karaszkiewicz 7 to 25 %, discs: linear "
                 "strain, an estimate beyond 10 %; ring: neo-Hookean",
-    .outer = true,
-    .smooth = true,
+    .grid = true,
     .solves = {.rings = 2 * (20 + 1 + TABLE), .discs = 2 * (39 + 1 + TABLE)},
-    .solve = solve,
     .make = make,
 };

@@ -2,12 +2,14 @@
 // time, by the scene's rubber (rubber/rubber_time.h: Prony relaxation, network scission and set,
 // swell) and its own models of fitment, film and surface.
 //
-// At every time the ring is compiled afresh as the cycle would find it after that storage; nothing
-// is interpolated. Pressures are those of B-C, sliding at the drive's speed. Leaves out what the
-// rubber model leaves out: ageing that depends on the contact, desorption, evaporation.
+// The grid is assets/studies/storage.study. At every time the ring is compiled afresh as the cycle
+// would find it after that storage; nothing is interpolated. Pressures are those of B-C, sliding at
+// the drive's speed. Leaves out what the rubber model leaves out: ageing that depends on the
+// contact, desorption, evaporation.
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { POINTS = 33, TIMES = 7 };
 enum { LOAD, FRICTION, SQUEEZE, MODULUS, SECTION, NETWORK, SET, UPTAKE };
@@ -23,25 +25,22 @@ static const struct {
                   {"1 year", 365 * 86400.0},
                   {"3 years", 3 * 365 * 86400.0}};
 
-// One seal after a storage time.
-static void solve(double *value, SbStudyWork *work, int seal, double time) {
-  static const char *const paths[SB_SEAL_COUNT][3] = {
-      {"seals.outer.load_N", "seals.outer.friction_boundary_N", "seals.outer.friction_viscous_N"},
-      {"seals.inner.load_N", "seals.inner.friction_boundary_N", "seals.inner.friction_viscous_N"}};
-  double asked[3];
-  sb_study_ask(work, asked, paths[seal], 3, &(SbOverride){SB_P_STORAGE_TIME, time}, 1);
-  value[LOAD] = asked[0];
-  value[FRICTION] = asked[1] + asked[2];
-  const SbModel *then = sb_evaluator_model(work->evaluator);
-  if (then != NULL) {
-    const SbSealModel *ring = &then->seal[seal];
-    value[SQUEEZE] = ring->squeeze;
-    value[MODULUS] = ring->modulus;
-    value[SECTION] = ring->section_diameter;
-    value[NETWORK] = ring->storage.network;
-    value[SET] = ring->storage.compression_set;
-    value[UPTAKE] = then->rubber.swell_mass > 0 ? ring->storage.uptake : NAN;
-  }
+// The grid has both seals in one line, the outer's figures first.
+enum { BOUNDARY = 1, VISCOUS, SECOND, ASKED = 9 };
+
+static void read_seal(double *value, const double *asked, const SbModel *scene) {
+  value[LOAD] = asked[LOAD];
+  value[FRICTION] = asked[BOUNDARY] + asked[VISCOUS];
+  memcpy(value + SQUEEZE, asked + SECOND, 5 * sizeof *value);
+  value[UPTAKE] = scene->rubber.swell_mass > 0 ? asked[ASKED - 1] : NAN;
+}
+
+static void derive(double *value, SbStudyWork *work, int line, double time) {
+  double asked[2 * ASKED];
+  (void)line;
+  memcpy(asked, value, sizeof asked);
+  read_seal(value, asked, work->scene);
+  read_seal(sb_study_put(work, SB_INNER, time), asked + ASKED, work->scene);
 }
 
 static void make(SbStudyWork *work) {
@@ -92,6 +91,7 @@ const SbStudyDesign sb_study_storage = {
                 "constants are the scene's, the thesis gives but table 2.2",
     .solves = {.fits = (POINTS + TIMES + 1) * SB_SEAL_COUNT,
                .films = (POINTS + TIMES + 1) * SB_SEAL_COUNT},
-    .solve = solve,
+    .grid = true,
+    .derive = derive,
     .make = make,
 };

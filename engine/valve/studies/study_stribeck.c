@@ -5,7 +5,8 @@
 // asked of a run of the scene: curve and cycle are one solution, and a point stands at the cycle's
 // own speed. Film, asperities and friction are the scene's models; with models.asperities = coupled
 // film and asperities share the load (film/ehl.h). The contact of a ring keeps the drag of the
-// cycle's speed. Between solved speeds the curve is interpolated, with its error told.
+// cycle's speed, so that this is one valve and no grid. Between solved speeds the curve is
+// interpolated, with its error told.
 #include "engine/valve/cycle.h"
 #include "engine/valve/speed_states.h"
 #include "engine/valve/studies/study_private.h"

@@ -10,73 +10,61 @@
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { SIZES = 7, STEPS = 2, FIGURES = 5 }; // STEPS on either side of the nominal size
-enum { LOAD_OUTER, BREAKAWAY, RETURN, LOAD_INNER, DOSE };
+enum { LOAD_OUTER, BREAKAWAY, RETURN, LOAD_INNER, DOSE, TURNED };
 
-// A line of the study is a set of sizes, a bit for each, and those of it that move the other way.
-enum { EVERY = (1 << SIZES) - 1, REVERSED = SIZES };
+// A line of assets/studies/tolerance.study is a size. Behind them the corners: a bit for each size
+// that moves the other way.
+enum { CORNERS = SIZES };
 
+// The sizes' places in their bands there; names, and the half-width of the band.
 static const struct {
-  const char *name;
-  SbParamId size, band; // and the half-width of its tolerance band
+  const char *place, *name;
+  SbParamId band;
 } sizes[SIZES] = {
-    {"section, outer ring", SB_P_SEAL_OUTER_SECTION_DIAMETER,
-     SB_P_SEAL_OUTER_SECTION_DIAMETER_TOLERANCE},
-    {"section, inner ring", SB_P_SEAL_INNER_SECTION_DIAMETER,
-     SB_P_SEAL_INNER_SECTION_DIAMETER_TOLERANCE},
-    {"inner diameter, outer ring", SB_P_SEAL_OUTER_INNER_DIAMETER,
-     SB_P_SEAL_OUTER_INNER_DIAMETER_TOLERANCE},
-    {"inner diameter, inner ring", SB_P_SEAL_INNER_INNER_DIAMETER,
-     SB_P_SEAL_INNER_INNER_DIAMETER_TOLERANCE},
-    {"radial space", SB_P_GLAND_RADIAL_SPACE, SB_P_GLAND_RADIAL_SPACE_TOLERANCE},
-    {"bore", SB_P_BORE_DIAMETER, SB_P_BORE_DIAMETER_TOLERANCE},
-    {"stem", SB_P_STEM_PRESSURE_DIAMETER, SB_P_STEM_PRESSURE_DIAMETER_TOLERANCE},
+    {"outer_section", "section, outer ring", SB_P_SEAL_OUTER_SECTION_DIAMETER_TOLERANCE},
+    {"inner_section", "section, inner ring", SB_P_SEAL_INNER_SECTION_DIAMETER_TOLERANCE},
+    {"outer_inside", "inner diameter, outer ring", SB_P_SEAL_OUTER_INNER_DIAMETER_TOLERANCE},
+    {"inner_inside", "inner diameter, inner ring", SB_P_SEAL_INNER_INNER_DIAMETER_TOLERANCE},
+    {"space", "radial space", SB_P_GLAND_RADIAL_SPACE_TOLERANCE},
+    {"bore", "bore", SB_P_BORE_DIAMETER_TOLERANCE},
+    {"stem", "stem", SB_P_STEM_PRESSURE_DIAMETER_TOLERANCE},
 };
 
-// The figures with the sizes of a line at x of their bands, about the base's own.
-static void solve(double *value, SbStudyWork *work, int line, double x) {
-  static const char *const paths[FIGURES] = {"seals.outer.load_N", "cycle.force_breakaway_N",
-                                             "cycle.force_return_min_N", "seals.inner.load_N",
-                                             "cycle.dose_mass_kg"};
-  if (x == 0 && line != 0) {
-    memcpy(value, sb_study_at(work, 0, 0), FIGURES * sizeof *value); // nominal, whatever moves
-    return;
-  }
-  SbOverride override[SIZES];
-  const SbParams *base = &work->base.params;
-  for (int i = 0; i < SIZES; i++) {
-    double place = (line >> i & 1) == 0 ? 0 : (line >> REVERSED >> i & 1) == 0 ? x : -x;
-    override[i].id = sizes[i].size;
-    override[i].value =
-        sb_params_get(base, sizes[i].size) + place * sb_params_get(base, sizes[i].band);
-  }
-  sb_study_ask(work, value, paths, FIGURES, override, SIZES);
-  const SbSummary *summary = sb_evaluator_summary(work->evaluator);
-  if (summary == NULL || !summary->stage[SB_STAGE_E].reached) {
+static void derive(double *value, SbStudyWork *work, int line, double x) {
+  (void)work, (void)line, (void)x;
+  if (isnan(value[TURNED])) {
     value[RETURN] = NAN; // the stem never turned back
   }
-  if (summary != NULL) {
-    work->out->error = fmax(work->out->error, summary->error_force); // leaves out what is NaN
+}
+
+#define SHARE 0.75 // of the work that the grid is, the corners aside
+
+static void corner(double *row, const SbStudyWork *work, int line, double x) {
+  for (int i = 0; i < SIZES; i++) {
+    row[sb_study_grid_column(work, sizes[i].place)] = ((line - CORNERS) >> i & 1) == 0 ? x : -x;
   }
 }
 
 static void put_row(SbStudyWork *work, const char *name, int figure) {
-  SbStudyRow *row = sb_study_row(work->out, "%s", name);
+  SbStudy *out = work->out;
+  SbStudyRow *row = sb_study_row(out, "%s", name);
   double squares = 0;
-  int corner = EVERY;
+  int line = CORNERS;
   for (int size = 0; size < SIZES; size++) {
-    const int line = 1 << size;
-    double half = (sb_study_at(work, line, 1)[figure] - sb_study_at(work, line, -1)[figure]) / 2;
+    double half = (sb_study_at(work, size, 1)[figure] - sb_study_at(work, size, -1)[figure]) / 2;
     row->value[5 + size] = half;
     squares += half * half;
-    corner |= half >= 0 ? 0 : line << REVERSED;
+    line += half >= 0 ? 0 : 1 << size;
   }
+  const SbStudyPlace ends[] = {{line, -1, corner}, {line, 1, corner}};
+  const double done = SHARE + (1 - SHARE) * (double)out->row_count / FIGURES;
+  sb_study_more(work, ends, 2, done - (1 - SHARE) / FIGURES, done);
   const double nominal = sb_study_at(work, 0, 0)[figure];
   row->value[0] = nominal;
-  row->value[1] = sb_study_at(work, corner, -1)[figure];
-  row->value[2] = sb_study_at(work, corner, 1)[figure];
+  row->value[1] = sb_study_at(work, line, -1)[figure];
+  row->value[2] = sb_study_at(work, line, 1)[figure];
   row->value[3] = nominal - sqrt(squares);
   row->value[4] = nominal + sqrt(squares);
 }
@@ -93,7 +81,7 @@ static void make(SbStudyWork *work) {
   work->hi = 1;
   double band[SIZES]; // [mm]
   for (int size = 0; size < SIZES; size++) {
-    sb_study_curves(work, SB_STUDY_CURVE, sizes[size].name, 1 << size, NULL, 2 * STEPS + 1);
+    sb_study_curves(work, SB_STUDY_CURVE, sizes[size].name, size, NULL, 2 * STEPS + 1);
     band[size] = 1e3 * sb_params_get(&model->params, sizes[size].band);
   }
   put_row(work, "load of the outer seal", LOAD_OUTER);
@@ -125,6 +113,9 @@ const SbStudyDesign sb_study_tolerance = {
     .validity = "worst case: where every figure rises or falls with every size; root sum of "
                 "squares: independent sizes, linear",
     .solves = {.fits = 2 * CYCLES, .films = 10 * CYCLES, .cycles = CYCLES},
-    .solve = solve,
+    .grid = true,
+    .share = SHARE,
+    .forces = true,
+    .derive = derive,
     .make = make,
 };
