@@ -30,6 +30,12 @@ typedef struct {
   const void *source;
 } SbChartRun;
 
+// A loop in `count` points: displacement [m] and force [N].
+typedef struct {
+  size_t count;
+  const double *displacement, *force;
+} SbChartCurve;
+
 // A bookmark of the user's.
 typedef struct {
   double time;
@@ -38,9 +44,11 @@ typedef struct {
 
 typedef struct {
   SbChartRun run;
-  const SbChartRun *earlier;   // shown at 45 % while `run` is being computed; NULL: none
-  const SbChartRun *pinned;    // to compare with; NULL: none
-  const char *pinned_name;     // "roughness -30 %"
+  const SbChartRun *earlier; // shown at 45 % while `run` is being computed; NULL: none
+  const SbChartRun *pinned;  // to compare with; NULL: none
+  const char *pinned_name;   // "roughness -30 %"
+  // What `run`, which is then of former values, will be at the present ones; NULL: not known.
+  const SbChartCurve *predicted;
   size_t playhead;             // frame shown
   bool playing;                // no effect on layout
   double progress;             // of a running run, 0 to 1

@@ -41,6 +41,11 @@ void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartDat
                     : 10;
   include_run(&data->run, &x1, &y0, &y1);
   include_run(data->pinned, &x1, &y0, &y1);
+  for (size_t i = 0; data->predicted != NULL && i < data->predicted->count; i++) {
+    x1 = fmax(x1, 1e3 * data->predicted->displacement[i]);
+    y0 = fmin(y0, data->predicted->force[i]);
+    y1 = fmax(y1, data->predicted->force[i]);
+  }
   if (data->run.state == SB_CHART_RUNNING) {
     include_run(data->earlier, &x1, &y0, &y1);
   }
@@ -185,6 +190,28 @@ static void draw_other(SbHysteresisView *v, const SbChartRun *run, bool dashed) 
   }
   sb_canvas_polyline(c, p, n);
   sb_labels_avoid(v->labels, p, n, dashed ? 0.7 : 0.4);
+  g_free(p);
+}
+
+// The loop that is predicted of the present values, over the paler one of the former: dashed.
+static void draw_predicted(SbHysteresisView *v, SbRect rect) {
+  const SbChartCurve *curve = v->data->predicted;
+  SbCanvas *c = &v->canvas;
+  const size_t n = curve->count;
+  SbPoint *p = g_new(SbPoint, n);
+  for (size_t i = 0; i < n; i++) {
+    p[i] = sb_hysteresis_pixel(&v->at, curve->displacement[i], curve->force[i]);
+  }
+  sb_canvas_pen(c, SB_LINE_SEAL, &sb_dash_predicted);
+  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
+  sb_canvas_polyline(c, p, n);
+  // Its name with a piece of it, on the line of the axis' name, where nothing else stands.
+  const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
+  const SbRect in = inner_rect(rect, v->flags);
+  const double right = in.x + in.width, y = in.y + (v->flags & SB_CHART_COMPACT ? 34 : 64);
+  const double left = right - sb_canvas_text_width(c, "predicted", &style) - 8;
+  sb_canvas_polyline(c, (SbPoint[]){{left - 24, y - 5}, {left, y - 5}}, 2);
+  sb_canvas_text(c, "predicted", &style, right, y, SB_RIGHT);
   g_free(p);
 }
 
@@ -349,6 +376,9 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
   sb_labels_avoid(v.labels, axis, 2, 0.3);
   const SbFrame *now = sb_chart_frame(data);
   size_t traced = data->run.trace ? sb_trace_frames(data->run.trace) : 0;
+  if (data->predicted != NULL) {
+    cairo_push_group(cr);
+  }
   if (data->run.count > 0 && traced > 0) {
     bool whole = !now || flags & SB_CHART_WHOLE;
     if (!whole) {
@@ -366,6 +396,11 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
     sb_hysteresis_notes(&v);
   } else {
     draw_empty(&v);
+  }
+  if (data->predicted != NULL) {
+    cairo_pop_group_to_source(cr);
+    cairo_paint_with_alpha(cr, SB_OPACITY_EARLIER);
+    draw_predicted(&v, rect);
   }
   g_free(v.labels);
   sb_canvas_finish(c);

@@ -4,13 +4,15 @@
 
 enum { LARGE = 100000 }; // frames
 
-SbDisplayedRun *sb_displayed_run_new(SbRunHandle *handle, const SbParams *params) {
+SbDisplayedRun *sb_displayed_run_new(SbRunHandle *handle, const SbParams *params,
+                                     SbRunGrade grade) {
   const SbRun *run = sb_run_handle_run(handle);
   SbDisplayedRun *shown = g_new0(SbDisplayedRun, 1);
   shown->references = 1;
   shown->handle = handle;
   shown->run = run;
   shown->params = *params;
+  shown->grade = grade;
   shown->trace = sb_trace_create(sb_run_model(run));
   sb_chart_run_init(&shown->chart, run, shown->trace, SB_CHART_RUNNING);
   shown->chart.count = 0;

@@ -8,6 +8,13 @@
 
 #include <glib.h>
 
+// How a run was solved.
+typedef enum {
+  SB_GRADE_COARSE, // its rings to a tolerance of 1 %, with fewer frames
+  SB_GRADE_NEAR,   // its rings started from those of a whole run of other values
+  SB_GRADE_WHOLE   // cold: the figures of `sealbench run`, to the bit
+} SbRunGrade;
+
 typedef struct {
   int references;
   SbRunHandle *handle; // owned reference
@@ -15,10 +22,11 @@ typedef struct {
   SbTrace *trace;      // owned
   SbChartRun chart;    // refers to both
   SbParams params;     // the values it was made from
+  SbRunGrade grade;
 } SbDisplayedRun;
 
 // Takes the reference over; the handle's run must exist.
-SbDisplayedRun *sb_displayed_run_new(SbRunHandle *handle, const SbParams *params);
+SbDisplayedRun *sb_displayed_run_new(SbRunHandle *handle, const SbParams *params, SbRunGrade grade);
 SbDisplayedRun *sb_displayed_run_ref(SbDisplayedRun *shown);
 void sb_displayed_run_unref(SbDisplayedRun *shown); // takes NULL
 

@@ -11,6 +11,7 @@
 #include "app/chart/data.h"
 #include "app/document/document.h"
 #include "app/run/runner.h"
+#include "app/session/displayed_run.h"
 #include "engine/valve/sealbench.h"
 
 #include <gio/gio.h>
@@ -116,7 +117,19 @@ void sb_session_set_auto_run(SbSession *session, gboolean on);
 const SbRun *sb_session_run(SbSession *session);
 const SbFrame *sb_session_frames(SbSession *session, size_t *count);
 
-// The shown run for others to keep, once it has ended: a reference for the caller; NULL before.
+// How the shown run was solved, and that in words for the user: NULL of a whole run, whose figures
+// are those of `sealbench run`. Borrowed.
+SbRunGrade sb_session_grade(SbSession *session);
+const char *sb_session_grade_text(SbSession *session);
+
+// Whether the shown run may be exported and pinned: it has ended and is a whole one.
+gboolean sb_session_may_keep(SbSession *session);
+
+// An edit of a parameter is about to begin: what its loop will be is made ready in the background,
+// where runs take long.
+void sb_session_prepare(SbSession *session, SbParamId id);
+
+// The shown run for others to keep, once it may be kept: a reference for the caller; NULL before.
 SbRunHandle *sb_session_handle(SbSession *session);
 
 // The shown run's summary; NULL while it is computed.

@@ -1,9 +1,11 @@
-// The inside of a session, shared by session.c (document), session_run.c (runs) and
-// session_playhead.c (playhead).
+// The inside of a session, shared by session.c (document), session_run.c (runs), session_shown.c
+// (what is shown of them), session_slope.c (what is predicted) and session_playhead.c (playhead).
 #pragma once
 
 #include "app/session/displayed_run.h"
 #include "app/session/playhead.h"
+#include "app/session/prediction.h"
+#include "app/session/run_cache.h"
 #include "app/session/session.h"
 
 typedef enum {
@@ -30,16 +32,30 @@ struct _SbSession {
   // as it is worth it, else the run before.
   SbRunner *runner; // owned
   SbSessionInbox *inbox;
-  unsigned ticket; // of the request under way; 0 if none is
-  SbParams asked;  // its values
+  unsigned ticket;  // of the request under way; 0 if none is
+  SbParams asked;   // its values
+  SbRunGrade grade; // its
   SbDisplayedRun *fresh, *shown, *earlier, *pinned;
   char *pinned_name;
   SbSessionState state;
   char *failure;
   gboolean auto_run;
   guint debounce;  // source of the delayed start
+  guint later;     // source of the whole run after a near one
+  gboolean heavy;  // runs of the present values come in grades
   gboolean former; // the displayed run is of former values, and stays
-  gint64 started;  // [us]
+  SbRunCache *cache;
+
+  // What other values' rings start from, and what is predicted of their loops.
+  SbDisplayedRun *base; // the last whole run of solved rings, NULL: none
+  SbPrediction *prediction;
+  gboolean predicted;    // its curve is of the present values
+  SbRunner *slopes;      // owned, NULL until it is needed
+  unsigned slope_ticket; // of the neighbour under way; 0 if none is
+  SbParamId slope_id;
+  SbParams slope_params;
+
+  gint64 started; // [us]
 
   double azimuth, elevation; // of the cutaway's camera [rad]
 
@@ -58,6 +74,31 @@ void sb_session_playhead_changed(SbSession *session);
 
 // Forgets runs and the playhead (another document).
 void sb_session_clear_runs(SbSession *session);
+
+// Takes a reference to `value` (NULL: none) in place of the one in *run.
+void sb_session_hold(SbDisplayedRun **run, SbDisplayedRun *value);
+
+// What the displayed run is; whether it is of the present values is another question.
+SbSessionState sb_session_shown_state(const SbSession *session);
+gboolean sb_session_is_former(SbSession *session);
+void sb_session_refresh_chart(SbSession *session);
+void sb_session_run_changed(SbSession *session);
+
+// SbRunnerNotify; `data` is the session's inbox.
+void sb_session_notify(void *data);
+
+// Predicts the loop of the present values, if the shown one is not theirs.
+void sb_session_predict(SbSession *session);
+
+// Takes a complete run as the base, or as a neighbour of it, if it is one.
+void sb_session_set_base(SbSession *session, SbDisplayedRun *run);
+void sb_session_drop_base(SbSession *session);
+
+// Looks whether a neighbour is there.
+void sb_session_poll_slope(SbSession *session);
+
+// A run that lasts longer is shown while it grows [us].
+enum { SB_SESSION_WATCH_US = 120000 };
 
 void sb_session_init_runs(SbSession *session);
 void sb_session_dispose_runs(SbSession *session);

@@ -1,7 +1,18 @@
-// Runs of a session. An edit starts a run 150 ms later; a newer edit cancels it
-// and starts again with the newest values. The new run replaces the shown one when it is complete,
-// or once it has lasted long enough to be watched while it grows; the run before then stays behind
-// it, paler, until the new one is complete, and comes back if the new one fails.
+// Runs of a session. An edit starts a run shortly after; a newer edit cancels it and starts again
+// with the newest values. The new run replaces the shown one when it is complete, or once it has
+// lasted long enough to be watched while it grows; the run before then stays behind it, paler,
+// until the new one is complete, and comes back if the new one fails. Values that were solved
+// before have their run back at once (run_cache.h).
+//
+// Solved rings take seconds. Where the plan expects more than HEAVY_S, runs come in grades, each
+// shown when it is complete, one at a time, the one before paler until then:
+//   - with a whole run of other values at hand, one whose rings start from that run's (near); its
+//     figures are a cold run's within the told errors, and hang on these two sets of values alone;
+//   - without, one to a coarse tolerance, where the plan expects that to take less than half;
+//   - then the whole run, cold: at once after a coarse one, after IDLE_MS without an edit after a
+//     near one. Its figures are those of `sealbench run`: it alone is exported, pinned, and what
+//     rings of other values start from.
+// A grade that fails is left out: the whole run then tells why.
 #include "app/session/session_private.h"
 
 #include "app/base/format.h"
@@ -12,83 +23,119 @@
 #include <string.h>
 
 enum {
-  DEBOUNCE_MS = 150,      // after the last edit
-  WATCH_US = 120000,      // a run that lasts longer is shown while it grows
+  DEBOUNCE_MS = 30,       // after the last edit; a run that is overtaken ends within 50 ms
+  IDLE_MS = 1000,         // after a near run, before the whole one
   FRAMES_PER_TICK = 20000 // read per drawn frame: about 2 ms
 };
 
-static void start_now(SbSession *session);
+// Expected time of a run from which on it comes in grades [s], and the share of it that a coarse
+// run may take.
+static const double HEAVY_S = 0.15, COARSE_SHARE = 0.5;
 
-static void set_reference(SbDisplayedRun **run, SbDisplayedRun *value) {
-  SbDisplayedRun *old = *run;
-  *run = sb_displayed_run_ref(value);
-  sb_displayed_run_unref(old);
-}
+// Of a coarse run.
+static const double COARSE_TOLERANCE = 0.01, COARSE_FRAMES = 200;
 
-// What views see ---------------------------------------------------------------------------------
+// The window shows everything: the views of the scene do not limit it.
+static const unsigned VIEWS = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION;
 
-// What the displayed run is; whether it is of the present values is another question.
-static SbSessionState displayed_state(const SbSession *session) {
-  switch (session->shown != NULL ? session->shown->chart.state : SB_CHART_EMPTY) {
-  case SB_CHART_RUNNING:
-  case SB_CHART_PARTIAL:
-    return SB_SESSION_PARTIAL;
-  case SB_CHART_FAILED:
-    return SB_SESSION_FAILED;
-  case SB_CHART_DONE:
-    return SB_SESSION_DONE;
-  default:
-    return SB_SESSION_EMPTY;
+static void cancel_source(guint *source) {
+  if (*source != 0) {
+    g_source_remove(*source);
+    *source = 0;
   }
 }
 
-// Whether the displayed run is of former values and nothing is about to replace it: an edit that a
-// short run answers at once does not make the pictures flicker.
-static gboolean shows_former(SbSession *session) {
-  if (session->shown == NULL || session->debounce != 0 ||
-      (session->ticket != 0 && g_get_monotonic_time() - session->started <= WATCH_US)) {
-    return FALSE;
+static bool same_values(const SbParams *a, const SbParams *b) {
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    if (sb_params_get(a, (SbParamId)id) != sb_params_get(b, (SbParamId)id)) {
+      return false;
+    }
   }
-  return sb_session_is_stale(session, NULL, NULL);
+  return true;
 }
 
-static void refresh_chart(SbSession *session) {
-  SbChartData *chart = &session->chart;
-  memset(chart, 0, sizeof *chart);
-  if (session->shown != NULL) {
-    chart->run = session->shown->chart;
-  } else if (session->ticket != 0) {
-    // Nothing to show before the first frame; the axes are those of the values.
-    chart->run.state = SB_CHART_RUNNING;
-    chart->run.model = sb_session_model(session);
+// Whether a run is complete and of these values.
+static bool answers(const SbDisplayedRun *run, const SbParams *params) {
+  return run != NULL && run->chart.state == SB_CHART_DONE && same_values(&run->params, params);
+}
+
+// Grades -----------------------------------------------------------------------------------------
+
+// Predicted processor time of a model's run [s]; 0 without solved rings.
+static double expected(const SbModel *model, bool coarse) {
+  SbPlan plan;
+  sb_plan_wished(&plan, model, &(SbPlanWishes){.views = VIEWS, .life = true, .coarse = coarse});
+  return plan.ring ? sb_plan_cost(&plan) : 0;
+}
+
+// NULL where the model is no finer or memory is short.
+static SbModel *coarse_model(const SbModel *model) {
+  const double tolerance = sb_model_value(model, SB_P_OUTPUT_TOLERANCE);
+  const SbOverride override[] = {
+      {SB_P_OUTPUT_TOLERANCE, COARSE_TOLERANCE},
+      {SB_P_OUTPUT_FRAMES, fmin(sb_model_value(model, SB_P_OUTPUT_FRAMES), COARSE_FRAMES)}};
+  SbModel *coarse = NULL;
+  if (tolerance < COARSE_TOLERANCE &&
+      sb_model_derive(&coarse, model, override, G_N_ELEMENTS(override), NULL) != SB_OK) {
+    return NULL;
   }
-  chart->earlier = session->earlier != NULL ? &session->earlier->chart : NULL;
-  chart->pinned = session->pinned != NULL ? &session->pinned->chart : NULL;
-  chart->pinned_name = session->pinned_name;
-  chart->playhead = session->playhead.frame;
-  chart->playing = session->playhead.playing;
-  chart->progress = sb_session_progress(session);
-  chart->title = sb_document_title(session->document);
-  chart->hash = session->hash;
-  chart->failure = session->failure;
+  return coarse;
 }
 
-static void run_changed(SbSession *session) {
-  g_free(session->hash);
-  session->hash = sb_document_sha256(session->document);
-  session->former = shows_former(session);
-  refresh_chart(session);
-  sb_session_emit(session, SB_SIGNAL_RUN);
+// Asks for a run of the present values. A coarse one that does not pay is the whole one.
+static void submit(SbSession *session, SbRunGrade grade) {
+  g_autoptr(SbModel) coarse = grade == SB_GRADE_COARSE ? coarse_model(session->model) : NULL;
+  if (grade == SB_GRADE_COARSE &&
+      (coarse == NULL || expected(coarse, true) > COARSE_SHARE * expected(session->model, false))) {
+    g_clear_pointer(&coarse, sb_model_destroy);
+    grade = SB_GRADE_WHOLE;
+  }
+  sb_session_hold(&session->fresh, NULL);
+  session->asked = sb_document_params(session->document);
+  session->grade = grade;
+  session->started = g_get_monotonic_time();
+  session->state = SB_SESSION_RUNNING;
+  session->ticket = sb_runner_submit(
+      session->runner, &(SbRunRequest){
+                           .model = coarse != NULL ? coarse : session->model,
+                           .wishes = {.views = VIEWS, .life = true, .coarse = coarse != NULL},
+                           .start = grade == SB_GRADE_NEAR ? session->base->handle : NULL,
+                           .keep = grade == SB_GRADE_WHOLE && session->heavy,
+                       });
 }
 
-void sb_session_playhead_changed(SbSession *session) {
-  session->chart.playhead = session->playhead.frame;
-  session->chart.playing = session->playhead.playing;
-  sb_session_emit(session, SB_SIGNAL_PLAYHEAD);
+static SbRunGrade first_grade(SbSession *session) {
+  if (!session->heavy || answers(session->shown, &session->asked)) {
+    return SB_GRADE_WHOLE; // asked for again
+  }
+  return session->base != NULL ? SB_GRADE_NEAR : SB_GRADE_COARSE;
 }
 
-const SbChartData *sb_session_chart(SbSession *session) {
-  return &session->chart;
+static gboolean on_idle_long(gpointer data) {
+  SbSession *session = data;
+  session->later = 0;
+  submit(session, SB_GRADE_WHOLE);
+  sb_session_run_changed(session);
+  return G_SOURCE_REMOVE;
+}
+
+// What follows after a run of the present values is shown.
+static void go_on(SbSession *session) {
+  if (session->shown->grade == SB_GRADE_COARSE) {
+    submit(session, SB_GRADE_WHOLE);
+  } else if (session->shown->grade == SB_GRADE_NEAR) {
+    session->state = SB_SESSION_RUNNING;
+    session->later = g_timeout_add(IDLE_MS, on_idle_long, session);
+  }
+}
+
+// A complete run for others: by its values, as a neighbour, as the base of rings and of tangents.
+static void keep(SbSession *session, SbDisplayedRun *run) {
+  if (run->grade != SB_GRADE_COARSE) {
+    g_autofree char *hash = sb_document_sha256(session->document);
+    sb_run_cache_put(session->cache, hash, run);
+  }
+  sb_session_set_base(session, run);
 }
 
 // Showing ----------------------------------------------------------------------------------------
@@ -104,8 +151,8 @@ static void display_fresh(SbSession *session) {
   if (session->shown != NULL) {
     sb_playhead_remember(&session->playhead, session->shown->trace, frames, count);
   }
-  set_reference(&session->earlier, session->shown);
-  set_reference(&session->shown, session->fresh);
+  sb_session_hold(&session->earlier, session->shown);
+  sb_session_hold(&session->shown, session->fresh);
 }
 
 static void place_playhead(SbSession *session) {
@@ -146,11 +193,25 @@ static void set_failure(SbSession *session, SbStatus status, const SbReport *rep
   session->failure = g_string_free(g_steal_pointer(&text), FALSE);
 }
 
-// A run that ends without a frame, failed or cancelled, leaves the displayed one as it is.
+static SbSessionState ended_state(const SbSession *session) {
+  return session->failure != NULL ? SB_SESSION_FAILED : sb_session_shown_state(session);
+}
+
+// Takes over what a request has ended with. A run that ends without a frame, failed or cancelled,
+// leaves the displayed one as it is, and so does one that is cancelled while an earlier grade of it
+// is shown.
 static void finish(SbSession *session) {
   SbDisplayedRun *fresh = session->fresh;
   SbStatus status = sb_run_handle_status(fresh->handle);
+  SbParams present = sb_document_params(session->document);
+  const bool current = session->model != NULL && same_values(&session->asked, &present);
   session->ticket = 0;
+  if (fresh->grade != SB_GRADE_WHOLE && status != SB_OK && status != SB_ERROR_CANCELLED &&
+      current) {
+    submit(session, SB_GRADE_WHOLE);
+    sb_session_run_changed(session);
+    return;
+  }
   fresh->chart.summary = sb_run_summary(fresh->run);
   fresh->chart.life = sb_run_life(fresh->run, &fresh->chart.life_count);
   fresh->chart.state = status == SB_OK                ? SB_CHART_DONE
@@ -162,7 +223,7 @@ static void finish(SbSession *session) {
   }
   size_t count = 0;
   sb_run_frames(fresh->run, &count);
-  if (count > 0) {
+  if (count > 0 && !(status == SB_ERROR_CANCELLED && answers(session->shown, &session->asked))) {
     gboolean watched = session->shown == fresh;
     display_fresh(session);
     // A short run is read at once; a long one goes on being read by the ticks.
@@ -171,9 +232,13 @@ static void finish(SbSession *session) {
       place_playhead(session);
     }
   }
-  set_reference(&session->earlier, NULL);
-  session->state = session->failure != NULL ? SB_SESSION_FAILED : displayed_state(session);
-  run_changed(session);
+  sb_session_hold(&session->earlier, NULL);
+  session->state = ended_state(session);
+  if (status == SB_OK && current && session->shown == fresh) {
+    keep(session, fresh);
+    go_on(session);
+  }
+  sb_session_run_changed(session);
   sb_session_emit(session, SB_SIGNAL_FRAMES);
   sb_session_playhead_changed(session);
 }
@@ -191,13 +256,13 @@ static void poll_frames(SbSession *session) {
           g_strdup_printf(_("The run could not start: %s."), sb_run_handle_report(handle)->text);
       session->ticket = 0;
       session->state = SB_SESSION_FAILED;
-      run_changed(session);
+      sb_session_run_changed(session);
     }
     sb_run_handle_unref(handle);
     return;
   }
   if (session->fresh == NULL) {
-    session->fresh = sb_displayed_run_new(handle, &session->asked);
+    session->fresh = sb_displayed_run_new(handle, &session->asked, session->grade);
   } else {
     sb_run_handle_unref(handle);
   }
@@ -225,12 +290,13 @@ static gboolean on_inbox(gpointer data) {
   g_atomic_int_set(&inbox->pending, 0);
   if (inbox->session != NULL) {
     poll_frames(inbox->session);
+    sb_session_poll_slope(inbox->session);
   }
   inbox_unref(inbox);
   return G_SOURCE_REMOVE;
 }
 
-static void on_notify(void *data) {
+void sb_session_notify(void *data) {
   SbSessionInbox *inbox = data;
   if (g_atomic_int_compare_and_exchange(&inbox->pending, 0, 1)) {
     g_atomic_int_inc(&inbox->references);
@@ -239,10 +305,8 @@ static void on_notify(void *data) {
 }
 
 static void start_now(SbSession *session) {
-  if (session->debounce != 0) {
-    g_source_remove(session->debounce);
-    session->debounce = 0;
-  }
+  cancel_source(&session->debounce);
+  cancel_source(&session->later);
   if (session->model == NULL) {
     return;
   }
@@ -254,20 +318,15 @@ static void start_now(SbSession *session) {
       size_t count = 0;
       const SbFrame *frames = sb_session_frames(session, &count);
       sb_playhead_remember(&session->playhead, session->shown->trace, frames, count);
-      set_reference(&session->shown, session->earlier);
+      sb_session_hold(&session->shown, session->earlier);
       place_playhead(session);
     }
   }
-  set_reference(&session->earlier, NULL);
-  set_reference(&session->fresh, NULL);
+  sb_session_hold(&session->earlier, NULL);
   g_clear_pointer(&session->failure, g_free);
-  // The window shows everything: the views of the scene do not limit it.
   session->asked = sb_document_params(session->document);
-  session->started = g_get_monotonic_time();
-  session->state = SB_SESSION_RUNNING;
-  session->ticket = sb_runner_submit(session->runner, session->model,
-                                     SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION);
-  run_changed(session);
+  submit(session, first_grade(session));
+  sb_session_run_changed(session);
 }
 
 static gboolean on_debounced(gpointer data) {
@@ -277,24 +336,54 @@ static gboolean on_debounced(gpointer data) {
   return G_SOURCE_REMOVE;
 }
 
+// Shows a complete run of the present values in place of what is shown or under way.
+static void adopt(SbSession *session, SbDisplayedRun *run) {
+  if (session->ticket != 0) {
+    sb_runner_cancel(session->runner);
+    session->ticket = 0;
+  }
+  if (run != session->shown) {
+    sb_session_hold(&session->fresh, run);
+    display_fresh(session);
+    place_playhead(session);
+  }
+  sb_session_hold(&session->fresh, NULL);
+  sb_session_hold(&session->earlier, NULL);
+  g_clear_pointer(&session->failure, g_free);
+  session->state = sb_session_shown_state(session);
+  sb_session_set_base(session, session->shown);
+  if (session->auto_run) {
+    go_on(session);
+  }
+  sb_session_run_changed(session);
+  sb_session_emit(session, SB_SIGNAL_FRAMES);
+  sb_session_playhead_changed(session);
+}
+
 void sb_session_values_changed(SbSession *session) {
-  // Values that are those of the shown or growing run need none (undo back to where it was).
-  const SbParams *newest = session->ticket != 0                ? &session->asked
-                           : session->state == SB_SESSION_DONE ? &session->shown->params
-                                                               : NULL;
   SbParams params = sb_document_params(session->document);
-  gboolean same = newest != NULL;
-  for (int id = 0; same && id < SB_PARAM_COUNT; id++) {
-    same = sb_params_get(&params, (SbParamId)id) == sb_params_get(newest, (SbParamId)id);
+  cancel_source(&session->debounce);
+  cancel_source(&session->later);
+  session->heavy = session->model != NULL && expected(session->model, false) > HEAVY_S;
+  sb_session_predict(session);
+  if (session->ticket == 0) {
+    session->state = ended_state(session);
   }
-  if (session->debounce != 0) {
-    g_source_remove(session->debounce);
-    session->debounce = 0;
+  if (session->ticket == 0 || !same_values(&params, &session->asked)) {
+    g_autofree char *hash = sb_document_sha256(session->document);
+    SbDisplayedRun *known = session->model == NULL             ? NULL
+                            : answers(session->shown, &params) ? session->shown
+                            : answers(session->earlier, &params)
+                                ? session->earlier
+                                : sb_run_cache_get(session->cache, hash);
+    if (known != NULL) {
+      adopt(session, known);
+    } else if (session->model != NULL && session->auto_run) {
+      session->debounce = g_timeout_add(DEBOUNCE_MS, on_debounced, session);
+      session->state = session->heavy ? SB_SESSION_RUNNING : session->state;
+    }
   }
-  if (!same && session->model != NULL && session->auto_run) {
-    session->debounce = g_timeout_add(DEBOUNCE_MS, on_debounced, session);
-  }
-  session->former = shows_former(session);
+  session->former = sb_session_is_former(session);
 }
 
 void sb_session_start(SbSession *session) {
@@ -302,16 +391,15 @@ void sb_session_start(SbSession *session) {
 }
 
 void sb_session_stop(SbSession *session) {
-  if (session->debounce != 0) {
-    g_source_remove(session->debounce);
-    session->debounce = 0;
-  }
+  const bool waits = session->debounce != 0 || session->later != 0;
+  cancel_source(&session->debounce);
+  cancel_source(&session->later);
   sb_runner_cancel(session->runner);
-  if (session->ticket != 0 && session->fresh == NULL) {
+  if (session->ticket != 0 ? session->fresh == NULL : waits) {
     // It never began.
     session->ticket = 0;
-    session->state = displayed_state(session);
-    run_changed(session);
+    session->state = ended_state(session);
+    sb_session_run_changed(session);
   }
 }
 
@@ -322,134 +410,21 @@ void sb_session_set_auto_run(SbSession *session, gboolean on) {
   }
 }
 
-// Questions --------------------------------------------------------------------------------------
-
-SbSessionState sb_session_state(SbSession *session) {
-  return session->state;
-}
-
-double sb_session_progress(SbSession *session) {
-  return session->ticket != 0 && session->fresh != NULL
-             ? sb_run_handle_fraction(session->fresh->handle)
-             : 0;
-}
-
-const SbRun *sb_session_run(SbSession *session) {
-  return session->shown != NULL ? session->shown->run : NULL;
-}
-
-const SbFrame *sb_session_frames(SbSession *session, size_t *count) {
-  *count = session->shown != NULL ? session->shown->chart.count : 0;
-  return session->shown != NULL ? session->shown->chart.frames : NULL;
-}
-
-SbRunHandle *sb_session_handle(SbSession *session) {
-  return session->shown != NULL && session->shown->chart.summary != NULL
-             ? sb_run_handle_ref(session->shown->handle)
-             : NULL;
-}
-
-const SbSummary *sb_session_summary(SbSession *session) {
-  return session->shown != NULL ? session->shown->chart.summary : NULL;
-}
-
-const char *sb_session_failure(SbSession *session) {
-  return session->failure;
-}
-
-gboolean sb_session_is_stale(SbSession *session, int *id, double *value) {
-  if (session->shown == NULL) {
-    return FALSE;
-  }
-  SbParams params = sb_document_params(session->document);
-  int found = 0;
-  for (int i = 0; i < SB_PARAM_COUNT; i++) {
-    double old = sb_params_get(&session->shown->params, (SbParamId)i);
-    gboolean differs = sb_params_get(&params, (SbParamId)i) != old;
-    // An override that only follows its parent is not a change of its own.
-    gboolean follows =
-        sb_param((SbParamId)i)->parent >= 0 && !params.given[i] && !session->shown->params.given[i];
-    if (differs && !follows) {
-      found++;
-      if (id != NULL) {
-        *id = found == 1 ? i : -1;
-      }
-      if (value != NULL) {
-        *value = old;
-      }
-    }
-  }
-  return found > 0;
-}
-
-gboolean sb_session_shows_former(SbSession *session) {
-  return session->former;
-}
-
-char *sb_session_former_text(SbSession *session) {
-  int id = -1;
-  double value = 0;
-  if (!session->former || !sb_session_is_stale(session, &id, &value)) {
-    return NULL;
-  }
-  if (id < 0) {
-    return g_strdup(_("run of earlier values"));
-  }
-  g_autofree char *label = sb_translation_inside(sb_param((SbParamId)id)->label);
-  g_autofree char *shown = sb_param_format((SbParamId)id, value);
-  return g_strdup_printf(_("run with %s %s"), label, shown);
-}
-
-char *sb_session_stale_text(SbSession *session) {
-  int id = -1;
-  double value = 0;
-  if (!sb_session_is_stale(session, &id, &value)) {
-    return NULL;
-  }
-  if (id < 0) {
-    return g_strdup("stale: values have changed since this run");
-  }
-  g_autofree char *label = g_utf8_strdown(sb_param((SbParamId)id)->label, -1);
-  g_autofree char *shown = sb_param_format((SbParamId)id, value);
-  return g_strdup_printf("stale: this run is with %s %s", label, shown);
-}
-
-static char *pin_name(SbSession *session) {
-  char peak[SB_FORMAT_MAX];
-  sb_format_figure(peak, sb_run_summary(session->pinned->run),
-                   sb_figure_find("cycle.force_breakaway_N"));
-  return g_strdup_printf("break-away %s", peak);
-}
-
-void sb_session_pin(SbSession *session, gboolean on) {
-  set_reference(&session->pinned,
-                on && session->shown != NULL && session->shown->chart.summary != NULL
-                    ? session->shown
-                    : NULL);
-  g_clear_pointer(&session->pinned_name, g_free);
-  if (session->pinned != NULL) {
-    session->pinned_name = pin_name(session);
-  }
-  run_changed(session);
-}
-
-const char *sb_session_pinned_name(SbSession *session) {
-  return session->pinned_name;
-}
-
 // Ticks -------------------------------------------------------------------------------------------
 
 void sb_session_tick(SbSession *session, gint64 now) {
   poll_frames(session);
+  // Of a run in grades nothing is shown before it is complete, unless nothing else is there.
   if (session->ticket != 0 && session->fresh != NULL && session->shown != session->fresh &&
-      g_get_monotonic_time() - session->started > WATCH_US) {
+      !(session->heavy && session->shown != NULL) &&
+      g_get_monotonic_time() - session->started > SB_SESSION_WATCH_US) {
     size_t published = 0;
     sb_run_frames(session->fresh->run, &published);
     if (published > 0) {
       display_fresh(session);
       sb_displayed_run_update(session->fresh, FRAMES_PER_TICK);
       place_playhead(session);
-      run_changed(session);
+      sb_session_run_changed(session);
       sb_session_playhead_changed(session);
     }
   }
@@ -458,11 +433,11 @@ void sb_session_tick(SbSession *session, gint64 now) {
   if (more && (session->playhead.follows || session->playhead.waits)) {
     place_playhead(session);
   }
-  if (session->former != shows_former(session)) {
-    run_changed(session);
+  if (session->former != sb_session_is_former(session)) {
+    sb_session_run_changed(session);
   }
   if (more || session->ticket != 0) {
-    refresh_chart(session);
+    sb_session_refresh_chart(session);
     sb_session_emit(session, SB_SIGNAL_FRAMES);
   }
   size_t count = 0;
@@ -482,10 +457,12 @@ gboolean sb_session_wants_ticks(SbSession *session) {
 static void drop_runs(SbSession *session) {
   session->ticket = 0;
   session->state = SB_SESSION_EMPTY;
-  set_reference(&session->fresh, NULL);
-  set_reference(&session->shown, NULL);
-  set_reference(&session->earlier, NULL);
-  set_reference(&session->pinned, NULL);
+  sb_session_hold(&session->fresh, NULL);
+  sb_session_hold(&session->shown, NULL);
+  sb_session_hold(&session->earlier, NULL);
+  sb_session_hold(&session->pinned, NULL);
+  sb_session_drop_base(session);
+  sb_run_cache_clear(session->cache);
   g_clear_pointer(&session->pinned_name, g_free);
   g_clear_pointer(&session->failure, g_free);
   bool loops = session->playhead.loops;
@@ -496,13 +473,11 @@ static void drop_runs(SbSession *session) {
 }
 
 void sb_session_clear_runs(SbSession *session) {
-  if (session->debounce != 0) {
-    g_source_remove(session->debounce);
-    session->debounce = 0;
-  }
+  cancel_source(&session->debounce);
+  cancel_source(&session->later);
   sb_runner_cancel(session->runner);
   drop_runs(session);
-  run_changed(session);
+  sb_session_run_changed(session);
   sb_session_playhead_changed(session);
 }
 
@@ -510,26 +485,29 @@ void sb_session_init_runs(SbSession *session) {
   session->inbox = g_new0(SbSessionInbox, 1);
   session->inbox->session = session;
   session->inbox->references = 1;
-  session->runner = sb_runner_create(on_notify, session->inbox);
+  session->runner = sb_runner_create(sb_session_notify, session->inbox);
   if (session->runner == NULL) {
     g_error("The system has no thread left for the engine.");
   }
+  session->cache = sb_run_cache_new();
+  session->prediction = sb_prediction_new();
   session->auto_run = TRUE;
   sb_playhead_init(&session->playhead);
-  refresh_chart(session);
+  sb_session_refresh_chart(session);
 }
 
 void sb_session_dispose_runs(SbSession *session) {
   if (session->runner == NULL) {
     return;
   }
-  if (session->debounce != 0) {
-    g_source_remove(session->debounce);
-    session->debounce = 0;
-  }
+  cancel_source(&session->debounce);
+  cancel_source(&session->later);
   g_clear_pointer(&session->runner, sb_runner_destroy);
+  g_clear_pointer(&session->slopes, sb_runner_destroy);
   session->inbox->session = NULL;
   g_clear_pointer(&session->inbox, inbox_unref);
   drop_runs(session);
+  g_clear_pointer(&session->cache, sb_run_cache_free);
+  g_clear_pointer(&session->prediction, sb_prediction_free);
   g_clear_pointer(&session->hash, g_free);
 }

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import traceback
 
 import gi
 
@@ -319,8 +320,8 @@ def main(*tests):
             least_of(test, 3)
             print("ok %d - %s" % (number, test.__name__))
             print("# %.1f s" % (time.monotonic() - start), flush=True)
-        except Exception as error:
+        except Exception:
             failed += 1
             print("not ok %d - %s" % (number, test.__name__))
-            print("# %s" % str(error).replace("\n", "\n# "), flush=True)
+            print("# %s" % traceback.format_exc().replace("\n", "\n# "), flush=True)
     sys.exit(1 if failed else 0)

@@ -47,6 +47,11 @@ static gboolean on_focus_out(GtkWidget *widget, GdkEventFocus *event, SbParamRow
   return GDK_EVENT_PROPAGATE;
 }
 
+static gboolean on_focus_in(GtkWidget *widget, GdkEventFocus *event, SbParamRow *row) {
+  sb_session_prepare(row->session, row->id);
+  return GDK_EVENT_PROPAGATE;
+}
+
 // One step: a hundredth of the value, rounded down to a power of ten in the shown unit; at least 1
 // for whole numbers.
 static void step(SbParamRow *row, double count) {
@@ -165,6 +170,7 @@ static void add_entry(SbParamRow *row, GtkBox *line, const char *name, const cha
   sb_style_name(row->field, name, range);
   gtk_widget_add_events(row->field, GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK);
   g_signal_connect(row->field, "activate", G_CALLBACK(on_activate), row);
+  g_signal_connect(row->field, "focus-in-event", G_CALLBACK(on_focus_in), row);
   g_signal_connect(row->field, "focus-out-event", G_CALLBACK(on_focus_out), row);
   g_signal_connect(row->field, "scroll-event", G_CALLBACK(on_scroll), row);
   g_signal_connect(row->field, "key-press-event", G_CALLBACK(on_key), row);

@@ -226,6 +226,13 @@ static gboolean describe(gpointer data) {
   if (former != NULL) {
     g_string_append_printf(text, _(" Of the %s."), former);
   }
+  const char *grade = sb_session_grade_text(view->session);
+  if (grade != NULL) {
+    g_string_append_printf(text, _(" Solved: %s."), grade);
+  }
+  if (view->kind == SB_CHART_VIEW_LOOP && sb_session_chart(view->session)->predicted != NULL) {
+    g_string_append(text, _(" Dashed: predicted for the present values."));
+  }
   sb_style_name(view->area, name, text->str);
   view->describe = 0;
   return G_SOURCE_REMOVE;
@@ -286,7 +293,11 @@ static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) 
 
 static void on_change(View *view) {
   gtk_widget_set_visible(view->area, applies(view));
-  sb_style_former(view->area, sb_session_shows_former(view->session));
+  // The loop draws its former run paler by itself where it shows the predicted one over it.
+  const bool over = view->kind == SB_CHART_VIEW_LOOP &&
+                    sb_session_chart(view->session)->predicted != NULL &&
+                    !sb_chart_is_rig(&sb_session_chart(view->session)->run);
+  sb_style_former(view->area, sb_session_shows_former(view->session) && !over);
   sb_draw_cache_change(view->cache,
                        sb_session_wants_ticks(view->session) ? kinds[view->kind].interval : 0);
   // Screen readers need no more than a few sentences a second.

@@ -2,6 +2,7 @@
 #include "ui/window/study_job.h"
 
 #include "app/session/worker.h"
+#include "app/study/view.h"
 #include "engine/valve/sealbench.h"
 
 struct SbStudyJob {

@@ -164,14 +164,27 @@ static void refresh_strip(SbWindow *window) {
   } else if (former != NULL) {
     gboolean running = sb_session_state(session) == SB_SESSION_RUNNING;
     g_autofree char *text =
-        g_strdup_printf(running ? _("Until the first new frame the pictures show the %s.")
-                                : _("Values have changed. Pictures show the %s."),
+        g_strdup_printf(!running ? _("Values have changed. Pictures show the %s.")
+                        : sb_session_chart(session)->predicted != NULL
+                            ? _("Until the new run is solved the pictures show the %s; the dashed "
+                                "loop is predicted.")
+                            : _("Until the first new frame the pictures show the %s."),
                         former);
     set_strip(window, "warn", text, running ? NULL : _("Run"));
   } else {
     g_autofree char *findings = findings_text(sb_session_summary(session));
     set_strip(window, "warn", findings, NULL);
   }
+}
+
+// Of a run in grades what is done beside the shown one.
+static char *running_text(SbSession *session) {
+  const SbRunGrade shown =
+      sb_session_shows_former(session) ? SB_GRADE_WHOLE : sb_session_grade(session);
+  return g_strdup_printf(shown == SB_GRADE_COARSE ? _("Refining %.0f %%")
+                         : shown == SB_GRADE_NEAR ? _("Confirming %.0f %%")
+                                                  : _("Running %.0f %%"),
+                         100 * sb_session_progress(session));
 }
 
 static void refresh_run_state(SbWindow *window) {
@@ -183,7 +196,7 @@ static void refresh_run_state(SbWindow *window) {
   const char *style = NULL;
   const char *icon = NULL;
   if (running) {
-    text = g_strdup_printf(_("Running %.0f %%"), 100 * sb_session_progress(session));
+    text = running_text(session);
   } else if (errors > 0) {
     text = g_strdup_printf(
         sb_session_run(session) != NULL
@@ -244,8 +257,8 @@ static void refresh(SbWindow *window) {
   set_enabled(window, "redo", sb_document_can_redo(document));
   set_enabled(window, "previous-event", sb_session_run(window->session) != NULL);
   set_enabled(window, "next-event", sb_session_run(window->session) != NULL);
-  set_enabled(window, "export", sb_session_summary(window->session) != NULL);
-  set_enabled(window, "pin", sb_session_summary(window->session) != NULL);
+  set_enabled(window, "export", sb_session_may_keep(window->session));
+  set_enabled(window, "pin", sb_session_may_keep(window->session));
   // Another document has let the pinned run go.
   GAction *pin = g_action_map_lookup_action(G_ACTION_MAP(window), "pin");
   g_simple_action_set_state(G_SIMPLE_ACTION(pin),
@@ -257,7 +270,7 @@ static void refresh(SbWindow *window) {
 static void on_frames(SbWindow *window) {
   if (sb_session_state(window->session) == SB_SESSION_RUNNING) {
     double progress = sb_session_progress(window->session);
-    g_autofree char *text = g_strdup_printf(_("Running %.0f %%"), 100 * progress);
+    g_autofree char *text = running_text(window->session);
     if (strcmp(gtk_label_get_text(GTK_LABEL(window->run_state_label)), text) != 0) {
       gtk_label_set_text(GTK_LABEL(window->run_state_label), text);
       gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(window->run_progress), progress);

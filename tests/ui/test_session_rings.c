@@ -1,0 +1,251 @@
+// A session whose rings are solved: in which order states are shown, what of them may be kept, what
+// an edit cancels, what is predicted of a loop, and what comes back at once. Needs no display.
+#include "app/session/session.h"
+
+#include "app/session/session_private.h"
+#include "tests/sanitized.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+static void turn(SbSession *session) {
+  while (g_main_context_iteration(NULL, FALSE)) {
+  }
+  sb_session_tick(session, g_get_monotonic_time());
+  g_usleep(1000);
+}
+
+// Dry rings without pressure, films by a law: two seconds of a processor each.
+static SbSession *session_with_rings(void) {
+  SbSession *session = sb_session_new();
+  sb_session_set_auto_run(session, FALSE);
+  sb_session_edit(session, SB_P_MODELS_FILM, "thesis");
+  sb_session_edit(session, SB_P_CANISTER_PRESSURE, "0 MPa");
+  sb_session_edit(session, SB_P_FRICTION_SHEAR_STRENGTH, "0.3 MPa");
+  sb_session_edit(session, SB_P_OUTPUT_FRAMES, "60");
+  sb_session_edit(session, SB_P_MODELS_FIT, "ring");
+  g_assert_cmpint(sb_session_error_count(session), ==, 0);
+  return session;
+}
+
+// The runs that are shown one after the other until the last is whole: their grades.
+static GArray *settle(SbSession *session) {
+  GArray *grades = g_array_new(FALSE, FALSE, sizeof(SbRunGrade));
+  const SbRun *shown = sb_session_run(session);
+  const gint64 end = g_get_monotonic_time() + 200 * G_USEC_PER_SEC;
+  for (;;) {
+    turn(session);
+    g_assert_cmpint(g_get_monotonic_time(), <, end);
+    if (sb_session_run(session) != shown) {
+      shown = sb_session_run(session);
+      const SbRunGrade grade = sb_session_grade(session);
+      g_array_append_val(grades, grade);
+    }
+    if (sb_session_state(session) != SB_SESSION_RUNNING && !sb_session_wants_ticks(session) &&
+        !sb_session_is_stale(session, NULL, NULL)) {
+      g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_DONE);
+      return grades;
+    }
+  }
+}
+
+// Frames of the shown run are those of a program that runs the session's values, to the bit.
+static void assert_cold(SbSession *session) {
+  SbPlan plan;
+  SbRun *run = NULL;
+  sb_plan_wished(&plan, sb_session_model(session),
+                 &(SbPlanWishes){.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION});
+  g_assert_cmpint(sb_run_create(&run, sb_session_model(session), &plan, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, NULL), ==, SB_OK);
+  size_t count, mine;
+  const SbFrame *frames = sb_run_frames(run, &count), *shown = sb_session_frames(session, &mine);
+  g_assert_cmpuint(count, ==, mine);
+  for (size_t i = 0; i < count; i++) {
+    g_assert_true(memcmp(&frames[i].force, &shown[i].force, sizeof(double)) == 0 &&
+                  memcmp(&frames[i].seal[0].load, &shown[i].seal[0].load, sizeof(double)) == 0);
+  }
+  sb_run_destroy(run);
+}
+
+static SbRunGrade nth(const GArray *grades, guint i) {
+  return g_array_index(grades, SbRunGrade, i);
+}
+
+static void at_stage_c(SbSession *session) {
+  g_autofree char *where = sb_session_where(session);
+  g_assert_true(g_str_has_prefix(where, "stage C,"));
+}
+
+// Waits for what sb_session_prepare() has begun.
+static void prepare(SbSession *session, SbParamId id) {
+  sb_session_prepare(session, id);
+  while (session->slope_ticket != 0) {
+    turn(session);
+  }
+}
+
+// An edit: the last run stays, dimmed, and with it the dashed loop; then the run from its rings,
+// which may not be kept; then the whole one, a file's to the bit. Undo and redo bring runs back.
+static void test_order(void) {
+  g_autoptr(SbSession) session = session_with_rings();
+  sb_session_start(session);
+  g_autoptr(GArray) first = settle(session);
+  g_assert_cmpuint(first->len, ==, 1);
+  g_assert_cmpint(nth(first, 0), ==, SB_GRADE_WHOLE);
+  g_assert_true(sb_session_may_keep(session));
+  sb_session_set_auto_run(session, TRUE);
+  g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_DONE); // nothing to run
+  sb_session_set_playhead(session, 0);
+  sb_session_step_event(session, 1);
+  sb_session_step_event(session, 1);
+  at_stage_c(session);
+  const SbRun *before = sb_session_run(session);
+  const double force_before = sb_session_summary(session)->stage[SB_STAGE_C].force;
+  prepare(session, SB_P_GLAND_RADIAL_SPACE);
+
+  struct timespec from, to;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &from);
+  sb_session_edit(session, SB_P_GLAND_RADIAL_SPACE, "1.3668 mm"); // +0.5 %
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &to);
+  const double own =
+      1e3 * (double)(to.tv_sec - from.tv_sec) + 1e-6 * (double)(to.tv_nsec - from.tv_nsec);
+  g_test_message("own work of an edit with its prediction %.2f ms", own);
+  g_assert_cmpfloat(own, <, SB_SANITIZED ? 100 : 5);
+  g_assert_true(sb_session_run(session) == before);
+  g_assert_true(sb_session_shows_former(session));
+  g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_RUNNING);
+  const SbChartCurve *curve = sb_session_chart(session)->predicted;
+  g_assert_nonnull(curve);
+  const SbTrace *trace = sb_session_chart(session)->run.trace;
+  const double predicted =
+      curve->force[sb_trace_find(trace, sb_trace_marks(trace)[SB_STAGE_C].frame)];
+
+  const gint64 end = g_get_monotonic_time() + 100 * G_USEC_PER_SEC;
+  while (sb_session_run(session) == before) {
+    g_assert_nonnull(sb_session_chart(session)->predicted);
+    turn(session);
+    g_assert_cmpint(g_get_monotonic_time(), <, end);
+  }
+  g_assert_cmpint(sb_session_grade(session), ==, SB_GRADE_NEAR);
+  g_assert_nonnull(sb_session_grade_text(session));
+  g_assert_null(sb_session_chart(session)->predicted);
+  g_assert_false(sb_session_shows_former(session));
+  g_assert_false(sb_session_may_keep(session));
+  g_assert_null(sb_session_handle(session));
+  g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_RUNNING);
+  at_stage_c(session);
+  const double near_load = sb_session_summary(session)->seal[SB_OUTER].load;
+  const SbRun *near = sb_session_run(session);
+
+  g_autoptr(GArray) then = settle(session);
+  g_assert_cmpuint(then->len, ==, 1);
+  g_assert_cmpint(nth(then, 0), ==, SB_GRADE_WHOLE);
+  g_assert_true(sb_session_run(session) != near);
+  at_stage_c(session);
+  assert_cold(session);
+  const SbSummary *whole = sb_session_summary(session);
+  g_assert_cmpfloat(fabs(near_load / whole->seal[SB_OUTER].load - 1), <, whole->error_load);
+  const double force = whole->stage[SB_STAGE_C].force, change = force - force_before;
+  g_test_message("force at C %.4f N, predicted %.4f N, change %.4f N", force, predicted, change);
+  g_assert_cmpfloat(fabs(predicted - force), <, 0.3 * fabs(change));
+
+  const SbRun *after = sb_session_run(session);
+  sb_session_undo(session);
+  g_assert_true(sb_session_run(session) == before);
+  g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_DONE);
+  g_assert_false(sb_session_wants_ticks(session));
+  g_assert_false(sb_session_shows_former(session));
+  g_assert_null(sb_session_chart(session)->predicted);
+  at_stage_c(session);
+  sb_session_redo(session);
+  g_assert_true(sb_session_run(session) == after);
+  g_assert_true(sb_session_may_keep(session));
+  g_assert_false(sb_session_wants_ticks(session));
+
+  // What has no neighbour is not predicted, nor is what lies far off.
+  sb_session_edit(session, SB_P_SEAL_MODULUS, "2.6 MPa");
+  g_assert_null(sb_session_chart(session)->predicted);
+  g_assert_true(sb_session_shows_former(session));
+  sb_session_undo(session);
+  sb_session_edit(session, SB_P_GLAND_RADIAL_SPACE, "1.3 mm");
+  g_assert_nonnull(sb_session_chart(session)->predicted);
+  sb_session_edit(session, SB_P_GLAND_RADIAL_SPACE, "1.2 mm");
+  g_assert_null(sb_session_chart(session)->predicted);
+}
+
+// Edits in a row: only the last one's runs are shown. Stopped before the whole run, the near one
+// stays, and Run asks for the whole one.
+static void test_cancel(void) {
+  g_autoptr(SbSession) session = session_with_rings();
+  sb_session_start(session);
+  g_array_unref(settle(session));
+  sb_session_set_auto_run(session, TRUE);
+  const SbRun *before = sb_session_run(session);
+  static const char *const texts[] = {"2.51 MPa", "2.52 MPa", "2.53 MPa"};
+  for (guint i = 0; i < G_N_ELEMENTS(texts); i++) {
+    sb_session_edit(session, SB_P_SEAL_MODULUS, texts[i]);
+    for (int k = 0; k < 80; k++) {
+      turn(session);
+      g_assert_true(sb_session_run(session) == before);
+    }
+  }
+  while (sb_session_run(session) == before) {
+    turn(session);
+  }
+  g_assert_cmpint(sb_session_grade(session), ==, SB_GRADE_NEAR);
+  g_assert_cmpfloat(sb_model_value(sb_run_model(sb_session_run(session)), SB_P_SEAL_MODULUS), ==,
+                    2.53e6);
+  sb_session_stop(session);
+  g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_DONE);
+  g_assert_false(sb_session_wants_ticks(session));
+  g_assert_false(sb_session_may_keep(session));
+  sb_session_pin(session, TRUE);
+  g_assert_null(sb_session_pinned_name(session));
+  sb_session_start(session);
+  g_autoptr(GArray) then = settle(session);
+  g_assert_cmpuint(then->len, ==, 1);
+  g_assert_cmpint(nth(then, 0), ==, SB_GRADE_WHOLE);
+}
+
+// Without a run to start from and to a fine tolerance: a coarse run first. An edit cancels what
+// follows it.
+static void test_coarse(void) {
+  g_autoptr(SbSession) session = session_with_rings();
+  sb_session_edit(session, SB_P_OUTPUT_TOLERANCE, "1e-4");
+  sb_session_edit(session, SB_P_OUTPUT_FRAMES, "1000");
+  sb_session_start(session);
+  const gint64 end = g_get_monotonic_time() + 100 * G_USEC_PER_SEC;
+  while (sb_session_summary(session) == NULL) {
+    turn(session);
+    g_assert_cmpint(g_get_monotonic_time(), <, end);
+  }
+  const SbRun *coarse = sb_session_run(session);
+  size_t count;
+  sb_session_frames(session, &count);
+  g_assert_cmpint(sb_session_grade(session), ==, SB_GRADE_COARSE);
+  g_assert_cmpuint(count, <, 300);
+  g_assert_cmpfloat(sb_model_value(sb_run_model(coarse), SB_P_OUTPUT_TOLERANCE), ==, 0.01);
+  g_assert_false(sb_session_shows_former(session)); // it is of the present values
+  g_assert_false(sb_session_is_stale(session, NULL, NULL));
+  g_assert_false(sb_session_may_keep(session));
+  g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_RUNNING);
+  sb_session_edit(session, SB_P_SEAL_MODULUS, "2.6 MPa");
+  g_assert_true(sb_session_shows_former(session));
+  for (int i = 0; i < 100; i++) {
+    turn(session);
+  }
+  sb_session_stop(session);
+  while (sb_session_state(session) == SB_SESSION_RUNNING) {
+    turn(session);
+  }
+  g_assert_true(sb_session_run(session) == coarse);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/session-rings/order", test_order);
+  g_test_add_func("/session-rings/cancel", test_cancel);
+  g_test_add_func("/session-rings/coarse", test_coarse);
+  return g_test_run();
+}
