@@ -6,6 +6,7 @@
 #include <pthread.h>
 
 const SbDash sb_dash_pinned = {2, {7, 3}};
+const SbDash sb_dash_predicted = {2, {6, 3}};
 const SbDash sb_dash_reference = {2, {5, 4}};
 const SbDash sb_dash_dimension = {2, {3, 3}};
 const SbDash sb_dash_centre = {4, {14, 3, 2, 3}};

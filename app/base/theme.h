@@ -77,8 +77,8 @@ typedef struct {
   double length[4];
 } SbDash;
 
-extern const SbDash sb_dash_pinned, sb_dash_reference, sb_dash_dimension, sb_dash_centre,
-    sb_dash_dose, sb_dash_now;
+extern const SbDash sb_dash_pinned, sb_dash_predicted, sb_dash_reference, sb_dash_dimension,
+    sb_dash_centre, sb_dash_dose, sb_dash_now;
 
 // The light or the dark theme; borrowed, immutable.
 const SbTheme *sb_theme(bool dark);

@@ -219,7 +219,6 @@ static void cost_text(char *text, size_t size, double seconds) {
 
 static void print_plan(const SbPlan *plan) {
   char cost[40];
-  double total = 0;
   printf("Computed\n");
   for (size_t i = 0; i < plan->field_count; i++) {
     const SbPlanItem *item = &plan->field[i];
@@ -230,9 +229,8 @@ static void print_plan(const SbPlan *plan) {
       printf(", error about %s %%", sb_number_round(error, 100 * item->error, 2));
     }
     printf(")\n");
-    total += item->cost_s;
   }
-  cost_text(cost, sizeof cost, total);
+  cost_text(cost, sizeof cost, sb_plan_cost(plan));
   printf("  together %s on one core, within a factor of two or three\n", cost);
   printf("Skipped\n");
   for (size_t i = 0; i < plan->skipped_count; i++) {

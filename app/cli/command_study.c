@@ -94,8 +94,8 @@ static void on_progress(void *data, size_t done, size_t of) {
 static bool set_list(SbStore *store, const SbStudyFile *study, GError **error) {
   g_autoptr(GPtrArray) parameters = g_ptr_array_new(), figures = g_ptr_array_new();
   for (guint i = 0; i < study->vary->len; i++) {
-    const SbParam *param = sb_param(g_array_index(study->vary, SbVary, i).id);
-    g_ptr_array_add(parameters, (gpointer)param->key);
+    const SbVary *vary = &g_array_index(study->vary, SbVary, i);
+    g_ptr_array_add(parameters, (gpointer)sb_vary_name(vary));
   }
   for (guint i = 0; i < study->figures->len; i++) {
     g_ptr_array_add(figures, (gpointer)sb_figure(g_array_index(study->figures, int, i))->path);

@@ -1,6 +1,8 @@
 // A study on the command line: computed with progress, listed, refused where it does not go.
 #include "app/cli/cli.h"
 
+#include "app/study/view.h"
+
 static void on_progress(void *data, double fraction) {
   sb_progress_update(data, fraction);
 }

@@ -1,20 +1,35 @@
 // What ships with the program; see the header.
 #include "app/document/shipped.h"
 
+#include <stdbool.h>
 #include <string.h>
 
-char *sb_shipped_folder(void) {
-  static const char *const places[] = {"../share/sealbench", "../assets", "../../assets"};
+// The first of the places, from where the program lies, that has `name`; its whole path or its
+// folder.
+static char *find(const char *const *places, const char *name, bool whole) {
   g_autofree char *program = g_file_read_link("/proc/self/exe", NULL);
   g_autofree char *in = g_path_get_dirname(program != NULL ? program : "/");
-  for (size_t i = 0; i < G_N_ELEMENTS(places); i++) {
-    g_autofree char *there = g_build_filename(in, places[i], NULL);
-    g_autofree char *scenes = g_build_filename(there, "scenes", NULL);
-    if (g_file_test(scenes, G_FILE_TEST_IS_DIR)) {
-      return g_canonicalize_filename(there, NULL);
+  for (; *places != NULL; places++) {
+    g_autofree char *there = g_build_filename(in, *places, NULL);
+    g_autofree char *path = g_build_filename(there, name, NULL);
+    if (g_file_test(path, G_FILE_TEST_EXISTS)) {
+      return g_canonicalize_filename(whole ? path : there, NULL);
     }
   }
   return NULL;
+}
+
+char *sb_shipped_folder(void) {
+  static const char *const places[] = {"../share/sealbench", "../assets", "../../assets", NULL};
+  return find(places, "scenes", false);
+}
+
+char *sb_shipped_study(const char *name) {
+  // The last is that of tests.
+  static const char *const places[] = {"../share/sealbench/studies", "../assets/studies",
+                                       "../../assets/studies", "../../../assets/studies", NULL};
+  g_autofree char *file = g_strconcat(name, ".study", NULL);
+  return find(places, file, true);
 }
 
 char *sb_shipped_find(const char *name) {

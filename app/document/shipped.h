@@ -12,5 +12,8 @@ char *sb_shipped_folder(void);
 // if nothing does, or if `name` holds a folder. Owned by the caller.
 char *sb_shipped_find(const char *name);
 
+// Path of the study file NAME.study that ships; NULL if there is none. Owned by the caller.
+char *sb_shipped_study(const char *name);
+
 // Paths of all scenes that ship, sorted by name. Owned by the caller; never NULL.
 GPtrArray *sb_shipped_scenes(void);

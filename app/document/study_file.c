@@ -18,11 +18,6 @@ const char *sb_study_method_name(SbStudyMethod method) {
   return (unsigned)method < SB_METHOD_COUNT ? methods[method] : "";
 }
 
-static const char vary_forms[] = "uniform A .. B[, N], loguniform A .. B[, N], normal MEAN, "
-                                 "DEVIATION [within A .. B], levels A, B, ...";
-
-static const char tolerance_forms[] = "uniform A .. B, normal MEAN, DEVIATION [within A .. B]";
-
 static char *full_key(const SbEntry *entry) {
   return g_strdup_printf("%s.%s", entry->group, entry->name);
 }
@@ -33,181 +28,11 @@ void sb_study_complain(const SbStudyReader *reader, const SbEntry *entry, const 
   sb_issues_add(reader->issues, reader->shown, entry->line, key, allowed, "%s", text);
 }
 
-// The code of an error in a line's form, which the forms answer; of a value its range does. It
-// stays in this file.
-enum { BAD_FORM = 100 };
-
-static bool fail(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
-static bool fail(GError **error, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  if (error != NULL) {
-    *error = g_error_new_valist(SB_APP_ERROR, BAD_FORM, format, arguments);
-  }
-  va_end(arguments);
-  return false;
-}
-
-// ---- [vary] ----
-
-// A difference of two values of a parameter.
-static bool read_difference(double *out, const SbParam *param, const char *text, GError **error) {
-  g_autofree char *trimmed = g_strstrip(g_strdup(text));
-  const char *shown = sb_quantity_is_point(param->unit) ? "K" : param->unit;
-  return sb_quantity_parse(out, trimmed, param->si, shown, error);
-}
-
-// A value of the parameter, within its range, or of a tolerance.
-static bool read_value(double *out, const SbVary *vary, const char *text, GError **error) {
-  if (vary->offset) {
-    return read_difference(out, sb_param(vary->id), text, error);
-  }
-  g_autofree char *trimmed = g_strstrip(g_strdup(text));
-  return sb_param_parse(out, vary->id, trimmed, error);
-}
-
-// "A .. B".
-static bool read_range(double *low, double *high, const SbVary *vary, const char *text,
-                       GError **error) {
-  const char *dots = strstr(text, "..");
-  if (dots == NULL) {
-    return fail(error, "\"%.60s\" is no range", text);
-  }
-  g_autofree char *first = g_strndup(text, (gsize)(dots - text));
-  if (!read_value(low, vary, first, error) || !read_value(high, vary, dots + 2, error)) {
-    return false;
-  }
-  return *low < *high || fail(error, "the range \"%.60s\" does not rise", text);
-}
-
-// "A .. B" or "A .. B, N".
-static bool read_uniform(SbVary *vary, const char *text, GError **error) {
-  SbDistribution *of = &vary->distribution;
-  const char *comma = strchr(text, ',');
-  if (comma != NULL) {
-    double count = 0;
-    g_autofree char *digits = g_strstrip(g_strdup(comma + 1));
-    if (!sb_number_parse(&count, digits) || count != floor(count) || count < 2 ||
-        count > SB_SAMPLES_MAX) {
-      return fail(error, "\"%.60s\" is no number of points (2 and more)", digits);
-    }
-    of->count = (size_t)count;
-  }
-  g_autofree char *range = g_strndup(text, comma != NULL ? (gsize)(comma - text) : strlen(text));
-  if (!read_range(&of->a, &of->b, vary, range, error)) {
-    return false;
-  }
-  return of->kind != SB_DISTRIBUTION_LOGUNIFORM || of->a > 0 ||
-         fail(error, "a logarithm needs values above 0");
-}
-
-// "MEAN, DEVIATION" or "MEAN, DEVIATION within A .. B".
-static bool read_normal(SbVary *vary, const char *text, GError **error) {
-  SbDistribution *of = &vary->distribution;
-  const char *comma = strchr(text, ','), *within = strstr(text, " within ");
-  if (comma == NULL || (within != NULL && within < comma)) {
-    return fail(error, "\"%.60s\" is no mean with a deviation", text);
-  }
-  g_autofree char *mean = g_strndup(text, (gsize)(comma - text));
-  g_autofree char *deviation = g_strstrip(
-      g_strndup(comma + 1, within != NULL ? (gsize)(within - comma - 1) : strlen(comma + 1)));
-  if (!read_value(&of->a, vary, mean, error) ||
-      !read_difference(&of->b, sb_param(vary->id), deviation, error)) {
-    return false;
-  }
-  if (!(of->b > 0)) {
-    return fail(error, "the deviation \"%.60s\" is not above 0", deviation);
-  }
-  of->low = -INFINITY;
-  of->high = INFINITY;
-  if (within != NULL) {
-    if (!read_range(&of->low, &of->high, vary, within + strlen(" within "), error)) {
-      return false;
-    }
-    // Six deviations out there is one value in 1e9.
-    if (of->low > of->a + 6 * of->b || of->high < of->a - 6 * of->b) {
-      return fail(error, "the range lies more than 6 deviations from the mean");
-    }
-  }
-  return true;
-}
-
-static bool read_levels(SbVary *vary, const char *text, GError **error) {
-  g_auto(GStrv) parts = g_strsplit(text, ",", -1);
-  const size_t count = g_strv_length(parts);
-  if (count > SB_SAMPLES_MAX / 10) {
-    return fail(error, "there are too many levels");
-  }
-  vary->levels = g_new(double, count + 1);
-  for (size_t i = 0; i < count; i++) {
-    if (!read_value(&vary->levels[i], vary, parts[i], error)) {
-      return false;
-    }
-  }
-  vary->distribution.level = vary->levels;
-  vary->distribution.count = count;
-  return count > 0 || fail(error, "there are no levels");
-}
-
-static bool read_distribution(SbVary *vary, const char *text, GError **error) {
-  static const struct {
-    const char *name;
-    SbDistributionKind kind;
-    bool (*read)(SbVary *vary, const char *text, GError **error);
-  } forms[] = {{"uniform", SB_DISTRIBUTION_UNIFORM, read_uniform},
-               {"loguniform", SB_DISTRIBUTION_LOGUNIFORM, read_uniform},
-               {"normal", SB_DISTRIBUTION_NORMAL, read_normal},
-               {"levels", SB_DISTRIBUTION_LEVELS, read_levels}};
-  const size_t length = strcspn(text, " \t");
-  const SbParamKind kind = sb_param(vary->id)->kind;
-  for (size_t i = 0; i < G_N_ELEMENTS(forms); i++) {
-    if (strlen(forms[i].name) == length && strncmp(text, forms[i].name, length) == 0) {
-      vary->distribution.kind = forms[i].kind;
-      if (vary->offset && (kind != SB_PARAM_REAL || (forms[i].kind != SB_DISTRIBUTION_UNIFORM &&
-                                                     forms[i].kind != SB_DISTRIBUTION_NORMAL))) {
-        return fail(error, "\"%.60s\" is no tolerance", text);
-      }
-      if ((kind == SB_PARAM_CHOICE || kind == SB_PARAM_INT) &&
-          forms[i].kind != SB_DISTRIBUTION_LEVELS) {
-        return fail(error, "only levels suit %s",
-                    kind == SB_PARAM_INT ? "a whole number" : "a choice");
-      }
-      return forms[i].read(vary, text + length, error);
-    }
-  }
-  return fail(error, "\"%.60s\" says no distribution", text);
-}
-
-static void read_vary(SbStudyReader *reader, const SbEntry *entry, GArray *list, bool offset) {
-  const int id = sb_param_find(entry->name);
-  SbVary vary = {.id = (SbParamId)id, .offset = offset};
-  g_autoptr(GError) error = NULL;
-  if (id < 0) {
-    g_autofree char *hint = sb_document_key_hint(entry->name);
-    g_autofree char *text = g_strdup_printf("there is no such parameter%s", hint);
-    sb_study_complain(reader, entry, NULL, text);
-  } else if (sb_param(vary.id)->kind == SB_PARAM_FLAGS) {
-    sb_study_complain(reader, entry, NULL, "a list of words does not vary");
-  } else if (list->len == SB_VARY_MAX) {
-    sb_study_complain(reader, entry, NULL, "is more than the 64 parameters that may vary");
-  } else if (!read_distribution(&vary, entry->value, &error)) {
-    g_autofree char *range = sb_param_range(vary.id);
-    sb_study_complain(reader, entry,
-                      error->code == BAD_FORM ? (offset ? tolerance_forms : vary_forms)
-                      : offset                ? NULL
-                                              : range,
-                      error->message);
-    g_free(vary.levels);
-  } else {
-    g_array_append_val(list, vary);
-  }
-}
-
 // ---- [correlation] ----
 
 int sb_study_vary_index(const SbStudyFile *study, const char *key) {
   for (guint i = 0; i < study->vary->len; i++) {
-    if (strcmp(sb_param(g_array_index(study->vary, SbVary, i).id)->key, key) == 0) {
+    if (strcmp(sb_vary_name(&g_array_index(study->vary, SbVary, i)), key) == 0) {
       return (int)i;
     }
   }
@@ -360,8 +185,8 @@ static void read_study(SbStudyReader *reader, const SbEntry *entry, bool *has_sa
     }
   } else if (strcmp(entry->name, "figures") == 0) {
     read_figures(reader, entry);
-  } else {
-    sb_study_complain(reader, entry, "method, samples, seed, figures", "unknown key");
+  } else if (strcmp(entry->name, "hold") != 0) { // read before
+    sb_study_complain(reader, entry, "method, samples, seed, figures, hold", "unknown key");
   }
 }
 
@@ -371,12 +196,12 @@ static void settle_samples(SbStudyReader *reader, bool has_samples) {
   const size_t n = study->vary->len;
   size_t block = 1;
   if (study->method == SB_METHOD_GRID) {
-    size_t points = 1;
-    for (guint i = 0; i < n; i++) {
+    size_t points = study->lines != NULL ? sb_study_grid_points(study) : 1;
+    for (guint i = 0; i < n && study->lines == NULL; i++) {
       const SbVary *vary = &g_array_index(study->vary, SbVary, i);
       if (vary->distribution.count == 0) {
         g_autofree char *key = g_strconcat(GROUP_VARY ".", sb_param(vary->id)->key, NULL);
-        sb_issues_add(reader->issues, reader->shown, 0, key, vary_forms,
+        sb_issues_add(reader->issues, reader->shown, 0, key, sb_study_vary_forms,
                       "a grid needs levels, or a range with a number of points");
         return;
       }
@@ -490,18 +315,20 @@ static void read_groups(SbStudyReader *reader) {
                                           GROUP_CORRELATION, SB_LIMITS_GROUP, GROUP_DESIGN,
                                           GROUP_TOLERANCES,  "data",          NULL};
       study->design.asked |= strcmp(group, GROUP_DESIGN) == 0;
-      known = g_strv_contains(names, group) || g_str_has_prefix(group, "data ");
+      const bool grid = g_str_has_prefix(group, GROUP_VARY " ");
+      known = g_strv_contains(names, group) || g_str_has_prefix(group, "data ") || grid;
+      reader->grid = grid ? ++study->grids : 0;
       if (!known && (bad == NULL || strcmp(bad, group) != 0)) {
         bad = group;
         sb_issues_add(reader->issues, reader->shown, entry->line, NULL,
                       "vary, correlation, study, limits, design, tolerances, data",
                       "unknown group [%.60s]", group);
       }
-    } else if (strcmp(group, GROUP_VARY) == 0) {
+    } else if (strcmp(group, GROUP_VARY) == 0 || reader->grid > 0) {
       varies = true;
-      read_vary(reader, entry, study->vary, false);
+      sb_study_read_vary(reader, entry, study->vary, false);
     } else if (strcmp(group, GROUP_TOLERANCES) == 0) {
-      read_vary(reader, entry, study->design.tolerances, true);
+      sb_study_read_vary(reader, entry, study->design.tolerances, true);
     } else if (strcmp(group, GROUP_DESIGN) == 0) {
       sb_study_read_design(reader, entry);
     } else if (strcmp(group, GROUP_STUDY) == 0) {
@@ -509,9 +336,11 @@ static void read_groups(SbStudyReader *reader) {
     }
   }
   if (!varies) {
-    sb_issues_add(reader->issues, reader->shown, 0, GROUP_VARY, vary_forms, "nothing varies");
+    sb_issues_add(reader->issues, reader->shown, 0, GROUP_VARY, sb_study_vary_forms,
+                  "nothing varies");
   }
   sb_document_read_limits(&study->limits, reader->entries, reader->shown, reader->issues);
+  sb_study_take_lines(reader);
   if (study->vary->len == 0) {
     return;
   }
@@ -564,9 +393,41 @@ static void open_scene(SbStudyReader *reader, const char *name, char **settings,
   }
 }
 
-SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *name,
-                                 const char *directory, char **settings, SbDocument *scene,
-                                 GPtrArray *issues) {
+// What of the scene the study holds; see engine/valve/studies/hold.h.
+static void hold_base(SbStudyReader *reader) {
+  SbStudyFile *study = reader->study;
+  for (guint i = 0; i < reader->entries->len && study->base != NULL; i++) {
+    const SbEntry *entry = reader->entries->pdata[i];
+    if (entry->name == NULL || strcmp(entry->group, GROUP_STUDY) != 0 ||
+        strcmp(entry->name, "hold") != 0) {
+      continue;
+    }
+    g_auto(GStrv) words = g_strsplit_set(entry->value, ",;", -1);
+    for (char **word = words; *word != NULL; word++) {
+      SbHold hold;
+      SbModel *held = NULL;
+      SbReport report = {0};
+      if (!sb_hold_from_name(&hold, g_strstrip(*word))) {
+        sb_study_complain(reader, entry, sb_hold_names(), "there is nothing to hold like this");
+      } else if (sb_model_hold(&held, study->base, hold, &report) != SB_OK) {
+        sb_study_complain(reader, entry, NULL, report.text);
+      } else {
+        sb_model_destroy(study->base);
+        study->base = held;
+      }
+    }
+    if (study->base_sha256 != NULL) {
+      g_autofree char *text = g_strconcat(study->base_sha256, "\n", entry->value, NULL);
+      g_free(study->base_sha256);
+      study->base_sha256 = g_compute_checksum_for_string(G_CHECKSUM_SHA256, text, -1);
+    }
+  }
+}
+
+// `scene` or `model`, where it is not NULL, in place of the scene that the text names.
+static SbStudyFile *parse(const char *text, size_t length, const char *name, const char *directory,
+                          char **settings, SbDocument *scene, const SbModel *model,
+                          GPtrArray *issues) {
   const guint before = issues->len;
   g_autoptr(GPtrArray) entries = sb_reader_scan(text, length, name, issues);
   g_autoptr(SbStudyFile) study = g_new0(SbStudyFile, 1);
@@ -579,9 +440,14 @@ SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *na
   study->seed = 1;
   study->design = (SbDesignWish){.figure = SB_FIGURE_NONE, .robust = NAN, .starts = 8};
   study->design.tolerances = g_array_new(FALSE, FALSE, sizeof(SbVary));
-  SbStudyReader reader = {study, entries, name, issues};
+  SbStudyReader reader = {.study = study, .entries = entries, .shown = name, .issues = issues};
   if (read_meta(&reader, &scene_name)) {
-    open_scene(&reader, scene_name, settings, directory);
+    if (model == NULL) {
+      open_scene(&reader, scene_name, settings, directory);
+    } else if (sb_model_copy(&study->base, model) != SB_OK) {
+      sb_issues_add(issues, name, 0, NULL, NULL, "no memory for a model");
+    }
+    hold_base(&reader);
     read_groups(&reader);
   }
   if (issues->len > before) {
@@ -600,6 +466,18 @@ SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *na
     sb_study_take_figure(study->figures, study->limits.item[i].figure);
   }
   return g_steal_pointer(&study);
+}
+
+SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *name,
+                                 const char *directory, char **settings, SbDocument *scene,
+                                 GPtrArray *issues) {
+  return parse(text, length, name, directory, settings, scene, NULL, issues);
+}
+
+SbStudyFile *sb_study_file_of_model(const char *path, const SbModel *scene, GPtrArray *issues) {
+  size_t length = 0;
+  g_autofree char *text = sb_reader_load(&length, path, path, SB_DOCUMENT_BYTES_MAX, issues);
+  return text != NULL ? parse(text, length, path, NULL, NULL, NULL, scene, issues) : NULL;
 }
 
 SbStudyFile *sb_study_file_load(const char *path, char **settings, GPtrArray *issues) {
@@ -624,9 +502,16 @@ void sb_study_file_free(SbStudyFile *study) {
   if (study == NULL) {
     return;
   }
-  for (guint i = 0; i < study->vary->len; i++) {
+  for (guint i = 0; i < study->vary->len && study->lines == NULL; i++) {
     g_free(g_array_index(study->vary, SbVary, i).levels);
   }
+  for (guint i = 0; study->lines != NULL && i < study->lines->len; i++) {
+    const SbVary *line = &g_array_index(study->lines, SbVary, i);
+    g_free(line->levels);
+    g_free(line->name);
+    g_free(line->by);
+  }
+  g_clear_pointer(&study->lines, g_array_unref);
   g_array_unref(study->vary);
   g_array_unref(study->figures);
   if (study->design.tolerances != NULL) {

@@ -4,6 +4,14 @@
 // parameter; [correlation]; [study]; [limits]; [design] and [tolerances] of `sealbench design`,
 // which takes the ranges of [vary] as bounds. [data] belongs to another command and is passed over
 // here.
+//
+// A grid may say more. Each group [vary NAME] is a grid of its own beside the others, with the
+// lines of [vary] added; samples stand in the order of the groups, the last line runs fastest. A
+// name without a dot is a variable, which overrides nothing; `KEY = by EXPRESSION` follows from
+// variables and from the scene's values, which keys in an expression mean (expression.h). A
+// variable that a group leaves out is 0. Ends of ranges and levels may be expressions of the
+// scene's values; `uniform A .. B, N and C, D` adds levels behind the N. `hold` in [study] names
+// what of the scene is held (SB_HOLDS of engine/valve/studies/hold.h).
 #pragma once
 
 #include "app/document/document.h"
@@ -37,7 +45,20 @@ typedef struct {
   bool offset;                 // a tolerance: what is added to the parameter's value
   SbDistribution distribution; // its levels are owned by the file
   double *levels;
+  const SbModel *base; // whose values expressions name; borrowed
+  // Of lines of a grid that says more:
+  char *name; // of a variable, whose id is SB_VARY_VARIABLE; owned
+  char *by;   // expression, instead of a distribution; owned
+  int line;   // in the file
+  guint grid; // the how-many-th [vary NAME], from 1; 0: [vary]
+  guint column;
 } SbVary;
+
+#define SB_VARY_VARIABLE ((SbParamId)-1)
+
+// Key or variable's name; its SI unit. Borrowed.
+const char *sb_vary_name(const SbVary *vary);
+const char *sb_vary_si(const SbVary *vary);
 
 // [design] and [tolerances].
 typedef struct {
@@ -55,7 +76,9 @@ typedef struct {
   SbDocument *scene; //
   SbModel *base;     // the scene, --set included
   char *base_sha256; // hex, of the scene's values and of what it reads beside them
-  GArray *vary;      // of SbVary
+  GArray *vary;      // of SbVary: what there are values of
+  GArray *lines;     // of SbVary, of a grid that says more; NULL: `vary`
+  guint grids;       // groups [vary NAME]
   double *root;      // [vary][vary] lower root of the normal variates' correlation; NULL: none
   SbStudyMethod method;
   size_t samples; // points of the method, rounded down to whole trajectories or blocks; 0: not said
@@ -78,6 +101,9 @@ SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *na
                                  const char *directory, char **settings, SbDocument *scene,
                                  GPtrArray *issues);
 
+// The same of a file for another scene, which is copied: that of the file is not looked at.
+SbStudyFile *sb_study_file_of_model(const char *path, const SbModel *scene, GPtrArray *issues);
+
 // The study of a design's scatter, `reliability` with so many samples: what varies are the
 // tolerances about these values [vary], or about the scene's of parameters that [vary] has not. It
 // borrows from `study` and lives no longer. Owned by the caller.
@@ -96,3 +122,16 @@ void sb_study_file_place(double *value, double *slope, const SbStudyFile *study,
 // `reliability` are in app/study/reliability.h. SB_ERROR_MEMORY.
 SbStatus sb_study_file_points(double **value, double **unit, const SbStudyFile *study,
                               SbReport *report);
+
+// Of a grid that says more: the combination of all but the last line that a sample has, counted
+// through the file from 0, and the last line's value.
+void sb_study_grid_place(size_t *line, double *x, const SbStudyFile *study, size_t sample);
+
+// Fills what follows in a row [vary] of values, NaN elsewhere for what it has not, of a group [vary
+// NAME] (0: of none). A value that is none, such as a quotient by 0, is NaN.
+void sb_study_grid_follow(double *row, const SbStudyFile *study, guint grid);
+
+// The row of a line of the grid at its first level, what follows left out; its group, and the
+// column of its last parameter.
+void sb_study_grid_row(double *row, guint *grid, guint *column, const SbStudyFile *study,
+                       size_t line);

@@ -5,6 +5,7 @@
 #include "app/document/study_file.h"
 
 #include "app/base/reader.h"
+#include "engine/valve/studies/hold.h"
 
 #define GROUP_VARY        "vary"
 #define GROUP_STUDY       "study"
@@ -21,10 +22,16 @@ typedef struct {
   const GPtrArray *entries;
   const char *shown;
   GPtrArray *issues;
+  guint grid; // of the group [vary NAME] that is read, 0: another
 } SbStudyReader;
 
 void sb_study_complain(const SbStudyReader *reader, const SbEntry *entry, const char *allowed,
                        const char *text);
+
+// A line of [vary], or an offset of [tolerances], into a list of SbVary. The forms that it may
+// have.
+void sb_study_read_vary(SbStudyReader *reader, const SbEntry *entry, GArray *list, bool offset);
+extern const char sb_study_vary_forms[];
 
 // Place of a parameter in [vary], or -1.
 int sb_study_vary_index(const SbStudyFile *study, const char *key);
@@ -41,3 +48,17 @@ SB_CHECKED bool sb_study_read_count(double *out, const char *text, double least,
 // A line of [design]; and when all groups are read, what a design needs of them.
 void sb_study_read_design(SbStudyReader *reader, const SbEntry *entry);
 void sb_study_check_design(SbStudyReader *reader);
+
+// Level of a range with a number of points.
+double sb_study_grid_level(const SbDistribution *of, size_t index);
+
+// A value of the base by its key; `data` is the model.
+bool sb_study_base_value(double *out, const char *name, void *data);
+
+// A line of [vary] or [vary NAME] that says more than a parameter's distribution is kept among
+// `lines`; when all are read, what varies is taken from them.
+void sb_study_take_lines(SbStudyReader *reader);
+
+// Points of a grid that says more; its values [samples][vary].
+size_t sb_study_grid_points(const SbStudyFile *study);
+void sb_study_grid_fill(double *value, const SbStudyFile *study);

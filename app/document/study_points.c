@@ -1,5 +1,5 @@
 // Lays out the points of a study's method; see study_file.h.
-#include "app/document/study_file.h"
+#include "app/document/study_file_private.h"
 
 #include <stdlib.h>
 
@@ -60,7 +60,7 @@ SbStatus sb_study_file_points(double **value, double **unit, const SbStudyFile *
   if (status == SB_OK) {
     switch (study->method) {
     case SB_METHOD_GRID:
-      fill_grid(values, study);
+      (study->lines != NULL ? sb_study_grid_fill : fill_grid)(values, study);
       break;
     case SB_METHOD_SOBOL_SEQUENCE:
       status = sb_sample_sobol(points, samples, n, study->seed, report);

@@ -43,9 +43,11 @@ const char *sb_study_status_name(uint8_t status) {
 // ---- CSV ----
 
 static void put_parameter(FILE *stream, SbParamId id, double value) {
-  const SbParam *param = sb_param(id);
+  const SbParam *param = id != SB_VARY_VARIABLE ? sb_param(id) : NULL;
   char digits[SB_NUMBER_SIZE];
-  if (param->kind == SB_PARAM_CHOICE) {
+  if (isnan(value)) { // as in the scene
+    fputc(',', stream);
+  } else if (param != NULL && param->kind == SB_PARAM_CHOICE) {
     char name[64];
     sb_param_choice_name(param, (int)value, name, sizeof name);
     fprintf(stream, ",%s", name);
@@ -59,8 +61,8 @@ void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
   const size_t n = study->vary->len;
   fputs("sample", stream);
   for (size_t k = 0; k < n; k++) {
-    const SbParam *param = sb_param(g_array_index(study->vary, SbVary, k).id);
-    fprintf(stream, ",%s [%s]", param->key, param->si);
+    const SbVary *vary = &g_array_index(study->vary, SbVary, k);
+    fprintf(stream, ",%s [%s]", sb_vary_name(vary), sb_vary_si(vary));
   }
   for (guint k = 0; k < study->figures->len; k++) {
     fprintf(stream, ",%s", sb_figure(g_array_index(study->figures, int, k))->path);
@@ -114,7 +116,7 @@ static SbStatus put_figures(SbJson *json, const SbStudyFile *study, const SbAnsw
 }
 
 static const char *vary_key(const SbStudyFile *study, size_t k) {
-  return sb_param(g_array_index(study->vary, SbVary, k).id)->key;
+  return sb_vary_name(&g_array_index(study->vary, SbVary, k));
 }
 
 // Where a side of a limit is most probably reached.

@@ -24,6 +24,7 @@ enum { TAG_READY, TAG_ANSWER, TAG_SAMPLE, TAG_STOP };
 enum { REASON = 256, STATUS = 1, BLOCK = 64 };
 
 static int processes, stopped; // stopped: how many were told
+static bool served;            // another process than the first has asked for samples
 
 static void tell_stop(int process) {
   uint32_t nothing = 0;
@@ -112,6 +113,7 @@ static void answer(const SbQuestions *asked, SbEvaluator *evaluator, const SbEva
 static void serve(const SbQuestions *asked) {
   SbEvaluator *evaluator = NULL;
   double *message = g_new(double, 2 + asked->figures);
+  served = true;
   SbReport report = {0};
   if (sb_evaluator_create(&evaluator, &report) != SB_OK) {
     MPI_Abort(MPI_COMM_WORLD, SB_EXIT_IO);
@@ -161,16 +163,15 @@ int main(int argc, char **argv) {
   argv[0] = name;
   const int code = sb_command_study(argc, argv);
   // Nothing to compute, or a store that cannot be opened: the others wait all the same.
+  uint32_t nothing = 0;
   for (int process = 1; rank == 0 && stopped == 0 && process < processes; process++) {
-    uint32_t nothing;
-    if (code != SB_EXIT_INPUT) {
-      MPI_Recv(&nothing, 1, MPI_UINT32_T, process, TAG_READY, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-      uint32_t end = 0;
-      MPI_Send(&end, 1, MPI_UINT32_T, process, TAG_STOP, MPI_COMM_WORLD);
-    }
+    MPI_Recv(&nothing, 1, MPI_UINT32_T, process, TAG_READY, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    uint32_t end = 0;
+    MPI_Send(&end, 1, MPI_UINT32_T, process, TAG_STOP, MPI_COMM_WORLD);
   }
-  if (rank == 0 && stopped == 0 && code == SB_EXIT_INPUT && processes > 1) {
-    MPI_Abort(MPI_COMM_WORLD, code);
+  if (rank != 0 && !served) { // the input is wrong
+    MPI_Send(&nothing, 1, MPI_UINT32_T, 0, TAG_READY, MPI_COMM_WORLD);
+    MPI_Recv(&nothing, 1, MPI_UINT32_T, 0, TAG_STOP, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
   }
   MPI_Finalize();
   return code;

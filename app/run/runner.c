@@ -29,11 +29,10 @@ struct SbRunner {
   pthread_mutex_t mutex; // guards what follows
   pthread_cond_t wake;
   bool quit;
-  SbModel *model;      // asked for and not yet begun; NULL: none
-  unsigned views;      // for which it is
-  unsigned ticket;     // last one given out
-  unsigned finished;   // last one that ended or was dropped
-  SbRunHandle *latest; // one reference
+  SbRunRequest waiting; // asked for and not yet begun, owned; model NULL: none
+  unsigned ticket;      // last one given out
+  unsigned finished;    // last one that ended or was dropped
+  SbRunHandle *latest;  // one reference
 };
 
 SbRunHandle *sb_run_handle_ref(SbRunHandle *handle) {
@@ -108,7 +107,13 @@ static void show(SbRunner *runner, SbRunHandle *handle) {
   runner->notify(runner->data);
 }
 
-static void compute(SbRunner *runner, const SbModel *model, unsigned views, unsigned ticket) {
+static void clear_request(SbRunRequest *request) {
+  sb_model_destroy(request->model);
+  sb_run_handle_unref(request->start);
+  *request = (SbRunRequest){0};
+}
+
+static void compute(SbRunner *runner, const SbRunRequest *request, unsigned ticket) {
   SbRunHandle *handle = calloc(1, sizeof *handle);
   if (handle == NULL) {
     return;
@@ -118,13 +123,23 @@ static void compute(SbRunner *runner, const SbModel *model, unsigned views, unsi
   atomic_init(&handle->done, false);
   handle->ticket = ticket;
   SbPlan plan;
-  sb_plan_wished(&plan, model, &(SbPlanWishes){.views = views, .life = true});
-  handle->status = sb_run_create(&handle->run, model, &plan, &handle->report);
+  sb_plan_wished(&plan, request->model, &request->wishes);
+  handle->status = sb_run_create(&handle->run, request->model, &plan, &handle->report);
   if (handle->status == SB_OK) {
     show(runner, handle);
     Job job = {runner, handle, 0};
-    SbRunHooks hooks = {.progress = on_progress, .cancelled = is_cancelled, .data = &job};
+    SbRunHooks hooks = {
+        .progress = on_progress, .cancelled = is_cancelled, .data = &job, .alone = request->alone};
+    if (request->keep) {
+      sb_run_keep_rings(handle->run);
+    }
+    (request->tangent ? sb_run_predict_from : sb_run_start_from)(
+        handle->run, request->start != NULL ? request->start->run : NULL);
     handle->status = sb_run_execute(handle->run, &hooks, &handle->report);
+    sb_run_start_from(handle->run, NULL);
+    if (request->keep) {
+      sb_run_end_rings(handle->run);
+    }
     atomic_store_explicit(&handle->permille, 1000, memory_order_relaxed);
     atomic_store_explicit(&handle->done, true, memory_order_release);
   } else {
@@ -144,16 +159,16 @@ static void *work(void *data) {
   }
   pthread_mutex_lock(&runner->mutex);
   while (!runner->quit) {
-    if (runner->model == NULL) {
+    if (runner->waiting.model == NULL) {
       pthread_cond_wait(&runner->wake, &runner->mutex);
       continue;
     }
-    SbModel *model = runner->model;
-    runner->model = NULL;
-    unsigned views = runner->views, ticket = runner->ticket;
+    SbRunRequest request = runner->waiting;
+    runner->waiting = (SbRunRequest){0};
+    unsigned ticket = runner->ticket;
     pthread_mutex_unlock(&runner->mutex);
-    compute(runner, model, views, ticket);
-    sb_model_destroy(model);
+    compute(runner, &request, ticket);
+    clear_request(&request);
     pthread_mutex_lock(&runner->mutex);
     runner->finished = ticket;
     pthread_mutex_unlock(&runner->mutex);
@@ -199,35 +214,39 @@ void sb_runner_destroy(SbRunner *runner) {
   pthread_mutex_unlock(&runner->mutex);
   pthread_join(runner->thread, NULL);
   sb_run_handle_unref(runner->latest);
-  sb_model_destroy(runner->model);
+  clear_request(&runner->waiting);
   pthread_cond_destroy(&runner->wake);
   pthread_mutex_destroy(&runner->mutex);
   free(runner);
 }
 
-unsigned sb_runner_submit(SbRunner *runner, const SbModel *model, unsigned views) {
+unsigned sb_runner_submit(SbRunner *runner, const SbRunRequest *request) {
+  SbRunRequest own = *request;
   SbModel *copy;
-  (void)sb_model_copy(&copy, model);
+  (void)sb_model_copy(&copy, request->model);
+  own.model = copy;
+  own.start = own.start != NULL ? sb_run_handle_ref(own.start) : NULL;
   pthread_mutex_lock(&runner->mutex);
   atomic_store_explicit(&runner->void_up_to, runner->ticket, memory_order_relaxed);
   unsigned ticket = ++runner->ticket;
-  sb_model_destroy(runner->model);
-  runner->model = copy;
-  runner->views = views;
+  SbRunRequest dropped = runner->waiting;
+  runner->waiting = own;
   pthread_cond_signal(&runner->wake);
   pthread_mutex_unlock(&runner->mutex);
+  clear_request(&dropped);
   return ticket;
 }
 
 void sb_runner_cancel(SbRunner *runner) {
   pthread_mutex_lock(&runner->mutex);
   atomic_store_explicit(&runner->void_up_to, runner->ticket, memory_order_relaxed);
-  if (runner->model != NULL) {
-    sb_model_destroy(runner->model);
-    runner->model = NULL;
+  SbRunRequest dropped = runner->waiting;
+  runner->waiting = (SbRunRequest){0};
+  if (dropped.model != NULL) {
     runner->finished = runner->ticket;
   }
   pthread_mutex_unlock(&runner->mutex);
+  clear_request(&dropped);
 }
 
 bool sb_runner_is_busy(SbRunner *runner) {

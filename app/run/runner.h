@@ -44,9 +44,22 @@ SbRunner *sb_runner_create(SbRunnerNotify notify, void *data);
 // called again. Handles stay valid. Takes NULL. Not from inside `notify`.
 void sb_runner_destroy(SbRunner *runner);
 
-// Asks for a run of `model` (copied) for these views (a bit mask of SbView). What is being computed
-// is cancelled, what was waiting is dropped. Returns the request's ticket; tickets grow from 1.
-unsigned sb_runner_submit(SbRunner *runner, const SbModel *model, unsigned views);
+// What is asked for.
+typedef struct {
+  const SbModel *model; // copied
+  SbPlanWishes wishes;
+  // A run that has ended, a reference is taken: solved rings start from its states
+  // (sb_run_start_from()), if `keep` was asked for with it. NULL: cold, as any other program has
+  // it.
+  SbRunHandle *start;
+  bool tangent; // they are not solved, but those of `start` to first order (sb_run_predict_from())
+  bool keep;    // keeps its rings for others to start from
+  bool alone;   // no thread beside the runner's
+} SbRunRequest;
+
+// Asks for a run. What is being computed is cancelled, what was waiting is dropped. Returns the
+// request's ticket; tickets grow from 1.
+unsigned sb_runner_submit(SbRunner *runner, const SbRunRequest *request);
 
 // Stops what is being computed and drops what waits. May be called at any time, any number of
 // times.

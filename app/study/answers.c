@@ -17,6 +17,9 @@ struct SbAnswerSink {
   SbAnswers *out;
   GChecksum *common; // what the keys of all samples begin with
   size_t todo, taken;
+  // Without a store: the first sample that asks the same [samples], and by its key.
+  size_t *same;
+  GHashTable *first;
   double committed; // when
   bool failed;      // the store
   GError **error;
@@ -32,7 +35,8 @@ static double now(void) {
 
 SbEvaluator *sb_answer_start(const SbQuestions *asked) {
   SbEvaluator *start = NULL;
-  if (sb_model_number(asked->base, SB_P_MODELS_FIT) != SB_FIT_RING ||
+  if (asked->cold || asked->start != NULL ||
+      sb_model_number(asked->base, SB_P_MODELS_FIT) != SB_FIT_RING ||
       sb_evaluator_create(&start, NULL) != SB_OK) {
     return NULL;
   }
@@ -51,23 +55,34 @@ SbEvaluator *sb_answer_start(const SbQuestions *asked) {
   return start;
 }
 
+static bool has_override(const SbQuestions *asked, size_t k, double value) {
+  return (int)asked->parameter[k] >= 0 && !isnan(value);
+}
+
 SbStatus sb_answer(double *value, char **reason, SbEvaluator *evaluator, const SbQuestions *asked,
                    const SbEvaluator *start, size_t sample, bool (*cancelled)(void *data),
                    void *data) {
   SbOverride override[SB_QUESTION_PARAMETERS];
+  size_t overrides = 0;
+  for (size_t k = 0; k < asked->parameters; k++) {
+    const double to = asked->value[sample * asked->parameters + k];
+    if (has_override(asked, k, to)) {
+      override[overrides++] = (SbOverride){asked->parameter[k], to};
+    }
+  }
   const SbQuestion question = {.base = asked->base,
                                .override = override,
-                               .override_count = asked->parameters,
+                               .override_count = overrides,
                                .figure = asked->figure,
                                .figure_count = asked->figures,
                                .start = start,
                                .cancelled = cancelled,
                                .data = data};
-  for (size_t k = 0; k < asked->parameters; k++) {
-    override[k] = (SbOverride){asked->parameter[k], asked->value[sample * asked->parameters + k]};
-  }
   SbReport report = {0};
   const SbStatus status = sb_evaluator_ask(value, evaluator, &question, &report);
+  if (asked->seen != NULL) { // each its own sample
+    asked->seen(asked->data, sample, status, &report, evaluator);
+  }
   *reason = NULL;
   if (status != SB_OK) {
     const bool unnamed =
@@ -85,8 +100,10 @@ static void common_key(GChecksum *sum, const SbQuestions *asked) {
   g_checksum_update(sum, (const guchar *)"\n", 1);
   g_checksum_update(sum, (const guchar *)asked->base_sha256, -1);
   for (size_t k = 0; k < asked->parameters; k++) {
-    g_checksum_update(sum, (const guchar *)"\n", 1);
-    g_checksum_update(sum, (const guchar *)sb_param(asked->parameter[k])->key, -1);
+    if ((int)asked->parameter[k] >= 0) {
+      g_checksum_update(sum, (const guchar *)"\n", 1);
+      g_checksum_update(sum, (const guchar *)sb_param(asked->parameter[k])->key, -1);
+    }
   }
   for (size_t k = 0; k < asked->figures; k++) {
     g_checksum_update(sum, (const guchar *)"\n", 1);
@@ -98,8 +115,13 @@ static void sample_key(guint8 key[SB_STORE_KEY], const GChecksum *common, const 
                        size_t sample) {
   GChecksum *sum = g_checksum_copy(common);
   gsize length = SB_STORE_KEY;
-  g_checksum_update(sum, (const guchar *)(asked->value + sample * asked->parameters),
-                    (gssize)(asked->parameters * sizeof(double)));
+  for (size_t k = 0; k < asked->parameters; k++) {
+    const double *value = asked->value + sample * asked->parameters + k;
+    const double none = NAN;
+    if ((int)asked->parameter[k] >= 0) {
+      g_checksum_update(sum, (const guchar *)(isnan(*value) ? &none : value), sizeof *value);
+    }
+  }
   g_checksum_get_digest(sum, key, &length);
   g_checksum_free(sum);
 }
@@ -120,7 +142,7 @@ void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStatus status, char *re
   if (reason != NULL) {
     g_hash_table_insert(sink->out->reason, GSIZE_TO_POINTER(sample), reason);
   }
-  if (!sink->failed) {
+  if (!sink->failed && asked->store != NULL) {
     const double *parameter = asked->value + sample * asked->parameters;
     sink->failed = !sb_store_put(asked->store, key, parameter, &answer, sink->error);
   }
@@ -128,7 +150,7 @@ void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStatus status, char *re
 
 bool sb_answer_goes_on(SbAnswerSink *sink) {
   const SbQuestions *asked = sink->asked;
-  if (!sink->failed && now() > sink->committed + 1) {
+  if (!sink->failed && asked->store != NULL && now() > sink->committed + 1) {
     sink->failed = !sb_store_commit(asked->store, sink->error);
     sink->committed = now();
   }
@@ -234,7 +256,11 @@ static void compute_on_threads(SbAnswerSink *sink, const SbQuestions *asked, con
     sb_evaluator_destroy(start);
     return;
   }
-  Threads pool = {.asked = asked, .start = start, .sink = sink, .todo = todo, .count = count};
+  Threads pool = {.asked = asked,
+                  .start = asked->start != NULL ? asked->start : start,
+                  .sink = sink,
+                  .todo = todo,
+                  .count = count};
   pthread_t thread[JOBS_MAX];
   const int jobs = CLAMP((int)MIN((size_t)asked->jobs, count), 1, JOBS_MAX);
   pthread_condattr_t attributes;
@@ -267,6 +293,20 @@ static bool is_ours(const SbQuestions *asked, size_t sample) {
   return asked->shards == 0 || sample % asked->shards == asked->shard;
 }
 
+// Whether no earlier sample asks the same; without a store, which would tell.
+static bool is_first(SbAnswerSink *sink, const guint8 key[SB_STORE_KEY], size_t sample) {
+  GBytes *whole = g_bytes_new(key, SB_STORE_KEY);
+  gpointer before = NULL;
+  if (g_hash_table_lookup_extended(sink->first, whole, NULL, &before)) {
+    g_bytes_unref(whole);
+  } else {
+    before = GSIZE_TO_POINTER(sample);
+    g_hash_table_insert(sink->first, whole, before);
+  }
+  sink->same[sample] = GPOINTER_TO_SIZE(before);
+  return sink->same[sample] == sample;
+}
+
 // Takes what the store has and lists the rest.
 static void look_up(SbAnswerSink *sink, uint32_t *todo) {
   const SbQuestions *asked = sink->asked;
@@ -274,13 +314,31 @@ static void look_up(SbAnswerSink *sink, uint32_t *todo) {
     guint8 key[SB_STORE_KEY];
     SbStoredAnswer answer = {.value = sb_answer_place(sink, i)};
     sample_key(key, sink->common, asked, i);
-    if (sb_store_get(asked->store, key, &answer)) {
+    if (asked->store != NULL && sb_store_get(asked->store, key, &answer)) {
       sink->out->status[i] = (uint8_t)answer.status;
       if (answer.reason != NULL) {
         g_hash_table_insert(sink->out->reason, GSIZE_TO_POINTER(i), answer.reason);
       }
-    } else if (is_ours(asked, i)) {
+    } else if (is_ours(asked, i) && (sink->same == NULL || is_first(sink, key, i))) {
       todo[sink->todo++] = (uint32_t)i;
+    }
+  }
+}
+
+// Gives samples that ask the same as an earlier one its answer.
+static void repeat(SbAnswerSink *sink) {
+  SbAnswers *out = sink->out;
+  for (size_t i = 0; i < out->samples; i++) {
+    const size_t from = sink->same[i];
+    const char *reason = g_hash_table_lookup(out->reason, GSIZE_TO_POINTER(from));
+    if (from == i) {
+      continue;
+    }
+    out->status[i] = out->status[from];
+    memcpy(sb_answer_place(sink, i), sb_answer_place(sink, from),
+           out->figures * sizeof *out->value);
+    if (reason != NULL) {
+      g_hash_table_insert(out->reason, GSIZE_TO_POINTER(i), g_strdup(reason));
     }
   }
 }
@@ -292,12 +350,13 @@ static bool compute(SbAnswerSink *sink, const uint32_t *todo) {
   (asked->pool != NULL ? asked->pool->compute : compute_on_threads)(sink, asked, todo, sink->todo);
   sink->out->computed = sink->taken;
   sink->out->seconds = now() - start;
-  if (!sb_store_commit(asked->store, sink->failed ? NULL : sink->error) || sink->failed) {
+  if ((asked->store != NULL && !sb_store_commit(asked->store, sink->failed ? NULL : sink->error)) ||
+      sink->failed) {
     return false;
   }
   if (sink->taken < sink->todo) {
-    g_set_error(sink->error, SB_APP_ERROR, SB_APP_ERROR_CANCELLED,
-                "interrupted: what was finished is in the store");
+    g_set_error(sink->error, SB_APP_ERROR, SB_APP_ERROR_CANCELLED, "interrupted%s",
+                asked->store != NULL ? ": what was finished is in the store" : "");
   }
   return sink->taken == sink->todo;
 }
@@ -321,9 +380,19 @@ bool sb_answers_get(SbAnswers *out, const SbQuestions *asked, GError **error) {
   }
   SbAnswerSink sink = {
       .asked = asked, .out = out, .common = g_checksum_new(G_CHECKSUM_SHA256), .error = error};
+  if (asked->store == NULL) {
+    sink.same = g_new0(size_t, asked->samples + 1);
+    sink.first =
+        g_hash_table_new_full(g_bytes_hash, g_bytes_equal, (GDestroyNotify)g_bytes_unref, NULL);
+  }
   common_key(sink.common, asked);
   look_up(&sink, todo);
   const bool good = sink.todo == 0 || compute(&sink, todo);
+  if (sink.same != NULL) {
+    repeat(&sink);
+    g_hash_table_unref(sink.first);
+    g_free(sink.same);
+  }
   g_checksum_free(sink.common);
   free(todo);
   return good;

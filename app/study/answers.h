@@ -11,7 +11,7 @@
 
 #include <stdint.h>
 
-enum { SB_QUESTION_PARAMETERS = 64 };
+enum { SB_QUESTION_PARAMETERS = 96, SB_QUESTION_NONE = -1 };
 
 typedef struct SbAnswerPool SbAnswerPool;
 
@@ -19,16 +19,23 @@ typedef struct SbAnswerPool SbAnswerPool;
 typedef struct {
   const SbModel *base;
   const char *base_sha256;    // of the base's values, for the key
-  const SbParamId *parameter; // [parameters]
+  const SbParamId *parameter; // [parameters]; SB_QUESTION_NONE: a variable that overrides nothing
   size_t parameters;          // at most SB_QUESTION_PARAMETERS
   const int *figure;          // [figures], figures.def
   size_t figures;
-  const double *value; // [samples][parameters], SI
+  const double *value; // [samples][parameters], SI; NaN: as in the base
   size_t samples;
   size_t shard, shards;     // samples of this number modulo `shards` alone, from 0; shards 0: all
   int jobs;                 // threads, at least 1
   const SbAnswerPool *pool; // who computes; NULL: threads of this process
-  SbStore *store;
+  SbStore *store;           // NULL: nothing is kept
+  // What the samples start from, instead of the base's answer. `cold`: from nothing.
+  const SbEvaluator *start;
+  bool cold;
+  // Told each answer on the thread that computed it, several at the same time; may be NULL. The
+  // evaluator has the model and the summary.
+  void (*seen)(void *data, size_t sample, SbStatus status, const SbReport *report,
+               const SbEvaluator *evaluator);
   void (*progress)(void *data, size_t done, size_t of); // from the calling thread
   bool (*cancelled)(void *data);                        // the same
   void *data;
