@@ -80,7 +80,7 @@ with open(source + '/include/sealbench.h', encoding='utf-8') as file:
     declared = set(re.findall(r'\b(sb_\w+)\(', re.sub(r'//.*', '', file.read())))
 needed = re.findall(r'\(NEEDED\).*\[(\S+)\]', subprocess.run(
     ['readelf', '-d', library], capture_output=True, text=True, check=True).stdout)
-LIBRARY_MAY_NEED = r'lib(openblas|lapacke|gsl|gslcblas|klu|m|c|pthread|glib-2\.0|gio-2\.0|gobject-2\.0|udunits2)\.so'
+LIBRARY_MAY_NEED = r'lib(openblas|lapacke|gsl|gslcblas|amd|suitesparseconfig|m|c|pthread|glib-2\.0|gio-2\.0|gobject-2\.0|udunits2)\.so'
 checks = [
     ('engine uses no GLib, GTK, cairo, pango, GL, libav or udunits',
      matching(symbols(engine, 'U'), r'(g|gtk|gdk|cairo|pango|av|ut|cv)_|gl[A-Z]|egl[A-Z]|OSMesa')),

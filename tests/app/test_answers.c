@@ -77,6 +77,44 @@ static void test_threads(void) {
   close_store(other);
 }
 
+static void count_seen(void *data, size_t sample, SbStatus status, const SbReport *report,
+                       const SbEvaluator *evaluator) {
+  int *seen = data;
+  g_assert_true((sb_evaluator_summary(evaluator) != NULL) == (status == SB_OK));
+  g_assert_true(status == SB_OK || report->text[0] != '\0');
+  seen[sample]++;
+}
+
+// Without a store: what is asked twice is computed once, a value that is none is the base's, a
+// variable overrides nothing.
+static void test_without_store(void) {
+  enum { ROWS = 5, COLUMNS = 2 };
+  static const SbParamId columns[] = {SB_P_GLAND_RADIAL_SPACE, (SbParamId)SB_QUESTION_NONE};
+  const double space = sb_model_value(base, SB_P_GLAND_RADIAL_SPACE);
+  const double row[ROWS * COLUMNS] = {1.3e-3, 1, NAN, 2, 1.3e-3, 3, space, NAN, 9e-3, 1};
+  int seen[ROWS] = {0};
+  SbAnswers answers;
+  SbQuestions asked = questions(NULL, 2);
+  asked.parameter = columns;
+  asked.parameters = COLUMNS;
+  asked.value = row;
+  asked.samples = ROWS;
+  asked.seen = count_seen;
+  asked.data = seen;
+  g_assert_true(sb_answers_get(&answers, &asked, NULL));
+  g_assert_cmpuint(answers.computed, ==, ROWS - 1);
+  for (int i = 0; i < ROWS; i++) {
+    g_assert_cmpint(seen[i], ==, i != 2);
+    g_assert_cmpint(answers.status[i] == SB_OK, ==, i < 4);
+  }
+  for (int k = 0; k < FIGURES; k++) {
+    g_assert_cmpfloat(answers.value[2 * FIGURES + k], ==, answers.value[k]);
+    g_assert_cmpfloat(answers.value[3 * FIGURES + k], ==, answers.value[FIGURES + k]);
+  }
+  g_assert_cmpfloat(answers.value[0], !=, answers.value[FIGURES]);
+  sb_answers_release(&answers);
+}
+
 static bool after_five(void *data) {
   return *(size_t *)data >= 5;
 }
@@ -249,6 +287,7 @@ int main(int argc, char **argv) {
   figure[1] = sb_figure_find("seals.outer.pressure_peak_Pa");
   figure[2] = sb_figure_find("cycle.dose_mass_kg");
   g_test_add_func("/answers/threads", test_threads);
+  g_test_add_func("/answers/without-store", test_without_store);
   g_test_add_func("/answers/resume", test_resume);
   g_test_add_func("/answers/shards", test_shards);
   g_test_add_func("/answers/disagree", test_disagree);

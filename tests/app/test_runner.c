@@ -19,6 +19,11 @@ static SbModel *model_with(int frames) {
   return model;
 }
 
+static unsigned submit(SbRunner *runner, const SbModel *model) {
+  return sb_runner_submit(runner,
+                          &(SbRunRequest){.model = model, .wishes = {.views = SB_VIEW_HYSTERESIS}});
+}
+
 static void count(void *data) {
   atomic_fetch_add((atomic_uint *)data, 1);
 }
@@ -36,7 +41,7 @@ static void test_one(void) {
   SbRunner *runner = sb_runner_create(count, &notes);
   g_assert_null(sb_runner_latest(runner));
   g_autoptr(SbModel) model = model_with(400);
-  unsigned ticket = sb_runner_submit(runner, model, SB_VIEW_HYSTERESIS);
+  unsigned ticket = submit(runner, model);
   wait_idle(runner);
   SbRunHandle *handle = sb_runner_latest(runner);
   g_assert_cmpuint(sb_run_handle_ticket(handle), ==, ticket);
@@ -55,7 +60,7 @@ static void test_one(void) {
 // Frames are published while the run goes on, and each is complete when seen.
 static int growing_looks(SbRunner *runner) {
   g_autoptr(SbModel) model = model_with(100000);
-  unsigned ticket = sb_runner_submit(runner, model, SB_VIEW_HYSTERESIS);
+  unsigned ticket = submit(runner, model);
   size_t seen = 0;
   int looks = 0;
   while (sb_runner_is_busy(runner)) {
@@ -91,7 +96,7 @@ static void test_growing(void) {
 // Cancels a long run in its middle; how long that took [us], or -1 if the run was done before.
 static gint64 cancel_one(SbRunner *runner) {
   g_autoptr(SbModel) model = model_with(500000);
-  unsigned ticket = sb_runner_submit(runner, model, SB_VIEW_HYSTERESIS);
+  unsigned ticket = submit(runner, model);
   SbRunHandle *handle = NULL;
   while (handle == NULL || sb_run_handle_ticket(handle) != ticket) {
     sb_run_handle_unref(handle);
@@ -135,7 +140,7 @@ static void test_cancel(void) {
   // A cancel of nothing does not hit the next request.
   sb_runner_cancel(runner);
   g_autoptr(SbModel) model = model_with(100);
-  sb_runner_submit(runner, model, SB_VIEW_HYSTERESIS);
+  submit(runner, model);
   wait_idle(runner);
   SbRunHandle *handle = sb_runner_latest(runner);
   g_assert_cmpint(sb_run_handle_status(handle), ==, SB_OK);
@@ -150,13 +155,13 @@ static void test_newest_wins(void) {
   g_autoptr(SbModel) long_model = model_with(300000);
   unsigned ticket = 0;
   for (int i = 0; i < 200; i++) {
-    ticket = sb_runner_submit(runner, long_model, SB_VIEW_HYSTERESIS);
+    ticket = submit(runner, long_model);
     if (i % 20 == 0) {
       g_usleep(2000);
     }
   }
   g_autoptr(SbModel) model = model_with(123);
-  ticket = sb_runner_submit(runner, model, SB_VIEW_HYSTERESIS);
+  ticket = submit(runner, model);
   wait_idle(runner);
   SbRunHandle *handle = sb_runner_latest(runner);
   g_assert_cmpuint(sb_run_handle_ticket(handle), ==, ticket);
@@ -165,7 +170,7 @@ static void test_newest_wins(void) {
   g_assert_cmpint(sb_run_handle_status(handle), ==, SB_OK);
   sb_run_handle_unref(handle);
   // Destroyed in the middle of a run.
-  sb_runner_submit(runner, long_model, SB_VIEW_HYSTERESIS);
+  submit(runner, long_model);
   sb_runner_destroy(runner);
 }
 

@@ -109,7 +109,8 @@ static void test_outlives(void) {
   g_assert_true(sb_document_compile(document, &model, issues));
   SbRun *alone = executed_run(model);
   SbRunner *runner = sb_runner_create(ignore, NULL);
-  sb_runner_submit(runner, model, SB_VIEW_HYSTERESIS);
+  sb_runner_submit(runner,
+                   &(SbRunRequest){.model = model, .wishes = {.views = SB_VIEW_HYSTERESIS}});
   sb_document_free(document);
   while (sb_runner_is_busy(runner)) {
     g_usleep(1000);

@@ -1,5 +1,6 @@
 // Pictures and tables of studies: golden pictures with partners that must fail, the CSV and the
 // layout.
+#include "app/study/view.h"
 #include "tests/app/picture.h"
 
 #include "app/chart/propellants.h"

@@ -182,6 +182,34 @@ static void test_side_by_side(void) {
   }
 }
 
+// Where the disc hardly presses more than the fluid a stretched ring has left the bore: the disc
+// says so, and of the thesis' ring, which touches, it says nothing.
+static void test_disc_contact(void) {
+  SbFit *disc = g_new0(SbFit, 1), *ring = g_new0(SbFit, 1);
+  for (int stretched = 0; stretched < 2; stretched++) {
+    SbFitProblem in = thesis(SB_FIT_DISC);
+    if (stretched) { // by an eighth
+      in.section_diameter = in.radial_space / (1 - 0.091);
+      in.inner_diameter = (in.bore_diameter - in.radial_space) / 1.125 - in.section_diameter;
+      in.pressure = 0.043 * in.modulus;
+      in.poisson_ratio = 0.4563;
+    }
+    g_assert_cmpint(sb_fit_solve(disc, &in, NULL), ==, SB_OK);
+    in.model = SB_FIT_RING;
+    g_assert_cmpint(sb_fit_solve(ring, &in, NULL), ==, SB_OK);
+    g_assert_true(disc->touches);
+    g_assert_true(ring->touches == !stretched);
+    bool told = false;
+    for (size_t i = 0; i < disc->warnings.count; i++) {
+      told = told || g_str_equal(disc->warnings.item[i].code, "disc-ring-contact");
+    }
+    g_assert_true(told == stretched);
+    g_assert_true(!stretched || !disc->valid);
+  }
+  g_free(ring);
+  g_free(disc);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/fit/ring/reference", test_reference);
@@ -191,5 +219,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/fit/ring/limits", test_limits);
   g_test_add_func("/fit/ring/cancel", test_cancel);
   g_test_add_func("/fit/side-by-side", test_side_by_side);
+  g_test_add_func("/fit/disc-contact", test_disc_contact);
   return g_test_run();
 }

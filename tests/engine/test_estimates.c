@@ -3,6 +3,7 @@
 // at most ten. A finer solution stands for the truth. (Rings: test_ring_fit.c; disc: test_disc.c;
 // smooth films: test_film_reynolds.c; films in time: test_film_transient.c; motion:
 // test_run_limits.c, test_run_rig.c.)
+#include "app/study/view.h"
 #include "engine/contact/fit.h"
 #include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"

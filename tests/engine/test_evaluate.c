@@ -180,8 +180,9 @@ static void test_ring(void) {
   sb_run_destroy(run);
 }
 
-// Rings started from a base's: the same to the bit whoever asks and whatever was asked before, in a
-// third of the iterations, and within the errors told of what they are from the free ring.
+// Rings started from a base's: the same to the bit whoever asks and whatever was asked before, in
+// three fifths of the iterations of cold ones, most of which are on coarser meshes, and within the
+// errors told of what those are.
 static void test_start(void) {
   const SbOverride change[] = {{SB_P_MODELS_FIT, SB_FIT_RING},
                                {SB_P_GLAND_FLOOR_FRICTION, 0.3},
@@ -208,7 +209,7 @@ static void test_start(void) {
     question.start = NULL;
     g_assert_cmpint(sb_evaluator_ask(value, other, &question, NULL), ==, SB_OK);
     const SbSummary *cold = sb_evaluator_summary(other);
-    g_assert_cmpuint(3 * few, <=, cold->counters.newton_iterations);
+    g_assert_cmpuint(5 * few, <=, 3 * cold->counters.newton_iterations);
     for (int k = 0; k < 2; k++) {
       g_test_message("%s: %.6g N from the base's, %.6g N from the free ring",
                      sb_figure(figure[k])->path, warm[k], value[k]);

@@ -139,16 +139,13 @@ static void test_bodies(void) {
   g_rand_free(random);
 }
 
-// Discs of seed 1 whose films end sharply between coupled asperities before an outlet under
-// pressure, or whose outlet drives fluid back through them, and smooth ones (50, 252) that smooth
-// rows do not find: on the fitted body, in few steps.
-static void test_fronts(void) {
-  static const int discs[] = {16, 50, 68, 72, 129, 171, 183, 252, 262};
-  GRand *random = g_rand_new_with_seed(1);
+// Chosen discs of a seed, sliding out: on the fitted body, in few steps.
+static void films_of(guint32 of_seed, const int *discs, size_t discs_count) {
+  GRand *random = g_rand_new_with_seed(of_seed);
   SbSlidingMemory *memory = NULL;
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
   size_t next = 0;
-  for (int i = 1; next < G_N_ELEMENTS(discs);) {
+  for (int i = 1; next < discs_count;) {
     SbParams params;
     SbModel model;
     double ratio;
@@ -178,6 +175,15 @@ static void test_fronts(void) {
   }
   sb_sliding_memory_destroy(memory);
   g_rand_free(random);
+}
+
+// Films that end sharply between coupled asperities before an outlet under pressure, those of seed
+// 2 so sharply that a finer mesh has no room for all the ends, or whose outlet drives fluid back
+// through them, and smooth ones (50, 252) that smooth rows do not find.
+static void test_fronts(void) {
+  static const int first[] = {16, 50, 68, 72, 129, 171, 183, 252, 262}, second[] = {65, 103, 221};
+  films_of(1, first, G_N_ELEMENTS(first));
+  films_of(2, second, G_N_ELEMENTS(second));
 }
 
 int main(int argc, char **argv) {

@@ -571,6 +571,28 @@ static void test_sliding(void) {
   sb_sliding_memory_destroy(memory);
 }
 
+// Layers of 1e-7 half-widths ask for more elements than there is room for at a second level: those
+// that grow faster find what the first level of the others does (printed digits, degree 4).
+static void test_thin_layers(void) {
+  SbFilmProblem problem = rough_seal(-0.131651543721857e-3, SB_ROUGH_GREENWOOD_TRIPP);
+  problem.load = 1897.1630285865974;
+  problem.radius = 1.1667586497040262e-3;
+  problem.modulus = 7.5444657942491286e6;
+  problem.viscosity = 0.10757475861116382e-3;
+  problem.pressure_left = 273867.96543215145;
+  problem.inlet_film = 0.22236703164586231e-9;
+  problem.gt_product = 0.028805769993294653;
+  problem.sigma = 93.509277851655424e-9;
+  problem.sigma_over_beta = 0.011469785252250184;
+  problem.shear_strength = 3150612.309566604;
+  g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+  g_test_message("films %.6g and %.6g nm, asperity share %.6g", film.film_min * 1e9,
+                 film.film_central * 1e9, film.asperity_share);
+  close_to("least film", film.film_min * 1e9, 0.318010, 1e-3);
+  close_to("central film", film.film_central * 1e9, 0.400186, 1e-3);
+  g_assert_cmpfloat(film.solver.error_film_min, <, 1e-3);
+}
+
 static void test_refusals(void) {
   SbReport report;
   SbFilmProblem problem = rough_seal(1e-3, SB_ROUGH_PERSSON);
@@ -602,6 +624,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/mixed/sticking", test_sticking);
   g_test_add_func("/film/mixed/snap-in", test_snap_in);
   g_test_add_func("/film/mixed/sliding", test_sliding);
+  g_test_add_func("/film/mixed/thin-layers", test_thin_layers);
   g_test_add_func("/film/mixed/refusals", test_refusals);
   int failed = g_test_run();
   sb_film_solver_destroy(solver);

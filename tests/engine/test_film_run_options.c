@@ -179,19 +179,6 @@ static void test_inverse_hydrodynamics(void) {
   }
 }
 
-// Running-in would change a film that shares its load with asperities: a life needs them beside.
-static void test_coupled(void) {
-  SbModel model;
-  SbParams params;
-  sb_params_init(&params);
-  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_ASPERITIES, 1, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_params_set(&params, SB_P_LIFE_ACTUATIONS, 2, NULL), ==, SB_OK);
-  SbProblems problems;
-  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
-  g_assert_cmpuint(problems.count, ==, 1);
-  g_assert_cmpstr(problems.item[0].key, ==, "models.asperities");
-}
-
 // A power law has none of this: the run says so.
 static void test_told(void) {
   const Setting on[] = {{SB_P_MODELS_FILM, SB_FILM_THESIS}, {SB_P_MODELS_VISCOSITY, 1}};
@@ -210,7 +197,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/film-run-options/rupture", test_rupture);
   g_test_add_func("/film-run-options/carried", test_carried);
   g_test_add_func("/film-run-options/inverse-hydrodynamics", test_inverse_hydrodynamics);
-  g_test_add_func("/film-run-options/coupled", test_coupled);
   g_test_add_func("/film-run-options/told", test_told);
   return g_test_run();
 }

@@ -1,6 +1,7 @@
 // The ring's elements: consistent tangent, patch test, thick-walled cylinder and sphere against the
 // incompressible closed forms, bending without locking.
 #include "engine/contact/ring/ring_fem.h"
+#include "engine/numeric/dense.h"
 
 #include <glib.h>
 #include <math.h>
@@ -116,11 +117,12 @@ static void test_tangent(void) {
       }
     }
     for (int row = 0; row < n; row++) {
-      for (int at = fem->row_start[row]; at < fem->row_start[row + 1]; at++) {
-        if (fem->column[at] == column) {
+      for (int at = fem->row_start[row / 2]; at < fem->row_start[row / 2 + 1]; at++) {
+        if (fem->column[at] == column / 2) {
+          double value = fem->value[SB_RING_BLOCK * at + 2 * (row % 2) + column % 2];
           double difference = (plus[row] - minus[row]) / 2e-5;
-          worst = fmax(worst, fabs(difference - fem->value[at]));
-          scale = fmax(scale, fabs(fem->value[at]));
+          worst = fmax(worst, fabs(difference - value));
+          scale = fmax(scale, fabs(value));
         }
       }
     }
@@ -359,9 +361,54 @@ static void test_cook(void) {
   g_assert_cmpfloat(fabs(middle / fine - 1.0), <, error);
 }
 
+// Factors of an unsymmetric matrix with blocks at random against elimination with all its pivots.
+static void test_factor(void) {
+  enum { NODES = 40, N = 2 * NODES };
+  int start[NODES + 1], column[NODES * NODES], count = 0;
+  double value[SB_RING_BLOCK * NODES * NODES], *dense = g_new0(double, N *N), b[N], x[N], y[N];
+  for (int i = 0; i < NODES; i++) {
+    start[i] = count;
+    for (int j = 0; j < NODES; j++) {
+      if (i != j && pseudo(i < j ? i * NODES + j : j * NODES + i) < 0.4) {
+        continue;
+      }
+      column[count] = j;
+      for (int k = 0; k < SB_RING_BLOCK; k++) {
+        // A node's own block with a first entry of nil: its rows are exchanged.
+        const double entry = i != j ? pseudo(3 * count + k) : k == 0 ? 0.0 : k < 3 ? 30.0 : 1.0;
+        value[SB_RING_BLOCK * count + k] = entry;
+        dense[2 * i + k / 2 + N * (2 * j + k % 2)] = entry;
+      }
+      count++;
+    }
+  }
+  start[NODES] = count;
+  for (int i = 0; i < N; i++) {
+    b[i] = y[i] = pseudo(7 * i);
+  }
+  SbRingFactor *factor = sb_ring_factor_create(NODES, start, column);
+  g_assert_nonnull(factor);
+  for (int twice = 0; twice < 2; twice++) {
+    g_assert_true(sb_ring_factor_compute(factor, value));
+  }
+  sb_ring_factor_solve(factor, x, b);
+  g_assert_true(sb_eliminate(dense, y, N));
+  for (int i = 0; i < N; i++) {
+    g_assert_cmpfloat(fabs(x[i] - y[i]), <, 1e-12);
+  }
+  // A node without any stiffness.
+  for (int k = 0; k < count; k++) {
+    memset(&value[SB_RING_BLOCK * k], 0, sizeof(double) * SB_RING_BLOCK);
+  }
+  g_assert_false(sb_ring_factor_compute(factor, value));
+  sb_ring_factor_destroy(factor);
+  g_free(dense);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/ring-fem/tangent", test_tangent);
+  g_test_add_func("/ring-fem/factor", test_factor);
   g_test_add_func("/ring-fem/patch", test_patch);
   g_test_add_func("/ring-fem/tube", test_tube);
   g_test_add_func("/ring-fem/sphere", test_sphere);

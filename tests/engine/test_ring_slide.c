@@ -221,7 +221,7 @@ static void compliance(SbRing *ring, const SbRingPatch *patch, int n, double *c)
   sb_ring_contact_settle(ring->contact);
 }
 
-// The condensed compliance: symmetric and positive, and it foretells the loads of a small step of
+// The condensed compliance: symmetric and positive, and it predicts the loads of a small step of
 // the bore, c df = dr on the contact.
 static void test_compliance(void) {
   SbRingLoad load = groove(0.0);

@@ -71,8 +71,64 @@ static void test_frames(void) {
   }
 }
 
+// A stem of micrograms is thrown at hundreds of metres a second, then slides slowly and rests:
+// films a thousand times thinner than those of its begin are followed to the end. Random valve 257
+// of seed 11.
+static void test_thinned(void) {
+  const Setting settings[] = {TRANSIENT,
+                              {SB_P_BORE_DIAMETER, 0.004090419962691194},
+                              {SB_P_GLAND_RADIAL_SPACE, 0.0006300691169661397},
+                              {SB_P_SEAL_SECTION_DIAMETER, 0.0006739427157190502},
+                              {SB_P_SEAL_INNER_DIAMETER, 0.0023286315221035052},
+                              {SB_P_GLAND_AXIAL_WIDTH, 0.0006558071110326834},
+                              {SB_P_STEM_PRESSURE_DIAMETER, 0.003817088886950178},
+                              {SB_P_STEM_SEAL_SPACING, 0.003312040115370711},
+                              {SB_P_STEM_MASS, 4.2972087365957416e-09},
+                              {SB_P_DRIVE_STROKE, 0.006007023149350856},
+                              {SB_P_BORE_LAND_EDGE, 0.003649356671096554},
+                              {SB_P_SEAL_MODULUS, 8523268.313323833},
+                              {SB_P_SEAL_POISSON_RATIO, 0.47914252634742566},
+                              {SB_P_CANISTER_PRESSURE, 429800.9814937085},
+                              {SB_P_FLUID_VISCOSITY, 0.0016439257825161333},
+                              {SB_P_FLUID_DENSITY, 1177.9814288165128},
+                              {SB_P_SURFACE_SIGMA, 4.712877114973624e-07},
+                              {SB_P_SURFACE_SIGMA_OVER_BETA, 0.033803759496733754},
+                              {SB_P_SURFACE_GT_PRODUCT, 0.19316287775073185},
+                              {SB_P_FRICTION_SHEAR_STRENGTH, 4472694.165921702},
+                              {SB_P_FRICTION_LOAD_COEFFICIENT, 0.3741003105915728},
+                              {SB_P_FRICTION_STATIC_RATIO, 1.4621012102754043},
+                              {SB_P_DRIVE_SPEED, 0.011130287126173626},
+                              {SB_P_DRIVE_STIFFNESS, 2736.3313518713503},
+                              {SB_P_DRIVE_REVERSAL_FORCE, 16.77886717018816},
+                              {SB_P_MODELS_FIT, 3},
+                              {SB_P_MODELS_SURFACE, 0},
+                              {SB_P_MODELS_MOTION, 1},
+                              {SB_P_CANISTER_PRESSURE_MAP, 2},
+                              {SB_P_MODELS_FRICTION, 1},
+                              {SB_P_FLUID_REST_FILM, 1.7140410775000043e-08},
+                              {SB_P_FRICTION_BREAKAWAY, 1},
+                              {SB_P_FRICTION_AGEING, 0.06197192697568295},
+                              {SB_P_FRICTION_AGEING_TIME, 0.02979619398925637},
+                              {SB_P_DRIVE_KIND, 0},
+                              {SB_P_HOUSING_STOP_RESTITUTION, 0.9560355937214372},
+                              {SB_P_HOUSING_STOP_STIFFNESS, 38071013.00512833},
+                              {SB_P_DRIVE_DAMPING_RATIO, 0.5878188863497084},
+                              {SB_P_CHAMBER_FLOW, 0},
+                              {SB_P_BORE_VENT_WAY, 1},
+                              {SB_P_BORE_VENT_POSITION, 0.007595152678913605},
+                              {SB_P_BORE_REFILL_TRAVEL, 0},
+                              {SB_P_CHAMBER_STIFFNESS, 3096733.7607635492},
+                              {SB_P_FRICTION_TANGENTIAL_STIFFNESS, 21313.243330015222}};
+  SbModel model;
+  compile(&model, settings, G_N_ELEMENTS(settings));
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  g_assert_cmpuint(sb_run_summary(run)->counters.film_steps, >, 0);
+  sb_run_destroy(run);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-film/frames", test_frames);
+  g_test_add_func("/run-film/thinned", test_thinned);
   return g_test_run();
 }

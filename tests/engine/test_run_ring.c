@@ -136,6 +136,50 @@ static void test_beside(void) {
   sb_evaluator_destroy(evaluator);
 }
 
+// A film of some nanometres between smoother faces hangs on single nodes of the dragged ring, and
+// its asperities' friction jumps with them (at this roughness on the present mesh): solved within
+// the film's error, which the friction's holds.
+static void test_jump(void) {
+  const SbOverride rough[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
+                              {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED},
+                              {SB_P_MODELS_ADHESION, SB_MODEL_ADHESION_ON},
+                              {SB_P_SURFACE_SIGMA, 1.3e-8}};
+  SbModel *model = ring_model(rough, G_N_ELEMENTS(rough));
+  SbCounters counts = {0};
+  SbWarnings *warnings = g_new0(SbWarnings, 1);
+  SbSlidingMemory *memory;
+  g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
+  const SbSlidingTask task = {.model = model,
+                              .seal = SB_OUTER,
+                              .pressure =
+                                  sb_model_seal_pressure(model, SB_OUTER, SB_CHAMBER_AT_REST),
+                              .speed = model->speed,
+                              .memory = memory,
+                              .counts = &counts,
+                              .warnings = warnings};
+  SbSealState state, again;
+  SbReport report = {0};
+  SbStatus status = sb_sliding_solve(&state, &task, &report);
+  const double friction = sb_sliding_friction(&state);
+  g_test_message("%.5g N to %.2g N; %s", friction, state.friction_error, report.text);
+  g_assert_cmpint(status, ==, SB_OK);
+  g_assert_cmpint(state.section, ==, SB_RING_SLIDES);
+  // Borne by the ring, and no further from what the film asks than its friction's error.
+  g_assert_cmpfloat_with_epsilon(friction, fabs(sb_sliding_fit(memory)->ring.drag),
+                                 1e-12 * friction);
+  const double asked = friction / state.borne_share;
+  g_assert_cmpfloat(state.friction_error, >, 0.5 * model->tolerance * friction);
+  g_assert_cmpfloat(state.friction_error, >=, 0.999 * fabs(asked - friction));
+  g_assert_cmpfloat(state.friction_error, <, 2 * state.central_error * friction);
+  const size_t fits = counts.fit_solves;
+  g_assert_cmpint(sb_sliding_solve(&again, &task, NULL), ==, SB_OK);
+  g_assert_cmpuint(counts.fit_solves, ==, fits);
+  g_assert_true(sb_sliding_friction(&again) == friction);
+  sb_sliding_memory_destroy(memory);
+  g_free(warnings);
+  sb_model_destroy(model);
+}
+
 // Friction is the law's over the pressure that is drawn, and forces balance: both seals, both ways.
 static void test_balance(void) {
   SbModel *model = ring_model(NULL, 0);
@@ -336,6 +380,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-ring/one-state", test_one_state);
   g_test_add_func("/run-ring/beside", test_beside);
   g_test_add_func("/run-ring/balance", test_balance);
+  g_test_add_func("/run-ring/jump", test_jump);
   g_test_add_func("/run-ring/mirrored", test_mirrored);
   g_test_add_func("/run-ring/rest", test_rest);
   g_test_add_func("/run-ring/threads", test_threads);

@@ -1,5 +1,6 @@
 // Studies: their numbers against closed forms and reference figures, their bounds, progress and
 // cancel.
+#include "app/study/view.h"
 #include "engine/contact/fit.h"
 #include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"
@@ -133,11 +134,37 @@ static void test_models(void) {
   g_free(study);
 
   // Another ring has no printed values.
-  model.seal[SB_OUTER].modulus *= 1.1;
+  const Setting stiffer[] = {{SB_P_OUTPUT_TOLERANCE, 1e-2}, {SB_P_SEAL_MODULUS, 2.75e6}};
+  compile(&model, stiffer, G_N_ELEMENTS(stiffer));
   study = make(SB_STUDY_MODELS, &model);
   g_assert_true(isnan(cell(study, "0.55 MPa", "load thesis")));
   g_assert_cmpuint(study->note_count, ==, 2);
   g_free(study);
+}
+
+// A ring stretched so far that it leaves the bore, where the disc still touches: told by name.
+static void test_models_contact(void) {
+  const Setting setting[] = {{SB_P_OUTPUT_TOLERANCE, 1e-2},
+                             {SB_P_SEAL_OUTER_SECTION_DIAMETER, 1.36e-3 / (1 - 0.075)},
+                             {SB_P_SEAL_OUTER_INNER_DIAMETER, 2.66e-3}};
+  SbModel model;
+  for (int stretched = 0; stretched < 2; stretched++) {
+    compile(&model, setting, stretched ? 3 : 1);
+    SbStudy *study = make(SB_STUDY_MODELS, &model);
+    bool told = false;
+    for (size_t i = 0; i < study->warnings.count; i++) {
+      told = told || g_str_equal(study->warnings.item[i].code, "disc-ring-contact");
+    }
+    g_test_message("0 MPa: disc %g N, ring %g N", cell(study, "0.00 MPa", "load disc"),
+                   cell(study, "0.00 MPa", "load ring"));
+    g_assert_true(told == stretched);
+    g_assert_true(study->complete); // without friction as well
+    if (stretched) {
+      g_assert_cmpfloat(cell(study, "0.00 MPa", "load disc"), >, 0);
+      g_assert_cmpfloat(cell(study, "0.00 MPa", "load ring"), ==, 0);
+    }
+    g_free(study);
+  }
 }
 
 // The film law over a range where films are thin: the exact exponents and coefficients.
@@ -319,11 +346,12 @@ static void test_tolerance(void) {
 
 // Where the leak begins: the closing pressure, and no leak above it, on the coarsest rings too.
 static void check_leak(double tolerance) {
-  SbModel model = thesis_model(tolerance);
-  model.fit = SB_FIT_RING; // fewer curves
-  model.film = SB_FILM_THESIS;
-  model.study.squeeze_min = 0.06;
-  model.study.squeeze_max = 0.12;
+  SbModel model;
+  const Setting settings[] = {{SB_P_OUTPUT_TOLERANCE, tolerance},
+                              {SB_P_MODELS_FIT, SB_FIT_RING}, // fewer curves
+                              {SB_P_STUDY_SQUEEZE_MIN, 0.06},
+                              {SB_P_STUDY_SQUEEZE_MAX, 0.12}};
+  compile(&model, settings, G_N_ELEMENTS(settings));
   SbStudy *study = make(SB_STUDY_LEAK, &model);
   double closing = series(study, "pressure of the rubber on the bore", "channels close")->y[0];
   const char *name = "ring, 0.055 MPa";
@@ -385,7 +413,7 @@ static bool poll_cancels(void *data) {
 static void test_cancelled(void) {
   SbModel model = thesis_model(1e-2);
   g_autofree SbStudy *study = g_new(SbStudy, 1);
-  for (int polls = 1; polls < 400; polls += polls < 20 ? 1 : 60) {
+  for (int polls = 1; polls < 60; polls += polls < 12 ? 1 : 16) {
     int left = polls;
     const SbStudyHooks hooks = {NULL, poll_cancels, &left};
     SbReport report = {0};
@@ -507,6 +535,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/study/table", test_table);
   g_test_add_func("/study/models", test_models);
+  g_test_add_func("/study/models-contact", test_models_contact);
   g_test_add_func("/study/film-law", test_film_law);
   g_test_add_func("/study/storage", test_storage);
   g_test_add_func("/study/stribeck", test_stribeck);

@@ -1,6 +1,7 @@
 // One temperature through the valve: a named fluid's pressure, viscosity and density, what stays as
 // somebody sets it, what is refused; pressures below ambient; expansion; what each part makes of
 // the least return force.
+#include "app/study/view.h"
 #include "models.h"
 #include "near.h"
 

@@ -24,7 +24,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     double *value = NULL;
     g_assert_cmpint(sb_study_file_points(&value, NULL, study, NULL), ==, SB_OK);
     for (size_t i = 0; i < study->samples * study->vary->len; i++) {
-      g_assert_true(isfinite(value[i]));
+      g_assert_true(isfinite(value[i]) || (study->lines != NULL && isnan(value[i])));
     }
     free(value);
   }
