@@ -13,8 +13,8 @@ static const double STEP = 0.004;
 void sb_session_predict(SbSession *session) {
   SbParams params = sb_document_params(session->document);
   session->predicted = session->shown != NULL && session->model != NULL &&
-                      sb_session_is_stale(session, NULL, NULL) &&
-                      sb_prediction_make(session->prediction, &params);
+                       sb_session_is_stale(session, NULL, NULL) &&
+                       sb_prediction_make(session->prediction, &params);
   session->chart.predicted = session->predicted ? sb_prediction_curve(session->prediction) : NULL;
 }
 
