@@ -191,8 +191,8 @@ static const SbSpeedCell *cell_at(SbSpeedStates *states, double place) {
     return NULL;
   }
   SbSpeedCell cell = {.width = states->near ? GRID / 4 : GRID};
-  cell.place =
-      cell.width * (int)fmin(fmax(floor(place / cell.width), 0), WIDE * GRID / cell.width - 1);
+  const int last = WIDE * GRID / cell.width - 1;
+  cell.place = cell.width * (int)fmin(fmax(floor(place / cell.width), 0), last);
   double miss = 0, rubs = 0;
   for (;;) {
     const int at[] = {cell.place, cell.place + cell.width / 4, cell.place + cell.width / 2,
