@@ -115,8 +115,12 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
     g_error_free(error);
   }
   if (good && help) {
-    g_autofree char *text = g_option_context_get_help(context, TRUE, NULL);
-    exit(sb_cli_emit(text, "-"));
+    char *text = g_option_context_get_help(context, TRUE, NULL);
+    const int code = sb_cli_emit(text, "-");
+    g_free(text);
+    g_free(progress);
+    g_option_context_free(context);
+    exit(code);
   }
   // A "--" that separates operands stays in argv.
   if (good && *argc > 1 && strcmp((*argv)[1], "--") == 0) {
