@@ -2,6 +2,7 @@
 #include "app/document/series.h"
 
 #include "app/base/reader.h"
+#include "app/base/table.h"
 #include "app/document/unit.h"
 
 #include <math.h>
@@ -12,7 +13,6 @@ enum { COLUMNS = 2 };
 typedef struct {
   const char *name;
   GPtrArray *issues;
-  int line;
   bool speed;            // in the second column, in place of a drive's quantity
   double scale[COLUMNS]; // to SI
   SbModelSeries *out;
@@ -21,63 +21,40 @@ typedef struct {
 // Ranges of the columns [SI].
 static const double time_max = 1e6, displacement_max = 0.2, force_max = 1e5, speed_max = 100;
 
-// One issue: `"text" what`, or `what` alone. Always false.
-static bool fail(Reader *r, int column, const char *allowed, const char *text, const char *what) {
-  static const char *const names[COLUMNS] = {"column 1 (time): ", "column 2: "};
-  char *shown = text != NULL ? sb_printable(text, MIN(strlen(text), 40)) : NULL;
-  sb_issues_add(r->issues, r->name, r->line, NULL, allowed, "%s%s%s%s%s",
-                column >= 0 ? names[column] : "", shown != NULL ? "\"" : "",
-                shown != NULL ? shown : "", shown != NULL ? "\" " : "", what);
-  g_free(shown);
-  return false;
-}
-
 // "displacement [mm]" -> quantity, and the unit's size in SI.
-static bool read_heading(Reader *r, int column, char *cell) {
-  g_strstrip(cell);
-  char *open = strchr(cell, '[');
-  char *close = open != NULL ? strchr(open, ']') : NULL;
-  if (open == NULL || close == NULL || close[1] != '\0') {
-    return fail(r, column,
-                column == 0 ? "time [s]"
-                : r->speed  ? "speed [m/s]"
-                            : "displacement [mm] or force [N]",
-                cell, "is not a heading with a unit");
-  }
-  char *unit = g_strndup(open + 1, (gsize)(close - open - 1));
-  *open = '\0';
-  g_strchomp(cell);
+static bool read_heading(Reader *r, const SbTable *table, size_t column) {
+  const SbTableColumn *heading = sb_table_column(table, column);
   const char *si = NULL;
-  if (column == 0 && strcmp(cell, "time") == 0) {
+  r->scale[column] = 1;
+  if (column == 0 && strcmp(heading->name, "time") == 0) {
     si = "s";
   } else if (column == 1 && r->speed) {
-    si = strcmp(cell, "speed") == 0 ? "m/s" : NULL;
-  } else if (column == 1 && strcmp(cell, "displacement") == 0) {
+    si = strcmp(heading->name, "speed") == 0 ? "m/s" : NULL;
+  } else if (column == 1 && strcmp(heading->name, "displacement") == 0) {
     si = "m";
     r->out->quantity = SB_DRIVE_OF_POSITION;
-  } else if (column == 1 && strcmp(cell, "force") == 0) {
+  } else if (column == 1 && strcmp(heading->name, "force") == 0) {
     si = "N";
     r->out->quantity = SB_DRIVE_OF_FORCE;
   }
-  char *one = g_strdup_printf("1 %s", unit);
-  bool good =
-      si != NULL && sb_quantity_parse(&r->scale[column], one, si, si, NULL) && r->scale[column] > 0;
+  g_autofree char *one = g_strdup_printf("1 %s", heading->unit);
+  const char *allowed = column == 0 ? "time [s]"
+                        : r->speed  ? "speed [m/s]"
+                                    : "displacement [mm] or force [N]";
+  const int line = (int)sb_table_header_lines(table);
   if (si == NULL) {
-    fail(r, column,
-         column == 0 ? "time"
-         : r->speed  ? "speed"
-                     : "displacement, force",
-         cell, "is an unknown quantity");
-  } else if (!good) {
-    fail(r, column, si, unit, "is no unit for it");
+    sb_issues_add(r->issues, r->name, line, NULL, allowed,
+                  "column %zu: \"%.40s\" is an unknown quantity", column + 1, heading->name);
+  } else if (!(heading->clock && column == 0) &&
+             !(sb_quantity_parse(&r->scale[column], one, si, si, NULL) && r->scale[column] > 0)) {
+    sb_issues_add(r->issues, r->name, line, NULL, si, "column %zu: \"%.40s\" is no unit of %s",
+                  column + 1, heading->unit, heading->name);
+    si = NULL;
   }
-  g_free(one);
-  g_free(unit);
-  return good;
+  return si != NULL;
 }
 
-static bool read_row(Reader *r, char **cells) {
-  double value[COLUMNS];
+static bool take_row(Reader *r, size_t row, double *const *value) {
   const bool force = !r->speed && r->out->quantity == SB_DRIVE_OF_FORCE;
   const double limit[COLUMNS] = {time_max, r->speed ? speed_max
                                            : force  ? force_max
@@ -85,78 +62,72 @@ static bool read_row(Reader *r, char **cells) {
   const char *const allowed[COLUMNS] = {"0 to 1e6 s", r->speed ? "at most 100 m/s either way"
                                                       : force  ? "at most 1e5 N either way"
                                                                : "at most 200 mm either way"};
-  for (int i = 0; i < COLUMNS; i++) {
-    if (!sb_number_parse(&value[i], g_strstrip(cells[i]))) {
-      return fail(r, i, NULL, cells[i], "is not a number");
-    }
-    value[i] *= r->scale[i];
-    if (!(fabs(value[i]) <= limit[i])) {
-      return fail(r, i, allowed[i], cells[i], "is out of range");
-    }
-  }
   SbModelSeries *out = r->out;
-  if (out->count == SB_MODEL_SERIES_MAX) {
-    char *most = g_strdup_printf("at most %d rows", SB_MODEL_SERIES_MAX);
-    fail(r, -1, most, NULL, "the series is too long");
-    g_free(most);
-    return false;
-  }
-  if (out->count > 0 && !(value[0] > out->time[out->count - 1])) {
-    return fail(r, 0, NULL, cells[0], "does not come after the row before");
-  }
-  out->time[out->count] = value[0];
-  out->value[out->count++] = value[1];
-  return true;
-}
-
-static bool read_lines(Reader *r, char **lines) {
-  bool headed = false;
-  for (int i = 0; lines[i] != NULL; i++) {
-    r->line = i + 1;
-    char *line = g_strstrip(lines[i]);
-    if (*line == '\0' || *line == '#') {
-      continue;
-    }
-    char **cells = g_strsplit_set(line, ",;\t", COLUMNS + 1);
-    bool good = g_strv_length(cells) == COLUMNS;
-    if (!good) {
-      fail(r, -1, "two columns", line, "has not two columns");
-    } else if (!headed) {
-      headed = true;
-      good = read_heading(r, 0, cells[0]) && read_heading(r, 1, cells[1]);
-    } else {
-      good = read_row(r, cells);
-    }
-    g_strfreev(cells);
-    if (!good) {
+  double si[COLUMNS];
+  for (int i = 0; i < COLUMNS; i++) {
+    si[i] = value[i][row] * r->scale[i];
+    if (!(fabs(si[i]) <= limit[i])) {
+      sb_issues_add(r->issues, r->name, 0, NULL, allowed[i], "row %zu: column %d is out of range",
+                    row + 1, i + 1);
       return false;
     }
   }
-  r->line = 0;
-  if (r->out->count < 2) {
-    return fail(r, -1, "at least two rows", NULL, "has too few rows for a series");
+  if (out->count == SB_MODEL_SERIES_MAX) {
+    sb_issues_add(r->issues, r->name, 0, NULL, NULL, "has more than the %d rows of a series",
+                  SB_MODEL_SERIES_MAX);
+    return false;
   }
+  if (out->count > 0 && !(si[0] > out->time[out->count - 1])) {
+    sb_issues_add(r->issues, r->name, 0, NULL, NULL,
+                  "row %zu: its time does not come after the row before", row + 1);
+    return false;
+  }
+  out->time[out->count] = si[0];
+  out->value[out->count++] = si[1];
   return true;
+}
+
+static bool read_rows(Reader *r, const SbTable *table) {
+  static const size_t column[COLUMNS] = {0, 1};
+  double *value[COLUMNS];
+  SbTableRows rows;
+  if (!sb_table_read(&rows, value, table, column, COLUMNS, r->issues)) {
+    return false;
+  }
+  bool good = rows.skipped == 0;
+  if (!good) {
+    sb_issues_add(r->issues, r->name, rows.skipped_line, NULL, "two numbers",
+                  "\"%s\" is no row of the series", rows.skipped_text);
+  }
+  for (size_t i = 0; i < rows.rows && good; i++) {
+    good = take_row(r, i, value);
+  }
+  for (int i = 0; i < COLUMNS; i++) {
+    g_free(value[i]);
+  }
+  g_free(rows.skipped_text);
+  return good;
 }
 
 static bool parse(SbModelSeries *out, bool speed, const char *text, size_t length, const char *name,
                   GPtrArray *issues) {
   out->count = 0;
   Reader r = {.name = name, .issues = issues, .speed = speed, .out = out};
-  if (memchr(text, '\0', length) != NULL || !g_utf8_validate(text, (gssize)length, NULL)) {
-    return fail(&r, -1, NULL, NULL, "is not UTF-8 text");
+  g_autoptr(SbTable) table = sb_table_parse(text, length, NULL, name, issues);
+  bool good = table != NULL;
+  if (good && sb_table_columns(table) != COLUMNS) {
+    sb_issues_add(issues, name, 0, NULL, "two columns", "has %zu columns", sb_table_columns(table));
+    good = false;
   }
-  size_t mark = length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-  char *copy = g_strndup(text + mark, length - mark);
-  char **lines = g_strsplit(copy, "\n", -1);
-  bool good = read_lines(&r, lines);
+  for (size_t i = 0; i < COLUMNS && good; i++) {
+    good = read_heading(&r, table, i);
+  }
+  good = good && read_rows(&r, table);
   double start = good ? out->time[0] : 0;
   for (size_t i = 0; i < out->count; i++) {
     out->time[i] -= start;
   }
   out->count = good ? out->count : 0;
-  g_strfreev(lines);
-  g_free(copy);
   return good;
 }
 
@@ -168,10 +139,8 @@ bool sb_series_parse(SbModelSeries *out, const char *text, size_t length, const 
 static bool read_file(SbModelSeries *out, bool speed, const char *path, GPtrArray *issues) {
   size_t length = 0;
   out->count = 0;
-  char *text = sb_reader_load(&length, path, path, SB_SERIES_BYTES_MAX, issues);
-  bool good = text != NULL && parse(out, speed, text, length, path, issues);
-  g_free(text);
-  return good;
+  g_autofree char *text = sb_reader_load(&length, path, path, SB_SERIES_BYTES_MAX, issues);
+  return text != NULL && parse(out, speed, text, length, path, issues);
 }
 
 bool sb_series_read(SbModelSeries *out, const char *path, GPtrArray *issues) {

@@ -1,10 +1,9 @@
 // Measured series from CSV files: time against displacement or force, to drive a valve with.
 //
-// The first line that is not a comment (#) names two columns with their units, "time [s]" and
-// "displacement [mm]" or "force [N]"; each further line has one number for each, separated by
-// comma, semicolon or tab. Numbers have a point as decimal mark whatever the locale. Time counts
-// from the first row and must increase. What lies between the rows is for the engine (straight
-// lines).
+// Two columns of any table (app/base/table.h), named with their units: "time [s]" and "displacement
+// [mm]" or "force [N]". Unlike in a measured loop every line behind the header must be a row. Time
+// counts from the first row and must increase. What lies between the rows is for the engine
+// (straight lines).
 #pragma once
 
 #include "app/base/issue.h"

@@ -33,20 +33,22 @@ static void test_refused(void) {
   static const struct {
     const char *text, *said;
   } cases[] = {
-      {"", "x.csv: has too few rows for a series"},
-      {"time [s],force [N]\n0,0\n1,1,5,1\n", "x.csv: line 3: \"1,1,5,1\" has not two columns"},
-      {"0,0\n1,1\n",
-       "x.csv: line 1: column 1 (time): \"0\" is not a heading with a unit (allowed time [s])"},
-      {"time [N],force [N]\n0,0\n1,1\n", "x.csv: line 1: column 1 (time): \"N\" is no unit for it"},
+      {"", "x.csv: has no rows of two numbers"},
+      {"time [s],force [N]\n0,0\n1,1\n2,1,5,1\n",
+       "x.csv: line 4: \"2,1,5,1\" is no row of the series (allowed two numbers)"},
+      {"0,0\n1,1\n", "x.csv: column 1: \"\" is an unknown quantity (allowed time [s])"},
+      {"time [N],force [N]\n0,0\n1,1\n", "x.csv: line 1: column 1: \"N\" is no unit of time"},
       {"time [s],speed [m/s]\n0,0\n1,1\n",
        "x.csv: line 1: column 2: \"speed\" is an unknown quantity"},
-      {"time [s],force [N]\n0,0\n1,zwei\n", "x.csv: line 3: column 2: \"zwei\" is not a number"},
-      {"time [s],force [N]\n0,0\n1,0x10\n", "x.csv: line 3: column 2: \"0x10\" is not a number"},
-      {"time [s],force [N]\n0,0\n1,inf\n", "x.csv: line 3: column 2: \"inf\" is not a number"},
-      {"time [s],force [N]\n0,0\n0,1\n",
-       "x.csv: line 3: column 1 (time): \"0\" does not come after"},
+      {"time [s],force [N]\n0,0\n1,1\n2,zwei\n", "x.csv: line 4: \"2,zwei\" is no row"},
+      {"time [s],force [N]\n0,0\n1,1\n2,0x10\n", "x.csv: line 4: \"2,0x10\" is no row"},
+      {"time [s],force [N]\n0,0\n1,1\n2,inf\n", "x.csv: line 4: \"2,inf\" is no row"},
+      {"time [s],force [N]\n0,0\n0,1\n", "x.csv: row 2: its time does not come after"},
       {"time [s],displacement [m]\n0,0\n1,3\n",
-       "x.csv: line 3: column 2: \"3\" is out of range (allowed at most 200 mm either way)"},
+       "x.csv: row 2: column 2 is out of range (allowed at most 200 mm either way)"},
+      {"time [s];force [N]\n1,250;2,500\n2,750;3,125\n",
+       "x.csv: decimal: reads in two ways: \"1,250\" is 1250 with a decimal point, 1.25 with a "
+       "decimal comma"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GPtrArray) issues = sb_issues_new();

@@ -1,0 +1,65 @@
+// Lines, cells and numbers of tables, shared by table.c (what a file is) and table_cells.c.
+#pragma once
+
+#include "app/base/table.h"
+
+// Walks through a text of any of the encodings, line by line.
+typedef struct {
+  const guint8 *at, *end;
+  SbTableEncoding encoding;
+  char line_end; // '\n', or '\r' of files that have no other
+  int number;    // of the line last read, from 1
+  GString *wide; // a line of UTF-16 in UTF-8; NULL elsewhere
+} SbTableLines;
+
+void sb_table_lines_init(SbTableLines *lines, const guint8 *bytes, size_t length,
+                         SbTableEncoding encoding);
+void sb_table_lines_clear(SbTableLines *lines);
+
+// The next line without its end; borrowed until the next one. In UTF-16's files UTF-8, elsewhere
+// the bytes of the file.
+bool sb_table_next(SbTableLines *lines, const char **text, size_t *length);
+
+typedef struct {
+  const char *text;
+  size_t length;
+} SbTableCell;
+
+// Splits a line; at most SB_TABLE_COLUMNS_MAX cells, those behind are dropped. Blanks around a cell
+// and the quotes of one go.
+size_t sb_table_split(SbTableCell *cell, const char *line, size_t length, char separator);
+
+// What numbers showed of their marks.
+enum {
+  SB_TABLE_SAW_DECIMAL = 1,
+  SB_TABLE_SAW_GROUPS = 2, // a mark between thousands
+  SB_TABLE_SAW_LONG = 4    // four digits or more and no mark between them
+};
+
+// A cell as a number; false, *out untouched, where it is none. `saw` (may be NULL) is added to.
+bool sb_table_number(double *out, const SbTableCell *cell, const SbTableDialect *dialect,
+                     unsigned *saw);
+
+// A time of day, with the three numbers of a date (0 without) and what stands between those.
+typedef struct {
+  double seconds;
+  int date[3];
+  char mark;
+} SbTableClock;
+bool sb_table_clock(SbTableClock *out, const SbTableCell *cell);
+
+// Days of a date since an arbitrary one; false where day and month may be either.
+bool sb_table_days(long *days, const SbTableClock *clock);
+
+struct SbTable {
+  char *shown;
+  guint8 *bytes; // mapped, or owned
+  size_t length;
+  bool mapped;
+  SbTableDialect dialect;
+  size_t columns, header_lines;
+  SbTableColumn column[SB_TABLE_COLUMNS_MAX];
+};
+
+// A piece of a line as printable UTF-8; owned by the caller.
+char *sb_table_utf8(const char *text, size_t length, SbTableEncoding encoding);

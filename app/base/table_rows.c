@@ -1,0 +1,110 @@
+// Reads the rows of a table; see table.h.
+#include "app/base/table_private.h"
+
+#include <math.h>
+#include <string.h>
+
+// Seconds of clocks since the first row's midnight; a date that goes on without saying whether by a
+// day or by a month is told.
+typedef struct {
+  bool begun;
+  SbTableClock last;
+  double day; // seconds of whole days so far
+} Days;
+
+static bool add_days(double *out, Days *days, const SbTableClock *clock) {
+  if (days->begun && memcmp(clock->date, days->last.date, sizeof clock->date) != 0) {
+    long before, now;
+    if (!sb_table_days(&before, &days->last) || !sb_table_days(&now, clock)) {
+      return false;
+    }
+    days->day += 86400.0 * (double)(now - before);
+  } else if (days->begun && clock->date[0] == 0 && clock->seconds < days->last.seconds - 43200) {
+    days->day += 86400; // past midnight
+  }
+  days->begun = true;
+  days->last = *clock;
+  *out = days->day + clock->seconds;
+  return true;
+}
+
+static bool grow(double **value, size_t count, size_t *room, size_t wanted) {
+  const size_t next = MIN(wanted, SB_TABLE_ROWS_MAX);
+  for (size_t k = 0; k < count; k++) {
+    double *more = g_try_realloc_n(value[k], next, sizeof(double));
+    if (more == NULL) {
+      return false;
+    }
+    value[k] = more;
+  }
+  *room = next;
+  return true;
+}
+
+bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const size_t *column,
+                   size_t count, GPtrArray *issues) {
+  *out = (SbTableRows){0};
+  for (size_t k = 0; k < count; k++) {
+    value[k] = NULL;
+  }
+  Days days[SB_TABLE_COLUMNS_MAX] = {0};
+  SbTableLines lines;
+  const char *text, *wrong = NULL;
+  size_t length, room = 0;
+  sb_table_lines_init(&lines, table->bytes, table->length, table->dialect.encoding);
+  while (wrong == NULL && sb_table_next(&lines, &text, &length)) {
+    if ((size_t)lines.number <= table->header_lines || length == 0 || *text == '#') {
+      continue;
+    }
+    SbTableCell cell[SB_TABLE_COLUMNS_MAX];
+    const size_t cells = sb_table_split(cell, text, length, table->dialect.separator);
+    double row[SB_TABLE_COLUMNS_MAX];
+    bool any = false, good = cells <= table->columns;
+    for (size_t k = 0; k < count && good; k++) {
+      const size_t at = column[k];
+      SbTableClock clock;
+      row[k] = NAN;
+      if (at >= cells || cell[at].length == 0) {
+        continue;
+      }
+      if (!table->column[at].clock) {
+        good = sb_table_number(&row[k], &cell[at], &table->dialect, NULL);
+      } else if ((good = sb_table_clock(&clock, &cell[at])) &&
+                 !add_days(&row[k], &days[k], &clock)) {
+        wrong = "reads in two ways: the date goes on by a day or by a month, write it as "
+                "2026-02-03";
+      }
+      any |= good;
+    }
+    if (!good || !any) {
+      out->skipped += cells > 0;
+      if (out->skipped == 1 && out->skipped_text == NULL) {
+        out->skipped_line = lines.number;
+        out->skipped_text = sb_table_utf8(text, MIN(length, 60), table->dialect.encoding);
+      }
+      continue;
+    }
+    if (out->rows == room) {
+      // The bytes that are left, at the length of lines so far, are a good guess.
+      const double done = (double)(lines.at - table->bytes), all = (double)table->length;
+      const double guess = room == 0 ? 1024 : 1.05 * (double)out->rows * all / done + 16;
+      wrong = room == SB_TABLE_ROWS_MAX ? "has too many rows"
+              : grow(value, count, &room, (size_t)fmin(fmax(guess, (double)room + 1024), 1e15))
+                  ? NULL
+                  : "there is no memory for its rows";
+    }
+    for (size_t k = 0; k < count && wrong == NULL; k++) {
+      value[k][out->rows] = row[k];
+    }
+    out->rows += wrong == NULL;
+  }
+  if (wrong != NULL) {
+    sb_issues_add(issues, table->shown, lines.number, NULL, NULL, "%s", wrong);
+    for (size_t k = 0; k < count; k++) {
+      g_clear_pointer(&value[k], g_free);
+    }
+    g_clear_pointer(&out->skipped_text, g_free);
+  }
+  sb_table_lines_clear(&lines);
+  return wrong == NULL;
+}

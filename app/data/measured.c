@@ -1,0 +1,415 @@
+// Reads measured loops: which column is what, in which unit; see measured.h.
+#include "app/data/measured_private.h"
+
+#include "app/base/number.h"
+
+#include <math.h>
+#include <string.h>
+
+static const struct {
+  const char *name, *si;
+  double most;       // either way, SI
+  const char *words; // parts of a column's name in small letters; those in quotes are the whole
+} channels[SB_CHANNELS] = {
+    {"time", "s", 1e9, "time|zeit|temps|tiempo|tempo|'t'|seconds|'sec'"},
+    {"displacement", "m", 0.2,
+     "displ|weg|position|extension|travel|stroke|'hub'|placement|course|crosshead|travers|"
+     "deflection|desplaz|spostamento|'s'|'x'"},
+    {"force", "N", 1e5, "force|kraft|'load'|'last'|load cell|effort|carga|fuerza|forza|'f'"},
+};
+
+const char *sb_channel_name(SbChannel channel) {
+  return channels[channel].name;
+}
+
+void sb_measured_free(SbMeasured *measured) {
+  if (measured == NULL) {
+    return;
+  }
+  for (int i = 0; i < SB_CHANNELS; i++) {
+    g_free(measured->column[i].name);
+    g_free(measured->column[i].unit);
+  }
+  g_free(measured->name);
+  g_free(measured->skipped_text);
+  g_free(measured->time);
+  g_free(measured->displacement);
+  g_free(measured->force);
+  if (measured->cycle != NULL) {
+    g_array_unref(measured->cycle);
+  }
+  g_free(measured);
+}
+
+// ---- What keys say ----
+
+// Index of a word in "one|two", -1 with an issue.
+static int word_of(const SbData *data, SbDataKey key, const char *words, GPtrArray *issues) {
+  g_auto(GStrv) list = g_strsplit(words, "|", -1);
+  for (int i = 0; list[i] != NULL; i++) {
+    if (strcmp(list[i], data->text[key]) == 0) {
+      return i;
+    }
+  }
+  g_autofree char *allowed = g_strjoinv(", ", list);
+  sb_data_complain(data, key, allowed, issues, "\"%.40s\" is not one of these", data->text[key]);
+  return -1;
+}
+
+static bool read_wish(SbTableDialect *wish, const SbData *data, GPtrArray *issues) {
+  *wish = (SbTableDialect){0};
+  if (data->text[SB_DATA_SEPARATOR] != NULL) {
+    const int at = word_of(data, SB_DATA_SEPARATOR, "comma|semicolon|tab|blank", issues);
+    wish->separator = at >= 0 ? ",;\t "[at] : '\0';
+  }
+  if (data->text[SB_DATA_DECIMAL] != NULL) {
+    const int at = word_of(data, SB_DATA_DECIMAL, "point|comma", issues);
+    wish->decimal = at >= 0 ? ".,"[at] : '\0';
+  }
+  if (data->text[SB_DATA_ENCODING] != NULL) {
+    const int at = word_of(data, SB_DATA_ENCODING, "utf-8|latin-1|utf-16le|utf-16be", issues);
+    wish->encoding = (SbTableEncoding)(at + 1);
+  }
+  if (data->text[SB_DATA_SIGNAL] != NULL) {
+    (void)word_of(data, SB_DATA_SIGNAL, "force over displacement", issues);
+  }
+  return issues->len == 0;
+}
+
+// ---- Columns ----
+
+static bool name_fits(const char *name, SbChannel channel) {
+  g_auto(GStrv) words = g_strsplit(channels[channel].words, "|", -1);
+  g_autofree char *folded = g_utf8_strdown(name, -1);
+  for (char **word = words; *word != NULL; word++) {
+    const size_t length = strlen(*word);
+    if (**word == '\'') {
+      if (strlen(folded) == length - 2 && strncmp(folded, *word + 1, length - 2) == 0) {
+        return true;
+      }
+    } else if (strstr(folded, *word) != NULL) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static bool unit_scale(double *scale, const char *unit, const char *si) {
+  g_autofree char *one = g_strdup_printf("1 %s", unit);
+  return *unit != '\0' && sb_quantity_parse(scale, one, si, si, NULL) && *scale > 0;
+}
+
+// Columns and units that keys name, into the table.
+static bool take_said(SbMeasured *m, SbTable *table, const SbData *data, GPtrArray *issues) {
+  const SbDataKey keys[] = {SB_DATA_COLUMNS, SB_DATA_UNITS};
+  for (size_t k = 0; k < G_N_ELEMENTS(keys); k++) {
+    if (data->text[keys[k]] == NULL) {
+      continue;
+    }
+    g_auto(GStrv) words = g_strsplit(data->text[keys[k]], ",", -1);
+    if (g_strv_length(words) > sb_table_columns(table)) {
+      sb_data_complain(data, keys[k], NULL, issues, "names more than the %zu columns of the file",
+                       sb_table_columns(table));
+      return false;
+    }
+    for (size_t i = 0; words[i] != NULL; i++) {
+      const char *word = g_strstrip(words[i]);
+      if (keys[k] == SB_DATA_UNITS) {
+        sb_table_rename(table, i, NULL, strcmp(word, "-") != 0 ? word : "");
+        continue;
+      }
+      int channel = 0;
+      while (channel < SB_CHANNELS && strcmp(word, channels[channel].name) != 0) {
+        channel++;
+      }
+      if (channel == SB_CHANNELS && strcmp(word, "-") != 0) {
+        sb_data_complain(data, keys[k], "time, displacement, force, -", issues,
+                         "\"%.40s\" is no column that is read", word);
+        return false;
+      }
+      if (channel < SB_CHANNELS) {
+        m->column[channel].index = (int)i;
+        m->column[channel].how = SB_HOW_SAID;
+      }
+    }
+  }
+  return true;
+}
+
+// The column of a channel by its name, else by its unit where no name says more; false with an
+// issue where there are two.
+static bool find_column(SbMeasured *m, const SbTable *table, const SbData *data, SbChannel channel,
+                        GPtrArray *issues) {
+  for (int by_unit = 0; by_unit < 2; by_unit++) {
+    int found = -1;
+    for (size_t i = 0; i < sb_table_columns(table); i++) {
+      const SbTableColumn *column = sb_table_column(table, i);
+      double scale;
+      const bool numeric = column->numeric || (column->clock && channel == SB_CHANNEL_TIME);
+      const bool fits = by_unit == 0 ? name_fits(column->name, channel)
+                                     : *column->name == '\0' &&
+                                           unit_scale(&scale, column->unit, channels[channel].si);
+      if (!numeric || !fits) {
+        continue;
+      }
+      if (found >= 0 && channel != SB_CHANNEL_TIME) {
+        sb_data_complain(data, SB_DATA_COLUMNS, NULL, issues,
+                         "column %d \"%.40s\" and column %zu \"%.40s\" may both be the %s: say "
+                         "which, as in columns = displacement, force, -",
+                         found + 1, sb_table_column(table, (size_t)found)->name, i + 1,
+                         column->name, channels[channel].name);
+        return false;
+      }
+      found = found < 0 ? (int)i : found;
+    }
+    if (found >= 0) {
+      m->column[channel].index = found;
+      m->column[channel].how = SB_HOW_FOUND;
+      return true;
+    }
+  }
+  return true;
+}
+
+static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, double *scale,
+                           GPtrArray *issues) {
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    m->column[c].index = -1;
+  }
+  if (!take_said(m, table, data, issues)) {
+    return false;
+  }
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    if (data->text[SB_DATA_COLUMNS] == NULL && !find_column(m, table, data, (SbChannel)c, issues)) {
+      return false;
+    }
+    const int at = m->column[c].index;
+    if (at < 0 && c == SB_CHANNEL_TIME) {
+      continue;
+    }
+    if (at < 0) {
+      GString *list = g_string_new(NULL);
+      for (size_t i = 0; i < sb_table_columns(table) && i < 8; i++) {
+        g_string_append_printf(list, "%s\"%.30s\"", i > 0 ? ", " : "",
+                               sb_table_column(table, i)->name);
+      }
+      sb_data_complain(data, SB_DATA_COLUMNS, NULL, issues,
+                       "no column of the %zu (%s) is known as the %s: name them, as in "
+                       "columns = time, displacement, force",
+                       sb_table_columns(table), list->str, channels[c].name);
+      g_string_free(list, TRUE);
+      return false;
+    }
+    const SbTableColumn *column = sb_table_column(table, (size_t)at);
+    m->column[c].name = g_strdup(column->name);
+    m->column[c].unit = g_strdup(column->clock ? "clock" : column->unit);
+    scale[c] = 1;
+    if (!column->clock && !unit_scale(&scale[c], column->unit, channels[c].si)) {
+      const bool none = *column->unit == '\0';
+      sb_data_complain(data, SB_DATA_UNITS, NULL, issues,
+                       "column %d \"%.40s\" (%s) has %s%.20s%s: say which, as in units = mm, N",
+                       at + 1, column->name, channels[c].name, none ? "no unit" : "the unit \"",
+                       column->unit, none ? "" : "\", which is none of its kind");
+      return false;
+    }
+  }
+  return true;
+}
+
+// ---- Rows ----
+
+// To SI in place, dropping rows with a gap; false with an issue on a value that is none of a valve.
+static bool settle_rows(SbMeasured *m, const SbData *data, double *value[SB_CHANNELS],
+                        const double *scale, GPtrArray *issues) {
+  size_t kept = 0;
+  const size_t rows = m->count;
+  for (size_t i = 0; i < rows; i++) {
+    bool whole = true;
+    for (int c = 0; c < SB_CHANNELS; c++) {
+      whole = whole && (value[c] == NULL || isfinite(value[c][i]));
+    }
+    for (int c = 0; c < SB_CHANNELS && whole; c++) {
+      if (value[c] == NULL) {
+        continue;
+      }
+      // A division where the inverse is whole: 1.61 mm is 1.61/1000.
+      const double inverse = 1 / scale[c];
+      const double si =
+          inverse > 1 && inverse == round(inverse) ? value[c][i] / inverse : value[c][i] * scale[c];
+      if (!(fabs(si) <= channels[c].most)) {
+        sb_data_complain(data, SB_DATA_UNITS, NULL, issues,
+                         "row %zu has a %s of %g %s, more than %g %s", i + 1, channels[c].name, si,
+                         channels[c].si, channels[c].most, channels[c].si);
+        return false;
+      }
+      value[c][kept] = si;
+    }
+    kept += whole;
+  }
+  m->dropped = rows - kept;
+  m->count = kept;
+  return true;
+}
+
+static SbMeasured *read_table(SbTable *table, const SbData *data, GPtrArray *issues) {
+  g_autoptr(SbMeasured) m = g_new0(SbMeasured, 1);
+  double scale[SB_CHANNELS] = {0};
+  m->name = g_path_get_basename(data->path);
+  m->dialect = *sb_table_dialect(table);
+  m->header_lines = sb_table_header_lines(table);
+  if (!settle_columns(m, table, data, scale, issues)) {
+    return NULL;
+  }
+  size_t column[SB_CHANNELS], count = 0;
+  double *read[SB_CHANNELS] = {NULL}, *value[SB_CHANNELS] = {NULL};
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    if (m->column[c].index >= 0) {
+      column[count++] = (size_t)m->column[c].index;
+    }
+  }
+  SbTableRows rows;
+  if (!sb_table_read(&rows, read, table, column, count, issues)) {
+    return NULL;
+  }
+  for (int c = 0, k = 0; c < SB_CHANNELS; c++) {
+    value[c] = m->column[c].index >= 0 ? read[k++] : NULL;
+  }
+  m->time = value[SB_CHANNEL_TIME];
+  m->displacement = value[SB_CHANNEL_DISPLACEMENT];
+  m->force = value[SB_CHANNEL_FORCE];
+  m->count = rows.rows;
+  m->skipped = rows.skipped;
+  m->skipped_line = rows.skipped_line;
+  m->skipped_text = rows.skipped_text;
+  if (m->skipped > m->count) {
+    sb_issues_add(issues, data->path, m->skipped_line, NULL, NULL,
+                  "%zu lines are no rows of the table and %zu are, the first is \"%s\"", m->skipped,
+                  m->count, m->skipped_text);
+    return NULL;
+  }
+  if (!settle_rows(m, data, value, scale, issues)) {
+    return NULL;
+  }
+  if (m->count < 8) {
+    sb_issues_add(issues, data->path, 0, NULL, "at least 8 rows", "has too few rows for a loop");
+    return NULL;
+  }
+  return sb_measured_find(m, data, issues) ? g_steal_pointer(&m) : NULL;
+}
+
+SbMeasured *sb_measured_load(const SbData *data, GPtrArray *issues) {
+  SbTableDialect wish;
+  g_autoptr(GPtrArray) own = sb_issues_new();
+  SbMeasured *measured = NULL;
+  if (read_wish(&wish, data, own)) {
+    g_autoptr(SbTable) table = sb_table_open(data->path, &wish, own);
+    measured = table != NULL ? read_table(table, data, own) : NULL;
+  }
+  for (guint i = 0; i < own->len; i++) {
+    const SbIssue *issue = own->pdata[i];
+    sb_issues_add(issues, issue->file, issue->line, issue->key, issue->allowed, "%s", issue->text);
+  }
+  return measured;
+}
+
+SbMeasured *sb_measured_parse(const SbData *data, const void *bytes, size_t length,
+                              GPtrArray *issues) {
+  SbTableDialect wish;
+  if (!read_wish(&wish, data, issues)) {
+    return NULL;
+  }
+  g_autoptr(SbTable) table = sb_table_parse(bytes, length, &wish, data->path, issues);
+  return table != NULL ? read_table(table, data, issues) : NULL;
+}
+
+// ---- What was recognised ----
+
+static const char *separator_name(char separator) {
+  return separator == ','    ? "comma"
+         : separator == ';'  ? "semicolon"
+         : separator == '\t' ? "tab"
+                             : "blank";
+}
+
+static const char *direction_name(const SbMeasured *m) {
+  return m->turned_force && m->turned_displacement ? "both"
+         : m->turned_force                         ? "force"
+         : m->turned_displacement                  ? "displacement"
+                                                   : "as-is";
+}
+
+char *sb_measured_keys(const SbMeasured *m) {
+  GString *out = g_string_new(NULL);
+  g_string_append_printf(
+      out, "separator = %s\ndecimal = %s\nencoding = %s\n", separator_name(m->dialect.separator),
+      m->dialect.decimal == ',' ? "comma" : "point", sb_table_encoding_name(m->dialect.encoding));
+  int last = 0;
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    last = MAX(last, m->column[c].index);
+  }
+  for (int units = 0; units < 2; units++) {
+    g_string_append(out, units ? "units = " : "columns = ");
+    for (int i = 0; i <= last; i++) {
+      const char *word = "-";
+      for (int c = 0; c < SB_CHANNELS; c++) {
+        if (m->column[c].index == i) {
+          const bool clock = strcmp(m->column[c].unit, "clock") == 0;
+          word = !units ? channels[c].name : clock ? "-" : m->column[c].unit;
+        }
+      }
+      g_string_append_printf(out, "%s%s", i > 0 ? ", " : "", word);
+    }
+    g_string_append_c(out, '\n');
+  }
+  g_autofree char *rest = sb_quantity_format(m->at_rest, "m", "mm");
+  g_autofree char *load = sb_quantity_format(m->no_load, "N", "N");
+  g_autofree char *slope = sb_quantity_format(m->slope, "m/N", "mm/N");
+  g_string_append_printf(out, "direction = %s\nzero = %s, %s\ncompliance = %s\n", direction_name(m),
+                         rest, load, slope);
+  if (m->first == 0 && m->last + 1 == m->cycle->len) {
+    g_string_append(out, "cycle = all\n");
+  } else {
+    g_string_append_printf(out, "cycle = %zu\n", m->first + 1);
+  }
+  return g_string_free(out, FALSE);
+}
+
+char *sb_measured_text(const SbMeasured *m) {
+  static const char *const hows[] = {"not in the data, taken as it is", "found", "as said"};
+  GString *out = g_string_new(NULL);
+  g_string_append_printf(out, "separator %s, decimal %s, %s, %zu header lines\n",
+                         separator_name(m->dialect.separator),
+                         m->dialect.decimal == ',' ? "comma" : "point",
+                         sb_table_encoding_name(m->dialect.encoding), m->header_lines);
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    if (m->column[c].index >= 0) {
+      g_string_append_printf(out, "%s: column %d \"%s\" in %s (%s)\n", channels[c].name,
+                             m->column[c].index + 1, m->column[c].name, m->column[c].unit,
+                             hows[m->column[c].how]);
+    }
+  }
+  g_string_append_printf(out, "%zu rows", m->count);
+  if (m->dropped > 0) {
+    g_string_append_printf(out, ", %zu with an empty cell dropped", m->dropped);
+  }
+  if (m->skipped > 0) {
+    g_string_append_printf(out, ", %zu lines between them are no rows (line %d: \"%s\")",
+                           m->skipped, m->skipped_line, m->skipped_text);
+  }
+  char digits[3][SB_NUMBER_SIZE];
+  g_string_append_printf(out, "\n%u cycles, ", m->cycle->len);
+  if (m->first == 0 && m->last + 1 == m->cycle->len) {
+    g_string_append(out, "all taken\n");
+  } else {
+    g_string_append_printf(out, "number %zu taken\n", m->first + 1);
+  }
+  g_string_append_printf(out, "turned round: %s (%s)\nat rest %s mm (%s), without load %s N (%s)\n",
+                         strcmp(direction_name(m), "as-is") == 0 ? "nothing" : direction_name(m),
+                         hows[m->direction], sb_number_round(digits[0], m->at_rest * 1e3, 6),
+                         hows[m->zero], sb_number_round(digits[1], m->no_load, 5),
+                         hows[m->force_zero]);
+  g_string_append_printf(out, "compliance %s um/N (%s), noise %s N\n",
+                         sb_number_round(digits[0], m->slope * 1e6, 4), hows[m->compliance],
+                         sb_number_round(digits[1], m->noise, 3));
+  return g_string_free(out, FALSE);
+}

@@ -1,0 +1,575 @@
+// What a measured loop shows by itself: direction, cycles, zero, compliance, noise, stages.
+//
+// Noise: second differences of neighbouring rows while the stem slides, their median magnitude over
+// 0.6745 sqrt(6), which is the deviation where noise is white and normal; steps do not enter a
+// median. Stages: B is the last row before the stem moves by more than 1 % of the stroke at the
+// greatest force, taken half a row further up the rise; D the last row of the sliding force before
+// it rises on the stop, E the first one after that went; C and F are the upper ends of the ramp
+// between two levels, the knots of the continuous piecewise straight line (level, ramp, level on a
+// common slope) of least squares through means over equal pieces of the stroke. A ramp that
+// explains less than half of the squares a straight line leaves is none.
+#include "app/data/measured_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LOOKED = 20000, BINS = 160 };
+
+static int compare_doubles(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static double median(double *value, size_t count) {
+  if (count == 0) {
+    return NAN;
+  }
+  qsort(value, count, sizeof *value, compare_doubles);
+  return 0.5 * (value[(count - 1) / 2] + value[count / 2]);
+}
+
+// Median force of at most LOOKED of the rows of [begin, end) with a displacement in [low, high].
+static double median_force(const SbMeasured *m, size_t begin, size_t end, double low, double high) {
+  const size_t step = (end - begin) / LOOKED + 1;
+  double *value = g_new(double, (end - begin) / step + 1);
+  size_t count = 0;
+  for (size_t i = begin; i < end; i += step) {
+    if (m->displacement[i] >= low && m->displacement[i] <= high) {
+      value[count++] = m->force[i];
+    }
+  }
+  const double result = median(value, count);
+  g_free(value);
+  return result;
+}
+
+static void range_of(double *low, double *high, const double *value, size_t count) {
+  *low = INFINITY;
+  *high = -INFINITY;
+  for (size_t i = 0; i < count; i++) {
+    *low = fmin(*low, value[i]);
+    *high = fmax(*high, value[i]);
+  }
+}
+
+static void turn_round(double *value, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    value[i] = -value[i];
+  }
+}
+
+// ---- Cycles ----
+
+// Ends of strokes: rows where the displacement turns by more than a fifth of its range, the first
+// and the last row included. Owned by the caller.
+static GArray *find_turns(const SbMeasured *m) {
+  GArray *turns = g_array_new(FALSE, FALSE, sizeof(size_t));
+  double low, high;
+  range_of(&low, &high, m->displacement, m->count);
+  const double gap = 0.2 * (high - low);
+  size_t least = 0, most = 0, extreme = 0;
+  int way = 0;
+  g_array_append_val(turns, extreme);
+  for (size_t i = 1; i < m->count; i++) {
+    const double s = m->displacement[i];
+    if (way == 0) {
+      least = s < m->displacement[least] ? i : least;
+      most = s > m->displacement[most] ? i : most;
+      if (s - m->displacement[least] > gap || m->displacement[most] - s > gap) {
+        way = s - m->displacement[least] > gap ? 1 : -1;
+        extreme = i;
+      }
+    } else if (way * (s - m->displacement[extreme]) >= 0) {
+      extreme = i;
+    } else if (way * (m->displacement[extreme] - s) > gap) {
+      g_array_append_val(turns, extreme);
+      extreme = i;
+      way = -way;
+    }
+  }
+  const size_t end = m->count - 1;
+  if (end > g_array_index(turns, size_t, turns->len - 1)) {
+    g_array_append_val(turns, end);
+  }
+  return turns;
+}
+
+// Mean force of the strokes that grow less that of those that fall; NaN without both.
+static double opening(const SbMeasured *m, const GArray *turns) {
+  double sum[2] = {0}, count[2] = {0};
+  for (guint k = 0; k + 1 < turns->len; k++) {
+    const size_t begin = g_array_index(turns, size_t, k);
+    const size_t end = g_array_index(turns, size_t, k + 1);
+    const int falls = m->displacement[end] < m->displacement[begin];
+    // By displacement, so that a wait does not weigh.
+    for (size_t i = begin; i < end; i++) {
+      const double step = fabs(m->displacement[i + 1] - m->displacement[i]);
+      sum[falls] += 0.5 * (m->force[i] + m->force[i + 1]) * step;
+      count[falls] += step;
+    }
+  }
+  return sum[0] / count[0] - sum[1] / count[1];
+}
+
+static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues) {
+  const char *said = data->text[SB_DATA_DIRECTION];
+  GArray *turns = find_turns(m);
+  if (said != NULL) {
+    m->direction = SB_HOW_SAID;
+    m->turned_force = strcmp(said, "force") == 0 || strcmp(said, "both") == 0;
+    m->turned_displacement = strcmp(said, "displacement") == 0 || strcmp(said, "both") == 0;
+    if (!m->turned_force && !m->turned_displacement && strcmp(said, "as-is") != 0) {
+      sb_data_complain(data, SB_DATA_DIRECTION, "as-is, force, displacement, both", issues,
+                       "\"%.40s\" is not one of these", said);
+    }
+  } else {
+    double low, high;
+    range_of(&low, &high, m->force, m->count);
+    const double middle = median_force(m, 0, m->count, -INFINITY, INFINITY);
+    const double open = opening(m, turns);
+    const bool pressed = fabs(middle) > 0.05 * (high - low), loop = isfinite(open) && open != 0;
+    m->direction = pressed && loop ? SB_HOW_FOUND : SB_HOW_ASSUMED;
+    m->turned_force = pressed && middle < 0;
+    if (loop) {
+      m->turned_displacement = (open < 0) != m->turned_force;
+    } else if (turns->len > 1) {
+      m->turned_displacement =
+          m->displacement[g_array_index(turns, size_t, 1)] < m->displacement[0];
+    }
+  }
+  if (m->turned_force) {
+    turn_round(m->force, m->count);
+  }
+  if (m->turned_displacement) {
+    turn_round(m->displacement, m->count);
+  }
+  g_array_unref(turns);
+}
+
+static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
+  m->cycle = g_array_new(FALSE, FALSE, sizeof(SbMeasuredCycle));
+  GArray *turns = find_turns(m);
+  for (guint k = 0; k + 1 < turns->len && m->cycle->len < SB_MEASURED_CYCLES_MAX; k++) {
+    const size_t begin = g_array_index(turns, size_t, k);
+    const size_t turn = g_array_index(turns, size_t, k + 1);
+    if (m->displacement[turn] > m->displacement[begin]) {
+      const size_t end = k + 2 < turns->len ? g_array_index(turns, size_t, k + 2) : turn;
+      const SbMeasuredCycle cycle = {begin, turn, end + (end + 1 == m->count)};
+      g_array_append_val(m->cycle, cycle);
+    }
+  }
+  g_array_unref(turns);
+  if (m->cycle->len == 0) {
+    sb_data_complain(data, SB_DATA_FILE, NULL, issues, "no stroke into the valve was found in it");
+    return false;
+  }
+  m->last = m->cycle->len - 1;
+  const char *said = data->text[SB_DATA_CYCLE];
+  if (said != NULL && strcmp(said, "all") != 0) {
+    double number = 0;
+    if (!sb_number_parse(&number, said) || number != floor(number) || number < 1 ||
+        number > m->cycle->len) {
+      g_autofree char *allowed = g_strdup_printf("all, or 1 to %u", m->cycle->len);
+      sb_data_complain(data, SB_DATA_CYCLE, allowed, issues, "\"%.40s\" is no cycle of it", said);
+      return false;
+    }
+    m->first = m->last = (size_t)number - 1;
+  }
+  return true;
+}
+
+static const SbMeasuredCycle *cycle_of(const SbMeasured *m, size_t index) {
+  return &g_array_index(m->cycle, SbMeasuredCycle, index);
+}
+
+// ---- Zero and compliance ----
+
+// Of the first in-stroke: rows up to where the force reaches nine tenths of its sliding level.
+typedef struct {
+  size_t begin, end;
+  double level; // sliding [N]
+  double range; // of the displacement [m]
+} Rise;
+
+static Rise find_rise(const SbMeasured *m) {
+  const SbMeasuredCycle *cycle = cycle_of(m, m->first);
+  Rise rise = {.begin = cycle->begin, .end = cycle->begin};
+  const double s0 = m->displacement[cycle->begin], s1 = m->displacement[cycle->turn];
+  rise.range = s1 - s0;
+  rise.level =
+      median_force(m, cycle->begin, cycle->turn, s0 + 0.2 * rise.range, s0 + 0.45 * rise.range);
+  while (rise.end < cycle->turn && m->force[rise.end] < 0.9 * rise.level) {
+    rise.end++;
+  }
+  return rise;
+}
+
+// The force while the crosshead approaches without touching: rows before the rise that lie within a
+// tenth of the level of the first, over at least 1 % of the stroke.
+static void find_no_load(SbMeasured *m, const Rise *rise) {
+  size_t end = rise->begin;
+  while (end < rise->end &&
+         fabs(m->force[end] - m->force[rise->begin]) < 0.1 * (rise->level - m->force[end])) {
+    end++;
+  }
+  const size_t kept = rise->begin + (end - rise->begin) * 4 / 5;
+  if (kept >= rise->begin + 5 &&
+      m->displacement[kept] - m->displacement[rise->begin] > 0.01 * rise->range) {
+    m->force_zero = SB_HOW_FOUND;
+    double sum = 0;
+    for (size_t i = rise->begin; i < kept; i++) {
+      sum += m->force[i];
+    }
+    m->no_load = sum / (double)(kept - rise->begin);
+    m->no_load_rows = kept - rise->begin;
+  }
+}
+
+static void find_compliance(SbMeasured *m, const Rise *rise) {
+  double n = 0, force = 0, place = 0, square = 0, product = 0;
+  for (int round = 0; round < 2; round++) {
+    for (size_t i = rise->begin; i < rise->end; i++) {
+      const double share = (m->force[i] - m->no_load) / (rise->level - m->no_load);
+      if (share < 0.2 || share > 0.8) {
+        continue;
+      }
+      if (round == 0) {
+        n++;
+        force += m->force[i];
+        place += m->displacement[i];
+      } else {
+        square += pow(m->force[i] - force / n, 2);
+        product += (m->force[i] - force / n) * (m->displacement[i] - place / n);
+      }
+    }
+  }
+  if (n >= 4 && square > 0) {
+    const double slope = product / square;
+    m->compliance = SB_HOW_FOUND;
+    m->slope = slope * (rise->level - m->no_load) > 2e-4 * rise->range ? slope : 0;
+  }
+}
+
+static bool read_pair(double *place, double *load, const char *text) {
+  g_auto(GStrv) parts = g_strsplit(text, ",", -1);
+  return g_strv_length(parts) == 2 &&
+         sb_quantity_parse(place, g_strstrip(parts[0]), "m", "mm", NULL) &&
+         sb_quantity_parse(load, g_strstrip(parts[1]), "N", "N", NULL);
+}
+
+static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
+  const Rise rise = find_rise(m);
+  const char *zero = data->text[SB_DATA_ZERO], *compliance = data->text[SB_DATA_COMPLIANCE];
+  if (zero != NULL) {
+    m->zero = m->force_zero = SB_HOW_SAID;
+    if (strcmp(zero, "as-is") != 0 && !read_pair(&m->at_rest, &m->no_load, zero)) {
+      sb_data_complain(data, SB_DATA_ZERO, "as-is, or as in 0.31 mm, 0.2 N", issues,
+                       "\"%.40s\" is no such pair", zero);
+      return false;
+    }
+  } else if (rise.level > 0) {
+    find_no_load(m, &rise);
+  }
+  if (compliance != NULL) {
+    m->compliance = SB_HOW_SAID;
+    if (strcmp(compliance, "none") != 0 &&
+        (!sb_quantity_parse(&m->slope, compliance, "m/N", "mm/N", NULL) || m->slope < 0)) {
+      sb_data_complain(data, SB_DATA_COMPLIANCE, "none, or as in 0.01 mm/N", issues,
+                       "\"%.40s\" is no compliance", compliance);
+      return false;
+    }
+  } else if (rise.level > m->no_load) {
+    find_compliance(m, &rise);
+  }
+  for (size_t i = 0; i < m->count; i++) {
+    m->force[i] -= m->no_load;
+    m->displacement[i] -= m->slope * m->force[i];
+  }
+  if (zero == NULL) {
+    double *place = g_new(double, rise.end - rise.begin + 1);
+    size_t count = 0;
+    for (size_t i = rise.begin; i < rise.end && count < LOOKED; i++) {
+      if (m->force[i] > 0.1 * (rise.level - m->no_load)) {
+        place[count++] = m->displacement[i];
+      }
+    }
+    if (count >= 4) {
+      m->zero = SB_HOW_FOUND;
+      m->at_rest = median(place, count);
+    }
+    g_free(place);
+  }
+  for (size_t i = 0; i < m->count; i++) {
+    m->displacement[i] -= m->at_rest;
+  }
+  return true;
+}
+
+// ---- Noise ----
+
+static void find_noise(SbMeasured *m) {
+  const SbMeasuredCycle *cycle = cycle_of(m, m->first);
+  const double stroke = m->displacement[cycle->turn];
+  const size_t step = (cycle->end - cycle->begin) / LOOKED + 1;
+  double *value = g_new(double, (cycle->end - cycle->begin) / step + 1);
+  size_t count = 0;
+  for (size_t i = cycle->begin + 1; i + 1 < cycle->end; i += step) {
+    if (m->displacement[i] > 0.05 * stroke && m->displacement[i] < 0.95 * stroke) {
+      value[count++] = fabs(m->force[i - 1] - 2 * m->force[i] + m->force[i + 1]);
+    }
+  }
+  m->noise = count >= 8 ? median(value, count) / (0.6745 * sqrt(6)) : NAN;
+  if (m->no_load_rows > 0 && isfinite(m->noise)) {
+    m->no_load_deviation = m->noise / sqrt((double)m->no_load_rows);
+  }
+  g_free(value);
+}
+
+// ---- Stages ----
+
+// Level, ramp, level on a common slope through means of the stroke's pieces.
+typedef struct {
+  double x[BINS], y[BINS], weight[BINS];
+  size_t count;
+} Means;
+
+static Means means_of(const SbMeasured *m, size_t begin, size_t end, double low, double high) {
+  Means means = {0};
+  double sum_x[BINS] = {0}, sum_y[BINS] = {0}, weight[BINS] = {0};
+  for (size_t i = begin; i < end; i++) {
+    const double share = (m->displacement[i] - low) / (high - low);
+    if (share >= 0 && share < 1) {
+      const int bin = (int)(share * BINS);
+      sum_x[bin] += share;
+      sum_y[bin] += m->force[i];
+      weight[bin]++;
+    }
+  }
+  for (int i = 0; i < BINS; i++) {
+    if (weight[i] > 0) {
+      means.x[means.count] = sum_x[i] / weight[i];
+      means.y[means.count] = sum_y[i] / weight[i];
+      means.weight[means.count++] = weight[i];
+    }
+  }
+  return means;
+}
+
+// Squares that y = a + b ramp + c x leaves, and the coefficients; b = 0 where p = q.
+static double ramp_squares(double coefficient[3], const Means *of, double p, double q) {
+  double a[3][4] = {{0}};
+  for (size_t i = 0; i < of->count; i++) {
+    const double ramp = q > p ? fmin(fmax((of->x[i] - p) / (q - p), 0), 1) : 0;
+    const double term[3] = {1, of->x[i], ramp};
+    for (int r = 0; r < 3; r++) {
+      for (int c = 0; c < 3; c++) {
+        a[r][c] += of->weight[i] * term[r] * term[c];
+      }
+      a[r][3] += of->weight[i] * term[r] * of->y[i];
+    }
+  }
+  double square = 0;
+  for (size_t i = 0; i < of->count; i++) {
+    square += of->weight[i] * of->y[i] * of->y[i];
+  }
+  const double right[3] = {a[0][3], a[1][3], a[2][3]};
+  const int n = q > p ? 3 : 2;
+  for (int k = 0; k < n; k++) {
+    for (int r = k + 1; r < n; r++) {
+      const double f = a[r][k] / a[k][k];
+      for (int c = k; c < 4; c++) {
+        a[r][c] -= f * a[k][c];
+      }
+    }
+  }
+  coefficient[2] = 0;
+  for (int k = n - 1; k >= 0; k--) {
+    double sum = a[k][3];
+    for (int c = k + 1; c < n; c++) {
+      sum -= a[k][c] * coefficient[c];
+    }
+    coefficient[k] = sum / a[k][k];
+    square -= coefficient[k] * right[k];
+  }
+  return isfinite(square) ? fmax(square, 0) : INFINITY;
+}
+
+// The ramp of least squares; false where a straight line does nearly as well.
+static bool find_ramp(double *p, double *q, double coefficient[3], const Means *of) {
+  double best = INFINITY, trial[3];
+  *p = *q = 0;
+  for (double step = 1.0 / 40; step > 1e-4; step /= 4) {
+    const double centre[2] = {*p, *q};
+    const bool first = !isfinite(best);
+    const double from[2] = {first ? 0.03 : centre[0] - 4 * step,
+                            first ? 0.05 : centre[1] - 4 * step};
+    const double to[2] = {first ? 0.95 : centre[0] + 4 * step, first ? 0.97 : centre[1] + 4 * step};
+    for (double x = from[0]; x <= to[0]; x += step) {
+      for (double z = fmax(from[1], x + 0.004); z <= to[1]; z += step) {
+        const double square = ramp_squares(trial, of, x, z);
+        if (square < best) {
+          best = square;
+          *p = x;
+          *q = z;
+        }
+      }
+    }
+  }
+  const double line = ramp_squares(trial, of, 0, 0);
+  return isfinite(best) && best < 0.5 * line && isfinite(ramp_squares(coefficient, of, *p, *q));
+}
+
+static void find_ramps(SbMeasured *m, const SbMeasuredCycle *cycle, double stroke) {
+  static const SbStage stages[2] = {SB_STAGE_C, SB_STAGE_F};
+  for (int way = 0; way < 2; way++) {
+    SbMeasuredStage *stage = &m->stage[stages[way]];
+    const double low = 0.02 * stroke, high = 0.98 * stroke;
+    const Means means = means_of(m, way == 0 ? cycle->begin : cycle->turn,
+                                 way == 0 ? cycle->turn : cycle->end, low, high);
+    double p, q, coefficient[3];
+    stage->reason = "the force does not fall between two levels there";
+    if (means.count < 20) {
+      stage->reason = "there are too few rows";
+    } else if (find_ramp(&p, &q, coefficient, &means) &&
+               (way == 0 ? coefficient[2] < 0 : coefficient[2] > 0)) {
+      const double at = way == 0 ? p : q;
+      stage->found = true;
+      stage->displacement = low + at * (high - low);
+      stage->force = coefficient[0] + coefficient[1] * at + (way == 1 ? coefficient[2] : 0);
+      stage->deviation = m->noise / sqrt(fmax(means.count / 4.0, 1));
+      stage->reason = NULL;
+    }
+  }
+}
+
+static void find_first_slip(SbMeasured *m, const SbMeasuredCycle *cycle, double stroke) {
+  SbMeasuredStage *b = &m->stage[SB_STAGE_B];
+  size_t most = cycle->begin;
+  for (size_t i = cycle->begin; i < cycle->turn && m->displacement[i] < 0.01 * stroke; i++) {
+    most = m->force[i] > m->force[most] ? i : most;
+  }
+  b->reason = "the stem moves from the first row on";
+  if (most > cycle->begin + 2 && m->force[cycle->begin] < 0.5 * m->force[most]) {
+    // The slip came somewhere between this row and the next.
+    const double step = fmax(m->force[most] - m->force[most - 1], 0);
+    b->found = true;
+    b->displacement = m->displacement[most];
+    b->force = m->force[most] + 0.5 * step;
+    b->deviation = hypot(isfinite(m->noise) ? m->noise : 0, step / sqrt(12));
+    b->reason = NULL;
+  }
+}
+
+// Both ends of the time on the stop: D before it, E behind.
+static void find_stop(SbMeasured *m, const SbMeasuredCycle *cycle, double stroke) {
+  SbMeasuredStage *d = &m->stage[SB_STAGE_D], *e = &m->stage[SB_STAGE_E];
+  const double inwards = median_force(m, cycle->begin, cycle->turn, 0.8 * stroke, 0.95 * stroke);
+  const double back = median_force(m, cycle->turn, cycle->end, 0.8 * stroke, 0.95 * stroke);
+  const double noise = isfinite(m->noise) ? m->noise : 0;
+  const double gap = fmax(5 * noise, 0.05 * (inwards - back));
+  d->reason = e->reason = "the force does not rise on a stop";
+  size_t last = cycle->turn;
+  while (last > cycle->begin && m->force[last] > inwards + gap) {
+    last--;
+  }
+  if (isfinite(inwards) && last < cycle->turn) {
+    d->found = true;
+    d->displacement = m->displacement[last];
+    d->force = inwards;
+    d->deviation = noise;
+    d->reason = NULL;
+  }
+  size_t next = cycle->turn;
+  while (next < cycle->end && m->force[next] > back + gap) {
+    next++;
+  }
+  if (isfinite(back) && next > cycle->turn && next < cycle->end) {
+    e->found = true;
+    e->displacement = m->displacement[next];
+    // A peak of static friction before the stem moves, if there is one.
+    double least = INFINITY;
+    for (size_t i = next; i < cycle->end && m->displacement[i] > e->displacement - 0.01 * stroke;
+         i++) {
+      least = fmin(least, m->force[i]);
+    }
+    e->force = least < back - gap ? least : back;
+    e->deviation = noise;
+    e->reason = NULL;
+  }
+}
+
+static void find_stages(SbMeasured *m) {
+  const SbMeasuredCycle *cycle = cycle_of(m, m->first);
+  const double stroke = m->displacement[cycle->turn];
+  find_first_slip(m, cycle, stroke);
+  find_stop(m, cycle, stroke);
+  const double end = m->stage[SB_STAGE_D].found ? m->stage[SB_STAGE_D].displacement : stroke;
+  find_ramps(m, cycle, end);
+  m->stage[SB_STAGE_A].reason = "it is where the record begins";
+}
+
+bool sb_measured_find(SbMeasured *m, const SbData *data, GPtrArray *issues) {
+  double low, high;
+  const guint before = issues->len;
+  range_of(&low, &high, m->displacement, m->count);
+  if (!(high > low)) {
+    sb_data_complain(data, SB_DATA_FILE, NULL, issues, "its displacement does not change");
+    return false;
+  }
+  find_direction(m, data, issues);
+  if (issues->len > before || !find_cycles(m, data, issues) || !find_zero(m, data, issues)) {
+    return false;
+  }
+  find_noise(m);
+  find_stages(m);
+  return true;
+}
+
+// ---- Points ----
+
+// Whether a row is of a sliding stem, and in which way.
+static bool slides(int *way, const SbMeasured *m, const SbMeasuredCycle *cycle, size_t row) {
+  const double s = m->displacement[row], stroke = m->displacement[cycle->turn];
+  const SbMeasuredStage *d = &m->stage[SB_STAGE_D], *e = &m->stage[SB_STAGE_E];
+  const double margin = 0.01 * stroke;
+  *way = row >= cycle->turn;
+  const SbMeasuredStage *end = *way ? e : d;
+  return s > margin && s < (end->found ? end->displacement : stroke) - margin;
+}
+
+SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *m, size_t count_max) {
+  size_t rows = 0;
+  int way;
+  for (size_t c = m->first; c <= m->last; c++) {
+    const SbMeasuredCycle *cycle = cycle_of(m, c);
+    for (size_t i = cycle->begin; i < cycle->end; i++) {
+      rows += slides(&way, m, cycle, i);
+    }
+  }
+  const size_t each = rows / MAX(count_max, 1) + (rows % MAX(count_max, 1) != 0);
+  SbMeasuredPoint *point =
+      g_new(SbMeasuredPoint, rows / MAX(each, 1) + 2 * (m->last - m->first) + 4);
+  SbMeasuredPoint sum = {0};
+  *count = 0;
+  for (size_t c = m->first; c <= m->last; c++) {
+    const SbMeasuredCycle *cycle = cycle_of(m, c);
+    for (size_t i = cycle->begin; i <= cycle->end; i++) {
+      const bool takes = i < cycle->end && slides(&way, m, cycle, i);
+      // A mean ends with its rows, its stroke or its cycle.
+      if (sum.weight > 0 &&
+          (sum.weight >= (double)each || i == cycle->end || (takes && way != sum.way))) {
+        point[(*count)++] = (SbMeasuredPoint){sum.displacement / sum.weight, sum.force / sum.weight,
+                                              sum.weight, sum.way};
+        sum = (SbMeasuredPoint){0};
+      }
+      if (takes) {
+        sum.displacement += m->displacement[i];
+        sum.force += m->force[i];
+        sum.weight++;
+        sum.way = way;
+      }
+    }
+  }
+  return point;
+}

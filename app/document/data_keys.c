@@ -1,0 +1,115 @@
+// Groups of measured data; see the header.
+#include "app/document/data_keys.h"
+
+#include "app/base/reader.h"
+
+#include <string.h>
+
+static const char *const names[SB_DATA_KEY_COUNT] = {
+#define DATA_KEY_NAME(code, name) [code] = name,
+    SB_DATA_KEYS(DATA_KEY_NAME)
+#undef DATA_KEY_NAME
+};
+
+const char *sb_data_key_name(SbDataKey key) {
+  return names[key];
+}
+
+bool sb_data_is_group(const char *group) {
+  return strcmp(group, "data") == 0 || g_str_has_prefix(group, "data ");
+}
+
+void sb_data_free(gpointer pointer) {
+  SbData *data = pointer;
+  if (data == NULL) {
+    return;
+  }
+  for (int i = 0; i < SB_DATA_KEY_COUNT; i++) {
+    g_free(data->text[i]);
+  }
+  g_free(data->name);
+  g_free(data->path);
+  g_free(data->shown);
+  g_free(data);
+}
+
+SbData *sb_data_of_file(const char *path) {
+  SbData *data = g_new0(SbData, 1);
+  data->name = g_strdup("");
+  data->path = g_strdup(path);
+  data->text[SB_DATA_FILE] = g_strdup(path);
+  return data;
+}
+
+void sb_data_complain(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,
+                      const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *text = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  g_autofree char *where =
+      g_strdup_printf("data%s%s.%s", *data->name != '\0' ? " " : "", data->name, names[key]);
+  sb_issues_add(issues, data->shown != NULL ? data->shown : data->path, data->line, where, allowed,
+                "%s", text);
+}
+
+static SbData *find(const GPtrArray *list, const char *name) {
+  for (guint i = 0; i < list->len; i++) {
+    SbData *data = list->pdata[i];
+    if (strcmp(data->name, name) == 0) {
+      return data;
+    }
+  }
+  return NULL;
+}
+
+GPtrArray *sb_data_read(const GPtrArray *entries, const char *directory, const char *shown,
+                        GPtrArray *issues) {
+  GPtrArray *list = g_ptr_array_new_with_free_func(sb_data_free);
+  for (guint i = 0; i < entries->len; i++) {
+    const SbEntry *entry = entries->pdata[i];
+    if (!sb_data_is_group(entry->group)) {
+      continue;
+    }
+    const char *name = entry->group[4] == ' ' ? entry->group + 5 : "";
+    SbData *data = find(list, name);
+    if (data == NULL && list->len == SB_DATA_MAX) {
+      sb_issues_add(issues, shown, entry->line, NULL, NULL,
+                    "has more than the %d groups of data there may be", SB_DATA_MAX);
+      break;
+    }
+    if (data == NULL) {
+      data = g_new0(SbData, 1);
+      data->name = g_strdup(name);
+      data->shown = g_strdup(shown);
+      data->line = entry->line;
+      g_ptr_array_add(list, data);
+    }
+    if (entry->name == NULL) {
+      continue;
+    }
+    int key = 0;
+    while (key < SB_DATA_KEY_COUNT && strcmp(names[key], entry->name) != 0) {
+      key++;
+    }
+    if (key == SB_DATA_KEY_COUNT) {
+      sb_issues_add(issues, shown, entry->line, NULL, NULL, "[%.60s] %.60s: unknown key",
+                    entry->group, entry->name);
+    } else {
+      g_free(data->text[key]);
+      data->text[key] = g_strdup(entry->value);
+    }
+  }
+  for (guint i = 0; i < list->len; i++) {
+    SbData *data = list->pdata[i];
+    const char *file = data->text[SB_DATA_FILE];
+    if (file == NULL || *file == '\0') {
+      sb_data_complain(data, SB_DATA_FILE, "a file of numbers", issues, "is missing");
+    } else {
+      data->path = g_path_is_absolute(file) || directory == NULL
+                       ? g_strdup(file)
+                       : g_build_filename(directory, file, NULL);
+    }
+  }
+  return list;
+}

@@ -1,0 +1,340 @@
+// Measured loops: the same curve in every dialect, what a file shows found and told, what it does
+// not show refused with both readings.
+#include "app/data/measured.h"
+#include "app/document/document.h"
+
+#include "engine/numeric/sampling.h"
+#include "tests/executed.h"
+
+#include <glib/gstdio.h>
+#include <math.h>
+#include <string.h>
+
+enum { ROWS = 2040, AIR = 40 };
+
+// A loop of the closed-form cycle as a machine would export it.
+typedef struct {
+  double time[ROWS], place[ROWS], force[ROWS]; // [s], [mm], [N]
+  double breakaway, land;                      // of the run [N], [mm]
+} Bench;
+
+static Bench bench;
+
+static double noise(guint row) {
+  double sum = 0;
+  for (guint k = 0; k < 12; k++) {
+    sum += sb_random(7, row, k);
+  }
+  return 0.16 * (sum - 6); // near enough to normal
+}
+
+static void make_bench(void) {
+  g_autofree char *path =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "scenes", "quick-look.scene", NULL);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) document = sb_document_load(path, issues);
+  g_autoptr(SbModel) model = NULL;
+  g_assert_true(sb_document_compile(document, &model, issues));
+  SbRun *run = executed_run(model);
+  size_t count, at = 0;
+  const SbFrame *frame = sb_run_frames(run, &count);
+  for (guint i = 0; i < ROWS; i++) {
+    double place = -0.2 + 0.2 * i / AIR, force = 0, time = -0.6 + 0.6 * i / AIR;
+    if (i >= AIR) {
+      time = frame[count - 1].time * (i - AIR) / (ROWS - AIR - 1);
+      while (at + 2 < count && frame[at + 1].time <= time) {
+        at++;
+      }
+      const double span = frame[at + 1].time - frame[at].time;
+      const double t = span > 0 ? (time - frame[at].time) / span : 0;
+      place = 1e3 * (frame[at].platen + t * (frame[at + 1].platen - frame[at].platen));
+      force = frame[at].force + t * (frame[at + 1].force - frame[at].force);
+    }
+    bench.time[i] = time + 0.6;
+    bench.place[i] = place + 3.1;
+    bench.force[i] = force + 0.35 + noise(i);
+  }
+  bench.breakaway = sb_run_summary(run)->force_breakaway;
+  bench.land = 1e3 * sb_run_summary(run)->stage[SB_STAGE_C].displacement;
+  sb_run_destroy(run);
+}
+
+// How a file is written.
+typedef struct {
+  const char *header, *separator;
+  char decimal;
+  const char *encoding, *mark; // iconv's name, bytes in front
+  size_t mark_length;
+  int cycles;
+  double force_sign, place_sign;
+} Dialect;
+
+static GBytes *write_file(const Dialect *d) {
+  GString *text = g_string_new(d->header);
+  for (int c = 0; c < MAX(d->cycles, 1); c++) {
+    for (guint i = c == 0 ? 0 : AIR; i < ROWS; i++) {
+      const double value[3] = {bench.time[i] + c * 42, d->place_sign * bench.place[i],
+                               d->force_sign * bench.force[i]};
+      for (int k = 0; k < 3; k++) {
+        char digits[40];
+        g_ascii_formatd(digits, sizeof digits, "%.4f", value[k]);
+        *strchr(digits, '.') = d->decimal;
+        g_string_append_printf(text, "%s%s", k > 0 ? d->separator : "", digits);
+      }
+      g_string_append(text, "\r\n");
+    }
+  }
+  gsize length = 0;
+  g_autofree char *bytes =
+      g_convert(text->str, (gssize)text->len, d->encoding, "UTF-8", NULL, &length, NULL);
+  g_assert_nonnull(bytes);
+  GByteArray *all = g_byte_array_new();
+  g_byte_array_append(all, (const guint8 *)d->mark, (guint)d->mark_length);
+  g_byte_array_append(all, (const guint8 *)bytes, (guint)length);
+  g_string_free(text, TRUE);
+  return g_byte_array_free_to_bytes(all);
+}
+
+static SbMeasured *read_bytes(GBytes *bytes, const SbData *data) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  gsize length;
+  const void *text = g_bytes_get_data(bytes, &length);
+  SbMeasured *measured = sb_measured_parse(data, text, length, issues);
+  for (guint i = 0; i < issues->len; i++) {
+    g_autofree char *line = sb_issue_line(issues->pdata[i]);
+    g_error("%s", line);
+  }
+  return measured;
+}
+
+static SbMeasured *read_dialect(const Dialect *d) {
+  SbData *data = sb_data_of_file("x.csv");
+  g_autoptr(GBytes) bytes = write_file(d);
+  SbMeasured *measured = read_bytes(bytes, data);
+  sb_data_free(data);
+  return measured;
+}
+
+static const Dialect plain = {
+    "Time [s],Extension [mm],Load [N]\r\n", ",", '.', "UTF-8", "", 0, 1, 1, 1};
+
+// The same digits, the same doubles.
+static void test_dialects(void) {
+  static const Dialect dialects[] = {
+      {"Prüfung: Ventil µ\r\nDatum;03.02.2026\r\n\r\nZeit;Standardweg;Standardkraft\r\ns;mm;N\r\n",
+       ";", ',', "ISO-8859-1", "", 0, 1, 1, 1},
+      {"Time (s)\tCrosshead (mm)\tForce (N)\r\n", "\t", '.', "UTF-8", "\xef\xbb\xbf", 3, 1, 1, 1},
+      {"Zeit / s;Weg / mm;Kraft / N\r\n", ";", ',', "UTF-16LE", "\xff\xfe", 2, 1, 1, 1},
+      {"Zeit;Weg;Kraft\r\n[s];[mm];[N]\r\n", ";", '.', "UTF-16BE", "\xfe\xff", 2, 1, 1, 1},
+      {"Zeit;Weg;Kraft\r\n[s];[mm];[N]\r\n", ";", '.', "UTF-16LE", "", 0, 1, 1, 1},
+      {"# bench 4\r\nTime (s) Position (mm) Force (N)\r\n", "  ", '.', "UTF-8", "", 0, 1, 1, 1},
+      {"\"Time in s\",\"Position in mm\",\"Force in N\"\r\n", " , ", '.', "UTF-8", "", 0, 1, 1, 1},
+  };
+  g_autoptr(SbMeasured) first = read_dialect(&plain);
+  for (size_t i = 0; i < G_N_ELEMENTS(dialects); i++) {
+    g_autoptr(SbMeasured) other = read_dialect(&dialects[i]);
+    g_assert_cmpuint(other->count, ==, first->count);
+    const size_t size = first->count * sizeof(double);
+    g_assert_cmpmem(other->time, size, first->time, size);
+    g_assert_cmpmem(other->displacement, size, first->displacement, size);
+    g_assert_cmpmem(other->force, size, first->force, size);
+    g_assert_cmpuint(other->skipped, ==, 0);
+  }
+  // What is written reads as the number nearest to it.
+  char digits[40];
+  g_ascii_formatd(digits, sizeof digits, "%.4f", bench.time[777]);
+  g_assert_cmpfloat(first->time[777], ==, g_ascii_strtod(digits, NULL));
+}
+
+// Direction, zero, compliance, cycles, noise and stages against those that the bench was made with.
+static void test_found(void) {
+  for (int turn = 0; turn < 4; turn++) {
+    Dialect d = plain;
+    d.cycles = 3;
+    d.force_sign = turn & 1 ? -1 : 1;
+    d.place_sign = turn & 2 ? -1 : 1;
+    g_autoptr(SbMeasured) m = read_dialect(&d);
+    g_assert_cmpuint(m->cycle->len, ==, 3);
+    g_assert_cmpint(m->turned_force, ==, (turn & 1) != 0);
+    g_assert_cmpint(m->turned_displacement, ==, (turn & 2) != 0);
+    g_assert_cmpint(m->direction, ==, SB_HOW_FOUND);
+    g_assert_cmpint(m->zero, ==, SB_HOW_FOUND);
+    g_assert_cmpint(m->force_zero, ==, SB_HOW_FOUND);
+    g_assert_cmpfloat_with_epsilon(m->at_rest, 3.1e-3, 2e-6);
+    g_assert_cmpfloat_with_epsilon(m->no_load, 0.35, 3 * 0.16 / sqrt(32));
+    g_assert_cmpfloat_with_epsilon(m->slope, 1e-5, 2e-7); // 100 N/mm
+    g_assert_cmpfloat_with_epsilon(m->noise, 0.16, 0.02);
+    const double rate = bench.force[AIR + 10] - bench.force[AIR + 9];
+    g_assert_cmpfloat_with_epsilon(m->stage[SB_STAGE_B].force, bench.breakaway,
+                                   3 * hypot(0.16, fabs(rate)));
+    g_assert_cmpfloat_with_epsilon(1e3 * m->stage[SB_STAGE_C].displacement, bench.land, 0.02);
+    for (int s = SB_STAGE_B; s <= SB_STAGE_F; s++) {
+      g_assert_true(m->stage[s].found);
+    }
+  }
+}
+
+// What was found, written as keys, gives the same rows again; and a key stands against the data.
+static void test_said(void) {
+  g_autoptr(GBytes) bytes = write_file(&plain);
+  SbData *data = sb_data_of_file("x.csv");
+  g_autoptr(SbMeasured) found = read_bytes(bytes, data);
+  g_autofree char *keys = sb_measured_keys(found);
+  g_auto(GStrv) lines = g_strsplit(g_strchomp(keys), "\n", -1);
+  for (char **line = lines; *line != NULL; line++) {
+    char *equal = strstr(*line, " = ");
+    *equal = '\0';
+    for (int k = 0; k < SB_DATA_KEY_COUNT; k++) {
+      if (strcmp(*line, sb_data_key_name((SbDataKey)k)) == 0) {
+        data->text[k] = g_strdup(equal + 3);
+      }
+    }
+  }
+  g_assert_nonnull(data->text[SB_DATA_ZERO]);
+  g_autoptr(SbMeasured) said = read_bytes(bytes, data);
+  g_assert_cmpint(said->compliance, ==, SB_HOW_SAID);
+  g_assert_cmpmem(said->displacement, said->count * sizeof(double), found->displacement,
+                  found->count * sizeof(double));
+  g_free(data->text[SB_DATA_ZERO]);
+  data->text[SB_DATA_ZERO] = g_strdup("as-is");
+  g_autoptr(SbMeasured) moved = read_bytes(bytes, data);
+  g_assert_cmpfloat_with_epsilon(moved->force[100] - found->force[100], found->no_load, 1e-12);
+  sb_data_free(data);
+}
+
+// What cannot be read in one way only is one complaint that says so.
+static void test_refused(void) {
+  static const struct {
+    const char *text, *key_text, *said;
+    SbDataKey key;
+  } cases[] = {
+      {"", NULL, "has no rows of two numbers", SB_DATA_FILE},
+      {"Weg [mm];Kraft [N]\n1,234;5,678\n1,235;5,679\n", NULL,
+       "\"1,234\" is 1234 with a decimal point, 1.234 with a decimal comma", SB_DATA_FILE},
+      {"Weg,Kraft\n0,001,12,5\n0,002,12,6\n0,003,12,7\n", NULL,
+       "4 cells a row separated by commas, or 2 numbers with decimal commas", SB_DATA_FILE},
+      {"0.1,1.5\n0.2,1.6\n0.3,1.7\n", NULL, "no column of the 2 (\"\", \"\") is known as the",
+       SB_DATA_FILE},
+      {"Weg;Kraft\n0.1;1.5\n0.2;1.6\n0.3;1.7\n", NULL, "(displacement) has no unit", SB_DATA_FILE},
+      {"Weg [mm];Stroke [mm];Kraft [N]\n0.1;1.5;1\n0.2;1.6;2\n0.3;1.7;2\n", NULL,
+       "column 1 \"Weg\" and column 2 \"Stroke\" may both be the displacement", SB_DATA_FILE},
+      {"Time;Weg [mm];Kraft [N]\n03/02/2026 23:59:59;1.5;1\n04/02/2026 00:00:01;1.6;2\n", NULL,
+       "the date goes on by a day or by a month", SB_DATA_FILE},
+      {"Weg [mm];Kraft [N]\n0.1;1.5\n0.2;1.6\n", "dots", "\"dots\" is not one of these",
+       SB_DATA_DECIMAL},
+      {"Weg [mm];Kraft [N]\n0.1;1.5\n0.2;1.6\n", "force, force2", "is no column that is read",
+       SB_DATA_COLUMNS},
+      {"Weg [km];Kraft [N]\n0.1;1.5\n0.2;1.6\n", NULL, "row 1 has a displacement of 100 m",
+       SB_DATA_FILE},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    SbData *data = sb_data_of_file("x.csv");
+    if (cases[i].key_text != NULL) {
+      data->text[cases[i].key] = g_strdup(cases[i].key_text);
+    }
+    g_assert_null(sb_measured_parse(data, cases[i].text, strlen(cases[i].text), issues));
+    g_assert_cmpuint(issues->len, ==, 1);
+    g_autofree char *line = sb_issue_line(issues->pdata[0]);
+    if (strstr(line, cases[i].said) == NULL) {
+      g_error("%s instead of %s", line, cases[i].said);
+    }
+    sb_data_free(data);
+  }
+}
+
+// A key settles what reads in two ways.
+static void test_settled(void) {
+  static const char text[] = "Weg [um];Kraft [mN]\n1,234;5,678\n1,235;5,679\n1,240;5,678\n"
+                             "1,250;5,671\n1,260;5,672\n1,250;3,671\n1,240;3,671\n1,230;3,671\n";
+  for (int comma = 0; comma < 2; comma++) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    SbData *data = sb_data_of_file("x.csv");
+    data->text[SB_DATA_DECIMAL] = g_strdup(comma ? "comma" : "point");
+    data->text[SB_DATA_ZERO] = g_strdup("as-is");
+    data->text[SB_DATA_COMPLIANCE] = g_strdup("none");
+    g_autoptr(SbMeasured) m = sb_measured_parse(data, text, strlen(text), issues);
+    g_assert_nonnull(m);
+    g_assert_cmpfloat_with_epsilon(m->displacement[0], comma ? 1.234e-6 : 1.234e-3, 1e-15);
+    sb_data_free(data);
+  }
+}
+
+// Cells that are numbers, and such that are none.
+static void test_numbers(void) {
+  static const struct {
+    const char *cell;
+    double value;
+  } cells[] = {{"1234567,5", 1234567.5},
+               {"1.234.567,5", 1234567.5},
+               {"-0,1", -0.1},
+               {"+3e-3", 3e-3},
+               {"123456789012345678901234567890", 1.2345678901234568e29},
+               {"0,1000000000000000055511151231257827", 0.1},
+               {"179769313486231570000E+288", 1.7976931348623157e308},
+               {"1.23", NAN},
+               {"1.2345", NAN},
+               {"0.123", NAN},
+               {"1e400", NAN},
+               {"nan", NAN},
+               {"0x10", NAN},
+               {"1,", NAN},
+               {"--1", NAN},
+               {"1 N", NAN}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cells); i++) {
+    // Among rows that leave no doubt of the dialect.
+    GString *text = g_string_new("a;b\n");
+    for (int k = 0; k < 5; k++) {
+      g_string_append(text, "1.000.000,5;0,25\n");
+    }
+    g_string_append_printf(text, "%s;0,5\n", cells[i].cell);
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autoptr(SbTable) table = sb_table_parse(text->str, text->len, NULL, "x", issues);
+    g_assert_nonnull(table);
+    SbTableRows rows;
+    double *value;
+    const size_t first = 0;
+    g_assert_true(sb_table_read(&rows, &value, table, &first, 1, issues));
+    if (isnan(cells[i].value)) {
+      g_assert_cmpuint(rows.rows, ==, 5);
+      g_assert_cmpint(rows.skipped_line, ==, 7);
+    } else {
+      g_assert_cmpuint(rows.rows, ==, 6);
+      g_assert_cmpfloat(value[5], ==, cells[i].value);
+    }
+    g_free(value);
+    g_free(rows.skipped_text);
+    g_string_free(text, TRUE);
+  }
+}
+
+// Clocks, past midnight too.
+static void test_clocks(void) {
+  static const char text[] = "Time;x\n2026-02-03 23:59:59.50;1\n2026-02-04 00:00:01.25;2\n";
+  static const char bare[] = "Time;x\n23:59:59,50;1,0\n00:00:01,25;2,0\n";
+  const char *const texts[] = {text, bare};
+  for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autoptr(SbTable) table = sb_table_parse(texts[i], strlen(texts[i]), NULL, "x", issues);
+    g_assert_nonnull(table);
+    SbTableRows rows;
+    double *value;
+    const size_t first = 0;
+    g_assert_true(sb_table_read(&rows, &value, table, &first, 1, issues));
+    g_assert_cmpfloat(value[1] - value[0], ==, 1.75);
+    g_free(value);
+  }
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  make_bench();
+  g_test_add_func("/measured/dialects", test_dialects);
+  g_test_add_func("/measured/found", test_found);
+  g_test_add_func("/measured/said", test_said);
+  g_test_add_func("/measured/refused", test_refused);
+  g_test_add_func("/measured/settled", test_settled);
+  g_test_add_func("/measured/numbers", test_numbers);
+  g_test_add_func("/measured/clocks", test_clocks);
+  return g_test_run();
+}
