@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/chart/trace.h"
+#include "app/data/compare.h"
 #include "engine/valve/sealbench.h"
 
 typedef enum {
@@ -49,10 +50,11 @@ typedef struct {
   const char *pinned_name;   // "roughness -30 %"
   // What `run`, which is then of former values, will be at the present ones; NULL: not known.
   const SbChartCurve *predicted;
-  size_t playhead;             // frame shown
-  bool playing;                // no effect on layout
-  double progress;             // of a running run, 0 to 1
-  const SbChartMarker *marker; // `marker_count` of them
+  const SbComparison *measured; // of `run`; NULL: nothing was measured
+  size_t playhead;              // frame shown
+  bool playing;                 // no effect on layout
+  double progress;              // of a running run, 0 to 1
+  const SbChartMarker *marker;  // `marker_count` of them
   size_t marker_count;
   const char *title;    // "Piston valve, one actuation"
   const char *subtitle; // names of the files; the header adds the run's conditions

@@ -46,6 +46,9 @@ void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartDat
     y0 = fmin(y0, data->predicted->force[i]);
     y1 = fmax(y1, data->predicted->force[i]);
   }
+  if (data->measured != NULL) {
+    sb_hysteresis_measured_range(data->measured, &x1, &y0, &y1);
+  }
   if (data->run.state == SB_CHART_RUNNING) {
     include_run(data->earlier, &x1, &y0, &y1);
   }
@@ -68,7 +71,9 @@ void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartDat
   }
   double digits = 18 + 8 * (double)longest;
   const double left = compact ? fmax(digits, 44) : fmax(digits, 34);
-  const double right = LABEL_ROOM_OUTSIDE, top = compact ? 48 : 95, bottom = 40;
+  const double right = LABEL_ROOM_OUTSIDE, top = compact ? 48 : 95;
+  const double strip = compact ? SB_HYSTERESIS_STRIP_COMPACT : SB_HYSTERESIS_STRIP;
+  const double bottom = data->measured != NULL ? 40 + strip : 40;
   out->plot = (SbRect){in.x + left, in.y + top, fmax(in.width - left - right, 40),
                        fmax(in.height - top - bottom, 40)};
   double room_left = 18, room_right = fmin(LABEL_ROOM, 0.25 * out->plot.width);
@@ -385,6 +390,9 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
       sb_hysteresis_now(&v, true);
     }
     draw_loop(&v);
+    if (data->measured != NULL) {
+      sb_hysteresis_measured(&v, inner_rect(rect, flags));
+    }
     draw_arrows(&v);
     if (!whole) {
       sb_hysteresis_label_now(&v);

@@ -25,3 +25,10 @@ void sb_hysteresis_label_now(SbHysteresisView *v);
 
 // What the lines are: stop, pressure force, loss, least return, directions, pinned run.
 void sb_hysteresis_notes(SbHysteresisView *v);
+
+// What was measured: ranges to show; dots, band and the strip below the plot, whose height the
+// layout leaves free [px].
+#define SB_HYSTERESIS_STRIP         136.0
+#define SB_HYSTERESIS_STRIP_COMPACT 104.0
+void sb_hysteresis_measured_range(const SbComparison *measured, double *x1, double *y0, double *y1);
+void sb_hysteresis_measured(SbHysteresisView *v, SbRect in);

@@ -4,6 +4,7 @@
 // never calls setlocale(): numbers and files are the same everywhere.
 #pragma once
 
+#include "app/data/compare.h"
 #include "app/document/document.h"
 #include "app/export/json.h"
 
@@ -164,6 +165,15 @@ void sb_progress_end(SbProgress *progress);
 // SB_EXIT_NOT_CONVERGED (with gaps) leave *out to be written, anything else does not.
 int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model);
 
+// Help of --measured; and the measured loop that it names, read as the scene's group [data] of that
+// file says, or without `path` that of the scene's first group. NULL without either, and with
+// messages where *code is no SB_EXIT_DONE. Owned by the caller.
+#define SB_CLI_MEASURED_HELP "Force over displacement from a test machine, any table of numbers"
+SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *path);
+
+// Prints what was recognised, the stages and the differences.
+void sb_cli_comparison(const SbComparison *comparison);
+
 int sb_command_run(int argc, char **argv);
 int sb_command_check(int argc, char **argv);
 int sb_command_list(int argc, char **argv);
@@ -181,6 +191,7 @@ void sb_cli_set_pool(const SbAnswerPool *pool);
 
 int sb_command_study(int argc, char **argv);
 int sb_command_merge(int argc, char **argv);
+int sb_command_compare(int argc, char **argv);
 int sb_command_design(int argc, char **argv);
 int sb_command_sensitivity(int argc, char **argv);
 int sb_command_open(int argc, char **argv);

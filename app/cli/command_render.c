@@ -13,7 +13,7 @@
 // The options as they were given; texts are owned.
 typedef struct {
   char *output, *format, *view, *size, *at, *fps, *duration, *speed, *from, *to, *backend;
-  char *field, *field_max, *insets, *zoom, *azimuth, *elevation;
+  char *field, *field_max, *insets, *zoom, *azimuth, *elevation, *measured;
   char **settings;
   gboolean dark, full, undeformed;
 } Options;
@@ -30,11 +30,11 @@ typedef struct {
 } Request;
 
 static void options_clear(Options *options) {
-  char *const texts[] = {options->output,    options->format, options->view,    options->size,
-                         options->at,        options->fps,    options->speed,   options->from,
-                         options->duration,  options->to,     options->field,   options->zoom,
-                         options->field_max, options->insets, options->backend, options->azimuth,
-                         options->elevation};
+  char *const texts[] = {options->output,    options->format,  options->view,    options->size,
+                         options->at,        options->fps,     options->speed,   options->from,
+                         options->duration,  options->to,      options->field,   options->zoom,
+                         options->field_max, options->insets,  options->backend, options->azimuth,
+                         options->elevation, options->measured};
   for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
     g_free(texts[i]);
   }
@@ -359,8 +359,8 @@ static int render_study(const Request *request, SbDocument *document, const SbMo
 }
 
 // Draws the finished run; an exit code.
-static int render(const SbRun *run, const SbDocument *document, Request *request,
-                  const char *output) {
+static int render(const SbRun *run, const SbDocument *document, const SbMeasured *measured,
+                  Request *request, const char *output) {
   // Vectors need no GL, and views without a section do not either.
   bool use_gl = !request->vector && sb_render_view(request->how.view)->section;
   SbSectionPainter *painter = NULL;
@@ -386,6 +386,11 @@ static int render(const SbRun *run, const SbDocument *document, Request *request
   how->scene = scene;
   how->section = sb_section_painter_draw;
   how->section_data = painter;
+  SbLoop loop = {0};
+  g_autoptr(SbComparison) comparison =
+      measured != NULL && sb_loop_take(&loop, run) ? sb_comparison_create(measured, &loop) : NULL;
+  sb_loop_clear(&loop);
+  how->measured = comparison;
   int code = SB_EXIT_DONE;
   GError *error = NULL;
   if (!make_folder(request, output, &error)) {
@@ -438,12 +443,17 @@ static int render_file(const SbCliFile *file, const Request *asked, const Option
   if (request.is_study) {
     code = render_study(&request, file->document, model, output);
   } else {
+    int read;
+    g_autoptr(SbMeasured) measured = sb_cli_measured(&read, file->document, options->measured);
+    if (read != SB_EXIT_DONE) {
+      return read;
+    }
     SbRun *run = NULL;
     SbReport report = {0};
     SbStatus status = compute(&run, model, request.how.view, &report);
     code = sb_cli_status(status, &report);
     if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
-      int drawn = render(run, file->document, &request, output);
+      int drawn = render(run, file->document, measured, &request, output);
       code = drawn != SB_EXIT_DONE ? drawn : code;
     }
     sb_run_destroy(run);
@@ -501,6 +511,7 @@ int sb_command_render(int argc, char **argv) {
        "Both halves of the section (output.section)", NULL},
       {"undeformed", 0, 0, G_OPTION_ARG_NONE, &options.undeformed,
        "The rings' outline before fitting, dashed (output.undeformed)", NULL},
+      {"measured", 0, 0, G_OPTION_ARG_FILENAME, &options.measured, SB_CLI_MEASURED_HELP, "FILE"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"dark", 0, 0, G_OPTION_ARG_NONE, &options.dark, "Dark theme", NULL},
       {0},

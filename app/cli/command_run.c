@@ -134,7 +134,7 @@ static int make_studies(SbStudy *out, size_t *count, const SbModel *model, unsig
 }
 
 typedef struct {
-  char *folder, *json_target;
+  char *folder, *json_target, *measured;
   char **settings;
 } Options;
 
@@ -175,6 +175,9 @@ static int write_results(SbCliFiles *files, const SbCliFile *file, const Options
   } else if (!sb_cli_quiet()) {
     sb_cli_files_head(files);
     print_table(file->document, run, info->verdict);
+    if (info->measured != NULL) {
+      sb_cli_comparison(info->measured);
+    }
     if (file->folder != NULL) {
       printf("Results are in %s\n", file->folder);
     }
@@ -219,6 +222,11 @@ static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *opt
   if (!has_memory(file, plan.studies != 0)) {
     return SB_EXIT_IO;
   }
+  int read;
+  g_autoptr(SbMeasured) measured = sb_cli_measured(&read, file->document, options->measured);
+  if (read != SB_EXIT_DONE) {
+    return read;
+  }
   SbRun *run = NULL;
   SbStatus status = sb_run_create(&run, model, &plan, &report);
   if (status != SB_OK) {
@@ -243,10 +251,15 @@ static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *opt
       int studied = make_studies(studies, &study_count, model, plan.studies);
       code = studied != SB_EXIT_DONE ? studied : code;
     }
+    SbLoop loop = {0};
+    g_autoptr(SbComparison) comparison =
+        measured != NULL && sb_loop_take(&loop, run) ? sb_comparison_create(measured, &loop) : NULL;
+    sb_loop_clear(&loop);
     SbResultsInfo info = {.scene = file->path,
                           .sha256 = sha256,
                           .partial = code == SB_EXIT_INTERRUPTED,
                           .verdict = verdict,
+                          .measured = comparison,
                           .studies = studies,
                           .study_count = study_count};
     int written = write_results(files, file, options, run, &info);
@@ -263,6 +276,7 @@ int sb_command_run(int argc, char **argv) {
        "Folder for results.json, cycle.csv, profiles.csv, and life or study tables; of several "
        "files a folder each in it",
        "DIR"},
+      {"measured", 0, 0, G_OPTION_ARG_FILENAME, &options.measured, SB_CLI_MEASURED_HELP, "FILE"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json_target, SB_CLI_JSON_HELP, "FILE|-"},
       {0},
@@ -288,5 +302,6 @@ int sb_command_run(int argc, char **argv) {
   g_strfreev(options.settings);
   g_free(options.folder);
   g_free(options.json_target);
+  g_free(options.measured);
   return files.code;
 }

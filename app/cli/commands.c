@@ -17,6 +17,8 @@ static const SbCommand commands[] = {
      sb_command_sensitivity},
     {"study", "FILE.study", "Computes figures of many valves: grids, samples, sensitivities",
      sb_command_study},
+    {"compare", "FILE.scene... [--measured FILE]",
+     "Sets runs side by side, and a measured loop beside them", sb_command_compare},
     {"design", "FILE.study", "Finds the best valve within bounds and limits", sb_command_design},
     {"merge", "STORE FROM...", "Joins stores of studies", sb_command_merge},
     {"list", "params|figures|models|views|fluids",

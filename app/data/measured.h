@@ -109,3 +109,12 @@ typedef struct {
 // Rows at rest, on the stop and within 1 % of the stroke of either are left out. Owned by the
 // caller (g_free).
 SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *measured, size_t count_max);
+
+// Least and greatest force of the cycles in use in equal pieces of the stroke up to `end`; NaN in a
+// piece without a row.
+enum { SB_MEASURED_BAND = 200 };
+typedef struct {
+  double end;                           // [m]
+  double force[2][SB_MEASURED_BAND][2]; // way; least, greatest [N]
+} SbMeasuredBand;
+void sb_measured_band(SbMeasuredBand *out, const SbMeasured *measured);

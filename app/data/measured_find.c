@@ -179,10 +179,6 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   return true;
 }
 
-static const SbMeasuredCycle *cycle_of(const SbMeasured *m, size_t index) {
-  return &g_array_index(m->cycle, SbMeasuredCycle, index);
-}
-
 // ---- Zero and compliance ----
 
 // Of the first in-stroke: rows up to where the force reaches nine tenths of its sliding level.
@@ -193,7 +189,7 @@ typedef struct {
 } Rise;
 
 static Rise find_rise(const SbMeasured *m) {
-  const SbMeasuredCycle *cycle = cycle_of(m, m->first);
+  const SbMeasuredCycle *cycle = sb_measured_cycle(m, m->first);
   Rise rise = {.begin = cycle->begin, .end = cycle->begin};
   const double s0 = m->displacement[cycle->begin], s1 = m->displacement[cycle->turn];
   rise.range = s1 - s0;
@@ -306,10 +302,27 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   return true;
 }
 
+// While the stem rests on the stop its displacement has no one turn: the greatest force is where
+// the machine turned.
+static void settle_turns(SbMeasured *m) {
+  for (guint c = 0; c < m->cycle->len; c++) {
+    SbMeasuredCycle *cycle = &g_array_index(m->cycle, SbMeasuredCycle, c);
+    const double rest = 0.997 * m->displacement[cycle->turn];
+    size_t most = cycle->turn;
+    for (size_t i = cycle->turn; i > cycle->begin && m->displacement[i] >= rest; i--) {
+      most = m->force[i] > m->force[most] ? i : most;
+    }
+    for (size_t i = cycle->turn; i < cycle->end && m->displacement[i] >= rest; i++) {
+      most = m->force[i] > m->force[most] ? i : most;
+    }
+    cycle->turn = most;
+  }
+}
+
 // ---- Noise ----
 
 static void find_noise(SbMeasured *m) {
-  const SbMeasuredCycle *cycle = cycle_of(m, m->first);
+  const SbMeasuredCycle *cycle = sb_measured_cycle(m, m->first);
   const double stroke = m->displacement[cycle->turn];
   const size_t step = (cycle->end - cycle->begin) / LOOKED + 1;
   double *value = g_new(double, (cycle->end - cycle->begin) / step + 1);
@@ -500,7 +513,7 @@ static void find_stop(SbMeasured *m, const SbMeasuredCycle *cycle, double stroke
 }
 
 static void find_stages(SbMeasured *m) {
-  const SbMeasuredCycle *cycle = cycle_of(m, m->first);
+  const SbMeasuredCycle *cycle = sb_measured_cycle(m, m->first);
   const double stroke = m->displacement[cycle->turn];
   find_first_slip(m, cycle, stroke);
   find_stop(m, cycle, stroke);
@@ -521,55 +534,8 @@ bool sb_measured_find(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   if (issues->len > before || !find_cycles(m, data, issues) || !find_zero(m, data, issues)) {
     return false;
   }
+  settle_turns(m);
   find_noise(m);
   find_stages(m);
   return true;
-}
-
-// ---- Points ----
-
-// Whether a row is of a sliding stem, and in which way.
-static bool slides(int *way, const SbMeasured *m, const SbMeasuredCycle *cycle, size_t row) {
-  const double s = m->displacement[row], stroke = m->displacement[cycle->turn];
-  const SbMeasuredStage *d = &m->stage[SB_STAGE_D], *e = &m->stage[SB_STAGE_E];
-  const double margin = 0.01 * stroke;
-  *way = row >= cycle->turn;
-  const SbMeasuredStage *end = *way ? e : d;
-  return s > margin && s < (end->found ? end->displacement : stroke) - margin;
-}
-
-SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *m, size_t count_max) {
-  size_t rows = 0;
-  int way;
-  for (size_t c = m->first; c <= m->last; c++) {
-    const SbMeasuredCycle *cycle = cycle_of(m, c);
-    for (size_t i = cycle->begin; i < cycle->end; i++) {
-      rows += slides(&way, m, cycle, i);
-    }
-  }
-  const size_t each = rows / MAX(count_max, 1) + (rows % MAX(count_max, 1) != 0);
-  SbMeasuredPoint *point =
-      g_new(SbMeasuredPoint, rows / MAX(each, 1) + 2 * (m->last - m->first) + 4);
-  SbMeasuredPoint sum = {0};
-  *count = 0;
-  for (size_t c = m->first; c <= m->last; c++) {
-    const SbMeasuredCycle *cycle = cycle_of(m, c);
-    for (size_t i = cycle->begin; i <= cycle->end; i++) {
-      const bool takes = i < cycle->end && slides(&way, m, cycle, i);
-      // A mean ends with its rows, its stroke or its cycle.
-      if (sum.weight > 0 &&
-          (sum.weight >= (double)each || i == cycle->end || (takes && way != sum.way))) {
-        point[(*count)++] = (SbMeasuredPoint){sum.displacement / sum.weight, sum.force / sum.weight,
-                                              sum.weight, sum.way};
-        sum = (SbMeasuredPoint){0};
-      }
-      if (takes) {
-        sum.displacement += m->displacement[i];
-        sum.force += m->force[i];
-        sum.weight++;
-        sum.way = way;
-      }
-    }
-  }
-  return point;
 }

@@ -40,6 +40,7 @@ void sb_document_free(SbDocument *document) {
   g_free(document->title);
   g_free(document->valve_path);
   g_free(document->valve_name);
+  g_clear_pointer(&document->measured, g_ptr_array_unref);
   g_free(document->series_name);
   g_free(document->series_path);
   sb_named_rubber_release(document->base_rubber);
@@ -84,7 +85,8 @@ static char *group_of(SbParamId id) {
 
 // Whether a group's names are no keys of the catalogue.
 static bool has_own_names(const char *group) {
-  return strcmp(group, SB_LIMITS_GROUP) == 0 || strcmp(group, SB_CASES_GROUP) == 0;
+  return strcmp(group, SB_LIMITS_GROUP) == 0 || strcmp(group, SB_CASES_GROUP) == 0 ||
+         sb_data_is_group(group);
 }
 
 // Whether any key stands in `group`; else an issue.
@@ -319,6 +321,7 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   }
   sb_shapes_settle(document->shapes, name, document->notes);
   read_series(document, entries, directory, issues);
+  document->measured = sb_data_read(entries, directory, name, issues);
   const SbValveOutlines *outlines = &document->shapes->outlines;
   if (outlines->housing || outlines->stem) {
     data_of(document)->outlines = *outlines;
@@ -377,6 +380,14 @@ SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
 }
 
 // ---- Asking ----
+
+size_t sb_document_data_count(const SbDocument *document) {
+  return document->measured != NULL ? document->measured->len : 0;
+}
+
+const SbData *sb_document_data(const SbDocument *document, size_t index) {
+  return document->measured->pdata[index];
+}
 
 const GPtrArray *sb_document_notes(const SbDocument *document) {
   return document->notes;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "app/base/issue.h"
+#include "app/document/data_keys.h"
 #include "app/document/unit.h"
 
 #include "engine/valve/valve.h"
@@ -77,6 +78,10 @@ char *sb_document_text(const SbDocument *document, SbParamId id);
 // key, range) and *out = NULL if they do not go together.
 bool sb_document_compile(const SbDocument *document, SbModel **out, GPtrArray *issues);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbModel, sb_model_destroy)
+
+// Its own groups of measured data; borrowed.
+size_t sb_document_data_count(const SbDocument *document);
+const SbData *sb_document_data(const SbDocument *document, size_t index);
 
 // The [cases]: each is the document with some values replaced. The name is borrowed.
 size_t sb_document_case_count(const SbDocument *document);

@@ -38,6 +38,7 @@ struct SbDocument {
   char *valve_name;                                       // scenes: as the file has it
   char *series_name;                                      // value of drive.file, NULL without one
   char *series_path;                                      // path to open
+  GPtrArray *measured;                                    // of SbData, its own [data] groups
   SbNamedRubber *base_rubber, *own_rubber, *saved_rubber; // as the params; NULL: none
   SbModelData *data;  // series, outlines and rubber, for its models; NULL: none
   char *text;         // of the file as last read or written

@@ -88,6 +88,15 @@ char *sb_document_to_text(const SbDocument *document, const char *path) {
     SbChange change = {g_strdup("drive"), g_strdup("file"), series};
     g_array_append_val(changes, change);
   }
+  for (size_t i = 0; i < sb_document_data_count(document); i++) {
+    const SbData *data = sb_document_data(document, i);
+    char *file = moved_name(document, data->path, data->text[SB_DATA_FILE], path);
+    if (file != NULL) {
+      const char *gap = *data->name != '\0' ? " " : "";
+      SbChange change = {g_strconcat("data", gap, data->name, NULL), g_strdup("file"), file};
+      g_array_append_val(changes, change);
+    }
+  }
   g_autofree char *folder = path != NULL ? g_path_get_dirname(path) : NULL;
   char *rubber = sb_document_rubber_name_at(document, folder);
   const bool was = document->saved_rubber != NULL;
@@ -215,6 +224,11 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
   GPtrArray *none = sb_issues_new();
   g_ptr_array_unref(document->entries);
   document->entries = sb_reader_scan(text, strlen(text), path, none);
+  if (document->measured != NULL) {
+    g_autofree char *directory = g_path_get_dirname(path);
+    g_ptr_array_unref(document->measured);
+    document->measured = sb_data_read(document->entries, directory, path, none);
+  }
   g_ptr_array_unref(none);
   char *kept = g_strdup(path);
   g_free(document->path);

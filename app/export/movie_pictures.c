@@ -90,7 +90,8 @@ bool sb_movie_pictures_open(SbMoviePictures **out, const SbRun *run, const SbRen
   film->data = (SbChartData){.title = options->title,
                              .subtitle = options->subtitle,
                              .hash = options->hash,
-                             .stale = options->stale};
+                             .stale = options->stale,
+                             .measured = options->measured};
   SbStatus ended = sb_run_summary(run)->status;
   sb_chart_run_init(&film->data.run, run, film->trace,
                     ended == SB_OK                ? SB_CHART_DONE

@@ -200,7 +200,8 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
                       .title = options->title,
                       .subtitle = options->subtitle,
                       .hash = options->hash,
-                      .stale = options->stale};
+                      .stale = options->stale,
+                      .measured = options->measured};
   SbChartState state = summary->status == SB_OK                ? SB_CHART_DONE
                        : summary->status == SB_ERROR_CANCELLED ? SB_CHART_PARTIAL
                                                                : SB_CHART_FAILED;

@@ -33,18 +33,19 @@ const SbRenderSize *sb_render_sizes(size_t *count);
 // What a picture takes beside the run. Pointers are borrowed; zero is a good default everywhere but
 // `view`.
 typedef struct {
-  const char *view;      // name in the table
-  double width, height;  // logical pixels; 0: the view's own size
-  double scale;          // PNG pixels per logical pixel; 0 counts as 1
-  bool dark;             //
-  const char *at;        // "C" or "7.27 s"; NULL: see sb_render_frame_at()
-  const char *title;     // of the scene
-  const char *subtitle;  // names of the files; the header adds the run's conditions
-  const char *hash;      // of the parameters
-  const char *scene;     // text that restores the scene, for PNG and SVG
-  const char *ending;    // of a still whose path has none; NULL: the path's
-  const char *stale;     // why the run no longer fits the scene, said on the page; NULL: it does
-  SbSectionDraw section; // draws the section; NULL: views that need it are refused
+  const char *view;     // name in the table
+  double width, height; // logical pixels; 0: the view's own size
+  double scale;         // PNG pixels per logical pixel; 0 counts as 1
+  bool dark;            //
+  const char *at;       // "C" or "7.27 s"; NULL: see sb_render_frame_at()
+  const char *title;    // of the scene
+  const char *subtitle; // names of the files; the header adds the run's conditions
+  const char *hash;     // of the parameters
+  const char *scene;    // text that restores the scene, for PNG and SVG
+  const char *ending;   // of a still whose path has none; NULL: the path's
+  const char *stale;    // why the run no longer fits the scene, said on the page; NULL: it does
+  const SbComparison *measured; // of the run; NULL: nothing
+  SbSectionDraw section;        // draws the section; NULL: views that need it are refused
   void *section_data;
 } SbRenderOptions;
 

@@ -4,6 +4,7 @@
 #include "app/document/unit.h"
 #include "app/export/csv.h"
 #include "app/export/json.h"
+#include "app/export/measured_results.h"
 #include "app/export/studies.h"
 #include "engine/film/laws.h"
 
@@ -313,6 +314,9 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
       sb_json_study(&json, &info->studies[i]);
     }
     sb_json_array_end(&json);
+  }
+  if (info->measured != NULL) {
+    sb_json_comparison(&json, "measured", info->measured);
   }
   put_run_solver(&json, summary);
   sb_json_object_end(&json);

@@ -1,6 +1,7 @@
 // Results as JSON documents, with stable keys, the unit in each.
 #pragma once
 
+#include "app/data/compare.h"
 #include "app/export/json.h"
 #include "app/run/cases.h"
 #include "engine/contact/fit.h"
@@ -20,6 +21,7 @@ typedef struct {
   const SbStudy *studies; // `study_count` of them, what output.studies asked for
   size_t study_count;
   const SbCaseVerdict *verdict; // of SB_VERDICT_COUNT
+  const SbComparison *measured; // NULL: nothing was
 } SbResultsInfo;
 
 // A film through a series of speeds, one value a row; NAN where it was not reached.

@@ -326,6 +326,37 @@ static void test_clocks(void) {
   }
 }
 
+// A scene keeps its data, also when it moves to another folder.
+static void test_document_moves(void) {
+  g_autofree char *from = g_dir_make_tmp("sealbench-XXXXXX", NULL);
+  g_autofree char *to = g_dir_make_tmp("sealbench-XXXXXX", NULL);
+  g_autofree char *one = g_build_filename(from, "a.valve", NULL);
+  g_autofree char *two = g_build_filename(to, "a.valve", NULL);
+  g_autofree char *file = g_build_filename(from, "lot.csv", NULL);
+  g_assert_true(g_file_set_contents(one,
+                                    "[sealbench]\nformat = 1\nkind = valve\n[data lot 2]\n"
+                                    "file = lot.csv\nunits = mm, N\n",
+                                    -1, NULL));
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) document = sb_document_load(one, issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  g_assert_true(sb_document_save(document, two, NULL));
+  g_autoptr(SbDocument) moved = sb_document_load(two, issues);
+  const SbDocument *const both[] = {document, moved};
+  for (size_t i = 0; i < G_N_ELEMENTS(both); i++) {
+    g_assert_cmpuint(sb_document_data_count(both[i]), ==, 1);
+    const SbData *data = sb_document_data(both[i], 0);
+    g_autofree char *path = g_canonicalize_filename(data->path, NULL);
+    g_assert_cmpstr(path, ==, file);
+    g_assert_cmpstr(data->name, ==, "lot 2");
+    g_assert_cmpstr(data->text[SB_DATA_UNITS], ==, "mm, N");
+  }
+  g_unlink(one);
+  g_unlink(two);
+  g_rmdir(from);
+  g_rmdir(to);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   make_bench();
@@ -336,5 +367,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/measured/settled", test_settled);
   g_test_add_func("/measured/numbers", test_numbers);
   g_test_add_func("/measured/clocks", test_clocks);
+  g_test_add_func("/measured/document", test_document_moves);
   return g_test_run();
 }

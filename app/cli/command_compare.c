@@ -1,0 +1,152 @@
+// sealbench compare: runs of scenes side by side, and a measured loop beside them.
+#include "app/cli/cli.h"
+#include "app/export/measured_results.h"
+
+#include <math.h>
+
+typedef struct {
+  char *measured, *json;
+  char **settings;
+} Options;
+
+// What is kept of each run.
+typedef struct {
+  size_t count;
+  const char **name; // borrowed
+  double **figure;   // [SB_FIGURE_COUNT] each
+  SbMeasured **measured;
+  SbComparison **comparison; // NULL: nothing measured
+} Runs;
+
+static void on_progress(void *data, double fraction, size_t frames) {
+  sb_progress_update(data, fraction);
+}
+
+// Runs one file and keeps its figures; an exit code.
+static int run_file(Runs *runs, const SbCliFile *file, const Options *options) {
+  SbPlan plan;
+  SbReport report = {0};
+  SbRun *run = NULL;
+  int code;
+  SbMeasured *measured = sb_cli_measured(&code, file->document, options->measured);
+  if (code != SB_EXIT_DONE) {
+    return code;
+  }
+  if (!sb_cli_has_memory(file->model)) {
+    sb_measured_free(measured);
+    return SB_EXIT_IO;
+  }
+  const SbPlanWishes wishes = {.views = SB_VIEW_HYSTERESIS, .life = true};
+  sb_plan_wished(&plan, file->model, &wishes);
+  SbStatus status = sb_run_create(&run, file->model, &plan, &report);
+  if (status == SB_OK) {
+    SbProgress progress;
+    sb_progress_start(&progress, "");
+    sb_cli_catch_interrupts();
+    const SbRunHooks hooks = {
+        .progress = on_progress, .cancelled = sb_cli_interrupted, .data = &progress};
+    status = sb_run_execute(run, &hooks, &report);
+    sb_progress_end(&progress);
+  }
+  if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+    const size_t at = runs->count++;
+    runs->name[at] = sb_document_title(file->document);
+    runs->figure[at] = g_new(double, SB_FIGURE_COUNT);
+    for (int f = 0; f < SB_FIGURE_COUNT; f++) {
+      runs->figure[at][f] = sb_figure_value(sb_run_summary(run), f);
+    }
+    SbLoop loop = {0};
+    if (measured != NULL && sb_loop_take(&loop, run)) {
+      runs->measured[at] = measured;
+      runs->comparison[at] = sb_comparison_create(measured, &loop);
+      measured = NULL;
+    } else if (measured != NULL) {
+      (void)sb_cli_fail("%s: its stem does not slide, so there is no loop to compare", file->path);
+    }
+    sb_loop_clear(&loop);
+  }
+  sb_measured_free(measured);
+  sb_run_destroy(run);
+  return sb_cli_status(status, &report);
+}
+
+// The short table's figures of all runs, and what each differs by from the first.
+static void print_figures(const Runs *runs) {
+  for (size_t i = 0; i < runs->count; i++) {
+    printf("%zu: %s\n", i + 1, runs->name[i]);
+  }
+  for (int f = 0; f < SB_FIGURE_COUNT; f++) {
+    const SbFigure *figure = sb_figure(f);
+    bool known = false;
+    for (size_t i = 0; i < runs->count; i++) {
+      known |= !isnan(runs->figure[i][f]);
+    }
+    if (!figure->brief || !known) {
+      continue;
+    }
+    g_autofree char *label = sb_figure_label(f);
+    printf("  %-36s", label);
+    for (size_t i = 0; i < runs->count; i++) {
+      const double value = runs->figure[i][f], less = value - runs->figure[0][f];
+      g_autofree char *text = sb_figure_format(f, value, NAN);
+      g_autofree char *by = sb_figure_format(f, fabs(less), NAN);
+      g_autofree char *all = i == 0 || isnan(less) || figure->digits == 0
+                                 ? g_strdup(text)
+                                 : g_strdup_printf("%s (%s%s)", text, less < 0 ? "-" : "+", by);
+      printf("  %-*s", i == 0 ? 12 : 24, all);
+    }
+    putchar('\n');
+  }
+}
+
+int sb_command_compare(int argc, char **argv) {
+  Options options = {0};
+  const GOptionEntry entries[] = {
+      {"measured", 0, 0, G_OPTION_ARG_FILENAME, &options.measured, SB_CLI_MEASURED_HELP, "FILE"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
+      {0},
+  };
+  SbCliFiles files = {.code = SB_EXIT_INPUT};
+  if (sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) &&
+      sb_cli_files_open(&files, argc, argv, options.settings, NULL)) {
+    const size_t room = (size_t)files.count;
+    Runs runs = {.name = g_new0(const char *, room),
+                 .figure = g_new0(double *, room),
+                 .measured = g_new0(SbMeasured *, room),
+                 .comparison = g_new0(SbComparison *, room)};
+    const int checked = sb_cli_check_outputs(NULL, NULL, options.json);
+    sb_cli_files_done(&files, checked);
+    for (const SbCliFile *file;
+         checked == SB_EXIT_DONE && (file = sb_cli_files_next(&files)) != NULL;) {
+      sb_cli_files_done(&files, run_file(&runs, file, &options));
+    }
+    if (runs.count > 0 && options.json != NULL) {
+      g_autofree char *json =
+          sb_results_compare(runs.count, runs.name, runs.figure, runs.comparison);
+      sb_cli_files_done(&files, sb_cli_emit(json, options.json));
+    } else if (runs.count > 0 && !sb_cli_quiet()) {
+      print_figures(&runs);
+      for (size_t i = 0; i < runs.count; i++) {
+        if (runs.comparison[i] != NULL) {
+          printf("%zu: %s\n", i + 1, runs.name[i]);
+          sb_cli_comparison(runs.comparison[i]);
+        }
+      }
+    }
+    for (size_t i = 0; i < runs.count; i++) {
+      g_free(runs.figure[i]);
+      sb_comparison_free(runs.comparison[i]);
+      sb_measured_free(runs.measured[i]);
+    }
+    g_free(runs.name);
+    g_free(runs.figure);
+    g_free(runs.measured);
+    g_free(runs.comparison);
+  }
+  sb_cli_files_close(&files);
+  g_strfreev(options.settings);
+  g_free(options.measured);
+  g_free(options.json);
+  return files.code;
+}

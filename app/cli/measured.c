@@ -1,0 +1,58 @@
+// Measured loops on the command line: --measured, or a scene's own [data].
+#include "app/cli/cli.h"
+
+#include <string.h>
+
+SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *path) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  const SbData *data = NULL;
+  g_autofree char *wanted = path != NULL ? g_canonicalize_filename(path, NULL) : NULL;
+  *code = SB_EXIT_DONE;
+  for (size_t i = 0; i < sb_document_data_count(document) && data == NULL; i++) {
+    const SbData *one = sb_document_data(document, i);
+    g_autofree char *its = g_canonicalize_filename(one->path, NULL);
+    data = wanted == NULL || strcmp(wanted, its) == 0 ? one : NULL;
+  }
+  if (data == NULL && path == NULL) {
+    return NULL;
+  }
+  SbData *bare = data == NULL ? sb_data_of_file(path) : NULL;
+  SbMeasured *measured = sb_measured_load(data != NULL ? data : bare, issues);
+  sb_data_free(bare);
+  sb_cli_issues(issues);
+  *code = measured != NULL ? SB_EXIT_DONE : SB_EXIT_INPUT;
+  return measured;
+}
+
+static char *force_text(double force, bool known) {
+  char digits[SB_NUMBER_SIZE];
+  return known && force == force ? g_strdup_printf("%s N", sb_number_round(digits, force, 4))
+                                 : g_strdup("-");
+}
+
+void sb_cli_comparison(const SbComparison *comparison) {
+  const SbMeasured *m = comparison->measured;
+  printf("Measured: %s\n", m->name);
+  g_autofree char *text = sb_measured_text(m);
+  g_auto(GStrv) lines = g_strsplit(g_strchomp(text), "\n", -1);
+  for (char **line = lines; *line != NULL; line++) {
+    printf("  %s\n", *line);
+  }
+  printf("  %-10s%12s%12s%12s\n", "", "measured", "model", "difference");
+  for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {
+    const SbMeasuredStage *stage = &m->stage[s];
+    const double model = comparison->model_force[s];
+    g_autofree char *first = force_text(stage->force, stage->found);
+    g_autofree char *second = force_text(model, true);
+    g_autofree char *third = force_text(stage->force - model, stage->found);
+    printf("  Stage %-4s%12s%12s%12s%s%s\n", sb_stage_name((SbStage)s), first, second, third,
+           stage->found ? "" : "  ", stage->found ? "" : stage->reason);
+  }
+  sb_cli_figure("Difference, root mean square", comparison->rms, "N", "N");
+  sb_cli_figure("Difference, mean", comparison->mean, "N", "N");
+  sb_cli_figure("Difference, greatest", comparison->most, "N", "N");
+  if (comparison->outside > 0) {
+    printf("  %zu of %zu points lie where the run has no force\n", comparison->outside,
+           comparison->count);
+  }
+}

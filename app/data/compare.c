@@ -1,0 +1,116 @@
+// Measured less computed; see the header.
+#include "app/data/compare.h"
+
+#include <math.h>
+
+// ---- The run's loop ----
+
+static void add(SbLoop *loop, int way, double displacement, double force) {
+  size_t *count = &loop->count[way];
+  // Only on: where the stem sticks or jumps back, the loop has no one force.
+  if (*count > 0) {
+    const double last = loop->displacement[way][*count - 1];
+    if (!(way == 0 ? displacement > last : displacement < last)) {
+      return;
+    }
+  }
+  if (*count == loop->room[way]) {
+    loop->room[way] = MAX(2 * loop->room[way], 512);
+    loop->displacement[way] = g_renew(double, loop->displacement[way], loop->room[way]);
+    loop->force[way] = g_renew(double, loop->force[way], loop->room[way]);
+  }
+  loop->displacement[way][*count] = displacement;
+  loop->force[way][(*count)++] = force;
+}
+
+bool sb_loop_take(SbLoop *loop, const SbRun *run) {
+  const SbStageMark *mark = sb_run_summary(run)->stage;
+  size_t frames;
+  const SbFrame *frame = sb_run_frames(run, &frames);
+  for (int s = 0; s < SB_STAGE_COUNT; s++) {
+    loop->stage_displacement[s] = mark[s].reached ? mark[s].displacement : NAN;
+    loop->stage_force[s] = mark[s].reached ? mark[s].force : NAN;
+  }
+  loop->count[0] = loop->count[1] = 0;
+  if (!mark[SB_STAGE_B].reached) {
+    return false;
+  }
+  for (size_t i = mark[SB_STAGE_B].frame + 1; i < frames && frame[i].stage < SB_STAGE_D; i++) {
+    add(loop, 0, frame[i].displacement, frame[i].force);
+  }
+  for (size_t i = mark[SB_STAGE_E].reached ? mark[SB_STAGE_E].frame + 1 : frames;
+       i < frames && frame[i].stage >= SB_STAGE_E; i++) {
+    add(loop, 1, frame[i].displacement, frame[i].force);
+  }
+  return loop->count[0] > 1;
+}
+
+void sb_loop_clear(SbLoop *loop) {
+  for (int way = 0; way < 2; way++) {
+    g_free(loop->displacement[way]);
+    g_free(loop->force[way]);
+  }
+  *loop = (SbLoop){0};
+}
+
+double sb_loop_force(const SbLoop *loop, int way, double displacement) {
+  const size_t count = loop->count[way];
+  const double *s = loop->displacement[way], *force = loop->force[way];
+  if (count < 2) {
+    return NAN;
+  }
+  const double sign = way == 0 ? 1 : -1, margin = 0.01 * fabs(s[count - 1] - s[0]);
+  const double x = sign * displacement;
+  if (x < sign * s[0] - margin || x > sign * s[count - 1] + margin) {
+    return NAN;
+  }
+  size_t low = 0, high = count - 1;
+  while (high - low > 1) {
+    const size_t middle = (low + high) / 2;
+    *(sign * s[middle] <= x ? &low : &high) = middle;
+  }
+  const double t = fmin(fmax((displacement - s[low]) / (s[high] - s[low]), 0), 1);
+  return force[low] + t * (force[high] - force[low]);
+}
+
+// ---- Differences ----
+
+SbComparison *sb_comparison_create(const SbMeasured *measured, const SbLoop *loop) {
+  SbComparison *out = g_new0(SbComparison, 1);
+  out->measured = measured;
+  out->point = sb_measured_points(&out->count, measured, SB_COMPARISON_POINTS);
+  out->residual = g_new(double, out->count + 1);
+  double rows = 0, sum = 0, square = 0;
+  out->most = NAN;
+  for (size_t i = 0; i < out->count; i++) {
+    const SbMeasuredPoint *point = &out->point[i];
+    const double r = point->force - sb_loop_force(loop, point->way, point->displacement);
+    out->residual[i] = r;
+    if (isnan(r)) {
+      out->outside++;
+      continue;
+    }
+    rows += point->weight;
+    sum += point->weight * r;
+    square += point->weight * r * r;
+    out->most = fmax(fabs(r), out->most);
+  }
+  out->mean = rows > 0 ? sum / rows : NAN;
+  out->rms = rows > 0 ? sqrt(square / rows) : NAN;
+  for (int s = 0; s < SB_STAGE_COUNT; s++) {
+    out->model_displacement[s] = loop->stage_displacement[s];
+    out->model_force[s] = loop->stage_force[s];
+  }
+  if (measured->last > measured->first) {
+    sb_measured_band(&out->band, measured);
+  }
+  return out;
+}
+
+void sb_comparison_free(SbComparison *comparison) {
+  if (comparison != NULL) {
+    g_free(comparison->point);
+    g_free(comparison->residual);
+    g_free(comparison);
+  }
+}

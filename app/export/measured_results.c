@@ -1,0 +1,121 @@
+// JSON of measured loops; see the header.
+#include "app/export/measured_results.h"
+
+#include "engine/valve/figures.h"
+
+#include <math.h>
+
+static const char *how_name(SbHow how) {
+  static const char *const names[] = {"assumed", "found", "said"};
+  return names[how];
+}
+
+static void put_recognised(SbJson *json, const SbMeasured *m) {
+  const char separator[] = {m->dialect.separator, '\0'}, decimal[] = {m->dialect.decimal, '\0'};
+  sb_json_object(json, "recognised");
+  sb_json_string(json, "encoding", sb_table_encoding_name(m->dialect.encoding));
+  sb_json_string(json, "separator", separator);
+  sb_json_string(json, "decimal", decimal);
+  sb_json_count(json, "header_lines", m->header_lines);
+  sb_json_count(json, "rows", m->count);
+  sb_json_count(json, "rows_dropped", m->dropped);
+  sb_json_count(json, "lines_skipped", m->skipped);
+  sb_json_object(json, "columns");
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    if (m->column[c].index >= 0) {
+      sb_json_object(json, sb_channel_name((SbChannel)c));
+      sb_json_count(json, "column", (guint64)m->column[c].index + 1);
+      sb_json_string(json, "name", m->column[c].name);
+      sb_json_string(json, "unit", m->column[c].unit);
+      sb_json_string(json, "how", how_name(m->column[c].how));
+      sb_json_object_end(json);
+    }
+  }
+  sb_json_object_end(json);
+  sb_json_object(json, "direction");
+  sb_json_bool(json, "force_turned", m->turned_force);
+  sb_json_bool(json, "displacement_turned", m->turned_displacement);
+  sb_json_string(json, "how", how_name(m->direction));
+  sb_json_object_end(json);
+  sb_json_object(json, "zero");
+  sb_json_number(json, "displacement_m", m->at_rest);
+  sb_json_string(json, "displacement_how", how_name(m->zero));
+  sb_json_number(json, "force_N", m->no_load);
+  sb_json_string(json, "force_how", how_name(m->force_zero));
+  sb_json_object_end(json);
+  sb_json_object(json, "compliance");
+  sb_json_number(json, "m_per_N", m->slope);
+  sb_json_string(json, "how", how_name(m->compliance));
+  sb_json_object_end(json);
+  sb_json_count(json, "cycles", m->cycle->len);
+  sb_json_count(json, "cycle_first", m->first + 1);
+  sb_json_count(json, "cycle_last", m->last + 1);
+  sb_json_object_end(json);
+}
+
+void sb_json_measured_stages(SbJson *json, const SbComparison *comparison) {
+  sb_json_object(json, "stages");
+  for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {
+    const SbMeasuredStage *stage = &comparison->measured->stage[s];
+    sb_json_object(json, sb_stage_name((SbStage)s));
+    sb_json_number(json, "measured_N", stage->found ? stage->force : NAN);
+    sb_json_number(json, "model_N", comparison->model_force[s]);
+    sb_json_number(json, "difference_N",
+                   stage->found ? stage->force - comparison->model_force[s] : NAN);
+    sb_json_number(json, "measured_m", stage->found ? stage->displacement : NAN);
+    sb_json_number(json, "model_m", comparison->model_displacement[s]);
+    sb_json_number(json, "measured_deviation_N", stage->found ? stage->deviation : NAN);
+    sb_json_string(json, "reason", stage->reason);
+    sb_json_object_end(json);
+  }
+  sb_json_object_end(json);
+}
+
+void sb_json_comparison(SbJson *json, const char *key, const SbComparison *comparison) {
+  sb_json_object(json, key);
+  sb_json_string(json, "file", comparison->measured->name);
+  sb_json_number(json, "rms_N", comparison->rms);
+  sb_json_number(json, "mean_N", comparison->mean);
+  sb_json_number(json, "most_N", comparison->most);
+  sb_json_number(json, "noise_N", comparison->measured->noise);
+  sb_json_count(json, "points", comparison->count);
+  sb_json_count(json, "outside", comparison->outside);
+  put_recognised(json, comparison->measured);
+  sb_json_measured_stages(json, comparison);
+  sb_json_object_end(json);
+}
+
+char *sb_results_compare(size_t runs, const char *const *name, double *const *figure,
+                         SbComparison *const *comparison) {
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_object(&json, NULL);
+  sb_json_array(&json, "runs");
+  for (size_t i = 0; i < runs; i++) {
+    sb_json_object(&json, NULL);
+    sb_json_string(&json, "name", name[i]);
+    sb_json_object(&json, "figures");
+    for (int f = 0; f < SB_FIGURE_COUNT; f++) {
+      sb_json_number(&json, sb_figure(f)->path, figure[i][f]);
+    }
+    sb_json_object_end(&json);
+    sb_json_number(&json, "rms_N", comparison[i] != NULL ? comparison[i]->rms : NAN);
+    sb_json_object_end(&json);
+  }
+  sb_json_array_end(&json);
+  sb_json_object(&json, "differences");
+  double *difference = g_new(double, runs + 1);
+  for (int f = 0; f < SB_FIGURE_COUNT; f++) {
+    for (size_t i = 0; i < runs; i++) {
+      difference[i] = figure[i][f] - figure[0][f];
+    }
+    sb_json_numbers(&json, sb_figure(f)->path, difference, runs);
+  }
+  g_free(difference);
+  sb_json_object_end(&json);
+  if (runs > 0 && comparison[0] != NULL) {
+    sb_json_comparison(&json, "measured", comparison[0]);
+  }
+  sb_json_object_end(&json);
+  return sb_json_finish(&json);
+}

@@ -1,0 +1,165 @@
+// Measured loops from outside: beside runs, runs beside each other, what is refused. The loop that
+// is "measured" is the program's own table of another run, so that every difference is known.
+#include "tests/app/cli_fixture.h"
+
+#include <glib/gstdio.h>
+#include <math.h>
+#include <string.h>
+
+static char *quick;  // quick-look.scene
+static char *table;  // cycle.csv of it
+static char *scene;  // the same with the table as [data]
+static char *folder; // that has them
+
+static void write_text(const char *path, const char *text) {
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+}
+
+static void set_up(void) {
+  quick = g_build_filename(g_getenv("SEALBENCH_ASSETS"), "scenes", "quick-look.scene", NULL);
+  folder = g_build_filename(cli.folder, "bench", NULL);
+  table = g_build_filename(folder, "cycle.csv", NULL);
+  scene = g_build_filename(folder, "x.scene", NULL);
+  CliResult result = CLI("run", quick, "-o", folder, "-q");
+  g_assert_cmpint(result.code, ==, 0);
+  cli_clear(&result);
+  g_autofree char *text =
+      g_strdup_printf("[sealbench]\nformat = 1\nkind = scene\nvalve = %s\n[models]\n"
+                      "fit = karaszkiewicz\nfilm = thesis\n[output]\nframes = 400\n"
+                      "[data]\nfile = cycle.csv\ncolumns = time, displacement, -, force\n"
+                      "zero = as-is\ncompliance = none\n",
+                      cli.valve);
+  write_text(scene, text);
+}
+
+// The very run: no difference; what was said is told.
+static void test_same(void) {
+  CliResult result = CLI("run", scene, "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *root = cli_parse(result.out);
+  cli_has_keys(root, "measured.file measured.rms_N measured.stages.B.measured_N "
+                     "measured.stages.F.model_N measured.recognised.separator "
+                     "measured.recognised.columns.force.unit measured.recognised.zero.force_how "
+                     "measured.recognised.compliance.m_per_N measured.recognised.cycles "
+                     "measured.recognised.direction.how measured.noise_N");
+  g_assert_cmpfloat(cli_number(root, "measured.rms_N"), <, 1e-9);
+  g_assert_cmpfloat(cli_number(root, "measured.outside"), ==, 0);
+  g_assert_cmpfloat(cli_number(root, "measured.points"), >, 300);
+  static const char stages[] = "BCDEF";
+  for (const char *stage = stages; *stage != '\0'; stage++) {
+    g_autofree char *less = g_strdup_printf("measured.stages.%c.difference_N", *stage);
+    g_autofree char *deviation =
+        g_strdup_printf("measured.stages.%c.measured_deviation_N", *stage);
+    g_assert_cmpfloat(fabs(cli_number(root, less)), <=,
+                      fmax(2 * cli_number(root, deviation), 0.01));
+  }
+  json_node_unref(root);
+  cli_clear(&result);
+}
+
+// Another pressure: the residuals are what the runs differ by.
+static void test_differences(void) {
+  CliResult result = CLI("compare", scene, "--set", "canister.pressure=0.5MPa", "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *root = cli_parse(result.out);
+  cli_has_keys(root, "runs.0.name runs.0.figures differences measured.rms_N measured.stages.B");
+  json_node_unref(root);
+  cli_clear(&result);
+  result = CLI("compare", quick, scene, "--set", "canister.pressure=0.5MPa", "--measured", table,
+               "--json", "-");
+  // The table of a run has several forces: quick-look's scene does not say which.
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "may both be the"));
+  root = cli_parse(result.out);
+  const double moved = cli_number(root, "measured.stages.C.difference_N");
+  json_node_unref(root);
+  cli_clear(&result);
+  // From the figures of both pressures.
+  g_autofree char *other = g_build_filename(folder, "y.scene", NULL);
+  g_autofree char *text =
+      g_strdup_printf("[sealbench]\nformat = 1\nkind = scene\nvalve = %s\n[canister]\n"
+                      "pressure = 0.5 MPa\n[models]\nfit = karaszkiewicz\nfilm = thesis\n"
+                      "[output]\nframes = 400\n",
+                      cli.valve);
+  write_text(other, text);
+  result = CLI("compare", other, quick, "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  root = cli_parse(result.out);
+  JsonObject *differences =
+      json_object_get_object_member(json_node_get_object(root), "differences");
+  JsonArray *c = json_object_get_array_member(differences, "cycle.stages.C.force_N");
+  g_assert_cmpuint(json_array_get_length(c), ==, 2);
+  g_assert_cmpfloat(json_array_get_double_element(c, 0), ==, 0);
+  g_assert_cmpfloat(fabs(moved), >, 0.5);
+  g_assert_cmpfloat_with_epsilon(json_array_get_double_element(c, 1), moved, 0.06);
+  json_node_unref(root);
+  cli_clear(&result);
+  g_unlink(other);
+}
+
+// The table that people read, and the loop's picture with what was measured.
+static void test_shown(void) {
+  CliResult result = CLI("compare", scene);
+  g_assert_cmpint(result.code, ==, 0);
+  static const char *const lines[] = {"separator comma, decimal point, utf-8",
+                                      "displacement: column 2 \"displacement\" in m (as said)",
+                                      "Stage B", "Difference, root mean square"};
+  for (size_t i = 0; i < G_N_ELEMENTS(lines); i++) {
+    g_assert_nonnull(strstr(result.out, lines[i]));
+  }
+  cli_clear(&result);
+  g_autofree char *with = g_build_filename(folder, "with.svg", NULL);
+  g_autofree char *without = g_build_filename(folder, "without.svg", NULL);
+  result = CLI("render", scene, "--view", "hysteresis", "-o", with);
+  g_assert_cmpint(result.code, ==, 0);
+  cli_clear(&result);
+  result = CLI("render", quick, "--view", "hysteresis", "-o", without);
+  g_assert_cmpint(result.code, ==, 0);
+  cli_clear(&result);
+  g_autofree char *more = cli_contents(folder, "with.svg");
+  g_autofree char *less = cli_contents(folder, "without.svg");
+  g_assert_cmpuint(strlen(more), >, strlen(less) + 20000);
+  g_unlink(with);
+  g_unlink(without);
+}
+
+// What is wrong with the data is told before the run, with the key that would say.
+static void test_refused(void) {
+  g_autofree char *bad = g_build_filename(folder, "bad.csv", NULL);
+  write_text(bad, "Weg [mm];Kraft [N]\n1,234;5,678\n1,235;5,679\n");
+  static const char *const commands[] = {"run", "compare"};
+  for (size_t i = 0; i < G_N_ELEMENTS(commands); i++) {
+    CliResult result = CLI(commands[i], quick, "--measured", bad);
+    g_assert_cmpint(result.code, ==, 1);
+    g_assert_nonnull(strstr(result.err, "1234 with a decimal point, 1.234 with a decimal comma"));
+    cli_clear(&result);
+  }
+  CliResult result = CLI("run", quick, "--measured", "/no/such.csv");
+  g_assert_cmpint(result.code, ==, 1);
+  cli_clear(&result);
+  g_autofree char *text = cli_contents(folder, "x.scene");
+  g_autofree char *unknown = g_strconcat(text, "wheel = 3\n", NULL);
+  g_autofree char *path = g_build_filename(folder, "unknown.scene", NULL);
+  write_text(path, unknown);
+  result = CLI("check", path);
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "wheel"));
+  cli_clear(&result);
+  g_unlink(path);
+  g_unlink(bad);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  cli_set_up();
+  set_up();
+  g_test_add_func("/cli-measured/same", test_same);
+  g_test_add_func("/cli-measured/differences", test_differences);
+  g_test_add_func("/cli-measured/shown", test_shown);
+  g_test_add_func("/cli-measured/refused", test_refused);
+  const int result = g_test_run();
+  g_unlink(scene);
+  cli_remove_results(folder);
+  cli_tear_down();
+  return result;
+}
