@@ -1,0 +1,443 @@
+// Fit and posterior; see the header.
+#include "app/study/inference.h"
+
+#include "engine/numeric/sampling.h"
+
+#include <glib.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <math.h>
+#include <string.h>
+
+#define BEND 2.5
+
+typedef struct {
+  const SbInferenceAsked *asked;
+  SbInference *out;
+  double *known_z, *known_residual; // the last place asked for
+  bool known, cancelled;
+} Work;
+
+// ---- The model ----
+
+static bool evaluate(Work *work, double *residual, const double *z) {
+  const SbInferenceAsked *asked = work->asked;
+  const size_t n = asked->coordinates, m = asked->residuals;
+  if (!work->known || memcmp(work->known_z, z, n * sizeof *z) != 0) {
+    work->known = asked->evaluate(asked->data, work->known_residual, z);
+    work->out->evaluations++;
+    work->cancelled |= !work->known;
+    memcpy(work->known_z, z, n * sizeof *z);
+  }
+  memcpy(residual, work->known_residual, m * sizeof *residual);
+  return work->known;
+}
+
+static bool differentiate(Work *work, double *jacobian, const double *z) {
+  const SbInferenceAsked *asked = work->asked;
+  const size_t n = asked->coordinates, m = asked->residuals;
+  const double step = 1e-3;
+  if (asked->differentiate != NULL) {
+    double *residual = g_new(double, m);
+    const bool good =
+        evaluate(work, residual, z) && asked->differentiate(asked->data, jacobian, z, residual);
+    g_free(residual);
+    work->cancelled |= !good;
+    return good;
+  }
+  double *side[2] = {g_new(double, m), g_new(double, m)}, *moved = g_memdup2(z, n * sizeof *z);
+  bool good = true;
+  for (size_t j = 0; j < n && good; j++) {
+    for (int s = 0; s < 2 && good; s++) {
+      moved[j] = z[j] + (s == 0 ? -step : step);
+      good = asked->evaluate(asked->data, side[s], moved);
+      work->out->evaluations++;
+    }
+    moved[j] = z[j];
+    for (size_t i = 0; i < m && good; i++) {
+      jacobian[i * n + j] = (side[1][i] - side[0][i]) / (2 * step);
+    }
+  }
+  work->cancelled |= !good;
+  g_free(side[0]);
+  g_free(side[1]);
+  g_free(moved);
+  return good;
+}
+
+// ---- Noise and loss ----
+
+// 1/deviation of a residual.
+static double scale_of(const Work *work, size_t i) {
+  const uint8_t group = work->asked->group[i];
+  const double sigma = group == SB_NOISE_KNOWN ? 1 : work->out->sigma[group];
+  return sqrt(work->asked->weight[i]) / sigma;
+}
+
+static int compare_doubles(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+// Deviations of the groups from residuals; from their median first, then by Huber's proposal 2.
+static void find_sigma(Work *work, const double *residual, bool first) {
+  const SbInferenceAsked *asked = work->asked;
+  const double normal = sb_normal_share(BEND), density = exp(-0.5 * BEND * BEND) / sqrt(2 * M_PI);
+  const double share = (2 * normal - 1) - 2 * BEND * density + 2 * BEND * BEND * (1 - normal);
+  double *value = g_new(double, asked->residuals + 1);
+  for (size_t g = 0; g < asked->groups; g++) {
+    size_t count = 0;
+    for (size_t i = 0; i < asked->residuals; i++) {
+      if (asked->group[i] == g) {
+        value[count++] = fabs(residual[i]) * sqrt(asked->weight[i]);
+      }
+    }
+    if (count == 0) {
+      work->out->sigma[g] = 1;
+      continue;
+    }
+    double sigma = work->out->sigma[g];
+    if (first) {
+      qsort(value, count, sizeof *value, compare_doubles);
+      sigma = value[count / 2] / 0.6745;
+    }
+    const double taken =
+        (double)asked->coordinates * (double)count / (double)asked->residuals; // by the fit
+    const double free = fmax((double)count - taken, 1);
+    sigma = fmax(sigma, 1e-12);
+    for (int round = 0; round < 20; round++) {
+      double sum = 0;
+      for (size_t i = 0; i < count; i++) {
+        const double x = fmin(value[i] / sigma, BEND);
+        sum += x * x;
+      }
+      sigma = fmax(sigma * sqrt(sum / (free * share)), 1e-12);
+    }
+    work->out->sigma[g] = sigma;
+  }
+  g_free(value);
+}
+
+static void find_spread(Work *work, const double *residual) {
+  const SbInferenceAsked *asked = work->asked;
+  for (size_t g = 0; g < asked->groups; g++) {
+    double product = 0, square = 0, last = NAN, count = 0;
+    for (size_t i = 0; i < asked->residuals; i++) {
+      if (asked->group[i] != g) {
+        continue;
+      }
+      const double x = fmax(fmin(residual[i] * scale_of(work, i), BEND), -BEND);
+      product += isnan(last) ? 0 : x * last;
+      square += x * x;
+      last = x;
+      count++;
+    }
+    const double rho = square > 0 ? fmin(product / square, 0.99) : 0;
+    work->out->spread[g] = rho > 3 / sqrt(fmax(count, 1)) ? (1 + rho) / (1 - rho) : 1;
+  }
+}
+
+static double spread_of(const Work *work, size_t i) {
+  const uint8_t group = work->asked->group[i];
+  return group == SB_NOISE_KNOWN ? 1 : work->out->spread[group];
+}
+
+// Logarithm of the posterior's density, but for a constant.
+static double log_density(const Work *work, const double *residual, const double *z) {
+  double sum = 0;
+  for (size_t i = 0; i < work->asked->residuals; i++) {
+    const double x = fabs(residual[i] * scale_of(work, i));
+    sum += (x < BEND ? 0.5 * x * x : BEND * (x - 0.5 * BEND)) / spread_of(work, i);
+  }
+  for (size_t j = 0; j < work->asked->coordinates; j++) {
+    sum += 0.5 * z[j] * z[j];
+  }
+  return -sum;
+}
+
+// ---- The fit ----
+
+// GSL's rows: residuals, then the coordinates themselves, which are the prior's.
+static int gsl_f(const gsl_vector *x, void *data, gsl_vector *f) {
+  Work *work = data;
+  const size_t m = work->asked->residuals, n = work->asked->coordinates;
+  for (size_t j = 0; j < n; j++) {
+    gsl_vector_set(f, m + j, gsl_vector_get(x, j));
+  }
+  return evaluate(work, f->data, x->data) ? GSL_SUCCESS : GSL_EFAILED;
+}
+
+static int gsl_df(const gsl_vector *x, void *data, gsl_matrix *jacobian) {
+  Work *work = data;
+  const size_t m = work->asked->residuals, n = work->asked->coordinates;
+  gsl_matrix_set_zero(jacobian);
+  for (size_t j = 0; j < n; j++) {
+    gsl_matrix_set(jacobian, m + j, j, 1);
+  }
+  return differentiate(work, jacobian->data, x->data) ? GSL_SUCCESS : GSL_EFAILED;
+}
+
+// One fit with the weights that the loss has at the present residuals.
+static bool fit_once(Work *work, gsl_multifit_nlinear_workspace *w, gsl_multifit_nlinear_fdf *fdf,
+                     gsl_vector *weight) {
+  const size_t m = work->asked->residuals, n = work->asked->coordinates;
+  for (size_t i = 0; i < m; i++) {
+    const double scale = scale_of(work, i), x = fabs(work->out->residual[i] * scale);
+    gsl_vector_set(weight, i, scale * scale * (x > BEND ? BEND / x : 1) / spread_of(work, i));
+  }
+  for (size_t j = 0; j < n; j++) {
+    gsl_vector_set(weight, m + j, 1);
+  }
+  const gsl_vector_const_view start = gsl_vector_const_view_array(work->out->z, n);
+  if (gsl_multifit_nlinear_winit(&start.vector, weight, fdf, w) != GSL_SUCCESS) {
+    return false;
+  }
+  int info = 0;
+  const int status = gsl_multifit_nlinear_driver(40, 1e-7, 1e-10, 1e-10, NULL, NULL, &info, w);
+  const gsl_vector *at = gsl_multifit_nlinear_position(w);
+  memcpy(work->out->z, at->data, n * sizeof(double));
+  // No step that is better is an end as well; GSL tells one at the start as too many.
+  const bool ended = status == GSL_SUCCESS || status == GSL_ENOPROG || info == GSL_ENOPROG;
+  return !work->cancelled && evaluate(work, work->out->residual, work->out->z) && ended;
+}
+
+// Covariance of z by the tangent: (J' W J + 1)^-1.
+static bool find_covariance(Work *work) {
+  SbInference *out = work->out;
+  const size_t m = work->asked->residuals, n = work->asked->coordinates;
+  if (!differentiate(work, out->jacobian, out->z)) {
+    return false;
+  }
+  memset(out->covariance, 0, n * n * sizeof(double));
+  for (size_t j = 0; j < n; j++) {
+    out->covariance[j * n + j] = 1;
+  }
+  for (size_t i = 0; i < m; i++) {
+    const double scale = scale_of(work, i), x = fabs(out->residual[i] * scale);
+    const double weight = scale * scale * (x > BEND ? BEND / x : 1) / spread_of(work, i);
+    const double *row = out->jacobian + i * n;
+    for (size_t j = 0; j < n; j++) {
+      for (size_t k = 0; k < n; k++) {
+        out->covariance[j * n + k] += weight * row[j] * row[k];
+      }
+    }
+  }
+  gsl_matrix_view matrix = gsl_matrix_view_array(out->covariance, n, n);
+  return gsl_linalg_cholesky_decomp1(&matrix.matrix) == GSL_SUCCESS &&
+         gsl_linalg_cholesky_invert(&matrix.matrix) == GSL_SUCCESS;
+}
+
+static SbStatus fit(Work *work) {
+  SbInference *out = work->out;
+  const size_t m = work->asked->residuals, n = work->asked->coordinates;
+  gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
+  parameters.scale = gsl_multifit_nlinear_scale_levenberg;
+  gsl_multifit_nlinear_workspace *w =
+      gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, m + n, n);
+  gsl_vector *weight = gsl_vector_alloc(m + n);
+  gsl_multifit_nlinear_fdf fdf = {.f = gsl_f, .df = gsl_df, .n = m + n, .p = n, .params = work};
+  enum { ROUNDS = 12 };
+  bool good = w != NULL && weight != NULL && evaluate(work, out->residual, out->z);
+  double *before = g_new(double, n);
+  if (good) {
+    find_sigma(work, out->residual, true);
+  }
+  for (int round = 0; round < ROUNDS && good && !out->converged; round++) {
+    memcpy(before, out->z, n * sizeof *before);
+    good = fit_once(work, w, &fdf, weight);
+    if (good) {
+      find_sigma(work, out->residual, round == 0);
+      find_spread(work, out->residual);
+      double moved = 0;
+      for (size_t j = 0; j < n; j++) {
+        moved = fmax(moved, fabs(out->z[j] - before[j]));
+      }
+      out->converged = round > 0 && moved < 1e-4;
+    }
+  }
+  g_free(before);
+  gsl_multifit_nlinear_free(w);
+  gsl_vector_free(weight);
+  good = !work->cancelled && find_covariance(work) && good;
+  return work->cancelled               ? SB_ERROR_CANCELLED
+         : w == NULL || weight == NULL ? SB_ERROR_MEMORY
+         : good && out->converged      ? SB_OK
+                                       : SB_ERROR_NOT_CONVERGED;
+}
+
+// ---- The chain ----
+
+// Numbers of a proposal: dimensions of the random numbers that decide and make it.
+enum { CHI_SQUARES = 5, DECIDE = 200 };
+
+static bool residual_at(Work *work, double *residual, const double *z) {
+  const size_t m = work->asked->residuals, n = work->asked->coordinates;
+  if (!work->asked->linear) {
+    return evaluate(work, residual, z);
+  }
+  for (size_t i = 0; i < m; i++) {
+    residual[i] = work->out->residual[i];
+    for (size_t j = 0; j < n; j++) {
+      residual[i] += work->out->jacobian[i * n + j] * (z[j] - work->out->z[j]);
+    }
+  }
+  return true;
+}
+
+// Lower root of a covariance.
+static bool root_of(double *root, const double *covariance, size_t n) {
+  memcpy(root, covariance, n * n * sizeof *root);
+  gsl_matrix_view matrix = gsl_matrix_view_array(root, n, n);
+  return gsl_linalg_cholesky_decomp1(&matrix.matrix) == GSL_SUCCESS;
+}
+
+// out = centre + scale root variates
+static void step_from(double *out, const double *centre, double scale, const double *root,
+                      const double *variate, size_t n) {
+  for (size_t j = 0; j < n; j++) {
+    out[j] = centre[j];
+    for (size_t k = 0; k <= j; k++) {
+      out[j] += scale * root[j * n + k] * variate[k];
+    }
+  }
+}
+
+// Logarithm of the t density of the independent proposals, but for a constant.
+static double log_t(const double *z, const double *centre, const double *root, size_t n) {
+  double solved[SB_INFERENCE_COORDINATES], square = 0;
+  for (size_t j = 0; j < n; j++) {
+    solved[j] = z[j] - centre[j];
+    for (size_t k = 0; k < j; k++) {
+      solved[j] -= root[j * n + k] * solved[k];
+    }
+    solved[j] /= root[j * n + j];
+    square += solved[j] * solved[j];
+  }
+  return -0.5 * (CHI_SQUARES + (double)n) * log1p(square / CHI_SQUARES);
+}
+
+// Covariance of samples, drawn in by a tenth of what it was before.
+static void adapt(double *covariance, const double *sample, size_t count, size_t n) {
+  double mean[SB_INFERENCE_COORDINATES] = {0};
+  for (size_t i = 0; i < count; i++) {
+    for (size_t j = 0; j < n; j++) {
+      mean[j] += sample[i * n + j] / (double)count;
+    }
+  }
+  for (size_t j = 0; j < n; j++) {
+    for (size_t k = 0; k < n; k++) {
+      double sum = 0;
+      for (size_t i = 0; i < count; i++) {
+        sum += (sample[i * n + j] - mean[j]) * (sample[i * n + k] - mean[k]);
+      }
+      covariance[j * n + k] = 0.1 * covariance[j * n + k] + 0.9 * sum / (double)count;
+    }
+  }
+}
+
+static bool sample_posterior(Work *work) {
+  SbInference *out = work->out;
+  const SbInferenceAsked *asked = work->asked;
+  const size_t n = asked->coordinates, warm = MAX(asked->samples / 4, 200);
+  const size_t all = warm + asked->samples;
+  double *root = g_new(double, n *n), *walk = g_new(double, n *n);
+  double *covariance = g_memdup2(out->covariance, n * n * sizeof(double));
+  double *residual = g_new(double, asked->residuals), *warmed = g_new(double, warm *n);
+  double z[SB_INFERENCE_COORDINATES], tried[SB_INFERENCE_COORDINATES];
+  double variate[SB_INFERENCE_COORDINATES];
+  memcpy(z, out->z, n * sizeof *z);
+  double density = log_density(work, out->residual, z), scale = 2.38 / sqrt((double)n);
+  bool good = root_of(root, out->covariance, n) && root_of(walk, covariance, n);
+  size_t taken = 0;
+  for (size_t i = 0; i < all && good; i++) {
+    for (size_t j = 0; j < n; j++) {
+      variate[j] = sb_normal_quantile(sb_random(asked->seed, i, (uint32_t)j));
+    }
+    const bool alone = i % 2 == 1;
+    double ratio = 0;
+    if (alone) {
+      double chi = 0;
+      for (uint32_t k = 0; k < CHI_SQUARES; k++) {
+        chi += pow(sb_normal_quantile(sb_random(asked->seed, i, DECIDE + 1 + k)), 2);
+      }
+      step_from(tried, out->z, sqrt(CHI_SQUARES / chi), root, variate, n);
+      ratio = log_t(z, out->z, root, n) - log_t(tried, out->z, root, n);
+    } else {
+      step_from(tried, z, scale, walk, variate, n);
+    }
+    if (!(good = residual_at(work, residual, tried))) {
+      break;
+    }
+    const double other = log_density(work, residual, tried);
+    const double share = fmin(exp(other - density + ratio), 1);
+    const bool takes = sb_random(asked->seed, i, DECIDE) < share;
+    if (takes) {
+      memcpy(z, tried, n * sizeof *z);
+      density = other;
+    }
+    if (i < warm) {
+      memcpy(warmed + i * n, z, n * sizeof *z);
+      scale *= alone ? 1 : exp(((share > 0 ? share : 0) - 0.3) / sqrt(1 + 0.1 * (double)i));
+      scale = fmin(fmax(scale, 1e-3), 10);
+      if (i + 1 == warm) {
+        adapt(covariance, warmed + warm / 2 * n, warm - warm / 2, n);
+        if (!root_of(walk, covariance, n)) {
+          memcpy(walk, root, n * n * sizeof *walk);
+        }
+      }
+    } else {
+      memcpy(out->sample + (i - warm) * n, z, n * sizeof *z);
+      taken += takes;
+      out->samples++;
+    }
+  }
+  out->accepted = out->samples > 0 ? (double)taken / (double)out->samples : NAN;
+  g_free(root);
+  g_free(walk);
+  g_free(covariance);
+  g_free(residual);
+  g_free(warmed);
+  return good;
+}
+
+SbStatus sb_inference(SbInference *out, const SbInferenceAsked *asked, SbReport *report) {
+  const size_t n = asked->coordinates, m = asked->residuals;
+  *out = (SbInference){.z = g_new0(double, n),
+                       .residual = g_new0(double, m),
+                       .jacobian = g_try_new0(double, m *n),
+                       .covariance = g_new0(double, n *n),
+                       .sample = g_try_new0(double, asked->samples *n + 1)};
+  Work work = {.asked = asked,
+               .out = out,
+               .known_z = g_new0(double, n),
+               .known_residual = g_new0(double, m)};
+  for (size_t g = 0; g < G_N_ELEMENTS(out->sigma); g++) {
+    out->sigma[g] = out->spread[g] = 1;
+  }
+  SbStatus status = SB_ERROR_MEMORY;
+  if (out->jacobian != NULL && out->sample != NULL) {
+    if (asked->start != NULL) {
+      memcpy(out->z, asked->start, n * sizeof(double));
+    }
+    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    status = fit(&work);
+    if ((status == SB_OK || status == SB_ERROR_NOT_CONVERGED) && asked->samples > 0 &&
+        !sample_posterior(&work)) {
+      status = work.cancelled ? SB_ERROR_CANCELLED : SB_ERROR_NOT_CONVERGED;
+    }
+    gsl_set_error_handler(handler);
+  }
+  g_free(work.known_z);
+  g_free(work.known_residual);
+  return status;
+}
+
+void sb_inference_release(SbInference *inference) {
+  g_free(inference->z);
+  g_free(inference->residual);
+  g_free(inference->jacobian);
+  g_free(inference->covariance);
+  g_free(inference->sample);
+  *inference = (SbInference){0};
+}
