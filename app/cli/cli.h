@@ -191,6 +191,7 @@ void sb_cli_set_pool(const SbAnswerPool *pool);
 
 int sb_command_study(int argc, char **argv);
 int sb_command_merge(int argc, char **argv);
+int sb_command_calibrate(int argc, char **argv);
 int sb_command_compare(int argc, char **argv);
 int sb_command_design(int argc, char **argv);
 int sb_command_sensitivity(int argc, char **argv);

@@ -17,6 +17,8 @@ static const SbCommand commands[] = {
      sb_command_sensitivity},
     {"study", "FILE.study", "Computes figures of many valves: grids, samples, sensitivities",
      sb_command_study},
+    {"calibrate", "FILE.study", "Fits parameters to measured loops, and says what those tell",
+     sb_command_calibrate},
     {"compare", "FILE.scene... [--measured FILE]",
      "Sets runs side by side, and a measured loop beside them", sb_command_compare},
     {"design", "FILE.study", "Finds the best valve within bounds and limits", sb_command_design},

@@ -224,7 +224,7 @@ static void settle_samples(SbStudyReader *reader, bool has_samples) {
   } else if (study->method == SB_METHOD_SOBOL_INDICES) {
     block = n + 2;
   }
-  if (!has_samples && study->design.asked) {
+  if (!has_samples && (study->design.asked || study->data->len > 0)) {
     study->samples = 0;
   } else if (!has_samples) {
     sb_issues_add(reader->issues, reader->shown, 0, "study.samples", "1 to 10000000",
@@ -311,12 +311,12 @@ static void read_groups(SbStudyReader *reader) {
     const SbEntry *entry = reader->entries->pdata[i];
     const char *group = entry->group;
     if (entry->name == NULL) {
-      static const char *const names[] = {SB_META_GROUP,     GROUP_VARY,      GROUP_STUDY,
-                                          GROUP_CORRELATION, SB_LIMITS_GROUP, GROUP_DESIGN,
-                                          GROUP_TOLERANCES,  "data",          NULL};
+      static const char *const names[] = {
+          SB_META_GROUP,   GROUP_VARY,   GROUP_STUDY,      GROUP_CORRELATION,
+          SB_LIMITS_GROUP, GROUP_DESIGN, GROUP_TOLERANCES, NULL};
       study->design.asked |= strcmp(group, GROUP_DESIGN) == 0;
       const bool grid = g_str_has_prefix(group, GROUP_VARY " ");
-      known = g_strv_contains(names, group) || g_str_has_prefix(group, "data ") || grid;
+      known = g_strv_contains(names, group) || sb_data_is_group(group) || grid;
       reader->grid = grid ? ++study->grids : 0;
       if (!known && (bad == NULL || strcmp(bad, group) != 0)) {
         bad = group;
@@ -448,6 +448,7 @@ static SbStudyFile *parse(const char *text, size_t length, const char *name, con
       sb_issues_add(issues, name, 0, NULL, NULL, "no memory for a model");
     }
     hold_base(&reader);
+    study->data = sb_data_read(entries, directory, name, issues);
     read_groups(&reader);
   }
   if (issues->len > before) {
@@ -523,6 +524,7 @@ void sb_study_file_free(SbStudyFile *study) {
   }
   sb_document_free(study->scene);
   sb_model_destroy(study->base);
+  g_clear_pointer(&study->data, g_ptr_array_unref);
   g_free(study->base_sha256);
   g_free(study->root);
   g_free(study->path);

@@ -2,8 +2,8 @@
 //
 // GKeyFile text like a scene's: [sealbench] with kind = study and scene = FILE; [vary] a line a
 // parameter; [correlation]; [study]; [limits]; [design] and [tolerances] of `sealbench design`,
-// which takes the ranges of [vary] as bounds. [data] belongs to another command and is passed over
-// here.
+// which takes the ranges of [vary] as bounds; [data] of `sealbench calibrate`, which takes them as
+// priors.
 //
 // A grid may say more. Each group [vary NAME] is a grid of its own beside the others, with the
 // lines of [vary] added; samples stand in the order of the groups, the last line runs fastest. A
@@ -87,6 +87,7 @@ typedef struct {
   GArray *figures; // of int, figures.def: those named (default all), then those of limits
   SbLimits limits; // the scene's, its own in their place
   SbDesignWish design;
+  GPtrArray *data; // of SbData
   bool borrowed; // all but the lists is another study's
 } SbStudyFile;
 

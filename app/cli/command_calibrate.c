@@ -1,0 +1,184 @@
+// sealbench calibrate: a scene's parameters from measured loops.
+#include "app/cli/cli.h"
+
+#include "app/base/output.h"
+#include "app/export/calibrate_results.h"
+
+#include <math.h>
+
+typedef struct {
+  char *folder, *jobs, *json;
+  char **settings;
+  int threads;
+} Options;
+
+static const char result_name[] = "results.json", samples_name[] = "posterior.csv";
+
+// "fitted.scene", of several curves "fitted-NAME.scene". Owned by the caller.
+static char *scene_name(const SbStudyFile *study, size_t curve) {
+  const SbData *data = study->data->pdata[curve];
+  if (study->data->len == 1) {
+    return g_strdup("fitted.scene");
+  }
+  g_autofree char *name = *data->name != '\0' ? g_strdup(data->name) : g_strdup("data");
+  g_strdelimit(name, "/\\ \t", '-');
+  return g_strdup_printf("fitted-%s.scene", name);
+}
+
+static char *value_text(const SbCalibrated *of, double value) {
+  const SbParam *param = sb_param(of->id);
+  char digits[SB_NUMBER_SIZE];
+  return g_strdup(
+      isfinite(value)
+          ? sb_number_round(digits, sb_quantity_to_shown(value, param->si, param->unit), 5)
+          : "-");
+}
+
+static void print_table(const SbStudyFile *study, const SbCalibration *of) {
+  printf("%s: %zu curves, %zu points\n", study->title, of->curves, of->points);
+  printf("  %-36s%-8s%11s%11s  %-24s%s\n", "", "", "before", "estimate", "95 % interval",
+         "told by the data");
+  for (size_t j = 0; j < of->parameters; j++) {
+    const SbCalibrated *one = &of->parameter[j];
+    g_autofree char *before = value_text(one, one->before);
+    g_autofree char *estimate = value_text(one, one->estimate);
+    g_autofree char *low = value_text(one, one->interval[0]);
+    g_autofree char *high = value_text(one, one->interval[1]);
+    g_autofree char *interval = g_strdup_printf("%s to %s", low, high);
+    static const char *const told[] = {"yes", "only with another", "no, as before"};
+    printf("  %-36s%-8s%11s%11s  %-24s%s\n", one->name, sb_param(one->id)->unit, before, estimate,
+           interval, told[one->told]);
+  }
+  for (size_t c = 0; c < of->curves; c++) {
+    const SbCalibratedCurve *curve = &of->curve[c];
+    printf("  %s: differences %.3g N before, %.3g N after%s\n", curve->name, curve->before_rms,
+           curve->after != NULL ? curve->after->rms : NAN,
+           curve->spread > 1 ? "; they are correlated, and counted for less" : "");
+  }
+  printf("  chi2 per degree of freedom %.3g%s\n", of->chi2,
+         of->chi2 > 1.5 ? ": more than noise is left, which the model cannot follow" : "");
+  if (of->tangent) {
+    printf("  posterior of the tangent at the fit; %d solved loops differ from it by %.3g N\n",
+           SB_CALIBRATION_CHECKS, of->check_rms);
+  }
+  printf("  %s\n", of->sentence);
+}
+
+static bool add_text(SbOutputFolder *folder, const char *name, const char *text, GError **error) {
+  FILE *stream;
+  const bool good = sb_output_folder_add(&stream, folder, name, error);
+  if (good) {
+    fputs(text, stream);
+  }
+  return good;
+}
+
+static int write_folder(const char *path, const SbStudyFile *study, const SbCalibration *of,
+                        const char *json) {
+  SbOutputFolder *folder;
+  GError *error = NULL;
+  g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
+  bool good = sb_output_folder_open(&folder, path, "calibrate", &error);
+  if (good) {
+    g_autofree char *samples = sb_calibration_csv(of);
+    good = add_text(folder, result_name, json, &error) &&
+           add_text(folder, samples_name, samples, &error);
+    for (size_t c = 0; c < of->curves && good; c++) {
+      g_autofree char *name = scene_name(study, c);
+      g_autofree char *file = g_build_filename(path, name, NULL);
+      g_autofree char *scene = sb_calibration_scene(of, study, c, file, &error);
+      good = scene != NULL && add_text(folder, name, scene, &error);
+    }
+    good = good && sb_output_folder_commit(folder, &error) &&
+           sb_output_folder_finish(folder, kept, &error);
+    sb_output_folder_close(folder);
+    sb_cli_kept(path, kept);
+  }
+  return good ? SB_EXIT_DONE : sb_cli_error(error);
+}
+
+static void on_progress(void *data, double fraction) {
+  sb_progress_update(data, fraction);
+}
+
+static int solve(const Options *options, const SbStudyFile *study) {
+  SbCalibration calibration;
+  SbReport report = {0};
+  SbProgress progress;
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  const SbCalibrateHooks hooks = {.jobs = options->threads,
+                                  .cancelled = sb_cli_interrupted,
+                                  .progress = on_progress,
+                                  .data = &progress};
+  sb_progress_start(&progress, "calibrating ");
+  sb_cli_catch_interrupts();
+  const SbStatus status = sb_calibrate(&calibration, study, &hooks, issues, &report);
+  sb_progress_end(&progress);
+  sb_cli_issues(issues);
+  int code = SB_EXIT_DONE;
+  if (status == SB_ERROR_INPUT && issues->len > 0) {
+    code = SB_EXIT_INPUT;
+  } else if (status == SB_ERROR_CANCELLED) {
+    (void)sb_cli_fail("interrupted: there is no fit yet");
+    code = SB_EXIT_INTERRUPTED;
+  } else if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
+    code = sb_cli_status(status, &report);
+  } else {
+    g_autofree char *json = sb_calibration_json(&calibration, study);
+    code = options->folder != NULL ? write_folder(options->folder, study, &calibration, json)
+                                   : SB_EXIT_DONE;
+    if (code == SB_EXIT_DONE && options->json != NULL) {
+      code = sb_cli_emit(json, options->json);
+    } else if (code == SB_EXIT_DONE && !sb_cli_quiet()) {
+      print_table(study, &calibration);
+    }
+    if (status == SB_ERROR_NOT_CONVERGED) {
+      (void)sb_cli_fail("the fit did not converge: its steps did not end");
+      code = MAX(code, SB_EXIT_NOT_CONVERGED);
+    }
+  }
+  sb_calibration_release(&calibration);
+  return code;
+}
+
+int sb_command_calibrate(int argc, char **argv) {
+  Options options = {0};
+  const GOptionEntry entries[] = {
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.folder,
+       "Folder for results.json, posterior.csv and the fitted scenes", "DIR"},
+      {"jobs", 0, 0, G_OPTION_ARG_FILENAME, &options.jobs, SB_CLI_JOBS_HELP, "N"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  if (sb_cli_parse(&argc, &argv, entries, 1, 1, NULL) &&
+      sb_cli_jobs(&options.threads, options.jobs)) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autoptr(SbStudyFile) study = sb_study_file_load(argv[1], options.settings, issues);
+    const bool asked = study != NULL && study->data->len > 0;
+    if (study != NULL && !asked) {
+      sb_issues_add(issues, argv[1], 0, "data.file", "a file of numbers",
+                    "is missing: what was measured");
+    }
+    sb_cli_issues(issues);
+    if (asked) {
+      g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
+      g_ptr_array_add(names, g_strdup(result_name));
+      g_ptr_array_add(names, g_strdup(samples_name));
+      for (size_t c = 0; c < study->data->len; c++) {
+        g_ptr_array_add(names, scene_name(study, c));
+      }
+      g_ptr_array_add(names, NULL);
+      code = sb_cli_check_outputs(options.folder, (char **)names->pdata, options.json);
+      if (code == SB_EXIT_DONE) {
+        code = sb_cli_has_memory(study->base) ? solve(&options, study) : SB_EXIT_IO;
+      }
+    }
+  }
+  g_free(options.folder);
+  g_free(options.jobs);
+  g_free(options.json);
+  g_strfreev(options.settings);
+  return code;
+}

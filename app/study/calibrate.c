@@ -1,0 +1,541 @@
+// Curves, their runs and what the samples say; see the header.
+#include "app/study/calibrate.h"
+
+#include "engine/numeric/sampling.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  const SbData *data;
+  SbMeasured *measured;
+  SbMeasuredPoint *point;
+  size_t points, first; // first: of its residuals
+  bool breakaway;       // its last residual is that of B
+  SbOverride set[SB_VARY_MAX];
+  size_t sets;
+  size_t at[SB_VARY_MAX]; // coordinate of each of [vary]
+  size_t zero;            // coordinate of the force's zero, SIZE_MAX: known
+  // The run at the place last evaluated, with its rings; and one beside it.
+  SbRun *run, *beside;
+  double z[SB_INFERENCE_COORDINATES];
+  bool known;
+  SbLoop loop;
+} Curve;
+
+typedef struct {
+  const SbStudyFile *study;
+  const SbCalibrateHooks *hooks;
+  Curve *curve;
+  size_t curves;
+  size_t coordinates, parameters; // parameters come first, then zeros
+  size_t vary[SB_INFERENCE_COORDINATES];
+  int owner[SB_INFERENCE_COORDINATES];
+  size_t residuals;
+  bool rings;
+  size_t evaluations, expected;
+  SbStatus status; // what ended an evaluation
+} Work;
+
+// What stands for a force where values make no valve, or one that does not run [N].
+static const double no_force = 1000;
+
+static const SbVary *vary_of(const Work *work, size_t k) {
+  return &g_array_index(work->study->vary, SbVary, k);
+}
+
+static double value_of(const Work *work, size_t coordinate, double z) {
+  return sb_distribution_at_normal(&vary_of(work, work->vary[coordinate])->distribution, z);
+}
+
+// ---- Runs ----
+
+// Overrides of a curve at z; their number.
+static size_t overrides_at(SbOverride *out, const Work *work, const Curve *curve, const double *z) {
+  size_t count = 0;
+  for (size_t i = 0; i < curve->sets; i++) {
+    out[count++] = curve->set[i];
+  }
+  for (size_t k = 0; k < work->study->vary->len; k++) {
+    out[count++] =
+        (SbOverride){vary_of(work, k)->id, value_of(work, curve->at[k], z[curve->at[k]])};
+  }
+  return count;
+}
+
+static bool is_cancelled(void *data) {
+  const Work *work = data;
+  return work->hooks->cancelled != NULL && work->hooks->cancelled(work->hooks->data);
+}
+
+// Runs a curve's valve at some overrides into `run`, which is made or made anew; rings are those of
+// `base` to first order where there is one. The loop is empty where it makes no valve. False:
+// cancelled or no memory.
+static bool run_at(Work *work, Curve *curve, SbRun **run, const SbRun *base,
+                   const SbOverride *override, size_t overrides) {
+  const SbModel *model = NULL;
+  SbModel *made = NULL;
+  SbReport report = {0};
+  g_autofree SbPlan *plan = g_new(SbPlan, 1);
+  curve->loop.count[0] = curve->loop.count[1] = 0;
+  SbStatus status = sb_model_derive(&made, work->study->base, override, overrides, &report);
+  model = made;
+  if (status == SB_OK) {
+    const SbPlanWishes wishes = {.views = SB_VIEW_HYSTERESIS};
+    sb_plan_wished(plan, model, &wishes);
+    status = *run == NULL ? sb_run_create(run, model, plan, &report)
+                          : sb_run_renew(*run, model, plan, &report);
+  }
+  if (status == SB_OK) {
+    const SbRunHooks hooks = {
+        .cancelled = is_cancelled, .data = work, .alone = work->hooks->jobs <= 1};
+    sb_run_predict_from(*run, base);
+    if (work->rings && base == NULL) {
+      sb_run_keep_rings(*run);
+    }
+    status = sb_run_execute(*run, &hooks, &report);
+    if (status == SB_OK) {
+      (void)sb_loop_take(&curve->loop, *run);
+    }
+  }
+  sb_model_destroy(made);
+  work->evaluations++;
+  if (work->hooks->progress != NULL) {
+    work->hooks->progress(work->hooks->data,
+                          fmin((double)work->evaluations / (double)work->expected, 1));
+  }
+  work->status = status;
+  return status != SB_ERROR_CANCELLED && status != SB_ERROR_MEMORY;
+}
+
+// Residuals of a curve from its loop; where the model does not slide, from no force at all.
+static void residuals_of(double *residual, const Curve *curve, const double *z) {
+  const double offset =
+      curve->zero != SIZE_MAX ? z[curve->zero] * curve->measured->no_load_deviation : 0;
+  for (size_t i = 0; i < curve->points; i++) {
+    const SbMeasuredPoint *point = &curve->point[i];
+    const double force = sb_loop_force(&curve->loop, point->way, point->displacement);
+    const size_t count = curve->loop.count[point->way];
+    // Beyond the model's ends its last force; nothing presses a stem that does not come back.
+    const double model = !isnan(force)               ? force
+                         : curve->loop.count[0] == 0 ? no_force
+                         : count == 0                ? 0
+                                                     : curve->loop.force[point->way][count - 1];
+    residual[i] = point->force - offset - model;
+  }
+  if (curve->breakaway) {
+    const double model = curve->loop.stage_force[SB_STAGE_B];
+    residual[curve->points] = curve->measured->stage[SB_STAGE_B].force - offset -
+                              (curve->loop.count[0] > 0 && isfinite(model) ? model : no_force);
+  }
+}
+
+static bool settle_run(Work *work, Curve *curve, const double *z) {
+  if (curve->known && memcmp(curve->z, z, work->coordinates * sizeof *z) == 0) {
+    return true;
+  }
+  SbOverride override[2 * SB_VARY_MAX];
+  const size_t count = overrides_at(override, work, curve, z);
+  curve->known = run_at(work, curve, &curve->run, NULL, override, count);
+  memcpy(curve->z, z, work->coordinates * sizeof *z);
+  return curve->known;
+}
+
+static bool evaluate(void *data, double *residual, const double *z) {
+  Work *work = data;
+  for (size_t c = 0; c < work->curves; c++) {
+    Curve *curve = &work->curve[c];
+    curve->known = false; // the loop may be that of a step beside it
+    if (!settle_run(work, curve, z)) {
+      return false;
+    }
+    residuals_of(residual + curve->first, curve, z);
+  }
+  return true;
+}
+
+// Whether a curve's residuals depend on a coordinate.
+static bool depends(const Work *work, const Curve *curve, size_t coordinate) {
+  if (coordinate >= work->parameters) {
+    return curve->zero == coordinate;
+  }
+  return curve->at[work->vary[coordinate]] == coordinate;
+}
+
+// Differences: central ones of closed forms, ahead along the rings' tangent where they are solved.
+static bool differentiate(void *data, double *jacobian, const double *z, const double *residual) {
+  Work *work = data;
+  const size_t n = work->coordinates;
+  const double step = work->rings ? 0.02 : 1e-3;
+  double moved[SB_INFERENCE_COORDINATES];
+  memcpy(moved, z, n * sizeof *z);
+  for (size_t c = 0; c < work->curves; c++) {
+    Curve *curve = &work->curve[c];
+    const size_t rows = curve->points + curve->breakaway;
+    double *side[2] = {g_new(double, rows + 1), g_new(double, rows + 1)};
+    bool good = !work->rings || settle_run(work, curve, z);
+    if (good && work->rings) {
+      residuals_of(side[0], curve, z);
+    }
+    for (size_t j = 0; j < n && good; j++) {
+      for (size_t i = 0; i < rows && !depends(work, curve, j); i++) {
+        jacobian[(curve->first + i) * n + j] = 0;
+      }
+      if (!depends(work, curve, j)) {
+        continue;
+      }
+      for (int s = work->rings; s < 2 && good; s++) {
+        SbOverride override[2 * SB_VARY_MAX];
+        moved[j] = z[j] + (s == 0 ? -step : step);
+        const size_t count = overrides_at(override, work, curve, moved);
+        good =
+            run_at(work, curve, &curve->beside, work->rings ? curve->run : NULL, override, count);
+        if (good && work->rings && work->status == SB_ERROR_NOT_CONVERGED) {
+          good = run_at(work, curve, &curve->beside, NULL, override, count); // no tangent there
+        }
+        residuals_of(side[s], curve, moved);
+      }
+      moved[j] = z[j];
+      const double width = work->rings ? step : 2 * step;
+      for (size_t i = 0; i < rows; i++) {
+        jacobian[(curve->first + i) * n + j] = (side[1][i] - side[0][i]) / width;
+      }
+    }
+    curve->known = curve->known && work->rings; // the loop is another's, the run is not
+    g_free(side[0]);
+    g_free(side[1]);
+    if (!good) {
+      return false;
+    }
+    if (work->rings) {
+      (void)sb_loop_take(&curve->loop, curve->run);
+    }
+  }
+  return true;
+}
+
+// ---- What the file says ----
+
+static bool has_word(const char *list, const char *word) {
+  g_auto(GStrv) words = g_strsplit_set(list != NULL ? list : "", ",;", -1);
+  for (char **one = words; *one != NULL; one++) {
+    if (strcmp(g_strstrip(*one), word) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static bool read_set(Curve *curve, GPtrArray *issues) {
+  const char *text = curve->data->text[SB_DATA_SET];
+  g_auto(GStrv) words = g_strsplit(text != NULL ? text : "", ";", -1);
+  for (char **word = words; *word != NULL; word++) {
+    if (*g_strstrip(*word) == '\0') {
+      continue;
+    }
+    g_auto(GStrv) parts = g_strsplit(*word, "=", 2);
+    const int id = sb_param_find(g_strstrip(parts[0]));
+    double value = 0;
+    g_autoptr(GError) error = NULL;
+    if (id < 0 || parts[1] == NULL || curve->sets == SB_VARY_MAX) {
+      sb_data_complain(curve->data, SB_DATA_SET, "KEY=VALUE; KEY=VALUE", issues,
+                       "\"%.60s\" sets no parameter", *word);
+      return false;
+    }
+    if (!sb_param_parse(&value, (SbParamId)id, g_strstrip(parts[1]), &error)) {
+      sb_data_complain(curve->data, SB_DATA_SET, NULL, issues, "%.60s: %s", parts[0],
+                       error->message);
+      return false;
+    }
+    curve->set[curve->sets++] = (SbOverride){(SbParamId)id, value};
+  }
+  return true;
+}
+
+static bool read_curve(Curve *curve, const Work *work, GPtrArray *issues) {
+  bool ratio = false;
+  for (size_t k = 0; k < work->study->vary->len; k++) {
+    ratio |= vary_of(work, k)->id == SB_P_FRICTION_STATIC_RATIO;
+  }
+  curve->measured = sb_measured_load(curve->data, issues);
+  if (curve->measured == NULL || !read_set(curve, issues)) {
+    return false;
+  }
+  curve->point = sb_measured_points(&curve->points, curve->measured, SB_CALIBRATION_POINTS);
+  curve->breakaway = ratio && curve->measured->stage[SB_STAGE_B].found;
+  if (curve->points < 10) {
+    sb_data_complain(curve->data, SB_DATA_FILE, "at least 10", issues,
+                     "has %zu rows of a sliding stem", curve->points);
+    return false;
+  }
+  if (ratio && !curve->breakaway) {
+    sb_data_complain(curve->data, SB_DATA_FILE, NULL, issues,
+                     "has no break-away to fit friction.static_ratio to: %s",
+                     curve->measured->stage[SB_STAGE_B].reason);
+    return false;
+  }
+  return true;
+}
+
+static bool check_vary(const Work *work, GPtrArray *issues) {
+  for (size_t k = 0; k < work->study->vary->len; k++) {
+    const SbVary *vary = vary_of(work, k);
+    const bool real = vary->id != SB_VARY_VARIABLE && sb_param(vary->id)->kind == SB_PARAM_REAL;
+    if (!real || vary->by != NULL || vary->distribution.kind == SB_DISTRIBUTION_LEVELS) {
+      g_autofree char *key = g_strconcat("vary.", sb_vary_name(vary), NULL);
+      sb_issues_add(issues, work->study->path, vary->line, key, "uniform, loguniform, normal",
+                    "has no prior: bounds or a distribution of a real parameter");
+      return false;
+    }
+  }
+  return true;
+}
+
+// Gives every coordinate its place; false with an issue.
+static bool lay_out(Work *work, GPtrArray *issues) {
+  const size_t varied = work->study->vary->len;
+  size_t shared[SB_VARY_MAX];
+  for (size_t k = 0; k < varied; k++) {
+    shared[k] = SIZE_MAX;
+  }
+  for (size_t c = 0; c < work->curves; c++) {
+    Curve *curve = &work->curve[c];
+    for (size_t k = 0; k < varied; k++) {
+      const bool own = has_word(curve->data->text[SB_DATA_OWN], sb_vary_name(vary_of(work, k)));
+      if (own || shared[k] == SIZE_MAX) {
+        if (work->coordinates + work->curves >= SB_INFERENCE_COORDINATES) {
+          sb_data_complain(curve->data, SB_DATA_OWN, NULL, issues,
+                           "there are more than the %d parameters that can be fitted",
+                           SB_INFERENCE_COORDINATES);
+          return false;
+        }
+        work->vary[work->coordinates] = k;
+        work->owner[work->coordinates] = own ? (int)c : -1;
+        curve->at[k] = work->coordinates++;
+        shared[k] = own ? shared[k] : curve->at[k];
+      } else {
+        curve->at[k] = shared[k];
+      }
+    }
+  }
+  work->parameters = work->coordinates;
+  for (size_t c = 0; c < work->curves; c++) {
+    Curve *curve = &work->curve[c];
+    curve->zero = curve->measured->no_load_deviation > 0 ? work->coordinates++ : SIZE_MAX;
+    curve->first = work->residuals;
+    work->residuals += curve->points + curve->breakaway;
+  }
+  return true;
+}
+
+// Standard normal variate of a value under its prior; 0 where it lies outside.
+static double variate_of(const SbDistribution *of, double value) {
+  if (of->kind == SB_DISTRIBUTION_NORMAL) {
+    return fmin(fmax((value - of->a) / of->b, -3), 3);
+  }
+  const double p = of->kind == SB_DISTRIBUTION_UNIFORM ? (value - of->a) / (of->b - of->a)
+                                                       : log(value / of->a) / log(of->b / of->a);
+  return p > 0.001 && p < 0.999 ? sb_normal_quantile(p) : 0;
+}
+
+// ---- What the samples say ----
+
+static void keep_samples(SbCalibration *out, const Work *work, const SbInference *found) {
+  const size_t p = work->parameters, count = found->samples;
+  out->sample = g_new(double, count *p + 1);
+  out->samples = count;
+  for (size_t i = 0; i < count; i++) {
+    for (size_t j = 0; j < p; j++) {
+      out->sample[i * p + j] = value_of(work, j, found->sample[i * work->coordinates + j]);
+    }
+  }
+  for (size_t j = 0; j < p; j++) {
+    const SbDistribution *prior = &vary_of(work, work->vary[j])->distribution;
+    out->parameter[j].estimate = value_of(work, j, found->z[j]);
+    out->parameter[j].prior[0] = sb_distribution_quantile(prior, 0.025);
+    out->parameter[j].prior[1] = sb_distribution_quantile(prior, 0.975);
+  }
+}
+
+// Runs at the scene's values and at the fit; false: cancelled.
+static bool compare_curves(SbCalibration *out, Work *work, const SbInference *found) {
+  double square = 0, rows = 0, noise = 0;
+  for (size_t c = 0; c < work->curves; c++) {
+    Curve *curve = &work->curve[c];
+    SbCalibratedCurve *to = &out->curve[c];
+    if (!run_at(work, curve, &curve->beside, NULL, curve->set, curve->sets)) {
+      return false;
+    }
+    SbComparison *before = sb_comparison_create(curve->measured, &curve->loop);
+    to->before_rms = before->rms;
+    sb_comparison_free(before);
+    to->value = g_new(SbOverride, 2 * SB_VARY_MAX);
+    to->values = overrides_at(to->value, work, curve, found->z);
+    if (!run_at(work, curve, &curve->beside, NULL, to->value, to->values)) {
+      return false;
+    }
+    to->offset =
+        curve->zero != SIZE_MAX ? found->z[curve->zero] * curve->measured->no_load_deviation : 0;
+    to->noise = found->sigma[c];
+    to->spread = found->spread[c];
+    to->after =
+        curve->loop.count[0] > 1 ? sb_comparison_create(curve->measured, &curve->loop) : NULL;
+    out->points += curve->points;
+    for (size_t i = 0; i < curve->points; i++) {
+      const double r = found->residual[curve->first + i], weight = curve->point[i].weight;
+      square += weight * r * r;
+      rows += weight;
+      noise += weight * r * r / pow(curve->measured->noise, 2);
+    }
+    to->name = g_strdup(*curve->data->name != '\0' ? curve->data->name : curve->measured->name);
+    to->measured = g_steal_pointer(&curve->measured);
+  }
+  out->rms = sqrt(square / rows);
+  out->chi2 = noise / fmax((double)out->points - (double)work->coordinates, 1);
+  return true;
+}
+
+// How far solved curves lie from those of the tangent, at samples evenly taken.
+static bool check_tangent(SbCalibration *out, Work *work, const SbInference *found) {
+  double *residual = g_new(double, work->residuals + 1), square = 0, count = 0;
+  const size_t n = work->coordinates;
+  bool good = true;
+  for (size_t k = 0; k < SB_CALIBRATION_CHECKS && good && found->samples > 0; k++) {
+    const double *z = found->sample + (k * found->samples / SB_CALIBRATION_CHECKS) * n;
+    good = evaluate(work, residual, z);
+    for (size_t c = 0; c < work->curves && good; c++) {
+      const Curve *curve = &work->curve[c];
+      for (size_t i = curve->first; i < curve->first + curve->points; i++) {
+        double linear = found->residual[i];
+        for (size_t j = 0; j < n; j++) {
+          linear += found->jacobian[i * n + j] * (z[j] - found->z[j]);
+        }
+        square += (residual[i] - linear) * (residual[i] - linear);
+        count++;
+      }
+    }
+  }
+  out->check_rms = sqrt(square / count);
+  g_free(residual);
+  return good;
+}
+
+// ---- All of it ----
+
+static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
+  const size_t n = work->coordinates, m = work->residuals;
+  uint8_t *group = g_new(uint8_t, m);
+  double *weight = g_new(double, m), start[SB_INFERENCE_COORDINATES] = {0};
+  for (size_t c = 0; c < work->curves; c++) {
+    const Curve *curve = &work->curve[c];
+    for (size_t i = 0; i < curve->points; i++) {
+      group[curve->first + i] = (uint8_t)c;
+      weight[curve->first + i] = curve->point[i].weight;
+    }
+    if (curve->breakaway) {
+      group[curve->first + curve->points] = SB_NOISE_KNOWN;
+      weight[curve->first + curve->points] =
+          1 / fmax(pow(curve->measured->stage[SB_STAGE_B].deviation, 2), 1e-12);
+    }
+  }
+  for (size_t j = 0; j < work->parameters; j++) {
+    const SbVary *vary = vary_of(work, work->vary[j]);
+    start[j] = variate_of(&vary->distribution, sb_model_value(work->study->base, vary->id));
+  }
+  const SbInferenceAsked asked = {.coordinates = n,
+                                  .residuals = m,
+                                  .groups = work->curves,
+                                  .group = group,
+                                  .weight = weight,
+                                  .start = start,
+                                  .evaluate = evaluate,
+                                  .differentiate = differentiate,
+                                  .data = work,
+                                  .seed = work->study->seed,
+                                  .samples = work->study->samples > 0 ? work->study->samples
+                                                                      : SB_CALIBRATION_SAMPLES,
+                                  .linear = out->tangent};
+  const double each = out->tangent ? 0 : 1.25;
+  work->expected = work->curves * (size_t)(each * (double)asked.samples + 20 * (double)n + 40);
+  SbInference found;
+  SbStatus status = sb_inference(&found, &asked, report);
+  g_free(group);
+  g_free(weight);
+  out->check_rms = NAN;
+  if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+    out->converged = found.converged;
+    out->accepted = found.accepted;
+    keep_samples(out, work, &found);
+    sb_calibration_tell(out);
+    if ((out->tangent && !check_tangent(out, work, &found)) || !compare_curves(out, work, &found)) {
+      status = work->status;
+    }
+  } else if (status == SB_ERROR_CANCELLED) {
+    status = work->status;
+  }
+  out->evaluations = work->evaluations;
+  sb_inference_release(&found);
+  return status;
+}
+
+SbStatus sb_calibrate(SbCalibration *out, const SbStudyFile *study, const SbCalibrateHooks *hooks,
+                      GPtrArray *issues, SbReport *report) {
+  *out = (SbCalibration){.curves = study->data->len, .rms = NAN, .chi2 = NAN};
+  Work work = {.study = study, .hooks = hooks, .curves = study->data->len};
+  work.curve = g_new0(Curve, work.curves);
+  out->curve = g_new0(SbCalibratedCurve, work.curves);
+  bool good = check_vary(&work, issues);
+  for (size_t c = 0; c < work.curves && good; c++) {
+    work.curve[c].data = study->data->pdata[c];
+    good = read_curve(&work.curve[c], &work, issues);
+  }
+  SbStatus status = SB_ERROR_INPUT;
+  if (good && lay_out(&work, issues)) {
+    g_autofree SbPlan *plan = g_new(SbPlan, 1);
+    const SbPlanWishes wishes = {.views = SB_VIEW_HYSTERESIS};
+    sb_plan_wished(plan, study->base, &wishes);
+    work.rings = plan->ring;
+    out->tangent = sb_plan_cost(plan) > 0.02;
+    out->parameters = work.parameters;
+    out->parameter = g_new0(SbCalibrated, work.parameters);
+    for (size_t j = 0; j < work.parameters; j++) {
+      SbCalibrated *of = &out->parameter[j];
+      const SbData *owner = work.owner[j] >= 0 ? work.curve[work.owner[j]].data : NULL;
+      of->id = vary_of(&work, work.vary[j])->id;
+      of->curve = work.owner[j];
+      of->before = sb_model_value(study->base, of->id);
+      of->name = owner != NULL ? g_strdup_printf("%s@%s", sb_param(of->id)->key, owner->name)
+                               : g_strdup(sb_param(of->id)->key);
+    }
+    status = infer(out, &work, report);
+  }
+  for (size_t c = 0; c < work.curves; c++) {
+    Curve *curve = &work.curve[c];
+    sb_measured_free(curve->measured);
+    g_free(curve->point);
+    sb_run_destroy(curve->beside);
+    sb_run_destroy(curve->run);
+    sb_loop_clear(&curve->loop);
+  }
+  g_free(work.curve);
+  return status;
+}
+
+void sb_calibration_release(SbCalibration *out) {
+  for (size_t j = 0; j < out->parameters; j++) {
+    g_free(out->parameter[j].name);
+  }
+  for (size_t c = 0; c < out->curves; c++) {
+    g_free(out->curve[c].name);
+    g_free(out->curve[c].value);
+    sb_comparison_free(out->curve[c].after);
+    sb_measured_free(out->curve[c].measured);
+  }
+  g_free(out->parameter);
+  g_free(out->curve);
+  g_free(out->correlation);
+  g_free(out->sample);
+  g_free(out->sentence);
+  *out = (SbCalibration){0};
+}

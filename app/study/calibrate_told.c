@@ -1,0 +1,171 @@
+// What samples say of parameters, and the fitted scene; see calibrate.h.
+#include "app/study/calibrate.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *sb_told_name(SbTold told) {
+  static const char *const names[] = {"yes", "with-other", "no"};
+  return names[told];
+}
+
+static int compare_doubles(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static double quantile(const double *sorted, size_t count, double share) {
+  const double place = share * (double)(count - 1);
+  const size_t low = (size_t)place;
+  return sorted[low] + (place - (double)low) * (sorted[MIN(low + 1, count - 1)] - sorted[low]);
+}
+
+static void find_moments(SbCalibration *out) {
+  const size_t p = out->parameters, count = out->samples;
+  double *column = g_new(double, count + 1), *mean = g_new0(double, p + 1);
+  for (size_t j = 0; j < p; j++) {
+    SbCalibrated *of = &out->parameter[j];
+    of->deviation = of->interval[0] = of->interval[1] = NAN;
+    if (count < 2) {
+      continue;
+    }
+    double square = 0;
+    for (size_t i = 0; i < count; i++) {
+      column[i] = out->sample[i * p + j];
+      mean[j] += column[i] / (double)count;
+    }
+    for (size_t i = 0; i < count; i++) {
+      square += (column[i] - mean[j]) * (column[i] - mean[j]);
+    }
+    of->deviation = sqrt(square / (double)(count - 1));
+    qsort(column, count, sizeof *column, compare_doubles);
+    of->interval[0] = quantile(column, count, 0.025);
+    of->interval[1] = quantile(column, count, 0.975);
+  }
+  out->correlation = g_new(double, p *p + 1);
+  for (size_t j = 0; j < p; j++) {
+    for (size_t k = 0; k < p; k++) {
+      double sum = 0;
+      for (size_t i = 0; i < count; i++) {
+        sum += (out->sample[i * p + j] - mean[j]) * (out->sample[i * p + k] - mean[k]);
+      }
+      const double both = out->parameter[j].deviation * out->parameter[k].deviation;
+      out->correlation[j * p + k] = j == k ? 1 : sum / (double)(count - 1) / both;
+    }
+  }
+  for (size_t j = 0; j < p; j++) {
+    SbCalibrated *of = &out->parameter[j];
+    of->told = of->interval[1] - of->interval[0] < SB_TOLD_SHARE * (of->prior[1] - of->prior[0])
+                   ? SB_TOLD_YES
+                   : SB_TOLD_NO;
+    for (size_t k = 0; k < p; k++) {
+      if (k != j && fabs(out->correlation[j * p + k]) > SB_TOLD_CORRELATION) {
+        of->told = SB_TOLD_WITH_OTHER;
+      }
+    }
+  }
+  g_free(column);
+  g_free(mean);
+}
+
+static bool begins(const SbCalibrated *of, const char *prefix) {
+  return g_str_has_prefix(of->name, prefix);
+}
+
+// The experiment that would part two.
+static const char *experiment(const SbCalibrated *a, const SbCalibrated *b) {
+  const bool friction = (begins(a, "friction.") || begins(a, "surface.")) &&
+                        (begins(b, "friction.") || begins(b, "surface."));
+  const bool size =
+      begins(a, "seal.") || begins(b, "seal.") || begins(a, "gland.") || begins(b, "gland.");
+  return friction ? "a loop at another squeeze, or of a ring with another modulus, would part them"
+         : size   ? "the force on one ring in compression, or its sizes measured, would part them"
+                  : "loops at another pressure or speed would part them";
+}
+
+static char *make_sentence(const SbCalibration *out) {
+  const size_t p = out->parameters;
+  GString *text = g_string_new(NULL);
+  for (size_t j = 0; j < p; j++) {
+    for (size_t k = j + 1; k < p; k++) {
+      const double rho = out->correlation[j * p + k];
+      if (fabs(rho) > SB_TOLD_CORRELATION) {
+        g_string_append_printf(
+            text,
+            "%s%s and %s trade against each other (correlation %.2f): these data fix what "
+            "they do together, not each; %s.",
+            text->len > 0 ? " " : "", out->parameter[j].name, out->parameter[k].name, rho,
+            experiment(&out->parameter[j], &out->parameter[k]));
+      }
+    }
+  }
+  for (size_t j = 0; j < p; j++) {
+    if (out->parameter[j].told == SB_TOLD_NO) {
+      g_string_append_printf(text, "%s%s is hardly narrower than before: it keeps its value.",
+                             text->len > 0 ? " " : "", out->parameter[j].name);
+    }
+  }
+  if (text->len == 0) {
+    g_string_append(text, "These data tell each parameter by itself.");
+  }
+  return g_string_free(text, FALSE);
+}
+
+void sb_calibration_tell(SbCalibration *out) {
+  find_moments(out);
+  out->sentence = make_sentence(out);
+}
+
+// ---- The fitted scene ----
+
+char *sb_calibration_scene(const SbCalibration *of, const SbStudyFile *study, size_t curve,
+                           const char *path, GError **error) {
+  const SbCalibratedCurve *from = &of->curve[curve];
+  const SbData *data = study->data->pdata[curve];
+  g_autofree char *own = sb_document_to_text(study->scene, sb_document_path(study->scene));
+  g_autofree char *folder = sb_document_path(study->scene) != NULL
+                                ? g_path_get_dirname(sb_document_path(study->scene))
+                                : NULL;
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) scene = sb_document_parse(own, strlen(own), "scene", folder, issues);
+  if (scene == NULL || issues->len > 0) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the scene cannot be written again");
+    return NULL;
+  }
+  g_autofree char *measured = g_canonicalize_filename(data->path, NULL);
+  g_autofree char *asked = g_path_get_basename(study->path != NULL ? study->path : "-");
+  GString *origin = g_string_new(NULL);
+  g_string_append_printf(origin, "\n# Calibrated with %s from %s; residuals %.3g N.\n", asked,
+                         measured, from->after != NULL ? from->after->rms : NAN);
+  for (size_t i = 0; i < from->values; i++) {
+    const SbOverride *value = &from->value[i];
+    const SbCalibrated *fitted = NULL;
+    for (size_t j = 0; j < of->parameters; j++) {
+      const SbCalibrated *one = &of->parameter[j];
+      const bool here = one->curve < 0 || one->curve == (int)curve;
+      fitted = one->id == value->id && here && one->estimate == value->value ? one : fitted;
+    }
+    if (fitted != NULL) {
+      g_autofree char *estimate = sb_param_format(fitted->id, fitted->estimate);
+      g_autofree char *low = sb_param_format(fitted->id, fitted->interval[0]);
+      g_autofree char *high = sb_param_format(fitted->id, fitted->interval[1]);
+      g_string_append_printf(origin, "# %s: %s (95 %%: %s to %s), told by the data: %s\n",
+                             sb_param(fitted->id)->key, estimate, low, high,
+                             sb_told_name(fitted->told));
+    }
+    if ((fitted == NULL || fitted->told != SB_TOLD_NO) &&
+        !sb_document_set_value(scene, value->id, value->value, false, error)) {
+      g_string_free(origin, TRUE);
+      return NULL;
+    }
+  }
+  if (sb_document_data_count(scene) == 0) {
+    g_autofree char *keys = sb_measured_keys(from->measured);
+    g_string_append_printf(origin, "\n[data]\nfile = %s\n%s", measured, keys);
+  }
+  g_autofree char *text = sb_document_to_text(scene, path);
+  char *whole = g_strconcat(text, origin->str, NULL);
+  g_string_free(origin, TRUE);
+  return whole;
+}
