@@ -35,7 +35,8 @@ typedef struct {
   size_t residuals;
   bool rings;
   size_t evaluations, expected;
-  SbStatus status; // what ended an evaluation
+  SbStatus status; // of the last run
+  SbReport report; // where it failed
 } Work;
 
 // What stands for a force where values make no valve, or one that does not run [N].
@@ -90,7 +91,11 @@ static bool run_at(Work *work, Curve *curve, SbRun **run, const SbRun *base,
   if (status == SB_OK) {
     const SbRunHooks hooks = {
         .cancelled = is_cancelled, .data = work, .alone = work->hooks->jobs <= 1};
-    sb_run_predict_from(*run, base);
+    if (base != NULL) {
+      sb_run_predict_from(*run, base);
+    } else {
+      sb_run_start_from(*run, NULL);
+    }
     if (work->rings && base == NULL) {
       sb_run_keep_rings(*run);
     }
@@ -106,6 +111,7 @@ static bool run_at(Work *work, Curve *curve, SbRun **run, const SbRun *base,
                           fmin((double)work->evaluations / (double)work->expected, 1));
   }
   work->status = status;
+  work->report = report;
   return status != SB_ERROR_CANCELLED && status != SB_ERROR_MEMORY;
 }
 
@@ -423,6 +429,24 @@ static bool check_tangent(SbCalibration *out, Work *work, const SbInference *fou
 
 // ---- All of it ----
 
+// Whether the scene's own values run: there is nothing to begin from otherwise.
+static SbStatus check_start(Work *work, const double *start, SbReport *report) {
+  for (size_t c = 0; c < work->curves; c++) {
+    Curve *curve = &work->curve[c];
+    (void)settle_run(work, curve, start);
+    if (work->status == SB_OK && curve->loop.count[0] < 2) {
+      return sb_fail(report, SB_ERROR_INPUT, "the stem does not slide in the scene as it is");
+    }
+    if (work->status != SB_OK) {
+      if (report != NULL) {
+        *report = work->report;
+      }
+      return work->status;
+    }
+  }
+  return SB_OK;
+}
+
 static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
   const size_t n = work->coordinates, m = work->residuals;
   uint8_t *group = g_new(uint8_t, m);
@@ -443,6 +467,12 @@ static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
     const SbVary *vary = vary_of(work, work->vary[j]);
     start[j] = variate_of(&vary->distribution, sb_model_value(work->study->base, vary->id));
   }
+  SbStatus status = check_start(work, start, report);
+  if (status != SB_OK) {
+    g_free(group);
+    g_free(weight);
+    return status;
+  }
   const SbInferenceAsked asked = {.coordinates = n,
                                   .residuals = m,
                                   .groups = work->curves,
@@ -459,7 +489,7 @@ static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
   const double each = out->tangent ? 0 : 1.25;
   work->expected = work->curves * (size_t)(each * (double)asked.samples + 20 * (double)n + 40);
   SbInference found;
-  SbStatus status = sb_inference(&found, &asked, report);
+  status = sb_inference(&found, &asked, report);
   g_free(group);
   g_free(weight);
   out->check_rms = NAN;

@@ -45,9 +45,10 @@ static void test_mistyped(void) {
 
 // Help reads the same in every locale, signs of degree and all.
 static void test_help(void) {
-  static const char *const commands[] = {
-      "run",  "render",   "plan",  "check", "fit",   "film",        "list",   "bench",
-      "open", "asperity", "fluid", "study", "merge", "sensitivity", "design", "compare"};
+  static const char *const commands[] = {"run",     "render",   "plan",  "check",       "fit",
+                                         "film",    "list",     "bench", "open",        "asperity",
+                                         "fluid",   "study",    "merge", "sensitivity", "design",
+                                         "compare", "calibrate"};
   char **environment = g_environ_setenv(g_get_environ(), "LC_ALL", "C", TRUE);
   for (size_t i = 0; i < G_N_ELEMENTS(commands); i++) {
     const char *const arguments[] = {commands[i], "--help", NULL};

@@ -48,8 +48,7 @@ static void test_same(void) {
   static const char stages[] = "BCDEF";
   for (const char *stage = stages; *stage != '\0'; stage++) {
     g_autofree char *less = g_strdup_printf("measured.stages.%c.difference_N", *stage);
-    g_autofree char *deviation =
-        g_strdup_printf("measured.stages.%c.measured_deviation_N", *stage);
+    g_autofree char *deviation = g_strdup_printf("measured.stages.%c.measured_deviation_N", *stage);
     g_assert_cmpfloat(fabs(cli_number(root, less)), <=,
                       fmax(2 * cli_number(root, deviation), 0.01));
   }
@@ -149,6 +148,62 @@ static void test_refused(void) {
   g_unlink(bad);
 }
 
+// The shipped bench: the keys of the contract, the values that it was made with, a folder.
+static void test_calibrate(void) {
+  g_autofree char *study =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "studies", "bench.study", NULL);
+  g_autofree char *out = g_build_filename(folder, "fit", NULL);
+  CliResult result = CLI("calibrate", study, "-o", out, "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *root = cli_parse(result.out);
+  cli_has_keys(root, "converged samples residual_rms_N chi2_reduced parameters correlation.keys "
+                     "correlation.matrix.3 stages.B.measured_N stages.F.model_N cannot_tell "
+                     "curves.0.measured.recognised posterior.model");
+  static const struct {
+    const char *key;
+    double value;
+  } values[] = {{"friction.load_coefficient", 0.174},
+                {"friction.static_ratio", 1.14},
+                {"bore.land_edge", 3.42e-3},
+                {"stem.pressure_diameter", 5.8e-3}};
+  JsonObject *parameters = json_object_get_object_member(json_node_get_object(root), "parameters");
+  for (size_t i = 0; i < G_N_ELEMENTS(values); i++) {
+    JsonObject *one = json_object_get_object_member(parameters, values[i].key);
+    g_assert_cmpfloat_with_epsilon(json_object_get_double_member(one, "estimate"), values[i].value,
+                                   3 * json_object_get_double_member(one, "standard_deviation"));
+    g_assert_cmpuint(json_array_get_length(json_object_get_array_member(one, "interval_95")), ==,
+                     2);
+    g_assert_nonnull(json_object_get_string_member(one, "identifiable"));
+    g_assert_nonnull(json_object_get_array_member(one, "with"));
+  }
+  g_assert_cmpfloat(cli_number(root, "residual_rms_N"), <, 0.2);
+  cli_clear(&result);
+  // The fitted scene meets its data as the fit does, by itself.
+  g_autofree char *fitted = g_build_filename(out, "fitted.scene", NULL);
+  result = CLI("compare", fitted, "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *again = cli_parse(result.out);
+  g_assert_cmpfloat_with_epsilon(cli_number(again, "measured.rms_N"),
+                                 cli_number(root, "curves.0.measured.rms_N"), 1e-9);
+  cli_clear(&result);
+  json_node_unref(again);
+  json_node_unref(root);
+  static const char *const own[] = {"posterior.csv", "fitted.scene",
+                                    ".sealbench-calibrate.manifest"};
+  for (size_t i = 0; i < G_N_ELEMENTS(own); i++) {
+    g_autofree char *path = g_build_filename(out, own[i], NULL);
+    g_assert_cmpint(g_unlink(path), ==, 0);
+  }
+  cli_remove_results(out);
+  // Nothing measured, nothing to fit.
+  g_autofree char *gland =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "studies", "gland.study", NULL);
+  result = CLI("calibrate", gland);
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "[data] file: is missing"));
+  cli_clear(&result);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -157,6 +212,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-measured/differences", test_differences);
   g_test_add_func("/cli-measured/shown", test_shown);
   g_test_add_func("/cli-measured/refused", test_refused);
+  g_test_add_func("/cli-measured/calibrate", test_calibrate);
   const int result = g_test_run();
   g_unlink(scene);
   cli_remove_results(folder);

@@ -1,0 +1,362 @@
+// Calibration against loops made with parameters that it is not told: recovered from hostile files,
+// their intervals as wide as they should be, what cannot be parted flagged, several curves at once.
+#include "app/study/calibrate.h"
+
+#include "engine/numeric/sampling.h"
+#include "tests/executed.h"
+
+#include <glib/gstdio.h>
+#include <math.h>
+#include <string.h>
+
+static char *folder;
+static const double sigma = 0.16; // of the force [N]
+
+typedef struct {
+  int rows;
+  bool crossed;  // signs, offsets, compliance and an approach, as a machine has them
+  uint64_t seed; // of the noise
+} Bench;
+
+static double normal(uint64_t seed, uint64_t sample) {
+  return sb_normal_quantile(sb_random(seed, sample, 3));
+}
+
+static SbModel *scene_model(const SbOverride *truth, size_t count) {
+  g_autofree char *path =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "scenes", "quick-look.scene", NULL);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) document = sb_document_load(path, issues);
+  g_autoptr(SbModel) base = NULL;
+  g_assert_true(sb_document_compile(document, &base, issues));
+  SbModel *model = NULL;
+  g_assert_cmpint(sb_model_derive(&model, base, truth, count, NULL), ==, SB_OK);
+  return model;
+}
+
+// A machine's file of the loop with these values.
+static char *write_bench(const char *name, const Bench *bench, const SbOverride *truth,
+                         size_t count) {
+  g_autoptr(SbModel) model = scene_model(truth, count);
+  SbRun *run = executed_run(model);
+  size_t frames, at = 0;
+  const SbFrame *frame = sb_run_frames(run, &frames);
+  GString *text = g_string_new(bench->crossed ? "Zeit;Weg;Kraft\ns;mm;N\n"
+                                              : "time [s],travel [mm],force [N]\n");
+  const int air = bench->crossed ? 60 : 0;
+  for (int i = -air; i < bench->rows; i++) {
+    const double time = frame[frames - 1].time * i / (bench->rows - 1);
+    double place = 0.005 * i, force = 0;
+    while (i >= 0 && at + 2 < frames && frame[at + 1].time <= time) {
+      at++;
+    }
+    if (i >= 0) {
+      const SbFrame *a = &frame[at], *b = &frame[at + 1];
+      const double t = b->time > a->time ? (time - a->time) / (b->time - a->time) : 0;
+      const bool platen = bench->crossed;
+      place = 1e3 * (platen ? a->platen + t * (b->platen - a->platen)
+                            : a->displacement + t * (b->displacement - a->displacement));
+      force = a->force + t * (b->force - a->force);
+    }
+    force += sigma * normal(bench->seed, (uint64_t)(i + air));
+    char cell[3][40];
+    const double value[3] = {time, bench->crossed ? 41.7 - place : place,
+                             bench->crossed ? 0.4 - force : force};
+    for (int k = 0; k < 3; k++) {
+      g_ascii_formatd(cell[k], sizeof cell[k], "%.5f", value[k]);
+      if (bench->crossed) {
+        *strchr(cell[k], '.') = ',';
+      }
+    }
+    g_string_append_printf(text, bench->crossed ? "%s;%s;%s\r\n" : "%s,%s,%s\n", cell[0], cell[1],
+                           cell[2]);
+  }
+  char *path = g_build_filename(folder, name, NULL);
+  g_assert_true(g_file_set_contents(path, text->str, (gssize)text->len, NULL));
+  g_string_free(text, TRUE);
+  sb_run_destroy(run);
+  return path;
+}
+
+static SbStudyFile *study_of(const char *groups) {
+  g_autofree char *text = g_strdup_printf("[sealbench]\nformat = 1\nkind = study\n"
+                                          "scene = %s/scenes/quick-look.scene\n%s",
+                                          g_getenv("SEALBENCH_ASSETS"), groups);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  SbStudyFile *study =
+      sb_study_file_parse(text, strlen(text), "x.study", folder, NULL, NULL, issues);
+  for (guint i = 0; i < issues->len; i++) {
+    g_autofree char *line = sb_issue_line(issues->pdata[i]);
+    g_error("%s", line);
+  }
+  return study;
+}
+
+static void calibrate(SbCalibration *out, const SbStudyFile *study) {
+  const SbCalibrateHooks hooks = {.jobs = 1};
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  SbReport report = {0};
+  const SbStatus status = sb_calibrate(out, study, &hooks, issues, &report);
+  for (guint i = 0; i < issues->len; i++) {
+    g_autofree char *line = sb_issue_line(issues->pdata[i]);
+    g_error("%s", line);
+  }
+  g_assert_cmpint(status, ==, SB_OK);
+}
+
+#define FOUR                                                                                       \
+  "friction.load_coefficient = uniform 0.1 .. 0.3\n"                                               \
+  "stem.pressure_diameter = normal 5.75 mm, 0.05 mm\n"                                             \
+  "bore.land_edge = uniform 2.5 mm .. 4 mm\n"                                                      \
+  "friction.static_ratio = uniform 1 .. 1.4\n"
+
+static const SbOverride truth[] = {{SB_P_FRICTION_LOAD_COEFFICIENT, 0.23},
+                                   {SB_P_STEM_PRESSURE_DIAMETER, 5.81e-3},
+                                   {SB_P_BORE_LAND_EDGE, 3.05e-3},
+                                   {SB_P_FRICTION_STATIC_RATIO, 1.17}};
+
+// Four parameters from a crossed file; the fitted scene has them, where they come from, and fits.
+static void test_recovers(void) {
+  const Bench bench = {.rows = 2000, .crossed = true, .seed = 2};
+  g_autofree char *file = write_bench("crossed.csv", &bench, truth, G_N_ELEMENTS(truth));
+  g_autoptr(SbStudyFile) study =
+      study_of("[vary]\n" FOUR "[study]\nsamples = 3000\n[data]\nfile = crossed.csv\n");
+  SbCalibration found;
+  calibrate(&found, study);
+  g_assert_cmpuint(found.parameters, ==, 4);
+  for (size_t j = 0; j < 4; j++) {
+    const SbCalibrated *one = &found.parameter[j];
+    g_test_message("%s %.6g, is %.6g +- %.2g", one->name, truth[j].value, one->estimate,
+                   one->deviation);
+    g_assert_cmpint(one->id, ==, truth[j].id);
+    g_assert_cmpfloat_with_epsilon(one->estimate, truth[j].value, 3 * one->deviation);
+    g_assert_cmpint(one->told, ==, SB_TOLD_YES);
+  }
+  g_assert_true(found.curve[0].measured->turned_force &&
+                found.curve[0].measured->turned_displacement);
+  g_assert_cmpfloat_with_epsilon(found.rms, sigma, 0.02);
+  g_assert_cmpfloat_with_epsilon(found.chi2, 1, 0.2);
+  g_assert_cmpfloat(found.curve[0].before_rms, >, 0.5);
+  g_assert_cmpfloat_with_epsilon(found.curve[0].noise, sigma, 0.01);
+  // The scene that is written.
+  g_autofree char *path = g_build_filename(folder, "fitted.scene", NULL);
+  g_autofree char *text = sb_calibration_scene(&found, study, 0, path, NULL);
+  g_assert_nonnull(strstr(text, "# Calibrated with "));
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) scene = sb_document_load(path, issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  for (size_t j = 0; j < 4; j++) {
+    g_assert_cmpfloat(sb_document_value(scene, truth[j].id), ==, found.parameter[j].estimate);
+  }
+  // Its data are the same rows by what it says of them.
+  g_autoptr(SbMeasured) again = sb_measured_load(sb_document_data(scene, 0), issues);
+  g_assert_nonnull(again);
+  g_assert_cmpmem(again->force, again->count * sizeof(double), found.curve[0].measured->force,
+                  again->count * sizeof(double));
+  // Equal seeds, equal samples.
+  SbCalibration twice;
+  calibrate(&twice, study);
+  g_assert_cmpmem(twice.sample, twice.samples * 4 * sizeof(double), found.sample,
+                  found.samples * 4 * sizeof(double));
+  sb_calibration_release(&twice);
+  sb_calibration_release(&found);
+  g_unlink(path);
+  g_unlink(file);
+}
+
+// Friction by load and by real area make the same loop: told, with the experiment that would part
+// them; a parameter that no loop shows keeps its value.
+static void test_inseparable(void) {
+  const Bench bench = {.rows = 600, .seed = 5};
+  g_autofree char *file = write_bench("one.csv", &bench, truth, G_N_ELEMENTS(truth));
+  g_autoptr(SbStudyFile) study =
+      study_of("[vary]\nfriction.load_coefficient = uniform 0.1 .. 0.3\n"
+               "surface.gt_product = uniform 0.08 .. 0.16\nfluid.viscosity = uniform 0.1 mPa.s .. "
+               "0.3 mPa.s\n"
+               "[study]\nsamples = 3000\n[data]\nfile = one.csv\n"
+               "set = stem.pressure_diameter = 5.81 mm; bore.land_edge = 3.05 mm\n");
+  SbCalibration found;
+  calibrate(&found, study);
+  g_assert_cmpint(found.parameter[0].told, ==, SB_TOLD_WITH_OTHER);
+  g_assert_cmpint(found.parameter[1].told, ==, SB_TOLD_WITH_OTHER);
+  g_assert_cmpint(found.parameter[2].told, ==, SB_TOLD_NO);
+  g_assert_cmpfloat(found.correlation[1], <, -0.9);
+  g_assert_nonnull(
+      strstr(found.sentence, "friction.load_coefficient and surface.gt_product trade"));
+  g_assert_nonnull(strstr(found.sentence, "a loop at another squeeze"));
+  g_assert_nonnull(strstr(found.sentence, "fluid.viscosity is hardly narrower than before"));
+  g_autofree char *path = g_build_filename(folder, "kept.scene", NULL);
+  g_autofree char *text = sb_calibration_scene(&found, study, 0, path, NULL);
+  g_assert_null(strstr(text, "\nviscosity = "));
+  g_assert_nonnull(strstr(text, "\nload_coefficient = "));
+  sb_calibration_release(&found);
+  g_unlink(file);
+}
+
+// Two pressures: what is shared has one value, what is own has two.
+static void test_curves(void) {
+  const SbOverride low[] = {{SB_P_FRICTION_LOAD_COEFFICIENT, 0.23},
+                            {SB_P_STEM_PRESSURE_DIAMETER, 5.81e-3},
+                            {SB_P_BORE_LAND_EDGE, 3.05e-3},
+                            {SB_P_CANISTER_PRESSURE, 0.4e6}};
+  const SbOverride high[] = {{SB_P_FRICTION_LOAD_COEFFICIENT, 0.23},
+                             {SB_P_STEM_PRESSURE_DIAMETER, 5.81e-3},
+                             {SB_P_BORE_LAND_EDGE, 3.45e-3}};
+  const Bench bench[] = {{.rows = 800, .seed = 6}, {.rows = 500, .seed = 7}};
+  g_autofree char *one = write_bench("low.csv", &bench[0], low, G_N_ELEMENTS(low));
+  g_autofree char *two = write_bench("high.csv", &bench[1], high, G_N_ELEMENTS(high));
+  g_autoptr(SbStudyFile) study =
+      study_of("[vary]\nfriction.load_coefficient = uniform 0.1 .. 0.3\n"
+               "stem.pressure_diameter = normal 5.75 mm, 0.05 mm\n"
+               "bore.land_edge = uniform 2.5 mm .. 4 mm\n"
+               "[study]\nsamples = 2000\n"
+               "[data low]\nfile = low.csv\nset = canister.pressure = 0.4 MPa\n"
+               "own = bore.land_edge\n"
+               "[data high]\nfile = high.csv\nown = bore.land_edge\n");
+  SbCalibration found;
+  calibrate(&found, study);
+  g_assert_cmpuint(found.curves, ==, 2);
+  g_assert_cmpuint(found.parameters, ==, 4);
+  static const struct {
+    const char *name;
+    double value;
+  } values[] = {{"friction.load_coefficient", 0.23},
+                {"stem.pressure_diameter", 5.81e-3},
+                {"bore.land_edge@low", 3.05e-3},
+                {"bore.land_edge@high", 3.45e-3}};
+  for (size_t j = 0; j < 4; j++) {
+    bool seen = false;
+    for (size_t k = 0; k < 4; k++) {
+      const SbCalibrated *is = &found.parameter[k];
+      if (strcmp(is->name, values[j].name) == 0) {
+        seen = true;
+        g_assert_cmpfloat_with_epsilon(is->estimate, values[j].value, 3 * is->deviation);
+      }
+    }
+    g_assert_true(seen);
+  }
+  sb_calibration_release(&found);
+  g_unlink(one);
+  g_unlink(two);
+}
+
+// Truths from the priors: intervals of 95 % cover so many, ranks are even.
+static void test_coverage(void) {
+  enum { REPEATS = 100, BINS = 5, PARAMETERS = 3 };
+  static const SbParamId id[PARAMETERS] = {SB_P_FRICTION_LOAD_COEFFICIENT,
+                                           SB_P_STEM_PRESSURE_DIAMETER, SB_P_BORE_LAND_EDGE};
+  const SbDistribution prior[PARAMETERS] = {
+      {.kind = SB_DISTRIBUTION_UNIFORM, .a = 0.15, .b = 0.22},
+      {.kind = SB_DISTRIBUTION_NORMAL, .a = 5.8e-3, .b = 3e-5, .low = -INFINITY, .high = INFINITY},
+      {.kind = SB_DISTRIBUTION_UNIFORM, .a = 2.8e-3, .b = 3.6e-3}};
+  double ranks[PARAMETERS][BINS] = {{0}}, covered = 0;
+  for (int r = 0; r < REPEATS; r++) {
+    SbOverride drawn[PARAMETERS];
+    for (uint32_t j = 0; j < PARAMETERS; j++) {
+      drawn[j] =
+          (SbOverride){id[j], sb_distribution_quantile(&prior[j], sb_random(99, (uint64_t)r, j))};
+    }
+    const Bench bench = {.rows = 150, .seed = 1000 + (uint64_t)r};
+    g_autofree char *file = write_bench("repeat.csv", &bench, drawn, PARAMETERS);
+    g_autofree char *groups =
+        g_strdup_printf("[vary]\nfriction.load_coefficient = uniform 0.15 .. 0.22\n"
+                        "stem.pressure_diameter = normal 5.8 mm, 0.03 mm\n"
+                        "bore.land_edge = uniform 2.8 mm .. 3.6 mm\n"
+                        "[study]\nsamples = 500\nseed = %d\n"
+                        "[data]\nfile = repeat.csv\nzero = as-is\ncompliance = none\n",
+                        r + 1);
+    g_autoptr(SbStudyFile) study = study_of(groups);
+    SbCalibration found;
+    calibrate(&found, study);
+    for (size_t j = 0; j < PARAMETERS; j++) {
+      size_t below = 0;
+      for (size_t i = 0; i < found.samples; i++) {
+        below += found.sample[i * PARAMETERS + j] < drawn[j].value;
+      }
+      const SbCalibrated *one = &found.parameter[j];
+      covered += drawn[j].value > one->interval[0] && drawn[j].value < one->interval[1];
+      ranks[j][below * BINS / (found.samples + 1)]++;
+    }
+    sb_calibration_release(&found);
+    g_unlink(file);
+  }
+  const double share = covered / (REPEATS * PARAMETERS);
+  g_test_message("covered %.3f", share);
+  for (size_t j = 0; j < PARAMETERS; j++) {
+    double chi = 0;
+    for (int b = 0; b < BINS; b++) {
+      chi += pow(ranks[j][b] - (double)REPEATS / BINS, 2) / ((double)REPEATS / BINS);
+    }
+    g_test_message("%s: chi2 of its ranks %.1f", sb_param(id[j])->key, chi);
+    g_assert_cmpfloat(chi, <, 13.3); // 99 % of four degrees of freedom
+  }
+  g_assert_cmpfloat(share, >, 0.90);
+  g_assert_cmpfloat(share, <, 0.99);
+}
+
+// What the data or [vary] lack is one complaint that says it.
+static void test_refused(void) {
+  const Bench bench = {.rows = 300, .seed = 5};
+  g_autofree char *file = write_bench("one.csv", &bench, truth, G_N_ELEMENTS(truth));
+  static const struct {
+    const char *groups, *said;
+  } cases[] = {
+      {"[vary]\nmodels.film = levels thesis\n[data]\nfile = one.csv\n", "has no prior"},
+      {"[vary]\nbore.land_edge = uniform 2 mm .. 4 mm\n[data]\nfile = none.csv\n", "No such file"},
+      {"[vary]\nbore.land_edge = uniform 2 mm .. 4 mm\n[data]\nfile = one.csv\nset = x = 3\n",
+       "\"x = 3\" sets no parameter"},
+      {"[vary]\nbore.land_edge = uniform 2 mm .. 4 mm\n[data]\nfile = one.csv\n"
+       "columns = displacement, force\n",
+       "column 1 \"time\" (displacement) has the unit \"s\""},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autoptr(SbStudyFile) study = study_of(cases[i].groups);
+    const SbCalibrateHooks hooks = {.jobs = 1};
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    SbCalibration found;
+    g_assert_cmpint(sb_calibrate(&found, study, &hooks, issues, NULL), ==, SB_ERROR_INPUT);
+    g_assert_cmpuint(issues->len, ==, 1);
+    g_autofree char *line = sb_issue_line(issues->pdata[0]);
+    if (strstr(line, cases[i].said) == NULL) {
+      g_error("%s instead of %s", line, cases[i].said);
+    }
+    sb_calibration_release(&found);
+  }
+  g_unlink(file);
+}
+
+static bool at_once(void *data) {
+  return ++*(int *)data > 40;
+}
+
+// A cancel ends it, with nothing to be written.
+static void test_cancel(void) {
+  const Bench bench = {.rows = 300, .seed = 5};
+  g_autofree char *file = write_bench("one.csv", &bench, truth, G_N_ELEMENTS(truth));
+  g_autoptr(SbStudyFile) study =
+      study_of("[vary]\nbore.land_edge = uniform 2 mm .. 4 mm\n[data]\nfile = one.csv\n");
+  int polled = 0;
+  const SbCalibrateHooks hooks = {.jobs = 1, .cancelled = at_once, .data = &polled};
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  SbCalibration found;
+  g_assert_cmpint(sb_calibrate(&found, study, &hooks, issues, NULL), ==, SB_ERROR_CANCELLED);
+  g_assert_cmpint(polled, <, 60);
+  sb_calibration_release(&found);
+  g_unlink(file);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  folder = g_dir_make_tmp("sealbench-XXXXXX", NULL);
+  g_test_add_func("/calibrate/recovers", test_recovers);
+  g_test_add_func("/calibrate/inseparable", test_inseparable);
+  g_test_add_func("/calibrate/curves", test_curves);
+  g_test_add_func("/calibrate/refused", test_refused);
+  g_test_add_func("/calibrate/cancel", test_cancel);
+  g_test_add_func("/calibrate/coverage", test_coverage);
+  const int result = g_test_run();
+  g_rmdir(folder);
+  g_free(folder);
+  return result;
+}
