@@ -12,7 +12,8 @@ typedef struct {
   int threads;
 } Options;
 
-static const char result_name[] = "results.json", samples_name[] = "posterior.csv";
+static const char result_name[] = "results.json", samples_name[] = "posterior.csv",
+                  picture_name[] = "calibration.svg";
 
 // "fitted.scene", of several curves "fitted-NAME.scene". Owned by the caller.
 static char *scene_name(const SbStudyFile *study, size_t curve) {
@@ -83,6 +84,9 @@ static int write_folder(const char *path, const SbStudyFile *study, const SbCali
     g_autofree char *samples = sb_calibration_csv(of);
     good = add_text(folder, result_name, json, &error) &&
            add_text(folder, samples_name, samples, &error);
+    FILE *stream;
+    good = good && sb_output_folder_add(&stream, folder, picture_name, &error) &&
+           sb_calibration_put(stream, of, study, ".svg", &error);
     for (size_t c = 0; c < of->curves && good; c++) {
       g_autofree char *name = scene_name(study, c);
       g_autofree char *file = g_build_filename(path, name, NULL);
@@ -145,7 +149,7 @@ int sb_command_calibrate(int argc, char **argv) {
   Options options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.folder,
-       "Folder for results.json, posterior.csv and the fitted scenes", "DIR"},
+       "Folder for results.json, posterior.csv, calibration.svg and the fitted scenes", "DIR"},
       {"jobs", 0, 0, G_OPTION_ARG_FILENAME, &options.jobs, SB_CLI_JOBS_HELP, "N"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
@@ -166,6 +170,7 @@ int sb_command_calibrate(int argc, char **argv) {
       g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
       g_ptr_array_add(names, g_strdup(result_name));
       g_ptr_array_add(names, g_strdup(samples_name));
+      g_ptr_array_add(names, g_strdup(picture_name));
       for (size_t c = 0; c < study->data->len; c++) {
         g_ptr_array_add(names, scene_name(study, c));
       }

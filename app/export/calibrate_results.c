@@ -1,8 +1,12 @@
 // JSON of calibrations; see the header.
 #include "app/export/calibrate_results.h"
 
+#include "app/base/format.h"
 #include "app/export/json.h"
 #include "app/export/measured_results.h"
+#include "app/export/still.h"
+
+#include "engine/base/version.h"
 
 #include <math.h>
 
@@ -101,4 +105,126 @@ char *sb_calibration_csv(const SbCalibration *of) {
     g_string_append_c(out, '\n');
   }
   return g_string_free(out, FALSE);
+}
+
+// ---- The page ----
+
+// A value in the unit that people read, to what its deviation supports.
+static char *value_text(const SbCalibrated *of, double value, bool unit) {
+  const SbParam *param = sb_param(of->id);
+  if (!isfinite(value)) {
+    return g_strdup("-");
+  }
+  const double shown = sb_quantity_to_shown(value, param->si, param->unit);
+  const double width = sb_quantity_to_shown(of->interval[1], param->si, param->unit) -
+                       sb_quantity_to_shown(of->interval[0], param->si, param->unit);
+  const int digits =
+      width > 0 && shown != 0 ? (int)fmin(fmax(1 + ceil(log10(fabs(shown) / width)), 2), 7) : 5;
+  char text[SB_NUMBER_SIZE];
+  sb_number_round(text, shown, digits);
+  return g_strconcat(text, unit && *param->unit != '\0' ? " " : "", unit ? param->unit : "", NULL);
+}
+
+static char *told_text(const SbCalibration *of, size_t j) {
+  const SbCalibrated *one = &of->parameter[j];
+  if (one->told != SB_TOLD_WITH_OTHER) {
+    return g_strdup(one->told == SB_TOLD_YES ? "yes" : "no, as before");
+  }
+  size_t most = j == 0 ? 1 : 0;
+  for (size_t k = 0; k < of->parameters; k++) {
+    const double *rho = of->correlation + j * of->parameters;
+    most = k != j && fabs(rho[k]) > fabs(rho[most]) ? k : most;
+  }
+  const char *symbol = sb_param(of->parameter[most].id)->symbol;
+  return g_strdup_printf("only with %s", *symbol != '\0' ? symbol : of->parameter[most].name);
+}
+
+void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *of,
+                              const SbStudyFile *study, bool dark) {
+  g_autoptr(GPtrArray) texts = g_ptr_array_new_with_free_func(g_free);
+  SbCalibrationRow *row = g_new0(SbCalibrationRow, of->parameters + 1);
+  SbCalibrationLoop *loop = g_new0(SbCalibrationLoop, of->curves + 1);
+  bool all_told = true;
+  for (size_t j = 0; j < of->parameters; j++) {
+    const SbCalibrated *one = &of->parameter[j];
+    const double values[] = {one->before, one->estimate};
+    row[j] = (SbCalibrationRow){.name = one->name,
+                                .symbol = sb_param(one->id)->symbol,
+                                .before = one->before,
+                                .estimate = one->estimate,
+                                .low = one->interval[0],
+                                .high = one->interval[1],
+                                .prior_low = one->prior[0],
+                                .prior_high = one->prior[1],
+                                .prior = &one->distribution,
+                                .role = one->told == SB_TOLD_YES          ? SB_ROLE_PASS
+                                        : one->told == SB_TOLD_WITH_OTHER ? SB_ROLE_WARN
+                                                                          : SB_ROLE_SECOND};
+    all_told = all_told && one->told == SB_TOLD_YES;
+    for (int i = 0; i < 3; i++) {
+      g_autofree char *low = value_text(one, one->interval[0], false);
+      g_autofree char *high = value_text(one, one->interval[1], false);
+      char *text =
+          i < 2 ? value_text(one, values[i], i == 0) : g_strdup_printf("%s to %s", low, high);
+      g_ptr_array_add(texts, text);
+      row[j].texts[i] = text;
+    }
+    char *told = told_text(of, j);
+    g_ptr_array_add(texts, told);
+    row[j].told = told;
+  }
+  for (size_t c = 0; c < of->curves; c++) {
+    const SbCalibratedCurve *curve = &of->curve[c];
+    loop[c] = (SbCalibrationLoop){.name = curve->name,
+                                  .before = &curve->before_loop,
+                                  .after = &curve->after_loop,
+                                  .prior = &curve->prior,
+                                  .posterior = &curve->posterior,
+                                  .comparison = curve->after,
+                                  .before_rms = curve->before_rms};
+  }
+  g_autofree char *foot =
+      g_strdup_printf("Sampled %zu points, one chain%s.  Fit of %zu parameters to %zu points, %zu "
+                      "runs.  chi\xc2\xb2 "
+                      "per degree of freedom %.2f.  Sealbench %s",
+                      of->samples, of->tangent ? " on the tangent at the fit" : "", of->parameters,
+                      of->points, of->evaluations, of->chi2, sb_version());
+  const SbCalibrationView view = {.title = study->title,
+                                  .subtitle = sb_document_title(study->scene),
+                                  .sentence = of->sentence,
+                                  .foot = foot,
+                                  .all_told = all_told,
+                                  .rows = of->parameters,
+                                  .loops = of->curves,
+                                  .samples = of->samples,
+                                  .row = row,
+                                  .loop = loop,
+                                  .sample = of->sample,
+                                  .correlation = of->correlation};
+  sb_calibration_draw(cr, rect, sb_theme(dark), &view);
+  g_free(row);
+  g_free(loop);
+}
+
+typedef struct {
+  const SbCalibration *calibration;
+  const SbStudyFile *study;
+} Page;
+
+static void draw_page(cairo_t *cr, double width, double height, void *user) {
+  const Page *page = user;
+  sb_calibration_page_draw(cr, (SbRect){0, 0, width, height}, page->calibration, page->study,
+                           false);
+}
+
+bool sb_calibration_put(FILE *stream, const SbCalibration *calibration, const SbStudyFile *study,
+                        const char *ending, GError **error) {
+  Page page = {calibration, study};
+  const SbStill still = {.width = SB_CALIBRATION_WIDTH,
+                         .height = SB_CALIBRATION_HEIGHT,
+                         .title = study->title,
+                         .comment = calibration->sentence,
+                         .draw = draw_page,
+                         .user = &page};
+  return sb_still_put(stream, &still, ending, error);
 }

@@ -1,5 +1,5 @@
 // Curves, their runs and what the samples say; see the header.
-#include "app/study/calibrate.h"
+#include "app/study/calibrate_private.h"
 
 #include "engine/numeric/sampling.h"
 
@@ -7,37 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct {
-  const SbData *data;
-  SbMeasured *measured;
-  SbMeasuredPoint *point;
-  size_t points, first; // first: of its residuals
-  bool breakaway;       // its last residual is that of B
-  SbOverride set[SB_VARY_MAX];
-  size_t sets;
-  size_t at[SB_VARY_MAX]; // coordinate of each of [vary]
-  size_t zero;            // coordinate of the force's zero, SIZE_MAX: known
-  // The run at the place last evaluated, with its rings; and one beside it.
-  SbRun *run, *beside;
-  double z[SB_INFERENCE_COORDINATES];
-  bool known;
-  SbLoop loop;
-} Curve;
-
-typedef struct {
-  const SbStudyFile *study;
-  const SbCalibrateHooks *hooks;
-  Curve *curve;
-  size_t curves;
-  size_t coordinates, parameters; // parameters come first, then zeros
-  size_t vary[SB_INFERENCE_COORDINATES];
-  int owner[SB_INFERENCE_COORDINATES];
-  size_t residuals;
-  bool rings;
-  size_t evaluations, expected;
-  SbStatus status; // of the last run
-  SbReport report; // where it failed
-} Work;
+typedef SbCalibrateCurve Curve;
+typedef SbCalibrateWork Work;
 
 // What stands for a force where values make no valve, or one that does not run [N].
 static const double no_force = 1000;
@@ -119,6 +90,7 @@ static bool run_at(Work *work, Curve *curve, SbRun **run, const SbRun *base,
 static void residuals_of(double *residual, const Curve *curve, const double *z) {
   const double offset =
       curve->zero != SIZE_MAX ? z[curve->zero] * curve->measured->no_load_deviation : 0;
+  const double *numeric = curve->numeric != SIZE_MAX ? z + curve->numeric : NULL;
   for (size_t i = 0; i < curve->points; i++) {
     const SbMeasuredPoint *point = &curve->point[i];
     const double force = sb_loop_force(&curve->loop, point->way, point->displacement);
@@ -129,11 +101,13 @@ static void residuals_of(double *residual, const Curve *curve, const double *z) 
                          : count == 0                ? 0
                                                      : curve->loop.force[point->way][count - 1];
     residual[i] = point->force - offset - model;
+    residual[i] -= numeric != NULL ? curve->error * numeric[point->way] : 0;
   }
   if (curve->breakaway) {
     const double model = curve->loop.stage_force[SB_STAGE_B];
     residual[curve->points] = curve->measured->stage[SB_STAGE_B].force - offset -
                               (curve->loop.count[0] > 0 && isfinite(model) ? model : no_force);
+    residual[curve->points] -= numeric != NULL ? curve->error * numeric[0] : 0;
   }
 }
 
@@ -148,7 +122,7 @@ static bool settle_run(Work *work, Curve *curve, const double *z) {
   return curve->known;
 }
 
-static bool evaluate(void *data, double *residual, const double *z) {
+bool sb_calibrate_evaluate(void *data, double *residual, const double *z) {
   Work *work = data;
   for (size_t c = 0; c < work->curves; c++) {
     Curve *curve = &work->curve[c];
@@ -161,12 +135,17 @@ static bool evaluate(void *data, double *residual, const double *z) {
   return true;
 }
 
-// Whether a curve's residuals depend on a coordinate.
+// Whether a curve's loop depends on a coordinate.
 static bool depends(const Work *work, const Curve *curve, size_t coordinate) {
-  if (coordinate >= work->parameters) {
-    return curve->zero == coordinate;
-  }
-  return curve->at[work->vary[coordinate]] == coordinate;
+  return coordinate < work->parameters && curve->at[work->vary[coordinate]] == coordinate;
+}
+
+// Derivative of a residual of the curve by what adds to the force alone.
+static double added(const Curve *curve, size_t row, size_t coordinate) {
+  const int way = row < curve->points ? curve->point[row].way : 0;
+  return curve->zero == coordinate ? -curve->measured->no_load_deviation
+         : curve->numeric != SIZE_MAX && curve->numeric + (size_t)way == coordinate ? -curve->error
+                                                                                    : 0;
 }
 
 // Differences: central ones of closed forms, ahead along the rings' tangent where they are solved.
@@ -186,7 +165,7 @@ static bool differentiate(void *data, double *jacobian, const double *z, const d
     }
     for (size_t j = 0; j < n && good; j++) {
       for (size_t i = 0; i < rows && !depends(work, curve, j); i++) {
-        jacobian[(curve->first + i) * n + j] = 0;
+        jacobian[(curve->first + i) * n + j] = added(curve, i, j);
       }
       if (!depends(work, curve, j)) {
         continue;
@@ -310,7 +289,7 @@ static bool lay_out(Work *work, GPtrArray *issues) {
     for (size_t k = 0; k < varied; k++) {
       const bool own = has_word(curve->data->text[SB_DATA_OWN], sb_vary_name(vary_of(work, k)));
       if (own || shared[k] == SIZE_MAX) {
-        if (work->coordinates + work->curves >= SB_INFERENCE_COORDINATES) {
+        if (work->coordinates + 3 * work->curves >= SB_INFERENCE_COORDINATES) {
           sb_data_complain(curve->data, SB_DATA_OWN, NULL, issues,
                            "there are more than the %d parameters that can be fitted",
                            SB_INFERENCE_COORDINATES);
@@ -329,6 +308,11 @@ static bool lay_out(Work *work, GPtrArray *issues) {
   for (size_t c = 0; c < work->curves; c++) {
     Curve *curve = &work->curve[c];
     curve->zero = curve->measured->no_load_deviation > 0 ? work->coordinates++ : SIZE_MAX;
+    curve->numeric = SIZE_MAX;
+    if (work->tangent) {
+      curve->numeric = work->coordinates;
+      work->coordinates += 2;
+    }
     curve->first = work->residuals;
     work->residuals += curve->points + curve->breakaway;
   }
@@ -359,6 +343,7 @@ static void keep_samples(SbCalibration *out, const Work *work, const SbInference
   for (size_t j = 0; j < p; j++) {
     const SbDistribution *prior = &vary_of(work, work->vary[j])->distribution;
     out->parameter[j].estimate = value_of(work, j, found->z[j]);
+    out->parameter[j].distribution = *prior;
     out->parameter[j].prior[0] = sb_distribution_quantile(prior, 0.025);
     out->parameter[j].prior[1] = sb_distribution_quantile(prior, 0.975);
   }
@@ -376,6 +361,8 @@ static bool compare_curves(SbCalibration *out, Work *work, const SbInference *fo
     SbComparison *before = sb_comparison_create(curve->measured, &curve->loop);
     to->before_rms = before->rms;
     sb_comparison_free(before);
+    to->before_loop = curve->loop;
+    curve->loop = (SbLoop){0};
     to->value = g_new(SbOverride, 2 * SB_VARY_MAX);
     to->values = overrides_at(to->value, work, curve, found->z);
     if (!run_at(work, curve, &curve->beside, NULL, to->value, to->values)) {
@@ -387,6 +374,8 @@ static bool compare_curves(SbCalibration *out, Work *work, const SbInference *fo
     to->spread = found->spread[c];
     to->after =
         curve->loop.count[0] > 1 ? sb_comparison_create(curve->measured, &curve->loop) : NULL;
+    to->after_loop = curve->loop;
+    curve->loop = (SbLoop){0};
     out->points += curve->points;
     for (size_t i = 0; i < curve->points; i++) {
       const double r = found->residual[curve->first + i], weight = curve->point[i].weight;
@@ -402,31 +391,6 @@ static bool compare_curves(SbCalibration *out, Work *work, const SbInference *fo
   return true;
 }
 
-// How far solved curves lie from those of the tangent, at samples evenly taken.
-static bool check_tangent(SbCalibration *out, Work *work, const SbInference *found) {
-  double *residual = g_new(double, work->residuals + 1), square = 0, count = 0;
-  const size_t n = work->coordinates;
-  bool good = true;
-  for (size_t k = 0; k < SB_CALIBRATION_CHECKS && good && found->samples > 0; k++) {
-    const double *z = found->sample + (k * found->samples / SB_CALIBRATION_CHECKS) * n;
-    good = evaluate(work, residual, z);
-    for (size_t c = 0; c < work->curves && good; c++) {
-      const Curve *curve = &work->curve[c];
-      for (size_t i = curve->first; i < curve->first + curve->points; i++) {
-        double linear = found->residual[i];
-        for (size_t j = 0; j < n; j++) {
-          linear += found->jacobian[i * n + j] * (z[j] - found->z[j]);
-        }
-        square += (residual[i] - linear) * (residual[i] - linear);
-        count++;
-      }
-    }
-  }
-  out->check_rms = sqrt(square / count);
-  g_free(residual);
-  return good;
-}
-
 // ---- All of it ----
 
 // Whether the scene's own values run: there is nothing to begin from otherwise.
@@ -437,6 +401,8 @@ static SbStatus check_start(Work *work, const double *start, SbReport *report) {
     if (work->status == SB_OK && curve->loop.count[0] < 2) {
       return sb_fail(report, SB_ERROR_INPUT, "the stem does not slide in the scene as it is");
     }
+    const double relative = sb_run_summary(curve->run)->error_force;
+    curve->error = isfinite(relative) ? relative * curve->loop.stage_force[SB_STAGE_B] : 0;
     if (work->status != SB_OK) {
       if (report != NULL) {
         *report = work->report;
@@ -479,7 +445,7 @@ static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
                                   .group = group,
                                   .weight = weight,
                                   .start = start,
-                                  .evaluate = evaluate,
+                                  .evaluate = sb_calibrate_evaluate,
                                   .differentiate = differentiate,
                                   .data = work,
                                   .seed = work->study->seed,
@@ -498,7 +464,10 @@ static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
     out->accepted = found.accepted;
     keep_samples(out, work, &found);
     sb_calibration_tell(out);
-    if ((out->tangent && !check_tangent(out, work, &found)) || !compare_curves(out, work, &found)) {
+    // Priors of what is solved hold valves that no ring fits into, and take long.
+    const bool runs = (out->tangent || sb_calibrate_draws(out, work, &found, true)) &&
+                      (found.samples == 0 || sb_calibrate_draws(out, work, &found, false));
+    if (!runs || !compare_curves(out, work, &found)) {
       status = work->status;
     }
   } else if (status == SB_ERROR_CANCELLED) {
@@ -521,12 +490,12 @@ SbStatus sb_calibrate(SbCalibration *out, const SbStudyFile *study, const SbCali
     good = read_curve(&work.curve[c], &work, issues);
   }
   SbStatus status = SB_ERROR_INPUT;
+  g_autofree SbPlan *plan = g_new(SbPlan, 1);
+  const SbPlanWishes wishes = {.views = SB_VIEW_HYSTERESIS};
+  sb_plan_wished(plan, study->base, &wishes);
+  work.rings = plan->ring;
+  work.tangent = out->tangent = sb_plan_cost(plan) > 0.02;
   if (good && lay_out(&work, issues)) {
-    g_autofree SbPlan *plan = g_new(SbPlan, 1);
-    const SbPlanWishes wishes = {.views = SB_VIEW_HYSTERESIS};
-    sb_plan_wished(plan, study->base, &wishes);
-    work.rings = plan->ring;
-    out->tangent = sb_plan_cost(plan) > 0.02;
     out->parameters = work.parameters;
     out->parameter = g_new0(SbCalibrated, work.parameters);
     for (size_t j = 0; j < work.parameters; j++) {
@@ -560,6 +529,8 @@ void sb_calibration_release(SbCalibration *out) {
     g_free(out->curve[c].name);
     g_free(out->curve[c].value);
     sb_comparison_free(out->curve[c].after);
+    sb_loop_clear(&out->curve[c].before_loop);
+    sb_loop_clear(&out->curve[c].after_loop);
     sb_measured_free(out->curve[c].measured);
   }
   g_free(out->parameter);

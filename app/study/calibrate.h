@@ -4,7 +4,8 @@
 // the force at equal displacement while the stem slides (app/data/measured.h). The break-away, one
 // number of a curve, enters where friction.static_ratio is fitted, which it alone tells. Parameters
 // are shared by all curves but for those that a curve's `own` names. Unknown beside them is each
-// force's zero where it was found in the data, to the deviation it was found with. Fit, noise and
+// force's zero where it was found in the data, to the deviation it was found with, and where the
+// model is solved, the error it tells of its forces, constant each way. Fit, noise and
 // posterior: inference.h. Where a run takes more than some milliseconds the posterior is that of
 // the tangent at the fit, and SB_CALIBRATION_CHECKS runs at samples tell what that leaves out;
 // with solved rings the tangent is that of their equations (sb_run_predict_from()).
@@ -37,6 +38,7 @@ typedef struct {
   char *name;                                      // key, of an own one "key@curve"
   double before, estimate, deviation, interval[2]; // SI; interval of 95 %
   double prior[2];                                 // interval of 95 % before
+  SbDistribution distribution;                     // prior
   SbTold told;
 } SbCalibrated;
 
@@ -50,6 +52,8 @@ typedef struct {
   double noise;         // of the residuals [N]
   double spread;        // (1 + rho)/(1 - rho) of their correlation
   SbComparison *after;  // NULL: the fitted stem does not slide
+  SbLoop before_loop, after_loop;
+  SbMeasuredBand prior, posterior; // hold 95 % of the model's loops; end 0: not known
 } SbCalibratedCurve;
 
 typedef struct {

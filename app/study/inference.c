@@ -228,6 +228,47 @@ static bool find_covariance(Work *work) {
          gsl_linalg_cholesky_invert(&matrix.matrix) == GSL_SUCCESS;
 }
 
+// Gauss and Newton's own steps from the fit while they gain: a trust region that a model's rough
+// places have made small ends before the slope is nothing.
+static bool polish(Work *work) {
+  enum { STEPS = 5 };
+  SbInference *out = work->out;
+  const size_t m = work->asked->residuals, n = work->asked->coordinates;
+  double *residual = g_new(double, m), gradient[SB_INFERENCE_COORDINATES];
+  double z[SB_INFERENCE_COORDINATES];
+  bool good = find_covariance(work);
+  for (int step = 0; step < STEPS && good; step++) {
+    memcpy(gradient, out->z, n * sizeof *gradient);
+    for (size_t i = 0; i < m; i++) {
+      const double scale = scale_of(work, i), x = fabs(out->residual[i] * scale);
+      const double weight = scale * scale * (x > BEND ? BEND / x : 1) / spread_of(work, i);
+      for (size_t j = 0; j < n; j++) {
+        gradient[j] += weight * out->jacobian[i * n + j] * out->residual[i];
+      }
+    }
+    double gain = 0;
+    for (size_t j = 0; j < n; j++) {
+      z[j] = out->z[j];
+      for (size_t k = 0; k < n; k++) {
+        z[j] -= out->covariance[j * n + k] * gradient[k];
+        gain += 0.5 * gradient[j] * out->covariance[j * n + k] * gradient[k];
+      }
+    }
+    if (gain < 1e-4) {
+      break; // of the density's logarithm: a hundredth of a deviation
+    }
+    good = evaluate(work, residual, z);
+    if (!good || log_density(work, residual, z) <= log_density(work, out->residual, out->z)) {
+      break;
+    }
+    memcpy(out->z, z, n * sizeof *z);
+    memcpy(out->residual, residual, m * sizeof *residual);
+    good = find_covariance(work);
+  }
+  g_free(residual);
+  return good;
+}
+
 static SbStatus fit(Work *work) {
   SbInference *out = work->out;
   const size_t m = work->asked->residuals, n = work->asked->coordinates;
@@ -259,7 +300,7 @@ static SbStatus fit(Work *work) {
   g_free(before);
   gsl_multifit_nlinear_free(w);
   gsl_vector_free(weight);
-  good = !work->cancelled && find_covariance(work) && good;
+  good = !work->cancelled && polish(work) && good;
   return work->cancelled               ? SB_ERROR_CANCELLED
          : w == NULL || weight == NULL ? SB_ERROR_MEMORY
          : good && out->converged      ? SB_OK

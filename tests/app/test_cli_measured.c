@@ -188,7 +188,7 @@ static void test_calibrate(void) {
   cli_clear(&result);
   json_node_unref(again);
   json_node_unref(root);
-  static const char *const own[] = {"posterior.csv", "fitted.scene",
+  static const char *const own[] = {"posterior.csv", "fitted.scene", "calibration.svg",
                                     ".sealbench-calibrate.manifest"};
   for (size_t i = 0; i < G_N_ELEMENTS(own); i++) {
     g_autofree char *path = g_build_filename(out, own[i], NULL);

@@ -1,0 +1,46 @@
+// A calibration at work, shared by calibrate.c and calibrate_bands.c.
+#pragma once
+
+#include "app/study/calibrate.h"
+
+typedef struct {
+  const SbData *data;
+  SbMeasured *measured;
+  SbMeasuredPoint *point;
+  size_t points, first; // first: of its residuals
+  bool breakaway;       // its last residual is that of B
+  SbOverride set[SB_VARY_MAX];
+  size_t sets;
+  size_t at[SB_VARY_MAX]; // coordinate of each of [vary]
+  size_t zero;            // coordinate of the force's zero, SIZE_MAX: known
+  size_t numeric; // the first of two for the forces' numerical error each way, SIZE_MAX: none
+  double error;   // its deviation [N]
+  // The run at the place last evaluated, with its rings; and one beside it.
+  SbRun *run, *beside;
+  double z[SB_INFERENCE_COORDINATES];
+  bool known;
+  SbLoop loop;
+} SbCalibrateCurve;
+
+typedef struct {
+  const SbStudyFile *study;
+  const SbCalibrateHooks *hooks;
+  SbCalibrateCurve *curve;
+  size_t curves;
+  size_t coordinates, parameters; // parameters come first, then zeros
+  size_t vary[SB_INFERENCE_COORDINATES];
+  int owner[SB_INFERENCE_COORDINATES];
+  size_t residuals;
+  bool rings, tangent;
+  size_t evaluations, expected;
+  SbStatus status; // of the last run
+  SbReport report; // where it failed
+} SbCalibrateWork;
+
+// Residuals of all curves at z, whose loops stay; an evaluation of inference.h.
+bool sb_calibrate_evaluate(void *data, double *residual, const double *z);
+
+// Runs at draws of the prior or at samples, evenly taken: the model's bands, and what a tangent
+// leaves out. False: cancelled.
+bool sb_calibrate_draws(SbCalibration *out, SbCalibrateWork *work, const SbInference *found,
+                        bool prior);
