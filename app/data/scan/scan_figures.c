@@ -1,0 +1,151 @@
+// See scan_figures.h.
+#include "app/data/scan/scan_figures.h"
+
+#include <math.h>
+
+// ---- Cut-offs ----
+
+static void add_cutoff(SbScanFigures *out, double cutoff_short, double cutoff_long) {
+  if (out->cutoff_count < SB_SCAN_CUTOFFS_MAX) {
+    SbScanCutoff *row = &out->cutoff[out->cutoff_count++];
+    *row = (SbScanCutoff){.cutoff_short = cutoff_short, .cutoff_long = cutoff_long};
+    sb_height_spectrum_moments(row->moment, &out->spectrum, cutoff_short, cutoff_long);
+    row->asperities = sb_asperities_of_moments(row->moment, false);
+  }
+}
+
+// From the distance of points up, and from the length of the scan down, by twos: the short
+// cut-offs make asperities fewer and blunter, the long ones take the height.
+static void find_cutoffs(SbScanFigures *out, const SbHeights *h) {
+  const double step = fmax(h->dx, h->rows > 1 ? h->dy : 0);
+  const double width = (double)h->columns * h->dx;
+  const double length = h->rows > 1 ? fmin(width, (double)h->rows * h->dy) : width;
+  add_cutoff(out, 0, 0);
+  for (double cutoff = 4 * step; cutoff <= length / 8; cutoff *= 2) {
+    add_cutoff(out, cutoff, 0);
+  }
+  for (double cutoff = length / 2; cutoff >= 16 * step; cutoff /= 2) {
+    add_cutoff(out, 0, cutoff);
+  }
+}
+
+// ---- Parts ----
+
+static SbStatus find_parts(SbScanFigures *out, const SbHeights *h, SbReport *report) {
+  enum { PART_SIDE = 64 };
+  const size_t shorter = h->rows > 1 && h->rows < h->columns ? h->rows : h->columns;
+  const int side = shorter >= 3 * PART_SIDE ? 3 : shorter >= 2 * PART_SIDE ? 2 : 0;
+  out->part_columns = side;
+  out->part_rows = h->rows > 1 || side == 0 ? side : 1;
+  SbStatus status = SB_OK;
+  for (int k = 0; k < out->part_rows * out->part_columns && status == SB_OK; k++) {
+    const SbHeights part = sb_heights_part(h, (size_t)(k / side), (size_t)out->part_rows,
+                                           (size_t)(k % side), (size_t)out->part_columns);
+    status = sb_height_figures(&out->part[k], &part, report);
+  }
+  return status;
+}
+
+SbScanScatter sb_scan_scatter(const SbScanFigures *figures,
+                              double (*value)(const SbHeightFigures *part)) {
+  double sum = 0, squares = 0, count = 0;
+  for (int k = 0; k < figures->part_rows * figures->part_columns; k++) {
+    const double each = value(&figures->part[k]);
+    if (isfinite(each)) {
+      sum += each;
+      count++;
+    }
+  }
+  const double mean = sum / count;
+  for (int k = 0; k < figures->part_rows * figures->part_columns; k++) {
+    const double each = value(&figures->part[k]) - mean;
+    squares += isfinite(each) ? each * each : 0;
+  }
+  return count < 2 ? (SbScanScatter){NAN, NAN} : (SbScanScatter){mean, sqrt(squares / (count - 1))};
+}
+
+// ---- What to be warned of ----
+
+// Share of m4 in waves of fewer points than this.
+static double fine_share(const SbHeightSpectrum *spectrum, double step, double points) {
+  double fine = 0;
+  for (size_t r = 0; r < spectrum->ring_count; r++) {
+    fine += spectrum->ring[r].q > 2 * M_PI / (points * step) ? spectrum->ring[r].moment[2] : 0;
+  }
+  return fine / spectrum->moment[2];
+}
+
+static void warn(SbScanFigures *out, const SbHeights *h, const SbHeightsChoices *choices) {
+  SbWarnings *list = &out->warnings;
+  const SbHeightFigures *f = &out->figures;
+  const SbHeightsReport *done = &out->done;
+  const double points = (double)done->points;
+  if (choices->form <= SB_FORM_PLANE && done->curved_share > 0.5) {
+    sb_warn(list, "surface-form", "",
+            "a quadratic form would take %.0f %% of the variance about the plane: is it the "
+            "part's shape? (--form quadratic or cylinder)",
+            100 * done->curved_share);
+  }
+  if (done->suspicious > 0) {
+    sb_warn(list, "surface-outliers", "",
+            "%zu points lie beyond %g robust deviations and count (--outliers %g leaves them out)",
+            done->suspicious, SB_HEIGHTS_SUSPICIOUS, SB_HEIGHTS_SUSPICIOUS);
+  }
+  const double missing = (double)(done->missing + done->outliers) / points;
+  if (missing > 0.05) {
+    sb_warn(list, "surface-missing", "",
+            "%.0f %% of the points are missing; the spectrum stands on values between their "
+            "neighbours",
+            100 * missing);
+  }
+  const double step = fmax(h->dx, h->rows > 1 ? h->dy : 0);
+  const double fine = fine_share(&out->spectrum, step, 8);
+  if (fine > 0.5) {
+    sb_warn(list, "surface-sampling", "surface.gt_product",
+            "%.0f %% of m4 is in waves of fewer than 8 points: density and radius of asperities "
+            "are those of the sampling, or of noise (--cutoff-short)",
+            100 * fine);
+  }
+  const double ratio = out->spectrum.moment[2] / f->moment[2];
+  if (fabs(log(ratio)) > log(1.3)) {
+    sb_warn(list, "surface-moments", "surface.gt_product",
+            "m4 by the spectrum is %.3g times that by differences: waves of few points, noise, "
+            "missing points or parts unlike each other",
+            ratio);
+  }
+  if (!(f->breadth > 1.5)) {
+    sb_warn(list, "surface-breadth", "surface.gt_product",
+            "m0 m4/m2^2 = %.3g: no random isotropic surface has these moments (above 1.5)",
+            f->breadth);
+  }
+  if (fabs(f->ssk) > 1 || fabs(f->sku - 3) > 2) {
+    sb_warn(list, "surface-gaussian", "",
+            "skewness %.2g and kurtosis %.2g: the contact laws take Gaussian heights (0 and 3)",
+            f->ssk, f->sku);
+  }
+}
+
+SbStatus sb_scan_figures(SbScanFigures *out, SbHeights *heights, const SbHeightsChoices *choices,
+                         SbReport *report) {
+  *out = (SbScanFigures){0};
+  SbStatus status = sb_heights_prepare(&out->done, heights, choices, report);
+  if (status == SB_OK) {
+    status = sb_height_figures(&out->figures, heights, report);
+  }
+  if (status == SB_OK) {
+    status = sb_height_spectrum(&out->spectrum, heights, report);
+  }
+  if (status == SB_OK) {
+    status = find_parts(out, heights, report);
+  }
+  if (status == SB_OK) {
+    out->scene = sb_asperities_of_moments(out->figures.moment, false);
+    find_cutoffs(out, heights);
+    warn(out, heights, choices);
+  }
+  return status;
+}
+
+void sb_scan_figures_clear(SbScanFigures *figures) {
+  sb_height_spectrum_finish(&figures->spectrum);
+}

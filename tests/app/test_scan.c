@@ -1,0 +1,391 @@
+// Readers of scans: what was written comes back, in every form; what is cut short, ambiguous or no
+// scan is refused with the place.
+#include "app/data/scan/scan.h"
+#include "app/data/scan/scan_figures.h"
+#include "tests/app/scan_files.h"
+
+#include "app/base/error.h"
+#include "engine/numeric/sampling.h"
+
+enum { COLUMNS = 20, ROWS = 17 };
+static double height[COLUMNS * ROWS];
+
+// Uneven in both directions, two points missing.
+static SbHeights written(void) {
+  for (int k = 0; k < COLUMNS * ROWS; k++) {
+    height[k] = 1e-9 * round(1e3 * (sb_random(7, (guint64)k, 0) - 0.4));
+  }
+  height[45] = height[139] = NAN;
+  return (SbHeights){COLUMNS, ROWS, COLUMNS, 0.5e-6, 2e-6, height};
+}
+
+static const SbScanChoices plain;
+
+static void assert_same(const SbScan *scan, const SbHeights *h, double error) {
+  g_assert_cmpuint(scan->heights.columns, ==, h->columns);
+  g_assert_cmpuint(scan->heights.rows, ==, h->rows);
+  g_assert_cmpfloat_with_epsilon(scan->heights.dx, h->dx, 1e-7 * h->dx);
+  if (h->rows > 1) {
+    g_assert_cmpfloat_with_epsilon(scan->heights.dy, h->dy, 1e-7 * h->dy);
+  }
+  for (gsize i = 0; i < h->columns * h->rows; i++) {
+    if (isnan(h->z[i])) {
+      g_assert_true(isnan(scan->heights.z[i]));
+    } else {
+      g_assert_cmpfloat_with_epsilon(scan->heights.z[i], h->z[i], error);
+    }
+  }
+}
+
+static void parse(SbScan *out, const GByteArray *bytes, const SbScanChoices *choices) {
+  GError *error = NULL;
+  if (!sb_scan_parse(out, (const char *)bytes->data, bytes->len, choices, "scan", &error)) {
+    g_error("%s", error->message);
+  }
+}
+
+// Refused, every shorter form of it too, with one sentence that begins with the name.
+static void assert_refused(const char *data, gsize length, const SbScanChoices *choices,
+                           const char *why) {
+  SbScan scan;
+  GError *error = NULL;
+  g_assert_false(sb_scan_parse(&scan, data, length, choices, "scan", &error));
+  g_assert_nonnull(error);
+  g_assert_true(error->domain == SB_APP_ERROR && g_str_has_prefix(error->message, "scan: "));
+  g_assert_true(g_utf8_validate(error->message, -1, NULL) && strchr(error->message, '\n') == NULL);
+  if (strstr(error->message, why) == NULL) {
+    g_error("\"%s\" does not say \"%s\"", error->message, why);
+  }
+  g_assert_null(scan.heights.z);
+  g_error_free(error);
+}
+
+static void assert_cut_refused(const GByteArray *bytes) {
+  for (gsize length = 4; length < bytes->len; length += 1 + length / 9) {
+    // In memory of its own, so that a look beyond its end is seen.
+    g_autofree char *copy = g_memdup2(bytes->data, length);
+    assert_refused(copy, length, &plain, "");
+  }
+}
+
+static void test_gwy(void) {
+  const SbHeights h = written();
+  SbScan scan;
+  GByteArray *bytes = write_gwy(&h, 1);
+  parse(&scan, bytes, &plain);
+  assert_same(&scan, &h, 1e-30);
+  g_assert_cmpstr(scan.format, ==, "Gwyddion");
+  g_assert_cmpstr(scan.title, ==, "Topography 0");
+  g_assert_cmpuint(scan.notes->len, ==, 1);
+  sb_scan_clear(&scan);
+  parse(&scan, bytes, &(SbScanChoices){.ignore_mask = TRUE});
+  g_assert_cmpfloat(scan.heights.z[45], ==, 0);
+  sb_scan_clear(&scan);
+  assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.channel = "9"}, "no lengths");
+  assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.channel = "4"},
+                 "no channel 4 (there are 0 \"Topography 0\", 9)");
+  assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.unit = 1}, "--unit");
+  assert_cut_refused(bytes);
+  g_byte_array_unref(bytes);
+  // Several channels are not chosen from.
+  bytes = write_gwy(&h, 2);
+  assert_refused((char *)bytes->data, bytes->len, &plain, "--channel");
+  parse(&scan, bytes, &(SbScanChoices){.channel = "Topography 1"});
+  assert_same(&scan, &h, 1e-30);
+  sb_scan_clear(&scan);
+  g_byte_array_unref(bytes);
+}
+
+static void test_sur(void) {
+  SbHeights h = written();
+  for (int bits = 16; bits <= 32; bits += 16) {
+    for (int rows = 1; rows <= ROWS; rows += ROWS - 1) {
+      h.rows = (size_t)rows;
+      SbScan scan;
+      GByteArray *bytes = write_sur(&h, bits, 1e-9);
+      parse(&scan, bytes, &plain);
+      assert_same(&scan, &h, 1e-15);
+      g_assert_cmpstr(scan.title, ==, "ring");
+      sb_scan_clear(&scan);
+      assert_cut_refused(bytes);
+      bytes->data[98] = 8;
+      assert_refused((char *)bytes->data, bytes->len, &plain, "8 bits");
+      g_byte_array_unref(bytes);
+    }
+  }
+}
+
+static void test_x3p(void) {
+  SbHeights h = written();
+  GError *error = NULL;
+  SbScan none;
+  if (!sb_scan_parse(&none, "PK\3\4", 4, &plain, "scan", &error) &&
+      strstr(error->message, "option `x3p`") != NULL) {
+    g_test_skip("built without libzip");
+    g_error_free(error);
+    return;
+  }
+  g_clear_error(&error);
+  for (const char *type = "ILFD"; *type != '\0'; type++) {
+    for (int rows = 1; rows <= ROWS; rows += ROWS - 1) {
+      h.rows = (size_t)rows;
+      SbScan scan;
+      const bool whole = *type == 'I' || *type == 'L';
+      GByteArray *bytes = write_x3p(&h, *type, whole ? 1e-9 : 1);
+      parse(&scan, bytes, &plain);
+      assert_same(&scan, &h, *type == 'F' ? 1e-13 : 1e-22);
+      g_assert_cmpstr(scan.format, ==, "X3P");
+      sb_scan_clear(&scan);
+      assert_cut_refused(bytes);
+      // A point changed on the way: the check sum of the member says so.
+      guchar *end = bytes->data + bytes->len - 60;
+      while (memcmp(end, "PK\1\2", 4) != 0 || memcmp(end + 46, "main.xml", 8) != 0) {
+        end--;
+      }
+      end[-1] ^= 1;
+      if (!whole) {
+        assert_refused((char *)bytes->data, bytes->len, &plain, "cannot be unpacked");
+      }
+      g_byte_array_unref(bytes);
+    }
+  }
+  // What the XML announces is looked at.
+  const struct {
+    const char *from, *to, *why;
+  } wrong[] = {{"<SizeX>20<", "<SizeX>21<", "2720 bytes of points"},
+               {"<SizeX>20<", "<SizeX>-4<", "matrix of \"-4\""},
+               {"<AxisType>I<", "<AxisType>A<", "CX is no incremental axis"},
+               {">SUR<", ">PCL<", "feature type \"PCL\""},
+               {">D<", ">Q<", "data type \"Q\""},
+               {"bindata/data.bin<", "bindata/date.bin<", "no member \"bindata/date.bin\""},
+               {"</Axes>", "</Oxes>", "main.xml: "}};
+  for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
+    h.rows = ROWS;
+    GByteArray *bytes = write_x3p(&h, 'D', 1);
+    // The last one of >D<, CZ's.
+    gsize length = strlen(wrong[i].from);
+    guchar *at = NULL;
+    for (guchar *p = bytes->data; p + length < bytes->data + 1500; p++) {
+      at = memcmp(p, wrong[i].from, length) == 0 && (at == NULL || wrong[i].to[1] == 'Q') ? p : at;
+    }
+    g_assert_nonnull(at);
+    memcpy(at, wrong[i].to, length);
+    // Its sum, in the local head and in the directory.
+    const guchar *begin = bytes->data + 30 + strlen("main.xml");
+    guint32 size, sum;
+    memcpy(&size, bytes->data + 18, 4);
+    sum = GUINT32_TO_LE(crc(begin, GUINT32_FROM_LE(size)));
+    memcpy(bytes->data + 14, &sum, 4);
+    guchar *end = bytes->data + bytes->len - 60;
+    while (memcmp(end, "PK\1\2", 4) != 0 || memcmp(end + 46, "main.xml", 8) != 0) {
+      end--;
+    }
+    memcpy(end + 16, &sum, 4);
+    assert_refused((char *)bytes->data, bytes->len, &plain, wrong[i].why);
+    g_byte_array_unref(bytes);
+  }
+}
+
+// ---- Text ----
+
+// A matrix in nanometres in some dialect.
+static GString *matrix(const char *header, const char *separator, char decimal,
+                       const char *missing) {
+  GString *out = g_string_new(header);
+  for (int i = 0; i < ROWS; i++) {
+    for (int j = 0; j < COLUMNS; j++) {
+      const double z = height[i * COLUMNS + j] * 1e9;
+      g_autofree char *number = g_strdup_printf("%.2f", z);
+      if (decimal != '.' && !isnan(z)) {
+        *strchr(number, '.') = decimal;
+      }
+      g_string_append_printf(out, "%s%s", j > 0 ? separator : "", isnan(z) ? missing : number);
+    }
+    g_string_append(out, "\r\n");
+  }
+  return out;
+}
+
+static void assert_text(const GString *text, const SbScanChoices *choices, const SbHeights *h) {
+  SbScan scan;
+  GError *error = NULL;
+  if (!sb_scan_parse(&scan, text->str, text->len, choices, "scan", &error)) {
+    g_error("%s\n%.300s", error->message, text->str);
+  }
+  assert_same(&scan, h, 1e-20);
+  sb_scan_clear(&scan);
+}
+
+static void test_matrix(void) {
+  SbHeights h = written();
+  static const char *const gwyddion =
+      "# Channel: Height\n# Width: 10.0 \xc2\xb5m\n# Height: 34 \xc2\xb5m\n# Value units: nm\n";
+  static const char *const latin =
+      "# Channel: H\xf6he\n# Width: 10.0 \xb5m\n# Height: 34 \xb5m\n# Value units: nm\n";
+  static const char *const spip =
+      "# File Format = ASCII\n# x-pixels = 20\n# y-pixels = 17\n# x-length = 10000\n"
+      "# y-length = 34000\n# Bit2nm = 1\n# Start of Data:\n";
+  static const char *const spip_unit =
+      "# File Format = ASCII\r\n# x-pixels = 20\r\n# y-pixels = 17\r\n# x-length = 10000\r\n"
+      "# y-length = 34000\r\n# z-unit = [nm]\r\n# voidpixels = 2\r\n# Start of Data:\r\n";
+  static const char *const esri = "ncols 20\nnrows 17\nxllcorner 0\nyllcorner 0\ncellsize 0.5\n"
+                                  "NODATA_value -9999\n";
+  const struct {
+    const char *header, *separator, *missing;
+    char decimal;
+  } dialects[] = {{gwyddion, "\t", "nan", '.'}, {gwyddion, ";", "", '.'},
+                  {gwyddion, "\t", "---", ','}, {latin, " ", "NaN", '.'},
+                  {gwyddion, ", ", "nan", '.'}, {gwyddion, " ", "bad", ','},
+                  {spip, "  ", "nan", '.'},     {spip_unit, "\t", "3.402823466e+38", '.'}};
+  for (size_t i = 0; i < G_N_ELEMENTS(dialects); i++) {
+    GString *text =
+        matrix(dialects[i].header, dialects[i].separator, dialects[i].decimal, dialects[i].missing);
+    assert_text(text, &plain, &h);
+    g_string_free(text, TRUE);
+  }
+  // UTF-16, as Windows' programs write it.
+  GString *text = matrix(gwyddion, "\t", '.', "nan");
+  gsize count = 0;
+  g_autofree char *wide =
+      g_convert(text->str, (gssize)text->len, "UTF-16", "UTF-8", NULL, &count, NULL);
+  GString *copy = g_string_new_len(wide, (gssize)count);
+  assert_text(copy, &plain, &h);
+  g_string_free(copy, TRUE);
+  g_string_free(text, TRUE);
+  // Units that are not there are asked for.
+  h.dy = h.dx;
+  text = matrix(esri, " ", '.', "-9999");
+  assert_refused(text->str, text->len, &plain, "in which unit its heights are: --unit");
+  assert_text(text, &(SbScanChoices){.unit = 1e-9, .lateral_unit = 1e-6}, &h);
+  g_string_free(text, TRUE);
+  text = matrix("", "\t", '.', "nan");
+  assert_refused(text->str, text->len, &(SbScanChoices){.unit = 1e-9}, "--spacing");
+  assert_text(text, &(SbScanChoices){.unit = 1e-9, .spacing = 0.5e-6}, &h);
+  g_string_append(text, "1 2 3\n");
+  assert_refused(text->str, text->len, &(SbScanChoices){.unit = 1e-9, .spacing = 1e-6},
+                 "line 18 has not 20 numbers");
+  g_string_free(text, TRUE);
+  text = matrix(spip, " ", '.', "0");
+  g_string_truncate(text, text->len - 100);
+  assert_refused(text->str, text->len, &plain, "numbers where the header announces 20 x 17");
+  g_string_free(text, TRUE);
+}
+
+static void test_points(void) {
+  const SbHeights h = written();
+  // Columns first, and rows first; missing points not there.
+  for (int order = 0; order < 2; order++) {
+    GString *text = g_string_new("x [um], y [um], z [nm]\n");
+    for (int k = 0; k < COLUMNS * ROWS; k++) {
+      const int i = order == 0 ? k / COLUMNS : k % ROWS, j = order == 0 ? k % COLUMNS : k / ROWS;
+      if (!isnan(height[i * COLUMNS + j])) {
+        g_string_append_printf(text, "%.4f,%.4f,%.3f\n", 7 + 0.5 * j, 2.0 * i,
+                               1e9 * height[i * COLUMNS + j]);
+      }
+    }
+    assert_text(text, &plain, &h);
+    g_string_append(text, "7,0,3\n");
+    assert_refused(text->str, text->len, &plain, "is there twice");
+    g_string_free(text, TRUE);
+  }
+}
+
+static void test_profile(void) {
+  SbHeights h = written();
+  h.rows = 1;
+  GString *text = g_string_new("x (mm);z (nm)\n"), *single = g_string_new("");
+  for (int j = 0; j < COLUMNS; j++) {
+    g_string_append_printf(text, "%.5f;%.3f\n", 1 + 0.0005 * j, 1e9 * height[j]);
+    g_string_append_printf(single, "%.3f\n", 1e9 * height[j]);
+  }
+  assert_text(text, &plain, &h);
+  assert_text(single, &(SbScanChoices){.unit = 1e-9, .spacing = 0.5e-6}, &h);
+  assert_refused(single->str, single->len, &(SbScanChoices){.unit = 1e-9}, "--spacing");
+  assert_refused(single->str, single->len, &plain, "--unit");
+  g_string_append(text, "1.2;3\n");
+  assert_refused(text->str, text->len, &plain, "x is not even");
+  g_string_append(text, "word\n");
+  assert_refused(text->str, text->len, &plain, "line 23: numbers expected, not \"word\"");
+  g_string_free(text, TRUE);
+  g_string_free(single, TRUE);
+}
+
+// Numbers are those of the library to the last digit.
+static void test_numbers(void) {
+  static const char *const numbers[] = {"0.1",
+                                        "-17e-3",
+                                        "1.7976931348623157e308",
+                                        "123456789012345678901234",
+                                        "4.35",
+                                        "+.5",
+                                        "5.",
+                                        "9007199254740993",
+                                        "1e-320",
+                                        "0.000000000000000000001234",
+                                        "2.2250738585072011e-308"};
+  g_autoptr(GString) text = g_string_new("z [m]\n");
+  for (size_t i = 0; i < G_N_ELEMENTS(numbers); i++) {
+    g_string_append_printf(text, "%s\n", numbers[i]);
+  }
+  SbScan scan;
+  g_assert_true(
+      sb_scan_parse(&scan, text->str, text->len, &(SbScanChoices){.spacing = 1}, "scan", NULL));
+  for (size_t i = 0; i < G_N_ELEMENTS(numbers); i++) {
+    g_assert_cmpfloat(scan.heights.z[i], ==, g_ascii_strtod(numbers[i], NULL));
+  }
+  sb_scan_clear(&scan);
+}
+
+static void test_refused(void) {
+  assert_refused("", 0, &plain, "no numbers");
+  assert_refused("hello\nworld\n", 12, &plain, "no numbers");
+  assert_refused("\0\1\2", 3, &plain, "no scan that is known");
+  assert_refused("0,5\n0,6\n0,7\n", 12, &plain, "reads in two ways");
+  assert_refused("ncols 100000\nnrows 100000\ncellsize 1\n1 2 3\n", 43,
+                 &(SbScanChoices){.unit = 1e-9}, "3 numbers where the header announces");
+  SbScan scan;
+  GError *error = NULL;
+  g_assert_false(sb_scan_read(&scan, "/dev/null/nothing.gwy", &plain, &error));
+  g_assert_true(g_str_has_prefix(error->message, "/dev/null/nothing.gwy: "));
+  g_clear_error(&error);
+  g_assert_false(sb_scan_read(&scan, "/dev/zero", &plain, &error));
+  g_assert_true(strstr(error->message, "regular file") != NULL);
+  g_clear_error(&error);
+}
+
+// Parts, scatter and cut-offs of a scan.
+static void test_figures(void) {
+  enum { N = 192 };
+  g_autofree double *z = g_new(double, N *N);
+  for (int k = 0; k < N * N; k++) {
+    const double x = k % N, y = (double)k / N;
+    z[k] = 1e-6 * (sin(x / 3) + sin(y / 3) + 0.3 * sin(x / 7 + y / 5));
+  }
+  SbHeights h = {N, N, N, 1e-6, 1e-6, z};
+  const SbHeightsChoices choices = {.form = SB_FORM_PLANE};
+  g_autofree SbScanFigures *figures = g_new0(SbScanFigures, 1);
+  g_assert_cmpint(sb_scan_figures(figures, &h, &choices, NULL), ==, SB_OK);
+  g_assert_cmpint(figures->part_rows * figures->part_columns, ==, 9);
+  g_assert_cmpint(figures->cutoff_count, >, 5);
+  for (int i = 1; i < figures->cutoff_count; i++) {
+    // Every filter takes something away.
+    g_assert_cmpfloat(figures->cutoff[i].moment[0], <, figures->cutoff[0].moment[0]);
+    g_assert_cmpfloat(figures->cutoff[i].moment[2], <, figures->cutoff[0].moment[2]);
+  }
+  g_assert_cmpfloat_with_epsilon(figures->scene.sigma, figures->figures.sq, 1e-20);
+  sb_scan_figures_clear(figures);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/scan/gwy", test_gwy);
+  g_test_add_func("/scan/sur", test_sur);
+  g_test_add_func("/scan/x3p", test_x3p);
+  g_test_add_func("/scan/matrix", test_matrix);
+  g_test_add_func("/scan/points", test_points);
+  g_test_add_func("/scan/profile", test_profile);
+  g_test_add_func("/scan/numbers", test_numbers);
+  g_test_add_func("/scan/refused", test_refused);
+  g_test_add_func("/scan/figures", test_figures);
+  return g_test_run();
+}
