@@ -195,4 +195,5 @@ int sb_command_calibrate(int argc, char **argv);
 int sb_command_compare(int argc, char **argv);
 int sb_command_design(int argc, char **argv);
 int sb_command_sensitivity(int argc, char **argv);
+int sb_command_surface(int argc, char **argv);
 int sb_command_open(int argc, char **argv);

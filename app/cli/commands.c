@@ -23,6 +23,8 @@ static const SbCommand commands[] = {
      "Sets runs side by side, and a measured loop beside them", sb_command_compare},
     {"design", "FILE.study", "Finds the best valve within bounds and limits", sb_command_design},
     {"merge", "STORE FROM...", "Joins stores of studies", sb_command_merge},
+    {"surface", "SCAN", "Roughness, asperities and spectrum of a measured surface",
+     sb_command_surface},
     {"list", "params|figures|models|views|fluids",
      "Lists parameters, figures, models, views or fluids", sb_command_list},
     {"bench", "[-o DIR]", "Measures error against time for every solver", sb_command_bench},

@@ -1,0 +1,371 @@
+// sealbench surface: roughness parameters of a scan.
+#include "app/base/output.h"
+#include "app/cli/cli.h"
+#include "app/document/unit.h"
+#include "app/export/surface.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+  char *form, *outliers, *missing, *cutoff_short, *cutoff_long;
+  char *channel, *spacing, *unit, *lateral_unit, *json, *scene, *output;
+  gboolean ignore_mask;
+  SbHeightsChoices choices;
+  SbScanChoices scan;
+} Options;
+
+// ---- Options ----
+
+static char *form_names(void) {
+  GString *names = g_string_new(NULL);
+  for (int i = 0; i < SB_FORM_COUNT; i++) {
+    g_string_append_printf(names, "%s%s", i > 0 ? "|" : "", sb_form_name(i));
+  }
+  return g_string_free(names, FALSE);
+}
+
+static int read_form(Options *options) {
+  for (int i = 0; i < SB_FORM_COUNT; i++) {
+    if (strcmp(options->form, sb_form_name(i)) == 0) {
+      options->choices.form = (SbForm)i;
+      return SB_EXIT_DONE;
+    }
+  }
+  g_autofree char *names = form_names();
+  return sb_cli_unknown("--form: there is no", options->form, names, NULL);
+}
+
+// A unit of length, "nm"; an exit code.
+static int read_unit(double *out, const char *option, const char *text) {
+  g_autofree char *one = text != NULL ? g_strconcat("1 ", text, NULL) : NULL;
+  if (one != NULL && !sb_cli_quantity(out, option, one, false, "m", "µm")) {
+    return SB_EXIT_INPUT;
+  }
+  return one == NULL || *out > 0 ? SB_EXIT_DONE : sb_cli_fail("%s: no unit of length", option);
+}
+
+static int read_options(Options *options) {
+  options->choices = (SbHeightsChoices){.form = SB_FORM_PLANE};
+  int code = options->form != NULL ? read_form(options) : SB_EXIT_DONE;
+  if (code == SB_EXIT_DONE && options->missing != NULL) {
+    options->choices.fill = strcmp(options->missing, "fill") == 0;
+    if (!options->choices.fill && strcmp(options->missing, "leave") != 0) {
+      return sb_cli_unknown("--missing: there is no", options->missing, "leave|fill", NULL);
+    }
+  }
+  const struct {
+    const char *option, *text, *si, *shown;
+    double *value;
+  } numbers[] = {
+      {"--outliers", options->outliers, "1", "", &options->choices.outliers},
+      {"--cutoff-short", options->cutoff_short, "m", "µm", &options->choices.cutoff_short},
+      {"--cutoff-long", options->cutoff_long, "m", "µm", &options->choices.cutoff_long},
+      {"--spacing", options->spacing, "m", "µm", &options->scan.spacing},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(numbers) && code == SB_EXIT_DONE; i++) {
+    double *value = numbers[i].value;
+    if (!sb_cli_quantity(value, numbers[i].option, numbers[i].text, false, numbers[i].si,
+                         numbers[i].shown)) {
+      code = SB_EXIT_INPUT;
+    } else if (numbers[i].text != NULL && !(*value > 0 && isfinite(*value))) {
+      code = sb_cli_fail("%s: a value above 0 is needed", numbers[i].option);
+    }
+  }
+  if (code == SB_EXIT_DONE) {
+    code = read_unit(&options->scan.unit, "--unit", options->unit);
+  }
+  if (code == SB_EXIT_DONE) {
+    code = read_unit(&options->scan.lateral_unit, "--lateral-unit", options->lateral_unit);
+  }
+  if (code == SB_EXIT_DONE && (options->scene == NULL) != (options->output == NULL)) {
+    code = sb_cli_fail("--scene and --output go together: the scene, and the copy of it");
+  }
+  options->scan.channel = options->channel;
+  options->scan.ignore_mask = options->ignore_mask;
+  return code;
+}
+
+// ---- What people read ----
+
+static char *shown(double value, const char *si, const char *unit) {
+  char digits[SB_NUMBER_SIZE];
+  return isfinite(value)
+             ? g_strdup(sb_number_round(digits, sb_quantity_to_shown(value, si, unit), 4))
+             : g_strdup("-");
+}
+
+static char *length_text(double length, const char *none) {
+  g_autofree char *number = shown(length, "m", "µm");
+  return length > 0 ? g_strdup_printf("%s µm", number) : g_strdup(none);
+}
+
+static void print_origin(const SbSurface *surface) {
+  const SbScan *scan = surface->scan;
+  const SbHeights *h = &scan->heights;
+  const SbHeightsReport *done = &surface->figures->done;
+  g_autofree char *choices = sb_surface_choices_text(surface);
+  g_autofree char *step = length_text(h->dx, "-");
+  printf("%s%s%s%s, ", scan->format, scan->title != NULL ? " \"" : "",
+         scan->title != NULL ? scan->title : "", scan->title != NULL ? "\"" : "");
+  if (h->rows > 1) {
+    g_autofree char *step_y = length_text(h->dy, "-");
+    printf("%zu x %zu points %s x %s apart\n", h->columns, h->rows, step, step_y);
+  } else {
+    printf("a profile of %zu points %s apart\n", h->columns, step);
+  }
+  for (guint i = 0; i < scan->notes->len; i++) {
+    printf("%s\n", (const char *)scan->notes->pdata[i]);
+  }
+  printf("%s\n", choices);
+  if (done->missing + done->outliers > 0) {
+    printf("%zu points missing, %zu taken away, %zu filled\n", done->missing, done->outliers,
+           done->filled);
+  }
+  if (isfinite(done->form_radius)) {
+    g_autofree char *radius = shown(done->form_radius, "m", "mm");
+    printf("cylinder of radius %s mm\n", radius);
+  }
+}
+
+static void print_moments(const SbSurface *surface) {
+  static const char *const labels[] = {"m0 / µm²", "m2", "m4 / µm⁻²"};
+  static const double scale[] = {1e12, 1, 1e-12};
+  const SbScanFigures *figures = surface->figures;
+  printf("Moments                              by differences   by the spectrum\n");
+  for (int m = 0; m < 3; m++) {
+    char one[SB_NUMBER_SIZE], other[SB_NUMBER_SIZE];
+    g_autofree char *text =
+        g_strdup_printf("%-16s %s", sb_number_round(one, scale[m] * figures->figures.moment[m], 4),
+                        sb_number_round(other, scale[m] * figures->spectrum.moment[m], 4));
+    sb_cli_line(labels[m], text);
+  }
+}
+
+static void print_asperities(const SbScanFigures *figures) {
+  const SbAsperityFigures *columns[] = {&figures->figures.neighbours, &figures->figures.moments,
+                                        &figures->scene};
+  printf("Asperities                           %-16s %-16s %s\n", "by neighbours", "by moments",
+         "for a scene");
+  for (const SbResultRow *row = sb_surface_asperities; row->key != NULL; row++) {
+    g_autofree char *label =
+        g_strdup_printf("%s%s%s", row->label, *row->shown != '\0' ? " / " : "", row->shown);
+    g_autoptr(GString) line = g_string_new(NULL);
+    for (size_t i = 0; i < G_N_ELEMENTS(columns); i++) {
+      g_autofree char *number = shown(sb_result_value(row, columns[i]), row->si, row->shown);
+      g_string_append_printf(line, "%-16s ", number);
+    }
+    sb_cli_line(label, g_strchomp(line->str));
+  }
+}
+
+static void print_spectrum(const SbHeightSpectrum *spectrum) {
+  g_autofree char *roll_off = length_text(2 * M_PI / spectrum->roll_off, NULL);
+  g_autofree char *cut_off = length_text(2 * M_PI / spectrum->cut_off, NULL);
+  char digits[SB_NUMBER_SIZE];
+  if (isnan(spectrum->hurst)) {
+    sb_cli_line("Hurst exponent", "-");
+    printf("    %s\n", spectrum->reason);
+    return;
+  }
+  sb_cli_line("Hurst exponent", sb_number_round(digits, spectrum->hurst, 3));
+  sb_cli_line("Roll-off, wave length", roll_off != NULL ? roll_off : "-");
+  sb_cli_line("Cut-off, wave length", cut_off != NULL ? cut_off : "-");
+}
+
+static void print_scatter(const SbScanFigures *figures) {
+  if (figures->part_rows == 0) {
+    return;
+  }
+  printf("Over %d x %d parts                     mean             deviation\n",
+         figures->part_columns, figures->part_rows);
+  for (const SbSurfaceScatter *row = sb_surface_scatter; row->key != NULL; row++) {
+    const SbScanScatter scatter = sb_scan_scatter(figures, row->value);
+    g_autofree char *label =
+        g_strdup_printf("%s%s%s", row->label, *row->shown != '\0' ? " / " : "", row->shown);
+    g_autofree char *mean = shown(scatter.mean, row->si, row->shown);
+    g_autofree char *deviation = shown(scatter.deviation, row->si, row->shown);
+    g_autofree char *text = g_strdup_printf("%-16s %s", mean, deviation);
+    sb_cli_line(label, text);
+  }
+}
+
+// Columns of a table by characters, not bytes.
+static void print_cells(const char *const *cell, int count) {
+  enum { WIDTH = 12 };
+  for (int i = 0; i < count; i++) {
+    const glong left = WIDTH - g_utf8_strlen(cell[i], -1);
+    printf("%s%s%*s", i == 0 ? "  " : "", cell[i], i + 1 < count ? (int)MAX(left, 1) : 0, "");
+  }
+  putchar('\n');
+}
+
+static void print_cutoffs(const SbScanFigures *figures) {
+  enum { CELLS = 7 };
+  printf("Cut-offs (by the spectrum)\n");
+  print_cells(
+      (const char *const[CELLS]){"short", "long", "σ / µm", "ζ / mm⁻²", "β / µm", "ζβσ", "σ/β"},
+      CELLS);
+  for (int i = 0; i < figures->cutoff_count; i++) {
+    const SbScanCutoff *row = &figures->cutoff[i];
+    const SbAsperityFigures *a = &row->asperities;
+    char *cell[CELLS] = {length_text(row->cutoff_short, "none"),
+                         length_text(row->cutoff_long, "none"),
+                         shown(a->sigma, "m", "µm"),
+                         shown(a->density, "m-2", "mm-2"),
+                         shown(a->radius, "m", "µm"),
+                         shown(a->product, "1", ""),
+                         shown(a->sigma_over_beta, "1", "")};
+    print_cells((const char *const *)cell, CELLS);
+    for (int k = 0; k < CELLS; k++) {
+      g_free(cell[k]);
+    }
+  }
+}
+
+static void print_table(const SbSurface *surface) {
+  const char *reason = NULL;
+  g_auto(GStrv) settings = sb_surface_settings(&reason, surface);
+  print_origin(surface);
+  sb_cli_rows(sb_surface_heights, &surface->figures->figures);
+  print_moments(surface);
+  print_asperities(surface->figures);
+  print_spectrum(&surface->figures->spectrum);
+  print_scatter(surface->figures);
+  print_cutoffs(surface->figures);
+  printf("In a scene (this surface against a smooth one)\n");
+  for (char **each = settings; each != NULL && *each != NULL; each++) {
+    printf("  --set '%s'\n", *each);
+  }
+  if (reason != NULL) {
+    printf("  none: %s\n", reason);
+  }
+  sb_cli_warnings(&surface->figures->warnings);
+}
+
+// ---- Into a scene ----
+
+// Lines that tell the origin of a scene's surface begin so.
+#define ORIGIN "# Scan: "
+
+// A copy of the scene with the surface and, above its keys, where that comes from. An exit code.
+static int write_scene(const SbSurface *surface, const Options *options) {
+  const char *reason = NULL;
+  g_auto(GStrv) settings = sb_surface_settings(&reason, surface);
+  if (settings == NULL) {
+    return sb_cli_fail("--scene: the surface is none for a scene: %s", reason);
+  }
+  SbModel *model = NULL;
+  g_autoptr(SbDocument) document = sb_cli_open(&model, options->scene, settings);
+  sb_model_destroy(model);
+  if (document == NULL) {
+    return SB_EXIT_INPUT;
+  }
+  g_autofree char *text = sb_document_to_text(document, options->output);
+  g_autofree char *name = g_path_get_basename(surface->path);
+  g_autofree char *shown_name = sb_printable(name, strlen(name));
+  g_autofree char *choices = sb_surface_choices_text(surface);
+  g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
+  g_autoptr(GString) out = g_string_new(NULL);
+  for (char **line = lines; *line != NULL; line++) {
+    if (g_str_has_prefix(*line, ORIGIN)) {
+      continue; // of an earlier scan
+    }
+    g_string_append_printf(out, "%s%s", *line, line[1] != NULL ? "\n" : "");
+    if (strcmp(*line, "[surface]") == 0) {
+      g_string_append_printf(out, ORIGIN "%s, SHA-256 %s\n" ORIGIN "%s\n", shown_name,
+                             surface->scan->sha256, choices);
+    }
+  }
+  GError *error = NULL;
+  return sb_output_write(options->output, out->str, out->len, &error) ? SB_EXIT_DONE
+                                                                      : sb_cli_error(error);
+}
+
+// ---- The command ----
+
+// Before the work; an exit code.
+static int check_outputs(const Options *options) {
+  SbOutputCheck check = {0};
+  GError *error = NULL;
+  const bool good = sb_output_check(&check, options->json, false, &error) &&
+                    sb_output_check(&check, options->output, false, &error);
+  sb_output_check_clear(&check);
+  return good ? SB_EXIT_DONE : sb_cli_error(error);
+}
+
+static int compute(const char *path, Options *options) {
+  GError *error = NULL;
+  SbScan scan;
+  if (!sb_scan_read(&scan, path, &options->scan, &error)) {
+    return sb_cli_error(error);
+  }
+  int code = check_outputs(options);
+  if (code != SB_EXIT_DONE) {
+    sb_scan_clear(&scan);
+    return code;
+  }
+  g_autofree SbScanFigures *figures = g_new0(SbScanFigures, 1);
+  SbReport report = {0};
+  code =
+      sb_cli_status(sb_scan_figures(figures, &scan.heights, &options->choices, &report), &report);
+  const SbSurface surface = {path, &scan, &options->choices, figures};
+  if (code == SB_EXIT_DONE && options->scene != NULL) {
+    code = write_scene(&surface, options);
+  }
+  if (code == SB_EXIT_DONE && options->json != NULL) {
+    g_autofree char *json = sb_surface_json(&surface);
+    code = sb_cli_emit(json, options->json);
+  } else if (code == SB_EXIT_DONE && !sb_cli_quiet()) {
+    print_table(&surface);
+  }
+  sb_scan_figures_clear(figures);
+  sb_scan_clear(&scan);
+  return code;
+}
+
+int sb_command_surface(int argc, char **argv) {
+  Options options = {0};
+  const GOptionEntry entries[] = {
+      {"form", 0, 0, G_OPTION_ARG_FILENAME, &options.form,
+       "Form to take away: none, plane (default), quadratic or cylinder", "FORM"},
+      {"outliers", 0, 0, G_OPTION_ARG_FILENAME, &options.outliers,
+       "Leaves out points beyond so many robust deviations; default all stay", "N"},
+      {"missing", 0, 0, G_OPTION_ARG_FILENAME, &options.missing,
+       "Missing points: leave (default) them out, or fill them from their neighbours",
+       "leave|fill"},
+      {"cutoff-short", 0, 0, G_OPTION_ARG_FILENAME, &options.cutoff_short,
+       "Smooths waves shorter than this away (Gaussian, ISO 16610); default none", "LENGTH"},
+      {"cutoff-long", 0, 0, G_OPTION_ARG_FILENAME, &options.cutoff_long,
+       "Takes waves longer than this away; default none", "LENGTH"},
+      {"channel", 0, 0, G_OPTION_ARG_FILENAME, &options.channel,
+       "Number or title of a channel (.gwy); default the only one of heights", "NAME"},
+      {"ignore-mask", 0, 0, G_OPTION_ARG_NONE, &options.ignore_mask,
+       "Takes masked points as measured (.gwy)", NULL},
+      {"spacing", 0, 0, G_OPTION_ARG_FILENAME, &options.spacing,
+       "Distance of points, in place of the file's", "LENGTH"},
+      {"unit", 0, 0, G_OPTION_ARG_FILENAME, &options.unit, "Unit of a text's heights", "UNIT"},
+      {"lateral-unit", 0, 0, G_OPTION_ARG_FILENAME, &options.lateral_unit,
+       "Unit of a text's lengths; default the file's, else that of heights", "UNIT"},
+      {"scene", 0, 0, G_OPTION_ARG_FILENAME, &options.scene,
+       "Scene or valve of which a copy gets the surface, with its origin", "FILE"},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output, "That copy", "FILE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  if (sb_cli_parse(&argc, &argv, entries, 1, 1,
+                   "A scan is a text of heights (matrix, x z or x y z), .gwy, .sur or .x3p.")) {
+    code = read_options(&options);
+    if (code == SB_EXIT_DONE) {
+      code = compute(argv[1], &options);
+    }
+  }
+  char *owned[] = {options.form,         options.outliers, options.missing, options.cutoff_short,
+                   options.cutoff_long,  options.channel,  options.spacing, options.unit,
+                   options.lateral_unit, options.json,     options.scene,   options.output};
+  for (size_t i = 0; i < G_N_ELEMENTS(owned); i++) {
+    g_free(owned[i]);
+  }
+  return code;
+}
