@@ -9,7 +9,7 @@
 
 typedef struct {
   char *form, *outliers, *missing, *cutoff_short, *cutoff_long;
-  char *channel, *spacing, *unit, *lateral_unit, *json, *scene, *output;
+  char *channel, *spacing, *unit, *lateral_unit, *json, *scene, *output, *plot;
   gboolean ignore_mask;
   SbHeightsChoices choices;
   SbScanChoices scan;
@@ -80,6 +80,10 @@ static int read_options(Options *options) {
   }
   if (code == SB_EXIT_DONE && (options->scene == NULL) != (options->output == NULL)) {
     code = sb_cli_fail("--scene and --output go together: the scene, and the copy of it");
+  }
+  if (code == SB_EXIT_DONE && options->plot != NULL && !sb_output_ends_in(options->plot, ".png") &&
+      !sb_output_ends_in(options->plot, ".svg") && !sb_output_ends_in(options->plot, ".pdf")) {
+    code = sb_cli_fail("--plot: a name ending in .png, .svg or .pdf is needed");
   }
   options->scan.channel = options->channel;
   options->scan.ignore_mask = options->ignore_mask;
@@ -289,7 +293,8 @@ static int check_outputs(const Options *options) {
   SbOutputCheck check = {0};
   GError *error = NULL;
   const bool good = sb_output_check(&check, options->json, false, &error) &&
-                    sb_output_check(&check, options->output, false, &error);
+                    sb_output_check(&check, options->output, false, &error) &&
+                    sb_output_check(&check, options->plot, false, &error);
   sb_output_check_clear(&check);
   return good ? SB_EXIT_DONE : sb_cli_error(error);
 }
@@ -312,6 +317,10 @@ static int compute(const char *path, Options *options) {
   const SbSurface surface = {path, &scan, &options->choices, figures};
   if (code == SB_EXIT_DONE && options->scene != NULL) {
     code = write_scene(&surface, options);
+  }
+  if (code == SB_EXIT_DONE && options->plot != NULL &&
+      !sb_surface_still(&surface, options->plot, &error)) {
+    code = sb_cli_error(error);
   }
   if (code == SB_EXIT_DONE && options->json != NULL) {
     g_autofree char *json = sb_surface_json(&surface);
@@ -347,6 +356,8 @@ int sb_command_surface(int argc, char **argv) {
       {"unit", 0, 0, G_OPTION_ARG_FILENAME, &options.unit, "Unit of a text's heights", "UNIT"},
       {"lateral-unit", 0, 0, G_OPTION_ARG_FILENAME, &options.lateral_unit,
        "Unit of a text's lengths; default the file's, else that of heights", "UNIT"},
+      {"plot", 0, 0, G_OPTION_ARG_FILENAME, &options.plot, "Map, spectrum and heights on a page",
+       "FILE.{png,svg,pdf}"},
       {"scene", 0, 0, G_OPTION_ARG_FILENAME, &options.scene,
        "Scene or valve of which a copy gets the surface, with its origin", "FILE"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output, "That copy", "FILE"},
@@ -363,7 +374,8 @@ int sb_command_surface(int argc, char **argv) {
   }
   char *owned[] = {options.form,         options.outliers, options.missing, options.cutoff_short,
                    options.cutoff_long,  options.channel,  options.spacing, options.unit,
-                   options.lateral_unit, options.json,     options.scene,   options.output};
+                   options.lateral_unit, options.json,     options.scene,   options.output,
+                   options.plot};
   for (size_t i = 0; i < G_N_ELEMENTS(owned); i++) {
     g_free(owned[i]);
   }

@@ -31,3 +31,7 @@ char *sb_surface_choices_text(const SbSurface *surface);
 // "surface.gt_product=0.1289" and the like, NULL-terminated, where a scene can take the surface;
 // else NULL and why not (static). Owned by the caller (g_strfreev).
 char **sb_surface_settings(const char **reason, const SbSurface *surface);
+
+// Draws map, spectrum, heights and asperities on one page, by the ending .png, .svg or .pdf. FALSE
+// as sb_still_write().
+bool sb_surface_still(const SbSurface *surface, const char *path, GError **error);

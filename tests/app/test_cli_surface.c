@@ -145,6 +145,30 @@ static void test_scene(void) {
   g_assert_cmpint(g_remove(copy) | g_remove(again), ==, 0);
 }
 
+// The page, the same bytes each time; another ending is refused before the work.
+static void test_plot(void) {
+  static const char *const names[] = {"page.png", "page.svg", "page.pdf"};
+  static const char *const starts[] = {"\x89PNG", "<?xml", "%PDF"};
+  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+    g_autofree char *path = path_of(names[i]);
+    gsize length[2] = {0};
+    g_autofree char *first = NULL, *second = NULL;
+    for (int k = 0; k < 2; k++) {
+      CliResult result = CLI("surface", scan_path, "--plot", path, "-q");
+      g_assert_cmpint(result.code, ==, 0);
+      g_assert_true(g_file_get_contents(path, k == 0 ? &first : &second, &length[k], NULL));
+      cli_clear(&result);
+    }
+    g_assert_true(g_str_has_prefix(first, starts[i]));
+    g_assert_cmpmem(first, length[0], second, length[1]);
+    g_assert_cmpint(g_remove(path), ==, 0);
+  }
+  CliResult result = CLI("surface", "nothing.gwy", "--plot", "page.gif");
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_true(strstr(result.err, "--plot: a name ending in .png, .svg or .pdf") != NULL);
+  cli_clear(&result);
+}
+
 // A profile: what only a surface has is null, with its reason.
 static void test_profile(void) {
   g_autoptr(GString) text = g_string_new("x [um], z [nm]\n");
@@ -173,6 +197,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-surface/table", test_table);
   g_test_add_func("/cli-surface/refused", test_refused);
   g_test_add_func("/cli-surface/scene", test_scene);
+  g_test_add_func("/cli-surface/plot", test_plot);
   g_test_add_func("/cli-surface/profile", test_profile);
   const int code = g_test_run();
   g_assert_cmpint(g_remove(scan_path), ==, 0);

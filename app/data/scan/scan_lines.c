@@ -161,11 +161,11 @@ static char find_decimal(const SbScanBytes *bytes, GError **error) {
     }
     gboolean number = p < end && (g_ascii_isdigit(*p) || *p == '-' || *p == '+' || *p == '.');
     lines += number;
-    for (; number && p < end; p++) {
-      const gboolean inside = p + 1 < end && g_ascii_isdigit(p[1]) && g_ascii_isdigit(p[-1]);
-      commas += *p == ',' && inside;
+    for (guchar before = '\0'; number && p < end; before = *p++) {
+      const guchar next = p + 1 < end ? p[1] : '\0';
+      commas += *p == ',' && g_ascii_isdigit(before) && g_ascii_isdigit(next);
       points += *p == '.';
-      others += *p == '\t' || *p == ';' || (*p == ' ' && p + 1 < end && p[1] > ' ' && p[-1] != ',');
+      others += *p == '\t' || *p == ';' || (*p == ' ' && next > ' ' && before != ',');
     }
     p = end + (end < stop);
   }

@@ -116,9 +116,12 @@ static void add_rings(SbHeightSpectrum *out, const double *half, const SbHeights
   }
 }
 
-// Rings that are whole, in bins of a tenth of a decade or one ring.
+// Rings that are whole, in bins of a twentieth of a decade, one ring at least, or more where there
+// would be too many.
 static void make_bins(SbHeightSpectrum *out, const SbHeights *h) {
-  const double nyquist = M_PI / fmax(h->dx, h->rows > 1 ? h->dy : 0), ratio = pow(10, 0.05);
+  const double nyquist = M_PI / fmax(h->dx, h->rows > 1 ? h->dy : 0);
+  const double decades = log10((double)out->ring_count);
+  const double ratio = pow(10, fmax(0.05, decades / (SB_HEIGHT_BINS_MAX - 8)));
   double wave_area = 2 * M_PI / ((double)h->columns * h->dx);
   wave_area *= h->rows > 1 ? 2 * M_PI / ((double)h->rows * h->dy) : 1;
   for (size_t r = 1; r < out->ring_count && out->count < SB_HEIGHT_BINS_MAX;) {

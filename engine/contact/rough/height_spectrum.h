@@ -22,7 +22,7 @@
 
 #include "engine/contact/rough/heights.h"
 
-enum { SB_HEIGHT_BINS_MAX = 160 };
+enum { SB_HEIGHT_BINS_MAX = 128 };
 
 // A ring of wave numbers: the powers of its waves.
 typedef struct {
