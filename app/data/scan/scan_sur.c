@@ -41,7 +41,7 @@ gboolean sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *
   }
   const int kind = (gint16)sb_scan_u16(h + 18), bits = (gint16)sb_scan_u16(h + 98);
   const gint64 columns = (gint32)sb_scan_u32(h + 108), rows = (gint32)sb_scan_u32(h + 112);
-  const int comment = (gint16)sb_scan_u16(h + 334), private = (gint16)sb_scan_u16(h + 336);
+  const int comment = sb_scan_u16(h + 334), private = sb_scan_u16(h + 336);
   if (sb_scan_u16(h + 12) != 0) {
     return sb_scan_fail(error, name, "is not in the byte order of format 2.00 for PCs");
   }
@@ -54,7 +54,7 @@ gboolean sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *
   if (bits != 16 && bits != 32) {
     return sb_scan_fail(error, name, "has points of %d bits (allowed 16 or 32)", bits);
   }
-  if (columns < 1 || rows < 1 || comment < 0 || private < 0) {
+  if (columns < 1 || rows < 1) {
     return sb_scan_fail(error, name, "has sizes below 1 in its header");
   }
   const guint64 begin = HEADER + (guint64)comment + (guint64) private, size = (guint64)bits / 8;
@@ -78,6 +78,10 @@ gboolean sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *
     out->heights.z[i] = special && value == missing ? NAN : (double)value * z_step;
   }
   out->title = field(h + 20, 30);
+  if (sb_scan_u16(h + 290) != 0) {
+    g_ptr_array_add(out->notes, g_strdup("the header says that heights were inverted; they are "
+                                         "taken as they stand"));
+  }
   if (sb_scan_u16(h + 14) > 1) {
     g_ptr_array_add(out->notes,
                     g_strdup_printf("the first of %d objects", (int)sb_scan_u16(h + 14)));
