@@ -339,12 +339,34 @@ static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch 
   if (fixed) {
     carry_slip(contact, ring->contact);
   }
+  // The transfer moves nodes about by less than this: it turns no slip round.
+  static const double SLID = 1e-3;
+  contact->slid = SLID;
   SbStatus status = sb_ring_newton(fresh, SB_RING_FOLLOW, report);
   contact->fixed = contact->stuck = false;
+  contact->slid = 0.0;
   // Where the turn is held its coefficient is the mesh's; one far off is another state's.
   const double share = contact->is.now.friction_bore / ring->contact->is.now.friction_bore;
   if (fresh->arc.free && status == SB_OK && !(fabs(share - 1.0) < SAME_STATE)) {
     status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the finer mesh slides in another state");
+  }
+  return status;
+}
+
+// The same by way of the state of the same turn: near the greatest drag the turn hangs on the mesh
+// at a held friction.
+static SbStatus carry_turn(SbRing *fresh, const SbRing *ring, const SbRingPatch *patch,
+                           const bool *touches, SbReport *report) {
+  SbRingContact *contact = fresh->contact;
+  const double share = ring->contact->is.now.friction_bore;
+  contact->is.turn = ring->contact->is.turn;
+  sb_ring_hold_turn(fresh);
+  SbStatus status = carry_over(fresh, ring, patch, touches, true, report);
+  fresh->arc.free = false;
+  if (status == SB_OK) {
+    sb_ring_save(contact, SB_RING_START);
+    contact->is.now.friction_bore = share;
+    status = sb_ring_attempt(fresh, SB_RING_DIRECT, report);
   }
   return status;
 }
@@ -383,6 +405,9 @@ static SbStatus remesh(SbRing *fresh, const SbRing *ring, double element_size, d
   status = carry_over(fresh, ring, patch, touches, rubs && !fresh->arc.free, report);
   if (status == SB_ERROR_NOT_CONVERGED && rubs) {
     status = carry_over(fresh, ring, patch, touches, fresh->arc.free, report);
+    if (status == SB_ERROR_NOT_CONVERGED && !fresh->arc.free && contact->is.now.bore_slides != 0) {
+      status = carry_turn(fresh, ring, patch, touches, report);
+    }
   } else if (status == SB_ERROR_NOT_CONVERGED) {
     // Too far from the transferred state: follow the whole path again on the new mesh.
     SbRingLoad setting = ring->contact->is.now;

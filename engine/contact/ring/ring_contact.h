@@ -59,11 +59,12 @@ typedef struct {
   double *pressed;    // [2 count] the part of it from open sides
   double *fluid;      // [2 count] fluid force on the open sides' nodes
   double *weight;     // [count] current area of the boundary nodes
-  double *rubbed;     // [count] the part of it on closed sides
+  double *wet;        // [count / 2] the fluid's pressure on the sides, closed or not
   bool settled;       // the state stands still: its crests stay
   bool fixed;         // the held set and the slip states stay
   bool stuck;         // and every held node stays at its place
   bool passed;        // the state is one of a path: nodes that come and go stay held
+  double slid;        // how far sliding nodes may go back before they stick: what they came
   double slip_excess; // departure from Coulomb's law at nodes that could not settle
   double force_scale; // for tolerances
   double stress;      // unit of stress, Pa
@@ -110,7 +111,8 @@ SbRingLoad sb_ring_load_mirrored(const SbRingLoad *load);
 #define SB_RING_REACH 1.5
 SbRingLoad sb_ring_load_between(const SbRingLoad *a, const SbRingLoad *b, double t);
 
-// Adds the fluid to residual and tangent; renews `closed`, `weight`, `share`, `pressed`, `fluid`.
+// Adds the fluid to residual and tangent; renews `closed`, `wet`, `weight`, `share`, `pressed`,
+// `fluid`.
 void sb_ring_contact_load_fluid(SbRingContact *contact);
 
 // A pressure on one boundary side, that begins at an even boundary node: p = value + slope (z - z0)
@@ -129,9 +131,16 @@ void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressur
 void sb_ring_side_area_slope(const SbRingContact *contact, int side, int a, double slope[3][2]);
 
 // Friction force of the whole law of a surface at a boundary node (of Coulomb's with a coefficient
-// of 1) under a normal force, and its slope.
-double sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surface, double normal,
-                    double *slope);
+// of 1) under a normal force, of which the fluid has a part, and what it changes with both and with
+// the node's area.
+typedef struct {
+  double force, by_normal, by_area, by_fluid;
+} SbRingGrip;
+SbRingGrip sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surface, double normal,
+                        double fluid);
+
+// The fluid's force on a node along a normal, which its contact has to exceed.
+double sb_ring_fluid_at(const SbRingContact *contact, int i, const double n[2]);
 
 // Whether a node sticks by Coulomb friction of its own.
 bool sb_ring_contact_sticks(const SbRingContact *contact, int i, SbRingSurface surface);

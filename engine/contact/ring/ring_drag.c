@@ -9,10 +9,10 @@
 // their path in the plane of m and the section's turn (Riks 1979; Crisfield 1981, the constraint a
 // plane across the last secant), since the drag that a ring bears has a maximum: what resists the
 // turning is the hoop stress, by nearly the sine of the turn. Beyond it the section rolls on at a
-// falling drag. There is no maximum without that fall, to FALL of it; single nodes that stick or
-// let go make m waver by less. A ring whose load grows to JAM of the one without friction is
-// wedged: it jams. As the contact travels around the section the mesh is fitted anew at the same
-// turn.
+// falling drag. There is no maximum without that fall, to FALL of it and FALL_TURN beyond; single
+// nodes that stick or let go make m waver by less. A ring whose load grows to JAM of the one
+// without friction is wedged: it jams. As the contact travels around the section the mesh is fitted
+// anew at the same turn.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -24,12 +24,13 @@ static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 5e-4, SECANT = 0.02
 
 // Newton iterations of a quick and of a slow step, and of a whole path at most; meshes that are
 // tried at a place where no step succeeds, and by how much each is finer.
-enum { QUICK = 7, SLOW = 14, ITERATIONS_MOST = 900, MESHES = 3 };
+enum { QUICK = 7, SLOW = 14, ITERATIONS_MOST = 1500, MESHES = 3 };
 static const double FINER = 0.12;
 
-// Share of the greatest coefficient at which it counts as passed, turn beyond which no drag is
-// greater (rad), and load over that without friction at which the ring is wedged.
-static const double FALL = 0.97, OVER = 3.0, JAM = 10.0;
+// The greatest coefficient is passed where it has fallen to this share of it and the section turned
+// on by FALL_TURN, or over OVER in all (rad); a path that ends has met it if it has not risen by
+// more than that over FLAT_TURN. The load over that without friction at which the ring is wedged.
+static const double FALL = 0.97, FALL_TURN = 0.1, FLAT_TURN = 0.3, OVER = 3.0, JAM = 10.0;
 
 void sb_ring_rest_on_wall(SbRing *ring) {
   const SbRingContact *contact = ring->contact;
@@ -49,16 +50,18 @@ void sb_ring_rest_on_wall(SbRing *ring) {
 
 // What rubs on the bore; over it the drag, and the drag of the whole law.
 static double bore_load(const SbRingContact *contact, double *drag, double *whole) {
-  double sum = 0.0, along = 0.0, most = 0.0, slope;
+  double sum = 0.0, along = 0.0, most = 0.0;
   for (int i = 0; i < contact->count; i++) {
     const SbRingTouch *touch = sb_ring_touch(contact, i, SB_RING_BORE);
     if (touch->held) {
       SbRingFrame frame = sb_ring_frame_at(contact, i, SB_RING_BORE);
       const double *fluid = &contact->pressed[2 * i];
-      double force = touch->force + frame.n[0] * fluid[0] + frame.n[1] * fluid[1];
-      sum += force;
+      const double open = frame.n[0] * fluid[0] + frame.n[1] * fluid[1];
+      sum += touch->force + open;
       along += touch->tangent;
-      most += sb_ring_grip(contact, i, SB_RING_BORE, force, &slope);
+      most += sb_ring_grip(contact, i, SB_RING_BORE, touch->force + open,
+                           sb_ring_fluid_at(contact, i, frame.n) + open)
+                  .force;
     }
   }
   *drag = sum > 0.0 ? fabs(along) / sum : 0.0;
@@ -89,6 +92,14 @@ static SbStatus end_of_path(const SbRing *ring, SbReport *report) {
                  ring->contact->is.now.friction_bore, ring->contact->is.turn, reason.text);
 }
 
+// The path's greatest friction has been passed, or the ring is wedged.
+static SbStatus end_at_limit(SbRing *ring, SbRingState state, double share, double drag) {
+  ring->state = state;
+  ring->share_limit = share;
+  ring->drag_limit = drag;
+  return SB_OK;
+}
+
 // The next state of the path, at most the one at the wanted coefficient.
 static SbStatus next_state(SbRing *ring, const double direction[2], double length, double unit,
                            double aim, SbReport *report) {
@@ -107,7 +118,8 @@ static SbStatus next_state(SbRing *ring, const double direction[2], double lengt
 }
 
 static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
-  double length = ARC, direction[2] = {0.0, 1.0}, most = 0.0;
+  double length = ARC, direction[2] = {0.0, 1.0}, most = 0.0, most_turn = 0.0, level = 0.0,
+         level_turn = 0.0;
   double fitted = ring->contact->is.turn, drag = 0.0, limit = 0.0;
   double unit, now, still = bore_load(ring->contact, &drag, &unit);
   double anchor[2] = {fitted, unit * ring->contact->is.now.friction_bore};
@@ -126,6 +138,9 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
       if (length < ARC_LEAST) {
         // What stops at single nodes of one mesh goes on with another.
         refit = ++meshes <= MESHES && ring->count.iterations - first < ITERATIONS_MOST;
+        if (!refit && fabs(is->turn - level_turn) > FLAT_TURN) {
+          return end_at_limit(ring, SB_RING_ROLLS, most, limit);
+        }
         if (!refit) {
           return end_of_path(ring, report);
         }
@@ -137,16 +152,19 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
       double load = bore_load(ring->contact, &drag, &now);
       if (is->now.friction_bore > most) {
         most = is->now.friction_bore;
+        most_turn = is->turn;
         limit = drag;
         sb_ring_save(ring->contact, SB_RING_BEFORE);
         ring->best.here = true;
       }
-      bool rolls = is->now.friction_bore < FALL * most || fabs(is->turn) > OVER;
+      if (FALL * is->now.friction_bore > level) {
+        level = is->now.friction_bore;
+        level_turn = is->turn;
+      }
+      const bool past = fabs(is->turn - most_turn) > FALL_TURN;
+      bool rolls = (is->now.friction_bore < FALL * most && past) || fabs(is->turn) > OVER;
       if (rolls || load > JAM * still) {
-        ring->state = rolls ? SB_RING_ROLLS : SB_RING_JAMS;
-        ring->share_limit = most;
-        ring->drag_limit = limit;
-        return SB_OK;
+        return end_at_limit(ring, rolls ? SB_RING_ROLLS : SB_RING_JAMS, most, limit);
       }
       double way[2] = {is->turn - anchor[0], unit * is->now.friction_bore - anchor[1]};
       double norm = hypot(way[0], way[1]);

@@ -18,6 +18,10 @@ enum { REFINEMENTS = 3 };
 static const double SIZE = 0.03, RATIO = 0.6, SHARE = 0.6;
 static const double SIZE_LEAST = 0.008, SIZE_MOST = 0.05;
 
+// Of a dragged ring's load on the mesh of its path, whose elements are not the contact's
+// (measured).
+static const double UNFITTED = 0.03;
+
 // Floors at SIZE, per unit of size.
 static double load_floor(const SbRingBody *body, const SbRingLoad *load) {
   return 2e-4 + 2e-3 * fmax(load->pressure_left, load->pressure_right) / body->modulus;
@@ -77,6 +81,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
     return status;
   }
   status = sb_ring_refit(ring, size / RATIO, report);
+  const double unfitted = status != SB_OK && load->bore_slides != 0 ? UNFITTED : 0.0;
   SbRingResult coarse;
   sb_ring_result(ring, result);
   if (!result->touching) {
@@ -102,11 +107,13 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
     }
     if (status == SB_ERROR_NOT_CONVERGED) {
       // The finer mesh stumbled: the coarser solution stands, with what it is worth.
-      result->error.load = fmax(result->error.load, 4.0 * floor_load * size / SIZE);
+      result->error.load = fmax(unfitted, fmax(result->error.load, 4.0 * floor_load * size / SIZE));
       result->error.peak = fmax(result->error.peak, 4e-3 * size / SIZE);
       result->error.width = fmax(result->error.width, 6e-3 * size / SIZE);
       status = SB_OK;
     }
+    // What single nodes lack of Coulomb's law.
+    result->error.load = fmax(result->error.load, result->friction_excess / result->bore_force);
     if (status == SB_OK && result->error.load > wanted) {
       sb_warn(warnings, "ring-tolerance", "", "the ring's load is known to %.2g only, not to %.2g",
               result->error.load, wanted);

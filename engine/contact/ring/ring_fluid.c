@@ -159,6 +159,7 @@ void sb_ring_contact_load_fluid(SbRingContact *contact) {
         (middle > bore && middle < past) || (middle + count > bore && middle + count < past);
     SbRingSidePressure pressure = {.value = right ? contact->is.now.pressure_right
                                                   : contact->is.now.pressure_left};
+    contact->wet[side] = pressure.value;
     double force[3][2], k[3][2][3][2], area[3];
     int nodes[3];
     sb_ring_side_load(contact, side, pressure, force, k, area);
@@ -169,7 +170,6 @@ void sb_ring_contact_load_fluid(SbRingContact *contact) {
       int i = sb_ring_wrap(contact, 2 * side + a);
       contact->weight[i] += area[a];
       if (contact->closed[side]) {
-        contact->rubbed[i] += area[a];
         contact->share[2 * i] += force[a][0];
         contact->share[2 * i + 1] += force[a][1];
       } else if (pressure.value != 0.0) {

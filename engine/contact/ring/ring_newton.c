@@ -15,6 +15,10 @@ enum { SINGLE_AFTER = 14, RECENTRES_MAX = 6, MORE = 10 };
 
 static const double NEARLY = 1e-2;
 
+// A short step that is so far from its balance after so many iterations does not find it.
+enum { FAR_AFTER = 8 };
+static const double FAR = 1.0;
+
 // Another mesh's state has its nodes held where interpolation has put them for the first
 // iterations, and its contact fixed until the balance is so near, or so many iterations.
 enum { STUCK = 2, FIXED_MAX = 8 };
@@ -124,9 +128,10 @@ static SbStatus correct(SbRing *ring, double *change, SbReport *report) {
     const double *r = &fem->residual[2 * node], *normal = fem->condition[node].direction[0];
     if (touch->held && !touch->smooth && fem->condition[node].count == 1) {
       int row = fabs(normal[0]) >= fabs(normal[1]) ? 1 : 0;
-      double slope, force = normal[0] * r[0] + normal[1] * r[1];
+      const double force = normal[0] * r[0] + normal[1] * r[1];
+      const double fluid = sb_ring_fluid_at(contact, i, normal);
       fem->rhs[2 * node + row] =
-          contact->is.now.bore_slides * sb_ring_grip(contact, i, SB_RING_BORE, force, &slope);
+          contact->is.now.bore_slides * sb_ring_grip(contact, i, SB_RING_BORE, force, fluid).force;
     }
   }
   status = sb_ring_fem_apply_factor(fem, report);
@@ -196,7 +201,8 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
     last = residual;
     // A steady contact near its balance may take a little longer.
     bool near = changes == 0 && residual < NEARLY && it < iterations_max + MORE;
-    bool spent = it >= iterations_max && !near;
+    bool spent = (it >= iterations_max && !near) ||
+                 (path == SB_RING_DIRECT && it >= FAR_AFTER && residual > FAR);
     if (spent || stumbles > STUMBLES_MAX || repeats > REPEATS_MAX || !isfinite(residual)) {
       fail(contact, residual, changes, it, report);
       if (report != NULL) {

@@ -142,17 +142,16 @@ static void hold_law(SbRing *other, const SbRing *base) {
     const SbRingCondition *was = &base->fem->condition[node];
     SbRingCondition *is = &other->fem->condition[node];
     const SbRingTouch *touch = sb_ring_touch(base->contact, i, SB_RING_BORE);
-    const double *area[2] = {base->contact->rubbed[i] > 0.0 ? base->contact->rubbed
-                                                            : base->contact->weight,
-                             contact->rubbed[i] > 0.0 ? contact->rubbed : contact->weight};
+    const double *area[2] = {base->contact->weight, contact->weight};
     if (!touch->held || touch->smooth || was->count != 1 || share == 0.0 || !(area[0][i] > 0.0)) {
       continue;
     }
     const double *n = was->direction[0], *force = &base->fem->residual[2 * node];
     const double normal = (n[0] * force[0] + n[1] * force[1]) * area[1][i] / area[0][i];
-    double unused;
+    const double fluid = sb_ring_fluid_at(contact, i, n);
     is->mix = was->mix;
-    is->drive = share * sb_ring_grip(contact, i, SB_RING_BORE, normal, &unused) + is->mix * normal;
+    is->drive =
+        share * sb_ring_grip(contact, i, SB_RING_BORE, normal, fluid).force + is->mix * normal;
   }
 }
 
