@@ -138,7 +138,8 @@ static SbEhlCase between(const SbEhlCase *a, const SbEhlCase *b, double t) {
 // that serves is followed by a longer one.
 static SbStatus follow_path(SbFilmSolver *solver, const SbEhlCase *start, const SbEhlCase *target,
                             double step) {
-  static const double GROWTH = 1.8;
+  enum { EASY = 8 }; // Newton steps
+  static const double GROWTH = 1.8, QUICK = 4.0;
   const double least = 1e-3 * step;
   double done = 0.0;
   for (int i = 0; done < 1.0; i++) {
@@ -147,12 +148,14 @@ static SbStatus follow_path(SbFilmSolver *solver, const SbEhlCase *start, const 
     if (next.rough.rows && start->layers.lambda != target->layers.lambda) {
       sb_ehl_rough_flux(&next);
     }
+    const int before = solver->info->newton_iterations;
     SbStatus status = take(solver, &next);
     if (status == SB_ERROR_CANCELLED) {
       return status;
     }
     done = status == SB_OK ? t : done;
-    step *= status == SB_OK ? GROWTH : 0.4;
+    const bool easy = start->rough.rows && solver->info->newton_iterations - before <= EASY;
+    step *= status != SB_OK ? 0.4 : easy ? QUICK : GROWTH;
     const bool spent =
         !start->rough.rows && solver->info->continuation_steps > STARTS_MAX && done < 1.0;
     if (step < least || i > STEPS_MAX || spent) {
@@ -318,6 +321,8 @@ static SbStatus starve(SbFilmSolver *solver, double supply) {
   // So close to the flooded flux the meniscus is lost far away; the solve adds what it leaves to
   // its error.
   static const double NEARLY = 5e-5;
+  // Share of the flux taken first: more of it, and the meniscus is not found.
+  static const double FIRST = 1.002;
   SbEhlCase start = solver->now->c;
   if (!start.rough.rows) {
     double full = solver->now->state.flux;
@@ -329,7 +334,7 @@ static SbStatus starve(SbFilmSolver *solver, double supply) {
   end.layers.starvation = supply / start.supply;
   return supply >= (1.0 - NEARLY) * start.supply
              ? SB_OK
-             : follow_path(solver, &start, &end, log(1.3) / -log(end.layers.starvation));
+             : follow_path(solver, &start, &end, log(FIRST) / -log(end.layers.starvation));
 }
 
 SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply) {

@@ -418,9 +418,11 @@ static bool step_rough(Progress *p, SbEhlSolution *s) {
   p->factored = !cut && largest < REUSE_ROUGH * p->before && largest < CLOSE;
   p->before = largest;
   // A start that is none shows soon: a good one is below 1 after five steps. Only a meniscus takes
-  // its time to find its node.
-  bool hopeless = (p->iteration > 7 && largest > 3) || (p->iteration > 20 && largest > 0.1);
-  return !(c->layers.lambda > 0 && !isfinite(c->supply) && hopeless);
+  // its time to find its node, but never comes back from far off.
+  const bool hopeless = isfinite(c->supply) ? p->iteration > 2 && largest > 1e3
+                                            : (p->iteration > 7 && largest > 3) ||
+                                                  (p->iteration > 20 && largest > 0.1);
+  return !(c->layers.lambda > 0 && hopeless);
 }
 
 SbStatus sb_ehl_newton(SbEhlSolution *s) {

@@ -207,15 +207,17 @@ static void add_unknown(SbDynamics *s, size_t place, double size, double stiffne
 }
 
 // The unknowns of this segment; the rounding of acceleration [m/s2] and speed [m/s]: a very stiff
-// drive turns that of its own place into them, and less cannot be asked for.
+// drive or stop turns that of its own place into them, and less cannot be asked for.
 static void set_system(SbDynamics *s, const Point *p, double *noise, double *speed) {
   enum { X, V, EXTRA, D };
   const SbDynamicsModel *m = s->model;
   double square = p->sum.k / s->mass;
   *noise = 0.0;
-  if (square > stiff_square && s->wall[SB_DYNAMICS_PLATEN].on && !sb_motion_by_force(m)) {
-    const Moving at = sb_motion_drive_at(s, s->t);
-    *noise = DBL_EPSILON * (fabs(at.value) + fabs(at.rate * s->t)) * square;
+  for (size_t w = 0; w < SB_DYNAMICS_WALLS && square > stiff_square; w++) {
+    if (s->wall[w].on && p->wall[w].k > 0.0) {
+      const Moving at = sb_motion_wall_at(s, w, s->t);
+      *noise += DBL_EPSILON * (fabs(at.value) + fabs(at.rate * s->t)) * p->wall[w].k / s->mass;
+    }
   }
   *speed = *noise / sqrt(fmax(square, 1.0));
   s->system = (SbRadauSystem){.powers = SB_DYNAMICS_TERMS,

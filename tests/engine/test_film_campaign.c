@@ -27,12 +27,16 @@ static double decades(GRand *random, double low, double high) {
   return exp(between(random, log(low), log(high)));
 }
 
-static void complain(Tally *tally, const SbFilmProblem *p, const char *what, double value) {
-  tally->failed++;
+static void note(const SbFilmProblem *p, const char *what, double value) {
   g_test_message("%s %g: M %.17g, load %.17g speed %.17g radius %.17g modulus %.17g viscosity "
                  "%.17g left %.17g right %.17g inlet film %.17g",
                  what, value, film.moes_M, p->load, p->speed, p->radius, p->modulus, p->viscosity,
                  p->pressure_left, p->pressure_right, p->inlet_film);
+}
+
+static void complain(Tally *tally, const SbFilmProblem *p, const char *what, double value) {
+  tally->failed++;
+  note(p, what, value);
   g_test_fail();
 }
 
@@ -388,7 +392,9 @@ static void test_ends(void) {
       steps = MAX(steps, film.solver.continuation_steps);
       if (status != SB_OK && apart > NEARLY_OPEN) {
         lost++;
-        g_test_message("nearly open (%g): %s", apart, report.text);
+        g_test_message("nearly open (%g), kind %d, sigma %.17g product %.17g sigma/beta %.17g: %s",
+                       apart, kind, p.sigma, p.gt_product, p.sigma_over_beta, report.text);
+        note(&p, "steps", film.solver.continuation_steps);
       } else if (status != SB_OK || film.solver.continuation_steps > STEPS_MAX) {
         g_test_message("kind %d, sigma %.17g product %.17g sigma/beta %.17g: %s", kind, p.sigma,
                        p.gt_product, p.sigma_over_beta, report.text);
