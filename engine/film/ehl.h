@@ -275,8 +275,8 @@ void sb_ehl_results(SbEhlResults *out, const SbEhlSolution *s);
 void sb_ehl_change(double change[3], SbFilmSolver *solver, const SbEhlResults *fine,
                    const SbEhlResults *coarse, bool paired);
 
-// Film that carries the flux under the slope dP/dX, by fixed-point steps from `film`; its
-// Poiseuille part is small where this is used.
+// Film that carries the flux under the slope dP/dX, by Newton's method from `film`; where this is
+// used the pressure falls along the flow, or the Poiseuille part is small.
 double sb_ehl_flat_film(const SbEhlCase *c, double flux, double film, double pressure,
                         double slope);
 

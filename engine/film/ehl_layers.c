@@ -77,15 +77,26 @@ static double starved(const SbEhlLayers *l) {
   return pow(l->starvation, 1.5);
 }
 
+// Flux film over that which the outlet's own slope would carry, where end pressures that nearly
+// open the inlet make it several times that and the film breaks behind it; else 1.
+static double excess(const SbEhlLayers *l) {
+  static const double SEVERAL = 4.0;
+  const double flux = pow(outlet_slope(l) / sb_ehl_layers_inlet_slope(l), 0.8);
+  return l->end == SB_EHL_RUPTURE && !(l->starvation < 1.0) && flux > SEVERAL ? flux : 1.0;
+}
+
 double sb_ehl_layers_width(const SbEhlLayers *l) {
-  return pow(l->lambda, 0.4) * pow(sb_ehl_layers_inlet_slope(l), -1.2) * starved(l);
+  const double slope = pow(l->lambda, 0.4) * pow(sb_ehl_layers_inlet_slope(l), -1.2) * starved(l);
+  // Where end pressures leave hardly any slope the gap opens by its next term, 0.2 of it per width.
+  return excess(l) > 1.0 ? slope / hypot(1.0, slope / pow(pow(l->lambda, 0.4) * 6.9, 1.0 / 2.2))
+                         : slope;
 }
 
 // A flux below what the outlet's own slope would carry narrows its layer as starving does, to the
-// inlet's width.
+// inlet's width. One above widens it: film^4/3 ~ slope^-4/3 lambda flux.
 static double outlet_width(const SbEhlLayers *l) {
   return pow(l->lambda, 0.4) * pow(fmax(sb_ehl_layers_inlet_slope(l), outlet_slope(l)), -1.2) *
-         starved(l);
+         starved(l) * pow(excess(l), 0.25);
 }
 
 // Minimum film of the rigid wedge: h_min = 4.894968 R U / W.
@@ -112,8 +123,13 @@ double sb_ehl_layers_flux(const SbEhlLayers *l) {
 
 // Distance from the axis to the rupture, well enough to place the mesh.
 static double rupture_guess(const SbEhlLayers *l) {
-  double width = outlet_width(l);
+  double width = outlet_width(l), above = excess(l);
   double elastic = 1.0 + 0.16406 * width - 0.25 * fmin(width, 0.3) * width;
+  if (above > 1.0) {
+    // Some way to where the dry gap is as wide as the flux film, read off our own solutions.
+    double open = pow(sb_ehl_layers_flux(l) / (0.943 * outlet_slope(l)), 2.0 / 3.0);
+    elastic = 1.0 + (1.0 - 0.73 * pow(above, -0.36)) * open;
+  }
   if (sb_ehl_layers_width(l) <= THICK) {
     return elastic;
   }
@@ -251,14 +267,20 @@ static void thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   const int before = inner_steps(begin), inner = before + 1 + inner_steps(end);
   SbEhlMap map = sb_ehl_layers_width(l) > 0.25 ? SB_EHL_AFFINE : SB_EHL_COSINE;
   double theta = begin;
+  // A film that end pressures drive thins all along the contact.
+  const double most = excess(l) > 1.0 ? 0.4 : M_PI;
   for (int i = 1; i <= inner; i++) {
     double last = theta;
     theta = i <= before ? inner_step(begin, i, before)
                         : M_PI - inner_step(end, inner - i, inner - before - 1);
     // The widest element lies over the middle; more degrees keep the film between its points.
     int degree = l->degree + (theta - last > 0.8 ? 6 : 4);
-    sb_ehl_mesh_add(mesh, map, i == inner ? right[0] : -cos(theta),
-                    degree < SB_EHL_DEGREE_MAX ? degree : SB_EHL_DEGREE_MAX);
+    const int parts = (int)ceil((theta - last) / most);
+    for (int k = 1; k <= parts; k++) {
+      double to = last + (theta - last) * k / parts;
+      sb_ehl_mesh_add(mesh, map, i == inner && k == parts ? right[0] : -cos(to),
+                      degree < SB_EHL_DEGREE_MAX ? degree : SB_EHL_DEGREE_MAX);
+    }
   }
   for (int i = 1; i < rights; i++) {
     sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, right[i], l->degree);

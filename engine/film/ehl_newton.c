@@ -31,6 +31,9 @@
 
 enum { ITERATIONS_MAX = 24, ITERATIONS_MAX_ROUGH = 40 };
 
+// Those after which a residual that no longer falls is rounding.
+enum { STALLED = 10 };
+
 // A residual, or a step of rough rows, this much smaller than the last lets the next step take the
 // same factors: it then gains what the last one gained. A step of rough rows is to be CLOSE.
 static const double REUSE = 0.02;
@@ -198,7 +201,8 @@ static bool ready_smooth(Progress *p, SbEhlSolution *s) {
   static const double LEFT = 0.01;
   const double above = residual > 0.3 * p->before ? 10.0 : 1.0;
   bool done = !first && residual <= above * tolerance;
-  if (!done && p->iteration == ITERATIONS_MAX && p->moved <= LEFT * s->solver->problem->tolerance) {
+  const bool stalled = p->iteration >= STALLED && residual > 0.3 * p->before;
+  if (!done && stalled && p->moved <= LEFT * s->solver->problem->tolerance) {
     s->solver->info->residual = fmax(residual, p->moved);
     done = true;
   }

@@ -125,7 +125,9 @@ double sb_ehl_flat_film(const SbEhlCase *c, double flux, double film, double pre
     double m, by_film, by_pressure;
     double before = film;
     sb_film_mobility(&m, &by_film, &by_pressure, &c->fluid, film, pressure);
-    film = flux + film * film * film * m * slope / c->layers.lambda;
+    // Newton's method: end pressures may drive the flux more than the wall does.
+    const double driven = film * film * slope / c->layers.lambda;
+    film -= (film - flux - driven * film * m) / (1.0 - driven * (3.0 * m + film * by_film));
     if (film == before) {
       break;
     }

@@ -88,7 +88,7 @@ static void one(Tally *tally, const SbFilmProblem *p, bool thorough) {
     rounding *= 100.0; // a film of a hundredth
   }
   // Where rounding stops Newton's method early the error told holds what is left.
-  if (!(info->flux_error <= fmax(rounding, info->residual))) {
+  if (!(info->flux_error <= fmax(rounding, (1.0 + 1e-6) * info->residual))) {
     complain(tally, p, "flux error", info->flux_error);
   }
   if (!(info->load_error <= 1e-10)) {
@@ -307,11 +307,19 @@ static void test_pressed(void) {
   inlet.pressure_left = 3.06 * hertz_of(&inlet);
   sb_film_solver_forget(solver);
   g_assert_cmpint(sb_film_solve(&film, &inlet, solver, NULL), ==, SB_OK);
-  g_assert_cmpfloat(film.solver.flux_error, <=, film.solver.residual);
+  g_assert_cmpfloat(film.solver.flux_error, <=, (1.0 + 1e-6) * film.solver.residual); // the same
   g_assert_cmpfloat(film.solver.residual, <=, 0.01 * inlet.tolerance);
   g_assert_cmpfloat(film.solver.error_film_min, >=, film.solver.residual);
+  // It also drives the film, more than the wall does: its central film is read off all the same.
+  static const double driven[][2] = {{886.22, 2.90776}, {1939.47, 2.887}};
+  for (size_t i = 0; i < G_N_ELEMENTS(driven); i++) {
+    inlet = contact(driven[i][0], 1e-3);
+    inlet.pressure_left = driven[i][1] * hertz_of(&inlet);
+    one(&tally, &inlet, true);
+  }
   finish(&tally);
-  g_assert_cmpint(tally.solved, ==, (int)(G_N_ELEMENTS(M) * G_N_ELEMENTS(step)));
+  g_assert_cmpint(tally.solved, ==,
+                  (int)(G_N_ELEMENTS(M) * G_N_ELEMENTS(step) + G_N_ELEMENTS(driven)));
 }
 
 // Thick films between pools of the same pressure. Above 0.75 p_H the film is full everywhere: in
