@@ -88,7 +88,7 @@ typedef struct {
   SbLimits limits; // the scene's, its own in their place
   SbDesignWish design;
   GPtrArray *data; // of SbData
-  bool borrowed; // all but the lists is another study's
+  bool borrowed;   // all but the lists is another study's
 } SbStudyFile;
 
 // Reads a study ("-": standard input) and its scene, with KEY=VALUE settings upon that. NULL with

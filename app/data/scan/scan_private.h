@@ -24,7 +24,8 @@ gboolean sb_scan_fail(GError **error, const char *name, const char *format, ...)
 gboolean sb_scan_allocate(SbScan *out, guint64 columns, guint64 rows, const char *name,
                           GError **error);
 
-// Metres of a unit of length as files write it ("nm", "µm", "um", "mkm", "[nm]"); 0 for anything else.
+// Metres of a unit of length as files write it ("nm", "µm", "um", "mkm", "[nm]"); 0 for anything
+// else.
 double sb_scan_length(const char *unit);
 
 // Integers and floats as files have them. At least so many bytes must be left.
