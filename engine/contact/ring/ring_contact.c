@@ -37,9 +37,11 @@ static const double PULL = 1e-3;
 
 // Under fluid a node at the end of a contact would bear friction of the fluid's pressure at once
 // when it is caught, and could have no state: held it is pulled, let go it comes back. Its friction
-// sets in smoothly over the first excess of its force over the fluid's, by this share of that. The
-// drag then is the law's integral over the recovered pressure to 0.3 % (tests/engine).
-static const double WET = 0.15;
+// sets in smoothly over the first excess of its pressure over the fluid's, by this share of that,
+// or of WET_MOST shear moduli if those are less. The drag then is the law's integral over the
+// recovered pressure to 0.3 % (tests/engine); on a path, whose states lead to others only, to some
+// percent.
+static const double WET = 0.15, WET_MOST = 0.7;
 
 // Neighbours at the end of a contact can come and go in turn for ever: a node that was caught or
 // changed its slip so often in a solve changes further only where it is the worst of all.
@@ -124,12 +126,16 @@ SbRingGrip sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surfa
     grip.by_area = (grip.force - grip.by_normal * normal) / area;
   }
   if (surface == SB_RING_BORE && now->bore_slides != 0 && fluid > 0.0) {
-    const double share = fmax(0.0, (normal - fluid) / (WET * fluid));
+    const bool high = fluid > WET_MOST * area;
+    const double over = WET * (high ? WET_MOST * area : fluid);
+    const double share = fmax(0.0, (normal - fluid) / over);
     if (share < 1.0) {
       const double part = share * share * (3.0 - 2.0 * share);
-      const double rise = 6.0 * share * (1.0 - share) / (WET * fluid) * grip.force;
-      grip = (SbRingGrip){part * grip.force, part * grip.by_normal + rise, part * grip.by_area,
-                          -rise * normal / fluid};
+      const double rise = 6.0 * share * (1.0 - share) / over * grip.force;
+      grip.force *= part;
+      grip.by_normal = part * grip.by_normal + rise;
+      grip.by_area = part * grip.by_area - (high ? rise * (normal - fluid) / area : 0.0);
+      grip.by_fluid = -rise * (high ? 1.0 : normal / fluid);
     }
   }
   return grip;

@@ -63,7 +63,7 @@ typedef struct {
   bool settled;       // the state stands still: its crests stay
   bool fixed;         // the held set and the slip states stay
   bool stuck;         // and every held node stays at its place
-  bool passed;        // the state is one of a path: nodes that come and go stay held
+  bool passed;        // nodes that come and go stay held against a small pull
   double slid;        // how far sliding nodes may go back before they stick: what they came
   double slip_excess; // departure from Coulomb's law at nodes that could not settle
   double force_scale; // for tolerances

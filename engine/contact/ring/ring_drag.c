@@ -117,6 +117,20 @@ static SbStatus next_state(SbRing *ring, const double direction[2], double lengt
   return status;
 }
 
+// Solves a state of the path as any other, at the share `aim`. Where single nodes of its mesh have
+// none they are held against a small pull: a mesh that is fitted to the contact has one.
+static SbStatus settle_at(SbRing *ring, double aim, SbReport *report) {
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  sb_ring_save(ring->contact, SB_RING_START);
+  for (int i = 0; i < 2 && status == SB_ERROR_NOT_CONVERGED; i++) {
+    ring->passing = i == 1;
+    ring->contact->is.now.friction_bore = aim;
+    status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+  }
+  ring->passing = false;
+  return status;
+}
+
 static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   double length = ARC, direction[2] = {0.0, 1.0}, most = 0.0, most_turn = 0.0, level = 0.0,
          level_turn = 0.0;
@@ -184,10 +198,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   }
   // Another mesh at a held turn may have passed the coefficient.
   ring->arc.free = false;
-  ring->passing = false;
-  sb_ring_save(ring->contact, SB_RING_START);
-  ring->contact->is.now.friction_bore = aim;
-  return sb_ring_attempt(ring, SB_RING_DIRECT, report);
+  return settle_at(ring, aim, report);
 }
 
 // Solves the state of the greatest friction, at its turn, as strictly as any other; that of the

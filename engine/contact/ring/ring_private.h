@@ -50,7 +50,7 @@ struct SbRing {
   SbRingContact *contact;
   SbRingCount count;
   SbRingArc arc;
-  bool passing; // states lead to others only: they are solved less strictly
+  bool passing; // single nodes may have no state: they are held against a small pull
   SbRingBest best;
   SbRingState state;        // how the last step ended: rolls or jams, else slides
   double share_limit;       // greatest share of the bore's law in steady sliding, 0: not met
