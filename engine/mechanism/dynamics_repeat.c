@@ -32,8 +32,9 @@ static const double worth = 10.0;
 static const long patience = 100;
 
 // What the force that breaks the contacts away and the drive's speed may be off their parabolas in
-// a group, over themselves: so many times the tolerance of the numerical path.
-static const double group_bend = 10.0;
+// a group, over themselves: so many times the tolerance of the numerical path, and no more than
+// leaves the balance of energies closed.
+static const double group_bend = 10.0, group_bend_most = 5e-7;
 
 // What is ahead until something else happens.
 typedef struct {
@@ -279,7 +280,8 @@ static void pass_group(SbDynamics *s, const SbDynamicsBreak *was, int event) {
   for (size_t i = 0; i < s->model->contacts && !first; i++) {
     g->slower[i] = (s->broke.rest[i] - g->rested[i]) / (middle - g->middle[1]);
   }
-  const double bound = group_bend * (s->model->tolerance > 0.0 ? s->model->tolerance : 1e-9);
+  const double tolerance = s->model->tolerance > 0.0 ? s->model->tolerance : 1e-9;
+  const double bound = fmin(group_bend * tolerance, group_bend_most);
   const Ahead ahead = look_ahead(s, direction);
   double span = fmax(4.0 * g->span, 2.0 * worth * period);
   span = fmin(span, fmin(ahead.time, ahead.way / speed) - worth * period); // time to close it

@@ -106,6 +106,21 @@ static void test_hard(void) {
         {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
         {SB_P_FRICTION_STRIBECK_SPEED, 1.087e-3}},
        false},
+      // A thousand slips in groups, of which a coarse tolerance still closes the energies.
+      {"groups of slips to a tolerance of 8e-7",
+       {{SB_P_BORE_DIAMETER, 7.173e-3},
+        {SB_P_GLAND_RADIAL_SPACE, 1.094e-3},
+        {SB_P_STEM_MASS, 12.22e-3},
+        {SB_P_SEAL_OUTER_MODULUS, 1.73e6},
+        {SB_P_SEAL_INNER_MODULUS, 1.73e6},
+        {SB_P_CANISTER_PRESSURE, 0},
+        {SB_P_FRICTION_SHEAR_STRENGTH, 0.3631e6},
+        {SB_P_FRICTION_STATIC_RATIO, 1.9555},
+        {SB_P_FRICTION_STRIBECK_SPEED, 0.09011},
+        {SB_P_DRIVE_DAMPING_RATIO, 0.7015},
+        {SB_P_OUTPUT_MOTION_TOLERANCE, 7.887e-7},
+        {SB_P_MODELS_FIT, SB_FIT_LINDLEY}},
+       false},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     Setting setting[1 + SETTINGS] = {{SB_P_OUTPUT_FRAMES, 100}};
