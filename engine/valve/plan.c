@@ -288,11 +288,13 @@ static SbPlan basis(const SbModel *model, bool life) {
                   .reynolds = model->film == SB_FILM_REYNOLDS || coupled,
                   .life = life && model->life_actuations > 1,
                   .inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC,
-                  .frames = model->frames};
+                  .frames = model->frames,
+                  .frame_films = true};
 }
 
 void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size_t count) {
   *out = basis(model, true);
+  bool errors = false; // of films at the frames' speeds, too
   for (size_t i = 0; i < count; i++) {
     const SbFigure *figure = sb_figure(figures[i]);
     int seal = strncmp(figure->where, "inner seal", 10) == 0 ? SB_INNER : SB_OUTER;
@@ -301,6 +303,7 @@ void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size
         out->ring && figure->needs == SB_DEPTH_FITMENT ? SB_DEPTH_SLIDING : figure->needs;
     out->seal[seal] = needs > out->seal[seal] ? needs : out->seal[seal];
     out->film_laws = out->film_laws || strstr(figure->path, ".film_by_model.") != NULL;
+    errors = errors || strncmp(figure->path, "solver.", 7) == 0;
     if (strcmp(figure->path, "solver.error_estimate.film_history") == 0) {
       out->film_history = out->reynolds && model->film_history;
     }
@@ -312,6 +315,7 @@ void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size
   }
   if (!out->inertia && !out->film_history) {
     out->frames = 2; // they are looked at and nothing else; the least that there may be
+    out->frame_films = errors;
   }
   if (out->motion) {
     out->seal[SB_OUTER] = out->seal[SB_INNER] = SB_DEPTH_WHOLE;

@@ -42,11 +42,12 @@ typedef struct {
   bool bodies;         // the parts' accelerations and the joints' reactions are solved
   unsigned studies;    // bit mask, 1 << SbStudyKind: computed beside the cycle
   SbSealDepth seal[SB_SEAL_COUNT];
-  bool film_laws; // films by the laws that are not the model's own, too
-  bool motion;    // the cycle is run; needs both seals' whole depth
-  bool inertia;   // with it; else by the balance of forces at every instant
-  int frames;     // evenly spaced over the cycle
-  bool life;      // and the actuations after the first
+  bool film_laws;   // films by the laws that are not the model's own, too
+  bool motion;      // the cycle is run; needs both seals' whole depth
+  bool inertia;     // with it; else by the balance of forces at every instant
+  int frames;       // evenly spaced over the cycle
+  bool frame_films; // they show films at their own speeds, in whose errors these count
+  bool life;        // and the actuations after the first
 } SbPlan;
 
 // What somebody wants of a run beside its figures.

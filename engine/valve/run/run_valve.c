@@ -521,7 +521,8 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
   const bool mixed = model->pressure_map == SB_MAP_PORTS && at->chamber != SB_CHAMBER_OPEN;
   const double filled = filling(run, at->pressure), s = sample->position;
   // Where a quasi-static stem jumps its speed is not known.
-  const double speed = moving && sample->speed != 0 ? sample->speed : run->speed;
+  const bool own = moving && sample->speed != 0 && run->plan.frame_films;
+  const double speed = own ? sample->speed : run->speed;
   SbSealState state;
   SbLandShare on = sb_cycle_land_share(&run->cycle, seal, chamber, at->solved.land, s);
   if (mixed) {
