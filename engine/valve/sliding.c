@@ -37,6 +37,7 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
       sb_ring_destroy(memory->fitment[i].ring);
     }
     for (int i = 0; i < memory->kept_count; i++) {
+      sb_sliding_beside_destroy(memory->kept[i].beside);
       sb_ring_tangent_destroy(memory->kept[i].tangent);
       sb_ring_destroy(memory->kept[i].ring);
     }
@@ -67,9 +68,11 @@ void sb_sliding_memory_end(SbSlidingMemory *memory) {
   memory->keeps = false;
 }
 
-void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *from, bool tangent) {
+void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *from, bool tangent,
+                             bool drawn) {
   memory->from = from;
   memory->tangent = tangent;
+  memory->summed = tangent && !drawn;
 }
 
 void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data) {
@@ -178,6 +181,12 @@ SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
                              const SbFilmProblem *problem, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   bool solved = problem->model == SB_FILM_REYNOLDS;
+  out->speed = problem->speed;
+  out->fresh = true;
+  if (sb_sliding_film_summed(memory, out, problem->compliance != NULL)) {
+    sb_sliding_take_film(out, memory);
+    return sb_succeed(report);
+  }
   if (solved && memory->solver == NULL) {
     SbStatus status = sb_film_solver_create(&memory->solver, report);
     if (status != SB_OK) {
@@ -189,7 +198,6 @@ SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
   lent.cancelled = memory->cancelled;
   lent.cancelled_data = memory->cancelled_data;
   out->fitted = problem->compliance != NULL;
-  out->speed = problem->speed;
   return solve_supplied(task, out, &lent, report);
 }
 
@@ -209,8 +217,15 @@ static bool solve_fitted(const SbSlidingTask *task, SbSlidingSolved *out,
   SbReport report = {0};
   SbSlidingBody *body = &task->memory->body;
   SbFilmProblem problem = *plane;
-  SbStatus status = sb_sliding_surface(&body->compliance, &body->load, fit, task->model, task->seal,
-                                       task->pressure, task->warnings, &report);
+  SbStatus status = SB_OK;
+  if (sb_sliding_film_summed(task->memory, out, true)) {
+    *body = task->memory->sum.body;
+  } else if (sb_sliding_film_summed(task->memory, out, false)) {
+    return false;
+  } else {
+    status = sb_sliding_surface(&body->compliance, &body->load, fit, task->model, task->seal,
+                                task->pressure, task->warnings, &report);
+  }
   if (status == SB_OK) {
     lay_on(&problem, body);
     status = sb_sliding_solve_on(task, out, &problem, &report);
@@ -695,7 +710,7 @@ void sb_sliding_clear(SbSealState *out) {
 }
 
 // Fitment, film and friction; a ring dragged as given, else as it is known.
-SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
+SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
                                SbReport *report) {
   SbWarnings *warnings = task->warnings;
   int seal = task->seal;
@@ -739,6 +754,27 @@ SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *la
             "λ = %.2g at the %s seal: boundary regime, the film is thinner than the roughness",
             out->lambda, sb_seal_name(seal));
   }
+  return status;
+}
+
+SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
+                               SbReport *report) {
+  SbSlidingMemory *memory = task->memory;
+  const SbSlidingStart *start = memory->summed ? sb_sliding_start_of(task) : NULL;
+  if (start != NULL && start->ring != NULL) {
+    const bool known = law == NULL && sb_sliding_drags(task);
+    const SbSlidingLaw by = known         ? memory->fitment[task->speed > 0 ? 0 : 1].law
+                            : law != NULL ? *law
+                                          : (SbSlidingLaw){0};
+    SbStatus status = sb_sliding_sum(task, known || law != NULL ? &by : NULL, start->beside);
+    if (status != SB_OK) {
+      memory->sums = SB_SUM_NOTHING;
+      sb_sliding_clear(out);
+      return sb_fail(report, status, "no state of the %s seal", sb_seal_name(task->seal));
+    }
+  }
+  SbStatus status = sb_sliding_solve_once(task, law, out, report);
+  memory->sums = SB_SUM_NOTHING;
   return status;
 }
 

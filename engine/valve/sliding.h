@@ -62,8 +62,10 @@ void sb_sliding_memory_end(SbSlidingMemory *memory);
 // over modulus nearest to theirs; NULL: cold. What is solved then hangs on that memory and the task
 // alone. `tangent`: rings are not solved but taken from there to first order in all that is changed
 // (sb_ring_tangent_at()), with the friction that goes with them; what follows from them is solved.
-// SB_ERROR_NOT_CONVERGED where there is no such state.
-void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *from, bool tangent);
+// SB_ERROR_NOT_CONVERGED where there is no such state. Unless they are `drawn`, so are the films
+// near the first state that was asked for beside the kept one (sliding_beside.c).
+void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *from, bool tangent,
+                             bool drawn);
 
 // Polled while a fitment or a film is solved; true ends it with SB_ERROR_CANCELLED. NULL: nobody.
 void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data);

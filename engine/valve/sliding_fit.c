@@ -61,6 +61,7 @@ void sb_sliding_keep(SbSlidingMemory *memory, int way) {
                         fit->solver.error_estimate.contact_width, on->ring, NULL},
                        on->ring,
                        NULL,
+                       NULL,
                        way,
                        on->pressure / on->modulus,
                        on->law,
@@ -71,7 +72,10 @@ void sb_sliding_keep(SbSlidingMemory *memory, int way) {
     memory->kept_count++;
     return;
   }
-  if (sb_ring_tangent_create(&kept->tangent, on->ring, &kept->law, NULL) != SB_OK) {
+  kept->beside = sb_sliding_beside_create();
+  if (kept->beside == NULL ||
+      sb_ring_tangent_create(&kept->tangent, on->ring, &kept->law, NULL) != SB_OK) {
+    sb_sliding_beside_destroy(kept->beside);
     return;
   }
   memory->kept_count++;
@@ -83,8 +87,7 @@ static int way_of(const SbSlidingTask *task) {
   return !sb_sliding_drags(task) ? REST : task->speed > 0 ? IN : OUT;
 }
 
-// The kept state that a task's ring starts from; NULL: none.
-static const SbSlidingStart *start_of(const SbSlidingTask *task) {
+const SbSlidingStart *sb_sliding_start_of(const SbSlidingTask *task) {
   const SbSlidingMemory *from = task->memory->from;
   const double strain =
       (task->pressure.left - task->pressure.right) / task->model->seal[task->seal].modulus;
@@ -122,6 +125,11 @@ static void fit_problem(SbFitProblem *problem, const SbSlidingTask *task, SbSlid
   }
 }
 
+void sb_sliding_forget_fitment(const SbSlidingTask *task) {
+  task->memory->fitment[way_of(task)].known = false;
+  task->memory->rested = false;
+}
+
 // Fails for a ring that the base has not; nothing of another fitment is left.
 static SbStatus no_tangent(const SbSlidingTask *task, SbSlidingFitment *on, SbReport *report) {
   memset(&on->fit, 0, sizeof on->fit);
@@ -150,7 +158,7 @@ static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, Sb
   if (!known) {
     sb_sliding_keep(memory, way_of(task));
   }
-  const SbSlidingStart *start = start_of(task);
+  const SbSlidingStart *start = sb_sliding_start_of(task);
   SbFitProblem problem;
   fit_problem(&problem, task, now, law);
   SbFitStart from = start != NULL ? start->start : (SbFitStart){0};
@@ -160,6 +168,15 @@ static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, Sb
   if (memory->tangent && is_ring(task) && start == NULL) {
     now->known = false;
     return no_tangent(task, now, report);
+  }
+  now->pressure = pressure;
+  now->modulus = task->model->seal[task->seal].modulus;
+  now->seal = task->seal;
+  if (memory->sums != SB_SUM_NOTHING) {
+    now->fit = memory->sum.fit;
+    now->known = true;
+    (void)sb_succeed(&now->why);
+    return sb_succeed(report);
   }
   bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES && !memory->tangent;
   SbReport own = {0};
@@ -175,9 +192,6 @@ static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, Sb
   task->counts->ring_solves += problem.model == SB_FIT_RING;
   task->counts->newton_iterations += now->fit.solver.newton_iterations;
   now->known = status == SB_OK;
-  now->pressure = pressure;
-  now->modulus = task->model->seal[task->seal].modulus;
-  now->seal = task->seal;
   return status;
 }
 
@@ -354,7 +368,7 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
   SbSlidingMemory *memory = task->memory;
   SbSlidingFitment *on = &memory->fitment[task->speed > 0 ? IN : OUT];
   bool known = on->known && on->pressure == pressure && on->seal == task->seal;
-  const SbSlidingStart *start = start_of(task);
+  const SbSlidingStart *start = sb_sliding_start_of(task);
   if (memory->tangent && start != NULL && start->ring != NULL) {
     return drag_beside(task, on, start, known, out, report);
   }

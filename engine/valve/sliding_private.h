@@ -10,6 +10,7 @@ typedef struct {
   bool fitted;  // on the fitted body, not on the half-plane
   double speed; // [m/s]
   double share; // of it, at which it was solved
+  bool fresh;   // solved since that was last looked at
 } SbSlidingSolved;
 
 // A fitment with its ring, where it is one, for one way of sliding.
@@ -27,11 +28,32 @@ typedef struct {
   SbSlidingLaw found; // that of the film which then lies on it
 } SbSlidingFitment;
 
+// What the solvers have found for a state (sliding_beside.c).
+enum { SB_SLIDING_FILMS = 3 }; // on the half-plane, on the fitted body, at rest
+typedef struct {
+  SbFit fit;
+  SbSlidingBody body;
+  struct {
+    bool solved, fitted;
+    double share;
+    SbFilm film; // its profile is not kept
+  } on[SB_SLIDING_FILMS];
+} SbSlidingSolution;
+
+// States beside that of a kept ring, as sums; several threads may ask at the same time.
+typedef struct SbSlidingBeside SbSlidingBeside;
+SbSlidingBeside *sb_sliding_beside_create(void);         // NULL: no memory
+void sb_sliding_beside_destroy(SbSlidingBeside *beside); // takes NULL
+
+// What of a state is a sum, not solved.
+typedef enum { SB_SUM_NOTHING, SB_SUM_FITMENT, SB_SUM_ALL } SbSumDepth;
+
 // A ring's state that others start from (SbSlidingMemory.kept).
 typedef struct {
   SbFitStart start;
   SbRing *ring;            // owned, that of `start`
   SbRingTangent *tangent;  // owned, its
+  SbSlidingBeside *beside; // owned, states beside it
   int way;                 // of sliding: index of SbSlidingMemory.fitment
   double strain;           // pressure difference over modulus
   SbSlidingLaw law, found; // that drags it, and that of its film
@@ -45,6 +67,9 @@ struct SbSlidingMemory {
   int kept_count;
   const struct SbSlidingMemory *from; // whose states rings start from, borrowed; NULL: cold
   bool tangent;                       // they are taken from there to first order
+  bool summed;                        // the films with them
+  SbSumDepth sums;                    // of the state in work, what is not solved
+  SbSlidingSolution sum;              // but this
 
   // By way of sliding where friction drags the seal, else at rest.
   SbSlidingFitment fitment[SB_RUN_MOTIONS];
@@ -76,7 +101,26 @@ bool sb_sliding_usable(SbStatus status);
 SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *law,
                                 SbSealState *out, bool *known, SbReport *report);
 
-// Fitment, film and friction; a ring dragged by `law`, NULL: as it is known.
+// Finds what of a task is a sum beside a kept state, and the sum, in memory->sums and memory->sum.
+// SB_ERROR_CANCELLED, SB_ERROR_MEMORY.
+SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
+                        SbSlidingBeside *beside);
+
+// Whether a film, on the fitted body or not, is in the sum; takes it from there.
+bool sb_sliding_film_summed(const SbSlidingMemory *memory, const SbSlidingSolved *which,
+                            bool fitted);
+void sb_sliding_take_film(SbSlidingSolved *out, SbSlidingMemory *memory);
+
+// The kept state that a task's ring starts from; NULL: none.
+const SbSlidingStart *sb_sliding_start_of(const SbSlidingTask *task);
+
+// The next evaluation of a task finds no fitment in its memory.
+void sb_sliding_forget_fitment(const SbSlidingTask *task);
+
+// Fitment, film and friction of a task whose sums are set; a ring dragged by `law`, NULL: as it is
+// known. And the same of any task.
+SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
+                               SbReport *report);
 SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
                                SbReport *report);
 

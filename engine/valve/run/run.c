@@ -104,7 +104,8 @@ void sb_run_end_rings(SbRun *run) {
 static void start_from(SbRun *run, const SbRun *base, bool tangent) {
   run->predicted = tangent && base != NULL;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    sb_sliding_memory_start(run->memory[i], base != NULL ? base->memory[i] : NULL, tangent);
+    sb_sliding_memory_start(run->memory[i], base != NULL ? base->memory[i] : NULL, tangent,
+                            run->plan.profiles || run->plan.section_fields);
   }
 }
 

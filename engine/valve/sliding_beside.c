@@ -1,0 +1,480 @@
+// States beside those of a kept ring as sums: what the solvers of fitment, surface and film make of
+// a state is a smooth function of the few numbers that they are given of it, however many
+// parameters these come from.
+//
+//   E(z) = E(z0) + sum_i (z_i - z0_i) dE/dz_i
+//
+// z0 is where the state was first asked for, dE/dz_i a central difference found when z_i first
+// differs, and kept: a parameter that enters no solver costs none, and parameters that enter by the
+// same numbers share these solves. Everything else (rough contact, friction, its agreement with the
+// law that drags the ring, the motion) is computed at each question as ever. Where the slopes to
+// both sides disagree (a kink, another order of a curve, another level of the film), or an option
+// comes from nothing, the state is solved as asked.
+#include "engine/valve/sliding_private.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+// What the solvers are given: of the fitment, then of the films alone.
+enum {
+  SECTION,
+  INNER,
+  MODULUS,
+  POISSON,
+  MOONEY,
+  SPACE,
+  BORE,
+  WIDTH,
+  FLOOR,
+  WALL,
+  DIFFERENCE, // of the pressures
+  COEFFICIENT,
+  SHEAR,
+  TOLERANCE,
+  SPEED,
+  FILMS = SPEED,
+  LEVEL, // of the pressures: the right one
+  RADIUS,
+  REDUCED,
+  VISCOSITY,
+  LAYER,
+  BARUS,
+  EYRING,
+  RUPTURE,
+  PRODUCT, // of coupled asperities
+  ROUGH = PRODUCT,
+  SIGMA,
+  BLUNTNESS,
+  HAMAKER,
+  ADHESION,
+  STRENGTH,
+  LOAD,
+  INPUTS
+};
+
+// A part of a number by which it is moved, the smaller where slopes to both sides disagree; and
+// beyond which a sum is none. Ends of contacts go through the mesh: sizes show its bends soon.
+static const double STEP = 1e-5, FINER = 2e-6, FAR = 2e-3, SIZES = 0.15;
+
+// Slopes to both sides that differ by more than this share are no slope; but for what rounding
+// leaves in a value, relative.
+static const double BENT = 2e-2, ROUNDING = 1e-10, FILM_ROUNDING = 1e-9;
+
+static double *input(int i, SbModel *model, SbSlidingTask *task, SbSlidingLaw *law) {
+  SbSealModel *seal = &model->seal[task->seal];
+  double *const place[INPUTS] = {[SECTION] = &seal->section_diameter,
+                                 [INNER] = &seal->inner_diameter,
+                                 [MODULUS] = &seal->modulus,
+                                 [POISSON] = &seal->poisson_ratio,
+                                 [MOONEY] = &seal->mooney_share,
+                                 [SPACE] = &model->radial_space,
+                                 [BORE] = &model->bore_diameter,
+                                 [WIDTH] = &model->axial_width,
+                                 [FLOOR] = &model->floor_friction,
+                                 [WALL] = &model->wall_friction,
+                                 [DIFFERENCE] = &task->pressure.left,
+                                 [COEFFICIENT] = &law->coefficient,
+                                 [SHEAR] = &law->shear,
+                                 [TOLERANCE] = &model->tolerance,
+                                 [SPEED] = &task->speed,
+                                 [LEVEL] = &task->pressure.right,
+                                 [RADIUS] = &seal->radius,
+                                 [REDUCED] = &seal->reduced_modulus,
+                                 [VISCOSITY] = &model->viscosity,
+                                 [LAYER] = &task->supply.layer,
+                                 [BARUS] = &model->pressure_viscosity,
+                                 [EYRING] = &model->eyring_stress,
+                                 [RUPTURE] = &model->rupture_pressure,
+                                 [PRODUCT] = &model->gt_product,
+                                 [SIGMA] = &model->sigma,
+                                 [BLUNTNESS] = &model->sigma_over_beta,
+                                 [HAMAKER] = &model->hamaker,
+                                 [ADHESION] = &model->work_of_adhesion,
+                                 [STRENGTH] = &model->shear_strength,
+                                 [LOAD] = &model->load_coefficient};
+  return place[i];
+}
+
+// Numbers that go with 0 as smoothly as elsewhere, upwards; others are options that are off.
+static double step_of(int i, double at, double part) {
+  static const double unit[INPUTS] = {
+      [MOONEY] = 1, [FLOOR] = 1, [WALL] = 1, [COEFFICIENT] = 1, [BARUS] = 1e-6};
+  const bool size = i == SECTION || i == INNER || i == SPACE || i == BORE || i == WIDTH;
+  // A nearly incompressible rubber's hangs on what it lacks of 1/2.
+  return part * (i == POISSON ? 5 * (0.5 - at) : at != 0 ? fabs(at) * (size ? SIZES : 1) : unit[i]);
+}
+
+// ---- What the solvers make of them
+
+static SbSlidingSolved *slot(SbSlidingMemory *memory, int i) {
+  SbSlidingSolved *const slots[SB_SLIDING_FILMS] = {&memory->plane, &memory->fitted, &memory->rest};
+  return slots[i];
+}
+
+// Runs of doubles in a solution.
+#define RUN(from, to) offsetof(SbSlidingSolution, from), offsetof(SbSlidingSolution, to)
+#define FILM_RUNS(i)                                                                               \
+  {RUN(on[i].film.film_min, on[i].film.ruptured)}, {                                               \
+    RUN(on[i].film.hertz_half_width, on[i].film.regime)                                            \
+  }
+static const struct {
+  size_t from, to;
+} runs[] = {{RUN(fit.squeeze, fit.touches)},
+            {RUN(fit.ring.floor_load, fit.ring.drag_limit)},
+            {RUN(fit.ring.turn, fit.ring.state)},
+            {RUN(fit.profile_x, fit.surface)},
+            {RUN(fit.surface.left, body)},
+            {RUN(body.load, body.compliance.modes)},
+            {RUN(body.compliance.left, on)},
+            FILM_RUNS(0),
+            FILM_RUNS(1),
+            FILM_RUNS(2)};
+#undef FILM_RUNS
+#undef RUN
+
+// Adds a multiple of one solution's numbers to another's.
+static void add(SbSlidingSolution *out, double by, const SbSlidingSolution *from) {
+  for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
+    double *a = (double *)(void *)((char *)out + runs[k].from);
+    const double *b = (const double *)(const void *)((const char *)from + runs[k].from);
+    for (size_t i = 0; i < (runs[k].to - runs[k].from) / sizeof(double); i++) {
+      a[i] += by * b[i];
+    }
+  }
+}
+
+static void take(SbSlidingSolution *out, SbSlidingMemory *memory) {
+  out->fit = memory->now->fit;
+  out->body = memory->body;
+  for (int i = 0; i < SB_SLIDING_FILMS; i++) {
+    const SbSlidingSolved *from = slot(memory, i);
+    out->on[i].solved = from->fresh;
+    out->on[i].fitted = from->fitted;
+    out->on[i].share = from->share;
+    out->on[i].film = from->film;
+  }
+}
+
+// Whether a state was solved in the same way as another, so that both may be parts of a sum.
+static bool alike(const SbSlidingSolution *a, const SbSlidingSolution *b) {
+  bool same = a->fit.profile_count == b->fit.profile_count && a->fit.touches == b->fit.touches &&
+              a->fit.ring.state == b->fit.ring.state &&
+              a->fit.surface.modes == b->fit.surface.modes &&
+              a->body.compliance.modes == b->body.compliance.modes;
+  for (int i = 0; i < SB_SLIDING_FILMS; i++) {
+    same = same && a->on[i].solved == b->on[i].solved && a->on[i].fitted == b->on[i].fitted &&
+           a->on[i].film.ruptured == b->on[i].film.ruptured &&
+           a->on[i].film.starved == b->on[i].film.starved;
+  }
+  return same;
+}
+
+// What of a task's choices enters a solver.
+enum { CHOICES = 8 };
+static void choose(int out[CHOICES], const SbSlidingTask *task) {
+  const SbModel *model = task->model;
+  const int choice[CHOICES] = {(int)model->fit,
+                               (int)model->film,
+                               (int)model->asperities,
+                               (int)model->surface,
+                               model->start_at_wall,
+                               task->supply.limited,
+                               task->seal,
+                               (task->speed > 0) - (task->speed < 0)};
+  memcpy(out, choice, sizeof choice);
+}
+
+// The slope of a state to one of its numbers, and a state that sums start from.
+typedef struct {
+  bool bent;       // there is none
+  double fault[2]; // of the ring's active set over the number, upwards and downwards
+  SbSlidingSolution slope;
+} Column;
+
+typedef struct Anchor {
+  struct Anchor *next;
+  int choice[CHOICES];
+  double z[INPUTS];
+  SbSlidingSolution is;
+  Column *column[INPUTS]; // NULL: not yet asked for
+} Anchor;
+
+struct SbSlidingBeside {
+  pthread_mutex_t lock; // of the lists; what is in them stands
+  Anchor *first;
+};
+
+SbSlidingBeside *sb_sliding_beside_create(void) {
+  SbSlidingBeside *beside = calloc(1, sizeof *beside);
+  if (beside != NULL && pthread_mutex_init(&beside->lock, NULL) != 0) {
+    free(beside);
+    beside = NULL;
+  }
+  return beside;
+}
+
+void sb_sliding_beside_destroy(SbSlidingBeside *beside) {
+  if (beside == NULL) {
+    return;
+  }
+  for (Anchor *next, *at = beside->first; at != NULL; at = next) {
+    next = at->next;
+    for (int i = 0; i < INPUTS; i++) {
+      free(at->column[i]);
+    }
+    free(at);
+  }
+  pthread_mutex_destroy(&beside->lock);
+  free(beside);
+}
+
+// ---- Solving
+
+// The state of a task whose numbers are z, as it is solved; by an anchor's fitment where one is
+// given. Leaves its traces in the task's memory.
+static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, const SbSlidingLaw *law,
+                         const double *z, const Anchor *on) {
+  SbSlidingMemory *memory = task->memory;
+  SbModel *model = malloc(sizeof *model);
+  if (model == NULL) {
+    return SB_ERROR_MEMORY;
+  }
+  *model = *task->model;
+  SbSlidingTask other = *task;
+  SbSlidingLaw by = law != NULL ? *law : (SbSlidingLaw){0};
+  other.model = model;
+  other.warnings = NULL;
+  for (int i = 0; i < INPUTS; i++) {
+    *input(i, model, &other, &by) = z[i];
+  }
+  other.pressure.left += other.pressure.right;
+  for (int i = 0; i < SB_SLIDING_FILMS; i++) {
+    slot(memory, i)->fresh = false;
+  }
+  if (on != NULL) {
+    memory->sum = on->is;
+  }
+  memory->sums = on != NULL ? SB_SUM_FITMENT : SB_SUM_NOTHING;
+  sb_sliding_forget_fitment(&other);
+  SbSealState state;
+  SbStatus status = sb_sliding_solve_once(&other, law != NULL ? &by : NULL, &state, NULL);
+  take(out, memory);
+  free(model);
+  return status;
+}
+
+// Whether a number bends: its values at the ends and in the middle of equal steps.
+static bool bends(const double *a, const double *middle, const double *b, double rounding) {
+  const double most = fmax(fabs(*a - *middle), fabs(*b - *middle));
+  return !(fabs(*a - 2 * *middle + *b) <= BENT * most + rounding * fabs(*middle));
+}
+
+static bool any_bends(const SbSlidingSolution *a, const SbSlidingSolution *middle,
+                      const SbSlidingSolution *b) {
+#define BENDS(member, rounding) bends(&a->member, &middle->member, &b->member, rounding)
+  bool any = BENDS(fit.load, ROUNDING) || BENDS(fit.contact_width, ROUNDING) ||
+             BENDS(fit.pressure_peak, ROUNDING);
+  for (int i = 0; i < SB_SLIDING_FILMS && !any; i++) {
+    any = middle->on[i].solved &&
+          (BENDS(on[i].film.film_central, FILM_ROUNDING) ||
+           BENDS(on[i].film.film_min, FILM_ROUNDING) || BENDS(on[i].film.real_area, FILM_ROUNDING));
+  }
+#undef BENDS
+  return any;
+}
+
+// Finds a slope by steps of a part of the number. False: there is none, or *status.
+static bool find_slope(Column *out, SbSlidingSolution end[2], const SbSlidingTask *task,
+                       const SbSlidingLaw *law, const Anchor *anchor, int i, double part,
+                       SbStatus *status) {
+  const double at = anchor->z[i], h = step_of(i, at, part);
+  const double place[2] = {h, at != 0 ? -h : h / 2}; // upwards only from 0
+  double z[INPUTS];
+  memcpy(z, anchor->z, sizeof z);
+  for (int k = 0; k < 2; k++) {
+    z[i] = at + place[k];
+    *status = solve_at(&end[k], task, law, z, i >= FILMS ? anchor : NULL);
+    if (*status != SB_OK || !alike(&end[k], &anchor->is)) {
+      return false;
+    }
+  }
+  const SbSlidingSolution *is = &anchor->is;
+  if (at != 0 ? any_bends(&end[0], is, &end[1]) : any_bends(&end[0], &end[1], is)) {
+    return false;
+  }
+  memset(&out->slope, 0, sizeof out->slope);
+  if (at != 0) {
+    add(&out->slope, 1 / (2 * h), &end[0]);
+    add(&out->slope, -1 / (2 * h), &end[1]);
+  } else { // (4 f(h/2) - f(h) - 3 f(0))/h
+    add(&out->slope, 4 / h, &end[1]);
+    add(&out->slope, -1 / h, &end[0]);
+    add(&out->slope, -3 / h, is);
+  }
+  for (int k = 0; k < 2; k++) {
+    const double fault = fmax(end[k].fit.ring.fault - is->fit.ring.fault, 0);
+    out->fault[k] = (fault + ROUNDING) / fabs(place[k]);
+  }
+  return true;
+}
+
+// The column of a number, found if it is not known; NULL: *status.
+static const Column *column_of(SbSlidingBeside *beside, Anchor *anchor, int i,
+                               const SbSlidingTask *task, const SbSlidingLaw *law,
+                               SbStatus *status) {
+  pthread_mutex_lock(&beside->lock);
+  Column *known = anchor->column[i];
+  pthread_mutex_unlock(&beside->lock);
+  *status = SB_OK;
+  if (known != NULL) {
+    return known;
+  }
+  Column *column = calloc(1, sizeof *column);
+  SbSlidingSolution *end = calloc(2, sizeof *end);
+  if (column == NULL || end == NULL) {
+    free(column);
+    free(end);
+    *status = SB_ERROR_MEMORY;
+    return NULL;
+  }
+  column->bent = !find_slope(column, end, task, law, anchor, i, STEP, status);
+  if (column->bent && (*status == SB_OK || *status == SB_ERROR_NOT_CONVERGED)) {
+    column->bent = !find_slope(column, end, task, law, anchor, i, FINER, status);
+  }
+  free(end);
+  if (*status == SB_ERROR_CANCELLED || *status == SB_ERROR_MEMORY) {
+    free(column);
+    return NULL;
+  }
+  *status = SB_OK;
+  pthread_mutex_lock(&beside->lock);
+  if (anchor->column[i] != NULL) { // somebody else was as quick
+    free(column);
+  } else {
+    anchor->column[i] = column;
+  }
+  column = anchor->column[i];
+  pthread_mutex_unlock(&beside->lock);
+  return column;
+}
+
+// ---- A state
+
+// Whether a number is near enough to an anchor's; an option that is off has no nearness of its own.
+static bool is_near(const Anchor *anchor, int i, double z) {
+  const double at = anchor->z[i];
+  return z == at || fabs(z - at) <= step_of(i, at, FAR) || (i >= FILMS && !(step_of(i, at, 1) > 0));
+}
+
+// The anchor of a task, made of the task itself where there is none near; NULL: *status, or there
+// are too many.
+static Anchor *anchor_of(SbSlidingBeside *beside, const SbSlidingTask *task,
+                         const SbSlidingLaw *law, const double *z, int inputs, SbStatus *status) {
+  enum { ANCHORS = 8 };
+  int count = 0, choice[CHOICES];
+  choose(choice, task);
+  pthread_mutex_lock(&beside->lock);
+  Anchor *found = NULL;
+  for (Anchor *at = beside->first; at != NULL && found == NULL; at = at->next) {
+    bool near = memcmp(at->choice, choice, sizeof choice) == 0;
+    for (int i = 0; i < inputs && near; i++) {
+      near = is_near(at, i, z[i]);
+    }
+    found = near ? at : NULL;
+    count++;
+  }
+  pthread_mutex_unlock(&beside->lock);
+  *status = SB_OK;
+  if (found != NULL || count >= ANCHORS) {
+    return found;
+  }
+  Anchor *made = calloc(1, sizeof *made);
+  if (made == NULL) {
+    *status = SB_ERROR_MEMORY;
+    return NULL;
+  }
+  memcpy(made->choice, choice, sizeof choice);
+  memcpy(made->z, z, sizeof made->z);
+  *status = solve_at(&made->is, task, law, z, NULL);
+  if (*status != SB_OK) {
+    free(made);
+    return NULL;
+  }
+  pthread_mutex_lock(&beside->lock);
+  made->next = beside->first;
+  beside->first = made;
+  pthread_mutex_unlock(&beside->lock);
+  return made;
+}
+
+SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
+                        SbSlidingBeside *beside) {
+  SbSlidingMemory *memory = task->memory;
+  const bool coupled = task->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const int inputs = coupled ? INPUTS : ROUGH;
+  SbSlidingTask read = *task;
+  SbSlidingLaw by = law != NULL ? *law : (SbSlidingLaw){0};
+  double z[INPUTS];
+  for (int i = 0; i < INPUTS; i++) {
+    z[i] = *input(i, (SbModel *)task->model, &read, &by);
+  }
+  z[DIFFERENCE] -= z[LEVEL];
+  SbStatus status;
+  Anchor *anchor = anchor_of(beside, task, law, z, inputs, &status);
+  SbSumDepth depth = anchor != NULL ? SB_SUM_ALL : SB_SUM_NOTHING;
+  SbSlidingSolution *sum = depth == SB_SUM_ALL ? malloc(sizeof *sum) : NULL;
+  if (sum != NULL) {
+    *sum = anchor->is;
+  } else {
+    depth = SB_SUM_NOTHING;
+  }
+  for (int i = 0; i < inputs && depth != SB_SUM_NOTHING; i++) {
+    const double by_this = z[i] - anchor->z[i];
+    if (by_this == 0) {
+      continue;
+    }
+    const bool off = !(step_of(i, anchor->z[i], 1) > 0);
+    const Column *column = off ? NULL : column_of(beside, anchor, i, task, law, &status);
+    if (column == NULL || column->bent) {
+      depth = i < FILMS || status != SB_OK ? SB_SUM_NOTHING : SB_SUM_FITMENT;
+      continue;
+    }
+    add(sum, by_this, &column->slope);
+    sum->fit.ring.fault += fabs(by_this) * column->fault[by_this < 0];
+  }
+  if (sum != NULL) {
+    memory->sum = *sum;
+  }
+  free(sum);
+  memory->sums = depth;
+  if (depth != SB_SUM_NOTHING) {
+    sb_sliding_forget_fitment(task);
+  }
+  const bool fatal = status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY;
+  return fatal ? status : SB_OK;
+}
+
+void sb_sliding_take_film(SbSlidingSolved *out, SbSlidingMemory *memory) {
+  for (int i = 0; i < SB_SLIDING_FILMS; i++) {
+    if (slot(memory, i) == out) {
+      out->film = memory->sum.on[i].film;
+      out->fitted = memory->sum.on[i].fitted;
+      out->share = memory->sum.on[i].share;
+    }
+  }
+}
+
+bool sb_sliding_film_summed(const SbSlidingMemory *memory, const SbSlidingSolved *which,
+                            bool fitted) {
+  const SbSlidingSolved *const slots[SB_SLIDING_FILMS] = {&memory->plane, &memory->fitted,
+                                                          &memory->rest};
+  bool is = false;
+  for (int i = 0; i < SB_SLIDING_FILMS; i++) {
+    is =
+        is || (slots[i] == which && memory->sum.on[i].solved && memory->sum.on[i].fitted == fitted);
+  }
+  return is && memory->sums == SB_SUM_ALL;
+}
