@@ -7,7 +7,8 @@
 // z0 is where the state was first asked for, dE/dz_i a central difference found when z_i first
 // differs, and kept: a parameter that enters no solver costs none, and parameters that enter by the
 // same numbers share these solves. Everything else (rough contact, friction, its agreement with the
-// law that drags the ring, the motion) is computed at each question as ever. Where the slopes to
+// law that drags the ring, the motion) is computed at each question as ever. The tolerance is none
+// of them: meshes and levels stand as long as the base's do. Where the slopes to
 // both sides disagree (a kink, another order of a curve, another level of the film), or an option
 // comes from nothing, the state is solved as asked.
 #include "engine/valve/sliding_private.h"
@@ -33,7 +34,6 @@ enum {
   DIFFERENCE, // of the pressures
   COEFFICIENT,
   SHEAR,
-  TOLERANCE,
   SPEED,
   FILMS = SPEED,
   LEVEL, // of the pressures: the right one
@@ -78,7 +78,6 @@ static double *input(int i, SbModel *model, SbSlidingTask *task, SbSlidingLaw *l
                                  [DIFFERENCE] = &task->pressure.left,
                                  [COEFFICIENT] = &law->coefficient,
                                  [SHEAR] = &law->shear,
-                                 [TOLERANCE] = &model->tolerance,
                                  [SPEED] = &task->speed,
                                  [LEVEL] = &task->pressure.right,
                                  [RADIUS] = &seal->radius,

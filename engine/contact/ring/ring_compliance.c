@@ -280,7 +280,9 @@ static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
       down += counts ? plane[i] * plane[i] : 0.0;
     }
   }
-  sb_ring_contact_settle(ring->contact);
+  if (!ring->first_order) { // whose forces are the linear model's
+    sb_ring_contact_settle(ring->contact);
+  }
   if (status != SB_OK) {
     return status;
   }

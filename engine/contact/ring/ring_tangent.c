@@ -213,6 +213,7 @@ SbStatus sb_ring_tangent_at(SbRing **out, SbRingTangent *tangent, const SbRingBo
     return status;
   }
   memcpy(other->held, tangent->base->held, sizeof other->held);
+  other->first_order = true;
   move(other, tangent->base->fem);
   other->fault = fmax(0.0, sb_ring_contact_fault(other->contact) - tangent->base->fault);
   *out = other;
