@@ -162,6 +162,13 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   }
 }
 
+static void give_errors(SbFilm *out, const SbFilmSolver *solver, bool converged) {
+  out->solver.error_film_min = solver->error[0];
+  out->solver.error_film_central = solver->error[1];
+  out->solver.error_film_flux = solver->error[2];
+  out->solver.converged = converged;
+}
+
 // Climbs the levels from a cold start. *levels is 0 when nothing was found.
 static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
                       const SbEhlCase *cold, double supply) {
@@ -341,6 +348,18 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
 
   SbEhlResults results[LEVELS];
   int levels = 1;
+  if (problem->beside) {
+    solver->tolerance = RESIDUAL;
+    status = solver->base.solved ? sb_ehl_beside(solver, &c) : SB_ERROR_NOT_CONVERGED;
+    if (status != SB_OK) {
+      return sb_fail(report, status, "film: none beside the last one");
+    }
+    sb_ehl_results(results, solver->now);
+    fill(out, problem, scale, &solver->now->c, results);
+    give_errors(out, solver, true);
+    return sb_succeed(report);
+  }
+  solver->base.solved = solver->base.ready = false;
   bool warm = solver->last.ready && solver->last.tolerance <= problem->tolerance &&
               !isfinite(supply) && !rough;
   solver->last.ready = false;
@@ -378,10 +397,8 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
   const SbEhlSolution *found = solver->now;
   fill(out, problem, scale, &found->c, &results[levels - 1]);
   info->unknowns = (size_t)found->mesh.dofs + (rough ? 2 : 3);
-  info->error_film_min = solver->error[0];
-  info->error_film_central = solver->error[1];
-  info->error_film_flux = solver->error[2];
-  info->converged = worst(solver) <= problem->tolerance && !(rough && status != SB_OK);
+  give_errors(out, solver, worst(solver) <= problem->tolerance && !(rough && status != SB_OK));
+  solver->base.solved = info->converged;
   if (info->converged) {
     solver->last.ready = !rough;
     solver->last.tolerance = problem->tolerance;

@@ -186,6 +186,15 @@ struct SbFilmSolver {
 
   double error[3]; // of the last solution, relative: minimum, centre, flux
 
+  // The last solution as the base of others on its mesh, if it converged (ehl_beside.c).
+  struct {
+    bool solved, ready; // ready: with its factors in `factors`, and its kernel
+    bool in_use;        // a step changes neither of them
+    SbEhlCase c;
+    SbEhlState state;
+    double gap_known[SB_EHL_TARGETS_MAX], load_known;
+  } base;
+
   // The last solution serves for warm starts if it is ready.
   struct {
     bool ready;
@@ -193,7 +202,7 @@ struct SbFilmSolver {
   } last;
 };
 
-// Readies the memory of a solver.
+// Readies the memory of a solver, which is zero.
 void sb_ehl_init(SbFilmSolver *solver);
 
 // The solution that is not the last one.
@@ -244,6 +253,13 @@ double sb_ehl_layers_reform(const SbEhlLayers *layers);
 
 // Newton's method; state.gap is a guess of its own.
 SbStatus sb_ehl_newton(SbEhlSolution *s);
+
+// The factors of a solution's equations in its state, in the solver.
+SbStatus sb_ehl_factor(SbEhlSolution *s);
+
+// A case next to the base's, on its mesh and by its factors, as the solver's last solution; the
+// base stays. SB_ERROR_NOT_CONVERGED where it is too far or of another kind.
+SbStatus sb_ehl_beside(SbFilmSolver *solver, const SbEhlCase *c);
 
 // Where Newton's method of smooth rows ends: what the solver asks for, but no residual is smaller
 // than the rounding of deflections of size one against the film. A fitted body's have more terms.

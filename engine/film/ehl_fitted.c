@@ -99,7 +99,7 @@ static void add_element(double *state, double *state_slope, const SbEhlSolution 
       pressure += weight[j] * s->state.nodal[e->first_dof + j];
     }
     for (int k = 0; k < c->modes; k++) {
-      for (int j = 0; j <= e->degree; j++) {
+      for (int j = 0; j <= e->degree && !s->solver->base.in_use; j++) {
         s->solver->fitted.moment[k][e->first_dof + j] += weight[j] * value[k];
       }
       state[k] += pressure * value[k];
@@ -143,7 +143,10 @@ void sb_ehl_fitted(const SbEhlSolution *s) {
   // p_H b over the film's scale.
   const double factor = 0.25 * c->modulus;
   SbFilmSolver *solver = s->solver;
-  memset(solver->fitted.moment, 0, sizeof solver->fitted.moment);
+  const bool stands = solver->base.in_use; // the kernel of a base does
+  if (!stands) {
+    memset(solver->fitted.moment, 0, sizeof solver->fitted.moment);
+  }
   double state[MODES] = {0};
   double state_slope[MODES] = {0};
   for (int i = 0; i < mesh->count; i++) {
@@ -156,10 +159,12 @@ void sb_ehl_fitted(const SbEhlSolution *s) {
   // thin films. Of the basis, of the pressure, of its derivative.
   double of_state[MODES] = {0};
   double of_slope[MODES] = {0};
-  memset(solver->fitted.smooth[0], 0, sizeof solver->fitted.smooth[0]);
-  cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, mesh->dofs, modes, factor,
-              &c->smooth[1][0], MODES, &solver->fitted.moment[0][0], SB_EHL_DOFS_MAX, 0.0,
-              &solver->fitted.smooth[1][0], SB_EHL_DOFS_MAX);
+  if (!stands) {
+    memset(solver->fitted.smooth[0], 0, sizeof solver->fitted.smooth[0]);
+    cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, mesh->dofs, modes, factor,
+                &c->smooth[1][0], MODES, &solver->fitted.moment[0][0], SB_EHL_DOFS_MAX, 0.0,
+                &solver->fitted.smooth[1][0], SB_EHL_DOFS_MAX);
+  }
   cblas_dgemv(CblasRowMajor, CblasNoTrans, modes - 1, modes, factor, c->smooth[1], MODES, state, 1,
               0.0, of_state + 1, 1);
   cblas_dgemv(CblasRowMajor, CblasNoTrans, modes - 1, modes, factor, c->smooth[1], MODES,
@@ -180,6 +185,9 @@ void sb_ehl_fitted(const SbEhlSolution *s) {
     }
     solver->gaps[i] = s->state.H0 + sum + mesh->gap_known[i] + tilt * mesh->x[i];
     solver->by_shift[i] = sum_slope;
+  }
+  if (stands) {
+    return;
   }
   memcpy(solver->kernel, mesh->gap, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof(double));
   cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, mesh->targets, mesh->dofs, modes, 1.0,

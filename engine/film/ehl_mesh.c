@@ -10,6 +10,7 @@
 
 #include "engine/numeric/legendre.h"
 
+#include <cblas.h>
 #include <gsl/gsl_sf_legendre.h>
 #include <math.h>
 #include <string.h>
@@ -304,6 +305,10 @@ bool sb_ehl_mesh_build(SbEhlMesh *mesh, bool nodal) {
   for (int i = 0; i < mesh->targets; i++) {
     mesh->gap_known[i] = sb_ehl_ambient_gap(mesh->x[i], mesh->left_end, mesh->right_end,
                                             mesh->inlet_pressure, mesh->outlet_pressure);
+    mesh->gap_by_end[0][i] =
+        sb_ehl_ambient_gap(mesh->x[i], mesh->left_end, mesh->right_end, 1.0, 0.0);
+    mesh->gap_by_end[1][i] =
+        sb_ehl_ambient_gap(mesh->x[i], mesh->left_end, mesh->right_end, 0.0, 1.0);
   }
   for (int k = 0; k < mesh->count; k++) {
     const SbEhlElement *e = &mesh->element[k];
@@ -315,19 +320,40 @@ bool sb_ehl_mesh_build(SbEhlMesh *mesh, bool nodal) {
         gap[j] -= INVERSE_PI * row[j];
       }
       mesh->gap_known[i] += INVERSE_PI * e->far_pressure * row[sb_ehl_touching(e)];
+      if (e->side != 0) {
+        mesh->gap_by_end[e->side > 0][i] += INVERSE_PI * row[sb_ehl_touching(e)];
+      }
     }
   }
 
   memset(mesh->load, 0, (size_t)mesh->dofs * sizeof(double));
-  mesh->load_known = 0.0;
+  mesh->load_known = mesh->load_by_end[0] = mesh->load_by_end[1] = 0.0;
   for (int k = 0; k < mesh->count; k++) {
     const SbEhlElement *e = &mesh->element[k];
     for (int j = 0; j <= e->degree; j++) {
       mesh->load[e->first_dof + j] += e->integral[j];
     }
     mesh->load_known -= e->far_pressure * e->integral[sb_ehl_touching(e)];
+    if (e->side != 0) {
+      mesh->load_by_end[e->side > 0] -= e->integral[sb_ehl_touching(e)];
+    }
   }
   return true;
+}
+
+void sb_ehl_mesh_ends(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure) {
+  const double more[2] = {inlet_pressure - mesh->inlet_pressure,
+                          outlet_pressure - mesh->outlet_pressure};
+  for (int end = 0; end < 2; end++) {
+    cblas_daxpy(mesh->targets, more[end], mesh->gap_by_end[end], 1, mesh->gap_known, 1);
+    mesh->load_known += more[end] * mesh->load_by_end[end];
+  }
+  mesh->inlet_pressure = inlet_pressure;
+  mesh->outlet_pressure = outlet_pressure;
+  for (int i = 0; i < mesh->count; i++) {
+    SbEhlElement *e = &mesh->element[i];
+    e->far_pressure = e->side < 0 ? inlet_pressure : e->side > 0 ? outlet_pressure : 0.0;
+  }
 }
 
 double sb_ehl_sum(double *slope, const SbEhlLocal *local, const SbEhlElement *e,

@@ -108,6 +108,8 @@ typedef struct {
   // [targets][dofs] -(1/pi) integral of basis ln|X - X'|, and the gap of the known pressure, of the
   // far pressures and their tilt.
   double gap[SB_EHL_TARGETS_MAX * SB_EHL_DOFS_MAX], gap_known[SB_EHL_TARGETS_MAX];
+  // Of the known parts, what a unit of the pressure beyond either end adds.
+  double gap_by_end[2][SB_EHL_TARGETS_MAX], load_by_end[2];
   double weight[SB_EHL_DOFS_MAX];           // [rows] quadrature weights dX
   SbEhlLocal local[SB_EHL_DOFS_MAX];        // [rows]
   double load[SB_EHL_DOFS_MAX], load_known; // integrals of the basis and of the known pressure
@@ -135,6 +137,9 @@ double sb_ehl_ambient_gap(double X, double left, double right, double inlet, dou
 // Numbers the unknowns and builds every operator, unless the elements did not fit: then false;
 // `nodal`: with the nodes for targets, on affine elements without cavities.
 SB_CHECKED bool sb_ehl_mesh_build(SbEhlMesh *mesh, bool nodal);
+
+// Gives a mesh that is built other pressures beyond its ends.
+void sb_ehl_mesh_ends(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure);
 
 // Place of node k of an element, of one at infinity a place far away; and the nodal value that
 // gives the pressure there.

@@ -40,7 +40,6 @@ static const double REUSE = 0.02;
 static const double REUSE_ROUGH = 0.1, CLOSE = 0.03;
 
 void sb_ehl_init(SbFilmSolver *solver) {
-  memset(solver, 0, sizeof *solver);
   sb_ehl_tables_init(&solver->tables);
   for (int i = 0; i < 2; i++) {
     solver->solution[i].solver = solver;
@@ -99,6 +98,9 @@ static void add_gap_step(double *change, const SbEhlSolution *s) {
 // Adds to a row of the matrix `by` times the derivatives of the gap at a target.
 static void add_gap(double *row, const SbEhlSolution *s, int target, double by) {
   const SbFilmSolver *solver = s->solver;
+  if (solver->base.in_use) { // by the factors at hand
+    return;
+  }
   const int dofs = s->mesh.dofs;
   cblas_daxpy(dofs, by, solver->by_nodal + (size_t)target * (size_t)dofs, 1, row, 1);
   row[dofs] += by;
@@ -434,15 +436,21 @@ SbStatus sb_ehl_newton(SbEhlSolution *s) {
   const bool rough = s->c.rough.rows;
   const int order = order_of(s), most = rough ? ITERATIONS_MAX_ROUGH : ITERATIONS_MAX;
   const size_t size = (size_t)order * (size_t)order * sizeof(double);
-  Progress p = {.before = INFINITY, .moved = INFINITY};
+  const bool given = solver->base.in_use;
+  Progress p = {.before = INFINITY, .moved = INFINITY, .factored = given};
   for (; p.iteration <= most; p.iteration++) {
     if (sb_ehl_cancelled(solver)) {
       return SB_ERROR_CANCELLED;
     }
     deflect(s);
-    memset(solver->matrix, 0, size);
+    if (!given || rough) {
+      memset(solver->matrix, 0, size);
+    }
     if ((rough ? ready_rough : ready_smooth)(&p, s)) {
       return SB_OK;
+    }
+    if (!p.factored && given) {
+      return SB_ERROR_NOT_CONVERGED;
     }
     if (!p.factored) {
       memcpy(solver->factors, solver->matrix, size);
@@ -457,4 +465,22 @@ SbStatus sb_ehl_newton(SbEhlSolution *s) {
     }
   }
   return SB_ERROR_NOT_CONVERGED;
+}
+
+SbStatus sb_ehl_factor(SbEhlSolution *s) {
+  SbFilmSolver *solver = s->solver;
+  const int order = order_of(s);
+  const size_t size = (size_t)order * (size_t)order * sizeof(double);
+  deflect(s);
+  memset(solver->matrix, 0, size);
+  if (s->c.rough.rows) {
+    localise(s);
+    assemble_rough(s);
+  } else {
+    (void)assemble_smooth(s);
+  }
+  memcpy(solver->factors, solver->matrix, size);
+  return sb_factor_solve(solver->factors, solver->pivot, solver->right, order, true)
+             ? SB_OK
+             : SB_ERROR_NOT_CONVERGED;
 }

@@ -93,6 +93,10 @@ typedef struct {
   const double *dry_pressure; // [Pa]
   size_t dry_count;
 
+  // Next to the solver's last problem that did not say so and converged: on its mesh, by its
+  // factors. SB_ERROR_NOT_CONVERGED where that does not serve.
+  bool beside;
+
   SbFilmProfile *profile; // lent to the result for its profile; NULL: none is made
   size_t profile_points; // of the coupled solver's profile, about; 0: as many as serve its accuracy
 

@@ -102,8 +102,8 @@ const SbSlidingBody *sb_sliding_body(const SbSlidingMemory *memory) {
 
 // One solve of a film, counted.
 static SbStatus solve_once(const SbSlidingTask *task, SbFilm *film, const SbFilmProblem *problem,
-                           SbReport *report) {
-  SbStatus status = sb_film_solve(film, problem, task->memory->solver, report);
+                           SbFilmSolver *solver, SbReport *report) {
+  SbStatus status = sb_film_solve(film, problem, solver, report);
   if (problem->model == SB_FILM_REYNOLDS) {
     task->counts->reynolds_solves++;
     task->counts->newton_iterations += (size_t)film->solver.newton_iterations;
@@ -138,23 +138,23 @@ static double starved_speed(SbFilm *film, const SbFilmProblem *problem) {
 // solver fails there. How far it then is from twice the layer is added to its error; the
 // constriction at the outlet goes on towards that as well, but slowly: it is half way.
 static SbStatus solve_supplied(const SbSlidingTask *task, SbSlidingSolved *out,
-                               SbFilmProblem *problem, SbReport *report) {
+                               SbFilmProblem *problem, SbFilmSolver *solver, SbReport *report) {
   static const double STEP = 1.0 / 3, LEAST = 1e-3;
   SbFilm *film = &out->film;
   const double speed = problem->speed, first = fmin(starved_speed(film, problem) / fabs(speed), 1);
   double share = first;
   problem->speed = share * speed;
-  SbStatus status = solve_once(task, film, problem, report);
+  SbStatus status = solve_once(task, film, problem, solver, report);
   if (status == SB_OK && share < 1 && !film->starved) { // the law is far off
     share = 1;
     problem->speed = speed;
-    status = solve_once(task, film, problem, report);
+    status = solve_once(task, film, problem, solver, report);
   }
   while (status == SB_ERROR_NOT_CONVERGED && problem->inlet_film > 0 && share > LEAST * first) {
     SbReport own = {0};
     share *= STEP;
     problem->speed = share * speed;
-    status = solve_once(task, film, problem, &own);
+    status = solve_once(task, film, problem, solver, &own);
     status = status == SB_OK && !film->starved ? SB_ERROR_NOT_CONVERGED : status;
   }
   problem->speed = speed;
@@ -187,8 +187,9 @@ SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
     sb_sliding_take_film(out, memory);
     return sb_succeed(report);
   }
-  if (solved && memory->solver == NULL) {
-    SbStatus status = sb_film_solver_create(&memory->solver, report);
+  SbFilmSolver **solver = out->own != NULL && !out->beside ? out->own : &memory->solver;
+  if (solved && *solver == NULL) {
+    SbStatus status = sb_film_solver_create(solver, report);
     if (status != SB_OK) {
       return status;
     }
@@ -198,7 +199,19 @@ SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
   lent.cancelled = memory->cancelled;
   lent.cancelled_data = memory->cancelled_data;
   out->fitted = problem->compliance != NULL;
-  return solve_supplied(task, out, &lent, report);
+  // What adhesion closes, or a supply starves, takes several solves.
+  const bool plain = !(lent.hamaker > 0 || lent.work_of_adhesion > 0 || lent.inlet_film > 0);
+  if (solved && plain && out->beside && *out->own != NULL) {
+    SbFilmProblem beside = lent;
+    beside.beside = true;
+    beside.profile = NULL;
+    SbStatus status = solve_once(task, &out->film, &beside, *out->own, report);
+    if (status != SB_ERROR_NOT_CONVERGED) {
+      out->share = 1;
+      return status;
+    }
+  }
+  return solve_supplied(task, out, &lent, *solver, report);
 }
 
 static void lay_on(SbFilmProblem *problem, const SbSlidingBody *body) {
@@ -768,13 +781,13 @@ SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *la
                                           : (SbSlidingLaw){0};
     SbStatus status = sb_sliding_sum(task, known || law != NULL ? &by : NULL, start->beside);
     if (status != SB_OK) {
-      memory->sums = SB_SUM_NOTHING;
+      sb_sliding_sum_end(memory);
       sb_sliding_clear(out);
       return sb_fail(report, status, "no state of the %s seal", sb_seal_name(task->seal));
     }
   }
   SbStatus status = sb_sliding_solve_once(task, law, out, report);
-  memory->sums = SB_SUM_NOTHING;
+  sb_sliding_sum_end(memory);
   return status;
 }
 

@@ -198,21 +198,37 @@ typedef struct Anchor {
   int choice[CHOICES];
   double z[INPUTS];
   SbSlidingSolution is;
-  Column *column[INPUTS]; // NULL: not yet asked for
+  SbFilmSolver *solver[SB_SLIDING_FILMS]; // with its films
+  Column *column[INPUTS];                 // NULL: not yet asked for
 } Anchor;
 
 struct SbSlidingBeside {
-  pthread_mutex_t lock; // of the lists; what is in them stands
+  pthread_mutex_t lock; // of the lists, and one of the solvers; all else stands
+  pthread_mutex_t films;
   Anchor *first;
 };
 
 SbSlidingBeside *sb_sliding_beside_create(void) {
   SbSlidingBeside *beside = calloc(1, sizeof *beside);
-  if (beside != NULL && pthread_mutex_init(&beside->lock, NULL) != 0) {
-    free(beside);
-    beside = NULL;
+  const bool made = beside != NULL && pthread_mutex_init(&beside->lock, NULL) == 0;
+  if (made && pthread_mutex_init(&beside->films, NULL) == 0) {
+    return beside;
   }
-  return beside;
+  if (made) {
+    pthread_mutex_destroy(&beside->lock);
+  }
+  free(beside);
+  return NULL;
+}
+
+static void free_anchor(Anchor *anchor) {
+  for (int i = 0; i < INPUTS; i++) {
+    free(anchor->column[i]);
+  }
+  for (int i = 0; i < SB_SLIDING_FILMS; i++) {
+    sb_film_solver_destroy(anchor->solver[i]);
+  }
+  free(anchor);
 }
 
 void sb_sliding_beside_destroy(SbSlidingBeside *beside) {
@@ -221,22 +237,45 @@ void sb_sliding_beside_destroy(SbSlidingBeside *beside) {
   }
   for (Anchor *next, *at = beside->first; at != NULL; at = next) {
     next = at->next;
-    for (int i = 0; i < INPUTS; i++) {
-      free(at->column[i]);
-    }
-    free(at);
+    free_anchor(at);
   }
   pthread_mutex_destroy(&beside->lock);
+  pthread_mutex_destroy(&beside->films);
   free(beside);
 }
 
 // ---- Solving
 
-// The state of a task whose numbers are z, as it is solved; by an anchor's fitment where one is
-// given. Leaves its traces in the task's memory.
+// Lets the films of a memory use an anchor's solvers: to leave their solutions there, or, `beside`,
+// next to these.
+static void lend(SbSlidingMemory *memory, SbSlidingBeside *beside, Anchor *anchor, bool next) {
+  pthread_mutex_lock(&beside->films);
+  memory->lender = beside;
+  for (int i = 0; i < SB_SLIDING_FILMS; i++) {
+    slot(memory, i)->own = &anchor->solver[i];
+    slot(memory, i)->beside = next;
+  }
+}
+
+void sb_sliding_sum_end(SbSlidingMemory *memory) {
+  memory->sums = SB_SUM_NOTHING;
+  for (int i = 0; i < SB_SLIDING_FILMS; i++) {
+    slot(memory, i)->own = NULL;
+    slot(memory, i)->beside = false;
+  }
+  if (memory->lender != NULL) {
+    pthread_mutex_unlock(&memory->lender->films);
+    memory->lender = NULL;
+  }
+}
+
+// The state of a task whose numbers are z, as it is solved beside an anchor, by the anchor's
+// fitment if only films differ; or, of an anchor that is `made`, its own. Leaves its traces in the
+// task's memory.
 static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, const SbSlidingLaw *law,
-                         const double *z, const Anchor *on) {
+                         const double *z, SbSlidingBeside *beside, Anchor *anchor, bool films) {
   SbSlidingMemory *memory = task->memory;
+  const bool made = out == &anchor->is;
   SbModel *model = malloc(sizeof *model);
   if (model == NULL) {
     return SB_ERROR_MEMORY;
@@ -253,13 +292,15 @@ static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, cons
   for (int i = 0; i < SB_SLIDING_FILMS; i++) {
     slot(memory, i)->fresh = false;
   }
-  if (on != NULL) {
-    memory->sum = on->is;
+  if (films) {
+    memory->sum = anchor->is;
   }
-  memory->sums = on != NULL ? SB_SUM_FITMENT : SB_SUM_NOTHING;
+  memory->sums = films ? SB_SUM_FITMENT : SB_SUM_NOTHING;
+  lend(memory, beside, anchor, !made);
   sb_sliding_forget_fitment(&other);
   SbSealState state;
   SbStatus status = sb_sliding_solve_once(&other, law != NULL ? &by : NULL, &state, NULL);
+  sb_sliding_sum_end(memory);
   take(out, memory);
   free(model);
   return status;
@@ -287,15 +328,15 @@ static bool any_bends(const SbSlidingSolution *a, const SbSlidingSolution *middl
 
 // Finds a slope by steps of a part of the number. False: there is none, or *status.
 static bool find_slope(Column *out, SbSlidingSolution end[2], const SbSlidingTask *task,
-                       const SbSlidingLaw *law, const Anchor *anchor, int i, double part,
-                       SbStatus *status) {
+                       const SbSlidingLaw *law, SbSlidingBeside *beside, Anchor *anchor, int i,
+                       double part, SbStatus *status) {
   const double at = anchor->z[i], h = step_of(i, at, part);
   const double place[2] = {h, at != 0 ? -h : h / 2}; // upwards only from 0
   double z[INPUTS];
   memcpy(z, anchor->z, sizeof z);
   for (int k = 0; k < 2; k++) {
     z[i] = at + place[k];
-    *status = solve_at(&end[k], task, law, z, i >= FILMS ? anchor : NULL);
+    *status = solve_at(&end[k], task, law, z, beside, anchor, i >= FILMS);
     if (*status != SB_OK || !alike(&end[k], &anchor->is)) {
       return false;
     }
@@ -339,9 +380,9 @@ static const Column *column_of(SbSlidingBeside *beside, Anchor *anchor, int i,
     *status = SB_ERROR_MEMORY;
     return NULL;
   }
-  column->bent = !find_slope(column, end, task, law, anchor, i, STEP, status);
+  column->bent = !find_slope(column, end, task, law, beside, anchor, i, STEP, status);
   if (column->bent && (*status == SB_OK || *status == SB_ERROR_NOT_CONVERGED)) {
-    column->bent = !find_slope(column, end, task, law, anchor, i, FINER, status);
+    column->bent = !find_slope(column, end, task, law, beside, anchor, i, FINER, status);
   }
   free(end);
   if (*status == SB_ERROR_CANCELLED || *status == SB_ERROR_MEMORY) {
@@ -397,9 +438,9 @@ static Anchor *anchor_of(SbSlidingBeside *beside, const SbSlidingTask *task,
   }
   memcpy(made->choice, choice, sizeof choice);
   memcpy(made->z, z, sizeof made->z);
-  *status = solve_at(&made->is, task, law, z, NULL);
+  *status = solve_at(&made->is, task, law, z, beside, made, false);
   if (*status != SB_OK) {
-    free(made);
+    free_anchor(made);
     return NULL;
   }
   pthread_mutex_lock(&beside->lock);
@@ -448,6 +489,9 @@ SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
     memory->sum = *sum;
   }
   free(sum);
+  if (depth == SB_SUM_FITMENT) {
+    lend(memory, beside, anchor, true);
+  }
   memory->sums = depth;
   if (depth != SB_SUM_NOTHING) {
     sb_sliding_forget_fitment(task);

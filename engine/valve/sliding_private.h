@@ -7,10 +7,12 @@
 typedef struct {
   SbFilm film;
   SbFilmProfile profile;
-  bool fitted;  // on the fitted body, not on the half-plane
-  double speed; // [m/s]
-  double share; // of it, at which it was solved
-  bool fresh;   // solved since that was last looked at
+  bool fitted;        // on the fitted body, not on the half-plane
+  double speed;       // [m/s]
+  double share;       // of it, at which it was solved
+  bool fresh;         // solved since that was last looked at
+  SbFilmSolver **own; // borrowed, its solver; NULL: the memory's
+  bool beside;        // next to that one's solution, where that serves
 } SbSlidingSolved;
 
 // A fitment with its ring, where it is one, for one way of sliding.
@@ -70,6 +72,7 @@ struct SbSlidingMemory {
   bool summed;                        // the films with them
   SbSumDepth sums;                    // of the state in work, what is not solved
   SbSlidingSolution sum;              // but this
+  SbSlidingBeside *lender;            // whose solvers its films use, NULL: nobody's
 
   // By way of sliding where friction drags the seal, else at rest.
   SbSlidingFitment fitment[SB_RUN_MOTIONS];
@@ -105,6 +108,7 @@ SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *l
 // SB_ERROR_CANCELLED, SB_ERROR_MEMORY.
 SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
                         SbSlidingBeside *beside);
+void sb_sliding_sum_end(SbSlidingMemory *memory); // after that state
 
 // Whether a film, on the fitted body or not, is in the sum; takes it from there.
 bool sb_sliding_film_summed(const SbSlidingMemory *memory, const SbSlidingSolved *which,
