@@ -48,6 +48,11 @@ void sb_ehl_init(SbFilmSolver *solver) {
   solver->now = &solver->solution[0];
 }
 
+// With a base's factors any descent will do.
+static double reuse(const SbEhlSolution *s, double gain) {
+  return s->solver->base.in_use ? 0.5 : gain;
+}
+
 // How the iteration goes.
 typedef struct {
   int iteration;
@@ -201,17 +206,21 @@ static bool ready_smooth(Progress *p, SbEhlSolution *s) {
   // decides, a share of its tolerance so small that the estimate stays that of the mesh. The error
   // told holds it in the residual's place.
   static const double LEFT = 0.01;
-  const double above = residual > 0.3 * p->before ? 10.0 : 1.0;
-  bool done = !first && residual <= above * tolerance;
-  const bool stalled = p->iteration >= STALLED && residual > 0.3 * p->before;
-  if (!done && stalled && p->moved <= LEFT * s->solver->problem->tolerance) {
+  const bool stalls = residual > 0.3 * p->before, given = s->solver->base.in_use;
+  bool done = !first && residual <= (stalls ? 10.0 : 1.0) * tolerance;
+  if (given) { // whose steps gain less: as far as they descend
+    done = !first &&
+           (stalls ? residual <= fmax(10.0 * tolerance, 1e-8) : residual <= 0.01 * tolerance);
+  }
+  if (!done && p->iteration >= STALLED && stalls &&
+      p->moved <= LEFT * s->solver->problem->tolerance) {
     s->solver->info->residual = fmax(residual, p->moved);
     done = true;
   }
   for (int i = 0; i < s->mesh.rows; i++) {
     done = done && state->gap[i] > 0.0; // no film otherwise
   }
-  p->factored = p->factored && residual < REUSE * p->before;
+  p->factored = p->factored && residual < reuse(s, REUSE) * p->before;
   p->before = residual;
   return done;
 }
@@ -421,7 +430,7 @@ static bool step_rough(Progress *p, SbEhlSolution *s) {
   p->small = !cut && (largest < fmax(1e-8, rounding) || stalled);
   p->settled += p->small ? 1 : 0;
   // Close to the solution the last factors serve again.
-  p->factored = !cut && largest < REUSE_ROUGH * p->before && largest < CLOSE;
+  p->factored = !cut && largest < reuse(s, REUSE_ROUGH) * p->before && largest < CLOSE;
   p->before = largest;
   // A start that is none shows soon: a good one is below 1 after five steps. Only a meniscus takes
   // its time to find its node, but never comes back from far off.

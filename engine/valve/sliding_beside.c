@@ -57,7 +57,7 @@ enum {
 
 // A part of a number by which it is moved, the smaller where slopes to both sides disagree; and
 // beyond which a sum is none. Ends of contacts go through the mesh: sizes show its bends soon.
-static const double STEP = 1e-5, FINER = 2e-6, FAR = 2e-3, SIZES = 0.15;
+static const double STEP = 1e-5, FINER = 2e-6, FAR = 2e-3, SIZES = 0.05;
 
 // Slopes to both sides that differ by more than this share are no slope; but for what rounding
 // leaves in a value, relative.
