@@ -12,7 +12,7 @@ struct SbEvaluator {
   SbRun *run;               // NULL before the first question
   bool answered;            // the run is that of the last question
   const SbEvaluator *start; // of that question
-  bool tangent;             // its rings are tangents
+  bool tangent, held;       // its rings are tangents, and stay
   bool kept;                // its rings are others' starts
   SbReport why;             // there was none
 };
@@ -118,7 +118,8 @@ static SbStatus prepare(SbEvaluator *evaluator, const SbQuestion *question, SbRe
     sb_plan_figures(&plan, model, question->figure, question->figure_count);
     status = evaluator->run == NULL ? sb_run_create(&evaluator->run, model, &plan, report)
              : question->start == evaluator->start && question->tangent == evaluator->tangent &&
-                     !question->keep && !evaluator->kept && has_solved(evaluator, model, &plan)
+                     question->held == evaluator->held && !question->keep && !evaluator->kept &&
+                     has_solved(evaluator, model, &plan)
                  ? sb_run_renew_same(evaluator->run, model, report)
                  : sb_run_renew(evaluator->run, model, &plan, report);
   }
@@ -138,8 +139,10 @@ SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestio
   if (evaluator->answered) {
     const SbRun *start = question->start != NULL ? question->start->run : NULL;
     (question->tangent ? sb_run_predict_from : sb_run_start_from)(evaluator->run, start);
+    sb_run_hold_rings(evaluator->run, question->held);
     evaluator->start = question->start;
     evaluator->tangent = question->tangent;
+    evaluator->held = question->held;
     evaluator->kept = question->keep;
     if (question->keep) {
       sb_run_keep_rings(evaluator->run);

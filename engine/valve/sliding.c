@@ -75,6 +75,10 @@ void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *fro
   memory->summed = tangent && !drawn;
 }
 
+void sb_sliding_memory_hold(SbSlidingMemory *memory, bool hold) {
+  memory->held = hold;
+}
+
 void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data) {
   memory->cancelled = cancelled;
   memory->cancelled_data = data;

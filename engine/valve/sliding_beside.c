@@ -473,7 +473,7 @@ SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
   }
   for (int i = 0; i < inputs && depth != SB_SUM_NOTHING; i++) {
     const double by_this = z[i] - anchor->z[i];
-    if (by_this == 0) {
+    if (by_this == 0 || (memory->held && i < FILMS)) {
       continue;
     }
     const bool off = !(step_of(i, anchor->z[i], 1) > 0);

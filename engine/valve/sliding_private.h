@@ -70,6 +70,7 @@ struct SbSlidingMemory {
   const struct SbSlidingMemory *from; // whose states rings start from, borrowed; NULL: cold
   bool tangent;                       // they are taken from there to first order
   bool summed;                        // the films with them
+  bool held;                          // only these: rings stay
   SbSumDepth sums;                    // of the state in work, what is not solved
   SbSlidingSolution sum;              // but this
   SbSlidingBeside *lender;            // whose solvers its films use, NULL: nobody's

@@ -117,6 +117,12 @@ void sb_run_predict_from(SbRun *run, const SbRun *base) {
   start_from(run, base, true);
 }
 
+void sb_run_hold_rings(SbRun *run, bool hold) {
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    sb_sliding_memory_hold(run->memory[i], hold);
+  }
+}
+
 SbStatus sb_run_renew_same(SbRun *run, const SbModel *model, SbReport *report) {
   const SbPlan plan = run->plan;
   SbModel *kept;

@@ -229,6 +229,10 @@ void sb_run_start_from(SbRun *run, const SbRun *base);
 // that the base has not (they roll, jam, do not touch) have none: SB_ERROR_NOT_CONVERGED.
 void sb_run_predict_from(SbRun *run, const SbRun *base);
 
+// Of such a prediction: whether its rings stay as they are at the first state that was predicted
+// beside the base, so that only what lies on them follows.
+void sb_run_hold_rings(SbRun *run, bool hold);
+
 // Frames published so far, oldest first; borrowed, valid until sb_run_destroy(). Any thread.
 const SbFrame *sb_run_frames(const SbRun *run, size_t *count);
 
