@@ -7,8 +7,10 @@
 // changed, and the rounding that the step magnifies.
 //
 // Solved rings are the base's to first order in all that is changed (SbQuestion.tangent): one
-// back-substitution each with the active set held, film, friction and motion computed after them as
-// ever, in steps of 8e-6 of the parameter. What is differentiated so is the figure that the run
+// back-substitution each with the active set held, films beside the base's on their meshes
+// (ehl_beside.c), both kept as slopes to the few numbers that they are given, so that parameters
+// share them (sliding_beside.c); friction and motion computed after them as ever, in steps of 8e-6
+// of the parameter. What is differentiated so is the figure that the run
 // reports, on its mesh, along the active set of its base: contact and slip, the wetted faces, the
 // order of the curve that recovers the pressure. Those are kinks of the discrete contact, one at
 // each node, not of the figure, so they give no reason for having no derivative. What they do to it
@@ -16,9 +18,10 @@
 // step (ring_contact.h), in smooth grooves 0, with friction on floor and walls usually per cents:
 // there the nodes that slide in the base stick as soon as a change leads them back. A ring that is
 // laid anew goes the same way as its base's, and its nodes do not. Nodes that stick keep their
-// place on floor and walls. Not in the error is the mesh itself: on others of the same fineness
-// slopes of the contacts' forces are 2 %, of loads 7 %, of widths 20 % away (measured, as the ends
-// of a contact pass from node to node). A ring that rolls or jams at the base has no tangent, and
+// place on floor and walls. On other meshes of the same fineness slopes of the contacts' forces are
+// 2 %, of loads 7 %, of widths 20 % away (measured, as the ends of a contact pass from node to
+// node): the error has that share, 7 % of loads and 20 % of all else, of the part of a slope that
+// goes when rings stay as they are while all else follows. A ring that rolls or jams at the base has no tangent, and
 // its figures no derivative by what enters it. Parameters that do not enter the contacts
 // (sb_evaluator_has_solved()) ask none again, whatever the models.
 //

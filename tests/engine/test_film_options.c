@@ -306,6 +306,53 @@ static void test_warm(void) {
   }
 }
 
+// A film beside a solved one is that of a solve of its own; the base stays, and there is none
+// beside nothing or too far away.
+static void test_beside(void) {
+  static const size_t place[] = {offsetof(SbFilmProblem, load),
+                                 offsetof(SbFilmProblem, speed),
+                                 offsetof(SbFilmProblem, radius),
+                                 offsetof(SbFilmProblem, viscosity),
+                                 offsetof(SbFilmProblem, pressure_left),
+                                 offsetof(SbFilmProblem, pressure_right),
+                                 offsetof(SbFilmProblem, eyring_stress),
+                                 offsetof(SbFilmProblem, pressure_viscosity),
+                                 offsetof(SbFilmProblem, rupture_pressure)};
+  static const double M[] = {40, 900};
+  SbFilmSolver *own;
+  for (size_t i = 0; i < G_N_ELEMENTS(M); i++) {
+    SbFilmProblem problem = contact(M[i], 0.3, 0.2);
+    problem.tolerance = 1e-6;
+    problem.eyring_stress = 2e5;
+    problem.pressure_viscosity = 1e-9;
+    problem.rupture_pressure = 1e3;
+    g_assert_cmpint(sb_film_solver_create(&own, NULL), ==, SB_OK);
+    SbFilmProblem beside = problem;
+    beside.beside = true;
+    g_assert_cmpint(sb_film_solve(&film, &beside, own, NULL), ==, SB_ERROR_NOT_CONVERGED);
+    g_assert_cmpint(sb_film_solve(&other, &problem, own, NULL), ==, SB_OK);
+    const double base = other.film_min;
+    for (size_t k = 0; k < G_N_ELEMENTS(place); k++) {
+      double *number = (double *)(void *)((char *)&beside + place[k]);
+      const double was = *number;
+      *number *= 1 + 1e-3;
+      g_assert_cmpint(sb_film_solve(&film, &beside, own, NULL), ==, SB_OK);
+      SbFilmProblem alone = beside;
+      alone.beside = false;
+      g_assert_cmpint(sb_film_solve(&other, &alone, NULL, NULL), ==, SB_OK);
+      close_to("minimum", film.film_min, other.film_min, 1e-6);
+      close_to("centre", film.film_central, other.film_central, 1e-6);
+      close_to("shear", film.friction_couette, other.friction_couette, 1e-6);
+      *number = was;
+    }
+    g_assert_cmpint(sb_film_solve(&film, &beside, own, NULL), ==, SB_OK);
+    close_to("base", film.film_min, base, 1e-9);
+    beside.load *= 30;
+    g_assert_cmpint(sb_film_solve(&film, &beside, own, NULL), ==, SB_ERROR_NOT_CONVERGED);
+    sb_film_solver_destroy(own);
+  }
+}
+
 static bool stop(void *data) {
   int *polls = data;
   return ++*polls > 3;
@@ -365,6 +412,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/options/rheology", test_rheology);
   g_test_add_func("/film/options/rupture", test_rupture_pressure);
   g_test_add_func("/film/options/warm", test_warm);
+  g_test_add_func("/film/options/beside", test_beside);
   g_test_add_func("/film/options/hard", test_hard);
   int failed = g_test_run();
   sb_film_solver_destroy(solver);
