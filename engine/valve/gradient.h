@@ -21,9 +21,9 @@
 // place on floor and walls. On other meshes of the same fineness slopes of the contacts' forces are
 // 2 %, of loads 7 %, of widths 20 % away (measured, as the ends of a contact pass from node to
 // node): the error has that share, 7 % of loads and 20 % of all else, of the part of a slope that
-// goes when rings stay as they are while all else follows. A ring that rolls or jams at the base has no tangent, and
-// its figures no derivative by what enters it. Parameters that do not enter the contacts
-// (sb_evaluator_has_solved()) ask none again, whatever the models.
+// goes when rings stay as they are while all else follows. A ring that rolls or jams at the base
+// has no tangent, and its figures no derivative by what enters it. Parameters that do not enter the
+// contacts (sb_evaluator_has_solved()) ask none again, whatever the models.
 //
 // A figure that has the same bits on both sides does not depend on the parameter: its derivative is
 // an exact 0, of error 0. It has none (NaN, with a reason) where the figure itself has no value,

@@ -8,9 +8,10 @@
 // differs, and kept: a parameter that enters no solver costs none, and parameters that enter by the
 // same numbers share these solves. Everything else (rough contact, friction, its agreement with the
 // law that drags the ring, the motion) is computed at each question as ever. The tolerance is none
-// of them: meshes and levels stand as long as the base's do. Where the slopes to
-// both sides disagree (a kink, another order of a curve, another level of the film), or an option
-// comes from nothing, the state is solved as asked.
+// of these numbers: meshes and levels stand as long as the base's do. Where the slopes to both
+// sides disagree (a kink, another order of a curve), or an option comes from nothing, the state is
+// solved as asked. Films of a state next to z0 are solved on the meshes of its own (film.h,
+// `beside`).
 #include "engine/valve/sliding_private.h"
 
 #include <math.h>

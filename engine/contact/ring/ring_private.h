@@ -59,7 +59,7 @@ struct SbRing {
   double fitted_end[2];     // material angles of the bore contact's ends that it was fitted to
   SbRingRecovery *recovery; // owned
   SbRingHeld held[SB_RING_SURFACES]; // of each surface
-  bool first_order; // a state beside another one: nothing is solved from it
+  bool first_order;                  // a state beside another one: nothing is solved from it
   double fault; // of a state to first order, beyond its base's (sb_ring_contact_fault())
                 // of each surface
 };
