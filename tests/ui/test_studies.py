@@ -2,7 +2,7 @@
 import os
 import re
 
-from harness import App, main, scene, wait
+from harness import ASSETS, App, main, scene, wait
 
 
 def open_studies(app):
@@ -84,5 +84,28 @@ def propellants_are_swapped(folder):
         app.find("chart", "Force and displacement")
 
 
+def a_loop_is_fitted(folder):
+    """A scene with data is fitted when its page is looked at; the estimates go into the valve, can be
+    undone, and what was recognised can be said otherwise."""
+    path = os.path.join(folder, "bench.scene")
+    with open(path, "w") as file:
+        file.write("[sealbench]\nformat = 1\nkind = scene\nvalve = %s/valves/piston.valve\n"
+                   "[models]\nfit = karaszkiewicz\nfilm = thesis\n"
+                   "[data]\nfile = %s/series/bench.csv\n" % (ASSETS, ASSETS))
+    with App(path) as app:
+        wait("the first run", app.run_done)
+        app.key("ctrl+3")
+        chart = app.find("chart", "Measured loops and the fitted valve")
+        # The bench was made with 0.174 and 3.42 mm.
+        wait("the fit", lambda: re.search(r"friction.load_coefficient: 0\.17[345]", chart.description or ""))
+        assert re.search(r"bore.land_edge: 3\.4[123]\d* mm, .* yes", chart.description), chart.description
+        app.press("push button", "Use estimates")
+        app.press("push button", "Fit again")
+        wait("the fit again", lambda: re.search(r"friction.load_coefficient: 0\.17[345]", chart.description))
+        app.key("ctrl+z")
+        app.key("ctrl+1")
+        app.find("chart", "Force and displacement")
+
+
 if __name__ == "__main__":
-    main(propellants_are_swapped, a_study_of_the_document, a_study_can_be_cancelled, glands_of_both_seals)
+    main(a_loop_is_fitted, propellants_are_swapped, a_study_of_the_document, a_study_can_be_cancelled, glands_of_both_seals)

@@ -12,6 +12,7 @@
 #include "ui/views/section_view.h"
 #include "ui/views/style.h"
 #include "ui/views/timeline_view.h"
+#include "ui/window/calibrate_page.h"
 #include "ui/window/export_dialog.h"
 #include "ui/window/paned_layout.h"
 #include "ui/window/preferences.h"
@@ -575,6 +576,8 @@ static void sb_window_init(SbWindow *window) {
   gtk_box_pack_start(GTK_BOX(window->bottom), sb_timeline_view_new(window->session), FALSE, FALSE,
                      0);
   gtk_box_pack_start(GTK_BOX(window->bottom), sb_status_bar_new(window->session), FALSE, FALSE, 0);
+  gtk_stack_add_titled(GTK_STACK(window->pages), sb_calibrate_page_new(window->session),
+                       "calibrate", _("Calibrate"));
   gtk_stack_add_titled(GTK_STACK(window->pages), sb_propellants_page_new(window->session),
                        "propellants", _("Propellants"));
   window->files = sb_window_files_new_for(GTK_WINDOW(window), window->session,

@@ -1,0 +1,365 @@
+// See the header. The picture is that of app/chart/calibration.h; priors are normal about the
+// document's own values, wide for what the thesis leaves open, and for others a study file is the
+// place.
+#include "ui/window/calibrate_page.h"
+
+#include "app/base/translation.h"
+#include "app/export/calibrate_results.h"
+#include "ui/views/draw_cache.h"
+#include "ui/views/style.h"
+#include "ui/window/calibrate_job.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+
+// What may be ticked, with the prior's deviation: a share of the value, or an amount.
+static const struct {
+  SbParamId id;
+  double share, amount;
+  gboolean first; // ticked at the start
+} choices[] = {
+    {SB_P_FRICTION_LOAD_COEFFICIENT, 0.3, 0, TRUE}, {SB_P_FRICTION_STATIC_RATIO, 0, 0.1, TRUE},
+    {SB_P_BORE_LAND_EDGE, 0, 3e-4, TRUE},           {SB_P_STEM_PRESSURE_DIAMETER, 0, 5e-5, TRUE},
+    {SB_P_SURFACE_GT_PRODUCT, 0.2, 0, FALSE},       {SB_P_SEAL_MODULUS, 0.2, 0, FALSE},
+    {SB_P_GLAND_RADIAL_SPACE, 0, 1e-5, FALSE},
+};
+
+enum { CHOICES = G_N_ELEMENTS(choices) };
+
+typedef struct {
+  SbSession *session; // owned reference
+  GtkWidget *box, *area, *tick[CHOICES], *file_label, *fit, *use, *progress, *stop, *message;
+  GtkWidget *recognised, *keys; // button; text of the keys
+  SbDrawCache *cache;
+  SbCalibrateJob *job;
+  guint poll;     // source, 0 if none
+  char *file;     // imported; NULL: the document's own
+  gboolean said;  // the keys are the user's
+  gboolean known; // there is a calibration
+  SbCalibration found;
+  SbStudyFile *study;
+} Page;
+
+static void draw(cairo_t *cr, double width, double height, void *data) {
+  Page *page = data;
+  if (page->known) {
+    sb_calibration_page_draw(cr, (SbRect){0, 0, width, height}, &page->found, page->study,
+                             sb_style_is_dark());
+  } else {
+    const SbColor ground = sb_theme(sb_style_is_dark())->role[SB_ROLE_BACKGROUND];
+    cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
+    cairo_paint(cr);
+  }
+}
+
+// What the picture says, for those who do not see it.
+static char *describe(const Page *page) {
+  GString *text = g_string_new(NULL);
+  for (size_t j = 0; j < page->found.parameters; j++) {
+    const SbCalibrated *one = &page->found.parameter[j];
+    g_autofree char *low = sb_param_format(one->id, one->interval[0]);
+    g_autofree char *high = sb_param_format(one->id, one->interval[1]);
+    g_autofree char *value = sb_param_format(one->id, one->estimate);
+    g_string_append_printf(text, "%s: %s, %s - %s, %s\n", one->name, value, low, high,
+                           sb_told_name(one->told));
+  }
+  g_string_append(text, page->found.sentence);
+  return g_string_free(text, FALSE);
+}
+
+static const SbData *own_data(const Page *page) {
+  const SbDocument *document = sb_session_document(page->session);
+  return sb_document_data_count(document) > 0 ? sb_document_data(document, 0) : NULL;
+}
+
+static void refresh(Page *page) {
+  const gboolean busy = page->job != NULL;
+  const SbData *own = own_data(page);
+  const char *path = page->file != NULL ? page->file : own != NULL ? own->path : NULL;
+  g_autofree char *name = path != NULL ? g_path_get_basename(path) : NULL;
+  gboolean ticked = FALSE;
+  for (int i = 0; i < CHOICES; i++) {
+    ticked |= gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(page->tick[i]));
+  }
+  gtk_label_set_text(GTK_LABEL(page->file_label), name != NULL ? name : _("nothing measured"));
+  gtk_widget_set_visible(page->progress, busy);
+  gtk_widget_set_visible(page->stop, busy);
+  gtk_widget_set_sensitive(page->fit, !busy && path != NULL && ticked);
+  gtk_widget_set_sensitive(page->use, !busy && page->known);
+  gtk_widget_set_sensitive(page->recognised, path != NULL);
+  g_autofree char *text = page->known ? describe(page) : g_strdup(_("Nothing is fitted yet."));
+  sb_style_name(page->area, _("Measured loops and the fitted valve"), text);
+  sb_draw_cache_change(page->cache, 0);
+}
+
+static void say(Page *page, const char *text) {
+  gtk_label_set_text(GTK_LABEL(page->message), text);
+}
+
+// The fit ----------------------------------------------------------------------------------------
+
+static void append_priors(GString *text, const Page *page) {
+  g_string_append(text, "[vary]\n");
+  for (int i = 0; i < CHOICES; i++) {
+    if (!gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(page->tick[i]))) {
+      continue;
+    }
+    const SbParam *param = sb_param(choices[i].id);
+    const double value = sb_document_value(sb_session_document(page->session), choices[i].id);
+    const double wide = choices[i].amount > 0 ? choices[i].amount : choices[i].share * value;
+    g_autofree char *mean = sb_quantity_format(value, param->si, param->unit);
+    g_autofree char *deviation = sb_quantity_format(wide, param->si, param->unit);
+    g_autofree char *low =
+        sb_quantity_format(fmax(param->min, value - 4 * wide), param->si, param->unit);
+    g_autofree char *high =
+        sb_quantity_format(fmin(param->max, value + 4 * wide), param->si, param->unit);
+    g_string_append_printf(text, "%s = normal %s, %s within %s .. %s\n", param->key, mean,
+                           deviation, low, high);
+  }
+}
+
+static void append_data(GString *text, const Page *page) {
+  const SbData *own = own_data(page);
+  const char *path = page->file != NULL ? page->file : own->path;
+  g_autofree char *whole = g_canonicalize_filename(path, NULL);
+  g_string_append_printf(text, "[data]\nfile = %s\n", whole);
+  if (page->said) {
+    GtkTextIter start, end;
+    GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(page->keys));
+    gtk_text_buffer_get_bounds(buffer, &start, &end);
+    g_autofree char *keys = gtk_text_buffer_get_text(buffer, &start, &end, FALSE);
+    g_string_append(text, keys);
+  } else if (page->file == NULL) {
+    for (int k = SB_DATA_FILE + 1; k < SB_DATA_KEY_COUNT; k++) {
+      if (own->text[k] != NULL) {
+        g_string_append_printf(text, "%s = %s\n", sb_data_key_name((SbDataKey)k), own->text[k]);
+      }
+    }
+  }
+}
+
+// The question as a study file about the present document; NULL with what is wrong said.
+static SbStudyFile *make_study(Page *page) {
+  const SbDocument *document = sb_session_document(page->session);
+  g_autofree char *flat = sb_document_to_flat_text(document);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  SbDocument *copy =
+      sb_document_parse(flat, strlen(flat), sb_document_title(document), NULL, issues);
+  GString *text = g_string_new("[sealbench]\nformat = 1\nkind = study\nscene = document\n"
+                               "[study]\nsamples = 2000\n");
+  append_priors(text, page);
+  append_data(text, page);
+  SbStudyFile *study = copy != NULL
+                           ? sb_study_file_parse(text->str, text->len, sb_document_title(document),
+                                                 NULL, NULL, copy, issues)
+                           : NULL;
+  g_string_free(text, TRUE);
+  if (study == NULL) {
+    g_autofree char *line = issues->len > 0 ? sb_issue_line(issues->pdata[0]) : g_strdup("");
+    say(page, line);
+  }
+  return study;
+}
+
+static void end_job(Page *page) {
+  g_clear_handle_id(&page->poll, g_source_remove);
+  g_clear_pointer(&page->job, sb_calibrate_job_free);
+}
+
+static gboolean on_poll(gpointer data) {
+  Page *page = data;
+  gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress),
+                                sb_calibrate_job_progress(page->job));
+  return G_SOURCE_CONTINUE;
+}
+
+static void forget(Page *page) {
+  if (page->known) {
+    sb_calibration_release(&page->found);
+    g_clear_pointer(&page->study, sb_study_file_free);
+  }
+  page->known = FALSE;
+}
+
+static void on_done(void *data) {
+  Page *page = data;
+  SbCalibration found;
+  SbStudyFile *study = NULL;
+  g_autofree char *why = NULL;
+  const bool good = sb_calibrate_job_take(page->job, &found, &study, &why);
+  end_job(page);
+  say(page, good ? "" : why);
+  if (good) {
+    forget(page);
+    page->found = found;
+    page->study = study;
+    page->known = TRUE;
+    g_autofree char *keys = sb_measured_keys(found.curve[0].measured);
+    gtk_text_buffer_set_text(gtk_text_view_get_buffer(GTK_TEXT_VIEW(page->keys)), keys, -1);
+    page->said = FALSE;
+  }
+  refresh(page);
+}
+
+static void fit(Page *page) {
+  end_job(page);
+  if (page->file == NULL && own_data(page) == NULL) {
+    return;
+  }
+  SbStudyFile *study = make_study(page);
+  if (study != NULL) {
+    say(page, "");
+    gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), 0);
+    page->job = sb_calibrate_job_start(study, on_done, page);
+    page->poll = g_timeout_add(50, on_poll, page);
+  }
+  refresh(page);
+}
+
+// Actions ----------------------------------------------------------------------------------------
+
+static void on_import(GtkButton *button, Page *page) {
+  GtkWidget *top = gtk_widget_get_toplevel(page->box);
+  GtkFileChooserNative *chooser =
+      gtk_file_chooser_native_new(_("Import a measured loop"), GTK_WINDOW(top),
+                                  GTK_FILE_CHOOSER_ACTION_OPEN, _("_Open"), _("_Cancel"));
+  if (gtk_native_dialog_run(GTK_NATIVE_DIALOG(chooser)) == GTK_RESPONSE_ACCEPT) {
+    g_free(page->file);
+    page->file = gtk_file_chooser_get_filename(GTK_FILE_CHOOSER(chooser));
+    page->said = FALSE;
+    gtk_text_buffer_set_text(gtk_text_view_get_buffer(GTK_TEXT_VIEW(page->keys)), "", -1);
+    fit(page);
+  }
+  g_object_unref(chooser);
+}
+
+static void on_read_again(GtkButton *button, Page *page) {
+  page->said = TRUE;
+  fit(page);
+}
+
+static void on_use(GtkButton *button, Page *page) {
+  for (size_t j = 0; j < page->found.parameters; j++) {
+    const SbCalibrated *one = &page->found.parameter[j];
+    if (one->told != SB_TOLD_NO && one->curve < 0) {
+      sb_session_edit_value(page->session, one->id, one->estimate);
+    }
+  }
+}
+
+static void on_stop(GtkButton *button, Page *page) {
+  if (page->job != NULL) {
+    sb_calibrate_job_cancel(page->job);
+  }
+}
+
+// With data of its own a document is fitted when the page is first looked at.
+static void on_map(Page *page) {
+  if (!page->known && page->job == NULL && page->file == NULL) {
+    fit(page);
+  }
+  refresh(page);
+}
+
+// Life -------------------------------------------------------------------------------------------
+
+static void on_destroy(GtkWidget *widget, Page *page) {
+  end_job(page);
+  g_clear_object(&page->session);
+}
+
+static void page_free(gpointer data) {
+  Page *page = data;
+  forget(page);
+  g_free(page->file);
+  g_free(page);
+}
+
+static GtkWidget *menu_button(GtkBox *bar, const char *label, GtkWidget *content) {
+  GtkWidget *button = gtk_menu_button_new();
+  GtkWidget *popover = gtk_popover_new(button);
+  gtk_container_set_border_width(GTK_CONTAINER(content), 10);
+  gtk_container_add(GTK_CONTAINER(popover), content);
+  gtk_widget_show_all(content);
+  gtk_menu_button_set_popover(GTK_MENU_BUTTON(button), popover);
+  gtk_container_add(GTK_CONTAINER(button), gtk_label_new(label));
+  gtk_box_pack_start(bar, button, FALSE, FALSE, 0);
+  return button;
+}
+
+static GtkWidget *button_of(GtkBox *bar, const char *label, const char *tip, GCallback call,
+                            Page *page) {
+  GtkWidget *button = gtk_button_new_with_label(label);
+  gtk_widget_set_tooltip_text(button, tip);
+  g_signal_connect(button, "clicked", call, page);
+  gtk_box_pack_start(bar, button, FALSE, FALSE, 0);
+  return button;
+}
+
+static void add_toolbar(Page *page) {
+  GtkBox *bar = GTK_BOX(gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8));
+  sb_style_class(GTK_WIDGET(bar), "sb-toolbar");
+  gtk_box_pack_start(bar, sb_style_label(_("Measured"), "sb-heading", 0), FALSE, FALSE, 0);
+  page->file_label = sb_style_label(NULL, "sb-row-label", 0);
+  gtk_box_pack_start(bar, page->file_label, FALSE, FALSE, 0);
+  button_of(bar, _("Import…"), _("A table of force and displacement from a test machine"),
+            G_CALLBACK(on_import), page);
+  // What was recognised, as keys that may be changed.
+  GtkWidget *column = gtk_box_new(GTK_ORIENTATION_VERTICAL, 8);
+  page->keys = gtk_text_view_new();
+  gtk_text_view_set_monospace(GTK_TEXT_VIEW(page->keys), TRUE);
+  gtk_widget_set_size_request(page->keys, 440, 220);
+  sb_style_name(page->keys, _("What was recognised, as keys"), NULL);
+  gtk_box_pack_start(GTK_BOX(column), page->keys, TRUE, TRUE, 0);
+  button_of(GTK_BOX(column), _("Read again"), _("Reads the file as these keys say"),
+            G_CALLBACK(on_read_again), page);
+  page->recognised = menu_button(bar, _("Recognised"), column);
+  GtkWidget *list = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4);
+  for (int i = 0; i < CHOICES; i++) {
+    page->tick[i] = gtk_check_button_new_with_label(sb_param(choices[i].id)->key);
+    gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(page->tick[i]), choices[i].first);
+    gtk_widget_set_tooltip_text(page->tick[i], sb_translation(sb_param(choices[i].id)->help));
+    g_signal_connect_swapped(page->tick[i], "toggled", G_CALLBACK(refresh), page);
+    gtk_box_pack_start(GTK_BOX(list), page->tick[i], FALSE, FALSE, 0);
+  }
+  (void)menu_button(bar, _("Parameters"), list);
+  page->message = sb_style_label(NULL, "sb-warn", 0);
+  gtk_label_set_ellipsize(GTK_LABEL(page->message), PANGO_ELLIPSIZE_END);
+  gtk_box_pack_start(bar, page->message, TRUE, TRUE, 0);
+  page->progress = gtk_progress_bar_new();
+  gtk_widget_set_valign(page->progress, GTK_ALIGN_CENTER);
+  sb_style_name(page->progress, _("Progress of the fit"), NULL);
+  gtk_box_pack_start(bar, page->progress, FALSE, FALSE, 0);
+  page->stop = button_of(bar, _("Cancel"), _("Stop fitting; the fit shown stays"),
+                         G_CALLBACK(on_stop), page);
+  page->fit = gtk_button_new_with_label(_("Fit again"));
+  g_signal_connect_swapped(page->fit, "clicked", G_CALLBACK(fit), page);
+  gtk_box_pack_start(bar, page->fit, FALSE, FALSE, 0);
+  page->use = button_of(bar, _("Use estimates"),
+                        _("Puts what the data tell into the valve; the rest keeps its values"),
+                        G_CALLBACK(on_use), page);
+  gtk_box_pack_start(GTK_BOX(page->box), GTK_WIDGET(bar), FALSE, FALSE, 0);
+  gtk_widget_show_all(GTK_WIDGET(bar));
+}
+
+GtkWidget *sb_calibrate_page_new(SbSession *session) {
+  Page *page = g_new0(Page, 1);
+  page->session = g_object_ref(session);
+  page->box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+  g_object_set_data_full(G_OBJECT(page->box), "page", page, page_free);
+  page->area = gtk_drawing_area_new();
+  sb_style_class(page->area, "sb-canvas");
+  gtk_widget_set_can_focus(page->area, TRUE);
+  gtk_widget_set_size_request(page->area, 640, 320);
+  atk_object_set_role(gtk_widget_get_accessible(page->area), ATK_ROLE_CHART);
+  page->cache = sb_draw_cache_attach(page->area, draw, page);
+  add_toolbar(page);
+  gtk_box_pack_start(GTK_BOX(page->box), page->area, TRUE, TRUE, 0);
+  gtk_widget_show(page->area);
+  g_signal_connect(page->box, "destroy", G_CALLBACK(on_destroy), page);
+  g_signal_connect_swapped(page->box, "map", G_CALLBACK(on_map), page);
+  refresh(page);
+  gtk_widget_show(page->box);
+  return page->box;
+}
