@@ -171,6 +171,9 @@ int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model);
 #define SB_CLI_MEASURED_HELP "Force over displacement from a test machine, any table of numbers"
 SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *path);
 
+// Reads all groups of data, and prints what was recognised or is wrong; an exit code.
+int sb_cli_check_data(const SbDocument *document);
+
 // Prints what was recognised, the stages and the differences.
 void sb_cli_comparison(const SbComparison *comparison);
 

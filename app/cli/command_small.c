@@ -45,7 +45,9 @@ int sb_command_check(int argc, char **argv) {
         g_autofree char *printable = sb_printable(line, strlen(line));
         printf("warning: %s\n", printable);
       }
-      if (!sb_cli_quiet()) {
+      const int data = sb_cli_check_data(file->document);
+      sb_cli_files_done(&files, data);
+      if (!sb_cli_quiet() && data == SB_EXIT_DONE) {
         print_derived(file->document);
         printf("%s: a %s without %s\n", shown, kind, remarks->len > 0 ? "errors" : "problems");
       }

@@ -24,6 +24,27 @@ SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *p
   return measured;
 }
 
+static void print_recognised(const SbMeasured *measured) {
+  printf("Measured: %s\n", measured->name);
+  g_autofree char *text = sb_measured_text(measured);
+  g_auto(GStrv) lines = g_strsplit(g_strchomp(text), "\n", -1);
+  for (char **line = lines; *line != NULL; line++) {
+    printf("  %s\n", *line);
+  }
+}
+
+int sb_cli_check_data(const SbDocument *document) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  for (size_t i = 0; i < sb_document_data_count(document); i++) {
+    g_autoptr(SbMeasured) measured = sb_measured_load(sb_document_data(document, i), issues);
+    if (measured != NULL && !sb_cli_quiet()) {
+      print_recognised(measured);
+    }
+  }
+  sb_cli_issues(issues);
+  return issues->len > 0 ? SB_EXIT_INPUT : SB_EXIT_DONE;
+}
+
 static char *force_text(double force, bool known) {
   char digits[SB_NUMBER_SIZE];
   return known && force == force ? g_strdup_printf("%s N", sb_number_round(digits, force, 4))
@@ -32,12 +53,7 @@ static char *force_text(double force, bool known) {
 
 void sb_cli_comparison(const SbComparison *comparison) {
   const SbMeasured *m = comparison->measured;
-  printf("Measured: %s\n", m->name);
-  g_autofree char *text = sb_measured_text(m);
-  g_auto(GStrv) lines = g_strsplit(g_strchomp(text), "\n", -1);
-  for (char **line = lines; *line != NULL; line++) {
-    printf("  %s\n", *line);
-  }
+  print_recognised(m);
   printf("  %-10s%12s%12s%12s\n", "", "measured", "model", "difference");
   for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {
     const SbMeasuredStage *stage = &m->stage[s];

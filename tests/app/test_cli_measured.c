@@ -144,6 +144,17 @@ static void test_refused(void) {
   g_assert_cmpint(result.code, ==, 1);
   g_assert_nonnull(strstr(result.err, "wheel"));
   cli_clear(&result);
+  // check reads the data too.
+  g_autofree char *wrong = g_strconcat(text, "direction = up\n", NULL);
+  write_text(path, wrong);
+  result = CLI("check", path);
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "[data] direction: \"up\" is not one of these"));
+  cli_clear(&result);
+  result = CLI("check", scene);
+  g_assert_cmpint(result.code, ==, 0);
+  g_assert_nonnull(strstr(result.out, "displacement: column 2 \"displacement\" in m (as said)"));
+  cli_clear(&result);
   g_unlink(path);
   g_unlink(bad);
 }
