@@ -317,10 +317,12 @@ static SbStatus draw_meniscus(SbFilmSolver *solver, double supply, double full) 
 
 // Less film at the inlet than the contact would take. Rough rows find their meniscus themselves
 // while the supply is lowered from the flooded one.
-static SbStatus starve(SbFilmSolver *solver, double supply, double first) {
+static SbStatus starve(SbFilmSolver *solver, double supply) {
   // So close to the flooded flux the meniscus is lost far away; the solve adds what it leaves to
   // its error.
   static const double NEARLY = 5e-5;
+  // Share of the flux taken first: more of it, and the meniscus is not found.
+  static const double FIRST = 1.002;
   SbEhlCase start = solver->now->c;
   if (!start.rough.rows) {
     double full = solver->now->state.flux;
@@ -332,13 +334,10 @@ static SbStatus starve(SbFilmSolver *solver, double supply, double first) {
   end.layers.starvation = supply / start.supply;
   return supply >= (1.0 - NEARLY) * start.supply
              ? SB_OK
-             : follow_path(solver, &start, &end, log(first) / -log(end.layers.starvation));
+             : follow_path(solver, &start, &end, log(FIRST) / -log(end.layers.starvation));
 }
 
 SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply) {
-  // By how much a rough film's flux is drawn down first: by more than the less, and many a meniscus
-  // is not found; from the less, some paths end at a meniscus that cannot move.
-  static const double FIRST[] = {1.002, 1.3};
   solver->now = &solver->solution[0];
   SbStatus status = start_flooded(solver, c);
   if (status == SB_ERROR_CANCELLED) {
@@ -352,13 +351,8 @@ SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply) {
     status = start_flooded(solver, &broken);
   }
   if (status == SB_OK && isfinite(supply)) {
-    status = solver->now->c.layers.end == SB_EHL_REFORM ? SB_ERROR_INFEASIBLE
-                                                        : starve(solver, supply, FIRST[0]);
-    if (status == SB_ERROR_NOT_CONVERGED && c->rough.rows) {
-      solver->now = &solver->solution[0];
-      status = start_flooded(solver, c);
-      status = status == SB_OK ? starve(solver, supply, FIRST[1]) : status;
-    }
+    status =
+        solver->now->c.layers.end == SB_EHL_REFORM ? SB_ERROR_INFEASIBLE : starve(solver, supply);
   }
   return status;
 }
