@@ -321,8 +321,6 @@ static SbStatus starve(SbFilmSolver *solver, double supply) {
   // So close to the flooded flux the meniscus is lost far away; the solve adds what it leaves to
   // its error.
   static const double NEARLY = 5e-5;
-  // Share of the flux taken first: more of it, and the meniscus is not found.
-  static const double FIRST = 1.002;
   SbEhlCase start = solver->now->c;
   if (!start.rough.rows) {
     double full = solver->now->state.flux;
@@ -334,7 +332,7 @@ static SbStatus starve(SbFilmSolver *solver, double supply) {
   end.layers.starvation = supply / start.supply;
   return supply >= (1.0 - NEARLY) * start.supply
              ? SB_OK
-             : follow_path(solver, &start, &end, log(FIRST) / -log(end.layers.starvation));
+             : follow_path(solver, &start, &end, log(1.3) / -log(end.layers.starvation));
 }
 
 SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply) {

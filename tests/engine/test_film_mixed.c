@@ -378,7 +378,7 @@ static void test_starved(void) {
   g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
   g_assert_false(film.starved);
   // Four fifths of what the contact takes beside an outlet under pressure: from the flooded film
-  // a first step of a few per cent does not find the meniscus, and Newton's method never ends.
+  // a first step of a few per cent does not find the meniscus, and Newton's method soon sees it.
   problem = rough_seal(-1.778279e-3, SB_ROUGH_GREENWOOD_TRIPP);
   problem.load = 925.1755319;
   problem.radius = 1.249265362e-3;
