@@ -42,7 +42,9 @@ static bool read_heading(Reader *r, const SbTable *table, size_t column) {
                         : r->speed  ? "speed [m/s]"
                                     : "displacement [mm] or force [N]";
   const int line = (int)sb_table_header_lines(table);
-  if (si == NULL) {
+  if (*heading->name == '\0') {
+    sb_issues_add(r->issues, r->name, line, NULL, allowed, "column %zu has no heading", column + 1);
+  } else if (si == NULL) {
     sb_issues_add(r->issues, r->name, line, NULL, allowed,
                   "column %zu: \"%.40s\" is an unknown quantity", column + 1, heading->name);
   } else if (!(heading->clock && column == 0) &&

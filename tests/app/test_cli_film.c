@@ -68,10 +68,10 @@ static void test_film_history(void) {
   cli_clear(&good);
   static const struct {
     const char *text, *message;
-  } bad[] = {{"time [s],speed [m/s]\n0,0.1\n1e-3,fast\n", "line 3"},
-             {"time [s],speed [m/s]\n0,0.1\n1e-3,0.1\n1e-3,0\n", "line 4"},
+  } bad[] = {{"time [s],speed [m/s]\n0,0.1\n1e-3,0.1\n2e-3,fast\n", "line 4"},
+             {"time [s],speed [m/s]\n0,0.1\n1e-3,0.1\n1e-3,0\n", "row 3"},
              {"time [s],speed [m/s]\n0,0\n1e-3,0.1\n", "begins at rest"},
-             {"0,0.1\n1e-3,0\n", "not a heading"}};
+             {"0,0.1\n1e-3,0\n", "column 1 has no heading"}};
   for (size_t k = 0; k < G_N_ELEMENTS(bad); k++) {
     g_assert_true(g_file_set_contents(path, bad[k].text, -1, NULL));
     CliResult refused = CLI(AT_REST, "--history", path);

@@ -36,7 +36,7 @@ static void test_refused(void) {
       {"", "x.csv: has no rows of two numbers"},
       {"time [s],force [N]\n0,0\n1,1\n2,1,5,1\n",
        "x.csv: line 4: \"2,1,5,1\" is no row of the series (allowed two numbers)"},
-      {"0,0\n1,1\n", "x.csv: column 1: \"\" is an unknown quantity (allowed time [s])"},
+      {"0,0\n1,1\n", "x.csv: column 1 has no heading (allowed time [s])"},
       {"time [N],force [N]\n0,0\n1,1\n", "x.csv: line 1: column 1: \"N\" is no unit of time"},
       {"time [s],speed [m/s]\n0,0\n1,1\n",
        "x.csv: line 1: column 2: \"speed\" is an unknown quantity"},

@@ -82,10 +82,13 @@ static bool collect(Fit *fit, const SbRing *ring, SbRingSurface surface, const S
   }
   for (int end = 0; end < 2; end++) {
     fit->end_pressure[end] = patch->end_pressure[end];
-    // From the open neighbour to two nodes inside the last held one.
+    // To two nodes inside the last held one. At its open neighbour the gap is open: outwards the
+    // end lies nearer to where that extrapolates to zero.
     int at = (end == 0 ? patch->first : patch->last) - first, out = end == 0 ? -1 : 1;
-    fit->range[end][0] = fmin(fit->x[at + out], fit->x[at - 2 * out]);
-    fit->range[end][1] = fmax(fit->x[at + out], fit->x[at - 2 * out]);
+    const double open = fit->x[at + out], closed = sign * patch->place[end];
+    const double most = out * (open - closed) > 0.0 ? 0.5 * (open + closed) : open;
+    fit->range[end][0] = fmin(most, fit->x[at - 2 * out]);
+    fit->range[end][1] = fmax(most, fit->x[at - 2 * out]);
   }
   return true;
 }
