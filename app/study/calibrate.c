@@ -71,6 +71,9 @@ static bool run_at(Work *work, Curve *curve, SbRun **run, const SbRun *base,
       sb_run_keep_rings(*run);
     }
     status = sb_run_execute(*run, &hooks, &report);
+    if (work->rings && base == NULL) {
+      sb_run_end_rings(*run);
+    }
     if (status == SB_OK) {
       (void)sb_loop_take(&curve->loop, *run);
     }
@@ -161,6 +164,13 @@ static bool differentiate(void *data, double *jacobian, const double *z, const d
     double *side[2] = {g_new(double, rows + 1), g_new(double, rows + 1)};
     bool good = !work->rings || settle_run(work, curve, z);
     if (good && work->rings) {
+      // What is predicted of the base itself: differences of like with like.
+      SbOverride override[2 * SB_VARY_MAX];
+      const size_t count = overrides_at(override, work, curve, z);
+      good = run_at(work, curve, &curve->beside, curve->run, override, count);
+      if (work->status == SB_ERROR_NOT_CONVERGED) {
+        (void)sb_loop_take(&curve->loop, curve->run);
+      }
       residuals_of(side[0], curve, z);
     }
     for (size_t j = 0; j < n && good; j++) {
