@@ -80,7 +80,7 @@ static void test_table(void) {
   g_assert_cmpint(result.code, ==, 0);
   static const char *const wanted[] = {
       "960 x 960 points 0.5 µm x 0.5 µm apart",
-      "quadratic taken away, no outliers sought, missing points left out, Gaussian long cut-off "
+      "quadratic taken away, no outliers sought, missing points left out, Gaussian long cut-off",
       "80 µm\n",
       "Sq, standard deviation",
       "by neighbours",

@@ -24,13 +24,13 @@ static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 5e-4, SECANT = 0.02
 
 // Newton iterations of a quick and of a slow step, and of a whole path at most; meshes that are
 // tried at a place where no step succeeds, and by how much each is finer.
-enum { QUICK = 7, SLOW = 14, ITERATIONS_MOST = 1500, MESHES = 3 };
+enum { QUICK = 7, SLOW = 14, ITERATIONS_MOST = 4000, MESHES = 3 };
 static const double FINER = 0.12;
 
 // The greatest coefficient is passed where it has fallen to this share of it and the section turned
 // on by FALL_TURN, or over OVER in all (rad); a path that ends has met it if it has not risen by
 // more than that over FLAT_TURN. The load over that without friction at which the ring is wedged.
-static const double FALL = 0.97, FALL_TURN = 0.1, FLAT_TURN = 0.3, OVER = 3.0, JAM = 10.0;
+static const double FALL = 0.97, FALL_TURN = 0.1, FLAT_TURN = 0.15, OVER = 3.0, JAM = 10.0;
 
 void sb_ring_rest_on_wall(SbRing *ring) {
   const SbRingContact *contact = ring->contact;
