@@ -457,7 +457,10 @@ SbTable *sb_table_parse(const void *bytes, size_t length, const SbTableDialect *
                         const char *name, GPtrArray *issues) {
   g_autoptr(SbTable) table = g_new0(SbTable, 1);
   table->shown = g_strdup(name);
-  table->bytes = g_memdup2(bytes, length);
+  table->bytes = g_malloc0(length + 1); // never NULL
+  if (length > 0) {
+    memcpy(table->bytes, bytes, length);
+  }
   table->length = length;
   return recognise(table, wish, issues) ? g_steal_pointer(&table) : NULL;
 }
