@@ -3,7 +3,7 @@
 
 #include "app/base/table.h"
 
-// Walks through a text of any of the encodings, line by line.
+// Reads a text of any of the encodings line by line.
 typedef struct {
   const guint8 *at, *end;
   SbTableEncoding encoding;

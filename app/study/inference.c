@@ -385,14 +385,14 @@ static bool sample_posterior(Work *work) {
   const SbInferenceAsked *asked = work->asked;
   const size_t n = asked->coordinates, warm = MAX(asked->samples / 4, 200);
   const size_t all = warm + asked->samples;
-  double *root = g_new(double, n *n), *walk = g_new(double, n *n);
+  double *root = g_new(double, n *n), *step_root = g_new(double, n *n);
   double *covariance = g_memdup2(out->covariance, n * n * sizeof(double));
   double *residual = g_new(double, asked->residuals), *warmed = g_new(double, warm *n);
   double z[SB_INFERENCE_COORDINATES], tried[SB_INFERENCE_COORDINATES];
   double variate[SB_INFERENCE_COORDINATES];
   memcpy(z, out->z, n * sizeof *z);
   double density = log_density(work, out->residual, z), scale = 2.38 / sqrt((double)n);
-  bool good = root_of(root, out->covariance, n) && root_of(walk, covariance, n);
+  bool good = root_of(root, out->covariance, n) && root_of(step_root, covariance, n);
   size_t taken = 0;
   for (size_t i = 0; i < all && good; i++) {
     for (size_t j = 0; j < n; j++) {
@@ -408,7 +408,7 @@ static bool sample_posterior(Work *work) {
       step_from(tried, out->z, sqrt(CHI_SQUARES / chi), root, variate, n);
       ratio = log_t(z, out->z, root, n) - log_t(tried, out->z, root, n);
     } else {
-      step_from(tried, z, scale, walk, variate, n);
+      step_from(tried, z, scale, step_root, variate, n);
     }
     if (!(good = residual_at(work, residual, tried))) {
       break;
@@ -426,8 +426,8 @@ static bool sample_posterior(Work *work) {
       scale = fmin(fmax(scale, 1e-3), 10);
       if (i + 1 == warm) {
         adapt(covariance, warmed + warm / 2 * n, warm - warm / 2, n);
-        if (!root_of(walk, covariance, n)) {
-          memcpy(walk, root, n * n * sizeof *walk);
+        if (!root_of(step_root, covariance, n)) {
+          memcpy(step_root, root, n * n * sizeof *step_root);
         }
       }
     } else {
@@ -438,7 +438,7 @@ static bool sample_posterior(Work *work) {
   }
   out->accepted = out->samples > 0 ? (double)taken / (double)out->samples : NAN;
   g_free(root);
-  g_free(walk);
+  g_free(step_root);
   g_free(covariance);
   g_free(residual);
   g_free(warmed);
