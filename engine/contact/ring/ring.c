@@ -171,6 +171,8 @@ void sb_ring_end_best(SbRing *ring, bool take) {
   }
 }
 
+static SbStatus slide_at_once(SbRing *ring, const SbRingLoad *target, SbReport *report);
+
 static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   SbRingLoad target = *load, smooth = *load;
   smooth.use_bore_traction = false;
@@ -188,7 +190,12 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
       if (target.rests_on_wall) {
         sb_ring_rest_on_wall(ring);
       }
+      const bool easy = ring->easy;
       status = sb_ring_drag(ring, target.friction_bore, report);
+      ring->easy = false;
+      if (status == SB_OK && easy && ring->state == SB_RING_SLIDES) {
+        status = slide_at_once(ring, &target, report);
+      }
       if (status == SB_OK && ring->state != SB_RING_SLIDES) {
         sb_ring_hold_turn(ring);
       }
@@ -202,11 +209,16 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
   return status;
 }
 
-// A ring that barely resists rolling can stumble over single nodes of a mesh: finer ones are tried.
+// Under fluid a state that slides is mostly reached by an easy path, a fifth of the steps. A ring
+// that barely resists rolling can stumble over single nodes of a mesh: finer ones are tried.
 static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *report) {
-  static const double FINER[] = {1.0, 0.8, 0.6};
+  static const double FINER[] = {1.0, 1.0, 0.8, 0.6};
+  const bool pressed = target->pressure_left > 0.0 || target->pressure_right > 0.0;
+  const bool slides = target->bore_slides != 0 && target->friction_bore > 0.0;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
-  for (size_t i = 0; i < sizeof FINER / sizeof FINER[0] && status == SB_ERROR_NOT_CONVERGED; i++) {
+  for (size_t i = pressed && slides ? 0 : 1;
+       i < sizeof FINER / sizeof FINER[0] && status == SB_ERROR_NOT_CONVERGED; i++) {
+    ring->easy = i == 0;
     SbRingMeshPlan plan = first_plan(ring, target, FINER[i] * ring->options.element_size);
     drop(ring);
     ring->arc.free = false;

@@ -40,8 +40,9 @@ static const double PULL = 1e-3;
 // sets in smoothly over the first excess of its pressure over the fluid's, by this share of that,
 // or of WET_MOST shear moduli if those are less. The drag then is the law's integral over the
 // recovered pressure to 0.3 % (tests/engine); on a path, whose states lead to others only, to some
-// percent.
-static const double WET = 0.15, WET_MOST = 0.7;
+// percent. Over the first WET_EASY shares a node hardly ever is without a state; that is a path to
+// a state only, too soft to tell a limit.
+static const double WET = 0.15, WET_EASY = 1.0, WET_MOST = 0.7;
 
 // Neighbours at the end of a contact can come and go in turn for ever: a node that was caught or
 // changed its slip so often in a solve changes further only where it is the worst of all.
@@ -127,7 +128,7 @@ SbRingGrip sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surfa
   }
   if (surface == SB_RING_BORE && now->bore_slides != 0 && fluid > 0.0) {
     const bool high = fluid > WET_MOST * area;
-    const double over = WET * (high ? WET_MOST * area : fluid);
+    const double over = (contact->easy ? WET_EASY : WET) * (high ? WET_MOST * area : fluid);
     const double share = fmax(0.0, (normal - fluid) / over);
     if (share < 1.0) {
       const double part = share * share * (3.0 - 2.0 * share);

@@ -20,11 +20,11 @@
 
 // Steps along the path: first, largest and least; the length over which its direction is taken; the
 // turn after which the mesh is fitted anew.
-static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 5e-4, SECANT = 0.02, REFIT_TURN = 0.1;
+static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 5e-4, SECANT = 0.02, REFIT_TURN = 0.15;
 
-// Newton iterations of a quick and of a slow step, and of a whole path at most; meshes that are
-// tried at a place where no step succeeds, and by how much each is finer.
-enum { QUICK = 7, SLOW = 14, ITERATIONS_MOST = 4000, MESHES = 3 };
+// Newton iterations of a quick and of a slow step, of a whole path and of an easy one at most;
+// meshes that are tried at a place where no step succeeds, and by how much each is finer.
+enum { QUICK = 7, SLOW = 14, ITERATIONS_MOST = 4000, EASY_MOST = 600, MESHES = 3 };
 static const double FINER = 0.12;
 
 // The greatest coefficient is passed where it has fallen to this share of it and the section turned
@@ -145,6 +145,9 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
     int before = ring->count.iterations;
     SbStatus status = next_state(ring, direction, length, unit, aim, report);
     int used = ring->count.iterations - before;
+    if (ring->easy && ring->count.iterations - first > EASY_MOST) {
+      return sb_fail(report, SB_ERROR_NOT_CONVERGED, "an easy path ends after many steps");
+    }
     bool refit = fabs(is->turn - fitted) > REFIT_TURN;
     if (status == SB_ERROR_NOT_CONVERGED) {
       ring->count.rejected++;
@@ -198,35 +201,37 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   }
   // Another mesh at a held turn may have passed the coefficient.
   ring->arc.free = false;
-  return settle_at(ring, aim, report);
+  return ring->easy ? sb_succeed(report) : settle_at(ring, aim, report);
 }
 
-// Solves the state of the greatest friction, at its turn, as strictly as any other; that of the
-// path stays where there is none.
-static void settle_limit(SbRing *ring) {
+// Solves the state of the greatest friction, at its turn, as strictly as any other; where there is
+// none that of the path stays, but of an easy one.
+static SbStatus settle_limit(SbRing *ring, bool easy, SbReport *report) {
   const SbRingState state = ring->state;
   double before, after, whole;
   sb_ring_hold_turn(ring);
   sb_ring_save(ring->contact, SB_RING_START);
   (void)bore_load(ring->contact, &before, &whole);
-  if (sb_ring_attempt(ring, SB_RING_DIRECT, NULL) == SB_OK) {
+  SbStatus status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+  if (status == SB_OK) {
     (void)bore_load(ring->contact, &after, &whole);
     ring->share_limit = ring->contact->is.now.friction_bore;
     ring->drag_limit *= after / before;
-  } else {
+  } else if (status == SB_ERROR_NOT_CONVERGED) {
     sb_ring_contact_settle(ring->contact);
+    status = easy && !ring->options.fit_mesh ? status : sb_succeed(report);
   }
   ring->arc.free = false;
   ring->state = state;
+  return status;
 }
 
 SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
   SbStatus status = follow(ring, aim, report);
   ring->passing = false;
   const bool limit = status == SB_OK && ring->state != SB_RING_SLIDES;
+  const bool easy = ring->easy;
+  ring->easy = false;
   sb_ring_end_best(ring, limit);
-  if (limit) {
-    settle_limit(ring);
-  }
-  return status;
+  return limit ? settle_limit(ring, easy, report) : status;
 }
