@@ -24,7 +24,7 @@ static const double PRESSURE_STEP = 0.8, LAND_STEP = 0.15;
 // Viscosities, in shear moduli per section diameter squared: first, least before it is dropped,
 // most; and how many steps and droppings are tried.
 static const double VISCOSITY = 30.0, VISCOSITY_LEAST = 0.3, VISCOSITY_MOST = 3e4;
-enum { TRANSIENT_STEPS = 50, DROPS_MAX = 4, TRANSIENTS_MAX = 3 };
+enum { TRANSIENT_STEPS = 50, DROPS_MAX = 4, TRANSIENTS_MAX = 9 };
 
 // Newton iterations after which a load step is given up at its next failure.
 enum { ITERATIONS_MOST = 1000 };
