@@ -11,14 +11,14 @@
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 // Lines that are looked at, copied.
 typedef struct {
-  GPtrArray *line; // of GString
-  size_t head;     // of them from the start of the file, without a gap
+  GPtrArray *line;   // of GString
+  size_t head;       // of them from the start of the file, without a gap
+  const char *wrong; // why the file cannot be read; NULL: it can
 } Sample;
 
 enum { SAMPLE_LINES = 3000, SAMPLE_BYTES = 1 << 18, SAMPLE_TAIL = 300, LINE_BYTES = 1 << 16 };
@@ -32,8 +32,10 @@ const char *sb_table_encoding_name(SbTableEncoding encoding) {
 
 // ---- Bytes ----
 
-static SbTableEncoding find_encoding(const guint8 *bytes, size_t length) {
-  const size_t looked = MIN(length, 65536);
+enum { ENCODING_BYTES = 1 << 16 };
+
+// From the first `looked` of `length` bytes.
+static SbTableEncoding find_encoding(const guint8 *bytes, size_t looked, size_t length) {
   if (looked >= 2 &&
       ((bytes[0] == 0xff && bytes[1] == 0xfe) || (bytes[0] == 0xfe && bytes[1] == 0xff))) {
     return bytes[0] == 0xff ? SB_TABLE_UTF16LE : SB_TABLE_UTF16BE;
@@ -74,18 +76,19 @@ static void take_lines(Sample *sample, const SbTable *table, size_t from, size_t
   SbTableLines lines;
   const char *text;
   size_t length;
-  sb_table_lines_init(&lines, table->bytes + from, table->length - from, table->dialect.encoding);
+  sb_table_lines_init(&lines, &table->bytes, from, table->dialect.encoding);
   if (from > 0) {
     (void)sb_table_next(&lines, &text, &length); // the rest of a line
   }
-  const guint8 *begin = lines.at;
+  const size_t end = sb_table_lines_place(&lines) + SAMPLE_BYTES;
   for (size_t i = 0;
-       i < lines_max && lines.at - begin < SAMPLE_BYTES && sb_table_next(&lines, &text, &length);
+       i < lines_max && sb_table_lines_place(&lines) < end && sb_table_next(&lines, &text, &length);
        i++) {
     GString *line = g_string_new_len(text, (gssize)MIN(length, LINE_BYTES));
     g_ptr_array_add(sample->line, line);
     sample->head += from == 0;
   }
+  sample->wrong = sample->wrong != NULL ? sample->wrong : lines.wrong;
   sb_table_lines_clear(&lines);
 }
 
@@ -94,8 +97,8 @@ static Sample take_sample(const SbTable *table) {
   take_lines(&sample, table, 0, SAMPLE_LINES);
   for (size_t part = 1; part <= 3; part++) {
     // Places behind the first look; the last near the end.
-    const size_t from = part < 3 ? part * (table->length / 3)
-                                 : table->length - MIN(table->length, SAMPLE_BYTES / 8);
+    const size_t from = part < 3 ? part * (table->bytes.length / 3)
+                                 : table->bytes.length - MIN(table->bytes.length, SAMPLE_BYTES / 8);
     if (from > SAMPLE_BYTES) {
       take_lines(&sample, table, from & ~(size_t)1, SAMPLE_TAIL);
     }
@@ -412,13 +415,27 @@ static bool refuse_double_comma(const SbTable *table, const Sample *sample, cons
 
 // ---- The file ----
 
+static SbTableEncoding encoding_of(const SbTableBytes *bytes) {
+  size_t looked = MIN(bytes->length, ENCODING_BYTES);
+  if (bytes->file < 0) {
+    return find_encoding(bytes->bytes, looked, bytes->length);
+  }
+  g_autofree guint8 *head = g_malloc0(ENCODING_BYTES);
+  const ssize_t got = pread(bytes->file, head, looked, 0);
+  return find_encoding(head, got > 0 ? (size_t)got : 0, bytes->length);
+}
+
 static bool recognise(SbTable *table, const SbTableDialect *wish, GPtrArray *issues) {
   static const SbTableDialect nothing = {0};
   wish = wish != NULL ? wish : &nothing;
-  table->dialect.encoding = wish->encoding != SB_TABLE_ANY_ENCODING
-                                ? wish->encoding
-                                : find_encoding(table->bytes, table->length);
+  table->dialect.encoding =
+      wish->encoding != SB_TABLE_ANY_ENCODING ? wish->encoding : encoding_of(&table->bytes);
   Sample sample = take_sample(table);
+  if (sample.wrong != NULL) {
+    sb_issues_add(issues, table->shown, 0, NULL, NULL, "%s", sample.wrong);
+    g_ptr_array_unref(sample.line);
+    return false;
+  }
   Fit fit;
   bool good = find_dialect(&fit, table, &sample, wish, issues);
   if (good) {
@@ -457,21 +474,19 @@ SbTable *sb_table_parse(const void *bytes, size_t length, const SbTableDialect *
                         const char *name, GPtrArray *issues) {
   g_autoptr(SbTable) table = g_new0(SbTable, 1);
   table->shown = g_strdup(name);
-  table->bytes = g_malloc0(length + 1); // never NULL
+  table->bytes = (SbTableBytes){-1, g_malloc0(length + 1), length}; // never NULL
   if (length > 0) {
-    memcpy(table->bytes, bytes, length);
+    memcpy(table->bytes.bytes, bytes, length);
   }
-  table->length = length;
   return recognise(table, wish, issues) ? g_steal_pointer(&table) : NULL;
 }
 
 SbTable *sb_table_open(const char *path, const SbTableDialect *wish, GPtrArray *issues) {
   g_autoptr(SbTable) table = g_new0(SbTable, 1);
   table->shown = g_strdup(path);
-  const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  table->bytes.file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   struct stat info;
-  void *bytes = MAP_FAILED;
-  if (file < 0 || fstat(file, &info) != 0) {
+  if (table->bytes.file < 0 || fstat(table->bytes.file, &info) != 0) {
     sb_issues_add(issues, path, 0, NULL, NULL, "%s", g_strerror(errno));
   } else if (!S_ISREG(info.st_mode)) {
     sb_issues_add(issues, path, 0, NULL, NULL, "is not a regular file");
@@ -479,32 +494,20 @@ SbTable *sb_table_open(const char *path, const SbTableDialect *wish, GPtrArray *
     sb_issues_add(issues, path, 0, NULL, NULL, "is empty");
   } else {
     sb_output_note_input(&info);
-    table->length = (size_t)info.st_size;
-    bytes = mmap(NULL, table->length, PROT_READ, MAP_PRIVATE, file, 0);
-    if (bytes == MAP_FAILED) {
-      sb_issues_add(issues, path, 0, NULL, NULL, "%s", g_strerror(errno));
-    }
+    table->bytes.length = (size_t)info.st_size;
+    return recognise(table, wish, issues) ? g_steal_pointer(&table) : NULL;
   }
-  if (file >= 0) {
-    close(file);
-  }
-  if (bytes == MAP_FAILED) {
-    return NULL;
-  }
-  table->bytes = bytes;
-  table->mapped = true;
-  return recognise(table, wish, issues) ? g_steal_pointer(&table) : NULL;
+  return NULL;
 }
 
 void sb_table_free(SbTable *table) {
   if (table == NULL) {
     return;
   }
-  if (table->mapped) {
-    munmap(table->bytes, table->length);
-  } else {
-    g_free(table->bytes);
+  if (table->bytes.file >= 0) {
+    close(table->bytes.file);
   }
+  g_free(table->bytes.bytes);
   for (size_t i = 0; i < table->columns; i++) {
     g_free(table->column[i].name);
     g_free(table->column[i].unit);

@@ -9,8 +9,8 @@
 // the first row is a header; its last lines with as many cells as the rows give names and units.
 //
 // A file that reads in two ways (all commas before three digits: decimals or thousands?) is
-// refused with both readings named. The bytes stay mapped, so that memory is what the columns that
-// are asked for take.
+// refused with both readings named. The file stays open and is read a piece at a time, so that
+// memory is what the columns that are asked for take; one that is cut short meanwhile is refused.
 #pragma once
 
 #include "app/base/issue.h"

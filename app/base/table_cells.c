@@ -1,82 +1,10 @@
-// Lines, cells and numbers. A number's digits go into a whole number; up to 2^53 and powers of ten
+// Cells and numbers. A number's digits go into a whole number; up to 2^53 and powers of ten
 // up to 22 one multiplication or division of exact doubles rounds right (Clinger 1990), all others
 // go to the C library's conversion.
 #include "app/base/number.h"
 #include "app/base/table_private.h"
 
 #include <string.h>
-
-// ---- Lines ----
-
-void sb_table_lines_init(SbTableLines *lines, const guint8 *bytes, size_t length,
-                         SbTableEncoding encoding) {
-  const bool wide = encoding == SB_TABLE_UTF16LE || encoding == SB_TABLE_UTF16BE;
-  size_t mark = 0;
-  if (wide && length >= 2) {
-    const int first = encoding == SB_TABLE_UTF16LE ? 0 : 1;
-    mark = bytes[first] == 0xff && bytes[1 - first] == 0xfe ? 2 : 0;
-  } else if (length >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0) {
-    mark = 3;
-  }
-  *lines = (SbTableLines){.at = bytes + mark,
-                          .end = bytes + length,
-                          .encoding = encoding,
-                          .line_end = '\n',
-                          .wide = wide ? g_string_new(NULL) : NULL};
-  if (!wide) {
-    const size_t looked = MIN(length - mark, 65536);
-    const bool old = looked > 0 && memchr(lines->at, '\n', looked) == NULL &&
-                     memchr(lines->at, '\r', looked) != NULL;
-    lines->line_end = old ? '\r' : '\n';
-  }
-}
-
-void sb_table_lines_clear(SbTableLines *lines) {
-  if (lines->wide != NULL) {
-    g_string_free(lines->wide, TRUE);
-  }
-}
-
-static void next_wide(SbTableLines *lines) {
-  const int low = lines->encoding == SB_TABLE_UTF16LE ? 0 : 1;
-  GString *out = lines->wide;
-  g_string_truncate(out, 0);
-  while (lines->end - lines->at >= 2) {
-    const guint unit = (guint)lines->at[low] | (guint)lines->at[1 - low] << 8;
-    lines->at += 2;
-    if (unit == '\n') {
-      return;
-    }
-    if (unit < 0x80) {
-      g_string_append_c(out, (char)unit);
-    } else {
-      g_string_append_unichar(out, unit >= 0xd800 && unit < 0xe000 ? '?' : unit);
-    }
-  }
-  lines->at = lines->end;
-}
-
-bool sb_table_next(SbTableLines *lines, const char **text, size_t *length) {
-  if (lines->at >= lines->end) {
-    return false;
-  }
-  lines->number++;
-  if (lines->wide != NULL) {
-    next_wide(lines);
-    *text = lines->wide->str;
-    *length = lines->wide->len;
-  } else {
-    const guint8 *stop = memchr(lines->at, lines->line_end, (size_t)(lines->end - lines->at));
-    const guint8 *last = stop != NULL ? stop : lines->end;
-    *text = (const char *)lines->at;
-    *length = (size_t)(last - lines->at);
-    lines->at = stop != NULL ? stop + 1 : lines->end;
-  }
-  if (*length > 0 && (*text)[*length - 1] == '\r') {
-    --*length;
-  }
-  return true;
-}
 
 // ---- Cells ----
 

@@ -1,24 +1,43 @@
-// Lines, cells and numbers of tables, shared by table.c (what a file is) and table_cells.c.
+// Lines, cells and numbers of tables, shared by the files table*.c.
 #pragma once
 
 #include "app/base/table.h"
 
+// Where a table's bytes are: in memory, or in a file that is read a piece at a time. A mapping
+// would end the program where the file is cut short meanwhile.
+typedef struct {
+  int file;      // -1: in memory
+  guint8 *bytes; // [length] there
+  size_t length;
+} SbTableBytes;
+
+enum { SB_TABLE_LINE_MAX = 1 << 24 };
+
 // Reads a text of any of the encodings line by line.
 typedef struct {
-  const guint8 *at, *end;
+  const SbTableBytes *bytes;
+  const guint8 *at, *end; // what is at hand
+  size_t left;            // bytes of the file behind that
+  guint8 *piece;          // of a file; NULL in memory
+  size_t room;
   SbTableEncoding encoding;
-  char line_end; // '\n', or '\r' of files that have no other
-  int number;    // of the line last read, from 1
-  GString *wide; // a line of UTF-16 in UTF-8; NULL elsewhere
+  char line_end;     // '\n', or '\r' of files that have no other
+  int number;        // of the line last read, from 1
+  GString *wide;     // a line of UTF-16 in UTF-8; NULL elsewhere
+  const char *wrong; // why lines ended before the file did; NULL: they did not
 } SbTableLines;
 
-void sb_table_lines_init(SbTableLines *lines, const guint8 *bytes, size_t length,
+// Begins at byte `from`.
+void sb_table_lines_init(SbTableLines *lines, const SbTableBytes *bytes, size_t from,
                          SbTableEncoding encoding);
 void sb_table_lines_clear(SbTableLines *lines);
 
 // The next line without its end; borrowed until the next one. In UTF-16's files UTF-8, elsewhere
-// the bytes of the file.
+// the bytes of the file. False at the end, and with `wrong` where a file cannot be read on.
 bool sb_table_next(SbTableLines *lines, const char **text, size_t *length);
+
+// Bytes in front of the next line.
+size_t sb_table_lines_place(const SbTableLines *lines);
 
 typedef struct {
   const char *text;
@@ -53,9 +72,7 @@ bool sb_table_days(long *days, const SbTableClock *clock);
 
 struct SbTable {
   char *shown;
-  guint8 *bytes; // mapped, or owned
-  size_t length;
-  bool mapped;
+  SbTableBytes bytes;
   SbTableDialect dialect;
   size_t columns, header_lines;
   SbTableColumn column[SB_TABLE_COLUMNS_MAX];

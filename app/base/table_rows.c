@@ -51,7 +51,7 @@ bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const
   SbTableLines lines;
   const char *text, *wrong = NULL;
   size_t length, room = 0;
-  sb_table_lines_init(&lines, table->bytes, table->length, table->dialect.encoding);
+  sb_table_lines_init(&lines, &table->bytes, 0, table->dialect.encoding);
   while (wrong == NULL && sb_table_next(&lines, &text, &length)) {
     if ((size_t)lines.number <= table->header_lines || length == 0 || *text == '#') {
       continue;
@@ -86,7 +86,7 @@ bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const
     }
     if (out->rows == room) {
       // The bytes that are left, at the length of lines so far, are a good guess.
-      const double done = (double)(lines.at - table->bytes), all = (double)table->length;
+      const double done = (double)sb_table_lines_place(&lines), all = (double)table->bytes.length;
       const double guess = room == 0 ? 1024 : 1.05 * (double)out->rows * all / done + 16;
       wrong = room == SB_TABLE_ROWS_MAX ? "has too many rows"
               : grow(value, count, &room, (size_t)fmin(fmax(guess, (double)room + 1024), 1e15))
@@ -98,6 +98,7 @@ bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const
     }
     out->rows += wrong == NULL;
   }
+  wrong = wrong != NULL ? wrong : lines.wrong;
   if (wrong != NULL) {
     sb_issues_add(issues, table->shown, lines.number, NULL, NULL, "%s", wrong);
     for (size_t k = 0; k < count; k++) {

@@ -9,6 +9,7 @@
 #include <glib/gstdio.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { ROWS = 2040, AIR = 40 };
 
@@ -327,6 +328,54 @@ static void test_clocks(void) {
 }
 
 // A scene keeps its data, also when it moves to another folder.
+// A file read in pieces is the same rows as one in memory, in lines across their ends too; one that
+// is cut short between the two readings is refused.
+static void test_files(void) {
+  enum { LINES = 60000 };
+  g_autofree char *folder = g_dir_make_tmp("sealbench-XXXXXX", NULL);
+  g_autofree char *path = g_build_filename(folder, "long.csv", NULL);
+  for (int wide = 0; wide < 2; wide++) {
+    GString *text = g_string_new("t;x;F\n");
+    for (int i = 0; i < LINES; i++) {
+      g_string_append_printf(text, "%d;%d;%d%s\n", i, 3 * i % 1001, 7 * i % 911,
+                             i == LINES / 2 ? ";                                " : "");
+    }
+    gsize length = text->len;
+    g_autofree char *bytes =
+        wide ? g_convert(text->str, (gssize)text->len, "UTF-16LE", "UTF-8", NULL, &length, NULL)
+             : g_strndup(text->str, text->len);
+    g_string_free(text, TRUE);
+    g_assert_true(g_file_set_contents(path, bytes, (gssize)length, NULL));
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autoptr(SbTable) file = sb_table_open(path, NULL, issues);
+    g_autoptr(SbTable) memory = sb_table_parse(bytes, length, NULL, "x", issues);
+    const SbTable *tables[] = {file, memory};
+    for (int k = 0; k < 2; k++) {
+      g_assert_nonnull(tables[k]);
+      SbTableRows rows;
+      double *value[2];
+      g_assert_true(sb_table_read(&rows, value, tables[k], (size_t[]){0, 2}, 2, issues));
+      g_assert_cmpuint(rows.rows, ==, LINES);
+      for (int i = 0; i < LINES; i++) {
+        g_assert_true(value[0][i] == i && value[1][i] == 7 * i % 911);
+      }
+      g_free(value[0]);
+      g_free(value[1]);
+      g_free(rows.skipped_text);
+    }
+    g_assert_cmpint(truncate(path, (off_t)length / 3), ==, 0);
+    SbTableRows rows;
+    double *value;
+    g_assert_false(sb_table_read(&rows, &value, file, (size_t[]){1}, 1, issues));
+    g_assert_cmpuint(issues->len, ==, 1);
+    g_autofree char *line = sb_issue_line(issues->pdata[0]);
+    g_assert_nonnull(strstr(line, "cut short"));
+    g_assert_null(value);
+  }
+  (void)g_remove(path);
+  (void)g_rmdir(folder);
+}
+
 static void test_document_moves(void) {
   g_autofree char *from = g_dir_make_tmp("sealbench-XXXXXX", NULL);
   g_autofree char *to = g_dir_make_tmp("sealbench-XXXXXX", NULL);
@@ -367,6 +416,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/measured/settled", test_settled);
   g_test_add_func("/measured/numbers", test_numbers);
   g_test_add_func("/measured/clocks", test_clocks);
+  g_test_add_func("/measured/files", test_files);
   g_test_add_func("/measured/document", test_document_moves);
   return g_test_run();
 }
