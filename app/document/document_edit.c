@@ -163,7 +163,11 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
 }
 
 void sb_document_unset(SbDocument *document, SbParamId id) {
-  edit_key(document, id, false, sb_param(id)->fallback, false);
+  // A shape of the document itself gives what no key does, as it will when the file is read again.
+  const SbShapeSize *shape =
+      sb_shapes_own(document->shapes, id, document->kind != SB_DOCUMENT_SCENE);
+  edit_key(document, id, shape != NULL, shape != NULL ? shape->value : sb_param(id)->fallback,
+           false);
 }
 
 bool sb_document_gives(const SbDocument *document, SbParamId id) {

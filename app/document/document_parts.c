@@ -36,9 +36,16 @@ static const char *const shape_keys[] = {"density",      "profile",      "stl", 
 // How far a drawn arc may lie from the true one [m]: a fifth of a pixel at 800 pixels per mm.
 static const double SAGITTA = 0.25e-6;
 
+static void free_size(gpointer data) {
+  SbShapeSize *size = data;
+  g_free(size->source);
+  g_free(size);
+}
+
 SbShapes *sb_shapes_new(void) {
   SbShapes *shapes = g_new0(SbShapes, 1);
-  shapes->sizes = g_ptr_array_new();
+  shapes->sizes = g_ptr_array_new_with_free_func(free_size);
+  shapes->masses = g_ptr_array_new_with_free_func(free_size);
   return shapes;
 }
 
@@ -46,12 +53,8 @@ void sb_shapes_free(SbShapes *shapes) {
   if (shapes == NULL) {
     return;
   }
-  for (guint i = 0; i < shapes->sizes->len; i++) {
-    SbShapeSize *size = shapes->sizes->pdata[i];
-    g_free(size->source);
-    g_free(size);
-  }
   g_ptr_array_unref(shapes->sizes);
+  g_ptr_array_unref(shapes->masses);
   for (size_t i = 0; i < G_N_ELEMENTS(shapes->text); i++) {
     g_free(shapes->text[i]);
   }
@@ -67,6 +70,19 @@ const SbShapeSize *sb_shapes_size(const SbShapes *shapes, SbParamId id) {
     }
   }
   return found;
+}
+
+const SbShapeSize *sb_shapes_own(const SbShapes *shapes, SbParamId id, bool in_valve) {
+  for (int k = 0; k < 2; k++) {
+    const GPtrArray *list = k == 0 ? shapes->sizes : shapes->masses;
+    for (guint i = 0; i < list->len; i++) {
+      const SbShapeSize *size = list->pdata[i];
+      if (size->id == id && size->in_valve == in_valve) {
+        return size;
+      }
+    }
+  }
+  return NULL;
 }
 
 bool sb_parts_is_shape_key(const char *group, const char *name) {
@@ -190,9 +206,18 @@ static bool differs(const Part *part, SbParamId id, double value) {
   return fabs(given - value) > SB_SHAPE_ROUNDING * fabs(given);
 }
 
+static void keep_size(GPtrArray *list, const Part *part, SbParamId id, double value,
+                      const char *source) {
+  SbShapeSize *size = g_new(SbShapeSize, 1);
+  *size = (SbShapeSize){id, value, part->base == NULL,
+                        g_strdup_printf("the %s of [%s]", source, part->group)};
+  g_ptr_array_add(list, size);
+}
+
 // A mass or moment: a given one may be weighed, or the part made of more than its shape.
 static void derive_mass(const Part *part, SbParamId id, double value, const char *source) {
   const SbParam *param = sb_param(id);
+  keep_size(part->shapes->masses, part, id, value, source);
   if (!part->params->given[id]) {
     set(part, id, value, source);
   } else if (differs(part, id, value)) {
@@ -234,10 +259,7 @@ static void derive_size(const Part *part, SbParamId id, double value, const char
   if (known != NULL && known->in_valve == (part->base == NULL)) {
     return; // two grooves, one gland
   }
-  SbShapeSize *size = g_new(SbShapeSize, 1);
-  *size = (SbShapeSize){id, value, part->base == NULL,
-                        g_strdup_printf("the %s of [%s]", source, part->group)};
-  g_ptr_array_add(part->shapes->sizes, size);
+  keep_size(part->shapes->sizes, part, id, value, source);
 }
 
 // "3 mm .. 5 mm" of a profile. False if absent or wrong.

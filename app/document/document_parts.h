@@ -25,7 +25,7 @@ typedef struct {
   bool has_bore, has_groove[SB_SEAL_COUNT]; // which of the outlines' sizes are known
   bool mesh[SB_VALVE_STEM_BOTTOM + 1];      // the part is a mesh, whose section nothing draws
   char *text[SB_VALVE_STEM_BOTTOM + 1];     // a part's shape keys as lines of a file, or NULL
-  GPtrArray *sizes;                         // of SbShapeSize
+  GPtrArray *sizes, *masses;                // of SbShapeSize; masses: moments of inertia too
 } SbShapes;
 
 // Owned by the caller.
@@ -34,6 +34,10 @@ void sb_shapes_free(SbShapes *shapes);
 
 // The size that follows from a shape for `id`, the document's own before its valve's; NULL: none.
 const SbShapeSize *sb_shapes_size(const SbShapes *shapes, SbParamId id);
+
+// The size, mass or moment that the shapes of a document itself (in_valve as in SbShapeSize) give
+// `id`: what holds without a key beside them. NULL: none.
+const SbShapeSize *sb_shapes_own(const SbShapes *shapes, SbParamId id, bool in_valve);
 
 // Derives masses, moments of inertia and sizes from the shapes among `entries`, adds them to
 // `shapes` and sets those that `params` does not give; `base` is what they lie upon (the valve's

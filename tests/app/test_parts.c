@@ -146,6 +146,31 @@ static void test_weighed(void) {
   g_assert_nonnull(strstr(notes->pdata[1], "the section does not draw"));
 }
 
+// What follows from a shape is in force again once the own value beside it goes, as it is when the
+// saved text is read.
+static void test_unset(void) {
+  static const SbParamId id[] = {SB_P_PART_STEM_CENTRE_MASS, SB_P_GLAND_RADIAL_SPACE,
+                                 SB_P_STEM_PRESSURE_DIAMETER};
+  for (int weighed = 0; weighed < 2; weighed++) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autofree char *body = g_strconcat(stem, weighed ? "mass = 2 g\n" : "", NULL);
+    g_autoptr(SbDocument) document = parse(body, issues);
+    for (size_t i = 0; i < G_N_ELEMENTS(id); i++) {
+      g_assert_true(sb_document_set_value(document, id[i],
+                                          1.01 * sb_document_value(document, id[i]), false, NULL));
+      sb_document_unset(document, id[i]);
+    }
+    g_autofree char *text = sb_document_to_text(document, NULL);
+    g_autoptr(SbDocument) again = sb_document_parse(text, strlen(text), "again", NULL, issues);
+    g_assert_cmpuint(issues->len, ==, 0);
+    for (size_t i = 0; i < G_N_ELEMENTS(id); i++) {
+      assert_relative(sb_document_value(document, id[i]), sb_document_value(again, id[i]), 1e-12);
+      g_assert_cmpfloat(fabs(sb_document_value(document, id[i]) / sb_param(id[i])->fallback - 1), >,
+                        1e-3);
+    }
+  }
+}
+
 // The stem's mass of the valve under a scene shares out that of the scene's shape: a note tells.
 static void test_weighed_below(void) {
   g_autofree char *folder = g_dir_make_tmp("sealbench-parts-XXXXXX", NULL);
@@ -272,6 +297,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/parts/clash", test_clash);
   g_test_add_func("/parts/weighed", test_weighed);
   g_test_add_func("/parts/weighed-below", test_weighed_below);
+  g_test_add_func("/parts/unset", test_unset);
   g_test_add_func("/parts/mesh", test_mesh);
   g_test_add_func("/parts/refused", test_refused);
   return g_test_run();
