@@ -11,7 +11,9 @@
 //   direction = as-is | force | displacement | both  which of them to turn round
 //   zero = as-is | 0.31 mm, 0.2 N                    readings at rest and without a load
 //   compliance = none | 0.012 mm/N                   of the machine between crosshead and stem
-//   cycle = all | 2
+//   cycle = all | 2                                  calibrate: 1, 10, 40, a curve each
+//   actuation = 1                                    calibrate: since new, of the file's first
+//   cycle
 //
 // Direction: friction takes energy out, so the force is greater on the way in; canister pressure
 // pushes out, so its mean is positive. Compliance: the slope of displacement over force while the
@@ -69,9 +71,9 @@ typedef struct {
   // What was found or said.
   SbHow direction, zero, force_zero, compliance;
   bool turned_displacement, turned_force;
-  double at_rest;           // crosshead's reading, in the file's direction turned [m]
-  double no_load;           // force's reading [N]
-  size_t no_load_rows;      // it is the mean of
+  double at_rest;                   // crosshead's reading, in the file's direction turned [m]
+  double no_load;                   // force's reading [N]
+  size_t no_load_row, no_load_rows; // it is the mean of so many from there
   double no_load_deviation; // its standard deviation by the noise, 0 where it is not found [N]
   double slope;             // compliance [m/N]
   GArray *cycle;            // of SbMeasuredCycle

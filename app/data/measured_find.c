@@ -181,15 +181,15 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
 
 // ---- Zero and compliance ----
 
-// Of the first in-stroke: rows up to where the force reaches nine tenths of its sliding level.
+// Of a cycle's in-stroke: rows up to where the force reaches nine tenths of its sliding level.
 typedef struct {
   size_t begin, end;
   double level; // sliding [N]
   double range; // of the displacement [m]
 } Rise;
 
-static Rise find_rise(const SbMeasured *m) {
-  const SbMeasuredCycle *cycle = sb_measured_cycle(m, m->first);
+static Rise find_rise(const SbMeasured *m, size_t index) {
+  const SbMeasuredCycle *cycle = sb_measured_cycle(m, index);
   Rise rise = {.begin = cycle->begin, .end = cycle->begin};
   const double s0 = m->displacement[cycle->begin], s1 = m->displacement[cycle->turn];
   rise.range = s1 - s0;
@@ -218,6 +218,7 @@ static void find_no_load(SbMeasured *m, const Rise *rise) {
       sum += m->force[i];
     }
     m->no_load = sum / (double)(kept - rise->begin);
+    m->no_load_row = rise->begin;
     m->no_load_rows = kept - rise->begin;
   }
 }
@@ -255,7 +256,7 @@ static bool read_pair(double *place, double *load, const char *text) {
 }
 
 static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
-  const Rise rise = find_rise(m);
+  const Rise rise = find_rise(m, m->first);
   const char *zero = data->text[SB_DATA_ZERO], *compliance = data->text[SB_DATA_COMPLIANCE];
   if (zero != NULL) {
     m->zero = m->force_zero = SB_HOW_SAID;
@@ -266,6 +267,11 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     }
   } else if (rise.level > 0) {
     find_no_load(m, &rise);
+    if (m->force_zero != SB_HOW_FOUND && m->first > 0) {
+      // A machine that stays on the stem between cycles has come to it once.
+      const Rise approach = find_rise(m, 0);
+      find_no_load(m, &approach);
+    }
   }
   if (compliance != NULL) {
     m->compliance = SB_HOW_SAID;

@@ -113,3 +113,37 @@ GPtrArray *sb_data_read(const GPtrArray *entries, const char *directory, const c
   }
   return list;
 }
+
+static SbData *copy_with_cycle(const SbData *data, const char *cycle) {
+  SbData *copy = g_new0(SbData, 1);
+  for (int i = 0; i < SB_DATA_KEY_COUNT; i++) {
+    copy->text[i] = g_strdup(i == SB_DATA_CYCLE ? cycle : data->text[i]);
+  }
+  copy->name = *data->name != '\0' ? g_strconcat(data->name, " ", cycle, NULL) : g_strdup(cycle);
+  copy->path = g_strdup(data->path);
+  copy->shown = g_strdup(data->shown);
+  copy->line = data->line;
+  return copy;
+}
+
+void sb_data_part(GPtrArray *list, GPtrArray *issues) {
+  for (guint i = 0; i < list->len; i++) {
+    const SbData *data = list->pdata[i];
+    const char *cycle = data->text[SB_DATA_CYCLE];
+    if (cycle == NULL || strchr(cycle, ',') == NULL) {
+      continue;
+    }
+    g_auto(GStrv) words = g_strsplit(cycle, ",", -1);
+    const guint count = g_strv_length(words);
+    if (list->len - 1 + count > SB_DATA_MAX) {
+      sb_data_complain(data, SB_DATA_CYCLE, NULL, issues,
+                       "makes more than the %d groups of data there may be", SB_DATA_MAX);
+      return;
+    }
+    for (guint k = 0; k < count; k++) {
+      g_ptr_array_insert(list, (gint)(i + 1 + k), copy_with_cycle(data, g_strstrip(words[k])));
+    }
+    g_ptr_array_remove_index(list, i);
+    i += count - 1;
+  }
+}

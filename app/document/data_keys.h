@@ -18,6 +18,7 @@
   X(SB_DATA_DIRECTION, "direction")                                                                \
   X(SB_DATA_COMPLIANCE, "compliance")                                                              \
   X(SB_DATA_CYCLE, "cycle")                                                                        \
+  X(SB_DATA_ACTUATION, "actuation")                                                                \
   X(SB_DATA_SET, "set")                                                                            \
   X(SB_DATA_OWN, "own")
 
@@ -49,6 +50,10 @@ bool sb_data_is_group(const char *group);
 // current one). A list that frees its SbData, owned by the caller.
 GPtrArray *sb_data_read(const GPtrArray *entries, const char *directory, const char *shown,
                         GPtrArray *issues);
+
+// Makes of each group with several cycles, `cycle = 1, 10, 40`, one for each cycle: "lot 1",
+// "lot 10", "lot 40".
+void sb_data_part(GPtrArray *list, GPtrArray *issues);
 
 // One of a file that no group names; owned by the caller.
 SbData *sb_data_of_file(const char *path);

@@ -449,6 +449,7 @@ static SbStudyFile *parse(const char *text, size_t length, const char *name, con
     }
     hold_base(&reader);
     study->data = sb_data_read(entries, directory, name, issues);
+    sb_data_part(study->data, issues);
     read_groups(&reader);
   }
   if (issues->len > before) {

@@ -1,6 +1,8 @@
 // Curves, their runs and what the samples say; see the header.
 #include "app/study/calibrate_private.h"
 
+#include "app/base/number.h"
+
 #include "engine/numeric/sampling.h"
 
 #include <math.h>
@@ -248,13 +250,45 @@ static bool read_set(Curve *curve, GPtrArray *issues) {
   return true;
 }
 
+// Which actuation of the valve the cycle in use is, as life.first_actuation of its runs.
+static bool read_actuation(Curve *curve, GPtrArray *issues) {
+  const char *text = curve->data->text[SB_DATA_ACTUATION];
+  const SbMeasured *m = curve->measured;
+  const double most = sb_param(SB_P_LIFE_FIRST_ACTUATION)->max;
+  double first = 0;
+  if (text == NULL) {
+    return true;
+  }
+  if (!sb_number_parse(&first, text) || first != floor(first) || first < 1 ||
+      !(first + (double)m->first <= most)) {
+    g_autofree char *allowed = g_strdup_printf("1 to %.0f", most);
+    sb_data_complain(curve->data, SB_DATA_ACTUATION, allowed, issues,
+                     "\"%.40s\" is no number of an actuation since new", text);
+    return false;
+  }
+  if (m->first != m->last) {
+    sb_data_complain(curve->data, SB_DATA_CYCLE, NULL, issues,
+                     "takes %zu cycles as one, but each is an actuation of its own: name some, as "
+                     "in cycle = 1, 10, %u",
+                     m->last - m->first + 1, m->cycle->len);
+    return false;
+  }
+  if (curve->sets == SB_VARY_MAX) {
+    sb_data_complain(curve->data, SB_DATA_SET, NULL, issues, "sets more than %d parameters",
+                     SB_VARY_MAX - 1);
+    return false;
+  }
+  curve->set[curve->sets++] = (SbOverride){SB_P_LIFE_FIRST_ACTUATION, first + (double)m->first};
+  return true;
+}
+
 static bool read_curve(Curve *curve, const Work *work, GPtrArray *issues) {
   bool ratio = false;
   for (size_t k = 0; k < work->study->vary->len; k++) {
     ratio |= vary_of(work, k)->id == SB_P_FRICTION_STATIC_RATIO;
   }
   curve->measured = sb_measured_load(curve->data, issues);
-  if (curve->measured == NULL || !read_set(curve, issues)) {
+  if (curve->measured == NULL || !read_set(curve, issues) || !read_actuation(curve, issues)) {
     return false;
   }
   curve->point = sb_measured_points(&curve->points, curve->measured, SB_CALIBRATION_POINTS);
@@ -287,6 +321,20 @@ static bool check_vary(const Work *work, GPtrArray *issues) {
   return true;
 }
 
+// The coordinate of the zero that an earlier curve has from the same rows of its file; SIZE_MAX:
+// there is none.
+static size_t zero_before(const Work *work, size_t c) {
+  const Curve *curve = &work->curve[c];
+  for (size_t k = 0; k < c; k++) {
+    const SbMeasured *one = work->curve[k].measured;
+    if (strcmp(work->curve[k].data->path, curve->data->path) == 0 &&
+        one->no_load_row == curve->measured->no_load_row) {
+      return work->curve[k].zero;
+    }
+  }
+  return SIZE_MAX;
+}
+
 // Gives every coordinate its place; false with an issue.
 static bool lay_out(Work *work, GPtrArray *issues) {
   const size_t varied = work->study->vary->len;
@@ -317,7 +365,11 @@ static bool lay_out(Work *work, GPtrArray *issues) {
   work->parameters = work->coordinates;
   for (size_t c = 0; c < work->curves; c++) {
     Curve *curve = &work->curve[c];
-    curve->zero = curve->measured->no_load_deviation > 0 ? work->coordinates++ : SIZE_MAX;
+    curve->zero = SIZE_MAX;
+    if (curve->measured->no_load_deviation > 0) {
+      const size_t before = zero_before(work, c);
+      curve->zero = before != SIZE_MAX ? before : work->coordinates++;
+    }
     curve->numeric = SIZE_MAX;
     if (work->tangent) {
       curve->numeric = work->coordinates;

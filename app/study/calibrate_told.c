@@ -79,9 +79,12 @@ static const char *experiment(const SbCalibrated *a, const SbCalibrated *b) {
                         (begins(b, "friction.") || begins(b, "surface."));
   const bool size =
       begins(a, "seal.") || begins(b, "seal.") || begins(a, "gland.") || begins(b, "gland.");
-  return friction ? "a loop at another squeeze, or of a ring with another modulus, would part them"
-         : size   ? "the force on one ring in compression, or its sizes measured, would part them"
-                  : "loops at another pressure or speed would part them";
+  const bool life = begins(a, "life.") && begins(b, "life.");
+  return life ? "loops of the first and of much later actuations would part them"
+         : friction
+             ? "a loop at another squeeze, or of a ring with another modulus, would part them"
+         : size ? "the force on one ring in compression, or its sizes measured, would part them"
+                : "loops at another pressure or speed would part them";
 }
 
 static char *make_sentence(const SbCalibration *out) {

@@ -73,8 +73,15 @@ static void take_values(SbModel *model, const SbParams *params) {
   model->bore_circumference = M_PI * model->bore_diameter;
   model->pressure_force =
       model->canister_pressure * M_PI / 4 * model->stem_diameter * model->stem_diameter;
-  if (model->life_actuations > 1) {
-    // The scene's surface is the reference; the run starts with the new valve's.
+  if (model->life_first > 1) {
+    // Run in so far: the law forgets how it got there.
+    SbRunningIn *law = &model->running_in;
+    law->start =
+        law->end + (law->start - law->end) * exp(-(model->life_first - 1) / law->actuations);
+    model->supply.empty = false;
+  }
+  if (model->life_actuations > 1 || model->life_first > 0) {
+    // The scene's surface is the reference; the run starts with that of its first actuation.
     model->gt_product *= model->running_in.start;
     model->sigma *= model->running_in.start;
     model->sigma_over_beta *= model->running_in.start;

@@ -243,6 +243,59 @@ static void test_curves(void) {
   g_unlink(two);
 }
 
+// A valve that runs in, eight strokes of it in one file from its third on: how much and how soon,
+// from three of them. The same strokes taken for those of a valve long run in are not.
+static void test_running_in(void) {
+  static const SbOverride wear[] = {{SB_P_LIFE_ROUGHNESS_NEW, 1.3},
+                                    {SB_P_LIFE_ROUGHNESS_RUN_IN, 0.72},
+                                    {SB_P_LIFE_RUNNING_IN, 3.4}};
+  GString *text = g_string_new(NULL);
+  for (int n = 0; n < 8; n++) {
+    const Bench bench = {.rows = 300, .seed = 20 + (uint64_t)n};
+    const SbOverride all[] = {wear[0], wear[1], wear[2], {SB_P_LIFE_FIRST_ACTUATION, 3 + n}};
+    g_autofree char *one = write_bench("one.csv", &bench, all, G_N_ELEMENTS(all));
+    g_autofree char *rows = NULL;
+    g_assert_true(g_file_get_contents(one, &rows, NULL, NULL));
+    g_string_append(text, n == 0 ? rows : strchr(rows, '\n') + 1);
+    g_unlink(one);
+  }
+  g_autofree char *file = g_build_filename(folder, "strokes.csv", NULL);
+  g_assert_true(g_file_set_contents(file, text->str, (gssize)text->len, NULL));
+  g_string_free(text, TRUE);
+  for (int wrong = 0; wrong < 2; wrong++) {
+    g_autofree char *groups =
+        g_strdup_printf("[vary]\nlife.roughness_new = uniform 0.8 .. 1.8\n"
+                        "life.roughness_run_in = uniform 0.4 .. 1\n"
+                        "life.running_in = loguniform 0.5 .. 50\n"
+                        "[study]\nsamples = %d\n[data strokes]\nfile = strokes.csv\n"
+                        "actuation = %d\ncycle = 1, 3, 8\nzero = as-is\ncompliance = none\n",
+                        wrong ? 20 : 250, wrong ? 2000 : 3);
+    g_autoptr(SbStudyFile) study = study_of(groups);
+    SbCalibration found;
+    calibrate(&found, study);
+    g_assert_cmpuint(found.curves, ==, 3);
+    g_assert_cmpstr(found.curve[2].name, ==, "strokes 8");
+    for (size_t j = 0; j < 3; j++) {
+      const SbCalibrated *one = &found.parameter[j];
+      g_test_message("%s %.6g, is %.6g +- %.2g", one->name, wear[j].value, one->estimate,
+                     one->deviation);
+      if (!wrong) {
+        g_assert_cmpfloat_with_epsilon(one->estimate, wear[j].value, 3 * one->deviation);
+      }
+    }
+    g_test_message("%s, chi2 %.3g", found.sentence, found.chi2);
+    if (wrong) {
+      g_assert_cmpfloat(found.chi2, >, 1.5);
+    } else {
+      g_assert_cmpfloat_with_epsilon(found.chi2, 1, 0.2);
+      g_autofree char *scene = sb_calibration_scene(&found, study, 2, "x.scene", NULL);
+      g_assert_nonnull(strstr(scene, "first_actuation = 10\n"));
+    }
+    sb_calibration_release(&found);
+  }
+  g_unlink(file);
+}
+
 // Truths from the priors: intervals of 95 % cover so many, ranks are even. The whole of it is slow.
 static void test_coverage(void) {
   enum { BINS = 5, PARAMETERS = 3 };
@@ -385,6 +438,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/calibrate/recovers", test_recovers);
   g_test_add_func("/calibrate/inseparable", test_inseparable);
   g_test_add_func("/calibrate/curves", test_curves);
+  g_test_add_func("/calibrate/running-in", test_running_in);
   g_test_add_func("/calibrate/refused", test_refused);
   g_test_add_func("/calibrate/cancel", test_cancel);
   g_test_add_func("/calibrate/coverage", test_coverage);
