@@ -3,6 +3,11 @@
 
 #include <string.h>
 
+static double drive_speed(const SbDocument *document) {
+  return sb_measured_speed(sb_document_value(document, SB_P_DRIVE_KIND),
+                           sb_document_value(document, SB_P_DRIVE_SPEED));
+}
+
 SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *path) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   const SbData *data = NULL;
@@ -17,7 +22,8 @@ SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *p
     return NULL;
   }
   SbData *bare = data == NULL ? sb_data_of_file(path) : NULL;
-  SbMeasured *measured = sb_measured_load(data != NULL ? data : bare, issues);
+  SbMeasured *measured =
+      sb_measured_load(data != NULL ? data : bare, drive_speed(document), issues);
   sb_data_free(bare);
   sb_cli_issues(issues);
   *code = measured != NULL ? SB_EXIT_DONE : SB_EXIT_INPUT;
@@ -36,7 +42,8 @@ static void print_recognised(const SbMeasured *measured) {
 int sb_cli_check_data(const SbDocument *document) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   for (size_t i = 0; i < sb_document_data_count(document); i++) {
-    g_autoptr(SbMeasured) measured = sb_measured_load(sb_document_data(document, i), issues);
+    g_autoptr(SbMeasured) measured =
+        sb_measured_load(sb_document_data(document, i), drive_speed(document), issues);
     if (measured != NULL && !sb_cli_quiet()) {
       print_recognised(measured);
     }

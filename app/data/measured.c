@@ -3,8 +3,12 @@
 
 #include "app/base/number.h"
 
+#include "engine/valve/valve.h"
+
 #include <math.h>
 #include <string.h>
+
+#define SPEED_MAX 10.0 // of a test machine [m/s]
 
 static const struct {
   const char *name, *si;
@@ -171,20 +175,55 @@ static bool find_column(SbMeasured *m, const SbTable *table, const SbData *data,
   return true;
 }
 
-static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, double *scale,
-                           GPtrArray *issues) {
+// Whether time is to make the displacement, at which speed; false with an issue.
+static bool settle_speed(SbMeasured *m, const SbTable *table, const SbData *data, double speed,
+                         GPtrArray *issues) {
+  const char *said = data->text[SB_DATA_SPEED];
+  const bool column = m->column[SB_CHANNEL_DISPLACEMENT].index >= 0;
+  if (said != NULL && (!sb_quantity_parse(&speed, said, "m/s", "mm/min", NULL) ||
+                       !(speed > 0 && speed <= SPEED_MAX))) {
+    sb_data_complain(data, SB_DATA_SPEED, "as in 20 mm/min, up to 10 m/s", issues,
+                     "\"%.40s\" is no speed of a machine", said);
+    return false;
+  }
+  if (said != NULL && (column || m->column[SB_CHANNEL_TIME].index < 0)) {
+    sb_data_complain(data, SB_DATA_SPEED, NULL, issues,
+                     column ? "the displacement has a column of its own: one of them only"
+                            : "there is no column of the time that it would need");
+    return false;
+  }
+  // Another column of numbers may be the displacement, by a name that is not known.
+  size_t numbers = 0;
+  for (size_t i = 0; i < sb_table_columns(table); i++) {
+    numbers += sb_table_column(table, i)->numeric || sb_table_column(table, i)->clock;
+  }
+  if (!column && m->column[SB_CHANNEL_TIME].index >= 0 && m->column[SB_CHANNEL_FORCE].index >= 0 &&
+      (said != NULL || (speed > 0 && (numbers == 2 || data->text[SB_DATA_COLUMNS] != NULL)))) {
+    m->speed = speed;
+    m->speed_how = said != NULL ? SB_HOW_SAID : SB_HOW_ASSUMED;
+  }
+  return true;
+}
+
+static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, double speed,
+                           double *scale, GPtrArray *issues) {
   for (int c = 0; c < SB_CHANNELS; c++) {
     m->column[c].index = -1;
   }
   if (!take_said(m, table, data, issues)) {
     return false;
   }
-  for (int c = 0; c < SB_CHANNELS; c++) {
-    if (data->text[SB_DATA_COLUMNS] == NULL && !find_column(m, table, data, (SbChannel)c, issues)) {
+  for (int c = 0; c < SB_CHANNELS && data->text[SB_DATA_COLUMNS] == NULL; c++) {
+    if (!find_column(m, table, data, (SbChannel)c, issues)) {
       return false;
     }
+  }
+  if (!settle_speed(m, table, data, speed, issues)) {
+    return false;
+  }
+  for (int c = 0; c < SB_CHANNELS; c++) {
     const int at = m->column[c].index;
-    if (at < 0 && c == SB_CHANNEL_TIME) {
+    if (at < 0 && (c == SB_CHANNEL_TIME || (c == SB_CHANNEL_DISPLACEMENT && m->speed > 0))) {
       continue;
     }
     if (at < 0) {
@@ -195,8 +234,11 @@ static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, do
       }
       sb_data_complain(data, SB_DATA_COLUMNS, NULL, issues,
                        "no column of the %zu (%s) is known as the %s: name them, as in "
-                       "columns = time, displacement, force",
-                       sb_table_columns(table), list->str, channels[c].name);
+                       "columns = time, displacement, force%s",
+                       sb_table_columns(table), list->str, channels[c].name,
+                       c == SB_CHANNEL_DISPLACEMENT && m->column[SB_CHANNEL_TIME].index >= 0
+                           ? ", or say at which speed the time makes one, as in speed = 20 mm/min"
+                           : "");
       g_string_free(list, TRUE);
       return false;
     }
@@ -251,13 +293,96 @@ static bool settle_rows(SbMeasured *m, const SbData *data, double *value[SB_CHAN
   return true;
 }
 
-static SbMeasured *read_table(SbTable *table, const SbData *data, GPtrArray *issues) {
+// When the force turned: in the middle between its ways through nine tenths of the peak, as noise
+// moves the peak's own row.
+static double turn_time(const SbMeasured *m, double sign, size_t peak) {
+  const double level = 0.9 * sign * m->force[peak];
+  double side[2];
+  for (int k = 0; k < 2; k++) {
+    size_t at = peak;
+    const size_t end = k == 0 ? 0 : m->count - 1;
+    while (at != end && sign * m->force[at] > level) {
+      at = k == 0 ? at - 1 : at + 1;
+    }
+    const size_t in = at == peak ? peak : k == 0 ? at + 1 : at - 1;
+    const double rise = sign * (m->force[in] - m->force[at]);
+    const double part = rise > 0 ? fmin(fmax((level - sign * m->force[at]) / rise, 0), 1) : 0;
+    side[k] = m->time[at] + part * (m->time[in] - m->time[at]);
+  }
+  return 0.5 * (side[0] + side[1]);
+}
+
+// The displacement of a crosshead that goes out to the greatest force and comes back, at one speed,
+// from where the record begins; rows behind that are left out.
+static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
+  enum { LEAST = 5 };
+  double mean = 0;
+  for (size_t i = 0; i < m->count; i++) {
+    mean += m->force[i] / (double)m->count;
+    if (i > 0 && !(m->time[i] >= m->time[i - 1])) {
+      sb_data_complain(data, SB_DATA_FILE, NULL, issues,
+                       "its time goes back at row %zu, and nothing else tells the displacement",
+                       i + 1);
+      return false;
+    }
+  }
+  const double sign = mean < 0 ? -1 : 1;
+  size_t turn = 0;
+  for (size_t i = 1; i < m->count; i++) {
+    turn = sign * m->force[i] > sign * m->force[turn] ? i : turn;
+  }
+  // The first of several peaks that are all but as high.
+  for (size_t i = 0; i < turn; i++) {
+    if (sign * m->force[i] > 0.95 * sign * m->force[turn]) {
+      const double until = 1.1 * (m->time[i] - m->time[0]) + m->time[0];
+      size_t most = i;
+      for (size_t k = i; k < m->count && m->time[k] <= until; k++) {
+        most = sign * m->force[k] > sign * m->force[most] ? k : most;
+      }
+      turn = most;
+      break;
+    }
+  }
+  const double turned = turn_time(m, sign, turn), end = 2 * turned - m->time[0];
+  size_t count = turn;
+  m->displacement = g_new(double, m->count);
+  while (count < m->count && m->time[count] <= end) {
+    count++;
+  }
+  if (turn < LEAST || count < turn + LEAST) {
+    sb_data_complain(
+        data, SB_DATA_FILE, NULL, issues,
+        "its greatest force, where a machine of constant speed turns, is at row %zu of "
+        "%zu: that is no stroke and return",
+        turn + 1, m->count);
+    return false;
+  }
+  for (size_t i = 0; i < count; i++) {
+    const double time = m->time[i] <= turned ? m->time[i] - m->time[0] : end - m->time[i];
+    m->displacement[i] = m->speed * time;
+  }
+  if (!(m->displacement[turn] <= channels[SB_CHANNEL_DISPLACEMENT].most)) {
+    sb_data_complain(data, SB_DATA_SPEED, NULL, issues,
+                     "the machine would go %g m to the greatest force, more than %g m",
+                     m->displacement[turn], channels[SB_CHANNEL_DISPLACEMENT].most);
+    return false;
+  }
+  m->behind = m->count - count;
+  m->count = count;
+  return true;
+}
+
+double sb_measured_speed(double kind, double speed) {
+  return (int)kind == SB_MODEL_DRIVE_MACHINE ? speed : 0;
+}
+
+static SbMeasured *read_table(SbTable *table, const SbData *data, double speed, GPtrArray *issues) {
   g_autoptr(SbMeasured) m = g_new0(SbMeasured, 1);
   double scale[SB_CHANNELS] = {0};
   m->name = g_path_get_basename(data->path);
   m->dialect = *sb_table_dialect(table);
   m->header_lines = sb_table_header_lines(table);
-  if (!settle_columns(m, table, data, scale, issues)) {
+  if (!settle_columns(m, table, data, speed, scale, issues)) {
     return NULL;
   }
   size_t column[SB_CHANNELS], count = 0;
@@ -294,16 +419,19 @@ static SbMeasured *read_table(SbTable *table, const SbData *data, GPtrArray *iss
     sb_issues_add(issues, data->path, 0, NULL, "at least 8 rows", "has too few rows for a loop");
     return NULL;
   }
+  if (m->speed > 0 && !displace(m, data, issues)) {
+    return NULL;
+  }
   return sb_measured_find(m, data, issues) ? g_steal_pointer(&m) : NULL;
 }
 
-SbMeasured *sb_measured_load(const SbData *data, GPtrArray *issues) {
+SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues) {
   SbTableDialect wish;
   g_autoptr(GPtrArray) own = sb_issues_new();
   SbMeasured *measured = NULL;
   if (read_wish(&wish, data, own)) {
     g_autoptr(SbTable) table = sb_table_open(data->path, &wish, own);
-    measured = table != NULL ? read_table(table, data, own) : NULL;
+    measured = table != NULL ? read_table(table, data, speed, own) : NULL;
   }
   for (guint i = 0; i < own->len; i++) {
     const SbIssue *issue = own->pdata[i];
@@ -312,14 +440,14 @@ SbMeasured *sb_measured_load(const SbData *data, GPtrArray *issues) {
   return measured;
 }
 
-SbMeasured *sb_measured_parse(const SbData *data, const void *bytes, size_t length,
+SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
                               GPtrArray *issues) {
   SbTableDialect wish;
   if (!read_wish(&wish, data, issues)) {
     return NULL;
   }
   g_autoptr(SbTable) table = sb_table_parse(bytes, length, &wish, data->path, issues);
-  return table != NULL ? read_table(table, data, issues) : NULL;
+  return table != NULL ? read_table(table, data, speed, issues) : NULL;
 }
 
 // ---- What was recognised ----
@@ -361,6 +489,10 @@ char *sb_measured_keys(const SbMeasured *m) {
     }
     g_string_append_c(out, '\n');
   }
+  if (m->speed > 0) {
+    g_autofree char *speed = sb_quantity_format(m->speed, "m/s", "mm/min");
+    g_string_append_printf(out, "speed = %s\n", speed);
+  }
   g_autofree char *rest = sb_quantity_format(m->at_rest, "m", "mm");
   g_autofree char *load = sb_quantity_format(m->no_load, "N", "N");
   g_autofree char *slope = sb_quantity_format(m->slope, "m/N", "mm/N");
@@ -388,7 +520,17 @@ char *sb_measured_text(const SbMeasured *m) {
                              hows[m->column[c].how]);
     }
   }
+  if (m->speed > 0) {
+    g_autofree char *speed = sb_quantity_format(m->speed, "m/s", "mm/min");
+    g_string_append_printf(out,
+                           "displacement: by the time at %s (%s), out to the greatest force and "
+                           "back\n",
+                           speed, m->speed_how == SB_HOW_SAID ? "as said" : "the drive's, assumed");
+  }
   g_string_append_printf(out, "%zu rows", m->count);
+  if (m->behind > 0) {
+    g_string_append_printf(out, ", %zu behind the first cycle left out", m->behind);
+  }
   if (m->dropped > 0) {
     g_string_append_printf(out, ", %zu with an empty cell dropped", m->dropped);
   }

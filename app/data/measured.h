@@ -8,6 +8,7 @@
 //   encoding = utf-8 | latin-1 | utf-16le | utf-16be
 //   columns = time, displacement, -, force          in the file's order, - for others
 //   units = s, mm, -, N
+//   speed = 20 mm/min                                of the crosshead, without a displacement
 //   direction = as-is | force | displacement | both  which of them to turn round
 //   zero = as-is | 0.31 mm, 0.2 N                    readings at rest and without a load
 //   compliance = none | 0.012 mm/N                   of the machine between crosshead and stem
@@ -18,7 +19,9 @@
 // Direction: friction takes energy out, so the force is greater on the way in; canister pressure
 // pushes out, so its mean is positive. Compliance: the slope of displacement over force while the
 // stem still rests, before the first slip. Zero: the displacement there, the force of the approach
-// before it. Stages B to F: see measured_find.c.
+// before it. Stages B to F: see measured_find.c. Without a column of displacement, time alone makes
+// it at a constant speed, out to the greatest force and back: that of one cycle, as where the next
+// begins the time does not show.
 #pragma once
 
 #include "app/base/table.h"
@@ -68,6 +71,9 @@ typedef struct {
   double *time;          // [s], NULL without
   double *displacement;  // of the stem [m]
   double *force;         // [N]
+  double speed;          // that made the displacement of the time [m/s]; 0: a column did
+  SbHow speed_how;       // assumed: the drive's
+  size_t behind;         // rows behind the one cycle of a time, left out
   // What was found or said.
   SbHow direction, zero, force_zero, compliance;
   bool turned_displacement, turned_force;
@@ -82,12 +88,16 @@ typedef struct {
   SbMeasuredStage stage[SB_STAGE_COUNT]; // of the first cycle in use
 } SbMeasured;
 
-// Reads a group's file. NULL with at least one issue. Owned by the caller.
-SbMeasured *sb_measured_load(const SbData *data, GPtrArray *issues);
+// Reads a group's file; `speed` is that of the drive beside it [m/s], for a record over time alone
+// (0: the drive has none). NULL with at least one issue. Owned by the caller.
+SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues);
 
 // The same from memory.
-SbMeasured *sb_measured_parse(const SbData *data, const void *bytes, size_t length,
+SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
                               GPtrArray *issues);
+
+// The speed of the drive with these values of drive.kind and drive.speed; 0 but for the machine.
+double sb_measured_speed(double kind, double speed);
 
 // Takes NULL.
 void sb_measured_free(SbMeasured *measured);

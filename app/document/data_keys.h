@@ -14,6 +14,7 @@
   X(SB_DATA_ENCODING, "encoding")                                                                  \
   X(SB_DATA_COLUMNS, "columns")                                                                    \
   X(SB_DATA_UNITS, "units")                                                                        \
+  X(SB_DATA_SPEED, "speed")                                                                        \
   X(SB_DATA_ZERO, "zero")                                                                          \
   X(SB_DATA_DIRECTION, "direction")                                                                \
   X(SB_DATA_COMPLIANCE, "compliance")                                                              \

@@ -32,6 +32,13 @@ static void put_recognised(SbJson *json, const SbMeasured *m) {
     }
   }
   sb_json_object_end(json);
+  if (m->speed > 0) {
+    sb_json_object(json, "speed");
+    sb_json_number(json, "m_per_s", m->speed);
+    sb_json_string(json, "how", how_name(m->speed_how));
+    sb_json_count(json, "rows_left_out", m->behind);
+    sb_json_object_end(json);
+  }
   sb_json_object(json, "direction");
   sb_json_bool(json, "force_turned", m->turned_force);
   sb_json_bool(json, "displacement_turned", m->turned_displacement);

@@ -250,6 +250,15 @@ static bool read_set(Curve *curve, GPtrArray *issues) {
   return true;
 }
 
+static double set_value(const Curve *curve, const Work *work, SbParamId id) {
+  for (size_t i = 0; i < curve->sets; i++) {
+    if (curve->set[i].id == id) {
+      return curve->set[i].value;
+    }
+  }
+  return sb_model_value(work->study->base, id);
+}
+
 // Which actuation of the valve the cycle in use is, as life.first_actuation of its runs.
 static bool read_actuation(Curve *curve, GPtrArray *issues) {
   const char *text = curve->data->text[SB_DATA_ACTUATION];
@@ -287,8 +296,13 @@ static bool read_curve(Curve *curve, const Work *work, GPtrArray *issues) {
   for (size_t k = 0; k < work->study->vary->len; k++) {
     ratio |= vary_of(work, k)->id == SB_P_FRICTION_STATIC_RATIO;
   }
-  curve->measured = sb_measured_load(curve->data, issues);
-  if (curve->measured == NULL || !read_set(curve, issues) || !read_actuation(curve, issues)) {
+  if (!read_set(curve, issues)) {
+    return false;
+  }
+  const double speed = sb_measured_speed(set_value(curve, work, SB_P_DRIVE_KIND),
+                                         set_value(curve, work, SB_P_DRIVE_SPEED));
+  curve->measured = sb_measured_load(curve->data, speed, issues);
+  if (curve->measured == NULL || !read_actuation(curve, issues)) {
     return false;
   }
   curve->point = sb_measured_points(&curve->points, curve->measured, SB_CALIBRATION_POINTS);

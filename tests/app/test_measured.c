@@ -100,7 +100,7 @@ static SbMeasured *read_bytes(GBytes *bytes, const SbData *data) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   gsize length;
   const void *text = g_bytes_get_data(bytes, &length);
-  SbMeasured *measured = sb_measured_parse(data, text, length, issues);
+  SbMeasured *measured = sb_measured_parse(data, 0, text, length, issues);
   for (guint i = 0; i < issues->len; i++) {
     g_autofree char *line = sb_issue_line(issues->pdata[i]);
     g_error("%s", line);
@@ -225,6 +225,13 @@ static void test_refused(void) {
        SB_DATA_DECIMAL},
       {"Weg [mm];Kraft [N]\n0.1;1.5\n0.2;1.6\n", "force, force2", "is no column that is read",
        SB_DATA_COLUMNS},
+      {"Time [s];Kraft [N]\n0;1.5\n1;1.6\n2;1\n", NULL,
+       "say at which speed the time makes one, as in speed = 20 mm/min", SB_DATA_FILE},
+      {"Time [s];Kraft [N]\n0;1\n1;2\n2;3\n3;4\n4;5\n5;6\n6;7\n7;8\n", "20 mm/min",
+       "at row 8 of 8: that is no stroke and return", SB_DATA_SPEED},
+      {"Time [s];Kraft [N]\n0;1\n1;2\n2;3\n", "20 mm", "\"20 mm\" is no speed", SB_DATA_SPEED},
+      {"Weg [mm];Kraft [N]\n0;1\n1;2\n2;3\n", "20 mm/min", "the displacement has a column",
+       SB_DATA_SPEED},
       {"Weg [km];Kraft [N]\n0.1;1.5\n0.2;1.6\n", NULL, "row 1 has a displacement of 100 m",
        SB_DATA_FILE},
   };
@@ -234,13 +241,51 @@ static void test_refused(void) {
     if (cases[i].key_text != NULL) {
       data->text[cases[i].key] = g_strdup(cases[i].key_text);
     }
-    g_assert_null(sb_measured_parse(data, cases[i].text, strlen(cases[i].text), issues));
+    g_assert_null(sb_measured_parse(data, 0, cases[i].text, strlen(cases[i].text), issues));
     g_assert_cmpuint(issues->len, ==, 1);
     g_autofree char *line = sb_issue_line(issues->pdata[0]);
     if (strstr(line, cases[i].said) == NULL) {
       g_error("%s instead of %s", line, cases[i].said);
     }
     sb_data_free(data);
+  }
+}
+
+// A record over time alone of a machine: its displacement is that of the columns, at the speed that
+// a key or the drive says; crossed signs and rows of a second cycle change nothing.
+static void test_time_alone(void) {
+  g_autoptr(SbMeasured) with = read_dialect(&plain);
+  for (int k = 0; k < 3; k++) {
+    GString *text = g_string_new("Zeit;Kraft\ns;N\n");
+    for (guint i = 0; i < ROWS + (k == 2 ? ROWS / 2 : 0); i++) {
+      char cell[2][40];
+      g_ascii_formatd(cell[0], 40, "%.4f", bench.time[i % ROWS] + (i < ROWS ? 0 : 42.5));
+      g_ascii_formatd(cell[1], 40, "%.4f", (k == 1 ? -1 : 1) * bench.force[i % ROWS]);
+      g_string_append_printf(text, "%s;%s\n", cell[0], cell[1]);
+    }
+    SbData *data = sb_data_of_file("x.csv");
+    data->text[SB_DATA_SPEED] = k == 0 ? g_strdup("20 mm/min") : NULL;
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autoptr(SbMeasured) m =
+        sb_measured_parse(data, k == 0 ? 0 : 20e-3 / 60, text->str, text->len, issues);
+    g_assert_nonnull(m);
+    g_assert_true(m->speed_how == (k == 0 ? SB_HOW_SAID : SB_HOW_ASSUMED));
+    g_assert_cmpuint(m->cycle->len, ==, 1);
+    g_assert_cmpuint(m->count + m->behind, ==, ROWS + (k == 2 ? ROWS / 2 : 0));
+    g_assert_cmpuint(m->count, >, ROWS - 20);
+    const size_t count = MIN(m->count, with->count);
+    for (size_t i = AIR; i < count; i++) {
+      g_assert_cmpfloat_with_epsilon(m->displacement[i], with->displacement[i], 5e-6);
+    }
+    for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {
+      g_assert_true(m->stage[s].found == with->stage[s].found);
+      g_assert_cmpfloat_with_epsilon(m->stage[s].force, with->stage[s].force, 0.05);
+    }
+    // What was found, said as keys, is found again.
+    g_autofree char *keys = sb_measured_keys(m);
+    g_assert_nonnull(strstr(keys, "speed = 20 mm/min\n"));
+    sb_data_free(data);
+    g_string_free(text, TRUE);
   }
 }
 
@@ -254,7 +299,7 @@ static void test_settled(void) {
     data->text[SB_DATA_DECIMAL] = g_strdup(comma ? "comma" : "point");
     data->text[SB_DATA_ZERO] = g_strdup("as-is");
     data->text[SB_DATA_COMPLIANCE] = g_strdup("none");
-    g_autoptr(SbMeasured) m = sb_measured_parse(data, text, strlen(text), issues);
+    g_autoptr(SbMeasured) m = sb_measured_parse(data, 0, text, strlen(text), issues);
     g_assert_nonnull(m);
     g_assert_cmpfloat_with_epsilon(m->displacement[0], comma ? 1.234e-6 : 1.234e-3, 1e-15);
     sb_data_free(data);
@@ -413,6 +458,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/measured/found", test_found);
   g_test_add_func("/measured/said", test_said);
   g_test_add_func("/measured/refused", test_refused);
+  g_test_add_func("/measured/time-alone", test_time_alone);
   g_test_add_func("/measured/settled", test_settled);
   g_test_add_func("/measured/numbers", test_numbers);
   g_test_add_func("/measured/clocks", test_clocks);
