@@ -91,11 +91,19 @@ static bool run_at(Work *work, Curve *curve, SbRun **run, const SbRun *base,
   return status != SB_ERROR_CANCELLED && status != SB_ERROR_MEMORY;
 }
 
+// Coordinate of the numerical error that a residual has; SIZE_MAX: none.
+static size_t numeric_of(const Curve *curve, size_t row) {
+  if (curve->numeric == SIZE_MAX || row >= curve->points) {
+    return curve->numeric;
+  }
+  const SbMeasuredPoint *point = &curve->point[row];
+  return curve->numeric + 2 * (size_t)point->way + (point->displacement > curve->edge[point->way]);
+}
+
 // Residuals of a curve from its loop; where the model does not slide, from no force at all.
 static void residuals_of(double *residual, const Curve *curve, const double *z) {
   const double offset =
       curve->zero != SIZE_MAX ? z[curve->zero] * curve->measured->no_load_deviation : 0;
-  const double *numeric = curve->numeric != SIZE_MAX ? z + curve->numeric : NULL;
   for (size_t i = 0; i < curve->points; i++) {
     const SbMeasuredPoint *point = &curve->point[i];
     const double force = sb_loop_force(&curve->loop, point->way, point->displacement);
@@ -106,13 +114,14 @@ static void residuals_of(double *residual, const Curve *curve, const double *z) 
                          : count == 0                ? 0
                                                      : curve->loop.force[point->way][count - 1];
     residual[i] = point->force - offset - model;
-    residual[i] -= numeric != NULL ? curve->error * numeric[point->way] : 0;
   }
   if (curve->breakaway) {
     const double model = curve->loop.stage_force[SB_STAGE_B];
     residual[curve->points] = curve->measured->stage[SB_STAGE_B].force - offset -
                               (curve->loop.count[0] > 0 && isfinite(model) ? model : no_force);
-    residual[curve->points] -= numeric != NULL ? curve->error * numeric[0] : 0;
+  }
+  for (size_t i = 0; i < curve->points + curve->breakaway && curve->numeric != SIZE_MAX; i++) {
+    residual[i] -= curve->error * z[numeric_of(curve, i)];
   }
 }
 
@@ -147,10 +156,9 @@ static bool depends(const Work *work, const Curve *curve, size_t coordinate) {
 
 // Derivative of a residual of the curve by what adds to the force alone.
 static double added(const Curve *curve, size_t row, size_t coordinate) {
-  const int way = row < curve->points ? curve->point[row].way : 0;
   return curve->zero == coordinate ? -curve->measured->no_load_deviation
-         : curve->numeric != SIZE_MAX && curve->numeric + (size_t)way == coordinate ? -curve->error
-                                                                                    : 0;
+         : curve->numeric != SIZE_MAX && numeric_of(curve, row) == coordinate ? -curve->error
+                                                                              : 0;
 }
 
 // Differences: central ones of closed forms, ahead along the rings' tangent where they are solved.
@@ -361,7 +369,8 @@ static bool lay_out(Work *work, GPtrArray *issues) {
     for (size_t k = 0; k < varied; k++) {
       const bool own = has_word(curve->data->text[SB_DATA_OWN], sb_vary_name(vary_of(work, k)));
       if (own || shared[k] == SIZE_MAX) {
-        if (work->coordinates + 3 * work->curves >= SB_INFERENCE_COORDINATES) {
+        if (work->coordinates + (1 + SB_CALIBRATE_NUMERIC) * work->curves >=
+            SB_INFERENCE_COORDINATES) {
           sb_data_complain(curve->data, SB_DATA_OWN, NULL, issues,
                            "there are more than the %d parameters that can be fitted",
                            SB_INFERENCE_COORDINATES);
@@ -387,7 +396,7 @@ static bool lay_out(Work *work, GPtrArray *issues) {
     curve->numeric = SIZE_MAX;
     if (work->tangent) {
       curve->numeric = work->coordinates;
-      work->coordinates += 2;
+      work->coordinates += SB_CALIBRATE_NUMERIC;
     }
     curve->first = work->residuals;
     work->residuals += curve->points + curve->breakaway;
@@ -476,6 +485,12 @@ static SbStatus check_start(Work *work, const double *start, SbReport *report) {
     (void)settle_run(work, curve, start);
     if (work->status == SB_OK && curve->loop.count[0] < 2) {
       return sb_fail(report, SB_ERROR_INPUT, "the stem does not slide in the scene as it is");
+    }
+    for (int way = 0; way < 2; way++) {
+      const SbStage stage = way == 0 ? SB_STAGE_C : SB_STAGE_F;
+      const SbMeasuredStage *seen = &curve->measured->stage[stage];
+      const double model = curve->loop.stage_displacement[stage];
+      curve->edge[way] = seen->found ? seen->displacement : isfinite(model) ? model : INFINITY;
     }
     const double relative = sb_run_summary(curve->run)->error_force;
     curve->error = isfinite(relative) ? relative * curve->loop.stage_force[SB_STAGE_B] : 0;

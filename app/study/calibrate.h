@@ -5,10 +5,11 @@
 // number of a curve, enters where friction.static_ratio is fitted, which it alone tells. Parameters
 // are shared by all curves but for those that a curve's `own` names. Unknown beside them is each
 // force's zero where it was found in the data, to the deviation it was found with, and where the
-// model is solved, the error it tells of its forces, constant each way. Fit, noise and
-// posterior: inference.h. Where a run takes more than some milliseconds the posterior is that of
-// the tangent at the fit, and SB_CALIBRATION_CHECKS runs at samples tell what that leaves out;
-// with solved rings the tangent is that of their equations (sb_run_predict_from()).
+// model is solved, the error it tells of its forces, constant each way on either side of the land's
+// edge. Fit, noise and posterior: inference.h. Where a run takes more than some milliseconds the
+// posterior is that of the tangent at the fit, and SB_CALIBRATION_CHECKS runs at samples tell what
+// that leaves out; with solved rings the tangent is that of their equations
+// (sb_run_predict_from()).
 //
 // Leaves out: what a model cannot follow whatever its parameters. It shows in chi2_reduced, beyond
 // 1, and in the residuals' correlation, which widens the intervals.

@@ -3,6 +3,9 @@
 
 #include "app/study/calibrate.h"
 
+// A solved contact's error is its mesh's: one for each way, on either side of the land's edge.
+enum { SB_CALIBRATE_NUMERIC = 4 };
+
 typedef struct {
   const SbData *data;
   SbMeasured *measured;
@@ -13,8 +16,10 @@ typedef struct {
   size_t sets;
   size_t at[SB_VARY_MAX]; // coordinate of each of [vary]
   size_t zero;            // coordinate of the force's zero, SIZE_MAX: known
-  size_t numeric; // the first of two for the forces' numerical error each way, SIZE_MAX: none
-  double error;   // its deviation [N]
+  // The first of SB_CALIBRATE_NUMERIC for the forces' numerical error, SIZE_MAX: none; its
+  // deviation [N], and where the land's edge parts the strokes [m].
+  size_t numeric;
+  double error, edge[2];
   // The run at the place last evaluated, with its rings; and one beside it.
   SbRun *run, *beside;
   double z[SB_INFERENCE_COORDINATES];
