@@ -114,15 +114,47 @@ GPtrArray *sb_data_read(const GPtrArray *entries, const char *directory, const c
   return list;
 }
 
-static SbData *copy_with_cycle(const SbData *data, const char *cycle) {
+SbData *sb_data_copy(const SbData *data) {
   SbData *copy = g_new0(SbData, 1);
   for (int i = 0; i < SB_DATA_KEY_COUNT; i++) {
-    copy->text[i] = g_strdup(i == SB_DATA_CYCLE ? cycle : data->text[i]);
+    copy->text[i] = g_strdup(data->text[i]);
   }
-  copy->name = *data->name != '\0' ? g_strconcat(data->name, " ", cycle, NULL) : g_strdup(cycle);
+  copy->name = g_strdup(data->name);
   copy->path = g_strdup(data->path);
   copy->shown = g_strdup(data->shown);
   copy->line = data->line;
+  return copy;
+}
+
+bool sb_data_same(const SbData *a, const SbData *b) {
+  bool same = (a == NULL) == (b == NULL);
+  for (int key = 0; key < SB_DATA_KEY_COUNT && same && a != NULL; key++) {
+    same = key == SB_DATA_FILE ? strcmp(a->path, b->path) == 0
+                               : g_strcmp0(a->text[key], b->text[key]) == 0;
+  }
+  return same;
+}
+
+void sb_data_take_keys(SbData *data, const char *text) {
+  g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
+  for (char **line = lines; *line != NULL; line++) {
+    char *equal = strchr(*line, '=');
+    for (int key = 0; equal != NULL && key < SB_DATA_KEY_COUNT; key++) {
+      g_autofree char *name = g_strstrip(g_strndup(*line, (size_t)(equal - *line)));
+      if (key != SB_DATA_FILE && strcmp(names[key], name) == 0) {
+        g_free(data->text[key]);
+        data->text[key] = g_strstrip(g_strdup(equal + 1));
+      }
+    }
+  }
+}
+
+static SbData *copy_with_cycle(const SbData *data, const char *cycle) {
+  SbData *copy = sb_data_copy(data);
+  g_free(copy->text[SB_DATA_CYCLE]);
+  copy->text[SB_DATA_CYCLE] = g_strdup(cycle);
+  g_free(copy->name);
+  copy->name = *data->name != '\0' ? g_strconcat(data->name, " ", cycle, NULL) : g_strdup(cycle);
   return copy;
 }
 

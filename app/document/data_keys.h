@@ -59,6 +59,14 @@ void sb_data_part(GPtrArray *list, GPtrArray *issues);
 // One of a file that no group names; owned by the caller.
 SbData *sb_data_of_file(const char *path);
 void sb_data_free(gpointer data); // takes NULL
+SbData *sb_data_copy(const SbData *data);
+
+// Whether both say the same of one file, or are both NULL.
+bool sb_data_same(const SbData *a, const SbData *b);
+
+// The keys of a group as lines "key = value" of a text (sb_measured_keys()), in place of those
+// that the text has; unknown ones are passed over.
+void sb_data_take_keys(SbData *data, const char *text);
 
 // "[data lot-2] columns: TEXT" as an issue.
 void sb_data_complain(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,

@@ -389,6 +389,26 @@ const SbData *sb_document_data(const SbDocument *document, size_t index) {
   return document->measured->pdata[index];
 }
 
+void sb_document_put_data(SbDocument *document, SbData *data) {
+  if (document->measured == NULL) {
+    document->measured = g_ptr_array_new_with_free_func(sb_data_free);
+  }
+  GPtrArray *list = document->measured;
+  if (list->len > 0) {
+    if (data != NULL) {
+      const SbData *before = list->pdata[0];
+      g_free(data->name);
+      data->name = g_strdup(before->name);
+    }
+    g_ptr_array_remove_index(list, 0);
+  }
+  if (data != NULL) {
+    g_ptr_array_insert(list, 0, data);
+  }
+  document->measured_differs = true;
+  document->serial++;
+}
+
 const GPtrArray *sb_document_notes(const SbDocument *document) {
   return document->notes;
 }

@@ -83,6 +83,10 @@ G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbModel, sb_model_destroy)
 size_t sb_document_data_count(const SbDocument *document);
 const SbData *sb_document_data(const SbDocument *document, size_t index);
 
+// Puts `data` (taken over; NULL: nothing measured) in place of its first group. Saved with it; no
+// edit that undo takes back. A group's file is written as seen from the document's folder.
+void sb_document_put_data(SbDocument *document, SbData *data);
+
 // The [cases]: each is the document with some values replaced. The name is borrowed.
 size_t sb_document_case_count(const SbDocument *document);
 const char *sb_document_case_name(const SbDocument *document, size_t index);

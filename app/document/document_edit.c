@@ -181,7 +181,8 @@ bool sb_document_differs(const SbDocument *document, SbParamId id) {
 }
 
 bool sb_document_is_modified(const SbDocument *document) {
-  if (!sb_named_rubber_same(document->own_rubber, document->saved_rubber)) {
+  if (document->measured_differs ||
+      !sb_named_rubber_same(document->own_rubber, document->saved_rubber)) {
     return true;
   }
   for (int i = 0; i < SB_PARAM_COUNT; i++) {

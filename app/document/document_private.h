@@ -39,6 +39,7 @@ struct SbDocument {
   char *series_name;                                      // value of drive.file, NULL without one
   char *series_path;                                      // path to open
   GPtrArray *measured;                                    // of SbData, its own [data] groups
+  bool measured_differs;                                  // from the file's
   SbNamedRubber *base_rubber, *own_rubber, *saved_rubber; // as the params; NULL: none
   SbModelData *data;  // series, outlines and rubber, for its models; NULL: none
   char *text;         // of the file as last read or written

@@ -76,6 +76,41 @@ static void free_changes(GArray *changes) {
   g_array_unref(changes);
 }
 
+static SbData *group_of(const SbDocument *document, const char *group) {
+  for (size_t i = 0; i < sb_document_data_count(document); i++) {
+    SbData *data = document->measured->pdata[i];
+    const char *name = group[4] == ' ' ? group + 5 : "";
+    if (strcmp(data->name, name) == 0) {
+      return data;
+    }
+  }
+  return NULL;
+}
+
+// The groups of measured data where they are not the file's: keys that went, then all that stand.
+static void change_data(GArray *changes, const SbDocument *document, const char *path) {
+  for (guint i = 0; i < document->entries->len; i++) {
+    const SbEntry *entry = document->entries->pdata[i];
+    if (entry->name != NULL && sb_data_is_group(entry->group) &&
+        group_of(document, entry->group) == NULL) {
+      const SbChange change = {g_strdup(entry->group), g_strdup(entry->name), NULL};
+      g_array_append_val(changes, change);
+    }
+  }
+  for (size_t i = 0; i < sb_document_data_count(document); i++) {
+    const SbData *data = sb_document_data(document, i);
+    const char *gap = *data->name != '\0' ? " " : "";
+    g_autofree char *folder = path != NULL ? g_path_get_dirname(path) : NULL;
+    for (int key = 0; key < SB_DATA_KEY_COUNT; key++) {
+      const bool near = key == SB_DATA_FILE && folder != NULL;
+      SbChange change = {g_strconcat("data", gap, data->name, NULL),
+                         g_strdup(sb_data_key_name((SbDataKey)key)),
+                         near ? relative_path(data->path, folder) : g_strdup(data->text[key])};
+      g_array_append_val(changes, change);
+    }
+  }
+}
+
 char *sb_document_to_text(const SbDocument *document, const char *path) {
   GArray *changes = g_array_new(FALSE, FALSE, sizeof(SbChange));
   char *valve = moved_valve(document, path);
@@ -88,7 +123,10 @@ char *sb_document_to_text(const SbDocument *document, const char *path) {
     SbChange change = {g_strdup("drive"), g_strdup("file"), series};
     g_array_append_val(changes, change);
   }
-  for (size_t i = 0; i < sb_document_data_count(document); i++) {
+  if (document->measured_differs) {
+    change_data(changes, document, path);
+  }
+  for (size_t i = 0; i < sb_document_data_count(document) && !document->measured_differs; i++) {
     const SbData *data = sb_document_data(document, i);
     char *file = moved_name(document, data->path, data->text[SB_DATA_FILE], path);
     if (file != NULL) {
@@ -228,6 +266,7 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
     g_autofree char *directory = g_path_get_dirname(path);
     g_ptr_array_unref(document->measured);
     document->measured = sb_data_read(document->entries, directory, path, none);
+    document->measured_differs = false;
   }
   g_ptr_array_unref(none);
   char *kept = g_strdup(path);

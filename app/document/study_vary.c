@@ -101,7 +101,9 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
   g_autofree char *deviation = g_strstrip(
       g_strndup(comma + 1, within != NULL ? (gsize)(within - comma - 1) : strlen(comma + 1)));
   if (!read_value(&of->a, vary, mean, error) ||
-      !read_difference(&of->b, sb_param(vary->id), deviation, error)) {
+      !(vary->id == SB_VARY_VARIABLE
+            ? read_value(&of->b, vary, deviation, error)
+            : read_difference(&of->b, sb_param(vary->id), deviation, error))) {
     return false;
   }
   if (!(of->b > 0)) {

@@ -4,6 +4,8 @@
 #include "app/data/scan/scan_figures.h"
 #include "app/export/json.h"
 
+#include <cairo.h>
+
 // Where the figures come from.
 typedef struct {
   const char *path; // of the file
@@ -25,6 +27,21 @@ typedef struct {
 } SbSurfaceScatter;
 extern const SbSurfaceScatter sb_surface_scatter[];
 
+// How a scan is read and what is made of it.
+typedef struct {
+  SbScanChoices scan;
+  SbHeightsChoices heights;
+  char *channel; // owned, scan.channel
+} SbSurfaceChoices;
+
+void sb_surface_choices_init(SbSurfaceChoices *choices); // a plane is taken away
+void sb_surface_choices_clear(SbSurfaceChoices *choices);
+
+// A choice by the name that the command line's option has, "cutoff-long": true, or SB_APP_ERROR
+// with what is wrong ("a value above 0 is needed").
+bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *text,
+                       GError **error);
+
 // "plane taken away, all points kept, no cut-off": the choices in force. Owned by the caller.
 char *sb_surface_choices_text(const SbSurface *surface);
 
@@ -32,6 +49,9 @@ char *sb_surface_choices_text(const SbSurface *surface);
 // else NULL and why not (static). Owned by the caller (g_strfreev).
 char **sb_surface_settings(const char **reason, const SbSurface *surface);
 
-// Draws map, spectrum, heights and asperities on one page, by the ending .png, .svg or .pdf. FALSE
+// Draws map, spectrum, heights and asperities as one page.
+void sb_surface_draw(cairo_t *cr, double width, double height, const SbSurface *surface, bool dark);
+
+// The same into a file, by the ending .png, .svg or .pdf. FALSE
 // as sb_still_write().
 bool sb_surface_still(const SbSurface *surface, const char *path, GError **error);

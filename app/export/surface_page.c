@@ -99,10 +99,10 @@ static SbStudy *spectrum_study(const SbSurface *surface) {
   return study;
 }
 
-static void draw(cairo_t *cr, double width, double height, void *user) {
-  const SbSurface *surface = user;
+void sb_surface_draw(cairo_t *cr, double width, double height, const SbSurface *surface,
+                     bool dark) {
   const SbScanFigures *figures = surface->figures;
-  const SbTheme *theme = sb_theme(false);
+  const SbTheme *theme = sb_theme(dark);
   g_autofree SbStudy *heights = heights_study(surface), *spectrum = spectrum_study(surface);
   SbPage page = sb_page_begin(cr, (SbRect){0, 0, width, height}, width, height, theme);
   g_autofree char *title = g_path_get_basename(surface->path);
@@ -134,6 +134,10 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
   const SbPageFoot foot = {models, errors, version, &figures->warnings};
   sb_page_foot_draw(cr, page.whole, theme, &foot);
   cairo_restore(cr);
+}
+
+static void draw(cairo_t *cr, double width, double height, void *user) {
+  sb_surface_draw(cr, width, height, user, false);
 }
 
 bool sb_surface_still(const SbSurface *surface, const char *path, GError **error) {

@@ -69,6 +69,7 @@ static void replace_document(SbSession *session, SbDocument *document) {
     forget_rejected(session, id);
   }
   sb_session_clear_runs(session);
+  sb_session_read_measured(session);
   changed(session);
 }
 
@@ -111,6 +112,12 @@ gboolean sb_session_restore(SbSession *session, const char *path, const char *te
     } else if (given) {
       sb_document_unset(document, id);
     }
+  }
+  const bool measured = sb_document_data_count(changed_one) > 0;
+  const SbData *now = measured ? sb_document_data(changed_one, 0) : NULL;
+  if (!sb_data_same(now,
+                    sb_document_data_count(document) > 0 ? sb_document_data(document, 0) : NULL)) {
+    sb_document_put_data(document, measured ? sb_data_copy(now) : NULL);
   }
   replace_document(session, g_steal_pointer(&document));
   return TRUE;
@@ -256,6 +263,7 @@ const char *sb_session_lock(SbSession *session, SbParamId id) {
 }
 
 static void dispose(GObject *object) {
+  sb_session_clear_measured(SB_SESSION(object));
   sb_session_dispose_runs(SB_SESSION(object));
   G_OBJECT_CLASS(sb_session_parent_class)->dispose(object);
 }

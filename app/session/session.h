@@ -9,6 +9,7 @@
 #pragma once
 
 #include "app/chart/data.h"
+#include "app/data/measured.h"
 #include "app/document/document.h"
 #include "app/run/runner.h"
 #include "app/session/displayed_run.h"
@@ -51,6 +52,16 @@ gboolean sb_session_save(SbSession *session, const char *path, GError **error);
 
 // A fresh untitled valve.
 void sb_session_reset(SbSession *session);
+
+// Puts measured data (taken over; NULL: none) in place of the document's, and reads them.
+void sb_session_set_data(SbSession *session, SbData *data);
+
+// The loop that was read, NULL: none, or not yet; and why its file could not be. Borrowed.
+const SbMeasured *sb_session_measured(SbSession *session);
+const char *sb_session_measured_failure(SbSession *session);
+
+// Of the drive at present, for records over time alone [m/s]; 0: it has no constant one.
+double sb_session_drive_speed(SbSession *session);
 
 gboolean sb_session_is_modified(SbSession *session);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/session/displayed_run.h"
+#include "app/session/measure_job.h"
 #include "app/session/playhead.h"
 #include "app/session/prediction.h"
 #include "app/session/run_cache.h"
@@ -55,6 +56,13 @@ struct _SbSession {
   SbParamId slope_id;
   SbParams slope_params;
 
+  // What was measured, and what it differs by from a run (held; NULL: not compared).
+  SbMeasureJob *measuring;
+  SbMeasured *measured;
+  SbComparison *comparison;
+  SbRunHandle *compared;
+  char *measured_failure;
+
   gint64 started; // [us]
 
   double azimuth, elevation; // of the cutaway's camera [rad]
@@ -83,6 +91,11 @@ SbSessionState sb_session_shown_state(const SbSession *session);
 gboolean sb_session_is_former(SbSession *session);
 void sb_session_refresh_chart(SbSession *session);
 void sb_session_run_changed(SbSession *session);
+
+// Reads the document's data anew; what is compared with the shown run, NULL: nothing; forgets both.
+void sb_session_read_measured(SbSession *session);
+const SbComparison *sb_session_compare(SbSession *session);
+void sb_session_clear_measured(SbSession *session);
 
 // SbRunnerNotify; `data` is the session's inbox.
 void sb_session_notify(void *data);

@@ -57,6 +57,7 @@ void sb_session_refresh_chart(SbSession *session) {
   chart->pinned = session->pinned != NULL ? &session->pinned->chart : NULL;
   chart->pinned_name = session->pinned_name;
   chart->predicted = session->predicted ? sb_prediction_curve(session->prediction) : NULL;
+  chart->measured = sb_session_compare(session);
   chart->playhead = session->playhead.frame;
   chart->playing = session->playhead.playing;
   chart->progress = sb_session_progress(session);

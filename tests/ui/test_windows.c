@@ -2,6 +2,7 @@
 // behind: no window outlives its closing, and the memory in use stops growing. (Leaks that nothing
 // points to are the sanitizers' to find; this finds what something still points to.)
 #include "ui/window/application.h"
+#include "ui/window/import_dialog.h"
 #include "ui/window/window.h"
 
 #include <glib/gstdio.h>
@@ -64,6 +65,108 @@ static void test_closed_windows_are_gone(void) {
   g_application_release(G_APPLICATION(application));
 }
 
+static GtkDialog *open_dialog(void) {
+  g_autoptr(GList) all = gtk_window_list_toplevels();
+  for (GList *one = all; one != NULL; one = one->next) {
+    if (GTK_IS_DIALOG(one->data)) {
+      return one->data;
+    }
+  }
+  return NULL;
+}
+
+static void find_named(GtkWidget *widget, gpointer data) {
+  gpointer *wanted = data; // name, found
+  const char *name = atk_object_get_name(gtk_widget_get_accessible(widget));
+  if (g_strcmp0(name, wanted[0]) == 0 && !GTK_IS_LABEL(widget)) {
+    wanted[1] = widget;
+  } else if (GTK_IS_CONTAINER(widget)) {
+    gtk_container_forall(GTK_CONTAINER(widget), find_named, data);
+  }
+}
+
+static GtkWidget *named(GtkDialog *dialog, const char *name) {
+  gpointer wanted[2] = {(gpointer)(gintptr)name, NULL};
+  find_named(GTK_WIDGET(dialog), wanted);
+  g_assert_nonnull(wanted[1]);
+  return wanted[1];
+}
+
+// Waits until the dialog may import, or may not.
+static void wait_for(GtkDialog *dialog, gboolean ready) {
+  GtkWidget *import = gtk_dialog_get_widget_for_response(dialog, GTK_RESPONSE_ACCEPT);
+  for (int i = 0; i < 500 && gtk_widget_get_sensitive(import) != ready; i++) {
+    turn(20);
+  }
+  g_assert_true(gtk_widget_get_sensitive(import) == ready);
+}
+
+// What is recognised fills the choices; one that is wrong is told, taken back it is found again;
+// what is imported stands in the document and its text, and beside the run.
+static void test_import(void) {
+  g_autoptr(SbSession) session = sb_session_new();
+  g_autofree char *loop = g_strdup_printf("%s/series/bench.csv", g_getenv("SEALBENCH_ASSETS"));
+  g_autofree char *scene =
+      g_strdup_printf("%s/scenes/quick-look.scene", g_getenv("SEALBENCH_ASSETS"));
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_assert_true(sb_session_open(session, scene, issues));
+  GtkWidget *parent = gtk_window_new(GTK_WINDOW_TOPLEVEL);
+  sb_import_measured(GTK_WINDOW(parent), session, loop);
+  GtkDialog *dialog = open_dialog();
+  wait_for(dialog, TRUE);
+  GtkWidget *separator = named(dialog, "Separator"), *cycle = named(dialog, "Cycle");
+  g_autofree char *found = g_strdup(gtk_combo_box_get_active_id(GTK_COMBO_BOX(separator)));
+  g_assert_nonnull(found);
+  gtk_entry_set_text(GTK_ENTRY(cycle), "9");
+  turn(500);
+  wait_for(dialog, FALSE);
+  g_assert_cmpstr(gtk_entry_get_text(GTK_ENTRY(cycle)), ==, "9");
+  gtk_entry_set_text(GTK_ENTRY(cycle), "1");
+  wait_for(dialog, TRUE);
+  gtk_dialog_response(dialog, GTK_RESPONSE_ACCEPT);
+  const SbDocument *document = sb_session_document(session);
+  g_assert_cmpuint(sb_document_data_count(document), ==, 1);
+  g_assert_true(sb_session_is_modified(session));
+  for (int i = 0; i < 500 && sb_session_chart(session)->measured == NULL; i++) {
+    turn(20);
+  }
+  g_assert_nonnull(sb_session_chart(session)->measured);
+  g_assert_cmpuint(sb_session_chart(session)->measured->count, >, 100);
+  // Saved and read again it is the same; the name is as seen from there.
+  g_autofree char *path = g_build_filename(g_getenv("XDG_DATA_HOME"), "measured.scene", NULL);
+  g_assert_true(sb_session_save(session, path, NULL));
+  g_assert_false(sb_session_is_modified(session));
+  g_autoptr(SbDocument) again = sb_document_load(path, issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  g_assert_cmpuint(sb_document_data_count(again), ==, 1);
+  g_assert_cmpstr(sb_document_data(again, 0)->text[SB_DATA_SEPARATOR], ==, found);
+  g_autoptr(SbMeasured) measured = sb_measured_load(sb_document_data(again, 0), 0, issues);
+  g_assert_nonnull(measured);
+  g_assert_cmpuint(measured->count, ==, sb_session_measured(session)->count);
+  g_remove(path);
+  // A scan whose unit nothing says, until it is said.
+  g_autofree char *scan = g_build_filename(g_getenv("XDG_DATA_HOME"), "scan.txt", NULL);
+  GString *text = g_string_new(NULL);
+  for (int i = 0; i < 64 * 64; i++) {
+    g_string_append_printf(text, "%d%s", (i * 7919 + i * i * 31) % 997, i % 64 == 63 ? "\n" : " ");
+  }
+  g_assert_true(g_file_set_contents(scan, text->str, -1, NULL));
+  g_string_free(text, TRUE);
+  sb_import_scan(GTK_WINDOW(parent), session, scan);
+  dialog = open_dialog();
+  turn(300);
+  wait_for(dialog, FALSE);
+  gtk_entry_set_text(GTK_ENTRY(named(dialog, "Unit of heights")), "nm");
+  gtk_entry_set_text(GTK_ENTRY(named(dialog, "Distance of points")), "1 um");
+  wait_for(dialog, TRUE);
+  const double before = sb_document_value(document, SB_P_SURFACE_GT_PRODUCT);
+  gtk_dialog_response(dialog, GTK_RESPONSE_ACCEPT);
+  g_assert_cmpfloat(sb_document_value(document, SB_P_SURFACE_GT_PRODUCT), !=, before);
+  g_assert_true(sb_document_gives(document, SB_P_SURFACE_SIGMA));
+  g_remove(scan);
+  gtk_widget_destroy(parent);
+}
+
 int main(int argc, char **argv) {
   g_autofree char *folder = g_dir_make_tmp("sealbench-windows-XXXXXX", NULL);
   g_setenv("XDG_CONFIG_HOME", folder, TRUE);
@@ -73,6 +176,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   // Services of a desktop may be missing; only a critical message is a defect.
   g_log_set_always_fatal(G_LOG_LEVEL_CRITICAL | G_LOG_FATAL_MASK);
+  g_test_add_func("/windows/import", test_import);
   g_test_add_func("/windows/closed-windows-are-gone", test_closed_windows_are_gone);
   return g_test_run();
 }

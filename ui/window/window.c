@@ -14,6 +14,7 @@
 #include "ui/views/timeline_view.h"
 #include "ui/window/calibrate_page.h"
 #include "ui/window/export_dialog.h"
+#include "ui/window/import_dialog.h"
 #include "ui/window/paned_layout.h"
 #include "ui/window/preferences.h"
 #include "ui/window/propellants_page.h"
@@ -369,6 +370,14 @@ static void on_export(GSimpleAction *action, GVariant *parameter, gpointer data)
   sb_export_dialog_open(GTK_WINDOW(data), SB_WINDOW(data)->session);
 }
 
+static void on_import_measured(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_import_measured(GTK_WINDOW(data), SB_WINDOW(data)->session, NULL);
+}
+
+static void on_import_scan(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_import_scan(GTK_WINDOW(data), SB_WINDOW(data)->session, NULL);
+}
+
 static void on_studies(GSimpleAction *action, GVariant *parameter, gpointer data) {
   sb_study_window_open(GTK_WINDOW(data), SB_WINDOW(data)->session);
 }
@@ -528,6 +537,8 @@ static void sb_window_init(SbWindow *window) {
       {.name = "turn-up", .activate = on_turn},
       {.name = "turn-down", .activate = on_turn},
       {.name = "export", .activate = on_export},
+      {.name = "import-measured", .activate = on_import_measured},
+      {.name = "import-scan", .activate = on_import_scan},
       {.name = "studies", .activate = on_studies},
       {.name = "close", .activate = on_close},
       {.name = "show-help-overlay", .activate = on_shortcuts},

@@ -1,0 +1,440 @@
+// See the header. Files are read on a thread as they are chosen and again with each choice; the
+// choices not made are filled with what was found. What was read is drawn as it will be seen.
+#include "ui/window/import_dialog.h"
+
+#include "app/chart/hysteresis.h"
+#include "app/export/surface.h"
+#include "app/session/measure_job.h"
+#include "app/session/scan_job.h"
+#include "ui/views/draw_cache.h"
+#include "ui/views/style.h"
+
+#include <glib/gi18n.h>
+#include <string.h>
+
+typedef struct Dialog Dialog;
+
+// A row of the form: its key in a file or option, and what may be chosen (NULL: a text).
+typedef struct {
+  const char *key, *label, *words;
+} Row;
+
+enum { ROWS = 10 };
+
+// What kinds of files differ in.
+typedef struct {
+  const char *title, *picture;
+  const Row *row; // up to a key of NULL
+  void (*start)(Dialog *dialog);
+  char *(*take)(Dialog *dialog); // what was recognised; NULL with the message shown
+  void (*draw)(cairo_t *cr, double width, double height, void *dialog);
+  void (*use)(Dialog *dialog);
+} Kind;
+
+struct Dialog {
+  const Kind *kind;
+  SbSession *session; // owned reference
+  GtkWidget *dialog, *choice[ROWS], *area, *text, *message, *spinner;
+  SbDrawCache *cache;
+  char *path;
+  gboolean said[ROWS]; // by the user or the document, not found
+  gboolean filling;    // the program writes the choices
+  guint later;         // source: reads soon
+  SbMeasureJob *measuring;
+  SbMeasured *measured;
+  SbComparison *comparison;
+  SbScanJob *scanning;
+  const SbSurface *surface; // of `scanning`, once it is done
+};
+
+// The form ---------------------------------------------------------------------------------------
+
+static const char *choice_text(const Dialog *dialog, int i) {
+  GtkWidget *widget = dialog->choice[i];
+  return GTK_IS_ENTRY(widget) ? gtk_entry_get_text(GTK_ENTRY(widget))
+                              : gtk_combo_box_get_active_id(GTK_COMBO_BOX(widget));
+}
+
+static void set_choice(Dialog *dialog, int i, const char *text) {
+  GtkWidget *widget = dialog->choice[i];
+  dialog->filling = TRUE;
+  if (GTK_IS_ENTRY(widget)) {
+    gtk_entry_set_text(GTK_ENTRY(widget), text);
+  } else {
+    gtk_combo_box_set_active_id(GTK_COMBO_BOX(widget), text);
+  }
+  dialog->filling = FALSE;
+}
+
+// The choices that were made, as lines "key = value". Owned by the caller.
+static char *said_keys(const Dialog *dialog) {
+  GString *keys = g_string_new(NULL);
+  for (int i = 0; dialog->kind->row[i].key != NULL; i++) {
+    const char *text = choice_text(dialog, i);
+    if (dialog->said[i] && text != NULL && *text != '\0') {
+      g_string_append_printf(keys, "%s = %s\n", dialog->kind->row[i].key, text);
+    }
+  }
+  return g_string_free(keys, FALSE);
+}
+
+// Fills the choices from such lines; `said`: as made, else only those that are not.
+static void fill(Dialog *dialog, const char *keys, gboolean said) {
+  g_auto(GStrv) lines = g_strsplit(keys, "\n", -1);
+  for (char **line = lines; *line != NULL; line++) {
+    char *equal = strstr(*line, " = ");
+    for (int i = 0; equal != NULL && dialog->kind->row[i].key != NULL; i++) {
+      const char *key = dialog->kind->row[i].key;
+      const gboolean fits =
+          strlen(key) == (gsize)(equal - *line) && strncmp(key, *line, strlen(key)) == 0;
+      if (fits && (said || !dialog->said[i])) {
+        set_choice(dialog, i, equal + 3);
+        dialog->said[i] = said;
+      }
+    }
+  }
+}
+
+static void busy(Dialog *dialog, gboolean on) {
+  (on ? gtk_spinner_start : gtk_spinner_stop)(GTK_SPINNER(dialog->spinner));
+  gtk_dialog_set_response_sensitive(GTK_DIALOG(dialog->dialog), GTK_RESPONSE_ACCEPT, FALSE);
+}
+
+static void read_file(Dialog *dialog) {
+  busy(dialog, TRUE);
+  dialog->kind->start(dialog);
+}
+
+// A thread has read the file.
+static void on_read(void *data) {
+  Dialog *dialog = data;
+  g_autofree char *text = dialog->kind->take(dialog);
+  busy(dialog, FALSE);
+  gtk_dialog_set_response_sensitive(GTK_DIALOG(dialog->dialog), GTK_RESPONSE_ACCEPT, text != NULL);
+  if (text != NULL) {
+    gtk_label_set_text(GTK_LABEL(dialog->message), "");
+    gtk_label_set_text(GTK_LABEL(dialog->text), text);
+  }
+  sb_style_name(dialog->area, dialog->kind->picture, text);
+  sb_draw_cache_change(dialog->cache, 0);
+}
+
+static gboolean on_later(gpointer data) {
+  Dialog *dialog = data;
+  dialog->later = 0;
+  read_file(dialog);
+  return G_SOURCE_REMOVE;
+}
+
+static void on_choice(GtkWidget *widget, Dialog *dialog) {
+  if (dialog->filling) {
+    return;
+  }
+  for (int i = 0; dialog->kind->row[i].key != NULL; i++) {
+    const char *text = choice_text(dialog, i);
+    if (dialog->choice[i] == widget) {
+      dialog->said[i] = text != NULL && *text != '\0';
+    }
+  }
+  enum { TYPING = 300 };
+  g_clear_handle_id(&dialog->later, g_source_remove);
+  dialog->later = g_timeout_add(TYPING, on_later, dialog);
+}
+
+static void on_as_found(GtkWidget *button, Dialog *dialog) {
+  memset(dialog->said, 0, sizeof dialog->said);
+  for (int i = 0; dialog->kind->row[i].key != NULL; i++) {
+    set_choice(dialog, i, "");
+  }
+  read_file(dialog);
+}
+
+// Measured loops ---------------------------------------------------------------------------------
+
+static const Row measured_rows[] = {
+    {"separator", N_("Separator"), "comma|semicolon|tab|blank"},
+    {"decimal", N_("Decimal mark"), "point|comma"},
+    {"encoding", N_("Encoding"), "utf-8|latin-1|utf-16le|utf-16be"},
+    {"columns", N_("Columns"), NULL},
+    {"units", N_("Units"), NULL},
+    {"speed", N_("Speed, of the time alone"), NULL},
+    {"direction", N_("Turned round"), "as-is|force|displacement|both"},
+    {"zero", N_("At rest, without load"), NULL},
+    {"compliance", N_("Compliance"), NULL},
+    {"cycle", N_("Cycle"), NULL},
+    {0},
+};
+
+G_STATIC_ASSERT(G_N_ELEMENTS(measured_rows) <= ROWS + 1);
+
+static void forget_measured(Dialog *dialog) {
+  g_clear_pointer(&dialog->comparison, sb_comparison_free);
+  g_clear_pointer(&dialog->measured, sb_measured_free);
+}
+
+static void start_measured(Dialog *dialog) {
+  g_clear_pointer(&dialog->measuring, sb_measure_job_free);
+  SbData *data = sb_data_of_file(dialog->path);
+  g_autofree char *keys = said_keys(dialog);
+  sb_data_take_keys(data, keys);
+  dialog->measuring =
+      sb_measure_job_start(data, sb_session_drive_speed(dialog->session), on_read, dialog);
+}
+
+static char *take_measured(Dialog *dialog) {
+  g_autofree char *why = NULL;
+  SbMeasured *measured = sb_measure_job_take(dialog->measuring, &why);
+  forget_measured(dialog);
+  if (measured == NULL) {
+    gtk_label_set_text(GTK_LABEL(dialog->message), why);
+    return NULL;
+  }
+  // Beside the displayed run, as it will stand on the page.
+  SbLoop loop = {0};
+  const SbRun *run = sb_session_run(dialog->session);
+  if (run != NULL && sb_session_summary(dialog->session) != NULL) {
+    (void)sb_loop_take(&loop, run);
+  }
+  dialog->measured = measured;
+  dialog->comparison = sb_comparison_create(measured, &loop);
+  sb_loop_clear(&loop);
+  g_autofree char *keys = sb_measured_keys(measured);
+  fill(dialog, keys, FALSE);
+  return sb_measured_text(measured);
+}
+
+static void draw_measured(cairo_t *cr, double width, double height, void *user) {
+  Dialog *dialog = user;
+  const SbTheme *theme = sb_style_ground(cr);
+  if (dialog->comparison != NULL) {
+    SbChartData data = *sb_session_chart(dialog->session);
+    data.measured = dialog->comparison;
+    data.playing = FALSE;
+    sb_hysteresis_draw(cr, (SbRect){0, 0, width, height}, theme, &data, SB_CHART_COMPACT);
+  }
+}
+
+static void use_measured(Dialog *dialog) {
+  SbData *data = sb_data_of_file(dialog->path);
+  g_autofree char *keys = sb_measured_keys(dialog->measured);
+  sb_data_take_keys(data, keys);
+  sb_session_set_data(dialog->session, data);
+}
+
+static const Kind measured_kind = {N_("Import measured data"),
+                                   N_("The loop as it was read"),
+                                   measured_rows,
+                                   start_measured,
+                                   take_measured,
+                                   draw_measured,
+                                   use_measured};
+
+// Scans ------------------------------------------------------------------------------------------
+
+static const Row scan_rows[] = {
+    {"form", N_("Form taken away"), "none|plane|quadratic|cylinder"},
+    {"outliers", N_("Outliers beyond, deviations"), NULL},
+    {"missing", N_("Missing points"), "leave|fill"},
+    {"cutoff-short", N_("Shortest wave"), NULL},
+    {"cutoff-long", N_("Longest wave"), NULL},
+    {"channel", N_("Channel"), NULL},
+    {"spacing", N_("Distance of points"), NULL},
+    {"unit", N_("Unit of heights"), NULL},
+    {"lateral-unit", N_("Unit of lengths"), NULL},
+    {0},
+};
+
+static void start_scan(Dialog *dialog) {
+  dialog->surface = NULL;
+  g_clear_pointer(&dialog->scanning, sb_scan_job_free);
+  g_autofree char *keys = said_keys(dialog);
+  dialog->scanning = sb_scan_job_start(dialog->path, keys, on_read, dialog);
+}
+
+static char *take_scan(Dialog *dialog) {
+  const char *why = NULL;
+  dialog->surface = sb_scan_job_surface(dialog->scanning, &why);
+  if (dialog->surface == NULL) {
+    gtk_label_set_text(GTK_LABEL(dialog->message), why);
+    return NULL;
+  }
+  const char *reason = NULL;
+  g_autofree char *choices = sb_surface_choices_text(dialog->surface);
+  g_auto(GStrv) settings = sb_surface_settings(&reason, dialog->surface);
+  if (settings == NULL) {
+    gtk_label_set_text(GTK_LABEL(dialog->message), reason);
+    return NULL;
+  }
+  if (!dialog->said[0]) {
+    set_choice(dialog, 0, sb_form_name(dialog->surface->choices->form));
+  }
+  g_autofree char *values = g_strjoinv("\n", settings);
+  GString *text = g_string_new(NULL);
+  for (guint i = 0; i < dialog->surface->scan->notes->len; i++) {
+    g_string_append_printf(text, "%s\n", (char *)dialog->surface->scan->notes->pdata[i]);
+  }
+  g_string_append_printf(text, "%s\n%s", choices, values);
+  return g_string_free(text, FALSE);
+}
+
+static void draw_scan(cairo_t *cr, double width, double height, void *user) {
+  Dialog *dialog = user;
+  (void)sb_style_ground(cr);
+  if (dialog->surface != NULL) {
+    sb_surface_draw(cr, width, height, dialog->surface, sb_style_is_dark());
+  }
+}
+
+static void use_scan(Dialog *dialog) {
+  const char *reason = NULL;
+  g_auto(GStrv) settings = sb_surface_settings(&reason, dialog->surface);
+  for (char **each = settings; each != NULL && *each != NULL; each++) {
+    g_auto(GStrv) parts = g_strsplit(*each, "=", 2);
+    const int id = sb_param_find(parts[0]);
+    if (id >= 0) {
+      (void)sb_session_edit(dialog->session, (SbParamId)id, parts[1]);
+    }
+  }
+}
+
+static const Kind scan_kind = {N_("Import a scan"),
+                               N_("Map, spectrum and heights of the scan"),
+                               scan_rows,
+                               start_scan,
+                               take_scan,
+                               draw_scan,
+                               use_scan};
+
+// Life -------------------------------------------------------------------------------------------
+
+static void on_response(GtkDialog *widget, int response, Dialog *dialog) {
+  if (response == GTK_RESPONSE_ACCEPT) {
+    dialog->kind->use(dialog);
+  }
+  gtk_widget_destroy(dialog->dialog);
+}
+
+static void on_destroy(GtkWidget *widget, Dialog *dialog) {
+  g_clear_handle_id(&dialog->later, g_source_remove);
+  sb_measure_job_free(dialog->measuring);
+  forget_measured(dialog);
+  sb_scan_job_free(dialog->scanning);
+  g_object_unref(dialog->session);
+  g_free(dialog->path);
+  g_free(dialog);
+}
+
+static GtkWidget *make_choice(Dialog *dialog, const Row *row) {
+  GtkWidget *widget;
+  if (row->words == NULL) {
+    widget = gtk_entry_new();
+  } else {
+    widget = gtk_combo_box_text_new();
+    g_auto(GStrv) words = g_strsplit(row->words, "|", -1);
+    for (char **word = words; *word != NULL; word++) {
+      gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(widget), *word, *word);
+    }
+  }
+  g_signal_connect(widget, "changed", G_CALLBACK(on_choice), dialog);
+  sb_style_name(widget, _(row->label), NULL);
+  return widget;
+}
+
+static void add_form(Dialog *dialog, GtkBox *box) {
+  GtkGrid *grid = GTK_GRID(gtk_grid_new());
+  gtk_grid_set_row_spacing(grid, 6);
+  gtk_grid_set_column_spacing(grid, 10);
+  int rows = 0;
+  for (const Row *row = dialog->kind->row; row->key != NULL; row++, rows++) {
+    dialog->choice[rows] = make_choice(dialog, row);
+    gtk_widget_set_hexpand(dialog->choice[rows], TRUE);
+    gtk_grid_attach(grid, sb_style_label(_(row->label), "sb-row-label", 0), 0, rows, 1, 1);
+    gtk_grid_attach(grid, dialog->choice[rows], 1, rows, 1, 1);
+  }
+  GtkWidget *found = gtk_button_new_with_label(_("As found"));
+  gtk_widget_set_tooltip_text(found, _("Takes all choices back"));
+  g_signal_connect(found, "clicked", G_CALLBACK(on_as_found), dialog);
+  gtk_grid_attach(grid, found, 1, rows, 1, 1);
+  dialog->text = gtk_label_new(NULL);
+  gtk_label_set_xalign(GTK_LABEL(dialog->text), 0);
+  gtk_label_set_line_wrap(GTK_LABEL(dialog->text), TRUE);
+  gtk_label_set_max_width_chars(GTK_LABEL(dialog->text), 48);
+  gtk_label_set_selectable(GTK_LABEL(dialog->text), TRUE);
+  sb_style_name(dialog->text, _("What was recognised"), NULL);
+  gtk_grid_attach(grid, dialog->text, 0, rows + 1, 2, 1);
+  gtk_box_pack_start(box, GTK_WIDGET(grid), FALSE, FALSE, 0);
+}
+
+static void open_dialog(GtkWindow *parent, SbSession *session, const Kind *kind, const char *path) {
+  Dialog *dialog = g_new0(Dialog, 1);
+  dialog->kind = kind;
+  dialog->session = g_object_ref(session);
+  dialog->path = g_canonicalize_filename(path, NULL);
+  g_autofree char *name = g_path_get_basename(path);
+  g_autofree char *shown = g_filename_display_name(name);
+  g_autofree char *title = g_strdup_printf("%s: %s", _(kind->title), shown);
+  dialog->dialog = gtk_dialog_new_with_buttons(
+      title, parent, GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT, _("_Cancel"),
+      GTK_RESPONSE_CANCEL, _("_Import"), GTK_RESPONSE_ACCEPT, NULL);
+  gtk_dialog_set_default_response(GTK_DIALOG(dialog->dialog), GTK_RESPONSE_ACCEPT);
+  gtk_window_set_default_size(GTK_WINDOW(dialog->dialog), 1100, 640);
+  g_signal_connect(dialog->dialog, "response", G_CALLBACK(on_response), dialog);
+  g_signal_connect(dialog->dialog, "destroy", G_CALLBACK(on_destroy), dialog);
+  GtkWidget *content = gtk_dialog_get_content_area(GTK_DIALOG(dialog->dialog));
+  GtkWidget *columns = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 16);
+  gtk_container_set_border_width(GTK_CONTAINER(columns), 12);
+  add_form(dialog, GTK_BOX(columns));
+  dialog->area = gtk_drawing_area_new();
+  sb_style_class(dialog->area, "sb-canvas");
+  gtk_widget_set_size_request(dialog->area, 420, 320);
+  atk_object_set_role(gtk_widget_get_accessible(dialog->area), ATK_ROLE_CHART);
+  dialog->cache = sb_draw_cache_attach(dialog->area, kind->draw, dialog);
+  gtk_box_pack_start(GTK_BOX(columns), dialog->area, TRUE, TRUE, 0);
+  gtk_box_pack_start(GTK_BOX(content), columns, TRUE, TRUE, 0);
+  GtkWidget *foot = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+  gtk_container_set_border_width(GTK_CONTAINER(foot), 12);
+  dialog->spinner = gtk_spinner_new();
+  dialog->message = sb_style_label(NULL, "sb-warn", 0);
+  gtk_label_set_line_wrap(GTK_LABEL(dialog->message), TRUE);
+  gtk_box_pack_start(GTK_BOX(foot), dialog->spinner, FALSE, FALSE, 0);
+  gtk_box_pack_start(GTK_BOX(foot), dialog->message, TRUE, TRUE, 0);
+  gtk_box_pack_start(GTK_BOX(content), foot, FALSE, FALSE, 0);
+  sb_style_window(dialog->dialog);
+  gtk_widget_show_all(dialog->dialog);
+  const SbDocument *document = sb_session_document(session);
+  const SbData *own = sb_document_data_count(document) > 0 ? sb_document_data(document, 0) : NULL;
+  g_autofree char *its = own != NULL ? g_canonicalize_filename(own->path, NULL) : NULL;
+  if (kind == &measured_kind && g_strcmp0(its, dialog->path) == 0) {
+    GString *keys = g_string_new(NULL);
+    for (int key = 0; key < SB_DATA_KEY_COUNT; key++) {
+      if (own->text[key] != NULL) {
+        g_string_append_printf(keys, "%s = %s\n", sb_data_key_name((SbDataKey)key), own->text[key]);
+      }
+    }
+    fill(dialog, keys->str, TRUE);
+    g_string_free(keys, TRUE);
+  }
+  read_file(dialog);
+}
+
+static void import(GtkWindow *parent, SbSession *session, const Kind *kind, const char *path) {
+  if (path != NULL) {
+    open_dialog(parent, session, kind, path);
+    return;
+  }
+  GtkFileChooserNative *chooser = gtk_file_chooser_native_new(
+      _(kind->title), parent, GTK_FILE_CHOOSER_ACTION_OPEN, _("_Open"), _("_Cancel"));
+  if (gtk_native_dialog_run(GTK_NATIVE_DIALOG(chooser)) == GTK_RESPONSE_ACCEPT) {
+    g_autofree char *file = gtk_file_chooser_get_filename(GTK_FILE_CHOOSER(chooser));
+    open_dialog(parent, session, kind, file);
+  }
+  g_object_unref(chooser);
+}
+
+void sb_import_measured(GtkWindow *parent, SbSession *session, const char *path) {
+  import(parent, session, &measured_kind, path);
+}
+
+void sb_import_scan(GtkWindow *parent, SbSession *session, const char *path) {
+  import(parent, session, &scan_kind, path);
+}

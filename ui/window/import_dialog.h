@@ -1,0 +1,14 @@
+// Dialogs that import a file with a preview of what was recognised, each choice of which may be
+// changed: a measured loop beside the document's runs, a scan into its surface.
+#pragma once
+
+#include "app/session/session.h"
+
+#include <gtk/gtk.h>
+
+// A loop from `path`, with what the document's data say of it already; NULL asks for a file. The
+// group [data] of the document has it afterwards.
+void sb_import_measured(GtkWindow *parent, SbSession *session, const char *path);
+
+// A scan in the same way, which becomes surface.gt_product, .sigma and .sigma_over_beta.
+void sb_import_scan(GtkWindow *parent, SbSession *session, const char *path);
