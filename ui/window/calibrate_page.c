@@ -8,6 +8,7 @@
 #include "ui/views/draw_cache.h"
 #include "ui/views/style.h"
 #include "ui/window/calibrate_job.h"
+#include "ui/window/import_dialog.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -30,12 +31,11 @@ enum { CHOICES = G_N_ELEMENTS(choices) };
 typedef struct {
   SbSession *session; // owned reference
   GtkWidget *box, *area, *tick[CHOICES], *file_label, *fit, *use, *progress, *stop, *message;
-  GtkWidget *recognised, *keys; // button; text of the keys
+  GtkWidget *recognised;
   SbDrawCache *cache;
   SbCalibrateJob *job;
   guint poll;     // source, 0 if none
-  char *file;     // imported; NULL: the document's own
-  gboolean said;  // the keys are the user's
+  SbData *fitted; // what the last fit was asked of
   gboolean known; // there is a calibration
   SbCalibration found;
   SbStudyFile *study;
@@ -76,7 +76,7 @@ static const SbData *own_data(const Page *page) {
 static void refresh(Page *page) {
   const gboolean busy = page->job != NULL;
   const SbData *own = own_data(page);
-  const char *path = page->file != NULL ? page->file : own != NULL ? own->path : NULL;
+  const char *path = own != NULL ? own->path : NULL;
   g_autofree char *name = path != NULL ? g_path_get_basename(path) : NULL;
   gboolean ticked = FALSE;
   for (int i = 0; i < CHOICES; i++) {
@@ -121,20 +121,11 @@ static void append_priors(GString *text, const Page *page) {
 
 static void append_data(GString *text, const Page *page) {
   const SbData *own = own_data(page);
-  const char *path = page->file != NULL ? page->file : own->path;
-  g_autofree char *whole = g_canonicalize_filename(path, NULL);
+  g_autofree char *whole = g_canonicalize_filename(own->path, NULL);
   g_string_append_printf(text, "[data]\nfile = %s\n", whole);
-  if (page->said) {
-    GtkTextIter start, end;
-    GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(page->keys));
-    gtk_text_buffer_get_bounds(buffer, &start, &end);
-    g_autofree char *keys = gtk_text_buffer_get_text(buffer, &start, &end, FALSE);
-    g_string_append(text, keys);
-  } else if (page->file == NULL) {
-    for (int k = SB_DATA_FILE + 1; k < SB_DATA_KEY_COUNT; k++) {
-      if (own->text[k] != NULL) {
-        g_string_append_printf(text, "%s = %s\n", sb_data_key_name((SbDataKey)k), own->text[k]);
-      }
+  for (int k = SB_DATA_FILE + 1; k < SB_DATA_KEY_COUNT; k++) {
+    if (own->text[k] != NULL) {
+      g_string_append_printf(text, "%s = %s\n", sb_data_key_name((SbDataKey)k), own->text[k]);
     }
   }
 }
@@ -195,18 +186,18 @@ static void on_done(void *data) {
     page->found = found;
     page->study = study;
     page->known = TRUE;
-    g_autofree char *keys = sb_measured_keys(found.curve[0].measured);
-    gtk_text_buffer_set_text(gtk_text_view_get_buffer(GTK_TEXT_VIEW(page->keys)), keys, -1);
-    page->said = FALSE;
   }
   refresh(page);
 }
 
 static void fit(Page *page) {
   end_job(page);
-  if (page->file == NULL && own_data(page) == NULL) {
+  g_clear_pointer(&page->fitted, sb_data_free);
+  if (own_data(page) == NULL) {
+    forget(page);
     return;
   }
+  page->fitted = sb_data_copy(own_data(page));
   SbStudyFile *study = make_study(page);
   if (study != NULL) {
     say(page, "");
@@ -219,24 +210,9 @@ static void fit(Page *page) {
 
 // Actions ----------------------------------------------------------------------------------------
 
-static void on_import(GtkButton *button, Page *page) {
+static void on_recognised(GtkButton *button, Page *page) {
   GtkWidget *top = gtk_widget_get_toplevel(page->box);
-  GtkFileChooserNative *chooser =
-      gtk_file_chooser_native_new(_("Import a measured loop"), GTK_WINDOW(top),
-                                  GTK_FILE_CHOOSER_ACTION_OPEN, _("_Open"), _("_Cancel"));
-  if (gtk_native_dialog_run(GTK_NATIVE_DIALOG(chooser)) == GTK_RESPONSE_ACCEPT) {
-    g_free(page->file);
-    page->file = gtk_file_chooser_get_filename(GTK_FILE_CHOOSER(chooser));
-    page->said = FALSE;
-    gtk_text_buffer_set_text(gtk_text_view_get_buffer(GTK_TEXT_VIEW(page->keys)), "", -1);
-    fit(page);
-  }
-  g_object_unref(chooser);
-}
-
-static void on_read_again(GtkButton *button, Page *page) {
-  page->said = TRUE;
-  fit(page);
+  sb_import_measured(GTK_WINDOW(top), page->session, own_data(page)->path);
 }
 
 static void on_use(GtkButton *button, Page *page) {
@@ -254,12 +230,16 @@ static void on_stop(GtkButton *button, Page *page) {
   }
 }
 
-// With data of its own a document is fitted when the page is first looked at.
-static void on_map(Page *page) {
-  if (!page->known && page->job == NULL && page->file == NULL) {
+// A document's data are fitted when the page is first looked at, and when others were imported.
+static void on_look(Page *page) {
+  if (gtk_widget_get_mapped(page->box) && !sb_data_same(page->fitted, own_data(page))) {
     fit(page);
   }
   refresh(page);
+}
+
+static void on_params(SbSession *session, GtkWidget *box) {
+  on_look(g_object_get_data(G_OBJECT(box), "page"));
 }
 
 // Life -------------------------------------------------------------------------------------------
@@ -272,7 +252,7 @@ static void on_destroy(GtkWidget *widget, Page *page) {
 static void page_free(gpointer data) {
   Page *page = data;
   forget(page);
-  g_free(page->file);
+  sb_data_free(page->fitted);
   g_free(page);
 }
 
@@ -303,18 +283,12 @@ static void add_toolbar(Page *page) {
   gtk_box_pack_start(bar, sb_style_label(_("Measured"), "sb-heading", 0), FALSE, FALSE, 0);
   page->file_label = sb_style_label(NULL, "sb-row-label", 0);
   gtk_box_pack_start(bar, page->file_label, FALSE, FALSE, 0);
-  button_of(bar, _("Import…"), _("A table of force and displacement from a test machine"),
-            G_CALLBACK(on_import), page);
-  // What was recognised, as keys that may be changed.
-  GtkWidget *column = gtk_box_new(GTK_ORIENTATION_VERTICAL, 8);
-  page->keys = gtk_text_view_new();
-  gtk_text_view_set_monospace(GTK_TEXT_VIEW(page->keys), TRUE);
-  gtk_widget_set_size_request(page->keys, 440, 220);
-  sb_style_name(page->keys, _("What was recognised, as keys"), NULL);
-  gtk_box_pack_start(GTK_BOX(column), page->keys, TRUE, TRUE, 0);
-  button_of(GTK_BOX(column), _("Read again"), _("Reads the file as these keys say"),
-            G_CALLBACK(on_read_again), page);
-  page->recognised = menu_button(bar, _("Recognised"), column);
+  GtkWidget *import = gtk_button_new_with_label(_("Import…"));
+  gtk_widget_set_tooltip_text(import, _("A table of force and displacement from a test machine"));
+  gtk_actionable_set_action_name(GTK_ACTIONABLE(import), "win.import-measured");
+  gtk_box_pack_start(bar, import, FALSE, FALSE, 0);
+  page->recognised = button_of(bar, _("Recognised…"), _("What was read how, and to change it"),
+                               G_CALLBACK(on_recognised), page);
   GtkWidget *list = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4);
   for (int i = 0; i < CHOICES; i++) {
     page->tick[i] = gtk_check_button_new_with_label(sb_param(choices[i].id)->key);
@@ -358,7 +332,8 @@ GtkWidget *sb_calibrate_page_new(SbSession *session) {
   gtk_box_pack_start(GTK_BOX(page->box), page->area, TRUE, TRUE, 0);
   gtk_widget_show(page->area);
   g_signal_connect(page->box, "destroy", G_CALLBACK(on_destroy), page);
-  g_signal_connect_swapped(page->box, "map", G_CALLBACK(on_map), page);
+  g_signal_connect_swapped(page->box, "map", G_CALLBACK(on_look), page);
+  g_signal_connect_object(page->session, "params-changed", G_CALLBACK(on_params), page->box, 0);
   refresh(page);
   gtk_widget_show(page->box);
   return page->box;

@@ -10,6 +10,7 @@
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
+#include <math.h>
 #include <string.h>
 
 typedef struct Dialog Dialog;
@@ -29,6 +30,7 @@ typedef struct {
   char *(*take)(Dialog *dialog); // what was recognised; NULL with the message shown
   void (*draw)(cairo_t *cr, double width, double height, void *dialog);
   void (*use)(Dialog *dialog);
+  int width, height; // of the dialog
 } Kind;
 
 struct Dialog {
@@ -227,7 +229,9 @@ static const Kind measured_kind = {N_("Import measured data"),
                                    start_measured,
                                    take_measured,
                                    draw_measured,
-                                   use_measured};
+                                   use_measured,
+                                   1100,
+                                   640};
 
 // Scans ------------------------------------------------------------------------------------------
 
@@ -280,8 +284,11 @@ static char *take_scan(Dialog *dialog) {
 static void draw_scan(cairo_t *cr, double width, double height, void *user) {
   Dialog *dialog = user;
   (void)sb_style_ground(cr);
+  // The page's columns need this width; on less it is drawn smaller.
+  const double least = 1150, scale = fmin(width / least, 1);
   if (dialog->surface != NULL) {
-    sb_surface_draw(cr, width, height, dialog->surface, sb_style_is_dark());
+    cairo_scale(cr, scale, scale);
+    sb_surface_draw(cr, width / scale, height / scale, dialog->surface, sb_style_is_dark());
   }
 }
 
@@ -303,7 +310,9 @@ static const Kind scan_kind = {N_("Import a scan"),
                                start_scan,
                                take_scan,
                                draw_scan,
-                               use_scan};
+                               use_scan,
+                               1320,
+                               820};
 
 // Life -------------------------------------------------------------------------------------------
 
@@ -377,7 +386,7 @@ static void open_dialog(GtkWindow *parent, SbSession *session, const Kind *kind,
       title, parent, GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT, _("_Cancel"),
       GTK_RESPONSE_CANCEL, _("_Import"), GTK_RESPONSE_ACCEPT, NULL);
   gtk_dialog_set_default_response(GTK_DIALOG(dialog->dialog), GTK_RESPONSE_ACCEPT);
-  gtk_window_set_default_size(GTK_WINDOW(dialog->dialog), 1100, 640);
+  gtk_window_set_default_size(GTK_WINDOW(dialog->dialog), kind->width, kind->height);
   g_signal_connect(dialog->dialog, "response", G_CALLBACK(on_response), dialog);
   g_signal_connect(dialog->dialog, "destroy", G_CALLBACK(on_destroy), dialog);
   GtkWidget *content = gtk_dialog_get_content_area(GTK_DIALOG(dialog->dialog));
