@@ -11,83 +11,42 @@ typedef struct {
   char *form, *outliers, *missing, *cutoff_short, *cutoff_long;
   char *channel, *spacing, *unit, *lateral_unit, *json, *scene, *output, *plot;
   gboolean ignore_mask;
-  SbHeightsChoices choices;
-  SbScanChoices scan;
+  SbSurfaceChoices choices;
 } Options;
 
 // ---- Options ----
 
-static char *form_names(void) {
-  GString *names = g_string_new(NULL);
-  for (int i = 0; i < SB_FORM_COUNT; i++) {
-    g_string_append_printf(names, "%s%s", i > 0 ? "|" : "", sb_form_name(i));
-  }
-  return g_string_free(names, FALSE);
-}
-
-static int read_form(Options *options) {
-  for (int i = 0; i < SB_FORM_COUNT; i++) {
-    if (strcmp(options->form, sb_form_name(i)) == 0) {
-      options->choices.form = (SbForm)i;
-      return SB_EXIT_DONE;
-    }
-  }
-  g_autofree char *names = form_names();
-  return sb_cli_unknown("--form: there is no", options->form, names, NULL);
-}
-
-// A unit of length, "nm"; an exit code.
-static int read_unit(double *out, const char *option, const char *text) {
-  g_autofree char *one = text != NULL ? g_strconcat("1 ", text, NULL) : NULL;
-  if (one != NULL && !sb_cli_quantity(out, option, one, false, "m", "µm")) {
-    return SB_EXIT_INPUT;
-  }
-  return one == NULL || *out > 0 ? SB_EXIT_DONE : sb_cli_fail("%s: no unit of length", option);
-}
-
 static int read_options(Options *options) {
-  options->choices = (SbHeightsChoices){.form = SB_FORM_PLANE};
-  int code = options->form != NULL ? read_form(options) : SB_EXIT_DONE;
-  if (code == SB_EXIT_DONE && options->missing != NULL) {
-    options->choices.fill = strcmp(options->missing, "fill") == 0;
-    if (!options->choices.fill && strcmp(options->missing, "leave") != 0) {
-      return sb_cli_unknown("--missing: there is no", options->missing, "leave|fill", NULL);
-    }
-  }
   const struct {
-    const char *option, *text, *si, *shown;
-    double *value;
-  } numbers[] = {
-      {"--outliers", options->outliers, "1", "", &options->choices.outliers},
-      {"--cutoff-short", options->cutoff_short, "m", "µm", &options->choices.cutoff_short},
-      {"--cutoff-long", options->cutoff_long, "m", "µm", &options->choices.cutoff_long},
-      {"--spacing", options->spacing, "m", "µm", &options->scan.spacing},
+    const char *name, *text;
+  } named[] = {
+      {"form", options->form},
+      {"missing", options->missing},
+      {"outliers", options->outliers},
+      {"cutoff-short", options->cutoff_short},
+      {"cutoff-long", options->cutoff_long},
+      {"spacing", options->spacing},
+      {"unit", options->unit},
+      {"lateral-unit", options->lateral_unit},
+      {"channel", options->channel},
   };
-  for (size_t i = 0; i < G_N_ELEMENTS(numbers) && code == SB_EXIT_DONE; i++) {
-    double *value = numbers[i].value;
-    if (!sb_cli_quantity(value, numbers[i].option, numbers[i].text, false, numbers[i].si,
-                         numbers[i].shown)) {
-      code = SB_EXIT_INPUT;
-    } else if (numbers[i].text != NULL && !(*value > 0 && isfinite(*value))) {
-      code = sb_cli_fail("%s: a value above 0 is needed", numbers[i].option);
+  sb_surface_choices_init(&options->choices);
+  for (size_t i = 0; i < G_N_ELEMENTS(named); i++) {
+    g_autoptr(GError) error = NULL;
+    if (named[i].text != NULL &&
+        !sb_surface_choose(&options->choices, named[i].name, named[i].text, &error)) {
+      return sb_cli_fail("--%s: %s", named[i].name, error->message);
     }
   }
-  if (code == SB_EXIT_DONE) {
-    code = read_unit(&options->scan.unit, "--unit", options->unit);
+  options->choices.scan.ignore_mask = options->ignore_mask;
+  if ((options->scene == NULL) != (options->output == NULL)) {
+    return sb_cli_fail("--scene and --output go together: the scene, and the copy of it");
   }
-  if (code == SB_EXIT_DONE) {
-    code = read_unit(&options->scan.lateral_unit, "--lateral-unit", options->lateral_unit);
-  }
-  if (code == SB_EXIT_DONE && (options->scene == NULL) != (options->output == NULL)) {
-    code = sb_cli_fail("--scene and --output go together: the scene, and the copy of it");
-  }
-  if (code == SB_EXIT_DONE && options->plot != NULL && !sb_output_ends_in(options->plot, ".png") &&
+  if (options->plot != NULL && !sb_output_ends_in(options->plot, ".png") &&
       !sb_output_ends_in(options->plot, ".svg") && !sb_output_ends_in(options->plot, ".pdf")) {
-    code = sb_cli_fail("--plot: a name ending in .png, .svg or .pdf is needed");
+    return sb_cli_fail("--plot: a name ending in .png, .svg or .pdf is needed");
   }
-  options->scan.channel = options->channel;
-  options->scan.ignore_mask = options->ignore_mask;
-  return code;
+  return SB_EXIT_DONE;
 }
 
 // ---- What people read ----
@@ -302,7 +261,7 @@ static int check_outputs(const Options *options) {
 static int compute(const char *path, Options *options) {
   GError *error = NULL;
   SbScan scan;
-  if (!sb_scan_read(&scan, path, &options->scan, &error)) {
+  if (!sb_scan_read(&scan, path, &options->choices.scan, &error)) {
     return sb_cli_error(error);
   }
   int code = check_outputs(options);
@@ -312,9 +271,9 @@ static int compute(const char *path, Options *options) {
   }
   g_autofree SbScanFigures *figures = g_new0(SbScanFigures, 1);
   SbReport report = {0};
-  code =
-      sb_cli_status(sb_scan_figures(figures, &scan.heights, &options->choices, &report), &report);
-  const SbSurface surface = {path, &scan, &options->choices, figures};
+  code = sb_cli_status(sb_scan_figures(figures, &scan.heights, &options->choices.heights, &report),
+                       &report);
+  const SbSurface surface = {path, &scan, &options->choices.heights, figures};
   if (code == SB_EXIT_DONE && options->scene != NULL) {
     code = write_scene(&surface, options);
   }
@@ -379,5 +338,6 @@ int sb_command_surface(int argc, char **argv) {
   for (size_t i = 0; i < G_N_ELEMENTS(owned); i++) {
     g_free(owned[i]);
   }
+  sb_surface_choices_clear(&options.choices);
   return code;
 }

@@ -31,9 +31,9 @@ static bool choose_form(SbForm *form, const char *text, GError **error) {
       *form = (SbForm)i;
       return true;
     }
-    g_string_append_printf(names, "%s%s", i > 0 ? "|" : "", sb_form_name(i));
+    g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", sb_form_name(i));
   }
-  return fail(error, "there is no \"%.40s\" (allowed: %s)", text, names->str);
+  return fail(error, "there is no \"%.40s\" (allowed %s)", text, names->str);
 }
 
 bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *text,
@@ -72,7 +72,7 @@ bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *
   if (strcmp(name, "missing") == 0) {
     choices->heights.fill = strcmp(text, "fill") == 0;
     return choices->heights.fill || strcmp(text, "leave") == 0 ||
-           fail(error, "there is no \"%.40s\" (allowed: leave|fill)", text);
+           fail(error, "there is no \"%.40s\" (allowed leave, fill)", text);
   }
   if (strcmp(name, "channel") == 0) {
     g_free(choices->channel);
