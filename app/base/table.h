@@ -79,3 +79,7 @@ typedef struct {
 } SbTableRows;
 bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const size_t *column,
                    size_t count, GPtrArray *issues);
+
+// A text that is one number with this decimal mark and nothing between thousands; false, *out
+// untouched, where it is none.
+bool sb_table_number_of(double *out, const char *text, size_t length, char decimal);

@@ -175,6 +175,12 @@ bool sb_table_number(double *out, const SbTableCell *cell, const SbTableDialect 
   return true;
 }
 
+bool sb_table_number_of(double *out, const char *text, size_t length, char decimal) {
+  const SbTableDialect dialect = {.decimal = decimal};
+  const SbTableCell cell = {text, length};
+  return sb_table_number(out, &cell, &dialect, NULL);
+}
+
 // ---- Clocks ----
 
 static bool read_whole(int *out, const char **at, const char *end, int digits_max) {

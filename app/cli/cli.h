@@ -6,6 +6,7 @@
 
 #include "app/data/compare.h"
 #include "app/document/document.h"
+#include "app/document/study_file.h"
 #include "app/export/json.h"
 
 #include "engine/valve/sealbench.h"
@@ -200,3 +201,25 @@ int sb_command_design(int argc, char **argv);
 int sb_command_sensitivity(int argc, char **argv);
 int sb_command_surface(int argc, char **argv);
 int sb_command_open(int argc, char **argv);
+
+// ---- Commands that answer a study file with a folder ----
+
+typedef struct {
+  char *folder, *jobs, *json;
+  char **settings;
+  int threads;
+} SbCliStudyOptions;
+
+// Parses -o, --jobs, --set, --json and one file.
+bool sb_cli_study_parse(SbCliStudyOptions *out, int *argc, char ***argv, const char *folder_help);
+void sb_cli_study_clear(SbCliStudyOptions *options);
+
+// What a command makes of a study file: whether it asks for that (else an issue), the names of
+// what is written into the folder, and the work, whose exit code it returns.
+typedef struct {
+  bool (*asks)(const SbStudyFile *study, const char *path, GPtrArray *issues);
+  void (*names)(GPtrArray *names, const SbStudyFile *study); // of char *, owned by the array
+  int (*solve)(const SbCliStudyOptions *options, const SbStudyFile *study);
+} SbCliStudyWork;
+int sb_cli_study_run(const SbCliStudyOptions *options, const char *path,
+                     const SbCliStudyWork *work);

@@ -6,12 +6,6 @@
 
 #include <math.h>
 
-typedef struct {
-  char *folder, *jobs, *json;
-  char **settings;
-  int threads;
-} Options;
-
 static const char result_name[] = "results.json", samples_name[] = "posterior.csv",
                   picture_name[] = "calibration.svg";
 
@@ -105,7 +99,7 @@ static void on_progress(void *data, double fraction) {
   sb_progress_update(data, fraction);
 }
 
-static int solve(const Options *options, const SbStudyFile *study) {
+static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
   SbCalibration calibration;
   SbReport report = {0};
   SbProgress progress;
@@ -145,45 +139,30 @@ static int solve(const Options *options, const SbStudyFile *study) {
   return code;
 }
 
-int sb_command_calibrate(int argc, char **argv) {
-  Options options = {0};
-  const GOptionEntry entries[] = {
-      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.folder,
-       "Folder for results.json, posterior.csv, calibration.svg and the fitted scenes", "DIR"},
-      {"jobs", 0, 0, G_OPTION_ARG_FILENAME, &options.jobs, SB_CLI_JOBS_HELP, "N"},
-      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
-      {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
-      {0},
-  };
-  int code = SB_EXIT_INPUT;
-  if (sb_cli_parse(&argc, &argv, entries, 1, 1, NULL) &&
-      sb_cli_jobs(&options.threads, options.jobs)) {
-    g_autoptr(GPtrArray) issues = sb_issues_new();
-    g_autoptr(SbStudyFile) study = sb_study_file_load(argv[1], options.settings, issues);
-    const bool asked = study != NULL && study->data->len > 0;
-    if (study != NULL && !asked) {
-      sb_issues_add(issues, argv[1], 0, "data.file", "a file of numbers",
-                    "is missing: what was measured");
-    }
-    sb_cli_issues(issues);
-    if (asked) {
-      g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
-      g_ptr_array_add(names, g_strdup(result_name));
-      g_ptr_array_add(names, g_strdup(samples_name));
-      g_ptr_array_add(names, g_strdup(picture_name));
-      for (size_t c = 0; c < study->data->len; c++) {
-        g_ptr_array_add(names, scene_name(study, c));
-      }
-      g_ptr_array_add(names, NULL);
-      code = sb_cli_check_outputs(options.folder, (char **)names->pdata, options.json);
-      if (code == SB_EXIT_DONE) {
-        code = sb_cli_has_memory(study->base) ? solve(&options, study) : SB_EXIT_IO;
-      }
-    }
+static bool asks(const SbStudyFile *study, const char *path, GPtrArray *issues) {
+  if (study->data->len == 0) {
+    sb_issues_add(issues, path, 0, "data.file", "a file of numbers",
+                  "is missing: what was measured");
   }
-  g_free(options.folder);
-  g_free(options.jobs);
-  g_free(options.json);
-  g_strfreev(options.settings);
+  return study->data->len > 0;
+}
+
+static void add_names(GPtrArray *names, const SbStudyFile *study) {
+  g_ptr_array_add(names, g_strdup(result_name));
+  g_ptr_array_add(names, g_strdup(samples_name));
+  g_ptr_array_add(names, g_strdup(picture_name));
+  for (size_t c = 0; c < study->data->len; c++) {
+    g_ptr_array_add(names, scene_name(study, c));
+  }
+}
+
+int sb_command_calibrate(int argc, char **argv) {
+  static const SbCliStudyWork work = {asks, add_names, solve};
+  SbCliStudyOptions options;
+  const bool good = sb_cli_study_parse(
+      &options, &argc, &argv,
+      "Folder for results.json, posterior.csv, calibration.svg and the fitted scenes");
+  const int code = good ? sb_cli_study_run(&options, argv[1], &work) : SB_EXIT_INPUT;
+  sb_cli_study_clear(&options);
   return code;
 }

@@ -6,12 +6,6 @@
 
 #include <math.h>
 
-typedef struct {
-  char *folder, *jobs, *json;
-  char **settings;
-  int threads;
-} Options;
-
 static const char result_name[] = "results.json";
 
 static void print_parameters(const SbStudyFile *study, const SbDesign *design) {
@@ -124,7 +118,7 @@ static int write_folder(const char *folder, const char *json) {
   return good ? SB_EXIT_DONE : sb_cli_error(error);
 }
 
-static int solve(const Options *options, const SbStudyFile *study) {
+static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
   SbDesign design;
   SbReport report = {0};
   sb_cli_catch_interrupts();
@@ -151,36 +145,23 @@ static int solve(const Options *options, const SbStudyFile *study) {
   return code;
 }
 
-int sb_command_design(int argc, char **argv) {
-  Options options = {0};
-  const GOptionEntry entries[] = {
-      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.folder, "Folder for results.json", "DIR"},
-      {"jobs", 0, 0, G_OPTION_ARG_FILENAME, &options.jobs, SB_CLI_JOBS_HELP, "N"},
-      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
-      {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
-      {0},
-  };
-  int code = SB_EXIT_INPUT;
-  if (sb_cli_parse(&argc, &argv, entries, 1, 1, NULL) &&
-      sb_cli_jobs(&options.threads, options.jobs)) {
-    g_autoptr(GPtrArray) issues = sb_issues_new();
-    g_autoptr(SbStudyFile) study = sb_study_file_load(argv[1], options.settings, issues);
-    if (study != NULL && !study->design.asked) {
-      sb_issues_add(issues, argv[1], 0, "design", "objective = minimise FIGURE",
-                    "is missing: what a design is to be best at");
-    }
-    sb_cli_issues(issues);
-    if (study != NULL && study->design.asked) {
-      char *names[] = {(char *)result_name, NULL};
-      code = sb_cli_check_outputs(options.folder, names, options.json);
-      if (code == SB_EXIT_DONE) {
-        code = sb_cli_has_memory(study->base) ? solve(&options, study) : SB_EXIT_IO;
-      }
-    }
+static bool asks(const SbStudyFile *study, const char *path, GPtrArray *issues) {
+  if (!study->design.asked) {
+    sb_issues_add(issues, path, 0, "design", "objective = minimise FIGURE",
+                  "is missing: what a design is to be best at");
   }
-  g_free(options.folder);
-  g_free(options.jobs);
-  g_free(options.json);
-  g_strfreev(options.settings);
+  return study->design.asked;
+}
+
+static void add_names(GPtrArray *names, const SbStudyFile *study) {
+  g_ptr_array_add(names, g_strdup(result_name));
+}
+
+int sb_command_design(int argc, char **argv) {
+  static const SbCliStudyWork work = {asks, add_names, solve};
+  SbCliStudyOptions options;
+  const bool good = sb_cli_study_parse(&options, &argc, &argv, "Folder for results.json");
+  const int code = good ? sb_cli_study_run(&options, argv[1], &work) : SB_EXIT_INPUT;
+  sb_cli_study_clear(&options);
   return code;
 }

@@ -4,6 +4,7 @@
 #include "app/data/scan/scan_private.h"
 
 #include "app/base/number.h"
+#include "app/base/table.h"
 
 #include <math.h>
 
@@ -27,69 +28,6 @@ void sb_scan_text_clear(SbScanText *text) {
 
 static gboolean is_separator(guchar c) {
   return c == ' ' || c == '\t' || c == ',' || c == ';';
-}
-
-// A decimal number at `p`; where it ends, NULL for none. Exact where its digits and power of ten
-// are (W.D. Clinger, PLDI 1990), else by the library.
-static const guchar *read_number(double *out, const guchar *p, const guchar *end, char decimal) {
-  static const double powers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                  1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                  1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-  const guchar *start = p;
-  const gboolean negative = p < end && *p == '-';
-  p += p < end && (*p == '-' || *p == '+');
-  guint64 digits = 0;
-  int count = 0, power = 0, seen = 0;
-  gboolean behind = FALSE;
-  for (; p < end && (g_ascii_isdigit(*p) || (*p == (guchar)decimal && !behind)); p++) {
-    if (*p == (guchar)decimal) {
-      behind = TRUE;
-      continue;
-    }
-    seen++;
-    power -= behind;
-    if (count < 19) {
-      digits = 10 * digits + (guint64)(*p - '0');
-      count += digits > 0;
-    } else {
-      power++;
-    }
-  }
-  if (seen == 0) {
-    return NULL;
-  }
-  if (p < end && (*p == 'e' || *p == 'E')) {
-    const guchar *e = p + 1;
-    const gboolean minus = e < end && *e == '-';
-    e += e < end && (*e == '-' || *e == '+');
-    int exponent = 0;
-    const guchar *first = e;
-    for (; e < end && g_ascii_isdigit(*e); e++) {
-      exponent = MIN(10 * exponent + (*e - '0'), 10000);
-    }
-    if (e > first) {
-      power += minus ? -exponent : exponent;
-      p = e;
-    }
-  }
-  double value;
-  if (digits <= (guint64)1 << 53 && power >= -22 && power <= 22) {
-    value = power < 0 ? (double)digits / powers[-power] : (double)digits * powers[power];
-    value = negative ? -value : value;
-  } else {
-    char text[SB_NUMBER_LENGTH_MAX + 1];
-    const gsize length = (gsize)(p - start);
-    if (length > SB_NUMBER_LENGTH_MAX) {
-      return NULL;
-    }
-    for (gsize i = 0; i < length; i++) {
-      text[i] = start[i] == (guchar)decimal ? '.' : (char)start[i];
-    }
-    text[length] = '\0';
-    value = g_ascii_strtod(text, NULL);
-  }
-  *out = value;
-  return p;
 }
 
 // What instruments write where there is no height.
@@ -131,9 +69,8 @@ static gint64 take_row(GArray *numbers, gboolean *open, const guchar *p, const g
     while (stop < end && (!is_separator(*stop) || *stop == (guchar)decimal)) {
       stop++;
     }
-    const guchar *behind =
-        is_missing(p, (gsize)(stop - p)) ? stop : read_number(&value, p, end, decimal);
-    if (behind != stop) {
+    const gsize length = (gsize)(stop - p);
+    if (!is_missing(p, length) && !sb_table_number_of(&value, (const char *)p, length, decimal)) {
       g_array_set_size(numbers, before);
       return -1;
     }
