@@ -49,6 +49,11 @@ static void print_table(const SbStudyFile *study, const SbCalibration *of) {
     printf("  %s: differences %.3g N before, %.3g N after%s\n", curve->name, curve->before_rms,
            curve->after != NULL ? curve->after->rms : NAN,
            curve->spread > 1 ? "; they are correlated, and counted for less" : "");
+    if (curve->measured->force_zero == SB_HOW_ASSUMED) {
+      printf("  %s: the force's zero is not in the data and taken as it is: an offset is fitted as "
+             "pressure\n",
+             curve->name);
+    }
   }
   printf("  chi2 per degree of freedom %.3g%s\n", of->chi2,
          of->chi2 > 1.5 ? ": more than noise is left, which the model cannot follow" : "");
