@@ -5,9 +5,9 @@
 #include "app/chart/hysteresis.h"
 #include "app/export/surface.h"
 #include "app/session/measure_job.h"
-#include "app/session/scan_job.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/style.h"
+#include "ui/window/scan_job.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 // See scan_job.h.
-#include "app/session/scan_job.h"
+#include "ui/window/scan_job.h"
 
 #include "app/session/worker.h"
 
