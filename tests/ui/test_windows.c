@@ -2,6 +2,7 @@
 // behind: no window outlives its closing, and the memory in use stops growing. (Leaks that nothing
 // points to are the sanitizers' to find; this finds what something still points to.)
 #include "ui/window/application.h"
+#include "ui/window/export_job.h"
 #include "ui/window/import_dialog.h"
 #include "ui/window/window.h"
 
@@ -101,6 +102,36 @@ static void wait_for(GtkDialog *dialog, gboolean ready) {
   g_assert_true(gtk_widget_get_sensitive(import) == ready);
 }
 
+static void on_exported(void *data) {
+  *(gboolean *)data = TRUE;
+}
+
+// The size of the loop's picture as it is exported, with what was measured or without.
+static gsize exported(SbSession *session, gboolean measured) {
+  const SbDocument *document = sb_session_document(session);
+  g_autofree char *path = g_build_filename(g_getenv("XDG_DATA_HOME"), "loop.svg", NULL);
+  SbExportRequest request = {.path = g_strdup(path),
+                             .view = g_strdup("hysteresis"),
+                             .width = 640,
+                             .height = 480,
+                             .measured =
+                                 measured ? sb_data_copy(sb_document_data(document, 0)) : NULL,
+                             .hash = g_strdup("")};
+  gboolean done = FALSE, good = FALSE;
+  SbExportJob *job = sb_export_job_start(sb_session_handle(session), &request, on_exported, &done);
+  for (int i = 0; i < 500 && !done; i++) {
+    turn(20);
+  }
+  g_test_message("%s", sb_export_job_result(job, &good));
+  g_assert_true(done && good);
+  sb_export_job_free(job);
+  g_autofree char *text = NULL;
+  gsize length = 0;
+  g_assert_true(g_file_get_contents(path, &text, &length, NULL));
+  g_remove(path);
+  return length;
+}
+
 // What is recognised fills the choices; one that is wrong is told, taken back it is found again;
 // what is imported stands in the document and its text, and beside the run.
 static void test_import(void) {
@@ -132,6 +163,7 @@ static void test_import(void) {
   }
   g_assert_nonnull(sb_session_chart(session)->measured);
   g_assert_cmpuint(sb_session_chart(session)->measured->count, >, 100);
+  g_assert_cmpuint(exported(session, TRUE), >, 3 * exported(session, FALSE) / 2);
   // Saved and read again it is the same; the name is as seen from there.
   g_autofree char *path = g_build_filename(g_getenv("XDG_DATA_HOME"), "measured.scene", NULL);
   g_assert_true(sb_session_save(session, path, NULL));

@@ -324,6 +324,10 @@ static gboolean start(gpointer data) {
       .height = gtk_spin_button_get_value(GTK_SPIN_BUTTON(dialog->height)),
       .dark = g_strcmp0(gtk_combo_box_get_active_id(GTK_COMBO_BOX(dialog->theme)), "dark") == 0,
       .style = style_of(dialog),
+      .measured = sb_session_measured(dialog->session) != NULL
+                      ? sb_data_copy(sb_document_data(sb_session_document(dialog->session), 0))
+                      : NULL,
+      .drive_speed = sb_session_drive_speed(dialog->session),
       .at = instant_of(dialog),
       .from = end_of_range(dialog, dialog->from),
       .to = end_of_range(dialog, dialog->to),

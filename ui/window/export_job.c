@@ -3,6 +3,7 @@
 #include "ui/window/export_job.h"
 
 #include "app/base/output.h"
+#include "app/data/compare.h"
 #include "app/export/render_movie.h"
 #include "app/session/worker.h"
 
@@ -25,6 +26,7 @@ void sb_export_request_clear(SbExportRequest *request) {
   for (guint i = 0; i < G_N_ELEMENTS(texts); i++) {
     g_clear_pointer(texts[i], g_free);
   }
+  g_clear_pointer(&request->measured, sb_data_free);
 }
 
 // Drawing ----------------------------------------------------------------------------------------
@@ -74,10 +76,23 @@ static void tell_kept(SbExportJob *job, GPtrArray *kept) {
   }
 }
 
+// What was measured, read anew for this thread; NULL where it can no longer be.
+static SbMeasured *read_measured(const SbExportRequest *request) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  return request->measured != NULL
+             ? sb_measured_load(request->measured, request->drive_speed, issues)
+             : NULL;
+}
+
 static void make(SbExportJob *job, SbSectionPainter *painter) {
   const SbExportRequest *request = &job->request;
   sb_section_painter_style(painter, &request->style);
   const SbRun *run = sb_run_handle_run(job->handle);
+  g_autoptr(SbMeasured) measured = read_measured(request);
+  SbLoop loop = {0};
+  g_autoptr(SbComparison) comparison =
+      measured != NULL && sb_loop_take(&loop, run) ? sb_comparison_create(measured, &loop) : NULL;
+  sb_loop_clear(&loop);
   SbRenderOptions options = {
       .view = request->view,
       .width = request->width,
@@ -89,6 +104,7 @@ static void make(SbExportJob *job, SbSectionPainter *painter) {
       .hash = request->hash,
       .scene = request->scene,
       .stale = request->stale,
+      .measured = comparison,
       .section = sb_section_painter_draw,
       .section_data = painter,
   };

@@ -1,6 +1,7 @@
 // One export on a thread of its own: a picture or a film of a finished run.
 #pragma once
 
+#include "app/data/measured.h"
 #include "app/run/runner.h"
 #include "app/section/painter.h"
 
@@ -20,6 +21,8 @@ typedef struct {
   double speed;         // or, if above 0, seconds of the run per second of film
   char *from, *to;      // of a film: "B" or "2 s"; NULL: the start or end
   char *title, *subtitle, *hash, *scene;
+  SbData *measured;   // drawn beside the run, owned; NULL: none
+  double drive_speed; // for it, as sb_measured_load()
 } SbExportRequest;
 
 void sb_export_request_clear(SbExportRequest *request);
