@@ -6,7 +6,12 @@
 #include <math.h>
 
 void sb_playhead_init(SbPlayhead *playhead) {
-  *playhead = (SbPlayhead){.follows = TRUE, .loops = TRUE, .duration = 10};
+  // Half way from C to D: the chamber is open, the canister's pressure is on one ring alone. A run
+  // without that stage, a rig's or one whose stem sticks, shows its middle.
+  *playhead = (SbPlayhead){.loops = TRUE,
+                           .duration = 10,
+                           .waits = TRUE,
+                           .place = {.stage = SB_STAGE_C, .share = 0.5, .whole = 0.5}};
 }
 
 size_t sb_playhead_nearest(const SbFrame *frames, size_t count, double time) {

@@ -29,6 +29,7 @@ typedef struct {
   SbPlayheadPlace place;
 } SbPlayhead;
 
+// Waits for the first run to come half way from stage C to D.
 void sb_playhead_init(SbPlayhead *playhead);
 
 // Frame whose time is nearest to `time`; `count` > 0. Times never decrease.

@@ -50,7 +50,7 @@ static void test_events(void) {
 static void test_place(void) {
   SbPlayhead playhead;
   sb_playhead_init(&playhead);
-  playhead.follows = FALSE;
+  playhead.waits = FALSE;
   playhead.frame = 25; // half way from B to C
   SbTrace *trace = trace_of(COUNT);
   sb_playhead_remember(&playhead, trace, frames, COUNT);
@@ -76,6 +76,25 @@ static void test_place(void) {
   playhead.follows = TRUE;
   sb_playhead_return(&playhead, trace, frames, COUNT, TRUE);
   g_assert_cmpuint(playhead.frame, ==, COUNT - 1);
+  sb_trace_destroy(trace);
+}
+
+// The first run opens half way through stage C; one that does not reach it, in its middle.
+static void test_opens(void) {
+  SbPlayhead playhead;
+  sb_playhead_init(&playhead);
+  SbTrace *trace = trace_of(30);
+  sb_playhead_return(&playhead, trace, frames, 30, FALSE);
+  g_assert_true(playhead.waits);
+  g_assert_cmpuint(playhead.frame, ==, 29);
+  sb_playhead_return(&playhead, trace, frames, 30, TRUE);
+  g_assert_cmpuint(playhead.frame, ==, 15); // 1.45 s
+  sb_trace_destroy(trace);
+  sb_playhead_init(&playhead);
+  trace = trace_of(COUNT);
+  sb_playhead_return(&playhead, trace, frames, COUNT, TRUE);
+  g_assert_false(playhead.waits);
+  g_assert_cmpuint(playhead.frame, ==, 70); // from 40 to 100
   sb_trace_destroy(trace);
 }
 
@@ -136,6 +155,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/playhead/nearest", test_nearest);
   g_test_add_func("/playhead/events", test_events);
   g_test_add_func("/playhead/place", test_place);
+  g_test_add_func("/playhead/opens", test_opens);
   g_test_add_func("/playhead/play", test_play);
   g_test_add_func("/playhead/loop", test_loop);
   g_test_add_func("/playhead/nothing", test_nothing);
