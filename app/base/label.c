@@ -27,6 +27,13 @@ void sb_labels_block(SbLabels *labels, SbRect box) {
   }
 }
 
+void sb_labels_widen(SbLabels *labels, int first, double by) {
+  for (int i = first; i < labels->box_count; i++) {
+    labels->box[i].x -= by;
+    labels->box[i].width += 2 * by;
+  }
+}
+
 void sb_labels_avoid(SbLabels *labels, const SbPoint *point, size_t count, double weight) {
   // A point is kept when the line turns or has gone 12 px, so that no corner is cut by a pixel.
   size_t anchor = 0;

@@ -32,6 +32,9 @@ void sb_labels_init(SbLabels *labels, SbRect bounds);
 // Takes a box: nothing is placed over it any more.
 void sb_labels_block(SbLabels *labels, SbRect box);
 
+// Keeps `by` [px] free on both sides of the boxes from number `first` on, for what comes after.
+void sb_labels_widen(SbLabels *labels, int first, double by);
+
 // Asks labels to keep off a curve; `weight` is the cost of a pixel crossed (1 is usual). The line
 // is kept coarsely; what does not fit is ignored.
 void sb_labels_avoid(SbLabels *labels, const SbPoint *point, size_t count, double weight);

@@ -8,6 +8,8 @@
 #include <math.h>
 #include <string.h>
 
+enum { LETTER_GAP = 12 }; // beside a stage's letter [px]
+
 // A letter in bold and its value, as one label.
 static void draw_mark(SbHysteresisView *v, int stage, SbPoint at, const char *value,
                       const SbPlace *place, int count) {
@@ -54,6 +56,7 @@ void sb_hysteresis_marks(SbHysteresisView *v) {
     }
   }
   char shown[SB_FORMAT_MAX] = "";
+  const int first = v->labels->box_count;
   for (int s = 0; s < SB_STAGE_COUNT; s++) {
     if (!mark[s].reached) {
       continue;
@@ -94,6 +97,8 @@ void sb_hysteresis_marks(SbHysteresisView *v) {
       break;
     }
   }
+  // What is said of the lines stays clear of the letters, or it would read on into them.
+  sb_labels_widen(v->labels, first, LETTER_GAP);
 }
 
 // *Now*: a dot, its figures, a dashed line down to the axis.

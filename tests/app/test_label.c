@@ -78,10 +78,23 @@ static void test_corner(void) {
   g_assert_true(sb_labels_place_box(&labels, 40, 12, &offer, 1, &at));
 }
 
+// Boxes that are widened keep later labels at a distance; those before them do not.
+static void test_widen(void) {
+  SbPlace at;
+  const SbPlace a = {100, 100, SB_LEFT}, beside = {170, 100, SB_LEFT};
+  for (int first = 0; first < 2; first++) {
+    sb_labels_init(&labels, (SbRect){0, 0, 600, 400});
+    g_assert_true(sb_labels_place_box(&labels, 60, 12, &a, 1, &at));
+    sb_labels_widen(&labels, first, 12);
+    g_assert_true(sb_labels_place_box(&labels, 40, 12, &beside, 1, &at) == (first == 1));
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/label/never-overlaps", test_never_overlaps);
   g_test_add_func("/label/prefers-and-avoids", test_prefers_and_avoids);
   g_test_add_func("/label/corner", test_corner);
+  g_test_add_func("/label/widen", test_widen);
   return g_test_run();
 }
