@@ -15,5 +15,9 @@ char *sb_shipped_find(const char *name);
 // Path of the study file NAME.study that ships; NULL if there is none. Owned by the caller.
 char *sb_shipped_study(const char *name);
 
+// Folder of runs that were solved when the program was built (app/session/stored_run.h); NULL if
+// there is none. Owned by the caller.
+char *sb_shipped_runs(void);
+
 // Paths of all scenes that ship, sorted by name. Owned by the caller; never NULL.
 GPtrArray *sb_shipped_scenes(void);

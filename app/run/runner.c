@@ -48,6 +48,20 @@ void sb_run_handle_unref(SbRunHandle *handle) {
   }
 }
 
+SbRunHandle *sb_run_handle_of(SbRun *run) {
+  SbRunHandle *handle = calloc(1, sizeof *handle);
+  if (handle == NULL) {
+    sb_run_destroy(run);
+    return NULL;
+  }
+  atomic_init(&handle->references, 1);
+  atomic_init(&handle->permille, 1000);
+  atomic_init(&handle->done, true);
+  handle->run = run;
+  handle->status = SB_OK;
+  return handle;
+}
+
 const SbRun *sb_run_handle_run(const SbRunHandle *handle) {
   return handle->run;
 }

@@ -20,6 +20,15 @@ SbDisplayedRun *sb_displayed_run_new(SbRunHandle *handle, const SbParams *params
   return shown;
 }
 
+void sb_displayed_run_end(SbDisplayedRun *shown) {
+  const SbStatus status = sb_run_handle_status(shown->handle);
+  shown->chart.summary = sb_run_summary(shown->run);
+  shown->chart.life = sb_run_life(shown->run, &shown->chart.life_count);
+  shown->chart.state = status == SB_OK                ? SB_CHART_DONE
+                       : status == SB_ERROR_CANCELLED ? SB_CHART_PARTIAL
+                                                      : SB_CHART_FAILED;
+}
+
 SbDisplayedRun *sb_displayed_run_ref(SbDisplayedRun *shown) {
   if (shown != NULL) {
     shown->references++;
@@ -38,6 +47,7 @@ void sb_displayed_run_unref(SbDisplayedRun *shown) {
     return;
   }
   sb_trace_destroy(shown->trace);
+  g_free(shown->date);
   GThread *thread = sb_run_capacity(shown->run) > LARGE
                         ? g_thread_try_new("release", release, shown->handle, NULL)
                         : NULL;

@@ -10,8 +10,10 @@
 
 // How a run was solved.
 typedef enum {
+  SB_GRADE_CLOSED, // by closed forms in place of solved rings
   SB_GRADE_COARSE, // its rings to a tolerance of 1 %, with fewer frames
   SB_GRADE_NEAR,   // its rings started from those of a whole run of other values
+  SB_GRADE_STORED, // read from a file: a whole run, of the same engine, but nothing starts from it
   SB_GRADE_WHOLE   // cold: the figures of `sealbench run`, to the bit
 } SbRunGrade;
 
@@ -23,10 +25,15 @@ typedef struct {
   SbChartRun chart;    // refers to both
   SbParams params;     // the values it was made from
   SbRunGrade grade;
+  char *date; // of a stored one, "2026-11-23"; else NULL. Owned
 } SbDisplayedRun;
 
 // Takes the reference over; the handle's run must exist.
 SbDisplayedRun *sb_displayed_run_new(SbRunHandle *handle, const SbParams *params, SbRunGrade grade);
+
+// Takes over how the handle's run has ended: summary, actuations and state. Only once it is done.
+void sb_displayed_run_end(SbDisplayedRun *shown);
+
 SbDisplayedRun *sb_displayed_run_ref(SbDisplayedRun *shown);
 void sb_displayed_run_unref(SbDisplayedRun *shown); // takes NULL
 

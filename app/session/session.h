@@ -128,10 +128,10 @@ void sb_session_set_auto_run(SbSession *session, gboolean on);
 const SbRun *sb_session_run(SbSession *session);
 const SbFrame *sb_session_frames(SbSession *session, size_t *count);
 
-// How the shown run was solved, and that in words for the user: NULL of a whole run, whose figures
-// are those of `sealbench run`. Borrowed.
+// How the shown run was solved, and that in words for the user (g_free()): NULL of a whole run,
+// whose figures are those of `sealbench run`.
 SbRunGrade sb_session_grade(SbSession *session);
-const char *sb_session_grade_text(SbSession *session);
+char *sb_session_grade_text(SbSession *session);
 
 // Whether the shown run may be exported and pinned: it has ended and is a whole one.
 gboolean sb_session_may_keep(SbSession *session);

@@ -46,6 +46,7 @@ struct _SbSession {
   gboolean heavy;  // runs of the present values come in grades
   gboolean former; // the displayed run is of former values, and stays
   SbRunCache *cache;
+  char *runs; // folder of kept runs, owned; NULL: those that ship
 
   // What other values' rings start from, and what is predicted of their loops.
   SbDisplayedRun *base; // the last whole run of solved rings, NULL: none

@@ -6,17 +6,24 @@
 //
 // Solved rings take seconds. Where the plan expects more than HEAVY_S, runs come in grades, each
 // shown when it is complete, one at a time, the one before paler until then:
+//   - a run of these values that was kept in a file (stored_run.h), at once;
+//   - else, as long as nothing is shown, one by closed forms: milliseconds, so that no picture
+//   waits
+//     empty;
 //   - with a whole run of other values at hand, one whose rings start from that run's (near); its
 //     figures are a cold run's within the told errors, and hang on these two sets of values alone;
 //   - without, one to a coarse tolerance, where the plan expects that to take less than half;
-//   - then the whole run, cold: at once after a coarse one, after IDLE_MS without an edit after a
-//     near one. Its figures are those of `sealbench run`: it alone is exported, pinned, and what
-//     rings of other values start from.
+//   - then the whole run, cold: at once after a coarse or a stored one, after IDLE_MS without an
+//   edit
+//     after a near one. Its figures are those of `sealbench run`: it alone is exported, pinned, and
+//     what rings of other values start from.
 // A grade that fails is left out: the whole run then tells why.
 #include "app/session/session_private.h"
 
 #include "app/base/format.h"
 #include "app/base/translation.h"
+#include "app/document/shipped.h"
+#include "app/session/stored_run.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -82,9 +89,23 @@ static SbModel *coarse_model(const SbModel *model) {
   return coarse;
 }
 
-// Asks for a run of the present values. A coarse one that does not pay is the whole one.
+// With closed forms in place of the rings; NULL where that cannot be.
+static SbModel *closed_model(const SbModel *model) {
+  const SbOverride override = {SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ};
+  SbModel *closed = NULL;
+  return sb_model_derive(&closed, model, &override, 1, NULL) == SB_OK ? closed : NULL;
+}
+
+// Asks for a run of the present values. One by closed forms that cannot be is a coarse one; a
+// coarse one that does not pay is the whole one.
 static void submit(SbSession *session, SbRunGrade grade) {
-  g_autoptr(SbModel) coarse = grade == SB_GRADE_COARSE ? coarse_model(session->model) : NULL;
+  g_autoptr(SbModel) coarse = grade == SB_GRADE_CLOSED ? closed_model(session->model) : NULL;
+  if (grade == SB_GRADE_CLOSED && coarse == NULL) {
+    grade = SB_GRADE_COARSE;
+  }
+  if (grade == SB_GRADE_COARSE) {
+    coarse = coarse_model(session->model);
+  }
   if (grade == SB_GRADE_COARSE &&
       (coarse == NULL || expected(coarse, true) > COARSE_SHARE * expected(session->model, false))) {
     g_clear_pointer(&coarse, sb_model_destroy);
@@ -96,19 +117,22 @@ static void submit(SbSession *session, SbRunGrade grade) {
   session->started = g_get_monotonic_time();
   session->state = SB_SESSION_RUNNING;
   session->ticket = sb_runner_submit(
-      session->runner, &(SbRunRequest){
-                           .model = coarse != NULL ? coarse : session->model,
-                           .wishes = {.views = VIEWS, .life = true, .coarse = coarse != NULL},
-                           .start = grade == SB_GRADE_NEAR ? session->base->handle : NULL,
-                           .keep = grade == SB_GRADE_WHOLE && session->heavy,
-                       });
+      session->runner,
+      &(SbRunRequest){
+          .model = coarse != NULL ? coarse : session->model,
+          .wishes = {.views = VIEWS, .life = grade != SB_GRADE_CLOSED, .coarse = coarse != NULL},
+          .start = grade == SB_GRADE_NEAR ? session->base->handle : NULL,
+          .keep = grade == SB_GRADE_WHOLE && session->heavy,
+      });
 }
 
 static SbRunGrade first_grade(SbSession *session) {
   if (!session->heavy || answers(session->shown, &session->asked)) {
     return SB_GRADE_WHOLE; // asked for again
   }
-  return session->base != NULL ? SB_GRADE_NEAR : SB_GRADE_COARSE;
+  return session->base != NULL    ? SB_GRADE_NEAR
+         : session->shown == NULL ? SB_GRADE_CLOSED
+                                  : SB_GRADE_COARSE;
 }
 
 static gboolean on_idle_long(gpointer data) {
@@ -121,7 +145,9 @@ static gboolean on_idle_long(gpointer data) {
 
 // What follows after a run of the present values is shown.
 static void go_on(SbSession *session) {
-  if (session->shown->grade == SB_GRADE_COARSE) {
+  if (session->shown->grade == SB_GRADE_CLOSED) {
+    submit(session, SB_GRADE_COARSE);
+  } else if (session->shown->grade == SB_GRADE_COARSE || session->shown->grade == SB_GRADE_STORED) {
     submit(session, SB_GRADE_WHOLE);
   } else if (session->shown->grade == SB_GRADE_NEAR) {
     session->state = SB_SESSION_RUNNING;
@@ -131,7 +157,7 @@ static void go_on(SbSession *session) {
 
 // A complete run for others: by its values, as a neighbour, as the base of rings and of tangents.
 static void keep(SbSession *session, SbDisplayedRun *run) {
-  if (run->grade != SB_GRADE_COARSE) {
+  if (run->grade > SB_GRADE_COARSE) {
     g_autofree char *hash = sb_document_sha256(session->document);
     sb_run_cache_put(session->cache, hash, run);
   }
@@ -212,11 +238,7 @@ static void finish(SbSession *session) {
     sb_session_run_changed(session);
     return;
   }
-  fresh->chart.summary = sb_run_summary(fresh->run);
-  fresh->chart.life = sb_run_life(fresh->run, &fresh->chart.life_count);
-  fresh->chart.state = status == SB_OK                ? SB_CHART_DONE
-                       : status == SB_ERROR_CANCELLED ? SB_CHART_PARTIAL
-                                                      : SB_CHART_FAILED;
+  sb_displayed_run_end(fresh);
   g_clear_pointer(&session->failure, g_free);
   if (fresh->chart.state == SB_CHART_FAILED) {
     set_failure(session, status, sb_run_handle_report(fresh->handle));
@@ -360,6 +382,21 @@ static void adopt(SbSession *session, SbDisplayedRun *run) {
   sb_session_playhead_changed(session);
 }
 
+// A run of the present values that was kept in a file, for the caller; NULL if there is none.
+static SbDisplayedRun *stored_run(SbSession *session, const SbParams *params, const char *hash) {
+  g_autofree char *folder = session->runs != NULL ? g_strdup(session->runs) : sb_shipped_runs();
+  char *date = NULL;
+  SbRunHandle *handle = sb_stored_run_find(&date, folder, hash, session->model);
+  if (handle == NULL) {
+    return NULL;
+  }
+  SbDisplayedRun *run = sb_displayed_run_new(handle, params, SB_GRADE_STORED);
+  run->date = date;
+  sb_displayed_run_end(run);
+  sb_displayed_run_update(run, G_MAXSIZE);
+  return run;
+}
+
 void sb_session_values_changed(SbSession *session) {
   SbParams params = sb_document_params(session->document);
   cancel_source(&session->debounce);
@@ -376,8 +413,14 @@ void sb_session_values_changed(SbSession *session) {
                             : answers(session->earlier, &params)
                                 ? session->earlier
                                 : sb_run_cache_get(session->cache, hash);
-    if (known != NULL) {
-      adopt(session, known);
+    // A file is looked for where nothing else is shown: later, what is known here starts better.
+    SbDisplayedRun *stored =
+        known == NULL && session->heavy && session->shown == NULL && session->ticket == 0
+            ? stored_run(session, &params, hash)
+            : NULL;
+    if (known != NULL || stored != NULL) {
+      adopt(session, known != NULL ? known : stored);
+      sb_displayed_run_unref(stored);
     } else if (session->model != NULL && session->auto_run) {
       session->debounce = g_timeout_add(DEBOUNCE_MS, on_debounced, session);
       session->state = session->heavy ? SB_SESSION_RUNNING : session->state;
@@ -510,4 +553,5 @@ void sb_session_dispose_runs(SbSession *session) {
   g_clear_pointer(&session->cache, sb_run_cache_free);
   g_clear_pointer(&session->prediction, sb_prediction_free);
   g_clear_pointer(&session->hash, g_free);
+  g_clear_pointer(&session->runs, g_free);
 }

@@ -110,12 +110,16 @@ SbRunGrade sb_session_grade(SbSession *session) {
   return session->shown != NULL ? session->shown->grade : SB_GRADE_WHOLE;
 }
 
-const char *sb_session_grade_text(SbSession *session) {
+char *sb_session_grade_text(SbSession *session) {
   switch (sb_session_grade(session)) {
+  case SB_GRADE_CLOSED:
+    return g_strdup(_("closed forms, rings follow"));
   case SB_GRADE_COARSE:
-    return _("coarse, to 1 %");
+    return g_strdup(_("coarse, to 1 %"));
   case SB_GRADE_NEAR:
-    return _("warm start");
+    return g_strdup(_("warm start"));
+  case SB_GRADE_STORED:
+    return g_strdup_printf(_("stored result of %s"), session->shown->date);
   default:
     return NULL;
   }

@@ -78,8 +78,7 @@ static void test_kept(void) {
   for (size_t i = 0; i < 40; i += 4) {
     memcpy(longer, bytes, size);
     ((unsigned char *)longer)[i] ^= 0x10;
-    g_assert_cmpint(sb_run_unpack(&back, model, &plan, longer, size, &report), ==,
-                    SB_ERROR_INPUT);
+    g_assert_cmpint(sb_run_unpack(&back, model, &plan, longer, size, &report), ==, SB_ERROR_INPUT);
   }
   g_free(longer);
   // More frames than the model has room for.

@@ -226,7 +226,7 @@ static gboolean describe(gpointer data) {
   if (former != NULL) {
     g_string_append_printf(text, _(" Of the %s."), former);
   }
-  const char *grade = sb_session_grade_text(view->session);
+  g_autofree char *grade = sb_session_grade_text(view->session);
   if (grade != NULL) {
     g_string_append_printf(text, _(" Solved: %s."), grade);
   }

@@ -144,7 +144,7 @@ static void refresh_frames(Bar *bar) {
   } else {
     text = g_strdup_printf(_("%zu frames"), count);
   }
-  const char *grade = sb_session_grade_text(bar->session);
+  g_autofree char *grade = sb_session_grade_text(bar->session);
   if (grade != NULL) {
     g_autofree char *plain = g_steal_pointer(&text);
     text = g_strdup_printf("%s, %s", plain, grade);

@@ -183,9 +183,10 @@ static void refresh_strip(SbWindow *window) {
 static char *running_text(SbSession *session) {
   const SbRunGrade shown =
       sb_session_shows_former(session) ? SB_GRADE_WHOLE : sb_session_grade(session);
-  return g_strdup_printf(shown == SB_GRADE_COARSE ? _("Refining %.0f %%")
-                         : shown == SB_GRADE_NEAR ? _("Confirming %.0f %%")
-                                                  : _("Running %.0f %%"),
+  return g_strdup_printf(shown <= SB_GRADE_COARSE ? _("Refining %.0f %%")
+                         : shown == SB_GRADE_NEAR || shown == SB_GRADE_STORED
+                             ? _("Confirming %.0f %%")
+                             : _("Running %.0f %%"),
                          100 * sb_session_progress(session));
 }
 
