@@ -6,12 +6,14 @@
 #include <math.h>
 
 void sb_playhead_init(SbPlayhead *playhead) {
-  // Half way from C to D: the chamber is open, the canister's pressure is on one ring alone. A run
-  // without that stage, a rig's or one whose stem sticks, shows its middle.
-  *playhead = (SbPlayhead){.loops = TRUE,
-                           .duration = 10,
-                           .waits = TRUE,
-                           .place = {.stage = SB_STAGE_C, .share = 0.5, .whole = 0.5}};
+  // Half way from C to D: the chamber is open, the canister's pressure is on one ring alone. How
+  // long that takes only the run tells. One without that stage, a rig's or one whose stem sticks,
+  // shows its middle.
+  *playhead =
+      (SbPlayhead){.loops = TRUE,
+                   .duration = 10,
+                   .waits = TRUE,
+                   .place = {.stage = SB_STAGE_C, .share = 0.5, .time = INFINITY, .whole = 0.5}};
 }
 
 size_t sb_playhead_nearest(const SbFrame *frames, size_t count, double time) {

@@ -177,6 +177,10 @@ const char *sb_session_failure(SbSession *session);
 // Shows a frame by its index, or the last one.
 void sb_session_set_playhead(SbSession *session, size_t frame);
 
+// Shows the instant at a share of the way from a stage of the first cycle to what follows it; stays
+// where it is if the run does not reach it.
+void sb_session_show_stage(SbSession *session, SbStage stage, double share);
+
 // The shown frame, or NULL.
 const SbFrame *sb_session_frame(SbSession *session);
 

@@ -23,6 +23,22 @@ void sb_session_set_playhead(SbSession *session, size_t frame) {
   sb_session_playhead_changed(session);
 }
 
+void sb_session_show_stage(SbSession *session, SbStage stage, double share) {
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  const SbTrace *trace = session->shown != NULL ? session->shown->trace : NULL;
+  const SbStageMark *mark = count > 0 ? sb_trace_mark(trace, stage, 0) : NULL;
+  if (mark == NULL) {
+    return;
+  }
+  const double from = frames[MIN(mark->frame, count - 1)].time;
+  const double to = frames[sb_trace_stage_end(trace, stage, 0, count)].time;
+  sb_session_play(session, FALSE);
+  sb_session_set_playhead(session,
+                          share > 0 ? sb_playhead_nearest(frames, count, from + share * (to - from))
+                                    : mark->frame);
+}
+
 void sb_session_step(SbSession *session, int frames) {
   gint64 frame = (gint64)session->playhead.frame + frames;
   sb_session_play(session, FALSE);

@@ -418,6 +418,9 @@ void sb_session_values_changed(SbSession *session) {
         known == NULL && session->heavy && session->shown == NULL && session->ticket == 0
             ? stored_run(session, &params, hash)
             : NULL;
+    if (stored != NULL) {
+      sb_run_cache_put(session->cache, hash, stored);
+    }
     if (known != NULL || stored != NULL) {
       adopt(session, known != NULL ? known : stored);
       sb_displayed_run_unref(stored);

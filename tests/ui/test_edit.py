@@ -111,8 +111,8 @@ def one_run_is_shown_and_values_keep_their_digits(folder):
         app.press("push button", "Undo")
         wait("no strip", lambda: not app.label(r"Pictures show|^Earlier run$"))
         # On the band is in the band; the playhead stays at its event.
-        app.press("push button", "Previous event")
-        app.press("push button", "Previous event")
+        app.press("push button", "Next event")
+        app.press("push button", "Next event")
         wait("stage E", lambda: app.status().startswith("stage E,"))
         app.edit("Section diameter", "1.6 mm")
         wait("15 %", lambda: app.all("label", re.compile(r"^Squeeze 15\.0\s% pass$")))

@@ -1,8 +1,10 @@
-"""A value of solved rings is edited: its run lands whole and may be exported, and undo and redo bring
+"""The first view is a stored result, where the build has made one. A value of solved rings is edited: its run lands whole and may be exported, and undo and redo bring
 both runs back at once. What is shown on the way there is of tests/ui/test_session_rings.c."""
 import os
 
-from harness import ASSETS, App, main, wait
+import pyatspi
+
+from harness import ASSETS, App, PROGRAM, main, wait
 
 SCENE = """[sealbench]
 format = 1
@@ -45,5 +47,28 @@ def an_edit_is_solved_and_back_at_once(folder):
         wait("the last run again", lambda: app.breakaway() == last and whole(), timeout=10)
 
 
+def the_first_view_is_solved(folder):
+    if not os.path.exists(os.path.join(os.path.dirname(PROGRAM), "..", "piston.run")):
+        print("# this build has no stored result")
+        return
+    with App(os.path.join(ASSETS, "scenes", "piston.scene")) as app:
+        # Solved rings before any run could have ended, half way through stage C.
+        wait("the stored result", lambda: app.label(r"stored result of \d{4}-\d\d-\d\d$"), timeout=10)
+        assert app.status().startswith("stage C"), app.status()
+        stored = app.breakaway()
+        assert stored and app.has("combo box", "Field")
+        rings = app.find("toggle button", "Rings solved")
+        assert rings.getState().contains(pyatspi.STATE_CHECKED)
+        assert not app.find("push button", "Export").getState().contains(App.SENSITIVE)
+        # The switch sets models.fit, one step of undo; what was shown comes back at once.
+        app.press("toggle button", "Closed form")
+        wait("closed forms", lambda: app.label(r"fit karaszkiewicz") and app.run_done())
+        assert not rings.getState().contains(pyatspi.STATE_CHECKED)
+        assert app.breakaway() != stored
+        app.press("push button", "Undo")
+        wait("the stored result again", lambda: app.breakaway() == stored, timeout=5)
+        assert rings.getState().contains(pyatspi.STATE_CHECKED)
+
+
 if __name__ == "__main__":
-    main(an_edit_is_solved_and_back_at_once)
+    main(the_first_view_is_solved, an_edit_is_solved_and_back_at_once)

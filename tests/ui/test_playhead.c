@@ -92,6 +92,8 @@ static void test_opens(void) {
   sb_trace_destroy(trace);
   sb_playhead_init(&playhead);
   trace = trace_of(COUNT);
+  sb_playhead_return(&playhead, trace, frames, COUNT - 1, FALSE); // in C, for how long is not known
+  g_assert_true(playhead.waits);
   sb_playhead_return(&playhead, trace, frames, COUNT, TRUE);
   g_assert_false(playhead.waits);
   g_assert_cmpuint(playhead.frame, ==, 70); // from 40 to 100

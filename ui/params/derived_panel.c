@@ -1,7 +1,7 @@
 // What follows from the values of the displayed run: squeeze, stretch and gland fill from its
-// model, the return force and the verdict from its result, so that all are of one run; before the
-// first run those of the values at once. (gland_panel.c follows the values.) Each has a bar with
-// the recommended band, a word and a sign, so that colour is not alone.
+// model, the return force from its result, so that all are of one run; before the first run those
+// of the values at once. (gland_panel.c follows the values.) Each has a bar with the recommended
+// band, a word and a sign, so that colour is not alone.
 //
 // Bands of squeeze, stretch and fill are those of the gland's read-outs (engine/contact/gland.h,
 // with their sources), of which gland_panel.c shows all. A return force of at least 2 N, an eighth
@@ -43,7 +43,7 @@ enum { ITEMS = G_N_ELEMENTS(items) };
 
 typedef struct {
   SbSession *session;
-  GtkWidget *grid, *note, *questions;
+  GtkWidget *grid, *note;
   GtkWidget *name[ITEMS], *value[ITEMS], *bar[ITEMS], *icon[ITEMS], *verdict[ITEMS];
   int figure[ITEMS];
   char *tip[ITEMS];
@@ -157,40 +157,6 @@ static void show(Panel *panel, int index, double value, const char *why) {
   gtk_widget_queue_draw(panel->bar[index]);
 }
 
-// The six questions in one line, a tick, a cross or a dash before each; why, as its tooltip.
-static void show_verdict(Panel *panel, const SbSummary *summary) {
-  static const char *const words[SB_VERDICT_COUNT] = {
-      [SB_VERDICT_SEALS] = NC_("verdict", "seals"),
-      [SB_VERDICT_PRESSES] = NC_("verdict", "presses"),
-      [SB_VERDICT_RETURNS] = NC_("verdict", "returns"),
-      [SB_VERDICT_DOSES] = NC_("verdict", "doses"),
-      [SB_VERDICT_LEAK] = NC_("verdict", "leak"),
-      [SB_VERDICT_FITS] = NC_("verdict", "fits")};
-  static const char *const signs[] = {
-      [SB_ANSWER_UNKNOWN] = "–", [SB_ANSWER_NO] = "✗", [SB_ANSWER_YES] = "✓"};
-  g_autoptr(GString) line = g_string_new(NULL);
-  g_autoptr(GString) tip = g_string_new(NULL);
-  for (int i = 0; summary != NULL && i < SB_VERDICT_COUNT; i++) {
-    const SbVerdict *verdict = &summary->verdict[i];
-    const char *word = g_dpgettext2(NULL, "verdict", words[i]);
-    const char *weight = verdict->ok == SB_ANSWER_NO ? "bold" : "normal";
-    // No break between a sign and its word.
-    g_autofree char *one = g_markup_printf_escaped("<span weight='%s'>%s\u00a0%s</span>", weight,
-                                                   signs[verdict->ok], word);
-    g_string_append_printf(line, "%s%s", i > 0 ? "  " : "", one);
-    const char *answer = verdict->ok == SB_ANSWER_YES  ? C_("verdict", "yes")
-                         : verdict->ok == SB_ANSWER_NO ? C_("verdict", "no")
-                                                       : C_("verdict", "not known");
-    g_string_append_printf(tip, "%s%s: %s%s%s", i > 0 ? "\n" : "", word, answer,
-                           verdict->reason[0] != '\0' ? ", " : "", verdict->reason);
-  }
-  gtk_label_set_markup(GTK_LABEL(panel->questions), line->str);
-  gtk_widget_set_tooltip_text(panel->questions, tip->str);
-  gtk_widget_set_visible(panel->questions, summary != NULL);
-  AtkObject *spoken = gtk_widget_get_accessible(panel->questions);
-  atk_object_set_description(spoken, tip->str);
-}
-
 static void refresh(Panel *panel) {
   const SbRun *run = sb_session_run(panel->session);
   const SbModel *model = run != NULL ? sb_run_model(run) : sb_session_model(panel->session);
@@ -215,7 +181,6 @@ static void refresh(Panel *panel) {
     }
     show(panel, i, value, why);
   }
-  show_verdict(panel, summary);
   gtk_label_set_text(GTK_LABEL(panel->note), former != NULL ? former : _("outer seal"));
   gtk_widget_set_tooltip_text(panel->note, former);
   for (int i = 0; i < ITEMS; i++) {
@@ -223,7 +188,6 @@ static void refresh(Panel *panel) {
     sb_style_former(panel->bar[i], former != NULL);
     sb_style_former(panel->verdict[i], former != NULL);
   }
-  sb_style_former(panel->questions, former != NULL);
 }
 
 static void panel_free(gpointer data) {
@@ -269,9 +233,6 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
     gtk_grid_attach(GTK_GRID(grid), panel->icon[i], 3, i + 1, 1, 1);
     gtk_grid_attach(GTK_GRID(grid), panel->verdict[i], 4, i + 1, 1, 1);
   }
-  panel->questions = sb_style_label("", "sb-questions", 0);
-  gtk_label_set_line_wrap(GTK_LABEL(panel->questions), TRUE);
-  gtk_grid_attach(GTK_GRID(grid), panel->questions, 0, ITEMS + 1, 5, 1);
   g_object_set_data_full(G_OBJECT(grid), "panel", panel, panel_free);
   g_signal_connect(grid, "destroy", G_CALLBACK(on_destroy), panel);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), panel);

@@ -1,0 +1,238 @@
+// Of the displayed run alone: while the values have changed it is pale, like the pictures. A pass
+// is quiet, only what fails has a ground. In a narrow window figures go before words: first those
+// of what passes or has no limit, then those questions' words, then the other figures.
+#include "ui/window/verdict_strip.h"
+
+#include "app/base/format.h"
+#include "app/base/translation.h"
+#include "engine/valve/figures.h"
+#include "ui/views/style.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+
+// A question, the figure that stands for it while no limit decides, and the stage whose instant a
+// click shows: the figure's own, or in whose middle the seals' figures are taken.
+static const struct {
+  const char *word, *figure;
+  SbStage stage;
+  double share; // of the way to the next event
+} questions[SB_VERDICT_COUNT] = {
+    [SB_VERDICT_SEALS] = {NC_("verdict", "Seals"), "seals.outer.pressure_peak_Pa", SB_STAGE_B, 0.5},
+    [SB_VERDICT_PRESSES] = {NC_("verdict", "Presses"), "cycle.force_peak_N", SB_STAGE_B, 0},
+    [SB_VERDICT_RETURNS] = {NC_("verdict", "Returns"), "cycle.force_return_min_N", SB_STAGE_F, 0.5},
+    [SB_VERDICT_DOSES] = {NC_("verdict", "Doses"), "dose.metered_volume_m3", SB_STAGE_C, 0.5},
+    [SB_VERDICT_LEAK] = {NC_("verdict", "Leak"), "seals.outer.leakage_static_m3_per_s", SB_STAGE_B,
+                         0.5},
+    [SB_VERDICT_FITS] = {NC_("verdict", "Fits"), "seals.outer.squeeze", SB_STAGE_A, 0},
+};
+
+// How much is shown, from all to the least.
+enum { ALL, FAILING_FIGURES, FAILING_WORDS, WORDS, LEVELS };
+
+typedef struct {
+  SbSession *session;
+  GtkWidget *box;
+  GtkWidget *button[SB_VERDICT_COUNT], *sign[SB_VERDICT_COUNT], *word[SB_VERDICT_COUNT],
+      *figure[SB_VERDICT_COUNT], *why[SB_VERDICT_COUNT];
+  bool fails[SB_VERDICT_COUNT];
+  int level, width;
+  guint later; // source that fits it to a width, 0 if none is due
+} Strip;
+
+static const char *word_of(int kind) {
+  return g_dpgettext2(NULL, "verdict", questions[kind].word);
+}
+
+static const char *answer_of(SbAnswer answer) {
+  return answer == SB_ANSWER_YES  ? C_("verdict", "yes")
+         : answer == SB_ANSWER_NO ? C_("verdict", "no")
+                                  : C_("verdict", "not known");
+}
+
+// A value of a figure in the unit that people read.
+static char *shown_value(int figure, double value) {
+  return sb_figure_format(figure, value, NAN);
+}
+
+// What decides, in a few words: "26 N of 30 N", "1.2 MPa over 0.55 MPa".
+static char *figure_text(const SbSummary *summary, int kind, const SbVerdict *verdict) {
+  int figure = verdict->figure;
+  double value = verdict->value;
+  if (figure < 0) {
+    figure = sb_figure_find(questions[kind].figure);
+    value = sb_figure_value(summary, figure);
+  }
+  if (isnan(value)) {
+    return g_strdup(kind == SB_VERDICT_LEAK ? "" : _("not known"));
+  }
+  char shown[SB_FORMAT_MAX];
+  g_autofree char *own = value == sb_figure_value(summary, figure)
+                             ? g_strdup(sb_format_figure(shown, summary, figure))
+                             : shown_value(figure, value);
+  if (isnan(verdict->limit) || verdict->figure < 0) {
+    return g_steal_pointer(&own);
+  }
+  g_autofree char *limit = shown_value(figure, verdict->limit);
+  return kind == SB_VERDICT_SEALS ? g_strdup_printf(_("%s over %s"), own, limit)
+                                  : g_strdup_printf(_("%s of %s"), own, limit);
+}
+
+// The whole answer, for the popover and a screen reader.
+static char *why_text(const SbSummary *summary, int kind, const SbVerdict *verdict) {
+  g_autoptr(GString) text = g_string_new(NULL);
+  g_string_append_printf(text, "%s: %s.", word_of(kind), answer_of(verdict->ok));
+  const int figure =
+      verdict->figure >= 0 ? verdict->figure : sb_figure_find(questions[kind].figure);
+  const double value = verdict->figure >= 0 ? verdict->value : sb_figure_value(summary, figure);
+  g_autofree char *label = sb_figure_label(figure);
+  g_autofree char *shown = isnan(value) ? g_strdup(_("not known")) : shown_value(figure, value);
+  g_string_append_printf(text, "\n%s: %s.", sb_translation(label), shown);
+  if (verdict->figure >= 0 && !isnan(verdict->limit)) {
+    g_autofree char *limit = shown_value(figure, verdict->limit);
+    g_string_append_printf(text, _("\nLimit: %s."), limit);
+  }
+  if (verdict->reason[0] != '\0') {
+    g_string_append_printf(text, "\n%c%s.", g_ascii_toupper(verdict->reason[0]),
+                           verdict->reason + 1);
+  }
+  return g_string_free(g_steal_pointer(&text), FALSE);
+}
+
+static void fit(Strip *strip, int level) {
+  strip->level = level;
+  for (int i = 0; i < SB_VERDICT_COUNT; i++) {
+    gtk_widget_set_visible(strip->figure[i], level == ALL || (strip->fails[i] && level < WORDS));
+    gtk_widget_set_visible(strip->word[i], level < FAILING_WORDS || strip->fails[i]);
+  }
+}
+
+// The richest that fits the width.
+static gboolean on_later(gpointer data) {
+  Strip *strip = data;
+  strip->later = 0;
+  for (int level = ALL; level < LEVELS; level++) {
+    fit(strip, level);
+    int natural = 0;
+    gtk_widget_get_preferred_width(strip->box, NULL, &natural);
+    if (natural <= strip->width) {
+      break;
+    }
+  }
+  return G_SOURCE_REMOVE;
+}
+
+static void refit(Strip *strip) {
+  if (strip->later == 0 && strip->width > 0) {
+    strip->later = g_idle_add(on_later, strip);
+  }
+}
+
+static void on_allocate(GtkWidget *scroller, GdkRectangle *allocation, Strip *strip) {
+  if (allocation->width != strip->width) {
+    strip->width = allocation->width;
+    refit(strip);
+  }
+}
+
+static void refresh(Strip *strip) {
+  const SbChartRun *shown = &sb_session_chart(strip->session)->run;
+  const SbSummary *summary = shown->state == SB_CHART_DONE ? shown->summary : NULL;
+  static const char *const signs[] = {
+      [SB_ANSWER_UNKNOWN] = "–", [SB_ANSWER_NO] = "✗", [SB_ANSWER_YES] = "✓"};
+  for (int i = 0; i < SB_VERDICT_COUNT; i++) {
+    const SbVerdict none = {SB_ANSWER_UNKNOWN, -1, NAN, NAN, ""};
+    const SbVerdict *verdict = summary != NULL ? &summary->verdict[i] : &none;
+    strip->fails[i] = verdict->ok == SB_ANSWER_NO;
+    g_autofree char *figure = summary != NULL ? figure_text(summary, i, verdict) : g_strdup("");
+    g_autofree char *why =
+        summary != NULL ? why_text(summary, i, verdict) : g_strdup(_("No whole run is shown yet."));
+    gtk_label_set_text(GTK_LABEL(strip->sign[i]), signs[verdict->ok]);
+    gtk_label_set_text(GTK_LABEL(strip->figure[i]), figure);
+    gtk_label_set_text(GTK_LABEL(strip->why[i]), why);
+    GtkStyleContext *style = gtk_widget_get_style_context(strip->button[i]);
+    const char *const classes[] = {"pass", "fail"};
+    const bool has[] = {verdict->ok == SB_ANSWER_YES, strip->fails[i]};
+    for (int k = 0; k < 2; k++) {
+      if (has[k]) {
+        gtk_style_context_add_class(style, classes[k]);
+      } else {
+        gtk_style_context_remove_class(style, classes[k]);
+      }
+    }
+    g_autofree char *name = g_strdup_printf("%s: %s", word_of(i), answer_of(verdict->ok));
+    sb_style_name(strip->button[i], name, why);
+    gtk_widget_set_sensitive(strip->button[i], summary != NULL);
+  }
+  sb_style_former(strip->box, sb_session_shows_former(strip->session));
+  refit(strip);
+}
+
+// The instant that the answer is of, where the run has it.
+static void on_toggled(GtkToggleButton *button, Strip *strip) {
+  int kind = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(button), "kind"));
+  if (gtk_toggle_button_get_active(button) && questions[kind].stage != SB_STAGE_A) {
+    sb_session_show_stage(strip->session, questions[kind].stage, questions[kind].share);
+  }
+}
+
+static GtkWidget *add_label(GtkWidget *box, const char *text, const char *name) {
+  GtkWidget *label = sb_style_label(text, name, 0);
+  gtk_widget_set_no_show_all(label, TRUE);
+  gtk_widget_show(label);
+  gtk_box_pack_start(GTK_BOX(box), label, FALSE, FALSE, 0);
+  return label;
+}
+
+static GtkWidget *make_button(Strip *strip, int kind) {
+  GtkWidget *button = strip->button[kind] = gtk_menu_button_new();
+  g_object_set_data(G_OBJECT(button), "kind", GINT_TO_POINTER(kind));
+  GtkWidget *inside = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 7);
+  strip->sign[kind] = add_label(inside, "", "sb-sign");
+  strip->word[kind] = add_label(inside, word_of(kind), "sb-word");
+  strip->figure[kind] = add_label(inside, "", "sb-figure");
+  gtk_container_add(GTK_CONTAINER(button), inside);
+  GtkWidget *popover = gtk_popover_new(button);
+  GtkWidget *why = strip->why[kind] = sb_style_label("", "sb-why", 0);
+  g_object_set(why, "margin", 14, "selectable", TRUE, "max-width-chars", 60, NULL);
+  gtk_label_set_line_wrap(GTK_LABEL(why), TRUE);
+  gtk_widget_show(why);
+  gtk_container_add(GTK_CONTAINER(popover), why);
+  gtk_menu_button_set_popover(GTK_MENU_BUTTON(button), popover);
+  g_signal_connect(button, "toggled", G_CALLBACK(on_toggled), strip);
+  return button;
+}
+
+static void on_destroy(GtkWidget *widget, Strip *strip) {
+  g_signal_handlers_disconnect_by_data(strip->session, strip);
+  if (strip->later != 0) {
+    g_source_remove(strip->later);
+  }
+  strip->later = 0;
+  strip->width = 0; // nothing more is fitted
+}
+
+GtkWidget *sb_verdict_strip_new(SbSession *session) {
+  Strip *strip = g_new0(Strip, 1);
+  strip->session = session;
+  strip->box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
+  for (int i = 0; i < SB_VERDICT_COUNT; i++) {
+    gtk_box_pack_start(GTK_BOX(strip->box), make_button(strip, i), FALSE, FALSE, 0);
+  }
+  // It never decides how narrow the window can be.
+  GtkWidget *scroller = gtk_scrolled_window_new(NULL, NULL);
+  gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_EXTERNAL,
+                                 GTK_POLICY_NEVER);
+  sb_style_class(scroller, "sb-verdicts");
+  gtk_container_add(GTK_CONTAINER(scroller), strip->box);
+  sb_style_name(scroller, _("Verdict"), NULL);
+  g_object_set_data_full(G_OBJECT(scroller), "strip", strip, g_free);
+  g_signal_connect(scroller, "size-allocate", G_CALLBACK(on_allocate), strip);
+  g_signal_connect(scroller, "destroy", G_CALLBACK(on_destroy), strip);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), strip);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), strip);
+  gtk_widget_show_all(scroller);
+  refresh(strip);
+  return scroller;
+}
