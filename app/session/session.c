@@ -5,6 +5,8 @@
 
 #include "app/session/session_private.h"
 
+#include "app/document/typed.h"
+
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -154,7 +156,8 @@ gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text) {
   g_autoptr(GError) error = NULL;
   session->last_edited = (int)id;
   forget_rejected(session, (int)id);
-  gboolean good = sb_document_set(session->document, id, text, &error);
+  g_autofree char *meant = sb_typed_text(id, sb_document_value(session->document, id), text);
+  gboolean good = sb_document_set(session->document, id, meant, &error);
   if (!good) {
     session->rejected[id] = g_strdup(text);
     session->error[id] = sentence(error->message, NULL);

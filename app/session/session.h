@@ -69,7 +69,7 @@ gboolean sb_session_is_modified(SbSession *session);
 void sb_session_set_camera(SbSession *session, double azimuth, double elevation);
 void sb_session_camera(SbSession *session, double *azimuth, double *elevation);
 
-// Edits a value by text. A text that cannot be taken stays as the field's error, and the value in
+// Edits a value by text as people type it (app/document/typed.h). A text that cannot be taken stays as the field's error, and the value in
 // force stays as it was.
 gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text);
 

@@ -1,4 +1,5 @@
 // Text to SI and back: exact, in every unit of the catalogue, and every wrong text has its message.
+#include "app/document/typed.h"
 #include "app/document/unit.h"
 
 #include <locale.h>
@@ -268,6 +269,77 @@ static void test_numbers(void) {
   g_assert_cmpstr(sb_number_format(text, 0.00012), ==, "0.00012");
 }
 
+// What is typed into a field: the text that the parser is given.
+static void test_typed(void) {
+  static const struct {
+    SbParamId id;
+    const char *typed, *meant;
+  } cases[] = {
+      {SB_P_SEAL_SECTION_DIAMETER, "1.65", "1.65 mm"},
+      {SB_P_SEAL_SECTION_DIAMETER, " 1,65 ", "1.65 mm"},
+      {SB_P_SEAL_SECTION_DIAMETER, "1,65 mm", "1.65 mm"},
+      {SB_P_SEAL_SECTION_DIAMETER, "1650 um", "1650 um"},
+      {SB_P_SEAL_SECTION_DIAMETER, "+5 %", "1.6905 mm"},
+      {SB_P_SEAL_SECTION_DIAMETER, "-2,5%", "1.56975 mm"},
+      {SB_P_SEAL_SECTION_DIAMETER, "1.6 + 0.1/2", "1.65 mm"},
+      {SB_P_SEAL_SECTION_DIAMETER, "99m", "99 m"},
+      {SB_P_SEAL_SECTION_DIAMETER, "2*(0.8+0,02) mm", "1.64 mm"},
+      {SB_P_SEAL_SECTION_DIAMETER, "0.1+0.2 cm", "0.3 cm"},
+      {SB_P_HOUSING_MODULUS, "60 ShA", "60 ShA"},
+      {SB_P_CANISTER_TEMPERATURE, "25", "25 °C"},
+      {SB_P_CANISTER_TEMPERATURE, "25 degC", "25 degC"},
+      {SB_P_CANISTER_TEMPERATURE, "+5 %", "+5 %"}, // of which zero? The parser refuses it
+      {SB_P_FLUID_PRESSURE_VISCOSITY, "2.8 1/GPa", "2.8 1/GPa"},
+      {SB_P_FRICTION_STATIC_RATIO, "1.1", "1.1"},
+      {SB_P_FRICTION_STATIC_RATIO, "11/10", "1.1"},
+      {SB_P_OUTPUT_FRAMES, "2*150", "300"},
+      {SB_P_MODELS_FIT, "ring", "ring"},
+      // These stay, for the parser to refuse.
+      {SB_P_SEAL_SECTION_DIAMETER, "1,2,3 mm", "1,2,3 mm"},
+      {SB_P_SEAL_SECTION_DIAMETER, "1,234.5", "1,234.5"},
+      {SB_P_SEAL_SECTION_DIAMETER, "rubbish", "rubbish"},
+      {SB_P_SEAL_SECTION_DIAMETER, "1/0", "1/0"},
+      {SB_P_SEAL_SECTION_DIAMETER, "(1.6", "(1.6"},
+      {SB_P_SEAL_SECTION_DIAMETER, "1.6 ; 2", "1.6 ; 2"},
+      {SB_P_SEAL_SECTION_DIAMETER, "0x10", "0 x10"},
+      {SB_P_SEAL_SECTION_DIAMETER, "nan", "nan"},
+      {SB_P_SEAL_SECTION_DIAMETER, "", ""},
+  };
+  SbParams params;
+  sb_params_init(&params);
+  for (gsize i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autofree char *meant =
+        sb_typed_text(cases[i].id, sb_params_get(&params, cases[i].id), cases[i].typed);
+    g_assert_cmpstr(meant, ==, cases[i].meant);
+  }
+  // By hand: 0.0981 x 513.4016 / (0.137505 x 101.6) = 50.3647 / 13.9705 MPa.
+  for (int i = 0; i < 2; i++) {
+    g_autofree char *meant =
+        sb_typed_text(SB_P_SEAL_MODULUS, 1e6, i == 0 ? "60 Shore A" : "60 shA");
+    double modulus = 0;
+    g_assert_true(sb_param_parse(&modulus, SB_P_SEAL_MODULUS, meant, NULL));
+    g_assert_cmpfloat(fabs(modulus - 3.60507e6), <, 10);
+  }
+  // Brackets without end, and a long line, end too.
+  g_autofree char *deep = g_strnfill(150, '('), *same = sb_typed_text(SB_P_SEAL_MODULUS, 1, deep);
+  g_assert_cmpstr(same, ==, deep);
+  // Any value comes back from its own shortest text, also bare.
+  GRand *random = g_rand_new_with_seed(7);
+  for (int i = 0; i < 2000; i++) {
+    const SbParam *param = sb_param(SB_P_SEAL_SECTION_DIAMETER);
+    const double value = 1e-6 * g_rand_int_range(random, 200, 20000);
+    g_autofree char *text = sb_quantity_format(value, param->si, param->unit);
+    g_autofree char *bare = g_strndup(text, strcspn(text, " "));
+    g_autofree char *meant = sb_typed_text(SB_P_SEAL_SECTION_DIAMETER, 1e-3, bare);
+    double back = 0;
+    g_assert_true(sb_param_parse(&back, SB_P_SEAL_SECTION_DIAMETER, meant, NULL));
+    double from = 0;
+    g_assert_true(sb_param_parse(&from, SB_P_SEAL_SECTION_DIAMETER, text, NULL));
+    g_assert_cmpfloat(back, ==, from);
+  }
+  g_rand_free(random);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/units/parse", test_parse);
@@ -280,5 +352,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/units/numbers", test_numbers);
   // Last: it changes the process' locale.
   g_test_add_func("/units/locale", test_locale);
+  g_test_add_func("/units/typed", test_typed);
   return g_test_run();
 }

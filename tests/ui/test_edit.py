@@ -14,6 +14,10 @@ def edit_with_a_unit_changes_the_breakaway_force(folder):
         app.edit("Section diameter", "1650 um")
         wait("the value in the panel's unit", lambda: app.value("Section diameter") == "1.65 mm")
         wait("another break-away force", lambda: app.run_done() and app.breakaway() > before + 1)
+        # As people type: the field's unit, a decimal comma, a change, a sum; shown as short as it is.
+        for text, shown in (("1,6", "1.6 mm"), ("+5 %", "1.68 mm"), ("1.60 + 0.1/2", "1.65 mm")):
+            app.edit("Section diameter", text)
+            wait("%s for %s" % (shown, text), lambda: app.value("Section diameter") == shown)
         # A thinner ring is squeezed less.
         app.edit("Section diameter", "0.0639 in")
         wait("a lower force", lambda: app.run_done() and app.breakaway() < before + 1.2)
@@ -23,7 +27,7 @@ def bad_values_stay_in_their_field(folder):
     with App(scene(folder)) as app:
         wait("the first run", app.run_done)
         before = app.breakaway()
-        for text in ("99 m", "1.61", "1.61 kg", "rubbish", "nan mm", ""):
+        for text in ("99 m", "1.61.2", "1,6,1 mm", "1.61 kg", "rubbish", "nan mm", ""):
             app.edit("Section diameter", text)
             wait("one value to fix after %r" % text, lambda: app.label(r"1 value to fix"))
             assert app.label(r"0\.2 to 20 mm\).*\.$|0\.2 to 20 mm\.$"), "no range in the sentence"

@@ -1,0 +1,15 @@
+// What people type into a field of a parameter, as the text that files have: a bare number is of
+// the unit beside the field, a decimal comma is a point, "+5 %" changes the value in force, "1.7/2
+// + 0.1 mm" is worked out, and a rubber's modulus may be told by its hardness ("60 Shore A", 20 to
+// 80, by the relation of Gent, Rubber Chem. Technol. 31 (1958) 896). Files and the command line
+// know none of this.
+#pragma once
+
+#include "engine/valve/params.h"
+
+#include <glib.h>
+
+// The text for sb_param_parse(); what cannot be understood as above is returned as it was typed, so
+// that the parser says what is wrong with it. `value` is the one in force [SI]. Owned by the
+// caller.
+char *sb_typed_text(SbParamId id, double value, const char *typed);
