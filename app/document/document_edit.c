@@ -213,6 +213,26 @@ int sb_document_redo(SbDocument *document) {
   return edit.id;
 }
 
+int sb_document_next_undo(const SbDocument *document, bool redo, double value[2]) {
+  if (redo ? !sb_document_can_redo(document) : !sb_document_can_undo(document)) {
+    return -1;
+  }
+  const Edit *edit = &g_array_index(document->edits, Edit, document->done - (redo ? 0 : 1));
+  for (int side = 0; side < 2 && edit->id != SB_DOCUMENT_RUBBER; side++) {
+    value[side] = edit->value[side];
+    if (!edit->given[side]) {
+      // Not the document's own: what lies below, or the default.
+      SbParams params = sb_document_params(document);
+      SbParamDefault fallback;
+      params.given[edit->id] = false;
+      sb_params_default(&fallback, &params, (SbParamId)edit->id);
+      value[side] =
+          document->base.given[edit->id] ? document->base.value[edit->id] : fallback.value;
+    }
+  }
+  return edit->id;
+}
+
 bool sb_document_can_undo(const SbDocument *document) {
   return document->done > 0;
 }

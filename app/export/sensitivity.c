@@ -10,8 +10,7 @@ static const double USUAL = 0.05;
 
 // Half-width of a parameter's tolerance band: the value of KEY_tolerance, 0 without one.
 static double tolerance_of(const SbModel *model, SbParamId id) {
-  g_autofree char *key = g_strconcat(sb_param(id)->key, "_tolerance", NULL);
-  const int band = sb_param_find(key);
+  const int band = sb_param_tolerance(id);
   return band >= 0 ? sb_model_value(model, (SbParamId)band) : 0;
 }
 

@@ -189,21 +189,23 @@ gboolean sb_session_set_rubber(SbSession *session, const char *name, GPtrArray *
   return good;
 }
 
-static void changed_by(SbSession *session, int id) {
-  if (id >= 0 && id < SB_PARAM_COUNT) {
+static int changed_by(SbSession *session, int id) {
+  const bool parameter = id >= 0 && id < SB_PARAM_COUNT;
+  if (parameter) {
     forget_rejected(session, id);
   }
   if (id >= 0) {
     changed(session);
   }
+  return parameter ? id : -1;
 }
 
-void sb_session_undo(SbSession *session) {
-  changed_by(session, sb_document_undo(session->document));
+int sb_session_undo(SbSession *session) {
+  return changed_by(session, sb_document_undo(session->document));
 }
 
-void sb_session_redo(SbSession *session) {
-  changed_by(session, sb_document_redo(session->document));
+int sb_session_redo(SbSession *session) {
+  return changed_by(session, sb_document_redo(session->document));
 }
 
 const char *sb_session_error(SbSession *session, SbParamId id) {

@@ -82,8 +82,9 @@ gboolean sb_session_set_rubber(SbSession *session, const char *name, GPtrArray *
 // The value of the valve, the parent or the catalogue again; clears the field's error.
 void sb_session_unset(SbSession *session, SbParamId id);
 
-void sb_session_undo(SbSession *session);
-void sb_session_redo(SbSession *session);
+// Each returns the parameter that changed, -1 if none did.
+int sb_session_undo(SbSession *session);
+int sb_session_redo(SbSession *session);
 
 // What is wrong with a field: the sentence and the rejected text; NULL if nothing is. Borrowed
 // until the next change.

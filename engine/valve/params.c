@@ -55,6 +55,30 @@ bool sb_params_brought(SbParamDefault *out, int *choice, SbParamId id, int index
   return false;
 }
 
+static const bool main_ones[SB_PARAM_COUNT] = {
+#define SB_MAIN(id) [SB_P_##id] = true,
+#include "engine/valve/params.def"
+};
+
+static const char *const words[SB_PARAM_COUNT] = {
+#define SB_WORDS(id, text) [SB_P_##id] = text,
+#include "engine/valve/params.def"
+};
+
+bool sb_param_is_main(SbParamId id) {
+  return main_ones[id];
+}
+
+const char *sb_param_words(SbParamId id) {
+  return words[id] != NULL ? words[id] : "";
+}
+
+int sb_param_tolerance(SbParamId id) {
+  char key[96];
+  snprintf(key, sizeof key, "%s_tolerance", table[id].key);
+  return sb_param_find(key);
+}
+
 const SbParam *sb_param(SbParamId id) {
   return &table[id];
 }

@@ -43,6 +43,15 @@ typedef struct {
                        // when not given; -1 for every other parameter
 } SbParam;
 
+// Whether it is one of the few that a design begins with.
+bool sb_param_is_main(SbParamId id);
+
+// What people also call it, in small letters; "" for most. Borrowed.
+const char *sb_param_words(SbParamId id);
+
+// The parameter that holds its tolerance; -1 if none does.
+int sb_param_tolerance(SbParamId id);
+
 // A rubber by name: figures that stand where nobody gives them, each with its source. Whoever reads
 // a file fills it.
 enum { SB_RUBBER_FIGURES_MAX = 48 };

@@ -68,12 +68,14 @@ class Slow(AssertionError):
 class App:
     SENSITIVE = pyatspi.STATE_SENSITIVE
 
-    def __init__(self, *files, env=None, theme="light", size=(1260, 900)):
+    def __init__(self, *files, env=None, theme="light", size=(1260, 900), parameters=2):
         self.folder = tempfile.mkdtemp(prefix="sealbench-ui-")
         config = os.path.join(self.folder, "sealbench")
         os.makedirs(config)
         with open(os.path.join(config, "window.ini"), "w") as out:
-            out.write("[window]\ntheme=%s\nwidth=%d\nheight=%d\n" % (theme, *size))
+            # Without a choice of its own a test sees all parameters, not the main ones.
+            out.write("[window]\ntheme=%s\nwidth=%d\nheight=%d\nparameters=%d\n"
+                      % (theme, *size, parameters))
         self.latency_path = os.path.join(self.folder, "latency.json")
         self.surroundings = dict(
             os.environ, XDG_CONFIG_HOME=self.folder, XDG_DATA_HOME=self.folder,

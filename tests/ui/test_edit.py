@@ -172,6 +172,25 @@ def search_finds_parameters(folder):
         wait("the rest hidden", lambda: not app.has("text", "Section diameter"))
         box.queryEditableText().setTextContents("")
         wait("everything back", lambda: app.has("text", "Section diameter"))
+        # By another name, and by a choice.
+        for text, role, found in (("durometer", "text", "Modulus"), ("persson", "combo box", "Surface"),
+                                  ("stiction", "text", "Static ratio")):
+            box.queryEditableText().setTextContents(text)
+            wait(found, lambda: app.has(role, found) and not app.has("text", "Section diameter"))
+        box.queryEditableText().setTextContents("")
+        # The main ones, what was changed, all.
+        app.press("toggle button", re.compile(r"^Main 16$"))
+        wait("the main ones", lambda: app.has("text", "Static ratio") and not app.has("text", "Mooney share"))
+        app.edit("Radial space", "1.38 mm")
+        app.press("toggle button", re.compile(r"^Changed \d+$"))
+        wait("what changed", lambda: app.has("text", "Radial space") and not app.has("text", "Static ratio"))
+        # Undo says what it takes back, and shows it.
+        undo = app.find("push button", "Undo")
+        wait("what undo does", lambda: undo.description == "Radial space 1.36 → 1.38 mm")
+        app.act(undo, "click")
+        wait("it is no change any more, and still shown", lambda: app.value("Radial space") == "1.36 mm"
+             and app.has("text", "Radial space"))
+        assert app.find("push button", "Redo").description == "Radial space 1.36 → 1.38 mm"
 
 
 def unsaved_changes_survive_a_crash(folder):

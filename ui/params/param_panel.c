@@ -1,6 +1,7 @@
 // The column of parameters. The catalogue's order and the first part of each key make the groups;
-// overrides for one ring get groups of their own, folded until something in them differs. A search
-// shows the matching rows with their groups unfolded.
+// overrides for one ring get groups of their own, folded until something in them differs. Listed
+// are the main ones, those that differ from their defaults, or all; a search goes over all.
+// Whatever leaves rows out unfolds the groups of those that stay.
 #include "ui/params/param_panel.h"
 
 #include "ui/params/param_row.h"
@@ -13,19 +14,23 @@
 typedef struct {
   GtkWidget *expander, *note;
   GtkWidget *box;
-  gboolean unfolded; // as the user left it, while a search unfolds all
+  gboolean unfolded; // as the user left it, while something unfolds all
 } Group;
+
+enum { MARKED_MS = 1500 }; // a row that was shown
 
 struct _SbParamPanel {
   GtkBox parent_instance;
   SbSession *session;
   GtkWidget *search, *scroller, *list, *nothing;
+  GtkWidget *filters[SB_PARAM_FILTER_ALL + 1];
+  SbParamFilter filter;
   GtkWidget *row[SB_PARAM_COUNT];
   GtkWidget *rubber; // the one row that is of no parameter
   int group_of[SB_PARAM_COUNT];
-  GArray *groups; // of Group
-  gboolean searching;
-  guint refresh_handler;
+  GArray *groups;    // of Group
+  gboolean narrowed; // rows are left out, and all groups unfolded
+  gboolean refreshing;
 };
 
 G_DEFINE_TYPE(SbParamPanel, sb_param_panel, GTK_TYPE_BOX)
@@ -118,11 +123,101 @@ static Group *group_at(SbParamPanel *panel, int index) {
   return &g_array_index(panel->groups, Group, (guint)index);
 }
 
+// Whether a value in force is another than the default, which may follow from other values.
+static gboolean is_changed(SbParamPanel *panel, const SbParams *params, SbParamId id) {
+  SbParamDefault fallback;
+  sb_params_default(&fallback, params, id);
+  return params->given[id] && sb_params_get(params, id) != fallback.value;
+}
+
+static gboolean is_listed(SbParamPanel *panel, const SbParams *params, const char *needle,
+                          SbParamId id) {
+  return needle[0] != '\0' ? sb_param_row_matches(SB_PARAM_ROW(panel->row[id]), needle)
+         : panel->filter == SB_PARAM_FILTER_MAIN    ? sb_param_is_main(id)
+         : panel->filter == SB_PARAM_FILTER_CHANGED ? is_changed(panel, params, id)
+                                                    : TRUE;
+}
+
+static gboolean is_rubber_listed(SbParamPanel *panel, const char *needle) {
+  const SbDocument *document = sb_session_document(panel->session);
+  return needle[0] != '\0'
+             ? strstr("rubber.name", needle) != NULL || strstr(_("rubber"), needle) != NULL
+             : panel->filter == SB_PARAM_FILTER_ALL || (panel->filter == SB_PARAM_FILTER_CHANGED &&
+                                                        sb_document_rubber(document) != NULL);
+}
+
+// Shows the rows that are listed and unfolds their groups; with all of them as it was before.
+static void list(SbParamPanel *panel) {
+  g_autofree char *needle = g_utf8_casefold(gtk_entry_get_text(GTK_ENTRY(panel->search)), -1);
+  g_strstrip(needle);
+  const SbParams params = sb_document_params(sb_session_document(panel->session));
+  const gboolean narrowed = needle[0] != '\0' || panel->filter != SB_PARAM_FILTER_ALL;
+  if (narrowed && !panel->narrowed) {
+    for (guint g = 0; g < panel->groups->len; g++) {
+      Group *group = group_at(panel, (int)g);
+      group->unfolded = gtk_expander_get_expanded(GTK_EXPANDER(group->expander));
+    }
+  }
+  int found = 0;
+  for (guint g = 0; g < panel->groups->len; g++) {
+    Group *group = group_at(panel, (int)g);
+    int in_group = 0;
+    for (int id = 0; id < SB_PARAM_COUNT; id++) {
+      if (panel->group_of[id] == (int)g) {
+        const gboolean listed = is_listed(panel, &params, needle, (SbParamId)id);
+        gtk_widget_set_visible(panel->row[id], listed);
+        in_group += listed;
+      }
+    }
+    if (group->box == gtk_widget_get_parent(panel->rubber)) {
+      const gboolean listed = is_rubber_listed(panel, needle);
+      gtk_widget_set_visible(panel->rubber, listed);
+      in_group += listed;
+    }
+    found += in_group;
+    gtk_widget_set_visible(group->expander, in_group > 0);
+    if (narrowed && !panel->narrowed) {
+      gtk_expander_set_expanded(GTK_EXPANDER(group->expander), TRUE);
+    } else if (!narrowed && panel->narrowed) {
+      gtk_expander_set_expanded(GTK_EXPANDER(group->expander), group->unfolded);
+    }
+  }
+  gtk_widget_set_visible(panel->nothing, found == 0);
+  panel->narrowed = narrowed;
+}
+
+static void name_filters(SbParamPanel *panel) {
+  const SbParams params = sb_document_params(sb_session_document(panel->session));
+  int count[SB_PARAM_FILTER_ALL + 1] = {0};
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    count[SB_PARAM_FILTER_MAIN] += sb_param_is_main((SbParamId)id);
+    count[SB_PARAM_FILTER_CHANGED] += is_changed(panel, &params, (SbParamId)id);
+    count[SB_PARAM_FILTER_ALL]++;
+  }
+  for (int i = 0; i <= SB_PARAM_FILTER_ALL; i++) {
+    g_autofree char *name = g_strdup_printf(i == SB_PARAM_FILTER_MAIN      ? _("Main %d")
+                                            : i == SB_PARAM_FILTER_CHANGED ? _("Changed %d")
+                                                                           : _("All %d"),
+                                            count[i]);
+    if (g_strcmp0(gtk_button_get_label(GTK_BUTTON(panel->filters[i])), name) != 0) {
+      gtk_button_set_label(GTK_BUTTON(panel->filters[i]), name);
+    }
+  }
+}
+
 static void refresh(SbParamPanel *panel) {
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     sb_param_row_refresh(SB_PARAM_ROW(panel->row[id]));
   }
   sb_rubber_row_refresh(panel->rubber);
+  name_filters(panel);
+  // A row that is being edited stays until another list is asked for.
+  GtkWidget *top = gtk_widget_get_toplevel(GTK_WIDGET(panel));
+  GtkWidget *focus = GTK_IS_WINDOW(top) ? gtk_window_get_focus(GTK_WINDOW(top)) : NULL;
+  if (panel->filter == SB_PARAM_FILTER_CHANGED &&
+      (focus == NULL || !gtk_widget_is_ancestor(focus, panel->list))) {
+    list(panel);
+  }
 
   // The groups of single seals say how much of them is in force.
   for (guint g = 0; g < panel->groups->len; g++) {
@@ -143,44 +238,33 @@ static void refresh(SbParamPanel *panel) {
   }
 }
 
-// Shows the rows that match and unfolds their groups; with an empty search as it was before.
 static void on_search(GtkSearchEntry *entry, SbParamPanel *panel) {
-  g_autofree char *needle = g_utf8_casefold(gtk_entry_get_text(GTK_ENTRY(entry)), -1);
-  g_strstrip(needle);
-  gboolean searching = needle[0] != '\0';
-  if (searching && !panel->searching) {
-    for (guint g = 0; g < panel->groups->len; g++) {
-      Group *group = group_at(panel, (int)g);
-      group->unfolded = gtk_expander_get_expanded(GTK_EXPANDER(group->expander));
+  list(panel);
+}
+
+void sb_param_panel_set_filter(SbParamPanel *panel, SbParamFilter filter) {
+  panel->filter = filter;
+  panel->refreshing = TRUE;
+  for (int i = 0; i <= SB_PARAM_FILTER_ALL; i++) {
+    gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(panel->filters[i]), i == (int)filter);
+  }
+  panel->refreshing = FALSE;
+  list(panel);
+}
+
+SbParamFilter sb_param_panel_filter(SbParamPanel *panel) {
+  return panel->filter;
+}
+
+static void on_filter(GtkToggleButton *button, SbParamPanel *panel) {
+  if (panel->refreshing) {
+    return;
+  }
+  for (int i = 0; i <= SB_PARAM_FILTER_ALL; i++) {
+    if (panel->filters[i] == GTK_WIDGET(button)) {
+      sb_param_panel_set_filter(panel, (SbParamFilter)i);
     }
   }
-  int found = 0;
-  for (guint g = 0; g < panel->groups->len; g++) {
-    Group *group = group_at(panel, (int)g);
-    int in_group = 0;
-    for (int id = 0; id < SB_PARAM_COUNT; id++) {
-      if (panel->group_of[id] == (int)g) {
-        gboolean match = !searching || sb_param_row_matches(SB_PARAM_ROW(panel->row[id]), needle);
-        gtk_widget_set_visible(panel->row[id], match);
-        in_group += match;
-      }
-    }
-    if (group->box == gtk_widget_get_parent(panel->rubber)) {
-      const gboolean match = !searching || strstr("rubber.name", needle) != NULL ||
-                             strstr(_("rubber"), needle) != NULL;
-      gtk_widget_set_visible(panel->rubber, match);
-      in_group += match;
-    }
-    found += in_group;
-    gtk_widget_set_visible(group->expander, in_group > 0);
-    if (searching) {
-      gtk_expander_set_expanded(GTK_EXPANDER(group->expander), TRUE);
-    } else if (panel->searching) {
-      gtk_expander_set_expanded(GTK_EXPANDER(group->expander), group->unfolded);
-    }
-  }
-  gtk_widget_set_visible(panel->nothing, found == 0);
-  panel->searching = searching;
 }
 
 // Escape in the search box clears it (GtkSearchEntry) and gives the focus back to the fields.
@@ -203,12 +287,34 @@ static gboolean on_map_scroll(gpointer data) {
   return G_SOURCE_REMOVE;
 }
 
-void sb_param_panel_reveal(SbParamPanel *panel, SbParamId id) {
+// Unfolds what a row is in and scrolls to it.
+static void bring_up(SbParamPanel *panel, SbParamId id) {
   gtk_entry_set_text(GTK_ENTRY(panel->search), "");
+  const SbParams params = sb_document_params(sb_session_document(panel->session));
+  if (!is_listed(panel, &params, "", id)) {
+    panel->filter = SB_PARAM_FILTER_ALL;
+  }
+  sb_param_panel_set_filter(panel, panel->filter); // a search's change is told later
   Group *group = group_at(panel, panel->group_of[id]);
   gtk_expander_set_expanded(GTK_EXPANDER(group->expander), TRUE);
-  sb_param_row_focus(SB_PARAM_ROW(panel->row[id]));
   g_idle_add(on_map_scroll, g_object_ref(panel->row[id]));
+}
+
+void sb_param_panel_reveal(SbParamPanel *panel, SbParamId id) {
+  bring_up(panel, id);
+  sb_param_row_focus(SB_PARAM_ROW(panel->row[id]));
+}
+
+static gboolean on_marked_long(gpointer data) {
+  gtk_style_context_remove_class(gtk_widget_get_style_context(data), "sb-marked");
+  g_object_unref(data);
+  return G_SOURCE_REMOVE;
+}
+
+void sb_param_panel_show(SbParamPanel *panel, SbParamId id) {
+  bring_up(panel, id);
+  sb_style_class(panel->row[id], "sb-marked");
+  g_timeout_add(MARKED_MS, on_marked_long, g_object_ref(panel->row[id]));
 }
 
 void sb_param_panel_search(SbParamPanel *panel) {
@@ -233,8 +339,9 @@ GtkWidget *sb_param_panel_new(SbSession *session) {
                        FALSE, 0);
   }
   g_signal_connect_object(session, "params-changed", G_CALLBACK(refresh), panel, G_CONNECT_SWAPPED);
-  refresh(panel);
   gtk_widget_show_all(GTK_WIDGET(panel->list));
+  refresh(panel);
+  sb_param_panel_set_filter(panel, SB_PARAM_FILTER_ALL);
   return GTK_WIDGET(panel);
 }
 
@@ -255,12 +362,29 @@ static void sb_param_panel_init(SbParamPanel *panel) {
   g_autofree char *hint = g_strdup_printf(_("Search %d parameters"), SB_PARAM_COUNT);
   gtk_entry_set_placeholder_text(GTK_ENTRY(panel->search), hint);
   sb_style_name(panel->search, _("Search parameters"),
-                _("Shows the parameters whose name, key, symbol or help holds the text"));
+                _("Shows the parameters whose name, key, symbol, choices or help holds the text, "
+                  "or which are "
+                  "also called that"));
   g_object_set(panel->search, "margin-start", 20, "margin-end", 20, "margin-top", 10,
                "margin-bottom", 6, NULL);
   g_signal_connect(panel->search, "search-changed", G_CALLBACK(on_search), panel);
   g_signal_connect(panel->search, "stop-search", G_CALLBACK(on_stop_search), panel);
   gtk_box_pack_start(GTK_BOX(panel), panel->search, FALSE, FALSE, 0);
+
+  GtkWidget *filters = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+  sb_style_class(filters, "linked");
+  sb_style_class(filters, "sb-filters");
+  gtk_box_set_homogeneous(GTK_BOX(filters), TRUE);
+  g_object_set(filters, "margin-start", 20, "margin-end", 20, "margin-bottom", 6, NULL);
+  for (int i = 0; i <= SB_PARAM_FILTER_ALL; i++) {
+    panel->filters[i] = gtk_toggle_button_new_with_label("");
+    g_signal_connect(panel->filters[i], "toggled", G_CALLBACK(on_filter), panel);
+    gtk_box_pack_start(GTK_BOX(filters), panel->filters[i], TRUE, TRUE, 0);
+  }
+  gtk_widget_set_tooltip_text(panel->filters[SB_PARAM_FILTER_MAIN], _("What a design begins with"));
+  gtk_widget_set_tooltip_text(panel->filters[SB_PARAM_FILTER_CHANGED],
+                              _("Values other than their defaults"));
+  gtk_box_pack_start(GTK_BOX(panel), filters, FALSE, FALSE, 0);
 
   panel->list = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
   g_object_set(panel->list, "margin-start", 18, "margin-end", 16, "margin-bottom", 12, NULL);

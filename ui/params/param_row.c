@@ -176,7 +176,7 @@ static void add_entry(SbParamRow *row, GtkBox *line, const char *name, const cha
   g_signal_connect(row->field, "key-press-event", G_CALLBACK(on_key), row);
   gtk_box_pack_start(line, row->field, FALSE, FALSE, 0);
   row->symbol = sb_style_label(param->symbol, "sb-row-symbol", 0);
-  gtk_widget_set_size_request(row->symbol, 30, -1);
+  gtk_widget_set_size_request(row->symbol, 42, -1);
   gtk_box_pack_start(line, row->symbol, FALSE, FALSE, 0);
 }
 
@@ -195,7 +195,7 @@ static void add_combo(SbParamRow *row, GtkBox *line, const char *name) {
   gtk_box_pack_start(line, row->field, FALSE, FALSE, 0);
   // Where the other rows have their symbols.
   GtkWidget *blank = gtk_label_new(NULL);
-  gtk_widget_set_size_request(blank, 30, -1);
+  gtk_widget_set_size_request(blank, 42, -1);
   gtk_box_pack_start(line, blank, FALSE, FALSE, 0);
 }
 
@@ -321,6 +321,22 @@ static void refresh_entry(SbParamRow *row, gboolean inherited, const char *lock,
   }
 }
 
+// Beside a value that has a tolerance: that, in the unit of the field; else the symbol.
+static void refresh_tolerance(SbParamRow *row, const SbParams *params) {
+  const int id = row->symbol != NULL ? sb_param_tolerance(row->id) : -1;
+  const double tolerance = id >= 0 ? sb_params_get(params, (SbParamId)id) : 0;
+  if (tolerance > 0) {
+    const SbParam *param = sb_param(row->id);
+    g_autofree char *text = sb_quantity_format(tolerance, param->si, param->unit);
+    g_autofree char *number = g_strndup(text, strcspn(text, " "));
+    g_autofree char *shown = g_strdup_printf("± %s", number);
+    gtk_label_set_text(GTK_LABEL(row->symbol), shown);
+    gtk_widget_set_tooltip_text(row->symbol, sb_translation(sb_param((SbParamId)id)->label));
+  } else if (id >= 0) {
+    gtk_label_set_text(GTK_LABEL(row->symbol), sb_param(row->id)->symbol);
+  }
+}
+
 void sb_param_row_refresh(SbParamRow *row) {
   const SbParam *param = sb_param(row->id);
   const SbDocument *document = sb_session_document(row->session);
@@ -345,6 +361,7 @@ void sb_param_row_refresh(SbParamRow *row) {
   if (row->field != NULL) {
     gtk_widget_set_sensitive(row->field, lock == NULL);
   }
+  refresh_tolerance(row, &params);
   gtk_label_set_text(GTK_LABEL(row->error), error != NULL ? error : "");
   gtk_widget_set_visible(row->error, error != NULL);
   gboolean own =
@@ -369,7 +386,9 @@ gboolean sb_param_row_matches(SbParamRow *row, const char *needle) {
   const SbParam *param = sb_param(row->id);
   return contains(param->label, needle) || contains(sb_translation(param->label), needle) ||
          contains(param->key, needle) || contains(param->symbol, needle) ||
-         contains(param->help, needle) || contains(owner(param), needle);
+         contains(param->help, needle) || contains(owner(param), needle) ||
+         strstr(sb_param_words(row->id), needle) != NULL ||
+         (param->choices != NULL && contains(param->choices, needle));
 }
 
 void sb_param_row_focus(SbParamRow *row) {

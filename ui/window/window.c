@@ -14,6 +14,7 @@
 #include "ui/views/timeline_view.h"
 #include "ui/window/calibrate_page.h"
 #include "ui/window/export_dialog.h"
+#include "ui/window/header_room.h"
 #include "ui/window/import_dialog.h"
 #include "ui/window/model_switch.h"
 #include "ui/window/paned_layout.h"
@@ -21,6 +22,7 @@
 #include "ui/window/propellants_page.h"
 #include "ui/window/status_bar.h"
 #include "ui/window/study_window.h"
+#include "ui/window/undo_hints.h"
 #include "ui/window/verdict_strip.h"
 #include "ui/window/window_files.h"
 
@@ -34,15 +36,14 @@ struct _SbWindow {
   GtkWidget *header, *document_title, *document_file, *pages, *recent_button, *run_button,
       *run_icon, *run_label, *document_box, *export_label, *model_switch;
   GtkWidget *run_state_icon, *run_state_label, *run_progress;
-  GtkWidget *valve_page, *columns, *views, *left_column, *centre_column, *right_column, *bottom;
+  GtkWidget *undo_button, *redo_button, *valve_page, *columns, *views, *left_column, *centre_column,
+      *right_column, *bottom;
   GtkWidget *strip_revealer, *strip, *strip_icon, *strip_label, *strip_button;
   GtkWidget *panel; // SbParamPanel
   GtkWidget *section;
   SbWindowFiles *files;
   SbAutosave *autosave;
   guint tick;
-  int header_level;   // how many of its words it has
-  guint header_later; // source that fits it to a new width, 0 if none is due
   int strip_id;       // parameter that the strip's button mends, or -1
   double strip_value; // and the value it sets [SI]
 };
@@ -239,7 +240,7 @@ static void refresh_run_state(SbWindow *window) {
     gtk_image_set_from_icon_name(GTK_IMAGE(window->run_state_icon), icon, GTK_ICON_SIZE_MENU);
   }
   gtk_label_set_text(GTK_LABEL(window->run_state_label), text != NULL ? text : "");
-  gtk_widget_set_visible(window->run_progress, running && window->header_level == 2);
+  gtk_widget_set_visible(window->run_progress, running);
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(window->run_progress),
                                 running ? sb_session_progress(session) : 0);
 
@@ -288,12 +289,18 @@ static void on_frames(SbWindow *window) {
 
 // Actions ----------------------------------------------------------------------------------------
 
+static void show_change(SbWindow *window, int id) {
+  if (id >= 0) {
+    sb_param_panel_show(SB_PARAM_PANEL(window->panel), (SbParamId)id);
+  }
+}
+
 static void on_undo(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  sb_session_undo(SB_WINDOW(data)->session);
+  show_change(data, sb_session_undo(SB_WINDOW(data)->session));
 }
 
 static void on_redo(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  sb_session_redo(SB_WINDOW(data)->session);
+  show_change(data, sb_session_redo(SB_WINDOW(data)->session));
 }
 
 static void on_run_or_stop(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -458,42 +465,6 @@ static gboolean on_key(GtkWidget *widget, GdkEventKey *event, gpointer data) {
   }
 }
 
-// Room -------------------------------------------------------------------------------------------
-
-// Below these widths the header keeps icons alone where they say enough, and leaves the document's
-// name to the window's title.
-enum { HEADER_WHOLE = 1440, HEADER_NAMED = 1200 };
-
-static int header_level(int width) {
-  return width >= HEADER_WHOLE ? 2 : width >= HEADER_NAMED ? 1 : 0;
-}
-
-static void set_header(SbWindow *window, int level) {
-  const gboolean whole = level == 2;
-  gtk_widget_set_visible(window->run_label, whole);
-  gtk_widget_set_visible(window->export_label, whole);
-  gtk_widget_set_visible(window->document_box, level > 0);
-  gtk_widget_set_visible(window->run_progress,
-                         whole && sb_session_state(window->session) == SB_SESSION_RUNNING);
-  sb_model_switch_set_short(window->model_switch, !whole);
-  window->header_level = level;
-}
-
-static gboolean on_new_width(gpointer data) {
-  SbWindow *window = data;
-  window->header_later = 0;
-  set_header(window, header_level(gtk_widget_get_allocated_width(GTK_WIDGET(window))));
-  return G_SOURCE_REMOVE;
-}
-
-// Not inside an allocation, where nothing may come or go.
-static void on_allocate(GtkWidget *widget, GdkRectangle *allocation, gpointer data) {
-  SbWindow *window = SB_WINDOW(widget);
-  if (header_level(allocation->width) != window->header_level && window->header_later == 0) {
-    window->header_later = g_idle_add(on_new_width, window);
-  }
-}
-
 // Life -------------------------------------------------------------------------------------------
 
 static gboolean on_delete(GtkWidget *widget, GdkEvent *event, gpointer data) {
@@ -507,15 +478,12 @@ static gboolean on_delete(GtkWidget *widget, GdkEvent *event, gpointer data) {
     sb_preferences_set_int("height", height);
   }
   sb_preferences_set_int("maximized", maximized);
+  sb_preferences_set_int("parameters", (int)sb_param_panel_filter(SB_PARAM_PANEL(window->panel)));
   return !sb_window_files_may_discard(window->files);
 }
 
 static void dispose(GObject *object) {
   SbWindow *window = SB_WINDOW(object);
-  if (window->header_later != 0) {
-    g_source_remove(window->header_later);
-    window->header_later = 0;
-  }
   g_clear_pointer(&window->autosave, sb_autosave_free);
   g_clear_pointer(&window->files, sb_window_files_free);
   G_OBJECT_CLASS(sb_window_parent_class)->dispose(object);
@@ -545,6 +513,8 @@ static void sb_window_class_init(SbWindowClass *class) {
   CHILD(run_state_icon);
   CHILD(run_state_label);
   CHILD(run_progress);
+  CHILD(undo_button);
+  CHILD(redo_button);
   CHILD(valve_page);
   CHILD(columns);
   CHILD(views);
@@ -614,10 +584,14 @@ static void sb_window_init(SbWindow *window) {
   sb_paned_layout_attach(GTK_PANED(window->columns), GTK_PANED(window->views), charts);
   window->model_switch = sb_model_switch_new(window->session);
   gtk_header_bar_pack_end(GTK_HEADER_BAR(window->header), window->model_switch);
+  sb_undo_hints_attach(window->session, window->undo_button, window->redo_button);
   GtkWidget *verdicts = sb_verdict_strip_new(window->session);
   gtk_box_pack_start(GTK_BOX(window->valve_page), verdicts, FALSE, FALSE, 0);
   gtk_box_reorder_child(GTK_BOX(window->valve_page), verdicts, 0);
   window->panel = sb_param_panel_new(window->session);
+  const int filter = sb_preferences_int("parameters", SB_PARAM_FILTER_MAIN);
+  sb_param_panel_set_filter(SB_PARAM_PANEL(window->panel),
+                            (SbParamFilter)CLAMP(filter, 0, SB_PARAM_FILTER_ALL));
   gtk_box_pack_start(GTK_BOX(window->left_column), window->panel, TRUE, TRUE, 0);
   gtk_box_pack_start(GTK_BOX(window->left_column), sb_derived_panel_new(window->session), FALSE,
                      FALSE, 0);
@@ -651,7 +625,6 @@ static void sb_window_init(SbWindow *window) {
   g_signal_connect(window->strip_button, "clicked", G_CALLBACK(on_strip_button), window);
   g_signal_connect(window, "key-press-event", G_CALLBACK(on_key), NULL);
   g_signal_connect(window, "delete-event", G_CALLBACK(on_delete), NULL);
-  g_signal_connect(window, "size-allocate", G_CALLBACK(on_allocate), NULL);
   g_signal_connect_object(window->session, "params-changed", G_CALLBACK(refresh), window,
                           G_CONNECT_SWAPPED);
   g_signal_connect_object(window->session, "run-changed", G_CALLBACK(refresh), window,
@@ -661,8 +634,11 @@ static void sb_window_init(SbWindow *window) {
   g_signal_connect_object(window->session, "playhead-changed", G_CALLBACK(ensure_tick), window,
                           G_CONNECT_SWAPPED);
 
-  // Before the window has a size: what is wide at first could not become narrow.
-  set_header(window, header_level(sb_preferences_int("width", 1600)));
+  const SbHeaderParts parts = {{window->run_label, window->export_label},
+                               window->document_box,
+                               window->run_progress,
+                               window->model_switch};
+  sb_header_room_attach(GTK_WIDGET(window), &parts, sb_preferences_int("width", 1600));
   gtk_window_set_default_size(GTK_WINDOW(window), sb_preferences_int("width", 1600),
                               sb_preferences_int("height", 1000));
   if (sb_preferences_int("maximized", 0)) {

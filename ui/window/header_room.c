@@ -1,0 +1,60 @@
+// Words go below a width, the document's name below another.
+#include "ui/window/header_room.h"
+
+#include "ui/window/model_switch.h"
+
+enum { WHOLE = 1440, NAMED = 1200 };
+
+typedef struct {
+  GtkWidget *window;
+  SbHeaderParts parts;
+  int level;   // how much of it is there
+  guint later; // source that fits it to a new width, 0 if none is due
+} Room;
+
+static int level_of(int width) {
+  return width >= WHOLE ? 2 : width >= NAMED ? 1 : 0;
+}
+
+static void fit(Room *room, int width) {
+  const int level = room->level = level_of(width);
+  for (int i = 0; i < 2; i++) {
+    gtk_widget_set_visible(room->parts.words[i], level == 2);
+  }
+  gtk_widget_set_visible(room->parts.document, level > 0);
+  gtk_widget_set_size_request(room->parts.progress, level == 2 ? 120 : 30, -1);
+  sb_model_switch_set_short(room->parts.model_switch, level < 2);
+}
+
+static gboolean on_later(gpointer data) {
+  Room *room = data;
+  room->later = 0;
+  fit(room, gtk_widget_get_allocated_width(room->window));
+  return G_SOURCE_REMOVE;
+}
+
+// Not inside an allocation, where nothing may come or go.
+static void on_allocate(GtkWidget *widget, GdkRectangle *allocation, Room *room) {
+  if (level_of(allocation->width) != room->level && room->later == 0) {
+    room->later = g_idle_add(on_later, room);
+  }
+}
+
+static void on_destroy(GtkWidget *widget, Room *room) {
+  g_signal_handlers_disconnect_by_data(widget, room);
+  if (room->later != 0) {
+    g_source_remove(room->later);
+    room->later = 0;
+  }
+}
+
+void sb_header_room_attach(GtkWidget *window, const SbHeaderParts *parts, int width) {
+  Room *room = g_new0(Room, 1);
+  room->window = window;
+  room->parts = *parts;
+  g_object_set_data_full(G_OBJECT(window), "header-room", room, g_free);
+  g_signal_connect(window, "size-allocate", G_CALLBACK(on_allocate), room);
+  g_signal_connect(window, "destroy", G_CALLBACK(on_destroy), room);
+  // Before the window has a size: what is wide at first could not become narrow.
+  fit(room, width);
+}
