@@ -23,3 +23,18 @@ void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartDat
 // Nearest frame to a point of the picture, within `reach` px; false if the curve is further off.
 bool sb_hysteresis_hit(size_t *frame, SbRect rect, const SbChartData *data, unsigned flags,
                        double x, double y, double reach);
+
+// Forces of the loop at a displacement [m], on the way in and on the way back [N]; NaN where it does
+// not pass.
+void sb_hysteresis_forces(double out[2], const SbChartRun *run, double displacement);
+
+// "2.00 mm  in 25.0 N  back 4.0 N". Owned by the caller.
+char *sb_hysteresis_cursor_text(const SbChartRun *run, double displacement);
+
+// The displacement under a point of the picture; false where that is not in the plot.
+bool sb_hysteresis_cursor(double *displacement, SbRect rect, const SbChartData *data,
+                          unsigned flags, double x, double y);
+
+// Draws a line there with the forces, over the finished chart.
+void sb_hysteresis_cursor_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
+                               const SbChartData *data, unsigned flags, double displacement);

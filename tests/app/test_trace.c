@@ -172,6 +172,46 @@ static void test_timeline_hit(void) {
   synthetic_clear(&run);
 }
 
+// What is read off the loop at a displacement lies between the forces of the frames beside it, each
+// way; beyond the stroke there is nothing to read.
+static void test_cursor(void) {
+  Synthetic run;
+  SbChartData data;
+  synthetic_init(&run, 1250, 1);
+  synthetic_data(&data, &run, 7.27);
+  for (double s = 0.4e-3; s < 6.4e-3; s += 0.37e-3) {
+    double force[2];
+    sb_hysteresis_forces(force, &data.run, s);
+    int found[2] = {0, 0};
+    for (size_t i = 1; i < run.count; i++) {
+      const SbFrame *a = &run.frames[i - 1], *b = &run.frames[i];
+      const int way = b->displacement < a->displacement;
+      if ((a->displacement - s) * (b->displacement - s) < 0) {
+        found[way]++;
+        const double low = fmin(a->force, b->force), high = fmax(a->force, b->force);
+        g_assert_cmpfloat(force[way], >, low - 0.2);
+        g_assert_cmpfloat(force[way], <, high + 0.2);
+      }
+    }
+    g_assert_cmpint(found[0], ==, 1);
+    g_assert_cmpint(found[1], ==, 1);
+    g_assert_cmpfloat(force[0], >, force[1]);
+  }
+  double beyond[2];
+  sb_hysteresis_forces(beyond, &data.run, 8e-3);
+  g_assert_true(isnan(beyond[0]) && isnan(beyond[1]));
+  // A point of the picture is the displacement that is drawn there; the title is none.
+  const SbRect rect = {16, 12, 400, 300};
+  SbHysteresisLayout at;
+  sb_hysteresis_layout(&at, rect, &data, SB_CHART_COMPACT);
+  double s = 0;
+  g_assert_true(sb_hysteresis_cursor(&s, rect, &data, SB_CHART_COMPACT, sb_axis_at(&at.x, 2),
+                                     at.plot.y + 20));
+  g_assert_cmpfloat(fabs(s - 2e-3), <, 1e-9);
+  g_assert_false(sb_hysteresis_cursor(&s, rect, &data, SB_CHART_COMPACT, at.plot.x + 20, 15));
+  synthetic_clear(&run);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/trace/events", test_events);
@@ -180,5 +220,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/trace/bounded", test_bounded);
   g_test_add_func("/trace/hit", test_hit);
   g_test_add_func("/trace/timeline-hit", test_timeline_hit);
+  g_test_add_func("/trace/cursor", test_cursor);
   return g_test_run();
 }

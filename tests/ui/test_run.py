@@ -1,5 +1,8 @@
 """Long runs, cancelling, the playhead, and how long the main loop is blocked."""
 import re
+import subprocess
+
+import pyatspi
 
 from harness import App, main, scene, wait
 
@@ -94,6 +97,15 @@ def scrub_to_stage_c(folder):
         assert abs(float(match.group(1)) - 3.30) < 0.02, app.status()
         assert 26 < float(match.group(2)) < 29, app.status()
         at_c = app.status()
+        # Under the pointer the forces are read, which moves nothing.
+        chart = app.find("chart", "Force and displacement")
+        box = chart.queryComponent().getExtents(pyatspi.DESKTOP_COORDS)
+        subprocess.run(["xdotool", "mousemove", str(box.x + box.width // 2),
+                        str(box.y + box.height // 2)], check=True)
+        text = wait("the read-out", lambda: re.search(
+            r"Under the pointer: ([\d.]+)\smm  in ([\d.]+)\sN  back ([\d.]+)\sN\.", chart.description))
+        assert 2 < float(text.group(1)) < 5 and float(text.group(2)) > 20 > float(text.group(3)), text
+        assert app.status() == at_c
         # By the keys.
         app.key("Right")
         wait("the frame after", lambda: app.status() != at_c)

@@ -1,6 +1,7 @@
-// A widget around one chart of app/chart. The loop takes the pointer: press or drag near the curve
-// and the playhead goes to the nearest frame. Every chart has an accessible description that says
-// in a sentence what it shows now, and its numbers can be copied as a table.
+// A widget around one chart of app/chart. The loop takes the pointer: a line follows it with the
+// forces there, press or drag near the curve and the playhead goes to the nearest frame. Every
+// chart has an accessible description that says in a sentence what it shows now, and its numbers
+// can be copied as a table.
 #include "ui/views/chart_view.h"
 
 #include "app/base/format.h"
@@ -24,6 +25,7 @@ typedef struct {
   GtkWidget *area;
   SbDrawCache *cache;
   guint describe; // source that renews the description, 0 if none is due
+  double cursor;  // displacement under the pointer [m]; NaN: none
 } View;
 
 static const struct {
@@ -222,6 +224,10 @@ static gboolean describe(gpointer data) {
   } else {
     describe_contacts(view->session, view->kind, text);
   }
+  if (!isnan(view->cursor)) {
+    g_autofree char *read = sb_hysteresis_cursor_text(run, view->cursor);
+    g_string_append_printf(text, _(" Under the pointer: %s."), read);
+  }
   g_autofree char *former = sb_session_former_text(view->session);
   if (former != NULL) {
     g_string_append_printf(text, _(" Of the %s."), former);
@@ -282,7 +288,38 @@ static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
   return GDK_EVENT_STOP;
 }
 
+static void set_cursor(View *view, double cursor) {
+  if (cursor != view->cursor && !(isnan(cursor) && isnan(view->cursor))) {
+    view->cursor = cursor;
+    gtk_widget_queue_draw(view->area);
+    if (view->describe == 0) {
+      view->describe = g_timeout_add(200, describe, view);
+    }
+  }
+}
+
+// Over the kept picture.
+static gboolean on_draw_cursor(GtkWidget *widget, cairo_t *cr, View *view) {
+  const SbChartData *data = sb_session_chart(view->session);
+  if (!isnan(view->cursor) && data->run.count > 0) {
+    sb_hysteresis_cursor_draw(cr, whole(widget), sb_theme(sb_style_is_dark()), data,
+                              SB_CHART_COMPACT, view->cursor);
+  }
+  return GDK_EVENT_PROPAGATE;
+}
+
+static gboolean on_leave(GtkWidget *widget, GdkEventCrossing *event, View *view) {
+  set_cursor(view, NAN);
+  return GDK_EVENT_PROPAGATE;
+}
+
 static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
+  const SbChartData *data = sb_session_chart(view->session);
+  double cursor = NAN;
+  const gboolean inside =
+      view->kind == SB_CHART_VIEW_LOOP && !sb_chart_is_rig(&data->run) &&
+      sb_hysteresis_cursor(&cursor, whole(widget), data, SB_CHART_COMPACT, event->x, event->y);
+  set_cursor(view, inside ? cursor : NAN);
   if ((event->state & GDK_BUTTON1_MASK) != 0 && view->kind == SB_CHART_VIEW_LOOP) {
     scrub(view, event->x, event->y, 80);
   }
@@ -318,14 +355,18 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   View *view = g_new0(View, 1);
   view->session = session;
   view->kind = kind;
+  view->cursor = NAN;
   view->area = sb_canvas_area_new(280, 300, kinds[kind].least_height, kinds[kind].height);
   g_object_set_data_full(G_OBJECT(view->area), "view", view, g_free);
   sb_style_class(view->area, "sb-canvas");
   gtk_widget_set_can_focus(view->area, TRUE);
-  gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK |
-                                        GDK_KEY_PRESS_MASK | GDK_FOCUS_CHANGE_MASK);
+  gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_POINTER_MOTION_MASK |
+                                        GDK_LEAVE_NOTIFY_MASK | GDK_KEY_PRESS_MASK |
+                                        GDK_FOCUS_CHANGE_MASK);
   atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_CHART);
   view->cache = sb_draw_cache_attach(view->area, draw, view);
+  g_signal_connect_after(view->area, "draw", G_CALLBACK(on_draw_cursor), view);
+  g_signal_connect(view->area, "leave-notify-event", G_CALLBACK(on_leave), view);
   g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
   g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
   g_signal_connect(view->area, "destroy", G_CALLBACK(on_destroy), view);

@@ -1,0 +1,77 @@
+// A read-out on the loop: a line at a displacement, a dot where it crosses either way, and the
+// forces there. Drawn over the finished chart, so that a pointer that moves costs little.
+#include "app/base/format.h"
+#include "app/chart/hysteresis_private.h"
+
+#include <glib.h>
+#include <math.h>
+
+// The straight piece between two points of the trace that crosses it, of each way the longest that
+// does: a rebound of a hair's breadth is no way of its own.
+void sb_hysteresis_forces(double out[2], const SbChartRun *run, double displacement) {
+  size_t count = 0;
+  const SbTracePoint *p = run->trace != NULL ? sb_trace_points(run->trace, &count) : NULL;
+  double longest[2] = {0, 0};
+  out[0] = out[1] = NAN;
+  for (size_t i = 1; i < count; i++) {
+    const double from = p[i - 1].displacement, to = p[i].displacement;
+    const double share = (displacement - from) / (to - from);
+    const int way = to < from;
+    if (share >= 0 && share <= 1 && fabs(to - from) > longest[way]) {
+      longest[way] = fabs(to - from);
+      out[way] = p[i - 1].force + share * (p[i].force - p[i - 1].force);
+    }
+  }
+}
+
+char *sb_hysteresis_cursor_text(const SbChartRun *run, double displacement) {
+  double force[2];
+  char at[SB_FORMAT_MAX], text[2][SB_FORMAT_MAX];
+  sb_hysteresis_forces(force, run, displacement);
+  sb_format_fixed(at, displacement * 1e3, 2);
+  for (int way = 0; way < 2; way++) {
+    sb_format_text(text[way], SB_QUANTITY_FORCE, force[way], sb_chart_error_force(run));
+  }
+  return isnan(force[0]) && isnan(force[1]) ? g_strdup_printf("%s\u00a0mm", at)
+         : isnan(force[1])                  ? g_strdup_printf("%s\u00a0mm  in %s", at, text[0])
+         : isnan(force[0])                  ? g_strdup_printf("%s\u00a0mm  back %s", at, text[1])
+                           : g_strdup_printf("%s\u00a0mm  in %s  back %s", at, text[0], text[1]);
+}
+
+bool sb_hysteresis_cursor(double *displacement, SbRect rect, const SbChartData *data,
+                          unsigned flags, double x, double y) {
+  SbHysteresisLayout at;
+  sb_hysteresis_layout(&at, rect, data, flags);
+  *displacement = 1e-3 * sb_axis_value(&at.x, x);
+  return data->run.count > 0 && x >= at.plot.x && x <= at.plot.x + at.plot.width &&
+         y >= at.plot.y && y <= at.plot.y + at.plot.height;
+}
+
+void sb_hysteresis_cursor_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
+                               const SbChartData *data, unsigned flags, double displacement) {
+  SbHysteresisLayout at;
+  SbCanvas canvas, *c = &canvas;
+  double force[2];
+  sb_hysteresis_layout(&at, rect, data, flags);
+  sb_hysteresis_forces(force, &data->run, displacement);
+  sb_canvas_init(c, cr, theme);
+  const double top = at.plot.y, bottom = top + at.plot.height;
+  const double x = floor(sb_axis_at(&at.x, displacement * 1e3)) + 0.5;
+  sb_canvas_hairline(c, x, top, x, bottom, sb_canvas_role(c, SB_ROLE_SECOND));
+  for (int way = 0; way < 2; way++) {
+    if (!isnan(force[way])) {
+      sb_canvas_dot(c, x, sb_axis_at(&at.y, force[way]), 4, sb_canvas_role(c, SB_ROLE_INK));
+    }
+  }
+  // Beside the line where there is room, on a plate of its own: it may lie over a label.
+  g_autofree char *text = sb_hysteresis_cursor_text(&data->run, displacement);
+  const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
+  const double width = sb_canvas_text_width(c, text, &style);
+  const bool right = x + width + 16 < rect.x + rect.width;
+  const double left = fmax(right ? x + 8 : x - 8 - width, rect.x + 4);
+  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_PANEL), 0.9);
+  cairo_rectangle(cr, left - 4, top - 2, width + 8, 18);
+  cairo_fill(cr);
+  sb_canvas_text(c, text, &style, left, top + 11, SB_LEFT);
+  sb_canvas_finish(c);
+}
