@@ -8,6 +8,7 @@
 #include "app/document/typed.h"
 
 #include <glib/gi18n.h>
+#include <math.h>
 #include <string.h>
 
 static guint signals[SB_SIGNAL_COUNT];
@@ -55,8 +56,13 @@ void sb_session_emit(SbSession *session, SbSessionSignal signal) {
 }
 
 static void changed(SbSession *session) {
+  session->edited = g_get_monotonic_time();
+  session->latency = (SbEditLatency){NAN, NAN};
   compile(session);
   sb_session_values_changed(session);
+  if (session->predicted) {
+    session->latency.predicted = 1e-6 * (double)(g_get_monotonic_time() - session->edited);
+  }
   sb_session_emit(session, SB_SIGNAL_PARAMS);
 }
 

@@ -115,6 +115,13 @@ SbSessionState sb_session_state(SbSession *session);
 // Share of the run under way that is done, 0 to 1.
 double sb_session_progress(SbSession *session);
 
+// How long the last edit took until its loop was predicted, and until a run of its values was shown,
+// whatever its grade [s]; NaN: it was not, or not yet.
+typedef struct {
+  double predicted, shown;
+} SbEditLatency;
+SbEditLatency sb_session_latency(SbSession *session);
+
 // Starts a run of the present values now (without the delay that edits wait for).
 void sb_session_start(SbSession *session);
 

@@ -65,6 +65,8 @@ struct _SbSession {
   char *measured_failure;
 
   gint64 started; // [us]
+  gint64 edited;  // when the values last changed [us], 0 once their run is shown
+  SbEditLatency latency;
 
   double azimuth, elevation; // of the cutaway's camera [rad]
 

@@ -501,6 +501,8 @@ gboolean sb_session_wants_ticks(SbSession *session) {
 // Life -------------------------------------------------------------------------------------------
 
 static void drop_runs(SbSession *session) {
+  session->edited = 0;
+  session->latency = (SbEditLatency){NAN, NAN};
   session->ticket = 0;
   session->state = SB_SESSION_EMPTY;
   sb_session_hold(&session->fresh, NULL);
@@ -538,6 +540,7 @@ void sb_session_init_runs(SbSession *session) {
   session->cache = sb_run_cache_new();
   session->prediction = sb_prediction_new();
   session->auto_run = TRUE;
+  session->latency = (SbEditLatency){NAN, NAN};
   sb_playhead_init(&session->playhead);
   sb_session_refresh_chart(session);
 }

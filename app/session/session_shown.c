@@ -71,6 +71,11 @@ void sb_session_run_changed(SbSession *session) {
   session->hash = sb_document_sha256(session->document);
   sb_session_predict(session);
   session->former = sb_session_is_former(session);
+  if (session->edited != 0 && session->shown != NULL &&
+      session->shown->chart.state == SB_CHART_DONE && !sb_session_is_stale(session, NULL, NULL)) {
+    session->latency.shown = 1e-6 * (double)(g_get_monotonic_time() - session->edited);
+    session->edited = 0;
+  }
   sb_session_refresh_chart(session);
   sb_session_emit(session, SB_SIGNAL_RUN);
 }
@@ -89,6 +94,10 @@ const SbChartData *sb_session_chart(SbSession *session) {
 
 SbSessionState sb_session_state(SbSession *session) {
   return session->state;
+}
+
+SbEditLatency sb_session_latency(SbSession *session) {
+  return session->latency;
 }
 
 double sb_session_progress(SbSession *session) {

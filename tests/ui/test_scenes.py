@@ -99,6 +99,17 @@ def an_unknown_return_is_told_with_its_reason(folder):
         app.find("toggle button", "Seals: yes")
 
 
+def the_start_offers_what_ships(folder):
+    with App() as app:
+        wait("nothing has run", lambda: app.label("^nothing has run"))
+        names = [node.name for node in app.all("push button")]
+        for name in ("Piston valve", "Thesis cycle", "Quick look", "Tolerances"):
+            assert name in names, names
+        app.press("push button", "Quick look")
+        wait("its run", app.run_done)
+        assert not app.has("push button", "Quick look")
+
+
 if __name__ == "__main__":
-    main(every_scene_runs, the_rig_shows_its_coefficients,
+    main(the_start_offers_what_ships, every_scene_runs, the_rig_shows_its_coefficients,
          a_small_window_leaves_room_for_the_section, an_unknown_return_is_told_with_its_reason)

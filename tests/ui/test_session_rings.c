@@ -211,6 +211,11 @@ static void test_order(void) {
   g_autofree char *grade_text = sb_session_grade_text(session);
   g_assert_nonnull(grade_text);
   g_assert_null(sb_session_chart(session)->predicted);
+  const SbEditLatency latency = sb_session_latency(session);
+  g_test_message("edit predicted after %.2f ms, shown after %.0f ms", 1e3 * latency.predicted,
+                 1e3 * latency.shown);
+  g_assert_cmpfloat(latency.predicted, >, 0);
+  g_assert_cmpfloat(latency.shown, >, latency.predicted);
   g_assert_false(sb_session_shows_former(session));
   g_assert_false(sb_session_may_keep(session));
   g_assert_null(sb_session_handle(session));

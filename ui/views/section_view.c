@@ -527,8 +527,13 @@ static GtkWidget *make_empty(void) {
   sb_style_class(button, "suggested-action");
   gtk_container_add(GTK_CONTAINER(box), button);
   gtk_widget_show_all(box);
-  place_top(box, 170);
+  place_top(box, 60);
   return box;
+}
+
+void sb_section_view_add_start(GtkWidget *widget, GtkWidget *start) {
+  View *view = g_object_get_data(G_OBJECT(widget), "view");
+  gtk_container_add(GTK_CONTAINER(view->empty), start);
 }
 
 static void take_pointer(GtkWidget *widget, GCallback scrolled, View *view) {

@@ -16,3 +16,6 @@ void sb_section_view_toggle_cutaway(GtkWidget *view);
 
 // Turns the cutaway's camera by steps to the right and up. Nothing while the section shows.
 void sb_section_view_turn(GtkWidget *view, int right, int up);
+
+// Puts a widget below what stands over the picture while nothing has run.
+void sb_section_view_add_start(GtkWidget *view, GtkWidget *start);

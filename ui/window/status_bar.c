@@ -132,6 +132,16 @@ static void refresh_where(Bar *bar) {
   }
 }
 
+// How long the last edit was waited for.
+static char *edit_text(const SbEditLatency *latency) {
+  return isnan(latency->shown)
+             ? g_strdup_printf(_("edit predicted in %.0f ms"), 1e3 * latency->predicted)
+         : isnan(latency->predicted)
+             ? g_strdup_printf(_("edit shown in %.0f ms"), 1e3 * latency->shown)
+             : g_strdup_printf(_("edit predicted in %.0f ms, shown in %.0f ms"),
+                               1e3 * latency->predicted, 1e3 * latency->shown);
+}
+
 static void refresh_frames(Bar *bar) {
   size_t count = 0;
   sb_session_frames(bar->session, &count);
@@ -148,6 +158,12 @@ static void refresh_frames(Bar *bar) {
   if (grade != NULL) {
     g_autofree char *plain = g_steal_pointer(&text);
     text = g_strdup_printf("%s, %s", plain, grade);
+  }
+  const SbEditLatency latency = sb_session_latency(bar->session);
+  if (!isnan(latency.predicted) || !isnan(latency.shown)) {
+    g_autofree char *plain = g_steal_pointer(&text);
+    g_autofree char *edit = edit_text(&latency);
+    text = g_strdup_printf("%s, %s", plain, edit);
   }
   set_text(bar->run, text);
   refresh_where(bar);

@@ -620,6 +620,7 @@ static void sb_window_init(SbWindow *window) {
                        "propellants", _("Propellants"));
   window->files = sb_window_files_new_for(GTK_WINDOW(window), window->session,
                                           GTK_MENU_BUTTON(window->recent_button));
+  sb_section_view_add_start(window->section, sb_window_files_start(window->files));
   window->autosave = sb_autosave_new(window->session, GTK_WINDOW(window));
 
   g_signal_connect(window->strip_button, "clicked", G_CALLBACK(on_strip_button), window);

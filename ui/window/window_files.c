@@ -4,6 +4,7 @@
 // loses nothing.
 #include "ui/window/window_files.h"
 
+#include "ui/views/style.h"
 #include "ui/window/preferences.h"
 
 #include "app/document/shipped.h"
@@ -18,6 +19,8 @@ struct SbWindowFiles {
 };
 
 static gboolean save(SbWindowFiles *files, gboolean as);
+
+enum { START_HEIGHT = 340 }; // of the files that a new window offers [px]
 
 // Lines shown of a list of problems; more are counted.
 enum { LINES_MAX = 12 };
@@ -256,17 +259,23 @@ static void on_example(GtkMenuItem *item, SbWindowFiles *files) {
   sb_window_files_open(files, file);
 }
 
+// The title of a file, or its name.
+static char *title_of(const char *path) {
+  g_autoptr(GKeyFile) keys = g_key_file_new();
+  g_key_file_load_from_file(keys, path, G_KEY_FILE_NONE, NULL);
+  char *title = g_key_file_get_string(keys, "sealbench", "title", NULL);
+  return title != NULL ? title : g_path_get_basename(path);
+}
+
 // The scenes that ship, by their titles.
 static GtkWidget *examples_item(SbWindowFiles *files) {
   GtkWidget *item = gtk_menu_item_new_with_mnemonic(_("E_xamples")), *menu = gtk_menu_new();
   g_autoptr(GPtrArray) scenes = sb_shipped_scenes();
   for (guint i = 0; i < scenes->len; i++) {
     const char *path = g_ptr_array_index(scenes, i);
-    g_autoptr(GKeyFile) keys = g_key_file_new();
-    g_key_file_load_from_file(keys, path, G_KEY_FILE_NONE, NULL);
-    g_autofree char *title = g_key_file_get_string(keys, "sealbench", "title", NULL);
+    g_autofree char *title = title_of(path);
     g_autofree char *name = g_path_get_basename(path);
-    GtkWidget *each = gtk_menu_item_new_with_label(title != NULL ? title : name);
+    GtkWidget *each = gtk_menu_item_new_with_label(title);
     gtk_widget_set_tooltip_text(each, name);
     g_object_set_data_full(G_OBJECT(each), "sb-path", g_strdup(path), g_free);
     g_signal_connect(each, "activate", G_CALLBACK(on_example), files);
@@ -276,6 +285,75 @@ static GtkWidget *examples_item(SbWindowFiles *files) {
   gtk_widget_set_sensitive(item, scenes->len > 0);
   gtk_widget_show_all(item);
   return item;
+}
+
+static void on_start(GtkButton *button, SbWindowFiles *files) {
+  g_autoptr(GFile) file = g_file_new_for_path(g_object_get_data(G_OBJECT(button), "sb-path"));
+  sb_window_files_open(files, file);
+}
+
+// A heading and a grid of buttons, one a file.
+static void add_files(GtkWidget *box, SbWindowFiles *files, const char *heading,
+                      const GPtrArray *paths) {
+  enum { COLUMNS = 4 };
+  if (paths->len == 0) {
+    return;
+  }
+  gtk_container_add(GTK_CONTAINER(box), sb_style_label(heading, "sb-heading", 0));
+  GtkWidget *grid = gtk_grid_new();
+  gtk_grid_set_column_spacing(GTK_GRID(grid), 8);
+  gtk_grid_set_row_spacing(GTK_GRID(grid), 4);
+  gtk_grid_set_column_homogeneous(GTK_GRID(grid), TRUE);
+  for (guint i = 0; i < paths->len; i++) {
+    const char *path = g_ptr_array_index(paths, i);
+    g_autofree char *title = title_of(path);
+    GtkWidget *button = gtk_button_new_with_label(title);
+    GtkWidget *label = gtk_bin_get_child(GTK_BIN(button));
+    gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
+    gtk_label_set_width_chars(GTK_LABEL(label), 17);
+    gtk_label_set_max_width_chars(GTK_LABEL(label), 17);
+    sb_style_class(button, "sb-choose");
+    sb_style_name(button, title, path);
+    g_object_set_data_full(G_OBJECT(button), "sb-path", g_strdup(path), g_free);
+    g_signal_connect(button, "clicked", G_CALLBACK(on_start), files);
+    gtk_grid_attach(GTK_GRID(grid), button, (int)i % COLUMNS, (int)i / COLUMNS, 1, 1);
+  }
+  gtk_container_add(GTK_CONTAINER(box), grid);
+}
+
+// Of this program's kinds, the last first.
+static GPtrArray *recent_paths(void) {
+  enum { RECENT_MAX = 6 };
+  GPtrArray *paths = g_ptr_array_new_with_free_func(g_free);
+  GList *items = gtk_recent_manager_get_items(gtk_recent_manager_get_default());
+  for (GList *link = items; link != NULL && paths->len < RECENT_MAX; link = link->next) {
+    const char *uri = gtk_recent_info_get_uri(link->data);
+    g_autofree char *path = g_filename_from_uri(uri, NULL, NULL);
+    if (path != NULL && (g_str_has_suffix(path, ".scene") || g_str_has_suffix(path, ".valve")) &&
+        g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
+      g_ptr_array_add(paths, g_steal_pointer(&path));
+    }
+  }
+  g_list_free_full(items, (GDestroyNotify)gtk_recent_info_unref);
+  return paths;
+}
+
+GtkWidget *sb_window_files_start(SbWindowFiles *files) {
+  GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
+  gtk_widget_set_margin_top(box, 16);
+  g_autoptr(GPtrArray) recent = recent_paths(), scenes = sb_shipped_scenes();
+  add_files(box, files, _("Recent files"), recent);
+  add_files(box, files, _("Examples"), scenes);
+  // Above the section; in a low window it scrolls.
+  GtkWidget *scroller = gtk_scrolled_window_new(NULL, NULL);
+  gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_AUTOMATIC,
+                                 GTK_POLICY_AUTOMATIC);
+  gtk_scrolled_window_set_propagate_natural_width(GTK_SCROLLED_WINDOW(scroller), TRUE);
+  gtk_scrolled_window_set_propagate_natural_height(GTK_SCROLLED_WINDOW(scroller), TRUE);
+  gtk_scrolled_window_set_max_content_height(GTK_SCROLLED_WINDOW(scroller), START_HEIGHT);
+  gtk_container_add(GTK_CONTAINER(scroller), box);
+  gtk_widget_show_all(scroller);
+  return scroller;
 }
 
 static GtkWidget *recent_menu(SbWindowFiles *files) {

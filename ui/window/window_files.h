@@ -25,3 +25,6 @@ void sb_window_files_save(SbWindowFiles *files, gboolean as);
 
 // True if nothing would be lost, or the user saved or said that it may be.
 gboolean sb_window_files_may_discard(SbWindowFiles *files);
+
+// Recent files and the scenes that ship as buttons, for a window with nothing in it.
+GtkWidget *sb_window_files_start(SbWindowFiles *files);
