@@ -37,6 +37,11 @@ typedef struct {
   const double *displacement, *force;
 } SbChartCurve;
 
+// Part of a loop's plot that is enlarged over it: displacements [mm] and forces [N].
+typedef struct {
+  double x0, x1, y0, y1;
+} SbChartZoom;
+
 // A bookmark of the user's.
 typedef struct {
   double time;
@@ -51,6 +56,7 @@ typedef struct {
   // What `run`, which is then of former values, will be at the present ones; NULL: not known.
   const SbChartCurve *predicted;
   const SbComparison *measured; // of `run`; NULL: nothing was measured
+  const SbChartZoom *zoom;      // of the loop; NULL: all of it
   size_t playhead;              // frame shown
   bool playing;                 // no effect on layout
   double progress;              // of a running run, 0 to 1

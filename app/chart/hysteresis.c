@@ -81,7 +81,48 @@ void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartDat
   out->x = (SbScale){-room_left * per_px, x1 + room_right * per_px, out->plot.x,
                      out->plot.x + out->plot.width, false};
   out->y = (SbScale){y0, y_top, out->plot.y + out->plot.height, out->plot.y, false};
-  sb_axis_ticks(&out->x_ticks, 0, out->x.hi, out->plot.width > 300 ? 8 : 5);
+  const int wanted_x = out->plot.width > 300 ? 8 : 5;
+  sb_axis_ticks(&out->x_ticks, 0, out->x.hi, wanted_x);
+  if (data->zoom != NULL) {
+    const SbChartZoom *zoom = data->zoom;
+    out->x.lo = zoom->x0;
+    out->x.hi = zoom->x1;
+    out->y.lo = zoom->y0;
+    out->y.hi = zoom->y1;
+    sb_axis_ticks(&out->x_ticks, zoom->x0, zoom->x1, wanted_x);
+    sb_axis_ticks(&out->y_ticks, zoom->y0, zoom->y1, wanted_y);
+  }
+}
+
+bool sb_hysteresis_in_plot(const SbHysteresisLayout *at, SbPoint p) {
+  const SbRect *plot = &at->plot;
+  return p.x >= plot->x && p.x <= plot->x + plot->width && p.y >= plot->y &&
+         p.y <= plot->y + plot->height;
+}
+
+bool sb_hysteresis_zoom(SbChartZoom *out, SbRect rect, const SbChartData *data, unsigned flags,
+                        double factor, double x, double y) {
+  SbChartData all = *data;
+  SbHysteresisLayout at, whole;
+  all.zoom = NULL;
+  sb_hysteresis_layout(&at, rect, data, flags);
+  sb_hysteresis_layout(&whole, rect, &all, flags);
+  // The point stays where it is; nothing beyond the whole plot is shown.
+  const double px = sb_axis_value(&at.x, x), py = sb_axis_value(&at.y, y);
+  const double width = fmin((at.x.hi - at.x.lo) / factor, whole.x.hi - whole.x.lo);
+  const double height = fmin((at.y.hi - at.y.lo) / factor, whole.y.hi - whole.y.lo);
+  const double least = 1.0 / SB_HYSTERESIS_ZOOM_MAX;
+  if (width < least * (whole.x.hi - whole.x.lo) || height < least * (whole.y.hi - whole.y.lo)) {
+    return data->zoom != NULL;
+  }
+  out->x0 = px - (px - at.x.lo) / (at.x.hi - at.x.lo) * width;
+  out->y0 = py - (py - at.y.lo) / (at.y.hi - at.y.lo) * height;
+  out->x0 = fmin(fmax(out->x0, whole.x.lo), whole.x.hi - width);
+  out->y0 = fmin(fmax(out->y0, whole.y.lo), whole.y.hi - height);
+  out->x1 = out->x0 + width;
+  out->y1 = out->y0 + height;
+  return width < (1 - 1e-9) * (whole.x.hi - whole.x.lo) ||
+         height < (1 - 1e-9) * (whole.y.hi - whole.y.lo);
 }
 
 // Frames that may be drawn: the trace may lag behind the run, and no line is drawn over a gap.
@@ -373,6 +414,13 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
     cairo_stroke(cr);
     sb_labels_avoid(v.labels, line, 2, 1);
   }
+  // An enlarged part ends with the plot; its strip of differences lies below.
+  const SbRect in = inner_rect(rect, flags);
+  cairo_save(cr);
+  if (data->zoom != NULL) {
+    cairo_rectangle(cr, plot.x, plot.y, plot.width, in.y + in.height - plot.y);
+    cairo_clip(cr);
+  }
   if (data->run.state == SB_CHART_RUNNING) {
     draw_other(&v, data->earlier, false);
   }
@@ -410,6 +458,7 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
     cairo_paint_with_alpha(cr, SB_OPACITY_EARLIER);
     draw_predicted(&v, rect);
   }
+  cairo_restore(cr);
   g_free(v.labels);
   sb_canvas_finish(c);
 }

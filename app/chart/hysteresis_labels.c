@@ -49,8 +49,8 @@ void sb_hysteresis_marks(SbHysteresisView *v) {
   SbColor ink = sb_canvas_role(c, SB_ROLE_INK);
   // All dots first: labels keep off every one of them.
   for (int s = 0; s < SB_STAGE_COUNT; s++) {
-    if (mark[s].reached) {
-      SbPoint p = sb_hysteresis_pixel(&v->at, mark[s].displacement, mark[s].force);
+    SbPoint p = sb_hysteresis_pixel(&v->at, mark[s].displacement, mark[s].force);
+    if (mark[s].reached && sb_hysteresis_in_plot(&v->at, p)) {
       sb_canvas_ringed_dot(c, p.x, p.y, ink);
       sb_labels_block(v->labels, (SbRect){p.x - 5, p.y - 5, 10, 10});
     }
@@ -62,6 +62,9 @@ void sb_hysteresis_marks(SbHysteresisView *v) {
       continue;
     }
     SbPoint p = sb_hysteresis_pixel(&v->at, mark[s].displacement, mark[s].force);
+    if (!sb_hysteresis_in_plot(&v->at, p)) {
+      continue;
+    }
     char value[SB_FORMAT_MAX] = "";
     sb_format_text(value, SB_QUANTITY_FORCE, mark[s].force, sb_chart_error_force(run));
     // F stands on the line that E has just labelled; A is the origin.

@@ -209,6 +209,31 @@ static void test_cursor(void) {
                                      at.plot.y + 20));
   g_assert_cmpfloat(fabs(s - 2e-3), <, 1e-9);
   g_assert_false(sb_hysteresis_cursor(&s, rect, &data, SB_CHART_COMPACT, at.plot.x + 20, 15));
+  // Enlarged about a point that stays where it is, twice, and back to all of it; never beyond.
+  SbChartZoom zoom;
+  SbHysteresisLayout near;
+  const double x = sb_axis_at(&at.x, 2), y = sb_axis_at(&at.y, 20);
+  g_assert_false(sb_hysteresis_zoom(&zoom, rect, &data, SB_CHART_COMPACT, 1, x, y));
+  for (int i = 0; i < 2; i++) {
+    g_assert_true(sb_hysteresis_zoom(&zoom, rect, &data, SB_CHART_COMPACT, 2, x, y));
+    data.zoom = &zoom;
+  }
+  sb_hysteresis_layout(&near, rect, &data, SB_CHART_COMPACT);
+  g_assert_cmpfloat(fabs(sb_axis_at(&near.x, 2) - x), <, 1e-6);
+  g_assert_cmpfloat(fabs(sb_axis_at(&near.y, 20) - y), <, 1e-6);
+  g_assert_cmpfloat(fabs((near.x.hi - near.x.lo) / (at.x.hi - at.x.lo) - 0.25), <, 1e-9);
+  g_assert_cmpint(near.x_ticks.count, >=, 3);
+  for (int i = 0; i < 60; i++) { // at the corner: no nearer than told
+    g_assert_true(sb_hysteresis_zoom(&zoom, rect, &data, SB_CHART_COMPACT, 2, at.plot.x, y));
+  }
+  g_assert_cmpfloat(zoom.x1 - zoom.x0, >=, (at.x.hi - at.x.lo) / SB_HYSTERESIS_ZOOM_MAX);
+  gboolean part = TRUE;
+  for (int i = 0; i < 60 && part; i++) {
+    part = sb_hysteresis_zoom(&zoom, rect, &data, SB_CHART_COMPACT, 0.5, at.plot.x + 300, y);
+    g_assert_cmpfloat(zoom.x0, >=, at.x.lo - 1e-9);
+    g_assert_cmpfloat(zoom.x1, <=, at.x.hi + 1e-9);
+  }
+  g_assert_false(part);
   synthetic_clear(&run);
 }
 

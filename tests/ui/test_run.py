@@ -106,6 +106,13 @@ def scrub_to_stage_c(folder):
             r"Under the pointer: ([\d.]+)\smm  in ([\d.]+)\sN  back ([\d.]+)\sN\.", chart.description))
         assert 2 < float(text.group(1)) < 5 and float(text.group(2)) > 20 > float(text.group(3)), text
         assert app.status() == at_c
+        # The wheel enlarges there; 0 shows all again.
+        subprocess.run(["xdotool", "click", "--repeat", "4", "4"], check=True)
+        wait("a part", lambda: re.search(r"Enlarged: [\d.]+ to [\d.]+ mm", chart.description))
+        chart.queryComponent().grabFocus()
+        app.key("0")
+        wait("all of it", lambda: "Enlarged" not in chart.description)
+        assert app.status() == at_c
         # By the keys.
         app.key("Right")
         wait("the frame after", lambda: app.status() != at_c)

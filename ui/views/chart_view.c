@@ -1,5 +1,7 @@
 // A widget around one chart of app/chart. The loop takes the pointer: a line follows it with the
-// forces there, press or drag near the curve and the playhead goes to the nearest frame. Every
+// forces there, press or drag near the curve and the playhead goes to the nearest frame. The wheel
+// (or + and -) enlarges it, a drag beside the curve the box that is drawn, the middle button moves
+// it, a double click (or 0) shows all of it. Every
 // chart has an accessible description that says in a sentence what it shows now, and its numbers
 // can be copied as a table.
 #include "ui/views/chart_view.h"
@@ -26,6 +28,10 @@ typedef struct {
   SbDrawCache *cache;
   guint describe; // source that renews the description, 0 if none is due
   double cursor;  // displacement under the pointer [m]; NaN: none
+  SbChartZoom zoom;
+  gboolean zoomed;
+  enum { HAND_FREE, HAND_SCRUBS, HAND_BOXES, HAND_MOVES } hand;
+  double press_x, press_y, x, y; // where the hand began, and is [px]
 } View;
 
 static const struct {
@@ -82,10 +88,17 @@ static SbRect whole(GtkWidget *widget) {
   return inside(gtk_widget_get_allocated_width(widget), gtk_widget_get_allocated_height(widget));
 }
 
+// What is drawn: the session's, and what of it.
+static SbChartData data_of(const View *view) {
+  SbChartData data = *sb_session_chart(view->session);
+  data.zoom = view->zoomed ? &view->zoom : NULL;
+  return data;
+}
+
 static void draw(cairo_t *cr, double width, double height, void *user) {
   View *view = user;
   const SbTheme *theme = sb_style_ground(cr);
-  const SbChartData *data = sb_session_chart(view->session);
+  const SbChartData shown = data_of(view), *data = &shown;
   SbRect rect = inside(width, height);
   bool rig = sb_chart_is_rig(&data->run);
   switch (view->kind) {
@@ -224,6 +237,10 @@ static gboolean describe(gpointer data) {
   } else {
     describe_contacts(view->session, view->kind, text);
   }
+  if (view->zoomed) {
+    g_string_append_printf(text, _(" Enlarged: %.3g to %.3g mm, %.3g to %.3g N."), view->zoom.x0,
+                           view->zoom.x1, view->zoom.y0, view->zoom.y1);
+  }
   if (!isnan(view->cursor)) {
     g_autofree char *read = sb_hysteresis_cursor_text(run, view->cursor);
     g_string_append_printf(text, _(" Under the pointer: %s."), read);
@@ -266,7 +283,7 @@ char *sb_chart_view_table(SbSession *session) {
 
 static gboolean scrub(View *view, double x, double y, double reach) {
   size_t frame = 0;
-  const SbChartData *data = sb_session_chart(view->session);
+  const SbChartData shown = data_of(view), *data = &shown;
   gboolean hit =
       sb_chart_is_rig(&data->run)
           ? sb_signal_hit(&frame, whole(view->area), data, SB_CHART_COMPACT, x, y)
@@ -279,13 +296,108 @@ static gboolean scrub(View *view, double x, double y, double reach) {
   return TRUE;
 }
 
-static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
-  gtk_widget_grab_focus(widget);
-  if (event->button != GDK_BUTTON_PRIMARY || view->kind != SB_CHART_VIEW_LOOP) {
+// Only a valve's loop is enlarged.
+static gboolean may_zoom(const View *view) {
+  const SbChartRun *run = &sb_session_chart(view->session)->run;
+  return view->kind == SB_CHART_VIEW_LOOP && !sb_chart_is_rig(run) && run->count > 0;
+}
+
+// Enlarges about a point; a factor of 0 shows all.
+static void zoom_at(View *view, double factor, double x, double y) {
+  const SbChartData data = data_of(view);
+  SbChartZoom zoom = view->zoom;
+  view->zoomed = factor > 0 && sb_hysteresis_zoom(&zoom, whole(view->area), &data, SB_CHART_COMPACT,
+                                                  factor, x, y);
+  view->zoom = zoom;
+  sb_draw_cache_change(view->cache, 0);
+  if (view->describe == 0) {
+    view->describe = g_timeout_add(200, describe, view);
+  }
+}
+
+static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, View *view) {
+  double dx = 0;
+  double dy = event->direction == GDK_SCROLL_UP ? -1 : event->direction == GDK_SCROLL_DOWN ? 1 : 0;
+  if (event->direction == GDK_SCROLL_SMOOTH) {
+    gdk_event_get_scroll_deltas((GdkEvent *)event, &dx, &dy);
+  }
+  if (!may_zoom(view)) {
     return GDK_EVENT_PROPAGATE;
   }
-  scrub(view, event->x, event->y, 24);
+  zoom_at(view, pow(1.2, -dy), event->x, event->y);
   return GDK_EVENT_STOP;
+}
+
+// With the focus: + and - enlarge about the playhead, 0 shows all.
+static gboolean on_key(GtkWidget *widget, GdkEventKey *event, View *view) {
+  const gboolean in = event->keyval == GDK_KEY_plus || event->keyval == GDK_KEY_KP_Add;
+  const gboolean out = event->keyval == GDK_KEY_minus || event->keyval == GDK_KEY_KP_Subtract;
+  const gboolean all = event->keyval == GDK_KEY_0 || event->keyval == GDK_KEY_KP_0;
+  const SbFrame *frame = sb_session_frame(view->session);
+  if (!may_zoom(view) || frame == NULL || !(in || out || all)) {
+    return GDK_EVENT_PROPAGATE;
+  }
+  const SbChartData data = data_of(view);
+  SbHysteresisLayout at;
+  sb_hysteresis_layout(&at, whole(widget), &data, SB_CHART_COMPACT);
+  zoom_at(view,
+          all  ? 0
+          : in ? 1.5
+               : 1 / 1.5,
+          sb_axis_at(&at.x, 1e3 * frame->displacement), sb_axis_at(&at.y, frame->force));
+  return GDK_EVENT_STOP;
+}
+
+static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
+  gtk_widget_grab_focus(widget);
+  if (view->kind != SB_CHART_VIEW_LOOP) {
+    return GDK_EVENT_PROPAGATE;
+  }
+  view->press_x = view->x = event->x;
+  view->press_y = view->y = event->y;
+  if (event->type == GDK_2BUTTON_PRESS && may_zoom(view)) {
+    zoom_at(view, 0, 0, 0);
+  } else if (event->type == GDK_BUTTON_PRESS && event->button == GDK_BUTTON_MIDDLE) {
+    view->hand = HAND_MOVES;
+  } else if (event->type == GDK_BUTTON_PRESS && event->button == GDK_BUTTON_PRIMARY) {
+    view->hand = scrub(view, event->x, event->y, 24) || !may_zoom(view) ? HAND_SCRUBS : HAND_BOXES;
+  }
+  return event->button == GDK_BUTTON_SECONDARY ? GDK_EVENT_PROPAGATE : GDK_EVENT_STOP;
+}
+
+// The box that was drawn, if it is more than a click, fills the plot.
+static gboolean on_release(GtkWidget *widget, GdkEventButton *event, View *view) {
+  enum { LEAST = 8 }; // [px]
+  if (view->hand == HAND_BOXES && fabs(view->x - view->press_x) >= LEAST &&
+      fabs(view->y - view->press_y) >= LEAST && may_zoom(view)) {
+    const SbChartData data = data_of(view);
+    SbHysteresisLayout at;
+    sb_hysteresis_layout(&at, whole(widget), &data, SB_CHART_COMPACT);
+    view->zoom = (SbChartZoom){sb_axis_value(&at.x, fmin(view->x, view->press_x)),
+                               sb_axis_value(&at.x, fmax(view->x, view->press_x)),
+                               sb_axis_value(&at.y, fmax(view->y, view->press_y)),
+                               sb_axis_value(&at.y, fmin(view->y, view->press_y))};
+    view->zoomed = TRUE;
+    zoom_at(view, 1, view->x, view->y); // within the whole plot
+  }
+  view->hand = HAND_FREE;
+  gtk_widget_queue_draw(widget);
+  return GDK_EVENT_STOP;
+}
+
+// Moves what is shown by pixels.
+static void move(View *view, double dx, double dy) {
+  if (!view->zoomed) {
+    return;
+  }
+  const SbChartData data = data_of(view);
+  SbHysteresisLayout at;
+  sb_hysteresis_layout(&at, whole(view->area), &data, SB_CHART_COMPACT);
+  const double x = sb_axis_value(&at.x, 0) - sb_axis_value(&at.x, dx);
+  const double y = sb_axis_value(&at.y, 0) - sb_axis_value(&at.y, dy);
+  view->zoom =
+      (SbChartZoom){view->zoom.x0 + x, view->zoom.x1 + x, view->zoom.y0 + y, view->zoom.y1 + y};
+  zoom_at(view, 1, at.plot.x, at.plot.y);
 }
 
 static void set_cursor(View *view, double cursor) {
@@ -300,7 +412,17 @@ static void set_cursor(View *view, double cursor) {
 
 // Over the kept picture.
 static gboolean on_draw_cursor(GtkWidget *widget, cairo_t *cr, View *view) {
-  const SbChartData *data = sb_session_chart(view->session);
+  const SbChartData shown = data_of(view), *data = &shown;
+  if (view->hand == HAND_BOXES) {
+    const SbColor ink = sb_theme(sb_style_is_dark())->role[SB_ROLE_INK];
+    cairo_set_source_rgba(cr, ink.r, ink.g, ink.b, 0.6);
+    cairo_set_line_width(cr, 1);
+    cairo_rectangle(cr, floor(fmin(view->x, view->press_x)) + 0.5,
+                    floor(fmin(view->y, view->press_y)) + 0.5, fabs(view->x - view->press_x),
+                    fabs(view->y - view->press_y));
+    cairo_stroke(cr);
+    return GDK_EVENT_PROPAGATE;
+  }
   if (!isnan(view->cursor) && data->run.count > 0) {
     sb_hysteresis_cursor_draw(cr, whole(widget), sb_theme(sb_style_is_dark()), data,
                               SB_CHART_COMPACT, view->cursor);
@@ -314,15 +436,21 @@ static gboolean on_leave(GtkWidget *widget, GdkEventCrossing *event, View *view)
 }
 
 static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
-  const SbChartData *data = sb_session_chart(view->session);
+  const SbChartData data = data_of(view);
   double cursor = NAN;
   const gboolean inside =
-      view->kind == SB_CHART_VIEW_LOOP && !sb_chart_is_rig(&data->run) &&
-      sb_hysteresis_cursor(&cursor, whole(widget), data, SB_CHART_COMPACT, event->x, event->y);
+      may_zoom(view) && view->hand != HAND_BOXES &&
+      sb_hysteresis_cursor(&cursor, whole(widget), &data, SB_CHART_COMPACT, event->x, event->y);
   set_cursor(view, inside ? cursor : NAN);
-  if ((event->state & GDK_BUTTON1_MASK) != 0 && view->kind == SB_CHART_VIEW_LOOP) {
+  if (view->hand == HAND_SCRUBS) {
     scrub(view, event->x, event->y, 80);
+  } else if (view->hand == HAND_MOVES) {
+    move(view, event->x - view->x, event->y - view->y);
+  } else if (view->hand == HAND_BOXES) {
+    gtk_widget_queue_draw(widget);
   }
+  view->x = event->x;
+  view->y = event->y;
   return GDK_EVENT_STOP;
 }
 
@@ -360,14 +488,18 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   g_object_set_data_full(G_OBJECT(view->area), "view", view, g_free);
   sb_style_class(view->area, "sb-canvas");
   gtk_widget_set_can_focus(view->area, TRUE);
-  gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_POINTER_MOTION_MASK |
-                                        GDK_LEAVE_NOTIFY_MASK | GDK_KEY_PRESS_MASK |
-                                        GDK_FOCUS_CHANGE_MASK);
+  gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON_RELEASE_MASK |
+                                        GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK |
+                                        GDK_POINTER_MOTION_MASK | GDK_LEAVE_NOTIFY_MASK |
+                                        GDK_KEY_PRESS_MASK | GDK_FOCUS_CHANGE_MASK);
   atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_CHART);
   view->cache = sb_draw_cache_attach(view->area, draw, view);
   g_signal_connect_after(view->area, "draw", G_CALLBACK(on_draw_cursor), view);
   g_signal_connect(view->area, "leave-notify-event", G_CALLBACK(on_leave), view);
   g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
+  g_signal_connect(view->area, "button-release-event", G_CALLBACK(on_release), view);
+  g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_scroll), view);
+  g_signal_connect(view->area, "key-press-event", G_CALLBACK(on_key), view);
   g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
   g_signal_connect(view->area, "destroy", G_CALLBACK(on_destroy), view);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_change), view);
