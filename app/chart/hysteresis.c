@@ -169,9 +169,11 @@ static void draw_axes(SbHysteresisView *v) {
   double bottom = at->plot.y + at->plot.height;
   sb_axis_draw(c, at->plot, &at->x, &at->x_ticks, &at->y, &at->y_ticks);
   double zero = sb_axis_at(&at->y, 0);
-  sb_canvas_hairline(c, left, zero, right, zero, sb_canvas_role(c, SB_ROLE_AXIS));
-  if (zero < bottom - 1) {
-    // Forces below zero: the ticks stay at the bottom.
+  if (zero >= at->plot.y && zero <= bottom + 1) {
+    sb_canvas_hairline(c, left, zero, right, zero, sb_canvas_role(c, SB_ROLE_AXIS));
+  }
+  if (zero < bottom - 1 || zero > bottom + 1) {
+    // Forces below zero, or none near it: the ticks stay at the bottom.
     sb_canvas_hairline(c, left, bottom, right, bottom, sb_canvas_role(c, SB_ROLE_AXIS));
   }
   sb_canvas_text(c, "stem displacement / mm", &label, right, bottom + 36, SB_RIGHT);
@@ -404,9 +406,10 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
 
   // The pressure force, which the loop straddles.
   const SbModel *model = data->run.model;
-  if (model && sb_model_pressure_force(model) > 0) {
+  if (model && sb_model_pressure_force(model) > 0 && sb_model_pressure_force(model) >= v.at.y.lo &&
+      sb_model_pressure_force(model) <= v.at.y.hi) {
     double y = floor(sb_axis_at(&v.at.y, sb_model_pressure_force(model))) + 0.5;
-    SbPoint line[2] = {{sb_axis_at(&v.at.x, 0), y}, {plot.x + plot.width, y}};
+    SbPoint line[2] = {{fmax(sb_axis_at(&v.at.x, 0), plot.x), y}, {plot.x + plot.width, y}};
     sb_canvas_pen(c, 1.2, &sb_dash_reference);
     sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_FLUID), 1);
     cairo_move_to(cr, line[0].x, line[0].y);
@@ -414,11 +417,12 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
     cairo_stroke(cr);
     sb_labels_avoid(v.labels, line, 2, 1);
   }
-  // An enlarged part ends with the plot; its strip of differences lies below.
+  // An enlarged part ends with the plot, where no strip of differences lies below.
   const SbRect in = inner_rect(rect, flags);
   cairo_save(cr);
   if (data->zoom != NULL) {
-    cairo_rectangle(cr, plot.x, plot.y, plot.width, in.y + in.height - plot.y);
+    const double bottom = data->measured != NULL ? in.y + in.height : plot.y + plot.height;
+    cairo_rectangle(cr, plot.x, plot.y - 14, plot.width + LABEL_ROOM_OUTSIDE, bottom - plot.y + 14);
     cairo_clip(cr);
   }
   if (data->run.state == SB_CHART_RUNNING) {

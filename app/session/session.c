@@ -55,6 +55,13 @@ void sb_session_emit(SbSession *session, SbSessionSignal signal) {
   g_signal_emit(session, signals[signal], 0);
 }
 
+static void take_values(SbSession *session) {
+  compile(session);
+  sb_session_values_changed(session);
+  sb_session_emit(session, SB_SIGNAL_PARAMS);
+}
+
+// The same after an edit, for which somebody waits.
 static void changed(SbSession *session) {
   session->edited = g_get_monotonic_time();
   session->latency = (SbEditLatency){NAN, NAN};
@@ -78,7 +85,7 @@ static void replace_document(SbSession *session, SbDocument *document) {
   }
   sb_session_clear_runs(session);
   sb_session_read_measured(session);
-  changed(session);
+  take_values(session);
 }
 
 gboolean sb_session_open(SbSession *session, const char *path, GPtrArray *issues) {
