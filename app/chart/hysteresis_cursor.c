@@ -1,6 +1,7 @@
 // A read-out on the loop: a line at a displacement, a dot where it crosses either way, and the
 // forces there. Drawn over the finished chart, so that a pointer that moves costs little.
 #include "app/base/format.h"
+#include "app/chart/cursor.h"
 #include "app/chart/hysteresis_private.h"
 
 #include <glib.h>
@@ -50,28 +51,14 @@ bool sb_hysteresis_cursor(double *displacement, SbRect rect, const SbChartData *
 void sb_hysteresis_cursor_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                                const SbChartData *data, unsigned flags, double displacement) {
   SbHysteresisLayout at;
-  SbCanvas canvas, *c = &canvas;
   double force[2];
   sb_hysteresis_layout(&at, rect, data, flags);
   sb_hysteresis_forces(force, &data->run, displacement);
-  sb_canvas_init(c, cr, theme);
-  const double top = at.plot.y, bottom = top + at.plot.height;
-  const double x = floor(sb_axis_at(&at.x, displacement * 1e3)) + 0.5;
-  sb_canvas_hairline(c, x, top, x, bottom, sb_canvas_role(c, SB_ROLE_SECOND));
   for (int way = 0; way < 2; way++) {
-    if (!isnan(force[way])) {
-      sb_canvas_dot(c, x, sb_axis_at(&at.y, force[way]), 4, sb_canvas_role(c, SB_ROLE_INK));
-    }
+    const double y = sb_axis_at(&at.y, force[way]);
+    const bool inside = force[way] >= at.y.lo && force[way] <= at.y.hi;
+    force[way] = inside ? y : NAN; // the pixel now
   }
-  // Beside the line where there is room, on a plate of its own: it may lie over a label.
   g_autofree char *text = sb_hysteresis_cursor_text(&data->run, displacement);
-  const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
-  const double width = sb_canvas_text_width(c, text, &style);
-  const bool right = x + width + 16 < rect.x + rect.width;
-  const double left = fmax(right ? x + 8 : x - 8 - width, rect.x + 4);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_PANEL), 0.9);
-  cairo_rectangle(cr, left - 4, top - 2, width + 8, 18);
-  cairo_fill(cr);
-  sb_canvas_text(c, text, &style, left, top + 11, SB_LEFT);
-  sb_canvas_finish(c);
+  sb_cursor_draw(cr, theme, at.plot, rect, sb_axis_at(&at.x, displacement * 1e3), force, 2, text);
 }

@@ -480,6 +480,57 @@ static const char *curve_model(const SbChartData *data, const SbFrame *frame, bo
   return any ? (model ? model : "schematic, shape of Hertz") : NULL;
 }
 
+// Where a panel puts the chart of a seal.
+static void layout(Small *s, SbTicks *xt, SbTicks *yt, SbRect in, unsigned flags, bool film) {
+  const double numbers = film ? 54 : 34, gap = in.width > 500 ? 44 : 20;
+  const double top = in.y + (flags & SB_CHART_COMPACT ? 42 : 48), bottom = in.y + in.height - 22;
+  const double each = 0.5 * (in.width - numbers - gap - 10);
+  const int place = s->index == SB_INNER ? 0 : 1; // numbers at the left one only
+  s->plot = (SbRect){in.x + numbers + place * (each + gap), top, each, fmax(bottom - top, 30)};
+  position_scale(&s->x, xt, s->data, s->plot);
+  (film ? film_scale : pressure_scale)(&s->y, yt, s->data, s->plot);
+}
+
+static SbRect inner_rect(SbRect rect, unsigned flags) {
+  const bool panel = flags & SB_CHART_PANEL;
+  const double pad = panel ? SB_GRID_PADDING : 0;
+  return (SbRect){rect.x + pad, rect.y + (panel ? 14 : 0), rect.width - 2 * pad,
+                  rect.height - (panel ? 14 + 9 : 0)};
+}
+
+bool sb_profiles_read(SbProfileReading *out, SbRect rect, const SbChartData *data, unsigned flags,
+                      bool film, double x, double y) {
+  const SbFrame *frame = sb_chart_frame(data);
+  for (int index = 0; frame != NULL && index < SB_SEAL_COUNT; index++) {
+    Small s = {.data = data, .index = index, .seal = &frame->seal[index]};
+    SbTicks xt, yt;
+    layout(&s, &xt, &yt, inner_rect(rect, flags), flags, film);
+    const double position = 1e-3 * sb_axis_value(&s.x, x);
+    const bool inside = x >= s.plot.x && x <= s.plot.x + s.plot.width && y >= s.plot.y &&
+                        y <= s.plot.y + s.plot.height;
+    if (!inside || !sb_contact_touches(s.seal) || (film && !(s.seal->film_central > 0))) {
+      continue;
+    }
+    SbContactCurve curve;
+    sb_contact_curve_init(&curve, &data->run, s.seal, index);
+    // Beyond the curve there is nothing that was computed.
+    const bool known =
+        curve.count > 1 && position >= curve.x[0] && position <= curve.x[curve.count - 1];
+    const double value =
+        known ? sb_contact_curve_at(&curve, film ? curve.film : curve.pressure, position) : 0;
+    sb_contact_curve_finish(&curve);
+    if (known && (value > 0 || !film)) {
+      *out = (SbProfileReading){.seal = index,
+                                .position = position,
+                                .value = value,
+                                .plot = s.plot,
+                                .at = {x, sb_axis_at(&s.y, film ? value : 1e-6 * value)}};
+      return true;
+    }
+  }
+  return false;
+}
+
 static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                        unsigned flags, bool film) {
   SbCanvas canvas;
@@ -490,9 +541,7 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   if (panel) {
     sb_canvas_panel(c, rect);
   }
-  double pad = panel ? SB_GRID_PADDING : 0;
-  SbRect in = {rect.x + pad, rect.y + (panel ? 14 : 0), rect.width - 2 * pad,
-               rect.height - (panel ? 14 + 9 : 0)};
+  const SbRect in = inner_rect(rect, flags);
 
   // Title and the line beside it.
   SbTextStyle title =
@@ -521,10 +570,6 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   }
   sb_canvas_text_fit(c, note, &label, in.x + width + 12, in.y + 14, in.width - width - 12);
 
-  // Two plots; numbers at the left one only.
-  double numbers = film ? 54 : 34, gap = in.width > 500 ? 44 : 20;
-  double top = in.y + (compact ? 42 : 48), bottom = in.y + in.height - 22;
-  double each = 0.5 * (in.width - numbers - gap - 10);
   SbTicks xt, yt;
   static const int order[2] = {SB_INNER, SB_OUTER};
   SbLabels *labels = g_new(SbLabels, 1);
@@ -534,20 +579,17 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
         .canvas = c, .labels = labels, .data = data, .index = order[k], .band_named = &band_named};
     s.color = sb_theme_seal(theme, s.index);
     s.seal = frame ? &frame->seal[s.index] : NULL;
-    s.plot = (SbRect){in.x + numbers + k * (each + gap), top, each, fmax(bottom - top, 30)};
+    layout(&s, &xt, &yt, in, flags, film);
     sb_labels_init(labels,
                    (SbRect){s.plot.x - 2, s.plot.y - 12, s.plot.width + 4, s.plot.height + 12});
-    position_scale(&s.x, &xt, data, s.plot);
     SbTextStyle name = {SB_TYPE_LABEL, 600, s.color, 1};
     sb_canvas_text(c, s.index == SB_INNER ? "Inner seal" : "Outer seal", &name, s.plot.x,
                    in.y + (compact ? 34 : 40), SB_LEFT);
     if (film) {
-      film_scale(&s.y, &yt, data, s.plot);
       continuum_band(&s);
       small_axes(&s, &xt, &yt, true, k == 0);
       film_chart(&s);
     } else {
-      pressure_scale(&s.y, &yt, data, s.plot);
       small_axes(&s, &xt, &yt, false, k == 0);
       pressure_chart(&s);
     }

@@ -2,6 +2,7 @@
 // under a point.
 #include "app/base/format.h"
 #include "app/chart/hysteresis.h"
+#include "app/chart/profiles.h"
 #include "app/chart/timeline.h"
 #include "tests/app/synthetic.h"
 
@@ -237,6 +238,40 @@ static void test_cursor(void) {
   synthetic_clear(&run);
 }
 
+// What is read off a contact's panel is what its curve has there, and lies where that is drawn;
+// beside the plots and in a title there is nothing to read.
+static void test_contact_cursor(void) {
+  Synthetic run;
+  SbChartData data;
+  synthetic_init(&run, 1250, 1);
+  synthetic_data(&data, &run, 2);
+  const SbRect rect = {16, 12, 400, 160};
+  const SbFrame *frame = sb_chart_frame(&data);
+  for (int film = 0; film < 2; film++) {
+    unsigned found = 0;
+    double most[SB_SEAL_COUNT] = {0}, last[SB_SEAL_COUNT] = {-1, -1};
+    for (double x = rect.x; x < rect.x + rect.width; x++) {
+      SbProfileReading at;
+      if (sb_profiles_read(&at, rect, &data, SB_CHART_COMPACT, film, x, rect.y + 80)) {
+        found |= 1u << at.seal;
+        most[at.seal] = fmax(most[at.seal], at.value);
+        g_assert_cmpfloat(at.at.x, ==, x);
+        g_assert_true(x >= at.plot.x && x <= at.plot.x + at.plot.width);
+        g_assert_cmpfloat(at.position, >, last[at.seal]);
+        last[at.seal] = at.position;
+      }
+    }
+    g_assert_cmpuint(found, ==, 3);
+    for (int i = 0; i < SB_SEAL_COUNT && !film; i++) {
+      g_assert_cmpfloat(fabs(most[i] / frame->seal[i].pressure_peak - 1), <, 0.05);
+    }
+    SbProfileReading none;
+    g_assert_false(sb_profiles_read(&none, rect, &data, SB_CHART_COMPACT, film, 20, 60));
+    g_assert_false(sb_profiles_read(&none, rect, &data, SB_CHART_COMPACT, film, 200, 16));
+  }
+  synthetic_clear(&run);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/trace/events", test_events);
@@ -246,5 +281,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/trace/hit", test_hit);
   g_test_add_func("/trace/timeline-hit", test_timeline_hit);
   g_test_add_func("/trace/cursor", test_cursor);
+  g_test_add_func("/trace/contact-cursor", test_contact_cursor);
   return g_test_run();
 }

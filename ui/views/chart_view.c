@@ -26,8 +26,9 @@ typedef struct {
   SbChartViewKind kind;
   GtkWidget *area;
   SbDrawCache *cache;
-  guint describe; // source that renews the description, 0 if none is due
-  double cursor;  // displacement under the pointer [m]; NaN: none
+  guint describe;          // source that renews the description, 0 if none is due
+  double cursor;           // displacement under the pointer [m]; NaN: none
+  double point_x, point_y; // of the pointer over a contact's panel [px]; NaN: none
   SbChartZoom zoom;
   gboolean zoomed;
   enum { HAND_FREE, HAND_SCRUBS, HAND_BOXES, HAND_MOVES } hand;
@@ -118,6 +119,16 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
     sb_rig_reasons_draw(cr, rect, theme, data, SB_CHART_COMPACT);
     break;
   }
+}
+
+// What the pointer is over in a contact's panel; follows the playhead.
+static gboolean read_contact(const View *view, SbProfileReading *out) {
+  const SbChartData *data = sb_session_chart(view->session);
+  const gboolean film = view->kind == SB_CHART_VIEW_FILM;
+  return (film || view->kind == SB_CHART_VIEW_PRESSURE) && !isnan(view->point_x) &&
+         !sb_chart_is_rig(&data->run) &&
+         sb_profiles_read(out, whole(view->area), data, SB_CHART_COMPACT, film, view->point_x,
+                          view->point_y);
 }
 
 // Description ------------------------------------------------------------------------------------
@@ -240,6 +251,12 @@ static gboolean describe(gpointer data) {
   if (view->zoomed) {
     g_string_append_printf(text, _(" Enlarged: %.3g to %.3g mm, %.3g to %.3g N."), view->zoom.x0,
                            view->zoom.x1, view->zoom.y0, view->zoom.y1);
+  }
+  SbProfileReading reading;
+  if (read_contact(view, &reading)) {
+    g_autofree char *read = sb_profiles_cursor_text(&reading, sb_session_chart(view->session),
+                                                    view->kind == SB_CHART_VIEW_FILM);
+    g_string_append_printf(text, _(" Under the pointer: %s."), read);
   }
   if (!isnan(view->cursor)) {
     g_autofree char *read = sb_hysteresis_cursor_text(run, view->cursor);
@@ -400,8 +417,12 @@ static void move(View *view, double dx, double dy) {
   zoom_at(view, 1, at.plot.x, at.plot.y);
 }
 
-static void set_cursor(View *view, double cursor) {
-  if (cursor != view->cursor && !(isnan(cursor) && isnan(view->cursor))) {
+static void set_cursor(View *view, double cursor, double x, double y) {
+  const gboolean contact = view->kind == SB_CHART_VIEW_FILM || view->kind == SB_CHART_VIEW_PRESSURE;
+  const gboolean moved = contact && (!isnan(x) || !isnan(view->point_x));
+  view->point_x = contact ? x : NAN;
+  view->point_y = y;
+  if (moved || (cursor != view->cursor && !(isnan(cursor) && isnan(view->cursor)))) {
     view->cursor = cursor;
     gtk_widget_queue_draw(view->area);
     if (view->describe == 0) {
@@ -423,6 +444,11 @@ static gboolean on_draw_cursor(GtkWidget *widget, cairo_t *cr, View *view) {
     cairo_stroke(cr);
     return GDK_EVENT_PROPAGATE;
   }
+  SbProfileReading reading;
+  if (read_contact(view, &reading)) {
+    sb_profiles_cursor_draw(cr, sb_theme(sb_style_is_dark()), data, &reading,
+                            view->kind == SB_CHART_VIEW_FILM);
+  }
   if (!isnan(view->cursor) && data->run.count > 0) {
     sb_hysteresis_cursor_draw(cr, whole(widget), sb_theme(sb_style_is_dark()), data,
                               SB_CHART_COMPACT, view->cursor);
@@ -431,7 +457,7 @@ static gboolean on_draw_cursor(GtkWidget *widget, cairo_t *cr, View *view) {
 }
 
 static gboolean on_leave(GtkWidget *widget, GdkEventCrossing *event, View *view) {
-  set_cursor(view, NAN);
+  set_cursor(view, NAN, NAN, NAN);
   return GDK_EVENT_PROPAGATE;
 }
 
@@ -441,7 +467,7 @@ static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) 
   const gboolean inside =
       may_zoom(view) && view->hand != HAND_BOXES &&
       sb_hysteresis_cursor(&cursor, whole(widget), &data, SB_CHART_COMPACT, event->x, event->y);
-  set_cursor(view, inside ? cursor : NAN);
+  set_cursor(view, inside ? cursor : NAN, event->x, event->y);
   if (view->hand == HAND_SCRUBS) {
     scrub(view, event->x, event->y, 80);
   } else if (view->hand == HAND_MOVES) {
@@ -483,7 +509,7 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   View *view = g_new0(View, 1);
   view->session = session;
   view->kind = kind;
-  view->cursor = NAN;
+  view->cursor = view->point_x = NAN;
   view->area = sb_canvas_area_new(280, 300, kinds[kind].least_height, kinds[kind].height);
   g_object_set_data_full(G_OBJECT(view->area), "view", view, g_free);
   sb_style_class(view->area, "sb-canvas");
