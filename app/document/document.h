@@ -144,8 +144,8 @@ char **sb_document_rubbers(const SbDocument *document);
 enum { SB_DOCUMENT_RUBBER = SB_PARAM_COUNT };
 int sb_document_undo(SbDocument *document);
 int sb_document_redo(SbDocument *document);
-// What undo (or redo) would change next: the parameter or SB_DOCUMENT_RUBBER, with the value in force
-// before and after that edit [SI]; -1 if there is nothing.
+// What undo (or redo) would change next: the parameter or SB_DOCUMENT_RUBBER, with the value in
+// force before and after that edit [SI]; -1 if there is nothing.
 int sb_document_next_undo(const SbDocument *document, bool redo, double value[2]);
 bool sb_document_can_undo(const SbDocument *document);
 bool sb_document_can_redo(const SbDocument *document);

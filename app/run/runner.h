@@ -15,8 +15,8 @@ SbRunHandle *sb_run_handle_ref(SbRunHandle *handle);
 // Takes NULL. The last one frees the run.
 void sb_run_handle_unref(SbRunHandle *handle);
 
-// One of a run that has ended well and that nobody executes; takes it over. NULL if memory is short:
-// the run is gone then.
+// One of a run that has ended well and that nobody executes; takes it over. NULL if memory is
+// short: the run is gone then.
 SbRunHandle *sb_run_handle_of(SbRun *run);
 
 // The run, whose published frames may be read at any time; NULL if it could not be created (see the

@@ -69,8 +69,8 @@ gboolean sb_session_is_modified(SbSession *session);
 void sb_session_set_camera(SbSession *session, double azimuth, double elevation);
 void sb_session_camera(SbSession *session, double *azimuth, double *elevation);
 
-// Edits a value by text as people type it (app/document/typed.h). A text that cannot be taken stays as the field's error, and the value in
-// force stays as it was.
+// Edits a value by text as people type it (app/document/typed.h). A text that cannot be taken stays
+// as the field's error, and the value in force stays as it was.
 gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text);
 
 // The same by value; successive calls merge into one undo step.
@@ -115,8 +115,8 @@ SbSessionState sb_session_state(SbSession *session);
 // Share of the run under way that is done, 0 to 1.
 double sb_session_progress(SbSession *session);
 
-// How long the last edit took until its loop was predicted, and until a run of its values was shown,
-// whatever its grade [s]; NaN: it was not, or not yet.
+// How long the last edit took until its loop was predicted, and until a run of its values was
+// shown, whatever its grade [s]; NaN: it was not, or not yet.
 typedef struct {
   double predicted, shown;
 } SbEditLatency;

@@ -1,5 +1,5 @@
-// The switch in the header that chooses how the rings are fitted: by closed forms or solved. It sets
-// models.fit and nothing else.
+// The switch in the header that chooses how the rings are fitted: by closed forms or solved. It
+// sets models.fit and nothing else.
 #pragma once
 
 #include "app/session/session.h"

@@ -240,8 +240,8 @@ const SbFrame *sb_run_frames(const SbRun *run, size_t *count);
 // thesis table 4.3; NULL if nobody asked. Borrowed; any thread.
 const SbReaction *sb_run_reactions(const SbRun *run, size_t frame);
 
-// A run that has ended well as bytes of this build, *out owned by the caller (free()), and back, for
-// the model and the plan that it was made by: to be looked at, not to start others from.
+// A run that has ended well as bytes of this build, *out owned by the caller (free()), and back,
+// for the model and the plan that it was made by: to be looked at, not to start others from.
 // SB_ERROR_INPUT: reactions of joints are not kept; not such bytes.
 SbStatus sb_run_pack(void **out, size_t *size, const SbRun *run, SbReport *report);
 SbStatus sb_run_unpack(SbRun **out, const SbModel *model, const SbPlan *plan, const void *bytes,
