@@ -6,30 +6,31 @@
 // the parameter's range. An error is told with every derivative: what the last extrapolation
 // changed, and the rounding that the step magnifies.
 //
-// Solved rings are the base's to first order in all that is changed (SbQuestion.tangent): one
-// back-substitution each with the active set held, films beside the base's on their meshes
-// (ehl_beside.c), both kept as slopes to the few numbers that they are given, so that parameters
-// share them (sliding_beside.c); friction and motion computed after them as ever, in steps of 8e-6
-// of the parameter. What is differentiated so is the figure that the run
-// reports, on its mesh, along the active set of its base: contact and slip, the wetted faces, the
-// order of the curve that recovers the pressure. Those are kinks of the discrete contact, one at
-// each node, not of the figure, so they give no reason for having no derivative. What they do to it
-// is told in the error: three times the forces that violate the base's set beside it, over the
-// step (ring_contact.h), in smooth grooves 0, with friction on floor and walls usually per cents:
-// there the nodes that slide in the base stick as soon as a change leads them back. A ring that is
-// laid anew goes the same way as its base's, and its nodes do not. Nodes that stick keep their
-// place on floor and walls. On other meshes of the same fineness slopes of the contacts' forces are
-// 2 %, of loads 7 %, of widths 20 % away (measured, as the ends of a contact pass from node to
-// node): the error has that share, 7 % of loads and 20 % of all else, of the part of a slope that
-// goes when rings stay as they are while all else follows. A ring that rolls or jams at the base
-// has no tangent, and its figures no derivative by what enters it. Parameters that do not enter the
-// contacts (sb_evaluator_has_solved()) ask none again, whatever the models.
+// Solved rings are the base's to first order in all that is changed (SbQuestion.tangent): two
+// back-substitutions each with the active set held, on a mesh that follows the contacts
+// (ring_ends.c), films beside the base's on their meshes (ehl_beside.c), both kept as slopes to the
+// few numbers that they are given, so that parameters share them (sliding_beside.c); friction and
+// motion computed after them as ever, in steps of 8e-6 of the parameter. What is differentiated so
+// is the figure that the run reports along the active set of its base: contact and slip, the wetted
+// faces, the order of the curve that recovers the pressure. Those are kinks of the discrete
+// contact, one at each node, not of the figure, so they give no reason for having no derivative.
+// What they do to it is told in the error: three times the forces that violate the base's set
+// beside it, over the step (ring_contact.h), in smooth grooves 0, with friction on floor and walls
+// usually per cents: there the nodes that slide in the base stick as soon as a change leads them
+// back. Nodes that stick keep their place on floor and walls. Differences of solved rings 2 % to
+// either side, each on a mesh of its own, are 1 to 3 % away where the base's pressure is a smooth
+// curve, and more where a strong drag folds it up at one end, films first: the error has a share of
+// what load, width and peak change by, a small one of loads, two thirds for films. A slope that is
+// less than such an error is not told. A ring that rolls or jams at the base has no tangent, and
+// its figures no derivative by what enters it. Parameters that do not enter the contacts
+// (sb_evaluator_has_solved()) ask none again, whatever the models.
 //
 // A figure that has the same bits on both sides does not depend on the parameter: its derivative is
 // an exact 0, of error 0. It has none (NaN, with a reason) where the figure itself has no value,
 // where the differences from both sides disagree at the smallest step as well (a kink), where they
 // grow as the step shrinks (a jump: an event, a stage or an outcome appears or goes), and where no
-// step has values on either side. A yes or no that jumps nowhere has the derivative 0.
+// step has values on either side, and where a ring's slope is less than its error. A yes or no that
+// jumps nowhere has the derivative 0.
 //
 // A parameter is moved as an override moves it: what follows from it (a seal's own size from that
 // of both, a fluid's properties from its temperature) moves with it; one that a choice or another

@@ -590,13 +590,19 @@ SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *opt
 
 // The state of another mesh of the same nodes: displacements that leave the ring as it lies on its
 // floor, and its contact.
-static void lay_alike(SbRing *to, const SbRing *from, const SbRingLoad *target) {
+static void lay_alike(SbRing *to, const SbRing *from, const SbRingLoad *target,
+                      const SbRingShift *shift) {
   const double rise = target->floor_radius - from->contact->is.now.floor_radius;
   SbRingFem *fem = to->fem;
   SbRingContactState *is = &to->contact->is;
-  for (int i = 0; i < 2 * fem->mesh->nodes; i++) {
-    const double place = from->mesh->x[i] + from->fem->u[i] + (i % 2 == 0 ? rise : 0.0);
-    fem->u[i] = place - fem->mesh->x[i];
+  for (int i = 0; i < fem->mesh->nodes; i++) {
+    double x[2], more[2] = {0.0}, place[2];
+    sb_ring_fem_place(from->fem, i, place);
+    if (shift != NULL) {
+      sb_ring_shift_node(shift, from, i, x, more);
+    }
+    fem->u[2 * i] = place[0] + rise + more[0] - fem->mesh->x[2 * i];
+    fem->u[2 * i + 1] = place[1] + more[1] - fem->mesh->x[2 * i + 1];
   }
   memcpy(fem->inner, from->fem->inner,
          sizeof(double) * SB_RING_INNER * (size_t)fem->mesh->elements);
@@ -604,6 +610,19 @@ static void lay_alike(SbRing *to, const SbRing *from, const SbRingLoad *target) 
          sizeof *is->touch * SB_RING_SURFACES * (size_t)to->contact->count);
   is->turn = from->contact->is.turn;
   memcpy(is->crest, from->contact->is.crest, sizeof is->crest);
+}
+
+// Shifts a copy of a ring's mesh.
+static void shift_mesh(SbRingMesh *mesh, const SbRing *ring, const SbRingShift *shift) {
+  for (int i = 0; i < mesh->nodes; i++) {
+    double x[2], place[2];
+    sb_ring_shift_node(shift, ring, i, x, place);
+    mesh->x[2 * i] += x[0];
+    mesh->x[2 * i + 1] += x[1];
+  }
+  for (int i = 0; i < mesh->loop_count; i++) {
+    mesh->angle[i] += sb_ring_shift_angle(shift, mesh->angle[i]);
+  }
 }
 
 // Whether what friction on floor and walls keeps of the way between two loads is less than what is
@@ -654,7 +673,8 @@ static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *
 }
 
 SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
-                     const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
+                     const SbRingLoad *load, const SbRingOptions *options, const SbRingShift *shift,
+                     SbReport *report) {
   SbRing *other = NULL;
   *out = NULL;
   SbStatus status = check_body(body, report);
@@ -672,13 +692,16 @@ SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
   other->options.element_size = size;
   set_body(other, body, load);
   status = sb_ring_mesh_copy(&other->mesh, ring->mesh, other->centre - ring->centre, report);
+  if (status == SB_OK && shift != NULL) {
+    shift_mesh(other->mesh, ring, shift);
+  }
   status = status == SB_OK ? build_on_mesh(other, report) : status;
   if (status != SB_OK) {
     sb_ring_destroy(other);
     return status;
   }
   const SbRingLoad target = sb_ring_load_in(load, other->length, other->stress);
-  lay_alike(other, ring, &target);
+  lay_alike(other, ring, &target, shift);
   other->contact->is.now = target;
   *out = other;
   return SB_OK;
@@ -688,7 +711,7 @@ SbStatus sb_ring_near(SbRing **out, const SbRing *ring, const SbRingBody *body,
                       const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
   SbRing *other;
   *out = NULL;
-  SbStatus status = sb_ring_lay(&other, ring, body, load, options, report);
+  SbStatus status = sb_ring_lay(&other, ring, body, load, options, NULL, report);
   if (status != SB_OK) {
     return status;
   }

@@ -149,8 +149,9 @@ SbStatus sb_ring_tangent_create(SbRingTangent **out, const SbRing *ring, const v
                                 SbReport *report);
 void sb_ring_tangent_destroy(SbRingTangent *tangent); // takes NULL
 
-// The state of another body at another load that slides alike; owned. It has no equilibrium but to
-// first order: nothing can be solved from it. SB_ERROR_NOT_CONVERGED where there is none.
+// The state of another body at another load that slides alike; owned. Its mesh follows its contacts
+// (ring_ends.c). It has no equilibrium but to first order: nothing can be solved from it.
+// SB_ERROR_NOT_CONVERGED where there is none.
 SbStatus sb_ring_tangent_at(SbRing **out, SbRingTangent *tangent, const SbRingBody *body,
                             const SbRingLoad *load, const SbRingOptions *options, SbReport *report);
 

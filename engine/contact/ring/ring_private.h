@@ -96,10 +96,42 @@ double sb_ring_profile_place(const SbDryContact *pressure, int i);
 // kept if that fails.
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
 
-// A ring of another body at another load, not solved: on the mesh of `ring`, moved, in its place on
-// the floor, with its contact. Owned. SB_ERROR_NOT_CONVERGED where that one does not slide alike.
+// How the nodes of a ring's mesh are shifted along the section's surface as its contacts are
+// (ring_ends.c).
+typedef struct {
+  bool held[SB_RING_SURFACES]; // contacts, in the order of the angle,
+  SbRingPatch patch[SB_RING_SURFACES];
+  double moment[SB_RING_SURFACES][2]; // with mean and deviation of their pressures
+  int count;                          // ends of contacts; 0: the mesh stays
+  double end[2 * SB_RING_SURFACES];   // their material angles, rising
+  double by[2 * SB_RING_SURFACES];    // what is added to them
+  int side[2 * SB_RING_SURFACES];     // boundary sides that they lie on
+  double *gradient;                   // [4 nodes] deformation gradient, owned
+} SbRingShift;
+
+// Finds a ring's contacts, for shifts by nothing; shifts as those of another ring on its mesh are
+// displaced. False: there are none to follow.
+void sb_ring_shift_begin(SbRingShift *shift, const SbRing *ring);
+bool sb_ring_shift_follow(SbRingShift *shift, const SbRing *other);
+
+// Shifts on the mesh of `ring`, of nothing yet; NULL: no memory. `destroy` takes NULL.
+SbRingShift *sb_ring_shift_create(const SbRing *ring);
+void sb_ring_shift_destroy(SbRingShift *shift);
+
+// What is added to a node's reference and deformed place; to the angle of one on the boundary.
+void sb_ring_shift_node(const SbRingShift *shift, const SbRing *ring, int node, double x[2],
+                        double place[2]);
+double sb_ring_shift_angle(const SbRingShift *shift, double angle);
+
+// Leaves the meshes of a tangent's states with the material, as that of sb_ring_near() is.
+void sb_ring_tangent_stay(SbRingTangent *tangent);
+
+// A ring of another body at another load, not solved: on the mesh of `ring`, moved, and shifted
+// unless `shift` is NULL, in its place on the floor, with its contact. Owned.
+// SB_ERROR_NOT_CONVERGED where that one does not slide alike.
 SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
-                     const SbRingLoad *load, const SbRingOptions *options, SbReport *report);
+                     const SbRingLoad *load, const SbRingOptions *options, const SbRingShift *shift,
+                     SbReport *report);
 
 // How load steps are taken: followed in viscous steps where the next equilibrium is not near, never
 // so, or as long as the bore is touched.

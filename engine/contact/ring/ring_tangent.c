@@ -21,7 +21,13 @@ struct SbRingTangent {
   const void *law;
   pthread_mutex_t lock; // of the factors with their workspace, which several threads may want
   SbRing *base;         // the ring laid anew, with its factors; NULL before the first question
+  SbRingShift *shift;   // of its mesh, by nothing yet; as long as `base`
+  bool stays;           // the mesh stays with the material
 };
+
+void sb_ring_tangent_stay(SbRingTangent *tangent) {
+  tangent->stays = true;
+}
 
 SbStatus sb_ring_tangent_create(SbRingTangent **out, const SbRing *ring, const void *law,
                                 SbReport *report) {
@@ -39,6 +45,7 @@ SbStatus sb_ring_tangent_create(SbRingTangent **out, const SbRing *ring, const v
 void sb_ring_tangent_destroy(SbRingTangent *tangent) {
   if (tangent != NULL) {
     sb_ring_destroy(tangent->base);
+    sb_ring_shift_destroy(tangent->shift);
     pthread_mutex_destroy(&tangent->lock);
     free(tangent);
   }
@@ -80,7 +87,8 @@ static void hold_recovery(SbRing *base) {
 static SbStatus factorise(SbRingTangent *tangent, SbReport *report) {
   const SbRing *ring = tangent->ring;
   SbRing *base;
-  SbStatus status = sb_ring_lay(&base, ring, &ring->body, &ring->load, &ring->options, report);
+  SbStatus status =
+      sb_ring_lay(&base, ring, &ring->body, &ring->load, &ring->options, NULL, report);
   if (status != SB_OK) {
     return status;
   }
@@ -97,6 +105,12 @@ static SbStatus factorise(SbRingTangent *tangent, SbReport *report) {
   sb_ring_contact_forces(base->contact);
   hold_recovery(base);
   base->fault = sb_ring_contact_fault(base->contact);
+  tangent->shift = sb_ring_shift_create(base);
+  if (tangent->shift == NULL) {
+    sb_ring_destroy(base);
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a ring's tangent");
+  }
+  sb_ring_shift_begin(tangent->shift, base);
   tangent->base = base;
   return SB_OK;
 }
@@ -186,36 +200,67 @@ static void move(SbRing *other, const SbRingFem *base) {
   contact->is.turn = sb_ring_turn(contact, NULL, NULL, NULL);
 }
 
-SbStatus sb_ring_tangent_at(SbRing **out, SbRingTangent *tangent, const SbRingBody *body,
-                            const SbRingLoad *load, const SbRingOptions *options,
-                            SbReport *report) {
+// The other ring, on the base's mesh or a shifted one.
+static SbStatus linear(SbRing **out, SbRingTangent *tangent, const SbRingBody *body,
+                       const SbRingLoad *load, const SbRingOptions *options,
+                       const SbRingShift *shift, SbReport *report) {
   const SbRing *ring = tangent->ring;
+  SbRingFem *base = tangent->base->fem;
   SbRing *other;
   *out = NULL;
-  SbStatus status = sb_ring_lay(&other, ring, body, load, options, report);
+  SbStatus status = sb_ring_lay(&other, ring, body, load, options, shift, report);
   if (status != SB_OK) {
     return status;
   }
   memcpy(other->contact->is.crest, ring->contact->is.crest, sizeof ring->contact->is.crest);
   status = balance(other, ring->fem->axial_spring, report);
-  pthread_mutex_lock(&tangent->lock);
-  status = status == SB_OK && tangent->base == NULL ? factorise(tangent, report) : status;
   if (status == SB_OK) {
-    SbRingFem *base = tangent->base->fem;
     hold_law(other, tangent->base);
+    pthread_mutex_lock(&tangent->lock);
     right_side(base, other->fem);
     status = sb_ring_fem_apply_factor(base, report);
     memcpy(other->fem->du, base->du, sizeof(double) * 2 * (size_t)base->mesh->nodes);
+    pthread_mutex_unlock(&tangent->lock);
   }
-  pthread_mutex_unlock(&tangent->lock);
   if (status != SB_OK) {
     sb_ring_destroy(other);
     return status;
   }
   memcpy(other->held, tangent->base->held, sizeof other->held);
   other->first_order = true;
-  move(other, tangent->base->fem);
+  move(other, base);
   other->fault = fmax(0.0, sb_ring_contact_fault(other->contact) - tangent->base->fault);
   *out = other;
-  return sb_succeed(report);
+  return SB_OK;
+}
+
+// The same on the mesh that follows the other ring's contacts.
+static SbStatus follow(SbRing **out, SbRingTangent *tangent, const SbRingBody *body,
+                       const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
+  SbRing *other;
+  SbRingShift shift = *tangent->shift;
+  SbStatus status = linear(&other, tangent, body, load, options, NULL, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  if (!sb_ring_shift_follow(&shift, other)) {
+    *out = other;
+    return SB_OK;
+  }
+  sb_ring_destroy(other);
+  return linear(out, tangent, body, load, options, &shift, report);
+}
+
+SbStatus sb_ring_tangent_at(SbRing **out, SbRingTangent *tangent, const SbRingBody *body,
+                            const SbRingLoad *load, const SbRingOptions *options,
+                            SbReport *report) {
+  *out = NULL;
+  pthread_mutex_lock(&tangent->lock);
+  SbStatus status = tangent->base == NULL ? factorise(tangent, report) : SB_OK;
+  pthread_mutex_unlock(&tangent->lock);
+  if (status == SB_OK) {
+    status = tangent->stays ? linear(out, tangent, body, load, options, NULL, report)
+                            : follow(out, tangent, body, load, options, report);
+  }
+  return status == SB_OK ? sb_succeed(report) : status;
 }
