@@ -120,6 +120,7 @@ typedef struct {
     double drag;            // of the bore on the ring, > 0 as the problem's [N]
     double drag_limit;      // greatest drag over load where the ring rolls or jams; NAN: not met
     double fault;           // of one taken from another to first order (ring.h)
+    double order;           // of its recovered pressure over its nodes (ring.h)
     double turn;            // of the section, > 0 as the drag turns it [rad]
     SbRingState state;
     size_t load_steps, rejected_steps;

@@ -70,6 +70,7 @@ static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
   out->ring.turn = sign * result->turn;
   out->ring.state = result->state;
   out->ring.fault = result->fault;
+  out->ring.order = result->order;
   const bool slides = result->state == SB_RING_SLIDES || result->state == SB_RING_NO_CONTACT;
   out->ring.drag_limit = slides ? NAN : result->drag_limit;
   if (!slides) {

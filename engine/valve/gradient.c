@@ -229,6 +229,23 @@ static bool differ(char *text, size_t size, const Outcome *a, const Outcome *b) 
   return false;
 }
 
+// Load, width and peak of a seal's contact, to and fro; NaN: not computed.
+enum { WAYS = 2, SIZES = 3 };
+typedef struct {
+  double size[SB_SEAL_COUNT][WAYS][SIZES];
+} Contacts;
+
+static void take_contacts(Contacts *out, const SbSummary *summary) {
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const SbSealState *in = &summary->seal[i];
+    const SbContact *back = &summary->contact[i].back;
+    const double sizes[WAYS][SIZES] = {
+        {in->load, in->contact_right - in->contact_left, in->pressure_peak},
+        {back->load, back->width, back->pressure_peak}};
+    memcpy(out->size[i], sizes, sizeof sizes);
+  }
+}
+
 // Points of a level: above and below its base at whole and half steps; where only one side is there
 // (h has its sign) h, h/2, h/4 in their places.
 enum { PLUS, MINUS, PLUS_HALF, MINUS_HALF, POINTS };
@@ -267,7 +284,9 @@ typedef struct {
   bool rings;                   // this parameter enters rings
   bool refused;                 // the last question, by the parameters alone
   double fault;                 // of the last answer's rings
-  const SbSummary *answer;      // the last one, NULL: none
+  Contacts contacts, moved, up; // of the base's rings to first order, of the last answer's, at a
+                                // step up
+  double order;                 // of the rings' recovered pressures (SbSummary.ring_order)
   char changed[TEXT_SIZE];      // what another outcome at a smallest step was, or empty
   SbReport report;              // of the last question that was refused or failed
 } Work;
@@ -296,7 +315,9 @@ static SbStatus ask(Work *work, double *value, double x, bool tell) {
   Outcome now;
   const SbSummary *summary = sb_evaluator_summary(by);
   work->fault = summary != NULL ? summary->ring_fault : 0;
-  work->answer = summary;
+  if (summary != NULL) {
+    take_contacts(&work->moved, summary);
+  }
   take_outcome(&now, summary);
   if (tell && work->changed[0] == '\0') {
     (void)differ(work->changed, sizeof work->changed, &work->outcome, &now);
@@ -332,12 +353,15 @@ static const double RESPONSE = 3;
 
 // What slopes of rings scatter by between meshes: this part of what load, width and peak of the
 // contacts change by, relative, of a load; of a film, which hangs on the pressure at the contact's
-// end; and of all else (measured on solved rings 1 to 4 % to either side: 0.06, 0.6, 0.12 at most).
-static const double SCATTER_LOAD = 0.08, SCATTER_FILM = 0.7, SCATTER = 0.13;
+// end; and of all else (measured on solved rings 1 to 4 % to either side: 0.06, 0.06, 0.12 at
+// most). A film on a contact with few nodes for each polynomial of its pressure scatters more
+// (measured: 0.6 with 7, none with 12).
+static const double SCATTER_LOAD = 0.08, SCATTER_FILM = 0.13, SCATTER = 0.13;
+static const double SCATTER_ROUGH = 0.7, ORDER_MOST = 0.1, MANY = 16;
 
-// A slope that is less than its error is none, unless either is small: what the figure would change
-// by as the parameter does by itself is known to this part of it.
-static const double KNOWN = 0.5;
+// A slope that is less than its error is none, unless both are small: what the figure changes by as
+// the parameter does by itself is known to this part of it.
+static const double KNOWN = 1;
 
 static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
   const Level *level = &work->level[at];
@@ -523,6 +547,7 @@ static SbStatus ask_places(Work *work, int at, double x, bool *refused) {
     if (ends(status)) {
       return status;
     }
+    work->up = i == 0 ? work->moved : work->up;
     refused[places[i] * level->h < 0] |= work->refused;
     if (i < 2) {
       level->fault += work->fault / fabs(places[i] * level->h) / 2;
@@ -572,49 +597,31 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
   }
 }
 
-// Load, width and peak of a seal's contact, to and fro; NaN: not computed.
-enum { WAYS = 2, SIZES = 3 };
-static void contact_sizes(double out[SB_SEAL_COUNT][WAYS][SIZES], const SbSummary *summary) {
-  for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    const SbSealState *in = &summary->seal[i];
-    const SbContact *back = &summary->contact[i].back;
-    const double sizes[WAYS][SIZES] = {
-        {in->load, in->contact_right - in->contact_left, in->pressure_peak},
-        {back->load, back->width, back->pressure_peak}};
-    memcpy(out[i], sizes, sizeof sizes);
-  }
-}
-
 // Adds to the errors what a ring's slopes scatter between meshes, by what its contacts change.
 static SbStatus add_scatter(Work *work, size_t parameter, double x, double scale) {
   SbGradient *out = work->out;
   double h = 0, moved[SB_SEAL_COUNT] = {0}, most = 0;
-  for (int at = RINGS; at < LEVELS && h == 0; at++) {
-    h = work->level[at].asked ? work->level[at].h : 0;
+  int level = RINGS;
+  for (; level < LEVELS && h == 0; level += h == 0) {
+    h = work->level[level].asked ? work->level[level].h : 0;
   }
   if (h == 0) {
     return SB_OK;
   }
-  double base[SB_SEAL_COUNT][WAYS][SIZES], beside[SB_SEAL_COUNT][WAYS][SIZES];
-  double *held = value_of(work, FIRST, 0), *value = value_of(work, FIRST, 1);
-  for (int side = 0; side < 2; side++) {
-    SbStatus status = ask(work, value, x + side * h, false);
-    if (status != SB_OK || work->answer == NULL) {
-      return status;
-    }
-    contact_sizes(side == 0 ? base : beside, work->answer);
-  }
+  const double *value = value_of(work, level, PLUS);
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     for (int way = 0; way < WAYS; way++) {
       double sum = 0;
       for (int k = 0; k < SIZES; k++) {
-        const double by = fabs(beside[i][way][k] / base[i][way][k] - 1) / fabs(h);
+        const double by =
+            fabs(work->up.size[i][way][k] / work->contacts.size[i][way][k] - 1) / fabs(h);
         sum += isfinite(by) ? by : 0;
       }
       moved[i] = fmax(moved[i], sum);
     }
     most = fmax(most, moved[i]);
   }
+  double *held = value_of(work, FIRST, 0);
   work->question.held = true;
   SbStatus status = ask(work, held, x + h, false);
   work->question.held = false;
@@ -627,8 +634,10 @@ static SbStatus add_scatter(Work *work, size_t parameter, double x, double scale
     const bool outer = strncmp(row->path, "seals.outer.", 12) == 0;
     const double by = inner ? moved[SB_INNER] : outer ? moved[SB_OUTER] : most;
     // What does not hang on the rings scatters with none.
-    const double part = load ? SCATTER_LOAD : film ? SCATTER_FILM : SCATTER;
-    out->error[cell] += value[i] == held[i] ? 0 : part * by * work->size[i];
+    const double thin = work->order > ORDER_MOST ? SCATTER_ROUGH : SCATTER_FILM;
+    const double part = load ? SCATTER_LOAD : film ? thin : SCATTER;
+    const double share = part * by / (1 + by * scale / MANY);
+    out->error[cell] += value[i] == held[i] ? 0 : share * work->size[i];
     const double error = out->error[cell];
     if (error > fabs(out->slope[cell]) && error * scale > KNOWN * work->size[i]) {
       refuse(work, parameter, i, "not known: what the rings' meshes leave open is more than it is");
@@ -767,7 +776,12 @@ static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) 
   if (work->start == NULL) {
     memcpy(out->value, work->own_value, out->figures * sizeof *out->value);
   }
-  take_outcome(&work->outcome, sb_evaluator_summary(work->evaluator));
+  const SbSummary *own = sb_evaluator_summary(work->evaluator);
+  take_outcome(&work->outcome, own);
+  if (own != NULL) {
+    take_contacts(&work->contacts, own);
+    work->order = own->ring_order;
+  }
   for (size_t i = 0; i < out->parameters; i++) {
     out->at[i] = sb_model_value(sb_evaluator_model(by), out->parameter[i]);
   }

@@ -402,7 +402,10 @@ static void hold_rings(const SbOverride *change, size_t changes, bool all) {
       const double solved = (up[i] - down[i]) / (2 * h);
       g_assert_cmpmem(&value[i], sizeof value[i], &(double){sb_gradient_value(gradient, i)},
                       sizeof value[i]);
-      g_assert_null(sb_gradient_reason(gradient, i, k));
+      if (sb_gradient_reason(gradient, i, k) != NULL) {
+        g_assert_nonnull(strstr(sb_gradient_reason(gradient, i, k), "not known"));
+        continue;
+      }
       g_test_message("%s by %s: %.6g, error %.2g; solved %.6g", paths[i],
                      sb_param(parameter[k])->key, slope, error, solved);
       if (all) {

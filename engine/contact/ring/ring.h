@@ -99,6 +99,7 @@ typedef struct {
   double friction_excess; // N of departure from Coulomb's law at nodes that cannot settle, 0
   double axial_imbalance; // sum of all axial forces over the largest one [-]
   double fault; // of a state to first order: forces that violate its active set over the bore's [-]
+  double order; // polynomials of the recovered pressure for each node of the bore contact; 0: nodal
   int unknowns, newton_iterations, load_steps, rejected_steps;
   struct {
     double load, peak, width; // relative

@@ -174,8 +174,10 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   for (int s = SB_RING_FLOOR; s >= SB_RING_BORE; s--) {
     out->touching = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
     smooth[s].peak = 0.0;
+    smooth[s].count = 0;
     if (out->touching) {
       if (!sb_ring_ends(ring, (SbRingSurface)s, &patch[s], &smooth[s])) {
+        smooth[s].count = 0;
         for (int i = patch[s].first; i <= patch[s].last; i++) {
           smooth[s].peak = fmax(smooth[s].peak, sb_ring_node_pressure(ring, i, (SbRingSurface)s));
         }
@@ -195,6 +197,9 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   out->drag_limit = ring->drag_limit;
   out->share_limit = ring->share_limit;
   out->pressure_peak = smooth[SB_RING_BORE].peak * ring->stress;
+  out->order = out->touching ? (double)smooth[SB_RING_BORE].count /
+                                   (patch[SB_RING_BORE].last - patch[SB_RING_BORE].first + 1)
+                             : 0.0;
   out->contact_left = patch[SB_RING_BORE].place[0] * l;
   out->contact_right = patch[SB_RING_BORE].place[1] * l;
   out->pressure_least = isfinite(least) ? least * ring->stress : 0.0;

@@ -190,6 +190,7 @@ typedef struct {
   double wall_s;      // elapsed time of the computation [s]
   double ring_fault;  // of a predicted run's rings: forces that violate their active sets, over the
                       // bore's [1]
+  double ring_order;  // most polynomials of a ring's recovered pressure for each node [1]
   double error_width; // of contact widths, relative as error_load [1]; NaN: does not apply
   SbCounters counters;
 } SbSummary;

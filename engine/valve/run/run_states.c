@@ -44,7 +44,7 @@ typedef struct {
   int seal;
   SbStatus status; // the worst, with the first report of it
   SbReport report, lacks, failed;
-  double friction_error, static_error, error_film, error_load, error_width, fault;
+  double friction_error, static_error, error_film, error_load, error_width, fault, order;
   SbCounters counters;
   SbWarnings warnings;
   bool solved[SB_CYCLE_CHAMBERS][SB_RUN_MOTIONS]; // without a failure
@@ -353,6 +353,7 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
   if (isfinite(state->load)) {
     lane->error_load = fmax(lane->error_load, fit->solver.error_estimate.load);
     lane->fault = fmax(lane->fault, fit->ring.fault);
+    lane->order = fmax(lane->order, fit->ring.order);
     lane->error_width = fmax(lane->error_width, fit->solver.error_estimate.contact_width);
   }
   // fmax() leaves out what was not computed.
@@ -486,6 +487,7 @@ static void join(SbRun *run, const Lane *lane) {
   summary->error_load = fmax(summary->error_load, lane->error_load);
   summary->error_width = fmax(summary->error_width, lane->error_width);
   summary->ring_fault = fmax(summary->ring_fault, lane->fault);
+  summary->ring_order = fmax(summary->ring_order, lane->order);
 }
 
 static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
