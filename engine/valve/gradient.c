@@ -6,7 +6,7 @@
 // the same at any step; at a jump, and in rounding, by more the smaller it is. At an end of the
 // range one-sided slopes d(h), d(h/2), d(h/4) are extrapolated twice. The error is |R - D(h/2)|,
 // that of the last but one order, and what rounding leaves in it.
-#include "engine/valve/gradient.h"
+#include "engine/valve/gradient_private.h"
 
 #include <float.h>
 #include <math.h>
@@ -14,237 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { TEXTS_MAX = 64, TEXT_SIZE = 160 };
-
-struct SbGradient {
-  size_t figures, parameters;
-  int *figure;
-  SbParamId *parameter;
-  double *at, *value;    // of each parameter, of each figure
-  double *slope, *error; // [figures][parameters]
-  unsigned char *why;    // text number from 1 of those without, 0: none
-  size_t text_count;
-  char text[TEXTS_MAX][TEXT_SIZE];
-};
-
-// ---- What it holds
-
-void sb_gradient_destroy(SbGradient *gradient) {
-  if (gradient != NULL) {
-    free(gradient->figure);
-    free(gradient->parameter);
-    free(gradient->at);
-    free(gradient->value);
-    free(gradient->slope);
-    free(gradient->error);
-    free(gradient->why);
-    free(gradient);
-  }
-}
-
-size_t sb_gradient_figures(const SbGradient *gradient) {
-  return gradient->figures;
-}
-
-size_t sb_gradient_parameters(const SbGradient *gradient) {
-  return gradient->parameters;
-}
-
-int sb_gradient_figure(const SbGradient *gradient, size_t figure) {
-  return gradient->figure[figure];
-}
-
-SbParamId sb_gradient_parameter(const SbGradient *gradient, size_t parameter) {
-  return gradient->parameter[parameter];
-}
-
-double sb_gradient_at(const SbGradient *gradient, size_t parameter) {
-  return gradient->at[parameter];
-}
-
-double sb_gradient_value(const SbGradient *gradient, size_t figure) {
-  return gradient->value[figure];
-}
-
-double sb_gradient_slope(const SbGradient *gradient, size_t figure, size_t parameter) {
-  return gradient->slope[figure * gradient->parameters + parameter];
-}
-
-double sb_gradient_error(const SbGradient *gradient, size_t figure, size_t parameter) {
-  return gradient->error[figure * gradient->parameters + parameter];
-}
-
-const char *sb_gradient_reason(const SbGradient *gradient, size_t figure, size_t parameter) {
-  const unsigned char number = gradient->why[figure * gradient->parameters + parameter];
-  return number > 0 ? gradient->text[number - 1] : NULL;
-}
-
-bool sb_gradient_wants(SbParamId id) {
-  return sb_param(id)->kind == SB_PARAM_REAL;
-}
-
-// Place of a parameter, the number of parameters if it has not got it.
-static size_t place_of(const SbGradient *gradient, SbParamId id) {
-  size_t at = 0;
-  while (at < gradient->parameters && gradient->parameter[at] != id) {
-    at++;
-  }
-  return at;
-}
-
-SbStatus sb_gradient_predict(double *value, const SbGradient *gradient, const SbOverride *override,
-                             size_t count, SbReport *report) {
-  for (size_t i = 0; i < count; i++) {
-    const SbParam *param = sb_param(override[i].id);
-    if (place_of(gradient, override[i].id) == gradient->parameters) {
-      return sb_fail_parameter(report, SB_ERROR_INPUT, param->key, "no derivative by it is known");
-    }
-    if (!(override[i].value >= param->min && override[i].value <= param->max)) {
-      return sb_fail_parameter(report, SB_ERROR_RANGE, param->key, "%g is outside %g to %g (%s)",
-                               override[i].value, param->min, param->max, param->si);
-    }
-  }
-  for (size_t f = 0; f < gradient->figures; f++) {
-    value[f] = gradient->value[f];
-  }
-  for (size_t i = 0; i < count; i++) {
-    const size_t at = place_of(gradient, override[i].id);
-    bool last = true;
-    for (size_t k = i + 1; k < count; k++) {
-      last = last && override[k].id != override[i].id;
-    }
-    const double by = override[i].value - gradient->at[at];
-    for (size_t f = 0; f < gradient->figures && last && by != 0; f++) {
-      value[f] += by * sb_gradient_slope(gradient, f, at);
-    }
-  }
-  return sb_succeed(report);
-}
-
-static SbGradient *make(const SbQuestion *question, const SbParamId *parameter, size_t count) {
-  SbGradient *out = calloc(1, sizeof *out);
-  if (out == NULL) {
-    return NULL;
-  }
-  const size_t n = question->figure_count, cells = n * count;
-  out->figures = n;
-  out->parameters = count;
-  // One more: an array of none may be NULL.
-  out->figure = calloc(n + 1, sizeof *out->figure);
-  out->parameter = calloc(count + 1, sizeof *out->parameter);
-  out->at = calloc(count + 1, sizeof *out->at);
-  out->value = calloc(n + 1, sizeof *out->value);
-  out->slope = calloc(cells + 1, sizeof *out->slope);
-  out->error = calloc(cells + 1, sizeof *out->error);
-  out->why = calloc(cells + 1, sizeof *out->why);
-  if (out->figure == NULL || out->parameter == NULL || out->at == NULL || out->value == NULL ||
-      out->slope == NULL || out->error == NULL || out->why == NULL) {
-    sb_gradient_destroy(out);
-    return NULL;
-  }
-  for (size_t i = 0; i < n; i++) {
-    out->figure[i] = question->figure[i];
-  }
-  for (size_t i = 0; i < count; i++) {
-    out->parameter[i] = parameter[i];
-  }
-  return out;
-}
-
-// Number of a text, from 1. The last place takes what no longer fits.
-static unsigned char text_number(SbGradient *gradient, const char *text) {
-  char own[TEXT_SIZE];
-  sb_text(own, sizeof own, "%s", text);
-  size_t at = 0;
-  while (at < gradient->text_count && strcmp(gradient->text[at], own) != 0) {
-    at++;
-  }
-  if (at == TEXTS_MAX) {
-    sb_text(gradient->text[--at], TEXT_SIZE, "one of several reasons: ask for fewer parameters");
-  } else if (at == gradient->text_count) {
-    memcpy(gradient->text[gradient->text_count++], own, sizeof own);
-  }
-  return (unsigned char)(at + 1);
-}
-
-// ---- Asking
-
-// What happened, beside the figures: of it a step keeps all, or the reason of a jump is told.
-typedef struct {
-  bool known, stage[SB_STAGE_COUNT], returns;
-  struct {
-    bool touches, opened, film_fitted;
-    SbLeakState leak;
-    SbRingState in, out;
-  } seal[SB_SEAL_COUNT];
-} Outcome;
-
-static void take_outcome(Outcome *out, const SbSummary *summary) {
-  *out = (Outcome){.known = summary != NULL};
-  for (int i = 0; summary != NULL && i < SB_STAGE_COUNT; i++) {
-    out->stage[i] = summary->stage[i].reached;
-  }
-  for (int i = 0; summary != NULL && i < SB_SEAL_COUNT; i++) {
-    const SbSealState *seal = &summary->seal[i];
-    out->seal[i].touches = seal->touches;
-    out->seal[i].opened = seal->opened;
-    out->seal[i].film_fitted = seal->film_fitted;
-    out->seal[i].leak = seal->leak_state;
-    out->seal[i].in = summary->contact[i].in_stroke.section;
-    out->seal[i].out = summary->contact[i].back.section;
-  }
-  out->returns = summary != NULL && summary->returns;
-}
-
-// Says in what two outcomes differ (true), or nothing.
-static bool differ(char *text, size_t size, const Outcome *a, const Outcome *b) {
-  if (!a->known || !b->known) {
-    return false;
-  }
-  for (int i = 0; i < SB_STAGE_COUNT; i++) {
-    if (a->stage[i] != b->stage[i]) {
-      sb_text(text, size, "stage %s is reached on one side only", sb_stage_name((SbStage)i));
-      return true;
-    }
-  }
-  if (a->returns != b->returns) {
-    sb_text(text, size, "the stem returns on one side only");
-    return true;
-  }
-  for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    const char *what = a->seal[i].touches != b->seal[i].touches ? "touches the bore"
-                       : a->seal[i].opened != b->seal[i].opened ? "is opened by the fluid"
-                       : a->seal[i].film_fitted != b->seal[i].film_fitted
-                           ? "has a film on its fitted body"
-                       : a->seal[i].leak != b->seal[i].leak ? "leaks at rest in one way"
-                       : a->seal[i].in != b->seal[i].in || a->seal[i].out != b->seal[i].out
-                           ? "slides, rolls or jams in one way"
-                           : NULL;
-    if (what != NULL) {
-      sb_text(text, size, "the %s seal %s on one side only", sb_seal_name(i), what);
-      return true;
-    }
-  }
-  return false;
-}
-
-// Load, width and peak of a seal's contact, to and fro; NaN: not computed.
-enum { WAYS = 2, SIZES = 3 };
-typedef struct {
-  double size[SB_SEAL_COUNT][WAYS][SIZES];
-} Contacts;
-
-static void take_contacts(Contacts *out, const SbSummary *summary) {
-  for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    const SbSealState *in = &summary->seal[i];
-    const SbContact *back = &summary->contact[i].back;
-    const double sizes[WAYS][SIZES] = {
-        {in->load, in->contact_right - in->contact_left, in->pressure_peak},
-        {back->load, back->width, back->pressure_peak}};
-    memcpy(out->size[i], sizes, sizeof sizes);
-  }
-}
 
 // Points of a level: above and below its base at whole and half steps; where only one side is there
 // (h has its sign) h, h/2, h/4 in their places.
@@ -277,18 +46,18 @@ typedef struct {
   double *value;      // [LEVELS][POINTS][figures]
   Level level[LEVELS];
   bool *open; // figures whose derivative is still sought [figures]
-  Outcome outcome;
+  SbGradientOutcome outcome;
   double *ring_value;           // of the figures with the base's rings to first order [figures]
   const SbEvaluator *own_start; // of `evaluator`; NULL: it has solved its own
   SbEvaluator *start;           // beside whose rings all others are, owned; NULL: there are none
   bool rings;                   // this parameter enters rings
   bool refused;                 // the last question, by the parameters alone
   double fault;                 // of the last answer's rings
-  Contacts contacts, moved, up; // of the base's rings to first order, of the last answer's, at a
-                                // step up
-  double order;                 // of the rings' recovered pressures (SbSummary.ring_order)
-  char changed[TEXT_SIZE];      // what another outcome at a smallest step was, or empty
-  SbReport report;              // of the last question that was refused or failed
+  SbGradientContacts contacts, moved, up; // of the base's rings to first order, of the last
+                                          // answer's, at a step up
+  double order;                   // of the rings' recovered pressures (SbSummary.ring_order)
+  char changed[SB_GRADIENT_TEXT]; // what another outcome at a smallest step was, or empty
+  SbReport report;                // of the last question that was refused or failed
 } Work;
 
 static double *value_of(const Work *work, int level, int point) {
@@ -312,15 +81,15 @@ static SbStatus ask(Work *work, double *value, double x, bool tell) {
   if (status != SB_OK) {
     work->report = report;
   }
-  Outcome now;
+  SbGradientOutcome now;
   const SbSummary *summary = sb_evaluator_summary(by);
   work->fault = summary != NULL ? summary->ring_fault : 0;
   if (summary != NULL) {
-    take_contacts(&work->moved, summary);
+    sb_gradient_contacts(&work->moved, summary);
   }
-  take_outcome(&now, summary);
+  sb_gradient_outcome(&now, summary);
   if (tell && work->changed[0] == '\0') {
-    (void)differ(work->changed, sizeof work->changed, &work->outcome, &now);
+    (void)sb_gradient_differ(work->changed, sizeof work->changed, &work->outcome, &now);
   }
   return status;
 }
@@ -418,13 +187,13 @@ static void set(Work *work, size_t parameter, size_t figure, double slope, doubl
 
 static void SB_PRINTF(4, 5)
     refuse(Work *work, size_t parameter, size_t figure, const char *format, ...) {
-  char text[TEXT_SIZE];
+  char text[SB_GRADIENT_TEXT];
   va_list arguments;
   va_start(arguments, format);
   sb_text_v(text, sizeof text, format, arguments);
   va_end(arguments);
   set(work, parameter, figure, NAN, NAN);
-  work->out->why[figure * work->out->parameters + parameter] = text_number(work->out, text);
+  work->out->why[figure * work->out->parameters + parameter] = sb_gradient_text(work->out, text);
 }
 
 // Whether a derivative with its error is good enough to ask no more for it: of it, or of what the
@@ -610,9 +379,9 @@ static SbStatus add_scatter(Work *work, size_t parameter, double x, double scale
   }
   const double *value = value_of(work, level, PLUS);
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    for (int way = 0; way < WAYS; way++) {
+    for (int way = 0; way < SB_GRADIENT_WAYS; way++) {
       double sum = 0;
-      for (int k = 0; k < SIZES; k++) {
+      for (int k = 0; k < SB_GRADIENT_SIZES; k++) {
         const double by =
             fabs(work->up.size[i][way][k] / work->contacts.size[i][way][k] - 1) / fabs(h);
         sum += isfinite(by) ? by : 0;
@@ -721,19 +490,6 @@ static SbStatus set_up(Work *work, const SbQuestion *question) {
   return SB_OK;
 }
 
-// Of what a figure is the sum: of terms that nearly cancel in the balance of energies, and in what
-// a cycle leaks.
-static double size_of(const SbSummary *summary, int figure) {
-  const double value = fabs(sb_figure_value(summary, figure));
-  const SbFigure *row = sb_figure(figure);
-  const bool energy = strcmp(row->si, "J") == 0, leak = strncmp(row->path, "cycle.leak", 10) == 0;
-  const double whole = energy ? summary->energy.external_max
-                       : leak ? summary->leakage_carried
-                       : strcmp(row->path, "cycle.energy_closure") == 0 ? 1
-                                                                        : 0;
-  return fmax(value, whole); // leaves out what is not known
-}
-
 // Solves the base's rings, for all others to be beside.
 static SbStatus find_start(Work *work, const SbQuestion *question, SbReport *report) {
   SbQuestion base = *question;
@@ -777,9 +533,9 @@ static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) 
     memcpy(out->value, work->own_value, out->figures * sizeof *out->value);
   }
   const SbSummary *own = sb_evaluator_summary(work->evaluator);
-  take_outcome(&work->outcome, own);
+  sb_gradient_outcome(&work->outcome, own);
   if (own != NULL) {
-    take_contacts(&work->contacts, own);
+    sb_gradient_contacts(&work->contacts, own);
     work->order = own->ring_order;
   }
   for (size_t i = 0; i < out->parameters; i++) {
@@ -787,7 +543,7 @@ static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) 
   }
   for (size_t i = 0; i < out->figures; i++) {
     const char *why = sb_evaluator_reason(by, out->figure[i]);
-    work->size[i] = size_of(sb_evaluator_summary(by), out->figure[i]);
+    work->size[i] = sb_gradient_size(sb_evaluator_summary(by), out->figure[i]);
     for (size_t k = 0; why != NULL && k < out->parameters; k++) {
       refuse(work, k, i, "%s", why);
     }
@@ -806,7 +562,7 @@ SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQu
     }
   }
   SbReport own = {0};
-  Work work = {.evaluator = evaluator, .out = make(question, parameter, count)};
+  Work work = {.evaluator = evaluator, .out = sb_gradient_make(question, parameter, count)};
   SbStatus status = work.out != NULL ? set_up(&work, question) : SB_ERROR_MEMORY;
   status = status == SB_OK ? begin(&work, question, &own)
                            : sb_fail(&own, status, "no memory for derivatives");

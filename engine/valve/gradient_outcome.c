@@ -1,0 +1,76 @@
+// What a gradient looks at in an answer beside its figures.
+#include "engine/valve/gradient_private.h"
+
+#include <math.h>
+#include <string.h>
+
+void sb_gradient_outcome(SbGradientOutcome *out, const SbSummary *summary) {
+  *out = (SbGradientOutcome){.known = summary != NULL};
+  for (int i = 0; summary != NULL && i < SB_STAGE_COUNT; i++) {
+    out->stage[i] = summary->stage[i].reached;
+  }
+  for (int i = 0; summary != NULL && i < SB_SEAL_COUNT; i++) {
+    const SbSealState *seal = &summary->seal[i];
+    out->seal[i].touches = seal->touches;
+    out->seal[i].opened = seal->opened;
+    out->seal[i].film_fitted = seal->film_fitted;
+    out->seal[i].leak = seal->leak_state;
+    out->seal[i].in = summary->contact[i].in_stroke.section;
+    out->seal[i].out = summary->contact[i].back.section;
+  }
+  out->returns = summary != NULL && summary->returns;
+}
+
+bool sb_gradient_differ(char *text, size_t size, const SbGradientOutcome *a,
+                        const SbGradientOutcome *b) {
+  if (!a->known || !b->known) {
+    return false;
+  }
+  for (int i = 0; i < SB_STAGE_COUNT; i++) {
+    if (a->stage[i] != b->stage[i]) {
+      sb_text(text, size, "stage %s is reached on one side only", sb_stage_name((SbStage)i));
+      return true;
+    }
+  }
+  if (a->returns != b->returns) {
+    sb_text(text, size, "the stem returns on one side only");
+    return true;
+  }
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const char *what = a->seal[i].touches != b->seal[i].touches ? "touches the bore"
+                       : a->seal[i].opened != b->seal[i].opened ? "is opened by the fluid"
+                       : a->seal[i].film_fitted != b->seal[i].film_fitted
+                           ? "has a film on its fitted body"
+                       : a->seal[i].leak != b->seal[i].leak ? "leaks at rest in one way"
+                       : a->seal[i].in != b->seal[i].in || a->seal[i].out != b->seal[i].out
+                           ? "slides, rolls or jams in one way"
+                           : NULL;
+    if (what != NULL) {
+      sb_text(text, size, "the %s seal %s on one side only", sb_seal_name(i), what);
+      return true;
+    }
+  }
+  return false;
+}
+
+void sb_gradient_contacts(SbGradientContacts *out, const SbSummary *summary) {
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const SbSealState *in = &summary->seal[i];
+    const SbContact *back = &summary->contact[i].back;
+    const double sizes[SB_GRADIENT_WAYS][SB_GRADIENT_SIZES] = {
+        {in->load, in->contact_right - in->contact_left, in->pressure_peak},
+        {back->load, back->width, back->pressure_peak}};
+    memcpy(out->size[i], sizes, sizeof sizes);
+  }
+}
+
+double sb_gradient_size(const SbSummary *summary, int figure) {
+  const double value = fabs(sb_figure_value(summary, figure));
+  const SbFigure *row = sb_figure(figure);
+  const bool energy = strcmp(row->si, "J") == 0, leak = strncmp(row->path, "cycle.leak", 10) == 0;
+  const double whole = energy ? summary->energy.external_max
+                       : leak ? summary->leakage_carried
+                       : strcmp(row->path, "cycle.energy_closure") == 0 ? 1
+                                                                        : 0;
+  return fmax(value, whole); // leaves out what is not known
+}

@@ -1,0 +1,143 @@
+// What a gradient holds, and what it predicts.
+#include "engine/valve/gradient_private.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void sb_gradient_destroy(SbGradient *gradient) {
+  if (gradient != NULL) {
+    free(gradient->figure);
+    free(gradient->parameter);
+    free(gradient->at);
+    free(gradient->value);
+    free(gradient->slope);
+    free(gradient->error);
+    free(gradient->why);
+    free(gradient);
+  }
+}
+
+size_t sb_gradient_figures(const SbGradient *gradient) {
+  return gradient->figures;
+}
+
+size_t sb_gradient_parameters(const SbGradient *gradient) {
+  return gradient->parameters;
+}
+
+int sb_gradient_figure(const SbGradient *gradient, size_t figure) {
+  return gradient->figure[figure];
+}
+
+SbParamId sb_gradient_parameter(const SbGradient *gradient, size_t parameter) {
+  return gradient->parameter[parameter];
+}
+
+double sb_gradient_at(const SbGradient *gradient, size_t parameter) {
+  return gradient->at[parameter];
+}
+
+double sb_gradient_value(const SbGradient *gradient, size_t figure) {
+  return gradient->value[figure];
+}
+
+double sb_gradient_slope(const SbGradient *gradient, size_t figure, size_t parameter) {
+  return gradient->slope[figure * gradient->parameters + parameter];
+}
+
+double sb_gradient_error(const SbGradient *gradient, size_t figure, size_t parameter) {
+  return gradient->error[figure * gradient->parameters + parameter];
+}
+
+const char *sb_gradient_reason(const SbGradient *gradient, size_t figure, size_t parameter) {
+  const unsigned char number = gradient->why[figure * gradient->parameters + parameter];
+  return number > 0 ? gradient->text[number - 1] : NULL;
+}
+
+bool sb_gradient_wants(SbParamId id) {
+  return sb_param(id)->kind == SB_PARAM_REAL;
+}
+
+// Place of a parameter, the number of parameters if it has not got it.
+static size_t place_of(const SbGradient *gradient, SbParamId id) {
+  size_t at = 0;
+  while (at < gradient->parameters && gradient->parameter[at] != id) {
+    at++;
+  }
+  return at;
+}
+
+SbStatus sb_gradient_predict(double *value, const SbGradient *gradient, const SbOverride *override,
+                             size_t count, SbReport *report) {
+  for (size_t i = 0; i < count; i++) {
+    const SbParam *param = sb_param(override[i].id);
+    if (place_of(gradient, override[i].id) == gradient->parameters) {
+      return sb_fail_parameter(report, SB_ERROR_INPUT, param->key, "no derivative by it is known");
+    }
+    if (!(override[i].value >= param->min && override[i].value <= param->max)) {
+      return sb_fail_parameter(report, SB_ERROR_RANGE, param->key, "%g is outside %g to %g (%s)",
+                               override[i].value, param->min, param->max, param->si);
+    }
+  }
+  for (size_t f = 0; f < gradient->figures; f++) {
+    value[f] = gradient->value[f];
+  }
+  for (size_t i = 0; i < count; i++) {
+    const size_t at = place_of(gradient, override[i].id);
+    bool last = true;
+    for (size_t k = i + 1; k < count; k++) {
+      last = last && override[k].id != override[i].id;
+    }
+    const double by = override[i].value - gradient->at[at];
+    for (size_t f = 0; f < gradient->figures && last && by != 0; f++) {
+      value[f] += by * sb_gradient_slope(gradient, f, at);
+    }
+  }
+  return sb_succeed(report);
+}
+
+SbGradient *sb_gradient_make(const SbQuestion *question, const SbParamId *parameter, size_t count) {
+  SbGradient *out = calloc(1, sizeof *out);
+  if (out == NULL) {
+    return NULL;
+  }
+  const size_t n = question->figure_count, cells = n * count;
+  out->figures = n;
+  out->parameters = count;
+  // One more: an array of none may be NULL.
+  out->figure = calloc(n + 1, sizeof *out->figure);
+  out->parameter = calloc(count + 1, sizeof *out->parameter);
+  out->at = calloc(count + 1, sizeof *out->at);
+  out->value = calloc(n + 1, sizeof *out->value);
+  out->slope = calloc(cells + 1, sizeof *out->slope);
+  out->error = calloc(cells + 1, sizeof *out->error);
+  out->why = calloc(cells + 1, sizeof *out->why);
+  if (out->figure == NULL || out->parameter == NULL || out->at == NULL || out->value == NULL ||
+      out->slope == NULL || out->error == NULL || out->why == NULL) {
+    sb_gradient_destroy(out);
+    return NULL;
+  }
+  for (size_t i = 0; i < n; i++) {
+    out->figure[i] = question->figure[i];
+  }
+  for (size_t i = 0; i < count; i++) {
+    out->parameter[i] = parameter[i];
+  }
+  return out;
+}
+
+unsigned char sb_gradient_text(SbGradient *gradient, const char *text) {
+  char own[SB_GRADIENT_TEXT];
+  sb_text(own, sizeof own, "%s", text);
+  size_t at = 0;
+  while (at < gradient->text_count && strcmp(gradient->text[at], own) != 0) {
+    at++;
+  }
+  if (at == SB_GRADIENT_TEXTS) {
+    sb_text(gradient->text[--at], SB_GRADIENT_TEXT,
+            "one of several reasons: ask for fewer parameters");
+  } else if (at == gradient->text_count) {
+    memcpy(gradient->text[gradient->text_count++], own, sizeof own);
+  }
+  return (unsigned char)(at + 1);
+}
