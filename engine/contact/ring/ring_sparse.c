@@ -58,8 +58,7 @@ SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
   free(next);
   fem->value = calloc(SB_RING_BLOCK * (size_t)at, sizeof(double));
   fem->raw = calloc(SB_RING_BLOCK * (size_t)at, sizeof(double));
-  fem->factor = sb_ring_factor_create(mesh->nodes, fem->row_start, fem->column);
-  return fem->value != NULL && fem->raw != NULL && fem->factor != NULL
+  return fem->value != NULL && fem->raw != NULL
              ? SB_OK
              : sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
 }
@@ -122,6 +121,12 @@ static void apply_condition(SbRingFem *fem, int node) {
 
 SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report) {
   int nodes = fem->mesh->nodes;
+  if (fem->factor == NULL) { // many a state beside another is never factorised
+    fem->factor = sb_ring_factor_create(nodes, fem->row_start, fem->column);
+  }
+  if (fem->factor == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
+  }
   for (int i = 0; i < 2 * nodes; i++) {
     fem->rhs[i] = -fem->residual[i];
   }
