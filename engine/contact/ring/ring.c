@@ -192,7 +192,6 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
       }
       const bool easy = ring->easy;
       status = sb_ring_drag(ring, target.friction_bore, report);
-      ring->easy = false;
       if (status == SB_OK && easy && ring->state == SB_RING_SLIDES) {
         status = slide_at_once(ring, &target, report);
       }
@@ -209,14 +208,15 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
   return status;
 }
 
-// Under fluid a state that slides is mostly reached by an easy path, a fifth of the steps. A ring
-// that barely resists rolling can stumble over single nodes of a mesh: finer ones are tried.
+// Where floor and walls do not rub, so that a state hangs on none before, an easy path to it comes
+// first: it takes a part of the steps. A ring that barely resists rolling can stumble over single
+// nodes of a mesh: finer ones are tried.
 static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *report) {
   static const double FINER[] = {1.0, 1.0, 0.8, 0.6};
-  const bool pressed = target->pressure_left > 0.0 || target->pressure_right > 0.0;
   const bool slides = target->bore_slides != 0 && target->friction_bore > 0.0;
+  const bool smooth = target->friction_floor == 0.0 && target->friction_wall == 0.0;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
-  for (size_t i = pressed && slides ? 0 : 1;
+  for (size_t i = slides && smooth ? 0 : 1;
        i < sizeof FINER / sizeof FINER[0] && status == SB_ERROR_NOT_CONVERGED; i++) {
     ring->easy = i == 0;
     SbRingMeshPlan plan = first_plan(ring, target, FINER[i] * ring->options.element_size);

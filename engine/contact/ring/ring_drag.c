@@ -19,8 +19,9 @@
 #include <string.h>
 
 // Steps along the path: first, largest and least; the length over which its direction is taken; the
-// turn after which the mesh is fitted anew.
-static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 5e-4, SECANT = 0.02, REFIT_TURN = 0.15;
+// turn after which the mesh is fitted anew, and that on an easy path.
+static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 5e-4, SECANT = 0.02, REFIT_TURN = 0.1,
+                    EASY_TURN = 0.5;
 
 // Newton iterations of a quick and of a slow step, of a whole path and of an easy one at most;
 // meshes that are tried at a place where no step succeeds, and by how much each is finer.
@@ -148,7 +149,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
     if (ring->easy && ring->count.iterations - first > EASY_MOST) {
       return sb_fail(report, SB_ERROR_NOT_CONVERGED, "an easy path ends after many steps");
     }
-    bool refit = fabs(is->turn - fitted) > REFIT_TURN;
+    bool refit = fabs(is->turn - fitted) > (ring->easy ? EASY_TURN : REFIT_TURN);
     if (status == SB_ERROR_NOT_CONVERGED) {
       ring->count.rejected++;
       length *= 0.5;

@@ -51,7 +51,7 @@ struct SbRing {
   SbRingCount count;
   SbRingArc arc;
   bool passing; // single nodes may have no state: they are held against a small pull
-  bool easy;    // on a path too, friction under fluid sets in more softly
+  bool easy;    // on a path friction under fluid sets in more softly, and meshes are fitted seldom
   SbRingBest best;
   SbRingState state;        // how the last step ended: rolls or jams, else slides
   double share_limit;       // greatest share of the bore's law in steady sliding, 0: not met
