@@ -219,6 +219,7 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
   for (size_t i = slides && smooth ? 0 : 1;
        i < sizeof FINER / sizeof FINER[0] && status == SB_ERROR_NOT_CONVERGED; i++) {
     ring->easy = i == 0;
+    ring->onset = SB_RING_EASY;
     SbRingMeshPlan plan = first_plan(ring, target, FINER[i] * ring->options.element_size);
     drop(ring);
     ring->arc.free = false;

@@ -40,9 +40,9 @@ static const double PULL = 1e-3;
 // sets in smoothly over the first excess of its pressure over the fluid's, by this share of that,
 // or of WET_MOST shear moduli if those are less. The drag then is the law's integral over the
 // recovered pressure to 0.3 % (tests/engine); on a path, whose states lead to others only, to some
-// percent. Over the first WET_EASY shares a node hardly ever is without a state; that is a path to
-// a state only, too soft to tell a limit.
-static const double WET = 0.15, WET_EASY = 1.0, WET_MOST = 0.7;
+// percent. On an easy path it sets in more softly, so that hardly a node is without a state: too
+// softly to tell a limit.
+static const double WET = 0.15, WET_MOST = 0.7;
 
 // Neighbours at the end of a contact can come and go in turn for ever: a node that was caught or
 // changed its slip so often in a solve changes further only where it is the worst of all.
@@ -57,7 +57,7 @@ SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *r
   size_t n = (size_t)fem->mesh->loop_count;
   contact->fem = fem;
   contact->count = (int)n;
-  contact->force_scale = 1.0;
+  contact->force_scale = contact->onset = 1.0;
   contact->is.touch = calloc(3 * n * SB_RING_SURFACES, sizeof(SbRingTouch)); // and the saved ones
   contact->closed = calloc(n, sizeof(bool));
   contact->share = calloc(8 * n, sizeof(double)); // and what follows it
@@ -128,7 +128,7 @@ SbRingGrip sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surfa
   }
   if (surface == SB_RING_BORE && now->bore_slides != 0 && fluid > 0.0) {
     const bool high = fluid > WET_MOST * area;
-    const double over = (contact->easy ? WET_EASY : WET) * (high ? WET_MOST * area : fluid);
+    const double over = contact->onset * WET * (high ? WET_MOST * area : fluid);
     const double share = fmax(0.0, (normal - fluid) / over);
     if (share < 1.0) {
       const double part = share * share * (3.0 - 2.0 * share);

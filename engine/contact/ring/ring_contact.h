@@ -64,7 +64,7 @@ typedef struct {
   bool fixed;         // the held set and the slip states stay
   bool stuck;         // and every held node stays at its place
   bool passed;        // nodes that come and go stay held against a small pull
-  bool easy;          // friction under fluid sets in more softly
+  double onset;       // of friction under fluid, over the usual one
   double slid;        // how far sliding nodes may go back before they stick: what they came
   double slip_excess; // departure from Coulomb's law at nodes that could not settle
   double force_scale; // for tolerances

@@ -19,9 +19,9 @@
 #include <string.h>
 
 // Steps along the path: first, largest and least; the length over which its direction is taken; the
-// turn after which the mesh is fitted anew, and that on an easy path.
+// turn after which the mesh is fitted anew, and that on an easy path; of the search for its limit.
 static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 5e-4, SECANT = 0.02, REFIT_TURN = 0.1,
-                    EASY_TURN = 0.5;
+                    EASY_TURN = 0.5, CLIMB = 0.1;
 
 // Newton iterations of a quick and of a slow step, of a whole path and of an easy one at most;
 // meshes that are tried at a place where no step succeeds, and by how much each is finer.
@@ -31,7 +31,8 @@ static const double FINER = 0.12;
 // The greatest coefficient is passed where it has fallen to this share of it and the section turned
 // on by FALL_TURN, or over OVER in all (rad); a path that ends has met it if it has not risen by
 // more than that over FLAT_TURN. The load over that without friction at which the ring is wedged.
-static const double FALL = 0.97, FALL_TURN = 0.1, FLAT_TURN = 0.15, OVER = 3.0, JAM = 10.0;
+static const double FALL = 0.97, EASY_FALL = 0.985, FALL_TURN = 0.1, FLAT_TURN = 0.15, OVER = 3.0,
+                    JAM = 10.0;
 
 void sb_ring_rest_on_wall(SbRing *ring) {
   const SbRingContact *contact = ring->contact;
@@ -180,7 +181,8 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
         level_turn = is->turn;
       }
       const bool past = fabs(is->turn - most_turn) > FALL_TURN;
-      bool rolls = (is->now.friction_bore < FALL * most && past) || fabs(is->turn) > OVER;
+      bool rolls = (is->now.friction_bore < (ring->easy ? EASY_FALL : FALL) * most && past) ||
+                   fabs(is->turn) > OVER;
       if (rolls || load > JAM * still) {
         return end_at_limit(ring, rolls ? SB_RING_ROLLS : SB_RING_JAMS, most, limit);
       }
@@ -205,22 +207,50 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   return ring->easy ? sb_succeed(report) : settle_at(ring, aim, report);
 }
 
-// Solves the state of the greatest friction, at its turn, as strictly as any other; where there is
-// none that of the path stays, but of an easy one.
+// From a state of a held turn to the one of the greatest friction, by turns of CLIMB.
+static void climb(SbRing *ring) {
+  const SbRingContactState *is = &ring->contact->is;
+  for (int side = -1; side <= 1; side += 2) {
+    for (bool better = true; better;) {
+      const double best = is->now.friction_bore;
+      ring->arc = (SbRingArc){true, {side, 0.0}, {is->turn, 0.0}, CLIMB, 1.0};
+      sb_ring_save(ring->contact, SB_RING_START);
+      sb_ring_save(ring->contact, SB_RING_BEFORE);
+      better = sb_ring_attempt(ring, SB_RING_DIRECT, NULL) == SB_OK && is->now.friction_bore > best;
+    }
+    sb_ring_restore(ring->contact, SB_RING_BEFORE);
+  }
+  sb_ring_contact_settle(ring->contact);
+}
+
+// Solves the state of the greatest friction, at its turn, as strictly as any other. That of an easy
+// path is led there; it ends where there is none, that of any other stays.
 static SbStatus settle_limit(SbRing *ring, bool easy, SbReport *report) {
+  static const double ONSET[] = {3.5, 2.0, 1.4};
   const SbRingState state = ring->state;
   double before, after, whole;
+  (void)bore_load(ring->contact, &before, &whole);
+  ring->easy = easy;
+  for (size_t i = 0; easy && i < sizeof ONSET / sizeof ONSET[0]; i++) {
+    sb_ring_hold_turn(ring);
+    sb_ring_save(ring->contact, SB_RING_START);
+    ring->onset = ONSET[i];
+    (void)sb_ring_attempt(ring, SB_RING_DIRECT, NULL);
+  }
+  ring->easy = false;
   sb_ring_hold_turn(ring);
   sb_ring_save(ring->contact, SB_RING_START);
-  (void)bore_load(ring->contact, &before, &whole);
   SbStatus status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
   if (status == SB_OK) {
+    if (easy) {
+      climb(ring);
+    }
     (void)bore_load(ring->contact, &after, &whole);
     ring->share_limit = ring->contact->is.now.friction_bore;
     ring->drag_limit *= after / before;
-  } else if (status == SB_ERROR_NOT_CONVERGED) {
+  } else if (status == SB_ERROR_NOT_CONVERGED && !easy) {
     sb_ring_contact_settle(ring->contact);
-    status = easy && !ring->options.fit_mesh ? status : sb_succeed(report);
+    status = sb_succeed(report);
   }
   ring->arc.free = false;
   ring->state = state;

@@ -157,7 +157,7 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
   double step = 1.0, det_before = 1.0, friction = contact->is.now.friction_bore, change = 0.0;
   sb_ring_contact_begin(contact);
   contact->passed = ring->passing;
-  contact->easy = ring->passing && ring->easy;
+  contact->onset = ring->easy ? ring->onset : 1.0;
   const double tolerance = ring->passing ? PASSED_TOLERANCE : RESIDUAL_TOLERANCE;
   fem->axial_rest = 0.0;
   fem->axial_damping = DAMPING / fem->mesh->nodes;

@@ -51,7 +51,8 @@ struct SbRing {
   SbRingCount count;
   SbRingArc arc;
   bool passing; // single nodes may have no state: they are held against a small pull
-  bool easy;    // on a path friction under fluid sets in more softly, and meshes are fitted seldom
+  bool easy;    // a path of softer friction under fluid and of fewer meshes
+  double onset; // of that friction, over the usual one
   SbRingBest best;
   SbRingState state;        // how the last step ended: rolls or jams, else slides
   double share_limit;       // greatest share of the bore's law in steady sliding, 0: not met
@@ -162,6 +163,9 @@ SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report)
 // The turn of the section since it was free, that of all which look the same that is nearest to the
 // last one known, and what it changes by a displacement du; NULL: none. Its mean axial place.
 double sb_ring_turn(const SbRingContact *contact, const double *du, double *change, double *place);
+
+// How much more softly than usual friction under fluid sets in along an easy path.
+#define SB_RING_EASY 7.0
 
 // Follows steady sliding from a state without friction on the bore to a share `aim` of its law, or
 // beyond the greatest one that the ring bears: then it rolls or jams, which `state` and
