@@ -2,6 +2,7 @@
 import glob
 import os
 import re
+import time
 
 import pyatspi
 
@@ -74,7 +75,13 @@ def a_small_window_leaves_room_for_the_section(folder):
         app.act(verdict, "click")
         wait("the return", lambda: re.match(r"stage [EF]–A", app.status()) or app.label(
             r"The stem does not come to rest by itself"))
-        app.key("Escape")
+
+        def closed():
+            app.key("Escape")  # lost while the popover still opens
+            time.sleep(0.3)
+            return not app.label(r"The stem does not come to rest by itself")
+
+        wait("the reason closed", closed)
         # The charts have given way; nothing of the toolbar is cut.
         toggle = app.find("toggle button", "Charts")
         wait("no charts", lambda: not app.has("chart", "Force and displacement"))

@@ -313,8 +313,12 @@ static void add_toolbar(Page *page) {
   page->use = button_of(bar, _("Use estimates"),
                         _("Puts what the data tell into the valve; the rest keeps its values"),
                         G_CALLBACK(on_use), page);
-  gtk_box_pack_start(GTK_BOX(page->box), GTK_WIDGET(bar), FALSE, FALSE, 0);
-  gtk_widget_show_all(GTK_WIDGET(bar));
+  // The window may be narrower than the bar.
+  GtkWidget *room = gtk_scrolled_window_new(NULL, NULL);
+  gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(room), GTK_POLICY_AUTOMATIC, GTK_POLICY_NEVER);
+  gtk_container_add(GTK_CONTAINER(room), GTK_WIDGET(bar));
+  gtk_box_pack_start(GTK_BOX(page->box), room, FALSE, FALSE, 0);
+  gtk_widget_show_all(room);
 }
 
 GtkWidget *sb_calibrate_page_new(SbSession *session) {
