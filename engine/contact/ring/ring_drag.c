@@ -20,6 +20,7 @@
 
 // Steps along the path: first, largest and least; the length over which its direction is taken; the
 // turn after which the mesh is fitted anew, and that on an easy path; of the search for its limit.
+// A search ends within half of CLIMB's turn, where a flat maximum is known to a few percent.
 static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 5e-4, SECANT = 0.02, REFIT_TURN = 0.1,
                     EASY_TURN = 0.5, CLIMB = 0.1;
 
@@ -30,7 +31,8 @@ static const double FINER = 0.12;
 
 // The greatest coefficient is passed where it has fallen to this share of it and the section turned
 // on by FALL_TURN, or over OVER in all (rad); a path that ends has met it if it has not risen by
-// more than that over FLAT_TURN. The load over that without friction at which the ring is wedged.
+// more than that over FLAT_TURN. An easy path, whose limit is searched for afterwards, need not go
+// so far beyond it. The load over that without friction at which the ring is wedged.
 static const double FALL = 0.97, EASY_FALL = 0.985, FALL_TURN = 0.1, FLAT_TURN = 0.15, OVER = 3.0,
                     JAM = 10.0;
 
@@ -226,7 +228,7 @@ static void climb(SbRing *ring) {
 // Solves the state of the greatest friction, at its turn, as strictly as any other. That of an easy
 // path is led there; it ends where there is none, that of any other stays.
 static SbStatus settle_limit(SbRing *ring, bool easy, SbReport *report) {
-  static const double ONSET[] = {3.5, 2.0, 1.4};
+  static const double ONSET[] = {3.5, 2.0, 1.4}; // from SB_RING_EASY to the usual one, in halves
   const SbRingState state = ring->state;
   double before, after, whole;
   (void)bore_load(ring->contact, &before, &whole);
