@@ -82,6 +82,7 @@ typedef struct {
 typedef struct SbFitStart {
   double error_load, error_peak, error_width; // relative, told of it
   const SbRing *ring;
+  SbRingGuide *guide;     // of that ring; NULL: none
   SbRingTangent *tangent; // of that ring, to take it from to first order; NULL: it is solved
 } SbFitStart;
 

@@ -137,7 +137,7 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   if (tangent) {
     status = sb_ring_tangent_at(&ring, in->start->tangent, &body, &load, &options, report);
   } else if (in->start != NULL) {
-    status = sb_ring_near(&ring, in->start->ring, &body, &load, &options, NULL);
+    status = sb_ring_near(&ring, in->start->ring, in->start->guide, &body, &load, &options, NULL);
   }
   if (status == SB_OK) {
     sb_ring_result(ring, &result);

@@ -38,6 +38,7 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
     }
     for (int i = 0; i < memory->kept_count; i++) {
       sb_sliding_beside_destroy(memory->kept[i].beside);
+      sb_ring_guide_destroy(memory->kept[i].guide);
       sb_ring_tangent_destroy(memory->kept[i].tangent);
       sb_ring_destroy(memory->kept[i].ring);
     }

@@ -56,16 +56,15 @@ void sb_sliding_keep(SbSlidingMemory *memory, int way) {
     return;
   }
   SbSlidingStart *kept = &memory->kept[memory->kept_count];
-  *kept =
-      (SbSlidingStart){{fit->solver.error_estimate.load, fit->solver.error_estimate.pressure_peak,
-                        fit->solver.error_estimate.contact_width, on->ring, NULL},
-                       on->ring,
-                       NULL,
-                       NULL,
-                       way,
-                       on->pressure / on->modulus,
-                       on->law,
-                       on->found};
+  *kept = (SbSlidingStart){.start = {.error_load = fit->solver.error_estimate.load,
+                                     .error_peak = fit->solver.error_estimate.pressure_peak,
+                                     .error_width = fit->solver.error_estimate.contact_width,
+                                     .ring = on->ring},
+                           .ring = on->ring,
+                           .way = way,
+                           .strain = on->pressure / on->modulus,
+                           .law = on->law,
+                           .found = on->found};
   if (apart) { // there is nothing to start from
     kept->ring = NULL;
     kept->start.ring = NULL;
@@ -73,11 +72,13 @@ void sb_sliding_keep(SbSlidingMemory *memory, int way) {
     return;
   }
   kept->beside = sb_sliding_beside_create();
-  if (kept->beside == NULL ||
+  if (kept->beside == NULL || sb_ring_guide_create(&kept->guide, on->ring, NULL) != SB_OK ||
       sb_ring_tangent_create(&kept->tangent, on->ring, &kept->law, NULL) != SB_OK) {
+    sb_ring_guide_destroy(kept->guide);
     sb_sliding_beside_destroy(kept->beside);
     return;
   }
+  kept->start.guide = kept->guide;
   memory->kept_count++;
   on->ring = NULL;
   on->known = false;

@@ -54,6 +54,7 @@ typedef enum { SB_SUM_NOTHING, SB_SUM_FITMENT, SB_SUM_ALL } SbSumDepth;
 typedef struct {
   SbFitStart start;
   SbRing *ring;            // owned, that of `start`
+  SbRingGuide *guide;      // owned, its
   SbRingTangent *tangent;  // owned, its
   SbSlidingBeside *beside; // owned, states beside it
   int way;                 // of sliding: index of SbSlidingMemory.fitment

@@ -37,6 +37,8 @@ class Campaign:
             parser.error('give either --slice SECONDS or --full')
         self.build = os.path.abspath(options.build)
         self.program = os.path.join(self.build, 'sealbench')
+        os.environ['SEALBENCH_PROGRAM'] = self.program
+        os.environ['SEALBENCH_ASSETS'] = os.path.join(SOURCE, 'assets')
         self.full = options.full
         self.seed = options.seed
         self.random = random.Random(options.seed)

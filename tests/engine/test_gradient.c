@@ -95,6 +95,29 @@ static bool five_points(double *slope, const Valve *valve, SbParamId id, double 
   return true;
 }
 
+// What solved figures scatter by about their slopes: several runs so near x that nothing bends. The
+// weights of five points sum to 3/2 of it over the step h.
+static void scatter(double *off, const Valve *valve, const SbGradient *gradient, SbParamId id,
+                    size_t k, double h) {
+  enum { RUNS = 6 };
+  static const double NEAR = 1e-8;
+  const double x = sb_gradient_at(gradient, k);
+  for (size_t i = 0; i < FIGURES; i++) {
+    off[i] = 0;
+  }
+  for (int run = 1; run <= RUNS; run++) {
+    const double dx = NEAR * run * x;
+    double value[FIGURES];
+    if (!run_at(value, valve, id, x + dx)) {
+      continue;
+    }
+    for (size_t i = 0; i < FIGURES; i++) {
+      const double is = sb_gradient_value(gradient, i) + sb_gradient_slope(gradient, i, k) * dx;
+      off[i] = fmax(off[i], 1.5 * fabs(value[i] - is) / h);
+    }
+  }
+}
+
 // Leaves out groups of which few parameters or none enter these figures, so that draws are no
 // waste.
 static bool may_enter(SbParamId id) {
@@ -125,22 +148,32 @@ static void compare(const SbOverride *change, size_t changes, size_t count, guin
                     double close) {
   Valve valve;
   SbParamId parameter[SB_PARAM_COUNT];
-  size_t compared = 0, moved = 0;
+  size_t compared = 0, moved = 0, scatters = 0;
   set_up(&valve, change, changes);
   draw(parameter, &valve, count, seed);
   SbGradient *gradient = gradient_of(&valve, parameter, count);
   for (size_t k = 0; k < count; k++) {
-    const double x = sb_gradient_at(gradient, k);
-    double slope[FIGURES];
-    if (!five_points(slope, &valve, parameter[k], x,
-                     1e-4 * fabs(x))) { // meshes change by jumps, seldom
+    const double x = sb_gradient_at(gradient, k), h = 1e-4 * fabs(x);
+    double slope[FIGURES], scattered[FIGURES];
+    bool known = false; // what this parameter's runs scatter by, where it is asked for
+    if (!five_points(slope, &valve, parameter[k], x, h)) { // meshes change by jumps, seldom
       continue;
     }
     for (size_t i = 0; i < FIGURES; i++) {
       const double is = sb_gradient_slope(gradient, i, k), off = fabs(is - slope[i]);
       // Films are solved to a few parts in 1e12, over a step of 1e-4.
-      const double rounding = 3e-8 * fabs(sb_gradient_value(gradient, i) / x);
-      if (!isfinite(is) || off > close * fabs(slope[i]) + rounding) {
+      double allowed = close * fabs(slope[i]) + 3e-8 * fabs(sb_gradient_value(gradient, i) / x);
+      if (isfinite(is) && off > allowed) {
+        if (!known) {
+          scatter(scattered, &valve, gradient, parameter[k], k, h);
+          known = true;
+        }
+        g_test_message("%s by %s: %.8g, %.8g by five points, which scatter by %.2g", paths[i],
+                       sb_param(parameter[k])->key, is, slope[i], scattered[i]);
+        scatters++;
+        allowed += scattered[i];
+      }
+      if (!isfinite(is) || off > allowed) {
         g_error("%s by %s: %.10g with an error of %.2g, %.10g by five points; %s", paths[i],
                 sb_param(parameter[k])->key, is, sb_gradient_error(gradient, i, k), slope[i],
                 isfinite(is) ? "" : sb_gradient_reason(gradient, i, k));
@@ -152,6 +185,7 @@ static void compare(const SbOverride *change, size_t changes, size_t count, guin
   g_test_message("%zu compared, %zu not zero", compared, moved);
   g_assert_cmpuint(compared, >, count * FIGURES / 3);
   g_assert_cmpuint(moved, >, compared / 20);
+  g_assert_cmpuint(scatters, <=, moved / 20);
   sb_gradient_destroy(gradient);
   clear(&valve);
 }
@@ -322,7 +356,7 @@ static void test_ring_near(void) {
   // Stiffer: the load with it. Larger: with the square.
   SbRingBody other = body;
   other.modulus *= 1 + more;
-  g_assert_cmpint(sb_ring_near(&near, ring, &other, &load, &options, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_ring_near(&near, ring, NULL, &other, &load, &options, NULL), ==, SB_OK);
   sb_ring_result(near, &moved);
   g_assert_true(fabs(moved.bore_force / is.bore_force - 1 - more) < 1e-9);
   sb_ring_destroy(near);
@@ -332,14 +366,14 @@ static void test_ring_near(void) {
   other.inner_diameter *= 1 + more;
   larger.bore_radius *= 1 + more;
   larger.floor_radius *= 1 + more;
-  g_assert_cmpint(sb_ring_near(&near, ring, &other, &larger, &options, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_ring_near(&near, ring, NULL, &other, &larger, &options, NULL), ==, SB_OK);
   sb_ring_result(near, &moved);
   g_assert_true(fabs(moved.bore_force / is.bore_force - (1 + more) * (1 + more)) < 1e-9);
   sb_ring_destroy(near);
   // A wider bore: the slope is that of the solver's own step.
   SbRingLoad wider = load;
   wider.bore_radius += 1e-8;
-  g_assert_cmpint(sb_ring_near(&near, ring, &body, &wider, &options, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_ring_near(&near, ring, NULL, &body, &wider, &options, NULL), ==, SB_OK);
   sb_ring_result(near, &moved);
   g_assert_cmpint(sb_ring_step(ring, &wider, NULL), ==, SB_OK);
   sb_ring_result(ring, &stepped);

@@ -90,6 +90,11 @@ static SbStatus check_load(const SbRingBody *body, const SbRingLoad *load, SbRep
   return SB_OK;
 }
 
+SbStatus sb_ring_check(const SbRingBody *body, const SbRingLoad *load, SbReport *report) {
+  SbStatus status = check_body(body, report);
+  return status == SB_OK ? check_load(body, load, report) : status;
+}
+
 // Half the material angle that a squeeze brings into contact (width/d ~ 1.1 sqrt(squeeze), measured
 // on plane-strain solutions from 2 to 40 %); only for meshing.
 static double contact_angle(double squeeze) {
@@ -119,8 +124,7 @@ static SbRingMeshPlan first_plan(const SbRing *ring, const SbRingLoad *s, double
   return plan;
 }
 
-// Elements and contact on the ring's mesh.
-static SbStatus build_on_mesh(SbRing *ring, SbReport *report) {
+SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report) {
   const SbRingBody *body = &ring->body;
   double mu = ring->stress;
   double bulk = body->modulus / (3.0 * (1.0 - 2.0 * body->poisson_ratio));
@@ -140,7 +144,7 @@ static SbStatus build_on_mesh(SbRing *ring, SbReport *report) {
 
 static SbStatus build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report) {
   SbStatus status = sb_ring_mesh_create(&ring->mesh, plan, report);
-  return status == SB_OK ? build_on_mesh(ring, report) : status;
+  return status == SB_OK ? sb_ring_build_on_mesh(ring, report) : status;
 }
 
 static void drop(SbRing *ring) {
@@ -233,8 +237,7 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
   return status;
 }
 
-// A body with its units, and the load that it bears.
-static void set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *load) {
+void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *load) {
   const double d = body->section_diameter;
   ring->body = *body;
   ring->load = *load;
@@ -248,10 +251,7 @@ static void set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *loa
 SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *load,
                         const SbRingOptions *options, SbReport *report) {
   *out = NULL;
-  SbStatus status = check_body(body, report);
-  if (status == SB_OK) {
-    status = check_load(body, load, report);
-  }
+  SbStatus status = sb_ring_check(body, load, report);
   if (status != SB_OK) {
     return status;
   }
@@ -264,7 +264,7 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
   SbRingOptions *o = &ring->options;
   ring->passing = o->drawn;
   o->element_size = o->element_size > 0.0 ? fmin(0.1, fmax(0.004, o->element_size)) : SIZE_DEFAULT;
-  set_body(ring, body, load);
+  sb_ring_set_body(ring, body, load);
   const SbRingLoad target = sb_ring_load_in(load, ring->length, ring->stress);
   status = lay_ring(ring, &target, report);
   if (status != SB_OK) {
@@ -283,8 +283,7 @@ void sb_ring_destroy(SbRing *ring) {
   }
 }
 
-// Whether the bore contact's ends have left the short elements that its mesh has for them.
-static bool outgrown(const SbRing *ring) {
+bool sb_ring_outgrown(const SbRing *ring) {
   SbRingPatch patch;
   double moved = 0.0;
   if (ring->fitted_size > 0.0 && sb_ring_patch(ring, SB_RING_BORE, &patch)) {
@@ -348,7 +347,7 @@ static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch 
       *sb_ring_touch(contact, i, s) = (SbRingTouch){.held = held};
     }
   }
-  contact->fixed = fixed;
+  contact->fixed = contact->carried = fixed;
   if (fixed) {
     carry_slip(contact, ring->contact);
   }
@@ -356,7 +355,7 @@ static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch 
   static const double SLID = 1e-3;
   contact->slid = SLID;
   SbStatus status = sb_ring_newton(fresh, SB_RING_FOLLOW, report);
-  contact->fixed = contact->stuck = false;
+  contact->fixed = contact->carried = contact->stuck = false;
   contact->slid = 0.0;
   // Where the turn is held its coefficient is the mesh's; one far off is another state's.
   const double share = contact->is.now.friction_bore / ring->contact->is.now.friction_bore;
@@ -384,11 +383,8 @@ static SbStatus carry_turn(SbRing *fresh, const SbRing *ring, const SbRingPatch 
   return status;
 }
 
-// The ring's state on a mesh fitted to its contacts, in `fresh`, which has no mesh of its own yet
-// and keeps none where that fails. `edge`: size of the elements at the contacts' ends over that of
-// the others; 0 as friction asks for.
-static SbStatus remesh(SbRing *fresh, const SbRing *ring, double element_size, double edge,
-                       SbReport *report) {
+SbStatus sb_ring_remesh(SbRing *fresh, const SbRing *ring, double element_size, double edge,
+                        SbReport *report) {
   SbRingMeshPlan plan = empty_plan(ring, fmin(0.16, 3.2 * element_size), element_size);
   SbRingPatch patch[SB_RING_SURFACES];
   bool touches[SB_RING_SURFACES];
@@ -444,7 +440,7 @@ static SbStatus remesh(SbRing *fresh, const SbRing *ring, double element_size, d
 
 static SbStatus refit(SbRing *ring, double element_size, SbReport *report) {
   SbRing fresh = *ring;
-  SbStatus status = remesh(&fresh, ring, element_size, 0.0, report);
+  SbStatus status = sb_ring_remesh(&fresh, ring, element_size, 0.0, report);
   if (status != SB_OK) {
     ring->count = fresh.count;
     return status;
@@ -503,7 +499,7 @@ static SbStatus slide_on(SbRing *ring, const SbRingLoad *target, SbReport *repor
     status = slide_at_once(ring, target, report);
     fresh.count = ring->count;
   }
-  bool moved = status == SB_OK && outgrown(ring);
+  bool moved = status == SB_OK && sb_ring_outgrown(ring);
   ring->count.steps += status == SB_OK ? 1 : 0;
   if (status == SB_ERROR_NOT_CONVERGED) {
     fresh.count.rejected++;
@@ -546,8 +542,7 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   return status;
 }
 
-// A ring beside another of the same body, without a mesh yet.
-static SbStatus beside(SbRing **out, const SbRing *ring, SbReport *report) {
+SbStatus sb_ring_beside(SbRing **out, const SbRing *ring, SbReport *report) {
   SbRing *other = malloc(sizeof *other);
   *out = NULL;
   if (other == NULL) {
@@ -570,7 +565,7 @@ static SbStatus beside(SbRing **out, const SbRing *ring, SbReport *report) {
 
 SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *options,
                       SbReport *report) {
-  SbStatus status = beside(out, ring, report);
+  SbStatus status = sb_ring_beside(out, ring, report);
   if (status != SB_OK) {
     return status;
   }
@@ -580,7 +575,7 @@ SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *opt
   static const double EDGE[] = {0.3, 0.2, 0.4, 1.0};
   status = SB_ERROR_NOT_CONVERGED;
   for (size_t i = 0; i < sizeof EDGE / sizeof *EDGE && status == SB_ERROR_NOT_CONVERGED; i++) {
-    status = remesh(*out, ring, options->element_size, EDGE[i], report);
+    status = sb_ring_remesh(*out, ring, options->element_size, EDGE[i], report);
   }
   if (status != SB_OK) {
     sb_ring_destroy(*out);
@@ -589,163 +584,19 @@ SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *opt
   return status;
 }
 
-// The state of another mesh of the same nodes: displacements that leave the ring as it lies on its
-// floor, and its contact.
-static void lay_alike(SbRing *to, const SbRing *from, const SbRingLoad *target,
-                      const SbRingShift *shift) {
-  const double rise = target->floor_radius - from->contact->is.now.floor_radius;
-  SbRingFem *fem = to->fem;
-  SbRingContactState *is = &to->contact->is;
-  for (int i = 0; i < fem->mesh->nodes; i++) {
-    double x[2], more[2] = {0.0}, place[2];
-    sb_ring_fem_place(from->fem, i, place);
-    if (shift != NULL) {
-      sb_ring_shift_node(shift, from, i, x, more);
-    }
-    fem->u[2 * i] = place[0] + rise + more[0] - fem->mesh->x[2 * i];
-    fem->u[2 * i + 1] = place[1] + more[1] - fem->mesh->x[2 * i + 1];
-  }
-  memcpy(fem->inner, from->fem->inner,
-         sizeof(double) * SB_RING_INNER * (size_t)fem->mesh->elements);
-  memcpy(is->touch, from->contact->is.touch,
-         sizeof *is->touch * SB_RING_SURFACES * (size_t)to->contact->count);
-  is->turn = from->contact->is.turn;
-  memcpy(is->crest, from->contact->is.crest, sizeof is->crest);
-}
-
-// Shifts a copy of a ring's mesh.
-static void shift_mesh(SbRingMesh *mesh, const SbRing *ring, const SbRingShift *shift) {
-  for (int i = 0; i < mesh->nodes; i++) {
-    double x[2], place[2];
-    sb_ring_shift_node(shift, ring, i, x, place);
-    mesh->x[2 * i] += x[0];
-    mesh->x[2 * i + 1] += x[1];
-  }
-  for (int i = 0; i < mesh->loop_count; i++) {
-    mesh->angle[i] += sb_ring_shift_angle(shift, mesh->angle[i]);
-  }
-}
-
-// Whether what friction on floor and walls keeps of the way between two loads is less than what is
-// told of a ring dragged anew: loads within 0.3 % of that over these changes (measured). A ring
-// that nothing drags keeps nothing.
-static bool is_near(const SbRingLoad *a, const SbRingLoad *b) {
-  static const double PRESSURE = 0.35, PRESSURE_LEAST = 0.1, SPACE = 0.03, FAR = 3.0;
-  const double before = a->pressure_left - a->pressure_right;
-  const double after = b->pressure_left - b->pressure_right;
-  const double space = (a->bore_radius - a->floor_radius) - (b->bore_radius - b->floor_radius);
-  const double times = b->bore_slides != 0 ? 1.0 : FAR;
-  const double most = fmax(PRESSURE * fabs(before), before != 0.0 ? PRESSURE_LEAST : 0.0);
-  return fabs(after - before) <= times * most && fabs(space) <= times * SPACE;
-}
-
-// From a load to another one, at once or in parts.
-static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *to,
-                        SbReport *report) {
-  enum { PARTS = 4 };
-  SbRingLoad start = *from;
-  start.floor_radius = to->floor_radius; // where it lies
-  start.bore_radius += to->floor_radius - from->floor_radius;
-  start.shear = to->shear;
-  start.law = to->law;
-  ring->contact->is.now = start;
-  sb_ring_save(ring->contact, SB_RING_BEFORE);
-  SbStatus status = SB_ERROR_NOT_CONVERGED;
-  for (int parts = 1; parts <= PARTS && status == SB_ERROR_NOT_CONVERGED; parts *= 2) {
-    sb_ring_restore(ring->contact, SB_RING_BEFORE);
-    status = SB_OK;
-    for (int i = 1; i <= parts && status == SB_OK; i++) {
-      sb_ring_save(ring->contact, SB_RING_START);
-      const SbRingLoad next =
-          i == parts ? *to : sb_ring_load_between(&start, to, (double)i / parts);
-      ring->contact->is.now = next;
-      status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
-      // Single nodes that have no state are held, as on a path, against a small pull.
-      if (status == SB_ERROR_NOT_CONVERGED) {
-        ring->contact->is.now = next;
-        ring->passing = true;
-        status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
-        ring->passing = false;
-      }
-      ring->count.steps++;
-    }
-  }
-  return status;
-}
-
-SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
-                     const SbRingLoad *load, const SbRingOptions *options, const SbRingShift *shift,
-                     SbReport *report) {
-  SbRing *other = NULL;
-  *out = NULL;
-  SbStatus status = check_body(body, report);
-  status = status == SB_OK ? check_load(body, load, report) : status;
-  if (status == SB_OK && (ring->state != SB_RING_SLIDES || ring->arc.free ||
-                          ring->contact->is.now.bore_slides != load->bore_slides)) {
-    status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring near it does not slide alike");
-  }
-  status = status == SB_OK ? beside(&other, ring, report) : status;
-  if (status != SB_OK) {
-    return status;
-  }
-  const double size = ring->options.element_size;
-  other->options = *options;
-  other->options.element_size = size;
-  set_body(other, body, load);
-  status = sb_ring_mesh_copy(&other->mesh, ring->mesh, other->centre - ring->centre, report);
-  if (status == SB_OK && shift != NULL) {
-    shift_mesh(other->mesh, ring, shift);
-  }
-  status = status == SB_OK ? build_on_mesh(other, report) : status;
-  if (status != SB_OK) {
-    sb_ring_destroy(other);
-    return status;
-  }
-  const SbRingLoad target = sb_ring_load_in(load, other->length, other->stress);
-  lay_alike(other, ring, &target, shift);
-  other->contact->is.now = target;
-  *out = other;
-  return SB_OK;
-}
-
-SbStatus sb_ring_near(SbRing **out, const SbRing *ring, const SbRingBody *body,
-                      const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
-  SbRing *other;
-  *out = NULL;
-  SbStatus status = sb_ring_lay(&other, ring, body, load, options, NULL, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  const SbRingLoad target = other->contact->is.now;
-  status = is_near(&ring->contact->is.now, &target)
-               ? go_near(other, &ring->contact->is.now, &target, report)
-               : sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring is not near");
-  // Where the finer ends of the mesh no longer are the contact's: anew, unless that fails.
-  if (status == SB_OK && outgrown(other)) {
-    status = sb_ring_refit(other, other->fitted_size, report);
-    status = status == SB_ERROR_NOT_CONVERGED ? SB_OK : status;
-  }
-  if (status != SB_OK) {
-    sb_ring_destroy(other);
-    return status;
-  }
-  *out = other;
-  return sb_succeed(report);
-}
-
 SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbReport *report) {
   static const SbRingSurface OTHER[SB_RING_SURFACES] = {[SB_RING_BORE] = SB_RING_BORE,
                                                         [SB_RING_FLOOR] = SB_RING_FLOOR,
                                                         [SB_RING_WALL_RIGHT] = SB_RING_WALL_LEFT,
                                                         [SB_RING_WALL_LEFT] = SB_RING_WALL_RIGHT};
   SbRing *other;
-  SbStatus status = beside(&other, ring, report);
+  SbStatus status = sb_ring_beside(&other, ring, report);
   *out = other;
   if (status != SB_OK) {
     return status;
   }
   status = sb_ring_mesh_mirror(&other->mesh, ring->mesh, report);
-  status = status == SB_OK ? build_on_mesh(other, report) : status;
+  status = status == SB_OK ? sb_ring_build_on_mesh(other, report) : status;
   if (status != SB_OK) {
     sb_ring_destroy(other);
     *out = NULL;

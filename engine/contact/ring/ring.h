@@ -135,10 +135,18 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report);
 // ring that slides the other way. Owned; `law` is the data of its friction.
 SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbReport *report);
 
-// The state of another body at another load, from that of `ring` near it: its mesh, moved, and its
-// contact at first. A ring that slides steadily goes on sliding the same way; friction on floor and
-// walls sees the difference. Owned. SB_ERROR_NOT_CONVERGED where it is too far, or rolls or jams.
-SbStatus sb_ring_near(SbRing **out, const SbRing *ring, const SbRingBody *body,
+// A coarse copy of a ring that slides or rests, by way of which states near it are found; may be
+// asked by several threads. The ring outlives it. SB_ERROR_MEMORY; `destroy` takes NULL.
+typedef struct SbRingGuide SbRingGuide;
+SbStatus sb_ring_guide_create(SbRingGuide **out, const SbRing *ring, SbReport *report);
+void sb_ring_guide_destroy(SbRingGuide *guide);
+
+// The state of another body at another load, solved from that of `ring` near it: by way of its
+// guide, on a mesh that follows the contacts; where that fails, or without one (NULL), from its
+// state on its mesh, moved. A ring that slides steadily goes on sliding the same way; friction on
+// floor and walls sees the difference. Owned. SB_ERROR_NOT_CONVERGED where it is too far, or rolls
+// or jams.
+SbStatus sb_ring_near(SbRing **out, const SbRing *ring, SbRingGuide *guide, const SbRingBody *body,
                       const SbRingLoad *load, const SbRingOptions *options, SbReport *report);
 
 // States beside that of a ring that slides or rests, to first order in all that is changed, without

@@ -62,7 +62,8 @@ typedef struct {
   double *wet;        // [count / 2] the fluid's pressure on the sides, closed or not
   bool settled;       // the state stands still: its crests stay
   bool fixed;         // the held set and the slip states stay
-  bool stuck;         // and every held node stays at its place
+  bool carried;       // from another mesh: while they do, the first iterations are stuck,
+  bool stuck;         // that is, every held node stays at its place
   bool passed;        // nodes that come and go stay held against a small pull
   double onset;       // of friction under fluid, over the usual one
   double slid;        // how far sliding nodes may go back before they stick: what they came

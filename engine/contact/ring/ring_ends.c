@@ -13,6 +13,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 // In the order of the angle, and the axis along them.
 enum { CONTACTS = SB_RING_SURFACES, LEAST_NODES = 5 };
@@ -52,7 +53,7 @@ static void side_of(const SbRing *ring, int side, int axis, double z[3], double 
 
 // The side next to a boundary node on which a place lies; false: none.
 static bool find_side(int *out, const SbRing *ring, int node, int axis, double place) {
-  enum { SIDES = 6 };
+  enum { SIDES = 24 };
   const int middle = (int)floor(0.5 * node);
   for (int k = 0; k <= 2 * SIDES; k++) {
     double z[3], angle[3];
@@ -65,10 +66,18 @@ static bool find_side(int *out, const SbRing *ring, int node, int axis, double p
   return false;
 }
 
-// Material angle of a place on a side, or a little beyond its nodes.
+// Material angle of a place on a side, or up to its half beyond its nodes; farther away, on the side
+// there. Not a number: none.
 static double angle_on(const SbRing *ring, int side, int axis, double place) {
   double z[3], angle[3], n[3], d[3];
   side_of(ring, side, axis, z, angle);
+  const double beyond = fabs(place - 0.5 * (z[0] + z[2])) - fabs(z[2] - z[0]);
+  if (beyond > 0.0) {
+    if (!find_side(&side, ring, 2 * side + 1, axis, place)) {
+      return NAN;
+    }
+    side_of(ring, side, axis, z, angle);
+  }
   sb_ring_side_at(z, place, n, d);
   return sb_ring_side_sum(n, angle);
 }
@@ -106,8 +115,13 @@ bool sb_ring_shift_follow(SbRingShift *shift, const SbRing *other) {
     }
     const SbRingPatch *patch = &shift->patch[s];
     const double *was = shift->moment[s];
+    // To first order the nodes are those of the base, by which the shift is smooth.
+    SbRingPatch own;
     double now[2];
-    moments(other, s, patch, now);
+    if (!other->first_order && !sb_ring_patch(other, AROUND[s], &own)) {
+      return false;
+    }
+    moments(other, s, other->first_order ? patch : &own, now);
     for (int k = 0; k < 2; k++, at++) {
       const double place = now[0] + (patch->place[k] - was[0]) * now[1] / was[1];
       const double angle = angle_on(other, shift->side[at], AXIS[s], place);
@@ -117,6 +131,14 @@ bool sb_ring_shift_follow(SbRingShift *shift, const SbRing *other) {
       }
     }
   }
+  return shift->count > 0;
+}
+
+bool sb_ring_shift_like(SbRingShift *shift, const SbRingShift *other) {
+  if (shift->count != other->count || memcmp(shift->held, other->held, sizeof shift->held) != 0) {
+    return false;
+  }
+  memcpy(shift->by, other->by, sizeof shift->by);
   return shift->count > 0;
 }
 

@@ -423,20 +423,27 @@ void sb_ring_fem_stress(const SbRingFem *fem, int element, double l1, double l2,
   cauchy[3] = stress[4] * f[4] / *jacobian;
 }
 
+void sb_ring_fem_interpolate(double *out, const SbRingMesh *mesh, const double *field,
+                             const SbRingMesh *from) {
+  double l1 = 0.0, l2 = 0.0;
+  int e = 0;
+  for (int i = 0; i < mesh->nodes; i++) {
+    e = sb_ring_mesh_locate(from, &mesh->x[2 * i], e, &l1, &l2);
+    double n[6], d1[6], d2[6];
+    sb_ring_shape(l1, l2, n, d1, d2);
+    out[2 * i] = out[2 * i + 1] = 0.0;
+    for (int a = 0; a < 6; a++) {
+      out[2 * i] += n[a] * field[2 * from->tri[6 * e + a]];
+      out[2 * i + 1] += n[a] * field[2 * from->tri[6 * e + a] + 1];
+    }
+  }
+}
+
 void sb_ring_fem_transfer(SbRingFem *to, const SbRingFem *from) {
   const SbRingMesh *mesh = to->mesh;
   double l1 = 0.0, l2 = 0.0;
-  int e = 0, old = 0;
-  for (int i = 0; i < mesh->nodes; i++) {
-    e = sb_ring_mesh_locate(from->mesh, &mesh->x[2 * i], e, &l1, &l2);
-    double n[6], d1[6], d2[6];
-    sb_ring_shape(l1, l2, n, d1, d2);
-    to->u[2 * i] = to->u[2 * i + 1] = 0.0;
-    for (int a = 0; a < 6; a++) {
-      to->u[2 * i] += n[a] * from->u[2 * from->mesh->tri[6 * e + a]];
-      to->u[2 * i + 1] += n[a] * from->u[2 * from->mesh->tri[6 * e + a] + 1];
-    }
-  }
+  int e, old = 0;
+  sb_ring_fem_interpolate(to->u, mesh, from->u, from->mesh);
   for (e = 0; e < mesh->elements; e++) {
     const int *tri = &mesh->tri[6 * e];
     double *inner = &to->inner[SB_RING_INNER * e], p[3];

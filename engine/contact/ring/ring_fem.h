@@ -113,6 +113,10 @@ void sb_ring_fem_restore(SbRingFem *fem, int place);
 void sb_ring_fem_stress(const SbRingFem *fem, int element, double l1, double l2, double cauchy[4],
                         double *jacobian);
 
+// A field [2 nodes] on another mesh of the same body at this mesh's nodes.
+void sb_ring_fem_interpolate(double *out, const SbRingMesh *mesh, const double *field,
+                             const SbRingMesh *from);
+
 // Takes over the state of another mesh of the same body at this mesh's nodes.
 void sb_ring_fem_transfer(SbRingFem *to, const SbRingFem *from);
 

@@ -183,7 +183,7 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
       return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's mesh turned inside out");
     }
     det_before = fem->det_min;
-    contact->stuck = contact->fixed && it < STUCK;
+    contact->stuck = contact->fixed && contact->carried && it < STUCK;
     double gap = sb_ring_contact_apply(contact);
     double residual = sb_ring_fem_free_residual(fem) / contact->force_scale;
     if (it > 0 && changes == 0 && !slack && !contact->fixed && residual <= tolerance &&

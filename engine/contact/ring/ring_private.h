@@ -97,6 +97,27 @@ double sb_ring_profile_place(const SbDryContact *pressure, int i);
 // kept if that fails.
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
 
+// Whether a body and its load are within what is solved; else SB_ERROR_RANGE or
+// SB_ERROR_INFEASIBLE with the parameter.
+SbStatus sb_ring_check(const SbRingBody *body, const SbRingLoad *load, SbReport *report);
+
+// A body with its units, and the load that it bears.
+void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *load);
+
+// A ring beside another of the same body, owned, without a mesh yet; elements and contact on its
+// mesh once it has one. SB_ERROR_MEMORY.
+SbStatus sb_ring_beside(SbRing **out, const SbRing *ring, SbReport *report);
+SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report);
+
+// Whether the bore contact's ends have left the short elements that its mesh has for them.
+bool sb_ring_outgrown(const SbRing *ring);
+
+// The ring's state on a mesh fitted to its contacts, in `fresh`, which has no mesh of its own yet
+// and keeps none where that fails. `edge`: size of the elements at the contacts' ends over that of
+// the others; 0 as friction asks for.
+SbStatus sb_ring_remesh(SbRing *fresh, const SbRing *ring, double element_size, double edge,
+                        SbReport *report);
+
 // How the nodes of a ring's mesh are shifted along the section's surface as its contacts are
 // (ring_ends.c).
 typedef struct {
@@ -114,6 +135,9 @@ typedef struct {
 // displaced. False: there are none to follow.
 void sb_ring_shift_begin(SbRingShift *shift, const SbRing *ring);
 bool sb_ring_shift_follow(SbRingShift *shift, const SbRing *other);
+
+// Shifts the same contacts on another mesh as those are. False: not the same contacts.
+bool sb_ring_shift_like(SbRingShift *shift, const SbRingShift *other);
 
 // Shifts on the mesh of `ring`, of nothing yet; NULL: no memory. `destroy` takes NULL.
 SbRingShift *sb_ring_shift_create(const SbRing *ring);

@@ -1,0 +1,346 @@
+// States near a solved one, of another body at another load.
+//
+// The active set of a dragged ring's contact does not settle where its ends move through the short
+// elements that a fitted mesh has there. So a coarse copy of the solved ring goes first, on a mesh
+// without short ends, and shows the way: its displacement and how its contacts are displaced. The
+// fitted mesh is shifted along with the contacts (ring_ends.c), displaced alike, and solved, with
+// its contact fixed until the balance is near. Where that fails the solved ring's own mesh goes, in
+// parts. What is solved last is the same balance as of any ring: the way enters by friction on
+// floor and walls alone, which sees the motion from the solved ring to the new one as monotonic.
+#include "engine/contact/ring/ring_private.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Elements of the coarse copy over those of the ring, and of its contacts' ends over those: of
+// these the fewest iterations, by trial.
+static const double COARSE = 1.5, COARSE_EDGE = 0.5;
+
+// In how many parts a state is gone to at most.
+enum { PARTS = 4, PARTS_COARSE = 2 };
+
+// So near its balance single nodes that have no state are what is in the way: they are held, as on
+// a path, against a small pull.
+static const double PASSES = 1e-2;
+
+struct SbRingGuide {
+  const SbRing *ring;
+  pthread_mutex_t lock; // of what follows, which is made at the first question
+  bool made;
+  SbRing *coarse;             // NULL: there is none
+  SbRingShift *shift, *along; // of the ring's mesh and of the coarse one, by nothing
+};
+
+SbStatus sb_ring_guide_create(SbRingGuide **out, const SbRing *ring, SbReport *report) {
+  *out = calloc(1, sizeof **out);
+  if (*out == NULL || pthread_mutex_init(&(*out)->lock, NULL) != 0) {
+    free(*out);
+    *out = NULL;
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a ring's coarse copy");
+  }
+  (*out)->ring = ring;
+  return sb_succeed(report);
+}
+
+void sb_ring_guide_destroy(SbRingGuide *guide) {
+  if (guide != NULL) {
+    sb_ring_destroy(guide->coarse);
+    sb_ring_shift_destroy(guide->shift);
+    sb_ring_shift_destroy(guide->along);
+    pthread_mutex_destroy(&guide->lock);
+    free(guide);
+  }
+}
+
+// The state of another mesh of the same nodes: displacements that leave the ring as it lies on its
+// floor, and its contact.
+static void lay_alike(SbRing *to, const SbRing *from, const SbRingLoad *target,
+                      const SbRingShift *shift) {
+  const double rise = target->floor_radius - from->contact->is.now.floor_radius;
+  SbRingFem *fem = to->fem;
+  SbRingContactState *is = &to->contact->is;
+  for (int i = 0; i < fem->mesh->nodes; i++) {
+    double x[2], more[2] = {0.0}, place[2];
+    sb_ring_fem_place(from->fem, i, place);
+    if (shift != NULL) {
+      sb_ring_shift_node(shift, from, i, x, more);
+    }
+    fem->u[2 * i] = place[0] + rise + more[0] - fem->mesh->x[2 * i];
+    fem->u[2 * i + 1] = place[1] + more[1] - fem->mesh->x[2 * i + 1];
+  }
+  memcpy(fem->inner, from->fem->inner,
+         sizeof(double) * SB_RING_INNER * (size_t)fem->mesh->elements);
+  memcpy(is->touch, from->contact->is.touch,
+         sizeof *is->touch * SB_RING_SURFACES * (size_t)to->contact->count);
+  is->turn = from->contact->is.turn;
+  memcpy(is->crest, from->contact->is.crest, sizeof is->crest);
+}
+
+// Shifts a copy of a ring's mesh.
+static void shift_mesh(SbRingMesh *mesh, const SbRing *ring, const SbRingShift *shift) {
+  for (int i = 0; i < mesh->nodes; i++) {
+    double x[2], place[2];
+    sb_ring_shift_node(shift, ring, i, x, place);
+    mesh->x[2 * i] += x[0];
+    mesh->x[2 * i + 1] += x[1];
+  }
+  for (int i = 0; i < mesh->loop_count; i++) {
+    mesh->angle[i] += sb_ring_shift_angle(shift, mesh->angle[i]);
+  }
+}
+
+// Whether what friction on floor and walls keeps of the way between two loads is less than what is
+// told of a ring dragged anew: loads within 0.3 % of that over these changes (measured). A ring
+// that nothing drags keeps nothing.
+static bool is_near(const SbRingLoad *a, const SbRingLoad *b) {
+  static const double PRESSURE = 0.35, PRESSURE_LEAST = 0.1, SPACE = 0.03, FAR = 3.0;
+  const double before = a->pressure_left - a->pressure_right;
+  const double after = b->pressure_left - b->pressure_right;
+  const double space = (a->bore_radius - a->floor_radius) - (b->bore_radius - b->floor_radius);
+  const double times = b->bore_slides != 0 ? 1.0 : FAR;
+  const double most = fmax(PRESSURE * fabs(before), before != 0.0 ? PRESSURE_LEAST : 0.0);
+  return fabs(after - before) <= times * most && fabs(space) <= times * SPACE;
+}
+
+// Solves at a load, where need be with single nodes held.
+static SbStatus attempt(SbRing *ring, const SbRingLoad *load, SbReport *report) {
+  ring->contact->is.now = *load;
+  SbStatus status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+  if (status == SB_ERROR_NOT_CONVERGED && report->residual < PASSES) {
+    ring->contact->is.now = *load;
+    ring->passing = true;
+    status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+    ring->passing = false;
+  }
+  return status;
+}
+
+// From a load to another one, at once or in parts. SB_RING_BEFORE is where it was laid.
+static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *to, int parts_most,
+                        SbReport *report) {
+  SbRingLoad start = *from;
+  start.floor_radius = to->floor_radius; // where it lies
+  start.bore_radius += to->floor_radius - from->floor_radius;
+  start.shear = to->shear;
+  start.law = to->law;
+  ring->contact->is.now = start;
+  sb_ring_save(ring->contact, SB_RING_BEFORE);
+  SbStatus status = SB_ERROR_NOT_CONVERGED;
+  for (int parts = 1; parts <= parts_most && status == SB_ERROR_NOT_CONVERGED; parts *= 2) {
+    sb_ring_restore(ring->contact, SB_RING_BEFORE);
+    status = SB_OK;
+    for (int i = 1; i <= parts && status == SB_OK; i++) {
+      sb_ring_save(ring->contact, SB_RING_START);
+      const SbRingLoad next =
+          i == parts ? *to : sb_ring_load_between(&start, to, (double)i / parts);
+      status = attempt(ring, &next, report);
+      ring->count.steps++;
+    }
+  }
+  return status;
+}
+
+SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
+                     const SbRingLoad *load, const SbRingOptions *options, const SbRingShift *shift,
+                     SbReport *report) {
+  SbRing *other = NULL;
+  *out = NULL;
+  SbStatus status = sb_ring_check(body, load, report);
+  if (status == SB_OK && (ring->state != SB_RING_SLIDES || ring->arc.free ||
+                          ring->contact->is.now.bore_slides != load->bore_slides)) {
+    status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring near it does not slide alike");
+  }
+  status = status == SB_OK ? sb_ring_beside(&other, ring, report) : status;
+  if (status != SB_OK) {
+    return status;
+  }
+  const double size = ring->options.element_size;
+  other->options = *options;
+  other->options.element_size = size;
+  sb_ring_set_body(other, body, load);
+  status = sb_ring_mesh_copy(&other->mesh, ring->mesh, other->centre - ring->centre, report);
+  if (status == SB_OK && shift != NULL) {
+    shift_mesh(other->mesh, ring, shift);
+    for (int k = 0; k < 2; k++) {
+      other->fitted_end[k] += sb_ring_shift_angle(shift, ring->fitted_end[k]);
+    }
+  }
+  status = status == SB_OK ? sb_ring_build_on_mesh(other, report) : status;
+  if (status != SB_OK) {
+    sb_ring_destroy(other);
+    return status;
+  }
+  const SbRingLoad target = sb_ring_load_in(load, other->length, other->stress);
+  lay_alike(other, ring, &target, shift);
+  other->contact->is.now = target;
+  *out = other;
+  return SB_OK;
+}
+
+// The coarse copy, if there can be one; the lock is held. Nobody cancels it: it is every caller's.
+static void make_coarse(SbRingGuide *guide) {
+  const SbRing *ring = guide->ring;
+  guide->made = true;
+  if (!(ring->fitted_size > 0.0) || sb_ring_beside(&guide->coarse, ring, NULL) != SB_OK) {
+    return;
+  }
+  guide->coarse->options.poll = NULL;
+  SbStatus status =
+      sb_ring_remesh(guide->coarse, ring, COARSE * ring->fitted_size, COARSE_EDGE, NULL);
+  if (status == SB_OK) {
+    guide->shift = sb_ring_shift_create(ring);
+    guide->along = sb_ring_shift_create(guide->coarse);
+  }
+  if (guide->shift == NULL || guide->along == NULL) {
+    sb_ring_destroy(guide->coarse);
+    guide->coarse = NULL;
+    return;
+  }
+  sb_ring_shift_begin(guide->shift, ring);
+  sb_ring_shift_begin(guide->along, guide->coarse);
+}
+
+// Displaces a laid ring as another one was since it was laid (its SB_RING_BEFORE).
+static SbStatus displace(SbRing *ring, const SbRing *way, SbReport *report) {
+  const int nodes = way->fem->mesh->nodes;
+  double *by = malloc(sizeof(double) * 2 * (size_t)nodes);
+  double *here = malloc(sizeof(double) * 2 * (size_t)ring->fem->mesh->nodes);
+  if (by == NULL || here == NULL) {
+    free(by);
+    free(here);
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a ring's displacement");
+  }
+  for (int i = 0; i < 2 * nodes; i++) {
+    by[i] = way->fem->u[i] - way->fem->saved[SB_RING_BEFORE][i];
+  }
+  sb_ring_fem_interpolate(here, ring->fem->mesh, by, way->fem->mesh);
+  for (int i = 0; i < 2 * ring->fem->mesh->nodes; i++) {
+    ring->fem->u[i] += here[i];
+  }
+  free(by);
+  free(here);
+  return SB_OK;
+}
+
+// Solves a laid ring from where another one went; `passing`: with single nodes held.
+static SbStatus go_along(SbRing *ring, const SbRing *way, bool passing, SbReport *report) {
+  SbStatus status = displace(ring, way, report);
+  if (status == SB_OK) {
+    ring->contact->fixed = !passing;
+    ring->passing = passing;
+    status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+    ring->contact->fixed = ring->passing = false;
+  }
+  return status;
+}
+
+// The ring on its mesh, shifted and displaced as the coarse one on its way.
+static SbStatus follow(SbRing **out, SbRingGuide *guide, const SbRing *way, const SbRingBody *body,
+                       const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
+  SbRing *other;
+  SbRingShift shift = *guide->shift, along = *guide->along;
+  const bool follows = sb_ring_shift_follow(&along, way) && sb_ring_shift_like(&shift, &along);
+  *out = NULL;
+  SbStatus status =
+      sb_ring_lay(&other, guide->ring, body, load, options, follows ? &shift : NULL, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  sb_ring_save(other->contact, SB_RING_START);
+  status = go_along(other, way, false, report);
+  if (status == SB_ERROR_NOT_CONVERGED && report->residual < PASSES) {
+    status = go_along(other, way, true, report);
+  }
+  other->count.steps++;
+  if (status != SB_OK) {
+    sb_ring_destroy(other);
+    return status;
+  }
+  *out = other;
+  return SB_OK;
+}
+
+// By way of the coarse copy.
+static SbStatus near_guided(SbRing **out, SbRingGuide *guide, const SbRingBody *body,
+                            const SbRingLoad *load, const SbRingOptions *options,
+                            SbReport *report) {
+  SbRing *way;
+  *out = NULL;
+  pthread_mutex_lock(&guide->lock);
+  if (!guide->made) {
+    make_coarse(guide);
+  }
+  pthread_mutex_unlock(&guide->lock);
+  if (guide->coarse == NULL) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring has no coarse copy");
+  }
+  SbStatus status = sb_ring_lay(&way, guide->coarse, body, load, options, NULL, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  const SbRingLoad target = way->contact->is.now;
+  status = go_near(way, &guide->coarse->contact->is.now, &target, PARTS_COARSE, report);
+  status = status == SB_OK ? follow(out, guide, way, body, load, options, report) : status;
+  if (status == SB_OK) {
+    (*out)->count.iterations += way->count.iterations;
+  }
+  sb_ring_destroy(way);
+  return status;
+}
+
+// From the solved ring's state, on its own mesh.
+static SbStatus near_alike(SbRing **out, const SbRing *ring, const SbRingBody *body,
+                           const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
+  SbRing *other;
+  *out = NULL;
+  SbStatus status = sb_ring_lay(&other, ring, body, load, options, NULL, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  const SbRingLoad target = other->contact->is.now;
+  status = go_near(other, &ring->contact->is.now, &target, PARTS, report);
+  if (status != SB_OK) {
+    sb_ring_destroy(other);
+    return status;
+  }
+  *out = other;
+  return SB_OK;
+}
+
+SbStatus sb_ring_near(SbRing **out, const SbRing *ring, SbRingGuide *guide, const SbRingBody *body,
+                      const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
+  SbRing *other = NULL;
+  SbReport own; // of what is tried
+  *out = NULL;
+  SbStatus status = sb_ring_check(body, load, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  const double d = body->section_diameter;
+  const double mu = body->modulus / (2.0 * (1.0 + body->poisson_ratio));
+  const SbRingLoad target = sb_ring_load_in(load, d, mu);
+  if (!is_near(&ring->contact->is.now, &target)) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring is not near");
+  }
+  status = guide != NULL ? near_guided(&other, guide, body, load, options, &own)
+                         : SB_ERROR_NOT_CONVERGED;
+  if (status == SB_ERROR_NOT_CONVERGED) {
+    status = near_alike(&other, ring, body, load, options, &own);
+  }
+  // Where the finer ends of the mesh no longer are the contact's: anew, unless that fails.
+  if (status == SB_OK && sb_ring_outgrown(other)) {
+    status = sb_ring_refit(other, other->fitted_size, &own);
+    status = status == SB_ERROR_NOT_CONVERGED ? SB_OK : status;
+  }
+  if (status != SB_OK) {
+    sb_ring_destroy(other);
+    if (report != NULL) {
+      *report = own;
+    }
+    return status;
+  }
+  *out = other;
+  return sb_succeed(report);
+}
