@@ -41,6 +41,7 @@ void sb_document_free(SbDocument *document) {
   g_free(document->valve_path);
   g_free(document->valve_name);
   g_clear_pointer(&document->measured, g_ptr_array_unref);
+  sb_data_free(document->saved_measured);
   g_free(document->series_name);
   g_free(document->series_path);
   sb_named_rubber_release(document->base_rubber);
@@ -322,6 +323,7 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   sb_shapes_settle(document->shapes, name, document->notes);
   read_series(document, entries, directory, issues);
   document->measured = sb_data_read(entries, directory, name, issues);
+  sb_document_data_saved(document);
   const SbValveOutlines *outlines = &document->shapes->outlines;
   if (outlines->housing || outlines->stem) {
     data_of(document)->outlines = *outlines;
@@ -387,26 +389,6 @@ size_t sb_document_data_count(const SbDocument *document) {
 
 const SbData *sb_document_data(const SbDocument *document, size_t index) {
   return document->measured->pdata[index];
-}
-
-void sb_document_put_data(SbDocument *document, SbData *data) {
-  if (document->measured == NULL) {
-    document->measured = g_ptr_array_new_with_free_func(sb_data_free);
-  }
-  GPtrArray *list = document->measured;
-  if (list->len > 0) {
-    if (data != NULL) {
-      const SbData *before = list->pdata[0];
-      g_free(data->name);
-      data->name = g_strdup(before->name);
-    }
-    g_ptr_array_remove_index(list, 0);
-  }
-  if (data != NULL) {
-    g_ptr_array_insert(list, 0, data);
-  }
-  document->measured_differs = true;
-  document->serial++;
 }
 
 const GPtrArray *sb_document_notes(const SbDocument *document) {

@@ -83,8 +83,8 @@ G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbModel, sb_model_destroy)
 size_t sb_document_data_count(const SbDocument *document);
 const SbData *sb_document_data(const SbDocument *document, size_t index);
 
-// Puts `data` (taken over; NULL: nothing measured) in place of its first group. Saved with it; no
-// edit that undo takes back. A group's file is written as seen from the document's folder.
+// Puts `data` (taken over; NULL: nothing measured) in place of its first group; an undoable edit,
+// saved with the document. A group's file is written as seen from the document's folder.
 void sb_document_put_data(SbDocument *document, SbData *data);
 
 // The [cases]: each is the document with some values replaced. The name is borrowed.
@@ -139,12 +139,12 @@ SB_CHECKED bool sb_document_set_rubber(SbDocument *document, const char *name, G
 bool sb_document_gives_rubber(const SbDocument *document);
 char **sb_document_rubbers(const SbDocument *document);
 
-// Undo and redo; each returns the parameter that changed, SB_DOCUMENT_RUBBER, or -1 if there was
-// nothing to do.
-enum { SB_DOCUMENT_RUBBER = SB_PARAM_COUNT };
+// Undo and redo; each returns the parameter that changed, SB_DOCUMENT_RUBBER, SB_DOCUMENT_MEASURED,
+// or -1 if there was nothing to do.
+enum { SB_DOCUMENT_RUBBER = SB_PARAM_COUNT, SB_DOCUMENT_MEASURED };
 int sb_document_undo(SbDocument *document);
 int sb_document_redo(SbDocument *document);
-// What undo (or redo) would change next: the parameter or SB_DOCUMENT_RUBBER, with the value in
+// What undo (or redo) would change next: the parameter or one of these, with the value in
 // force before and after that edit [SI]; -1 if there is nothing.
 int sb_document_next_undo(const SbDocument *document, bool redo, double value[2]);
 bool sb_document_can_undo(const SbDocument *document);

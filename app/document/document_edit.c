@@ -4,11 +4,41 @@
 
 #include <string.h>
 
+static const SbData *first_data(const SbDocument *document) {
+  return sb_document_data_count(document) > 0 ? sb_document_data(document, 0) : NULL;
+}
+
+// Puts a copy of measured data, or nothing, in place of the first group.
+static void put_data(SbDocument *document, const SbData *data) {
+  GPtrArray *list = document->measured;
+  if (first_data(document) != NULL) {
+    g_ptr_array_remove_index(list, 0);
+  }
+  if (data != NULL) {
+    g_ptr_array_insert(list, 0, sb_data_copy(data));
+  }
+  document->serial++;
+}
+
+bool sb_document_data_differs(const SbDocument *document) {
+  return !sb_data_same(first_data(document), document->saved_measured);
+}
+
+void sb_document_data_saved(SbDocument *document) {
+  const SbData *now = first_data(document);
+  sb_data_free(document->saved_measured);
+  document->saved_measured = now != NULL ? sb_data_copy(now) : NULL;
+}
+
 // Puts one side of an edit in force.
 static void apply(SbDocument *document, const Edit *edit, int side) {
   if (edit->id == SB_DOCUMENT_RUBBER) {
     sb_document_put_rubber(document, &document->own_rubber,
                            sb_named_rubber_hold(edit->rubber[side]));
+    return;
+  }
+  if (edit->id == SB_DOCUMENT_MEASURED) {
+    put_data(document, edit->measured[side]);
     return;
   }
   document->own.given[edit->id] = edit->given[side];
@@ -29,7 +59,7 @@ static void edit_key(SbDocument *document, SbParamId id, bool given, double valu
     last->given[1] = given;
     last->value[1] = value;
   } else {
-    Edit edit = {(int)id, {own->given[id], given}, {own->value[id], value}, {NULL, NULL}};
+    Edit edit = {.id = (int)id, .given = {own->given[id], given}, .value = {own->value[id], value}};
     g_array_append_val(document->edits, edit);
     document->done++;
   }
@@ -42,6 +72,34 @@ void sb_document_clear_edit(gpointer data) {
   Edit *edit = data;
   sb_named_rubber_release(edit->rubber[0]);
   sb_named_rubber_release(edit->rubber[1]);
+  sb_data_free(edit->measured[0]);
+  sb_data_free(edit->measured[1]);
+}
+
+// Keeps an edit that does not merge, takes its pointers over and makes it.
+static void record(SbDocument *document, Edit edit) {
+  g_array_set_size(document->edits, document->done);
+  g_array_append_val(document->edits, edit);
+  document->done++;
+  document->mergeable = false;
+  apply(document, &edit, 1);
+}
+
+void sb_document_put_data(SbDocument *document, SbData *data) {
+  const SbData *before = first_data(document);
+  if (document->measured == NULL) {
+    document->measured = g_ptr_array_new_with_free_func(sb_data_free);
+  }
+  if (before != NULL && data != NULL) { // under the same name
+    g_free(data->name);
+    data->name = g_strdup(before->name);
+  }
+  if (sb_data_same(before, data)) {
+    sb_data_free(data);
+    return;
+  }
+  record(document, (Edit){.id = SB_DOCUMENT_MEASURED,
+                          .measured = {before != NULL ? sb_data_copy(before) : NULL, data}});
 }
 
 void sb_document_edit_rubber(SbDocument *document, SbNamedRubber *rubber) {
@@ -49,13 +107,8 @@ void sb_document_edit_rubber(SbDocument *document, SbNamedRubber *rubber) {
     sb_named_rubber_release(rubber);
     return;
   }
-  g_array_set_size(document->edits, document->done);
-  Edit edit = {.id = SB_DOCUMENT_RUBBER,
-               .rubber = {sb_named_rubber_hold(document->own_rubber), rubber}};
-  g_array_append_val(document->edits, edit);
-  document->done++;
-  document->mergeable = false;
-  apply(document, &edit, 1);
+  record(document, (Edit){.id = SB_DOCUMENT_RUBBER,
+                          .rubber = {sb_named_rubber_hold(document->own_rubber), rubber}});
 }
 
 // Adds the allowed range to a message.
@@ -181,7 +234,7 @@ bool sb_document_differs(const SbDocument *document, SbParamId id) {
 }
 
 bool sb_document_is_modified(const SbDocument *document) {
-  if (document->measured_differs ||
+  if (sb_document_data_differs(document) ||
       !sb_named_rubber_same(document->own_rubber, document->saved_rubber)) {
     return true;
   }
@@ -218,7 +271,7 @@ int sb_document_next_undo(const SbDocument *document, bool redo, double value[2]
     return -1;
   }
   const Edit *edit = &g_array_index(document->edits, Edit, document->done - (redo ? 0 : 1));
-  for (int side = 0; side < 2 && edit->id != SB_DOCUMENT_RUBBER; side++) {
+  for (int side = 0; side < 2 && edit->id < SB_PARAM_COUNT; side++) {
     value[side] = edit->value[side];
     if (!edit->given[side]) {
       // Not the document's own: what lies below, or the default.

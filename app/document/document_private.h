@@ -23,10 +23,11 @@ typedef struct {
 } SbNamedRubber;
 
 typedef struct {
-  int id;        // of a parameter, or SB_DOCUMENT_RUBBER
+  int id;        // of a parameter, SB_DOCUMENT_RUBBER or SB_DOCUMENT_MEASURED
   bool given[2]; // before, after
   double value[2];
   SbNamedRubber *rubber[2]; // held; NULL: none of its own
+  SbData *measured[2];      // owned; NULL: none
 } Edit;
 
 struct SbDocument {
@@ -39,7 +40,7 @@ struct SbDocument {
   char *series_name;                                      // value of drive.file, NULL without one
   char *series_path;                                      // path to open
   GPtrArray *measured;                                    // of SbData, its own [data] groups
-  bool measured_differs;                                  // from the file's
+  SbData *saved_measured;                                 // the first of them in its file, or NULL
   SbNamedRubber *base_rubber, *own_rubber, *saved_rubber; // as the params; NULL: none
   SbModelData *data;  // series, outlines and rubber, for its models; NULL: none
   char *text;         // of the file as last read or written
@@ -101,6 +102,10 @@ SbModelData *sb_document_data_with(const SbDocument *document, const SbNamedRubb
 
 // Of an Edit.
 void sb_document_clear_edit(gpointer edit);
+
+// Whether the first group of measured data is not the file's; from now on it is.
+bool sb_document_data_differs(const SbDocument *document);
+void sb_document_data_saved(SbDocument *document);
 
 // An undoable edit of the document's own rubber, which it takes over.
 void sb_document_edit_rubber(SbDocument *document, SbNamedRubber *rubber);

@@ -123,10 +123,11 @@ char *sb_document_to_text(const SbDocument *document, const char *path) {
     SbChange change = {g_strdup("drive"), g_strdup("file"), series};
     g_array_append_val(changes, change);
   }
-  if (document->measured_differs) {
+  const bool data_differs = sb_document_data_differs(document);
+  if (data_differs) {
     change_data(changes, document, path);
   }
-  for (size_t i = 0; i < sb_document_data_count(document) && !document->measured_differs; i++) {
+  for (size_t i = 0; i < sb_document_data_count(document) && !data_differs; i++) {
     const SbData *data = sb_document_data(document, i);
     char *file = moved_name(document, data->path, data->text[SB_DATA_FILE], path);
     if (file != NULL) {
@@ -266,8 +267,8 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
     g_autofree char *directory = g_path_get_dirname(path);
     g_ptr_array_unref(document->measured);
     document->measured = sb_data_read(document->entries, directory, path, none);
-    document->measured_differs = false;
   }
+  sb_document_data_saved(document);
   g_ptr_array_unref(none);
   char *kept = g_strdup(path);
   g_free(document->path);

@@ -207,7 +207,11 @@ static int changed_by(SbSession *session, int id) {
   if (parameter) {
     forget_rejected(session, id);
   }
-  if (id >= 0) {
+  if (id == SB_DOCUMENT_MEASURED) {
+    sb_session_read_measured(session);
+    sb_session_run_changed(session);
+    sb_session_emit(session, SB_SIGNAL_PARAMS);
+  } else if (id >= 0) {
     changed(session);
   }
   return parameter ? id : -1;

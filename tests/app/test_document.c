@@ -455,6 +455,44 @@ static void test_rubbers(void) {
   }
 }
 
+// Measured data are put in, taken back and put in again like a value; what is saved is the file's.
+static void test_edited_data(void) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  char *folder = temporary_folder();
+  g_autofree char *scene = g_build_filename(folder, "a.scene", NULL);
+  g_autofree char *valve = asset("valves/piston.valve");
+  g_autofree char *text = g_strdup_printf(
+      "[sealbench]\nformat=1\nkind=scene\nvalve=%s\n[data]\nfile = one.csv\n", valve);
+  g_assert_true(g_file_set_contents(scene, text, -1, NULL));
+  g_autoptr(SbDocument) document = sb_document_load(scene, issues);
+  g_assert_nonnull(document);
+  g_assert_false(sb_document_is_modified(document));
+  SbData *other = sb_data_copy(sb_document_data(document, 0));
+  g_free(other->path);
+  other->path = g_build_filename(folder, "two.csv", NULL);
+  sb_document_put_data(document, sb_data_copy(sb_document_data(document, 0))); // the same
+  g_assert_false(sb_document_can_undo(document));
+  sb_document_put_data(document, other);
+  g_assert_true(sb_document_is_modified(document));
+  sb_document_put_data(document, NULL);
+  g_assert_cmpuint(sb_document_data_count(document), ==, 0);
+  g_assert_cmpint(sb_document_undo(document), ==, SB_DOCUMENT_MEASURED);
+  g_assert_true(g_str_has_suffix(sb_document_data(document, 0)->path, "two.csv"));
+  g_assert_cmpint(sb_document_undo(document), ==, SB_DOCUMENT_MEASURED);
+  g_assert_true(g_str_has_suffix(sb_document_data(document, 0)->path, "one.csv"));
+  g_assert_false(sb_document_is_modified(document));
+  g_assert_false(sb_document_can_undo(document));
+  g_assert_cmpint(sb_document_redo(document), ==, SB_DOCUMENT_MEASURED);
+  g_assert_true(sb_document_save(document, scene, NULL));
+  g_assert_false(sb_document_is_modified(document));
+  g_assert_cmpint(sb_document_undo(document), ==, SB_DOCUMENT_MEASURED);
+  g_assert_true(sb_document_is_modified(document));
+  g_autoptr(SbDocument) again = sb_document_load(scene, issues);
+  g_assert_true(g_str_has_suffix(sb_document_data(again, 0)->path, "two.csv"));
+  g_assert_cmpuint(issues->len, ==, 0);
+  remove_folder(folder);
+}
+
 // The rubber is edited like a value: undone, redone, told to be saved, written, carried along to
 // another folder, and named in a case; the valve's comes back where the scene's own goes.
 static void test_edited_rubber(void) {
@@ -594,6 +632,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/document/links", test_links);
   g_test_add_func("/document/rubbers", test_rubbers);
   g_test_add_func("/document/own-rubber", test_own_rubber);
+  g_test_add_func("/document/edited-data", test_edited_data);
   g_test_add_func("/document/edited-rubber", test_edited_rubber);
   g_test_add_func("/document/protected", test_protected);
   return g_test_run();

@@ -167,10 +167,10 @@ static void compare(const SbOverride *change, size_t changes, size_t count, guin
         if (!known) {
           scatter(scattered, &valve, gradient, parameter[k], k, h);
           known = true;
+          scatters++;
         }
         g_test_message("%s by %s: %.8g, %.8g by five points, which scatter by %.2g", paths[i],
                        sb_param(parameter[k])->key, is, slope[i], scattered[i]);
-        scatters++;
         allowed += scattered[i];
       }
       if (!isfinite(is) || off > allowed) {
@@ -185,7 +185,7 @@ static void compare(const SbOverride *change, size_t changes, size_t count, guin
   g_test_message("%zu compared, %zu not zero", compared, moved);
   g_assert_cmpuint(compared, >, count * FIGURES / 3);
   g_assert_cmpuint(moved, >, compared / 20);
-  g_assert_cmpuint(scatters, <=, moved / 20);
+  g_assert_cmpuint(scatters, <=, 1 + count / 20); // parameters whose runs say little
   sb_gradient_destroy(gradient);
   clear(&valve);
 }

@@ -21,6 +21,9 @@ static char *describe(const SbDocument *document, bool redo) {
   if (id == SB_DOCUMENT_RUBBER) {
     return g_strdup(_("Rubber"));
   }
+  if (id == SB_DOCUMENT_MEASURED) {
+    return g_strdup(_("Measured data"));
+  }
   const SbParam *param = sb_param((SbParamId)id);
   g_autofree char *before = sb_param_format((SbParamId)id, value[0]);
   g_autofree char *after = sb_param_format((SbParamId)id, value[1]);
