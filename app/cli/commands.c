@@ -25,6 +25,8 @@ static const SbCommand commands[] = {
     {"merge", "STORE FROM...", "Joins stores of studies", sb_command_merge},
     {"surface", "SCAN", "Roughness, asperities and spectrum of a measured surface",
      sb_command_surface},
+    {"thesis", "[ITEM]", "Computes a table or figure of the thesis anew, beside what it prints",
+     sb_command_thesis},
     {"list", "params|figures|models|views|fluids",
      "Lists parameters, figures, models, views or fluids", sb_command_list},
     {"bench", "[-o DIR]", "Measures error against time for every solver", sb_command_bench},

@@ -78,12 +78,12 @@ static bool read_operand(double *out, Reader *reader) {
     }
     g_autofree char *name = g_strndup(reader->at, length);
     const bool least = strcmp(name, "min") == 0, most = strcmp(name, "max") == 0;
-    if ((least || most) && reader->at[length] == '(') {
+    if ((least || most || strcmp(name, "pow") == 0) && reader->at[length] == '(') {
       double other = 0;
       reader->at += length + 1;
-      good = read_sum(out, reader) && expect(reader, ';', "min and max take (A; B)") &&
+      good = read_sum(out, reader) && expect(reader, ';', "min, max and pow take (A; B)") &&
              read_sum(&other, reader) && expect(reader, ')', "a parenthesis is missing");
-      *out = least ? fmin(*out, other) : fmax(*out, other);
+      *out = least ? fmin(*out, other) : most ? fmax(*out, other) : pow(*out, other);
     } else {
       good = reader->name(out, name, reader->data) ||
              fail(reader, "there is no parameter and no variable");

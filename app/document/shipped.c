@@ -32,6 +32,12 @@ char *sb_shipped_study(const char *name) {
   return find(places, file, true);
 }
 
+char *sb_shipped_thesis(void) {
+  static const char *const places[] = {"../share/sealbench/thesis", "../assets/thesis",
+                                       "../../assets/thesis", "../../../assets/thesis", NULL};
+  return find(places, "valve.scene", false);
+}
+
 char *sb_shipped_find(const char *name) {
   g_autofree char *folder = sb_shipped_folder();
   if (folder == NULL || *name == '\0' || strchr(name, G_DIR_SEPARATOR) != NULL) {

@@ -303,6 +303,13 @@ static bool read_meta(SbStudyReader *reader, char **scene) {
   return true;
 }
 
+// What a study's answers are compared with, app/study/thesis_item.h.
+static bool is_for_thesis(const char *group) {
+  static const char *const names[] = {"printed", "chart", "notes", NULL};
+  return g_strv_contains(names, group) || g_str_has_prefix(group, "rows ") ||
+         g_str_has_prefix(group, "series ");
+}
+
 static void read_groups(SbStudyReader *reader) {
   SbStudyFile *study = reader->study;
   bool has_samples = false, known = true, varies = false;
@@ -316,7 +323,8 @@ static void read_groups(SbStudyReader *reader) {
           SB_LIMITS_GROUP, GROUP_DESIGN, GROUP_TOLERANCES, NULL};
       study->design.asked |= strcmp(group, GROUP_DESIGN) == 0;
       const bool grid = g_str_has_prefix(group, GROUP_VARY " ");
-      known = g_strv_contains(names, group) || sb_data_is_group(group) || grid;
+      known =
+          g_strv_contains(names, group) || sb_data_is_group(group) || grid || is_for_thesis(group);
       reader->grid = grid ? ++study->grids : 0;
       if (!known && (bad == NULL || strcmp(bad, group) != 0)) {
         bad = group;

@@ -124,6 +124,9 @@ void sb_study_file_place(double *value, double *slope, const SbStudyFile *study,
 SbStatus sb_study_file_points(double **value, double **unit, const SbStudyFile *study,
                               SbReport *report);
 
+// Samples of the how-many-th group [vary NAME], from 1; those of the groups before it come first.
+size_t sb_study_grid_samples(const SbStudyFile *study, guint grid);
+
 // Of a grid that says more: the combination of all but the last line that a sample has, counted
 // through the file from 0, and the last line's value.
 void sb_study_grid_place(size_t *line, double *x, const SbStudyFile *study, size_t sample);

@@ -88,6 +88,10 @@ size_t sb_study_grid_points(const SbStudyFile *study) {
   return points;
 }
 
+size_t sb_study_grid_samples(const SbStudyFile *study, guint grid) {
+  return samples_of(study, grid);
+}
+
 void sb_study_grid_place(size_t *line, double *x, const SbStudyFile *study, size_t sample) {
   *line = 0;
   for (guint grid = first_grid(study); grid <= study->grids; grid++) {

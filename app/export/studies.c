@@ -265,6 +265,11 @@ static void put_table(SbJson *json, const SbStudy *study) {
   sb_json_object_end(json);
 }
 
+void sb_json_study_curves(SbJson *json, const SbStudy *study) {
+  put_axis(json, "x", &study->x);
+  put_panels(json, study);
+}
+
 void sb_json_study(SbJson *json, const SbStudy *study) {
   sb_json_object(json, NULL);
   sb_json_string(json, "name", sb_study_name(study->kind));
@@ -274,8 +279,7 @@ void sb_json_study(SbJson *json, const SbStudy *study) {
   sb_json_number(json, "error_estimate", study->error);
   sb_json_bool(json, "complete", study->complete);
   sb_json_count(json, "solves", study->solves);
-  put_axis(json, "x", &study->x);
-  put_panels(json, study);
+  sb_json_study_curves(json, study);
   put_table(json, study);
   sb_json_array(json, "marks");
   for (size_t i = 0; i < study->mark_count; i++) {

@@ -41,3 +41,6 @@ void sb_csv_study_table(FILE *stream, const SbStudy *study);
 
 // An object with the whole study, for the key "studies".
 void sb_json_study(SbJson *json, const SbStudy *study);
+
+// Its abscissa and panels alone, the keys "x" and "panels" of the open object.
+void sb_json_study_curves(SbJson *json, const SbStudy *study);

@@ -1,0 +1,306 @@
+#include "app/export/thesis_results.h"
+
+#include "app/chart/study.h"
+#include "app/document/unit.h"
+#include "app/export/still.h"
+#include "app/export/studies.h"
+
+#include "engine/valve/sealbench.h"
+
+#include <math.h>
+#include <string.h>
+
+// ---- Words ----
+
+char *sb_thesis_text(const SbThesisRow *row, double value) {
+  char digits[SB_NUMBER_SIZE];
+  if (!isfinite(value)) {
+    return g_strdup("-");
+  }
+  const double shown = sb_quantity_to_shown(value, row->si, row->shown);
+  return g_strdup_printf("%s%s%s", sb_number_round(digits, shown, 5),
+                         *row->shown != '\0' ? " " : "", row->shown);
+}
+
+// "text (shown by COMMAND): +3 nm".
+static void put_parts(GString *out, const SbThesisRow *row, const GArray *parts) {
+  for (guint i = 0; i < parts->len; i++) {
+    const SbThesisPart *part = &g_array_index(parts, SbThesisPart, i);
+    g_autofree char *by = sb_thesis_text(row, part->explains);
+    g_string_append_printf(out, "%s%s (%s): %s%s", out->len > 0 ? "; " : "", part->text,
+                           part->shown_by, part->explains > 0 ? "+" : "",
+                           isfinite(part->explains) ? by : "part not known");
+  }
+}
+
+char *sb_thesis_reason(const SbThesisRow *row) {
+  if (row->reasons->len == 0) {
+    return NULL;
+  }
+  GString *out = g_string_new(NULL);
+  put_parts(out, row, row->reasons);
+  if (isfinite(row->remains)) {
+    g_autofree char *left = sb_thesis_text(row, -row->remains);
+    g_string_append_printf(out, "; remains %s",
+                           fabs(row->remains) <= row->rounding ? "rounding" : left);
+  }
+  return g_string_free(out, FALSE);
+}
+
+// Of the difference to the consistent set; NULL: none. Owned by the caller.
+static char *model_reason(const SbThesisRow *row) {
+  if (row->models->len == 0) {
+    return NULL;
+  }
+  GString *out = g_string_new(NULL);
+  put_parts(out, row, row->models);
+  return g_string_free(out, FALSE);
+}
+
+// ---- JSON ----
+
+static void put_json_parts(SbJson *json, const char *key, const GArray *parts) {
+  sb_json_array(json, key);
+  for (guint i = 0; i < parts->len; i++) {
+    const SbThesisPart *part = &g_array_index(parts, SbThesisPart, i);
+    sb_json_object(json, NULL);
+    sb_json_string(json, "text", part->text);
+    sb_json_string(json, "shown_by", part->shown_by);
+    sb_json_number(json, "becomes", part->becomes);
+    sb_json_number(json, "explains", part->explains);
+    sb_json_object_end(json);
+  }
+  sb_json_array_end(json);
+}
+
+static void put_json_row(SbJson *json, const SbThesisRow *row) {
+  g_autofree char *reason = sb_thesis_reason(row);
+  sb_json_object(json, NULL);
+  sb_json_string(json, "label", row->label);
+  sb_json_number(json, "printed", row->printed);
+  sb_json_number(json, "thesis_model", row->thesis);
+  sb_json_number(json, "consistent", row->consistent);
+  sb_json_string(json, "unit", row->si);
+  sb_json_number(json, "difference", row->difference);
+  sb_json_string(json, "reason", reason);
+  sb_json_number(json, "rounding", row->rounding);
+  sb_json_number(json, "remains", row->remains);
+  sb_json_string(json, "verdict", sb_thesis_verdict_name(row->verdict));
+  sb_json_string(json, "fault", row->fault);
+  put_json_parts(json, "reasons", row->reasons);
+  put_json_parts(json, "models", row->models);
+  sb_json_string(json, "no_thesis_model", row->no_thesis);
+  sb_json_string(json, "no_consistent", row->no_consistent);
+  sb_json_object_end(json);
+}
+
+void sb_json_thesis(SbJson *json, const SbThesisItem *item) {
+  sb_json_object(json, NULL);
+  sb_json_string(json, "item", item->name);
+  sb_json_string(json, "title", item->title);
+  sb_json_string(json, "source", item->source);
+  sb_json_array(json, "rows");
+  for (guint i = 0; i < item->rows->len; i++) {
+    put_json_row(json, item->rows->pdata[i]);
+  }
+  sb_json_array_end(json);
+  if (item->chart != NULL) {
+    sb_json_study_curves(json, item->chart);
+  }
+  sb_json_array(json, "notes");
+  for (guint i = 0; i < item->notes->len; i++) {
+    sb_json_string(json, NULL, item->notes->pdata[i]);
+  }
+  sb_json_array_end(json);
+  sb_json_count(json, "fails", item->fails);
+  sb_json_object_end(json);
+}
+
+// ---- CSV ----
+
+static void put_number(FILE *stream, double value) {
+  char digits[SB_NUMBER_SIZE];
+  fprintf(stream, ",%s", isfinite(value) ? sb_number_format(digits, value) : "");
+}
+
+static void put_text(FILE *stream, const char *text) {
+  g_auto(GStrv) parts = g_strsplit(text != NULL ? text : "", "\"", -1);
+  g_autofree char *doubled = g_strjoinv("\"\"", parts);
+  fprintf(stream, "\"%s\"", doubled);
+}
+
+void sb_csv_thesis(FILE *stream, const SbThesisItem *item) {
+  fputs("label,printed,thesis_model,consistent,unit,difference,remains,verdict,reason,model\n",
+        stream);
+  for (guint i = 0; i < item->rows->len && ferror(stream) == 0; i++) {
+    const SbThesisRow *row = item->rows->pdata[i];
+    g_autofree char *reason = sb_thesis_reason(row), *model = model_reason(row);
+    put_text(stream, row->label);
+    put_number(stream, row->printed);
+    put_number(stream, row->thesis);
+    put_number(stream, row->consistent);
+    fprintf(stream, ",%s", row->si);
+    put_number(stream, row->difference);
+    put_number(stream, row->remains);
+    fprintf(stream, ",%s,", sb_thesis_verdict_name(row->verdict));
+    put_text(stream, reason);
+    fputc(',', stream);
+    put_text(stream, model);
+    fputc('\n', stream);
+  }
+}
+
+// ---- Pages ----
+
+static const char style[] =
+    "body{font:15px/1.5 sans-serif;margin:2em auto;max-width:75em;padding:0 1em;color:#222}"
+    "table{border-collapse:collapse;width:100%}td,th{border-bottom:1px solid #ccc;padding:.25em "
+    ".6em;"
+    "text-align:left;vertical-align:top}td.n{text-align:right;white-space:nowrap;"
+    "font-variant-numeric:tabular-nums}h2{margin-top:2em;border-top:2px solid #888}"
+    ".fails{background:#fdd}.source,.model{color:#666;font-size:87%}img{max-width:100%}"
+    "nav li{display:inline-block;min-width:24em}";
+
+static void put_escaped(FILE *stream, const char *text) {
+  g_autofree char *escaped = g_markup_escape_text(text != NULL ? text : "", -1);
+  fputs(escaped, stream);
+}
+
+void sb_html_thesis_begin(FILE *stream, SbThesisItem *const *items, size_t count) {
+  fprintf(
+      stream,
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>The thesis, "
+      "regenerated</title><style>%s</style></head><body>\n<h1>The thesis, regenerated</h1>\n"
+      "<p>D. Grimble, <i>Ultra-thin film tribology of elastomeric seals in pressurised metered "
+      "dose inhalers</i>, Loughborough University, 2009: its tables and figures in their order, "
+      "computed by Sealbench %s. Difference: ours by the thesis' model less printed; a row "
+      "agrees where that is within the printed digits. A reason names the command or the test "
+      "that shows it and what it explains; what is left of the printed value behind all of them "
+      "is told as what remains. In grey: what lies between the thesis' model and the consistent "
+      "set.</p>\n<nav><ul>\n",
+      style, sb_version());
+  for (size_t i = 0; i < count; i++) {
+    fprintf(stream, "<li><a href=\"#%s\">", items[i]->name);
+    put_escaped(stream, items[i]->title);
+    fputs("</a></li>\n", stream);
+  }
+  fputs("</ul></nav>\n", stream);
+}
+
+void sb_html_thesis_end(FILE *stream) {
+  fputs("</body></html>\n", stream);
+}
+
+static void put_html_value(FILE *stream, const SbThesisRow *row, double value) {
+  g_autofree char *text = sb_thesis_text(row, value);
+  fputs("<td class=\"n\">", stream);
+  put_escaped(stream, text);
+  fputs("</td>", stream);
+}
+
+// In per cent of the printed value, or with a unit where that is nothing.
+static char *difference_text(const SbThesisRow *row) {
+  char digits[SB_NUMBER_SIZE];
+  if (isfinite(row->difference) && row->printed != 0) {
+    return g_strdup_printf("%s %%",
+                           sb_number_round(digits, 100 * row->difference / fabs(row->printed), 2));
+  }
+  return sb_thesis_text(row, row->difference);
+}
+
+static void put_html_row(FILE *stream, const SbThesisRow *row) {
+  g_autofree char *reason = sb_thesis_reason(row), *model = model_reason(row);
+  g_autofree char *difference = difference_text(row);
+  fprintf(stream, "<tr%s><td>", row->verdict == SB_THESIS_FAILS ? " class=\"fails\"" : "");
+  put_escaped(stream, row->label);
+  fputs("</td>", stream);
+  put_html_value(stream, row, row->printed);
+  put_html_value(stream, row, row->thesis);
+  put_html_value(stream, row, row->consistent);
+  fprintf(stream, "<td class=\"n\">%s</td><td>%s", difference,
+          row->verdict == SB_THESIS_AGREES ? "agrees" : "");
+  put_escaped(stream, reason);
+  const char *const others[] = {row->fault, row->no_thesis, model};
+  for (size_t i = 0; i < G_N_ELEMENTS(others); i++) {
+    if (others[i] != NULL) {
+      fprintf(stream, "%s", i < 2 ? "<div>" : "<div class=\"model\">");
+      put_escaped(stream, others[i]);
+      fputs("</div>", stream);
+    }
+  }
+  fputs("</td></tr>\n", stream);
+}
+
+void sb_html_thesis(FILE *stream, const SbThesisItem *item, const char *picture) {
+  fprintf(stream, "<h2 id=\"%s\">", item->name);
+  put_escaped(stream, item->title);
+  fputs("</h2>\n", stream);
+  if (picture != NULL) {
+    fprintf(stream, "<img src=\"%s\" alt=\"", picture);
+    put_escaped(stream, item->title);
+    fputs("\">\n", stream);
+  }
+  if (item->rows->len > 0) {
+    fputs("<table><tr><th></th><th>printed</th><th>thesis' model</th><th>consistent</th>"
+          "<th>difference</th><th>reason</th></tr>\n",
+          stream);
+    for (guint i = 0; i < item->rows->len; i++) {
+      put_html_row(stream, item->rows->pdata[i]);
+    }
+    fputs("</table>\n", stream);
+  }
+  for (guint i = 0; i < item->notes->len; i++) {
+    fputs("<p>", stream);
+    put_escaped(stream, item->notes->pdata[i]);
+    fputs("</p>\n", stream);
+  }
+  fprintf(stream, "<p class=\"source\"><code>sealbench thesis %s</code>. ", item->name);
+  put_escaped(stream, item->source != NULL ? item->source : "Nothing is printed in numbers.");
+  fputs("</p>\n", stream);
+}
+
+void sb_markdown_thesis(FILE *stream, const SbThesisItem *item) {
+  fprintf(stream, "### %s\n\n`sealbench thesis %s`\n\n", item->title, item->name);
+  if (item->rows->len > 0) {
+    fputs("| | printed | thesis' model | consistent | difference | reason |\n"
+          "|---|---|---|---|---|---|\n",
+          stream);
+  }
+  for (guint i = 0; i < item->rows->len; i++) {
+    const SbThesisRow *row = item->rows->pdata[i];
+    g_autofree char *printed = sb_thesis_text(row, row->printed);
+    g_autofree char *thesis = sb_thesis_text(row, row->thesis);
+    g_autofree char *consistent = sb_thesis_text(row, row->consistent);
+    g_autofree char *difference = difference_text(row), *reason = sb_thesis_reason(row);
+    fprintf(stream, "| %s | %s | %s | %s | %s | %s%s |\n", row->label, printed, thesis, consistent,
+            difference,
+            reason != NULL                     ? reason
+            : row->verdict == SB_THESIS_AGREES ? "agrees"
+                                               : sb_thesis_verdict_name(row->verdict),
+            row->no_thesis != NULL ? row->no_thesis : "");
+  }
+  fputs("\n", stream);
+  for (guint i = 0; i < item->notes->len; i++) {
+    fprintf(stream, "%s\n\n", (const char *)item->notes->pdata[i]);
+  }
+}
+
+// ---- The chart ----
+
+static void draw(cairo_t *cr, double width, double height, void *user) {
+  const SbThesisItem *item = user;
+  const SbTheme *theme = sb_theme(false);
+  const SbColor ground = theme->role[SB_ROLE_BACKGROUND];
+  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
+  cairo_paint(cr);
+  sb_study_draw(cr, (SbRect){16, 16, width - 32, height - 32}, theme, item->chart);
+}
+
+bool sb_thesis_still(FILE *stream, const SbThesisItem *item, const char *ending, GError **error) {
+  SbStill still = {.width = item->chart->panel_count > 1 ? 1280 : 800,
+                   .height = item->chart->panel_count > 2 ? 800 : 440,
+                   .title = item->title,
+                   .draw = draw,
+                   .user = (void *)item};
+  return sb_still_put(stream, &still, ending, error);
+}

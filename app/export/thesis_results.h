@@ -1,0 +1,31 @@
+// Items of the thesis outside the program: JSON, a table of comma-separated values, a part of the
+// index page, and the part of docs/thesis.md.
+#pragma once
+
+#include "app/export/json.h"
+#include "app/study/thesis_item.h"
+
+#include <stdio.h>
+
+// An object: item, title, rows, chart, notes.
+void sb_json_thesis(SbJson *json, const SbThesisItem *item);
+
+// A line a row, SI.
+void sb_csv_thesis(FILE *stream, const SbThesisItem *item);
+
+// The item as HTML below a heading; `picture` is the chart's file, NULL: none. The page around.
+void sb_html_thesis(FILE *stream, const SbThesisItem *item, const char *picture);
+void sb_html_thesis_begin(FILE *stream, SbThesisItem *const *items, size_t count);
+void sb_html_thesis_end(FILE *stream);
+
+// The item as Markdown.
+void sb_markdown_thesis(FILE *stream, const SbThesisItem *item);
+
+// The chart into a stream, by the ending ".svg", ".png" or ".pdf". SB_APP_ERROR_IO.
+bool sb_thesis_still(FILE *stream, const SbThesisItem *item, const char *ending, GError **error);
+
+// A row's value with its unit, four digits; "-" without. Owned by the caller.
+char *sb_thesis_text(const SbThesisRow *row, double value);
+
+// The reasons of a row in a sentence, with what each explains; NULL: none. Owned by the caller.
+char *sb_thesis_reason(const SbThesisRow *row);

@@ -1,0 +1,554 @@
+// Reads an item of the thesis and has its grids answered; rows and charts are in files of their
+// own.
+#include "app/study/thesis_private.h"
+
+#include "app/document/expression.h"
+#include "app/document/shipped.h"
+#include "app/study/answers.h"
+
+#include "engine/valve/run/run.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+void sb_thesis_complain(SbThesisWork *work, const char *group, const char *key, const char *format,
+                        ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *text = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  g_autofree char *whole = g_strdup_printf("%s.%s", group, key);
+  sb_issues_add(work->issues, work->path, 0, whole, NULL, "%s", text);
+}
+
+const char *sb_thesis_key(const SbThesisWork *work, const char *group, const char *name) {
+  for (guint i = 0; i < work->entries->len; i++) {
+    const SbEntry *entry = work->entries->pdata[i];
+    if (entry->name != NULL && strcmp(entry->group, group) == 0 && strcmp(entry->name, name) == 0) {
+      return entry->value;
+    }
+  }
+  return NULL;
+}
+
+// ---- Expressions ----
+
+static int column_of(const GArray *figures, int figure) {
+  for (guint k = 0; k < figures->len; k++) {
+    if (g_array_index(figures, int, k) == figure) {
+      return (int)k;
+    }
+  }
+  return -1;
+}
+
+// The sample's model, which other values may follow in from those that vary; kept.
+static const SbModel *model_of(const SbThesisPlace *at) {
+  GHashTable *models = at->grid->models;
+  SbModel *model = g_hash_table_lookup(models, GSIZE_TO_POINTER(at->sample));
+  if (model == NULL && (model = sb_thesis_model(at->work, at->grid, at->sample)) != NULL) {
+    g_hash_table_insert(models, GSIZE_TO_POINTER(at->sample), model);
+  }
+  return model;
+}
+
+// The grid of one sample that "GRID.FIGURE" names; *figure is what is behind it. NULL: it names
+// none.
+static SbThesisGrid *grid_in_name(int *figure, const SbThesisWork *work, const char *name) {
+  const char *dot = strchr(name, '.');
+  *figure = dot != NULL ? sb_figure_find(dot + 1) : -1;
+  for (guint i = 0; *figure >= 0 && i < work->grids->len; i++) {
+    SbThesisGrid *grid = work->grids->pdata[i];
+    if (grid->samples == 1 && strlen(grid->name) == (size_t)(dot - name) &&
+        strncmp(grid->name, name, (size_t)(dot - name)) == 0) {
+      return grid;
+    }
+  }
+  return NULL;
+}
+
+static bool sample_value(double *out, const SbThesisPlace *at, const char *name) {
+  const SbThesisWork *work = at->work;
+  int other;
+  const SbThesisGrid *elsewhere = grid_in_name(&other, work, name);
+  if (elsewhere != NULL && elsewhere->done) {
+    *out = elsewhere->value[column_of(elsewhere->figures, other)];
+    return true;
+  }
+  const SbStudyFile *study = work->study;
+  const int figure = sb_figure_find(name);
+  if (figure >= 0) {
+    const int column = at->grid != NULL ? column_of(at->grid->figures, figure) : -1;
+    if (column >= 0 && at->grid->done) {
+      *out = at->grid->value[at->sample * at->grid->figures->len + (size_t)column];
+    }
+    return column >= 0 && at->grid->done;
+  }
+  const size_t vary = study->vary->len;
+  const double *point =
+      at->grid != NULL ? &work->point[(at->grid->first + at->sample) * vary] : NULL;
+  for (guint k = 0; point != NULL && k < vary; k++) {
+    if (strcmp(sb_vary_name(&g_array_index(study->vary, SbVary, k)), name) == 0 &&
+        isfinite(point[k])) {
+      *out = point[k];
+      return true;
+    }
+  }
+  const int id = sb_param_find(name);
+  const SbModel *model = id >= 0 && at->grid != NULL ? model_of(at) : study->base;
+  if (id >= 0 && model != NULL) {
+    *out = sb_model_value(model, (SbParamId)id);
+  }
+  return id >= 0 && model != NULL;
+}
+
+static bool value_of(double *out, const char *name, void *data) {
+  const SbThesisPlace *at = data;
+  if (at->frame != NULL || at->profile != NULL) {
+    return sb_thesis_run_value(out, name, at);
+  }
+  const struct {
+    const char *name;
+    double value;
+  } known[] = {{"pi", G_PI},
+               {"printed", at->printed},
+               {"thesis", at->thesis},
+               {"consistent", at->consistent},
+               {"ours", at->ours}};
+  for (size_t i = 0; i < G_N_ELEMENTS(known); i++) {
+    if (strcmp(name, known[i].name) == 0) {
+      *out = known[i].value;
+      return true;
+    }
+  }
+  const char *cell = at->row >= 0 && at->work->printed != NULL
+                         ? sb_printed_cell(at->work->printed, (guint)at->row, name)
+                         : NULL;
+  if (cell != NULL) {
+    double half;
+    if (!sb_printed_number(out, &half, cell)) {
+      *out = NAN;
+    }
+    return true;
+  }
+  return sample_value(out, at, name);
+}
+
+bool sb_thesis_value(double *out, const SbThesisPlace *at, const char *text, const char *group,
+                     const char *key) {
+  g_autoptr(GError) error = NULL;
+  SbThesisPlace place = *at;
+  *out = NAN;
+  if (sb_expression_value(out, text, "1", "", value_of, &place, &error)) {
+    return true;
+  }
+  // A quantity that has no value leaves the row without one.
+  *out = NAN;
+  if (g_str_has_prefix(error->message, "the value is not finite")) {
+    return true;
+  }
+  sb_thesis_complain(at->work, group, key, "%s", error->message);
+  return false;
+}
+
+bool sb_thesis_grid(SbThesisGrid **grid, const char **expression, SbThesisWork *work,
+                    const char *text, const char *group, const char *key) {
+  const char *colon = strchr(text, ':');
+  *grid = NULL;
+  *expression = text;
+  if (colon == NULL) {
+    return true;
+  }
+  g_autofree char *name = g_strstrip(g_strndup(text, (gsize)(colon - text)));
+  *expression = colon + 1 + strspn(colon + 1, " ");
+  for (guint i = 0; i < work->grids->len; i++) {
+    SbThesisGrid *of = work->grids->pdata[i];
+    if (strcmp(of->name, name) == 0) {
+      *grid = of;
+      return true;
+    }
+  }
+  sb_thesis_complain(work, group, key, "there is no grid [vary %.40s]", name);
+  return false;
+}
+
+// ---- Answers ----
+
+typedef struct {
+  SbThesisWork *work;
+  SbThesisGrid *grid;
+} Gathering;
+
+// Takes note of a figure; every name is 1.
+static bool gather(double *out, const char *name, void *data) {
+  const Gathering *to = data;
+  int figure;
+  SbThesisGrid *grid = grid_in_name(&figure, to->work, name);
+  if (grid == NULL) {
+    grid = to->grid;
+    figure = sb_figure_find(name);
+  }
+  if (figure >= 0 && grid != NULL && column_of(grid->figures, figure) < 0) {
+    g_array_append_val(grid->figures, figure);
+  }
+  *out = 1;
+  return true;
+}
+
+static void gather_from(SbThesisWork *work, const char *text) {
+  Gathering to = {work, NULL};
+  const char *expression;
+  const guint before = work->issues->len;
+  if (sb_thesis_grid(&to.grid, &expression, work, text, "", "") && to.grid != NULL) {
+    double value;
+    (void)sb_expression_value(&value, expression, "1", "", gather, &to, NULL);
+  }
+  g_ptr_array_set_size(work->issues, (gint)before); // told where it is used
+}
+
+// All that the texts of a group's keys name; a text of bars has its expression behind the last, and
+// one in brackets in each row's cell.
+static void gather_entry(SbThesisWork *work, const SbEntry *entry) {
+  const char *bar = strrchr(entry->value, '|');
+  const char *text = bar != NULL ? bar + 1 : entry->value;
+  text += strspn(text, " ");
+  const char *open = strchr(text, '['), *close = strchr(text, ']');
+  if (open == NULL || close == NULL || close < open || work->printed == NULL) {
+    gather_from(work, text);
+    return;
+  }
+  g_autofree char *column = g_strndup(open + 1, (gsize)(close - open - 1));
+  for (guint row = 0; row < work->printed->rows->len; row++) {
+    const char *cell = sb_printed_cell(work->printed, row, column);
+    g_autofree char *whole =
+        g_strdup_printf("%.*s%s%s", (int)(open - text), text, cell != NULL ? cell : "", close + 1);
+    gather_from(work, whole);
+  }
+}
+
+typedef struct {
+  GMutex lock;
+  SbThesisGrid *grid;
+  SbThesisWork *work;
+} Seen;
+
+static bool on_cancelled(void *data) {
+  SbThesisWork *work = ((Seen *)data)->work;
+  work->stopped = work->stopped || (work->cancelled != NULL && work->cancelled(work->data));
+  return work->stopped;
+}
+
+static void on_seen(void *data, size_t sample, SbStatus status, const SbReport *report,
+                    const SbEvaluator *evaluator) {
+  Seen *seen = data;
+  const char *reason = status != SB_OK && report != NULL ? report->text : NULL;
+  for (guint k = 0; reason == NULL && k < seen->grid->figures->len; k++) {
+    reason = sb_evaluator_reason(evaluator, g_array_index(seen->grid->figures, int, k));
+  }
+  if (reason != NULL) {
+    g_mutex_lock(&seen->lock);
+    g_hash_table_insert(seen->grid->reason, GSIZE_TO_POINTER(sample), g_strdup(reason));
+    g_mutex_unlock(&seen->lock);
+  }
+}
+
+static bool answer_grid(SbThesisWork *work, SbThesisGrid *grid) {
+  const SbStudyFile *study = work->study;
+  const size_t vary = study->vary->len;
+  if (grid->figures->len == 0) {
+    return true;
+  }
+  g_autofree SbParamId *parameter = g_new(SbParamId, vary);
+  for (size_t k = 0; k < vary; k++) {
+    parameter[k] = g_array_index(study->vary, SbVary, k).id;
+  }
+  Seen seen = {.grid = grid, .work = work};
+  g_mutex_init(&seen.lock);
+  const SbQuestions asked = {.base = study->base,
+                             .base_sha256 = "",
+                             .parameter = parameter,
+                             .parameters = vary,
+                             .figure = (const int *)(const void *)grid->figures->data,
+                             .figures = grid->figures->len,
+                             .value = &work->point[grid->first * vary],
+                             .samples = grid->samples,
+                             .jobs = work->jobs,
+                             .cold = true,
+                             .seen = on_seen,
+                             .cancelled = on_cancelled,
+                             .data = &seen};
+  SbAnswers answers;
+  g_autoptr(GError) error = NULL;
+  const bool good = sb_answers_get(&answers, &asked, &error);
+  if (good) {
+    const size_t cells = grid->samples * grid->figures->len;
+    grid->value = g_new(double, cells);
+    memcpy(grid->value, answers.value, cells * sizeof *grid->value);
+    grid->done = true;
+  } else if (!work->stopped) {
+    sb_thesis_complain(work, "vary", grid->name, "%s", error->message);
+  }
+  sb_answers_release(&answers);
+  g_mutex_clear(&seen.lock);
+  return good;
+}
+
+bool sb_thesis_answer(SbThesisWork *work) {
+  for (guint i = 0; i < work->entries->len; i++) {
+    const SbEntry *entry = work->entries->pdata[i];
+    if (entry->name != NULL &&
+        (g_str_has_prefix(entry->group, "rows ") || g_str_has_prefix(entry->group, "series "))) {
+      gather_entry(work, entry);
+    }
+  }
+  for (guint i = 0; i < work->grids->len; i++) {
+    work->stopped = work->stopped || (work->cancelled != NULL && work->cancelled(work->data));
+    if (work->stopped || !answer_grid(work, work->grids->pdata[i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+SbModel *sb_thesis_model(SbThesisWork *work, const SbThesisGrid *grid, size_t sample) {
+  const SbStudyFile *study = work->study;
+  SbOverride override[SB_VARY_MAX];
+  size_t count = 0;
+  for (guint k = 0; k < study->vary->len; k++) {
+    const SbVary *vary = &g_array_index(study->vary, SbVary, k);
+    const double value = work->point[(grid->first + sample) * study->vary->len + k];
+    if (vary->id != SB_VARY_VARIABLE && isfinite(value)) {
+      override[count++] = (SbOverride){vary->id, value};
+    }
+  }
+  SbModel *model = NULL;
+  SbReport report = {0};
+  if (sb_model_derive(&model, study->base, override, count, &report) != SB_OK) {
+    sb_thesis_complain(work, "vary", grid->name, "%s", report.text);
+  }
+  return model;
+}
+
+// ---- The file ----
+
+static void free_grid(void *data) {
+  SbThesisGrid *grid = data;
+  g_free(grid->name);
+  g_array_unref(grid->figures);
+  g_free(grid->value);
+  g_hash_table_unref(grid->reason);
+  g_hash_table_unref(grid->runs);
+  g_hash_table_unref(grid->models);
+  g_free(grid);
+}
+
+static void free_run(void *run) {
+  sb_run_destroy(run);
+}
+
+static void free_model(void *model) {
+  sb_model_destroy(model);
+}
+
+static void add_grid(SbThesisWork *work, const char *name, size_t first) {
+  SbThesisGrid *grid = g_new0(SbThesisGrid, 1);
+  grid->name = g_strdup(name);
+  grid->first = first;
+  grid->figures = g_array_new(FALSE, FALSE, sizeof(int));
+  grid->reason = g_hash_table_new_full(NULL, NULL, NULL, g_free);
+  grid->runs = g_hash_table_new_full(NULL, NULL, NULL, free_run);
+  grid->models = g_hash_table_new_full(NULL, NULL, NULL, free_model);
+  g_ptr_array_add(work->grids, grid);
+}
+
+// The groups [vary NAME] in their order, each with its samples.
+static void find_grids(SbThesisWork *work) {
+  size_t first = 0;
+  guint number = 0;
+  for (guint i = 0; i < work->entries->len; i++) {
+    const SbEntry *entry = work->entries->pdata[i];
+    if (entry->name == NULL && g_str_has_prefix(entry->group, "vary ")) {
+      add_grid(work, entry->group + strlen("vary "), first);
+      SbThesisGrid *grid = work->grids->pdata[number++];
+      grid->samples = sb_study_grid_samples(work->study, number);
+      first += grid->samples;
+    }
+  }
+}
+
+static bool open_printed(SbThesisWork *work, const char *folder) {
+  const char *file = sb_thesis_key(work, "printed", "file");
+  if (file == NULL) {
+    return true;
+  }
+  g_autofree char *path = g_build_filename(folder, file, NULL);
+  work->printed = sb_printed_load(path, work->issues);
+  return work->printed != NULL;
+}
+
+static void fill(SbThesisItem *item, SbThesisWork *work) {
+  if (!sb_thesis_answer(work)) {
+    return;
+  }
+  for (guint i = 0; i < work->entries->len && !work->stopped; i++) {
+    const SbEntry *entry = work->entries->pdata[i];
+    if (entry->name == NULL && g_str_has_prefix(entry->group, "rows ")) {
+      sb_thesis_rows(item, work, entry->group);
+    } else if (entry->name != NULL && strcmp(entry->group, "notes") == 0) {
+      g_ptr_array_add(item->notes, g_strdup(entry->value));
+    } else if (entry->name == NULL && strcmp(entry->group, "chart") == 0) {
+      sb_thesis_chart(item, work);
+    }
+  }
+  for (guint i = 0; i < item->rows->len; i++) {
+    item->fails += ((SbThesisRow *)item->rows->pdata[i])->verdict == SB_THESIS_FAILS;
+  }
+}
+
+static void free_row(void *data) {
+  SbThesisRow *row = data;
+  GArray *const lists[] = {row->reasons, row->models};
+  for (size_t i = 0; i < G_N_ELEMENTS(lists); i++) {
+    for (guint k = 0; k < lists[i]->len; k++) {
+      g_free(g_array_index(lists[i], SbThesisPart, k).text);
+      g_free(g_array_index(lists[i], SbThesisPart, k).shown_by);
+    }
+    g_array_unref(lists[i]);
+  }
+  g_free(row->label);
+  g_free(row->no_thesis);
+  g_free(row->no_consistent);
+  g_free(row->fault);
+  g_free(row);
+}
+
+static SbThesisItem *new_item(const char *name, const SbThesisWork *work) {
+  SbThesisItem *item = g_new0(SbThesisItem, 1);
+  item->name = g_strdup(name);
+  item->title = g_strdup(work->study->title);
+  item->rows = g_ptr_array_new_with_free_func(free_row);
+  item->notes = g_ptr_array_new_with_free_func(g_free);
+  if (work->printed != NULL) {
+    g_ptr_array_add(work->printed->comments, NULL);
+    item->source = g_strjoinv("\n", (char **)work->printed->comments->pdata);
+  }
+  return item;
+}
+
+void sb_thesis_item_free(SbThesisItem *item) {
+  if (item != NULL) {
+    g_ptr_array_unref(item->rows);
+    g_ptr_array_unref(item->notes);
+    g_free(item->name);
+    g_free(item->title);
+    g_free(item->source);
+    g_free(item->chart);
+    g_free(item);
+  }
+}
+
+static void clear(SbThesisWork *work) {
+  g_clear_pointer(&work->grids, g_ptr_array_unref);
+  g_clear_pointer(&work->entries, g_ptr_array_unref);
+  sb_printed_free(work->printed);
+  sb_study_file_free(work->study);
+  free(work->point);
+}
+
+SbThesisItem *sb_thesis_compute(const char *name, int jobs, bool (*cancelled)(void *data),
+                                void *data, GPtrArray *issues) {
+  g_autofree char *folder = sb_shipped_thesis();
+  g_autofree char *file = g_strconcat(name, ".study", NULL);
+  g_autofree char *path = g_build_filename(folder != NULL ? folder : ".", file, NULL);
+  return sb_thesis_compute_file(path, jobs, cancelled, data, issues);
+}
+
+SbThesisItem *sb_thesis_compute_file(const char *path, int jobs, bool (*cancelled)(void *data),
+                                     void *data, GPtrArray *issues) {
+  g_autofree char *folder = g_path_get_dirname(path);
+  g_autofree char *name = g_path_get_basename(path);
+  *(g_str_has_suffix(name, ".study") ? strrchr(name, '.') : name + strlen(name)) = '\0';
+  SbThesisWork work = {.path = path,
+                       .jobs = jobs,
+                       .cancelled = cancelled,
+                       .data = data,
+                       .issues = issues,
+                       .grids = g_ptr_array_new_with_free_func(free_grid)};
+  const guint before = issues->len;
+  SbThesisItem *item = NULL;
+  SbReport report = {0};
+  size_t length = 0;
+  g_autofree char *text = sb_reader_load(&length, path, path, SB_DOCUMENT_BYTES_MAX, issues);
+  work.study = text != NULL ? sb_study_file_load(path, NULL, issues) : NULL;
+  if (work.study != NULL) {
+    work.entries = sb_reader_scan(text, length, path, issues);
+    find_grids(&work);
+    if (open_printed(&work, folder) &&
+        sb_study_file_points(&work.point, NULL, work.study, &report) == SB_OK) {
+      item = new_item(name, &work);
+      fill(item, &work);
+    }
+  }
+  clear(&work);
+  if (issues->len > before || work.stopped) {
+    g_clear_pointer(&item, sb_thesis_item_free);
+  }
+  return item;
+}
+
+// ---- The list ----
+
+// In the order of chapters and numbers, tables first.
+static int by_number(const void *a, const void *b) {
+  const char *const of[2] = {*(char *const *)a, *(char *const *)b};
+  double key[2];
+  for (int i = 0; i < 2; i++) {
+    const char *dash = strchr(of[i], '-');
+    const char *dot = dash != NULL ? strchr(dash, '.') : NULL;
+    const double chapter = dash != NULL ? g_ascii_strtod(dash + 1, NULL) : 0;
+    const double number = dot != NULL ? g_ascii_strtod(dot + 1, NULL) : 0;
+    key[i] = (g_str_has_prefix(of[i], "table") ? 0 : 1e6) + floor(chapter) * 1000 + number;
+  }
+  return key[0] < key[1] ? -1 : key[0] > key[1] ? 1 : strcmp(of[0], of[1]);
+}
+
+static char *title_of(const char *path) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  size_t length = 0;
+  g_autofree char *text = sb_reader_load(&length, path, path, SB_DOCUMENT_BYTES_MAX, issues);
+  g_autoptr(GPtrArray) entries =
+      text != NULL ? sb_reader_scan(text, length, path, issues) : sb_issues_new();
+  for (guint i = 0; text != NULL && i < entries->len; i++) {
+    const SbEntry *entry = entries->pdata[i];
+    if (entry->name != NULL && strcmp(entry->name, "title") == 0) {
+      return sb_printable(entry->value, strlen(entry->value));
+    }
+  }
+  return g_strdup("");
+}
+
+char **sb_thesis_items(void) {
+  g_autofree char *folder = sb_shipped_thesis();
+  g_autoptr(GDir) dir = folder != NULL ? g_dir_open(folder, 0, NULL) : NULL;
+  if (dir == NULL) {
+    return NULL;
+  }
+  g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
+  for (const char *name; (name = g_dir_read_name(dir)) != NULL;) {
+    if (g_str_has_suffix(name, ".study")) {
+      g_ptr_array_add(names, g_strndup(name, strlen(name) - strlen(".study")));
+    }
+  }
+  g_ptr_array_sort(names, by_number);
+  g_autoptr(GPtrArray) out = g_ptr_array_new();
+  for (guint i = 0; i < names->len; i++) {
+    g_autofree char *file = g_strconcat(names->pdata[i], ".study", NULL);
+    g_autofree char *path = g_build_filename(folder, file, NULL);
+    g_ptr_array_add(out, g_strdup(names->pdata[i]));
+    g_ptr_array_add(out, title_of(path));
+  }
+  g_ptr_array_add(out, NULL);
+  return (char **)g_ptr_array_free(g_steal_pointer(&out), FALSE);
+}
