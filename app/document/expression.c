@@ -58,6 +58,40 @@ static bool read_number(double *out, Reader *reader) {
   return true;
 }
 
+static const struct {
+  const char *name;
+  double (*one)(double);
+  double (*two)(double, double);
+} functions[] = {{"min", NULL, fmin},  {"max", NULL, fmax}, {"pow", NULL, pow},
+                 {"sin", sin, NULL},   {"cos", cos, NULL},  {"tan", tan, NULL},
+                 {"atan", atan, NULL}, {"exp", exp, NULL},  {"ln", log, NULL}};
+
+static bool is_function(const char *name) {
+  size_t i = 0;
+  while (i < G_N_ELEMENTS(functions) && strcmp(functions[i].name, name) != 0) {
+    i++;
+  }
+  return i < G_N_ELEMENTS(functions);
+}
+
+// What stands behind "NAME(".
+static bool read_function(double *out, Reader *reader, const char *name) {
+  size_t i = 0;
+  while (strcmp(functions[i].name, name) != 0) {
+    i++;
+  }
+  double other = 0;
+  const bool two = functions[i].two != NULL;
+  if (!read_sum(out, reader) ||
+      (two &&
+       (!expect(reader, ';', "min, max and pow take (A; B)") || !read_sum(&other, reader))) ||
+      !expect(reader, ')', "a parenthesis is missing")) {
+    return false;
+  }
+  *out = two ? functions[i].two(*out, other) : functions[i].one(*out);
+  return true;
+}
+
 // "-A", "(A)", a name or a number.
 static bool read_operand(double *out, Reader *reader) {
   const char first = next(reader);
@@ -77,13 +111,9 @@ static bool read_operand(double *out, Reader *reader) {
       length++;
     }
     g_autofree char *name = g_strndup(reader->at, length);
-    const bool least = strcmp(name, "min") == 0, most = strcmp(name, "max") == 0;
-    if ((least || most || strcmp(name, "pow") == 0) && reader->at[length] == '(') {
-      double other = 0;
+    if (reader->at[length] == '(' && is_function(name)) {
       reader->at += length + 1;
-      good = read_sum(out, reader) && expect(reader, ';', "min, max and pow take (A; B)") &&
-             read_sum(&other, reader) && expect(reader, ')', "a parenthesis is missing");
-      *out = least ? fmin(*out, other) : most ? fmax(*out, other) : pow(*out, other);
+      good = read_function(out, reader, name);
     } else {
       good = reader->name(out, name, reader->data) ||
              fail(reader, "there is no parameter and no variable");

@@ -1,8 +1,8 @@
 // Values of a study's lines that hang on others: "floor + 2 * space", "gland.radial_space / 2",
 // "seal.section_diameter + 0.02 mm".
 //
-// + - * / with their usual precedence, parentheses, min(A; B), max(A; B) and pow(A; B), over names and
-// numbers. A number with a unit is a quantity of the dimension that the whole has; the others have
+// + - * / with their usual precedence, parentheses, min(A; B), max(A; B), pow(A; B), and
+// sin, cos, tan, atan, exp and ln of (A), over names and numbers. A number with a unit is a quantity of the dimension that the whole has; the others have
 // none.
 #pragma once
 

@@ -57,7 +57,11 @@ void sb_csv_figures(FILE *stream, const SbRun *run) {
   COLUMN("film_central_outer [m]", frame->seal[SB_OUTER].film_central)                             \
   COLUMN("land_fraction_inner [1]", (double)frame->seal[SB_INNER].land_fraction)                   \
   COLUMN("land_fraction_outer [1]", (double)frame->seal[SB_OUTER].land_fraction)                   \
-  COLUMN("chamber_pressure [Pa]", frame->chamber_pressure)
+  COLUMN("chamber_pressure [Pa]", frame->chamber_pressure)                                         \
+  COLUMN("friction_boundary_inner [N]", frame->seal[SB_INNER].friction_boundary)                   \
+  COLUMN("friction_boundary_outer [N]", frame->seal[SB_OUTER].friction_boundary)                   \
+  COLUMN("friction_viscous_inner [N]", frame->seal[SB_INNER].friction_viscous)                     \
+  COLUMN("friction_viscous_outer [N]", frame->seal[SB_OUTER].friction_viscous)
 #define HEADING(name, value) "," name
 #define PUT(name, value)     put(stream, value);
 

@@ -323,6 +323,42 @@ static char *without_times(const char *text) {
   return plain;
 }
 
+// Column of a heading, which must be there.
+static int column_of(char **names, const char *name) {
+  int at = 0;
+  while (names[at] != NULL && strcmp(names[at], name) != 0) {
+    at++;
+  }
+  g_assert_nonnull(names[at]);
+  return at;
+}
+
+// Boundary and viscous friction add up in every frame, and both are there while it slides.
+static void check_split(const char *csv) {
+  g_auto(GStrv) lines = g_strsplit(csv, "\n", -1);
+  g_auto(GStrv) names = g_strsplit(lines[0], ",", -1);
+  static const char *const seals[] = {"inner", "outer"};
+  for (int seal = 0; seal < 2; seal++) {
+    int column[3];
+    static const char *const parts[] = {"friction", "friction_boundary", "friction_viscous"};
+    for (int i = 0; i < 3; i++) {
+      g_autofree char *name = g_strdup_printf("%s_%s [N]", parts[i], seals[seal]);
+      column[i] = column_of(names, name);
+    }
+    int viscous = 0;
+    for (int k = 1; lines[k] != NULL && *lines[k] != '\0'; k++) {
+      g_auto(GStrv) cells = g_strsplit(lines[k], ",", -1);
+      double value[3];
+      for (int i = 0; i < 3; i++) {
+        value[i] = g_ascii_strtod(cells[column[i]], NULL);
+      }
+      g_assert_cmpfloat_with_epsilon(value[0], value[1] + value[2], 1e-12 + 1e-12 * fabs(value[0]));
+      viscous += fabs(value[2]) > 0;
+    }
+    g_assert_cmpint(viscous, >, 10);
+  }
+}
+
 static void test_results_and_locale(void) {
   char *plain = g_build_filename(cli.folder, "plain", NULL);
   char *german = g_build_filename(cli.folder, "deep", "er", NULL);
@@ -363,6 +399,7 @@ static void test_results_and_locale(void) {
   g_assert_true(g_str_has_prefix(csv, "time [s],displacement [m],velocity [m/s],force [N],"
                                       "pressure_force [N],friction_inner [N],"
                                       "friction_outer [N],"));
+  check_split(csv);
   g_free(csv);
   cli_remove_results(plain);
   cli_remove_results(german);

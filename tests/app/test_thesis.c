@@ -173,6 +173,67 @@ static void test_items(void) {
   }
 }
 
+static const SbStudySeries *series_of(const SbThesisItem *item, const char *name) {
+  for (size_t i = 0; i < item->chart->panel[0].series_count; i++) {
+    if (strcmp(item->chart->panel[0].series[i].name, name) == 0) {
+      return &item->chart->panel[0].series[i];
+    }
+  }
+  g_assert_not_reached();
+}
+
+// w over eta u R/h0: 24 times the integral of P* sec^2 t.
+static double wedge_load(const SbStudySeries *of) {
+  double sum = 0;
+  for (size_t i = 1; i + 1 < of->count; i++) {
+    const double t = of->x[i] * G_PI / 180, step = (of->x[i + 1] - of->x[i - 1]) / 2 * G_PI / 180;
+    sum += of->y[i] / (cos(t) * cos(t)) * step;
+  }
+  return 24 * sum;
+}
+
+// Loads of the rigid wedge: 0 by symmetry, 4 (half Sommerfeld), 4.895 (Martin;
+// engine/film/wedge.h).
+static void test_wedge(void) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbThesisItem) item = sb_thesis_compute("figure-6.7", 1, NULL, NULL, issues);
+  g_assert_nonnull(item);
+  g_assert_cmpfloat(fabs(wedge_load(series_of(item, "Full Sommerfeld"))), <, 1e-9);
+  g_assert_cmpfloat_with_epsilon(wedge_load(series_of(item, "Half Sommerfeld")), 4, 0.01);
+  g_assert_cmpfloat_with_epsilon(wedge_load(series_of(item, "Reynolds")), 4.894968, 0.01);
+}
+
+// A Hertz pressure on the half-space: x^2/2R within the contact, and outside what leaves the gap
+// (b^2/2R) (X sqrt(X^2 - 1) - arcosh X), Johnson (1985), 4.3; columns end at the edge.
+static void test_deflection(void) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbThesisItem) item = sb_thesis_compute("figure-6.18", 1, NULL, NULL, issues);
+  g_assert_nonnull(item);
+  const SbStudySeries *half = series_of(item, "half-space"), *columns = series_of(item, "columns");
+  const SbStudySeries *parabola = series_of(item, "parabola, within the contact");
+  const double edge = parabola->y[0]; // at X = -1
+  g_assert_cmpfloat_with_epsilon(parabola->x[0], -1, 1e-12);
+  for (size_t i = 0; i < half->count; i++) {
+    const double X = fabs(half->x[i]);
+    const double gap = X > 1 ? X * sqrt(X * X - 1) - acosh(X) : 0;
+    g_assert_cmpfloat_with_epsilon(half->y[i], edge * (X * X - gap), 1e-6 * edge);
+    g_assert_true(X < 1 || fabs(columns->y[i] / columns->y[0] - 1) < 1e-12);
+  }
+}
+
+// A loop in two parts, each in the order of the displacement.
+static void test_loop(void) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbThesisItem) item = sb_thesis_compute("figure-5.4", 1, NULL, NULL, issues);
+  g_assert_nonnull(item);
+  g_assert_cmpuint(item->chart->panel[0].series_count, ==, 2);
+  const SbStudySeries *in = series_of(item, "thesis' model, in");
+  g_assert_cmpuint(in->count, >, 50);
+  for (size_t i = 1; i < in->count; i++) {
+    g_assert_cmpfloat(in->x[i], >=, in->x[i - 1]);
+  }
+}
+
 static bool always(void *data) {
   return true;
 }
@@ -193,6 +254,9 @@ int main(int argc, char **argv) {
   g_test_add_func("/thesis/parts", test_parts);
   g_test_add_func("/thesis/refused", test_refused);
   g_test_add_func("/thesis/items", test_items);
+  g_test_add_func("/thesis/wedge", test_wedge);
+  g_test_add_func("/thesis/deflection", test_deflection);
+  g_test_add_func("/thesis/loop", test_loop);
   g_test_add_func("/thesis/cancelled", test_cancelled);
   const int code = g_test_run();
   static const char *const names[] = {"printed.csv", "squeeze.csv", "squeeze.study"};
