@@ -156,13 +156,15 @@ typedef struct {
 typedef struct {
   GPtrArray *jobs; // of Job *
   int threads;     // of one item
+  SbThesisRuns *runs;
   gint done;
 } Work;
 
 static void compute(void *data, void *user) {
   Job *job = data;
   Work *work = user;
-  job->item = sb_thesis_compute(job->name, work->threads, sb_cli_interrupted, NULL, job->issues);
+  job->item = sb_thesis_compute(job->name, work->threads, work->runs, sb_cli_interrupted, NULL,
+                                job->issues);
   g_atomic_int_inc(&work->done);
 }
 
@@ -234,7 +236,7 @@ static bool take_names(Work *work, char **items, const char *name) {
 
 static int run(char **items, const char *name, int threads, const char *folder,
                const char *target) {
-  Work work = {.jobs = g_ptr_array_new_with_free_func(free_job)};
+  Work work = {.jobs = g_ptr_array_new_with_free_func(free_job), .runs = sb_thesis_runs_new()};
   int code = SB_EXIT_INPUT;
   if (take_names(&work, items, name)) {
     char *const names[] = {(char *)"index.html", (char *)"thesis.md", NULL};
@@ -264,6 +266,7 @@ static int run(char **items, const char *name, int threads, const char *folder,
     }
   }
   g_ptr_array_unref(work.jobs);
+  sb_thesis_runs_free(work.runs);
   return code;
 }
 

@@ -9,31 +9,106 @@
 
 // ---- Runs ----
 
-// The run of a grid's first sample, kept; NULL, told, where there is none. Borrowed.
-static const SbRun *run_of(SbThesisWork *work, SbThesisGrid *grid) {
-  SbRun *run = g_hash_table_lookup(grid->runs, GSIZE_TO_POINTER(0));
-  if (run != NULL) {
-    return run;
+static bool on_cancelled(void *data) {
+  return sb_thesis_stopped(data);
+}
+
+// A run that some items draw, by the hash of its model; NULL while it is computed or where it
+// failed.
+typedef struct {
+  SbRun *run;
+  bool busy;
+} Shared;
+
+struct SbThesisRuns {
+  GMutex lock;
+  GCond changed;
+  GHashTable *runs; // hash -> Shared *
+};
+
+static void free_shared(void *data) {
+  Shared *shared = data;
+  sb_run_destroy(shared->run);
+  g_free(shared);
+}
+
+SbThesisRuns *sb_thesis_runs_new(void) {
+  SbThesisRuns *runs = g_new0(SbThesisRuns, 1);
+  g_mutex_init(&runs->lock);
+  g_cond_init(&runs->changed);
+  runs->runs = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, free_shared);
+  return runs;
+}
+
+void sb_thesis_runs_free(SbThesisRuns *runs) {
+  if (runs != NULL) {
+    g_hash_table_unref(runs->runs);
+    g_mutex_clear(&runs->lock);
+    g_cond_clear(&runs->changed);
+    g_free(runs);
   }
+}
+
+// Owned by the caller.
+static char *hash_of(const SbModel *model) {
+  double value[SB_PARAM_COUNT];
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    value[i] = sb_model_value(model, (SbParamId)i);
+  }
+  return g_compute_checksum_for_data(G_CHECKSUM_SHA256, (const guchar *)value, sizeof value);
+}
+
+static SbRun *compute_run(SbThesisWork *work, const SbThesisGrid *grid, const SbModel *model) {
+  SbRun *run = NULL;
+  SbPlan plan;
+  SbReport report = {0};
+  const SbRunHooks hooks = {.cancelled = on_cancelled, .data = work, .alone = true};
+  sb_plan_make(&plan, model);
+  SbStatus status = sb_run_create(&run, model, &plan, &report);
+  status = status == SB_OK ? sb_run_execute(run, &hooks, &report) : status;
+  if (status != SB_OK) {
+    sb_run_destroy(run);
+    run = NULL;
+    if (status != SB_ERROR_CANCELLED) {
+      sb_thesis_complain(work, "vary", grid->name, "%s", report.text);
+    }
+  }
+  return run;
+}
+
+// The run of a grid's first sample, kept with the runs; NULL, told, where there is none. Borrowed.
+static const SbRun *run_of(SbThesisWork *work, const SbThesisGrid *grid) {
+  SbThesisRuns *runs = work->runs;
   SbModel *model = sb_thesis_model(work, grid, 0);
   if (model == NULL) {
     return NULL;
   }
-  SbPlan plan;
-  SbReport report = {0};
-  const SbRunHooks hooks = {.cancelled = work->cancelled, .data = work->data, .alone = true};
-  sb_plan_make(&plan, model);
-  SbStatus status = sb_run_create(&run, model, &plan, &report);
-  status = status == SB_OK ? sb_run_execute(run, &hooks, &report) : status;
-  sb_model_destroy(model);
-  if (status != SB_OK) {
-    work->stopped = work->stopped || status == SB_ERROR_CANCELLED;
-    sb_thesis_complain(work, "vary", grid->name, "%s", report.text);
-    sb_run_destroy(run);
-    return NULL;
+  char *hash = hash_of(model);
+  g_mutex_lock(&runs->lock);
+  Shared *shared = g_hash_table_lookup(runs->runs, hash);
+  const bool own = shared == NULL;
+  if (own) {
+    shared = g_new0(Shared, 1);
+    shared->busy = true;
+    g_hash_table_insert(runs->runs, hash, shared);
+    g_mutex_unlock(&runs->lock);
+    SbRun *run = compute_run(work, grid, model);
+    g_mutex_lock(&runs->lock);
+    shared->run = run;
+    shared->busy = false;
+    g_cond_broadcast(&runs->changed);
+  } else {
+    g_free(hash);
   }
-  g_hash_table_insert(grid->runs, GSIZE_TO_POINTER(0), run);
-  return run;
+  while (shared->busy) {
+    g_cond_wait(&runs->changed, &runs->lock);
+  }
+  g_mutex_unlock(&runs->lock);
+  sb_model_destroy(model);
+  if (shared->run == NULL && !own && !sb_thesis_stopped(work)) {
+    sb_thesis_complain(work, "vary", grid->name, "its run failed");
+  }
+  return shared->run;
 }
 
 // The seal's profile nearest to the middle of B-C; NULL: it has none.

@@ -234,10 +234,13 @@ typedef struct {
   SbThesisWork *work;
 } Seen;
 
-static bool on_cancelled(void *data) {
-  SbThesisWork *work = ((Seen *)data)->work;
+bool sb_thesis_stopped(SbThesisWork *work) {
   work->stopped = work->stopped || (work->cancelled != NULL && work->cancelled(work->data));
   return work->stopped;
+}
+
+static bool on_cancelled(void *data) {
+  return sb_thesis_stopped(((Seen *)data)->work);
 }
 
 static void on_seen(void *data, size_t sample, SbStatus status, const SbReport *report,
@@ -304,8 +307,7 @@ bool sb_thesis_answer(SbThesisWork *work) {
     }
   }
   for (guint i = 0; i < work->grids->len; i++) {
-    work->stopped = work->stopped || (work->cancelled != NULL && work->cancelled(work->data));
-    if (work->stopped || !answer_grid(work, work->grids->pdata[i])) {
+    if (sb_thesis_stopped(work) || !answer_grid(work, work->grids->pdata[i])) {
       return false;
     }
   }
@@ -339,13 +341,8 @@ static void free_grid(void *data) {
   g_array_unref(grid->figures);
   g_free(grid->value);
   g_hash_table_unref(grid->reason);
-  g_hash_table_unref(grid->runs);
   g_hash_table_unref(grid->models);
   g_free(grid);
-}
-
-static void free_run(void *run) {
-  sb_run_destroy(run);
 }
 
 static void free_model(void *model) {
@@ -358,7 +355,6 @@ static void add_grid(SbThesisWork *work, const char *name, size_t first) {
   grid->first = first;
   grid->figures = g_array_new(FALSE, FALSE, sizeof(int));
   grid->reason = g_hash_table_new_full(NULL, NULL, NULL, g_free);
-  grid->runs = g_hash_table_new_full(NULL, NULL, NULL, free_run);
   grid->models = g_hash_table_new_full(NULL, NULL, NULL, free_model);
   g_ptr_array_add(work->grids, grid);
 }
@@ -457,16 +453,16 @@ static void clear(SbThesisWork *work) {
   free(work->point);
 }
 
-SbThesisItem *sb_thesis_compute(const char *name, int jobs, bool (*cancelled)(void *data),
-                                void *data, GPtrArray *issues) {
+SbThesisItem *sb_thesis_compute(const char *name, int jobs, SbThesisRuns *runs,
+                                bool (*cancelled)(void *data), void *data, GPtrArray *issues) {
   g_autofree char *folder = sb_shipped_thesis();
   g_autofree char *file = g_strconcat(name, ".study", NULL);
   g_autofree char *path = g_build_filename(folder != NULL ? folder : ".", file, NULL);
-  return sb_thesis_compute_file(path, jobs, cancelled, data, issues);
+  return sb_thesis_compute_file(path, jobs, runs, cancelled, data, issues);
 }
 
-SbThesisItem *sb_thesis_compute_file(const char *path, int jobs, bool (*cancelled)(void *data),
-                                     void *data, GPtrArray *issues) {
+SbThesisItem *sb_thesis_compute_file(const char *path, int jobs, SbThesisRuns *runs,
+                                     bool (*cancelled)(void *data), void *data, GPtrArray *issues) {
   g_autofree char *folder = g_path_get_dirname(path);
   g_autofree char *name = g_path_get_basename(path);
   *(g_str_has_suffix(name, ".study") ? strrchr(name, '.') : name + strlen(name)) = '\0';
@@ -475,6 +471,7 @@ SbThesisItem *sb_thesis_compute_file(const char *path, int jobs, bool (*cancelle
                        .cancelled = cancelled,
                        .data = data,
                        .issues = issues,
+                       .runs = runs != NULL ? runs : sb_thesis_runs_new(),
                        .grids = g_ptr_array_new_with_free_func(free_grid)};
   const guint before = issues->len;
   SbThesisItem *item = NULL;
@@ -492,6 +489,9 @@ SbThesisItem *sb_thesis_compute_file(const char *path, int jobs, bool (*cancelle
     }
   }
   clear(&work);
+  if (runs == NULL) {
+    sb_thesis_runs_free(work.runs);
+  }
   if (issues->len > before || work.stopped) {
     g_clear_pointer(&item, sb_thesis_item_free);
   }

@@ -81,14 +81,19 @@ typedef struct {
 // where the folder is missing.
 char **sb_thesis_items(void);
 
-// Computes one on `jobs` threads. NULL with issues, or with none where it was cancelled. Owned by
-// the caller.
-SbThesisItem *sb_thesis_compute(const char *name, int jobs, bool (*cancelled)(void *data),
-                                void *data, GPtrArray *issues);
+// Runs that items share, whichever comes first to one computes it.
+typedef struct SbThesisRuns SbThesisRuns;
+SbThesisRuns *sb_thesis_runs_new(void);
+void sb_thesis_runs_free(SbThesisRuns *runs); // takes NULL
+
+// Computes one on `jobs` threads; `runs` may be NULL. NULL with issues, or with none where it was
+// cancelled. Owned by the caller.
+SbThesisItem *sb_thesis_compute(const char *name, int jobs, SbThesisRuns *runs,
+                                bool (*cancelled)(void *data), void *data, GPtrArray *issues);
 
 // The same of a study file anywhere.
-SbThesisItem *sb_thesis_compute_file(const char *path, int jobs, bool (*cancelled)(void *data),
-                                     void *data, GPtrArray *issues);
+SbThesisItem *sb_thesis_compute_file(const char *path, int jobs, SbThesisRuns *runs,
+                                     bool (*cancelled)(void *data), void *data, GPtrArray *issues);
 
 // Takes NULL.
 void sb_thesis_item_free(SbThesisItem *item);

@@ -15,7 +15,6 @@ typedef struct {
   GArray *figures;    // of int, what expressions name of it
   double *value;      // [samples][figures]
   GHashTable *reason; // sample -> char *, why one failed
-  GHashTable *runs;   // sample -> SbRun *, of series
   GHashTable *models; // sample -> SbModel *, whose parameters were asked for
 } SbThesisGrid;
 
@@ -26,6 +25,7 @@ typedef struct {
   SbPrinted *printed; // NULL: none
   double *point;      // [samples][vary]
   GPtrArray *grids;   // of SbThesisGrid *
+  SbThesisRuns *runs; // borrowed
   int jobs;
   bool (*cancelled)(void *data);
   void *data;
@@ -62,6 +62,9 @@ bool sb_thesis_value(double *out, const SbThesisPlace *at, const char *text, con
 // an unknown one.
 bool sb_thesis_grid(SbThesisGrid **grid, const char **expression, SbThesisWork *work,
                     const char *text, const char *group, const char *key);
+
+// Whether it was cancelled.
+bool sb_thesis_stopped(SbThesisWork *work);
 
 // Answers all figures of all grids that expressions of rows and series name.
 bool sb_thesis_answer(SbThesisWork *work);

@@ -56,7 +56,7 @@ static SbThesisItem *compute(const char *printed, const char *rows, GPtrArray *i
   write_file("squeeze.csv", csv);
   write_file("squeeze.study", study);
   g_autofree char *path = g_build_filename(folder, "squeeze.study", NULL);
-  return sb_thesis_compute_file(path, 1, NULL, NULL, issues);
+  return sb_thesis_compute_file(path, 1, NULL, NULL, NULL, issues);
 }
 
 #define ROWS "[rows squeeze]\nunit = 1 %\nprinted = squeeze\nthesis = ours: seals.outer.squeeze\n"
@@ -165,7 +165,7 @@ static void test_items(void) {
   for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
     g_assert_true(g_strv_contains((const char *const *)items, names[i]));
     g_autoptr(GPtrArray) issues = sb_issues_new();
-    g_autoptr(SbThesisItem) item = sb_thesis_compute(names[i], 1, NULL, NULL, issues);
+    g_autoptr(SbThesisItem) item = sb_thesis_compute(names[i], 1, NULL, NULL, NULL, issues);
     g_assert_nonnull(item);
     g_assert_cmpuint(item->rows->len, >, 2);
     g_assert_cmpuint(item->fails, ==, 0);
@@ -196,7 +196,7 @@ static double wedge_load(const SbStudySeries *of) {
 // engine/film/wedge.h).
 static void test_wedge(void) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_autoptr(SbThesisItem) item = sb_thesis_compute("figure-6.7", 1, NULL, NULL, issues);
+  g_autoptr(SbThesisItem) item = sb_thesis_compute("figure-6.7", 1, NULL, NULL, NULL, issues);
   g_assert_nonnull(item);
   g_assert_cmpfloat(fabs(wedge_load(series_of(item, "Full Sommerfeld"))), <, 1e-9);
   g_assert_cmpfloat_with_epsilon(wedge_load(series_of(item, "Half Sommerfeld")), 4, 0.01);
@@ -207,7 +207,7 @@ static void test_wedge(void) {
 // (b^2/2R) (X sqrt(X^2 - 1) - arcosh X), Johnson (1985), 4.3; columns end at the edge.
 static void test_deflection(void) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_autoptr(SbThesisItem) item = sb_thesis_compute("figure-6.18", 1, NULL, NULL, issues);
+  g_autoptr(SbThesisItem) item = sb_thesis_compute("figure-6.18", 1, NULL, NULL, NULL, issues);
   g_assert_nonnull(item);
   const SbStudySeries *half = series_of(item, "half-space"), *columns = series_of(item, "columns");
   const SbStudySeries *parabola = series_of(item, "parabola, within the contact");
@@ -224,7 +224,7 @@ static void test_deflection(void) {
 // A loop in two parts, each in the order of the displacement.
 static void test_loop(void) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_autoptr(SbThesisItem) item = sb_thesis_compute("figure-5.4", 1, NULL, NULL, issues);
+  g_autoptr(SbThesisItem) item = sb_thesis_compute("figure-5.4", 1, NULL, NULL, NULL, issues);
   g_assert_nonnull(item);
   g_assert_cmpuint(item->chart->panel[0].series_count, ==, 2);
   const SbStudySeries *in = series_of(item, "thesis' model, in");
@@ -240,9 +240,9 @@ static bool always(void *data) {
 
 static void test_cancelled(void) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_assert_null(sb_thesis_compute("table-7.10", 1, always, NULL, issues));
+  g_assert_null(sb_thesis_compute("table-7.10", 1, NULL, always, NULL, issues));
   g_assert_cmpuint(issues->len, ==, 0);
-  g_assert_null(sb_thesis_compute("table-99.1", 1, NULL, NULL, issues));
+  g_assert_null(sb_thesis_compute("table-99.1", 1, NULL, NULL, NULL, issues));
   g_assert_cmpuint(issues->len, >, 0);
 }
 
