@@ -2,6 +2,7 @@
 #include "app/cli/cli.h"
 
 #include "app/base/output.h"
+#include "app/document/shipped.h"
 #include "app/export/thesis_results.h"
 
 #include <math.h>
@@ -38,6 +39,7 @@ static int list_items(const char *json) {
 
 static void print_item(const SbThesisItem *item) {
   int width = 0;
+  g_autoptr(GPtrArray) reasons = sb_thesis_reasons(item);
   for (guint i = 0; i < item->rows->len; i++) {
     width = MAX(width, (int)strlen(((SbThesisRow *)item->rows->pdata[i])->label));
   }
@@ -50,15 +52,11 @@ static void print_item(const SbThesisItem *item) {
     g_autofree char *printed = sb_thesis_text(row, row->printed);
     g_autofree char *thesis = sb_thesis_text(row, row->thesis);
     g_autofree char *consistent = sb_thesis_text(row, row->consistent);
-    g_autofree char *reason = sb_thesis_reason(row);
-    printf("  %-*s %14s %14s %14s  %s\n", width, row->label, printed, thesis, consistent,
-           sb_thesis_verdict_name(row->verdict));
-    const char *const said[] = {row->fault, row->no_thesis, reason};
-    for (size_t k = 0; k < G_N_ELEMENTS(said); k++) {
-      if (said[k] != NULL) {
-        printf("      %s\n", said[k]);
-      }
-    }
+    g_autofree char *standing = sb_thesis_standing(row, reasons, false);
+    printf("  %-*s %14s %14s %14s  %s\n", width, row->label, printed, thesis, consistent, standing);
+  }
+  for (guint i = 0; i < reasons->len; i++) {
+    printf("  %u. %s\n", i + 1, (const char *)reasons->pdata[i]);
   }
   for (guint i = 0; i < item->notes->len; i++) {
     printf("  %s\n", (const char *)item->notes->pdata[i]);
@@ -108,6 +106,13 @@ static bool add_index(SbOutputFolder *out, SbThesisItem *const *items, size_t co
   if (!sb_output_folder_add(&text, out, "thesis.md", error)) {
     return false;
   }
+  g_autofree char *folder = sb_shipped_thesis();
+  g_autofree char *path = g_build_filename(folder, "introduction.md", NULL);
+  g_autofree char *introduction = NULL;
+  if (!g_file_get_contents(path, &introduction, NULL, error)) {
+    return false;
+  }
+  fputs(introduction, text);
   for (size_t i = 0; i < count; i++) {
     sb_markdown_thesis(text, items[i]);
   }

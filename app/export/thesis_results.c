@@ -22,14 +22,33 @@ char *sb_thesis_text(const SbThesisRow *row, double value) {
                          *row->shown != '\0' ? " " : "", row->shown);
 }
 
+// What a step explains; rounding is nothing. Owned by the caller.
+static char *part_text(const SbThesisRow *row, const SbThesisPart *part) {
+  if (!isfinite(part->explains)) {
+    return g_strdup("part not known");
+  }
+  const double scale = isfinite(row->printed) ? fabs(row->printed) : fabs(row->thesis);
+  const double explains = fabs(part->explains) <= 1e-9 * scale ? 0 : part->explains;
+  g_autofree char *text = sb_thesis_text(row, explains);
+  return g_strconcat(explains > 0 ? "+" : "", text, NULL);
+}
+
+// Owned by the caller; NULL where nothing is printed.
+static char *rest_text(const SbThesisRow *row) {
+  if (!isfinite(row->remains)) {
+    return NULL;
+  }
+  g_autofree char *left = sb_thesis_text(row, -row->remains);
+  return g_strdup_printf("remains %s", fabs(row->remains) <= row->rounding ? "rounding" : left);
+}
+
 // "text (shown by COMMAND): +3 nm".
 static void put_parts(GString *out, const SbThesisRow *row, const GArray *parts) {
   for (guint i = 0; i < parts->len; i++) {
     const SbThesisPart *part = &g_array_index(parts, SbThesisPart, i);
-    g_autofree char *by = sb_thesis_text(row, part->explains);
-    g_string_append_printf(out, "%s%s (%s): %s%s", out->len > 0 ? "; " : "", part->text,
-                           part->shown_by, part->explains > 0 ? "+" : "",
-                           isfinite(part->explains) ? by : "part not known");
+    g_autofree char *by = part_text(row, part);
+    g_string_append_printf(out, "%s%s (%s): %s", out->len > 0 ? "; " : "", part->text,
+                           part->shown_by, by);
   }
 }
 
@@ -39,10 +58,9 @@ char *sb_thesis_reason(const SbThesisRow *row) {
   }
   GString *out = g_string_new(NULL);
   put_parts(out, row, row->reasons);
-  if (isfinite(row->remains)) {
-    g_autofree char *left = sb_thesis_text(row, -row->remains);
-    g_string_append_printf(out, "; remains %s",
-                           fabs(row->remains) <= row->rounding ? "rounding" : left);
+  g_autofree char *rest = rest_text(row);
+  if (rest != NULL) {
+    g_string_append_printf(out, "; %s", rest);
   }
   return g_string_free(out, FALSE);
 }
@@ -54,6 +72,57 @@ static char *model_reason(const SbThesisRow *row) {
   }
   GString *out = g_string_new(NULL);
   put_parts(out, row, row->models);
+  return g_string_free(out, FALSE);
+}
+
+// Place of a part in the list, from 1; 0: it is not there.
+static guint place_of(const GPtrArray *reasons, const SbThesisPart *part) {
+  g_autofree char *text = g_strdup_printf("%s (%s)", part->text, part->shown_by);
+  for (guint i = 0; i < reasons->len; i++) {
+    if (strcmp(reasons->pdata[i], text) == 0) {
+      return i + 1;
+    }
+  }
+  return 0;
+}
+
+GPtrArray *sb_thesis_reasons(const SbThesisItem *item) {
+  GPtrArray *out = g_ptr_array_new_with_free_func(g_free);
+  for (int models = 0; models < 2; models++) {
+    for (guint i = 0; i < item->rows->len; i++) {
+      const SbThesisRow *row = item->rows->pdata[i];
+      const GArray *parts = models != 0 ? row->models : row->reasons;
+      for (guint k = 0; k < parts->len; k++) {
+        const SbThesisPart *part = &g_array_index(parts, SbThesisPart, k);
+        if (place_of(out, part) == 0) {
+          g_ptr_array_add(out, g_strdup_printf("%s (%s)", part->text, part->shown_by));
+        }
+      }
+    }
+  }
+  return out;
+}
+
+char *sb_thesis_standing(const SbThesisRow *row, const GPtrArray *reasons, bool models) {
+  GString *out = g_string_new(NULL);
+  const GArray *parts = models ? row->models : row->reasons;
+  for (guint i = 0; i < parts->len; i++) {
+    const SbThesisPart *part = &g_array_index(parts, SbThesisPart, i);
+    g_autofree char *by = part_text(row, part);
+    g_string_append_printf(out, "%s%u: %s", i > 0 ? ", " : "", place_of(reasons, part), by);
+  }
+  g_autofree char *rest = parts->len > 0 && !models ? rest_text(row) : NULL;
+  if (rest != NULL) {
+    g_string_append_printf(out, "; %s", rest);
+  }
+  if (!models && parts->len == 0) {
+    g_string_append(out, sb_thesis_verdict_name(row->verdict));
+  }
+  const char *const more[] = {row->fault, row->no_thesis};
+  for (size_t i = 0; i < G_N_ELEMENTS(more) && !models; i++) {
+    g_string_append_printf(out, "%s%s", more[i] != NULL ? "; " : "",
+                           more[i] != NULL ? more[i] : "");
+  }
   return g_string_free(out, FALSE);
 }
 
@@ -208,8 +277,9 @@ static char *difference_text(const SbThesisRow *row) {
   return sb_thesis_text(row, row->difference);
 }
 
-static void put_html_row(FILE *stream, const SbThesisRow *row) {
-  g_autofree char *reason = sb_thesis_reason(row), *model = model_reason(row);
+static void put_html_row(FILE *stream, const SbThesisRow *row, const GPtrArray *reasons) {
+  g_autofree char *standing = sb_thesis_standing(row, reasons, false);
+  g_autofree char *model = sb_thesis_standing(row, reasons, true);
   g_autofree char *difference = difference_text(row);
   fprintf(stream, "<tr%s><td>", row->verdict == SB_THESIS_FAILS ? " class=\"fails\"" : "");
   put_escaped(stream, row->label);
@@ -217,17 +287,10 @@ static void put_html_row(FILE *stream, const SbThesisRow *row) {
   put_html_value(stream, row, row->printed);
   put_html_value(stream, row, row->thesis);
   put_html_value(stream, row, row->consistent);
-  fprintf(stream, "<td class=\"n\">%s</td><td>%s", difference,
-          row->verdict == SB_THESIS_AGREES ? "agrees" : "");
-  put_escaped(stream, reason);
-  const char *const others[] = {row->fault, row->no_thesis, model};
-  for (size_t i = 0; i < G_N_ELEMENTS(others); i++) {
-    if (others[i] != NULL) {
-      fprintf(stream, "%s", i < 2 ? "<div>" : "<div class=\"model\">");
-      put_escaped(stream, others[i]);
-      fputs("</div>", stream);
-    }
-  }
+  fprintf(stream, "<td class=\"n\">%s</td><td>", difference);
+  put_escaped(stream, standing);
+  fputs("</td><td class=\"model\">", stream);
+  put_escaped(stream, model);
   fputs("</td></tr>\n", stream);
 }
 
@@ -240,14 +303,21 @@ void sb_html_thesis(FILE *stream, const SbThesisItem *item, const char *picture)
     put_escaped(stream, item->title);
     fputs("\">\n", stream);
   }
+  g_autoptr(GPtrArray) reasons = sb_thesis_reasons(item);
   if (item->rows->len > 0) {
     fputs("<table><tr><th></th><th>printed</th><th>thesis' model</th><th>consistent</th>"
-          "<th>difference</th><th>reason</th></tr>\n",
+          "<th>difference</th><th>reason</th><th class=\"model\">to the consistent</th></tr>\n",
           stream);
     for (guint i = 0; i < item->rows->len; i++) {
-      put_html_row(stream, item->rows->pdata[i]);
+      put_html_row(stream, item->rows->pdata[i], reasons);
     }
-    fputs("</table>\n", stream);
+    fputs("</table>\n<ol>\n", stream);
+    for (guint i = 0; i < reasons->len; i++) {
+      fputs("<li>", stream);
+      put_escaped(stream, reasons->pdata[i]);
+      fputs("</li>\n", stream);
+    }
+    fputs("</ol>\n", stream);
   }
   for (guint i = 0; i < item->notes->len; i++) {
     fputs("<p>", stream);
@@ -259,27 +329,33 @@ void sb_html_thesis(FILE *stream, const SbThesisItem *item, const char *picture)
   fputs("</p>\n", stream);
 }
 
+static void put_markdown_row(FILE *stream, const SbThesisRow *row, const GPtrArray *reasons) {
+  g_autofree char *printed = sb_thesis_text(row, row->printed);
+  g_autofree char *thesis = sb_thesis_text(row, row->thesis);
+  g_autofree char *consistent = sb_thesis_text(row, row->consistent);
+  g_autofree char *difference = difference_text(row);
+  g_autofree char *standing = sb_thesis_standing(row, reasons, false);
+  g_autofree char *model = sb_thesis_standing(row, reasons, true);
+  fprintf(stream, "| %s | %s | %s | %s | %s | %s | %s |\n", row->label, printed, thesis, consistent,
+          difference, standing, model);
+}
+
 void sb_markdown_thesis(FILE *stream, const SbThesisItem *item) {
+  g_autoptr(GPtrArray) reasons = sb_thesis_reasons(item);
   fprintf(stream, "### %s\n\n`sealbench thesis %s`\n\n", item->title, item->name);
   if (item->rows->len > 0) {
-    fputs("| | printed | thesis' model | consistent | difference | reason |\n"
-          "|---|---|---|---|---|---|\n",
+    fputs("| | printed | thesis' model | consistent | difference | reason | to the consistent |\n"
+          "|---|---|---|---|---|---|---|\n",
           stream);
   }
   for (guint i = 0; i < item->rows->len; i++) {
-    const SbThesisRow *row = item->rows->pdata[i];
-    g_autofree char *printed = sb_thesis_text(row, row->printed);
-    g_autofree char *thesis = sb_thesis_text(row, row->thesis);
-    g_autofree char *consistent = sb_thesis_text(row, row->consistent);
-    g_autofree char *difference = difference_text(row), *reason = sb_thesis_reason(row);
-    fprintf(stream, "| %s | %s | %s | %s | %s | %s%s |\n", row->label, printed, thesis, consistent,
-            difference,
-            reason != NULL                     ? reason
-            : row->verdict == SB_THESIS_AGREES ? "agrees"
-                                               : sb_thesis_verdict_name(row->verdict),
-            row->no_thesis != NULL ? row->no_thesis : "");
+    put_markdown_row(stream, item->rows->pdata[i], reasons);
   }
-  fputs("\n", stream);
+  fputs(item->rows->len > 0 ? "\n" : "", stream);
+  for (guint i = 0; i < reasons->len; i++) {
+    fprintf(stream, "%u. %s\n", i + 1, (const char *)reasons->pdata[i]);
+  }
+  fputs(reasons->len > 0 ? "\n" : "", stream);
   for (guint i = 0; i < item->notes->len; i++) {
     fprintf(stream, "%s\n\n", (const char *)item->notes->pdata[i]);
   }

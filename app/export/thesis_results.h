@@ -29,3 +29,11 @@ char *sb_thesis_text(const SbThesisRow *row, double value);
 
 // The reasons of a row in a sentence, with what each explains; NULL: none. Owned by the caller.
 char *sb_thesis_reason(const SbThesisRow *row);
+
+// All reasons of an item, each once, those of its rows before those of the consistent set: char *,
+// "TEXT (COMMAND)". Owned by the caller.
+GPtrArray *sb_thesis_reasons(const SbThesisItem *item);
+
+// How a row stands, in the numbers of that list from 1: "agrees", "1: +3 nm, 2: part not known;
+// remains 0.1 nm"; `models`: of the consistent set. Owned by the caller.
+char *sb_thesis_standing(const SbThesisRow *row, const GPtrArray *reasons, bool models);
