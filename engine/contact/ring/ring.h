@@ -194,6 +194,24 @@ typedef struct {
 } SbRingFields;
 void sb_ring_fields(const SbRing *ring, const SbRingFields *out);
 
+// What stands at a side of the deformed section's boundary.
+typedef enum { SB_RING_SIDE_CLOSED, SB_RING_SIDE_LEFT, SB_RING_SIDE_RIGHT } SbRingSide;
+
+// The deformed section with its own elements, of six nodes: vertices 0-2, mid-sides 3 = 0-1, 4 =
+// 1-2, 5 = 2-0, counter-clockwise in (r, z). Boundary side k runs from loop[2 k] over loop[2 k + 1]
+// to the next.
+typedef struct {
+  double *place;       // [2 nodes] (r, axial), m
+  int *triangle;       // [6 elements]
+  int *loop;           // [2 sides] nodes in order, every second one a vertex
+  unsigned char *side; // [sides] SbRingSide: closed by a contact, or open to the fluid of a side
+} SbRingSection;
+
+// Its sizes, and the arrays of these sizes filled. Open sides left of the crests of bore and floor
+// contact are those of the left fluid, as the ring's balance has them.
+void sb_ring_section_sizes(const SbRing *ring, int *nodes, int *elements, int *sides);
+void sb_ring_section(const SbRing *ring, const SbRingSection *out);
+
 // The bore's surface as film solvers take it (engine/contact/compliance.h): the half-plane with the
 // squeezed rubber's own modulus, a smooth rest that is exact for the discrete ring, and the gap
 // whose dry contact has the present pressure, over a window of 1.4 contact widths. Loads are per

@@ -117,6 +117,9 @@ SbRingLoad sb_ring_load_between(const SbRingLoad *a, const SbRingLoad *b, double
 // `fluid`.
 void sb_ring_contact_load_fluid(SbRingContact *contact);
 
+// Whether the right fluid stands at a boundary side, beyond the crests over the right flank.
+bool sb_ring_contact_on_right(const SbRingContact *contact, int side);
+
 // A pressure on one boundary side, that begins at an even boundary node: p = value + slope (z - z0)
 // with z0 the axial place of the side's first node.
 typedef struct {

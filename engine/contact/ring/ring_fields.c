@@ -1,4 +1,5 @@
-// The deformed ring for drawing: nodes, triangles, outline and nodal stresses, only when asked for.
+// The deformed ring for drawing, and its section for others: nodes, triangles, outline and nodal
+// stresses, only when asked for.
 //
 // Stresses are Cauchy stresses of the elements at their nodes, averaged over the elements that
 // share a node. Each six-node triangle is given as four plain ones. Triangles and outline run
@@ -74,5 +75,26 @@ void sb_ring_fields(const SbRing *ring, const SbRingFields *out) {
   }
   for (int i = 0; i < mesh->loop_count; i++) {
     out->outline[i] = mesh->loop[mesh->loop_count - 1 - i];
+  }
+}
+
+void sb_ring_section_sizes(const SbRing *ring, int *nodes, int *elements, int *sides) {
+  *nodes = ring->mesh->nodes;
+  *elements = ring->mesh->elements;
+  *sides = ring->mesh->loop_count / 2;
+}
+
+void sb_ring_section(const SbRing *ring, const SbRingSection *out) {
+  const SbRingMesh *mesh = ring->mesh;
+  const SbRingContact *contact = ring->contact;
+  for (int i = 0; i < 2 * mesh->nodes; i++) {
+    out->place[i] = (mesh->x[i] + ring->fem->u[i]) * ring->length;
+  }
+  memcpy(out->triangle, mesh->tri, 6 * sizeof *mesh->tri * (size_t)mesh->elements);
+  memcpy(out->loop, mesh->loop, sizeof *mesh->loop * (size_t)mesh->loop_count);
+  for (int side = 0; side < mesh->loop_count / 2; side++) {
+    out->side[side] = contact->closed[side]                     ? SB_RING_SIDE_CLOSED
+                      : sb_ring_contact_on_right(contact, side) ? SB_RING_SIDE_RIGHT
+                                                                : SB_RING_SIDE_LEFT;
   }
 }

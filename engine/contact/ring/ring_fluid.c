@@ -143,22 +143,26 @@ static bool closes(const SbRingContact *contact, int side) {
   return false;
 }
 
-void sb_ring_contact_load_fluid(SbRingContact *contact) {
+bool sb_ring_contact_on_right(const SbRingContact *contact, int side) {
   // Between the crests over the right flank stands the right pressure.
+  const int count = contact->count, middle = 2 * side + 1;
+  const int bore = contact->is.crest[0], floor_at = contact->is.crest[1];
+  const int past = floor_at > bore ? floor_at : floor_at + count;
+  return (middle > bore && middle < past) || (middle + count > bore && middle + count < past);
+}
+
+void sb_ring_contact_load_fluid(SbRingContact *contact) {
   if (!contact->settled) {
     contact->is.crest[0] = crest(contact, SB_RING_BORE, 0.0);
     contact->is.crest[1] = crest(contact, SB_RING_FLOOR, -M_PI);
   }
-  int count = contact->count, bore = contact->is.crest[0], floor_at = contact->is.crest[1];
-  int past = floor_at > bore ? floor_at : floor_at + count;
+  const int count = contact->count;
   memset(contact->share, 0, 8 * sizeof(double) * (size_t)count); // and what follows it
   for (int side = 0; side < count / 2; side++) {
     contact->closed[side] = closes(contact, side);
-    int middle = 2 * side + 1;
-    bool right =
-        (middle > bore && middle < past) || (middle + count > bore && middle + count < past);
-    SbRingSidePressure pressure = {.value = right ? contact->is.now.pressure_right
-                                                  : contact->is.now.pressure_left};
+    SbRingSidePressure pressure = {.value = sb_ring_contact_on_right(contact, side)
+                                                ? contact->is.now.pressure_right
+                                                : contact->is.now.pressure_left};
     contact->wet[side] = pressure.value;
     double force[3][2], k[3][2][3][2], area[3];
     int nodes[3];

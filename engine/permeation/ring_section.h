@@ -1,0 +1,11 @@
+// A solved ring's deformed section, wetted by the fluids that stand at its open sides; contacts are
+// dry.
+#pragma once
+
+#include "engine/contact/ring/ring.h"
+#include "engine/permeation/section.h"
+
+// `inside_right`: the inner fluid stands on the right, else on the left. Owned. SB_ERROR_MEMORY;
+// SB_ERROR_INFEASIBLE where both fluids meet: the ring does not touch bore or floor.
+SbStatus sb_ring_section_create(SbSection **out, const SbRing *ring, bool inside_right,
+                                SbReport *report);
