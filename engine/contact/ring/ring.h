@@ -208,7 +208,8 @@ typedef struct {
 } SbRingSection;
 
 // Its sizes, and the arrays of these sizes filled. Open sides left of the crests of bore and floor
-// contact are those of the left fluid, as the ring's balance has them.
+// contact are those of the left fluid, as the ring's balance has them; contacts end where their
+// recovered pressures do, onto which the nearest vertices are moved.
 void sb_ring_section_sizes(const SbRing *ring, int *nodes, int *elements, int *sides);
 void sb_ring_section(const SbRing *ring, const SbRingSection *out);
 

@@ -84,17 +84,87 @@ void sb_ring_section_sizes(const SbRing *ring, int *nodes, int *elements, int *s
   *sides = ring->mesh->loop_count / 2;
 }
 
+// The vertex of the loop that is nearest to an end of a contact, among those about its last held
+// node `at`.
+static int vertex_at_end(const SbRing *ring, int at, int axis, double place) {
+  enum { AROUND = 4 };
+  int best = at;
+  double least = HUGE_VAL;
+  for (int i = at - AROUND; i <= at + AROUND; i++) {
+    double x[2];
+    sb_ring_contact_place(ring->contact, i, x);
+    if (sb_ring_wrap(ring->contact, i) % 2 == 0 && fabs(x[axis] - place) < least) {
+      least = fabs(x[axis] - place);
+      best = i;
+    }
+  }
+  return best;
+}
+
+// Moves a vertex by a part of a side along an axis, and the mid-side nodes of its sides with it.
+static void move_vertex(const SbRing *ring, const SbRingSection *out, int vertex, int axis,
+                        double by) {
+  const SbRingMesh *mesh = ring->mesh;
+  int *moved = ring->fem->work_int; // mid-side nodes that have followed
+  memset(moved, 0, sizeof *moved * (size_t)mesh->nodes);
+  out->place[2 * vertex + axis] += by;
+  for (int i = 0; i < 6 * mesh->elements; i++) {
+    const int *tri = &mesh->tri[i / 6 * 6], k = i % 6;
+    if (k < 3 && tri[k] == vertex) {
+      const int beside[2] = {tri[3 + k], tri[3 + (k + 2) % 3]};
+      for (int j = 0; j < 2; j++) {
+        out->place[2 * beside[j] + axis] += moved[beside[j]] ? 0.0 : 0.5 * by;
+        moved[beside[j]] = 1;
+      }
+    }
+  }
+}
+
+// Closes the sides of a surface's contact, whose ends lie where its pressure, not its last held
+// node, says: they come to stand on vertices.
+static void close_contact(const SbRing *ring, const SbRingSection *out, SbRingSurface surface) {
+  const SbRingContact *contact = ring->contact;
+  const int axis = surface == SB_RING_BORE || surface == SB_RING_FLOOR ? 1 : 0;
+  SbRingPatch patch;
+  SbDryContact smooth;
+  int vertex[2];
+  if (!sb_ring_patch(ring, surface, &patch)) {
+    return;
+  }
+  (void)sb_ring_ends(ring, surface, &patch, &smooth);
+  for (int e = 0; e < 2; e++) {
+    vertex[e] = vertex_at_end(ring, e == 0 ? patch.first : patch.last, axis, patch.place[e]);
+  }
+  vertex[1] = vertex[1] > vertex[0] ? vertex[1] : vertex[0] + 2;
+  for (int i = vertex[0]; i < vertex[1]; i += 2) {
+    out->side[sb_ring_wrap(contact, i) / 2] = SB_RING_SIDE_CLOSED;
+  }
+  for (int e = 0; e < 2; e++) {
+    const int node = ring->mesh->loop[sb_ring_wrap(contact, vertex[e])];
+    double x[2], before[2], after[2];
+    sb_ring_contact_place(contact, vertex[e], x);
+    sb_ring_contact_place(contact, vertex[e] - 2, before);
+    sb_ring_contact_place(contact, vertex[e] + 2, after);
+    const double by = patch.place[e] - x[axis];
+    if (fabs(by) < 0.6 * fmin(hypot(x[0] - before[0], x[1] - before[1]),
+                              hypot(x[0] - after[0], x[1] - after[1]))) {
+      move_vertex(ring, out, node, axis, by * ring->length);
+    }
+  }
+}
+
 void sb_ring_section(const SbRing *ring, const SbRingSection *out) {
   const SbRingMesh *mesh = ring->mesh;
-  const SbRingContact *contact = ring->contact;
   for (int i = 0; i < 2 * mesh->nodes; i++) {
     out->place[i] = (mesh->x[i] + ring->fem->u[i]) * ring->length;
   }
   memcpy(out->triangle, mesh->tri, 6 * sizeof *mesh->tri * (size_t)mesh->elements);
   memcpy(out->loop, mesh->loop, sizeof *mesh->loop * (size_t)mesh->loop_count);
   for (int side = 0; side < mesh->loop_count / 2; side++) {
-    out->side[side] = contact->closed[side]                     ? SB_RING_SIDE_CLOSED
-                      : sb_ring_contact_on_right(contact, side) ? SB_RING_SIDE_RIGHT
-                                                                : SB_RING_SIDE_LEFT;
+    out->side[side] =
+        sb_ring_contact_on_right(ring->contact, side) ? SB_RING_SIDE_RIGHT : SB_RING_SIDE_LEFT;
+  }
+  for (int surface = 0; surface < SB_RING_SURFACES; surface++) {
+    close_contact(ring, out, (SbRingSurface)surface);
   }
 }
