@@ -65,6 +65,10 @@ static void put_figures(SbJson *json, const SbSummary *summary, const char *scop
       put_value(json, name, i, sb_figure_value(summary, i));
       if (g_str_has_suffix(path, ".rotation_deg")) {
         put_section(json, summary, path);
+      } else if (g_str_has_prefix(path, "shelf.seals.") &&
+                 g_str_has_suffix(path, ".moisture_kg_per_s")) {
+        const int seal = strstr(path, ".inner.") != NULL ? SB_INNER : SB_OUTER;
+        sb_json_string(json, "leak_state", sb_leak_state_name(summary->shelf.seal[seal].state));
       }
     }
   }
@@ -150,6 +154,55 @@ static void put_bodies(SbJson *json, const SbRun *run) {
     sb_json_object_end(json);
   }
   sb_json_array_end(json);
+  sb_json_object_end(json);
+}
+
+// A parameter that the shelf rests on, with what it is worth.
+static void put_basis(SbJson *json, const char *key, const SbModel *model, SbParamId id) {
+  SbParamDefault from;
+  const bool follows = sb_model_default(&from, model, id);
+  const double value = sb_model_value(model, id);
+  sb_json_object(json, key);
+  sb_json_number(json, "value_mol_per_m_s_Pa", value > 0 ? value : NAN);
+  sb_json_string(json, "tag", !(value > 0) ? NULL : follows ? from.tag : "given");
+  sb_json_string(json, "source", value > 0 && follows ? from.source : NULL);
+  sb_json_object_end(json);
+}
+
+// One column of the shelf's history.
+typedef struct {
+  const char *key;
+  size_t offset; // in a point
+} ShelfColumn;
+
+static void put_shelf(SbJson *json, const SbRun *run) {
+  const SbShelf *shelf = &sb_run_summary(run)->shelf;
+#define AT(member) (offsetof(SbShelf, point[0].member) - offsetof(SbShelf, point[0]))
+  static const ShelfColumn columns[] = {
+      {"time_s", AT(time)},
+      {"temperature_K", AT(temperature)},
+      {"permeated_kg", AT(permeated)},
+      {"interface_kg", AT(passed)},
+      {"plastic_kg", AT(plastic)},
+      {"moisture_kg", AT(moisture)},
+      {"doses_left", AT(doses)},
+  };
+#undef AT
+  sb_json_object(json, "shelf");
+  put_figures(json, sb_run_summary(run), "shelf.");
+  put_basis(json, "permeability", sb_run_model(run), SB_P_RUBBER_PERMEABILITY);
+  put_basis(json, "water_permeability", sb_run_model(run), SB_P_RUBBER_WATER_PERMEABILITY);
+  if (shelf->points > 0) {
+    sb_json_object(json, "history");
+    for (size_t c = 0; c < G_N_ELEMENTS(columns); c++) {
+      double values[SB_SHELF_POINTS];
+      for (size_t i = 0; i < shelf->points; i++) {
+        values[i] = *(const double *)((const char *)&shelf->point[i] + columns[c].offset);
+      }
+      sb_json_numbers(json, columns[c].key, values, shelf->points);
+    }
+    sb_json_object_end(json);
+  }
   sb_json_object_end(json);
 }
 
@@ -306,6 +359,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   sb_json_object(&json, "dose");
   put_figures(&json, summary, "dose.");
   sb_json_object_end(&json);
+  put_shelf(&json, run);
   sb_json_warnings(&json, &summary->warnings);
   put_reasons(&json, run);
   if (info->study_count > 0) {

@@ -23,7 +23,7 @@ static const double POINT[POINTS][3] = {{0.249286745170910, 0.249286745170910, 0
                                         {0.636502499121399, 0.310352451033784, 0.082851075618374}};
 
 struct SbDiffusion {
-  const SbSection *section;               // borrowed
+  const SbWettedMesh *section;            // borrowed
   int n, free;                            // nodes; those that are not wetted
   int *start, *column;                    // pattern of the whole matrices, [n + 1], [start[n]]
   double *stiff, *mass;                   // on it
@@ -63,7 +63,7 @@ static void shapes(double l1, double l2, double n[6], double d1[6], double d2[6]
 
 // Shapes n and their gradients g [1/m] at a point of an element; returns the area's density there,
 // the way round included, [m2] or [m3].
-static double gradients(const SbSection *s, const int *tri, double l1, double l2, double n[6],
+static double gradients(const SbWettedMesh *s, const int *tri, double l1, double l2, double n[6],
                         double g[6][2]) {
   double d1[6], d2[6], j[2][2] = {{0.0}}, radius = 0.0;
   shapes(l1, l2, n, d1, d2);
@@ -90,7 +90,7 @@ static int compare(const void *a, const void *b) {
 }
 
 static bool find_pattern(SbDiffusion *d) {
-  const SbSection *s = d->section;
+  const SbWettedMesh *s = d->section;
   const int n = d->n;
   int *fill = calloc((size_t)n + 1, sizeof *fill);
   d->start = calloc((size_t)n + 1, sizeof *d->start);
@@ -144,7 +144,7 @@ static size_t entry(const SbDiffusion *d, int row, int column) {
 
 // False where an element is turned inside out.
 static bool assemble(SbDiffusion *d) {
-  const SbSection *s = d->section;
+  const SbWettedMesh *s = d->section;
   for (int e = 0; e < s->elements; e++) {
     const int *tri = &s->triangle[(size_t)6 * e];
     double k[6][6] = {{0.0}}, m[6][6] = {{0.0}}, n[6], g[6][2];
@@ -278,7 +278,7 @@ static void take_figures(SbDiffusion *d) {
   d->lag = held / d->conductance;
 }
 
-static SbStatus check_section(const SbSection *s, SbReport *report) {
+static SbStatus check_section(const SbWettedMesh *s, SbReport *report) {
   int inside = 0, outside = 0;
   for (int i = 0; i < s->nodes; i++) {
     inside += s->face[i] == SB_FACE_INSIDE;
@@ -295,7 +295,7 @@ static SbStatus check_section(const SbSection *s, SbReport *report) {
                        inside > 0 ? "outside" : "inside");
 }
 
-SbStatus sb_diffusion_create(SbDiffusion **out, const SbSection *section, SbReport *report) {
+SbStatus sb_diffusion_create(SbDiffusion **out, const SbWettedMesh *section, SbReport *report) {
   *out = NULL;
   SbStatus status = check_section(section, report);
   if (status != SB_OK) {
@@ -350,7 +350,7 @@ static double slope_at(const SbDiffusion *d, const int *tri, int a) {
 }
 
 SbStatus sb_diffusion_gradient(double *out, const SbDiffusion *d, SbReport *report) {
-  const SbSection *s = d->section;
+  const SbWettedMesh *s = d->section;
   int *visits = calloc((size_t)d->n + 1, sizeof *visits);
   if (visits == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a section's gradient");
@@ -381,9 +381,9 @@ SbStatus sb_diffusion_gradient(double *out, const SbDiffusion *d, SbReport *repo
 
 // To an estimated error ------------------------------------------------------------------------
 
-static SbStatus solve_quartered(SbDiffusionSteady *out, SbSection *section, SbReport *report) {
+static SbStatus solve_quartered(SbDiffusionSteady *out, SbWettedMesh *section, SbReport *report) {
   SbDiffusion *d;
-  sb_section_quarter(section);
+  sb_wetted_mesh_quarter(section);
   SbStatus status = sb_diffusion_create(&d, section, report);
   if (status == SB_OK) {
     sb_diffusion_steady(out, d);
@@ -396,16 +396,16 @@ static double extrapolated(double fine, double coarse) {
   return fine + (fine - coarse);
 }
 
-SbStatus sb_diffusion_converge(SbDiffusionConverged *out, const SbSection *section,
+SbStatus sb_diffusion_converge(SbDiffusionConverged *out, const SbWettedMesh *section,
                                SbReport *report) {
   SbDiffusionSteady fine, coarse;
-  SbSection *same = NULL, *parted = NULL;
-  SbStatus status = sb_section_copy(&same, section, report);
-  status = status == SB_OK ? sb_section_split(&parted, section, report) : status;
+  SbWettedMesh *same = NULL, *parted = NULL;
+  SbStatus status = sb_wetted_mesh_copy(&same, section, report);
+  status = status == SB_OK ? sb_wetted_mesh_split(&parted, section, report) : status;
   status = status == SB_OK ? solve_quartered(&coarse, same, report) : status;
   status = status == SB_OK ? solve_quartered(&fine, parted, report) : status;
-  sb_section_destroy(same);
-  sb_section_destroy(parted);
+  sb_wetted_mesh_destroy(same);
+  sb_wetted_mesh_destroy(parted);
   if (status != SB_OK) {
     return status;
   }

@@ -5,7 +5,7 @@
 //
 // in finite elements of six-node triangles, p quadratic: the steady flux is the sum of the nodal
 // reactions of a face, which balance to rounding and converge with h^4 (h the side of an element)
-// where the solution is smooth; section.h says how the ends of faces are met. With the partial
+// where the solution is smooth; wetted_mesh.h says how the ends of faces are met. With the partial
 // pressure 1 inside and 0 outside everything is geometry:
 //
 //   flux = P S_g (p_in - p_out), S_g [m] the conductance: A/L of a slab, 2 pi H/ln(r2/r1)
@@ -19,7 +19,7 @@
 // axisymmetric section's figures are those of the whole ring, a plane one's per metre.
 #pragma once
 
-#include "engine/permeation/section.h"
+#include "engine/permeation/wetted_mesh.h"
 
 typedef struct SbDiffusion SbDiffusion;
 
@@ -33,7 +33,7 @@ typedef struct {
 // Assembles and solves the steady state. `section` is borrowed until the end. Owned; free with
 // sb_diffusion_destroy(). SB_ERROR_INPUT: an element is turned inside out, or a face has no node;
 // SB_ERROR_MEMORY; SB_ERROR_NOT_CONVERGED: not positive definite, a part hangs on no face.
-SbStatus sb_diffusion_create(SbDiffusion **out, const SbSection *section, SbReport *report);
+SbStatus sb_diffusion_create(SbDiffusion **out, const SbWettedMesh *section, SbReport *report);
 void sb_diffusion_destroy(SbDiffusion *diffusion); // takes NULL
 
 void sb_diffusion_steady(SbDiffusionSteady *out, const SbDiffusion *diffusion);
@@ -71,5 +71,5 @@ typedef struct {
 } SbDiffusionConverged;
 
 // `section` stays as it is. Errors as sb_diffusion_create().
-SbStatus sb_diffusion_converge(SbDiffusionConverged *out, const SbSection *section,
+SbStatus sb_diffusion_converge(SbDiffusionConverged *out, const SbWettedMesh *section,
                                SbReport *report);

@@ -74,7 +74,7 @@ static bool same_states(SbModel *a, const SbModel *b) {
 static bool same_plan(const SbPlan *a, const SbPlan *b) {
   bool same = a->film_laws == b->film_laws && a->motion == b->motion && a->life == b->life &&
               a->film_history == b->film_history && a->frames == b->frames &&
-              a->frame_films == b->frame_films;
+              a->frame_films == b->frame_films && a->shelf == b->shelf;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     same = same && a->seal[i] == b->seal[i];
   }

@@ -5,6 +5,7 @@
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
 #include "engine/mechanism/chamber.h"
+#include "engine/valve/shelf.h"
 #include "engine/valve/valve.h"
 
 // Roughness before actuation n, 0 the first: end + (start - end) exp(-n/actuations).
@@ -44,6 +45,7 @@ struct SbModel {
   SbSectionLook look;     // for the drawing only
   SbValveShape shape;     // for the drawing only
   SbStudyRange study;
+  SbShelfInput shelf;      // what a loss on the shelf hangs on beside the rest
   const SbModelData *data; // borrowed; NULL: neither a measured series nor outlines
   SbLimits limits;         // filled by whoever read them, none otherwise
 };

@@ -173,6 +173,27 @@ static SbCounters expect(const SbPlan *plan, const SbModel *model) {
   return out;
 }
 
+// How much of the shelf a figure needs.
+static SbShelfDepth shelf_of(const SbFigure *figure) {
+  const char *path = figure->path;
+  const bool sums = strcmp(path, "shelf.loss_kg") == 0 || strcmp(path, "shelf.moisture_kg") == 0 ||
+                    strcmp(path, "shelf.mass_left_kg") == 0 ||
+                    strcmp(path, "shelf.doses_left") == 0;
+  const bool rates =
+      strncmp(path, "shelf.", 6) == 0 || strcmp(path, "solver.error_estimate.permeation") == 0;
+  return sums ? SB_SHELF_OVER_TIME : rates ? SB_SHELF_RATES : SB_SHELF_NOTHING;
+}
+
+// What views and limits ask for of it.
+static SbShelfDepth shelf_wished(const SbModel *model, unsigned views) {
+  SbShelfDepth depth = (views & SB_VIEW_SHELF) != 0 ? SB_SHELF_OVER_TIME : SB_SHELF_NOTHING;
+  for (size_t i = 0; i < model->limits.count; i++) {
+    const SbShelfDepth one = shelf_of(sb_figure(model->limits.item[i].figure));
+    depth = one > depth ? one : depth;
+  }
+  return depth;
+}
+
 // What the valve's views and figures need. Profiles over x where they are drawn, and interior
 // fields only where the fitment model has an interior.
 static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *wishes) {
@@ -186,6 +207,7 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
   plan->film_history = plan->reynolds && model->film_history;
   plan->bodies = model->motion == SB_MODEL_MOTION_BODIES;
   plan->profiles = drawn != 0;
+  plan->shelf = shelf_wished(model, views);
   plan->section_fields = sections != 0 && plan->ring;
   plan->over_edge = plan->section_fields && !wishes->coarse;
 
@@ -263,6 +285,9 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
        coupled ? lived * (states + (double)n->speed_nodes * at_speed + ring + once)
                : model->life_actuations * (inertia ? SB_COST_DYNAMICS : SB_COST_ACTUATION),
        0, text[3], "life.actuations = 1"},
+      {plan->shelf != SB_SHELF_NOTHING, "loss on the shelf", plan->ring ? "ring" : "slab",
+       plan->ring ? 5 * SB_COST_RING : SB_COST_CLOSED, plan->ring ? fit_off : 0,
+       "the view shelf or a limit asks for it", "no view, limit or study asks for it"},
       {plan->bodies, "joint reactions", "constrained bodies", 0.1 + model->frames * 1e-4, 0, joints,
        "nobody asks for them: one coordinate gives the same motion"},
       {plan->profiles, "contact profiles", plan->reynolds ? "reynolds" : fit,
@@ -304,6 +329,8 @@ void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size
     out->seal[seal] = needs > out->seal[seal] ? needs : out->seal[seal];
     out->film_laws = out->film_laws || strstr(figure->path, ".film_by_model.") != NULL;
     errors = errors || strncmp(figure->path, "solver.", 7) == 0;
+    const SbShelfDepth shelf = shelf_of(figure);
+    out->shelf = shelf > out->shelf ? shelf : out->shelf;
     if (strcmp(figure->path, "solver.error_estimate.film_history") == 0) {
       out->film_history = out->reynolds && model->film_history;
     }

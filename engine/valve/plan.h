@@ -3,6 +3,7 @@
 // and error.
 #pragma once
 
+#include "engine/valve/shelf.h"
 #include "engine/valve/valve.h"
 
 enum {
@@ -48,6 +49,7 @@ typedef struct {
   int frames;       // evenly spaced over the cycle
   bool frame_films; // they show films at their own speeds, in whose errors these count
   bool life;        // and the actuations after the first
+  SbShelfDepth shelf;
 } SbPlan;
 
 // What somebody wants of a run beside its figures.

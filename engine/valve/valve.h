@@ -28,6 +28,17 @@ enum { SB_OUTER = 0, SB_INNER = 1, SB_SEAL_COUNT = 2 };
 // "outer" or "inner"; borrowed.
 const char *sb_seal_name(int seal);
 
+// Whether anything can pass a seal at rest under its pressures.
+typedef enum {
+  SB_LEAK_NOT_COMPUTED,
+  SB_LEAK_CLOSED,
+  SB_LEAK_PERCOLATING, // through channels between the asperities, contact/rough/percolation.h
+  SB_LEAK_OPEN         // no contact, or none that the rubber presses: no leak law holds
+} SbLeakState;
+
+// "not-computed", "closed", "percolating", "open"; borrowed.
+const char *sb_leak_state_name(SbLeakState state);
+
 enum { SB_PROBLEMS_MAX = 32 };
 
 // One thing wrong with a parameter set: the key to change, why, and the range that would do (SI;
@@ -157,7 +168,8 @@ typedef enum {
   SB_VIEW_SECTION = 1 << 2,
   SB_VIEW_DASHBOARD = 1 << 3,
   SB_VIEW_RIG = 1 << 4,
-  SB_VIEW_LIFE = 1 << 5
+  SB_VIEW_LIFE = 1 << 5,
+  SB_VIEW_SHELF = 1 << 6
 } SbView;
 
 // Members that lines of params.def declare; those of places that are declared here are left out.
@@ -188,6 +200,7 @@ typedef struct {
 typedef struct {
   atomic_uint holders;
   SbModelSeries measured; // count 0: none
+  SbModelSeries shelf;    // temperatures [K] over time, of shelf.file; count 0: none
   SbValveOutlines outlines;
   SbRubberSheet rubber; // of the parameters that it comes with, which borrow it
 } SbModelData;

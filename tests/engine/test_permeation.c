@@ -16,11 +16,11 @@ typedef struct {
   bool axisymmetric;
 } Grid;
 
-static SbSection *create_grid(const Grid *grid) {
+static SbWettedMesh *create_grid(const Grid *grid) {
   const int wide = 2 * grid->nx + 1, high = 2 * grid->ny + 1;
-  SbSection *s;
+  SbWettedMesh *s;
   g_assert_cmpint(
-      sb_section_create(&s, wide * high, 2 * grid->nx * grid->ny, grid->axisymmetric, NULL), ==,
+      sb_wetted_mesh_create(&s, wide * high, 2 * grid->nx * grid->ny, grid->axisymmetric, NULL), ==,
       SB_OK);
   for (int j = 0; j < high; j++) {
     for (int i = 0; i < wide; i++) {
@@ -64,7 +64,7 @@ static void in_quarter(double x[2], double s, double t, const void *data) {
   x[1] = radius * sin(angle);
 }
 
-static SbDiffusionSteady solve(SbDiffusion **out, const SbSection *section) {
+static SbDiffusionSteady solve(SbDiffusion **out, const SbWettedMesh *section) {
   SbDiffusion *d;
   SbDiffusionSteady steady;
   SbReport report;
@@ -83,13 +83,13 @@ static SbDiffusionSteady solve(SbDiffusion **out, const SbSection *section) {
 
 static void test_slab(void) {
   const Rectangle r = {0.3e-3, 2.3e-3, 0.7e-3, 1.0};
-  SbSection *s = create_grid(&(Grid){6, 3, in_rectangle, &r, false});
+  SbWettedMesh *s = create_grid(&(Grid){6, 3, in_rectangle, &r, false});
   const SbDiffusionSteady steady = solve(NULL, s);
   const double length = r.x1 - r.x0;
   assert_close(steady.conductance, r.y1 / length, 1e-12);
   assert_close(steady.lag, length * length / 6.0, 1e-12);
   assert_close(steady.volume, r.y1 * length, 1e-12);
-  sb_section_destroy(s);
+  sb_wetted_mesh_destroy(s);
 }
 
 // Flux and time lag of a long annulus: 2 pi H/ln b, and Crank's (5.72) l = (a^2 - b^2 + (a^2 + b^2)
@@ -101,7 +101,7 @@ static void test_annulus(void) {
   const double lag = (a * a - b * b + (a * a + b * b) * ln) / (4.0 * ln);
   double error[3];
   for (int k = 0; k < 3; k++) {
-    SbSection *s = create_grid(&(Grid){4 << k, 2, in_rectangle, &r, true});
+    SbWettedMesh *s = create_grid(&(Grid){4 << k, 2, in_rectangle, &r, true});
     const SbDiffusionSteady steady = solve(NULL, s);
     error[k] = fabs(steady.conductance / conductance - 1.0);
     if (k == 2) {
@@ -109,7 +109,7 @@ static void test_annulus(void) {
       assert_close(steady.lag, lag, 1e-6);
       assert_close(steady.volume, M_PI * (b * b - a * a) * r.y1, 1e-9);
     }
-    sb_section_destroy(s);
+    sb_wetted_mesh_destroy(s);
   }
   const double order = log2(error[0] / error[1]);
   g_test_message("errors %.2e %.2e %.2e, order %.2f, %.2f", error[0], error[1], error[2], order,
@@ -120,15 +120,15 @@ static void test_annulus(void) {
 // The same across a curved mesh in the plane.
 static void test_curved(void) {
   const Rectangle r = {1.0, 2.0, 0.0, 1.0};
-  SbSection *s = create_grid(&(Grid){24, 24, in_quarter, &r, false});
+  SbWettedMesh *s = create_grid(&(Grid){24, 24, in_quarter, &r, false});
   assert_close(solve(NULL, s).conductance, 0.5 * M_PI / log(2.0), 1e-6);
-  SbSection *fine;
-  g_assert_cmpint(sb_section_split(&fine, s, NULL), ==, SB_OK);
+  SbWettedMesh *fine;
+  g_assert_cmpint(sb_wetted_mesh_split(&fine, s, NULL), ==, SB_OK);
   g_assert_cmpint(fine->elements, ==, 4 * s->elements);
   g_assert_cmpint(fine->nodes, ==, 97 * 97);
   assert_close(solve(NULL, fine).conductance, 0.5 * M_PI / log(2.0), 1e-6);
-  sb_section_destroy(s);
-  sb_section_destroy(fine);
+  sb_wetted_mesh_destroy(s);
+  sb_wetted_mesh_destroy(fine);
 }
 
 // A disc between two arcs of half-angle alpha opposite each other: 2 K(k)/K'(k), k = tan^2(alpha/2)
@@ -147,8 +147,8 @@ static void in_disc(double x[2], double s, double t, const void *data) {
 }
 
 // The disc with its faces among the mesh's sides: arcs of `halves` sides to both sides of 0 and pi.
-static SbSection *create_disc(int n, int halves) {
-  SbSection *s = create_grid(&(Grid){n, n, in_disc, NULL, false});
+static SbWettedMesh *create_disc(int n, int halves) {
+  SbWettedMesh *s = create_grid(&(Grid){n, n, in_disc, NULL, false});
   memset(s->face, 0, (size_t)s->nodes);
   const double alpha = 0.25 * M_PI * halves / (0.5 * n), slack = 1e-9;
   for (int i = 0; i < s->nodes; i++) {
@@ -167,7 +167,7 @@ static SbSection *create_disc(int n, int halves) {
 static void test_disc(void) {
   const int n = 16, halves[3] = {8, 4, 2};
   for (int k = 0; k < 3; k++) {
-    SbSection *s = create_disc(n, halves[k]);
+    SbWettedMesh *s = create_disc(n, halves[k]);
     const double alpha = 0.25 * M_PI * halves[k] / (0.5 * n);
     const double m = pow(tan(0.5 * alpha), 2.0);
     const double exact = 2.0 * gsl_sf_ellint_Kcomp(m, GSL_PREC_DOUBLE) /
@@ -176,7 +176,7 @@ static void test_disc(void) {
     g_assert_cmpint(sb_diffusion_converge(&value, s, NULL), ==, SB_OK);
     g_assert_cmpfloat(value.flux_gap, <, 1e-10);
     const double plain = solve(NULL, s).conductance / exact - 1.0;
-    sb_section_quarter(s);
+    sb_wetted_mesh_quarter(s);
     const double coarse = solve(NULL, s).conductance / exact - 1.0;
     const double off = value.steady.conductance / exact - 1.0;
     g_test_message("exact %.8f plain %.1e quarter points %.1e, converged %.1e, estimate %.1e",
@@ -186,14 +186,14 @@ static void test_disc(void) {
     g_assert_cmpfloat(fabs(coarse), <, 2e-3);
     g_assert_cmpfloat(fabs(off), <, 1e-3);
     g_assert_cmpfloat(fabs(off), <, 3.0 * value.error);
-    sb_section_destroy(s);
+    sb_wetted_mesh_destroy(s);
   }
 }
 
 // The mean of the gradient over the slab is its steepness everywhere.
 static void test_gradient(void) {
   const Rectangle r = {0.0, 2.0, 1.0, 1.0};
-  SbSection *s = create_grid(&(Grid){4, 4, in_rectangle, &r, false});
+  SbWettedMesh *s = create_grid(&(Grid){4, 4, in_rectangle, &r, false});
   SbDiffusion *d;
   solve(&d, s);
   double *slope = g_new0(double, s->nodes);
@@ -204,14 +204,14 @@ static void test_gradient(void) {
   }
   g_free(slope);
   sb_diffusion_destroy(d);
-  sb_section_destroy(s);
+  sb_wetted_mesh_destroy(s);
 }
 
 // Crank's half-space: what has gone in after t is 2 sqrt(D t/pi), the flux sqrt(1/(pi D t)), as
 // long as the other side of a slab is far: its distance is 8 times 2 sqrt(D t), where erfc is nil.
 static void test_half_space(void) {
   const Rectangle r = {0.0, 1.6, 0.5, 2.0};
-  SbSection *s = create_grid(&(Grid){60, 1, in_rectangle, &r, false});
+  SbWettedMesh *s = create_grid(&(Grid){60, 1, in_rectangle, &r, false});
   SbDiffusion *d;
   SbDiffusionInstant at[16];
   const double last = 0.01;
@@ -224,14 +224,14 @@ static void test_half_space(void) {
   assert_close(at[15].flux_in, r.y1 / sqrt(M_PI * last), 1e-6);
   g_assert_cmpfloat(fabs(at[15].flux_out), <, 1e-12);
   sb_diffusion_destroy(d);
-  sb_section_destroy(s);
+  sb_wetted_mesh_destroy(s);
 }
 
 // A slab's approach: flux out over the steady one, 1 + 2 sum (-1)^n exp(-n^2 pi^2 D t/L^2) (Crank,
 // 4.3.3), and what has come out lags behind by the time lag in the end.
 static void test_approach(void) {
   const Rectangle r = {0.0, 1.0, 1.0, 1.0};
-  SbSection *s = create_grid(&(Grid){40, 1, in_rectangle, &r, false});
+  SbWettedMesh *s = create_grid(&(Grid){40, 1, in_rectangle, &r, false});
   SbDiffusion *d;
   SbDiffusionInstant at[12];
   solve(&d, s);
@@ -244,12 +244,12 @@ static void test_approach(void) {
     g_assert_cmpfloat(fabs(at[i].flux_out - out), <, 1e-6);
   }
   sb_diffusion_destroy(d);
-  sb_section_destroy(s);
+  sb_wetted_mesh_destroy(s);
 }
 
 static void test_refused(void) {
   const Rectangle r = {0.0, 1.0, 1.0, 1.0};
-  SbSection *s = create_grid(&(Grid){2, 2, in_rectangle, &r, false});
+  SbWettedMesh *s = create_grid(&(Grid){2, 2, in_rectangle, &r, false});
   SbDiffusion *d;
   SbReport report;
   memset(s->face, SB_FACE_INSIDE, 1);
@@ -267,7 +267,7 @@ static void test_refused(void) {
   s->triangle[0] = s->nodes;
   g_assert_cmpint(sb_diffusion_create(&d, s, &report), ==, SB_ERROR_INPUT);
   g_assert_null(d);
-  sb_section_destroy(s);
+  sb_wetted_mesh_destroy(s);
 }
 
 int main(int argc, char **argv) {

@@ -1,20 +1,20 @@
 // Permeation of solved rings on their own meshes: the conductance converges with the ring's mesh,
 // its estimate is honest, and squeeze, stretch and pressure act on it as they must.
 #include "engine/permeation/diffusion.h"
-#include "engine/permeation/ring_section.h"
+#include "engine/permeation/wetted_ring.h"
 #include "tests/engine/near.h"
 #include "tests/engine/seals.h"
 
 static SbDiffusionConverged of_ring(const SbRing *ring) {
-  SbSection *section;
+  SbWettedMesh *section;
   SbDiffusionConverged out;
   SbReport report;
-  SbStatus status = sb_ring_section_create(&section, ring, false, &report);
+  SbStatus status = sb_wetted_ring_create(&section, ring, false, &report);
   g_assert_cmpint(status, ==, SB_OK);
   status = sb_diffusion_converge(&out, section, &report);
   g_assert_cmpstr(report.text, ==, "");
   g_assert_cmpint(status, ==, SB_OK);
-  sb_section_destroy(section);
+  sb_wetted_mesh_destroy(section);
   return out;
 }
 
@@ -92,27 +92,27 @@ static void test_signs(void) {
 // The same ring from the other side: what is inside does not count.
 static void test_mirror(void) {
   SbRing *ring = NULL;
-  SbSection *section;
+  SbWettedMesh *section;
   SbDiffusionConverged out;
   const SbRingLoad load = groove(0.3e6);
   ring = fitted(&BODY, &load, 0.05);
   const double there = of_ring(ring).steady.conductance;
-  g_assert_cmpint(sb_ring_section_create(&section, ring, true, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_wetted_ring_create(&section, ring, true, NULL), ==, SB_OK);
   g_assert_cmpint(sb_diffusion_converge(&out, section, NULL), ==, SB_OK);
   assert_close(out.steady.conductance, there, 1e-10);
-  sb_section_destroy(section);
+  sb_wetted_mesh_destroy(section);
   sb_ring_destroy(ring);
 }
 
 // A ring that does not touch the bore has no section that anything would have to permeate.
 static void test_open(void) {
   SbRing *ring = NULL;
-  SbSection *section;
+  SbWettedMesh *section;
   SbReport report;
   SbRingLoad load = open_groove();
   load.bore_radius = load.floor_radius + 2e-3;
   ring = fitted(&BODY, &load, 0.05);
-  g_assert_cmpint(sb_ring_section_create(&section, ring, false, &report), ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpint(sb_wetted_ring_create(&section, ring, false, &report), ==, SB_ERROR_INFEASIBLE);
   g_assert_null(section);
   sb_ring_destroy(ring);
 }

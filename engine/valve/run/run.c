@@ -324,6 +324,10 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
     sb_run_publish(run, run->count);
   }
   sb_run_summarise_seals(run);
+  if (plan->shelf != SB_SHELF_NOTHING) {
+    SbStatus shelf = sb_run_shelf(run, hooks, status == SB_OK ? report : NULL);
+    status = shelf != SB_OK ? shelf : status;
+  }
   bool moved = plan->motion && run->lacks.status == SB_OK;
   if (status == SB_OK && run->life != NULL && moved) {
     status = sb_run_rest_of_life(run, hooks, report);

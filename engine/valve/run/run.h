@@ -8,6 +8,7 @@
 #include "engine/valve/frame.h"
 #include "engine/valve/plan.h"
 #include "engine/valve/rig.h"
+#include "engine/valve/shelf.h"
 
 #include <stdatomic.h>
 
@@ -31,17 +32,6 @@ typedef struct {
   double force;        // of the drive [N]
   size_t frame;        // index of the frame that sits on it
 } SbStageMark;
-
-// Whether anything can pass a seal at rest under its pressures.
-typedef enum {
-  SB_LEAK_NOT_COMPUTED,
-  SB_LEAK_CLOSED,
-  SB_LEAK_PERCOLATING, // through channels between the asperities, contact/rough/percolation.h
-  SB_LEAK_OPEN         // no contact, or none that the rubber presses: no leak law holds
-} SbLeakState;
-
-// "not-computed", "closed", "percolating", "open"; borrowed.
-const char *sb_leak_state_name(SbLeakState state);
 
 // One seal in a steady state, sliding or at rest, by one member for each SB_SEAL_FIGURE (meaning
 // and unit there; NaN: not computed) and what they come from. A run's summary has that in the
@@ -182,6 +172,7 @@ typedef struct {
   double below_peak[SB_USERS], below_breakaway[SB_USERS];
   SbRigSummary rig; // motion RIG
   SbLife life;      // done = 0: no life was asked for
+  SbShelf shelf;    // points = 0: nobody asked for its history
   SbWarnings warnings;
   SbReasons reasons;
   SbVerdict verdict[SB_VERDICT_COUNT];

@@ -5,6 +5,7 @@
 #include "engine/fluid/fluid.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
+#include "engine/valve/shelf_private.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -203,14 +204,12 @@ static double kept(const SbRun *run) {
 }
 
 // Liquid that permeates the outer ring from the chamber [m3/s]: P S p M/rho with the propellant's
-// partial pressure p, none outside, through a slab as high as the radial space g and, as rubber
-// keeps its volume, pi d^2/(4 g) wide, S = 4 D_mean g^2/d^2. 0 without a permeability or by a fluid
-// without a molar mass.
+// partial pressure p, none outside, through the slab of shelf.h. 0 without a permeability or by a
+// fluid without a molar mass.
 static double permeation(const SbModel *model) {
-  const double g = model->radial_space, d = model->seal[SB_OUTER].section_diameter;
-  const double shape = 4 * (model->bore_diameter - g) * (g / d) * (g / d);
-  return model->permeability * shape * (model->canister_pressure + model->ambient_pressure) *
-         sb_fluids[model->fluid].mass / model->density;
+  return model->permeability * sb_shelf_slab(model, SB_OUTER) *
+         (model->canister_pressure + model->ambient_pressure) * sb_fluids[model->fluid].mass /
+         model->density;
 }
 
 double sb_run_dose(const SbRun *run, double metered) {
@@ -318,6 +317,11 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   }
   const Reason before[] = {
       {!run->plan.life, "life.*", "life.actuations = 1: there is no life"},
+      {run->plan.shelf == SB_SHELF_NOTHING, "shelf.*",
+       "nobody asks for it: output.views has no shelf, and no limit is on it"},
+      {run->plan.shelf == SB_SHELF_NOTHING, "solver.error_estimate.permeation",
+       "no loss on the shelf was computed"},
+      {run->plan.shelf == SB_SHELF_RATES, "shelf.*", "nobody asks for sums over the shelf time"},
       {run->lacks.status != SB_OK, "life.*", run->lacks.text},
       {!rig, "rig.*", "models.motion is not rig: no plate is pulled"},
       {rig && well, "rig.*",

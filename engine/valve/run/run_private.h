@@ -214,6 +214,9 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report);
 // Figures of each seal at the middle of B-C (run_figures.c).
 void sb_run_summarise_seals(SbRun *run);
 
+// What the can loses on the shelf, as far as the plan asks for it (run_shelf.c).
+SbStatus sb_run_shelf(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
 // Share of the chamber that there is time to fill between C and F; NaN where they are not reached.
 double sb_run_filled_share(const SbSummary *summary, const SbModel *model);
 

@@ -1,12 +1,12 @@
-// See section.h.
-#include "engine/permeation/section.h"
+// See wetted_mesh.h.
+#include "engine/permeation/wetted_mesh.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-SbStatus sb_section_create(SbSection **out, int nodes, int elements, bool axisymmetric,
-                           SbReport *report) {
-  SbSection *section = *out = calloc(1, sizeof *section);
+SbStatus sb_wetted_mesh_create(SbWettedMesh **out, int nodes, int elements, bool axisymmetric,
+                               SbReport *report) {
+  SbWettedMesh *section = *out = calloc(1, sizeof *section);
   if (section != NULL) {
     section->nodes = nodes;
     section->elements = elements;
@@ -18,14 +18,14 @@ SbStatus sb_section_create(SbSection **out, int nodes, int elements, bool axisym
   }
   if (section == NULL || section->place == NULL || section->triangle == NULL ||
       section->face == NULL) {
-    sb_section_destroy(section);
+    sb_wetted_mesh_destroy(section);
     *out = NULL;
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a section of %d nodes", nodes);
   }
   return sb_succeed(report);
 }
 
-void sb_section_destroy(SbSection *section) {
+void sb_wetted_mesh_destroy(SbWettedMesh *section) {
   if (section != NULL) {
     free(section->place);
     free(section->triangle);
@@ -34,8 +34,9 @@ void sb_section_destroy(SbSection *section) {
   }
 }
 
-SbStatus sb_section_copy(SbSection **out, const SbSection *from, SbReport *report) {
-  SbStatus status = sb_section_create(out, from->nodes, from->elements, from->axisymmetric, report);
+SbStatus sb_wetted_mesh_copy(SbWettedMesh **out, const SbWettedMesh *from, SbReport *report) {
+  SbStatus status =
+      sb_wetted_mesh_create(out, from->nodes, from->elements, from->axisymmetric, report);
   if (status == SB_OK) {
     memcpy((*out)->place, from->place, 2 * sizeof *from->place * (size_t)from->nodes);
     memcpy((*out)->triangle, from->triangle, 6 * sizeof *from->triangle * (size_t)from->elements);
@@ -55,7 +56,7 @@ static void along(double x[2], const double *place, int a, int m, int b, double 
 
 // The node in the middle between the mid-side node `m` and the vertex `v` of a side whose other
 // vertex is `w`: a side's two lie at known[2 m] (by the lesser vertex) and behind it.
-static int half_side(SbSection *to, const SbSection *from, int *known, int v, int m, int w) {
+static int half_side(SbWettedMesh *to, const SbWettedMesh *from, int *known, int v, int m, int w) {
   int *node = &known[2 * m + (v > w ? 1 : 0)];
   if (*node < 0) {
     *node = to->nodes++;
@@ -67,7 +68,7 @@ static int half_side(SbSection *to, const SbSection *from, int *known, int v, in
 
 // The node of an element between two of its mid-side nodes: at area coordinates 1/2 of vertex v and
 // 1/4 of the others, whose shape functions are those below.
-static int between(SbSection *to, const SbSection *from, const int *tri, int v) {
+static int between(SbWettedMesh *to, const SbWettedMesh *from, const int *tri, int v) {
   const int b = (v + 1) % 3, c = (v + 2) % 3;
   const int node = to->nodes++;
   for (int k = 0; k < 2; k++) {
@@ -79,7 +80,7 @@ static int between(SbSection *to, const SbSection *from, const int *tri, int v) 
   return node;
 }
 
-static void split_element(SbSection *to, const SbSection *from, int *known, const int *tri) {
+static void split_element(SbWettedMesh *to, const SbWettedMesh *from, int *known, const int *tri) {
   int half[3][2], inner[3];
   for (int v = 0; v < 3; v++) {
     const int next = (v + 1) % 3;
@@ -97,7 +98,7 @@ static void split_element(SbSection *to, const SbSection *from, int *known, cons
   memcpy(&to->triangle[6 * to->elements++], middle, sizeof middle);
 }
 
-SbStatus sb_section_split(SbSection **out, const SbSection *from, SbReport *report) {
+SbStatus sb_wetted_mesh_split(SbWettedMesh **out, const SbWettedMesh *from, SbReport *report) {
   *out = NULL;
   for (int i = 0; i < 6 * from->elements; i++) {
     if (from->triangle[i] < 0 || from->triangle[i] >= from->nodes) {
@@ -106,18 +107,18 @@ SbStatus sb_section_split(SbSection **out, const SbSection *from, SbReport *repo
   }
   // At most three halves of sides twice and three inner ones an element.
   int *known = malloc(2 * sizeof *known * (size_t)(from->nodes + 1));
-  SbStatus status = sb_section_create(out, from->nodes + 9 * from->elements, 4 * from->elements,
-                                      from->axisymmetric, report);
+  SbStatus status = sb_wetted_mesh_create(out, from->nodes + 9 * from->elements, 4 * from->elements,
+                                          from->axisymmetric, report);
   if (status == SB_OK && known == NULL) {
     status = sb_fail(report, SB_ERROR_MEMORY, "no memory to split a section");
   }
   if (status != SB_OK) {
     free(known);
-    sb_section_destroy(*out);
+    sb_wetted_mesh_destroy(*out);
     *out = NULL;
     return status;
   }
-  SbSection *to = *out;
+  SbWettedMesh *to = *out;
   memset(known, -1, 2 * sizeof *known * (size_t)from->nodes);
   memcpy(to->place, from->place, 2 * sizeof *to->place * (size_t)from->nodes);
   memcpy(to->face, from->face, (size_t)from->nodes);
@@ -131,7 +132,7 @@ SbStatus sb_section_split(SbSection **out, const SbSection *from, SbReport *repo
   return sb_succeed(report);
 }
 
-void sb_section_quarter(SbSection *section) {
+void sb_wetted_mesh_quarter(SbWettedMesh *section) {
   for (int e = 0; e < section->elements; e++) {
     const int *tri = &section->triangle[(size_t)6 * e];
     for (int side = 0; side < 3; side++) {

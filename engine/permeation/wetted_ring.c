@@ -1,5 +1,5 @@
-// See ring_section.h.
-#include "engine/permeation/ring_section.h"
+// See wetted_ring.h.
+#include "engine/permeation/wetted_ring.h"
 
 #include <stdlib.h>
 
@@ -10,7 +10,7 @@ static SbFace face_of(unsigned char side, bool inside_right) {
 }
 
 // Wets the nodes of open sides and marks where they end; false where both fluids meet.
-static bool wet(SbSection *section, const int *loop, const unsigned char *side, int sides,
+static bool wet(SbWettedMesh *section, const int *loop, const unsigned char *side, int sides,
                 bool inside_right) {
   for (int k = 0; k < sides; k++) {
     const SbFace face = face_of(side[k], inside_right);
@@ -26,11 +26,11 @@ static bool wet(SbSection *section, const int *loop, const unsigned char *side, 
   return true;
 }
 
-SbStatus sb_ring_section_create(SbSection **out, const SbRing *ring, bool inside_right,
-                                SbReport *report) {
+SbStatus sb_wetted_ring_create(SbWettedMesh **out, const SbRing *ring, bool inside_right,
+                               SbReport *report) {
   int nodes, elements, sides;
   sb_ring_section_sizes(ring, &nodes, &elements, &sides);
-  SbStatus status = sb_section_create(out, nodes, elements, true, report);
+  SbStatus status = sb_wetted_mesh_create(out, nodes, elements, true, report);
   int *loop = malloc(2 * sizeof *loop * (size_t)sides);
   unsigned char *side = malloc((size_t)sides);
   if (status == SB_OK && (loop == NULL || side == NULL)) {
@@ -45,7 +45,7 @@ SbStatus sb_ring_section_create(SbSection **out, const SbRing *ring, bool inside
     }
   }
   if (status != SB_OK) {
-    sb_section_destroy(*out);
+    sb_wetted_mesh_destroy(*out);
     *out = NULL;
   }
   free(loop);

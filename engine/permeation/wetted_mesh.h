@@ -20,19 +20,19 @@ typedef struct {
   unsigned char *face; // [nodes] SbFace; a node of two is wetted
   unsigned char *end;  // [nodes] 1: a wetted face ends here
   bool axisymmetric;   // about r = 0; else per metre of depth
-} SbSection;
+} SbWettedMesh;
 
 // With room for so many; all zero. Owned. SB_ERROR_MEMORY.
-SbStatus sb_section_create(SbSection **out, int nodes, int elements, bool axisymmetric,
-                           SbReport *report);
-void sb_section_destroy(SbSection *section); // takes NULL
+SbStatus sb_wetted_mesh_create(SbWettedMesh **out, int nodes, int elements, bool axisymmetric,
+                               SbReport *report);
+void sb_wetted_mesh_destroy(SbWettedMesh *section); // takes NULL
 
 // Another one alike. Owned. SB_ERROR_MEMORY.
-SbStatus sb_section_copy(SbSection **out, const SbSection *section, SbReport *report);
+SbStatus sb_wetted_mesh_copy(SbWettedMesh **out, const SbWettedMesh *section, SbReport *report);
 
 // Each element parted into four by the middles of its sides, as they are curved. Owned.
 // SB_ERROR_MEMORY, SB_ERROR_INPUT for triangles that name no node.
-SbStatus sb_section_split(SbSection **out, const SbSection *section, SbReport *report);
+SbStatus sb_wetted_mesh_split(SbWettedMesh **out, const SbWettedMesh *section, SbReport *report);
 
 // Moves the mid-side nodes of the sides at an end to their quarters.
-void sb_section_quarter(SbSection *section);
+void sb_wetted_mesh_quarter(SbWettedMesh *section);

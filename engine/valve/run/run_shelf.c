@@ -1,0 +1,138 @@
+// The shelf's figures of a run, and why some are missing. Computed where somebody asks for them.
+#include "engine/valve/figures.h"
+#include "engine/valve/run/run_private.h"
+#include "engine/valve/shelf_private.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double YEAR = 365 * 86400.0;
+
+// A seal that has the same pressures on both sides passes nothing.
+static void idle_seal(SbShelfSeal *out) {
+  *out = (SbShelfSeal){
+      .conductance = NAN, .contact_pressure = NAN, .sensitivity = 0, .state = SB_LEAK_NOT_COMPUTED};
+}
+
+static void fill(SbShelf *out, const SbModel *model, int seal, const SbShelfRest *rest,
+                 const SbShelfRates *rates) {
+  out->temperature = model->temperature;
+  out->lag = rest->lag / sb_shelf_diffusivity(model);
+  out->error = rest->error;
+  out->permeation = rates->permeation + rates->plastic;
+  out->plastic = rates->plastic;
+  out->interface = rates->interface;
+  out->loss_per_year = YEAR * (out->permeation + out->interface);
+  out->moisture_per_year = YEAR * (rates->moisture + rates->plastic_moisture);
+  idle_seal(&out->seal[SB_SEAL_COUNT - 1 - seal]);
+  out->seal[seal] = (SbShelfSeal){.conductance = rest->touches ? rest->conductance : NAN,
+                                  .permeation = rates->permeation,
+                                  .interface = rates->interface,
+                                  .sensitivity = rates->sensitivity,
+                                  .contact_pressure = rest->contact_pressure,
+                                  .moisture = rates->moisture,
+                                  .state = rates->state};
+}
+
+static bool is_typical(const SbModel *model, SbParamId id, SbParamDefault *out) {
+  return sb_model_default(out, model, id) && out->tag != NULL && strcmp(out->tag, "typical") == 0;
+}
+
+// What the figures rest on that is no measurement of this rubber.
+static void warn_typical(SbShelf *out, SbWarnings *warnings, const SbModel *model) {
+  static const struct {
+    SbParamId id;
+    const char *what;
+  } figures[] = {{SB_P_RUBBER_PERMEABILITY, "loss by permeation"},
+                 {SB_P_RUBBER_WATER_PERMEABILITY, "moisture"}};
+  for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
+    SbParamDefault from;
+    if (is_typical(model, figures[i].id, &from)) {
+      out->typical = true;
+      sb_warn(warnings, "shelf-typical", sb_param(figures[i].id)->key,
+              "the %s rests on a figure typical of %s, no measurement: %.110s", figures[i].what,
+              from.name != NULL ? from.name : "such rubbers", from.source);
+    }
+  }
+}
+
+static void give_reasons(SbSummary *summary, const SbModel *model, int seal) {
+  const SbShelf *shelf = &summary->shelf;
+  const char *const lacks[] = {sb_shelf_lacks_permeability(model), sb_shelf_lacks_water(model),
+                               sb_shelf_lacks_interface(model)};
+  char name[64];
+  snprintf(name, sizeof name, "shelf.seals.%s.conductance_m",
+           sb_seal_name(SB_SEAL_COUNT - 1 - seal));
+  sb_reason(summary, name, "no pressure stands across this seal at rest");
+  snprintf(name, sizeof name, "shelf.seals.%s.contact_pressure_Pa",
+           sb_seal_name(SB_SEAL_COUNT - 1 - seal));
+  sb_reason(summary, name, "no pressure stands across this seal at rest");
+  if (shelf->seal[seal].state == SB_LEAK_OPEN) {
+    sb_reason(summary, "shelf.*", "the %s seal is open: nothing holds the propellant",
+              sb_seal_name(seal));
+    return;
+  }
+  if (isnan(shelf->error)) {
+    sb_reason(summary, "solver.error_estimate.permeation",
+              "a slab in place of a solved ring (models.fit = ring) has no error of a mesh");
+  }
+  static const char *const water[] = {"shelf.moisture*", "shelf.seals.outer.moisture*",
+                                      "shelf.seals.inner.moisture*"};
+  static const char *const contact[] = {"shelf.interface*", "shelf.seals.outer.interface*",
+                                        "shelf.seals.inner.interface*"};
+  for (int i = 0; i < 3; i++) {
+    if (lacks[1] != NULL) {
+      sb_reason(summary, water[i], "%s", lacks[1]);
+    }
+    if (lacks[2] != NULL) {
+      sb_reason(summary, contact[i], "%s", lacks[2]);
+    }
+  }
+  for (int i = 0; i < 3; i += 2) {
+    if (lacks[i] != NULL) {
+      sb_reason(summary, "shelf.*", "%s", lacks[i]);
+    }
+  }
+  sb_reason(summary, "shelf.*", "the loss along the contact is not known");
+}
+
+SbStatus sb_run_shelf(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+  SbSummary *summary = &run->summary;
+  const SbModel *model = run->model;
+  const int seal = sb_shelf_seal(model);
+  SbShelfRest rest;
+  SbShelfRates rates;
+  SbReport own = {0};
+  SbStatus status = sb_shelf_rest(&rest, model, seal, hooks->cancelled, hooks->data, &own);
+  if (status == SB_OK) {
+    sb_shelf_rates(&rates, model, &rest);
+    fill(&summary->shelf, model, seal, &rest, &rates);
+    warn_typical(&summary->shelf, &summary->warnings, model);
+    if (isnan(rest.error) && rest.touches) {
+      sb_warn(&summary->warnings, "shelf-slab", "models.fit",
+              "the ring permeates as a slab of its height and volume: a solved ring (models.fit = "
+              "ring) lets some 10 to 30 %% more through");
+    }
+    if (run->plan.shelf == SB_SHELF_OVER_TIME && rest.touches) {
+      status = sb_shelf_history(&summary->shelf, model, seal, &rest, hooks->cancelled, hooks->data,
+                                &own);
+      static const char *const sums[] = {"shelf.loss_kg", "shelf.moisture_kg", "shelf.mass_left_kg",
+                                         "shelf.doses_left"};
+      for (int i = 0; status != SB_OK && i < 4; i++) {
+        sb_reason(summary, sums[i], "over time: %s", own.text);
+      }
+    }
+    give_reasons(summary, model, seal);
+  } else {
+    sb_reason(summary, "shelf.*", "the seal at rest: %s", own.text);
+  }
+  if (status != SB_OK && report != NULL) {
+    *report = own;
+  }
+  // What the model has no state for is a reason; what was stopped or did not converge is a status.
+  return status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY ||
+                 status == SB_ERROR_NOT_CONVERGED
+             ? status
+             : SB_OK;
+}
