@@ -10,6 +10,7 @@
 #include "app/chart/page.h"
 #include "app/chart/profiles.h"
 #include "app/chart/rig.h"
+#include "app/chart/shelf.h"
 #include "app/chart/signal.h"
 #include "app/export/still.h"
 
@@ -24,6 +25,7 @@ static const SbRenderView views[] = {
     {"dashboard", "Dashboard", 1920, 1080, true},
     {"rig", "Thread force and coefficients", 1440, 720, false},
     {"life", "Life over its actuations", 1440, 620, false},
+    {"shelf", "Loss on the shelf", 1440, 760, false},
 };
 
 const SbRenderView *sb_render_views(size_t *count) {
@@ -68,6 +70,12 @@ bool sb_render_view_fits(const SbRenderView *view, const SbRun *run, GError **er
                 "the view \"life\" needs more than one actuation (life.actuations)");
     return false;
   }
+  if (strcmp(view->name, "shelf") == 0 && sb_run_summary(run)->shelf.points == 0) {
+    const char *why = sb_figure_reason(sb_run_summary(run), sb_figure_find("shelf.loss_kg"));
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the view \"shelf\" has no history: %s",
+                why != NULL ? why : "it was not computed");
+    return false;
+  }
   return true;
 }
 
@@ -86,6 +94,8 @@ void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChar
   bool rig = sb_chart_is_rig(&data->run);
   if (strcmp(view->name, "life") == 0) {
     sb_life_draw(cr, body, theme, data);
+  } else if (strcmp(view->name, "shelf") == 0) {
+    sb_shelf_draw(cr, body, theme, data);
   } else if (strcmp(view->name, "rig") == 0) {
     sb_rig_page_draw(cr, body, theme, data, flags);
   } else if (strcmp(view->name, "hysteresis") == 0 && rig) {
@@ -219,8 +229,9 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
   for (size_t i = 0; i < summary->warnings.count; i++) {
     g_string_append_printf(comment, "\nWarning: %s", summary->warnings.item[i].text);
   }
-  bool whole = !options->at && (strcmp(view->name, "hysteresis") == 0 ||
-                                strcmp(view->name, "rig") == 0 || strcmp(view->name, "life") == 0);
+  bool whole =
+      !options->at && (strcmp(view->name, "hysteresis") == 0 || strcmp(view->name, "rig") == 0 ||
+                       strcmp(view->name, "life") == 0 || strcmp(view->name, "shelf") == 0);
   Page page = {view, options, sb_theme(options->dark), &data, whole ? SB_CHART_WHOLE : 0};
   SbStill still = {.width = options->width > 0 ? options->width : view->width,
                    .height = options->height > 0 ? options->height : view->height,

@@ -162,10 +162,13 @@ static void put_basis(SbJson *json, const char *key, const SbModel *model, SbPar
   SbParamDefault from;
   const bool follows = sb_model_default(&from, model, id);
   const double value = sb_model_value(model, id);
+  if (!(value > 0)) {
+    return; // the figures' reasons say so
+  }
   sb_json_object(json, key);
-  sb_json_number(json, "value_mol_per_m_s_Pa", value > 0 ? value : NAN);
-  sb_json_string(json, "tag", !(value > 0) ? NULL : follows ? from.tag : "given");
-  sb_json_string(json, "source", value > 0 && follows ? from.source : NULL);
+  sb_json_number(json, "value_mol_per_m_s_Pa", value);
+  sb_json_string(json, "tag", follows ? from.tag : "given");
+  sb_json_string(json, "source", follows ? from.source : "the scene or its valve");
   sb_json_object_end(json);
 }
 

@@ -186,7 +186,7 @@ static SbShelfDepth shelf_of(const SbFigure *figure) {
 
 // What views and limits ask for of it.
 static SbShelfDepth shelf_wished(const SbModel *model, unsigned views) {
-  SbShelfDepth depth = (views & SB_VIEW_SHELF) != 0 ? SB_SHELF_OVER_TIME : SB_SHELF_NOTHING;
+  SbShelfDepth depth = ((views | model->views) & SB_VIEW_SHELF) != 0 ? SB_SHELF_OVER_TIME : SB_SHELF_NOTHING;
   for (size_t i = 0; i < model->limits.count; i++) {
     const SbShelfDepth one = shelf_of(sb_figure(model->limits.item[i].figure));
     depth = one > depth ? one : depth;

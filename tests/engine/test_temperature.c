@@ -360,7 +360,9 @@ static void test_doses(void) {
     compile(&model, permeates, G_N_ELEMENTS(permeates) - without);
     run = run_of(&model, SB_OK, NULL);
     summary = sb_run_summary(run);
-    const double height = 1.5e-3, width = M_PI / 4 * 1.61e-3 * 1.61e-3 / height;
+    // The section that stretch has thinned.
+    const double height = 1.5e-3, section = model.seal[SB_OUTER].section_fitted;
+    const double width = M_PI / 4 * section * section / height;
     const double flow =
         33.5e-15 * 0.102032 * 1016.59e3 * M_PI * (6e-3 - height) * height / width / 1146.74;
     assert_close(model.supply.volume / 86400 * summary->prime_loss,

@@ -62,6 +62,7 @@ static const struct {
     {"people.", N_("People"), NULL, FALSE},
     {"rig.", N_("Rig"), NULL, FALSE},
     {"rubber.", N_("Rubber"), NULL, FALSE},
+    {"shelf.", N_("Shelf"), NULL, FALSE},
     {"stem.", N_("Stem"), NULL, FALSE},
     {"storage.", N_("Storage"), NULL, FALSE},
     {"study.", N_("Study"), NULL, FALSE},

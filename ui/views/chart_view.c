@@ -12,6 +12,7 @@
 #include "app/chart/life.h"
 #include "app/chart/profiles.h"
 #include "app/chart/rig.h"
+#include "app/chart/shelf.h"
 #include "app/chart/signal.h"
 #include "engine/valve/figures.h"
 #include "ui/views/canvas_area.h"
@@ -42,7 +43,7 @@ static const struct {
 } kinds[] = {
     {N_("Force and displacement"), 190, 260, 50}, {N_("Contact pressure"), 132, 178, 80},
     {N_("Film thickness"), 132, 178, 80},         {N_("Life"), 176, 230, 1000},
-    {N_("Why they differ"), 224, 224, 1000},
+    {N_("Loss on the shelf"), 224, 260, 1000},    {N_("Why they differ"), 224, 224, 1000},
 };
 
 // Model of the run shown; before the first run, of the values.
@@ -59,6 +60,9 @@ static gboolean applies(const View *view) {
     return !rig;
   case SB_CHART_VIEW_LIFE:
     return !rig && model != NULL && sb_model_number(model, SB_P_LIFE_ACTUATIONS) > 1;
+  case SB_CHART_VIEW_SHELF:
+    return !rig && model != NULL &&
+           (sb_model_number(model, SB_P_OUTPUT_VIEWS) & SB_VIEW_SHELF) != 0;
   case SB_CHART_VIEW_REASONS:
     return rig;
   default:
@@ -114,6 +118,9 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
     break;
   case SB_CHART_VIEW_LIFE:
     draw_life(cr, rect, theme, data);
+    break;
+  case SB_CHART_VIEW_SHELF:
+    sb_shelf_draw(cr, rect, theme, data);
     break;
   case SB_CHART_VIEW_REASONS:
     sb_rig_reasons_draw(cr, rect, theme, data, SB_CHART_COMPACT);
@@ -232,6 +239,24 @@ static void describe_life(SbSession *session, GString *text) {
                          sb_format_text(b, SB_QUANTITY_FORCE, last->force_return, 0));
 }
 
+static void describe_shelf(SbSession *session, GString *text) {
+  const SbSummary *summary = sb_session_chart(session)->run.summary;
+  if (summary == NULL) {
+    g_string_append(text, _("Known when the run has ended."));
+    return;
+  }
+  const SbShelf *shelf = &summary->shelf;
+  if (isnan(shelf->loss_per_year)) {
+    g_string_append(text, sb_figure_reason(summary, sb_figure_find("shelf.loss_kg_per_year")));
+    return;
+  }
+  g_string_append_printf(text, _("Loss of %.4g mg a year, %.0f doses left. "),
+                         1e6 * shelf->loss_per_year, shelf->doses_left);
+  if (shelf->typical) {
+    g_string_append(text, _("It rests on typical figures of the rubber."));
+  }
+}
+
 static gboolean describe(gpointer data) {
   View *view = data;
   g_autoptr(GString) text = g_string_new(NULL);
@@ -241,6 +266,8 @@ static gboolean describe(gpointer data) {
     describe_loop(view->session, text);
   } else if (view->kind == SB_CHART_VIEW_LIFE) {
     describe_life(view->session, text);
+  } else if (view->kind == SB_CHART_VIEW_SHELF) {
+    describe_shelf(view->session, text);
   } else if (view->kind == SB_CHART_VIEW_REASONS || sb_chart_is_rig(run)) {
     name = view->kind == SB_CHART_VIEW_PRESSURE ? _("Friction over load") : name;
     g_autofree char *reasons = sb_rig_reasons_text(run);
