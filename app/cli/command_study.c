@@ -180,6 +180,21 @@ static SbStatus print_limits(const SbStudyFile *study, const SbStudyDrawn *drawn
   return status;
 }
 
+static SbStatus print_leakage(const SbStudyFile *study, const SbAnswers *answers,
+                              SbReport *report) {
+  SbLeakageOdds odds;
+  const SbStatus status = sb_study_leakage(&odds, study, answers, report);
+  if (status == SB_OK && isnan(odds.probability)) {
+    printf("  %s: no sample has a loss on the shelf\n", study->leakage.edition);
+  } else if (status == SB_OK) {
+    printf("  %s: %zu of %zu simulated tests pass, %.3g %% (95 %%: %.3g to %.3g %%), %zu in the "
+           "second stage\n",
+           study->leakage.edition, odds.passed, odds.tests, 100 * odds.probability,
+           100 * odds.interval[0], 100 * odds.interval[1], odds.second);
+  }
+  return status;
+}
+
 static int print_table(const SbStudyFile *study, const SbStudyDrawn *drawn,
                        const SbAnswers *answers) {
   enum { ROWS = 24 };
@@ -225,7 +240,11 @@ static int print_table(const SbStudyFile *study, const SbStudyDrawn *drawn,
   if (with > shown) {
     printf("  and %zu more figures: --csv, --json, or figures = in [study]\n", with - shown);
   }
-  return sb_cli_status(print_limits(study, drawn, answers, &report), &report);
+  SbStatus status = print_limits(study, drawn, answers, &report);
+  if (status == SB_OK && study->leakage_tests > 0) {
+    status = print_leakage(study, answers, &report);
+  }
+  return sb_cli_status(status, &report);
 }
 
 // ---- The command ----

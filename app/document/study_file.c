@@ -318,9 +318,13 @@ static void read_groups(SbStudyReader *reader) {
     const SbEntry *entry = reader->entries->pdata[i];
     const char *group = entry->group;
     if (entry->name == NULL) {
-      static const char *const names[] = {
-          SB_META_GROUP,   GROUP_VARY,   GROUP_STUDY,      GROUP_CORRELATION,
-          SB_LIMITS_GROUP, GROUP_DESIGN, GROUP_TOLERANCES, NULL};
+      static const char *const names[] = {SB_META_GROUP,     GROUP_VARY,      GROUP_STUDY,
+                                          GROUP_CORRELATION, SB_LIMITS_GROUP, GROUP_DESIGN,
+                                          GROUP_TOLERANCES,  GROUP_LEAKAGE,   NULL};
+      if (strcmp(group, GROUP_LEAKAGE) == 0 && study->leakage_tests == 0) {
+        study->leakage_tests = SB_LEAKAGE_TESTS;
+        study->leakage = (SbLeakageTest)SB_LEAKAGE_TEST_INIT;
+      }
       study->design.asked |= strcmp(group, GROUP_DESIGN) == 0;
       const bool grid = g_str_has_prefix(group, GROUP_VARY " ");
       known =
@@ -329,7 +333,7 @@ static void read_groups(SbStudyReader *reader) {
       if (!known && (bad == NULL || strcmp(bad, group) != 0)) {
         bad = group;
         sb_issues_add(reader->issues, reader->shown, entry->line, NULL,
-                      "vary, correlation, study, limits, design, tolerances, data",
+                      "vary, correlation, study, limits, design, tolerances, leakage_test, data",
                       "unknown group [%.60s]", group);
       }
     } else if (strcmp(group, GROUP_VARY) == 0 || reader->grid > 0) {
@@ -339,6 +343,8 @@ static void read_groups(SbStudyReader *reader) {
       sb_study_read_vary(reader, entry, study->design.tolerances, true);
     } else if (strcmp(group, GROUP_DESIGN) == 0) {
       sb_study_read_design(reader, entry);
+    } else if (strcmp(group, GROUP_LEAKAGE) == 0) {
+      sb_study_read_leakage(reader, entry);
     } else if (strcmp(group, GROUP_STUDY) == 0) {
       read_study(reader, entry, &has_samples);
     }
@@ -354,6 +360,9 @@ static void read_groups(SbStudyReader *reader) {
   }
   if (study->design.asked) {
     sb_study_check_design(reader);
+  }
+  if (study->leakage_tests > 0) {
+    sb_study_check_leakage(reader);
   }
   settle_samples(reader, has_samples);
   if (study->method == SB_METHOD_RELIABILITY) {

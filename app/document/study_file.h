@@ -3,7 +3,7 @@
 // GKeyFile text like a scene's: [sealbench] with kind = study and scene = FILE; [vary] a line a
 // parameter; [correlation]; [study]; [limits]; [design] and [tolerances] of `sealbench design`,
 // which takes the ranges of [vary] as bounds; [data] of `sealbench calibrate`, which takes them as
-// priors.
+// priors; [leakage_test], whose cans are the samples (engine/valve/leakage_test.h).
 //
 // A grid may say more. Each group [vary NAME] is a grid of its own beside the others, with the
 // lines of [vary] added; samples stand in the order of the groups, the last line runs fastest. A
@@ -17,6 +17,7 @@
 #include "app/document/document.h"
 
 #include "engine/numeric/sampling.h"
+#include "engine/valve/leakage_test.h"
 
 // code, name
 #define SB_STUDY_METHODS(X)                                                                        \
@@ -37,7 +38,7 @@ typedef enum {
 // Borrowed, static.
 const char *sb_study_method_name(SbStudyMethod method);
 
-enum { SB_VARY_MAX = 64, SB_SAMPLES_MAX = 10000000 };
+enum { SB_VARY_MAX = 64, SB_SAMPLES_MAX = 10000000, SB_LEAKAGE_TESTS = 1000 };
 
 // One line of [vary], or of [tolerances].
 typedef struct {
@@ -87,8 +88,10 @@ typedef struct {
   GArray *figures; // of int, figures.def: those named (default all), then those of limits
   SbLimits limits; // the scene's, its own in their place
   SbDesignWish design;
-  GPtrArray *data; // of SbData
-  bool borrowed;   // all but the lists is another study's
+  SbLeakageTest leakage; // of [leakage_test]
+  size_t leakage_tests;  // simulated; 0: not asked for
+  GPtrArray *data;       // of SbData
+  bool borrowed;         // all but the lists is another study's
 } SbStudyFile;
 
 // Reads a study ("-": standard input) and its scene, with KEY=VALUE settings upon that. NULL with

@@ -12,6 +12,7 @@
 #define GROUP_CORRELATION "correlation"
 #define GROUP_DESIGN      "design"
 #define GROUP_TOLERANCES  "tolerances"
+#define GROUP_LEAKAGE     "leakage_test"
 
 // An objective that was not read, or that is none.
 enum { SB_FIGURE_NONE = -1, SB_FIGURE_REFUSED = -2 };
@@ -48,6 +49,10 @@ SB_CHECKED bool sb_study_read_count(double *out, const char *text, double least,
 // A line of [design]; and when all groups are read, what a design needs of them.
 void sb_study_read_design(SbStudyReader *reader, const SbEntry *entry);
 void sb_study_check_design(SbStudyReader *reader);
+
+// A line of [leakage_test]; and when all groups are read, what a test needs of them.
+void sb_study_read_leakage(SbStudyReader *reader, const SbEntry *entry);
+void sb_study_check_leakage(SbStudyReader *reader);
 
 // Level of a range with a number of points.
 double sb_study_grid_level(const SbDistribution *of, size_t index);

@@ -40,6 +40,41 @@ const char *sb_study_status_name(uint8_t status) {
   }
 }
 
+// Losses of the samples that are valves, an open one's without bound; how many.
+static size_t gather_losses(double *loss, const SbStudyFile *study, const SbAnswers *answers) {
+  const int wanted = sb_figure_find("shelf.loss_kg_per_year");
+  size_t column = 0, count = 0;
+  bool any = false;
+  while (g_array_index(study->figures, int, column) != wanted) {
+    column++;
+  }
+  for (size_t i = 0; i < answers->samples; i++) {
+    const double value = answers->value[i * answers->figures + column];
+    if (answers->status[i] == SB_OK) {
+      any = any || isfinite(value);
+      loss[count++] = isnan(value) ? INFINITY : value;
+    }
+  }
+  return any ? count : 0;
+}
+
+SbStatus sb_study_leakage(SbLeakageOdds *out, const SbStudyFile *study, const SbAnswers *answers,
+                          SbReport *report) {
+  const double fill = sb_model_value(study->base, SB_P_CANISTER_FILL) *
+                      sb_model_value(study->base, SB_P_FLUID_DENSITY);
+  *out = (SbLeakageOdds){.probability = NAN, .interval = {NAN, NAN}};
+  double *loss = malloc((answers->samples + 1) * sizeof *loss);
+  if (loss == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the cans of a leakage test");
+  }
+  const size_t count = gather_losses(loss, study, answers);
+  const SbStatus status = count > 0 ? sb_leakage_odds(out, &study->leakage, loss, count, fill,
+                                                      study->leakage_tests, study->seed, report)
+                                    : sb_succeed(report);
+  free(loss);
+  return status;
+}
+
 // ---- CSV ----
 
 static void put_parameter(FILE *stream, SbParamId id, double value) {
@@ -261,6 +296,32 @@ static SbStatus put_indices(SbJson *json, const SbStudyFile *study, const double
   return status;
 }
 
+static SbStatus put_leakage(SbJson *json, const SbStudyFile *study, const SbAnswers *answers,
+                            SbReport *report) {
+  const SbLeakageTest *test = &study->leakage;
+  SbLeakageOdds odds;
+  const SbStatus status = sb_study_leakage(&odds, study, answers, report);
+  sb_json_object(json, "leakage_test");
+  sb_json_string(json, "edition", test->edition);
+  sb_json_count(json, "tests", odds.tests);
+  sb_json_count(json, "passed", odds.passed);
+  sb_json_count(json, "second_stage", odds.second);
+  sb_json_number(json, "probability_to_pass", odds.probability);
+  put_interval(json, "interval_95", odds.interval[0], odds.interval[1]);
+  sb_json_string(json, "cans", odds.dealt ? "each another sample" : "drawn from the samples");
+  if (isnan(odds.probability)) {
+    sb_json_string(json, "reason", "no sample has a loss on the shelf");
+  }
+  sb_json_number(json, "temperature_K", test->temperature);
+  sb_json_number(json, "duration_s", test->duration);
+  sb_json_number(json, "balance_kg", test->balance);
+  sb_json_number(json, "mean_kg_per_year", test->mean);
+  sb_json_number(json, "single_kg_per_year", test->single);
+  sb_json_number(json, "most_kg_per_year", test->most);
+  sb_json_object_end(json);
+  return status;
+}
+
 // Why samples failed, the first hundred of them.
 static void put_failures(SbJson *json, const SbAnswers *answers) {
   enum { MOST = 100 };
@@ -301,6 +362,9 @@ char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const S
   }
   if (status == SB_OK) {
     status = put_indices(&json, study, drawn->unit, answers, report);
+  }
+  if (status == SB_OK && study->leakage_tests > 0) {
+    status = put_leakage(&json, study, answers, report);
   }
   put_failures(&json, answers);
   sb_json_object_end(&json);

@@ -8,6 +8,11 @@
 
 // Samples with an answer, and those of them that failed.
 size_t sb_study_done(const SbAnswers *answers);
+// The odds of the leakage test that the study asks for; NaN without a sample that has a loss. A can
+// that has none is open. SB_ERROR_RANGE, SB_ERROR_MEMORY.
+SbStatus sb_study_leakage(SbLeakageOdds *out, const SbStudyFile *study, const SbAnswers *answers,
+                          SbReport *report);
+
 size_t sb_study_failed(const SbAnswers *answers);
 
 // "ok", "not-converged", "infeasible", "refused", "not-computed"; borrowed.
