@@ -1,6 +1,8 @@
 // Study files: what is refused and where, and the points that are laid out.
 #include "app/document/study_file.h"
 
+#include "app/document/expression.h"
+
 #include "engine/valve/sealbench.h"
 #include "engine/valve/studies/study.h"
 
@@ -294,10 +296,47 @@ static void test_rubber(void) {
   g_unlink(rubber);
 }
 
+static bool no_name(double *out, const char *name, void *data) {
+  *out = strcmp(name, "x") == 0 ? 0.5 : NAN;
+  return strcmp(name, "x") == 0;
+}
+
+static void test_functions(void) {
+  static const struct {
+    const char *text;
+    double value; // NaN: refused
+    const char *said;
+  } cases[] = {{"pow(2; 3) + max(1; x) - min(1; x)", 8.5, NULL},
+               {"sin(x) * sin(x) + cos(x) * cos(x)", 1, NULL},
+               {"tan(x) / (sin(x) / cos(x))", 1, NULL},
+               {"atan(tan(x))", 0.5, NULL},
+               {"ln(exp(2 * x))", 1, NULL},
+               {"pow(pow(x; 2); x)", 0.5, NULL},
+               {"ln(0)", NAN, "not finite"},
+               {"pow(x - 1; x)", NAN, "not finite"},
+               {"pow(2)", NAN, "take (A; B)"},
+               {"sin(x; 2)", NAN, "a parenthesis is missing"},
+               {"sin x", NAN, "no parameter and no variable"},
+               {"sinh(x)", NAN, "no parameter and no variable"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autoptr(GError) error = NULL;
+    double value = NAN;
+    const bool good = sb_expression_value(&value, cases[i].text, "1", "", no_name, NULL, &error);
+    g_test_message("%s", cases[i].text);
+    g_assert_true(good == !isnan(cases[i].value));
+    if (good) {
+      g_assert_cmpfloat_with_epsilon(value, cases[i].value, 1e-15);
+    } else {
+      g_assert_nonnull(strstr(error->message, cases[i].said));
+    }
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   folder = g_dir_make_tmp("sealbench-study-XXXXXX", NULL);
   g_test_add_func("/study-file/refused", test_refused);
+  g_test_add_func("/study-file/functions", test_functions);
   g_test_add_func("/study-file/grid", test_grid);
   g_test_add_func("/study-file/groups", test_groups);
   g_test_add_func("/study-file/shipped", test_shipped);
