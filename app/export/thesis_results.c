@@ -271,8 +271,9 @@ static void put_html_value(FILE *stream, const SbThesisRow *row, double value) {
 static char *difference_text(const SbThesisRow *row) {
   char digits[SB_NUMBER_SIZE];
   if (isfinite(row->difference) && row->printed != 0) {
+    const double share = row->difference / fabs(row->printed);
     return g_strdup_printf("%s %%",
-                           sb_number_round(digits, 100 * row->difference / fabs(row->printed), 2));
+                           sb_number_round(digits, fabs(share) > 1e-9 ? 100 * share : 0, 2));
   }
   return sb_thesis_text(row, row->difference);
 }

@@ -312,6 +312,49 @@ static void test_follows(void) {
   json_node_unref(root);
 }
 
+static void test_thesis(void) {
+  JsonNode *list = JSON("thesis");
+  g_assert_cmpuint(json_array_get_length(json_node_get_array(list)), >, 40);
+  g_assert_cmpstr(json_node_get_string(cli_at(list, "0.item")), ==, "table-2.1");
+  json_node_unref(list);
+  JsonNode *root = JSON("thesis", "table-7.6");
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "item")), ==, "table-7.6");
+  cli_has_keys(root,
+               "rows.0.label rows.0.printed rows.0.thesis_model rows.0.consistent rows.0.unit "
+               "rows.0.difference rows.0.reason rows.0.remains rows.0.reasons");
+  // The misprint of the exponent, which its reason explains whole.
+  g_assert_cmpfloat_with_epsilon(cli_number(root, "rows.2.printed"), 2.8e-7, 1e-18);
+  g_assert_cmpfloat_with_epsilon(cli_number(root, "rows.2.thesis_model"), 2.8e-9, 1e-18);
+  g_assert_cmpfloat_with_epsilon(cli_number(root, "rows.2.reasons.0.explains"), 2.772e-7, 1e-18);
+  g_assert_cmpfloat_with_epsilon(cli_number(root, "rows.2.remains"), 0, 1e-18);
+  json_node_unref(root);
+
+  g_autofree char *folder = g_build_filename(cli.folder, "thesis", NULL);
+  CliResult result = CLI("thesis", "figure-6.5", "-o", folder, "--quiet");
+  g_assert_cmpint(result.code, ==, 0);
+  cli_clear(&result);
+  static const char *const names[] = {"figure-6.5.json", "figure-6.5.svg", "index.html",
+                                      "thesis.md", ".sealbench-thesis.manifest"};
+  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+    g_autofree char *text = cli_contents(folder, names[i]);
+    g_assert_cmpuint(strlen(text), >, 0);
+    g_autofree char *path = g_build_filename(folder, names[i], NULL);
+    g_assert_cmpint(g_unlink(path), ==, 0);
+  }
+  g_assert_cmpint(g_rmdir(folder), ==, 0);
+  static const struct {
+    const char *argument[3], *said;
+  } wrong[] = {{{"table-7.55"}, "there is no table or figure"},
+               {{"--all", "table-7.5"}, "one or the other"},
+               {{"-o", "out"}, "needs an item"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
+    result = CLI("thesis", wrong[i].argument[0], wrong[i].argument[1]);
+    g_assert_cmpint(result.code, ==, 1);
+    g_assert_nonnull(strstr(result.err, wrong[i].said));
+    cli_clear(&result);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -323,6 +366,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-tables/lists", test_lists);
   g_test_add_func("/cli-tables/fluid", test_fluid);
   g_test_add_func("/cli-tables/follows", test_follows);
+  g_test_add_func("/cli-tables/thesis", test_thesis);
   int result = g_test_run();
   cli_tear_down();
   return result;
