@@ -37,32 +37,6 @@ static int list_items(const char *json) {
 
 // ---- Results ----
 
-static void print_item(const SbThesisItem *item) {
-  int width = 0;
-  g_autoptr(GPtrArray) reasons = sb_thesis_reasons(item);
-  for (guint i = 0; i < item->rows->len; i++) {
-    width = MAX(width, (int)strlen(((SbThesisRow *)item->rows->pdata[i])->label));
-  }
-  printf("%s\n", item->title);
-  if (item->rows->len > 0) {
-    printf("  %-*s %14s %14s %14s\n", width, "", "printed", "thesis' model", "consistent");
-  }
-  for (guint i = 0; i < item->rows->len; i++) {
-    const SbThesisRow *row = item->rows->pdata[i];
-    g_autofree char *printed = sb_thesis_text(row, row->printed);
-    g_autofree char *thesis = sb_thesis_text(row, row->thesis);
-    g_autofree char *consistent = sb_thesis_text(row, row->consistent);
-    g_autofree char *standing = sb_thesis_standing(row, reasons, false);
-    printf("  %-*s %14s %14s %14s  %s\n", width, row->label, printed, thesis, consistent, standing);
-  }
-  for (guint i = 0; i < reasons->len; i++) {
-    printf("  %u. %s\n", i + 1, (const char *)reasons->pdata[i]);
-  }
-  for (guint i = 0; i < item->notes->len; i++) {
-    printf("  %s\n", (const char *)item->notes->pdata[i]);
-  }
-}
-
 static bool add_text(SbOutputFolder *out, const SbThesisItem *item, const char *ending,
                      void (*write)(FILE *stream, const SbThesisItem *item), GError **error) {
   g_autofree char *name = g_strconcat(item->name, ending, NULL);
@@ -267,7 +241,8 @@ static int run(char **items, const char *name, int threads, const char *folder,
       code = emitted != SB_EXIT_DONE ? emitted : code;
     }
     for (size_t i = 0; i < count && target == NULL && !sb_cli_quiet(); i++) {
-      print_item(done[i]);
+      g_autofree char *table = sb_thesis_table(done[i]);
+      fputs(table, stdout);
     }
   }
   g_ptr_array_unref(work.jobs);

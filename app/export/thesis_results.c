@@ -126,6 +126,36 @@ char *sb_thesis_standing(const SbThesisRow *row, const GPtrArray *reasons, bool 
   return g_string_free(out, FALSE);
 }
 
+char *sb_thesis_table(const SbThesisItem *item) {
+  GString *out = g_string_new(NULL);
+  int width = 0;
+  g_autoptr(GPtrArray) reasons = sb_thesis_reasons(item);
+  for (guint i = 0; i < item->rows->len; i++) {
+    width = MAX(width, (int)strlen(((SbThesisRow *)item->rows->pdata[i])->label));
+  }
+  g_string_append_printf(out, "%s\n", item->title);
+  if (item->rows->len > 0) {
+    g_string_append_printf(out, "  %-*s %14s %14s %14s\n", width, "", "printed", "thesis' model",
+                           "consistent");
+  }
+  for (guint i = 0; i < item->rows->len; i++) {
+    const SbThesisRow *row = item->rows->pdata[i];
+    g_autofree char *printed = sb_thesis_text(row, row->printed);
+    g_autofree char *thesis = sb_thesis_text(row, row->thesis);
+    g_autofree char *consistent = sb_thesis_text(row, row->consistent);
+    g_autofree char *standing = sb_thesis_standing(row, reasons, false);
+    g_string_append_printf(out, "  %-*s %14s %14s %14s  %s\n", width, row->label, printed, thesis,
+                           consistent, standing);
+  }
+  for (guint i = 0; i < reasons->len; i++) {
+    g_string_append_printf(out, "  %u. %s\n", i + 1, (const char *)reasons->pdata[i]);
+  }
+  for (guint i = 0; i < item->notes->len; i++) {
+    g_string_append_printf(out, "  %s\n", (const char *)item->notes->pdata[i]);
+  }
+  return g_string_free(out, FALSE);
+}
+
 // ---- JSON ----
 
 static void put_json_parts(SbJson *json, const char *key, const GArray *parts) {

@@ -7,6 +7,9 @@
 
 #include <stdio.h>
 
+// Title, rows, reasons and notes as lines. Owned by the caller.
+char *sb_thesis_table(const SbThesisItem *item);
+
 // An object: item, title, rows, chart, notes.
 void sb_json_thesis(SbJson *json, const SbThesisItem *item);
 

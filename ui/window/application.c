@@ -81,6 +81,7 @@ static void set_accels(GtkApplication *application) {
       {"win.page::valve", {"<Primary>1"}},
       {"win.page::calibrate", {"<Primary>3"}},
       {"win.page::propellants", {"<Primary>4"}},
+      {"win.page::thesis", {"<Primary>5"}},
       {"win.close", {"<Primary>w"}},
       {"win.pin", {"<Primary>p"}},
       {"win.zoom-in", {"<Primary>plus", "<Primary>equal"}},

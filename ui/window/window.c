@@ -22,6 +22,7 @@
 #include "ui/window/propellants_page.h"
 #include "ui/window/status_bar.h"
 #include "ui/window/study_window.h"
+#include "ui/window/thesis_page.h"
 #include "ui/window/undo_hints.h"
 #include "ui/window/verdict_strip.h"
 #include "ui/window/window_files.h"
@@ -618,6 +619,7 @@ static void sb_window_init(SbWindow *window) {
                        "calibrate", _("Calibrate"));
   gtk_stack_add_titled(GTK_STACK(window->pages), sb_propellants_page_new(window->session),
                        "propellants", _("Propellants"));
+  gtk_stack_add_titled(GTK_STACK(window->pages), sb_thesis_page_new(), "thesis", _("Thesis"));
   window->files = sb_window_files_new_for(GTK_WINDOW(window), window->session,
                                           GTK_MENU_BUTTON(window->recent_button));
   sb_section_view_add_start(window->section, sb_window_files_start(window->files));
