@@ -494,8 +494,8 @@ int sb_command_render(int argc, char **argv) {
       {"backend", 0, 0, G_OPTION_ARG_FILENAME, &options.backend,
        "What draws the section: osmesa or egl; else the first that works", "NAME"},
       {"field", 0, 0, G_OPTION_ARG_FILENAME, &options.field,
-       "Colours of solved rings: von-mises, hydrostatic-pressure, shear, contact-pressure or "
-       "displacement (output.field)",
+       "Colours of solved rings: von-mises, hydrostatic-pressure, shear, contact-pressure, "
+       "displacement or permeation (output.field)",
        "NAME"},
       {"field-max", 0, 0, G_OPTION_ARG_FILENAME, &options.field_max,
        "Stress at the end of the colours; else the range of the run (output.field_max)", "STRESS"},

@@ -88,18 +88,18 @@ void sb_section_limits_add_run(SbSectionLimits *limits, const SbRun *run) {
 }
 
 const char *sb_section_field_name(SbField field) {
-  static const char *const names[SB_FIELD_COUNT] = {"von Mises stress", "hydrostatic pressure",
-                                                    "shear stress", "contact pressure",
-                                                    "displacement"};
+  static const char *const names[SB_FIELD_COUNT] = {
+      "von Mises stress", "hydrostatic pressure", "shear stress",
+      "contact pressure", "displacement",         "permeation flux over P Δp"};
   return names[field];
 }
 
 const char *sb_section_field_unit(SbField field) {
-  return field == SB_FIELD_DISPLACEMENT ? "mm" : "MPa";
+  return field == SB_FIELD_DISPLACEMENT ? "mm" : field == SB_FIELD_PERMEATION ? "1/mm" : "MPa";
 }
 
 double sb_section_field_scale(SbField field) {
-  return field == SB_FIELD_DISPLACEMENT ? 1e3 : 1e-6;
+  return field == SB_FIELD_DISPLACEMENT ? 1e3 : field == SB_FIELD_PERMEATION ? 1e-3 : 1e-6;
 }
 
 SbPoint sb_section_at(const SbSection *section, double x, double y) {

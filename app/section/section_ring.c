@@ -19,7 +19,7 @@ void sb_section_field_limits(const SbSection *section, SbField field, double *le
   *least = section->limits.field_min[field];
   *greatest = section->limits.field_max[field];
   double given = section->view->field_max;
-  if (given > 0 && field != SB_FIELD_DISPLACEMENT) {
+  if (given > 0 && field != SB_FIELD_DISPLACEMENT && field != SB_FIELD_PERMEATION) {
     *least = fmin(*least, 0);
     *greatest = given;
   }

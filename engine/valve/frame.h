@@ -94,6 +94,8 @@ typedef enum {
   SB_FIELD_SHEAR,        // axial-radial [Pa]
   SB_FIELD_CONTACT,      // contact or fluid pressure on the surface, 0 inside [Pa]
   SB_FIELD_DISPLACEMENT, // from the free ring, magnitude [m]
+  SB_FIELD_PERMEATION,   // what permeates per area over P and the pressure across [1/m]; 0 unless
+                         // the plan asks for it
   SB_FIELD_COUNT
 } SbField;
 

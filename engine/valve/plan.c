@@ -186,7 +186,8 @@ static SbShelfDepth shelf_of(const SbFigure *figure) {
 
 // What views and limits ask for of it.
 static SbShelfDepth shelf_wished(const SbModel *model, unsigned views) {
-  SbShelfDepth depth = ((views | model->views) & SB_VIEW_SHELF) != 0 ? SB_SHELF_OVER_TIME : SB_SHELF_NOTHING;
+  SbShelfDepth depth =
+      ((views | model->views) & SB_VIEW_SHELF) != 0 ? SB_SHELF_OVER_TIME : SB_SHELF_NOTHING;
   for (size_t i = 0; i < model->limits.count; i++) {
     const SbShelfDepth one = shelf_of(sb_figure(model->limits.item[i].figure));
     depth = one > depth ? one : depth;
@@ -207,8 +208,10 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
   plan->film_history = plan->reynolds && model->film_history;
   plan->bodies = model->motion == SB_MODEL_MOTION_BODIES;
   plan->profiles = drawn != 0;
-  plan->shelf = shelf_wished(model, views);
   plan->section_fields = sections != 0 && plan->ring;
+  plan->shelf = shelf_wished(model, views);
+  plan->permeation = plan->section_fields &&
+                     (model->look.field == SB_FIELD_PERMEATION || plan->shelf != SB_SHELF_NOTHING);
   plan->over_edge = plan->section_fields && !wishes->coarse;
 
   const char *fit = sb_fit_model_name(model->fit);

@@ -50,6 +50,7 @@ typedef struct {
   bool frame_films; // they show films at their own speeds, in whose errors these count
   bool life;        // and the actuations after the first
   SbShelfDepth shelf;
+  bool permeation; // the section's fields have it
 } SbPlan;
 
 // What somebody wants of a run beside its figures.

@@ -13,7 +13,10 @@
 //
 // Frames only refer to shapes, so that a film of any length costs the same.
 #include "engine/contact/ring/ring.h"
+#include "engine/permeation/diffusion.h"
+#include "engine/permeation/wetted_ring.h"
 #include "engine/valve/run/run_private.h"
+#include "engine/valve/shelf_private.h"
 
 #include <limits.h>
 #include <math.h>
@@ -76,6 +79,27 @@ uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int m
   return run->shape[found].view.nodes > 0 ? found : UINT32_MAX;
 }
 
+// The steady flux of permeation through a ring that parts canister and air; 0 of one that does not,
+// or that leaves a way past.
+static void fill_permeation(float *out, const SbRun *run, int seal, const SbRing *ring, size_t n) {
+  SbWettedMesh *mesh = NULL;
+  SbDiffusion *diffusion = NULL;
+  double *flux = malloc((n + 1) * sizeof *flux);
+  bool solved = flux != NULL && run->plan.permeation && seal == sb_shelf_seal(run->model) &&
+                sb_wetted_ring_create(&mesh, ring, false, NULL) == SB_OK;
+  if (solved) {
+    sb_wetted_mesh_quarter(mesh);
+    solved = sb_diffusion_create(&diffusion, mesh, NULL) == SB_OK &&
+             sb_diffusion_gradient(flux, diffusion, NULL) == SB_OK;
+  }
+  for (size_t i = 0; i < n; i++) {
+    out[i] = solved ? (float)flux[i] : 0;
+  }
+  sb_diffusion_destroy(diffusion);
+  sb_wetted_mesh_destroy(mesh);
+  free(flux);
+}
+
 SbStatus sb_run_keep_shape(SbRun *run, int seal, int index, const SbRing *ring, SbReport *report) {
   SbRunShape *shape = &run->shape[slot(seal, index)];
   int nodes, triangles, outline;
@@ -110,6 +134,7 @@ SbStatus sb_run_keep_shape(SbRun *run, int seal, int index, const SbRing *ring, 
     field[SB_FIELD_DISPLACEMENT * n + i] = (float)hypot(work[2 * i], work[2 * i + 1]);
   }
   free(work);
+  fill_permeation(field + SB_FIELD_PERMEATION * n, run, seal, ring, n);
   SbRingResult result;
   sb_ring_result(ring, &result);
   free(shape->data);
