@@ -32,6 +32,7 @@ G_GNUC_UNUSED static const char *const listed[] = {
     N_("shear stress"),
     N_("contact pressure"),
     N_("displacement"),
+    N_("permeation flux over P Δp"),
     // app/export/render.c
     N_("Axial section"),
     N_("Cutaway in three dimensions"),
