@@ -90,6 +90,7 @@ static void ask(double *value, SbEvaluator *evaluator, const SbModel *base,
 // Every figure, with all others and by what it needs alone, is the run's.
 static void check_case(const Case *of) {
   SbModel base = base_model(), model = case_model(of);
+  model.views |= SB_VIEW_SHELF; // else a run leaves out its figures
   SbPlan plan;
   SbRun *run;
   sb_plan_make(&plan, &model);

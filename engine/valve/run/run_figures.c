@@ -317,6 +317,9 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   }
   const Reason before[] = {
       {!run->plan.life, "life.*", "life.actuations = 1: there is no life"},
+      {rig, "shelf.*", "the sliding plate (models.motion = rig) has no can"},
+      {rig, "solver.error_estimate.permeation",
+       "the sliding plate (models.motion = rig) has no can"},
       {run->plan.shelf == SB_SHELF_NOTHING, "shelf.*",
        "nobody asks for it: output.views has no shelf, and no limit is on it"},
       {run->plan.shelf == SB_SHELF_NOTHING, "solver.error_estimate.permeation",
