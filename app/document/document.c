@@ -44,6 +44,8 @@ void sb_document_free(SbDocument *document) {
   sb_data_free(document->saved_measured);
   g_free(document->series_name);
   g_free(document->series_path);
+  g_free(document->shelf_name);
+  g_free(document->shelf_path);
   sb_named_rubber_release(document->base_rubber);
   sb_named_rubber_release(document->own_rubber);
   sb_named_rubber_release(document->saved_rubber);
@@ -145,7 +147,7 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
             document, params == &document->base ? &document->base_rubber : &document->own_rubber,
             rubber);
       }
-    } else if (strcmp(key, SB_SERIES_KEY) == 0) {
+    } else if (strcmp(key, SB_SERIES_KEY) == 0 || strcmp(key, SB_SHELF_KEY) == 0) {
       // A file's name, no value: read_series.
     } else if (id < 0) {
       g_autofree char *hint = issues->len < SB_ISSUES_MAX ? sb_document_key_hint(key) : NULL;
@@ -252,7 +254,12 @@ static void read_valve(SbDocument *document, const char *directory, const char *
   g_free(text);
 }
 
-// Reads the measured series that [drive] file names, if it does.
+static char *path_from(const char *directory, const char *name) {
+  return g_path_is_absolute(name) || directory == NULL ? g_strdup(name)
+                                                       : g_build_filename(directory, name, NULL);
+}
+
+// Reads the measured series that [drive] file names, if it does, and the temperatures of [shelf].
 static void read_series(SbDocument *document, const GPtrArray *entries, const char *directory,
                         GPtrArray *issues) {
   for (guint i = 0; i < entries->len; i++) {
@@ -260,10 +267,13 @@ static void read_series(SbDocument *document, const GPtrArray *entries, const ch
     if (entry->name != NULL && strcmp(entry->group, "drive") == 0 &&
         strcmp(entry->name, "file") == 0) {
       document->series_name = g_strdup(entry->value);
-      document->series_path = g_path_is_absolute(entry->value) || directory == NULL
-                                  ? g_strdup(entry->value)
-                                  : g_build_filename(directory, entry->value, NULL);
+      document->series_path = path_from(directory, entry->value);
       sb_series_read(&data_of(document)->measured, document->series_path, issues);
+    } else if (entry->name != NULL && strcmp(entry->group, "shelf") == 0 &&
+               strcmp(entry->name, "file") == 0) {
+      document->shelf_name = g_strdup(entry->value);
+      document->shelf_path = path_from(directory, entry->value);
+      sb_series_read_temperature(&data_of(document)->shelf, document->shelf_path, issues);
     }
   }
 }
@@ -525,6 +535,16 @@ void sb_document_remarks(const SbDocument *document, const SbModel *model, GPtrA
   add_problems(document, &params, &problems, issues);
 }
 
+static void sum_series(GChecksum *sum, const SbModelSeries *series) {
+  for (size_t i = 0; i < series->count; i++) {
+    char digits[2][SB_NUMBER_SIZE];
+    sb_number_format(digits[0], series->time[i]);
+    sb_number_format(digits[1], series->value[i]);
+    g_autofree char *line = g_strdup_printf("%s,%s\n", digits[0], digits[1]);
+    g_checksum_update(sum, (const guchar *)line, -1);
+  }
+}
+
 char *sb_document_sha256(const SbDocument *document) {
   SbParams params = sb_document_params(document);
   GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
@@ -535,14 +555,9 @@ char *sb_document_sha256(const SbDocument *document) {
     g_checksum_update(sum, (const guchar *)line, -1);
     g_free(line);
   }
-  const SbModelSeries *series = document->data != NULL ? &document->data->measured : NULL;
-  for (size_t i = 0; series != NULL && i < series->count; i++) {
-    char digits[2][SB_NUMBER_SIZE];
-    sb_number_format(digits[0], series->time[i]);
-    sb_number_format(digits[1], series->value[i]);
-    char *line = g_strdup_printf("%s,%s\n", digits[0], digits[1]);
-    g_checksum_update(sum, (const guchar *)line, -1);
-    g_free(line);
+  if (document->data != NULL) {
+    sum_series(sum, &document->data->measured);
+    sum_series(sum, &document->data->shelf);
   }
   char *hex = g_strdup(g_checksum_get_string(sum));
   g_checksum_free(sum);

@@ -13,6 +13,7 @@
 
 // The one key that names a file and no value.
 #define SB_SERIES_KEY "drive.file"
+#define SB_SHELF_KEY  "shelf.file"
 // The one that names a rubber (rubber_sheet.h).
 #define SB_RUBBER_KEY "rubber.name"
 
@@ -39,6 +40,7 @@ struct SbDocument {
   char *valve_name;                                       // scenes: as the file has it
   char *series_name;                                      // value of drive.file, NULL without one
   char *series_path;                                      // path to open
+  char *shelf_name, *shelf_path;                          // the same of shelf.file
   GPtrArray *measured;                                    // of SbData, its own [data] groups
   SbData *saved_measured;                                 // the first of them in its file, or NULL
   SbNamedRubber *base_rubber, *own_rubber, *saved_rubber; // as the params; NULL: none

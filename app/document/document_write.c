@@ -59,6 +59,10 @@ static char *moved_series(const SbDocument *document, const char *path) {
   return moved_name(document, document->series_path, document->series_name, path);
 }
 
+static char *moved_shelf(const SbDocument *document, const char *path) {
+  return moved_name(document, document->shelf_path, document->shelf_name, path);
+}
+
 // Splits a catalogue key at its last dot; both owned by the caller.
 static void split_key(const char *key, char **group, char **name) {
   const char *dot = strrchr(key, '.');
@@ -121,6 +125,11 @@ char *sb_document_to_text(const SbDocument *document, const char *path) {
   char *series = moved_series(document, path);
   if (series != NULL) {
     SbChange change = {g_strdup("drive"), g_strdup("file"), series};
+    g_array_append_val(changes, change);
+  }
+  char *shelf = moved_shelf(document, path);
+  if (shelf != NULL) {
+    SbChange change = {g_strdup("shelf"), g_strdup("file"), shelf};
     g_array_append_val(changes, change);
   }
   const bool data_differs = sb_document_data_differs(document);
@@ -225,6 +234,10 @@ char *sb_document_to_flat_text(const SbDocument *document) {
         g_autofree char *whole = g_canonicalize_filename(document->series_path, NULL);
         g_string_append_printf(text, "file = %s\n", whole);
       }
+      if (document->shelf_path != NULL && length == 5 && strncmp(key, "shelf", 5) == 0) {
+        g_autofree char *whole = g_canonicalize_filename(document->shelf_path, NULL);
+        g_string_append_printf(text, "file = %s\n", whole);
+      }
     }
   }
   g_hash_table_unref(seen);
@@ -257,6 +270,14 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
     g_free(document->series_path);
     document->series_path = g_build_filename(directory, series, NULL);
     g_free(directory);
+  }
+  char *shelf = moved_shelf(document, path);
+  if (shelf != NULL) {
+    g_free(document->shelf_name);
+    document->shelf_name = shelf;
+    g_autofree char *directory = g_path_get_dirname(path);
+    g_free(document->shelf_path);
+    document->shelf_path = g_build_filename(directory, shelf, NULL);
   }
   g_free(document->text);
   document->text = text;

@@ -14,12 +14,15 @@ typedef struct {
   const char *name;
   GPtrArray *issues;
   bool speed;            // in the second column, in place of a drive's quantity
+  bool temperature;      // likewise
   double scale[COLUMNS]; // to SI
+  double offset;         // of a temperature, added
   SbModelSeries *out;
 } Reader;
 
 // Ranges of the columns [SI].
 static const double time_max = 1e6, displacement_max = 0.2, force_max = 1e5, speed_max = 100;
+static const double shelf_max = 3.2e9, cold = 173.15, hot = 423.15; // of a shelf's temperatures
 
 // "displacement [mm]" -> quantity, and the unit's size in SI.
 static bool read_heading(Reader *r, const SbTable *table, size_t column) {
@@ -28,6 +31,8 @@ static bool read_heading(Reader *r, const SbTable *table, size_t column) {
   r->scale[column] = 1;
   if (column == 0 && strcmp(heading->name, "time") == 0) {
     si = "s";
+  } else if (column == 1 && r->temperature) {
+    si = strcmp(heading->name, "temperature") == 0 ? "K" : NULL;
   } else if (column == 1 && r->speed) {
     si = strcmp(heading->name, "speed") == 0 ? "m/s" : NULL;
   } else if (column == 1 && strcmp(heading->name, "displacement") == 0) {
@@ -38,15 +43,28 @@ static bool read_heading(Reader *r, const SbTable *table, size_t column) {
     r->out->quantity = SB_DRIVE_OF_FORCE;
   }
   g_autofree char *one = g_strdup_printf("1 %s", heading->unit);
-  const char *allowed = column == 0 ? "time [s]"
-                        : r->speed  ? "speed [m/s]"
-                                    : "displacement [mm] or force [N]";
+  const char *allowed = column == 0      ? "time [s]"
+                        : r->temperature ? "temperature [degC] or [K]"
+                        : r->speed       ? "speed [m/s]"
+                                         : "displacement [mm] or force [N]";
   const int line = (int)sb_table_header_lines(table);
   if (*heading->name == '\0') {
     sb_issues_add(r->issues, r->name, line, NULL, allowed, "column %zu has no heading", column + 1);
   } else if (si == NULL) {
     sb_issues_add(r->issues, r->name, line, NULL, allowed,
                   "column %zu: \"%.40s\" is an unknown quantity", column + 1, heading->name);
+  } else if (r->temperature && column == 1) {
+    // A point of a scale: what 0 and 1 of its unit are.
+    g_autofree char *none = g_strdup_printf("0 %s", heading->unit);
+    double unit = 0;
+    if (!sb_quantity_parse(&r->offset, none, "K", "°C", NULL) ||
+        !sb_quantity_parse(&unit, one, "K", "°C", NULL)) {
+      sb_issues_add(r->issues, r->name, line, NULL, "K, degC",
+                    "column %zu: \"%.40s\" is no unit of %s", column + 1, heading->unit,
+                    heading->name);
+      return false;
+    }
+    r->scale[column] = unit - r->offset;
   } else if (!(heading->clock && column == 0) &&
              !(sb_quantity_parse(&r->scale[column], one, si, si, NULL) && r->scale[column] > 0)) {
     sb_issues_add(r->issues, r->name, line, NULL, si, "column %zu: \"%.40s\" is no unit of %s",
@@ -58,17 +76,20 @@ static bool read_heading(Reader *r, const SbTable *table, size_t column) {
 
 static bool take_row(Reader *r, size_t row, double *const *value) {
   const bool force = !r->speed && r->out->quantity == SB_DRIVE_OF_FORCE;
-  const double limit[COLUMNS] = {time_max, r->speed ? speed_max
-                                           : force  ? force_max
-                                                    : displacement_max};
-  const char *const allowed[COLUMNS] = {"0 to 1e6 s", r->speed ? "at most 100 m/s either way"
-                                                      : force  ? "at most 1e5 N either way"
-                                                               : "at most 200 mm either way"};
+  const double limit[COLUMNS] = {r->temperature ? shelf_max : time_max, r->temperature ? hot
+                                                                        : r->speed     ? speed_max
+                                                                        : force        ? force_max
+                                                                                : displacement_max};
+  const char *const allowed[COLUMNS] = {r->temperature ? "0 to 3.2e9 s" : "0 to 1e6 s",
+                                        r->temperature ? "-100 to 150 degC"
+                                        : r->speed     ? "at most 100 m/s either way"
+                                        : force        ? "at most 1e5 N either way"
+                                                       : "at most 200 mm either way"};
   SbModelSeries *out = r->out;
   double si[COLUMNS];
   for (int i = 0; i < COLUMNS; i++) {
-    si[i] = value[i][row] * r->scale[i];
-    if (!(fabs(si[i]) <= limit[i])) {
+    si[i] = value[i][row] * r->scale[i] + (i == 1 ? r->offset : 0);
+    if (!(fabs(si[i]) <= limit[i]) || (i == 1 && r->temperature && si[i] < cold)) {
       sb_issues_add(r->issues, r->name, 0, NULL, allowed[i], "row %zu: column %d is out of range",
                     row + 1, i + 1);
       return false;
@@ -111,10 +132,11 @@ static bool read_rows(Reader *r, const SbTable *table) {
   return good;
 }
 
-static bool parse(SbModelSeries *out, bool speed, const char *text, size_t length, const char *name,
-                  GPtrArray *issues) {
+static bool parse(SbModelSeries *out, bool speed, bool temperature, const char *text, size_t length,
+                  const char *name, GPtrArray *issues) {
   out->count = 0;
-  Reader r = {.name = name, .issues = issues, .speed = speed, .out = out};
+  Reader r = {
+      .name = name, .issues = issues, .speed = speed, .temperature = temperature, .out = out};
   g_autoptr(SbTable) table = sb_table_parse(text, length, NULL, name, issues);
   bool good = table != NULL;
   if (good && sb_table_columns(table) != COLUMNS) {
@@ -135,20 +157,25 @@ static bool parse(SbModelSeries *out, bool speed, const char *text, size_t lengt
 
 bool sb_series_parse(SbModelSeries *out, const char *text, size_t length, const char *name,
                      GPtrArray *issues) {
-  return parse(out, false, text, length, name, issues);
+  return parse(out, false, false, text, length, name, issues);
 }
 
-static bool read_file(SbModelSeries *out, bool speed, const char *path, GPtrArray *issues) {
+static bool read_file(SbModelSeries *out, bool speed, bool temperature, const char *path,
+                      GPtrArray *issues) {
   size_t length = 0;
   out->count = 0;
   g_autofree char *text = sb_reader_load(&length, path, path, SB_SERIES_BYTES_MAX, issues);
-  return text != NULL && parse(out, speed, text, length, path, issues);
+  return text != NULL && parse(out, speed, temperature, text, length, path, issues);
 }
 
 bool sb_series_read(SbModelSeries *out, const char *path, GPtrArray *issues) {
-  return read_file(out, false, path, issues);
+  return read_file(out, false, false, path, issues);
 }
 
 bool sb_series_read_speed(SbModelSeries *out, const char *path, GPtrArray *issues) {
-  return read_file(out, true, path, issues);
+  return read_file(out, true, false, path, issues);
+}
+
+bool sb_series_read_temperature(SbModelSeries *out, const char *path, GPtrArray *issues) {
+  return read_file(out, false, true, path, issues);
 }

@@ -19,6 +19,9 @@ bool sb_series_read(SbModelSeries *out, const char *path, GPtrArray *issues);
 // The same for "speed [m/s]" in the second column; quantity is left as it is.
 SB_CHECKED bool sb_series_read_speed(SbModelSeries *out, const char *path, GPtrArray *issues);
 
+// And for "temperature [degC]", a shelf's, over times up to 3.2e9 s.
+bool sb_series_read_temperature(SbModelSeries *out, const char *path, GPtrArray *issues);
+
 // The first from memory; `name` stands for the file in messages.
 SB_CHECKED bool sb_series_parse(SbModelSeries *out, const char *text, size_t length,
                                 const char *name, GPtrArray *issues);

@@ -415,6 +415,12 @@ static SbStatus complete(SbModel *out, const SbParams *params, const SbModelData
            "drive.kind = measured needs the CSV file of a measured series");
     return SB_ERROR_INPUT;
   }
+  if (sb_params_get(params, SB_P_SHELF_HISTORY) == SB_SHELF_FILE &&
+      (data == NULL || data->shelf.count == 0)) {
+    refuse(problems, "shelf.file", NAN, NAN,
+           "shelf.history = file needs the CSV file of temperatures over time");
+    return SB_ERROR_INPUT;
+  }
   const SbLimits none = {0}, kept = limits != NULL ? *limits : none; // it may be out's
   SbStatus status = sb_model_compile(out, params, problems);
   if (status == SB_OK) {

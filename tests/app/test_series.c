@@ -158,6 +158,39 @@ static void test_document(void) {
   g_rmdir(folder);
 }
 
+// Temperatures of a shelf: degrees of either scale, in a document that names them and moves.
+static void test_shelf(void) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autofree char *folder = g_dir_make_tmp("shelf-XXXXXX", NULL);
+  g_autofree char *csv = g_build_filename(folder, "t.csv", NULL);
+  g_autofree char *valve = g_build_filename(folder, "a.valve", NULL);
+  g_assert_true(g_file_set_contents(csv, "time [day],temperature [degC]\n0,5\n100,40\n", -1, NULL));
+  g_assert_true(sb_series_read_temperature(&series, csv, issues));
+  g_assert_cmpuint(series.count, ==, 2);
+  ASSERT_NEAR(series.time[1], 100 * 86400.0, 1e-6);
+  ASSERT_NEAR(series.value[1], 313.15, 1e-9);
+  g_assert_true(g_file_set_contents(csv, "time [h],temperature [K]\n0,280\n9,600\n", -1, NULL));
+  g_assert_false(sb_series_read_temperature(&series, csv, issues));
+  g_assert_cmpuint(issues->len, ==, 1);
+  g_assert_true(g_file_set_contents(csv, "time [day],temperature [degC]\n0,5\n100,40\n", -1, NULL));
+  static const char text[] = "[sealbench]\nformat = 1\nkind = valve\n[shelf]\nhistory = file\n%s";
+  for (int named = 0; named < 2; named++) {
+    g_autofree char *content = g_strdup_printf(text, named ? "file = t.csv\n" : "");
+    g_assert_true(g_file_set_contents(valve, content, -1, NULL));
+    g_autoptr(GPtrArray) found = sb_issues_new();
+    SbDocument *document = sb_document_load(valve, found);
+    g_assert_cmpuint(found->len, ==, named ? 0 : 1);
+    if (!named) {
+      g_autofree char *line = sb_issue_line(found->pdata[0]);
+      g_assert_nonnull(strstr(line, "[shelf] file"));
+    }
+    sb_document_free(document);
+  }
+  g_remove(csv);
+  g_remove(valve);
+  g_rmdir(folder);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/series/read", test_read);
@@ -165,5 +198,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/series/followed", test_followed);
   g_test_add_func("/series/outlives", test_outlives);
   g_test_add_func("/series/document", test_document);
+  g_test_add_func("/series/shelf", test_shelf);
   return g_test_run();
 }
