@@ -42,7 +42,9 @@ static void refuse_range(SbStudyReader *reader, const SbEntry *entry, double lea
                          const char *unit) {
   g_autofree char *range =
       g_strdup_printf("%g to %g%s%s", least, most, *unit != '\0' ? " " : "", unit);
-  sb_study_complain(reader, entry, range, "is out of range or no such number");
+  g_autofree char *text =
+      g_strdup_printf("\"%.60s\" is out of range or no such number", entry->value);
+  sb_study_complain(reader, entry, range, text);
 }
 
 void sb_study_read_leakage(SbStudyReader *reader, const SbEntry *entry) {

@@ -49,6 +49,15 @@ static void test_refused(void) {
       {"[vary]\nsurface.gt_product = loguniform 0 .. 0.2" STUDY, "surface.gt_product"},
       {"[vary]\nfluid.name = uniform custom .. hfa-134a" STUDY, "only levels suit a choice"},
       {"[vary]\nfluid.name = levels hfa-134b" STUDY, "fluid.name"},
+      {"[vary]\n" LEVELS
+       "\n[study]\nmethod = monte-carlo\nsamples = 100\n[leakage_test]\nmean = 5 m\n"
+       "temperature = 20 °C\n",
+       "[leakage_test] mean: \"5 m\" is out of range or no such number (allowed 0 to 1e+07 mg)"},
+      {"[vary]\n" LEVELS "\n[study]\nmethod = monte-carlo\nsamples = 100\n[leakage_test]\n"
+       "temperature = 25 °C\n",
+       "the test is at 25.0 °C and the scene's canister.temperature 20.0 °C"},
+      {"[vary]\n" LEVELS "\n[study]\nmethod = grid\n[leakage_test]\ntemperature = 20 °C\n",
+       "a leakage test draws its cans"},
       {STUDY, "vary: nothing varies"},
       {"[vary]\n" LEVELS, "samples: is missing"},
       {"[vary]\n" LEVELS "[study]\nsamples = 0\n", "is no number of samples"},
