@@ -177,6 +177,11 @@ static void add_toolbar(Page *page) {
   page->item =
       sb_toolbar_combo(GTK_BOX(bar), (const char *const *)titles->pdata, (int)titles->len,
                        _("Table or figure"), _("Table or figure of the thesis, computed anew"));
+  // Titles are long; the page asks for no more width than others do.
+  g_autoptr(GList) cells = gtk_cell_layout_get_cells(GTK_CELL_LAYOUT(page->item));
+  for (GList *cell = cells; cell != NULL; cell = cell->next) {
+    g_object_set(cell->data, "ellipsize", PANGO_ELLIPSIZE_END, "width-chars", 30, NULL);
+  }
   gtk_combo_box_set_active(GTK_COMBO_BOX(page->item), 0);
   g_signal_connect_swapped(page->item, "changed", G_CALLBACK(start), page);
   page->message = sb_style_label(NULL, "sb-warn", 0);

@@ -619,7 +619,8 @@ static void sb_window_init(SbWindow *window) {
                        "calibrate", _("Calibrate"));
   gtk_stack_add_titled(GTK_STACK(window->pages), sb_propellants_page_new(window->session),
                        "propellants", _("Propellants"));
-  gtk_stack_add_titled(GTK_STACK(window->pages), sb_thesis_page_new(), "thesis", _("Thesis"));
+  // Without a title, and so without a tab, for which a narrow header has no room: by the menu.
+  gtk_stack_add_named(GTK_STACK(window->pages), sb_thesis_page_new(), "thesis");
   window->files = sb_window_files_new_for(GTK_WINDOW(window), window->session,
                                           GTK_MENU_BUTTON(window->recent_button));
   sb_section_view_add_start(window->section, sb_window_files_start(window->files));
