@@ -5,6 +5,7 @@
 #include "app/export/study_results.h"
 
 #include "engine/numeric/statistics.h"
+#include "engine/valve/shelf.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -243,6 +244,12 @@ static int print_table(const SbStudyFile *study, const SbStudyDrawn *drawn,
   SbStatus status = print_limits(study, drawn, answers, &report);
   if (status == SB_OK && study->leakage_tests > 0) {
     status = print_leakage(study, answers, &report);
+  }
+  for (int i = 0; i < SB_SHELF_TYPICAL; i++) {
+    g_autofree char *text = sb_study_typical(study, i);
+    if (text != NULL) {
+      printf("  %s\n", text);
+    }
   }
   return sb_cli_status(status, &report);
 }

@@ -15,8 +15,8 @@ char *sb_shipped_find(const char *name);
 // Path of the study file NAME.study that ships; NULL if there is none. Owned by the caller.
 char *sb_shipped_study(const char *name);
 
-// Folder of the thesis' tables and figures (app/study/thesis_item.h); NULL if there is none. Owned by
-// the caller.
+// Folder of the thesis' tables and figures (app/study/thesis_item.h); NULL if there is none. Owned
+// by the caller.
 char *sb_shipped_thesis(void);
 
 // Folder of runs that were solved when the program was built (app/session/stored_run.h); NULL if

@@ -4,6 +4,7 @@
 #include "app/export/json.h"
 
 #include "engine/numeric/statistics.h"
+#include "engine/valve/shelf.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -322,6 +323,41 @@ static SbStatus put_leakage(SbJson *json, const SbStudyFile *study, const SbAnsw
   return status;
 }
 
+char *sb_study_typical(const SbStudyFile *study, int which) {
+  char text[240];
+  const char *key = NULL;
+  for (guint k = 0; k < study->figures->len && key == NULL; k++) {
+    const char *path = sb_figure(g_array_index(study->figures, int, k))->path;
+    const bool water = strstr(path, "moisture") != NULL;
+    if (g_str_has_prefix(path, "shelf.") && water == (which == 1)) {
+      key = sb_shelf_typical(text, sizeof text, study->base, which);
+    }
+  }
+  for (guint k = 0; k < study->vary->len && key != NULL; k++) {
+    const SbVary *vary = &g_array_index(study->vary, SbVary, k);
+    if (vary->id != SB_VARY_VARIABLE && strcmp(sb_param(vary->id)->key, key) == 0) {
+      return NULL; // the samples have their own
+    }
+  }
+  return key != NULL ? g_strdup(text) : NULL;
+}
+
+// What the figures rest on that nobody measured; nothing where there is none.
+static void put_typical(SbJson *json, const SbStudyFile *study) {
+  g_autofree char *loss = sb_study_typical(study, 0), *water = sb_study_typical(study, 1);
+  if (loss == NULL && water == NULL) {
+    return;
+  }
+  sb_json_array(json, "typical");
+  for (int i = 0; i < SB_SHELF_TYPICAL; i++) {
+    const char *text = i == 0 ? loss : water;
+    if (text != NULL) {
+      sb_json_string(json, NULL, text);
+    }
+  }
+  sb_json_array_end(json);
+}
+
 // Why samples failed, the first hundred of them.
 static void put_failures(SbJson *json, const SbAnswers *answers) {
   enum { MOST = 100 };
@@ -366,6 +402,7 @@ char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const S
   if (status == SB_OK && study->leakage_tests > 0) {
     status = put_leakage(&json, study, answers, report);
   }
+  put_typical(&json, study);
   put_failures(&json, answers);
   sb_json_object_end(&json);
   char *text = sb_json_finish(&json);

@@ -68,5 +68,10 @@ typedef struct {
   } point[SB_SHELF_POINTS];
 } SbShelf;
 
+// Says which figure that is not measured, but typical of such rubbers, propellant (0) or water (1)
+// rests on; its key, or NULL (and nothing said) where there is none.
+enum { SB_SHELF_TYPICAL = 2 };
+const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int which);
+
 // What of it is asked for.
 typedef enum { SB_SHELF_NOTHING, SB_SHELF_RATES, SB_SHELF_OVER_TIME } SbShelfDepth;

@@ -166,8 +166,9 @@ static void slopes(Slopes *out, const Base *base, int what, double h, bool follo
     out->fault += result.fault / h / 2;
     tangent[side] = nodal_load(linear);
     out->load = tangent[side];
-    g_assert_cmpint(follows ? sb_ring_newton(linear, SB_RING_DIRECT, NULL)
-                            : sb_ring_near(&near, base->ring, NULL, &body, &load, &base->options, NULL),
+    g_assert_cmpint(follows
+                        ? sb_ring_newton(linear, SB_RING_DIRECT, NULL)
+                        : sb_ring_near(&near, base->ring, NULL, &body, &load, &base->options, NULL),
                     ==, SB_OK);
     const SbRing *exact = follows ? linear : near;
     out->same = out->same && same_set(exact, base->ring);
@@ -244,7 +245,8 @@ static void test_follows(void) {
     SbRingLoad load;
     SbRing *ring;
     change(&body, &load, &base, SECTION, sign * FAR);
-    g_assert_cmpint(sb_ring_near(&ring, base.ring, NULL, &body, &load, &base.options, NULL), ==, SB_OK);
+    g_assert_cmpint(sb_ring_near(&ring, base.ring, NULL, &body, &load, &base.options, NULL), ==,
+                    SB_OK);
     sb_ring_result(ring, &solved[side]);
     sb_ring_destroy(ring);
     change(&body, &load, &base, SECTION, sign * NEAR);

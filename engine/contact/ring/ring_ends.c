@@ -66,8 +66,8 @@ static bool find_side(int *out, const SbRing *ring, int node, int axis, double p
   return false;
 }
 
-// Material angle of a place on a side, or up to its half beyond its nodes; farther away, on the side
-// there. Not a number: none.
+// Material angle of a place on a side, or up to its half beyond its nodes; farther away, on the
+// side there. Not a number: none.
 static double angle_on(const SbRing *ring, int side, int axis, double place) {
   double z[3], angle[3], n[3], d[3];
   side_of(ring, side, axis, z, angle);

@@ -35,24 +35,30 @@ static void fill(SbShelf *out, const SbModel *model, int seal, const SbShelfRest
                                   .state = rates->state};
 }
 
-static bool is_typical(const SbModel *model, SbParamId id, SbParamDefault *out) {
-  return sb_model_default(out, model, id) && out->tag != NULL && strcmp(out->tag, "typical") == 0;
+const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int which) {
+  static const struct {
+    SbParamId id;
+    const char *what;
+  } figures[SB_SHELF_TYPICAL] = {{SB_P_RUBBER_PERMEABILITY, "loss by permeation"},
+                                 {SB_P_RUBBER_WATER_PERMEABILITY, "moisture"}};
+  SbParamDefault from;
+  if (!sb_model_default(&from, model, figures[which].id) || from.tag == NULL ||
+      strcmp(from.tag, "typical") != 0) {
+    return NULL;
+  }
+  sb_text(text, size, "the %s rests on a figure typical of %s, no measurement: %.110s",
+          figures[which].what, from.name != NULL ? from.name : "such rubbers", from.source);
+  return sb_param(figures[which].id)->key;
 }
 
 // What the figures rest on that is no measurement of this rubber.
 static void warn_typical(SbShelf *out, SbWarnings *warnings, const SbModel *model) {
-  static const struct {
-    SbParamId id;
-    const char *what;
-  } figures[] = {{SB_P_RUBBER_PERMEABILITY, "loss by permeation"},
-                 {SB_P_RUBBER_WATER_PERMEABILITY, "moisture"}};
-  for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
-    SbParamDefault from;
-    if (is_typical(model, figures[i].id, &from)) {
+  for (int i = 0; i < SB_SHELF_TYPICAL; i++) {
+    char text[240];
+    const char *key = sb_shelf_typical(text, sizeof text, model, i);
+    if (key != NULL) {
       out->typical = true;
-      sb_warn(warnings, "shelf-typical", sb_param(figures[i].id)->key,
-              "the %s rests on a figure typical of %s, no measurement: %.110s", figures[i].what,
-              from.name != NULL ? from.name : "such rubbers", from.source);
+      sb_warn(warnings, "shelf-typical", key, "%s", text);
     }
   }
 }
