@@ -42,17 +42,18 @@ typedef struct {
 
 // How a row stands: to the printed digits; within what the reasons may leave, all their parts
 // computed; the same, or with `remains = unknown` more, the part of a reason not known; nothing
-// printed; a difference without a reason or beyond what the reasons may leave, or no value where
-// there should be one.
+// printed, or, as its row says, nothing computed; a difference without a reason or beyond what the
+// reasons may leave, or no value where there should be one.
 typedef enum {
   SB_THESIS_AGREES,
   SB_THESIS_EXPLAINED,
   SB_THESIS_NAMED,
   SB_THESIS_NOT_PRINTED,
+  SB_THESIS_NOT_COMPUTED,
   SB_THESIS_FAILS
 } SbThesisVerdict;
 
-// "agrees", "explained", "named", "not printed", "fails"; borrowed.
+// "agrees", "explained", "named", "not printed", "not computed", "fails"; borrowed.
 const char *sb_thesis_verdict_name(SbThesisVerdict verdict);
 
 typedef struct {

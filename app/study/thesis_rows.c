@@ -10,7 +10,8 @@
 #define SAME 1e-6
 
 const char *sb_thesis_verdict_name(SbThesisVerdict verdict) {
-  static const char *const names[] = {"agrees", "explained", "named", "not printed", "fails"};
+  static const char *const names[] = {"agrees",      "explained",    "named",
+                                      "not printed", "not computed", "fails"};
   return (unsigned)verdict < G_N_ELEMENTS(names) ? names[verdict] : "";
 }
 
@@ -171,7 +172,9 @@ static void judge(SbThesisRow *row, double most) {
   } else if (!isfinite(row->printed)) {
     row->verdict = SB_THESIS_NOT_PRINTED;
     return;
-  } else if (!isfinite(ours) || fabs(row->difference) <= slack) {
+  } else if (!isfinite(ours)) {
+    row->verdict = SB_THESIS_NOT_COMPUTED;
+  } else if (fabs(row->difference) <= slack) {
     row->verdict = SB_THESIS_AGREES;
   } else if (row->reasons->len == 0) {
     row->fault = g_strdup("a difference without a reason");

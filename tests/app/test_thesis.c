@@ -90,6 +90,8 @@ static void test_verdicts(void) {
        "consistent = ours: 2 * seals.outer.squeeze\nmodel.1 = twice | meson test engine-disc\n",
        SB_THESIS_AGREES, 0.15528 - 0.1553},
       {"0.1553", "[rows squeeze]\nprinted = squeeze\n", SB_THESIS_FAILS, NAN},
+      {"0.1553", "[rows squeeze]\nprinted = squeeze\nthesis = none elsewhere\n",
+       SB_THESIS_NOT_COMPUTED, NAN},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GPtrArray) issues = sb_issues_new();
