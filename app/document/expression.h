@@ -2,8 +2,8 @@
 // "seal.section_diameter + 0.02 mm".
 //
 // + - * / with their usual precedence, parentheses, min(A; B), max(A; B), pow(A; B), and
-// sin, cos, tan, atan, exp and ln of (A), over names and numbers. A number with a unit is a quantity of the dimension that the whole has; the others have
-// none.
+// sin, cos, tan, atan, exp and ln of (A), over names and numbers. A number with a unit is a
+// quantity of the dimension that the whole has; the others have none.
 #pragma once
 
 #include <glib.h>

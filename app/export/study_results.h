@@ -23,8 +23,9 @@ const char *sb_study_status_name(uint8_t status);
 void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
                   const SbAnswers *answers);
 
-// What the study's figures of the shelf rest on that is typical of such rubbers and not measured, of
-// propellant (0) or water (1); owned by the caller, NULL: nothing, or the samples have their own.
+// What the study's figures of the shelf rest on that is typical of such rubbers and not measured,
+// of propellant (0) or water (1); owned by the caller, NULL: nothing, or the samples have their
+// own.
 char *sb_study_typical(const SbStudyFile *study, int which);
 
 // The contract's JSON. Owned by the caller; NULL without memory.

@@ -34,8 +34,8 @@
 struct _SbWindow {
   GtkApplicationWindow parent_instance;
   SbSession *session; // owned
-  GtkWidget *header, *document_title, *document_file, *pages, *recent_button, *run_button,
-      *run_icon, *run_label, *document_box, *export_label, *model_switch;
+  GtkWidget *header, *document_title, *document_file, *pages, *switcher, *recent_button,
+      *run_button, *run_icon, *run_label, *document_box, *export_label, *model_switch;
   GtkWidget *run_state_icon, *run_state_label, *run_progress;
   GtkWidget *undo_button, *redo_button, *valve_page, *columns, *views, *left_column, *centre_column,
       *right_column, *bottom;
@@ -505,6 +505,7 @@ static void sb_window_class_init(SbWindowClass *class) {
   CHILD(document_title);
   CHILD(document_file);
   CHILD(pages);
+  CHILD(switcher);
   CHILD(recent_button);
   CHILD(run_button);
   CHILD(run_icon);
@@ -621,6 +622,9 @@ static void sb_window_init(SbWindow *window) {
                        "propellants", _("Propellants"));
   // Without a title, and so without a tab, for which a narrow header has no room: by the menu.
   gtk_stack_add_named(GTK_STACK(window->pages), sb_thesis_page_new(), "thesis");
+  g_autoptr(GList) tabs =
+      gtk_container_get_children(GTK_CONTAINER(window->switcher)); // the last is hidden
+  sb_style_name(GTK_WIDGET(g_list_last(tabs)->data), _("Thesis"), NULL);
   window->files = sb_window_files_new_for(GTK_WINDOW(window), window->session,
                                           GTK_MENU_BUTTON(window->recent_button));
   sb_section_view_add_start(window->section, sb_window_files_start(window->files));
