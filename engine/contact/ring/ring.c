@@ -283,7 +283,7 @@ void sb_ring_destroy(SbRing *ring) {
   }
 }
 
-bool sb_ring_outgrown(const SbRing *ring) {
+bool sb_ring_outgrown(const SbRing *ring, double most) {
   SbRingPatch patch;
   double moved = 0.0;
   if (ring->fitted_size > 0.0 && sb_ring_patch(ring, SB_RING_BORE, &patch)) {
@@ -291,7 +291,7 @@ bool sb_ring_outgrown(const SbRing *ring) {
       moved = fmax(moved, 0.5 * fabs(patch.angle[k] - ring->fitted_end[k]));
     }
   }
-  return moved > OUTGROWN * ring->fitted_size;
+  return moved > most * ring->fitted_size;
 }
 
 const SbRingLoad *sb_ring_load(const SbRing *ring) {
@@ -499,7 +499,7 @@ static SbStatus slide_on(SbRing *ring, const SbRingLoad *target, SbReport *repor
     status = slide_at_once(ring, target, report);
     fresh.count = ring->count;
   }
-  bool moved = status == SB_OK && sb_ring_outgrown(ring);
+  bool moved = status == SB_OK && sb_ring_outgrown(ring, OUTGROWN);
   ring->count.steps += status == SB_OK ? 1 : 0;
   if (status == SB_ERROR_NOT_CONVERGED) {
     fresh.count.rejected++;

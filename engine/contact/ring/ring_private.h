@@ -109,8 +109,9 @@ void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *lo
 SbStatus sb_ring_beside(SbRing **out, const SbRing *ring, SbReport *report);
 SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report);
 
-// Whether the bore contact's ends have left the short elements that its mesh has for them.
-bool sb_ring_outgrown(const SbRing *ring);
+// Whether the bore contact's ends have left the short elements that its mesh has for them: moved by
+// more than `most` of the size of the others.
+bool sb_ring_outgrown(const SbRing *ring, double most);
 
 // The ring's state on a mesh fitted to its contacts, in `fresh`, which has no mesh of its own yet
 // and keeps none where that fails. `edge`: size of the elements at the contacts' ends over that of
