@@ -43,7 +43,7 @@ static const struct {
 } kinds[] = {
     {N_("Force and displacement"), 190, 260, 50}, {N_("Contact pressure"), 132, 178, 80},
     {N_("Film thickness"), 132, 178, 80},         {N_("Life"), 176, 230, 1000},
-    {N_("Loss on the shelf"), 224, 260, 1000},    {N_("Why they differ"), 224, 224, 1000},
+    {N_("Loss on the shelf"), 300, 420, 1000},    {N_("Why they differ"), 224, 224, 1000},
 };
 
 // Model of the run shown; before the first run, of the values.

@@ -68,7 +68,10 @@ static char *figure_text(const SbSummary *summary, int kind, const SbVerdict *ve
     return g_strdup(kind == SB_VERDICT_LEAK ? "" : _("not known"));
   }
   char shown[SB_FORMAT_MAX];
-  g_autofree char *own = value == sb_figure_value(summary, figure)
+  // The short form knows the units of lengths, forces and their like, not that of a loss a year.
+  const char *unit = sb_figure(figure)->shown;
+  const bool brief = *unit == '\0' || sb_quantity_of_unit(unit) != SB_QUANTITY_NUMBER;
+  g_autofree char *own = brief && value == sb_figure_value(summary, figure)
                              ? g_strdup(sb_format_figure(shown, summary, figure))
                              : shown_value(figure, value);
   if (isnan(verdict->limit) || verdict->figure < 0) {
