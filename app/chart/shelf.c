@@ -9,6 +9,12 @@
 
 static const double YEAR = 365 * 86400.0;
 
+// Propellant lost by all paths that there are.
+static double sum_of(const SbShelf *shelf, size_t i) {
+  const double plastic = shelf->point[i].plastic;
+  return shelf->point[i].permeated + shelf->point[i].passed + (isnan(plastic) ? 0 : plastic);
+}
+
 // Curves over time of the three ways out.
 static void fill_losses(SbStudy *study, const SbShelf *shelf) {
   SbStudyPanel *sums = sb_study_panel(study, &(SbStudyAxis){"lost, summed", "kg", "mg", false},
@@ -23,11 +29,13 @@ static void fill_losses(SbStudy *study, const SbShelf *shelf) {
   double before = 0;
   for (size_t i = 0; i < shelf->points; i++) {
     const double time = shelf->point[i].time;
-    const double sum = shelf->point[i].permeated + shelf->point[i].passed + shelf->point[i].plastic;
+    const double sum = sum_of(shelf, i);
     sb_study_point(all, time, sum);
     sb_study_point(rubber, time, shelf->point[i].permeated);
     sb_study_point(contact, time, shelf->point[i].passed);
-    sb_study_point(plastic, time, shelf->point[i].plastic);
+    if (!isnan(shelf->point[i].plastic)) {
+      sb_study_point(plastic, time, shelf->point[i].plastic);
+    }
     if (i > 0) {
       const double step = time - shelf->point[i - 1].time;
       sb_study_point(rate, time - step / 2, (sum - before) / step * YEAR);
@@ -55,8 +63,9 @@ static void fill_rest(SbStudy *study, const SbShelf *shelf) {
 static void fill_table(SbStudy *study, const SbShelf *shelf) {
   static const char *const names[] = {"rubber", "contact", "plastic", "sum"};
   const size_t last = shelf->points - 1;
-  const double year[] = {YEAR * (shelf->permeation - shelf->plastic), YEAR * shelf->interface,
-                         YEAR * shelf->plastic, shelf->loss_per_year};
+  const double rubber = shelf->permeation - (isnan(shelf->plastic) ? 0 : shelf->plastic);
+  const double year[] = {YEAR * rubber, YEAR * shelf->interface, YEAR * shelf->plastic,
+                         shelf->loss_per_year};
   const double time[] = {shelf->point[last].permeated, shelf->point[last].passed,
                          shelf->point[last].plastic, shelf->loss};
   static const struct {

@@ -39,6 +39,12 @@ const char *sb_shelf_lacks_interface(const SbModel *model) {
                "near full contact (models.surface = persson does)";
 }
 
+const char *sb_shelf_lacks_plastic(const SbModel *model) {
+  return model->shelf.plastic_length > 0
+             ? NULL
+             : "no path through the plastic is given (housing.permeation_length)";
+}
+
 static double arrhenius(const SbModel *model, double energy) {
   return exp(-energy / GAS_CONSTANT *
              (1 / model->temperature - 1 / model->rubber.reference_temperature));

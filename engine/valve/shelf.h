@@ -40,7 +40,8 @@ typedef struct {
   double season, day; // [K]
 } SbShelfInput;
 
-// One seal at rest; NaN: not computed. A seal without pressure across it passes nothing.
+// One seal at rest; NaN: not computed, as all of a seal without pressure across it, which passes
+// nothing.
 typedef struct {
   double conductance;      // S_g [m]
   double permeation;       // [kg/s]
@@ -51,7 +52,8 @@ typedef struct {
   SbLeakState state;
 } SbShelfSeal;
 
-// A whole can. Members are figures of figures.def ("shelf...."); NaN: not computed.
+// A whole can. Members are figures of figures.def ("shelf...."); NaN: not computed. Without a
+// path through the plastic its members are NaN and the sums are the seals'.
 typedef struct {
   double temperature, permeation, interface, plastic, loss_per_year, moisture_per_year, lag;
   double loss, moisture, mass_left, doses_left; // after shelf.time

@@ -194,7 +194,7 @@ static void sum_up(SbShelf *out, const SbModel *model, const Tables *t) {
                                       : sb_shelf_temperature(model, 0);
     out->point[i].permeated = sum[0];
     out->point[i].passed = sum[1];
-    out->point[i].plastic = sum[2];
+    out->point[i].plastic = sb_shelf_lacks_plastic(model) == NULL ? sum[2] : NAN;
     out->point[i].moisture = sum[3];
     out->point[i].doses = doses_of(model, filled - sum[0] - sum[1] - sum[2]);
   }

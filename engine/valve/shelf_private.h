@@ -38,10 +38,12 @@ SbStatus sb_shelf_rest(SbShelfRest *out, const SbModel *model, int seal, bool (*
 // At the model's temperature and pressure.
 void sb_shelf_rates(SbShelfRates *out, const SbModel *model, const SbShelfRest *rest);
 
-// Why there is no permeation, no water's, no flow along the contact; NULL: there is.
+// Why there is no permeation, no water's, no flow along the contact, no path through the plastic
+// (which then counts as none); NULL: there is.
 const char *sb_shelf_lacks_permeability(const SbModel *model);
 const char *sb_shelf_lacks_water(const SbModel *model);
 const char *sb_shelf_lacks_interface(const SbModel *model);
+const char *sb_shelf_lacks_plastic(const SbModel *model);
 
 // D at the model's temperature [m2/s].
 double sb_shelf_diffusivity(const SbModel *model);

@@ -9,10 +9,9 @@
 
 static const double YEAR = 365 * 86400.0;
 
-// A seal that has the same pressures on both sides passes nothing.
+// A seal that has the same pressures on both sides passes nothing; it is not computed.
 static void idle_seal(SbShelfSeal *out) {
-  *out = (SbShelfSeal){
-      .conductance = NAN, .contact_pressure = NAN, .sensitivity = 0, .state = SB_LEAK_NOT_COMPUTED};
+  *out = (SbShelfSeal){NAN, NAN, NAN, NAN, NAN, NAN, SB_LEAK_NOT_COMPUTED};
 }
 
 static void fill(SbShelf *out, const SbModel *model, int seal, const SbShelfRest *rest,
@@ -21,7 +20,7 @@ static void fill(SbShelf *out, const SbModel *model, int seal, const SbShelfRest
   out->lag = rest->lag / sb_shelf_diffusivity(model);
   out->error = rest->error;
   out->permeation = rates->permeation + rates->plastic;
-  out->plastic = rates->plastic;
+  out->plastic = sb_shelf_lacks_plastic(model) == NULL ? rates->plastic : NAN;
   out->interface = rates->interface;
   out->loss_per_year = YEAR * (out->permeation + out->interface);
   out->moisture_per_year = YEAR * (rates->moisture + rates->plastic_moisture);
@@ -68,16 +67,15 @@ static void give_reasons(SbSummary *summary, const SbModel *model, int seal) {
   const char *const lacks[] = {sb_shelf_lacks_permeability(model), sb_shelf_lacks_water(model),
                                sb_shelf_lacks_interface(model)};
   char name[64];
-  snprintf(name, sizeof name, "shelf.seals.%s.conductance_m",
-           sb_seal_name(SB_SEAL_COUNT - 1 - seal));
-  sb_reason(summary, name, "no pressure stands across this seal at rest");
-  snprintf(name, sizeof name, "shelf.seals.%s.contact_pressure_Pa",
-           sb_seal_name(SB_SEAL_COUNT - 1 - seal));
+  sb_text(name, sizeof name, "shelf.seals.%s*", sb_seal_name(SB_SEAL_COUNT - 1 - seal));
   sb_reason(summary, name, "no pressure stands across this seal at rest");
   if (shelf->seal[seal].state == SB_LEAK_OPEN) {
     sb_reason(summary, "shelf.*", "the %s seal is open: nothing holds the propellant",
               sb_seal_name(seal));
     return;
+  }
+  if (sb_shelf_lacks_plastic(model) != NULL) {
+    sb_reason(summary, "shelf.plastic_kg_per_s", "%s", sb_shelf_lacks_plastic(model));
   }
   if (isnan(shelf->error)) {
     sb_reason(summary, "solver.error_estimate.permeation",
