@@ -172,37 +172,42 @@ static void put_basis(SbJson *json, const char *key, const SbModel *model, SbPar
   sb_json_object_end(json);
 }
 
-// One column of the shelf's history.
+// One column of the shelf's history, and the figure that says why it is empty.
 typedef struct {
-  const char *key;
+  const char *key, *figure;
   size_t offset; // in a point
 } ShelfColumn;
 
+#define AT(member) (offsetof(SbShelf, point[0].member) - offsetof(SbShelf, point[0]))
+static const ShelfColumn shelf_columns[] = {
+    {"time_s", NULL, AT(time)},
+    {"temperature_K", NULL, AT(temperature)},
+    {"permeated_kg", "shelf.permeation_kg_per_s", AT(permeated)},
+    {"interface_kg", "shelf.interface_kg_per_s", AT(passed)},
+    {"plastic_kg", "shelf.plastic_kg_per_s", AT(plastic)},
+    {"moisture_kg", "shelf.moisture_kg_per_year", AT(moisture)},
+    {"doses_left", "shelf.doses_left", AT(doses)},
+};
+#undef AT
+
+static double shelf_value(const SbShelf *shelf, const ShelfColumn *column, size_t point) {
+  return *(const double *)((const char *)&shelf->point[point] + column->offset);
+}
+
 static void put_shelf(SbJson *json, const SbRun *run) {
   const SbShelf *shelf = &sb_run_summary(run)->shelf;
-#define AT(member) (offsetof(SbShelf, point[0].member) - offsetof(SbShelf, point[0]))
-  static const ShelfColumn columns[] = {
-      {"time_s", AT(time)},
-      {"temperature_K", AT(temperature)},
-      {"permeated_kg", AT(permeated)},
-      {"interface_kg", AT(passed)},
-      {"plastic_kg", AT(plastic)},
-      {"moisture_kg", AT(moisture)},
-      {"doses_left", AT(doses)},
-  };
-#undef AT
   sb_json_object(json, "shelf");
   put_figures(json, sb_run_summary(run), "shelf.");
   put_basis(json, "permeability", sb_run_model(run), SB_P_RUBBER_PERMEABILITY);
   put_basis(json, "water_permeability", sb_run_model(run), SB_P_RUBBER_WATER_PERMEABILITY);
   if (shelf->points > 0) {
     sb_json_object(json, "history");
-    for (size_t c = 0; c < G_N_ELEMENTS(columns); c++) {
+    for (size_t c = 0; c < G_N_ELEMENTS(shelf_columns); c++) {
       double values[SB_SHELF_POINTS];
       for (size_t i = 0; i < shelf->points; i++) {
-        values[i] = *(const double *)((const char *)&shelf->point[i] + columns[c].offset);
+        values[i] = shelf_value(shelf, &shelf_columns[c], i);
       }
-      sb_json_numbers(json, columns[c].key, values, shelf->points);
+      sb_json_numbers(json, shelf_columns[c].key, values, shelf->points);
     }
     sb_json_object_end(json);
   }
@@ -256,6 +261,14 @@ static void put_reasons(SbJson *json, const SbRun *run) {
       g_autofree char *state =
           g_strdup_printf("%.*s.state", (int)(strrchr(path, '.') - path), path);
       sb_json_string(json, state, reason);
+    }
+  }
+  for (size_t c = 0; summary->shelf.points > 0 && c < G_N_ELEMENTS(shelf_columns); c++) {
+    const ShelfColumn *column = &shelf_columns[c];
+    if (column->figure != NULL &&
+        isnan(shelf_value(&summary->shelf, column, summary->shelf.points - 1))) {
+      g_autofree char *path = g_strconcat("shelf.history.", column->key, NULL);
+      sb_json_string(json, path, sb_figure_reason(summary, sb_figure_find(column->figure)));
     }
   }
   if (summary->life.done > 0) {
