@@ -4,6 +4,7 @@
 // Whatever leaves rows out unfolds the groups of those that stay.
 #include "ui/params/param_panel.h"
 
+#include "app/session/param_list.h"
 #include "ui/params/param_row.h"
 #include "ui/params/rubber_row.h"
 #include "ui/views/style.h"
@@ -35,71 +36,22 @@ struct _SbParamPanel {
 
 G_DEFINE_TYPE(SbParamPanel, sb_param_panel, GTK_TYPE_BOX)
 
-// Headings by key prefix. A prefix that is not here gets its own name with a capital.
-static const struct {
-  const char *prefix, *title, *note;
-  gboolean unfolded;
-} headings[] = {
-    {"seal.outer.", N_("Outer seal only"), NULL, FALSE},
-    {"seal.inner.", N_("Inner seal only"), NULL, FALSE},
-    {"seal.", N_("Seals"), N_("both"), TRUE},
-    {"gland.", N_("Gland"), NULL, TRUE},
-    {"canister.", N_("Canister"), NULL, TRUE},
-    {"fluid.name", N_("Canister"), NULL, TRUE}, // beside its temperature
-    {"fluid.ethanol", N_("Canister"), NULL, TRUE},
-    {"surface.", N_("Surface"), NULL, TRUE},
-    {"drive.", N_("Drive"), NULL, TRUE},
-    {"bore.", N_("Bore"), NULL, FALSE},
-    {"models.", N_("Models"), NULL, TRUE},
-    {"chamber.", N_("Chamber"), NULL, FALSE},
-    {"fluid.", N_("Fluid"), NULL, FALSE},
-    {"friction.", N_("Friction"), NULL, FALSE},
-    {"housing.", N_("Housing"), NULL, FALSE},
-    {"joint.", N_("Joint"), NULL, FALSE},
-    {"life.", N_("Life"), NULL, FALSE},
-    {"output.", N_("Output"), NULL, FALSE},
-    {"part.", N_("Part"), NULL, FALSE},
-    {"people.", N_("People"), NULL, FALSE},
-    {"rig.", N_("Rig"), NULL, FALSE},
-    {"rubber.", N_("Rubber"), NULL, FALSE},
-    {"shelf.", N_("Shelf"), NULL, FALSE},
-    {"stem.", N_("Stem"), NULL, FALSE},
-    {"storage.", N_("Storage"), NULL, FALSE},
-    {"study.", N_("Study"), NULL, FALSE},
-};
-
-static int heading_of(const char *key) {
-  for (guint i = 0; i < G_N_ELEMENTS(headings); i++) {
-    if (g_str_has_prefix(key, headings[i].prefix)) {
-      return (int)i;
-    }
-  }
-  return -1;
-}
-
 // The group that a key belongs to, made on first use.
 static int group_for(SbParamPanel *panel, GHashTable *by_title, const char *key) {
-  int heading = heading_of(key);
-  g_autofree char *title = NULL;
-  if (heading >= 0) {
-    title = g_strdup(_(headings[heading].title));
-  } else {
-    title = g_strndup(key, strcspn(key, "."));
-    title[0] = g_ascii_toupper(title[0]);
-  }
+  const SbParamHeading *heading = sb_param_heading(key);
+  g_autofree char *title = g_strdup(_(heading->title));
   gpointer found = NULL;
   if (g_hash_table_lookup_extended(by_title, title, NULL, &found)) {
     return GPOINTER_TO_INT(found);
   }
 
   Group group = {0};
-  group.unfolded = heading >= 0 && headings[heading].unfolded;
+  group.unfolded = heading->unfolded;
   GtkWidget *caption = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
   GtkWidget *name = gtk_label_new(title);
   gtk_label_set_xalign(GTK_LABEL(name), 0);
   gtk_box_pack_start(GTK_BOX(caption), name, TRUE, TRUE, 0);
-  group.note = gtk_label_new(
-      heading >= 0 && headings[heading].note != NULL ? _(headings[heading].note) : NULL);
+  group.note = gtk_label_new(heading->note != NULL ? _(heading->note) : NULL);
   sb_style_class(group.note, "sb-group-note");
   gtk_box_pack_end(GTK_BOX(caption), group.note, FALSE, FALSE, 0);
   group.expander = gtk_expander_new(NULL);
@@ -124,18 +76,11 @@ static Group *group_at(SbParamPanel *panel, int index) {
   return &g_array_index(panel->groups, Group, (guint)index);
 }
 
-// Whether a value in force is another than the default, which may follow from other values.
-static gboolean is_changed(SbParamPanel *panel, const SbParams *params, SbParamId id) {
-  SbParamDefault fallback;
-  sb_params_default(&fallback, params, id);
-  return params->given[id] && sb_params_get(params, id) != fallback.value;
-}
-
 static gboolean is_listed(SbParamPanel *panel, const SbParams *params, const char *needle,
                           SbParamId id) {
-  return needle[0] != '\0' ? sb_param_row_matches(SB_PARAM_ROW(panel->row[id]), needle)
+  return needle[0] != '\0'                          ? sb_param_matches(id, needle)
          : panel->filter == SB_PARAM_FILTER_MAIN    ? sb_param_is_main(id)
-         : panel->filter == SB_PARAM_FILTER_CHANGED ? is_changed(panel, params, id)
+         : panel->filter == SB_PARAM_FILTER_CHANGED ? sb_param_is_changed(params, id)
                                                     : TRUE;
 }
 
@@ -192,7 +137,7 @@ static void name_filters(SbParamPanel *panel) {
   int count[SB_PARAM_FILTER_ALL + 1] = {0};
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     count[SB_PARAM_FILTER_MAIN] += sb_param_is_main((SbParamId)id);
-    count[SB_PARAM_FILTER_CHANGED] += is_changed(panel, &params, (SbParamId)id);
+    count[SB_PARAM_FILTER_CHANGED] += sb_param_is_changed(&params, (SbParamId)id);
     count[SB_PARAM_FILTER_ALL]++;
   }
   for (int i = 0; i <= SB_PARAM_FILTER_ALL; i++) {

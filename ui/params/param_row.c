@@ -5,6 +5,7 @@
 #include "ui/params/param_row.h"
 
 #include "app/base/translation.h"
+#include "app/session/param_list.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -52,23 +53,9 @@ static gboolean on_focus_in(GtkWidget *widget, GdkEventFocus *event, SbParamRow 
   return GDK_EVENT_PROPAGATE;
 }
 
-// One step: a hundredth of the value, rounded down to a power of ten in the shown unit; at least 1
-// for whole numbers.
 static void step(SbParamRow *row, double count) {
-  const SbParam *param = sb_param(row->id);
   commit(row);
-  double value = sb_document_value(sb_session_document(row->session), row->id);
-  if (param->kind == SB_PARAM_INT) {
-    value += count;
-  } else {
-    double shown = sb_quantity_to_shown(value, param->si, param->unit);
-    double scale = fabs(shown) > 0 ? fabs(shown)
-                                   : sb_quantity_to_shown(param->max, param->si, param->unit) / 10;
-    int power = (int)floor(log10(scale * 0.0101));
-    value = sb_quantity_step(value, param->si, param->unit, power, count);
-  }
-  value = fmin(fmax(value, param->min), param->max);
-  sb_session_edit_value(row->session, row->id, value);
+  sb_param_step(row->session, row->id, count);
 }
 
 static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, SbParamRow *row) {
@@ -147,20 +134,6 @@ static void on_reset(GtkButton *button, SbParamRow *row) {
   sb_session_unset(row->session, row->id);
 }
 
-// Which ring an override belongs to, for accessible names: two fields may share a label.
-static const char *owner(const SbParam *param) {
-  if (g_str_has_prefix(param->key, "seal.outer.")) {
-    return _("Outer seal: ");
-  }
-  if (g_str_has_prefix(param->key, "seal.inner.")) {
-    return _("Inner seal: ");
-  }
-  if (g_str_has_prefix(param->key, "housing.")) {
-    return _("Housing: ");
-  }
-  return "";
-}
-
 static void add_entry(SbParamRow *row, GtkBox *line, const char *name, const char *range) {
   const SbParam *param = sb_param(row->id);
   row->field = gtk_entry_new();
@@ -223,7 +196,7 @@ GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fiel
   const SbParam *param = sb_param(id);
   row->session = session;
   row->id = id;
-  g_autofree char *name = g_strconcat(owner(param), sb_translation(param->label), NULL);
+  g_autofree char *name = g_strconcat(sb_param_owner(param), sb_translation(param->label), NULL);
   g_autofree char *range = sb_param_range(id);
   sb_style_class(GTK_WIDGET(row), "sb-row");
 
@@ -375,20 +348,6 @@ void sb_param_row_refresh(SbParamRow *row) {
   gtk_widget_set_tooltip_text(row->reset, tip);
   refresh_tooltip(row, &derived, lock, note);
   row->refreshing = FALSE;
-}
-
-static gboolean contains(const char *text, const char *needle) {
-  g_autofree char *folded = g_utf8_casefold(text, -1);
-  return strstr(folded, needle) != NULL;
-}
-
-gboolean sb_param_row_matches(SbParamRow *row, const char *needle) {
-  const SbParam *param = sb_param(row->id);
-  return contains(param->label, needle) || contains(sb_translation(param->label), needle) ||
-         contains(param->key, needle) || contains(param->symbol, needle) ||
-         contains(param->help, needle) || contains(owner(param), needle) ||
-         strstr(sb_param_words(row->id), needle) != NULL ||
-         (param->choices != NULL && contains(param->choices, needle));
 }
 
 void sb_param_row_focus(SbParamRow *row) {

@@ -16,8 +16,5 @@ GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fiel
 // Shows the value in force, the error, and what may be edited.
 void sb_param_row_refresh(SbParamRow *row);
 
-// True if the text (lower case) occurs in the label, the key, the symbol or the help.
-gboolean sb_param_row_matches(SbParamRow *row, const char *needle);
-
 // Moves the keyboard focus into the row's field.
 void sb_param_row_focus(SbParamRow *row);

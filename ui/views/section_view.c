@@ -12,7 +12,7 @@
 #include "ui/views/draw_cache.h"
 #include "ui/views/force_balance.h"
 #include "ui/views/section_gl.h"
-#include "ui/views/section_source.h"
+#include "app/session/section_source.h"
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
 

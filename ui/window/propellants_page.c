@@ -9,7 +9,7 @@
 #include "ui/views/draw_cache.h"
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
-#include "ui/window/study_job.h"
+#include "app/session/study_job.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -11,7 +11,7 @@
 #include "ui/views/style.h"
 #include "ui/window/export_dialog.h"
 #include "ui/window/preferences.h"
-#include "ui/window/study_job.h"
+#include "app/session/study_job.h"
 
 #include <glib/gi18n.h>
 

@@ -3,30 +3,12 @@
 // of what passes or has no limit, then those questions' words, then the other figures.
 #include "ui/window/verdict_strip.h"
 
-#include "app/base/format.h"
-#include "app/base/translation.h"
-#include "engine/valve/figures.h"
+#include "app/session/verdict_text.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
-
-// A question, the figure that stands for it while no limit decides, and the stage whose instant a
-// click shows: the figure's own, or in whose middle the seals' figures are taken.
-static const struct {
-  const char *word, *figure;
-  SbStage stage;
-  double share; // of the way to the next event
-} questions[SB_VERDICT_COUNT] = {
-    [SB_VERDICT_SEALS] = {NC_("verdict", "Seals"), "seals.outer.pressure_peak_Pa", SB_STAGE_B, 0.5},
-    [SB_VERDICT_PRESSES] = {NC_("verdict", "Presses"), "cycle.force_peak_N", SB_STAGE_B, 0},
-    [SB_VERDICT_RETURNS] = {NC_("verdict", "Returns"), "cycle.force_return_min_N", SB_STAGE_F, 0.5},
-    [SB_VERDICT_DOSES] = {NC_("verdict", "Doses"), "dose.metered_volume_m3", SB_STAGE_C, 0.5},
-    [SB_VERDICT_LEAK] = {NC_("verdict", "Leak"), "seals.outer.leakage_static_m3_per_s", SB_STAGE_B,
-                         0.5},
-    [SB_VERDICT_FITS] = {NC_("verdict", "Fits"), "seals.outer.squeeze", SB_STAGE_A, 0},
-};
 
 // How much is shown, from all to the least.
 enum { ALL, FAILING_FIGURES, FAILING_WORDS, WORDS, LEVELS };
@@ -40,71 +22,6 @@ typedef struct {
   int level, width;
   guint later; // source that fits it to a width, 0 if none is due
 } Strip;
-
-static const char *word_of(int kind) {
-  return g_dpgettext2(NULL, "verdict", questions[kind].word);
-}
-
-static const char *answer_of(SbAnswer answer) {
-  return answer == SB_ANSWER_YES  ? C_("verdict", "yes")
-         : answer == SB_ANSWER_NO ? C_("verdict", "no")
-                                  : C_("verdict", "not known");
-}
-
-// A value of a figure in the unit that people read.
-static char *shown_value(int figure, double value) {
-  return sb_figure_format(figure, value, NAN);
-}
-
-// What decides, in a few words: "26 N of 30 N", "1.2 MPa over 0.55 MPa".
-static char *figure_text(const SbSummary *summary, int kind, const SbVerdict *verdict) {
-  int figure = verdict->figure;
-  double value = verdict->value;
-  if (figure < 0) {
-    figure = sb_figure_find(questions[kind].figure);
-    value = sb_figure_value(summary, figure);
-  }
-  if (isnan(value)) {
-    return g_strdup(kind == SB_VERDICT_LEAK ? "" : _("not known"));
-  }
-  char shown[SB_FORMAT_MAX];
-  // The short form knows the units of lengths, forces and their like, not that of a loss a year.
-  const char *unit = sb_figure(figure)->shown;
-  const bool brief = *unit == '\0' || sb_quantity_of_unit(unit) != SB_QUANTITY_NUMBER;
-  g_autofree char *own = brief && value == sb_figure_value(summary, figure)
-                             ? g_strdup(sb_format_figure(shown, summary, figure))
-                             : shown_value(figure, value);
-  if (isnan(verdict->limit) || verdict->figure < 0) {
-    return g_steal_pointer(&own);
-  }
-  g_autofree char *limit = shown_value(figure, verdict->limit);
-  if (summary->shelf.typical && g_str_has_prefix(sb_figure(figure)->path, "shelf.")) {
-    return g_strdup_printf(_("%s (typical rubber) of %s"), own, limit);
-  }
-  return kind == SB_VERDICT_SEALS ? g_strdup_printf(_("%s over %s"), own, limit)
-                                  : g_strdup_printf(_("%s of %s"), own, limit);
-}
-
-// The whole answer, for the popover and a screen reader.
-static char *why_text(const SbSummary *summary, int kind, const SbVerdict *verdict) {
-  g_autoptr(GString) text = g_string_new(NULL);
-  g_string_append_printf(text, "%s: %s.", word_of(kind), answer_of(verdict->ok));
-  const int figure =
-      verdict->figure >= 0 ? verdict->figure : sb_figure_find(questions[kind].figure);
-  const double value = verdict->figure >= 0 ? verdict->value : sb_figure_value(summary, figure);
-  g_autofree char *label = sb_figure_label(figure);
-  g_autofree char *shown = isnan(value) ? g_strdup(_("not known")) : shown_value(figure, value);
-  g_string_append_printf(text, "\n%s: %s.", sb_translation(label), shown);
-  if (verdict->figure >= 0 && !isnan(verdict->limit)) {
-    g_autofree char *limit = shown_value(figure, verdict->limit);
-    g_string_append_printf(text, _("\nLimit: %s."), limit);
-  }
-  if (verdict->reason[0] != '\0') {
-    g_string_append_printf(text, "\n%c%s.", g_ascii_toupper(verdict->reason[0]),
-                           verdict->reason + 1);
-  }
-  return g_string_free(g_steal_pointer(&text), FALSE);
-}
 
 static void fit(Strip *strip, int level) {
   strip->level = level;
@@ -151,9 +68,10 @@ static void refresh(Strip *strip) {
     const SbVerdict none = {SB_ANSWER_UNKNOWN, -1, NAN, NAN, ""};
     const SbVerdict *verdict = summary != NULL ? &summary->verdict[i] : &none;
     strip->fails[i] = verdict->ok == SB_ANSWER_NO;
-    g_autofree char *figure = summary != NULL ? figure_text(summary, i, verdict) : g_strdup("");
-    g_autofree char *why =
-        summary != NULL ? why_text(summary, i, verdict) : g_strdup(_("No whole run is shown yet."));
+    g_autofree char *figure =
+        summary != NULL ? sb_verdict_figure_text(summary, i, verdict) : g_strdup("");
+    g_autofree char *why = summary != NULL ? sb_verdict_why(summary, i, verdict)
+                                           : g_strdup(_("No whole run is shown yet."));
     gtk_label_set_text(GTK_LABEL(strip->sign[i]), signs[verdict->ok]);
     gtk_label_set_text(GTK_LABEL(strip->figure[i]), figure);
     gtk_label_set_text(GTK_LABEL(strip->why[i]), why);
@@ -167,7 +85,8 @@ static void refresh(Strip *strip) {
         gtk_style_context_remove_class(style, classes[k]);
       }
     }
-    g_autofree char *name = g_strdup_printf("%s: %s", word_of(i), answer_of(verdict->ok));
+    g_autofree char *name =
+        g_strdup_printf("%s: %s", sb_verdict_word(i), sb_verdict_answer(verdict->ok));
     sb_style_name(strip->button[i], name, why);
     gtk_widget_set_sensitive(strip->button[i], summary != NULL);
   }
@@ -178,8 +97,8 @@ static void refresh(Strip *strip) {
 // The instant that the answer is of, where the run has it.
 static void on_toggled(GtkToggleButton *button, Strip *strip) {
   int kind = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(button), "kind"));
-  if (gtk_toggle_button_get_active(button) && questions[kind].stage != SB_STAGE_A) {
-    sb_session_show_stage(strip->session, questions[kind].stage, questions[kind].share);
+  if (gtk_toggle_button_get_active(button)) {
+    sb_verdict_show(strip->session, kind);
   }
 }
 
@@ -196,7 +115,7 @@ static GtkWidget *make_button(Strip *strip, int kind) {
   g_object_set_data(G_OBJECT(button), "kind", GINT_TO_POINTER(kind));
   GtkWidget *inside = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 7);
   strip->sign[kind] = add_label(inside, "", "sb-sign");
-  strip->word[kind] = add_label(inside, word_of(kind), "sb-word");
+  strip->word[kind] = add_label(inside, sb_verdict_word(kind), "sb-word");
   strip->figure[kind] = add_label(inside, "", "sb-figure");
   gtk_container_add(GTK_CONTAINER(button), inside);
   GtkWidget *popover = gtk_popover_new(button);

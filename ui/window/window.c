@@ -1,7 +1,7 @@
 // One window: puts the parts together, turns the session's state into the header, the strip and the
 // sensitivity of actions, and asks before changes are lost.
 #include "ui/window/window.h"
-#include "ui/window/autosave.h"
+#include "ui/window/autosave_offer.h"
 
 #include "app/base/translation.h"
 #include "app/session/session.h"
@@ -628,7 +628,8 @@ static void sb_window_init(SbWindow *window) {
   window->files = sb_window_files_new_for(GTK_WINDOW(window), window->session,
                                           GTK_MENU_BUTTON(window->recent_button));
   sb_section_view_add_start(window->section, sb_window_files_start(window->files));
-  window->autosave = sb_autosave_new(window->session, GTK_WINDOW(window));
+  window->autosave = sb_autosave_new(window->session);
+  sb_autosave_offer(window->session, window->autosave, GTK_WINDOW(window));
 
   g_signal_connect(window->strip_button, "clicked", G_CALLBACK(on_strip_button), window);
   g_signal_connect(window, "key-press-event", G_CALLBACK(on_key), NULL);

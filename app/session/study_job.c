@@ -1,5 +1,5 @@
 // The thread of a study. It owns the study until it is done; only two atomic numbers are shared.
-#include "ui/window/study_job.h"
+#include "app/session/study_job.h"
 
 #include "app/session/worker.h"
 #include "app/study/view.h"

@@ -1,6 +1,6 @@
 // A section for the session's frame (section_source.h). Scales widen while a run grows, which makes
 // the section anew; frames that the scales have seen are not read again.
-#include "ui/views/section_source.h"
+#include "app/session/section_source.h"
 
 #include <math.h>
 #include <string.h>

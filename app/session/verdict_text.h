@@ -1,0 +1,19 @@
+// The six questions of the verdict in words, as every front end shows them.
+#pragma once
+
+#include "app/session/session.h"
+
+// "Seals", "Presses", ...; borrowed.
+const char *sb_verdict_word(int kind);
+
+// "yes", "no", "not known"; borrowed.
+const char *sb_verdict_answer(SbAnswer answer);
+
+// What decides, in a few words: "26 N of 30 N", "1.2 MPa over 0.55 MPa". Owned by the caller.
+char *sb_verdict_figure_text(const SbSummary *summary, int kind, const SbVerdict *verdict);
+
+// The whole answer, some lines. Owned by the caller.
+char *sb_verdict_why(const SbSummary *summary, int kind, const SbVerdict *verdict);
+
+// Shows the instant that an answer is of, where the run has it.
+void sb_verdict_show(SbSession *session, int kind);
