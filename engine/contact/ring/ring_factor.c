@@ -1,6 +1,7 @@
 // By columns, each gathered from those before it that have a block in its row; U's rows have the
 // pattern of L's columns.
 #include "engine/contact/ring/ring_factor.h"
+#include "engine/contact/ring/ring_quad.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -143,16 +144,7 @@ SbRingFactor *sb_ring_factor_create(int nodes, const int *start, const int *colu
   return f;
 }
 
-// c -= a b
-static inline void subtract(double *restrict c, const double *restrict a,
-                            const double *restrict b) {
-  c[0] -= a[0] * b[0] + a[1] * b[2];
-  c[1] -= a[0] * b[1] + a[1] * b[3];
-  c[2] -= a[2] * b[0] + a[3] * b[2];
-  c[3] -= a[2] * b[1] + a[3] * b[3];
-}
-
-static bool invert(double *out, const double *a) {
+SB_QUAD_INLINE bool invert(double *out, const double *a) {
   const double det = a[0] * a[3] - a[1] * a[2];
   const double scale = 1.0 / det;
   out[0] = a[3] * scale;
@@ -163,7 +155,7 @@ static bool invert(double *out, const double *a) {
 }
 
 // Takes a column that has got to block k to the list of that block's row.
-static void list(SbRingFactor *f, int column, int k) {
+SB_QUAD_INLINE void list(SbRingFactor *f, int column, int k) {
   if (k < f->start[column + 1]) {
     f->at[column] = k;
     f->next[column] = f->first[f->row[k]];
@@ -171,7 +163,13 @@ static void list(SbRingFactor *f, int column, int k) {
   }
 }
 
-bool sb_ring_factor_compute(SbRingFactor *f, const double *value) {
+// A block's columns, each beside itself; its rows, one below the other.
+#define FIRST_COLUMN(a) __builtin_shufflevector(a, a, 0, 0, 2, 2)
+#define OTHER_COLUMN(a) __builtin_shufflevector(a, a, 1, 1, 3, 3)
+#define FIRST_ROW(a)    __builtin_shufflevector(a, a, 0, 1, 0, 1)
+#define OTHER_ROW(a)    __builtin_shufflevector(a, a, 2, 3, 2, 3)
+
+SB_QUAD_INLINE bool compute(SbRingFactor *f, const double *value) {
   const int n = f->nodes;
   double *restrict below = f->below, *restrict beside = f->beside;
   memset(f->first, -1, sizeof(int) * (size_t)n);
@@ -186,29 +184,31 @@ bool sb_ring_factor_compute(SbRingFactor *f, const double *value) {
     for (int c = f->first[j], after; c >= 0; c = after) {
       after = f->next[c];
       const int begin = f->at[c], end = f->start[c + 1];
-      const double *left = &f->lower[BLOCK * begin], *right = &f->upper[BLOCK * begin];
-      const double l[BLOCK] = {left[0], left[1], left[2], left[3]};
-      const double u[BLOCK] = {right[0], right[1], right[2], right[3]};
-      subtract(&below[BLOCK * j], l, u);
+      const SbQuad l = *(const SbQuadAt *)&f->lower[BLOCK * begin];
+      const SbQuad u = *(const SbQuadAt *)&f->upper[BLOCK * begin];
+      const SbQuad l0 = FIRST_COLUMN(l), l1 = OTHER_COLUMN(l), u0 = FIRST_ROW(u), u1 = OTHER_ROW(u);
+      *(SbQuadAt *)&below[BLOCK * j] -= l0 * u0 + l1 * u1;
       for (int k = begin + 1; k < end; k++) {
         const int i = BLOCK * f->row[k];
-        subtract(&below[i], &f->lower[BLOCK * k], u);
-        subtract(&beside[i], l, &f->upper[BLOCK * k]);
+        const SbQuad left = *(const SbQuadAt *)&f->lower[BLOCK * k];
+        const SbQuad right = *(const SbQuadAt *)&f->upper[BLOCK * k];
+        *(SbQuadAt *)&below[i] -= FIRST_COLUMN(left) * u0 + OTHER_COLUMN(left) * u1;
+        *(SbQuadAt *)&beside[i] -= l0 * FIRST_ROW(right) + l1 * OTHER_ROW(right);
       }
       list(f, c, begin + 1);
     }
     double *inverse = &f->inverse[BLOCK * j];
     const bool good = invert(inverse, &below[BLOCK * j]);
+    const SbQuad v = *(const SbQuadAt *)inverse, v0 = FIRST_ROW(v), v1 = OTHER_ROW(v);
+    const SbQuad none = {0.0, 0.0, 0.0, 0.0};
     for (int k = f->start[j]; k < f->start[j + 1]; k++) {
-      double *b = &below[BLOCK * f->row[k]], *u = &beside[BLOCK * f->row[k]];
-      double *out = &f->lower[BLOCK * k];
-      out[0] = b[0] * inverse[0] + b[1] * inverse[2];
-      out[1] = b[0] * inverse[1] + b[1] * inverse[3];
-      out[2] = b[2] * inverse[0] + b[3] * inverse[2];
-      out[3] = b[2] * inverse[1] + b[3] * inverse[3];
-      memcpy(&f->upper[BLOCK * k], u, BLOCK * sizeof *u);
-      memset(b, 0, BLOCK * sizeof *b);
-      memset(u, 0, BLOCK * sizeof *u);
+      SbQuadAt *b = (SbQuadAt *)&below[BLOCK * f->row[k]];
+      SbQuadAt *u = (SbQuadAt *)&beside[BLOCK * f->row[k]];
+      const SbQuad left = *b;
+      *(SbQuadAt *)&f->lower[BLOCK * k] = FIRST_COLUMN(left) * v0 + OTHER_COLUMN(left) * v1;
+      *(SbQuadAt *)&f->upper[BLOCK * k] = *u;
+      *b = none;
+      *u = none;
     }
     memset(&below[BLOCK * j], 0, BLOCK * sizeof(double));
     memset(&beside[BLOCK * j], 0, BLOCK * sizeof(double));
@@ -218,6 +218,18 @@ bool sb_ring_factor_compute(SbRingFactor *f, const double *value) {
     list(f, j, f->start[j]);
   }
   return true;
+}
+
+SB_QUAD_WIDE static bool compute_wide(SbRingFactor *f, const double *value) {
+  return compute(f, value);
+}
+
+static bool compute_any(SbRingFactor *f, const double *value) {
+  return compute(f, value);
+}
+
+bool sb_ring_factor_compute(SbRingFactor *f, const double *value) {
+  return sb_quad_wide() ? compute_wide(f, value) : compute_any(f, value);
 }
 
 void sb_ring_factor_solve(SbRingFactor *f, double *x, const double *b) {

@@ -6,6 +6,7 @@
 // and pressure are eliminated in each element, so the sparse matrix holds nodal displacements only.
 // Leaves out inertia, thermal strain and rate.
 #include "engine/contact/ring/ring_fem.h"
+#include "engine/contact/ring/ring_quad.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,11 +14,12 @@
 
 enum {
   NODES = 6,
-  SHAPES = 7,                  // six nodes and the bubble
-  POINT_SIZE = 3 * SHAPES + 1, // dR, dZ, N/R of each shape; weight
-  INNER = SB_RING_INNER,       // bubble and pressure
-  OUTER = 2 * NODES,           // displacements of the nodes
-  RIGHT = OUTER + 1,           // what the inner unknowns respond to: nodes and load
+  SHAPES = 7,                // six nodes and the bubble
+  ROOM = 8,                  // for the shapes' numbers, in quads
+  POINT_SIZE = 3 * ROOM + 1, // dR, dZ and N/R of the shapes; weight
+  INNER = SB_RING_INNER,     // bubble and pressure
+  OUTER = 2 * NODES,         // displacements of the nodes
+  RIGHT = OUTER + 1,         // what the inner unknowns respond to: nodes and load
 };
 
 // Degree-5 rule: area coordinates l1, l2 of each point and its weight (sum 1).
@@ -42,8 +44,8 @@ typedef struct {
 
 // Of c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3) + p (J - 1) at (a, D > 0, f > 0) and the
 // pressure-like multiplier p (tension positive). c2 = 0 is the neo-Hookean energy, mu/2 = c1.
-static void differentiate(const SbRingMaterial *material, double a, double d, double f, double p,
-                          Slopes *w) {
+SB_QUAD_INLINE void differentiate(const SbRingMaterial *material, double a, double d, double f,
+                                  double p, Slopes *w) {
   double cube = cbrt(d * f);
   double v = material->c1 / (cube * cube);
   double q = material->c2 / (cube * cube * cube * cube);
@@ -97,11 +99,14 @@ static bool point_geometry(const SbRingFem *fem, int element, double l1, double 
     double e1 = a < NODES ? d1[a] : 27.0 * l2 * (l0 - l1);
     double e2 = a < NODES ? d2[a] : 27.0 * l1 * (l0 - l2);
     double value = a < NODES ? n[a] : 27.0 * l0 * l1 * l2;
-    g[3 * a] = (jac[1][1] * e1 - jac[0][1] * e2) / det;
-    g[3 * a + 1] = (jac[0][0] * e2 - jac[1][0] * e1) / det;
-    g[3 * a + 2] = fem->axisymmetric ? value / r : 0.0;
+    g[a] = (jac[1][1] * e1 - jac[0][1] * e2) / det;
+    g[ROOM + a] = (jac[0][0] * e2 - jac[1][0] * e1) / det;
+    g[2 * ROOM + a] = fem->axisymmetric ? value / r : 0.0;
   }
-  g[3 * SHAPES] = 0.5 * det * weight * (fem->axisymmetric ? 2.0 * M_PI * r : 1.0);
+  for (int k = 0; k < 3; k++) {
+    g[ROOM * k + SHAPES] = 0.0;
+  }
+  g[3 * ROOM] = 0.5 * det * weight * (fem->axisymmetric ? 2.0 * M_PI * r : 1.0);
   return det > 0.0 && (r > 0.0 || !fem->axisymmetric);
 }
 
@@ -146,7 +151,7 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
       }
       for (int a = 0; a < NODES; a++) {
         fem->mass[mesh->tri[6 * e + a]] +=
-            fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q) + 3 * SHAPES] / NODES;
+            fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q) + 3 * ROOM] / NODES;
       }
     }
   }
@@ -174,19 +179,20 @@ void sb_ring_fem_destroy(SbRingFem *fem) {
 }
 
 // In-plane gradient, hoop stretch and pressure at a point from local displacements.
-static void point_strain(const double g[POINT_SIZE], const double local[2 * SHAPES], double f[5]) {
+SB_QUAD_INLINE void point_strain(const double g[POINT_SIZE], const double local[2 * SHAPES],
+                                 double f[5]) {
   f[0] = f[3] = f[4] = 1.0;
   f[1] = f[2] = 0.0;
   for (int a = 0; a < SHAPES; a++) {
-    f[0] += g[3 * a] * local[2 * a];
-    f[1] += g[3 * a + 1] * local[2 * a];
-    f[2] += g[3 * a] * local[2 * a + 1];
-    f[3] += g[3 * a + 1] * local[2 * a + 1];
-    f[4] += g[3 * a + 2] * local[2 * a];
+    f[0] += g[a] * local[2 * a];
+    f[1] += g[ROOM + a] * local[2 * a];
+    f[2] += g[a] * local[2 * a + 1];
+    f[3] += g[ROOM + a] * local[2 * a + 1];
+    f[4] += g[2 * ROOM + a] * local[2 * a];
   }
 }
 
-static void gather(const SbRingFem *fem, int element, double local[2 * SHAPES]) {
+SB_QUAD_INLINE void gather(const SbRingFem *fem, int element, double local[2 * SHAPES]) {
   const int *tri = &fem->mesh->tri[6 * element];
   for (int a = 0; a < NODES; a++) {
     local[2 * a] = fem->u[2 * tri[a]];
@@ -196,24 +202,36 @@ static void gather(const SbRingFem *fem, int element, double local[2 * SHAPES]) 
   local[2 * NODES + 1] = fem->inner[SB_RING_INNER * element + 1];
 }
 
-// Turns the rows of [A | B], A the inner system, into [1 | A^-1 B], by Gauss and Jordan with row
+// Turns A X = B, A the inner system, into X in the place of B, by Gauss and Jordan with row
 // pivoting.
-static void solve_inner(double m[INNER][INNER + RIGHT]) {
+enum { QUADS = 4 }; // of a row of B: the nodes, the load, nothing
+SB_QUAD_INLINE void solve_inner(double a[INNER][INNER], SbQuad b[INNER][QUADS]) {
   for (int k = 0; k < INNER; k++) {
     int pivot = k;
     for (int i = k + 1; i < INNER; i++) {
-      pivot = fabs(m[i][k]) > fabs(m[pivot][k]) ? i : pivot;
+      pivot = fabs(a[i][k]) > fabs(a[pivot][k]) ? i : pivot;
     }
-    double inverse = m[pivot][k] != 0.0 ? 1.0 / m[pivot][k] : 0.0;
-    for (int j = 0; j < INNER + RIGHT; j++) {
-      double top = inverse * m[pivot][j];
-      m[pivot][j] = m[k][j];
-      m[k][j] = top;
+    const double inverse = a[pivot][k] != 0.0 ? 1.0 / a[pivot][k] : 0.0;
+    for (int j = k; j < INNER; j++) {
+      const double top = inverse * a[pivot][j];
+      a[pivot][j] = a[k][j];
+      a[k][j] = top;
+    }
+    for (int n = 0; n < QUADS; n++) {
+      const SbQuad top = inverse * b[pivot][n];
+      b[pivot][n] = b[k][n];
+      b[k][n] = top;
     }
     for (int i = 0; i < INNER; i++) {
-      double factor = i != k ? m[i][k] : 0.0;
-      for (int j = 0; j < INNER + RIGHT; j++) {
-        m[i][j] -= factor * m[k][j];
+      if (i == k) {
+        continue;
+      }
+      const double factor = a[i][k];
+      for (int j = k; j < INNER; j++) {
+        a[i][j] -= factor * a[k][j];
+      }
+      for (int n = 0; n < QUADS; n++) {
+        b[i][n] -= factor * b[k][n];
       }
     }
   }
@@ -221,8 +239,8 @@ static void solve_inner(double m[INNER][INNER + RIGHT]) {
 
 // First Piola stress rr, rz, zr, zz, hoop of a gradient and a pressure, with the derivatives and
 // the cofactors of the gradient that it comes from.
-static void piola(const SbRingFem *fem, const double f[5], double p, Slopes *w, double cof[4],
-                  double stress[5]) {
+SB_QUAD_INLINE void piola(const SbRingFem *fem, const double f[5], double p, Slopes *w,
+                          double cof[4], double stress[5]) {
   double square = f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3];
   differentiate(&fem->material, square, f[0] * f[3] - f[1] * f[2], f[4], p, w);
   cof[0] = f[3];
@@ -235,38 +253,66 @@ static void piola(const SbRingFem *fem, const double f[5], double p, Slopes *w, 
   stress[4] = w->f;
 }
 
-// Radial and axial part side by side, in one register: the sums below are most of a Newton
-// iteration's time, and GCC does not pair them by itself.
-typedef double Pair __attribute__((vector_size(16)));
-
-// One element's tangent (upper half) and residual: nodes, bubble, pressure. Rows of pairs, those of
-// the nodes first.
-enum { WIDTH = OUTER + INNER + 1 };
+// One element's tangent and residual. Columns of `k` are those of the shapes, radial and axial side
+// by side, of which the upper half counts; the rest goes by the shapes, radial ones first.
 typedef struct {
   union {
-    double k[OUTER + INNER][WIDTH];
-    Pair pair[OUTER + INNER][WIDTH / 2];
+    SbQuad quad[2 * SHAPES][QUADS];
+    double k[2 * SHAPES][4 * QUADS];
   };
-  double r[OUTER + INNER];
+  union {
+    SbQuad force[2][2];
+    double r[2][ROOM];
+  };
+  union {
+    SbQuad swell[3][2][2]; // by each term of the pressure
+    double by_pressure[3][2][ROOM];
+  };
+  double compressed[3][3], r_pressure[3]; // the pressure's own equations, upper half
 } System;
 
+// Tangent of the displacements from the stress' derivatives at a point.
+SB_QUAD_INLINE void add_stiffness(System *s, const double a[5][5], const SbQuad *g) {
+  SbQuad v[5][QUADS]; // of the stress by each shape's radial and axial displacement
+  for (int m = 0; m < QUADS; m++) {
+    const SbQuad *dr = &g[m / 2], *dz = &g[2 + m / 2], *hoop = &g[4 + m / 2];
+    const int low = 2 * (m % 2), high = low + 1;
+    const SbQuad r = {(*dr)[low], (*dr)[low], (*dr)[high], (*dr)[high]};
+    const SbQuad z = {(*dz)[low], (*dz)[low], (*dz)[high], (*dz)[high]};
+    const SbQuad h = {(*hoop)[low], 0.0, (*hoop)[high], 0.0};
+    for (int i = 0; i < 5; i++) {
+      const SbQuad by_r = {a[i][0], a[i][2], a[i][0], a[i][2]};
+      const SbQuad by_z = {a[i][1], a[i][3], a[i][1], a[i][3]};
+      v[i][m] = by_r * r + by_z * z + a[i][4] * h;
+    }
+  }
+  const double *at = (const double *)g;
+  for (int c = 0; c < SHAPES; c++) {
+    const double r = at[c], z = at[ROOM + c], hoop = at[2 * ROOM + c];
+    for (int m = c / 2; m < QUADS; m++) {
+      s->quad[2 * c][m] += v[0][m] * r + v[1][m] * z + v[4][m] * hoop;
+      s->quad[2 * c + 1][m] += v[2][m] * r + v[3][m] * z;
+    }
+  }
+}
+
 // False if the element is turned inside out.
-static bool element_system(SbRingFem *fem, int e, System *s) {
-  enum { PRESSURE = 2 * SHAPES };
+SB_QUAD_INLINE bool element_system(SbRingFem *fem, int e, System *s) {
   double local[2 * SHAPES];
   gather(fem, e, local);
   const double *pressure = &fem->inner[INNER * e + 2];
   memset(s, 0, sizeof *s);
   for (int q = 0; q < SB_RING_FEM_POINTS; q++) {
-    const double *g = &fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q)];
-    double weight = g[3 * SHAPES];
+    const double *point = &fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q)];
+    double weight = point[3 * ROOM];
     double phi[3] = {1.0, POINT[q][0] - 1.0 / 3.0, POINT[q][1] - 1.0 / 3.0};
     double p = pressure[0] + phi[1] * pressure[1] + phi[2] * pressure[2];
     double f[5];
-    point_strain(g, local, f);
+    point_strain(point, local, f);
     double d = f[0] * f[3] - f[1] * f[2];
     fem->volume += weight * d * f[4];
-    fem->det_min = fmin(fem->det_min, fmin(d, f[4]));
+    fem->det_min = d < fem->det_min ? d : fem->det_min;
+    fem->det_min = f[4] < fem->det_min ? f[4] : fem->det_min;
     if (!(d > 0.0 && f[4] > 0.0)) {
       return false;
     }
@@ -287,36 +333,120 @@ static bool element_system(SbRingFem *fem, int e, System *s) {
     a[1][2] -= weight * w.d;
     a[2][1] -= weight * w.d;
 
-    for (int b = 0; b < SHAPES; b++) {
-      const double *gb = &g[3 * b];
-      Pair v[5]; // by the shape's radial and axial displacement
-      for (int i = 0; i < 5; i++) {
-        v[i] = (Pair){a[i][0], a[i][2]} * gb[0] + (Pair){a[i][1], a[i][3]} * gb[1] +
-               (Pair){a[i][4], 0.0} * gb[2];
-      }
-      for (int c = 0; c <= b; c++) {
-        const double *gc = &g[3 * c];
-        s->pair[2 * c][b] += v[0] * gc[0] + v[1] * gc[1] + v[4] * gc[2];
-        s->pair[2 * c + 1][b] += v[2] * gc[0] + v[3] * gc[1];
-      }
-      s->r[2 * b] += weight * (stress[0] * gb[0] + stress[1] * gb[1] + stress[4] * gb[2]);
-      s->r[2 * b + 1] += weight * (stress[2] * gb[0] + stress[3] * gb[1]);
-      double div_r = weight * (f[4] * (cof[0] * gb[0] + cof[1] * gb[1]) + d * gb[2]);
-      double div_z = weight * f[4] * (cof[2] * gb[0] + cof[3] * gb[1]);
+    SbQuad g[6];
+    for (int m = 0; m < 6; m++) {
+      g[m] = *(const SbQuadAt *)&point[4 * m];
+    }
+    add_stiffness(s, (const double(*)[5])a, g);
+    for (int m = 0; m < 2; m++) {
+      const SbQuad dr = g[m], dz = g[2 + m], hoop = g[4 + m];
+      s->force[0][m] += weight * (stress[0] * dr + stress[1] * dz + stress[4] * hoop);
+      s->force[1][m] += weight * (stress[2] * dr + stress[3] * dz);
+      const SbQuad radial = weight * (f[4] * (cof[0] * dr + cof[1] * dz) + d * hoop);
+      const SbQuad axial = weight * f[4] * (cof[2] * dr + cof[3] * dz);
       for (int i = 0; i < 3; i++) {
-        s->k[2 * b][PRESSURE + i] += phi[i] * div_r;
-        s->k[2 * b + 1][PRESSURE + i] += phi[i] * div_z;
+        s->swell[i][0][m] += phi[i] * radial;
+        s->swell[i][1][m] += phi[i] * axial;
       }
     }
     double inverse_bulk = weight / fem->material.bulk;
     for (int i = 0; i < 3; i++) {
-      s->r[PRESSURE + i] += phi[i] * (weight * (d * f[4] - 1.0) - p * inverse_bulk);
+      s->r_pressure[i] += phi[i] * (weight * (d * f[4] - 1.0) - p * inverse_bulk);
       for (int j = i; j < 3; j++) {
-        s->k[PRESSURE + i][PRESSURE + j] -= phi[i] * phi[j] * inverse_bulk;
+        s->compressed[i][j] -= phi[i] * phi[j] * inverse_bulk;
       }
     }
   }
   return true;
+}
+
+// Eliminates bubble and pressure; keeps what they respond with. `x` [INNER][RIGHT].
+SB_QUAD_INLINE void condense(SbRingFem *fem, System *s, double *x) {
+  enum { BUBBLE = NODES };
+  double inner[INNER][INNER];
+  union {
+    SbQuad quad[INNER][QUADS];
+    double at[INNER][4 * QUADS];
+  } right, solved;
+  memset(&right, 0, sizeof right);
+  for (int i = 0; i < 2; i++) {
+    for (int j = 0; j < 2; j++) {
+      inner[i][j] = s->k[OUTER + (i < j ? i : j)][OUTER + (i < j ? j : i)];
+    }
+    for (int j = 0; j < 3; j++) {
+      inner[i][2 + j] = inner[2 + j][i] = s->by_pressure[j][i][BUBBLE];
+    }
+    for (int j = 0; j < OUTER; j++) {
+      right.at[i][j] = s->k[j][OUTER + i];
+    }
+    right.at[i][OUTER] = s->r[i][BUBBLE];
+  }
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) {
+      inner[2 + i][2 + j] = s->compressed[i < j ? i : j][i < j ? j : i];
+    }
+    for (int a = 0; a < NODES; a++) {
+      right.at[2 + i][2 * a] = s->by_pressure[i][0][a];
+      right.at[2 + i][2 * a + 1] = s->by_pressure[i][1][a];
+    }
+    right.at[2 + i][OUTER] = s->r_pressure[i];
+  }
+  for (int i = 0; i < INNER; i++) {
+    const double size = fabs(right.at[i][OUTER]);
+    fem->residual_inner = size > fem->residual_inner ? size : fem->residual_inner;
+  }
+  solved = right;
+  solve_inner(inner, solved.quad);
+  for (int m = 0; m < INNER; m++) {
+    memcpy(&x[RIGHT * m], solved.at[m], sizeof(double[RIGHT]));
+  }
+  for (int i = 0; i < OUTER; i++) {
+    for (int m = 0; m < INNER; m++) {
+      const double factor = right.at[m][i];
+      s->r[i % 2][i / 2] -= factor * solved.at[m][OUTER];
+      for (int n = i / 4; n < OUTER / 4; n++) {
+        s->quad[i][n] -= factor * solved.quad[m][n];
+      }
+    }
+  }
+}
+
+// Adds an element to the balance, both halves of its symmetric tangent.
+SB_QUAD_INLINE void scatter_element(SbRingFem *fem, int e, const System *s) {
+  const int *tri = &fem->mesh->tri[6 * e], *scatter = &fem->scatter[36 * e];
+  for (int a = 0; a < NODES; a++) {
+    fem->residual[2 * tri[a]] += s->r[0][a];
+    fem->residual[2 * tri[a] + 1] += s->r[1][a];
+    for (int b = a; b < NODES; b++) {
+      const double *top = &s->k[2 * a][2 * b], *low = &s->k[2 * a + 1][2 * b];
+      const SbQuad block = {top[0], top[1], b > a ? low[0] : top[1], low[1]};
+      *(SbQuadAt *)&fem->value[SB_RING_BLOCK * scatter[6 * a + b]] += block;
+      if (b > a) {
+        const SbQuad mirror = {top[0], low[0], top[1], low[1]};
+        *(SbQuadAt *)&fem->value[SB_RING_BLOCK * scatter[6 * b + a]] += mirror;
+      }
+    }
+  }
+}
+
+SB_QUAD_INLINE bool add_all(SbRingFem *fem) {
+  for (int e = 0; e < fem->mesh->elements; e++) {
+    System s;
+    if (!element_system(fem, e, &s)) {
+      return false;
+    }
+    condense(fem, &s, &fem->condensed[INNER * RIGHT * e]);
+    scatter_element(fem, e, &s);
+  }
+  return true;
+}
+
+SB_QUAD_WIDE static bool add_elements_wide(SbRingFem *fem) {
+  return add_all(fem);
+}
+
+static bool add_elements(SbRingFem *fem) {
+  return add_all(fem);
 }
 
 bool sb_ring_fem_assemble(SbRingFem *fem) {
@@ -325,46 +455,8 @@ bool sb_ring_fem_assemble(SbRingFem *fem) {
   memset(fem->residual, 0, sizeof(double) * 2 * (size_t)mesh->nodes);
   fem->residual_inner = fem->volume = 0.0;
   fem->det_min = INFINITY;
-  for (int e = 0; e < mesh->elements; e++) {
-    System s;
-    if (!element_system(fem, e, &s)) {
-      return false;
-    }
-    double inner[INNER][INNER + RIGHT];
-    for (int i = 0; i < INNER; i++) {
-      for (int j = 0; j < INNER; j++) {
-        inner[i][j] = s.k[OUTER + (i < j ? i : j)][OUTER + (i < j ? j : i)];
-      }
-      for (int j = 0; j < OUTER; j++) {
-        inner[i][INNER + j] = s.k[j][OUTER + i];
-      }
-      inner[i][INNER + OUTER] = s.r[OUTER + i];
-      fem->residual_inner = fmax(fem->residual_inner, fabs(s.r[OUTER + i]));
-    }
-    solve_inner(inner);
-    double *x = &fem->condensed[INNER * RIGHT * e];
-    for (int i = 0; i < INNER; i++) {
-      memcpy(&x[RIGHT * i], &inner[i][INNER], sizeof(double[RIGHT]));
-    }
-
-    // Condense and scatter both halves of the symmetric block.
-    const int *tri = &mesh->tri[6 * e], *scatter = &fem->scatter[36 * e];
-    for (int i = 0; i < OUTER; i++) {
-      for (int m = 0; m < INNER; m++) {
-        s.r[i] -= s.k[i][OUTER + m] * inner[m][INNER + OUTER];
-        for (int j = i; j < OUTER; j++) {
-          s.k[i][j] -= s.k[i][OUTER + m] * inner[m][INNER + j];
-        }
-      }
-      fem->residual[2 * tri[i / 2] + i % 2] += s.r[i];
-      for (int j = i; j < OUTER; j++) {
-        fem->value[SB_RING_BLOCK * scatter[6 * (i / 2) + j / 2] + 2 * (i % 2) + j % 2] += s.k[i][j];
-        if (j > i) {
-          fem->value[SB_RING_BLOCK * scatter[6 * (j / 2) + i / 2] + 2 * (j % 2) + i % 2] +=
-              s.k[i][j];
-        }
-      }
-    }
+  if (!(sb_quad_wide() ? add_elements_wide(fem) : add_elements(fem))) {
+    return false;
   }
   double stiffness = fem->axial_spring + fem->axial_damping;
   for (int i = 0; i < mesh->nodes && stiffness > 0.0; i++) {
