@@ -177,18 +177,38 @@ double sb_canvas_text_fit_ends(SbCanvas *canvas, const char *text, const SbTextS
   return text_fit(canvas, text, style, x, y, width, PANGO_ELLIPSIZE_MIDDLE);
 }
 
-double sb_canvas_paragraph(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
-                           double y, double width) {
+// Lays a paragraph out; its height.
+static double wrap(SbCanvas *canvas, const char *text, const SbTextStyle *style, double width) {
   shape(canvas, text, style);
   pango_layout_set_width(canvas->layout, (int)(fmax(width, 40) * PANGO_SCALE));
   pango_layout_set_wrap(canvas->layout, PANGO_WRAP_WORD_CHAR);
+  PangoRectangle logical;
+  pango_layout_get_extents(canvas->layout, NULL, &logical);
+  return logical.height / (double)PANGO_SCALE;
+}
+
+double sb_canvas_paragraph_height(SbCanvas *canvas, const char *text, const SbTextStyle *style,
+                                  double width) {
+  return wrap(canvas, text, style, width);
+}
+
+double sb_canvas_paragraph_aligned(SbCanvas *canvas, const char *text, const SbTextStyle *style,
+                                   double x, double y, double width, SbAlign align) {
+  const double height = wrap(canvas, text, style, width);
+  pango_layout_set_alignment(canvas->layout, align == SB_LEFT     ? PANGO_ALIGN_LEFT
+                                             : align == SB_MIDDLE ? PANGO_ALIGN_CENTER
+                                                                  : PANGO_ALIGN_RIGHT);
   sb_canvas_color(canvas, style->color, alpha_of(style));
   cairo_move_to(canvas->cr, x, y);
   pango_cairo_show_layout(canvas->cr, canvas->layout);
   cairo_new_path(canvas->cr);
-  PangoRectangle logical;
-  pango_layout_get_extents(canvas->layout, NULL, &logical);
-  return logical.height / (double)PANGO_SCALE;
+  pango_layout_set_alignment(canvas->layout, PANGO_ALIGN_LEFT);
+  return height;
+}
+
+double sb_canvas_paragraph(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
+                           double y, double width) {
+  return sb_canvas_paragraph_aligned(canvas, text, style, x, y, width, SB_LEFT);
 }
 
 void sb_canvas_rounded(SbCanvas *canvas, SbRect rect, double radius) {

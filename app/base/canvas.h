@@ -64,6 +64,14 @@ double sb_canvas_text_fit_ends(SbCanvas *canvas, const char *text, const SbTextS
 double sb_canvas_paragraph(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
                            double y, double width);
 
+// The same with its lines set to a side.
+double sb_canvas_paragraph_aligned(SbCanvas *canvas, const char *text, const SbTextStyle *style,
+                                   double x, double y, double width, SbAlign align);
+
+// That height without drawing it.
+double sb_canvas_paragraph_height(SbCanvas *canvas, const char *text, const SbTextStyle *style,
+                                  double width);
+
 // Background of a panel: rounded, hairline.
 void sb_canvas_panel(SbCanvas *canvas, SbRect rect);
 void sb_canvas_rounded(SbCanvas *canvas, SbRect rect, double radius);

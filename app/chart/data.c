@@ -113,6 +113,12 @@ static const SbSealShape *run_shape(const void *source, uint32_t index) {
   return sb_run_shape(source, index);
 }
 
+SbChartState sb_chart_state_of(const SbSummary *summary) {
+  return summary->status == SB_OK                ? SB_CHART_DONE
+         : summary->status == SB_ERROR_CANCELLED ? SB_CHART_PARTIAL
+                                                 : SB_CHART_FAILED;
+}
+
 void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace,
                        SbChartState state) {
   *out = (SbChartRun){

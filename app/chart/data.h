@@ -100,6 +100,9 @@ const char *sb_chart_cycle_name(char *out, const SbChartRun *run, int cycle);
 // NULL: a valve.
 const char *sb_chart_span(const SbChartRun *run, int stage);
 
+// State of a run that has ended.
+SbChartState sb_chart_state_of(const SbSummary *summary);
+
 // Fills a view of a run that the caller keeps. The trace is the caller's; the summary is read only
 // once the run has ended.
 void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace, SbChartState state);

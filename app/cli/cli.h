@@ -8,6 +8,7 @@
 #include "app/document/document.h"
 #include "app/document/study_file.h"
 #include "app/export/json.h"
+#include "app/study/shares.h"
 
 #include "engine/valve/sealbench.h"
 #include "engine/valve/studies/study.h"
@@ -188,11 +189,6 @@ int sb_command_fluid(int argc, char **argv);
 int sb_command_plan(int argc, char **argv);
 int sb_command_render(int argc, char **argv);
 int sb_command_bench(int argc, char **argv);
-// Who computes the samples of a study (app/study/answers.h); borrowed. NULL, as at the start:
-// threads of this process.
-typedef struct SbAnswerPool SbAnswerPool;
-void sb_cli_set_pool(const SbAnswerPool *pool);
-
 int sb_command_study(int argc, char **argv);
 int sb_command_merge(int argc, char **argv);
 int sb_command_calibrate(int argc, char **argv);
@@ -201,7 +197,39 @@ int sb_command_design(int argc, char **argv);
 int sb_command_sensitivity(int argc, char **argv);
 int sb_command_surface(int argc, char **argv);
 int sb_command_thesis(int argc, char **argv);
+int sb_command_report(int argc, char **argv);
 int sb_command_open(int argc, char **argv);
+
+// ---- Commands that need a study file's answers ----
+
+// Who computes them (app/study/answers.h); borrowed. NULL, as at the start: threads of this
+// process. Whether this process only computes what another one's pool asks.
+void sb_cli_set_pool(const SbAnswerPool *pool);
+bool sb_cli_answers_elsewhere(void);
+
+// The store's file: given, or NAME.store beside the study; NULL for a study from standard input.
+// Owned by the caller.
+char *sb_cli_store_path(const char *given, const SbStudyFile *study);
+
+typedef struct {
+  const char *store; // NULL: in memory
+  int threads;
+  size_t shard, shards; // as SbQuestions
+} SbCliAsk;
+
+// What there is once they are computed, or interrupted; borrowed.
+typedef struct {
+  const SbStudyFile *study;
+  const double *value; // [samples][vary]
+  const SbStudyDrawn *drawn;
+  const SbAnswers *answers;
+  const char *cpus;
+} SbCliAnswers;
+typedef int (*SbCliAnswered)(void *data, const SbCliAnswers *of);
+
+// Computes them and calls `answered`, whose exit code counts with that of the samples.
+int sb_cli_answer(const SbStudyFile *study, const SbCliAsk *ask, SbCliAnswered answered,
+                  void *data);
 
 // ---- Commands that answer a study file with a folder ----
 

@@ -18,14 +18,6 @@ typedef struct {
   size_t shard_index, shard_count; // from 0; count 0: no shards
 } Options;
 
-_Static_assert((int)SB_VARY_MAX <= (int)SB_QUESTION_PARAMETERS, "a question takes all that varies");
-
-static const SbAnswerPool *answer_pool;
-
-void sb_cli_set_pool(const SbAnswerPool *pool) {
-  answer_pool = pool;
-}
-
 // A whole number and nothing else.
 static bool read_whole(int *out, const char *text, int most) {
   double value = 0;
@@ -62,17 +54,6 @@ static int read_options(Options *options) {
   return SB_EXIT_DONE;
 }
 
-// The store's file: given, or NAME.store beside the study; NULL for a study from standard input.
-static char *store_path(const Options *options, const SbStudyFile *study) {
-  if (options->store != NULL || study->path == NULL) {
-    return g_strdup(options->store);
-  }
-  const char *dot = strrchr(study->path, '.');
-  const bool ending = dot != NULL && strcmp(dot, ".study") == 0;
-  return g_strdup_printf("%.*s.store", ending ? (int)(dot - study->path) : (int)strlen(study->path),
-                         study->path);
-}
-
 // A store that is there is added to; it must not be what the study is read from.
 static int check_targets(const Options *options, const char *store) {
   if (store != NULL && !g_file_test(store, G_FILE_TEST_EXISTS)) {
@@ -86,25 +67,6 @@ static int check_targets(const Options *options, const char *store) {
   }
   const int code = sb_cli_check_outputs(NULL, NULL, options->csv);
   return code == SB_EXIT_DONE ? sb_cli_check_outputs(NULL, NULL, options->json) : code;
-}
-
-static void on_progress(void *data, size_t done, size_t of) {
-  sb_progress_update(data, of > 0 ? (double)done / (double)of : 1);
-}
-
-static bool set_list(SbStore *store, const SbStudyFile *study, GError **error) {
-  g_autoptr(GPtrArray) parameters = g_ptr_array_new(), figures = g_ptr_array_new();
-  for (guint i = 0; i < study->vary->len; i++) {
-    const SbVary *vary = &g_array_index(study->vary, SbVary, i);
-    g_ptr_array_add(parameters, (gpointer)sb_vary_name(vary));
-  }
-  for (guint i = 0; i < study->figures->len; i++) {
-    g_ptr_array_add(figures, (gpointer)sb_figure(g_array_index(study->figures, int, i))->path);
-  }
-  g_ptr_array_add(parameters, NULL);
-  g_ptr_array_add(figures, NULL);
-  return sb_store_set_list(store, (const char *const *)parameters->pdata,
-                           (const char *const *)figures->pdata, error);
 }
 
 // ---- What people read ----
@@ -278,79 +240,6 @@ static int write_outputs(const Options *options, const SbStudyFile *study, const
   return sb_cli_quiet() || streamed ? SB_EXIT_DONE : print_table(study, drawn, answers);
 }
 
-// Exit code of samples that failed: of a solver 2; a design that cannot be is an answer.
-static int judge(const SbAnswers *answers) {
-  size_t count[256] = {0};
-  for (size_t i = 0; i < answers->samples; i++) {
-    count[answers->status[i]]++;
-  }
-  const size_t unsolved = count[SB_ERROR_NOT_CONVERGED];
-  const size_t impossible = sb_study_failed(answers) - unsolved;
-  if (impossible > 0) {
-    sb_cli_note("%zu of %zu samples are no valves: their values do not go together", impossible,
-                answers->samples);
-  }
-  if (unsolved > 0) {
-    sb_cli_fail("in %zu of %zu samples a solver did not converge", unsolved, answers->samples);
-  }
-  return unsolved > 0 ? SB_EXIT_NOT_CONVERGED : SB_EXIT_DONE;
-}
-
-static int solve(const Options *options, const SbStudyFile *study, SbStore *store,
-                 const double *value, const SbStudyDrawn *drawn) {
-  SbParamId parameter[SB_VARY_MAX];
-  for (guint i = 0; i < study->vary->len; i++) {
-    parameter[i] = g_array_index(study->vary, SbVary, i).id;
-  }
-  SbProgress progress;
-  const SbQuestions asked = {
-      .base = study->base,
-      .base_sha256 = study->base_sha256,
-      .parameter = parameter,
-      .parameters = study->vary->len,
-      .figure = (const int *)(const void *)study->figures->data,
-      .figures = study->figures->len,
-      .value = value,
-      .samples = study->samples,
-      .shard = options->shard_index,
-      .shards = options->shard_count,
-      .jobs = options->threads,
-      .pool = answer_pool,
-      .store = store,
-      .progress = on_progress,
-      .cancelled = sb_cli_interrupted,
-      .data = &progress,
-  };
-  if (answer_pool != NULL && answer_pool->serve != NULL) {
-    answer_pool->serve(&asked);
-    return SB_EXIT_DONE;
-  }
-  SbAnswers answers;
-  GError *error = NULL;
-  sb_progress_start(&progress, "study ");
-  sb_cli_catch_interrupts();
-  const bool good = sb_answers_get(&answers, &asked, &error);
-  sb_progress_end(&progress);
-  int code = SB_EXIT_DONE;
-  if (!good) {
-    code = error->code == SB_APP_ERROR_CANCELLED ? SB_EXIT_INTERRUPTED : SB_EXIT_DONE;
-    const int told = sb_cli_error(error);
-    code = code == SB_EXIT_INTERRUPTED ? code : told;
-  }
-  if (answers.computed > 0) {
-    sb_cli_note("%zu samples in %.3g s, %.3g a second", answers.computed, answers.seconds,
-                (double)answers.computed / answers.seconds);
-  }
-  if (good || code == SB_EXIT_INTERRUPTED) {
-    g_autofree char *cpus = sb_store_cpus(store);
-    const int written = write_outputs(options, study, value, drawn, &answers, cpus);
-    const int judged = judge(&answers);
-    code = MAX(code, MAX(written, judged));
-  }
-  sb_answers_release(&answers);
-  return code;
-}
-
 // A store of one shard beside the whole one: NAME-I-of-N.store.
 static char *shard_path(const char *store, const char *index, size_t count) {
   const bool ending = g_str_has_suffix(store, ".store");
@@ -360,7 +249,7 @@ static char *shard_path(const char *store, const char *index, size_t count) {
 
 // The job script of an array of shards, each with a store of its own, on one thread each.
 static int emit_slurm(const Options *options, const SbStudyFile *study) {
-  g_autofree char *store = store_path(options, study);
+  g_autofree char *store = sb_cli_store_path(options->store, study);
   if (study->path == NULL || store == NULL || options->shard_count == 0) {
     return sb_cli_fail("--emit-slurm: takes a study's file, and --shard 1/N for how many jobs");
   }
@@ -395,64 +284,21 @@ static int emit_slurm(const Options *options, const SbStudyFile *study) {
                                                                      : sb_cli_error(error);
 }
 
-// The points of the method. An exit code.
-static int lay_out(double **value, double **unit, SbReliability *reliability,
-                   const Options *options, const SbStudyFile *study) {
-  SbReport report = {0};
-  SbStatus status;
-  if (study->method == SB_METHOD_RELIABILITY) {
-    sb_cli_catch_interrupts();
-    status = sb_reliability_search(reliability, study, options->threads, sb_cli_interrupted, NULL,
-                                   &report);
-    status =
-        status == SB_OK ? sb_reliability_points(value, unit, study, reliability, &report) : status;
-    if (status != SB_OK) {
-      sb_reliability_release(reliability);
-    }
-  } else {
-    status = sb_study_file_points(value, unit, study, &report);
-  }
-  if (status == SB_ERROR_CANCELLED) {
-    (void)sb_cli_fail("interrupted before the first sample");
-    return SB_EXIT_INTERRUPTED;
-  }
-  return sb_cli_status(status, &report);
+static int answered(void *data, const SbCliAnswers *of) {
+  return write_outputs(data, of->study, of->value, of->drawn, of->answers, of->cpus);
 }
 
 static int study_file(const Options *options, const SbStudyFile *study) {
-  GError *error = NULL;
-  const bool serves = answer_pool != NULL && answer_pool->serve != NULL;
-  g_autofree char *path = serves ? NULL : store_path(options, study);
-  int code = serves ? SB_EXIT_DONE : check_targets(options, path);
-  if (code != SB_EXIT_DONE || !sb_cli_has_memory(study->base)) {
-    return MAX(code, code == SB_EXIT_DONE ? SB_EXIT_IO : code);
-  }
-  double *value = NULL, *unit = NULL;
-  SbReliability reliability = {0};
-  if (study->samples == 0) {
-    return sb_cli_fail("%s: study.samples: is missing: how many samples there are",
-                       study->path != NULL ? study->path : "standard input");
-  }
-  code = lay_out(&value, &unit, &reliability, options, study);
+  g_autofree char *path = sb_cli_store_path(options->store, study);
+  const int code = sb_cli_answers_elsewhere() ? SB_EXIT_DONE : check_targets(options, path);
   if (code != SB_EXIT_DONE) {
     return code;
   }
-  SbStore *store = sb_store_open(path, &error);
-  if (store == NULL || !set_list(store, study, &error)) {
-    code = sb_cli_error(error);
-  } else {
-    const SbStudyDrawn drawn = {unit, study->method == SB_METHOD_RELIABILITY ? &reliability : NULL};
-    code = solve(options, study, store, value, &drawn);
-  }
-  error = NULL;
-  if (!sb_store_close(store, &error)) {
-    const int told = sb_cli_error(error);
-    code = MAX(code, told);
-  }
-  sb_reliability_release(&reliability);
-  free(value);
-  free(unit);
-  return code;
+  const SbCliAsk ask = {.store = path,
+                        .threads = options->threads,
+                        .shard = options->shard_index,
+                        .shards = options->shard_count};
+  return sb_cli_answer(study, &ask, answered, (void *)options);
 }
 
 int sb_command_study(int argc, char **argv) {

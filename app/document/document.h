@@ -87,6 +87,9 @@ const SbData *sb_document_data(const SbDocument *document, size_t index);
 // saved with the document. A group's file is written as seen from the document's folder.
 void sb_document_put_data(SbDocument *document, SbData *data);
 
+// The [limits] on figures: its valve's, and its own in their place; borrowed.
+const SbLimits *sb_document_limits(const SbDocument *document);
+
 // The [cases]: each is the document with some values replaced. The name is borrowed.
 size_t sb_document_case_count(const SbDocument *document);
 const char *sb_document_case_name(const SbDocument *document, size_t index);

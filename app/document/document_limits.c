@@ -104,3 +104,7 @@ void sb_document_append_limits(GString *text, const SbLimits *limits) {
                            has_high ? high : low);
   }
 }
+
+const SbLimits *sb_document_limits(const SbDocument *document) {
+  return &document->limits;
+}

@@ -212,10 +212,7 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
                       .hash = options->hash,
                       .stale = options->stale,
                       .measured = options->measured};
-  SbChartState state = summary->status == SB_OK                ? SB_CHART_DONE
-                       : summary->status == SB_ERROR_CANCELLED ? SB_CHART_PARTIAL
-                                                               : SB_CHART_FAILED;
-  sb_chart_run_init(&data.run, run, trace, state);
+  sb_chart_run_init(&data.run, run, trace, sb_chart_state_of(summary));
 
   // Models, errors and warnings also go into the file's own texts.
   char models[256], errors[256];

@@ -7,9 +7,9 @@
 
 #include "app/base/output.h"
 #include "app/document/picture.h"
+#include "app/export/pdf.h"
 #include "engine/valve/sealbench.h"
 
-#include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <errno.h>
 #include <math.h>
@@ -218,50 +218,12 @@ static bool put_svg(FILE *stream, const SbStill *still, GError **error) {
   return good;
 }
 
-// Equal inputs make equal files: no time, but the one that the environment asks for. Owned by the
-// caller.
-static char *creation_date(void) {
-  const char *given = g_getenv("SOURCE_DATE_EPOCH");
-  gint64 seconds = 0;
-  GDateTime *time = NULL;
-  if (given != NULL && g_ascii_string_to_signed(given, 10, 0, G_MAXINT64, &seconds, NULL)) {
-    time = g_date_time_new_from_unix_utc(seconds);
-  }
-  char *text = time != NULL ? g_date_time_format(time, "%Y-%m-%dT%H:%M:%SZ") : g_strdup("");
-  g_clear_pointer(&time, g_date_time_unref);
-  return text;
-}
-
 static bool put_pdf(FILE *stream, const SbStill *still, GError **error) {
-  const double points = 0.75; // 72 per inch over 96 pixels per inch
-  GByteArray *bytes = g_byte_array_new();
-  cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(
-      append_bytes, bytes, still->width * points, still->height * points);
-  char *creator = g_strdup_printf("Sealbench %s", sb_version());
-  char *date = creation_date();
-  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, date);
-  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, creator);
-  cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE,
-                                 still->title ? still->title : "Sealbench");
-  if (still->comment) {
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, still->comment);
-  }
-  if (still->hash) {
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_KEYWORDS, still->hash);
-  }
-  bool good = draw_on(surface, still, points, error);
-  cairo_surface_finish(surface);
-  if (good && cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) {
-    good = fail_cairo(error, cairo_surface_status(surface));
-  }
-  cairo_surface_destroy(surface);
-  if (good) {
-    fwrite(bytes->data, 1, bytes->len, stream);
-  }
-  g_free(creator);
-  g_free(date);
-  g_byte_array_unref(bytes);
-  return good;
+  SbPdf pdf;
+  const SbPdfTexts texts = {still->title, still->comment, still->hash};
+  sb_pdf_begin(&pdf, still->width, still->height, &texts);
+  const bool drawn = draw_on(pdf.surface, still, SB_PDF_POINTS, error);
+  return sb_pdf_finish(&pdf, drawn ? stream : NULL, drawn ? error : NULL) && drawn;
 }
 
 bool sb_still_put(FILE *stream, const SbStill *still, const char *ending, GError **error) {

@@ -101,6 +101,7 @@ def inputs_are_no_outputs():
     picture = os.path.join(where, "frame-0002.png")
     done(run("render", quick, "-o", picture, "--view", "hysteresis", "--size", "320x200"))
     os.symlink("a.scene", os.path.join(where, "link"))
+    os.link(scene, os.path.join(where, "a.pdf"))
     os.link(os.path.join(where, "piston.valve"), os.path.join(where, "second"))
     before = {name: read(os.path.join(where, name)) for name in os.listdir(where)}
     cases = [
@@ -110,6 +111,7 @@ def inputs_are_no_outputs():
         ("run", picture, "--json", "frame-0002.png"), ("plan", scene, "--json", "a.scene"),
         ("render", picture, "-o", "frame-0002.png"), ("render", picture, "-o", "."),
         ("render", picture, "-o", "frame-%04d.png"),
+        ("report", os.path.join(where, "a.pdf"), "-o", "a.pdf"),
         ("fit", os.path.join(where, "piston.valve"), "--seal", "outer", "--json", "second"),
         ("film", "--load", "850N/m", "--speed", "1m/s", "--radius", "0.8mm", "--modulus", "6MPa",
          "--viscosity", "0.2mPa.s", "--model", "inverse", "--dry-pressure", "dry.csv", "--json",
@@ -143,7 +145,7 @@ def told_before_the_work():
     cases = [("run", ring, "-o", "/proc/none"), ("run", ring, "--json", "/no/such/file"),
              ("run", ring, "-o", path(), "--json", home), ("render", ring, "-o", "/no/such/x.mp4"),
              ("render", ring, "-o", "/proc/none/"), ("render", ring, "-o", "/no/such.pdf"),
-             ("run", ring, "-o", quick)]
+             ("run", ring, "-o", quick), ("report", ring, "-o", "/no/such.pdf")]
     for case in cases:
         result = done(run(*case, "--progress", "lines", timeout=20), 3)
         assert " %" not in result.stderr, result.stderr
@@ -187,6 +189,45 @@ def progress():
     json.loads(read(out))
 
 
+def reports():
+    """Pages of a scene and of a study: equal bytes, to a stream too; what must be in the outline."""
+    studies = os.path.join(assets, "studies")
+    study = path("small.study")
+    with open(os.path.join(studies, "gland.study")) as file:
+        text = file.read().replace("samples = 2000", "samples = 60")
+    with open(study, "w") as file:
+        file.write(text.replace("../scenes", os.path.join(assets, "scenes")))
+    limited = path("limited.scene")
+    with open(limited, "w") as file:
+        file.write(f"[sealbench]\nformat = 1\nkind = scene\nvalve = {assets}/valves/piston.valve\n"
+                   "[models]\nfit = karaszkiewicz\nfilm = thesis\n[output]\nstudies = storage\n"
+                   "[limits]\ncycle.force_return_min_N = >= 20 N\n"
+                   "[cases]\nwide = gland.radial_space = 1.38 mm\n")
+    for source, headings in [(limited, ["Summary", "Force, contact and film", "Figures", "Stages",
+                                        "Seals", "Storage time", "Inputs", "Models", "Sources"]),
+                             (study, ["Limits", "Figures over the samples", "What varies",
+                                      "How the figures are spread", "What they hang on"])]:
+        names = [path(f"report-{i}.pdf") for i in range(2)]
+        dated = dict(os.environ, SOURCE_DATE_EPOCH="86400")
+        done(run("report", source, "-o", names[0], env=dated))
+        done(run("report", source, "-o", names[1], "-q", "--jobs", "1", env=dated)
+             if source == study else run("report", source, "-o", names[1], "-q", env=dated))
+        expect(read(names[0]) == read(names[1]), True, "report of " + source)
+        stream = subprocess.run([program, "report", source, "-o", "-"], capture_output=True, env=dated)
+        expect(stream.stdout == read(names[0]), True, "report to a stream")
+        for heading in headings:
+            assert f"/Title ({heading})".encode() in read(names[0]), heading
+        assert b"19700102000000Z" in read(names[0])
+        done(run("report", source, "-o", names[0], "--no-overwrite"), 1)
+    for case in [("report", limited), ("report", limited, "-o", "x.png"),
+                 ("report", os.path.join(studies, "light-valve.study"), "-o", path("x.pdf")),
+                 ("report", os.path.join(studies, "bench.study"), "-o", path("x.pdf")),
+                 ("report", study, "-o", path("x.pdf"), "--measured", "y.csv")]:
+        result = done(run(*case), 1)
+        assert result.stderr, case
+    assert not os.path.exists(path("x.pdf")) and not os.path.exists(path("small.store"))
+
+
 @test
 def equal_runs():
     """Equal runs give equal files, endings in capitals or not."""
@@ -201,6 +242,7 @@ def equal_runs():
             stream = subprocess.run([program, "render", quick, "-o", "-", "--format",
                                      ending.lower(), "--view", "dashboard"], capture_output=True)
             expect(stream.stdout == read(names[0]), True, "-o - " + ending)
+    reports()
     dated = path("dated.pdf")
     done(run("render", quick, "-o", dated, env=dict(os.environ, SOURCE_DATE_EPOCH="86400")))
     assert b"19700102000000Z" in read(dated)

@@ -1,0 +1,203 @@
+// sealbench report: a scene's run, or a study's answers, as pages.
+#include "app/cli/cli.h"
+
+#include "app/base/output.h"
+#include "app/export/report.h"
+
+#include <string.h>
+
+typedef struct {
+  char *output, *measured, *jobs;
+  char **settings;
+  int threads;
+} Options;
+
+static void on_progress(void *data, double fraction, size_t frames) {
+  sb_progress_update(data, fraction);
+}
+
+static bool on_page(void *data, int done, int count) {
+  sb_progress_update(data, (double)done / count);
+  return sb_cli_interrupted(NULL);
+}
+
+// One of the two, with its progress; an exit code.
+static int write_pages(const char *output, const SbReportScene *scene, const SbReportStudy *study) {
+  GError *error = NULL;
+  SbOutput out = {0};
+  if (!sb_output_begin(&out, output, &error)) {
+    return sb_cli_error(error);
+  }
+  SbProgress progress;
+  sb_progress_start(&progress, "drawing ");
+  const SbReportHooks hooks = {on_page, &progress};
+  const bool good = scene != NULL ? sb_report_scene(out.stream, scene, &hooks, &error)
+                                  : sb_report_study(out.stream, study, &hooks, &error);
+  sb_progress_end(&progress);
+  if (!good) {
+    sb_output_abort(&out);
+  }
+  return good && sb_output_commit(&out, &error) ? SB_EXIT_DONE : sb_cli_error(error);
+}
+
+// ---- A scene ----
+
+// The studies that the scene asks for, as `run` makes them. An exit code.
+static int make_studies(SbStudy *out, size_t *count, const SbModel *model) {
+  const unsigned mask = (unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES);
+  int code = SB_EXIT_DONE;
+  for (int i = 0; i < SB_STUDY_COUNT && code != SB_EXIT_INTERRUPTED; i++) {
+    if ((mask & (1u << i)) != 0) {
+      const int made = sb_cli_study(&out[*count], (SbStudyKind)i, model);
+      *count += made == SB_EXIT_DONE || made == SB_EXIT_NOT_CONVERGED;
+      code = made != SB_EXIT_DONE ? made : code;
+    }
+  }
+  return code;
+}
+
+static int report_run(const SbRun *run, const SbDocument *document, const SbMeasured *measured,
+                      const Options *options) {
+  SbCaseVerdict verdict[SB_VERDICT_COUNT];
+  SbProgress progress;
+  sb_progress_start(&progress, "cases ");
+  const SbRunHooks hooks = {
+      .progress = on_progress, .cancelled = sb_cli_interrupted, .data = &progress};
+  g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
+  const SbStatus judged = sb_cases_judge(verdict, run, document, &hooks, problems);
+  sb_progress_end(&progress);
+  for (guint i = 0; i < problems->len; i++) {
+    sb_cli_fail("%s", (const char *)problems->pdata[i]);
+  }
+  g_autofree SbStudy *studies = g_new(SbStudy, SB_STUDY_COUNT);
+  size_t count = 0;
+  const int studied = sb_cli_interrupted(NULL) ? SB_EXIT_INTERRUPTED
+                                               : make_studies(studies, &count, sb_run_model(run));
+  if (studied == SB_EXIT_INTERRUPTED || judged == SB_ERROR_CANCELLED) {
+    sb_cli_fail("interrupted: nothing was written");
+    return SB_EXIT_INTERRUPTED;
+  }
+  SbLoop loop = {0};
+  g_autoptr(SbComparison) comparison =
+      measured != NULL && sb_loop_take(&loop, run) ? sb_comparison_create(measured, &loop) : NULL;
+  sb_loop_clear(&loop);
+  const SbReportScene scene = {.document = document,
+                               .run = run,
+                               .verdict = verdict,
+                               .measured = comparison,
+                               .studies = studies,
+                               .study_count = count};
+  const int written = write_pages(options->output, &scene, NULL);
+  return written != SB_EXIT_DONE   ? written
+         : studied != SB_EXIT_DONE ? studied
+         : judged == SB_OK         ? SB_EXIT_DONE
+                                   : SB_EXIT_NOT_CONVERGED;
+}
+
+static int report_scene(const char *path, const Options *options) {
+  SbModel *model = NULL;
+  g_autoptr(SbDocument) document = sb_cli_open(&model, path, options->settings);
+  if (document == NULL) {
+    return SB_EXIT_INPUT;
+  }
+  int code = sb_cli_check_outputs(NULL, NULL, options->output), read = SB_EXIT_DONE;
+  if (code == SB_EXIT_DONE && !sb_cli_has_memory(model)) {
+    code = SB_EXIT_IO;
+  }
+  g_autoptr(SbMeasured) measured =
+      code == SB_EXIT_DONE ? sb_cli_measured(&read, document, options->measured) : NULL;
+  code = MAX(code, read);
+  if (code == SB_EXIT_DONE) {
+    const SbPlanWishes wishes = {.views = sb_report_views(model),
+                                 .studies = (unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES),
+                                 .life = true};
+    SbPlan plan;
+    SbReport report = {0};
+    SbRun *run = NULL;
+    sb_plan_wished(&plan, model, &wishes);
+    SbStatus status = sb_run_create(&run, model, &plan, &report);
+    if (status == SB_OK) {
+      SbProgress progress;
+      sb_progress_start(&progress, "computing ");
+      sb_cli_catch_interrupts();
+      const SbRunHooks hooks = {
+          .progress = on_progress, .cancelled = sb_cli_interrupted, .data = &progress};
+      status = sb_run_execute(run, &hooks, &report);
+      sb_progress_end(&progress);
+    }
+    code = sb_cli_status(status, &report);
+    if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+      const int reported = report_run(run, document, measured, options);
+      code = reported != SB_EXIT_DONE ? reported : code;
+    }
+    sb_run_destroy(run);
+  }
+  sb_model_destroy(model);
+  return code;
+}
+
+// ---- A study ----
+
+static int answered(void *data, const SbCliAnswers *of) {
+  if (sb_cli_interrupted(NULL)) {
+    sb_cli_fail("interrupted: nothing was written");
+    return SB_EXIT_INTERRUPTED;
+  }
+  const SbReportStudy study = {of->study, of->value, of->drawn, of->answers};
+  return write_pages(((const Options *)data)->output, NULL, &study);
+}
+
+static int report_study(const char *path, const Options *options) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbStudyFile) study = sb_study_file_load(path, options->settings, issues);
+  sb_cli_issues(issues);
+  if (study == NULL) {
+    return SB_EXIT_INPUT;
+  }
+  if (options->measured != NULL) {
+    return sb_cli_fail("--measured: is for a scene, not for a study");
+  }
+  if (study->design.asked || study->data->len > 0) {
+    return sb_cli_fail("%s: asks for a %s: a report takes what `sealbench study` computes", path,
+                       study->design.asked ? "design" : "calibration");
+  }
+  const int code = sb_cli_check_outputs(NULL, NULL, options->output);
+  if (code != SB_EXIT_DONE) {
+    return code;
+  }
+  // What `sealbench study` has computed is not computed again; a store is made by that alone.
+  g_autofree char *store = sb_cli_store_path(NULL, study);
+  const bool there = store != NULL && g_file_test(store, G_FILE_TEST_IS_REGULAR);
+  const SbCliAsk ask = {.store = there ? store : NULL, .threads = options->threads};
+  return sb_cli_answer(study, &ask, answered, (void *)options);
+}
+
+int sb_command_report(int argc, char **argv) {
+  Options options = {0};
+  const GOptionEntry entries[] = {
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output, "The pages, a .pdf or -",
+       "OUT.pdf"},
+      {"measured", 0, 0, G_OPTION_ARG_FILENAME, &options.measured, SB_CLI_MEASURED_HELP, "FILE"},
+      {"jobs", 0, 0, G_OPTION_ARG_FILENAME, &options.jobs, SB_CLI_JOBS_HELP, "N"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  if (sb_cli_parse(&argc, &argv, entries, 1, 1,
+                   "Of a study, what NAME.store beside it has is not computed again.") &&
+      sb_cli_jobs(&options.threads, options.jobs)) {
+    if (options.output == NULL) {
+      code = sb_cli_fail("-o is missing: the pages to write (.pdf, or - for standard output)");
+    } else if (strcmp(options.output, "-") != 0 && !sb_output_ends_in(options.output, ".pdf")) {
+      code = sb_cli_fail("-o: %s: the ending must be .pdf", options.output);
+    } else {
+      code = sb_output_ends_in(argv[1], ".study") ? report_study(argv[1], &options)
+                                                  : report_scene(argv[1], &options);
+    }
+  }
+  g_free(options.output);
+  g_free(options.measured);
+  g_free(options.jobs);
+  g_strfreev(options.settings);
+  return code;
+}

@@ -1,0 +1,219 @@
+// The inputs of a report: what was given and by which file, what follows from it, the models, and a
+// numbered list of the sources; the parameters without effect or left to their
+// defaults stand behind.
+#include "app/export/report.h"
+
+#include "app/base/number.h"
+
+#include <string.h>
+
+// Sources by their numbers, in the order in which they are first named.
+typedef struct {
+  GPtrArray *text; // of char *
+} Sources;
+
+// "[3]" of a source, which is added if it is new. Owned by the caller.
+static char *cite(Sources *sources, const char *tag, const char *source) {
+  // "thesis table 7.1" says it itself.
+  g_autofree char *text = source == NULL || *source == '\0' ? g_strdup(tag)
+                          : g_str_has_prefix(source, tag)   ? g_strdup(source)
+                                                          : g_strdup_printf("%s: %s", tag, source);
+  guint at = 0;
+  if (!g_ptr_array_find_with_equal_func(sources->text, text, g_str_equal, &at)) {
+    at = sources->text->len;
+    g_ptr_array_add(sources->text, g_steal_pointer(&text));
+  }
+  return g_strdup_printf("[%u]", at + 1);
+}
+
+// Whether it is the tolerance of another one, in whose row it stands.
+static bool is_tolerance(SbParamId id) {
+  return g_str_has_suffix(sb_param(id)->key, "_tolerance");
+}
+
+// How a scene is shown is no input of its figures.
+static bool is_input(SbParamId id) {
+  const char *key = sb_param(id)->key;
+  return !g_str_has_prefix(key, "output.") && !g_str_has_prefix(key, "models.") &&
+         !g_str_has_prefix(key, "study.") && !is_tolerance(id);
+}
+
+// "Gland" of "gland.radial_space". Owned by the caller.
+static char *group_of(SbParamId id) {
+  const char *key = sb_param(id)->key;
+  char *name = g_strndup(key, strcspn(key, "."));
+  name[0] = g_ascii_toupper(name[0]);
+  return name;
+}
+
+// Who says a value: the scene, its valve, another parameter, or nobody, and the source of that.
+// Both owned by the caller.
+static char *origin_of(char **source, Sources *sources, const SbDocument *document,
+                       const SbModel *model, const SbParams *params, SbParamId id) {
+  const SbParam *param = sb_param(id);
+  SbParamDefault follows;
+  *source = NULL;
+  if (params->given[id]) {
+    // A file that repeats the catalogue's value has its source.
+    if (params->value[id] == param->fallback) {
+      *source = cite(sources, param->tag, param->source);
+    }
+    const char *valve = sb_document_valve_path(document);
+    const char *path =
+        sb_document_gives(document, id) || valve == NULL ? sb_document_path(document) : valve;
+    return path != NULL ? g_path_get_basename(path) : g_strdup("not saved");
+  }
+  if (sb_model_default(&follows, model, id)) {
+    *source = cite(sources, follows.tag, follows.source);
+    return g_strdup_printf("follows from %s", follows.from);
+  }
+  *source = cite(sources, param->tag, param->source);
+  return g_strdup("default");
+}
+
+// Six digits: what a file needs to read back to the bit nobody wants to read.
+static char *value_of(const SbModel *model, SbParamId id) {
+  const SbParam *param = sb_param(id);
+  const double value = sb_model_value(model, id);
+  if (param->kind == SB_PARAM_REAL) {
+    char digits[SB_NUMBER_SIZE];
+    sb_number_round(digits, sb_quantity_to_shown(value, param->si, param->unit), 6);
+    return g_strdup_printf("%s%s%s", digits, *param->unit != '\0' ? " " : "", param->unit);
+  }
+  char *text = sb_param_format(id, value);
+  if (*text == '\0') {
+    g_free(text);
+    return g_strdup("none");
+  }
+  return text;
+}
+
+static void add_parameter(SbReportPages *pages, SbReportTable *table, Sources *sources,
+                          const SbDocument *document, const SbModel *model, const SbParams *params,
+                          SbParamId id) {
+  const SbParam *param = sb_param(id);
+  const int tolerance = sb_param_tolerance(id);
+  g_autofree char *source = NULL;
+  g_autofree char *origin = origin_of(&source, sources, document, model, params, id);
+  g_autofree char *value = value_of(model, id);
+  g_autofree char *range = tolerance >= 0 && sb_model_value(model, (SbParamId)tolerance) > 0
+                               ? value_of(model, (SbParamId)tolerance)
+                               : NULL;
+  g_autofree char *shown = range != NULL ? g_strdup_printf("\xc2\xb1 %s", range) : NULL;
+  g_autofree char *label =
+      param->parent >= 0
+          ? g_strdup_printf("%s, %s", param->label,
+                            strstr(param->key, ".outer.") != NULL ? "outer" : "inner")
+          : g_strdup(param->label);
+  const char *const cell[] = {label, param->symbol, value, shown, origin, source};
+  sb_report_row(pages, table, cell, SB_REPORT_PLAIN);
+}
+
+static void draw_models(SbReportPages *pages, Sources *sources, const SbDocument *document,
+                        const SbModel *model, const SbParams *params) {
+  static const SbReportColumn columns[] = {{"Model", 1.4, SB_REPORT_WORDS},
+                                           {"Choice", 1.6, SB_REPORT_WORDS},
+                                           {"What it decides", 4.6, SB_REPORT_WORDS},
+                                           {"From", 2.2, SB_REPORT_WORDS},
+                                           {"Source", 0.9, SB_REPORT_NUMBER}};
+  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  sb_report_heading(pages, "Models", 120);
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    if (g_str_has_prefix(param->key, "models.") && param->kind == SB_PARAM_CHOICE) {
+      g_autofree char *source = NULL;
+      g_autofree char *origin = origin_of(&source, sources, document, model, params, (SbParamId)i);
+      g_autofree char *value = value_of(model, (SbParamId)i);
+      const char *const cell[] = {param->label, value, param->help, origin, source};
+      sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
+    }
+  }
+}
+
+// Whether a parameter stands in the table of inputs rather than among the defaults.
+static bool is_told(const SbModel *model, const SbParams *params, SbParamId id) {
+  SbParamDefault follows;
+  const char *key = sb_param(id)->key;
+  if (sb_model_number(model, SB_P_MODELS_MOTION) != SB_MODEL_MOTION_BODIES &&
+      (g_str_has_prefix(key, "part.") || g_str_has_prefix(key, "joint."))) {
+    return false; // the motion has no parts
+  }
+  if (params->given[id]) {
+    return true;
+  }
+  return sb_param(id)->parent < 0 &&
+         (sb_param_is_main(id) || sb_model_default(&follows, model, id));
+}
+
+// Two parameters a row.
+static void draw_defaults(SbReportPages *pages, const SbModel *model, const SbParams *params) {
+  static const SbReportColumn columns[] = {{"", 2.6, SB_REPORT_WORDS},
+                                           {"", 1.6, SB_REPORT_NUMBER},
+                                           {"", 0.2, SB_REPORT_WORDS},
+                                           {"", 2.6, SB_REPORT_WORDS},
+                                           {"", 1.6, SB_REPORT_NUMBER}};
+  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  sb_report_heading(pages, "All other parameters", 60);
+  const char *cell[5] = {NULL};
+  g_autofree char *left = NULL;
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    if (!is_input((SbParamId)i) || param->parent >= 0 || is_told(model, params, (SbParamId)i)) {
+      continue;
+    }
+    g_autofree char *value = value_of(model, (SbParamId)i);
+    if (cell[0] == NULL) {
+      cell[0] = param->key;
+      left = g_steal_pointer(&value);
+      cell[1] = left;
+    } else {
+      cell[3] = param->key;
+      cell[4] = value;
+      sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
+      g_clear_pointer(&left, g_free);
+      memset(cell, 0, sizeof cell);
+    }
+  }
+  if (cell[0] != NULL) {
+    sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
+  }
+}
+
+void sb_report_inputs(SbReportPages *pages, const SbDocument *document, const SbModel *model) {
+  static const SbReportColumn columns[] = {
+      {"Parameter", 3.2, SB_REPORT_WORDS}, {"", 0.8, SB_REPORT_WORDS},
+      {"Value", 1.8, SB_REPORT_NUMBER},    {"Tolerance", 1.5, SB_REPORT_NUMBER},
+      {"From", 2.4, SB_REPORT_WORDS},      {"Source", 0.9, SB_REPORT_NUMBER}};
+  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  Sources sources = {g_ptr_array_new_with_free_func(g_free)};
+  const SbParams params = sb_document_params(document);
+  sb_report_heading(pages, "Inputs", 100);
+  // By groups, which the catalogue comes back to.
+  bool done[SB_PARAM_COUNT] = {false};
+  for (int first = 0; first < SB_PARAM_COUNT; first++) {
+    g_autofree char *group = NULL;
+    for (int i = first; i < SB_PARAM_COUNT; i++) {
+      g_autofree char *own = group_of((SbParamId)i);
+      if (done[i] || !is_input((SbParamId)i) || !is_told(model, &params, (SbParamId)i) ||
+          (group != NULL && strcmp(own, group) != 0)) {
+        continue;
+      }
+      if (group == NULL) {
+        const char *const head[] = {own, NULL, NULL, NULL, NULL, NULL};
+        sb_report_row(pages, &table, head, SB_REPORT_GROUP);
+        group = g_strdup(own);
+      }
+      done[i] = true;
+      add_parameter(pages, &table, &sources, document, model, &params, (SbParamId)i);
+    }
+  }
+  draw_models(pages, &sources, document, model, &params);
+  sb_report_heading(pages, "Sources", 60);
+  for (guint i = 0; i < sources.text->len; i++) {
+    g_autofree char *line =
+        g_strdup_printf("[%u]  %s", i + 1, (const char *)g_ptr_array_index(sources.text, i));
+    sb_report_text(pages, line, SB_TYPE_NOTE, 400, SB_ROLE_INK);
+  }
+  g_ptr_array_unref(sources.text);
+  draw_defaults(pages, model, &params);
+}

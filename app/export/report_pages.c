@@ -1,0 +1,295 @@
+// Sheets by cairo and pango, each place from what was drawn before it.
+#include "app/export/report_pages.h"
+
+#include "app/export/pdf.h"
+
+#include <cairo-pdf.h>
+#include <math.h>
+#include <string.h>
+
+#define TOP       56.0
+#define BOTTOM    64.0 // of the foot, below the last line
+#define CELL      11.0 // type of tables
+#define ROW_ABOVE 4.0
+#define ROW_BELOW 4.0
+#define GAP       10.0 // between columns
+
+struct SbReportPages {
+  SbPdf pdf;
+  cairo_t *cr;
+  SbCanvas canvas;
+  const SbReportTexts *texts;
+  const SbReportHooks *hooks;
+  double width, height; // of this page
+  double y;
+  bool counting, across, stopped;
+  int page, count;
+};
+
+double sb_report_width(const SbReportPages *pages) {
+  return pages->width - 2 * SB_REPORT_MARGIN;
+}
+
+double sb_report_left(const SbReportPages *pages) {
+  return pages->height - BOTTOM - pages->y;
+}
+
+static SbTextStyle style_of(SbReportPages *pages, double size, int weight, SbRole role) {
+  return sb_canvas_style(&pages->canvas, size, weight, role);
+}
+
+// ---- Sheets ----
+
+static void draw_foot(SbReportPages *pages) {
+  const double left = SB_REPORT_MARGIN, right = pages->width - SB_REPORT_MARGIN;
+  const double y = pages->height - 34;
+  SbCanvas *c = &pages->canvas;
+  sb_canvas_hairline(c, left, y - 16, right, y - 16, sb_canvas_role(c, SB_ROLE_HAIRLINE));
+  const SbTextStyle style = style_of(pages, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+  g_autofree char *number = g_strdup_printf("page %d of %d", pages->page, pages->count);
+  const double width = sb_canvas_text(c, number, &style, right, y, SB_RIGHT);
+  sb_canvas_text_fit(c, pages->texts->foot, &style, left, y, right - left - width - 24);
+  // The first page has the title itself.
+  if (pages->page > 1) {
+    const SbTextStyle head = style_of(pages, SB_TYPE_NOTE, 600, SB_ROLE_SECOND);
+    sb_canvas_text_fit(c, pages->texts->title, &head, left, 34, right - left);
+  }
+}
+
+static void end_page(SbReportPages *pages) {
+  if (pages->page == 0) {
+    return;
+  }
+  draw_foot(pages);
+  cairo_surface_show_page(pages->pdf.surface);
+  if (!pages->counting && pages->hooks != NULL && pages->hooks->page != NULL) {
+    pages->stopped |= pages->hooks->page(pages->hooks->data, pages->page, pages->count);
+  }
+}
+
+void sb_report_page(SbReportPages *pages, bool across) {
+  end_page(pages);
+  pages->across = across;
+  pages->width = across ? SB_REPORT_HEIGHT : SB_REPORT_WIDTH;
+  pages->height = across ? SB_REPORT_WIDTH : SB_REPORT_HEIGHT;
+  cairo_pdf_surface_set_size(pages->pdf.surface, pages->width * SB_PDF_POINTS,
+                             pages->height * SB_PDF_POINTS);
+  pages->page++;
+  pages->y = TOP;
+}
+
+void sb_report_room(SbReportPages *pages, double height) {
+  if (sb_report_left(pages) < height) {
+    sb_report_page(pages, pages->across);
+  }
+}
+
+void sb_report_skip(SbReportPages *pages, double height) {
+  pages->y += height;
+}
+
+// One time through; the number of pages.
+static int pass(SbReportPages *pages, SbReportDraw draw, const void *of) {
+  const SbPdfTexts texts = {pages->texts->title, pages->texts->comment, pages->texts->hash};
+  sb_pdf_begin(&pages->pdf, SB_REPORT_WIDTH, SB_REPORT_HEIGHT, &texts);
+  pages->cr = cairo_create(pages->pdf.surface);
+  cairo_scale(pages->cr, SB_PDF_POINTS, SB_PDF_POINTS);
+  sb_canvas_init(&pages->canvas, pages->cr, sb_theme(false));
+  pages->page = 0;
+  sb_report_page(pages, false);
+  draw(pages, of);
+  end_page(pages);
+  sb_canvas_finish(&pages->canvas);
+  return pages->page;
+}
+
+bool sb_report_pages_write(FILE *stream, const SbReportTexts *texts, SbReportDraw draw,
+                           const void *of, const SbReportHooks *hooks, GError **error) {
+  SbReportPages pages = {.texts = texts, .hooks = hooks, .counting = true};
+  pages.count = pass(&pages, draw, of);
+  cairo_destroy(pages.cr);
+  (void)sb_pdf_finish(&pages.pdf, NULL, NULL);
+  pages.counting = false;
+  (void)pass(&pages, draw, of);
+  const cairo_status_t status = cairo_status(pages.cr);
+  cairo_destroy(pages.cr);
+  if (pages.stopped || status != CAIRO_STATUS_SUCCESS) {
+    (void)sb_pdf_finish(&pages.pdf, NULL, NULL);
+    g_set_error(error, SB_APP_ERROR, pages.stopped ? SB_APP_ERROR_CANCELLED : SB_APP_ERROR_IO,
+                pages.stopped ? "interrupted: nothing was written"
+                              : "the pages could not be drawn: %s",
+                cairo_status_to_string(status));
+    return false;
+  }
+  return sb_pdf_finish(&pages.pdf, stream, error);
+}
+
+// ---- Texts ----
+
+void sb_report_title(SbReportPages *pages, const char *title, const char *line) {
+  SbCanvas *c = &pages->canvas;
+  const SbTextStyle big = style_of(pages, SB_TYPE_TITLE, 700, SB_ROLE_INK);
+  const SbTextStyle small = style_of(pages, 13, 400, SB_ROLE_SECOND);
+  const double width = sb_report_width(pages);
+  pages->y += sb_canvas_paragraph(c, title, &big, SB_REPORT_MARGIN, pages->y - 8, width);
+  pages->y += 4 + sb_canvas_paragraph(c, line, &small, SB_REPORT_MARGIN, pages->y, width);
+  if (!pages->counting) {
+    cairo_pdf_surface_add_outline(pages->pdf.surface, CAIRO_PDF_OUTLINE_ROOT,
+                                  pages->texts->bookmark, "page=1 pos=[0 0]",
+                                  CAIRO_PDF_OUTLINE_FLAG_OPEN);
+  }
+}
+
+void sb_report_heading(SbReportPages *pages, const char *text, double follows) {
+  SbCanvas *c = &pages->canvas;
+  sb_report_room(pages, 44 + follows);
+  pages->y += pages->y > TOP ? 22 : 0;
+  const SbTextStyle style = style_of(pages, SB_TYPE_PANEL, 700, SB_ROLE_INK);
+  sb_canvas_text(c, text, &style, SB_REPORT_MARGIN, pages->y + 14, SB_LEFT);
+  if (!pages->counting) {
+    g_autofree char *place = g_strdup_printf("page=%d", pages->page);
+    cairo_pdf_surface_add_outline(pages->pdf.surface, CAIRO_PDF_OUTLINE_ROOT, text, place, 0);
+  }
+  pages->y += 26;
+}
+
+void sb_report_text(SbReportPages *pages, const char *text, double size, int weight, SbRole role) {
+  const SbTextStyle style = style_of(pages, size, weight, role);
+  const double width = sb_report_width(pages);
+  sb_report_room(pages, sb_canvas_paragraph_height(&pages->canvas, text, &style, width) +
+                            (weight >= 700 ? 60 : 0));
+  pages->y +=
+      4 + sb_canvas_paragraph(&pages->canvas, text, &style, SB_REPORT_MARGIN, pages->y, width);
+}
+
+void sb_report_notice(SbReportPages *pages, const char *text, bool error) {
+  SbCanvas *c = &pages->canvas;
+  const SbTextStyle style =
+      style_of(pages, SB_TYPE_LABEL, 600, error ? SB_ROLE_ERROR : SB_ROLE_WARN);
+  const double width = sb_report_width(pages) - 24;
+  const double height = sb_canvas_paragraph_height(c, text, &style, width) + 12;
+  sb_report_room(pages, height + 6);
+  sb_canvas_rounded(c, (SbRect){SB_REPORT_MARGIN, pages->y, width + 24, height}, 4);
+  sb_canvas_color(c, sb_canvas_role(c, error ? SB_ROLE_ERROR_GROUND : SB_ROLE_WARN_GROUND), 1);
+  cairo_fill(pages->cr);
+  sb_canvas_paragraph(c, text, &style, SB_REPORT_MARGIN + 12, pages->y + 6, width);
+  pages->y += height + 6;
+}
+
+// ---- Pictures ----
+
+static void draw_in(SbReportPages *pages, SbRect rect, SbReportPicture draw, const void *of) {
+  if (pages->counting || of == NULL) {
+    return;
+  }
+  cairo_save(pages->cr);
+  draw(pages->cr, rect, pages->canvas.theme, of);
+  cairo_restore(pages->cr);
+  cairo_new_path(pages->cr);
+}
+
+void sb_report_picture(SbReportPages *pages, double height, SbReportPicture draw, const void *of) {
+  sb_report_room(pages, height);
+  draw_in(pages, (SbRect){SB_REPORT_MARGIN, pages->y, sb_report_width(pages), height}, draw, of);
+  pages->y += height + 12;
+}
+
+void sb_report_pair(SbReportPages *pages, double height, SbReportPicture draw, const void *left,
+                    const void *right) {
+  sb_report_room(pages, height);
+  const double width = 0.5 * (sb_report_width(pages) - 12);
+  draw_in(pages, (SbRect){SB_REPORT_MARGIN, pages->y, width, height}, draw, left);
+  draw_in(pages, (SbRect){SB_REPORT_MARGIN + width + 12, pages->y, width, height}, draw, right);
+  pages->y += height + 12;
+}
+
+// ---- Tables ----
+
+static double column_width(const SbReportPages *pages, const SbReportTable *table, size_t k) {
+  double sum = 0;
+  for (size_t i = 0; i < table->columns; i++) {
+    sum += table->column[i].share;
+  }
+  return sb_report_width(pages) * table->column[k].share / sum - GAP;
+}
+
+static double row_height(SbReportPages *pages, const SbReportTable *table, const char *const *cell,
+                         const SbTextStyle *style) {
+  double height = CELL;
+  for (size_t k = 0; k < table->columns; k++) {
+    if (cell[k] != NULL && cell[k][0] != '\0') {
+      height = fmax(height, sb_canvas_paragraph_height(&pages->canvas, cell[k], style,
+                                                       column_width(pages, table, k)));
+    }
+  }
+  return fmax(height, 1.3 * CELL) + ROW_ABOVE + ROW_BELOW;
+}
+
+static void draw_cells(SbReportPages *pages, const SbReportTable *table, const char *const *cell,
+                       const SbTextStyle *style) {
+  double x = SB_REPORT_MARGIN + 0.5 * GAP;
+  for (size_t k = 0; k < table->columns; k++) {
+    const double width = column_width(pages, table, k);
+    const SbReportCells cells = table->column[k].cells;
+    const SbTextStyle pass = style_of(pages, CELL, 700, SB_ROLE_PASS);
+    const bool good = cells == SB_REPORT_ANSWER && g_strcmp0(cell[k], "yes") == 0;
+    if (cell[k] != NULL) {
+      sb_canvas_paragraph_aligned(&pages->canvas, cell[k], good ? &pass : style, x,
+                                  pages->y + ROW_ABOVE - 1, width,
+                                  cells == SB_REPORT_NUMBER ? SB_RIGHT : SB_LEFT);
+    }
+    x += width + GAP;
+  }
+}
+
+static void draw_head(SbReportPages *pages, const SbReportTable *table) {
+  const char *head[SB_REPORT_COLUMNS] = {NULL};
+  bool any = false;
+  for (size_t k = 0; k < table->columns; k++) {
+    head[k] = table->column[k].head;
+    any |= head[k] != NULL && head[k][0] != '\0';
+  }
+  if (any) {
+    const SbTextStyle style = style_of(pages, CELL, 700, SB_ROLE_SECOND);
+    const double height = row_height(pages, table, head, &style);
+    draw_cells(pages, table, head, &style);
+    pages->y += height;
+  }
+  sb_canvas_hairline(&pages->canvas, SB_REPORT_MARGIN, pages->y, pages->width - SB_REPORT_MARGIN,
+                     pages->y, sb_canvas_role(&pages->canvas, SB_ROLE_AXIS));
+}
+
+void sb_report_row(SbReportPages *pages, SbReportTable *table, const char *const *cell,
+                   SbReportLook look) {
+  SbCanvas *c = &pages->canvas;
+  const bool group = look == SB_REPORT_GROUP;
+  const SbTextStyle style = style_of(pages, CELL, group ? 700 : 400,
+                                     look == SB_REPORT_WRONG   ? SB_ROLE_ERROR
+                                     : look == SB_REPORT_DOUBT ? SB_ROLE_WARN
+                                                               : SB_ROLE_INK);
+  const double height =
+      group ? 1.3 * CELL + ROW_ABOVE + ROW_BELOW + 6 : row_height(pages, table, cell, &style);
+  const int page = pages->page;
+  sb_report_room(pages, height + (group || !table->open ? 50 : 0));
+  if (!table->open || page != pages->page) {
+    draw_head(pages, table);
+    table->open = true;
+  }
+  const double width = sb_report_width(pages);
+  if (look == SB_REPORT_WRONG || look == SB_REPORT_DOUBT) {
+    sb_canvas_color(
+        c, sb_canvas_role(c, look == SB_REPORT_WRONG ? SB_ROLE_ERROR_GROUND : SB_ROLE_WARN_GROUND),
+        1);
+    cairo_rectangle(pages->cr, SB_REPORT_MARGIN, pages->y + 1, width, height - 1);
+    cairo_fill(pages->cr);
+  }
+  if (group) {
+    sb_canvas_text(c, cell[0], &style, SB_REPORT_MARGIN + 0.5 * GAP,
+                   pages->y + height - ROW_BELOW - 0.3 * CELL, SB_LEFT);
+  } else {
+    draw_cells(pages, table, cell, &style);
+  }
+  pages->y += height;
+  sb_canvas_hairline(c, SB_REPORT_MARGIN, pages->y, SB_REPORT_MARGIN + width, pages->y,
+                     sb_canvas_role(c, SB_ROLE_HAIRLINE));
+}

@@ -1,0 +1,611 @@
+// A study's pages: what was varied and how, probabilities of the limits, statistics, a histogram a
+// figure, what each figure hangs on, curves of a grid; then the scene's inputs.
+#include "app/export/report.h"
+
+#include "app/base/format.h"
+#include "app/base/number.h"
+#include "app/chart/samples.h"
+#include "app/chart/study.h"
+#include "app/export/study_results.h"
+#include "engine/numeric/statistics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DASH "\xe2\x80\x93"
+
+enum { CHARTS = 24, GRID_ROWS = 120 };
+
+typedef struct {
+  const SbReportStudy *of;
+  const SbStudyFile *study;
+  const SbAnswers *answers;
+  char *files;
+  SbStudy *curves;    // of a grid; NULL: none
+  size_t tornados;    // made before anything is drawn
+  SbTornado *tornado; // [tornados]
+  GPtrArray *names;   // of char *, that they borrow
+  SbStatus status;    // of what statistics ended with
+} Study;
+
+static int figure_at(const Study *study, size_t k) {
+  return g_array_index(study->study->figures, int, k);
+}
+
+static const SbVary *vary_at(const Study *study, size_t k) {
+  return &g_array_index(study->study->vary, SbVary, k);
+}
+
+// "Section diameter, outer" of a parameter, a variable's name. Owned by the caller.
+static char *vary_label(const SbVary *vary) {
+  if (vary->id == SB_VARY_VARIABLE) {
+    return g_strdup(sb_vary_name(vary));
+  }
+  const SbParam *param = sb_param(vary->id);
+  const char *of = param->parent < 0                            ? ""
+                   : g_str_has_prefix(param->key, "seal.outer") ? ", outer"
+                                                                : ", inner";
+  return g_strconcat(param->label, of, NULL);
+}
+
+static bool is_drawn(const Study *study) {
+  return study->study->method != SB_METHOD_RELIABILITY;
+}
+
+static char *shown(int figure, double value) {
+  return isfinite(value) ? sb_figure_format(figure, value, NAN) : g_strdup(DASH);
+}
+
+// The limit on a figure, open without one.
+static SbLimit limit_on(const Study *study, int figure) {
+  const SbLimits *limits = &study->study->limits;
+  for (size_t i = 0; i < limits->count; i++) {
+    if (limits->item[i].figure == figure) {
+      return limits->item[i];
+    }
+  }
+  return (SbLimit){figure, -INFINITY, INFINITY};
+}
+
+// ---- First page ----
+
+// "5.2 % (4.1 to 6.5 %)", or in millionths. Owned by the caller.
+static char *probability_text(const Study *study, const SbLimitShare *share) {
+  const bool rare = study->study->method == SB_METHOD_RELIABILITY;
+  const double unit = rare ? 1e6 : 100;
+  if (isnan(share->probability)) {
+    return g_strdup(DASH);
+  }
+  char p[SB_FORMAT_MAX], low[SB_FORMAT_MAX], high[SB_FORMAT_MAX];
+  sb_format_digits(p, unit * share->probability, 3);
+  sb_format_digits(low, unit * share->interval[0], 3);
+  sb_format_digits(high, unit * share->interval[1], 3);
+  const char *name = rare ? "ppm" : "%";
+  return g_strdup_printf("%s\xc2\xa0%s (%s to %s)", p, name, low, high);
+}
+
+static void draw_limits(SbReportPages *pages, Study *study) {
+  static const SbReportColumn columns[] = {{"Limit on", 4, SB_REPORT_WORDS},
+                                           {"Limit", 1.6, SB_REPORT_NUMBER},
+                                           {"Beyond", 1.6, SB_REPORT_NUMBER},
+                                           {"Probability (95 %)", 3, SB_REPORT_NUMBER},
+                                           {"\xce\xb2", 0.8, SB_REPORT_NUMBER}};
+  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  const SbStudyFile *file = study->study;
+  const bool independent =
+      file->method == SB_METHOD_MONTE_CARLO || file->method == SB_METHOD_RELIABILITY;
+  if (file->limits.count == 0) {
+    return;
+  }
+  sb_report_heading(pages, "Limits", 80);
+  for (size_t i = 0; i <= file->limits.count; i++) {
+    SbLimitShare share;
+    SbReport report = {0};
+    const SbStatus status =
+        sb_study_limit_share(&share, file, study->of->drawn, study->answers, i, &report);
+    study->status = status != SB_OK ? status : study->status;
+    const bool all = i == file->limits.count;
+    const SbLimit *limit = &file->limits.item[all ? 0 : i];
+    g_autofree char *label = all ? g_strdup("any of them") : sb_figure_label(limit->figure);
+    g_autofree char *text =
+        all ? g_strdup("") : sb_limit_format(limit->figure, limit->low, limit->high);
+    g_autofree char *beyond = g_strdup_printf("%zu of %zu", share.beyond, share.of);
+    g_autofree char *odds = independent ? probability_text(study, &share) : g_strdup(DASH);
+    g_autofree char *beta =
+        independent && isfinite(share.beta) ? g_strdup_printf("%.2f", share.beta) : g_strdup(DASH);
+    const char *const cell[] = {label, text, beyond, odds, beta};
+    sb_report_row(pages, &table, cell, share.beyond > 0 ? SB_REPORT_DOUBT : SB_REPORT_PLAIN);
+  }
+  sb_report_skip(pages, 6);
+  sb_report_text(pages,
+                 independent ? "Shares of the samples that are valves; a sample whose solver did "
+                               "not converge widens the interval."
+                             : "The points are no independent draws, so they give no probability.",
+                 SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+}
+
+static void draw_statistics(SbReportPages *pages, Study *study) {
+  static const SbReportColumn columns[] = {
+      {"Figure", 3.6, SB_REPORT_WORDS},     {"Mean", 1.3, SB_REPORT_NUMBER},
+      {"Deviation", 1.3, SB_REPORT_NUMBER}, {"Least", 1.3, SB_REPORT_NUMBER},
+      {"5 %", 1.3, SB_REPORT_NUMBER},       {"Median", 1.3, SB_REPORT_NUMBER},
+      {"95 %", 1.3, SB_REPORT_NUMBER},      {"Most", 1.3, SB_REPORT_NUMBER}};
+  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  sb_report_heading(pages, "Figures over the samples", 80);
+  for (size_t k = 0; k < study->answers->figures; k++) {
+    const int figure = figure_at(study, k);
+    SbSummaryOfSamples of;
+    SbReport report = {0};
+    const SbStatus status = sb_samples_summary(
+        &of, study->answers->value + k, study->answers->samples, study->answers->figures, &report);
+    if (status != SB_OK || of.count == 0) {
+      study->status = status != SB_OK ? status : study->status;
+      continue;
+    }
+    const double value[] = {of.mean,        of.deviation,   of.min, of.quantile[1],
+                            of.quantile[2], of.quantile[3], of.max};
+    char *cell[8] = {sb_figure_label(figure)};
+    for (size_t i = 0; i < G_N_ELEMENTS(value); i++) {
+      cell[i + 1] = shown(figure, value[i]);
+    }
+    sb_report_row(pages, &table, (const char *const *)cell, SB_REPORT_PLAIN);
+    for (size_t i = 0; i < G_N_ELEMENTS(cell); i++) {
+      g_free(cell[i]);
+    }
+  }
+}
+
+static char *vary_value(const SbVary *vary, double value) {
+  char digits[SB_NUMBER_SIZE];
+  return vary->id == SB_VARY_VARIABLE ? g_strdup(sb_number_round(digits, value, 6))
+                                      : sb_param_format(vary->id, value);
+}
+
+// "normal, mean 1.36 mm, deviation 0.01 mm"; owned by the caller.
+static char *distribution_text(const SbVary *vary) {
+  const SbDistribution *of = &vary->distribution;
+  if (vary->by != NULL) {
+    return g_strdup_printf("follows: %s", vary->by);
+  }
+  g_autofree char *a = vary_value(vary, of->a), *b = vary_value(vary, of->b);
+  switch (of->kind) {
+  case SB_DISTRIBUTION_UNIFORM:
+    return g_strdup_printf("uniform, %s to %s", a, b);
+  case SB_DISTRIBUTION_LOGUNIFORM:
+    return g_strdup_printf("uniform in the logarithm, %s to %s", a, b);
+  case SB_DISTRIBUTION_NORMAL: {
+    g_autofree char *low = isfinite(of->low) ? sb_param_format(vary->id, of->low) : NULL;
+    g_autofree char *high = isfinite(of->high) ? sb_param_format(vary->id, of->high) : NULL;
+    return low != NULL && high != NULL
+               ? g_strdup_printf("normal, mean %s, deviation %s, within %s to %s", a, b, low, high)
+               : g_strdup_printf("normal, mean %s, deviation %s", a, b);
+  }
+  default: {
+    GString *text = g_string_new("levels");
+    for (size_t i = 0; i < of->count && i < 12; i++) {
+      g_autofree char *level = vary_value(vary, of->level[i]);
+      g_string_append_printf(text, "%s %s", i > 0 ? "," : "", level);
+    }
+    g_string_append(text, of->count > 12 ? ", \xe2\x80\xa6" : "");
+    return g_string_free(text, FALSE);
+  }
+  }
+}
+
+static void add_varied(SbReportPages *pages, SbReportTable *table, const Study *study,
+                       const SbVary *vary) {
+  const bool is_param = vary->id != SB_VARY_VARIABLE;
+  g_autofree char *value =
+      is_param ? sb_param_format(vary->id, sb_model_value(study->study->base, vary->id)) : NULL;
+  g_autofree char *how = distribution_text(vary);
+  const char *const cell[] = {sb_vary_name(vary), value, how};
+  sb_report_row(pages, table, cell, SB_REPORT_PLAIN);
+}
+
+static void draw_varied(SbReportPages *pages, const Study *study) {
+  static const SbReportColumn columns[] = {{"What varies", 3.4, SB_REPORT_WORDS},
+                                           {"In the scene", 1.6, SB_REPORT_NUMBER},
+                                           {"How", 5, SB_REPORT_WORDS}};
+  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  const SbStudyFile *file = study->study;
+  sb_report_heading(pages, "What varies", 60);
+  // A grid that says more has lines of its own, several of a parameter.
+  guint grid = 0;
+  for (guint k = 0; k < (file->lines != NULL ? file->lines->len : file->vary->len); k++) {
+    const SbVary *vary =
+        file->lines != NULL ? &g_array_index(file->lines, SbVary, k) : vary_at(study, k);
+    if (file->lines != NULL && vary->grid != grid) {
+      g_autofree char *name = g_strdup_printf("Grid %u, %zu samples", vary->grid,
+                                              sb_study_grid_samples(file, vary->grid));
+      const char *const head[] = {name, NULL, NULL};
+      sb_report_row(pages, &table, head, SB_REPORT_GROUP);
+      grid = vary->grid;
+    }
+    add_varied(pages, &table, study, vary);
+  }
+}
+
+static void draw_leakage(SbReportPages *pages, Study *study) {
+  SbLeakageOdds odds;
+  SbReport report = {0};
+  if (study->study->leakage_tests == 0) {
+    return;
+  }
+  const SbStatus status = sb_study_leakage(&odds, study->study, study->answers, &report);
+  study->status = status != SB_OK ? status : study->status;
+  sb_report_heading(pages, study->study->leakage.edition, 40);
+  g_autofree char *text =
+      isnan(odds.probability)
+          ? g_strdup("No sample has a loss on the shelf.")
+          : g_strdup_printf(
+                "%zu of %zu simulated tests pass, %.3g\xc2\xa0%% (95\xc2\xa0%%: %.3g to "
+                "%.3g\xc2\xa0%%), %zu of them in the second stage.",
+                odds.passed, odds.tests, 100 * odds.probability, 100 * odds.interval[0],
+                100 * odds.interval[1], odds.second);
+  sb_report_text(pages, text, SB_TYPE_LABEL, 400, SB_ROLE_INK);
+}
+
+// ---- Pictures ----
+
+static void draw_histogram(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
+  sb_histogram_draw(cr, rect, theme, of);
+}
+
+static void draw_tornado(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
+  sb_tornado_draw(cr, rect, theme, of);
+}
+
+static void draw_histograms(SbReportPages *pages, const Study *study) {
+  const size_t count = MIN(study->answers->figures, CHARTS);
+  g_autofree SbHistogram *each = g_new0(SbHistogram, count + 1);
+  g_autoptr(GPtrArray) labels = g_ptr_array_new_with_free_func(g_free);
+  size_t used = 0;
+  for (size_t k = 0; k < count; k++) {
+    const int figure = figure_at(study, k);
+    const SbFigure *of = sb_figure(figure);
+    bool any = false;
+    for (size_t i = 0; i < study->answers->samples && !any; i++) {
+      any = isfinite(study->answers->value[i * study->answers->figures + k]);
+    }
+    const SbLimit limit = limit_on(study, figure);
+    if (any && of->digits > 0) {
+      g_ptr_array_add(labels, sb_figure_label(figure));
+      each[used++] = (SbHistogram){.title = g_ptr_array_index(labels, labels->len - 1),
+                                   .si = of->si,
+                                   .unit = of->shown,
+                                   .value = study->answers->value + k,
+                                   .count = study->answers->samples,
+                                   .stride = study->answers->figures,
+                                   .low = limit.low,
+                                   .high = limit.high};
+    }
+  }
+  if (used > 0) {
+    sb_report_heading(pages, "How the figures are spread", 240);
+  }
+  for (size_t k = 0; k < used; k += 2) {
+    sb_report_pair(pages, 220, draw_histogram, &each[k], k + 1 < used ? &each[k + 1] : NULL);
+  }
+  if (study->answers->figures > count) {
+    sb_report_text(pages, "The other figures are in the tables alone.", SB_TYPE_NOTE, 400,
+                   SB_ROLE_SECOND);
+  }
+}
+
+static void draw_tornados(SbReportPages *pages, const Study *study) {
+  if (study->tornados == 0) {
+    return;
+  }
+  sb_report_heading(pages, "What they hang on", 200);
+  for (size_t k = 0; k < study->tornados; k += 2) {
+    const size_t bars = MIN(study->tornado[k].count, SB_TORNADO_MAX);
+    sb_report_pair(pages, 70 + 18 * (double)bars, draw_tornado, &study->tornado[k],
+                   k + 1 < study->tornados ? &study->tornado[k + 1] : NULL);
+  }
+}
+
+// ---- What a figure hangs on ----
+
+// Correlation of a column of values with a parameter's; NaN without scatter.
+static double correlation(const Study *study, size_t figure, size_t parameter) {
+  const SbAnswers *answers = study->answers;
+  const size_t n = study->study->vary->len;
+  double count = 0, sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0;
+  for (int pass = 0; pass < 2; pass++) {
+    const double mx = pass == 1 ? sx / count : 0, my = pass == 1 ? sy / count : 0;
+    for (size_t i = 0; i < answers->samples; i++) {
+      const double y = answers->value[i * answers->figures + figure];
+      const double x = study->of->value[i * n + parameter];
+      if (!isfinite(x) || !isfinite(y)) {
+      } else if (pass == 0) {
+        count++;
+        sx += x;
+        sy += y;
+      } else {
+        sxx += (x - mx) * (x - mx);
+        syy += (y - my) * (y - my);
+        sxy += (x - mx) * (y - my);
+      }
+    }
+  }
+  return count > 2 && sxx > 0 && syy > 0 ? sxy / sqrt(sxx * syy) : NAN;
+}
+
+static void set_bar(SbTornado *of, const char *name, double value, double low, double high) {
+  if (of->count < G_N_ELEMENTS(of->bar)) {
+    of->bar[of->count].name = name;
+    of->bar[of->count].value = value;
+    of->bar[of->count].low = low;
+    of->bar[of->count++].high = high;
+  }
+}
+
+// Bars of one figure by what the method knows: total shares of the variance, elementary effects, or
+// what a straight line over each parameter explains.
+static void fill_tornado(SbTornado *out, Study *study, size_t k) {
+  const SbStudyFile *file = study->study;
+  const SbFigure *figure = sb_figure(figure_at(study, k));
+  const size_t n = file->vary->len, samples = study->answers->samples;
+  g_autofree double *column = g_new(double, samples + 1);
+  for (size_t i = 0; i < samples; i++) {
+    column[i] = study->answers->value[i * study->answers->figures + k];
+  }
+  const char *name[SB_VARY_MAX];
+  for (size_t i = 0; i < n; i++) {
+    g_ptr_array_add(study->names, vary_label(vary_at(study, i)));
+    name[i] = g_ptr_array_index(study->names, study->names->len - 1);
+  }
+  out->unit = "%";
+  if (file->method == SB_METHOD_SOBOL_INDICES) {
+    SbIndex first[SB_VARY_MAX], total[SB_VARY_MAX];
+    SbReport report = {0};
+    const SbStatus status =
+        sb_sobol_indices(first, total, column, samples / (n + 2), n, file->seed, &report);
+    study->status = status != SB_OK ? status : study->status;
+    out->note = "share of the variance with all others; line: 95 % interval";
+    for (size_t i = 0; status == SB_OK && i < n; i++) {
+      set_bar(out, name[i], 100 * total[i].value, 100 * total[i].low, 100 * total[i].high);
+    }
+  } else if (file->method == SB_METHOD_MORRIS) {
+    SbElementaryEffects effect[SB_VARY_MAX];
+    sb_morris_effects(effect, column, study->of->drawn->unit, samples, n);
+    out->note = "mean elementary effect over the parameter's range";
+    out->unit = figure->shown;
+    for (size_t i = 0; i < n; i++) {
+      set_bar(out, name[i], sb_quantity_to_shown(effect[i].mean, figure->si, figure->shown), NAN,
+              NAN);
+    }
+  } else {
+    out->note = "share of the variance along a straight line, with its sign";
+    for (size_t i = 0; i < n; i++) {
+      const double r = correlation(study, k, i);
+      set_bar(out, name[i], 100 * r * fabs(r), NAN, NAN);
+    }
+  }
+}
+
+static void make_tornados(Study *study) {
+  const SbStudyFile *file = study->study;
+  const bool knows =
+      file->method == SB_METHOD_SOBOL_INDICES || file->method == SB_METHOD_MORRIS ||
+      ((file->method == SB_METHOD_MONTE_CARLO || file->method == SB_METHOD_SOBOL_SEQUENCE) &&
+       file->root == NULL);
+  study->names = g_ptr_array_new_with_free_func(g_free);
+  study->tornado = g_new0(SbTornado, CHARTS);
+  for (size_t k = 0; knows && k < study->answers->figures && study->tornados < CHARTS; k++) {
+    SbTornado *each = &study->tornado[study->tornados];
+    fill_tornado(each, study, k);
+    bool any = false;
+    for (size_t i = 0; i < each->count; i++) {
+      any |= isfinite(each->bar[i].value) && each->bar[i].value != 0;
+    }
+    if (any) {
+      g_ptr_array_add(study->names, sb_figure_label(figure_at(study, k)));
+      each->title = g_ptr_array_index(study->names, study->names->len - 1);
+      study->tornados++;
+    } else {
+      *each = (SbTornado){0};
+    }
+  }
+}
+
+// ---- Grids ----
+
+// Curves of a grid of real parameters: the last one along the axis, a line for each combination of
+// the others; what does not fit is left to the table.
+static void make_curves(Study *study) {
+  const SbStudyFile *file = study->study;
+  const size_t n = file->vary->len, samples = study->answers->samples;
+  if (file->method != SB_METHOD_GRID || file->lines != NULL || n == 0) {
+    return;
+  }
+  const SbParam *last = sb_param(vary_at(study, n - 1)->id);
+  size_t length = 1; // of a line: until the first parameter comes back to where it began
+  while (length < samples &&
+         memcmp(&study->of->value[length * n], study->of->value, (n - 1) * sizeof(double)) == 0) {
+    length++;
+  }
+  if (last->kind != SB_PARAM_REAL || length < 2 || length > SB_STUDY_POINTS ||
+      samples / length > SB_STUDY_SERIES || samples % length != 0) {
+    return;
+  }
+  SbStudy *out = g_new0(SbStudy, 1);
+  g_strlcpy(out->x.quantity, last->label, sizeof out->x.quantity);
+  g_strlcpy(out->x.si, last->si, sizeof out->x.si);
+  g_strlcpy(out->x.unit, last->unit, sizeof out->x.unit);
+  out->complete = true;
+  for (size_t k = 0; k < study->answers->figures && out->panel_count < SB_STUDY_PANELS; k++) {
+    const int index = figure_at(study, k);
+    const SbFigure *figure = sb_figure(index);
+    const SbLimit limit = limit_on(study, index);
+    g_autofree char *label = sb_figure_label(index);
+    SbStudyAxis axis = {.logarithmic = false};
+    g_strlcpy(axis.quantity, label, sizeof axis.quantity);
+    g_strlcpy(axis.si, figure->si, sizeof axis.si);
+    g_strlcpy(axis.unit, figure->shown, sizeof axis.unit);
+    SbStudyPanel *panel = sb_study_panel(out, &axis, "not computed");
+    panel->limit_low = limit.low;
+    panel->limit_high = limit.high;
+    for (size_t line = 0; line < samples / length; line++) {
+      GString *name = g_string_new(NULL);
+      for (size_t p = 0; p + 1 < n; p++) {
+        g_autofree char *value =
+            sb_param_format(vary_at(study, p)->id, study->of->value[line * length * n + p]);
+        g_string_append_printf(name, "%s%s", p > 0 ? ", " : "", value);
+      }
+      SbStudySeries *series =
+          sb_study_series(panel, SB_STUDY_CURVE, name->len > 0 ? name->str : label);
+      g_string_free(name, TRUE);
+      for (size_t i = 0; i < length; i++) {
+        const size_t sample = line * length + i;
+        sb_study_point(series, study->of->value[sample * n + n - 1],
+                       study->answers->value[sample * study->answers->figures + k]);
+      }
+    }
+  }
+  study->curves = out;
+}
+
+static void draw_study(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
+  sb_study_draw(cr, rect, theme, of);
+}
+
+// A row a sample: the parameters in a cell, then the first figures.
+static void draw_samples(SbReportPages *pages, const Study *study) {
+  SbReportColumn columns[6] = {{"", 0.6, SB_REPORT_NUMBER}, {"Sample", 4, SB_REPORT_WORDS}};
+  size_t count = 2;
+  g_autoptr(GPtrArray) heads = g_ptr_array_new_with_free_func(g_free);
+  const size_t n = study->study->vary->len;
+  if (study->study->method != SB_METHOD_GRID || study->answers->samples > GRID_ROWS) {
+    return;
+  }
+  for (size_t k = 0; k < study->answers->figures && count < G_N_ELEMENTS(columns); k++) {
+    g_ptr_array_add(heads, sb_figure_label(figure_at(study, k)));
+    columns[count++] = (SbReportColumn){g_ptr_array_index(heads, k), 1.8, SB_REPORT_WORDS};
+  }
+  SbReportTable table = {.column = columns, .columns = count};
+  sb_report_heading(pages, "Samples", 80);
+  for (size_t i = 0; i < study->answers->samples; i++) {
+    char *cell[6] = {g_strdup_printf("%zu", i + 1)};
+    GString *where = g_string_new(NULL);
+    for (size_t p = 0; p < n; p++) {
+      const SbVary *vary = vary_at(study, p);
+      if (vary->id != SB_VARY_VARIABLE && isfinite(study->of->value[i * n + p])) {
+        g_autofree char *value = sb_param_format(vary->id, study->of->value[i * n + p]);
+        g_string_append_printf(where, "%s%s %s", where->len > 0 ? ", " : "",
+                               sb_param(vary->id)->symbol != NULL ? sb_param(vary->id)->symbol
+                                                                  : sb_vary_name(vary),
+                               value);
+      }
+    }
+    cell[1] = g_string_free(where, FALSE);
+    for (size_t k = 2; k < count; k++) {
+      cell[k] = shown(figure_at(study, k - 2),
+                      study->answers->value[i * study->answers->figures + k - 2]);
+    }
+    sb_report_row(pages, &table, (const char *const *)cell,
+                  study->answers->status[i] == SB_OK ? SB_REPORT_PLAIN : SB_REPORT_DOUBT);
+    for (size_t k = 0; k < count; k++) {
+      g_free(cell[k]);
+    }
+  }
+}
+
+// ---- The whole ----
+
+static void draw_failures(SbReportPages *pages, const Study *study) {
+  enum { MOST = 12 };
+  size_t told = 0;
+  if (sb_study_failed(study->answers) == 0) {
+    return;
+  }
+  static const SbReportColumn columns[] = {{"Sample", 0.8, SB_REPORT_NUMBER},
+                                           {"Status", 1.4, SB_REPORT_WORDS},
+                                           {"Reason", 7, SB_REPORT_WORDS}};
+  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  sb_report_heading(pages, "Samples without an answer", 60);
+  for (size_t i = 0; i < study->answers->samples && told < MOST; i++) {
+    const uint8_t status = study->answers->status[i];
+    if (status != SB_OK && status != SB_ANSWER_MISSING) {
+      g_autofree char *number = g_strdup_printf("%zu", i + 1);
+      const char *reason = g_hash_table_lookup(study->answers->reason, GSIZE_TO_POINTER(i));
+      const char *const cell[] = {number, sb_study_status_name(status), reason};
+      sb_report_row(pages, &table, cell, SB_REPORT_DOUBT);
+      told++;
+    }
+  }
+}
+
+static void draw_pages(SbReportPages *pages, const void *of) {
+  Study *study = (Study *)of;
+  const SbStudyFile *file = study->study;
+  const size_t done = sb_study_done(study->answers), failed = sb_study_failed(study->answers);
+  g_autofree char *line =
+      g_strdup_printf("%s  \xc2\xb7  %s, %zu samples, seed %" G_GUINT64_FORMAT, study->files,
+                      sb_study_method_name(file->method), file->samples, file->seed);
+  sb_report_title(pages, file->title, line);
+  sb_report_skip(pages, 8);
+  if (done < study->answers->samples) {
+    g_autofree char *text = g_strdup_printf("The study is not complete: %zu of %zu samples are "
+                                            "there.",
+                                            done, study->answers->samples);
+    sb_report_notice(pages, text, true);
+  }
+  if (failed > 0) {
+    g_autofree char *text =
+        g_strdup_printf("%zu of %zu samples have no answer: no valve, or a solver did not "
+                        "converge; they are listed below.",
+                        failed, done);
+    sb_report_notice(pages, text, false);
+  }
+  for (int i = 0; i < SB_SHELF_TYPICAL; i++) {
+    g_autofree char *typical = sb_study_typical(file, i);
+    if (typical != NULL) {
+      sb_report_notice(pages, typical, false);
+    }
+  }
+  draw_limits(pages, study);
+  draw_leakage(pages, study);
+  if (is_drawn(study)) {
+    draw_statistics(pages, study);
+  }
+  draw_varied(pages, study);
+  if (is_drawn(study) && file->method != SB_METHOD_GRID) {
+    draw_histograms(pages, study);
+  }
+  draw_tornados(pages, study);
+  if (study->curves != NULL) {
+    sb_report_heading(pages, "Over the grid", 420);
+    sb_report_picture(pages, study->curves->panel_count > 1 ? 620 : 400, draw_study, study->curves);
+  }
+  draw_samples(pages, study);
+  draw_failures(pages, study);
+  sb_report_page(pages, false);
+  sb_report_inputs(pages, file->scene, file->base);
+}
+
+bool sb_report_study(FILE *stream, const SbReportStudy *of, const SbReportHooks *hooks,
+                     GError **error) {
+  Study study = {.of = of, .study = of->study, .answers = of->answers};
+  g_autofree char *scene = sb_report_files(of->study->scene);
+  g_autofree char *own = of->study->path != NULL ? g_path_get_basename(of->study->path) : NULL;
+  study.files = own != NULL ? g_strconcat(own, "  \xc2\xb7  ", scene, NULL) : g_strdup(scene);
+  g_autofree char *foot = sb_report_foot(study.files, of->study->base_sha256);
+  const SbReportTexts texts = {.title = of->study->title,
+                               .foot = foot,
+                               .hash = of->study->base_sha256,
+                               .bookmark = "Summary"};
+  make_tornados(&study);
+  make_curves(&study);
+  bool good = sb_report_pages_write(stream, &texts, draw_pages, &study, hooks, error);
+  if (good && study.status != SB_OK) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s", sb_status_text(study.status));
+    good = false;
+  }
+  g_ptr_array_unref(study.names);
+  g_free(study.tornado);
+  g_free(study.curves);
+  g_free(study.files);
+  return good;
+}
