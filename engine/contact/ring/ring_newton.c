@@ -43,6 +43,12 @@ enum { STUMBLES_MAX = 4 };
 static const double SAME = 0.02;
 enum { REPEATS_MAX = 6 };
 
+// With a steady contact the residual falls at every iteration but where a node's friction sets in:
+// there it can go round between two or three values for ever, and after so many iterations that do
+// not bring it to this share of the least since the contact is steady, it does.
+static const double FALLS = 0.5;
+enum { ROUND_MAX = 4 };
+
 // Whether something holds the ring axially.
 static bool leans(const SbRingContact *contact) {
   for (int i = 0; i < contact->count; i++) {
@@ -151,8 +157,8 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
   const int iterations_max = path == SB_RING_SEALED ? SEALED_ITERATIONS : ITERATIONS_MAX;
   SbRingContact *contact = ring->contact;
   SbRingFem *fem = ring->fem;
-  int changes = 0, stumbles = 0, recentres = 0, repeats = 0;
-  double last = INFINITY;
+  int changes = 0, stumbles = 0, recentres = 0, repeats = 0, rounds = 0;
+  double last = INFINITY, least = INFINITY;
   bool slack = false;
   double step = 1.0, det_before = 1.0, friction = contact->is.now.friction_bore, change = 0.0;
   sb_ring_contact_begin(contact);
@@ -199,12 +205,16 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
     contact->fixed = contact->fixed && residual > NEAR_FIXED && it < FIXED_MAX;
     stumbles += step < STUMBLE ? 1 : 0;
     repeats = changes > 0 && fabs(residual - last) < SAME * last ? repeats + 1 : 0;
+    const bool falls = changes > 0 || contact->fixed || residual < FALLS * least;
+    rounds = falls ? 0 : rounds + 1;
+    least = falls ? residual : least;
     last = residual;
     // A steady contact near its balance may take a little longer.
     bool near = changes == 0 && residual < NEARLY && it < iterations_max + MORE;
     bool spent = (it >= iterations_max && !near) ||
                  (path == SB_RING_DIRECT && it >= FAR_AFTER && residual > FAR);
-    if (spent || stumbles > STUMBLES_MAX || repeats > REPEATS_MAX || !isfinite(residual)) {
+    if (spent || stumbles > STUMBLES_MAX || repeats > REPEATS_MAX || rounds > ROUND_MAX ||
+        !isfinite(residual)) {
       fail(contact, residual, changes, it, report);
       if (report != NULL) {
         report->residual = residual;
