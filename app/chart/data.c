@@ -145,3 +145,11 @@ double sb_chart_error_film(const SbChartRun *run) {
 double sb_chart_error_load(const SbChartRun *run) {
   return run->summary ? known(run->summary->error_load) : 0;
 }
+
+SbRole sb_chart_pin_role(int look) {
+  return look == 0 ? SB_ROLE_VIOLET : SB_ROLE_TEAL;
+}
+
+const SbDash *sb_chart_pin_dash(int look) {
+  return look == 0 ? &sb_dash_pinned : &sb_dash_now;
+}

@@ -2,6 +2,7 @@
 // state the program is. Views are pure functions of this, a rectangle and a theme.
 #pragma once
 
+#include "app/base/theme.h"
 #include "app/chart/trace.h"
 #include "app/data/compare.h"
 #include "engine/valve/sealbench.h"
@@ -37,6 +38,20 @@ typedef struct {
   const double *displacement, *force;
 } SbChartCurve;
 
+// A run that is kept to compare with.
+typedef struct {
+  const SbChartRun *run;
+  const char *name; // what it differs in: "section diameter 1.63 mm"
+  int look;         // of SB_CHART_PINS: its colour and dashes
+  size_t frame;     // that stands where the playhead does
+} SbChartPin;
+
+enum { SB_CHART_PINS = 2 };
+
+// The role of its colour, and its dashes.
+SbRole sb_chart_pin_role(int look);
+const SbDash *sb_chart_pin_dash(int look);
+
 // Part of a loop's plot that is enlarged over it: displacements [mm] and forces [N].
 typedef struct {
   double x0, x1, y0, y1;
@@ -50,9 +65,9 @@ typedef struct {
 
 typedef struct {
   SbChartRun run;
-  const SbChartRun *earlier; // shown at 45 % while `run` is being computed; NULL: none
-  const SbChartRun *pinned;  // to compare with; NULL: none
-  const char *pinned_name;   // "roughness -30 %"
+  const SbChartRun *earlier;     // shown at 45 % while `run` is being computed; NULL: none
+  SbChartPin pin[SB_CHART_PINS]; // to compare with, `pin_count` of them
+  size_t pin_count;
   // What `run`, which is then of former values, will be at the present ones; NULL: not known.
   const SbChartCurve *predicted;
   const SbComparison *measured; // of `run`; NULL: nothing was measured

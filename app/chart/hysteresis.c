@@ -1,5 +1,5 @@
-// The hysteresis chart. Played part thick, rest thin; an earlier or a pinned run behind; stages A
-// to F as ringed dots with the force just before the event; labels placed by the collision rule,
+// The hysteresis chart. Played part thick, rest thin; an earlier run or pinned ones behind; stages
+// A to F as ringed dots with the force just before the event; labels placed by the collision rule,
 // *now* first (hysteresis_labels.c). Displacement in mm, force in N, both from the frames. Leaves
 // out any smoothing: lines join computed frames.
 #include "app/base/format.h"
@@ -40,7 +40,9 @@ void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartDat
                            1.2 * sb_model_pressure_force(model))
                     : 10;
   include_run(&data->run, &x1, &y0, &y1);
-  include_run(data->pinned, &x1, &y0, &y1);
+  for (size_t i = 0; i < data->pin_count; i++) {
+    include_run(data->pin[i].run, &x1, &y0, &y1);
+  }
   for (size_t i = 0; data->predicted != NULL && i < data->predicted->count; i++) {
     x1 = fmax(x1, 1e3 * data->predicted->displacement[i]);
     y0 = fmin(y0, data->predicted->force[i]);
@@ -221,23 +223,23 @@ static void draw_titles(SbHysteresisView *v, SbRect rect) {
   sb_canvas_text(c, "force on the stem / N", &label, in.x, in.y + (compact ? 34 : 64), SB_LEFT);
 }
 
-// Another run behind: dashed when pinned, faint when earlier.
-static void draw_other(SbHysteresisView *v, const SbChartRun *run, bool dashed) {
+// Another run behind: in its look when it is a pin, faint when earlier (`pin` NULL).
+static void draw_other(SbHysteresisView *v, const SbChartRun *run, const SbChartPin *pin) {
   size_t n;
   SbPoint *p = run && drawable(run) > 0 ? trace_pixels(&v->at, run, 0, run->count - 1, &n) : NULL;
   if (!p) {
     return;
   }
   SbCanvas *c = &v->canvas;
-  if (dashed) {
-    sb_canvas_pen(c, SB_LINE_PINNED, &sb_dash_pinned);
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_PINNED), 1);
+  if (pin != NULL) {
+    sb_canvas_pen(c, SB_LINE_PINNED, sb_chart_pin_dash(pin->look));
+    sb_canvas_color(c, sb_canvas_role(c, sb_chart_pin_role(pin->look)), 1);
   } else {
     sb_canvas_pen(c, SB_LINE_FUTURE, NULL);
     sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), SB_OPACITY_EARLIER);
   }
   sb_canvas_polyline(c, p, n);
-  sb_labels_avoid(v->labels, p, n, dashed ? 0.7 : 0.4);
+  sb_labels_avoid(v->labels, p, n, pin != NULL ? 0.7 : 0.4);
   g_free(p);
 }
 
@@ -283,8 +285,8 @@ static void draw_loop(SbHysteresisView *v) {
   }
   sb_labels_avoid(v->labels, all, n, 1);
 
-  if (v->data->pinned) {
-    draw_other(v, v->data->pinned, true);
+  for (size_t i = 0; i < v->data->pin_count; i++) {
+    draw_other(v, v->data->pin[i].run, &v->data->pin[i]);
   }
 
   size_t future;
@@ -426,7 +428,7 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
     cairo_clip(cr);
   }
   if (data->run.state == SB_CHART_RUNNING) {
-    draw_other(&v, data->earlier, false);
+    draw_other(&v, data->earlier, NULL);
   }
   double zero = sb_axis_at(&v.at.y, 0);
   SbPoint axis[2] = {{plot.x, zero}, {plot.x + plot.width, zero}};

@@ -176,6 +176,27 @@ static bool between(const SbHysteresisView *v, int stage, int cycle, double shar
   return true;
 }
 
+// A pin's name beside its own in-stroke, the second's further along.
+static void label_pin(SbHysteresisView *v, const SbChartPin *pin, double right) {
+  SbHysteresisView other = *v;
+  SbChartData shown = *v->data;
+  SbPoint p;
+  shown.run = *pin->run;
+  other.data = &shown;
+  if (pin->run->trace == NULL || !between(&other, SB_STAGE_C, 0, 0.05 + 0.4 * pin->look, &p)) {
+    return;
+  }
+  const double end = fmin(
+      right, sb_axis_at(&v->at.x, 1e3 * sb_trace_range(v->data->run.trace).displacement_max) - 8);
+  label_curve(v, pin->name, sb_chart_pin_role(pin->look),
+              (SbPlace[]){{p.x, p.y + 18, SB_LEFT},
+                          {p.x, p.y - 9, SB_LEFT},
+                          {end, p.y + 18, SB_RIGHT},
+                          {end, p.y - 9, SB_RIGHT},
+                          {p.x, p.y + 34, SB_LEFT}},
+              5);
+}
+
 void sb_hysteresis_notes(SbHysteresisView *v) {
   const SbChartRun *run = &v->data->run;
   char value[SB_FORMAT_MAX], text[128];
@@ -265,25 +286,7 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
                             {p.x + 60, p.y + 17, SB_MIDDLE}},
                 4);
   }
-  if (v->data->pinned && v->data->pinned->trace) {
-    // Beside the pinned run's own in-stroke.
-    SbHysteresisView other = *v;
-    SbChartData shown = *v->data;
-    shown.run = *v->data->pinned;
-    other.data = &shown;
-    if (between(&other, SB_STAGE_C, 0, 0.05, &p)) {
-      g_snprintf(text, sizeof text, "%s%s", v->data->pinned_name ? "pinned run: " : "pinned run",
-                 v->data->pinned_name ? v->data->pinned_name : "");
-      double end =
-          fmin(right,
-               sb_axis_at(&v->at.x, 1e3 * sb_trace_range(v->data->run.trace).displacement_max) - 8);
-      label_curve(v, text, SB_ROLE_SECOND,
-                  (SbPlace[]){{p.x, p.y + 18, SB_LEFT},
-                              {p.x, p.y - 9, SB_LEFT},
-                              {end, p.y + 18, SB_RIGHT},
-                              {end, p.y - 9, SB_RIGHT},
-                              {p.x, p.y + 34, SB_LEFT}},
-                  5);
-    }
+  for (size_t i = 0; i < v->data->pin_count; i++) {
+    label_pin(v, &v->data->pin[i], right);
   }
 }

@@ -31,8 +31,21 @@ typedef struct {
 // Shared scales
 
 static SbTraceRange range_of(const SbChartData *data) {
-  SbTraceRange none = {0};
-  return data->run.trace ? sb_trace_range(data->run.trace) : none;
+  SbTraceRange r = {0};
+  if (data->run.trace == NULL) {
+    return r;
+  }
+  r = sb_trace_range(data->run.trace);
+  for (size_t i = 0; i < data->pin_count; i++) {
+    const SbTraceRange pin = sb_trace_range(data->pin[i].run->trace);
+    r.contact_left = fmin(r.contact_left, pin.contact_left);
+    r.contact_right = fmax(r.contact_right, pin.contact_right);
+    r.pressure_peak_max = fmax(r.pressure_peak_max, pin.pressure_peak_max);
+    r.film_min = r.film_min > 0 && pin.film_min > 0 ? fmin(r.film_min, pin.film_min)
+                                                    : fmax(r.film_min, pin.film_min);
+    r.film_max = fmax(r.film_max, pin.film_max);
+  }
+  return r;
 }
 
 static void position_scale(SbScale *out, SbTicks *ticks, const SbChartData *data, SbRect plot) {
@@ -232,6 +245,78 @@ static void common_label(Small *s) {
               3);
 }
 
+// The pressure between a contact's ends, which stand on the fluid's pressure. Owned by the caller.
+static SbPoint *pressure_points(const Small *s, const SbContactCurve *curve, double left,
+                                double right, size_t *count) {
+  SbPoint *p = g_new(SbPoint, curve->count + 2);
+  size_t n = 0;
+  p[n++] = (SbPoint){sb_axis_at(&s->x, left * 1e3),
+                     sb_axis_at(&s->y, sb_contact_curve_at(curve, curve->pressure, left) * 1e-6)};
+  for (size_t i = 0; i < curve->count; i++) {
+    if (curve->x[i] > left && curve->x[i] < right) {
+      p[n++] = (SbPoint){sb_axis_at(&s->x, curve->x[i] * 1e3),
+                         sb_axis_at(&s->y, curve->pressure[i] * 1e-6)};
+    }
+  }
+  p[n++] = (SbPoint){sb_axis_at(&s->x, right * 1e3),
+                     sb_axis_at(&s->y, sb_contact_curve_at(curve, curve->pressure, right) * 1e-6)};
+  *count = n;
+  return p;
+}
+
+// The film where there is a contact. Owned by the caller.
+static SbPoint *film_points(const Small *s, const SbContactCurve *curve, const SbSealFrame *seal,
+                            size_t *count) {
+  SbPoint *p = g_new(SbPoint, curve->count + 1);
+  size_t n = 0;
+  const double from = seal->land_fraction < 0.999F ? seal->contact_left : -1;
+  for (size_t i = 0; i < curve->count; i++) {
+    if (curve->x[i] >= from && curve->film[i] > 0) {
+      p[n++] = (SbPoint){sb_axis_at(&s->x, curve->x[i] * 1e3), sb_axis_at(&s->y, curve->film[i])};
+    }
+  }
+  *count = n;
+  return p;
+}
+
+static void contact_ends(const SbContactCurve *curve, const SbSealFrame *seal, double *left,
+                         double *right) {
+  *left = seal->contact_left;
+  *right = seal->contact_right;
+  if (curve->model && seal->land_fraction > 0.999F) {
+    sb_contact_curve_extend(curve, seal, left, right);
+  }
+}
+
+// The pinned runs' curves at the frame that stands where the playhead does.
+static void pinned_curves(Small *s, bool film) {
+  SbCanvas *c = s->canvas;
+  cairo_save(c->cr);
+  cairo_rectangle(c->cr, s->plot.x, s->plot.y, s->plot.width, s->plot.height);
+  cairo_clip(c->cr);
+  for (size_t i = 0; i < s->data->pin_count; i++) {
+    const SbChartPin *pin = &s->data->pin[i];
+    const SbSealFrame *seal = &pin->run->frames[pin->frame].seal[s->index];
+    if (!sb_contact_touches(seal) || (film && !(seal->film_central > 0))) {
+      continue;
+    }
+    SbContactCurve curve;
+    size_t n = 0;
+    double left, right;
+    sb_contact_curve_init(&curve, pin->run, seal, s->index);
+    contact_ends(&curve, seal, &left, &right);
+    SbPoint *p =
+        film ? film_points(s, &curve, seal, &n) : pressure_points(s, &curve, left, right, &n);
+    sb_canvas_pen(c, SB_LINE_PINNED, sb_chart_pin_dash(pin->look));
+    sb_canvas_color(c, sb_canvas_role(c, sb_chart_pin_role(pin->look)), 1);
+    sb_canvas_polyline(c, p, n);
+    sb_labels_avoid(s->labels, p, n, 0.7);
+    g_free(p);
+    sb_contact_curve_finish(&curve);
+  }
+  cairo_restore(c->cr);
+}
+
 static void pressure_chart(Small *s) {
   SbCanvas *c = s->canvas;
   const SbSealFrame *seal = s->seal;
@@ -248,33 +333,22 @@ static void pressure_chart(Small *s) {
     common_label(s);
     return;
   }
-  double left = seal->contact_left, right = seal->contact_right;
+  double left, right;
   SbContactCurve curve;
   sb_contact_curve_init(&curve, &s->data->run, s->seal, s->index);
-  if (curve.model && seal->land_fraction > 0.999F) {
-    sb_contact_curve_extend(&curve, seal, &left, &right);
-  }
+  contact_ends(&curve, seal, &left, &right);
   fluid_ground(s, -far, left, sb_seal_step_left(seal));
   fluid_ground(s, right, far, sb_seal_step_right(seal));
 
-  // The curve between its ends, which stand on the fluid's pressure.
-  SbPoint *p = g_new(SbPoint, curve.count + 4);
   size_t n = 0;
+  SbPoint *p = pressure_points(s, &curve, left, right, &n);
   double peak = 0, peak_x = 0.5 * (left + right);
-  p[n++] = (SbPoint){sb_axis_at(&s->x, left * 1e3),
-                     sb_axis_at(&s->y, sb_contact_curve_at(&curve, curve.pressure, left) * 1e-6)};
   for (size_t i = 0; i < curve.count; i++) {
-    if (curve.x[i] > left && curve.x[i] < right) {
-      p[n++] = (SbPoint){sb_axis_at(&s->x, curve.x[i] * 1e3),
-                         sb_axis_at(&s->y, curve.pressure[i] * 1e-6)};
-      if (curve.pressure[i] > peak) {
-        peak = curve.pressure[i];
-        peak_x = curve.x[i];
-      }
+    if (curve.x[i] > left && curve.x[i] < right && curve.pressure[i] > peak) {
+      peak = curve.pressure[i];
+      peak_x = curve.x[i];
     }
   }
-  p[n++] = (SbPoint){sb_axis_at(&s->x, right * 1e3),
-                     sb_axis_at(&s->y, sb_contact_curve_at(&curve, curve.pressure, right) * 1e-6)};
   cairo_new_path(c->cr);
   sb_canvas_path(c, p, n);
   cairo_line_to(c->cr, p[n - 1].x, bottom);
@@ -367,14 +441,8 @@ static void film_chart(Small *s) {
   SbContactCurve curve = {0};
   if (slides) {
     sb_contact_curve_init(&curve, &s->data->run, s->seal, s->index);
-    SbPoint *p = g_new(SbPoint, curve.count + 1);
     size_t n = 0;
-    double from = seal->land_fraction < 0.999F ? seal->contact_left : -1;
-    for (size_t i = 0; i < curve.count; i++) {
-      if (curve.x[i] >= from && curve.film[i] > 0) {
-        p[n++] = (SbPoint){sb_axis_at(&s->x, curve.x[i] * 1e3), sb_axis_at(&s->y, curve.film[i])};
-      }
-    }
+    SbPoint *p = film_points(s, &curve, seal, &n);
     cairo_save(cr);
     cairo_rectangle(cr, left_px, s->plot.y, s->plot.width, s->plot.height);
     cairo_clip(cr);
@@ -588,9 +656,11 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
     if (film) {
       continuum_band(&s);
       small_axes(&s, &xt, &yt, true, k == 0);
+      pinned_curves(&s, true);
       film_chart(&s);
     } else {
       small_axes(&s, &xt, &yt, false, k == 0);
+      pinned_curves(&s, false);
       pressure_chart(&s);
     }
   }

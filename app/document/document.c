@@ -24,6 +24,7 @@ SbDocument *sb_document_new(void) {
   g_array_set_clear_func(document->edits, sb_document_clear_edit);
   document->notes = g_ptr_array_new_with_free_func(g_free);
   document->cases = sb_document_cases_new();
+  document->pins = sb_document_pins_new();
   document->shapes = sb_shapes_new();
   sb_params_init(&document->base);
   sb_params_init(&document->own);
@@ -55,6 +56,7 @@ void sb_document_free(SbDocument *document) {
   g_array_unref(document->edits);
   g_ptr_array_unref(document->notes);
   g_ptr_array_unref(document->cases);
+  g_ptr_array_unref(document->pins);
   sb_shapes_free(document->shapes);
   g_free(document);
 }
@@ -89,7 +91,7 @@ static char *group_of(SbParamId id) {
 // Whether a group's names are no keys of the catalogue.
 static bool has_own_names(const char *group) {
   return strcmp(group, SB_LIMITS_GROUP) == 0 || strcmp(group, SB_CASES_GROUP) == 0 ||
-         sb_data_is_group(group);
+         strcmp(group, SB_PINS_GROUP) == 0 || sb_data_is_group(group);
 }
 
 // Whether any key stands in `group`; else an issue.
@@ -106,6 +108,7 @@ static bool check_group(const SbEntry *entry, const char *shown, GPtrArray *issu
   }
   sb_nearest_try(&nearest, SB_LIMITS_GROUP);
   sb_nearest_try(&nearest, SB_CASES_GROUP);
+  sb_nearest_try(&nearest, SB_PINS_GROUP);
   g_autofree char *hint = sb_nearest_hint(&nearest);
   sb_issues_add(issues, shown, entry->line, NULL, NULL, "unknown group [%.60s]%s", entry->group,
                 hint);
@@ -169,7 +172,7 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
     g_free(key);
   }
   sb_document_read_limits(&document->limits, entries, shown, issues);
-  sb_document_read_cases(document->cases, entries, shown, issues);
+  sb_document_read_cases(document->cases, SB_CASES_GROUP, entries, shown, issues);
   sb_parts_read(document->shapes, params, base, entries, shown, directory, issues, document->notes);
 }
 
@@ -347,6 +350,7 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
     if (sb_document_compile(document, &model, issues)) {
       (void)sb_document_check_cases(document, issues);
     }
+    sb_document_read_pins(document, entries, name, issues);
   }
   return document;
 }

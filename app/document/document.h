@@ -101,6 +101,26 @@ bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel 
 // Whether all compile.
 bool sb_document_check_cases(const SbDocument *document, GPtrArray *issues);
 
+// The [pins]: designs kept beside the document to compare with, each with all its values. The name
+// is borrowed, NULL where nobody gave one. Keeping, dropping and naming them is saved with the
+// document, but no edit that can be undone.
+size_t sb_document_pin_count(const SbDocument *document);
+const char *sb_document_pin_name(const SbDocument *document, size_t index);
+const SbParams *sb_document_pin_params(const SbDocument *document, size_t index); // borrowed
+bool sb_document_compile_pin(const SbDocument *document, size_t index, SbModel **out,
+                             GPtrArray *issues);
+
+// Keeps the present values; false where there are 100 already.
+bool sb_document_add_pin(SbDocument *document);
+void sb_document_remove_pin(SbDocument *document, size_t index);
+void sb_document_name_pin(SbDocument *document, size_t index, const char *name);
+
+// Keeps those of another document in place of its own.
+void sb_document_take_pins(SbDocument *document, const SbDocument *other);
+
+// Makes a pin's values the document's, as one step that can be undone.
+void sb_document_use_pin(SbDocument *document, size_t index);
+
 // Adds what is possible in a compiled document's geometry and hardly meant, as compile() does for
 // what is not possible.
 void sb_document_remarks(const SbDocument *document, const SbModel *model, GPtrArray *issues);

@@ -1,18 +1,13 @@
 // A document's [cases]: NAME = KEY=VALUE; KEY=VALUE. Each is the document with some values
 // replaced, those of --set and of edits included. A scene's take the place of its valve's, name by
-// name.
+// name. The lines of [pins] (document_pins.c) are read by the same functions.
 #include "app/base/reader.h"
 #include "app/document/document_private.h"
 
 #include <string.h>
 
-typedef struct {
-  char *name, *settings;
-  char *shown; // the file that has it
-} Case;
-
 static void case_free(gpointer data) {
-  Case *one = data;
+  SbCase *one = data;
   g_free(one->name);
   g_free(one->settings);
   g_free(one->shown);
@@ -23,25 +18,25 @@ GPtrArray *sb_document_cases_new(void) {
   return g_ptr_array_new_with_free_func(case_free);
 }
 
-void sb_document_read_cases(GPtrArray *cases, const GPtrArray *entries, const char *shown,
-                            GPtrArray *issues) {
+void sb_document_read_cases(GPtrArray *cases, const char *group, const GPtrArray *entries,
+                            const char *shown, GPtrArray *issues) {
   for (guint i = 0; i < entries->len; i++) {
     const SbEntry *entry = entries->pdata[i];
-    if (entry->name == NULL || strcmp(entry->group, SB_CASES_GROUP) != 0) {
+    if (entry->name == NULL || strcmp(entry->group, group) != 0) {
       continue;
     }
     guint at = 0;
-    while (at < cases->len && strcmp(((Case *)cases->pdata[at])->name, entry->name) != 0) {
+    while (at < cases->len && strcmp(((SbCase *)cases->pdata[at])->name, entry->name) != 0) {
       at++;
     }
     if (at == SB_CASES_MAX) {
-      g_autofree char *key = g_strdup_printf("%s.%s", SB_CASES_GROUP, entry->name);
-      sb_issues_add(issues, shown, entry->line, key, NULL, "is more than the %d cases there may be",
-                    SB_CASES_MAX);
+      g_autofree char *key = g_strdup_printf("%s.%s", group, entry->name);
+      sb_issues_add(issues, shown, entry->line, key, NULL, "is more than the %d %s there may be",
+                    SB_CASES_MAX, group);
       continue;
     }
-    Case *one = g_new(Case, 1);
-    *one = (Case){g_strdup(entry->name), g_strdup(entry->value), g_strdup(shown)};
+    SbCase *one = g_new(SbCase, 1);
+    *one = (SbCase){g_strdup(entry->name), g_strdup(entry->value), g_strdup(shown)};
     if (at < cases->len) {
       case_free(cases->pdata[at]);
       cases->pdata[at] = one;
@@ -53,7 +48,7 @@ void sb_document_read_cases(GPtrArray *cases, const GPtrArray *entries, const ch
 
 void sb_document_append_cases(GString *text, const GPtrArray *cases) {
   for (guint i = 0; i < cases->len; i++) {
-    const Case *one = cases->pdata[i];
+    const SbCase *one = cases->pdata[i];
     g_string_append_printf(text, "%s%s = %s\n", i == 0 ? "\n[" SB_CASES_GROUP "]\n" : "", one->name,
                            one->settings);
   }
@@ -64,13 +59,13 @@ size_t sb_document_case_count(const SbDocument *document) {
 }
 
 const char *sb_document_case_name(const SbDocument *document, size_t index) {
-  return ((const Case *)document->cases->pdata[index])->name;
+  return ((const SbCase *)document->cases->pdata[index])->name;
 }
 
 // Puts one "KEY=VALUE" into `params`; what is wrong becomes an issue on the case `path`.
 // A rubber goes to *rubber.
 static void put_setting(SbParams *params, bool *set, SbNamedRubber **rubber,
-                        const SbDocument *document, const Case *one, const char *path,
+                        const SbDocument *document, const SbCase *one, const char *path,
                         const char *setting, GPtrArray *issues) {
   const char *equal = strchr(setting, '=');
   if (equal == NULL || equal == setting) {
@@ -106,26 +101,28 @@ static void put_setting(SbParams *params, bool *set, SbNamedRubber **rubber,
   set[id] = true;
 }
 
-bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel **out,
-                              GPtrArray *issues) {
-  *out = NULL;
-  const Case *one = document->cases->pdata[index];
-  g_autofree char *path = g_strdup_printf("%s.%s", SB_CASES_GROUP, one->name);
+bool sb_document_case_params(const SbDocument *document, const SbCase *one, const char *path,
+                             SbParams *params, SbNamedRubber **rubber, GPtrArray *issues) {
   guint before = issues->len;
-  SbParams params = sb_document_params(document);
   bool set[SB_PARAM_COUNT] = {false};
-  SbNamedRubber *rubber = NULL;
+  *params = sb_document_params(document);
+  *rubber = NULL;
   g_auto(GStrv) settings = g_strsplit(one->settings, ";", -1);
   char **setting = settings;
   do {
-    put_setting(&params, set, &rubber, document, one, path,
+    put_setting(params, set, rubber, document, one, path,
                 *setting != NULL ? g_strstrip(*setting) : "", issues);
     setting += *setting != NULL;
   } while (*setting != NULL && *g_strstrip(*setting) != '\0'); // a last semicolon is fine
   if (issues->len > before) {
-    sb_named_rubber_release(rubber);
+    g_clear_pointer(rubber, sb_named_rubber_release);
     return false;
   }
+  return true;
+}
+
+bool sb_document_case_model(const SbDocument *document, SbParams params, SbNamedRubber *rubber,
+                            const char *shown, const char *path, SbModel **out, GPtrArray *issues) {
   SbModelData *data = rubber != NULL ? sb_document_data_with(document, rubber) : document->data;
   if (rubber != NULL) {
     params.rubber = &data->rubber;
@@ -134,19 +131,31 @@ bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel 
   SbStatus status = sb_model_create(out, &params, data, &document->limits, &problems);
   if (rubber != NULL) {
     sb_model_data_release(data); // the model has its own hold
-    sb_named_rubber_release(rubber);
   }
   if (status != SB_OK && problems.count == 0) {
-    sb_issues_add(issues, one->shown, 0, path, NULL, "%s", sb_status_text(status));
+    sb_issues_add(issues, shown, 0, path, NULL, "%s", sb_status_text(status));
   }
   for (size_t i = 0; status != SB_OK && i < problems.count; i++) {
     const SbProblem *problem = &problems.item[i];
     int id = sb_param_find(problem->key);
     g_autofree char *range =
         id >= 0 ? sb_document_problem_range(problem, sb_param((SbParamId)id)) : NULL;
-    sb_issues_add(issues, one->shown, 0, path, range, "%s: %s", problem->key, problem->text);
+    sb_issues_add(issues, shown, 0, path, range, "%s: %s", problem->key, problem->text);
   }
   return status == SB_OK;
+}
+
+bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel **out,
+                              GPtrArray *issues) {
+  *out = NULL;
+  const SbCase *one = document->cases->pdata[index];
+  g_autofree char *path = g_strdup_printf("%s.%s", SB_CASES_GROUP, one->name);
+  SbParams params;
+  SbNamedRubber *rubber = NULL;
+  const bool good = sb_document_case_params(document, one, path, &params, &rubber, issues) &&
+                    sb_document_case_model(document, params, rubber, one->shown, path, out, issues);
+  sb_named_rubber_release(rubber);
+  return good;
 }
 
 bool sb_document_check_cases(const SbDocument *document, GPtrArray *issues) {

@@ -234,7 +234,7 @@ bool sb_document_differs(const SbDocument *document, SbParamId id) {
 }
 
 bool sb_document_is_modified(const SbDocument *document) {
-  if (sb_document_data_differs(document) ||
+  if (document->pins_changed || sb_document_data_differs(document) ||
       !sb_named_rubber_same(document->own_rubber, document->saved_rubber)) {
     return true;
   }
@@ -250,9 +250,12 @@ int sb_document_undo(SbDocument *document) {
   if (!sb_document_can_undo(document)) {
     return -1;
   }
-  Edit edit = g_array_index(document->edits, Edit, --document->done);
+  Edit edit;
+  do {
+    edit = g_array_index(document->edits, Edit, --document->done);
+    apply(document, &edit, 0);
+  } while (edit.joined && document->done > 0);
   document->mergeable = false;
-  apply(document, &edit, 0);
   return edit.id;
 }
 
@@ -260,10 +263,14 @@ int sb_document_redo(SbDocument *document) {
   if (!sb_document_can_redo(document)) {
     return -1;
   }
-  Edit edit = g_array_index(document->edits, Edit, document->done++);
+  const int first = g_array_index(document->edits, Edit, document->done).id;
+  do {
+    Edit edit = g_array_index(document->edits, Edit, document->done++);
+    apply(document, &edit, 1);
+  } while (document->done < document->edits->len &&
+           g_array_index(document->edits, Edit, document->done).joined);
   document->mergeable = false;
-  apply(document, &edit, 1);
-  return edit.id;
+  return first;
 }
 
 int sb_document_next_undo(const SbDocument *document, bool redo, double value[2]) {

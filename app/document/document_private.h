@@ -10,6 +10,7 @@
 #define SB_META_GROUP   "sealbench"
 #define SB_LIMITS_GROUP "limits"
 #define SB_CASES_GROUP  "cases"
+#define SB_PINS_GROUP   "pins"
 
 // The one key that names a file and no value.
 #define SB_SERIES_KEY "drive.file"
@@ -25,6 +26,7 @@ typedef struct {
 
 typedef struct {
   int id;        // of a parameter, SB_DOCUMENT_RUBBER or SB_DOCUMENT_MEASURED
+  bool joined;   // one step with the edit before
   bool given[2]; // before, after
   double value[2];
   SbNamedRubber *rubber[2]; // held; NULL: none of its own
@@ -52,6 +54,8 @@ struct SbDocument {
   SbParams saved;     // what its file gives
   SbLimits limits;    // on figures: the valve's, and its own in their place
   GPtrArray *cases;   // in the same way (document_cases.c)
+  GPtrArray *pins;    // its own alone, see document_pins.c
+  bool pins_changed;  // since the file was read or written
   SbShapes *shapes;   // of the parts
   GPtrArray *notes;   // of char *, what shapes say against given values
   GArray *edits;      // Edit
@@ -75,12 +79,30 @@ void sb_document_read_limits(SbLimits *limits, const GPtrArray *entries, const c
 // Appends them as a group; nothing where there are none.
 void sb_document_append_limits(GString *text, const SbLimits *limits);
 
-// The same for [cases], whose values are looked at when they are compiled (document_cases.c).
+// The same for a group of cases, whose values are looked at when they are compiled
+// (document_cases.c).
 enum { SB_CASES_MAX = 100 };
+typedef struct {
+  char *name, *settings;
+  char *shown; // the file that has it
+} SbCase;
 GPtrArray *sb_document_cases_new(void);
-void sb_document_read_cases(GPtrArray *cases, const GPtrArray *entries, const char *shown,
-                            GPtrArray *issues);
+void sb_document_read_cases(GPtrArray *cases, const char *group, const GPtrArray *entries,
+                            const char *shown, GPtrArray *issues);
 void sb_document_append_cases(GString *text, const GPtrArray *cases);
+
+// The values of one, and its rubber where it names one (owned, NULL: the document's); issues name
+// `path`. Then the model of them.
+bool sb_document_case_params(const SbDocument *document, const SbCase *one, const char *path,
+                             SbParams *params, SbNamedRubber **rubber, GPtrArray *issues);
+bool sb_document_case_model(const SbDocument *document, SbParams params, SbNamedRubber *rubber,
+                            const char *shown, const char *path, SbModel **out, GPtrArray *issues);
+
+// The kept designs of a file that was read (document_pins.c); what saving changes of its group.
+GPtrArray *sb_document_pins_new(void);
+void sb_document_read_pins(SbDocument *document, const GPtrArray *entries, const char *shown,
+                           GPtrArray *issues);
+void sb_document_change_pins(GArray *changes, const SbDocument *document);
 
 // Range of a problem in the parameter's unit, "at least 5.79 mm"; NULL: none. Owned by the caller.
 char *sb_document_problem_range(const SbProblem *problem, const SbParam *param);
@@ -101,6 +123,9 @@ bool sb_named_rubber_same(const SbNamedRubber *a, const SbNamedRubber *b);
 // in force then into its data; data with another one in its place, for the caller to release.
 void sb_document_put_rubber(SbDocument *document, SbNamedRubber **place, SbNamedRubber *rubber);
 SbModelData *sb_document_data_with(const SbDocument *document, const SbNamedRubber *rubber);
+
+// The rubber in force, NULL: none; borrowed.
+SbNamedRubber *sb_document_rubber_in_force(const SbDocument *document);
 
 // Of an Edit.
 void sb_document_clear_edit(gpointer edit);

@@ -38,7 +38,7 @@ SbNamedRubber *sb_named_rubber_read(const char *name, const char *directory, con
   return out;
 }
 
-static SbNamedRubber *in_force(const SbDocument *document) {
+SbNamedRubber *sb_document_rubber_in_force(const SbDocument *document) {
   return document->own_rubber != NULL ? document->own_rubber : document->base_rubber;
 }
 
@@ -59,7 +59,7 @@ void sb_document_put_rubber(SbDocument *document, SbNamedRubber **place, SbNamed
   sb_named_rubber_release(*place);
   *place = rubber;
   // Models may hold the data before, which nobody changes.
-  SbModelData *data = sb_document_data_with(document, in_force(document));
+  SbModelData *data = sb_document_data_with(document, sb_document_rubber_in_force(document));
   sb_model_data_release(document->data);
   document->data = data;
   document->serial++;
@@ -84,7 +84,7 @@ bool sb_document_set_rubber(SbDocument *document, const char *name, GPtrArray *i
 }
 
 const char *sb_document_rubber(const SbDocument *document) {
-  const SbNamedRubber *rubber = in_force(document);
+  const SbNamedRubber *rubber = sb_document_rubber_in_force(document);
   return rubber != NULL ? rubber->name : NULL;
 }
 

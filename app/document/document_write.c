@@ -165,6 +165,7 @@ char *sb_document_to_text(const SbDocument *document, const char *path) {
       g_array_append_val(changes, change);
     }
   }
+  sb_document_change_pins(changes, document);
   char *text = sb_writer_apply(document->text, document->entries, (const SbChange *)changes->data,
                                changes->len);
   free_changes(changes);
@@ -290,6 +291,7 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
     document->measured = sb_data_read(document->entries, directory, path, none);
   }
   sb_document_data_saved(document);
+  document->pins_changed = false;
   g_ptr_array_unref(none);
   char *kept = g_strdup(path);
   g_free(document->path);

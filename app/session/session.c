@@ -66,11 +66,19 @@ static void changed(SbSession *session) {
   session->edited = g_get_monotonic_time();
   session->latency = (SbEditLatency){NAN, NAN};
   compile(session);
+  sb_session_name_pins(session);
   sb_session_values_changed(session);
   if (session->predicted) {
     session->latency.predicted = 1e-6 * (double)(g_get_monotonic_time() - session->edited);
   }
   sb_session_emit(session, SB_SIGNAL_PARAMS);
+}
+
+void sb_session_document_changed(SbSession *session) {
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    forget_rejected(session, id);
+  }
+  changed(session);
 }
 
 const SbDocument *sb_session_document(SbSession *session) {
@@ -83,6 +91,7 @@ static void replace_document(SbSession *session, SbDocument *document) {
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     forget_rejected(session, id);
   }
+  sb_session_load_pins(session);
   sb_session_clear_runs(session);
   sb_session_read_measured(session);
   take_values(session);
@@ -134,6 +143,7 @@ gboolean sb_session_restore(SbSession *session, const char *path, const char *te
                     sb_document_data_count(document) > 0 ? sb_document_data(document, 0) : NULL)) {
     sb_document_put_data(document, measured ? sb_data_copy(now) : NULL);
   }
+  sb_document_take_pins(document, changed_one);
   replace_document(session, g_steal_pointer(&document));
   return TRUE;
 }

@@ -141,7 +141,7 @@ const SbFrame *sb_session_frames(SbSession *session, size_t *count);
 SbRunGrade sb_session_grade(SbSession *session);
 char *sb_session_grade_text(SbSession *session);
 
-// Whether the shown run may be exported and pinned: it has ended and is a whole one.
+// Whether the shown run may be exported: it has ended and is a whole one.
 gboolean sb_session_may_keep(SbSession *session);
 
 // An edit of a parameter is about to begin: what its loop will be is made ready in the background,
@@ -154,11 +154,35 @@ SbRunHandle *sb_session_handle(SbSession *session);
 // The shown run's summary; NULL while it is computed.
 const SbSummary *sb_session_summary(SbSession *session);
 
-// Keeps the shown run for comparison, or lets it go.
-void sb_session_pin(SbSession *session, gboolean on);
+// Designs that are kept to compare with ----------------------------------------------------------
+//
+// They are saved with the document ([pins]), each with all its values. At most SB_CHART_PINS are
+// drawn beside the live run (SbChartData.pin), all are in tables. Signals: "run-changed" when one
+// comes, goes, or has its run; "params-changed" as well where there is something to save.
 
-// Name of the pinned run, by what distinguishes it; NULL if none is pinned.
-const char *sb_session_pinned_name(SbSession *session);
+// Keeps the shown run, which must be a whole one of the present values; FALSE where it is not.
+gboolean sb_session_may_pin(SbSession *session);
+gboolean sb_session_pin(SbSession *session);
+
+size_t sb_session_pin_count(SbSession *session);
+void sb_session_unpin(SbSession *session, size_t index);
+
+// Its own name, else what it differs in from the present values ("section diameter 1.63 mm").
+// Borrowed until the next change. An empty name gives it up.
+const char *sb_session_pin_name(SbSession *session, size_t index);
+void sb_session_rename_pin(SbSession *session, size_t index, const char *name);
+
+// The look it is drawn with, 0 to SB_CHART_PINS - 1; -1: it is not. Drawing one more than there are
+// looks takes that of the oldest.
+int sb_session_pin_slot(SbSession *session, size_t index);
+void sb_session_draw_pin(SbSession *session, size_t index, gboolean on);
+
+// NULL while its run is computed, or if there is none (`failed`).
+const SbSummary *sb_session_pin_summary(SbSession *session, size_t index);
+gboolean sb_session_pin_failed(SbSession *session, size_t index);
+
+// Makes its values the present ones, as one step that can be undone; its run is shown at once.
+void sb_session_use_pin(SbSession *session, size_t index);
 
 // True if the shown run is not of the present values; then `*id` is a parameter in which it differs
 // (-1 if several do) and `*value` the shown run's value [SI].

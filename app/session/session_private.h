@@ -1,4 +1,5 @@
-// The inside of a session, shared by session.c (document), session_run.c (runs), session_shown.c
+// The inside of a session, shared by session.c (document), session_run.c (runs), session_pins.c
+// (designs kept to compare with), session_shown.c
 // (what is shown of them), session_slope.c (what is predicted) and session_playhead.c (playhead).
 #pragma once
 
@@ -36,8 +37,7 @@ struct _SbSession {
   unsigned ticket;  // of the request under way; 0 if none is
   SbParams asked;   // its values
   SbRunGrade grade; // its
-  SbDisplayedRun *fresh, *shown, *earlier, *pinned;
-  char *pinned_name;
+  SbDisplayedRun *fresh, *shown, *earlier;
   SbSessionState state;
   char *failure;
   gboolean auto_run;
@@ -56,6 +56,13 @@ struct _SbSession {
   unsigned slope_ticket; // of the neighbour under way; 0 if none is
   SbParamId slope_id;
   SbParams slope_params;
+
+  // Kept designs, one a pin of the document.
+  GPtrArray *pins;             // see session_pins.c
+  size_t drawn[SB_CHART_PINS]; // those in `chart`
+  SbRunner *pin_runner;        // owned, NULL until it is needed
+  unsigned pin_ticket;         // of the one that is computed; 0 if none is
+  size_t pin_index;
 
   // What was measured, and what it differs by from a run (held; NULL: not compared).
   SbMeasureJob *measuring;
@@ -82,6 +89,24 @@ void sb_session_values_changed(SbSession *session);
 
 // Tells the views and listeners that the playhead, or whether it plays, is another.
 void sb_session_playhead_changed(SbSession *session);
+
+// Another set of values has come from elsewhere: refused texts go, a run follows.
+void sb_session_document_changed(SbSession *session);
+
+// The kept designs: makes them those of the document; names them by the present values; computes
+// what is missing, once nothing else is wanted; gives them to the charts, and their frames; a run
+// of theirs that answers values (NULL: none).
+void sb_session_init_pins(SbSession *session);
+void sb_session_dispose_pins(SbSession *session);
+void sb_session_load_pins(SbSession *session);
+void sb_session_name_pins(SbSession *session);
+void sb_session_poll_pins(SbSession *session);
+void sb_session_chart_pins(SbSession *session);
+void sb_session_place_pins(SbSession *session);
+SbDisplayedRun *sb_session_pinned_answer(SbSession *session, const SbParams *params);
+
+// Whether all values are equal.
+bool sb_session_same_values(const SbParams *a, const SbParams *b);
 
 // Forgets runs and the playhead (another document).
 void sb_session_clear_runs(SbSession *session);
@@ -112,6 +137,9 @@ void sb_session_drop_base(SbSession *session);
 
 // Looks whether a neighbour is there.
 void sb_session_poll_slope(SbSession *session);
+
+// The window shows everything: the views of the scene do not limit it.
+#define SB_SESSION_VIEWS (SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION)
 
 // A run that lasts longer is shown while it grows [us].
 enum { SB_SESSION_WATCH_US = 120000 };

@@ -42,9 +42,6 @@ static const double HEAVY_S = 0.15, COARSE_SHARE = 0.5;
 // Of a coarse run.
 static const double COARSE_TOLERANCE = 0.01, COARSE_FRAMES = 200;
 
-// The window shows everything: the views of the scene do not limit it.
-static const unsigned VIEWS = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION;
-
 static void cancel_source(guint *source) {
   if (*source != 0) {
     g_source_remove(*source);
@@ -52,7 +49,7 @@ static void cancel_source(guint *source) {
   }
 }
 
-static bool same_values(const SbParams *a, const SbParams *b) {
+bool sb_session_same_values(const SbParams *a, const SbParams *b) {
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     if (sb_params_get(a, (SbParamId)id) != sb_params_get(b, (SbParamId)id)) {
       return false;
@@ -63,7 +60,8 @@ static bool same_values(const SbParams *a, const SbParams *b) {
 
 // Whether a run is complete and of these values.
 static bool answers(const SbDisplayedRun *run, const SbParams *params) {
-  return run != NULL && run->chart.state == SB_CHART_DONE && same_values(&run->params, params);
+  return run != NULL && run->chart.state == SB_CHART_DONE &&
+         sb_session_same_values(&run->params, params);
 }
 
 // Grades -----------------------------------------------------------------------------------------
@@ -71,7 +69,8 @@ static bool answers(const SbDisplayedRun *run, const SbParams *params) {
 // Predicted processor time of a model's run [s]; 0 without solved rings.
 static double expected(const SbModel *model, bool coarse) {
   SbPlan plan;
-  sb_plan_wished(&plan, model, &(SbPlanWishes){.views = VIEWS, .life = true, .coarse = coarse});
+  sb_plan_wished(&plan, model,
+                 &(SbPlanWishes){.views = SB_SESSION_VIEWS, .life = true, .coarse = coarse});
   return plan.ring ? sb_plan_cost(&plan) : 0;
 }
 
@@ -117,13 +116,14 @@ static void submit(SbSession *session, SbRunGrade grade) {
   session->started = g_get_monotonic_time();
   session->state = SB_SESSION_RUNNING;
   session->ticket = sb_runner_submit(
-      session->runner,
-      &(SbRunRequest){
-          .model = coarse != NULL ? coarse : session->model,
-          .wishes = {.views = VIEWS, .life = grade != SB_GRADE_CLOSED, .coarse = coarse != NULL},
-          .start = grade == SB_GRADE_NEAR ? session->base->handle : NULL,
-          .keep = grade == SB_GRADE_WHOLE && session->heavy,
-      });
+      session->runner, &(SbRunRequest){
+                           .model = coarse != NULL ? coarse : session->model,
+                           .wishes = {.views = SB_SESSION_VIEWS,
+                                      .life = grade != SB_GRADE_CLOSED,
+                                      .coarse = coarse != NULL},
+                           .start = grade == SB_GRADE_NEAR ? session->base->handle : NULL,
+                           .keep = grade == SB_GRADE_WHOLE && session->heavy,
+                       });
 }
 
 static SbRunGrade first_grade(SbSession *session) {
@@ -230,7 +230,7 @@ static void finish(SbSession *session) {
   SbDisplayedRun *fresh = session->fresh;
   SbStatus status = sb_run_handle_status(fresh->handle);
   SbParams present = sb_document_params(session->document);
-  const bool current = session->model != NULL && same_values(&session->asked, &present);
+  const bool current = session->model != NULL && sb_session_same_values(&session->asked, &present);
   session->ticket = 0;
   if (fresh->grade != SB_GRADE_WHOLE && status != SB_OK && status != SB_ERROR_CANCELLED &&
       current) {
@@ -313,6 +313,7 @@ static gboolean on_inbox(gpointer data) {
   if (inbox->session != NULL) {
     poll_frames(inbox->session);
     sb_session_poll_slope(inbox->session);
+    sb_session_poll_pins(inbox->session);
   }
   inbox_unref(inbox);
   return G_SOURCE_REMOVE;
@@ -406,13 +407,15 @@ void sb_session_values_changed(SbSession *session) {
   if (session->ticket == 0) {
     session->state = ended_state(session);
   }
-  if (session->ticket == 0 || !same_values(&params, &session->asked)) {
+  if (session->ticket == 0 || !sb_session_same_values(&params, &session->asked)) {
     g_autofree char *hash = sb_document_sha256(session->document);
     SbDisplayedRun *known = session->model == NULL             ? NULL
                             : answers(session->shown, &params) ? session->shown
                             : answers(session->earlier, &params)
                                 ? session->earlier
-                                : sb_run_cache_get(session->cache, hash);
+                                : sb_session_pinned_answer(session, &params);
+    known =
+        known == NULL && session->model != NULL ? sb_run_cache_get(session->cache, hash) : known;
     // A file is looked for where nothing else is shown: later, what is known here starts better.
     SbDisplayedRun *stored =
         known == NULL && session->heavy && session->shown == NULL && session->ticket == 0
@@ -508,10 +511,8 @@ static void drop_runs(SbSession *session) {
   sb_session_hold(&session->fresh, NULL);
   sb_session_hold(&session->shown, NULL);
   sb_session_hold(&session->earlier, NULL);
-  sb_session_hold(&session->pinned, NULL);
   sb_session_drop_base(session);
   sb_run_cache_clear(session->cache);
-  g_clear_pointer(&session->pinned_name, g_free);
   g_clear_pointer(&session->failure, g_free);
   bool loops = session->playhead.loops;
   double duration = session->playhead.duration;
@@ -542,6 +543,7 @@ void sb_session_init_runs(SbSession *session) {
   session->auto_run = TRUE;
   session->latency = (SbEditLatency){NAN, NAN};
   sb_playhead_init(&session->playhead);
+  sb_session_init_pins(session);
   sb_session_refresh_chart(session);
 }
 
@@ -553,6 +555,7 @@ void sb_session_dispose_runs(SbSession *session) {
   cancel_source(&session->later);
   g_clear_pointer(&session->runner, sb_runner_destroy);
   g_clear_pointer(&session->slopes, sb_runner_destroy);
+  sb_session_dispose_pins(session);
   session->inbox->session = NULL;
   g_clear_pointer(&session->inbox, inbox_unref);
   drop_runs(session);

@@ -1,4 +1,4 @@
-// What a session shows: the state, age and names of the displayed run, the pinned one, and what
+// What a session shows: the state, age and names of the displayed run, and what
 // views are given of them.
 #include "app/session/session_private.h"
 
@@ -54,8 +54,6 @@ void sb_session_refresh_chart(SbSession *session) {
     chart->run.model = sb_session_model(session);
   }
   chart->earlier = session->earlier != NULL ? &session->earlier->chart : NULL;
-  chart->pinned = session->pinned != NULL ? &session->pinned->chart : NULL;
-  chart->pinned_name = session->pinned_name;
   chart->predicted = session->predicted ? sb_prediction_curve(session->prediction) : NULL;
   chart->measured = sb_session_compare(session);
   chart->playhead = session->playhead.frame;
@@ -64,6 +62,7 @@ void sb_session_refresh_chart(SbSession *session) {
   chart->title = sb_document_title(session->document);
   chart->hash = session->hash;
   chart->failure = session->failure;
+  sb_session_chart_pins(session);
 }
 
 void sb_session_run_changed(SbSession *session) {
@@ -83,6 +82,7 @@ void sb_session_run_changed(SbSession *session) {
 void sb_session_playhead_changed(SbSession *session) {
   session->chart.playhead = session->playhead.frame;
   session->chart.playing = session->playhead.playing;
+  sb_session_place_pins(session);
   sb_session_emit(session, SB_SIGNAL_PLAYHEAD);
 }
 
@@ -206,24 +206,4 @@ char *sb_session_stale_text(SbSession *session) {
   g_autofree char *label = g_utf8_strdown(sb_param((SbParamId)id)->label, -1);
   g_autofree char *shown = sb_param_format((SbParamId)id, value);
   return g_strdup_printf("stale: this run is with %s %s", label, shown);
-}
-
-static char *pin_name(SbSession *session) {
-  char peak[SB_FORMAT_MAX];
-  sb_format_figure(peak, sb_run_summary(session->pinned->run),
-                   sb_figure_find("cycle.force_breakaway_N"));
-  return g_strdup_printf("break-away %s", peak);
-}
-
-void sb_session_pin(SbSession *session, gboolean on) {
-  sb_session_hold(&session->pinned, on && sb_session_may_keep(session) ? session->shown : NULL);
-  g_clear_pointer(&session->pinned_name, g_free);
-  if (session->pinned != NULL) {
-    session->pinned_name = pin_name(session);
-  }
-  sb_session_run_changed(session);
-}
-
-const char *sb_session_pinned_name(SbSession *session) {
-  return session->pinned_name;
 }

@@ -79,19 +79,22 @@ static SbChartRun run_with_film(const SbChartRun *from, double factor) {
   return out;
 }
 
+static void pin(SbChartData *data, const SbChartData *pinned) {
+  data->pin[0] = (SbChartPin){&pinned->run, ROUGHNESS, 0, pinned->playhead};
+  data->pin_count = 1;
+}
+
 static void test_hysteresis(void) {
   SbChartData data, wrong;
   synthetic_data(&data, &run, 7.27);
   SbChartData pinned;
   synthetic_data(&pinned, &weaker, 7.27);
-  data.pinned = &pinned.run;
-  data.pinned_name = ROUGHNESS;
+  pin(&data, &pinned);
   check_view(sb_hysteresis_draw, &data, "hysteresis", 640, 560, 1, false, SB_CHART_PANEL);
   check_view(sb_hysteresis_draw, &data, "hysteresis-dark", 640, 560, 1, true, SB_CHART_PANEL);
   // A loop whose friction is 1 % too large.
   synthetic_data(&wrong, &off, 7.27);
-  wrong.pinned = data.pinned;
-  wrong.pinned_name = data.pinned_name;
+  pin(&wrong, &pinned);
   check_rejected(sb_hysteresis_draw, &wrong, "hysteresis", 640, 560, 1, false, SB_CHART_PANEL);
   check_rejected(sb_hysteresis_draw, &wrong, "hysteresis-dark", 640, 560, 1, true, SB_CHART_PANEL);
 }
@@ -105,8 +108,7 @@ static void test_dashboard(void) {
   SbChartData data, pinned, wrong;
   synthetic_data(&data, &run, 7.27);
   synthetic_data(&pinned, &weaker, 7.27);
-  data.pinned = &pinned.run;
-  data.pinned_name = ROUGHNESS;
+  pin(&data, &pinned);
   check_view(draw_dashboard, &data, "dashboard", 1920, 1080, 1, false, 0);
   check_view(draw_dashboard, &data, "dashboard-dark", 1920, 1080, 1, true, 0);
   // The playhead three frames further.

@@ -3,7 +3,9 @@
 // shown run is that of the values in force. Needs no display.
 #include "app/session/session.h"
 
+#include <glib/gstdio.h>
 #include <math.h>
+#include <string.h>
 
 // The main loop and the frame clock for a while.
 static void turn(SbSession *session, int milliseconds) {
@@ -62,7 +64,11 @@ static void test_fast_edits(void) {
       break;
     case 7:
       sb_session_play(session, TRUE);
-      sb_session_pin(session, sb_session_pinned_name(session) == NULL);
+      if (sb_session_pin_count(session) > 2) {
+        sb_session_unpin(session, 0);
+      } else {
+        sb_session_pin(session);
+      }
       break;
     default:
       sb_session_edit_value(session, SB_P_SEAL_SECTION_DIAMETER,
@@ -152,15 +158,103 @@ static void test_cancelled_before_the_first_frame(void) {
   g_assert_false(sb_session_wants_ticks(session));
 }
 
+static void wait_pins(SbSession *session) {
+  for (int i = 0; i < 3000; i++) {
+    size_t there = 0;
+    for (size_t k = 0; k < sb_session_pin_count(session); k++) {
+      there += sb_session_pin_summary(session, k) != NULL;
+    }
+    if (there == sb_session_pin_count(session)) {
+      return;
+    }
+    turn(session, 10);
+  }
+  g_assert_not_reached();
+}
+
+static double breakaway(const SbSummary *summary) {
+  return sb_figure_value(summary, sb_figure_find("cycle.force_breakaway_N"));
+}
+
+// Three designs are kept, two are drawn; they go by what differs, come back from the file with
+// equal figures, and are used as one step, at once.
+static void test_pins(void) {
+  g_autoptr(SbSession) session = sb_session_new();
+  sb_session_edit(session, SB_P_MODELS_FILM, "thesis");
+  settle(session);
+  g_assert_true(sb_session_pin(session));
+  g_assert_cmpstr(sb_session_pin_name(session, 0), ==, "as now");
+  sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, "1.63 mm");
+  g_assert_false(sb_session_pin(session)); // its run is still to come
+  settle(session);
+  const double first = breakaway(sb_session_summary(session));
+  g_assert_true(sb_session_pin(session));
+  sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, "1.57 mm");
+  sb_session_edit(session, SB_P_GLAND_RADIAL_SPACE, "1.34 mm");
+  settle(session);
+  // What both pins have in common tells nothing.
+  g_assert_cmpstr(sb_session_pin_name(session, 0), ==, "section diameter 1.61 mm");
+  g_assert_cmpstr(sb_session_pin_name(session, 1), ==, "section diameter 1.63 mm");
+  g_assert_true(sb_session_pin(session));
+  g_assert_cmpuint(sb_session_pin_count(session), ==, 3);
+  const SbChartData *chart = sb_session_chart(session);
+  g_assert_cmpuint(chart->pin_count, ==, 2);
+  g_assert_cmpint(sb_session_pin_slot(session, 0), ==, -1); // the oldest gave way
+  g_assert_true(chart->pin[0].frame < chart->pin[0].run->count);
+  sb_session_rename_pin(session, 1, " wide = soft ");
+  g_assert_cmpstr(sb_session_pin_name(session, 1), ==, "wide   soft");
+
+  g_autofree char *folder = g_dir_make_tmp("sealbench-pins-XXXXXX", NULL);
+  g_autofree char *path = g_build_filename(folder, "kept.valve", NULL);
+  g_assert_true(sb_session_is_modified(session));
+  g_assert_true(sb_session_save(session, path, NULL));
+  g_assert_false(sb_session_is_modified(session));
+  g_autoptr(SbSession) again = sb_session_new();
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_assert_true(sb_session_open(again, path, issues));
+  g_assert_cmpuint(issues->len, ==, 0);
+  settle(again);
+  wait_pins(again);
+  g_assert_cmpuint(sb_session_pin_count(again), ==, 3);
+  g_assert_cmpstr(sb_session_pin_name(again, 1), ==, "wide   soft");
+  g_assert_true(g_str_has_prefix(sb_session_pin_name(again, 0), "section diameter 1.61 mm"));
+  g_assert_cmpfloat(breakaway(sb_session_pin_summary(again, 1)), ==, first);
+  g_assert_false(sb_session_is_modified(again));
+
+  const SbDocument *document = sb_session_document(again);
+  sb_session_use_pin(again, 1);
+  g_assert_cmpint(sb_session_state(again), ==, SB_SESSION_DONE); // nothing is solved again
+  g_assert_cmpfloat(breakaway(sb_session_summary(again)), ==, first);
+  g_assert_cmpfloat(sb_document_value(document, SB_P_GLAND_RADIAL_SPACE), ==, 1.36e-3);
+  sb_session_undo(again);
+  g_assert_cmpfloat(sb_document_value(document, SB_P_SEAL_SECTION_DIAMETER), ==, 1.57e-3);
+  g_assert_cmpfloat(sb_document_value(document, SB_P_GLAND_RADIAL_SPACE), ==, 1.34e-3);
+  sb_session_redo(again);
+  g_assert_cmpfloat(sb_document_value(document, SB_P_SEAL_SECTION_DIAMETER), ==, 1.63e-3);
+
+  // Dropped, and so from the file.
+  sb_session_unpin(again, 0);
+  g_assert_true(sb_session_save(again, path, NULL));
+  g_autofree char *text = NULL;
+  g_assert_true(g_file_get_contents(path, &text, NULL, NULL));
+  g_assert_nonnull(strstr(text, "wide   soft ="));
+  g_autoptr(SbSession) last = sb_session_new();
+  g_assert_true(sb_session_open(last, path, issues));
+  g_assert_cmpuint(sb_session_pin_count(last), ==, 2);
+  g_assert_cmpstr(sb_session_pin_name(last, 0), ==, "wide   soft");
+  g_unlink(path);
+  g_rmdir(folder);
+}
+
 // A pinned run stays with its document only.
 static void test_another_document_forgets(void) {
   g_autoptr(SbSession) session = sb_session_new();
   sb_session_start(session);
   settle(session);
-  sb_session_pin(session, TRUE);
-  g_assert_nonnull(sb_session_pinned_name(session));
+  g_assert_true(sb_session_pin(session));
+  g_assert_cmpuint(sb_session_pin_count(session), ==, 1);
   sb_session_reset(session);
-  g_assert_null(sb_session_pinned_name(session));
+  g_assert_cmpuint(sb_session_pin_count(session), ==, 0);
   g_assert_null(sb_session_run(session));
 }
 
@@ -183,6 +277,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/session/playhead-keeps-its-place", test_playhead_keeps_its_place);
   g_test_add_func("/session/cancelled-before-the-first-frame",
                   test_cancelled_before_the_first_frame);
+  g_test_add_func("/session/pins", test_pins);
   g_test_add_func("/session/another-document-forgets", test_another_document_forgets);
   g_test_add_func("/session/gone-while-running", test_gone_while_running);
   return g_test_run();

@@ -286,8 +286,7 @@ static void test_cancel(void) {
   g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_DONE);
   g_assert_false(sb_session_wants_ticks(session));
   g_assert_false(sb_session_may_keep(session));
-  sb_session_pin(session, TRUE);
-  g_assert_null(sb_session_pinned_name(session));
+  g_assert_false(sb_session_pin(session));
   sb_session_start(session);
   g_autoptr(GArray) then = settle(session);
   g_assert_cmpuint(then->len, ==, 1);

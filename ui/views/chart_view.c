@@ -8,6 +8,7 @@
 
 #include "app/base/format.h"
 #include "app/base/translation.h"
+#include "app/chart/compare.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/life.h"
 #include "app/chart/profiles.h"
@@ -43,7 +44,8 @@ static const struct {
 } kinds[] = {
     {N_("Force and displacement"), 190, 260, 50}, {N_("Contact pressure"), 132, 178, 80},
     {N_("Film thickness"), 132, 178, 80},         {N_("Life"), 176, 230, 1000},
-    {N_("Loss on the shelf"), 300, 420, 1000},    {N_("Why they differ"), 224, 224, 1000},
+    {N_("Compared runs"), 140, 310, 80},          {N_("Loss on the shelf"), 300, 420, 1000},
+    {N_("Why they differ"), 224, 224, 1000},
 };
 
 // Model of the run shown; before the first run, of the values.
@@ -57,6 +59,7 @@ static gboolean applies(const View *view) {
   gboolean rig = sb_model_is_rig(model);
   switch (view->kind) {
   case SB_CHART_VIEW_FILM:
+  case SB_CHART_VIEW_COMPARE:
     return !rig;
   case SB_CHART_VIEW_LIFE:
     return !rig && model != NULL && sb_model_number(model, SB_P_LIFE_ACTUATIONS) > 1;
@@ -115,6 +118,9 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
     break;
   case SB_CHART_VIEW_FILM:
     sb_profiles_film_draw(cr, rect, theme, data, SB_CHART_COMPACT);
+    break;
+  case SB_CHART_VIEW_COMPARE:
+    sb_compare_draw(cr, rect, theme, data, SB_CHART_COMPACT);
     break;
   case SB_CHART_VIEW_LIFE:
     draw_life(cr, rect, theme, data);
@@ -264,6 +270,9 @@ static gboolean describe(gpointer data) {
   const char *name = _(kinds[view->kind].name);
   if (view->kind == SB_CHART_VIEW_LOOP) {
     describe_loop(view->session, text);
+  } else if (view->kind == SB_CHART_VIEW_COMPARE) {
+    g_autofree char *table = sb_compare_text(sb_session_chart(view->session));
+    g_string_append(text, table);
   } else if (view->kind == SB_CHART_VIEW_LIFE) {
     describe_life(view->session, text);
   } else if (view->kind == SB_CHART_VIEW_SHELF) {
@@ -319,6 +328,10 @@ char *sb_chart_view_table(SbSession *session) {
                                g_ascii_formatd(c, sizeof c, "%.6g", marks[i].force));
       }
     }
+  }
+  if (data->pin_count > 0 || data->measured != NULL) {
+    g_autofree char *compared = sb_compare_text(data);
+    g_string_append_printf(text, "\n%s", compared);
   }
   return g_string_free(text, FALSE);
 }

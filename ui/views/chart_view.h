@@ -9,6 +9,7 @@ typedef enum {
   SB_CHART_VIEW_LOOP,     // of the sliding-plate rig: the thread's force over time
   SB_CHART_VIEW_PRESSURE, // of the rig: its coefficients
   SB_CHART_VIEW_FILM,     // not of the rig
+  SB_CHART_VIEW_COMPARE,  // not of the rig
   SB_CHART_VIEW_LIFE,     // only where a scene has more than one actuation
   SB_CHART_VIEW_SHELF,    // only where a scene shows it
   SB_CHART_VIEW_REASONS   // only of the rig

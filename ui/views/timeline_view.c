@@ -6,6 +6,7 @@
 #include "app/chart/timeline.h"
 #include "ui/views/canvas_area.h"
 #include "ui/views/draw_cache.h"
+#include "ui/views/pin_bar.h"
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
 
@@ -192,7 +193,7 @@ static GtkWidget *make_controls(View *view) {
   g_signal_connect(view->loop, "toggled", G_CALLBACK(on_loop), view);
   gtk_container_add(GTK_CONTAINER(row), view->loop);
 
-  GtkWidget *pin = gtk_toggle_button_new();
+  GtkWidget *pin = gtk_button_new();
   gtk_container_add(GTK_CONTAINER(pin),
                     gtk_image_new_from_icon_name("view-pin-symbolic", GTK_ICON_SIZE_BUTTON));
   gtk_actionable_set_action_name(GTK_ACTIONABLE(pin), "win.pin");
@@ -200,13 +201,10 @@ static GtkWidget *make_controls(View *view) {
   sb_style_name(pin, _("Pin this run"), NULL);
   gtk_container_add(GTK_CONTAINER(row), pin);
 
-  row = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
-  gtk_container_add(GTK_CONTAINER(rows), row);
-  gtk_container_add(GTK_CONTAINER(row), gtk_label_new(_("Speed")));
-  view->speed = gtk_combo_box_text_new();
-  sb_style_name(view->speed, _("Speed"), _("How fast the cycle plays"));
+  view->speed = sb_toolbar_combo(GTK_BOX(row), NULL, 0, _("Speed"), _("How fast the cycle plays"));
+  gtk_widget_set_tooltip_text(view->speed, _("How fast the cycle plays"));
   g_signal_connect(view->speed, "changed", G_CALLBACK(on_speed), view);
-  gtk_container_add(GTK_CONTAINER(row), view->speed);
+  gtk_container_add(GTK_CONTAINER(rows), sb_pin_bar_new(view->session));
   return rows;
 }
 

@@ -1,5 +1,5 @@
 // The line at the bottom: where the playhead is (also for screen readers and tests), models, run
-// time, error estimate, the pinned run, and the warnings with a list behind a button.
+// time, error estimate, and the warnings with a list behind a button.
 #include "ui/window/status_bar.h"
 
 #include "app/base/format.h"
@@ -10,7 +10,7 @@
 
 typedef struct {
   SbSession *session;
-  GtkWidget *where, *models, *run, *error, *pinned_key, *pinned, *warnings, *list, *count;
+  GtkWidget *where, *models, *run, *error, *warnings, *list, *count;
   guint later; // source that renews the texts, 0 if none is due
 } Bar;
 
@@ -197,10 +197,6 @@ static void refresh(Bar *bar) {
     append_error(error, _("film"), summary->error_film);
   }
   gtk_label_set_text(GTK_LABEL(bar->error), error->len > 0 ? error->str : "–");
-  const char *pinned = sb_session_pinned_name(bar->session);
-  gtk_label_set_text(GTK_LABEL(bar->pinned), pinned != NULL ? pinned : "");
-  gtk_widget_set_visible(bar->pinned_key, pinned != NULL);
-  gtk_widget_set_visible(bar->pinned, pinned != NULL);
 }
 
 static GtkWidget *add_label(GtkBox *box, const char *text, const char *style) {
@@ -256,11 +252,6 @@ GtkWidget *sb_status_bar_new(SbSession *session) {
   gtk_menu_button_set_popover(GTK_MENU_BUTTON(bar->warnings), popover);
   gtk_widget_set_valign(bar->warnings, GTK_ALIGN_CENTER);
   gtk_box_pack_end(box, bar->warnings, FALSE, FALSE, 0);
-  bar->pinned = gtk_label_new("");
-  gtk_box_pack_end(box, bar->pinned, FALSE, FALSE, 0);
-  bar->pinned_key = gtk_label_new(_("Pinned"));
-  sb_style_class(bar->pinned_key, "sb-key");
-  gtk_box_pack_end(box, bar->pinned_key, FALSE, FALSE, 0);
   gtk_widget_show_all(widget);
 
   g_signal_connect(widget, "destroy", G_CALLBACK(on_destroy), bar);

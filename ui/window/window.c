@@ -8,6 +8,7 @@
 #include "ui/params/derived_panel.h"
 #include "ui/params/gland_panel.h"
 #include "ui/params/param_panel.h"
+#include "ui/views/chart_column.h"
 #include "ui/views/chart_view.h"
 #include "ui/views/section_view.h"
 #include "ui/views/style.h"
@@ -267,11 +268,7 @@ static void refresh(SbWindow *window) {
   set_enabled(window, "previous-event", sb_session_run(window->session) != NULL);
   set_enabled(window, "next-event", sb_session_run(window->session) != NULL);
   set_enabled(window, "export", sb_session_may_keep(window->session));
-  set_enabled(window, "pin", sb_session_may_keep(window->session));
-  // Another document has let the pinned run go.
-  GAction *pin = g_action_map_lookup_action(G_ACTION_MAP(window), "pin");
-  g_simple_action_set_state(G_SIMPLE_ACTION(pin),
-                            g_variant_new_boolean(sb_session_pinned_name(window->session) != NULL));
+  set_enabled(window, "pin", sb_session_may_pin(window->session));
   ensure_tick(window);
 }
 
@@ -330,8 +327,8 @@ static void on_event(GSimpleAction *action, GVariant *parameter, gpointer data) 
   sb_session_step_event(SB_WINDOW(data)->session, next ? 1 : -1);
 }
 
-static void on_pin(GSimpleAction *action, GVariant *state, gpointer data) {
-  sb_session_pin(SB_WINDOW(data)->session, g_variant_get_boolean(state)); // refresh() follows
+static void on_pin(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_session_pin(SB_WINDOW(data)->session); // refresh() follows
 }
 
 static void on_auto_run(GSimpleAction *action, GVariant *state, gpointer data) {
@@ -563,7 +560,7 @@ static void sb_window_init(SbWindow *window) {
       {.name = "close", .activate = on_close},
       {.name = "show-help-overlay", .activate = on_shortcuts},
       {.name = "copy-table", .activate = on_copy_table},
-      {.name = "pin", .state = "false", .change_state = on_pin},
+      {.name = "pin", .activate = on_pin},
       {.name = "auto-run", .state = "true", .change_state = on_auto_run},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(window), entries, G_N_ELEMENTS(entries), window);
@@ -601,17 +598,12 @@ static void sb_window_init(SbWindow *window) {
                      FALSE, 0);
   window->section = sb_section_view_new(window->session);
   gtk_box_pack_start(GTK_BOX(window->centre_column), window->section, TRUE, TRUE, 0);
-  for (int kind = SB_CHART_VIEW_LOOP; kind <= SB_CHART_VIEW_REASONS; kind++) {
-    // Those of the valve's cycle at the right, what belongs to a kind of scene under the section.
-    bool below = kind >= SB_CHART_VIEW_LIFE;
-    GtkBox *column = GTK_BOX(below ? window->centre_column : window->right_column);
-    GtkWidget *chart = sb_chart_view_new(window->session, (SbChartViewKind)kind);
-    if (kind > SB_CHART_VIEW_LOOP) {
-      GtkWidget *line = gtk_separator_new(GTK_ORIENTATION_HORIZONTAL);
-      g_object_bind_property(chart, "visible", line, "visible", G_BINDING_SYNC_CREATE);
-      gtk_box_pack_start(column, line, FALSE, FALSE, 0);
-    }
-    gtk_box_pack_start(column, chart, kind == SB_CHART_VIEW_LOOP, TRUE, 0);
+  // The charts of the valve's cycle at the right, what belongs to a kind of scene under the
+  // section.
+  sb_chart_column_fill(GTK_BOX(window->right_column), window->session);
+  for (int kind = SB_CHART_VIEW_LIFE; kind <= SB_CHART_VIEW_REASONS; kind++) {
+    sb_chart_column_add(GTK_BOX(window->centre_column), window->session, (SbChartViewKind)kind,
+                        FALSE);
   }
   gtk_box_pack_start(GTK_BOX(window->bottom), sb_timeline_view_new(window->session), FALSE, FALSE,
                      0);

@@ -1,0 +1,249 @@
+// See compare.h. All figures of a row have the unit and the decimals that the live one deserves, so
+// that a difference is that of the numbers shown. Which figures: the forces of the loop, then what
+// decides on a valve, then the sizes it follows from.
+#include "app/chart/compare.h"
+
+#include "app/base/format.h"
+#include "app/chart/hysteresis.h"
+#include "app/document/unit.h"
+
+#include <glib.h>
+#include <math.h>
+#include <string.h>
+
+#define ROW           20.0
+#define HEAD          26.0
+#define LABEL         118.0
+#define VALUE         54.0
+#define CHANGE        48.0
+#define PERCENT       44.0
+#define LEAST_PERCENT 0.5 // a live force below this has no percentage [N]
+#define DASH          "\xe2\x80\x93"
+
+enum { AT_PLAYHEAD = 2, COLUMNS = 1 + SB_CHART_PINS };
+
+static const struct {
+  const char *label, *path;
+  int stage; // whose force was measured, too; -1: none
+} figures[] = {{"B break-away", "cycle.force_breakaway_N", SB_STAGE_B},
+               {"C", "cycle.stages.C.force_N", SB_STAGE_C},
+               {"D", "cycle.stages.D.force_N", SB_STAGE_D},
+               {"E", "cycle.stages.E.force_N", SB_STAGE_E},
+               {"least return", "cycle.force_return_min_N", -1},
+               {"loss per cycle", "cycle.energy_loss_J", -1},
+               {"leak per cycle", "cycle.leakage_per_cycle_m3", -1},
+               {"outer peak", "seals.outer.pressure_peak_Pa", -1},
+               {"outer film", "seals.outer.film_central_m", -1},
+               {"squeeze", "seals.outer.squeeze", -1},
+               {"gland fill", "seals.outer.gland_fill", -1}};
+enum { ROWS = AT_PLAYHEAD + G_N_ELEMENTS(figures) };
+
+// A row in the unit that is shown; NAN: not known.
+typedef struct {
+  char label[40], unit[16];
+  int decimals;
+  bool force, stuck[COLUMNS];
+  double value[COLUMNS], measured;
+} Row;
+
+static const SbChartRun *run_of(const SbChartData *data, size_t column) {
+  return column == 0 ? &data->run : data->pin[column - 1].run;
+}
+
+static void set_decimals(Row *row, double error) {
+  const double live = fabs(row->value[0]);
+  const int digits = (row->force && live < 10) || live < 0.1 ? 2 : 3;
+  row->decimals = isfinite(row->value[0]) ? sb_format_decimals(row->value[0], digits, error) : 1;
+}
+
+static void playhead_row(Row *row, const SbChartData *data, int way) {
+  const SbFrame *frame = sb_chart_frame(data);
+  const double at = frame != NULL ? frame->displacement : NAN;
+  char number[SB_FORMAT_MAX];
+  *row = (Row){.unit = "N", .force = true, .measured = NAN};
+  g_snprintf(row->label, sizeof row->label, "at %s mm, %s", sb_format_fixed(number, 1e3 * at, 2),
+             way == 0 ? "in" : "back");
+  for (size_t i = 0; i <= data->pin_count; i++) {
+    double force[2] = {NAN, NAN};
+    const SbChartRun *run = run_of(data, i);
+    sb_hysteresis_forces(force, run, at);
+    row->value[i] = force[way];
+    row->stuck[i] = way == 1 && isnan(force[1]) && run->summary != NULL && !run->summary->returns;
+  }
+  set_decimals(row, sb_chart_error_force(&data->run));
+}
+
+static void figure_row(Row *row, const SbChartData *data, size_t k) {
+  const int index = sb_figure_find(figures[k].path);
+  const SbFigure *figure = sb_figure(index);
+  *row = (Row){.force = strcmp(figure->si, "N") == 0, .measured = NAN};
+  g_strlcpy(row->label, figures[k].label, sizeof row->label);
+  g_strlcpy(row->unit, figure->shown, sizeof row->unit);
+  for (size_t i = 0; i <= data->pin_count; i++) {
+    const SbSummary *summary = run_of(data, i)->summary;
+    const double value = summary != NULL ? sb_figure_value(summary, index) : NAN;
+    row->value[i] = sb_quantity_to_shown(value, figure->si, figure->shown);
+  }
+  if (data->measured != NULL && figures[k].stage >= 0) {
+    const SbMeasuredStage *stage = &data->measured->measured->stage[figures[k].stage];
+    row->measured = stage->found ? stage->force : NAN;
+  }
+  const SbSummary *live = data->run.summary;
+  set_decimals(row, live != NULL ? sb_figure_error(live, index) : NAN);
+}
+
+static void make(Row *row, const SbChartData *data, size_t index) {
+  if (index < AT_PLAYHEAD) {
+    playhead_row(row, data, (int)index);
+  } else {
+    figure_row(row, data, index - AT_PLAYHEAD);
+  }
+}
+
+static const char *value_text(char *out, const Row *row, double value) {
+  return isfinite(value) ? sb_format_fixed(out, value, row->decimals)
+                         : (g_strlcpy(out, DASH, SB_FORMAT_MAX), out);
+}
+
+// "+1.0", of the numbers as they are shown.
+static const char *change_text(char *out, const Row *row, double value) {
+  const double step = pow(10, -row->decimals);
+  const double change = step * (round(value / step) - round(row->value[0] / step));
+  out[0] = '\0';
+  if (isfinite(change)) {
+    char number[SB_FORMAT_MAX];
+    sb_format_fixed(number, change, row->decimals);
+    g_snprintf(out, SB_FORMAT_MAX, "%s%s", change > 0 ? "+" : "", number);
+  }
+  return out;
+}
+
+static const char *percent_text(char *out, const Row *row, double value) {
+  const double base = row->value[0], change = 100 * (value - base) / fabs(base);
+  const bool means = isfinite(change) && !(row->force && fabs(base) < LEAST_PERCENT);
+  out[0] = '\0';
+  if (means) {
+    char number[SB_FORMAT_MAX];
+    sb_format_fixed(number, change, 0);
+    g_snprintf(out, SB_FORMAT_MAX, "%s%s\xc2\xa0%%", change >= 0.5 ? "+" : "", number);
+  }
+  return out;
+}
+
+double sb_compare_height(void) {
+  return HEAD + ROW * ROWS + 6;
+}
+
+// A sample of the line and its name, cut to end at `right`.
+static void draw_head(SbCanvas *c, double left, double right, double y, SbRole role, double width,
+                      const SbDash *dash, const char *name) {
+  const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, role);
+  const double room = right - left - 24;
+  const double used = fmin(sb_canvas_text_width(c, name, &style), room);
+  const double start = right - used;
+  sb_canvas_pen(c, width, dash);
+  sb_canvas_color(c, sb_canvas_role(c, role), 1);
+  sb_canvas_polyline(c, (SbPoint[]){{start - 24, y - 4}, {start - 6, y - 4}}, 2);
+  sb_canvas_text_fit_ends(c, name, &style, start, y, used + 1);
+}
+
+void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                     unsigned flags) {
+  SbCanvas canvas, *c = &canvas;
+  sb_canvas_init(c, cr, theme);
+  if (flags & SB_CHART_PANEL) {
+    sb_canvas_panel(c, rect);
+    rect = (SbRect){rect.x + SB_GRID_PADDING, rect.y + 12, rect.width - 2 * SB_GRID_PADDING,
+                    rect.height - 24};
+  }
+  const bool measured = data->measured != NULL;
+  const double pins = (double)data->pin_count;
+  const double least = LABEL + VALUE + pins * (VALUE + CHANGE) + measured * VALUE;
+  const bool percent = rect.width >= least + pins * PERCENT;
+  const double each = VALUE + CHANGE + (percent ? PERCENT : 0);
+  // What room is left goes between the columns.
+  const double spare = fmax(rect.width - least - (percent ? pins * PERCENT : 0), 0);
+  const double gap = spare / (1 + pins + measured);
+  const double live = rect.x + LABEL + VALUE + gap;
+  const SbTextStyle name = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
+  const SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
+  const SbTextStyle unit = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_THIRD);
+  const SbTextStyle second = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+  const SbTextStyle stuck = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_ERROR);
+  const SbTextStyle dots = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_WARN);
+  double y = rect.y + 14;
+  draw_head(c, live - VALUE - gap, live, y, SB_ROLE_INK, SB_LINE_ACTIVE, NULL, "live");
+  for (size_t i = 0; i < data->pin_count; i++) {
+    const SbChartPin *pin = &data->pin[i];
+    const double right = live + (double)(i + 1) * (each + gap);
+    draw_head(c, right - each - gap + 8, right, y, sb_chart_pin_role(pin->look), SB_LINE_PINNED,
+              sb_chart_pin_dash(pin->look), pin->name);
+  }
+  if (measured) {
+    sb_canvas_text(c, "measured", &dots, rect.x + rect.width, y, SB_RIGHT);
+  }
+  y = rect.y + HEAD;
+  for (size_t k = 0; k < ROWS && y + ROW <= rect.y + rect.height + 0.5; k++, y += ROW) {
+    Row row;
+    char text[SB_FORMAT_MAX];
+    make(&row, data, k);
+    if (k < AT_PLAYHEAD) {
+      sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_GRID), 1);
+      cairo_rectangle(cr, rect.x - 4, y, rect.width + 8, ROW);
+      cairo_fill(cr);
+    } else {
+      sb_canvas_hairline(c, rect.x, y, rect.x + rect.width, y, sb_canvas_role(c, SB_ROLE_GRID));
+    }
+    const double base = y + 14;
+    const double used = sb_canvas_text(c, row.label, &name, rect.x, base, SB_LEFT);
+    sb_canvas_text(c, row.unit, &unit, rect.x + used + 5, base, SB_LEFT);
+    for (size_t i = 0; i <= data->pin_count; i++) {
+      const double right = live + (double)i * (each + gap);
+      const double at = i == 0 ? right : right - CHANGE - (percent ? PERCENT : 0);
+      if (row.stuck[i]) {
+        sb_canvas_text(c, "does not return", &stuck, right, base, SB_RIGHT);
+        continue;
+      }
+      sb_canvas_text(c, value_text(text, &row, row.value[i]), i == 0 ? &bold : &name, at, base,
+                     SB_RIGHT);
+      if (i > 0) {
+        sb_canvas_text(c, change_text(text, &row, row.value[i]), &second, at + CHANGE, base,
+                       SB_RIGHT);
+      }
+      if (i > 0 && percent) {
+        sb_canvas_text(c, percent_text(text, &row, row.value[i]), &second, right, base, SB_RIGHT);
+      }
+    }
+    if (measured && isfinite(row.measured)) {
+      sb_canvas_text(c, value_text(text, &row, row.measured), &dots, rect.x + rect.width, base,
+                     SB_RIGHT);
+    }
+  }
+  sb_canvas_finish(c);
+}
+
+char *sb_compare_text(const SbChartData *data) {
+  GString *text = g_string_new("figure\tunit\tlive");
+  char number[SB_FORMAT_MAX];
+  for (size_t i = 0; i < data->pin_count; i++) {
+    g_string_append_printf(text, "\t%s\tdifference", data->pin[i].name);
+  }
+  g_string_append(text, data->measured != NULL ? "\tmeasured\n" : "\n");
+  for (size_t k = 0; k < ROWS; k++) {
+    Row row;
+    make(&row, data, k);
+    g_string_append_printf(text, "%s\t%s", row.label, row.unit);
+    for (size_t i = 0; i <= data->pin_count; i++) {
+      g_string_append_printf(
+          text, "\t%s", row.stuck[i] ? "does not return" : value_text(number, &row, row.value[i]));
+      if (i > 0) {
+        g_string_append_printf(text, "\t%s", change_text(number, &row, row.value[i]));
+      }
+    }
+    if (data->measured != NULL) {
+      g_string_append_printf(text, "\t%s", value_text(number, &row, row.measured));
+    }
+    g_string_append_c(text, '\n');
+  }
+  return g_string_free(text, FALSE);
+}
