@@ -99,14 +99,28 @@ static bool is_starved(SbSpeedStates *states, double speed) {
   }
   if (isnan(states->starved_from)) {
     const SbSlidingBody *body = states->on_body ? &states->body : NULL;
-    double from = sb_sliding_starved_speed(&states->base, &states->task, body);
-    const bool solved = from < SB_SPEED_MOST && solve(states->starved, states, from);
+    static const double BESIDE[] = {1, 1.25, 0.8, 1.6}; // where the solver finds none there
+    const double first = sb_sliding_starved_speed(&states->base, &states->task, body);
     const SbSlidingMemory *memory = states->task.memory;
-    const bool starved = solved && sb_sliding_film(memory)->starved;
+    double from = first;
+    bool starved = false;
+    for (size_t i = 0; i < sizeof BESIDE / sizeof *BESIDE && !starved && first < SB_SPEED_MOST &&
+                       states->status == SB_OK;
+         i++) {
+      from = BESIDE[i] * first;
+      starved = solve(states->starved, states, from) && sb_sliding_film(memory)->starved;
+    }
     // Where the solver took a lower speed the film is that from there on.
     const double share = starved ? sb_sliding_film_share(memory) : 1;
     states->starved[VISCOUS] += log(share);
     states->starved_from = starved ? share * from : INFINITY;
+    if (starved) {
+      // As for one film that stands for another speed (sliding.c).
+      const SbFilm *film = sb_sliding_film(memory);
+      const double end = 2 * states->task.supply.layer;
+      const double least = 0.5 * fabs(film->film_min / end - 1);
+      states->error = fmax(states->error, fmax(least, fabs(film->film_central / end - 1)));
+    }
   }
   return speed >= states->starved_from;
 }

@@ -194,6 +194,63 @@ static void test_starved(void) {
   sb_run_destroy(run);
 }
 
+// With asperities that carry most of the load one state stands for all from the speed on at which
+// the supply alone shapes the film, as without: it is the film solved there. No law tells where.
+static void test_starved_rough(void) {
+  const Setting settings[] = {{SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED},
+                              {SB_P_SURFACE_SIGMA, 1.5e-6},
+                              {SB_P_FLUID_VISCOSITY, 5e-3},
+                              {SB_P_CANISTER_PRESSURE, 0}};
+  SbRun *run = steady_run(1e-3, settings, G_N_ELEMENTS(settings));
+  const SbSealState *state = &run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  SbSlidingMemory *memory;
+  SbCounters counts = {0};
+  g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
+  SbSlidingTask task = {.model = sb_run_model(run),
+                        .seal = SB_OUTER,
+                        .speed = 1e-3,
+                        .memory = memory,
+                        .counts = &counts,
+                        .supply = {true, state->layer}};
+  SbSpeedStates *table = g_new(SbSpeedStates, 1);
+  SbSealState quick, quicker, alone = *state;
+  sb_speed_states_init(table, &task, state, NULL);
+  sb_speed_state(&quick, table, 1);
+  sb_speed_state(&quicker, table, 8);
+  g_assert_cmpfloat(table->starved_from, <, 1);
+  g_assert_cmpuint(table->nodes, ==, 0);
+  task.speed = 2 * table->starved_from;
+  g_assert_cmpint(sb_sliding_respeed(&alone, &task, NULL, NULL), ==, SB_OK);
+  g_test_message("starved from %.3g m/s: film off by %.1e, least %.1e, told %.1e",
+                 table->starved_from, fabs(quick.film_central / alone.film_central - 1),
+                 fabs(quick.film_min / alone.film_min - 1), table->error);
+  relative("film", quick.film_central, alone.film_central, 3 * table->error);
+  relative("least film", quick.film_min, alone.film_min, 3 * table->error);
+  relative("real area", quick.real_area_share, alone.real_area_share, 3 * table->error);
+  g_assert_cmpfloat(quick.film_central, ==, quicker.film_central);
+  relative("viscous friction", quicker.friction_viscous, 8 * quick.friction_viscous, 1e-9);
+  g_free(table);
+  sb_sliding_memory_destroy(memory);
+  sb_run_destroy(run);
+}
+
+// Equal rings under equal pressures ask one table, whichever the seal, chamber and direction.
+static void test_shared(void) {
+  const Setting settings[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS}, {SB_P_CANISTER_PRESSURE, 0}};
+  SbRun *run = steady_run(1e-3, settings, G_N_ELEMENTS(settings));
+  size_t tables = 0;
+  for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_REST; i++) {
+    SbSealState state;
+    sb_run_state_at(&state, run, i / (SB_CYCLE_CHAMBERS * SB_RUN_REST),
+                    i / SB_RUN_REST % SB_CYCLE_CHAMBERS, i % SB_RUN_REST, 2e-3);
+  }
+  for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_REST; i++) {
+    tables += (&run->speeds[0][0][0])[i] != NULL;
+  }
+  g_assert_cmpuint(tables, ==, 1);
+  sb_run_destroy(run);
+}
+
 // States between the solved ones against solved ones: thesis' law, solved films, with asperities.
 static void test_sweep(void) {
   const Setting kinds[][3] = {
@@ -276,6 +333,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-speeds/hand", test_hand);
   g_test_add_func("/run-speeds/hand-solved", test_hand_solved);
   g_test_add_func("/run-speeds/starved", test_starved);
+  g_test_add_func("/run-speeds/starved-rough", test_starved_rough);
+  g_test_add_func("/run-speeds/shared", test_shared);
   g_test_add_func("/run-speeds/sweep", test_sweep);
   g_test_add_func("/run-speeds/slowest", test_slowest);
   g_test_add_func("/run-speeds/history", test_history);

@@ -1,7 +1,6 @@
 // A run's steady states at any speed: of each seal, chamber and direction one table
 // (valve/speed_states.h), made when an instant first asks for another speed than the states'.
-// Chamber states under the same pressures, whose solved states are the same, share one, and so do
-// both directions where they are alike.
+// Seals, chambers and directions that slide alike share one.
 //
 // Between the vented and the filled chamber contact and film lie between those of the two at the
 // same speed, and friction follows from them: exact where the chamber rests, which is all but the
@@ -58,29 +57,59 @@ SbStatus sb_run_keep_body(SbRun *run, int seal, int chamber, int direction,
   return body != NULL || there ? make(run, seal, chamber, direction, body, report) : SB_OK;
 }
 
-// The first chamber with this one's state: solutions of the same problem, from other starts.
-static int first_same(const SbRun *run, int seal, int chamber, int direction) {
-  const int first = sb_run_first_alike(run, seal, chamber);
-  const SbSealState *a = &run->cycle.state[seal][first][direction];
-  const SbSealState *b = &run->cycle.state[seal][chamber][direction];
-  bool same = same_contact(a, b) && fabs(a->film_central / b->film_central - 1) < 1e-5;
-  return same ? first : chamber;
+enum { TABLES = SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_REST };
+
+// One of the run's sliding states.
+typedef struct {
+  int seal, chamber, direction;
+} Place;
+
+static const SbSpeedStates *table_of(const SbRun *run, Place at) {
+  return run->speeds[at.seal][at.chamber][at.direction];
 }
 
-// Under equal pressures both ways slide alike, where neither lies on a body of its own or of a
-// supply: one of them.
-static int first_way(const SbRun *run, int seal, int chamber, int direction) {
-  const SbSealPressure p = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber);
-  const SbSealState *in = &run->cycle.state[seal][chamber][SB_CYCLE_IN];
-  const SbSealState *back = &run->cycle.state[seal][chamber][SB_CYCLE_OUT];
-  SbSpeedStates *const *table = run->speeds[seal][chamber];
-  bool alike = p.left == p.right && table[SB_CYCLE_OUT] == NULL && same_contact(in, back) &&
-               (table[SB_CYCLE_IN] == NULL || !table[SB_CYCLE_IN]->on_body) &&
-               fabs(in->film_central / back->film_central - 1) < 1e-5;
-  for (int way = 0; way < SB_RUN_REST; way++) {
-    alike = alike && !sb_run_supply(run, seal, (SbChamber)chamber, way).limited;
+static bool on_body(const SbRun *run, Place at) {
+  const SbSpeedStates *table = table_of(run, at);
+  return table != NULL && table->on_body;
+}
+
+static bool same_ring(const SbSealModel *a, const SbSealModel *b) {
+  return a->section_diameter == b->section_diameter && a->inner_diameter == b->inner_diameter &&
+         a->modulus == b->modulus && a->poisson_ratio == b->poisson_ratio &&
+         a->mooney_share == b->mooney_share;
+}
+
+// Whether two are solutions of the same problem, maybe from other starts, at any speed: the same
+// contact of equal rings under the same pressures on the same supply. Either way slides alike under
+// equal pressures, but on a body, which is one of a way.
+static bool alike(const SbRun *run, Place a, Place b) {
+  const SbModel *model = run->model;
+  const SbSealState *one = &run->cycle.state[a.seal][a.chamber][a.direction];
+  const SbSealState *other = &run->cycle.state[b.seal][b.chamber][b.direction];
+  const SbSealPressure p = sb_model_seal_pressure(model, a.seal, (SbChamber)a.chamber);
+  const SbSealPressure q = sb_model_seal_pressure(model, b.seal, (SbChamber)b.chamber);
+  if (!one->touches || !same_contact(one, other) || p.left != q.left || p.right != q.right ||
+      !(fabs(one->film_central / other->film_central - 1) < 1e-5) ||
+      !same_ring(&model->seal[a.seal], &model->seal[b.seal]) ||
+      on_body(run, a) != on_body(run, b)) {
+    return false;
   }
-  return alike ? SB_CYCLE_IN : direction;
+  const SbSupply s = sb_run_supply(run, a.seal, (SbChamber)a.chamber, a.direction);
+  const SbSupply t = sb_run_supply(run, b.seal, (SbChamber)b.chamber, b.direction);
+  return s.limited == t.limited && fabs(s.layer - t.layer) <= 1e-7 * t.layer &&
+         (a.direction == b.direction || (p.left == p.right && !on_body(run, a)));
+}
+
+// The first that is like this one.
+static Place first_like(const SbRun *run, Place own) {
+  for (int i = 0; i < TABLES; i++) {
+    const Place at = {i / (SB_CYCLE_CHAMBERS * SB_RUN_REST), i / SB_RUN_REST % SB_CYCLE_CHAMBERS,
+                      i % SB_RUN_REST};
+    if (alike(run, at, own)) {
+      return at;
+    }
+  }
+  return own;
 }
 
 void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int direction,
@@ -90,10 +119,9 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
     *out = *state;
     return;
   }
-  chamber = first_same(run, seal, chamber, direction);
-  direction = first_way(run, seal, chamber, direction);
-  SbSpeedStates **table = &run->speeds[seal][chamber][direction];
-  if (*table == NULL && make(run, seal, chamber, direction, NULL, NULL) != SB_OK) {
+  const Place at = first_like(run, (Place){seal, chamber, direction});
+  SbSpeedStates **table = &run->speeds[at.seal][at.chamber][at.direction];
+  if (*table == NULL && make(run, at.seal, at.chamber, at.direction, NULL, NULL) != SB_OK) {
     run->out_of_memory = true;
     *out = *state;
     return;
@@ -173,7 +201,6 @@ void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled,
 static SbSpeedStates *table_at(const SbRun *run, int i) {
   return (&run->speeds[0][0][0])[i];
 }
-enum { TABLES = SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_REST };
 
 SbStatus sb_run_copy_speeds(SbRun *one, const SbRun *run, SbReport *report) {
   for (int i = 0; i < TABLES; i++) {
