@@ -173,7 +173,7 @@ int sb_document_next_undo(const SbDocument *document, bool redo, double value[2]
 bool sb_document_can_undo(const SbDocument *document);
 bool sb_document_can_redo(const SbDocument *document);
 
-// Counts every change of a value; two equal numbers mean equal values.
+// Counts every change of a value or a pin; two equal numbers mean that nothing has changed.
 unsigned sb_document_serial(const SbDocument *document);
 
 // The text that saving to `path` would write (NULL: where it is now). Owned by the caller.

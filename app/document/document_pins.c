@@ -40,6 +40,11 @@ static void add(SbDocument *document, const char *name, const SbParams *params,
   g_ptr_array_add(document->pins, pin);
 }
 
+static void pins_changed(SbDocument *document) {
+  document->pins_changed = true;
+  document->serial++; // there is something else to save
+}
+
 static bool is_unnamed(const char *name) {
   const size_t head = strlen(UNNAMED);
   return strncmp(name, UNNAMED, head) == 0 && name[head] != '\0' &&
@@ -152,13 +157,13 @@ bool sb_document_add_pin(SbDocument *document) {
   }
   const SbParams params = sb_document_params(document);
   add(document, NULL, &params, sb_named_rubber_hold(sb_document_rubber_in_force(document)));
-  document->pins_changed = true;
+  pins_changed(document);
   return true;
 }
 
 void sb_document_remove_pin(SbDocument *document, size_t index) {
   g_ptr_array_remove_index(document->pins, (guint)index);
-  document->pins_changed = true;
+  pins_changed(document);
 }
 
 void sb_document_name_pin(SbDocument *document, size_t index, const char *name) {
@@ -171,7 +176,7 @@ void sb_document_name_pin(SbDocument *document, size_t index, const char *name) 
   }
   g_free(pin->name);
   pin->name = taken ? NULL : g_strdup(clean);
-  document->pins_changed = true;
+  pins_changed(document);
 }
 
 static bool same_pin(const Pin *a, const Pin *b) {
@@ -195,7 +200,7 @@ void sb_document_take_pins(SbDocument *document, const SbDocument *other) {
     const Pin *pin = pin_at(other, i);
     add(document, pin->name, &pin->params, sb_named_rubber_hold(pin->rubber));
   }
-  document->pins_changed = true;
+  pins_changed(document);
 }
 
 bool sb_document_compile_pin(const SbDocument *document, size_t index, SbModel **out,

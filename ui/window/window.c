@@ -661,3 +661,7 @@ gboolean sb_window_is_fresh(SbWindow *window) {
   return sb_document_path(sb_session_document(window->session)) == NULL &&
          !sb_session_is_modified(window->session);
 }
+
+SbSession *sb_window_session(SbWindow *window) {
+  return window->session;
+}
