@@ -125,13 +125,19 @@ static void draw_solved_ring(SbSection *section, int seal, const SbSealShape *sh
 // that it cuts into groove floor and bore by stretch and squeeze.
 static void draw_undeformed(SbSection *section, int seal, const SbSectionPlane *plane) {
   const SbSealModel *model = sb_model_seal(section->model, seal);
-  enum { POINTS = 72 };
+  enum { POINTS = 144 };
   SbPoint point[POINTS];
-  double radius = model->section_diameter / 2;
-  double middle = model->inner_diameter / 2 + radius - section->valve.floor;
+  const double height = model->section_diameter;
+  const double middle = (model->inner_diameter + height) / 2 - section->valve.floor;
+  const SbSealProfile profile = sb_model_profile(section->model, seal);
+  SbRingOutline outline;
+  if (sb_ring_outline_of_profile(&outline, &profile, height, NULL) != SB_OK) {
+    return; // no model has such a profile
+  }
   for (int i = 0; i < POINTS; i++) {
-    double angle = 2 * G_PI * i / POINTS;
-    point[i] = sb_section_plane_at(plane, radius * cos(angle), middle + radius * sin(angle));
+    double at[2]; // radial, axial
+    sb_ring_outline_place(&outline, outline.length * i / POINTS, at);
+    point[i] = sb_section_plane_at(plane, at[1] * height, middle + at[0] * height);
   }
   SbDrawItem *item = sb_draw_stroke(section->list, point, POINTS, 1.2, section->palette->ink);
   item->closed = true;

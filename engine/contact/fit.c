@@ -85,6 +85,12 @@ static SbStatus check(const SbFitProblem *in, SbReport *report) {
   if (status != SB_OK) {
     return status;
   }
+  if (in->profile.kind != SB_SEAL_PROFILE_CIRCLE && in->model != SB_FIT_RING) {
+    return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
+                             "only the ring model knows a section that is no circle "
+                             "(seal.profile = %s), not %s",
+                             sb_seal_profile_name(in->profile.kind), sb_fit_model_name(in->model));
+  }
   if (in->dragged && in->model != SB_FIT_RING) {
     return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
                              "only the ring model knows a dragged ring, not %s",
@@ -112,7 +118,10 @@ static void fill_sizes(SbFit *out, const SbFitProblem *in) {
   out->stretch_inner = (in->bore_diameter - 2.0 * g - in->inner_diameter) / in->inner_diameter;
   out->section_diameter_fitted = d * (1.0 - in->poisson_ratio * out->stretch_mean);
   out->interference = out->section_diameter_fitted - g;
-  out->gland_fill = 0.25 * M_PI * d * d * mean_free / (g * mean_fitted * in->gland_width);
+  double area, centroid;
+  sb_seal_profile_area(&area, &centroid, &in->profile, d);
+  out->gland_fill =
+      area * d * d * (mean_free + 2.0 * centroid * d) / (g * mean_fitted * in->gland_width);
 }
 
 void sb_fit_contact(SbFit *out, double left, double right) {

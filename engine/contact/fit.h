@@ -49,6 +49,7 @@ SB_CHECKED bool sb_fit_model_from_name(SbFitModel *out, const char *name);
 typedef struct {
   SbFitModel model;
   int variant;             // of the model, 0 the default: see sb_fit_variant_name
+  SbSealProfile profile;   // other than a circle: the ring's alone; d is then its radial height
   double section_diameter; // d, free [m]
   double inner_diameter;   // ID, free [m]
   double modulus;          // E of the rubber [Pa]

@@ -17,7 +17,8 @@ static int drag_direction(const SbFitProblem *in) {
 }
 
 void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem *in) {
-  *body = (SbRingBody){.section_diameter = in->section_diameter,
+  *body = (SbRingBody){.profile = in->profile,
+                       .section_diameter = in->section_diameter,
                        .inner_diameter = in->inner_diameter,
                        .modulus = in->modulus,
                        .poisson_ratio = in->poisson_ratio,

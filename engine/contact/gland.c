@@ -34,7 +34,10 @@ static void evaluate(double *q, const SbGland *s) {
   q[SB_GLAND_SECTION_FITTED] = d * (1.0 - s->poisson_ratio * mean);
   q[SB_GLAND_INTERFERENCE] = q[SB_GLAND_SECTION_FITTED] - g;
   q[SB_GLAND_SQUEEZE_FITTED] = q[SB_GLAND_INTERFERENCE] / q[SB_GLAND_SECTION_FITTED];
-  q[SB_GLAND_FILL] = 0.25 * M_PI * d * d * (id + d) / (g * (bore - g) * s->axial_width);
+  double area, centroid;
+  sb_seal_profile_area(&area, &centroid, &s->profile, d);
+  q[SB_GLAND_FILL] =
+      area * d * d * (id + d + 2.0 * centroid * d) / (g * (bore - g) * s->axial_width);
   q[SB_GLAND_FILL_SWOLLEN] = q[SB_GLAND_FILL] * (1.0 + s->volume_swell);
   const double growth = cbrt(1.0 + s->volume_swell);
   const double mean_swollen = (bore - g) / (growth * (id + d)) - 1.0;

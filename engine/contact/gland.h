@@ -17,6 +17,7 @@
 #pragma once
 
 #include "engine/base/status.h"
+#include "engine/contact/ring/ring_profile.h"
 
 // enumerator, name, unit, customary low, high (of the value; a value below 0 or above 1e3 is no
 // limit), source
@@ -50,6 +51,7 @@ typedef enum {
 
 // Sizes with half-widths of their tolerance bands [m].
 typedef struct {
+  SbSealProfile profile; // of the section; of others than the circle section_diameter is its height
   double section_diameter, section_diameter_tolerance;
   double inner_diameter, inner_diameter_tolerance;
   double radial_space, radial_space_tolerance;

@@ -119,6 +119,24 @@ static void compile_rig(SbModel *model, SbProblems *problems) {
   }
 }
 
+// The free section's profile, grown by a factor.
+static SbSealProfile profile_of(const SbModel *model, double grown) {
+  return (SbSealProfile){.kind = model->profile,
+                         .axial_height = grown * model->profile_axial_height,
+                         .corner_radius = grown * model->profile_corner_radius,
+                         .valley_depth = grown * model->profile_valley_depth,
+                         .web_width = grown * model->profile_web_width,
+                         .flange_height = grown * model->profile_flange_height,
+                         .lip_thickness = grown * model->profile_lip_thickness,
+                         .lip_depth = grown * model->profile_lip_depth,
+                         .lip_flare = grown * model->profile_lip_flare};
+}
+
+SbSealProfile sb_model_profile(const SbModel *model, int seal) {
+  const SbSealModel *ring = &model->seal[seal];
+  return profile_of(model, ring->section_diameter / ring->stored.section_diameter);
+}
+
 // Works out a seal from its `stored` ring, its Poisson's ratio and the gland.
 static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   SbSealModel *seal = &model->seal[index];
@@ -151,7 +169,15 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   seal->stretch_inner = (floor - seal->inner_diameter) / seal->inner_diameter;
   seal->section_fitted = d * (1 - nu * seal->stretch_mean);
   seal->interference = seal->section_fitted - g;
-  seal->gland_fill = M_PI / 4 * d * d / (g * model->axial_width) * mean_free / mean_fitted;
+  const SbSealProfile profile = sb_model_profile(model, index);
+  SbRingOutline outline;
+  double area, centroid;
+  if (sb_ring_outline_of_profile(&outline, &profile, d, &report) != SB_OK) {
+    refuse(problems, report.parameter, NAN, NAN, "%s", report.text);
+  }
+  sb_seal_profile_area(&area, &centroid, &profile, d);
+  seal->gland_fill =
+      area * d * d / (g * model->axial_width) * (mean_free + 2 * centroid * d) / mean_fitted;
 
   // Beyond 60 % no model here means anything; the fit models warn long before.
   if (seal->squeeze > 0.6) {
@@ -234,6 +260,28 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
   if (model->work_of_adhesion > 0 && model->surface != SB_ROUGH_GREENWOOD_TRIPP) {
     refuse(problems, "models.adhesion", NAN, NAN,
            "asperities: tips that stick are those of models.surface = greenwood-tripp");
+  }
+}
+
+// What only a round section has.
+static void check_profile(const SbModel *model, SbProblems *problems) {
+  const char *name = sb_seal_profile_name(model->profile);
+  if (model->profile == SB_SEAL_PROFILE_CIRCLE) {
+    return;
+  }
+  if (model->fit != SB_FIT_RING) {
+    refuse(problems, "models.fit", NAN, NAN,
+           "%s knows round sections only: seal.profile = %s needs the ring",
+           sb_fit_model_name(model->fit), name);
+  }
+  if (model->film != SB_FILM_REYNOLDS) {
+    refuse(problems, "models.film", NAN, NAN,
+           "%s is a closed form for a round section: seal.profile = %s needs reynolds",
+           sb_film_model_name(model->film), name);
+  }
+  if (model->motion == SB_MODEL_MOTION_RIG) {
+    refuse(problems, "models.motion", NAN, NAN,
+           "the rig's contacts are those of round sections, not of seal.profile = %s", name);
   }
 }
 
@@ -358,6 +406,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   SbProblems *found = &made->problems;
   take_values(model, params);
   check_fluid(model, found);
+  check_profile(model, found);
   check_sizes(model, found);
   check_combinations(model, found);
   compile_rig(model, found);
@@ -641,6 +690,7 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
 void sb_model_gland(SbGland *out, const SbModel *model, int seal) {
   const SbSealModel *ring = &model->seal[seal];
   *out = (SbGland){
+      .profile = profile_of(model, 1),
       .section_diameter = ring->stored.section_diameter,
       .section_diameter_tolerance = ring->section_diameter_tolerance,
       .inner_diameter = ring->stored.inner_diameter,

@@ -58,7 +58,10 @@ double sb_shelf_diffusivity(const SbModel *model) {
 
 static double slab_width(const SbModel *model, int seal) {
   const double d = model->seal[seal].section_fitted;
-  return M_PI / 4 * d * d / model->radial_space;
+  const SbSealProfile profile = sb_model_profile(model, seal);
+  double area, centroid;
+  sb_seal_profile_area(&area, &centroid, &profile, model->seal[seal].section_diameter);
+  return area * d * d / model->radial_space;
 }
 
 double sb_shelf_slab(const SbModel *model, int seal) {

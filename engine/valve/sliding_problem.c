@@ -7,6 +7,7 @@ void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, dou
   const SbSealModel *ring = &model->seal[seal];
   *out = (SbFitProblem){
       .model = model->fit,
+      .profile = sb_model_profile(model, seal),
       .section_diameter = ring->section_diameter,
       .inner_diameter = ring->inner_diameter,
       .modulus = ring->modulus,

@@ -267,6 +267,9 @@ void sb_model_remarks(const SbModel *model, SbProblems *out);
 // Adds what the model has to say about its validity: the storage of the rings, the fluid.
 void sb_model_warn(const SbModel *model, SbWarnings *warnings);
 
+// The free section's profile, as large as the seal is in use.
+SbSealProfile sb_model_profile(const SbModel *model, int seal);
+
 // The gland of a seal with its tolerances, for sb_gland_readouts: sizes as stored, at 20 degC.
 void sb_model_gland(SbGland *out, const SbModel *model, int seal);
 

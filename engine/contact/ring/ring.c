@@ -33,7 +33,8 @@ static SbStatus check_body(const SbRingBody *body, SbReport *report) {
       {"seal.mooney_share", "the Mooney share", body->mooney_share, 0.0, 0.5});
 }
 
-static SbStatus check_load(const SbRingBody *body, const SbRingLoad *load, SbReport *report) {
+static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
+                           const SbRingLoad *load, SbReport *report) {
   const char *friction = "friction.load_coefficient", *fluid = "canister.pressure";
   const char *edge = "bore.land_edge";
   bool land = load->land_left > -HUGE_VAL || load->land_right < HUGE_VAL;
@@ -78,9 +79,10 @@ static SbStatus check_load(const SbRingBody *body, const SbRingLoad *load, SbRep
                              "the groove has no width");
   }
   // A nearly incompressible section cannot be larger than its groove; its volume is kept.
-  double area = 0.25 * M_PI * d * d;
+  double area = outline->area * d * d;
   if (!body->plane_strain) {
-    area *= (body->inner_diameter + d) / (load->floor_radius + load->bore_radius);
+    const double centroid = 0.5 * body->inner_diameter + (0.5 + outline->centroid) * d;
+    area *= 2.0 * centroid / (load->floor_radius + load->bore_radius);
   }
   if (!land && isfinite(width) && area > 0.985 * width * space) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
@@ -91,8 +93,18 @@ static SbStatus check_load(const SbRingBody *body, const SbRingLoad *load, SbRep
 }
 
 SbStatus sb_ring_check(const SbRingBody *body, const SbRingLoad *load, SbReport *report) {
+  SbRingOutline outline;
   SbStatus status = check_body(body, report);
-  return status == SB_OK ? check_load(body, load, report) : status;
+  if (status == SB_OK) {
+    status = sb_ring_outline_of_profile(&outline, &body->profile, body->section_diameter, report);
+  }
+  const bool fluid = load->pressure_left != 0.0 || load->pressure_right != 0.0;
+  if (status == SB_OK && fluid && body->profile.kind == SB_SEAL_PROFILE_X) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile",
+                             "an x ring is solved without fluid only: under pressure the hollow "
+                             "between its lobes has a state of its own, which is not modelled");
+  }
+  return status == SB_OK ? check_load(body, &outline, load, report) : status;
 }
 
 // Half the material angle that a squeeze brings into contact (width/d ~ 1.1 sqrt(squeeze), measured
@@ -101,9 +113,32 @@ static double contact_angle(double squeeze) {
   return asin(fmin(0.93, 1.15 * sqrt(fmax(0.0, squeeze)) + 0.04));
 }
 
+static bool is_circle(const SbRing *ring) {
+  return ring->body.profile.kind == SB_SEAL_PROFILE_CIRCLE;
+}
+
+// The angles between which a section lies within `depth` of the bore, or of the floor (about pi).
+static SbRingZone zone_within(const SbRingOutline *outline, double depth, bool at_floor) {
+  enum { STEPS = 720 };
+  SbRingZone zone = {0.0, 0.0, 0.0};
+  for (int i = -STEPS; i <= STEPS; i++) {
+    double angle = M_PI * i / STEPS, x[2];
+    sb_ring_outline_place(outline, sb_ring_outline_arc(outline, angle + (at_floor ? M_PI : 0.0)),
+                          x);
+    if (0.5 - (at_floor ? -x[0] : x[0]) < depth) {
+      zone.from = fmin(zone.from, angle);
+      zone.to = fmax(zone.to, angle);
+    }
+  }
+  zone.from += at_floor ? M_PI : 0.0;
+  zone.to += at_floor ? M_PI : 0.0;
+  return zone;
+}
+
 static SbRingMeshPlan empty_plan(const SbRing *ring, double size_max, double size) {
   return (SbRingMeshPlan){.centre = ring->centre,
                           .radius = 0.5,
+                          .outline = is_circle(ring) ? NULL : &ring->outline,
                           .size_max = size_max,
                           .growth = 0.5,
                           .layers = (int)fmax(4.0, floor(0.5 + 1.76 * log2(0.5 / size)))};
@@ -112,9 +147,16 @@ static SbRingMeshPlan empty_plan(const SbRing *ring, double size_max, double siz
 // First mesh: fine where bore, floor and, under pressure, the low-pressure flank will touch.
 static SbRingMeshPlan first_plan(const SbRing *ring, const SbRingLoad *s, double size) {
   SbRingMeshPlan plan = empty_plan(ring, 0.16, size);
-  double angle = contact_angle(1.0 - (s->bore_radius - s->floor_radius));
-  plan.zone[plan.zone_count++] = (SbRingZone){-angle, angle, size};
-  plan.zone[plan.zone_count++] = (SbRingZone){M_PI - angle, M_PI + angle, size};
+  const double squeeze = 1.0 - (s->bore_radius - s->floor_radius);
+  double angle = contact_angle(squeeze);
+  SbRingZone touching[2] = {{-angle, angle, size}, {M_PI - angle, M_PI + angle, size}};
+  for (int k = 0; k < 2; k++) {
+    if (!is_circle(ring)) {
+      touching[k] = zone_within(&ring->outline, 0.03 + 0.5 * fmax(0.0, squeeze), k == 1);
+      touching[k].size = size;
+    }
+    plan.zone[plan.zone_count++] = touching[k];
+  }
   if (s->pressure_left > s->pressure_right && s->wall_right < INFINITY) {
     plan.zone[plan.zone_count++] = (SbRingZone){0.0, M_PI, 1.5 * size};
   }
@@ -246,6 +288,19 @@ void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *lo
   ring->force = ring->stress * d * (body->plane_strain ? 1.0 : d);
   ring->centre =
       body->plane_strain ? load->floor_radius / d + 0.5 : 0.5 * (body->inner_diameter + d) / d;
+  // A profile that makes no outline has been refused.
+  (void)sb_ring_outline_of_profile(&ring->outline, &body->profile, d, NULL);
+}
+
+// A section that touches itself has no such state: what would keep it apart is not modelled.
+static SbStatus check_apart(const SbRing *ring, SbReport *report) {
+  if (!is_circle(ring) && sb_ring_crosses_itself(ring->contact)) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile",
+                             "the %s section folds onto itself: contact of the section with itself "
+                             "is not modelled",
+                             sb_seal_profile_name(ring->body.profile.kind));
+  }
+  return SB_OK;
 }
 
 SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *load,
@@ -267,6 +322,9 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
   sb_ring_set_body(ring, body, load);
   const SbRingLoad target = sb_ring_load_in(load, ring->length, ring->stress);
   status = lay_ring(ring, &target, report);
+  if (status == SB_OK) {
+    status = check_apart(ring, report);
+  }
   if (status != SB_OK) {
     sb_ring_destroy(ring);
     return status;
@@ -288,7 +346,9 @@ bool sb_ring_outgrown(const SbRing *ring, double most) {
   double moved = 0.0;
   if (ring->fitted_size > 0.0 && sb_ring_patch(ring, SB_RING_BORE, &patch)) {
     for (int k = 0; k < 2; k++) {
-      moved = fmax(moved, 0.5 * fabs(patch.angle[k] - ring->fitted_end[k]));
+      const double from = fmin(patch.angle[k], ring->fitted_end[k]);
+      const double to = fmax(patch.angle[k], ring->fitted_end[k]);
+      moved = fmax(moved, sb_ring_mesh_arc(ring->mesh, from, to));
     }
   }
   return moved > most * ring->fitted_size;
@@ -395,7 +455,8 @@ SbStatus sb_ring_remesh(SbRing *fresh, const SbRing *ring, double element_size, 
     touches[s] = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
     if (touches[s]) {
       // A narrow bore contact has as many elements as one of WIDE: its load is what is wanted.
-      double wide = s == SB_RING_BORE ? 0.5 * (patch[s].angle[1] - patch[s].angle[0]) / WIDE : 1.0;
+      const double arc = sb_ring_mesh_arc(ring->mesh, patch[s].angle[0], patch[s].angle[1]);
+      double wide = s == SB_RING_BORE ? arc / WIDE : 1.0;
       double size = element_size * fmin(1.0, fmax(NARROW_LEAST, wide));
       // Friction on the last node includes that of the fluid beside it: short elements there, less
       // so along a path, which stumbles over them.
@@ -517,7 +578,7 @@ static SbStatus slide_on(SbRing *ring, const SbRingLoad *target, SbReport *repor
 }
 
 SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
-  SbStatus status = check_load(&ring->body, load, report);
+  SbStatus status = check_load(&ring->body, &ring->outline, load, report);
   if (status != SB_OK) {
     return status;
   }
@@ -535,6 +596,9 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   }
   if (status == SB_OK && target.bore_slides == 0) {
     status = sb_ring_press(ring, &target, report);
+  }
+  if (status == SB_OK) {
+    status = check_apart(ring, report);
   }
   ring->load = status == SB_OK ? *load
                                : sb_ring_load_in(&ring->contact->is.now, 1.0 / ring->length,
@@ -590,6 +654,10 @@ SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbRep
                                                         [SB_RING_WALL_RIGHT] = SB_RING_WALL_LEFT,
                                                         [SB_RING_WALL_LEFT] = SB_RING_WALL_RIGHT};
   SbRing *other;
+  *out = NULL;
+  if (sb_seal_profile_has_sides(&ring->body.profile)) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the section's mirror image is another one");
+  }
   SbStatus status = sb_ring_beside(&other, ring, report);
   *out = other;
   if (status != SB_OK) {

@@ -12,6 +12,7 @@
 
 #include "engine/base/status.h"
 #include "engine/contact/compliance.h"
+#include "engine/contact/ring/ring_profile.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -20,6 +21,7 @@ typedef struct SbRing SbRing;
 
 // The free ring.
 typedef struct {
+  SbSealProfile profile;   // a circle if zero; of others section_diameter is the radial height
   double section_diameter; // m
   double inner_diameter;   // m; ignored with plane_strain
   double modulus;          // Young's modulus, Pa

@@ -113,6 +113,10 @@ SbRingLoad sb_ring_load_mirrored(const SbRingLoad *load);
 #define SB_RING_REACH 1.5
 SbRingLoad sb_ring_load_between(const SbRingLoad *a, const SbRingLoad *b, double t);
 
+// Whether the deformed boundary crosses itself: contact of the section with itself, which no
+// surface here stops.
+bool sb_ring_crosses_itself(const SbRingContact *contact);
+
 // Adds the fluid to residual and tangent; renews `closed`, `wet`, `weight`, `share`, `pressed`,
 // `fluid`.
 void sb_ring_contact_load_fluid(SbRingContact *contact);

@@ -84,6 +84,9 @@ static double angle_on(const SbRing *ring, int side, int axis, double place) {
 
 void sb_ring_shift_begin(SbRingShift *shift, const SbRing *ring) {
   shift->count = 0;
+  if (ring->body.profile.kind != SB_SEAL_PROFILE_CIRCLE) {
+    return; // nodes go round a circle's centre; other meshes stay with the material
+  }
   for (int s = 0; s < CONTACTS; s++) {
     SbRingPatch *patch = &shift->patch[s];
     shift->held[s] =

@@ -48,6 +48,29 @@ SbRingFrame sb_ring_frame(const SbRingLoad *load, SbRingSurface surface, const d
                        .curvature = chamfer * (c1 + c2) / (length * length)};
 }
 
+// Twice the signed area of a triangle.
+static double turn_of(const double a[2], const double b[2], const double c[2]) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+bool sb_ring_crosses_itself(const SbRingContact *contact) {
+  const int count = contact->count;
+  for (int i = 0; i < count; i++) {
+    double a[2], b[2];
+    sb_ring_contact_place(contact, i, a);
+    sb_ring_contact_place(contact, i + 1, b);
+    for (int k = i + 2; k < count - (i == 0 ? 1 : 0); k++) {
+      double c[2], d[2];
+      sb_ring_contact_place(contact, k, c);
+      sb_ring_contact_place(contact, k + 1, d);
+      if (turn_of(a, b, c) * turn_of(a, b, d) < 0.0 && turn_of(c, d, a) * turn_of(c, d, b) < 0.0) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 const char *sb_ring_surface_name(SbRingSurface surface) {
   static const char *const names[SB_RING_SURFACES] = {"bore", "groove floor", "right groove wall",
                                                       "left groove wall"};

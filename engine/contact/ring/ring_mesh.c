@@ -390,6 +390,7 @@ static SbStatus build(SbRingMesh **out, Builder *b) {
     return SB_ERROR_MEMORY;
   }
   close_loop(b);
+  mesh->arc[0] = mesh->arc[1] = plan->radius;
   *out = mesh;
   return SB_OK;
 }
@@ -407,6 +408,9 @@ static double worst_quality(const SbRingMesh *mesh) {
 
 SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbReport *report) {
   *out = NULL;
+  if (plan->outline != NULL) {
+    return sb_ring_triangles_create(out, plan, report);
+  }
   if (plan->layers < 3 || plan->layers + 3 >= LAYERS_MAX || !(plan->size_max > 0.0)) {
     return sb_fail(report, SB_ERROR_INPUT, "ring mesh with %d rows, size %g", plan->layers,
                    plan->size_max);
@@ -440,6 +444,16 @@ SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbRep
                       : sb_fail(report, SB_ERROR_NOT_CONVERGED, "no ring mesh with these zones");
 }
 
+// From angle 0, on to the right half.
+static double arc_from_bore(const SbRingMesh *mesh, double angle) {
+  const double turns = floor((angle + M_PI) / (2.0 * M_PI)), rest = angle - 2.0 * M_PI * turns;
+  return turns * M_PI * (mesh->arc[0] + mesh->arc[1]) + rest * mesh->arc[rest < 0.0 ? 0 : 1];
+}
+
+double sb_ring_mesh_arc(const SbRingMesh *mesh, double from, double to) {
+  return arc_from_bore(mesh, to) - arc_from_bore(mesh, from);
+}
+
 SbStatus sb_ring_mesh_mirror(SbRingMesh **out, const SbRingMesh *mesh, SbReport *report) {
   static const int CORNER[6] = {0, 2, 1, 5, 4, 3};
   const int count = mesh->loop_count;
@@ -450,6 +464,8 @@ SbStatus sb_ring_mesh_mirror(SbRingMesh **out, const SbRingMesh *mesh, SbReport 
   mirror->nodes = mesh->nodes;
   mirror->elements = mesh->elements;
   mirror->loop_count = count;
+  mirror->arc[0] = mesh->arc[1];
+  mirror->arc[1] = mesh->arc[0];
   for (int i = 0; i < mesh->nodes; i++) {
     mirror->x[2 * i] = mesh->x[2 * i];
     mirror->x[2 * i + 1] = -mesh->x[2 * i + 1];
@@ -474,6 +490,7 @@ SbStatus sb_ring_mesh_copy(SbRingMesh **out, const SbRingMesh *mesh, double shif
   copy->nodes = mesh->nodes;
   copy->elements = mesh->elements;
   copy->loop_count = mesh->loop_count;
+  memcpy(copy->arc, mesh->arc, sizeof copy->arc);
   for (int i = 0; i < 2 * mesh->nodes; i++) {
     copy->x[i] = mesh->x[i] + (i % 2 == 0 ? shift : 0.0);
   }

@@ -5,12 +5,13 @@
 #pragma once
 
 #include "engine/base/status.h"
+#include "engine/contact/ring/ring_profile.h"
 
 enum { SB_RING_ZONES_MAX = 24, SB_RING_VERTICES_MAX = 8 };
 
 // A stretch of boundary with a wanted element side. The angle is measured at the section's centre
 // from the bore (0) over the right flank (pi/2) to the floor (pi); the left half has negative
-// angles.
+// angles. Of another profile than the circle it is the arc on each half over that half's, times pi.
 typedef struct {
   double from, to; // from <= to [rad]
   double size;     // side length of the elements there [L]
@@ -24,16 +25,18 @@ typedef struct {
   int *tri;       // [6 * elements] nodes
   int *loop;      // [loop_count] in the order of the angle, even places are vertices
   double *angle;  // [loop_count] rising [rad]
+  double arc[2];  // of the surface per angle, on the left and the right half [L/rad]
 } SbRingMesh;
 
-// What to mesh: a disc of `radius` whose centre lies at r = `centre`. The size grows from each zone
-// by `growth` per unit of arc, up to `size_max`. Surface vertices are put exactly at the `vertex`
-// angles (contact edges).
+// What to mesh: an outline whose middle lies at r = `centre`, or a disc of `radius`. The size grows
+// from each zone by `growth` per unit of arc, up to `size_max`. Surface vertices are put exactly at
+// the `vertex` angles (contact edges).
 typedef struct {
-  double centre, radius; // [L]
-  double size_max;       // [L]
-  double growth;         // [-]
-  int layers;            // rows of elements from surface to centre
+  double centre, radius;        // [L]
+  const SbRingOutline *outline; // borrowed; NULL: the disc
+  double size_max;              // [L]
+  double growth;                // [-]
+  int layers;                   // rows of elements from surface to centre; the disc's
   int zone_count;
   SbRingZone zone[SB_RING_ZONES_MAX];
   int vertex_count;
@@ -42,6 +45,12 @@ typedef struct {
 
 // Builds the mesh; owned, free with sb_ring_mesh_destroy. SB_ERROR_MEMORY if it does not fit.
 SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbReport *report);
+
+// For create: the mesh of an outline (ring_triangles.c).
+SbStatus sb_ring_triangles_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbReport *report);
+
+// Length of the free surface between two angles, from <= to.
+double sb_ring_mesh_arc(const SbRingMesh *mesh, double from, double to);
 
 // The mesh with the axial direction turned round: the nodes keep their numbers, boundary node i
 // becomes -i, vertices 1 and 2 of each triangle change places. Owned.

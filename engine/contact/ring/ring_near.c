@@ -147,12 +147,34 @@ static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *
   return status;
 }
 
+// Whether another body's free section is this one's but for its size.
+static bool same_outline(const SbRing *ring, const SbRingBody *body) {
+  SbRingOutline other;
+  if (ring->body.profile.kind != body->profile.kind) {
+    return false;
+  }
+  if (body->profile.kind == SB_SEAL_PROFILE_CIRCLE) {
+    return true;
+  }
+  bool same =
+      sb_ring_outline_of_profile(&other, &body->profile, body->section_diameter, NULL) == SB_OK &&
+      other.count == ring->outline.count;
+  for (int i = 0; i < other.count && same; i++) {
+    const SbRingOutlinePart *a = &ring->outline.part[i], *b = &other.part[i];
+    same = fabs(a->at - b->at) < 1e-12 && hypot(a->to[0] - b->to[0], a->to[1] - b->to[1]) < 1e-12;
+  }
+  return same;
+}
+
 SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
                      const SbRingLoad *load, const SbRingOptions *options, const SbRingShift *shift,
                      SbReport *report) {
   SbRing *other = NULL;
   *out = NULL;
   SbStatus status = sb_ring_check(body, load, report);
+  if (status == SB_OK && !same_outline(ring, body)) {
+    status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring near it has another profile");
+  }
   if (status == SB_OK && (ring->state != SB_RING_SLIDES || ring->arc.free ||
                           ring->contact->is.now.bore_slides != load->bore_slides)) {
     status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring near it does not slide alike");

@@ -27,7 +27,7 @@ static void guess(SbRing *ring, const SbRingLoad *s, double share) {
   stretch = plane ? 1.0 : centre / ring->centre;
   // An end of the land under the ring pushes it to the wall on the open side; start there, since
   // without friction the state in the middle of the groove is not stable.
-  double half = 0.5 / (stretch * thickness), shift = 0.0;
+  double half = ring->outline.half / (stretch * thickness), shift = 0.0;
   if (fabs(s->land_right) < 0.6 && isfinite(s->wall_right)) {
     shift = s->wall_right - half;
   } else if (fabs(s->land_left) < 0.6 && isfinite(s->wall_left)) {
@@ -168,9 +168,10 @@ SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport 
   if (status == SB_ERROR_NOT_CONVERGED) {
     status = start(ring, &dry, &dry, 0.0, report);
   }
-  if (status == SB_ERROR_NOT_CONVERGED) {
+  static const double SPACE[] = {0.85, 0.97};
+  for (int i = 0; i < 2 && status == SB_ERROR_NOT_CONVERGED; i++) {
     SbRingLoad wide = dry;
-    wide.bore_radius = fmax(dry.bore_radius, dry.floor_radius + 0.85);
+    wide.bore_radius = fmax(dry.bore_radius, dry.floor_radius + SPACE[i]);
     SbRingLoad guessed = wide; // with the ring at the wall that the land's end will push it to
     wide.land_right = fmax(dry.land_right, SB_RING_REACH);
     wide.land_left = fmin(dry.land_left, -SB_RING_REACH);

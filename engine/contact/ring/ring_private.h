@@ -44,7 +44,8 @@ struct SbRing {
   SbRingLoad load;
   SbRingOptions options;
   double length, stress, force; // units of the element solver: d, mu, mu d^2 (mu d in the plane)
-  double centre;                // radius of the free section's centre, in section diameters
+  double centre;                // radius of the free section's middle, in section diameters
+  SbRingOutline outline;        // of the free section, about that middle
   SbRingMesh *mesh;
   SbRingFem *fem;
   SbRingContact *contact;

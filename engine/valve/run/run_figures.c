@@ -12,6 +12,9 @@
 
 // Central film [m] at the middle of B-C by a model, whichever the run's own is.
 static double film_by(SbRun *run, int seal, const SbSealState *state, SbFilmModel film_model) {
+  if (run->model->profile != SB_SEAL_PROFILE_CIRCLE) {
+    return NAN;
+  }
   if (!run->plan.film_laws || !state->touches || !(state->load_net > 0)) {
     return NAN;
   }
@@ -360,6 +363,8 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
         {model->fit != SB_FIT_RING, "contact.return.rotation_deg", still},
         {summary->seal[seal].load == 0, "*",
          "the seal does not touch the bore under its pressures"},
+        {model->profile != SB_SEAL_PROFILE_CIRCLE, "film_by_model*",
+         "seal.profile is no circle: the film laws are those of cylinders"},
         {closed, "film_by_model.reynolds", "models.film is a closed form: no film was solved"},
         {!coupled, "asperity_load_share",
          "models.asperities = beside: asperities share no load with the film"},
