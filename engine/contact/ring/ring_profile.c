@@ -317,9 +317,13 @@ SbStatus sb_ring_outline_of_profile(SbRingOutline *out, const SbSealProfile *p, 
                                     SbReport *report) {
   *out = (SbRingOutline){0};
   if (p->kind == SB_SEAL_PROFILE_CIRCLE) {
-    add_arc(out, 0.0, 0.0, 0.5, -0.5 * M_PI, M_PI); // each crosses z = 0 once
-    add_arc(out, 0.0, 0.0, 0.5, 0.5 * M_PI, M_PI);
-    order(out);
+    // Asked at every fitment: known without order().
+    add_arc(out, 0.0, 0.0, 0.5, M_PI, M_PI);
+    add_arc(out, 0.0, 0.0, 0.5, 0.0, M_PI);
+    out->part[1].at = out->bore = 0.5 * M_PI;
+    out->length = M_PI;
+    out->area = 0.25 * M_PI;
+    out->half = 0.5;
     return sb_succeed(report);
   }
   SbStatus status = check(p, h, report);
