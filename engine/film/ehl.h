@@ -48,6 +48,7 @@ typedef struct {
   double starvation;    // flux over the flooded flux, 1 when flooded
   double meniscus;      // where the film begins; -infinity when flooded
   double reform;        // where it forms again
+  double moved;         // a flooded outlet's layer from where it is expected, in its widths
   SbEhlEnd end;
   int degree;
   // Of a fitted body (scale.h), zero on a half-plane: middle of the contact, rest of its dry

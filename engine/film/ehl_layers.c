@@ -139,8 +139,30 @@ static double rupture_guess(const SbEhlLayers *l) {
   return 1.0 / sqrt(1.0 / (elastic * elastic) + 1.0 / (rigid * rigid));
 }
 
+// How far behind the edge the least film lies where the edge's slope is given, and where the gap's
+// next term counts beside a slope that end pressures have nearly taken away.
+static double place_by(double lambda, double slope) {
+  double s = -log(slope);
+  double thin = exp(-0.916 + 1.25 * s + 0.972 * (1.0 - exp(-1.8 * s)));
+  thin *= 1.0 + 0.052 * exp(-pow(slope / 0.2466, 2.0));
+  double slowing = cbrt(1.0 + pow(0.8 * thin, 3.0));
+  return thin * pow(lambda, 0.4) / (1.0 + slowing * pow(lambda, 0.32));
+}
+
+static double place_of(double lambda, double slope) {
+  enum { ROUNDS = 20 };
+  static const double BENT = 0.041; // of thick films the other way
+  const double thick = (1.0 + BENT) / (1.0 + pow(lambda / 1.5e-4, 0.3268)) - BENT;
+  const double next = 0.2439 * exp(-pow(slope / 0.2316, 1.136)) * thick;
+  double place = place_by(lambda, slope);
+  for (int i = 0; i < ROUNDS; i++) {
+    place = 0.5 * (place + place_by(lambda, fmax(slope + next * place, 0.2 * slope)));
+  }
+  return place;
+}
+
 // Place of the least film before a flooded outlet, read off our own solutions (M from 1.3 to 1e6,
-// pressures up to 2.9 p_H apart): at rest the layer lies on the edge, higher outlet pressure pushes
+// pressures up to 3.05 p_H apart): at rest the layer lies on the edge, higher outlet pressure pushes
 // it out, thick films less. On a half-plane the edges' slopes have the mean 1; another mean K, of a
 // fitted body, scales the pressure: the layers are those of lambda / K^3 (their widths) with the
 // slopes over K.
@@ -150,10 +172,7 @@ double sb_ehl_layers_outlet(const SbEhlLayers *l) {
   }
   double K = 0.5 * (sb_ehl_layers_inlet_slope(l) + outlet_slope(l));
   double lambda = l->lambda / (K * K * K);
-  double s = -log(outlet_slope(l) / K);
-  double thin = exp(-0.916 + 1.25 * s + 0.972 * (1.0 - exp(-1.8 * s)));
-  double slowing = cbrt(1.0 + pow(0.8 * thin, 3.0));
-  return 1.0 + thin * pow(lambda, 0.4) / (1.0 + slowing * pow(lambda, 0.32));
+  return 1.0 + place_of(lambda, outlet_slope(l) / K) + l->moved * outlet_width(l);
 }
 
 // Length over which the gap opens behind a flooded outlet: the flux film against the dry gap.

@@ -360,13 +360,14 @@ static void test_rigid_in_pools(void) {
 
 // End pressures up to four Hertz pressures on either side: smooth from rigid to thin films, in
 // pools of one pressure, between asperities, and these at rest. No path takes more than 40 steps;
-// what is not solved has end pressures that nearly open the contact, and is less than one per cent.
+// what stays above its tolerance lies between asperities in a contact that the end pressures nearly
+// open, and is less than one per cent.
 static void test_ends(void) {
   enum { SMOOTH, RIGID, GREENWOOD_TRIPP, PERSSON, SLOW, KINDS, STEPS_MAX = 40 };
   static const double NEARLY_OPEN = 2.9; // of pi, in Hertz pressures
   GRand *random = g_rand_new_with_seed(seed + 3);
   Tally tally = {0};
-  int tried = 0, lost = 0, steps = 0;
+  int lost = 0, steps = 0;
   for (int kind = SMOOTH; kind < KINDS; kind++) {
     for (int i = 0; i < MAX(count / 3, 1); i++) {
       SbFilmProblem p = contact(kind == RIGID    ? decades(random, 1e-3, 2.0)
@@ -391,18 +392,15 @@ static void test_ends(void) {
       SbReport report;
       sb_film_solver_forget(solver);
       const SbStatus status = sb_film_solve(&film, &p, solver, &report);
-      const double apart = fabs(p.pressure_left - p.pressure_right) / hertz;
       if (status == SB_ERROR_RANGE || status == SB_ERROR_INFEASIBLE) {
         tally.refused++;
         continue;
       }
-      tried++;
       steps = MAX(steps, film.solver.continuation_steps);
-      if (status != SB_OK && apart > NEARLY_OPEN) {
+      if (status != SB_OK && kind >= GREENWOOD_TRIPP &&
+          fabs(p.pressure_left - p.pressure_right) > NEARLY_OPEN * hertz) {
         lost++;
-        g_test_message("nearly open (%g), kind %d, sigma %.17g product %.17g sigma/beta %.17g: %s",
-                       apart, kind, p.sigma, p.gt_product, p.sigma_over_beta, report.text);
-        note(&p, "steps", film.solver.continuation_steps);
+        note(&p, "lost, steps", film.solver.continuation_steps);
       } else if (status != SB_OK || film.solver.continuation_steps > STEPS_MAX) {
         g_test_message("kind %d, sigma %.17g product %.17g sigma/beta %.17g: %s", kind, p.sigma,
                        p.gt_product, p.sigma_over_beta, report.text);
@@ -413,9 +411,24 @@ static void test_ends(void) {
     }
   }
   finish(&tally);
-  g_test_message("%d of %d lost, at most %d steps", lost, tried, steps);
-  g_assert_cmpint(lost, <=, MAX(tried / 100, 1));
+  g_test_message("%d lost, at most %d steps", lost, steps);
+  g_assert_cmpint(lost, <=, MAX(tally.solved / 100, 1));
   g_rand_free(random);
+}
+
+// A flooded outlet whose pressure nearly opens the contact: straight from a start on its layers, to
+// a tenth of the tolerance.
+static void test_nearly_open(void) {
+  enum { STEPS_MAX = 10 };
+  static const double M[] = {40.0, 100.0, 350.0, 1300.0, 4200.0}, apart[] = {2.7, 2.9, 3.0, 3.05};
+  for (size_t i = 0; i < G_N_ELEMENTS(M) * G_N_ELEMENTS(apart); i++) {
+    SbFilmProblem p = contact(M[i / G_N_ELEMENTS(apart)], 1e-3);
+    p.pressure_right = apart[i % G_N_ELEMENTS(apart)] * hertz_of(&p);
+    sb_film_solver_forget(solver);
+    g_assert_cmpint(sb_film_solve(&film, &p, solver, NULL), ==, SB_OK);
+    g_assert_cmpint(film.solver.continuation_steps, <=, STEPS_MAX);
+    g_assert_cmpfloat(film.solver.error_film_min, <, 1e-4);
+  }
 }
 
 // A flow between asperities that the end pressures drive, with the wall against it or at rest: that
@@ -500,6 +513,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/campaign/pressed", test_pressed);
   g_test_add_func("/film/campaign/rigid-in-pools", test_rigid_in_pools);
   g_test_add_func("/film/campaign/ends", test_ends);
+  g_test_add_func("/film/campaign/nearly-open", test_nearly_open);
   g_test_add_func("/film/campaign/driven", test_driven);
   g_test_add_func("/film/campaign/thick-layers", test_thick_layers);
   g_test_add_func("/film/campaign/just-flooded", test_just_flooded);
