@@ -6,6 +6,9 @@
 
 #include <glib.h>
 
+// Finds the translations for the program's locale, which is set before. Once.
+void sb_translation_begin(void);
+
 // A parameter's label, a study's title or help, a view's, a size's, a field's or a band's name in
 // the user's language; the text itself where it has no translation. Borrowed; NULL gives "".
 const char *sb_translation(const char *text);

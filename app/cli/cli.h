@@ -199,6 +199,7 @@ int sb_command_surface(int argc, char **argv);
 int sb_command_thesis(int argc, char **argv);
 int sb_command_report(int argc, char **argv);
 int sb_command_open(int argc, char **argv);
+int sb_command_tui(int argc, char **argv);
 
 // ---- Commands that need a study file's answers ----
 

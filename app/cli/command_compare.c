@@ -1,5 +1,6 @@
 // sealbench compare: runs of scenes side by side, and a measured loop beside them.
 #include "app/cli/cli.h"
+#include "app/cli/plots.h"
 #include "app/export/measured_results.h"
 
 #include <math.h>
@@ -7,6 +8,7 @@
 typedef struct {
   char *measured, *json;
   char **settings;
+  SbCliPlots plots;
 } Options;
 
 // What is kept of each run.
@@ -14,6 +16,7 @@ typedef struct {
   size_t count;
   const char **name; // borrowed
   double **figure;   // [SB_FIGURE_COUNT] each
+  SbRun **run;       // for the chart; NULL: none is drawn
   SbMeasured **measured;
   SbComparison **comparison; // NULL: nothing measured
 } Runs;
@@ -64,6 +67,10 @@ static int run_file(Runs *runs, const SbCliFile *file, const Options *options) {
       (void)sb_cli_fail("%s: its stem does not slide, so there is no loop to compare", file->path);
     }
     sb_loop_clear(&loop);
+    if (options->json == NULL && sb_cli_plots(&options->plots)) {
+      runs->run[at] = run;
+      run = NULL;
+    }
   }
   sb_measured_free(measured);
   sb_run_destroy(run);
@@ -105,6 +112,8 @@ int sb_command_compare(int argc, char **argv) {
       {"measured", 0, 0, G_OPTION_ARG_FILENAME, &options.measured, SB_CLI_MEASURED_HELP, "FILE"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
+      {"plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.on, SB_CLI_PLOT_HELP, NULL},
+      {"no-plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.off, SB_CLI_NO_PLOT_HELP, NULL},
       {0},
   };
   SbCliFiles files = {.code = SB_EXIT_INPUT};
@@ -113,6 +122,7 @@ int sb_command_compare(int argc, char **argv) {
     const size_t room = (size_t)files.count;
     Runs runs = {.name = g_new0(const char *, room),
                  .figure = g_new0(double *, room),
+                 .run = g_new0(SbRun *, room),
                  .measured = g_new0(SbMeasured *, room),
                  .comparison = g_new0(SbComparison *, room)};
     const int checked = sb_cli_check_outputs(NULL, NULL, options.json);
@@ -133,14 +143,19 @@ int sb_command_compare(int argc, char **argv) {
           sb_cli_comparison(runs.comparison[i]);
         }
       }
+      if (runs.run[0] != NULL) {
+        sb_cli_plot_runs(runs.run, runs.name, runs.count, runs.comparison[0]);
+      }
     }
     for (size_t i = 0; i < runs.count; i++) {
       g_free(runs.figure[i]);
+      sb_run_destroy(runs.run[i]);
       sb_comparison_free(runs.comparison[i]);
       sb_measured_free(runs.measured[i]);
     }
     g_free(runs.name);
     g_free(runs.figure);
+    g_free(runs.run);
     g_free(runs.measured);
     g_free(runs.comparison);
   }

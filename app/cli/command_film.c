@@ -1,6 +1,7 @@
 // sealbench film: the film of one sliding line contact.
 #include "app/base/reader.h"
 #include "app/cli/cli.h"
+#include "app/cli/plots.h"
 #include "app/cli/timing.h"
 #include "app/document/series.h"
 #include "app/export/results.h"
@@ -359,10 +360,12 @@ static void print_history(const SbResultsHistory *h) {
 // Solves, and writes or prints what came out, with the history through `series` unless that is
 // NULL; an exit code.
 static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
-                          const SbModelSeries *series, const char *target) {
+                          const SbModelSeries *series, const char *target,
+                          const SbCliPlots *plots) {
+  const bool plot = target == NULL && sb_cli_plots(plots);
   SbFilm *film = g_new0(SbFilm, 1);
   SbFilmProblem lent = *problem;
-  lent.profile = target != NULL ? g_new(SbFilmProfile, 1) : NULL;
+  lent.profile = target != NULL || plot ? g_new(SbFilmProfile, 1) : NULL;
   Solve job = {film, &lent, {0}};
   sb_cli_catch_interrupts();
   double wall_s = 0;
@@ -402,6 +405,9 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
                                   SB_P_FLUID_PRESSURE_VISCOSITY),
                          given_or(problem, offsetof(SbFilmProblem, hamaker), texts,
                                   SB_P_SURFACE_HAMAKER_CONSTANT));
+      if (plot && film->points > 1) {
+        sb_cli_plot_profile(film->x, film->pressure, film->film, film->points);
+      }
     }
     code = written != SB_EXIT_DONE ? written : code;
   }
@@ -418,6 +424,7 @@ int sb_command_film(int argc, char **argv) {
   char *dry = NULL;
   char *path = NULL;
   char *target = NULL;
+  SbCliPlots plots = {0};
   const GOptionEntry others[] = {
       {"model", 0, 0, G_OPTION_ARG_FILENAME, &name,
        "reynolds (default), or another of sealbench list models", "NAME"},
@@ -429,6 +436,8 @@ int sb_command_film(int argc, char **argv) {
        "Table time [s], speed [m/s] to follow the film through, in place of --speed (reynolds)",
        "FILE.csv"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
+      {"plot", 0, 0, G_OPTION_ARG_NONE, &plots.on, SB_CLI_PLOT_HELP, NULL},
+      {"no-plot", 0, 0, G_OPTION_ARG_NONE, &plots.off, SB_CLI_NO_PLOT_HELP, NULL},
   };
   enum { OTHERS = G_N_ELEMENTS(others) };
   GOptionEntry entries[QUANTITIES + OTHERS + 1] = {0};
@@ -467,7 +476,7 @@ int sb_command_film(int argc, char **argv) {
   problem.dry_count = x->len;
   code = sb_cli_check_outputs(NULL, NULL, target);
   if (code == SB_EXIT_DONE) {
-    code = solve_and_show(&problem, texts, path != NULL ? series : NULL, target);
+    code = solve_and_show(&problem, texts, path != NULL ? series : NULL, target, &plots);
   }
 done:
   g_array_unref(x);

@@ -1,5 +1,6 @@
 // sealbench fit: one seal in its gland, by any of the contact models.
 #include "app/cli/cli.h"
+#include "app/cli/plots.h"
 #include "app/cli/timing.h"
 #include "app/export/results.h"
 
@@ -129,6 +130,7 @@ int sb_command_fit(int argc, char **argv) {
   char *drag = NULL;
   char *target = NULL;
   char **settings = NULL;
+  SbCliPlots plots = {0};
   const GOptionEntry entries[] = {
       {"seal", 0, 0, G_OPTION_ARG_FILENAME, &seal, "outer or inner", "NAME"},
       {"pressure", 0, 0, G_OPTION_ARG_FILENAME, &pressure,
@@ -140,6 +142,8 @@ int sb_command_fit(int argc, char **argv) {
       {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &tolerance, "Relative error wanted", "T"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
+      {"plot", 0, 0, G_OPTION_ARG_NONE, &plots.on, SB_CLI_PLOT_HELP, NULL},
+      {"no-plot", 0, 0, G_OPTION_ARG_NONE, &plots.off, SB_CLI_NO_PLOT_HELP, NULL},
       {0},
   };
   int code = SB_EXIT_INPUT;
@@ -224,6 +228,9 @@ int sb_command_fit(int argc, char **argv) {
     } else if (!sb_cli_quiet()) {
       print_table(fit, seal, problem.dragged);
       print_gland(readouts);
+      if (sb_cli_plots(&plots) && fit->profile_count > 1) {
+        sb_cli_plot_profile(fit->profile_x, fit->profile_p, NULL, fit->profile_count);
+      }
     }
     code = written != SB_EXIT_DONE ? written : code;
   }

@@ -1,5 +1,6 @@
 // sealbench run: a scene's cycle to a table, JSON or a folder of results.
 #include "app/cli/cli.h"
+#include "app/cli/plots.h"
 #include "app/export/results_files.h"
 
 #include <math.h>
@@ -136,6 +137,7 @@ static int make_studies(SbStudy *out, size_t *count, const SbModel *model, unsig
 typedef struct {
   char *folder, *json_target, *measured;
   char **settings;
+  SbCliPlots plots;
 } Options;
 
 // Whether all that will be written can be: told before the work, not after it. An exit code.
@@ -177,6 +179,9 @@ static int write_results(SbCliFiles *files, const SbCliFile *file, const Options
     print_table(file->document, run, info->verdict);
     if (info->measured != NULL) {
       sb_cli_comparison(info->measured);
+    }
+    if (sb_cli_plots(&options->plots)) {
+      sb_cli_plot_run(run, info->measured);
     }
     if (file->folder != NULL) {
       printf("Results are in %s\n", file->folder);
@@ -279,6 +284,8 @@ int sb_command_run(int argc, char **argv) {
       {"measured", 0, 0, G_OPTION_ARG_FILENAME, &options.measured, SB_CLI_MEASURED_HELP, "FILE"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json_target, SB_CLI_JSON_HELP, "FILE|-"},
+      {"plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.on, SB_CLI_PLOT_HELP, NULL},
+      {"no-plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.off, SB_CLI_NO_PLOT_HELP, NULL},
       {0},
   };
   SbCliFiles files = {.code = SB_EXIT_INPUT};

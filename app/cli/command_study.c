@@ -1,5 +1,6 @@
 // sealbench study and merge: many valves of one scene, and stores joined.
 #include "app/cli/cli.h"
+#include "app/cli/plots.h"
 
 #include "app/base/output.h"
 #include "app/export/study_results.h"
@@ -16,6 +17,7 @@ typedef struct {
   char **settings;
   int threads;
   size_t shard_index, shard_count; // from 0; count 0: no shards
+  SbCliPlots plots;
 } Options;
 
 // A whole number and nothing else.
@@ -218,6 +220,26 @@ static int print_table(const SbStudyFile *study, const SbStudyDrawn *drawn,
 
 // ---- The command ----
 
+// Histograms of the figures that have limits, else of the first.
+static void plot(const SbStudyFile *study, const SbAnswers *answers) {
+  enum { MOST = 3 };
+  int drawn = 0;
+  for (int pass = 0; pass < 2 && drawn == 0; pass++) {
+    for (size_t k = 0; k < answers->figures && drawn < (pass == 0 ? MOST : 1); k++) {
+      const int figure = g_array_index(study->figures, int, k);
+      bool limited = pass == 1;
+      for (size_t i = 0; i < study->limits.count; i++) {
+        limited |= study->limits.item[i].figure == figure;
+      }
+      if (limited) {
+        sb_cli_plot_histogram(figure, answers->value + k, answers->samples, answers->figures,
+                              &study->limits);
+        drawn++;
+      }
+    }
+  }
+}
+
 static int write_outputs(const Options *options, const SbStudyFile *study, const double *value,
                          const SbStudyDrawn *drawn, const SbAnswers *answers, const char *cpus) {
   GError *error = NULL;
@@ -237,7 +259,14 @@ static int write_outputs(const Options *options, const SbStudyFile *study, const
     return json != NULL ? sb_cli_emit(json, options->json) : sb_cli_status(report.status, &report);
   }
   const bool streamed = options->csv != NULL && strcmp(options->csv, "-") == 0;
-  return sb_cli_quiet() || streamed ? SB_EXIT_DONE : print_table(study, drawn, answers);
+  if (sb_cli_quiet() || streamed) {
+    return SB_EXIT_DONE;
+  }
+  const int code = print_table(study, drawn, answers);
+  if (sb_cli_plots(&options->plots)) {
+    plot(study, answers);
+  }
+  return code;
 }
 
 // A store of one shard beside the whole one: NAME-I-of-N.store.
@@ -315,6 +344,8 @@ int sb_command_study(int argc, char **argv) {
       {"csv", 0, 0, G_OPTION_ARG_FILENAME, &options.csv, "A row a sample, to a file or -", "FILE"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
+      {"plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.on, SB_CLI_PLOT_HELP, NULL},
+      {"no-plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.off, SB_CLI_NO_PLOT_HELP, NULL},
       {0},
   };
   int code = SB_EXIT_INPUT;

@@ -34,6 +34,7 @@ static const SbCommand commands[] = {
      "Lists parameters, figures, models, views or fluids", sb_command_list},
     {"bench", "[-o DIR]", "Measures error against time for every solver", sb_command_bench},
     {"open", "[FILE]", "Starts the window", sb_command_open},
+    {"tui", "[FILE]", "Starts the workbench in a terminal", sb_command_tui},
     {NULL, NULL, NULL, NULL},
 };
 

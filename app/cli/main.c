@@ -31,7 +31,10 @@ static void print_help(FILE *stream) {
 
 int main(int argc, char **argv) {
   sb_process_set_up();
-  sb_output_protect_inputs();
+  // The workbench saves what it has opened.
+  if (argc < 2 || strcmp(argv[1], "tui") != 0) {
+    sb_output_protect_inputs();
+  }
   int code = SB_EXIT_INPUT;
   const SbCommand *command = sb_commands();
   while (argc > 1 && command->name != NULL && strcmp(command->name, argv[1]) != 0) {

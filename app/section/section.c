@@ -388,15 +388,31 @@ static void lay_out_zoom(SbSection *section, const Layout *layout, double bottom
   const SbSectionView *view = section->view;
   const SbValveOutline *valve = &section->valve;
   int seal = view->zoom == SB_SECTION_ZOOM_INNER ? SB_INNER : SB_OUTER;
-  double left = layout->margin + (layout->column ? LEGENDS + COLUMN_GAP : 0);
-  double top = layout->top + (layout->column ? 0 : 66);
-  double width = view->width - layout->margin - left, tall = bottom - top;
+  double left = view->bare ? 0 : layout->margin + (layout->column ? LEGENDS + COLUMN_GAP : 0);
+  double top = view->bare ? 0 : layout->top + (layout->column ? 0 : 66);
+  bottom = view->bare ? view->height : bottom;
+  double width = view->bare ? view->width : view->width - layout->margin - left;
+  double tall = bottom - top;
   section->strip = (SbRect){left, top, width, tall};
   double g = sb_model_value(section->model, SB_P_GLAND_RADIAL_SPACE);
   section->scale = MIN(width / (2.6 * g), tall / (1.85 * g));
   double centre = valve->origin[seal] - sb_section_displacement(section);
   section->x0 = left + width / 2 - centre * section->scale;
   section->y0 = bottom - tall * 0.56 + (valve->floor + g / 2) * section->scale;
+}
+
+// The strip fills the picture, its top cut where it is too high to be wide.
+static void lay_out_bare(SbSection *section, double left, double right, double left_room) {
+  const SbSectionView *view = section->view;
+  const double bore = sb_model_value(section->model, SB_P_BORE_DIAMETER);
+  static const double LEAST = 0.66; // of the bore's diameter: the housing over the seals
+  const double scale =
+      fmin((view->width - left_room) / (right - left), view->height / (LEAST * bore));
+  section->scale = fmax(scale, 1);
+  section->strip = (SbRect){0, 0, view->width, view->height};
+  const double used = (right - left) * section->scale + left_room;
+  section->x0 = (view->width - used) / 2 + left_room - left * section->scale;
+  section->y0 = view->height - 1;
 }
 
 static void lay_out(SbSection *section, Layout *layout) {
@@ -424,6 +440,10 @@ static void lay_out(SbSection *section, Layout *layout) {
   double left = MIN(valve->nose - sb_model_value(model, SB_P_DRIVE_STROKE), valve->face);
   double bore = sb_model_value(model, SB_P_BORE_DIAMETER);
   double right = valve->end + RIGHT_ROOM * bore;
+  if (view->bare) {
+    lay_out_bare(section, left, right, left_room);
+    return;
+  }
   double scale = (strip_width - left_room) / (right - left);
   double radius = SB_SECTION_TOP * bore * (view->full ? 2 : 1);
   // A low picture gives the insets at least 130 px of the strip's height, then none. A high narrow
@@ -498,7 +518,9 @@ void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *
     sb_section_draw_leader(section, &pressure, &film);
   }
   sb_section_draw_strip_labels(section);
-  sb_section_draw_legends(section, layout.margin, layout.top, layout.legend_width);
+  if (!view->bare) {
+    sb_section_draw_legends(section, layout.margin, layout.top, layout.legend_width);
+  }
   if (layout.insets) {
     sb_section_draw_insets(section, &pressure, &film);
   }

@@ -1,0 +1,325 @@
+// The workbench in a terminal: its life, when it draws, and the frame of every page. See
+// workbench.h. A picture of the screen is made when something changed and the line has taken the
+// one before, at most 60 times a second; only cells that differ are sent (screen.c).
+#include "app/terminal/workbench_private.h"
+
+#include "app/base/translation.h"
+#include "app/document/shipped.h"
+
+#include <glib/gi18n.h>
+#include <locale.h>
+#include <string.h>
+
+enum {
+  LEAST_COLUMNS = 40, // below that nothing can be told
+  LEAST_ROWS = 10,
+  TICK_MS = 33, // while something moves
+  PLAY_S = 10   // one cycle
+};
+
+SbPen sb_bench_pen(const SbBench *bench, SbRole role, uint8_t style) {
+  return (SbPen){bench->theme.role[role], SB_CELL_OWN, style};
+}
+
+void sb_bench_say(SbBench *bench, bool fails, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_free(bench->message);
+  bench->message = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  bench->message_fails = fails;
+  sb_bench_changed(bench);
+}
+
+void sb_bench_end(SbBench *bench) {
+  bench->ended = true;
+  g_main_loop_quit(bench->loop);
+}
+
+// Drawing ----------------------------------------------------------------------------------------
+
+static void draw_keys(SbBench *bench, int y) {
+  static const struct {
+    const char *key, *ascii, *word;
+  } keys[] = {{"↑↓", "Up/Dn", N_("row")}, {"←→", "Lf/Rt", N_("value")}, {"⏎", "Enter", N_("type")},
+              {"␣", "Spc", N_("play")},   {"[ ]", "[ ]", N_("event")},  {"p", "p", N_("pin")},
+              {"m", "m", N_("model")},    {"e", "e", N_("effect")},     {"v", "v", N_("verdict")},
+              {"x", "x", N_("export")},   {"?", "?", N_("help")},       {"q", "q", N_("quit")}};
+  SbCells *cells = &bench->cells;
+  int need = 0;
+  for (size_t i = 0; i < G_N_ELEMENTS(keys); i++) {
+    need += sb_cells_width(cells, cells->ascii ? keys[i].ascii : keys[i].key) +
+            sb_cells_width(cells, _(keys[i].word)) + 1;
+  }
+  const int gap = CLAMP((cells->columns - 2 - need) / (int)(G_N_ELEMENTS(keys) - 1), 1, 3);
+  int x = 1;
+  for (size_t i = 0; i < G_N_ELEMENTS(keys) && x < cells->columns; i++) {
+    x += sb_cells_text(cells, x, y, cells->columns - x, cells->ascii ? keys[i].ascii : keys[i].key,
+                       sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD)) +
+         1;
+    x += sb_cells_text(cells, x, y, cells->columns - x, _(keys[i].word),
+                       sb_bench_pen(bench, SB_ROLE_SECOND, 0)) +
+         gap;
+  }
+}
+
+// A line that is typed for something else than a field of the list.
+static void draw_question(SbBench *bench, int y) {
+  const char *question = bench->input == SB_INPUT_SAVE     ? _("Save as: ")
+                         : bench->input == SB_INPUT_EXPORT ? _("Export to (.json, .txt): ")
+                                                           : _("Open: ");
+  SbCells *cells = &bench->cells;
+  const int x = 1 + sb_cells_text(cells, 1, y, cells->columns - 2, question,
+                                  sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
+  const int room = MAX(cells->columns - x - 1, 1), first = MAX(bench->caret - room + 1, 0);
+  sb_cells_text(cells, x, y, room, g_utf8_offset_to_pointer(bench->typed->str, first),
+                sb_bench_pen(bench, SB_ROLE_INK, 0));
+  sb_screen_cursor(bench->screen, x + bench->caret - first, y);
+}
+
+static void compose(SbBench *bench) {
+  SbCells *cells = &bench->cells;
+  const int columns = sb_screen_columns(bench->screen), rows = sb_screen_rows(bench->screen);
+  if (cells->columns != columns || cells->rows != rows) {
+    sb_cells_finish(cells);
+    sb_cells_init(cells, columns, rows, sb_screen_ascii(bench->screen));
+  }
+  const SbPen ground = {bench->theme.role[SB_ROLE_INK], bench->theme.ground, 0};
+  sb_cells_fill(cells, (SbCellRect){0, 0, columns, rows}, ' ', ground);
+  sb_screen_cursor(bench->screen, -1, -1);
+  if (bench->pixels != NULL) {
+    g_string_free(bench->pixels, TRUE);
+    bench->pixels = NULL;
+  }
+  bench->list_at = bench->timeline_at = (SbCellRect){0, 0, 0, 0};
+  if (columns < LEAST_COLUMNS || rows < LEAST_ROWS) {
+    sb_cells_text(cells, 0, 0, columns, _("Too small: 80 x 24 at least"), ground);
+    return;
+  }
+  sb_bench_draw_header(bench);
+  sb_bench_draw_verdict(bench, 1);
+  for (int x = 0; x < columns; x++) {
+    sb_cells_put(cells, x, 2, 0x2500, sb_bench_pen(bench, SB_ROLE_AXIS, 0));
+  }
+  sb_bench_draw_page(bench, (SbCellRect){0, 3, columns, rows - 5});
+  sb_bench_draw_status(bench, rows - 2);
+  if (bench->input > SB_INPUT_SEARCH) {
+    draw_question(bench, rows - 1);
+  } else {
+    draw_keys(bench, rows - 1);
+  }
+  sb_bench_draw_popup(bench);
+}
+
+static gboolean on_draw(gpointer data) {
+  SbBench *bench = data;
+  bench->draw = 0;
+  if (!sb_screen_is_behind(bench->screen)) {
+    compose(bench);
+    sb_screen_show(bench->screen, &bench->cells, bench->pixels, bench->pixels_at);
+  }
+  return G_SOURCE_REMOVE;
+}
+
+static gboolean on_tick(gpointer data) {
+  SbBench *bench = data;
+  sb_session_tick(bench->session, g_get_monotonic_time());
+  if (bench->job != NULL) {
+    sb_bench_changed(bench);
+  }
+  if (sb_session_wants_ticks(bench->session) || bench->job != NULL) {
+    return G_SOURCE_CONTINUE;
+  }
+  bench->tick = 0;
+  return G_SOURCE_REMOVE;
+}
+
+void sb_bench_changed(SbBench *bench) {
+  if (bench->draw == 0 && !bench->ended) {
+    bench->draw = g_idle_add(on_draw, bench);
+  }
+  if (bench->tick == 0 && (sb_session_wants_ticks(bench->session) || bench->job != NULL)) {
+    bench->tick = g_timeout_add(TICK_MS, on_tick, bench);
+  }
+}
+
+// Life -------------------------------------------------------------------------------------------
+
+static void on_key(void *data, const SbKey *key) {
+  sb_bench_key(data, key);
+}
+
+static void on_screen(void *data) {
+  sb_bench_changed(data);
+}
+
+// Nobody is there to be asked: what is unsaved stays for the next start.
+static void on_end(void *data) {
+  SbBench *bench = data;
+  if (!bench->ended) {
+    sb_autosave_leave(bench->autosave);
+    sb_bench_end(bench);
+  }
+}
+
+static void on_effects(void *data) {
+  SbBench *bench = data;
+  SbEffects *effects = g_new(SbEffects, 1);
+  if (sb_effect_job_take(bench->effect_job, effects)) {
+    g_free(bench->effects);
+    bench->effects = g_steal_pointer(&effects);
+    g_free(bench->effects_hash);
+    bench->effects_hash = g_steal_pointer(&bench->effect_job_hash);
+  }
+  g_free(effects);
+  g_clear_pointer(&bench->effect_job, sb_effect_job_free);
+  sb_bench_changed(bench);
+}
+
+// Once the values have stood for a moment and their run is there: it goes first.
+static gboolean on_effects_later(gpointer data) {
+  SbBench *bench = data;
+  const SbModel *model = sb_session_model(bench->session);
+  const SbSessionState state = sb_session_state(bench->session);
+  if (state == SB_SESSION_RUNNING || bench->job != NULL) {
+    return G_SOURCE_CONTINUE;
+  }
+  bench->effects_later = 0;
+  g_autofree char *hash = sb_document_sha256(sb_session_document(bench->session));
+  if (model != NULL && !sb_model_is_rig(model) && bench->effect_job == NULL &&
+      g_strcmp0(hash, bench->effects_hash) != 0) {
+    g_free(bench->effect_job_hash);
+    bench->effect_job_hash = g_steal_pointer(&hash);
+    bench->effect_job = sb_effect_job_start(model, on_effects, bench);
+  }
+  return G_SOURCE_REMOVE;
+}
+
+static void ask_effects(SbBench *bench) {
+  enum { STANDS_MS = 400 };
+  g_clear_pointer(&bench->effect_job, sb_effect_job_free);
+  if (bench->effects_later != 0) {
+    g_source_remove(bench->effects_later);
+  }
+  bench->effects_later = g_timeout_add(STANDS_MS, on_effects_later, bench);
+}
+
+static void on_params(SbBench *bench) {
+  ask_effects(bench);
+  if (bench->list == SB_LIST_CHANGED && bench->input == SB_INPUT_NONE) {
+    sb_bench_list(bench);
+  }
+  sb_bench_changed(bench);
+}
+
+static void on_run(SbBench *bench) {
+  sb_section_source_forget(bench->source);
+  sb_bench_changed(bench);
+}
+
+static gboolean on_restore(gpointer data) {
+  SbBench *bench = data;
+  bench->orphan = sb_autosave_find();
+  if (bench->orphan != NULL && bench->popup == SB_POPUP_NONE &&
+      !sb_session_is_modified(bench->session)) {
+    bench->popup = SB_POPUP_RESTORE;
+    sb_bench_changed(bench);
+  }
+  return G_SOURCE_REMOVE;
+}
+
+static void translate(void) {
+  // Words in the user's language; numbers are the same everywhere.
+  setlocale(LC_CTYPE, "");
+  setlocale(LC_MESSAGES, "");
+  sb_translation_begin();
+}
+
+static bool open_file(SbBench *bench, const char *path, GError **error) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  const bool there = path != NULL && g_file_test(path, G_FILE_TEST_EXISTS);
+  g_autofree char *shipped = there ? NULL : sb_shipped_find(path != NULL ? path : "piston");
+  if (path == NULL && shipped == NULL) {
+    return true; // an empty valve
+  }
+  if (sb_session_open(bench->session, shipped != NULL ? shipped : path, issues)) {
+    return true;
+  }
+  g_autofree char *line = issues->len > 0 ? sb_issue_line(issues->pdata[0]) : g_strdup(path);
+  g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, line);
+  return false;
+}
+
+static void finish(SbBench *bench) {
+  sb_screen_close(bench->screen);
+  const guint sources[] = {bench->tick, bench->draw, bench->effects_later};
+  for (size_t i = 0; i < G_N_ELEMENTS(sources); i++) {
+    if (sources[i] != 0) {
+      g_source_remove(sources[i]);
+    }
+  }
+  g_signal_handlers_disconnect_by_data(bench->session, bench);
+  g_clear_pointer(&bench->job, sb_study_job_free);
+  g_clear_pointer(&bench->effect_job, sb_effect_job_free);
+  sb_autosave_free(bench->autosave);
+  sb_section_source_free(bench->source);
+  sb_draw_list_finish(&bench->drawing);
+  sb_text_destroy(bench->text);
+  g_object_unref(bench->session);
+  g_main_loop_unref(bench->loop);
+  sb_cells_finish(&bench->cells);
+  g_array_unref(bench->rows);
+  g_string_free(bench->search, TRUE);
+  g_string_free(bench->typed, TRUE);
+  if (bench->pixels != NULL) {
+    g_string_free(bench->pixels, TRUE);
+  }
+  g_free(bench->message);
+  g_free(bench->orphan);
+  g_free(bench->study);
+  g_free(bench->study_hash);
+  g_free(bench->effects);
+  g_free(bench->effects_hash);
+  g_free(bench->effect_job_hash);
+  g_free(bench->job_hash);
+}
+
+bool sb_workbench_run(const SbWorkbenchOptions *options, GError **error) {
+  translate();
+  SbBench bench = {.session = sb_session_new(),
+                   .loop = g_main_loop_new(NULL, FALSE),
+                   .rows = g_array_new(FALSE, FALSE, sizeof(SbListRow)),
+                   .search = g_string_new(NULL),
+                   .typed = g_string_new(NULL),
+                   .text = sb_text_create(),
+                   .study_kind = SB_STUDY_SQUEEZE};
+  sb_cells_init(&bench.cells, 1, 1, false);
+  sb_cell_theme(&bench.theme, false);
+  sb_draw_list_init(&bench.drawing);
+  bench.source = sb_section_source_new(bench.session);
+  bench.autosave = sb_autosave_new(bench.session);
+  sb_session_set_play_duration(bench.session, PLAY_S);
+  sb_session_set_loops(bench.session, TRUE);
+  const SbScreenClient client = {.key = on_key, .draw = on_screen, .end = on_end, .data = &bench};
+  const bool good = open_file(&bench, options->path, error) &&
+                    (bench.screen = sb_screen_open(&options->screen, &client, error)) != NULL;
+  if (good) {
+    if (sb_screen_colors(bench.screen) == SB_COLORS_NONE) {
+      bench.theme.ground = SB_CELL_OWN;
+    }
+    const SbModel *model = sb_session_model(bench.session);
+    bench.field = model != NULL ? (SbField)sb_model_look(model)->field : SB_FIELD_VON_MISES;
+    g_signal_connect_swapped(bench.session, "params-changed", G_CALLBACK(on_params), &bench);
+    g_signal_connect_swapped(bench.session, "run-changed", G_CALLBACK(on_run), &bench);
+    g_signal_connect_swapped(bench.session, "frames-changed", G_CALLBACK(sb_bench_changed), &bench);
+    g_signal_connect_swapped(bench.session, "playhead-changed", G_CALLBACK(sb_bench_changed),
+                             &bench);
+    sb_bench_list(&bench);
+    ask_effects(&bench);
+    sb_bench_changed(&bench);
+    g_timeout_add(300, on_restore, &bench);
+    g_main_loop_run(bench.loop);
+  }
+  finish(&bench);
+  return good;
+}

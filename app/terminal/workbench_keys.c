@@ -1,0 +1,518 @@
+// What keys and the mouse do.
+#include "app/terminal/workbench_private.h"
+
+#include "app/base/output.h"
+#include "app/export/json.h"
+#include "app/export/results.h"
+#include "app/session/param_list.h"
+#include "app/session/verdict_text.h"
+
+#include <glib/gi18n.h>
+#include <glib/gstdio.h>
+#include <math.h>
+#include <string.h>
+
+// A line of text ---------------------------------------------------------------------------------
+
+static void begin(SbBench *bench, SbInput input, const char *text) {
+  bench->input = input;
+  g_string_assign(bench->typed, text);
+  bench->caret = (int)g_utf8_strlen(text, -1);
+}
+
+static void say_issues(SbBench *bench, const GPtrArray *issues) {
+  if (issues->len > 0) {
+    g_autofree char *line = sb_issue_line(issues->pdata[0]);
+    sb_bench_say(bench, true, "%s", line);
+  }
+}
+
+static bool save(SbBench *bench, const char *path) {
+  g_autoptr(GError) error = NULL;
+  const SbDocument *document = sb_session_document(bench->session);
+  if (path == NULL && sb_document_path(document) == NULL) {
+    begin(bench, SB_INPUT_SAVE, "untitled.valve");
+    return false;
+  }
+  if (!sb_session_save(bench->session, path, &error)) {
+    sb_bench_say(bench, true, "%s", error->message);
+    return false;
+  }
+  sb_bench_say(bench, false, _("saved as %s"), sb_document_path(document));
+  return true;
+}
+
+// The picture that stands, as the terminal shows it, or the run's figures.
+static void export_to(SbBench *bench, const char *path) {
+  g_autoptr(GError) error = NULL;
+  g_autofree char *text = NULL;
+  if (sb_output_ends_in(path, ".txt")) {
+    text = sb_cells_to_text(&bench->cells);
+  } else if (!sb_output_ends_in(path, ".json")) {
+    sb_bench_say(bench, true, _("%s: .json writes the figures, .txt this screen"), path);
+    return;
+  } else if (!sb_session_may_keep(bench->session)) {
+    sb_bench_say(bench, true, _("No whole run is shown yet."));
+    return;
+  } else {
+    const SbDocument *document = sb_session_document(bench->session);
+    g_autofree char *hash = sb_document_sha256(document);
+    const char *scene = sb_document_path(document);
+    const SbSummary *summary = sb_session_summary(bench->session);
+    SbCaseVerdict verdict[SB_VERDICT_COUNT];
+    for (int i = 0; i < SB_VERDICT_COUNT; i++) {
+      verdict[i] = (SbCaseVerdict){summary->verdict[i], NULL};
+    }
+    const SbResultsInfo info = {
+        .scene = scene != NULL ? scene : "", .sha256 = hash, .verdict = verdict};
+    text = sb_results_run(sb_session_run(bench->session), &info);
+  }
+  if (sb_output_write(path, text, strlen(text), &error)) {
+    sb_bench_say(bench, false, _("written: %s"), path);
+  } else {
+    sb_bench_say(bench, true, "%s", error->message);
+  }
+}
+
+static void commit(SbBench *bench) {
+  const SbInput input = bench->input;
+  g_autofree char *text = g_strdup(bench->typed->str);
+  bench->input = SB_INPUT_NONE;
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  switch (input) {
+  case SB_INPUT_VALUE:
+    sb_session_edit(bench->session, (SbParamId)bench->selected, text);
+    break;
+  case SB_INPUT_SEARCH:
+    g_string_assign(bench->search, text);
+    sb_bench_list(bench);
+    break;
+  case SB_INPUT_SAVE:
+    save(bench, text);
+    break;
+  case SB_INPUT_EXPORT:
+    export_to(bench, text);
+    break;
+  case SB_INPUT_OPEN:
+    if (!sb_session_open(bench->session, text, issues)) {
+      say_issues(bench, issues);
+    }
+    sb_bench_list(bench);
+    break;
+  default:
+    break;
+  }
+}
+
+static void erase(SbBench *bench, int at) {
+  const char *from = g_utf8_offset_to_pointer(bench->typed->str, at);
+  g_string_erase(bench->typed, from - bench->typed->str, g_utf8_next_char(from) - from);
+}
+
+static void type_key(SbBench *bench, const SbKey *key) {
+  enum { LONGEST = 1000 };
+  const int length = (int)g_utf8_strlen(bench->typed->str, -1);
+  switch (key->kind) {
+  case SB_KEY_ENTER:
+    commit(bench);
+    return;
+  case SB_KEY_ESCAPE:
+    bench->input = SB_INPUT_NONE;
+    sb_session_clear_error(bench->session, (SbParamId)bench->selected);
+    return;
+  case SB_KEY_LEFT:
+    bench->caret = MAX(bench->caret - 1, 0);
+    return;
+  case SB_KEY_RIGHT:
+    bench->caret = MIN(bench->caret + 1, length);
+    return;
+  case SB_KEY_HOME:
+    bench->caret = 0;
+    return;
+  case SB_KEY_END:
+    bench->caret = length;
+    return;
+  case SB_KEY_BACKSPACE:
+    if (bench->caret > 0) {
+      erase(bench, --bench->caret);
+    }
+    break;
+  case SB_KEY_DELETE:
+    if (bench->caret < length) {
+      erase(bench, bench->caret);
+    }
+    break;
+  case SB_KEY_CHARACTER:
+    if (key->control && key->character == 'u') {
+      g_string_truncate(bench->typed, 0);
+      bench->caret = 0;
+    } else if (!key->control && key->character >= ' ' && length < LONGEST) {
+      const char *at = g_utf8_offset_to_pointer(bench->typed->str, bench->caret);
+      g_string_insert_unichar(bench->typed, at - bench->typed->str, key->character);
+      bench->caret++;
+    }
+    break;
+  default:
+    return;
+  }
+  if (bench->input == SB_INPUT_SEARCH) {
+    // What is found so far.
+    g_string_assign(bench->search, bench->typed->str);
+    sb_bench_list(bench);
+  }
+}
+
+// Over the page ----------------------------------------------------------------------------------
+
+static void restore(SbBench *bench) {
+  g_autofree char *path = NULL;
+  g_autofree char *text = sb_autosave_read(&path, bench->orphan);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  if (text != NULL && sb_session_restore(bench->session, path, text, issues)) {
+    // Another file is kept before the old one goes.
+    sb_autosave_write(bench->autosave);
+    g_unlink(bench->orphan);
+    sb_bench_list(bench);
+  } else {
+    say_issues(bench, issues);
+  }
+}
+
+static void popup_key(SbBench *bench, const SbKey *key) {
+  const uint32_t character = key->kind == SB_KEY_CHARACTER ? key->character : 0;
+  const SbPopup popup = bench->popup;
+  if (popup == SB_POPUP_QUIT && (character == 's' || character == 'd')) {
+    bench->popup = SB_POPUP_NONE;
+    if (character == 'd' || save(bench, NULL)) {
+      sb_bench_end(bench);
+    }
+  } else if (popup == SB_POPUP_RESTORE && (character == 'y' || character == 'd')) {
+    bench->popup = SB_POPUP_NONE;
+    if (character == 'y') {
+      restore(bench);
+    } else {
+      g_unlink(bench->orphan);
+    }
+  } else if (popup == SB_POPUP_VERDICT && character >= '1' && character < '1' + SB_VERDICT_COUNT) {
+    sb_verdict_show(bench->session, (int)(character - '1'));
+  } else if (key->kind == SB_KEY_UP || key->kind == SB_KEY_WHEEL_UP) {
+    bench->popup_scroll--;
+  } else if (key->kind == SB_KEY_DOWN || key->kind == SB_KEY_WHEEL_DOWN) {
+    bench->popup_scroll++;
+  } else if (key->kind == SB_KEY_PAGE_UP || key->kind == SB_KEY_PAGE_DOWN) {
+    bench->popup_scroll += key->kind == SB_KEY_PAGE_UP ? -10 : 10;
+  } else if (key->kind == SB_KEY_ESCAPE || key->kind == SB_KEY_ENTER || popup < SB_POPUP_QUIT) {
+    bench->popup = SB_POPUP_NONE;
+  }
+}
+
+static void open_popup(SbBench *bench, SbPopup popup) {
+  bench->popup = popup;
+  bench->popup_scroll = 0;
+}
+
+// Pages ------------------------------------------------------------------------------------------
+
+static void choose_page(SbBench *bench, SbPage page) {
+  bench->page = page;
+  if (page == SB_PAGE_PROPELLANTS) {
+    bench->study_kind = SB_STUDY_PROPELLANTS;
+  }
+}
+
+static void step_value(SbBench *bench, const SbKey *key, double direction) {
+  const SbParamId id = (SbParamId)bench->selected;
+  const char *lock = sb_session_lock(bench->session, id);
+  if (bench->rows->len == 0) {
+    return;
+  }
+  if (lock != NULL) {
+    sb_bench_say(bench, true, "%s", lock);
+    return;
+  }
+  sb_param_step(bench->session, id, direction * (key->shift ? 0.1 : key->control ? 10 : 1));
+}
+
+static void edit_value(SbBench *bench) {
+  const SbParamId id = (SbParamId)bench->selected;
+  const char *lock = sb_session_lock(bench->session, id);
+  if (bench->rows->len == 0) {
+    return;
+  }
+  if (lock != NULL) {
+    sb_bench_say(bench, true, "%s", lock);
+    return;
+  }
+  const char *rejected = sb_session_rejected(bench->session, id);
+  g_autofree char *text = sb_document_text(sb_session_document(bench->session), id);
+  begin(bench, SB_INPUT_VALUE, rejected != NULL ? rejected : text);
+  sb_session_prepare(bench->session, id);
+}
+
+static void undo(SbBench *bench, bool redo) {
+  const int id = redo ? sb_session_redo(bench->session) : sb_session_undo(bench->session);
+  if (id >= 0 && id < SB_PARAM_COUNT) {
+    sb_bench_select(bench, id);
+  } else if (id < 0) {
+    sb_bench_say(bench, false, redo ? _("nothing to redo") : _("nothing to undo"));
+  }
+}
+
+static void pin(SbBench *bench) {
+  if (!sb_session_may_pin(bench->session)) {
+    sb_bench_say(bench, true, _("A whole run of the present values can be pinned; this is none."));
+  } else if (sb_session_pin(bench->session)) {
+    sb_bench_say(bench, false, _("pinned; P lets the last one go"));
+  }
+}
+
+static void unpin(SbBench *bench) {
+  const size_t count = sb_session_pin_count(bench->session);
+  if (count == 0) {
+    sb_bench_say(bench, false, _("nothing is pinned"));
+    return;
+  }
+  sb_bench_say(bench, false, _("let go: %s"), sb_session_pin_name(bench->session, count - 1));
+  sb_session_unpin(bench->session, count - 1);
+}
+
+static void cancel(SbBench *bench) {
+  if (bench->job != NULL) {
+    sb_bench_study_stop(bench);
+  } else if (sb_session_state(bench->session) == SB_SESSION_RUNNING) {
+    sb_session_stop(bench->session);
+    sb_bench_say(bench, false, _("cancelled"));
+  } else {
+    sb_bench_say(bench, false, _("nothing is being computed; q quits"));
+  }
+}
+
+static void switch_model(SbBench *bench) {
+  const int fit = (int)sb_document_value(sb_session_document(bench->session), SB_P_MODELS_FIT);
+  sb_session_edit(bench->session, SB_P_MODELS_FIT, fit == SB_FIT_RING ? "karaszkiewicz" : "ring");
+}
+
+static void next_field(SbBench *bench) {
+  bench->field = (SbField)((bench->field + 1) % SB_FIELD_COUNT);
+}
+
+static void press(SbBench *bench, const SbKey *key) {
+  const SbCellRect *list = &bench->list_at, *time = &bench->timeline_at;
+  if (bench->page != SB_PAGE_VALVE) {
+    return;
+  }
+  if (key->x >= list->x && key->x < list->x + list->width && key->y >= list->y &&
+      key->y < list->y + list->height) {
+    const guint row = (guint)(bench->scroll + key->y - list->y);
+    if (row < bench->rows->len && g_array_index(bench->rows, SbListRow, row).id >= 0) {
+      sb_bench_select(bench, g_array_index(bench->rows, SbListRow, row).id);
+    }
+  } else if (time->width > 1 && key->y == time->y && key->x >= time->x &&
+             key->x < time->x + time->width) {
+    const SbChartRun *run = &sb_session_chart(bench->session)->run;
+    if (run->count > 0) {
+      const double share = (double)(key->x - time->x) / (time->width - 1);
+      sb_session_play(bench->session, FALSE);
+      sb_session_set_playhead(bench->session,
+                              sb_chart_nearest(run, share * run->frames[run->count - 1].time));
+    }
+  }
+}
+
+// A key that means the same on every page; false: it does not.
+static bool common_key(SbBench *bench, const SbKey *key) {
+  if (key->kind == SB_KEY_TAB && bench->page == SB_PAGE_VALVE) {
+    bench->list = (SbListKind)((bench->list + 1) % SB_LIST_COUNT);
+    g_string_truncate(bench->search, 0);
+    sb_bench_list(bench);
+    return true;
+  }
+  if (key->kind != SB_KEY_CHARACTER) {
+    return false;
+  }
+  if (key->control) {
+    switch (key->character) {
+    case 'c':
+      cancel(bench);
+      return true;
+    case 'l':
+      sb_screen_redraw(bench->screen);
+      return true;
+    case 'r':
+      undo(bench, true);
+      return true;
+    case 's':
+      save(bench, NULL);
+      return true;
+    case 'z':
+      sb_screen_suspend(bench->screen);
+      return true;
+    default:
+      return false;
+    }
+  }
+  switch (key->character) {
+  case ' ':
+    sb_session_play(bench->session, !sb_session_is_playing(bench->session));
+    return true;
+  case '[':
+    sb_session_step_event(bench->session, -1);
+    return true;
+  case ']':
+    sb_session_step_event(bench->session, 1);
+    return true;
+  case ',':
+    sb_session_step(bench->session, -1);
+    return true;
+  case '.':
+    sb_session_step(bench->session, 1);
+    return true;
+  case '1':
+  case '2':
+  case '3':
+  case '4':
+    choose_page(bench, (SbPage)(key->character - '1'));
+    return true;
+  case '?':
+    open_popup(bench, SB_POPUP_HELP);
+    return true;
+  case 'c':
+    cancel(bench);
+    return true;
+  case 'e':
+    bench->goal = (bench->goal + 1) % SB_EFFECT_GOALS;
+    return true;
+  case 'f':
+    next_field(bench);
+    return true;
+  case 'i':
+    bench->zoom = bench->zoom == SB_SECTION_WHOLE        ? SB_SECTION_ZOOM_OUTER
+                  : bench->zoom == SB_SECTION_ZOOM_OUTER ? SB_SECTION_ZOOM_INNER
+                                                         : SB_SECTION_WHOLE;
+    return true;
+  case 'm':
+    switch_model(bench);
+    return true;
+  case 'o':
+    begin(bench, SB_INPUT_OPEN, "");
+    return true;
+  case 'p':
+    pin(bench);
+    return true;
+  case 'P':
+    unpin(bench);
+    return true;
+  case 'q':
+    if (sb_session_is_modified(bench->session)) {
+      open_popup(bench, SB_POPUP_QUIT);
+    } else {
+      sb_bench_end(bench);
+    }
+    return true;
+  case 's':
+    save(bench, NULL);
+    return true;
+  case 'S':
+    begin(bench, SB_INPUT_SAVE, "");
+    return true;
+  case 'u':
+    undo(bench, false);
+    return true;
+  case 'v':
+    open_popup(bench, SB_POPUP_VERDICT);
+    return true;
+  case 'w':
+    open_popup(bench, SB_POPUP_WARNINGS);
+    return true;
+  case 'x':
+    begin(bench, SB_INPUT_EXPORT, "results.json");
+    return true;
+  default:
+    return false;
+  }
+}
+
+static void valve_key(SbBench *bench, const SbKey *key) {
+  const int page = MAX(bench->list_at.height - 1, 1);
+  switch (key->kind) {
+  case SB_KEY_UP:
+  case SB_KEY_WHEEL_UP:
+    sb_bench_move(bench, -1);
+    break;
+  case SB_KEY_DOWN:
+  case SB_KEY_WHEEL_DOWN:
+    sb_bench_move(bench, 1);
+    break;
+  case SB_KEY_PAGE_UP:
+    sb_bench_move(bench, -page);
+    break;
+  case SB_KEY_PAGE_DOWN:
+    sb_bench_move(bench, page);
+    break;
+  case SB_KEY_HOME:
+    sb_bench_move(bench, -SB_PARAM_COUNT);
+    break;
+  case SB_KEY_END:
+    sb_bench_move(bench, SB_PARAM_COUNT);
+    break;
+  case SB_KEY_LEFT:
+    step_value(bench, key, -1);
+    break;
+  case SB_KEY_RIGHT:
+    step_value(bench, key, 1);
+    break;
+  case SB_KEY_ENTER:
+    edit_value(bench);
+    break;
+  case SB_KEY_BACKSPACE:
+  case SB_KEY_DELETE:
+    sb_session_unset(bench->session, (SbParamId)bench->selected);
+    break;
+  case SB_KEY_ESCAPE:
+    g_string_truncate(bench->search, 0);
+    sb_bench_list(bench);
+    break;
+  case SB_KEY_PRESS:
+    press(bench, key);
+    break;
+  case SB_KEY_CHARACTER:
+    if (key->character == '/') {
+      begin(bench, SB_INPUT_SEARCH, bench->search->str);
+    }
+    break;
+  default:
+    break;
+  }
+}
+
+static void study_key(SbBench *bench, const SbKey *key) {
+  const bool list = bench->page == SB_PAGE_DESIGN;
+  const int kind = (int)bench->study_kind;
+  if (key->kind == SB_KEY_ENTER && bench->page != SB_PAGE_CALIBRATE) {
+    sb_bench_study_start(bench);
+  } else if (list && (key->kind == SB_KEY_UP || key->kind == SB_KEY_DOWN)) {
+    bench->study_kind =
+        (SbStudyKind)CLAMP(kind + (key->kind == SB_KEY_UP ? -1 : 1), 0, SB_STUDY_COUNT - 1);
+  }
+}
+
+void sb_bench_key(SbBench *bench, const SbKey *key) {
+  if (bench->ended) {
+    return;
+  }
+  if (bench->input == SB_INPUT_NONE) {
+    g_clear_pointer(&bench->message, g_free);
+  }
+  if (bench->popup != SB_POPUP_NONE) {
+    popup_key(bench, key);
+  } else if (bench->input != SB_INPUT_NONE) {
+    type_key(bench, key);
+  } else if (common_key(bench, key)) {
+    // done
+  } else if (bench->page == SB_PAGE_VALVE) {
+    valve_key(bench, key);
+  } else {
+    study_key(bench, key);
+  }
+  sb_bench_changed(bench);
+}

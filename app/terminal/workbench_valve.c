@@ -1,0 +1,526 @@
+// The page of the valve: header, verdict, loop, figures, section, timeline, status.
+#include "app/terminal/workbench_private.h"
+
+#include "app/base/format.h"
+#include "app/base/translation.h"
+#include "app/session/verdict_text.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+
+// Header -----------------------------------------------------------------------------------------
+
+static const char *model_text(const SbBench *bench) {
+  const int fit = (int)sb_document_value(sb_session_document(bench->session), SB_P_MODELS_FIT);
+  return fit == SB_FIT_RING            ? _("rings solved")
+         : fit == SB_FIT_KARASZKIEWICZ ? _("closed form")
+                                       : sb_fit_model_name((SbFitModel)fit);
+}
+
+void sb_bench_draw_header(SbBench *bench) {
+  SbCells *cells = &bench->cells;
+  const int width = cells->columns;
+  const uint32_t ground = bench->theme.role[SB_ROLE_PANEL];
+  sb_cells_fill(cells, (SbCellRect){0, 0, width, 1}, ' ',
+                (SbPen){bench->theme.role[SB_ROLE_INK], ground, 0});
+  const SbDocument *document = sb_session_document(bench->session);
+  const char *valve = sb_document_valve_path(document);
+  g_autofree char *base = valve != NULL ? g_path_get_basename(valve) : NULL;
+  g_autofree char *name = g_strdup_printf(
+      "%s%s%s%s", base != NULL ? base : "", base != NULL ? " · " : "", sb_document_title(document),
+      sb_session_is_modified(bench->session) ? _(", edited") : "");
+
+  // Pages, then the model on the right; the document takes what they leave.
+  static const char *const pages[SB_PAGE_COUNT] = {N_("Valve"), N_("Design"), N_("Calibrate"),
+                                                   N_("Propellants")};
+  const bool narrow = width < 100;
+  int need = 0;
+  for (int i = 0; i < SB_PAGE_COUNT; i++) {
+    need += narrow && i != (int)bench->page ? 3 : sb_cells_width(cells, _(pages[i])) + 4;
+  }
+  const char *model = model_text(bench);
+  const int right = sb_cells_width(cells, model) + 2;
+  int x = MAX(width - right - need - 2, 12);
+  const int title =
+      sb_cells_text(cells, 1, 0, 9, "Sealbench", sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
+  sb_cells_text(cells, title + 3, 0, x - title - 5, name, sb_bench_pen(bench, SB_ROLE_SECOND, 0));
+  for (int i = 0; i < SB_PAGE_COUNT; i++) {
+    const bool chosen = i == (int)bench->page;
+    g_autofree char *text = narrow && !chosen ? g_strdup_printf(" %d ", i + 1)
+                                              : g_strdup_printf(" %d %s ", i + 1, _(pages[i]));
+    SbPen pen = sb_bench_pen(bench, chosen ? SB_ROLE_INK : SB_ROLE_SECOND,
+                             chosen ? SB_CELL_BOLD | SB_CELL_UNDERLINE : 0);
+    pen.ground = chosen ? bench->theme.role[SB_ROLE_HAIRLINE] : SB_CELL_OWN;
+    x += sb_cells_text(cells, x, 0, width - x, text, pen);
+  }
+  sb_cells_text_right(cells, width - right, 0, right - 1, model,
+                      sb_bench_pen(bench, SB_ROLE_SECOND, 0));
+}
+
+// Verdict ----------------------------------------------------------------------------------------
+
+void sb_bench_draw_verdict(SbBench *bench, int y) {
+  const SbChartRun *shown = &sb_session_chart(bench->session)->run;
+  const SbSummary *summary = shown->state == SB_CHART_DONE ? shown->summary : NULL;
+  static const uint32_t sign[] = {
+      [SB_ANSWER_UNKNOWN] = 0x2013, [SB_ANSWER_NO] = 0x2717, [SB_ANSWER_YES] = 0x2713};
+  const bool former = sb_session_shows_former(bench->session);
+  char *figure[SB_VERDICT_COUNT];
+  SbAnswer answer[SB_VERDICT_COUNT];
+  for (int i = 0; i < SB_VERDICT_COUNT; i++) {
+    const SbVerdict *verdict = summary != NULL ? &summary->verdict[i] : NULL;
+    answer[i] = verdict != NULL ? verdict->ok : SB_ANSWER_UNKNOWN;
+    figure[i] = verdict != NULL ? sb_verdict_figure_text(summary, i, verdict) : g_strdup("");
+  }
+  // Short of room, figures of what passes go first, then their words.
+  SbCells *cells = &bench->cells;
+  int level = 0;
+  for (; level < 3; level++) {
+    int need = 0;
+    for (int i = 0; i < SB_VERDICT_COUNT; i++) {
+      const bool fails = answer[i] == SB_ANSWER_NO;
+      const int words = sb_cells_width(cells, sb_verdict_word(i)) + 1;
+      const int figures = figure[i][0] != '\0' ? sb_cells_width(cells, figure[i]) + 1 : 0;
+      need += 4 + (level < 2 || fails ? words : 0) + (level < 1 || fails ? figures : 0);
+    }
+    if (need <= cells->columns) {
+      break;
+    }
+  }
+  int x = 1;
+  for (int i = 0; i < SB_VERDICT_COUNT; i++) {
+    const bool fails = answer[i] == SB_ANSWER_NO;
+    const SbRole tone = former                       ? SB_ROLE_THIRD
+                        : fails                      ? SB_ROLE_ERROR
+                        : answer[i] == SB_ANSWER_YES ? SB_ROLE_PASS
+                                                     : SB_ROLE_THIRD;
+    const SbRole quiet = former ? SB_ROLE_THIRD : fails ? SB_ROLE_ERROR : SB_ROLE_SECOND;
+    const SbRole word = former || fails ? quiet : SB_ROLE_INK;
+    const int start = x;
+    SbPen pen = sb_bench_pen(bench, tone, SB_CELL_BOLD);
+    pen.ground = fails && !former ? bench->theme.role[SB_ROLE_ERROR_GROUND] : SB_CELL_OWN;
+    sb_cells_put(cells, x - 1, y, ' ', pen);
+    sb_cells_put(cells, x++, y, sign[answer[i]], pen);
+    if (level < 2 || fails) {
+      pen.ink = bench->theme.role[word];
+      sb_cells_put(cells, x++, y, ' ', pen);
+      x += sb_cells_text(cells, x, y, cells->columns - x, sb_verdict_word(i), pen);
+    }
+    if ((level < 1 || fails) && figure[i][0] != '\0') {
+      pen.ink = bench->theme.role[quiet];
+      pen.style = 0;
+      sb_cells_put(cells, x++, y, ' ', pen);
+      x += sb_cells_text(cells, x, y, cells->columns - x, figure[i], pen);
+    }
+    sb_cells_put(cells, x, y, ' ', pen);
+    x += 3 + (start == x);
+    g_free(figure[i]);
+  }
+}
+
+// Figures beside the loop ------------------------------------------------------------------------
+
+static const struct {
+  const char *label, *figure;
+} compared[] = {
+    {N_("B break-away"), "cycle.force_breakaway_N"},
+    {"C", "cycle.stages.C.force_N"},
+    {"D", "cycle.stages.D.force_N"},
+    {"E", "cycle.stages.E.force_N"},
+    {N_("least return"), "cycle.force_return_min_N"},
+    {N_("loss / mJ"), "cycle.energy_loss_J"},
+    {N_("leak / pl"), "cycle.leakage_per_cycle_m3"},
+};
+
+// A figure's number without its unit; a dash where it has none.
+static void figure_number(char *out, const SbSummary *summary, const char *path) {
+  const int figure = sb_figure_find(path);
+  if (summary == NULL || isnan(sb_figure_value(summary, figure))) {
+    g_strlcpy(out, "–", SB_FORMAT_MAX);
+    return;
+  }
+  sb_format_figure(out, summary, figure);
+  sb_chart_drop_unit(out);
+}
+
+static void draw_bar(SbBench *bench, SbCellRect rect, int y, const char *name, double value,
+                     double scale, SbRole role) {
+  char number[SB_FORMAT_MAX];
+  sb_format_text(number, SB_QUANTITY_FORCE, value, 0);
+  const int at = rect.x + 15;
+  sb_cells_text(&bench->cells, rect.x, y, 15, name, sb_bench_pen(bench, SB_ROLE_SECOND, 0));
+  sb_cells_text_right(&bench->cells, at, y, 7, number, sb_bench_pen(bench, role, SB_CELL_BOLD));
+  const int room = 8 * MAX(rect.width - 24, 0);
+  sb_cells_bar(&bench->cells, at + 8, y, scale > 0 ? (int)lround(fabs(value) / scale * room) : 0,
+               sb_bench_pen(bench, role, 0));
+}
+
+static void draw_now(SbBench *bench, SbCellRect rect) {
+  const SbChartData *data = sb_session_chart(bench->session);
+  const SbFrame *frame = sb_chart_frame(data);
+  if (frame == NULL || rect.height < 2) {
+    return;
+  }
+  SbCells *cells = &bench->cells;
+  const int bottom = rect.y + rect.height;
+  int y = rect.y;
+  g_autofree char *phase = g_strdup_printf("%s, %s", sb_chart_span(&data->run, frame->stage),
+                                           sb_chart_phase(&data->run, frame->stage));
+  const int word = sb_cells_text(cells, rect.x, y, rect.width, _("Now"),
+                                 sb_bench_pen(bench, SB_ROLE_NOW, SB_CELL_BOLD));
+  sb_cells_text(cells, rect.x + word + 2, y, rect.width - word - 2, phase,
+                sb_bench_pen(bench, SB_ROLE_NOW, 0));
+  y++;
+  const SbSealFrame *outer = &frame->seal[SB_OUTER], *inner = &frame->seal[SB_INNER];
+  const struct {
+    const char *name;
+    double value;
+    SbRole role;
+  } force[] = {{_("drive"), frame->force, SB_ROLE_INK},
+               {_("pressure"), frame->pressure_force, SB_ROLE_FLUID},
+               {_("outer friction"), outer->friction, SB_ROLE_OUTER},
+               {_("inner friction"), inner->friction, SB_ROLE_INNER}};
+  double scale = 0;
+  for (size_t i = 0; i < G_N_ELEMENTS(force); i++) {
+    scale = fmax(scale, fabs(force[i].value));
+  }
+  for (size_t i = 0; i < G_N_ELEMENTS(force) && y < bottom; i++) {
+    draw_bar(bench, rect, y++, force[i].name, force[i].value, scale, force[i].role);
+  }
+  y++;
+  static const char *const contacts[SB_SEAL_COUNT] = {N_("outer contact"), N_("inner contact")};
+  static const char *const films[SB_SEAL_COUNT] = {N_("outer film"), N_("inner film")};
+  for (int i = 0; i < SB_SEAL_COUNT && y < bottom; i++) {
+    const SbSealFrame *seal = &frame->seal[i];
+    const SbRole role = i == SB_OUTER ? SB_ROLE_OUTER : SB_ROLE_INNER;
+    char peak[SB_FORMAT_MAX], width[SB_FORMAT_MAX], film[SB_FORMAT_MAX], text[3 * SB_FORMAT_MAX];
+    sb_cells_text(cells, rect.x, y, 15, _(contacts[i]), sb_bench_pen(bench, SB_ROLE_SECOND, 0));
+    const bool touches = seal->contact_right > seal->contact_left && seal->load > 0;
+    sb_format_text(peak, SB_QUANTITY_PRESSURE, seal->pressure_peak, 0);
+    sb_format_text(width, SB_QUANTITY_LENGTH, seal->contact_right - seal->contact_left, 0);
+    g_snprintf(text, sizeof text, "%s, %s", peak, width);
+    sb_cells_text_right(cells, rect.x + 14, y++, rect.width - 14, touches ? text : _("none"),
+                        sb_bench_pen(bench, touches ? role : SB_ROLE_THIRD, 0));
+    if (!touches || y >= bottom || !(seal->film_central > 0)) {
+      continue;
+    }
+    // Thinner than the roughness or than some molecules it is a formal result.
+    sb_format_text(film, SB_QUANTITY_FILM, seal->film_central, 0);
+    const bool formal = seal->lambda < 1;
+    char lambda[SB_FORMAT_MAX];
+    sb_format_digits(lambda, seal->lambda, 2);
+    g_snprintf(text, sizeof text, "%s%s λ %s", film, formal ? " ⚠" : "", lambda);
+    sb_cells_text(cells, rect.x, y, 15, _(films[i]), sb_bench_pen(bench, SB_ROLE_SECOND, 0));
+    sb_cells_text_right(cells, rect.x + 14, y++, rect.width - 14, text,
+                        sb_bench_pen(bench, formal ? SB_ROLE_WARN : role, 0));
+  }
+}
+
+static void draw_table(SbBench *bench, SbCellRect rect) {
+  SbCells *cells = &bench->cells;
+  const SbChartData *data = sb_session_chart(bench->session);
+  const SbPen bold = sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD);
+  const SbPen plain = sb_bench_pen(bench, SB_ROLE_SECOND, 0);
+  const int live = rect.x + 13, each = 8;
+  sb_cells_text(cells, rect.x, rect.y, 12, _("Compare"), bold);
+  sb_cells_text_right(cells, live, rect.y, 7, _("live"), bold);
+  for (size_t i = 0; i < data->pin_count; i++) {
+    // The end of a name tells it from others: "1.63 mm".
+    const char *name = data->pin[i].name;
+    const int length = (int)g_utf8_strlen(name, -1);
+    name = g_utf8_offset_to_pointer(name, MAX(length - each + 1, 0));
+    sb_cells_text_right(cells, live + 7 + (int)i * each, rect.y, each, name,
+                        sb_bench_pen(bench, sb_chart_pin_role(data->pin[i].look), 0));
+  }
+  int y = rect.y + 2;
+  for (size_t i = 0; i < G_N_ELEMENTS(compared) && y < rect.y + rect.height; i++, y++) {
+    char number[SB_FORMAT_MAX];
+    sb_cells_text(cells, rect.x, y, 13, _(compared[i].label), plain);
+    figure_number(number, data->run.summary, compared[i].figure);
+    sb_cells_text_right(cells, live, y, 7, number, bold);
+    for (size_t k = 0; k < data->pin_count; k++) {
+      figure_number(number, data->pin[k].run->summary, compared[i].figure);
+      sb_cells_text_right(cells, live + 7 + (int)k * each, y, each, number,
+                          sb_bench_pen(bench, sb_chart_pin_role(data->pin[k].look), 0));
+    }
+  }
+  draw_now(bench, (SbCellRect){rect.x, y + 1, rect.width, rect.y + rect.height - y - 1});
+}
+
+// Section ----------------------------------------------------------------------------------------
+
+// The list of the section at the playhead for as many cells; false where there is none.
+static bool section_list(SbBench *bench, int columns, double rows) {
+  enum { ACROSS = 8, DOWN = 16 }; // logical pixels of a cell: letters fill it
+  SbSectionSourceNow now;
+  if (sb_chart_is_rig(&sb_session_chart(bench->session)->run) ||
+      !sb_section_source_now(bench->source, &now)) {
+    return false;
+  }
+  const SbSectionLook *look = sb_model_look(sb_run_model(now.run));
+  const SbSectionView view = {
+      .width = ACROSS * columns,
+      .height = DOWN * rows,
+      .dark = true,
+      .bare = true,
+      .hide_insets = true,
+      .zoom = bench->zoom,
+      .field = bench->field,
+      .field_max = look->field_max,
+  };
+  SbSectionInstant instant = {.frame = now.frame};
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    instant.profile[i] = sb_run_profile(now.run, now.frame->seal[i].profile);
+    instant.ring[i] = sb_run_shape(now.run, now.frame->seal[i].shape);
+  }
+  sb_section_draw(now.section, &bench->drawing, &view, &instant);
+  bench->solved = instant.ring[SB_OUTER] != NULL || instant.ring[SB_INNER] != NULL;
+  return true;
+}
+
+// On the line over the section: the field and its colours.
+static void draw_section_head(SbBench *bench, int x, int y, int width, bool drawn) {
+  SbCells *cells = &bench->cells;
+  const SbPen quiet = sb_bench_pen(bench, SB_ROLE_SECOND, 0);
+  int at = x + 2;
+  at += sb_cells_text(cells, at, y, width - 4, " ", quiet);
+  at += sb_cells_text(cells, at, y, width - 5, _("Section"),
+                      sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
+  at += sb_cells_text(cells, at, y, 2, "  ", quiet);
+  // The ring's mesh has the map that holds for the whole run.
+  const SbDrawItem *mesh = NULL;
+  for (size_t i = 0; drawn && bench->solved && i < bench->drawing.item_count; i++) {
+    const SbDrawItem *item = &bench->drawing.item[i];
+    mesh = item->kind == SB_DRAW_MESH && (mesh == NULL || item->count > mesh->count) ? item : mesh;
+  }
+  const int room = x + width - 22;
+  if (mesh != NULL) {
+    enum { STEPS = 12 };
+    char low[SB_FORMAT_MAX], high[SB_FORMAT_MAX];
+    const double scale = sb_section_field_scale(bench->field);
+    sb_format_digits(low, mesh->map_min * scale, 2);
+    sb_format_digits(high, mesh->map_max * scale, 2);
+    g_autofree char *text =
+        g_strdup_printf("%s %s ", sb_translation(sb_section_field_name(bench->field)), low);
+    g_autofree char *end = g_strdup_printf(" %s %s ", high, sb_section_field_unit(bench->field));
+    at += sb_cells_text(cells, at, y, MAX(room - at, 0), text, quiet);
+    for (int i = 0; i < STEPS && at < room; i++, at++) {
+      const SbColor color = sb_theme_field(sb_theme(true), (i + 0.5) / STEPS);
+      sb_cells_put(cells, at, y, 0x2588, (SbPen){sb_cell_color(color), SB_CELL_OWN, 0});
+    }
+    at += sb_cells_text(cells, at, y, MAX(room - at, 0), end, quiet);
+  } else {
+    at += sb_cells_text(cells, at, y, MAX(room - at, 0),
+                        drawn ? _("rings schematic ") : _("nothing to draw "), quiet);
+  }
+  if (width > 50) {
+    g_autofree char *keys = g_strdup_printf(" f %s  i %s ", _("field"), _("inset"));
+    sb_cells_text_right(cells, x, y, width - 2, keys, quiet);
+  }
+}
+
+static void draw_section(SbBench *bench, SbCellRect rect) {
+  const SbPictures pictures = sb_screen_pictures(bench->screen);
+  int width, height;
+  sb_screen_cell_size(bench->screen, &width, &height);
+  const double rows = sb_pictures_are_pixels(pictures)
+                          ? (double)sb_picture_height(pictures, rect.height, height) / height
+                          : rect.height;
+  const bool drawn = section_list(bench, rect.width, rows);
+  draw_section_head(bench, rect.x - 1, rect.y - 1, rect.width + 1, drawn);
+  // A line that is slow gets the picture when it stands still.
+  const bool moves = sb_session_is_playing(bench->session);
+  if (!drawn || pictures == SB_PICTURES_NONE || (moves && sb_screen_is_slow(bench->screen))) {
+    return;
+  }
+  if (sb_pictures_are_pixels(pictures) && bench->popup == SB_POPUP_NONE) {
+    bench->pixels = sb_picture_pixels(&bench->drawing, bench->text, pictures, rect.width,
+                                      rect.height, width, height);
+    bench->pixels_at = rect;
+  } else if (pictures == SB_PICTURES_LINES) {
+    sb_picture_lines(&bench->cells, rect, &bench->drawing);
+  } else {
+    sb_picture_blocks(&bench->cells, rect, &bench->drawing, bench->text);
+  }
+}
+
+// Timeline ---------------------------------------------------------------------------------------
+
+static void draw_timeline(SbBench *bench, SbCellRect rect) {
+  const SbChartData *data = sb_session_chart(bench->session);
+  SbCells *cells = &bench->cells;
+  const SbFrame *frame = sb_chart_frame(data);
+  bench->timeline_at = (SbCellRect){0, 0, 0, 0};
+  if (frame == NULL || data->run.trace == NULL) {
+    return;
+  }
+  const double end = fmax(data->run.frames[data->run.count - 1].time, 1e-9);
+  const int last = rect.width - 1;
+  const int now = (int)lround(frame->time / end * last);
+  for (int x = 0; x < rect.width; x++) {
+    sb_cells_put(cells, rect.x + x, rect.y, x <= now ? 0x2501 : 0x2500,
+                 sb_bench_pen(bench, x <= now ? SB_ROLE_INK : SB_ROLE_THIRD, 0));
+  }
+  char time[SB_FORMAT_MAX];
+  sb_format_text(time, SB_QUANTITY_TIME, frame->time, 0);
+  g_autofree char *label =
+      g_strdup_printf("%s%s", time, sb_session_is_playing(bench->session) ? " ▶" : "");
+  const int width = sb_cells_width(cells, label);
+  const SbPen pen = sb_bench_pen(bench, SB_ROLE_NOW, SB_CELL_BOLD);
+  size_t events = 0;
+  const SbTraceEvent *event = sb_trace_events(data->run.trace, &events);
+  // On the side on which it hides fewer events.
+  int hides[2] = {now < width + 1 ? 100 : 0, now + 2 + width > rect.width ? 100 : 0};
+  for (size_t i = 0; i < events; i++) {
+    const int x = (int)lround(event[i].mark.time / end * last);
+    hides[0] += x >= now - width && x < now;
+    hides[1] += x > now && x < now + 2 + width;
+  }
+  const int at = hides[0] <= hides[1] ? now - width : now + 1;
+  sb_cells_text(cells, rect.x + at, rect.y, width, label, pen);
+  for (size_t i = 0; i < events; i++) {
+    const int x = (int)lround(event[i].mark.time / end * last);
+    if (x >= 0 && x < rect.width) {
+      sb_cells_put(cells, rect.x + x, rect.y, (uint32_t)sb_stage_name(event[i].stage)[0],
+                   sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
+    }
+  }
+  sb_cells_put(cells, rect.x + now, rect.y, 0x25bc, pen);
+  bench->timeline_at = rect;
+}
+
+// The page ---------------------------------------------------------------------------------------
+
+static void draw_loop(SbBench *bench, SbCellRect rect) {
+  SbCells *cells = &bench->cells;
+  SbChartData data = *sb_session_chart(bench->session);
+  const int title =
+      sb_cells_text(cells, rect.x, rect.y, rect.width,
+                    sb_chart_is_rig(&data.run) ? _("Force and time") : _("Force and displacement"),
+                    sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
+  g_autofree char *former = sb_session_former_text(bench->session);
+  g_autofree char *grade = sb_session_grade_text(bench->session);
+  sb_cells_text(cells, rect.x + title + 2, rect.y, rect.width - title - 2,
+                former != NULL               ? former
+                : grade != NULL              ? grade
+                : sb_chart_is_rig(&data.run) ? _("N over s")
+                                             : _("N over mm"),
+                sb_bench_pen(bench, former != NULL ? SB_ROLE_WARN : SB_ROLE_SECOND, 0));
+  const SbCellRect at = {rect.x, rect.y + 1, rect.width, rect.height - 1};
+  if (data.run.count == 0) {
+    const char *text = sb_session_state(bench->session) == SB_SESSION_RUNNING
+                           ? _("being computed…")
+                           : _("nothing has run");
+    sb_cells_text(cells, at.x + 2, at.y + at.height / 2, at.width - 2, text,
+                  sb_bench_pen(bench, SB_ROLE_SECOND, 0));
+    return;
+  }
+  sb_chart_loop(cells, at, &bench->theme, &data, 0);
+}
+
+void sb_bench_draw_valve(SbBench *bench, SbCellRect rect) {
+  SbCells *cells = &bench->cells;
+  const SbPen line = sb_bench_pen(bench, SB_ROLE_AXIS, 0);
+  const int list = rect.width >= 100 ? 38 : 34;
+  const int table = rect.width >= 110 ? 35 : 0;
+  const int section = rect.height >= 24 ? rect.height * 11 / 31 : 0;
+  const int above = rect.height - 1 - (section > 0 ? section + 1 : 0); // loop and table
+  sb_bench_draw_list(bench, (SbCellRect){rect.x, rect.y, list, rect.height});
+  for (int y = rect.y; y < rect.y + rect.height; y++) {
+    sb_cells_put(cells, list, y, 0x2502, line);
+  }
+  sb_cells_put(cells, list, rect.y - 1, 0x252c, line);
+  const int middle = rect.width - list - 1 - table;
+  draw_loop(bench, (SbCellRect){list + 2, rect.y, middle - 3, above});
+  if (table > 0) {
+    const int x = rect.width - table;
+    for (int y = rect.y; y < rect.y + above; y++) {
+      sb_cells_put(cells, x, y, 0x2502, line);
+    }
+    sb_cells_put(cells, x, rect.y - 1, 0x252c, line);
+    draw_table(bench, (SbCellRect){x + 2, rect.y, table - 3, above});
+  }
+  if (section > 0) {
+    const int y = rect.y + above;
+    for (int x = list + 1; x < rect.width; x++) {
+      sb_cells_put(cells, x, y, 0x2500, line);
+    }
+    sb_cells_put(cells, list, y, 0x251c, line);
+    if (table > 0) {
+      sb_cells_put(cells, rect.width - table, y, 0x2534, line);
+    }
+    draw_section(bench, (SbCellRect){list + 2, y + 1, rect.width - list - 4, section});
+  }
+  draw_timeline(bench, (SbCellRect){list + 2, rect.y + rect.height - 1, rect.width - list - 4, 1});
+}
+
+// Status -----------------------------------------------------------------------------------------
+
+static char *run_text(SbBench *bench) {
+  const SbSummary *summary = sb_session_summary(bench->session);
+  if (sb_session_state(bench->session) == SB_SESSION_RUNNING) {
+    enum { CELLS = 12 };
+    const double share = sb_session_progress(bench->session);
+    GString *bar = g_string_new(NULL);
+    for (int i = 0; i < CELLS; i++) {
+      g_string_append(bar, i < share * CELLS ? "█" : "·");
+    }
+    g_string_append_printf(bar, " %.0f %%", 100 * share);
+    return g_string_free(bar, FALSE);
+  }
+  if (summary == NULL) {
+    return g_strdup("");
+  }
+  const double error = sb_chart_error_force(&sb_session_chart(bench->session)->run);
+  g_autofree char *told =
+      error > 1e-5 && isfinite(error) ? g_strdup_printf(_(" · error %.2g %%"), 100 * error) : NULL;
+  return summary->wall_s < 1 ? g_strdup_printf(_("%zu frames in %.0f ms%s"), summary->frames,
+                                               1e3 * summary->wall_s, told != NULL ? told : "")
+                             : g_strdup_printf(_("%zu frames in %.1f s%s"), summary->frames,
+                                               summary->wall_s, told != NULL ? told : "");
+}
+
+void sb_bench_draw_status(SbBench *bench, int y) {
+  SbCells *cells = &bench->cells;
+  const int width = cells->columns;
+  sb_cells_fill(cells, (SbCellRect){0, y, width, 1}, ' ',
+                (SbPen){bench->theme.role[SB_ROLE_SECOND], bench->theme.role[SB_ROLE_PANEL], 0});
+  const SbSummary *summary = sb_session_summary(bench->session);
+  const size_t count = summary != NULL ? summary->warnings.count + summary->warnings.dropped : 0;
+  g_autofree char *warnings =
+      count > 0 ? g_strdup_printf(ngettext("%zu warning", "%zu warnings", count), count)
+                : g_strdup("");
+  const int right = sb_cells_width(cells, warnings);
+  sb_cells_text_right(cells, 0, y, width - 1, warnings,
+                      sb_bench_pen(bench, SB_ROLE_WARN, SB_CELL_BOLD));
+  g_autofree char *run = run_text(bench);
+  const int run_width = sb_cells_width(cells, run);
+  sb_cells_text_right(cells, 0, y, width - 1 - (right > 0 ? right + 3 : 0), run,
+                      sb_bench_pen(bench, SB_ROLE_SECOND, 0));
+  const int room = width - 4 - right - run_width - 3;
+  const char *failure = sb_session_failure(bench->session);
+  if (bench->message != NULL || failure != NULL) {
+    const bool fails = bench->message == NULL || bench->message_fails;
+    sb_cells_text(cells, 1, y, room, bench->message != NULL ? bench->message : failure,
+                  sb_bench_pen(bench, fails ? SB_ROLE_ERROR : SB_ROLE_INK, SB_CELL_BOLD));
+    return;
+  }
+  const SbRun *shown = sb_session_run(bench->session);
+  const SbModel *model = shown != NULL ? sb_run_model(shown) : sb_session_model(bench->session);
+  if (model == NULL) {
+    sb_cells_text(cells, 1, y, room, _("the values do not go together"),
+                  sb_bench_pen(bench, SB_ROLE_ERROR, 0));
+    return;
+  }
+  char fit[32], film[32], surface[32], motion[32];
+  sb_model_choice_name(model, SB_P_MODELS_FIT, fit, sizeof fit);
+  sb_model_choice_name(model, SB_P_MODELS_FILM, film, sizeof film);
+  sb_model_choice_name(model, SB_P_MODELS_SURFACE, surface, sizeof surface);
+  sb_model_choice_name(model, SB_P_MODELS_MOTION, motion, sizeof motion);
+  g_autofree char *text =
+      sb_model_is_rig(model)
+          ? g_strdup_printf(_("motion %s"), motion)
+          : g_strdup_printf(_("fit %s · film %s · surface %s · %s"), fit, film, surface, motion);
+  sb_cells_text(cells, 1, y, room, text, sb_bench_pen(bench, SB_ROLE_SECOND, 0));
+}

@@ -1,0 +1,275 @@
+#!/usr/bin/python3
+"""The workbench in a terminal, driven by keys in tmux. TAP on standard output.
+
+terminal.py SEALBENCH ASSETS [--keys N [SEED]]
+
+Screens are compared as text. Every wait is for a text on the screen, never for a time. With --keys
+that many random keys and changes of size are the only test (a campaign).
+"""
+import json
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+PROGRAM, ASSETS = (os.path.abspath(path) for path in sys.argv[1:3])
+PATIENCE = 20  # seconds until a screen that never comes is a failure
+
+
+class Terminal:
+    """A shell in a terminal of its own, in a folder of its own."""
+
+    def __init__(self, columns=120, rows=36, **environment):
+        self.folder = tempfile.mkdtemp(prefix='sealbench-tui-')
+        self.name = os.path.basename(self.folder)
+        shutil.copy(f'{ASSETS}/valves/piston.valve', self.folder)
+        with open(f'{ASSETS}/scenes/quick-look.scene', encoding='utf-8') as scene:
+            text = re.sub(r'(?m)^valve = .*', 'valve = piston.valve', scene.read())
+        with open(f'{self.folder}/quick-look.scene', 'w', encoding='utf-8') as scene:
+            scene.write(text)
+        settings = {'XDG_DATA_HOME': f'{self.folder}/data', 'LC_ALL': 'C.UTF-8',
+                    'COLORTERM': 'truecolor', 'PS1': '$ ', 'ENV': '', 'HISTFILE': '/dev/null'}
+        settings.update(environment)
+        keep = {key: value for key, value in os.environ.items() if key not in ('TMUX', 'NO_COLOR')}
+        self.tmux('-f', '/dev/null', 'new-session', '-d', '-x', str(columns), '-y', str(rows),
+                  'exec /bin/sh', env={**keep, **settings}, cwd=self.folder)
+        self.see(r'[#$]')
+        self.modes = self.stty()
+
+    def tmux(self, *arguments, **options):
+        return subprocess.run(['tmux', '-L', self.name, *arguments], capture_output=True, text=True,
+                              check=False, timeout=PATIENCE, **options).stdout
+
+    def keys(self, *keys):
+        self.tmux('send-keys', *keys)
+
+    def screen(self):
+        return self.tmux('capture-pane', '-p')
+
+    def see(self, pattern, unlike=None):
+        """The screen once the pattern is on it (and `unlike` is not)."""
+        end = time.monotonic() + PATIENCE
+        while True:
+            screen = self.screen()
+            if re.search(pattern, screen) and not (unlike and re.search(unlike, screen)):
+                return screen
+            if time.monotonic() > end:
+                raise AssertionError(f'no "{pattern}" in\n{screen}')
+            time.sleep(0.02)
+
+    def stty(self):
+        self.keys('clear; stty -g | sed s/^/modes=/; echo "done"', 'Enter')
+        modes = re.search(r'(?m)^modes=(\S+)', self.see(r'(?m)^done$')).group(1)
+        self.keys('clear', 'Enter')
+        return modes
+
+    def start(self, *arguments):
+        self.keys('clear; ' + ' '.join([PROGRAM, 'tui', *arguments]) + '; echo "left $?"', 'Enter')
+
+    def child(self):
+        """The program in this terminal."""
+        shell = self.tmux('display-message', '-p', '#{pane_pid}').strip()
+        return int(subprocess.run(['pgrep', '-n', '-P', shell], capture_output=True, text=True,
+                                  check=True).stdout.split()[0])
+
+    def close(self):
+        self.tmux('kill-server')
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *unused):
+        self.close()
+
+
+def same(got, want, what):
+    if got != want:
+        raise AssertionError(f'{what}: {got!r} instead of {want!r}')
+
+
+def computed(*settings):
+    """Forces of the scene's stages as the table shows them, from another command."""
+    command = [PROGRAM, 'run', f'{ASSETS}/scenes/quick-look.scene', '-q', '--json', '-']
+    for setting in settings:
+        command += ['--set', setting]
+    cycle = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)['cycle']
+    return {'C': f"{cycle['stages']['C']['force_N']:.1f}",
+            'B break-away': f"{cycle['force_breakaway_N']:.1f}"}
+
+
+def row(screen, label):
+    """The number behind a label of the table on the right."""
+    return re.search(rf'│ {re.escape(label)} +(−?[\d.]+)', screen).group(1)
+
+
+def test_session():
+    """Open, edit with units, see the loop change, scrub, pin, study, cancel, undo, save, quit."""
+    before, after = computed(), computed('seal.section_diameter=1.57mm')
+    with Terminal() as terminal:
+        terminal.start('quick-look.scene')
+        screen = terminal.see(r'│ C +\d')
+        for label, number in before.items():
+            same(row(screen, label), number, label)
+        # The partner that must fail: the other values' table is another one.
+        if before == after or row(screen, 'C') == after['C']:
+            raise AssertionError('the edit changes nothing that the screen shows')
+        loop = [line[40:84] for line in screen.split('\n')[4:20]]
+
+        terminal.keys('Enter', 'C-u')
+        terminal.keys('-l', '1.57 lightyears')
+        terminal.keys('Enter')
+        terminal.see(r'lightyears.*')
+        terminal.see(r'unit|mm')
+        terminal.keys('Enter', 'C-u')
+        terminal.keys('-l', '1570 um')
+        terminal.keys('Enter')
+        screen = terminal.see(rf"│ C +{re.escape(after['C'])}")
+        for label, number in after.items():
+            same(row(screen, label), number, label)
+        if loop == [line[40:84] for line in screen.split('\n')[4:20]]:
+            raise AssertionError('the loop did not change')
+        if 'edited' not in screen or '▎ Section diameter' not in screen:
+            raise AssertionError(f'the change is not marked\n{screen}')
+
+        # Scrub to C and read its force: the events from the start on are A, B, C.
+        terminal.keys('[', '[', '[', '[')
+        terminal.see(r'drive +0\.?0? ?N|drive +0')
+        terminal.keys(']', ']')
+        screen = terminal.see(rf"drive +{re.escape(after['C'])}")
+
+        terminal.keys('p')
+        terminal.see('pinned')
+        terminal.keys('u')
+        screen = terminal.see(rf"│ C +{re.escape(before['C'])} +{re.escape(after['C'])}")
+        terminal.keys('C-r')
+        terminal.see(rf"│ C +{re.escape(after['C'])} +{re.escape(after['C'])}")
+
+        # A study that is cancelled, and one that comes to its end.
+        terminal.keys('2')
+        terminal.see('Studies of this valve')
+        terminal.keys('Enter')
+        terminal.see(r'Load over squeeze \d+ %')
+        terminal.keys('c')
+        terminal.see('cancel', unlike=r'Load over squeeze \d+ %')
+        terminal.keys('Down', 'Down', 'Down', 'Enter')
+        terminal.see(r'\d+ solves', unlike='Not computed yet')
+
+        terminal.keys('1', 's')
+        terminal.see('saved as')
+        with open(f'{terminal.folder}/quick-look.scene', encoding='utf-8') as scene:
+            text = scene.read()
+            if not re.search(r'(?m)^section_diameter = (1\.57 mm|1570 um)$', text):
+                raise AssertionError(f'the file does not hold what was typed\n{text}')
+        terminal.keys('q')
+        terminal.see('left 0')
+        same(terminal.stty(), terminal.modes, 'stty after the end')
+
+
+def test_plain():
+    """80 x 24 without colours and in ASCII; other sizes down to nothing and back."""
+    with Terminal(80, 24, NO_COLOR='1', LC_ALL='C') as terminal:
+        terminal.start('quick-look.scene')
+        screen = terminal.see(r'B 28\.7')
+        if not screen.isascii():
+            raise AssertionError(f'not ASCII: {set(screen) - set(map(chr, range(128)))}\n{screen}')
+        if re.search(r'\033\[(3[0-8]|4[0-8]|9\d)', terminal.tmux('capture-pane', '-p', '-e')):
+            raise AssertionError('colours in spite of NO_COLOR')
+        for columns, rows in ((200, 60), (20, 5), (1, 1), (79, 11), (120, 36)):
+            terminal.tmux('resize-window', '-x', str(columns), '-y', str(rows))
+            if columns > 79:
+                screen = terminal.see('q quit')
+                same(len(screen.rstrip('\n').split('\n')), rows, 'lines')
+        terminal.keys('q')
+        terminal.see('left 0')
+
+
+def test_signals():
+    """Suspended, continued, hung up, ended by a crash: the shell has its terminal back."""
+    with Terminal() as terminal:
+        terminal.start('quick-look.scene')
+        terminal.see(r'│ C +\d')
+        terminal.keys('C-z')
+        terminal.see(r'(?i)stopped', unlike='q quit')
+        same(terminal.stty(), terminal.modes, 'stty while suspended')
+        terminal.keys('fg', 'Enter')
+        terminal.see('q quit')
+        terminal.keys('Right')
+        terminal.see(r'Section diameter +1\.62 mm')
+        os.kill(terminal.child(), 1)  # SIGHUP
+        terminal.see('fg', unlike='q quit')
+        same(terminal.stty(), terminal.modes, 'stty after a hang-up')
+        # What was unsaved is offered, and comes back.
+        terminal.start('quick-look.scene')
+        terminal.see('Restore unsaved changes')
+        terminal.keys('y')
+        terminal.see(r'edited[^$]*Section diameter +1\.62 mm')
+        # With sanitizers the handler is theirs.
+        if not os.environ.get('SEALBENCH_SANITIZED'):
+            os.kill(terminal.child(), 11)  # SIGSEGV
+            terminal.see(r'left 139', unlike='q quit')
+            same(terminal.stty(), terminal.modes, 'stty after a crash')
+
+
+KEYS = ['Up', 'Down', 'Left', 'Right', 'PageUp', 'PageDown', 'Home', 'End', 'Enter', 'Escape',
+        'Tab', 'BSpace', 'DC', 'Space', 'C-l', 'C-r', 'C-c', 'C-u', 'S-Left', 'C-Right', 'M-x',
+        'F1', 'F12', '[', ']', ',', '.', '/', '?', '1', '2', '3', '4', 'c', 'e', 'f', 'i', 'm',
+        'p', 'u', 'v', 'w', 'a', 'b', 'k', 'z', '0', '5', '9', '-', '+', '%', 'é', '漢', 'X']
+
+
+def test_random(count=250, seed=20):
+    """Random keys and sizes: it goes on, and gives the terminal back."""
+    chance = random.Random(seed)
+    with Terminal() as terminal:
+        terminal.start('quick-look.scene')
+        terminal.see(r'│ C +\d')
+        done = 0
+        while done < count:
+            if chance.random() < 0.15:
+                terminal.tmux('resize-window', '-x', str(chance.randint(1, 160)), '-y',
+                              str(chance.randint(1, 50)))
+            some = [chance.choice(KEYS) for _ in range(min(chance.randint(1, 25), count - done))]
+            terminal.keys(*some)
+            done += len(some)
+            if re.search(r'(?m)^left \d+', terminal.screen()):
+                raise AssertionError(f'ended after {done} keys of seed {seed}\n{terminal.screen()}')
+        terminal.tmux('resize-window', '-x', '120', '-y', '36')
+        terminal.keys('Escape')
+        time.sleep(0.2)
+        terminal.keys('Escape')
+        time.sleep(0.2)
+        terminal.keys('C-l', 'C-c')
+        terminal.see('q quit')
+        terminal.keys('q')
+        screen = terminal.see(r'Unsaved changes|(?m:^left \d+)')
+        if 'Unsaved' in screen:
+            terminal.keys('d')
+        terminal.see(r'(?m)^left 0')
+        same(terminal.stty(), terminal.modes, 'stty')
+
+
+def main():
+    tests = [test_session, test_plain, test_signals, test_random]
+    arguments = ()
+    if '--keys' in sys.argv:
+        tests, arguments = [test_random], tuple(map(int, sys.argv[sys.argv.index('--keys') + 1:]))
+    only = os.environ.get('SEALBENCH_TERMINAL_TEST')
+    tests = [test for test in tests if only in (None, test.__name__)]
+    print(f'1..{len(tests)}')
+    failed = 0
+    for number, test in enumerate(tests, 1):
+        try:
+            test(*arguments)
+            print(f'ok {number} {test.__name__}', flush=True)
+        except Exception as error:  # a test that fails does not keep the others from running
+            failed += 1
+            text = '\n'.join('# ' + line for line in str(error).split('\n'))
+            print(f'not ok {number} {test.__name__}\n{text}', flush=True)
+    sys.exit(failed > 0)
+
+
+main()
