@@ -27,8 +27,13 @@ def listed():
         return [line.strip() for line in file if line.strip() and not line.startswith("#")]
 
 
+def sources():
+    return [name for folder in ("ui/*", "app/session", "app/terminal")
+            for name in glob.glob(folder + "/*.c")]
+
+
 def files_that_speak():
-    found = [name for name in glob.glob("ui/*/*.c") + glob.glob("app/session/*.c")
+    found = [name for name in sources()
              if re.search(r'(?<!\w)(_|N_|ngettext)\("', open(name).read())]
     found = [name for name in found if name != "ui/window/main.c"]
     found += [name for name in glob.glob("assets/ui/*.ui") if 'translatable="yes"' in open(name).read()]
@@ -45,7 +50,7 @@ def potfiles_lists_what_speaks():
 
 def texts_of_the_window_are_marked():
     bare = []
-    for name in glob.glob("ui/*/*.c") + glob.glob("app/session/*.c"):
+    for name in sources():
         text = re.sub(r"(?m)^\s*//.*$|\"sb-\w+\"", "", open(name).read())
         bare += ["%s: %s" % (name, match.group(0)) for match in SHOWN.finditer(text)]
     assert not bare, bare
