@@ -76,6 +76,10 @@ void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *fro
   memory->summed = tangent && !drawn;
 }
 
+void sb_sliding_memory_ahead(SbSlidingMemory *memory, SbSlidingMemory *ahead) {
+  memory->ahead = ahead;
+}
+
 void sb_sliding_memory_hold(SbSlidingMemory *memory, bool hold) {
   memory->held = hold;
 }

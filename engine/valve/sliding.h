@@ -120,6 +120,13 @@ typedef struct {
 // SB_ERROR_NOT_CONVERGED with what was computed, the rest NaN; the report names solver and cause.
 SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
+// Solves the first ring of a task into its memory, which is of nothing else, as sb_sliding_solve()
+// would with the memory `like`; nothing where that ring hangs on what is solved before it.
+void sb_sliding_solve_ahead(const SbSlidingTask *task, const SbSlidingMemory *like);
+
+// What was so solved, borrowed, is taken where it is asked for; NULL: nothing.
+void sb_sliding_memory_ahead(SbSlidingMemory *memory, SbSlidingMemory *ahead);
+
 // The fitment alone, as sb_sliding_solve() has it for all but a ring that slides: contact, loads
 // and peak; the rest stays NaN, or 0 where the seal does not touch.
 SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbReport *report);

@@ -138,6 +138,32 @@ static SbStatus no_tangent(const SbSlidingTask *task, SbSlidingFitment *on, SbRe
                  "no tangent of a ring that rolls or jams at the base");
 }
 
+// Takes a ring that was solved ahead for this law.
+static bool take_ahead(const SbSlidingTask *task, SbSlidingFitment *now, const SbSlidingLaw *law) {
+  SbSlidingMemory *memory = task->memory;
+  SbSlidingFitment *from = memory->ahead != NULL ? &memory->ahead->fitment[way_of(task)] : NULL;
+  if (from == NULL || !from->known || from->seal != now->seal || from->pressure != now->pressure ||
+      (law != NULL &&
+       (law->coefficient != from->law.coefficient || law->shear != from->law.shear))) {
+    return false;
+  }
+  sb_ring_destroy(now->ring);
+  now->ring = from->ring;
+  from->ring = NULL;
+  from->known = false;
+  now->fit = from->fit;
+  if (law != NULL) {
+    now->law = *law;
+  }
+  sb_ring_hand_over(now->ring, law != NULL ? &now->law : NULL, memory);
+  now->why = (SbReport){0};
+  now->known = true;
+  task->counts->fit_solves++;
+  task->counts->ring_solves++;
+  task->counts->newton_iterations += now->fit.solver.newton_iterations;
+  return true;
+}
+
 // The task's fitment, anew if it is not the last one of these pressures or a `law` of friction is
 // given to drag it.
 static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, SbReport *report) {
@@ -177,6 +203,9 @@ static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, Sb
     now->fit = memory->sum.fit;
     now->known = true;
     (void)sb_succeed(&now->why);
+    return sb_succeed(report);
+  }
+  if (!known && take_ahead(task, now, law)) {
     return sb_succeed(report);
   }
   bool near = law != NULL && known && now->fit.ring.state == SB_RING_SLIDES && !memory->tangent;
@@ -277,6 +306,24 @@ static void guess(SbSlidingLaw *law, const SbSlidingTask *task, SbSlidingFitment
       *law = isfinite(found.shear) ? found : *law;
     }
   }
+}
+
+void sb_sliding_solve_ahead(const SbSlidingTask *task, const SbSlidingMemory *like) {
+  SbSlidingMemory *memory = task->memory;
+  const bool drags = sb_sliding_drags(task);
+  // Without fluid it may be the mirror image of one that slides the other way.
+  if (!is_ring(task) || like->tangent || (drags && task->pressure.left == task->pressure.right)) {
+    return;
+  }
+  memory->from = like->from;
+  const SbSlidingStart *start = sb_sliding_start_of(task);
+  SbSlidingLaw law;
+  if (drags && start != NULL) {
+    law = start->law;
+  } else if (drags) {
+    guess(&law, task, &memory->fitment[way_of(task)]);
+  }
+  (void)solve_fit(task, drags ? &law : NULL, NULL);
 }
 
 // What the dragged section bears of the law's friction: all of it while it slides, each part alike

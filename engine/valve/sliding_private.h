@@ -74,6 +74,7 @@ struct SbSlidingMemory {
   bool held;                          // only these: rings stay
   SbSumDepth sums;                    // of the state in work, what is not solved
   SbSlidingSolution sum;              // but this
+  SbSlidingMemory *ahead;             // where the next ring may be solved already, borrowed
   SbSlidingBeside *lender;            // whose solvers its films use, NULL: nobody's
 
   // By way of sliding where friction drags the seal, else at rest.

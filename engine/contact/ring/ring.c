@@ -354,6 +354,15 @@ bool sb_ring_outgrown(const SbRing *ring, double most) {
   return moved > most * ring->fitted_size;
 }
 
+void sb_ring_hand_over(SbRing *ring, const void *law, void *poll_data) {
+  SbRingContact *contact = ring->contact;
+  ring->load.law = contact->is.now.law = law;
+  for (size_t i = 0; i < sizeof contact->saved / sizeof *contact->saved; i++) {
+    contact->saved[i].now.law = law;
+  }
+  ring->options.poll_data = poll_data;
+}
+
 const SbRingLoad *sb_ring_load(const SbRing *ring) {
   return &ring->load;
 }

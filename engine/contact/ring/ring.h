@@ -171,6 +171,9 @@ SbStatus sb_ring_tangent_at(SbRing **out, SbRingTangent *tangent, const SbRingBo
 SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *options,
                       SbReport *report);
 
+// Hands a ring over to another owner, who has the data of its friction's law and of its `poll`.
+void sb_ring_hand_over(SbRing *ring, const void *law, void *poll_data);
+
 // The load of the present state; borrowed.
 const SbRingLoad *sb_ring_load(const SbRing *ring);
 

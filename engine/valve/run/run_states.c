@@ -8,9 +8,11 @@
 //
 // The two seals share nothing until then: where their rings are solved, each has a thread, and what
 // both add to the run is joined in the seals' order, so that results do not depend on the threads.
+// The one that is done first solves rings for the other (run_ahead.h).
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/numeric/root.h"
 #include "engine/valve/figures.h"
+#include "engine/valve/run/run_ahead.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
@@ -41,6 +43,7 @@ typedef struct {
   SbRun *run;
   const SbRunHooks *hooks; // NULL on a thread of its own, which asks nobody
   atomic_bool *stop;       // somebody asked to stop
+  SbRunAhead *ahead;       // rings of both seals; NULL: none
   int seal;
   SbStatus status; // the worst, with the first report of it
   SbReport report, lacks, failed;
@@ -315,6 +318,24 @@ static SbStatus take_alike(const Task *of, int from, SbReport *report) {
   return SB_OK;
 }
 
+// Number of a state among those of both seals.
+static int slot_of(const Task *of) {
+  return (int)sb_run_profile_slot(of->seal, of->chamber, of->motion);
+}
+
+static SbSlidingTask sliding_task(const Task *of) {
+  static const double way[SB_RUN_MOTIONS] = {[SB_CYCLE_IN] = 1, [SB_CYCLE_OUT] = -1};
+  const SbRun *run = of->run;
+  return (SbSlidingTask){run->model,
+                         of->seal,
+                         of->pressure,
+                         way[of->motion] * run->speed,
+                         run->memory[of->seal],
+                         &of->lane->counters,
+                         &of->lane->warnings,
+                         sb_run_supply(run, of->seal, (SbChamber)of->chamber, of->motion)};
+}
+
 // Solves one state and takes its errors, its surface, its profile and its shape.
 // SB_ERROR_NOT_CONVERGED with what there is all the same.
 static SbStatus solve_state(const Task *of, SbReport *report) {
@@ -323,14 +344,16 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
   SbSealState *state = of->state;
   SbSlidingMemory *memory = run->memory[of->seal];
   const bool fitment = run->plan.seal[of->seal] == SB_DEPTH_FITMENT;
-  const double way[SB_RUN_MOTIONS] = {[SB_CYCLE_IN] = 1, [SB_CYCLE_OUT] = -1};
-  const SbSlidingTask task = {
-      run->model,      of->seal,
-      of->pressure,    way[of->motion] * run->speed,
-      memory,          &lane->counters,
-      &lane->warnings, sb_run_supply(run, of->seal, (SbChamber)of->chamber, of->motion)};
+  const SbSlidingTask task = sliding_task(of);
+  SbSlidingMemory *ahead = NULL;
+  if (lane->ahead != NULL) {
+    ahead = sb_run_ahead_take(lane->ahead, slot_of(of), cancelled, lane);
+  }
+  sb_sliding_memory_ahead(memory, ahead);
   SbStatus status =
       fitment ? sb_sliding_fitment(state, &task, report) : sb_sliding_solve(state, &task, report);
+  sb_sliding_memory_ahead(memory, NULL);
+  sb_sliding_memory_destroy(ahead);
   if (status == SB_ERROR_NOT_CONVERGED) {
     report_failure(of, report);
   } else if (status != SB_OK) {
@@ -419,12 +442,38 @@ typedef struct {
 
 static void *solve_beside(void *data) {
   Beside *beside = data;
-  (void)solve_lane(beside->lane);
+  Lane *lane = beside->lane;
+  (void)solve_lane(lane);
+  if (lane->ahead != NULL && !fatal(lane->status)) {
+    sb_run_ahead_work(lane->ahead, cancelled, lane);
+  }
   pthread_mutex_lock(&beside->lock);
   beside->ended = true;
   pthread_cond_signal(&beside->done);
   pthread_mutex_unlock(&beside->lock);
   return NULL;
+}
+
+// Adds the rings of a seal's states that may be solved ahead; alike ones are solved once.
+static void add_ahead(SbRunAhead *ahead, Lane *lane) {
+  SbRun *run = lane->run;
+  SbSealPressure pressure[SB_CYCLE_CHAMBERS];
+  for (int c = 0; c < SB_CYCLE_CHAMBERS; c++) {
+    pressure[c] = sb_model_seal_pressure(run->model, lane->seal, (SbChamber)c);
+  }
+  for (int i = 0; i < SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
+    const int chamber = i / SB_RUN_MOTIONS;
+    const Task task = {run, lane, lane->seal, chamber, i % SB_RUN_MOTIONS, pressure[chamber], NULL};
+    bool alike = false;
+    for (int c = 0; c < chamber; c++) {
+      alike = alike || (pressure[c].left == pressure[chamber].left &&
+                        pressure[c].right == pressure[chamber].right);
+    }
+    if (run->plan.seal[lane->seal] == SB_DEPTH_WHOLE && !alike && state_needed(&task)) {
+      const SbSlidingTask sliding = sliding_task(&task);
+      sb_run_ahead_add(ahead, &sliding, slot_of(&task));
+    }
+  }
 }
 
 // Solves both lanes, the second on a thread of its own; `first` asks whether to stop, for both.
@@ -433,12 +482,22 @@ static void solve_together(Lane *first, Lane *second) {
   const SbRunHooks *hooks = second->hooks;
   pthread_t thread;
   second->hooks = NULL;
+  SbRunAhead *ahead = sb_run_ahead_create(); // without one each waits for the other
+  if (ahead != NULL) {
+    add_ahead(ahead, first);
+    add_ahead(ahead, second);
+  }
+  first->ahead = second->ahead = ahead;
   bool runs = pthread_create(&thread, NULL, solve_beside, &beside) == 0;
   (void)solve_lane(first);
   if (!runs) {
     second->hooks = hooks;
     (void)solve_lane(second);
+    sb_run_ahead_destroy(ahead);
     return;
+  }
+  if (ahead != NULL && !fatal(first->status)) {
+    sb_run_ahead_work(ahead, cancelled, first);
   }
   pthread_mutex_lock(&beside.lock);
   while (!beside.ended) {
@@ -454,6 +513,7 @@ static void solve_together(Lane *first, Lane *second) {
   }
   pthread_mutex_unlock(&beside.lock);
   pthread_join(thread, NULL);
+  sb_run_ahead_destroy(ahead);
   pthread_cond_destroy(&beside.done);
   pthread_mutex_destroy(&beside.lock);
 }
