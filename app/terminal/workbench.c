@@ -51,15 +51,23 @@ static void draw_keys(SbBench *bench, int y) {
     need += sb_cells_width(cells, cells->ascii ? keys[i].ascii : keys[i].key) +
             sb_cells_width(cells, _(keys[i].word)) + 1;
   }
-  const int gap = CLAMP((cells->columns - 2 - need) / (int)(G_N_ELEMENTS(keys) - 1), 1, 3);
+  // Short of room, the arrows and what lies at hand go without words, so that help and quit are
+  // told.
+  const int count = (int)G_N_ELEMENTS(keys);
+  const size_t wordless = cells->columns - 2 - need < count - 1 ? 5 : 0;
+  for (size_t i = 0; i < wordless; i++) {
+    need -= sb_cells_width(cells, _(keys[i].word)) + 1;
+  }
+  const int gap = CLAMP((cells->columns - 2 - need) / (count - 1), 1, 3);
   int x = 1;
   for (size_t i = 0; i < G_N_ELEMENTS(keys) && x < cells->columns; i++) {
     x += sb_cells_text(cells, x, y, cells->columns - x, cells->ascii ? keys[i].ascii : keys[i].key,
-                       sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD)) +
-         1;
-    x += sb_cells_text(cells, x, y, cells->columns - x, _(keys[i].word),
-                       sb_bench_pen(bench, SB_ROLE_SECOND, 0)) +
-         gap;
+                       sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
+    if (i >= wordless) {
+      x += 1 + sb_cells_text(cells, x + 1, y, cells->columns - x - 1, _(keys[i].word),
+                             sb_bench_pen(bench, SB_ROLE_SECOND, 0));
+    }
+    x += gap;
   }
 }
 

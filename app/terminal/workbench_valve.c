@@ -381,7 +381,8 @@ static void draw_timeline(SbBench *bench, SbCellRect rect) {
   sb_cells_text(cells, rect.x + at, rect.y, width, label, pen);
   for (size_t i = 0; i < events; i++) {
     const int x = (int)lround(event[i].mark.time / end * last);
-    if (x >= 0 && x < rect.width) {
+    // Not inside of the time, which would read as another one.
+    if (x >= 0 && x < rect.width && (x < at || x >= at + width)) {
       sb_cells_put(cells, rect.x + x, rect.y, (uint32_t)sb_stage_name(event[i].stage)[0],
                    sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
     }

@@ -215,6 +215,32 @@ def test_signals():
             same(terminal.stty(), terminal.modes, 'stty after a crash')
 
 
+def test_plots():
+    """Charts below tables: on a terminal, off one where --plot asks, nowhere with --no-plot."""
+    scene = f'{ASSETS}/scenes/quick-look.scene'
+    utf8 = {**os.environ, 'LC_ALL': 'C.UTF-8'}
+    drawn = re.compile('[\u2801-\u28ff]')
+
+    def output(*arguments):
+        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=True,
+                              env=utf8).stdout
+
+    for command in (['run', scene], ['compare', scene, scene],
+                    ['fit', f'{ASSETS}/valves/piston.valve', '--seal', 'outer']):
+        if drawn.search(output(*command)):
+            raise AssertionError(f'{command[0]} draws off a terminal')
+        if not drawn.search(output(*command, '--plot')):
+            raise AssertionError(f'{command[0]} --plot draws nothing')
+    with Terminal() as terminal:
+        terminal.keys(f'{PROGRAM} run {scene} | cat; clear; {PROGRAM} run {scene}', 'Enter')
+        screen = terminal.see(r'B 28\.7')
+        if not drawn.search(screen):
+            raise AssertionError(f'no chart on a terminal\n{screen}')
+        terminal.keys(f'clear; {PROGRAM} run {scene} --no-plot; echo end', 'Enter')
+        if drawn.search(terminal.see(r'(?m)^end')):
+            raise AssertionError('a chart in spite of --no-plot')
+
+
 KEYS = ['Up', 'Down', 'Left', 'Right', 'PageUp', 'PageDown', 'Home', 'End', 'Enter', 'Escape',
         'Tab', 'BSpace', 'DC', 'Space', 'C-l', 'C-r', 'C-c', 'C-u', 'S-Left', 'C-Right', 'M-x',
         'F1', 'F12', '[', ']', ',', '.', '/', '?', '1', '2', '3', '4', 'c', 'e', 'f', 'i', 'm',
@@ -253,7 +279,7 @@ def test_random(count=250, seed=20):
 
 
 def main():
-    tests = [test_session, test_plain, test_signals, test_random]
+    tests = [test_session, test_plain, test_signals, test_plots, test_random]
     arguments = ()
     if '--keys' in sys.argv:
         tests, arguments = [test_random], tuple(map(int, sys.argv[sys.argv.index('--keys') + 1:]))
