@@ -74,14 +74,8 @@ static bool choose_model(SbFitProblem *problem, const char *name) {
   bool good = sb_fit_model_from_name(&problem->model, base);
   g_free(base);
   if (good && colon != NULL) {
-    const char *variant = NULL;
-    int i = 0;
-    while ((variant = sb_fit_variant_name(problem->model, i)) != NULL &&
-           strcmp(variant, colon + 1) != 0) {
-      i++;
-    }
-    problem->variant = i;
-    good = variant != NULL;
+    problem->variant = sb_fit_variant_find(problem->model, colon + 1);
+    good = problem->variant >= 0;
   }
   if (!good) {
     GString *names = g_string_new(NULL);

@@ -86,7 +86,8 @@ static bool add_index(SbOutputFolder *out, SbThesisItem *const *items, size_t co
   if (!g_file_get_contents(path, &introduction, NULL, error)) {
     return false;
   }
-  fputs(introduction, text);
+  g_autofree char *filled = sb_thesis_introduction(introduction, items, count);
+  fputs(filled, text);
   for (size_t i = 0; i < count; i++) {
     sb_markdown_thesis(text, items[i]);
   }

@@ -3,6 +3,10 @@
 
 #include "app/document/unit.h"
 
+#include "engine/contact/deflection.h"
+#include "engine/film/laws.h"
+#include "engine/film/wedge.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -58,39 +62,121 @@ static bool read_number(double *out, Reader *reader) {
   return true;
 }
 
+// ---- Functions ----
+
+enum { ARGUMENTS = 5 };
+
+typedef double (*One)(double);
+typedef double (*Two)(double, double);
+typedef double (*Three)(double, double, double);
+typedef double (*Four)(double, double, double, double);
+typedef double (*Five)(double, double, double, double, double);
+
+static double single(double a) {
+  return (float)a;
+}
+
+static double full_pressure(double t, double reach) {
+  return sb_wedge_pressure(SB_WEDGE_FULL_SOMMERFELD, t, reach);
+}
+
+static double half_pressure(double t, double reach) {
+  return sb_wedge_pressure(SB_WEDGE_HALF_SOMMERFELD, t, reach);
+}
+
+static double reynolds_pressure(double t, double reach) {
+  return sb_wedge_pressure(SB_WEDGE_REYNOLDS, t, reach);
+}
+
+static double full_load(double reach) {
+  return sb_wedge_load(SB_WEDGE_FULL_SOMMERFELD, reach);
+}
+
+static double half_load(double reach) {
+  return sb_wedge_load(SB_WEDGE_HALF_SOMMERFELD, reach);
+}
+
+static double reynolds_load(double reach) {
+  return sb_wedge_load(SB_WEDGE_REYNOLDS, reach);
+}
+
+// By the number of their arguments.
 static const struct {
   const char *name;
-  double (*one)(double);
-  double (*two)(double, double);
-} functions[] = {{"min", NULL, fmin},  {"max", NULL, fmax}, {"pow", NULL, pow},
-                 {"sin", sin, NULL},   {"cos", cos, NULL},  {"tan", tan, NULL},
-                 {"atan", atan, NULL}, {"exp", exp, NULL},  {"ln", log, NULL}};
+  One one;
+  Two two;
+  Three three;
+  Four four;
+  Five five;
+} functions[] = {
+    {"min", .two = fmin},
+    {"max", .two = fmax},
+    {"pow", .two = pow},
+    {"sin", .one = sin},
+    {"cos", .one = cos},
+    {"tan", .one = tan},
+    {"asin", .one = asin},
+    {"atan", .one = atan},
+    {"exp", .one = exp},
+    {"ln", .one = log},
+    {"round", .one = round},
+    {"single", .one = single},
+    {"column", .four = sb_deflection_column},
+    {"half_space", .three = sb_deflection_half_space},
+    {"panel", .two = sb_deflection_panel},
+    {"flamant", .five = sb_deflection_flamant},
+    {"disc", .five = sb_deflection_disc},
+    {"full_sommerfeld", .two = full_pressure},
+    {"half_sommerfeld", .two = half_pressure},
+    {"reynolds", .two = reynolds_pressure},
+    {"full_sommerfeld_load", .one = full_load},
+    {"half_sommerfeld_load", .one = half_load},
+    {"reynolds_load", .one = reynolds_load},
+    {"reynolds_end", .one = sb_wedge_end},
+    {"viscous_border", .one = sb_regime_viscous_border},
+    {"elastic_border", .one = sb_regime_elastic_border},
+};
 
-static bool is_function(const char *name) {
+// G_N_ELEMENTS(functions): there is none.
+static size_t find_function(const char *name) {
   size_t i = 0;
   while (i < G_N_ELEMENTS(functions) && strcmp(functions[i].name, name) != 0) {
     i++;
   }
-  return i < G_N_ELEMENTS(functions);
+  return i;
+}
+
+static size_t arguments_of(size_t i) {
+  return functions[i].one != NULL     ? 1
+         : functions[i].two != NULL   ? 2
+         : functions[i].three != NULL ? 3
+         : functions[i].four != NULL  ? 4
+                                      : 5;
 }
 
 // What stands behind "NAME(".
-static bool read_function(double *out, Reader *reader, const char *name) {
-  size_t i = 0;
-  while (strcmp(functions[i].name, name) != 0) {
-    i++;
+static bool read_function(double *out, Reader *reader, size_t i) {
+  const size_t count = arguments_of(i);
+  double a[ARGUMENTS] = {0};
+  for (size_t k = 0; k < count; k++) {
+    g_autofree char *otherwise =
+        g_strdup_printf("%s takes %zu values, (A; B ...)", functions[i].name, count);
+    if ((k > 0 && !expect(reader, ';', otherwise)) || !read_sum(&a[k], reader)) {
+      return false;
+    }
   }
-  double other = 0;
-  const bool two = functions[i].two != NULL;
-  if (!read_sum(out, reader) ||
-      (two &&
-       (!expect(reader, ';', "min, max and pow take (A; B)") || !read_sum(&other, reader))) ||
-      !expect(reader, ')', "a parenthesis is missing")) {
+  if (!expect(reader, ')', "a parenthesis is missing")) {
     return false;
   }
-  *out = two ? functions[i].two(*out, other) : functions[i].one(*out);
+  *out = count == 1   ? functions[i].one(a[0])
+         : count == 2 ? functions[i].two(a[0], a[1])
+         : count == 3 ? functions[i].three(a[0], a[1], a[2])
+         : count == 4 ? functions[i].four(a[0], a[1], a[2], a[3])
+                      : functions[i].five(a[0], a[1], a[2], a[3], a[4]);
   return true;
 }
+
+// ---- Terms ----
 
 // "-A", "(A)", a name or a number.
 static bool read_operand(double *out, Reader *reader) {
@@ -111,9 +197,10 @@ static bool read_operand(double *out, Reader *reader) {
       length++;
     }
     g_autofree char *name = g_strndup(reader->at, length);
-    if (reader->at[length] == '(' && is_function(name)) {
+    const size_t function = find_function(name);
+    if (reader->at[length] == '(' && function < G_N_ELEMENTS(functions)) {
       reader->at += length + 1;
-      good = read_function(out, reader, name);
+      good = read_function(out, reader, function);
     } else {
       good = reader->name(out, name, reader->data) ||
              fail(reader, "there is no parameter and no variable");

@@ -25,7 +25,7 @@ char *sb_thesis_text(const SbThesisRow *row, double value) {
 // What a step explains; rounding is nothing. Owned by the caller.
 static char *part_text(const SbThesisRow *row, const SbThesisPart *part) {
   if (!isfinite(part->explains)) {
-    return g_strdup("part not known");
+    return g_strdup("not computed");
   }
   const double scale = isfinite(row->printed) ? fabs(row->printed) : fabs(row->thesis);
   const double explains = fabs(part->explains) <= 1e-9 * scale ? 0 : part->explains;
@@ -39,7 +39,8 @@ static char *rest_text(const SbThesisRow *row) {
     return NULL;
   }
   g_autofree char *left = sb_thesis_text(row, -row->remains);
-  return g_strdup_printf("remains %s", fabs(row->remains) <= row->rounding ? "rounding" : left);
+  const bool rounding = fabs(row->remains) <= row->rounding + 1e-12 * fabs(row->printed);
+  return g_strdup_printf("remains %s", rounding ? "rounding" : left);
 }
 
 // "text (shown by COMMAND): +3 nm".
@@ -156,6 +157,55 @@ char *sb_thesis_table(const SbThesisItem *item) {
   return g_string_free(out, FALSE);
 }
 
+// ---- Introduction ----
+
+// The row of an item; NULL: there is none.
+static const SbThesisRow *find_row(SbThesisItem *const *items, size_t count, const char *name,
+                                   const char *label) {
+  for (size_t i = 0; i < count; i++) {
+    for (guint k = 0; strcmp(items[i]->name, name) == 0 && k < items[i]->rows->len; k++) {
+      const SbThesisRow *row = items[i]->rows->pdata[k];
+      if (strcmp(row->label, label) == 0) {
+        return row;
+      }
+    }
+  }
+  return NULL;
+}
+
+// "printed", "thesis", "consistent" or "ratio", printed over the thesis' model. Owned by the
+// caller.
+static char *value_text(const SbThesisRow *row, const char *what) {
+  char digits[SB_NUMBER_SIZE];
+  if (strcmp(what, "ratio") == 0) {
+    return g_strdup(sb_number_round(digits, row->printed / row->thesis, 3));
+  }
+  const double value = strcmp(what, "printed") == 0      ? row->printed
+                       : strcmp(what, "consistent") == 0 ? row->consistent
+                                                         : row->thesis;
+  return sb_thesis_text(row, value);
+}
+
+char *sb_thesis_introduction(const char *text, SbThesisItem *const *items, size_t count) {
+  GString *out = g_string_new(NULL);
+  for (const char *c = text; *c != '\0'; c++) {
+    const char *close = *c == '{' ? strchr(c, '}') : NULL;
+    if (close == NULL) {
+      g_string_append_c(out, *c);
+      continue;
+    }
+    g_autofree char *inside = g_strndup(c + 1, (gsize)(close - c - 1));
+    g_auto(GStrv) part = g_strsplit(inside, "|", 3);
+    const bool whole = g_strv_length(part) == 3;
+    const SbThesisRow *row =
+        whole ? find_row(items, count, g_strstrip(part[0]), g_strstrip(part[1])) : NULL;
+    g_autofree char *value = row != NULL ? value_text(row, g_strstrip(part[2])) : NULL;
+    g_string_append(out, value != NULL ? value : "?");
+    c = close;
+  }
+  return g_string_free(out, FALSE);
+}
+
 // ---- JSON ----
 
 static void put_json_parts(SbJson *json, const char *key, const GArray *parts) {
@@ -258,32 +308,69 @@ static const char style[] =
     "text-align:left;vertical-align:top}td.n{text-align:right;white-space:nowrap;"
     "font-variant-numeric:tabular-nums}h2{margin-top:2em;border-top:2px solid #888}"
     ".fails{background:#fdd}.source,.model{color:#666;font-size:87%}img{max-width:100%}"
-    "nav li{display:inline-block;min-width:24em}";
+    "nav table{width:auto}code{font-size:92%}th{position:sticky;top:0;background:#fff}";
 
 static void put_escaped(FILE *stream, const char *text) {
   g_autofree char *escaped = g_markup_escape_text(text != NULL ? text : "", -1);
   fputs(escaped, stream);
 }
 
+// How the rows of an item stand, in words: "7 agree, 2 explained".
+static void put_counts(FILE *stream, const SbThesisItem *item) {
+  static const struct {
+    SbThesisVerdict verdict;
+    const char *words;
+  } told[] = {{SB_THESIS_AGREES, "agree"},
+              {SB_THESIS_EXPLAINED, "explained"},
+              {SB_THESIS_PARTLY, "partly explained"},
+              {SB_THESIS_NOT_PRINTED, "not printed"},
+              {SB_THESIS_NOT_COMPUTED, "not computed"},
+              {SB_THESIS_FAILS, "without a reason"}};
+  bool any = false;
+  for (size_t i = 0; i < G_N_ELEMENTS(told); i++) {
+    guint count = 0;
+    for (guint k = 0; k < item->rows->len; k++) {
+      count += ((SbThesisRow *)item->rows->pdata[k])->verdict == told[i].verdict;
+    }
+    if (count > 0) {
+      fprintf(stream, "%s%u %s", any ? ", " : "", count, told[i].words);
+      any = true;
+    }
+  }
+  fputs(any                   ? ""
+        : item->chart != NULL ? "curves, no numbers printed"
+                              : "missing in the source",
+        stream);
+}
+
 void sb_html_thesis_begin(FILE *stream, SbThesisItem *const *items, size_t count) {
   fprintf(
       stream,
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>The thesis, "
-      "regenerated</title><style>%s</style></head><body>\n<h1>The thesis, regenerated</h1>\n"
+      "regenerated</title><style>%s</style></head><body id=\"top\">\n<h1>The thesis, "
+      "regenerated</h1>\n"
       "<p>D. Grimble, <i>Ultra-thin film tribology of elastomeric seals in pressurised metered "
       "dose inhalers</i>, Loughborough University, 2009: its tables and figures in their order, "
-      "computed by Sealbench %s. Difference: ours by the thesis' model less printed; a row "
-      "agrees where that is within the printed digits. A reason names the command or the test "
-      "that shows it and what it explains; what is left of the printed value behind all of them "
-      "is told as what remains. In grey: what lies between the thesis' model and the consistent "
-      "set.</p>\n<nav><ul>\n",
+      "computed by Sealbench %s.</p>\n"
+      "<ul><li><b>Difference</b>: ours by the thesis' model less printed; a row <b>agrees</b> "
+      "where "
+      "that is within the printed digits.</li>\n"
+      "<li><b>Reason</b>: the number before a colon is that of a reason below the table, behind it "
+      "stands what it explains, computed; <b>remains</b> is what is left of the printed value "
+      "behind all of them. Each reason names the command or the test that shows it.</li>\n"
+      "<li><b>To the consistent</b>: in grey, what lies between the thesis' model and the "
+      "consistent set (<code>models.set</code>).</li></ul>\n"
+      "<nav><table><tr><th>Table or figure</th><th>rows</th></tr>\n",
       style, sb_version());
   for (size_t i = 0; i < count; i++) {
-    fprintf(stream, "<li><a href=\"#%s\">", items[i]->name);
+    fprintf(stream, "<tr%s><td><a href=\"#%s\">", items[i]->fails > 0 ? " class=\"fails\"" : "",
+            items[i]->name);
     put_escaped(stream, items[i]->title);
-    fputs("</a></li>\n", stream);
+    fputs("</a></td><td>", stream);
+    put_counts(stream, items[i]);
+    fputs("</td></tr>\n", stream);
   }
-  fputs("</ul></nav>\n", stream);
+  fputs("</table></nav>\n", stream);
 }
 
 void sb_html_thesis_end(FILE *stream) {
@@ -325,6 +412,32 @@ static void put_html_row(FILE *stream, const SbThesisRow *row, const GPtrArray *
   fputs("</td></tr>\n", stream);
 }
 
+// "TEXT (COMMAND)", the command as such.
+static void put_html_reason(FILE *stream, const char *reason) {
+  const char *open = strstr(reason, "(sealbench "), *test = strstr(reason, "(meson test ");
+  open = open != NULL ? open : test;
+  const size_t length = open != NULL ? (size_t)(open - reason) : strlen(reason);
+  g_autofree char *text = g_strndup(reason, length);
+  fputs("<li>", stream);
+  put_escaped(stream, text);
+  if (open != NULL) {
+    g_autofree char *command = g_strndup(open + 1, strlen(open) - 2);
+    fputs("<br><code>", stream);
+    put_escaped(stream, command);
+    fputs("</code>", stream);
+  }
+  fputs("</li>\n", stream);
+}
+
+// Lines of a comment, each on its own.
+static void put_html_lines(FILE *stream, const char *text) {
+  g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
+  for (char **line = lines; *line != NULL; line++) {
+    fputs(line == lines ? "" : "<br>", stream);
+    put_escaped(stream, *line);
+  }
+}
+
 void sb_html_thesis(FILE *stream, const SbThesisItem *item, const char *picture) {
   fprintf(stream, "<h2 id=\"%s\">", item->name);
   put_escaped(stream, item->title);
@@ -344,9 +457,7 @@ void sb_html_thesis(FILE *stream, const SbThesisItem *item, const char *picture)
     }
     fputs("</table>\n<ol>\n", stream);
     for (guint i = 0; i < reasons->len; i++) {
-      fputs("<li>", stream);
-      put_escaped(stream, reasons->pdata[i]);
-      fputs("</li>\n", stream);
+      put_html_reason(stream, reasons->pdata[i]);
     }
     fputs("</ol>\n", stream);
   }
@@ -355,9 +466,10 @@ void sb_html_thesis(FILE *stream, const SbThesisItem *item, const char *picture)
     put_escaped(stream, item->notes->pdata[i]);
     fputs("</p>\n", stream);
   }
-  fprintf(stream, "<p class=\"source\"><code>sealbench thesis %s</code>. ", item->name);
-  put_escaped(stream, item->source != NULL ? item->source : "Nothing is printed in numbers.");
-  fputs("</p>\n", stream);
+  fprintf(stream, "<p class=\"source\"><code>sealbench thesis %s</code>", item->name);
+  fputs("<br>", stream);
+  put_html_lines(stream, item->source != NULL ? item->source : "Nothing is printed in numbers.");
+  fputs("</p>\n<p class=\"source\"><a href=\"#top\">All tables and figures</a></p>\n", stream);
 }
 
 static void put_markdown_row(FILE *stream, const SbThesisRow *row, const GPtrArray *reasons) {

@@ -21,6 +21,11 @@ void sb_html_thesis(FILE *stream, const SbThesisItem *item, const char *picture)
 void sb_html_thesis_begin(FILE *stream, SbThesisItem *const *items, size_t count);
 void sb_html_thesis_end(FILE *stream);
 
+// A text with {ITEM | LABEL OF A ROW | WHAT} replaced by that row's value: printed, thesis,
+// consistent, or ratio, printed over the thesis' model; "?" where there is none. Owned by the
+// caller.
+char *sb_thesis_introduction(const char *text, SbThesisItem *const *items, size_t count);
+
 // The item as Markdown.
 void sb_markdown_thesis(FILE *stream, const SbThesisItem *item);
 
@@ -37,6 +42,6 @@ char *sb_thesis_reason(const SbThesisRow *row);
 // "TEXT (COMMAND)". Owned by the caller.
 GPtrArray *sb_thesis_reasons(const SbThesisItem *item);
 
-// How a row stands, in the numbers of that list from 1: "agrees", "1: +3 nm, 2: part not known;
-// remains 0.1 nm"; `models`: of the consistent set. Owned by the caller.
+// How a row stands, in the numbers of that list from 1: "agrees", "1: +3 nm, 2: -1 nm; remains
+// 0.1 nm"; `models`: of the consistent set. Owned by the caller.
 char *sb_thesis_standing(const SbThesisRow *row, const GPtrArray *reasons, bool models);

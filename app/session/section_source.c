@@ -21,6 +21,7 @@ struct SbSectionSource {
 // Whatever the models of the scene are, closed forms do for a picture at rest.
 static SbRun *make_rest(const SbModel *model) {
   static const SbOverride closed[] = {{SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ},
+                                      {SB_P_MODELS_FIT_VARIANT, 0},
                                       {SB_P_MODELS_FILM, SB_FILM_THESIS}};
   g_autoptr(SbModel) quick = NULL;
   if (sb_model_derive(&quick, model, closed, G_N_ELEMENTS(closed), NULL) != SB_OK) {

@@ -90,9 +90,12 @@ static SbModel *coarse_model(const SbModel *model) {
 
 // With closed forms in place of the rings; NULL where that cannot be.
 static SbModel *closed_model(const SbModel *model) {
-  const SbOverride override = {SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ};
+  static const SbOverride closed_form[] = {{SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ},
+                                           {SB_P_MODELS_FIT_VARIANT, 0}};
   SbModel *closed = NULL;
-  return sb_model_derive(&closed, model, &override, 1, NULL) == SB_OK ? closed : NULL;
+  return sb_model_derive(&closed, model, closed_form, G_N_ELEMENTS(closed_form), NULL) == SB_OK
+             ? closed
+             : NULL;
 }
 
 // Asks for a run of the present values. One by closed forms that cannot be is a coarse one; a

@@ -104,6 +104,23 @@ static bool sample_value(double *out, const SbThesisPlace *at, const char *name)
   return id >= 0 && model != NULL;
 }
 
+// "COLUMN" of the printed row, or "COLUMN.rounding", half of its last digit's unit.
+static bool printed_value(double *out, const SbThesisPlace *at, const char *name) {
+  static const char ROUNDING[] = ".rounding";
+  if (at->row < 0 || at->work->printed == NULL) {
+    return false;
+  }
+  const bool rounding = g_str_has_suffix(name, ROUNDING);
+  g_autofree char *column = g_strndup(name, strlen(name) - (rounding ? strlen(ROUNDING) : 0));
+  const char *cell = sb_printed_cell(at->work->printed, (guint)at->row, column);
+  double value, half;
+  if (cell != NULL) {
+    const bool number = sb_printed_number(&value, &half, cell);
+    *out = !number ? NAN : rounding ? half : value;
+  }
+  return cell != NULL;
+}
+
 static bool value_of(double *out, const char *name, void *data) {
   const SbThesisPlace *at = data;
   if (at->frame != NULL || at->profile != NULL) {
@@ -123,17 +140,7 @@ static bool value_of(double *out, const char *name, void *data) {
       return true;
     }
   }
-  const char *cell = at->row >= 0 && at->work->printed != NULL
-                         ? sb_printed_cell(at->work->printed, (guint)at->row, name)
-                         : NULL;
-  if (cell != NULL) {
-    double half;
-    if (!sb_printed_number(out, &half, cell)) {
-      *out = NAN;
-    }
-    return true;
-  }
-  return sample_value(out, at, name);
+  return printed_value(out, at, name) || sample_value(out, at, name);
 }
 
 bool sb_thesis_value(double *out, const SbThesisPlace *at, const char *text, const char *group,
@@ -208,30 +215,72 @@ static void gather_from(SbThesisWork *work, const char *text) {
   g_ptr_array_set_size(work->issues, (gint)before); // told where it is used
 }
 
-// All that the texts of a group's keys name; a text of bars has its expression behind the last, and
-// one in brackets in each row's cell.
+// All that the texts of a group's keys name: an expression stands behind the last bar, what is in
+// brackets differs from row to row, and values to be written stand in braces.
 static void gather_entry(SbThesisWork *work, const SbEntry *entry) {
   const char *bar = strrchr(entry->value, '|');
   const char *text = bar != NULL ? bar + 1 : entry->value;
-  text += strspn(text, " ");
-  const char *open = strchr(text, '['), *close = strchr(text, ']');
-  if (open == NULL || close == NULL || close < open || work->printed == NULL) {
-    gather_from(work, text);
-    return;
-  }
-  g_autofree char *column = g_strndup(open + 1, (gsize)(close - open - 1));
-  for (guint row = 0; row < work->printed->rows->len; row++) {
-    const char *cell = sb_printed_cell(work->printed, row, column);
-    g_autofree char *whole =
-        g_strdup_printf("%.*s%s%s", (int)(open - text), text, cell != NULL ? cell : "", close + 1);
+  const guint rows =
+      strchr(text, '[') != NULL && work->printed != NULL ? work->printed->rows->len : 1;
+  for (guint row = 0; row < rows; row++) {
+    const SbThesisPlace at = {.work = work, .row = (int)row};
+    g_autofree char *whole = sb_thesis_with_cells(&at, text + strspn(text, " "));
     gather_from(work, whole);
   }
+  for (const char *c = entry->value; (c = strstr(c, "{=")) != NULL; c += 2) {
+    g_autofree char *inside = g_strndup(c + 2, strcspn(c + 2, ",}"));
+    gather_from(work, g_strstrip(inside));
+  }
 }
+
+static bool has_figures(const SbThesisGrid *grid) {
+  return grid->figures->len > 0;
+}
+
+// ---- Samples that are asked for ----
+
+// Whether a text is "GRID: ..." of this grid.
+static bool is_of(const SbThesisGrid *grid, const char *text) {
+  const size_t length = strlen(grid->name);
+  return strncmp(text, grid->name, length) == 0 && text[length] == ':';
+}
+
+static bool names_grid(const SbEntry *entry, const SbThesisGrid *grid) {
+  const char *bar = strrchr(entry->value, '|');
+  const char *text = bar != NULL ? bar + 1 : entry->value;
+  return is_of(grid, text + strspn(text, " "));
+}
+
+// The samples of a grid that rows ask for; a curve asks for all.
+static void find_wanted(SbThesisWork *work, SbThesisGrid *grid) {
+  grid->wanted = g_new0(bool, grid->samples);
+  bool all = grid->samples == 1;
+  for (guint i = 0; i < work->entries->len && has_figures(grid); i++) {
+    const SbEntry *entry = work->entries->pdata[i];
+    const bool used = entry->name != NULL && names_grid(entry, grid);
+    if (used && g_str_has_prefix(entry->group, "rows ")) {
+      sb_thesis_want(work, grid, entry->group);
+    }
+    all = all || (used && g_str_has_prefix(entry->group, "series "));
+    // A text has the figures of the first sample.
+    for (const char *c = entry->name != NULL ? entry->value : ""; (c = strstr(c, "{=")) != NULL;) {
+      c += 2;
+      c += strspn(c, " ");
+      grid->wanted[0] = grid->wanted[0] || is_of(grid, c);
+    }
+  }
+  for (size_t i = 0; i < grid->samples && all; i++) {
+    grid->wanted[i] = true;
+  }
+}
+
+// ---- Answers ----
 
 typedef struct {
   GMutex lock;
   SbThesisGrid *grid;
   SbThesisWork *work;
+  size_t *sample; // of those asked for
 } Seen;
 
 bool sb_thesis_stopped(SbThesisWork *work) {
@@ -252,43 +301,60 @@ static void on_seen(void *data, size_t sample, SbStatus status, const SbReport *
   }
   if (reason != NULL) {
     g_mutex_lock(&seen->lock);
-    g_hash_table_insert(seen->grid->reason, GSIZE_TO_POINTER(sample), g_strdup(reason));
+    g_hash_table_insert(seen->grid->reason, GSIZE_TO_POINTER(seen->sample[sample]),
+                        g_strdup(reason));
     g_mutex_unlock(&seen->lock);
   }
 }
 
+// The figures of those samples that are asked for; the others stay without a value.
 static bool answer_grid(SbThesisWork *work, SbThesisGrid *grid) {
   const SbStudyFile *study = work->study;
-  const size_t vary = study->vary->len;
-  if (grid->figures->len == 0) {
+  const size_t vary = study->vary->len, figures = grid->figures->len;
+  if (!has_figures(grid)) {
     return true;
   }
+  find_wanted(work, grid);
   g_autofree SbParamId *parameter = g_new(SbParamId, vary);
+  g_autofree size_t *sample = g_new(size_t, grid->samples);
+  g_autofree double *point = g_new(double, grid->samples *vary);
+  size_t count = 0;
   for (size_t k = 0; k < vary; k++) {
     parameter[k] = g_array_index(study->vary, SbVary, k).id;
   }
-  Seen seen = {.grid = grid, .work = work};
+  for (size_t i = 0; i < grid->samples; i++) {
+    if (grid->wanted[i]) {
+      memcpy(&point[count * vary], &work->point[(grid->first + i) * vary], vary * sizeof *point);
+      sample[count++] = i;
+    }
+  }
+  Seen seen = {.grid = grid, .work = work, .sample = sample};
   g_mutex_init(&seen.lock);
   const SbQuestions asked = {.base = study->base,
                              .base_sha256 = "",
                              .parameter = parameter,
                              .parameters = vary,
                              .figure = (const int *)(const void *)grid->figures->data,
-                             .figures = grid->figures->len,
-                             .value = &work->point[grid->first * vary],
-                             .samples = grid->samples,
+                             .figures = figures,
+                             .value = point,
+                             .samples = count,
                              .jobs = work->jobs,
                              .cold = true,
                              .seen = on_seen,
                              .cancelled = on_cancelled,
                              .data = &seen};
-  SbAnswers answers;
+  SbAnswers answers = {0};
   g_autoptr(GError) error = NULL;
-  const bool good = sb_answers_get(&answers, &asked, &error);
+  const bool good = count == 0 || sb_answers_get(&answers, &asked, &error);
   if (good) {
-    const size_t cells = grid->samples * grid->figures->len;
-    grid->value = g_new(double, cells);
-    memcpy(grid->value, answers.value, cells * sizeof *grid->value);
+    grid->value = g_new(double, grid->samples *figures);
+    for (size_t i = 0; i < grid->samples * figures; i++) {
+      grid->value[i] = NAN;
+    }
+    for (size_t i = 0; i < count; i++) {
+      memcpy(&grid->value[sample[i] * figures], &answers.value[i * figures],
+             figures * sizeof *grid->value);
+    }
     grid->done = true;
   } else if (!work->stopped) {
     sb_thesis_complain(work, "vary", grid->name, "%s", error->message);
@@ -302,7 +368,8 @@ bool sb_thesis_answer(SbThesisWork *work) {
   for (guint i = 0; i < work->entries->len; i++) {
     const SbEntry *entry = work->entries->pdata[i];
     if (entry->name != NULL &&
-        (g_str_has_prefix(entry->group, "rows ") || g_str_has_prefix(entry->group, "series "))) {
+        (g_str_has_prefix(entry->group, "rows ") || g_str_has_prefix(entry->group, "series ") ||
+         strcmp(entry->group, "notes") == 0)) {
       gather_entry(work, entry);
     }
   }
@@ -340,6 +407,7 @@ static void free_grid(void *data) {
   g_free(grid->name);
   g_array_unref(grid->figures);
   g_free(grid->value);
+  g_free(grid->wanted);
   g_hash_table_unref(grid->reason);
   g_hash_table_unref(grid->models);
   g_free(grid);
@@ -393,7 +461,8 @@ static void fill(SbThesisItem *item, SbThesisWork *work) {
     if (entry->name == NULL && g_str_has_prefix(entry->group, "rows ")) {
       sb_thesis_rows(item, work, entry->group);
     } else if (entry->name != NULL && strcmp(entry->group, "notes") == 0) {
-      g_ptr_array_add(item->notes, g_strdup(entry->value));
+      const SbThesisPlace at = {.work = work, .row = SB_THESIS_NO_ROW};
+      g_ptr_array_add(item->notes, sb_thesis_filled(&at, entry->value, "notes", entry->name));
     } else if (entry->name == NULL && strcmp(entry->group, "chart") == 0) {
       sb_thesis_chart(item, work);
     }
@@ -405,14 +474,8 @@ static void fill(SbThesisItem *item, SbThesisWork *work) {
 
 static void free_row(void *data) {
   SbThesisRow *row = data;
-  GArray *const lists[] = {row->reasons, row->models};
-  for (size_t i = 0; i < G_N_ELEMENTS(lists); i++) {
-    for (guint k = 0; k < lists[i]->len; k++) {
-      g_free(g_array_index(lists[i], SbThesisPart, k).text);
-      g_free(g_array_index(lists[i], SbThesisPart, k).shown_by);
-    }
-    g_array_unref(lists[i]);
-  }
+  g_array_unref(row->reasons);
+  g_array_unref(row->models);
   g_free(row->label);
   g_free(row->no_thesis);
   g_free(row->no_consistent);

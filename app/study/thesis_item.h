@@ -11,11 +11,10 @@
 //     thesis = GRID: EXPRESSION       by the thesis' model
 //     consistent = GRID: EXPRESSION   by the consistent set; "none TEXT" where there is none
 //     reason.1 = TEXT | COMMAND or TEST | GRID: EXPRESSION   the first step from our value by the
-//                                     thesis' model to the printed one: what ours becomes with it;
-//                                     without a third part: how much it explains is not known
+//                                     thesis' model to the printed one: what ours becomes with it
 //     model.1 = the same, the steps from there to the consistent set; the last takes the rest
 //     remains = 2 %                   most that the steps may leave of the printed value; `unknown`
-//                                     where the part of a step is not known
+//                                     where no reason is found for the rest, which is told
 //   [chart]        x = QUANTITY | SI unit | unit, y.1 and so on the same; log = x, y.1
 //   [series NAME]  a curve of panel = 1: x, y = GRID: EXPRESSION over the grid's samples,
 //   EXPRESSION
@@ -26,7 +25,9 @@
 //
 // In expressions a name is a column of the printed row, a figure of the sample, a parameter in
 // force there, a variable of the grid, `pi`, `printed`, `thesis`, `consistent`, or `ours`, which is
-// the value that a step starts from. A cell in brackets, [COLUMN], stands for its text.
+// the value that a step starts from; COLUMN.rounding is half of the last printed digit's unit. A
+// cell in brackets, [COLUMN], stands for its text. In labels, reasons and notes {COLUMN},
+// {COLUMN:FROM:TO} and {= GRID: EXPRESSION, SI shown} stand for values.
 #pragma once
 
 #include "app/document/study_file.h"
@@ -36,24 +37,24 @@
 
 typedef struct {
   char *text, *shown_by; // what it is; the command or test that shows it
-  double becomes;        // our value with it; NaN: not known
-  double explains;       // what that is of the difference [SI of the row]; NaN: not known
+  double becomes;        // our value with it; NaN: not computed
+  double explains;       // what that is of the difference [SI of the row]
 } SbThesisPart;
 
-// How a row stands: to the printed digits; within what the reasons may leave, all their parts
-// computed; the same, or with `remains = unknown` more, the part of a reason not known; nothing
-// printed, or, as its row says, nothing computed; a difference without a reason or beyond what the
-// reasons may leave, or no value where there should be one.
+// How a row stands: to the printed digits; within what the reasons may leave; beyond it, where
+// `remains = unknown` says that no reason is found for the rest; nothing printed, or, as its row
+// says, nothing computed; a difference without a reason or beyond what the reasons may leave, or no
+// value where there should be one.
 typedef enum {
   SB_THESIS_AGREES,
   SB_THESIS_EXPLAINED,
-  SB_THESIS_NAMED,
+  SB_THESIS_PARTLY,
   SB_THESIS_NOT_PRINTED,
   SB_THESIS_NOT_COMPUTED,
   SB_THESIS_FAILS
 } SbThesisVerdict;
 
-// "agrees", "explained", "named", "not printed", "not computed", "fails"; borrowed.
+// "agrees", "explained", "partly explained", "not printed", "not computed", "fails"; borrowed.
 const char *sb_thesis_verdict_name(SbThesisVerdict verdict);
 
 typedef struct {

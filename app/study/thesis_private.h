@@ -12,6 +12,7 @@ typedef struct {
   char *name;
   size_t first, samples; // among the study's points
   bool done;
+  bool *wanted;       // [samples], those that rows and curves ask for; others have no value
   GArray *figures;    // of int, what expressions name of it
   double *value;      // [samples][figures]
   GHashTable *reason; // sample -> char *, why one failed
@@ -68,6 +69,17 @@ bool sb_thesis_stopped(SbThesisWork *work);
 
 // Answers all figures of all grids that expressions of rows and series name.
 bool sb_thesis_answer(SbThesisWork *work);
+
+// A text with [COLUMN] replaced by the row's cell. Owned by the caller.
+char *sb_thesis_with_cells(const SbThesisPlace *at, const char *text);
+
+// A text with the values of {COLUMN}, {COLUMN:FROM:TO} and {= GRID: EXPRESSION, SI shown} in it.
+// Owned by the caller.
+char *sb_thesis_filled(const SbThesisPlace *at, const char *text, const char *group,
+                       const char *key);
+
+// Marks the samples of a grid that belong to the rows of a group [rows NAME].
+void sb_thesis_want(SbThesisWork *work, SbThesisGrid *grid, const char *group);
 
 // The model of a sample; owned by the caller, NULL with an issue.
 SbModel *sb_thesis_model(SbThesisWork *work, const SbThesisGrid *grid, size_t sample);

@@ -10,7 +10,7 @@
 #define SAME 1e-6
 
 const char *sb_thesis_verdict_name(SbThesisVerdict verdict) {
-  static const char *const names[] = {"agrees",      "explained",    "named",
+  static const char *const names[] = {"agrees",      "explained",    "partly explained",
                                       "not printed", "not computed", "fails"};
   return (unsigned)verdict < G_N_ELEMENTS(names) ? names[verdict] : "";
 }
@@ -47,22 +47,11 @@ static bool find_sample(SbThesisPlace *at, const char *matches, const char *grou
   return false;
 }
 
-// A text with [COLUMN] replaced by the row's cell. Owned by the caller.
-static char *with_cells(const SbThesisPlace *at, const char *text) {
-  const char *open = strchr(text, '['), *close = open != NULL ? strchr(open, ']') : NULL;
-  if (close == NULL || at->work->printed == NULL) {
-    return g_strdup(text);
-  }
-  g_autofree char *column = g_strndup(open + 1, (gsize)(close - open - 1));
-  const char *cell = sb_printed_cell(at->work->printed, (guint)MAX(at->row, 0), column);
-  return g_strdup_printf("%.*s%s%s", (int)(open - text), text, cell != NULL ? cell : "", close + 1);
-}
-
 // "GRID: EXPRESSION" at a printed row. Why there is no value goes to *why (owned by the caller).
 static double evaluate(const SbThesisPlace *from, const char *text, const char *group,
                        const char *key, char **why) {
   SbThesisPlace at = *from;
-  g_autofree char *whole = with_cells(from, text);
+  g_autofree char *whole = sb_thesis_with_cells(from, text);
   const char *expression;
   double value = NAN;
   if (g_str_has_prefix(whole, "none ")) {
@@ -87,32 +76,6 @@ static double evaluate(const SbThesisPlace *from, const char *text, const char *
   return value;
 }
 
-// "{COLUMN}" and "{COLUMN:FROM:TO}" in a label. Owned by the caller.
-static char *label_of(const SbThesisPlace *at, const char *text) {
-  GString *out = g_string_new(NULL);
-  for (const char *c = text; *c != '\0'; c++) {
-    const char *close = *c == '{' ? strchr(c, '}') : NULL;
-    if (close == NULL || at->work->printed == NULL) {
-      g_string_append_c(out, *c);
-      continue;
-    }
-    g_autofree char *inside = g_strndup(c + 1, (gsize)(close - c - 1));
-    g_auto(GStrv) part = g_strsplit(inside, ":", 3);
-    const char *cell = sb_printed_cell(at->work->printed, (guint)MAX(at->row, 0), part[0]);
-    double value, half;
-    if (g_strv_length(part) == 3 && sb_printed_number(&value, &half, cell)) {
-      char digits[SB_NUMBER_SIZE];
-      g_string_append(out,
-                      sb_number_round(digits, sb_quantity_to_shown(value, part[1], part[2]), 6));
-    } else {
-      g_autofree char *words = g_strdelimit(g_strdup(cell != NULL ? cell : "?"), "_", ' ');
-      g_string_append(out, words);
-    }
-    c = close;
-  }
-  return g_string_free(out, FALSE);
-}
-
 // The steps `prefix`.1, .2 ... of a group: each takes our value on. `left` is what is left to be
 // explained behind the last.
 static void read_parts(GArray *out, SbThesisPlace *at, const char *group, const char *prefix,
@@ -125,17 +88,22 @@ static void read_parts(GArray *out, SbThesisPlace *at, const char *group, const 
       return;
     }
     g_auto(GStrv) parts = g_strsplit(text, "|", 3);
-    if (parts[1] == NULL) {
-      sb_thesis_complain(at->work, group, key, "names no command or test: TEXT | COMMAND");
+    const bool rest =
+        last_takes_rest && sb_thesis_key(at->work, group, next) == NULL && parts[1] != NULL;
+    if (parts[1] == NULL || (parts[2] == NULL && !rest)) {
+      sb_thesis_complain(at->work, group, key,
+                         parts[1] == NULL ? "names no command or test: TEXT | COMMAND | EXPRESSION"
+                                          : "does not compute what it explains: TEXT | COMMAND | "
+                                            "EXPRESSION");
       return;
     }
     SbThesisPart part = {.becomes = NAN, .explains = NAN};
     if (parts[2] != NULL) {
       part.becomes = evaluate(at, g_strstrip(parts[2]), group, key, NULL);
-    } else if (last_takes_rest && sb_thesis_key(at->work, group, next) == NULL) {
+    } else {
       part.becomes = target;
     }
-    part.text = g_strdup(g_strstrip(parts[0]));
+    part.text = sb_thesis_filled(at, g_strstrip(parts[0]), group, key);
     part.shown_by = g_strdup(g_strstrip(parts[1]));
     part.explains = part.becomes - at->ours;
     at->ours = isfinite(part.becomes) ? part.becomes : at->ours;
@@ -156,14 +124,6 @@ static double share_of(const SbThesisWork *work, const char *group, const char *
   return value;
 }
 
-static bool all_known(const GArray *parts) {
-  bool known = true;
-  for (guint i = 0; i < parts->len; i++) {
-    known = known && isfinite(g_array_index(parts, SbThesisPart, i).explains);
-  }
-  return known;
-}
-
 static void judge(SbThesisRow *row, double most) {
   const double ours = isfinite(row->thesis) ? row->thesis : row->consistent;
   const double slack = row->rounding + 1e-12 * fabs(row->printed);
@@ -178,8 +138,10 @@ static void judge(SbThesisRow *row, double most) {
     row->verdict = SB_THESIS_AGREES;
   } else if (row->reasons->len == 0) {
     row->fault = g_strdup("a difference without a reason");
-  } else if (fabs(row->remains) <= fmax(slack, most * fabs(row->printed)) || most < 0) {
-    row->verdict = all_known(row->reasons) ? SB_THESIS_EXPLAINED : SB_THESIS_NAMED;
+  } else if (fabs(row->remains) <= fmax(slack, most * fabs(row->printed))) {
+    row->verdict = SB_THESIS_EXPLAINED;
+  } else if (most < 0) {
+    row->verdict = SB_THESIS_PARTLY;
   } else {
     row->fault = g_strdup("the reasons leave more than they may");
   }
@@ -193,7 +155,7 @@ static void judge(SbThesisRow *row, double most) {
 
 static void take_unit(SbThesisRow *row, const SbThesisPlace *at, const char *group) {
   const char *unit = sb_thesis_key(at->work, group, "unit");
-  g_autofree char *text = with_cells(at, unit != NULL ? unit : "1");
+  g_autofree char *text = sb_thesis_with_cells(at, unit != NULL ? unit : "1");
   g_auto(GStrv) words = g_strsplit(text, " ", 2);
   g_strlcpy(row->si, words[0], sizeof row->si);
   g_strlcpy(row->shown,
@@ -209,7 +171,7 @@ static void take_printed(SbThesisRow *row, const SbThesisPlace *at, const char *
   row->rounding = 0;
   if (text != NULL) {
     row->printed = evaluate(at, text, group, "printed", NULL);
-    g_autofree char *column = with_cells(at, text);
+    g_autofree char *column = sb_thesis_with_cells(at, text);
     const char *cell = at->work->printed != NULL
                            ? sb_printed_cell(at->work->printed, (guint)at->row, column)
                            : NULL;
@@ -218,16 +180,29 @@ static void take_printed(SbThesisRow *row, const SbThesisPlace *at, const char *
   }
 }
 
+static void clear_part(void *data) {
+  SbThesisPart *part = data;
+  g_free(part->text);
+  g_free(part->shown_by);
+}
+
+static GArray *new_parts(void) {
+  GArray *parts = g_array_new(FALSE, FALSE, sizeof(SbThesisPart));
+  g_array_set_clear_func(parts, clear_part);
+  return parts;
+}
+
 static SbThesisRow *row_of(SbThesisPlace *at, const char *group) {
   SbThesisWork *work = at->work;
   SbThesisRow *row = g_new0(SbThesisRow, 1);
-  row->reasons = g_array_new(FALSE, FALSE, sizeof(SbThesisPart));
-  row->models = g_array_new(FALSE, FALSE, sizeof(SbThesisPart));
+  row->reasons = new_parts();
+  row->models = new_parts();
   const char *label = sb_thesis_key(work, group, "label");
   const char *thesis = sb_thesis_key(work, group, "thesis");
   const char *consistent = sb_thesis_key(work, group, "consistent");
-  g_autofree char *named = label_of(at, label != NULL ? label : group + strlen("rows "));
-  row->label = with_cells(at, named);
+  g_autofree char *named =
+      sb_thesis_with_cells(at, label != NULL ? label : group + strlen("rows "));
+  row->label = sb_thesis_filled(at, named, group, "label");
   take_unit(row, at, group);
   take_printed(row, at, group);
   at->printed = row->printed;
@@ -279,18 +254,43 @@ bool sb_thesis_is_meant(const SbThesisWork *work, guint row, const char *where) 
   return true;
 }
 
+static SbThesisPlace place_of(SbThesisWork *work, guint row) {
+  return (SbThesisPlace){.work = work,
+                         .row = work->printed != NULL ? (int)row : SB_THESIS_NO_ROW,
+                         .printed = NAN,
+                         .thesis = NAN,
+                         .consistent = NAN,
+                         .ours = NAN};
+}
+
+// How many rows a group may have.
+static guint rows_of(const SbThesisWork *work) {
+  return work->printed != NULL ? work->printed->rows->len : 1;
+}
+
+static bool is_row(const SbThesisWork *work, const char *group, guint row) {
+  return work->printed == NULL ||
+         sb_thesis_is_meant(work, row, sb_thesis_key(work, group, "where"));
+}
+
+void sb_thesis_want(SbThesisWork *work, SbThesisGrid *grid, const char *group) {
+  const char *matches = sb_thesis_key(work, group, "at");
+  const guint before = work->issues->len;
+  for (guint i = 0; i < rows_of(work); i++) {
+    SbThesisPlace at = place_of(work, i);
+    at.grid = grid;
+    if (is_row(work, group, i) && find_sample(&at, matches, group, "at")) {
+      grid->wanted[at.sample] = true;
+    }
+  }
+  g_ptr_array_set_size(work->issues, (gint)before); // told where it is used
+}
+
 void sb_thesis_rows(SbThesisItem *item, SbThesisWork *work, const char *group) {
-  const guint rows = work->printed != NULL ? work->printed->rows->len : 1;
-  const char *where = sb_thesis_key(work, group, "where");
   guint count = 0;
-  for (guint i = 0; i < rows; i++) {
-    if (work->printed == NULL || sb_thesis_is_meant(work, i, where)) {
-      SbThesisPlace at = {.work = work,
-                          .row = work->printed != NULL ? (int)i : SB_THESIS_NO_ROW,
-                          .printed = NAN,
-                          .thesis = NAN,
-                          .consistent = NAN,
-                          .ours = NAN};
+  for (guint i = 0; i < rows_of(work); i++) {
+    if (is_row(work, group, i)) {
+      SbThesisPlace at = place_of(work, i);
       g_ptr_array_add(item->rows, row_of(&at, group));
       count++;
     }

@@ -23,7 +23,7 @@ static const struct {
                               {"radial-unrestrained", "plane-strain-unrestrained",
                                "axial-unrestrained-lubricated", "axial-unrestrained-unlubricated",
                                "axial-restrained", "radial-restrained", "plane-strain-restrained"}},
-    [SB_FIT_DISC_THESIS] = {"disc-thesis", sb_fit_disc, {"default"}},
+    [SB_FIT_DISC_THESIS] = {"disc-thesis", sb_fit_disc, {"vertical", "radial", "projected"}},
     [SB_FIT_DISC] = {"disc",
                      sb_fit_disc,
                      {"vertical", "radial", "vertical-both-flanks", "radial-both-flanks"}},
@@ -53,6 +53,16 @@ const char *sb_fit_variant_name(SbFitModel model, int variant) {
     names++;
   }
   return *names;
+}
+
+int sb_fit_variant_find(SbFitModel model, const char *name) {
+  int i = 0;
+  for (const char *own; (own = sb_fit_variant_name(model, i)) != NULL; i++) {
+    if (strcmp(own, name) == 0) {
+      return i;
+    }
+  }
+  return strcmp(name, "default") == 0 ? 0 : -1;
 }
 
 // ---- input

@@ -39,6 +39,14 @@ typedef enum {
   SB_DISC_VARIANT_COUNT
 } SbDiscVariant;
 
+// Variants of `disc-thesis`: along what the contact's forces act, and whether the fluid's act per
+// arc outside the contact or, vertical too, per projected height of the whole flank.
+typedef enum {
+  SB_DISC_THESIS_VERTICAL,
+  SB_DISC_THESIS_RADIAL,
+  SB_DISC_THESIS_PROJECTED
+} SbDiscThesisVariant;
+
 // Name of a model ("disc-thesis"); borrowed. NULL outside the enumeration.
 const char *sb_fit_model_name(SbFitModel model);
 
@@ -90,6 +98,9 @@ typedef struct SbFitStart {
 // Name of a model's variant (Green & English's rows, the kernel of the disc, ...), counted from 0;
 // NULL beyond the last. Borrowed. A model without variants has the one name "default".
 const char *sb_fit_variant_name(SbFitModel model, int variant);
+
+// Finds a model's variant by name, "default" being the first of every model; -1 if it has none.
+int sb_fit_variant_find(SbFitModel model, const char *name);
 
 enum { SB_FIT_PROFILE_MAX = 512 };
 

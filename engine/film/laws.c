@@ -129,6 +129,19 @@ double sb_film_law(const SbFilmLaw *law, double U, double W) {
   return law->k * pow(U, law->a) * pow(W, law->b);
 }
 
+// Coefficients of the chart's four corners.
+static const double RIGID = 4.894968, ELASTIC = 3.00434, VISCOUS = 1.05, BOTH = 2.05;
+
+double sb_regime_viscous_border(double g_E) {
+  double film = fmax(RIGID, ELASTIC * pow(g_E, 0.8));
+  return fmin(pow(film / VISCOUS, 1.5), pow(film / (BOTH * pow(g_E, 0.06)), 1 / 0.54));
+}
+
+double sb_regime_elastic_border(double g_V) {
+  double film = fmax(RIGID, VISCOUS * pow(g_V, 2.0 / 3));
+  return fmin(pow(film / ELASTIC, 1.25), pow(film / (BOTH * pow(g_V, 0.54)), 1 / 0.06));
+}
+
 SbChartPoint sb_regime_chart(double load, double entrainment, double radius, double modulus,
                              double viscosity, double pressure_viscosity) {
   // Dowson's groups; the third one is alpha E'.
@@ -141,10 +154,10 @@ SbChartPoint sb_regime_chart(double load, double entrainment, double radius, dou
     const char *name;
     double film;
   } corner[] = {
-      {"isoviscous-rigid", 4.894968},
-      {"isoviscous-elastic", 3.00434 * pow(point.g_E, 0.8)},
-      {"piezoviscous-rigid", 1.05 * pow(point.g_V, 2.0 / 3)},
-      {"piezoviscous-elastic", 2.05 * pow(point.g_V, 0.54) * pow(point.g_E, 0.06)},
+      {"isoviscous-rigid", RIGID},
+      {"isoviscous-elastic", ELASTIC * pow(point.g_E, 0.8)},
+      {"piezoviscous-rigid", VISCOUS * pow(point.g_V, 2.0 / 3)},
+      {"piezoviscous-elastic", BOTH * pow(point.g_V, 0.54) * pow(point.g_E, 0.06)},
   };
   int thickest = 0;
   for (int i = 1; i < 4; i++) {

@@ -33,6 +33,11 @@ typedef struct {
 SbChartPoint sb_regime_chart(double load, double entrainment, double radius, double modulus,
                              double viscosity, double pressure_viscosity);
 
+// The chart's borders: g_V from which on the film is that of rising viscosity, at g_E > 0, and g_E
+// from which on it is that of elastic bodies, at g_V > 0.
+double sb_regime_viscous_border(double g_E);
+double sb_regime_elastic_border(double g_V);
+
 // "boundary", "mixed" or "full film" by lambda = h/sigma below 1, 1 to 3, from 3 (thesis equation
 // 2.1); borrowed.
 const char *sb_regime_of_lambda(double lambda);

@@ -98,6 +98,47 @@ double sb_wedge_pools_pressure(const SbWedgePools *w, double x) {
   return t < w->reform ? 0 : w->outlet - unit * rise;
 }
 
+// ---------------------------------------------------------------- ends by name
+
+// Integral of cos^2 t - stretch cos^4 t from one angle to another.
+static double between(double from, double to, double stretch) {
+  return shape(to, stretch) - shape(from, stretch);
+}
+
+// Pressure at a Reynolds end of a wedge that begins at `context`: falls through 0.
+static double end_pressure(double te, const void *context) {
+  return between(*(const double *)context, te, sec2(te));
+}
+
+double sb_wedge_end(double reach) {
+  double begin = -atan(reach);
+  return sb_bisect(end_pressure, &begin, 0, -begin);
+}
+
+// Flux film over the least one, and where the film ends.
+static double stretch_of(double *end, SbWedgeEnds ends, double reach) {
+  if (ends == SB_WEDGE_REYNOLDS) {
+    *end = sb_wedge_end(reach);
+    return sec2(*end);
+  }
+  // The pressure is odd about the throat: no rise from there to the end.
+  double last = atan(reach);
+  *end = ends == SB_WEDGE_FULL_SOMMERFELD ? last : 0;
+  return between(0, last, 0) / (between(0, last, 0) - between(0, last, 1));
+}
+
+double sb_wedge_pressure(SbWedgeEnds ends, double t, double reach) {
+  double end, stretch = stretch_of(&end, ends, reach), begin = -atan(reach);
+  return t > begin && t < end ? between(begin, t, stretch) : 0;
+}
+
+double sb_wedge_load(SbWedgeEnds ends, double reach) {
+  double end, stretch = stretch_of(&end, ends, reach);
+  double far = 1 / (1 + reach * reach),
+         near = ends == SB_WEDGE_FULL_SOMMERFELD ? far : 1 / sec2(end);
+  return 12 * (near - far) - 6 * stretch * (near * near - far * far);
+}
+
 // ---------------------------------------------------------------- the model "rigid"
 
 // Outlet's pressure above the inlet's with which a film of given load ends at te, less `context`:

@@ -20,6 +20,27 @@
 
 #include <stdbool.h>
 
+// How the film of a wedge between pools at zero pressure ends (thesis figures 6.5 to 6.7): at zero
+// pressure as far behind the throat as it begins before it, the pressure odd about the throat
+// (full); the same with what lies below zero cut off, which loses the flow there (half); at zero
+// pressure with zero gradient (Reynolds).
+typedef enum {
+  SB_WEDGE_FULL_SOMMERFELD,
+  SB_WEDGE_HALF_SOMMERFELD,
+  SB_WEDGE_REYNOLDS,
+} SbWedgeEnds;
+
+// Pressure P* at the angle t of a wedge that begins at tan t = -reach; reach > 0, INFINITY: flooded
+// from afar. 0 outside the film.
+double sb_wedge_pressure(SbWedgeEnds ends, double t, double reach);
+
+// Load w h0/(eta u_m R) of that wedge, u_m = U/2: 24 times the integral of P* sec^2 t, by parts. 0,
+// 4 and 4.894968 (Martin) for an infinite reach.
+double sb_wedge_load(SbWedgeEnds ends, double reach);
+
+// Where Reynolds' film ends [rad]: 25.41 degrees for an infinite reach.
+double sb_wedge_end(double reach);
+
 // The wedge between two pools of liquid, scaled: h = film + x^2/2, h^3 p' = lambda (h - flux). The
 // end pressures are above the rupture pressure; the film breaks with zero gradient where it would
 // fall below that, carries its flux through a cavity and forms again where the outlet's pressure

@@ -51,6 +51,11 @@ static void take_values(SbModel *model, const SbParams *params) {
   model->seal[SB_INNER].place = VALUE(SEAL_INNER_##id);
 #include "engine/valve/params.def"
 #undef VALUE
+  // The catalogue counts the names of all models, the model those of its own.
+  char variant[40];
+  sb_param_choice_name(sb_param(SB_P_MODELS_FIT_VARIANT), model->fit_variant, variant,
+                       sizeof variant);
+  model->fit_variant = sb_fit_variant_find(model->fit, variant);
   model->pressure_viscosity = model->barus ? model->pressure_viscosity : 0;
   if (model->adhesion != SB_MODEL_ADHESION_ASPERITIES) {
     model->work_of_adhesion = 0;
@@ -256,6 +261,12 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
   if (model->life_shown > model->life_actuations) {
     refuse(problems, "life.shown", 0, model->life_actuations,
            "is beyond the life's last actuation (life.actuations %d)", model->life_actuations);
+  }
+  if (model->fit_variant < 0) {
+    char variant[40];
+    sb_model_choice_name(model, SB_P_MODELS_FIT_VARIANT, variant, sizeof variant);
+    refuse(problems, "models.fit_variant", NAN, NAN, "models.fit = %s has no variant %s",
+           sb_fit_model_name(model->fit), variant);
   }
   if (model->work_of_adhesion > 0 && model->surface != SB_ROUGH_GREENWOOD_TRIPP) {
     refuse(problems, "models.adhesion", NAN, NAN,

@@ -8,6 +8,7 @@ void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, dou
   *out = (SbFitProblem){
       .model = model->fit,
       .profile = sb_model_profile(model, seal),
+      .variant = model->fit_variant,
       .section_diameter = ring->section_diameter,
       .inner_diameter = ring->inner_diameter,
       .modulus = ring->modulus,

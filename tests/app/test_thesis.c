@@ -77,10 +77,13 @@ static void test_verdicts(void) {
       {"0.1900",
        ROWS "reason.1 = a fifth more | sealbench thesis table-7.1 | 1.2 * ours\nremains = 5 %\n",
        SB_THESIS_EXPLAINED, 1.2 * 0.15528 - 0.19},
-      {"0.1600", ROWS "reason.1 = who knows | meson test engine-disc\nremains = 5 %\n",
-       SB_THESIS_NAMED, 0.15528 - 0.16},
-      {"0.3000", ROWS "reason.1 = who knows | meson test engine-disc\nremains = unknown\n",
-       SB_THESIS_NAMED, 0.15528 - 0.3},
+      {"0.3000",
+       ROWS "reason.1 = a fifth | meson test engine-disc | 1.2 * ours\nremains = unknown\n",
+       SB_THESIS_PARTLY, 1.2 * 0.15528 - 0.3},
+      // Half of the last printed digit's unit, a hundred times.
+      {"0.1600",
+       ROWS "reason.1 = its digits | meson test engine-disc | ours + 100 * squeeze.rounding\n",
+       SB_THESIS_FAILS, 0.15528 + 0.005 - 0.16},
       {"-", ROWS, SB_THESIS_NOT_PRINTED, NAN},
       // What the consistent set makes of it needs a reason, too.
       {"0.1553", ROWS "consistent = ours: 2 * seals.outer.squeeze\n", SB_THESIS_FAILS,
@@ -134,6 +137,22 @@ static void test_parts(void) {
   }
 }
 
+// Texts have computed values in them; a sample that no row asks for is not computed.
+static void test_texts(void) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbThesisItem) item =
+      compute("0.2",
+              ROWS "label = Squeeze {squeeze:1:%} %\n"
+                   "reason.1 = of {= ours: seal.section_diameter, m mm} | meson test x | printed\n"
+                   "[notes]\nnote.1 = It is {= ours: seals.outer.squeeze, 1 %}.\n",
+              issues);
+  g_assert_nonnull(item);
+  const SbThesisRow *row = item->rows->pdata[0];
+  g_assert_cmpstr(row->label, ==, "Squeeze 20 %");
+  g_assert_cmpstr(g_array_index(row->reasons, SbThesisPart, 0).text, ==, "of 1.61 mm");
+  g_assert_cmpstr(item->notes->pdata[0], ==, "It is 15.5 %.");
+}
+
 static void test_refused(void) {
   static const struct {
     const char *rows, *said;
@@ -145,7 +164,9 @@ static void test_refused(void) {
       {ROWS "at = d = squeeze\n", "no sample of [vary ours] is the printed row 1"},
       {ROWS "where = squeeze = 7\n", "means no printed row"},
       {ROWS "reason.1 = who knows\n", "names no command or test"},
+      {ROWS "reason.1 = who knows | meson test engine-disc\n", "does not compute what it explains"},
       {ROWS "remains = a lot\n", "[rows squeeze] remains: "},
+      {ROWS "[notes]\nnote.1 = {= theirs: seal.modulus}\n", "there is no grid [vary theirs]"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GPtrArray) issues = sb_issues_new();
@@ -254,6 +275,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/thesis/printed", test_printed);
   g_test_add_func("/thesis/verdicts", test_verdicts);
   g_test_add_func("/thesis/parts", test_parts);
+  g_test_add_func("/thesis/texts", test_texts);
   g_test_add_func("/thesis/refused", test_refused);
   g_test_add_func("/thesis/items", test_items);
   g_test_add_func("/thesis/wedge", test_wedge);

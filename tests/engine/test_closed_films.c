@@ -2,6 +2,7 @@
 #include "engine/contact/rough/rough_law.h"
 #include "engine/film/film.h"
 #include "engine/film/laws.h"
+#include "engine/film/wedge.h"
 
 #include <glib.h>
 #include <gsl/gsl_errno.h>
@@ -183,6 +184,48 @@ static void test_attraction(void) {
   g_assert_cmpfloat(sb_vdw_attraction(A, 0), ==, sb_vdw_attraction(A, SB_VDW_CUTOFF));
 }
 
+// Ends of the wedge by name: loads by quadrature and for a far inlet those of Martin, the pressure
+// at both ends, and of a wedge so short that its gap hardly differs, whose end lies half way.
+static void test_ends(void) {
+  const double reaches[] = {0.01, 0.5, 3, 1e6};
+  for (size_t i = 0; i < G_N_ELEMENTS(reaches); i++) {
+    double last = atan(reaches[i]);
+    for (int ends = SB_WEDGE_FULL_SOMMERFELD; ends <= SB_WEDGE_REYNOLDS; ends++) {
+      enum { STEPS = 200000 };
+      double load = 0, most = 0, step = 2 * last / STEPS;
+      for (int k = 0; k < STEPS; k++) {
+        double t = -last + (k + 0.5) * step;
+        double p = sb_wedge_pressure((SbWedgeEnds)ends, t, reaches[i]);
+        load += 24 * p / (cos(t) * cos(t)) * step;
+        most = fmax(most, p / (cos(t) * cos(t)));
+      }
+      g_assert_cmpfloat(fabs(sb_wedge_load((SbWedgeEnds)ends, reaches[i]) - load), <,
+                        1e-3 * 24 * most * last);
+      g_assert_cmpfloat(fabs(sb_wedge_pressure((SbWedgeEnds)ends, -last + 1e-9, reaches[i])), <,
+                        1e-8);
+    }
+  }
+  g_assert_cmpfloat(sb_wedge_load(SB_WEDGE_FULL_SOMMERFELD, 1e6), ==, 0);
+  g_assert_cmpfloat_with_epsilon(sb_wedge_load(SB_WEDGE_HALF_SOMMERFELD, 1e6), 4, 1e-9);
+  g_assert_cmpfloat_with_epsilon(sb_wedge_load(SB_WEDGE_REYNOLDS, 1e6), 4.894968, 1e-6);
+  g_assert_cmpfloat_with_epsilon(sb_wedge_end(0.01) / atan(0.01), 0.5, 1e-3);
+}
+
+// The chart's borders are where its regimes change.
+static void test_borders(void) {
+  for (double g_E = 1e-2; g_E < 1e6; g_E *= 10) {
+    for (double g_V = 1e-2; g_V < 1e6; g_V *= 10) {
+      // W, U and alpha of these, with radius, modulus and viscosity 1.
+      double U = 1e-6, W = g_E * sqrt(U), alpha = g_V * sqrt(U) / pow(W, 1.5);
+      SbChartPoint point = sb_regime_chart(W, U, 1, 1, 1, alpha);
+      g_assert_cmpint(g_str_has_prefix(point.regime, "piezo"), ==,
+                      g_V > sb_regime_viscous_border(g_E));
+      g_assert_cmpint(g_str_has_suffix(point.regime, "elastic"), ==,
+                      g_E > sb_regime_elastic_border(g_V));
+    }
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   // An integral near zero cannot meet a relative tolerance; the assertions judge the values.
@@ -193,5 +236,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/closed-films/taper", test_taper);
   g_test_add_func("/closed-films/chart", test_chart);
   g_test_add_func("/closed-films/attraction", test_attraction);
+  g_test_add_func("/closed-films/ends", test_ends);
+  g_test_add_func("/closed-films/borders", test_borders);
   return g_test_run();
 }

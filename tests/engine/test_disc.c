@@ -519,6 +519,29 @@ static void test_thesis_limits(void) {
   g_assert_false(disc.solver.converged);
 }
 
+// Its readings: radial forces without pressure are the radial disc on nodes; pressure on the
+// flank's whole height presses less than on the arc, whose length is greater; all bracket the
+// printed loads.
+static void test_thesis_readings(void) {
+  SbFitProblem in = thesis(SB_FIT_DISC_THESIS), smooth = thesis(SB_FIT_DISC);
+  in.pressure = smooth.pressure = 0.0;
+  in.variant = SB_DISC_THESIS_RADIAL;
+  smooth.variant = SB_DISC_RADIAL;
+  const SbFit nodes = solve(&in), exact = solve(&smooth);
+  assert_close(nodes.load_per_length, exact.load_per_length, 2e-3);
+  assert_close(nodes.pressure_peak, exact.pressure_peak, 2e-3);
+  in.variant = SB_DISC_THESIS_PROJECTED;
+  const SbFit dry = solve(&in);
+  in.variant = SB_DISC_THESIS_VERTICAL;
+  assert_close(dry.load_per_length, solve(&in).load_per_length, 1e-12);
+  in.pressure = 0.55e6;
+  const double arc = solve(&in).load_per_length;
+  in.variant = SB_DISC_THESIS_RADIAL;
+  g_assert_cmpfloat(solve(&in).load_per_length, >, arc);
+  in.variant = SB_DISC_THESIS_PROJECTED;
+  g_assert_cmpfloat(solve(&in).load_per_length, <, arc);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/disc/kernels", test_kernels);
@@ -532,6 +555,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/disc/limits", test_limits);
   g_test_add_func("/disc/thesis-cases", test_thesis_cases);
   g_test_add_func("/disc/thesis-limits", test_thesis_limits);
+  g_test_add_func("/disc/thesis-readings", test_thesis_readings);
   g_test_add_func("/disc/fit", test_fit_disc);
   return g_test_run();
 }

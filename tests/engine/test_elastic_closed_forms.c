@@ -1,6 +1,7 @@
 // Karaszkiewicz, Hertz and E' against the thesis' printed tables, closed identities and limits, and
 // every way in which they warn or refuse.
 #include "engine/contact/closed_forms.h"
+#include "engine/contact/deflection.h"
 #include "engine/contact/fit.h"
 #include "tests/engine/near.h"
 #include "tests/engine/seals.h"
@@ -296,6 +297,35 @@ static void test_names(void) {
   g_assert_null(sb_fit_model_name(SB_FIT_MODEL_COUNT));
 }
 
+// Deflections of the models that the thesis dropped: the half-space is the sum of line loads, and
+// of panels, over Hertz's pressure; the disc's approach is Hertz's; columns are that of one at nu =
+// 0.
+static void test_deflections(void) {
+  enum { PANELS = 4000 };
+  const double b = 0.3e-3, R = 0.805e-3, E = 2.5e6, nu = 0.49, plane = E / (1 - nu * nu);
+  // A half-space on a rigid body: E'/2 = plane, p0 = b E'/(4 R).
+  const double peak = b * plane / (2 * R), width = 2 * b / PANELS;
+  const double places[] = {0.2 * b, 0.9 * b, 1.5 * b, 4 * b};
+  for (size_t i = 0; i < G_N_ELEMENTS(places); i++) {
+    double panels = 0, lines = 0;
+    for (int k = 0; k < PANELS; k++) {
+      const double at = -b + (k + 0.5) * width, p = peak * sqrt(1 - at * at / (b * b));
+      panels += p * 2 / (M_PI * plane) *
+                (sb_deflection_panel(-at, width) - sb_deflection_panel(places[i] - at, width));
+      lines += sb_deflection_flamant(places[i] - at, -p * width, fabs(at), E, nu);
+    }
+    const double told = sb_deflection_half_space(places[i], b, R);
+    g_assert_cmpfloat_with_epsilon(panels / told, 1, 1e-3);
+    g_assert_cmpfloat_with_epsilon(lines / told, 1, 2e-2); // a node may lie on its load
+  }
+  g_assert_cmpfloat_with_epsilon(sb_deflection_half_space(0.5 * b, b, R), 0.125 * b * b / R, 1e-15);
+  g_assert_cmpfloat_with_epsilon(sb_deflection_column(1e5, 1e-3, 2e6, 0), 5e-5, 1e-12);
+  g_assert_cmpfloat_with_epsilon(sb_deflection_column(1e5, 1e-3, 2e6, 0.5), 0, 1e-15);
+  const double approach = 0.1, t = sb_hertz_width_of_approach(approach, 4);
+  const double load = M_PI * 2 * plane * t * t * R / 8;
+  g_assert_cmpfloat_with_epsilon(sb_deflection_disc(load, t * R, R, E, nu) / R, approach / 2, 1e-6);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/elastic/reduced-modulus", test_reduced_modulus);
@@ -309,5 +339,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/elastic/fit/warnings", test_warnings);
   g_test_add_func("/elastic/fit/refusals", test_refusals);
   g_test_add_func("/elastic/fit/names", test_names);
+  g_test_add_func("/elastic/deflections", test_deflections);
   return g_test_run();
 }

@@ -81,13 +81,15 @@ double sb_disc_system_step(double tau) {
 // ---- known loads
 
 double sb_disc_system_arc(const SbDiscSystem *s, SbDiscPoint to, SbDiscVector m, double from,
-                          double length, bool normal) {
+                          double length, SbDiscAction action) {
   double sum = 0.0;
   for (int i = 0; i < SB_DISC_GAUSS; i++) {
     const double x = s->gauss_x[i];
     const SbDiscPoint p = sb_disc_point(from + length * x * x * x);
-    const SbDiscVector inward =
-        normal ? (SbDiscVector){-p.sin, -p.cos} : (SbDiscVector){copysign(1.0, -p.sin), 0.0};
+    const SbDiscVector inward = action == SB_DISC_NORMAL ? (SbDiscVector){-p.sin, -p.cos}
+                                : action == SB_DISC_HEIGHT
+                                    ? (SbDiscVector){-p.sin, 0.0}
+                                    : (SbDiscVector){copysign(1.0, -p.sin), 0.0};
     sum += 3.0 * x * x * s->gauss_w[i] * fabs(length) *
            sb_disc_kernel_pair(&s->kernel, to, m, p, inward);
   }
@@ -100,7 +102,7 @@ double sb_disc_system_arc(const SbDiscSystem *s, SbDiscPoint to, SbDiscVector m,
 static double known_displacement(const SbDiscSystem *s, SbDiscPoint to, SbDiscVector m,
                                  double tau_to) {
   const double split = fmax(-1.0, fmin(1.0, tau_to)), theta_left = asin(s->centre - s->half);
-  double sum = sb_disc_system_arc(s, to, m, theta_left, -(theta_left + 0.5 * M_PI), true);
+  double sum = sb_disc_system_arc(s, to, m, theta_left, -(theta_left + 0.5 * M_PI), SB_DISC_NORMAL);
   // The step, left and right of the target.
   for (int i = 0; i < 2 * SB_DISC_GAUSS; i++) {
     const double x = s->gauss_x[i / 2], length = i % 2 == 0 ? -1.0 - split : 1.0 - split;

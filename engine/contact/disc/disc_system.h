@@ -49,11 +49,14 @@ void sb_disc_system_points(SbDiscSystem *system, size_t n);
 // smooth.
 SB_CHECKED bool sb_disc_system_solve(double *residual, const double *edges, void *system);
 
+// How pressure acts on an arc: normal to it, horizontally on the arc, horizontally on its height.
+typedef enum { SB_DISC_NORMAL, SB_DISC_HORIZONTAL, SB_DISC_HEIGHT } SbDiscAction;
+
 // Displacement at `to` along m by unit pressure on the arc of a length (negative: to the left) from
-// an angle on and on its mirror image below: normal to it, or horizontal. At the arc's beginning
-// the logarithm is met by cubic grading.
+// an angle on and on its mirror image below. At the arc's beginning the logarithm is met by cubic
+// grading.
 double sb_disc_system_arc(const SbDiscSystem *system, SbDiscPoint to, SbDiscVector m, double from,
-                          double length, bool normal);
+                          double length, SbDiscAction action);
 
 // The thesis' own disc (disc_thesis.c), checked and in contact.
 SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report);

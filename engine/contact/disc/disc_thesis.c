@@ -9,6 +9,9 @@
 // acts as horizontal force pairs on both flanks outside the contact (6.4.2), p R dbeta per arc. The
 // thesis leaves open how exactly; this reading is the one that fits its nine cases best
 // (docs/verification.md): loads within 2 %, peaks within 1 %, width within a node.
+// Nor does it say along what the contact's own forces act: vertically, as the pairs of 6.71, or,
+// the variant "radial", towards the section's centre as a frictionless bore's, with the nodes
+// moving along the radius too (Hertz and Michell). The printed loads lie between the two.
 //
 // The width is printed by the thesis as d sin(n + 1/2 deg) with the free d: quantised to 0.023 mm.
 // It leaves out the groove wall, that fluid acts normally, and finite strain; against a
@@ -28,9 +31,11 @@ enum { MAX = 152 }; // nodes on one side of the centre, at most (the centre incl
 
 // Workspace of nodes `step` apart, the first `filled` of which know their influence.
 typedef struct {
-  SbDiscSystem disc;  // its kernel and rule
-  double step, space; // [rad]; radial space over the fitted section
-  double fluid;       // pressure on the flanks times C
+  SbDiscSystem disc;   // its kernel and rule
+  bool radial;         // forces and nodes, else vertical
+  SbDiscAction action; // of the fluid
+  double step, space;  // [rad]; radial space over the fitted section
+  double fluid;        // pressure on the flanks times C
   size_t filled;
   SbDiscPoint node[MAX];
   double influence[MAX * MAX]; // by columns: inward displacement at i by unit pressure on cell j
@@ -38,7 +43,10 @@ typedef struct {
   double pressure[MAX];
 } Work;
 
-static const SbDiscVector down = {0.0, -1.0};
+// Along which a node moves inwards, and a force of unit pressure per projected width acts.
+static SbDiscVector inward(const Work *w, SbDiscPoint at, double size) {
+  return w->radial ? (SbDiscVector){-size * at.sin, -size * at.cos} : (SbDiscVector){0.0, -1.0};
+}
 
 // Inward displacement at the first `count` nodes by unit pressure per projected width on each of
 // their cells, its image below, and the same left of the centre: two Gauss points for what is
@@ -54,10 +62,15 @@ static void fill_influence(Work *w, size_t count) {
       SbDiscPoint to = w->node[i] = sb_disc_point((double)i * w->step);
       for (int side = 0; side < (j > 0 ? 2 : 1); side++) {
         for (int k = 0; k < 2; k++) {
+          const SbDiscVector m = inward(w, to, 1.0), n = inward(w, gauss[k], 1.0 / gauss[k].cos);
+          // What the logarithm's factor differs from 1 by leaves nothing singular.
+          const double apart = fabs(to.sin - gauss[k].sin), factor = m.x * n.x + m.y * n.y - 1.0;
           double kink;
-          sum +=
-              half * (sb_disc_kernel_smooth(&w->disc.kernel, to, down, gauss[k], down, 0.0, &kink) +
-                      sb_disc_kernel_mirror(&w->disc.kernel, to, down, gauss[k], down));
+          sum += half *
+                 (sb_disc_kernel_smooth(&w->disc.kernel, to, m, gauss[k], n,
+                                        w->radial ? 1.0 / gauss[k].cos : 0.0, &kink) +
+                  sb_disc_kernel_mirror(&w->disc.kernel, to, m, gauss[k], n) - factor * log(apart));
+          sum += half * kink * apart;
         }
         // Minus the integral of ln|xi - xi'|.
         const double from_low = to.sin - low, from_high = to.sin - high;
@@ -76,13 +89,15 @@ static void fill_influence(Work *w, size_t count) {
 // open; false if singular. The fluid begins at the first node whose cell is wholly outside the
 // contact, with horizontal forces on both flanks.
 static bool solve_set(Work *w, double *gap, size_t loaded) {
-  const double alpha = ((double)loaded + 0.5) * w->step, arc = 0.5 * M_PI - alpha;
+  const double alpha = w->action == SB_DISC_HEIGHT ? 0.0 : ((double)loaded + 0.5) * w->step;
+  const double arc = 0.5 * M_PI - alpha;
   fill_influence(w, loaded + 1);
   for (size_t i = 0; i <= loaded; i++) {
+    const SbDiscVector m = inward(w, w->node[i], 1.0);
     double open = w->space - w->node[i].cos;
     if (w->fluid > 0.0) {
-      open += w->fluid * (sb_disc_system_arc(&w->disc, w->node[i], down, alpha, arc, false) +
-                          sb_disc_system_arc(&w->disc, w->node[i], down, -alpha, -arc, false));
+      open += w->fluid * (sb_disc_system_arc(&w->disc, w->node[i], m, alpha, arc, w->action) +
+                          sb_disc_system_arc(&w->disc, w->node[i], m, -alpha, -arc, w->action));
     }
     *(i < loaded ? &w->pressure[i] : gap) = i < loaded ? -open : open;
   }
@@ -148,6 +163,8 @@ SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report) {
   if (w == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the disc");
   }
+  w->radial = in->variant == SB_DISC_THESIS_RADIAL;
+  w->action = in->variant == SB_DISC_THESIS_PROJECTED ? SB_DISC_HEIGHT : SB_DISC_HORIZONTAL;
   w->disc.kernel = sb_disc_kernel(in->poisson_ratio);
   sb_disc_system_points(&w->disc, 2);
   w->space = in->radial_space / section;
