@@ -86,8 +86,9 @@ static bool add_index(SbOutputFolder *out, SbThesisItem *const *items, size_t co
   if (!g_file_get_contents(path, &introduction, NULL, error)) {
     return false;
   }
-  g_autofree char *filled = sb_thesis_introduction(introduction, items, count);
-  fputs(filled, text);
+  // It has values of many items.
+  g_autofree char *filled = count > 1 ? sb_thesis_introduction(introduction, items, count) : NULL;
+  fputs(filled != NULL ? filled : "", text);
   for (size_t i = 0; i < count; i++) {
     sb_markdown_thesis(text, items[i]);
   }

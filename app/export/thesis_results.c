@@ -30,7 +30,9 @@ static char *part_text(const SbThesisRow *row, const SbThesisPart *part) {
   const double scale = isfinite(row->printed) ? fabs(row->printed) : fabs(row->thesis);
   const double explains = fabs(part->explains) <= 1e-9 * scale ? 0 : part->explains;
   g_autofree char *text = sb_thesis_text(row, explains);
-  return g_strconcat(explains > 0 ? "+" : "", text, NULL);
+  g_autofree char *bound = isfinite(part->bound) ? sb_thesis_text(row, part->bound) : NULL;
+  return g_strconcat(explains > 0 ? "+" : "", text, bound != NULL ? " of at most " : "",
+                     bound != NULL ? bound : "", NULL);
 }
 
 // Owned by the caller; NULL where nothing is printed.
@@ -217,6 +219,7 @@ static void put_json_parts(SbJson *json, const char *key, const GArray *parts) {
     sb_json_string(json, "shown_by", part->shown_by);
     sb_json_number(json, "becomes", part->becomes);
     sb_json_number(json, "explains", part->explains);
+    sb_json_number(json, "bound", part->bound);
     sb_json_object_end(json);
   }
   sb_json_array_end(json);
@@ -322,6 +325,7 @@ static void put_counts(FILE *stream, const SbThesisItem *item) {
     const char *words;
   } told[] = {{SB_THESIS_AGREES, "agree"},
               {SB_THESIS_EXPLAINED, "explained"},
+              {SB_THESIS_BOUNDED, "within bounds"},
               {SB_THESIS_PARTLY, "partly explained"},
               {SB_THESIS_NOT_PRINTED, "not printed"},
               {SB_THESIS_NOT_COMPUTED, "not computed"},
@@ -356,7 +360,8 @@ void sb_html_thesis_begin(FILE *stream, SbThesisItem *const *items, size_t count
       "where "
       "that is within the printed digits.</li>\n"
       "<li><b>Reason</b>: the number before a colon is that of a reason below the table, behind it "
-      "stands what it explains, computed; <b>remains</b> is what is left of the printed value "
+      "stands what it explains, computed, &ldquo;of at most&rdquo; where only a bound is known; "
+      "<b>remains</b> is what is left of the printed value "
       "behind all of them. Each reason names the command or the test that shows it.</li>\n"
       "<li><b>To the consistent</b>: in grey, what lies between the thesis' model and the "
       "consistent set (<code>models.set</code>).</li></ul>\n"

@@ -215,16 +215,23 @@ static void gather_from(SbThesisWork *work, const char *text) {
   g_ptr_array_set_size(work->issues, (gint)before); // told where it is used
 }
 
+// The expression of a value: behind the last bar, without what says that it is a bound.
+static const char *expression_of(const char *value) {
+  const char *bar = strrchr(value, '|');
+  const char *text = bar != NULL ? bar + 1 : value;
+  text += strspn(text, " ");
+  return sb_thesis_bound(NULL, NULL, text);
+}
+
 // All that the texts of a group's keys name: an expression stands behind the last bar, what is in
 // brackets differs from row to row, and values to be written stand in braces.
 static void gather_entry(SbThesisWork *work, const SbEntry *entry) {
-  const char *bar = strrchr(entry->value, '|');
-  const char *text = bar != NULL ? bar + 1 : entry->value;
+  const char *text = expression_of(entry->value);
   const guint rows =
       strchr(text, '[') != NULL && work->printed != NULL ? work->printed->rows->len : 1;
   for (guint row = 0; row < rows; row++) {
     const SbThesisPlace at = {.work = work, .row = (int)row};
-    g_autofree char *whole = sb_thesis_with_cells(&at, text + strspn(text, " "));
+    g_autofree char *whole = sb_thesis_with_cells(&at, text);
     gather_from(work, whole);
   }
   for (const char *c = entry->value; (c = strstr(c, "{=")) != NULL; c += 2) {
@@ -246,9 +253,7 @@ static bool is_of(const SbThesisGrid *grid, const char *text) {
 }
 
 static bool names_grid(const SbEntry *entry, const SbThesisGrid *grid) {
-  const char *bar = strrchr(entry->value, '|');
-  const char *text = bar != NULL ? bar + 1 : entry->value;
-  return is_of(grid, text + strspn(text, " "));
+  return is_of(grid, expression_of(entry->value));
 }
 
 // The samples of a grid that rows ask for; a curve asks for all.

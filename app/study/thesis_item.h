@@ -11,7 +11,9 @@
 //     thesis = GRID: EXPRESSION       by the thesis' model
 //     consistent = GRID: EXPRESSION   by the consistent set; "none TEXT" where there is none
 //     reason.1 = TEXT | COMMAND or TEST | GRID: EXPRESSION   the first step from our value by the
-//                                     thesis' model to the printed one: what ours becomes with it
+//                                     thesis' model to the printed one: what ours becomes with it;
+//                                     "within GRID: EXPRESSION": it may be anything from ours to
+//                                     that, "about GRID: EXPRESSION": as far as that either way
 //     model.1 = the same, the steps from there to the consistent set; the last takes the rest
 //     remains = 2 %                   most that the steps may leave of the printed value; `unknown`
 //                                     where no reason is found for the rest, which is told
@@ -39,22 +41,25 @@ typedef struct {
   char *text, *shown_by; // what it is; the command or test that shows it
   double becomes;        // our value with it; NaN: not computed
   double explains;       // what that is of the difference [SI of the row]
+  double bound;          // what it may be at most, where that is all that is known; NaN: it is that
 } SbThesisPart;
 
-// How a row stands: to the printed digits; within what the reasons may leave; beyond it, where
-// `remains = unknown` says that no reason is found for the rest; nothing printed, or, as its row
-// says, nothing computed; a difference without a reason or beyond what the reasons may leave, or no
-// value where there should be one.
+// How a row stands: to the printed digits; within what the reasons may leave; so with a step that
+// is a bound alone; beyond it, where `remains = unknown` says that no reason is found for the rest;
+// nothing printed, or, as its row says, nothing computed; a difference without a reason or beyond
+// what the reasons may leave, or no value where there should be one.
 typedef enum {
   SB_THESIS_AGREES,
   SB_THESIS_EXPLAINED,
+  SB_THESIS_BOUNDED,
   SB_THESIS_PARTLY,
   SB_THESIS_NOT_PRINTED,
   SB_THESIS_NOT_COMPUTED,
   SB_THESIS_FAILS
 } SbThesisVerdict;
 
-// "agrees", "explained", "partly explained", "not printed", "not computed", "fails"; borrowed.
+// "agrees", "explained", "within bounds", "partly explained", "not printed", "not computed",
+// "fails"; borrowed.
 const char *sb_thesis_verdict_name(SbThesisVerdict verdict);
 
 typedef struct {

@@ -78,6 +78,10 @@ char *sb_thesis_with_cells(const SbThesisPlace *at, const char *text);
 char *sb_thesis_filled(const SbThesisPlace *at, const char *text, const char *group,
                        const char *key);
 
+// What is behind "within " and "about " of a step's third part, and which of them it has (NULL: not
+// asked).
+const char *sb_thesis_bound(bool *within, bool *about, const char *text);
+
 // Marks the samples of a grid that belong to the rows of a group [rows NAME].
 void sb_thesis_want(SbThesisWork *work, SbThesisGrid *grid, const char *group);
 

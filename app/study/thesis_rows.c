@@ -10,8 +10,9 @@
 #define SAME 1e-6
 
 const char *sb_thesis_verdict_name(SbThesisVerdict verdict) {
-  static const char *const names[] = {"agrees",      "explained",    "partly explained",
-                                      "not printed", "not computed", "fails"};
+  static const char *const names[] = {
+      "agrees",      "explained",    "within bounds", "partly explained",
+      "not printed", "not computed", "fails"};
   return (unsigned)verdict < G_N_ELEMENTS(names) ? names[verdict] : "";
 }
 
@@ -76,6 +77,30 @@ static double evaluate(const SbThesisPlace *from, const char *text, const char *
   return value;
 }
 
+const char *sb_thesis_bound(bool *within, bool *about, const char *text) {
+  static const char WITHIN[] = "within ", ABOUT[] = "about ";
+  const bool is_within = g_str_has_prefix(text, WITHIN), is_about = g_str_has_prefix(text, ABOUT);
+  if (within != NULL && about != NULL) {
+    *within = is_within;
+    *about = is_about;
+  }
+  return text + (is_within ? strlen(WITHIN) : is_about ? strlen(ABOUT) : 0);
+}
+
+// What our value becomes by a step, and its bound where the step is one.
+static void take_step(SbThesisPart *part, SbThesisPlace *at, const char *text, double target,
+                      const char *group, const char *key) {
+  bool within, about;
+  text = sb_thesis_bound(&within, &about, text);
+  const double value = evaluate(at, text, group, key, NULL), ours = at->ours;
+  part->becomes = value;
+  if (within || about) {
+    const double from = about ? ours - value : fmin(ours, value);
+    part->becomes = fmax(from, fmin(target, about ? ours + value : fmax(ours, value)));
+    part->bound = about ? copysign(value, target - ours) : value - ours;
+  }
+}
+
 // The steps `prefix`.1, .2 ... of a group: each takes our value on. `left` is what is left to be
 // explained behind the last.
 static void read_parts(GArray *out, SbThesisPlace *at, const char *group, const char *prefix,
@@ -97,9 +122,9 @@ static void read_parts(GArray *out, SbThesisPlace *at, const char *group, const 
                                             "EXPRESSION");
       return;
     }
-    SbThesisPart part = {.becomes = NAN, .explains = NAN};
+    SbThesisPart part = {.becomes = NAN, .explains = NAN, .bound = NAN};
     if (parts[2] != NULL) {
-      part.becomes = evaluate(at, g_strstrip(parts[2]), group, key, NULL);
+      take_step(&part, at, g_strstrip(parts[2]), target, group, key);
     } else {
       part.becomes = target;
     }
@@ -124,6 +149,17 @@ static double share_of(const SbThesisWork *work, const char *group, const char *
   return value;
 }
 
+// Whether a step that is a bound alone explains anything.
+static bool is_bounded(const SbThesisRow *row) {
+  for (guint i = 0; i < row->reasons->len; i++) {
+    const SbThesisPart *part = &g_array_index(row->reasons, SbThesisPart, i);
+    if (isfinite(part->bound) && part->explains != 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 static void judge(SbThesisRow *row, double most) {
   const double ours = isfinite(row->thesis) ? row->thesis : row->consistent;
   const double slack = row->rounding + 1e-12 * fabs(row->printed);
@@ -139,7 +175,7 @@ static void judge(SbThesisRow *row, double most) {
   } else if (row->reasons->len == 0) {
     row->fault = g_strdup("a difference without a reason");
   } else if (fabs(row->remains) <= fmax(slack, most * fabs(row->printed))) {
-    row->verdict = SB_THESIS_EXPLAINED;
+    row->verdict = is_bounded(row) ? SB_THESIS_BOUNDED : SB_THESIS_EXPLAINED;
   } else if (most < 0) {
     row->verdict = SB_THESIS_PARTLY;
   } else {

@@ -80,6 +80,12 @@ static void test_verdicts(void) {
       {"0.3000",
        ROWS "reason.1 = a fifth | meson test engine-disc | 1.2 * ours\nremains = unknown\n",
        SB_THESIS_PARTLY, 1.2 * 0.15528 - 0.3},
+      {"0.1900", ROWS "reason.1 = up to | meson test engine-disc | within 2 * ours\n",
+       SB_THESIS_BOUNDED, 0},
+      {"0.1900", ROWS "reason.1 = either way | meson test engine-disc | about 0.1\n",
+       SB_THESIS_BOUNDED, 0},
+      {"0.1900", ROWS "reason.1 = up to | meson test engine-disc | within 1.1 * ours\n",
+       SB_THESIS_FAILS, 1.1 * 0.15528 - 0.19},
       // Half of the last printed digit's unit, a hundred times.
       {"0.1600",
        ROWS "reason.1 = its digits | meson test engine-disc | ours + 100 * squeeze.rounding\n",
@@ -141,7 +147,7 @@ static void test_parts(void) {
 static void test_texts(void) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(SbThesisItem) item =
-      compute("0.2",
+      compute("0.2000",
               ROWS "label = Squeeze {squeeze:1:%} %\n"
                    "reason.1 = of {= ours: seal.section_diameter, m mm} | meson test x | printed\n"
                    "[notes]\nnote.1 = It is {= ours: seals.outer.squeeze, 1 %}.\n",

@@ -127,7 +127,9 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
     const double stretch = a / film->hertz_half_width;
     for (n = 0; n < film->points; n++) {
       x[n] = scaled ? middle + stretch * film->x[n] : film->x[n];
-      p[n] = scaled ? fit_pressure(fit, x[n], left, right) : film->pressure[n] - low;
+      // The fluid stands at an edge where the fitment's own pressure is below it.
+      p[n] = scaled ? fmax(fit_pressure(fit, x[n], left, right), x[n] < middle ? left : right)
+                    : film->pressure[n] - low;
       h[n] = film->film[n];
     }
   } else if (fitted) {
