@@ -333,8 +333,9 @@ static void test_thesis(void) {
   CliResult result = CLI("thesis", "figure-6.5", "-o", folder, "--quiet");
   g_assert_cmpint(result.code, ==, 0);
   cli_clear(&result);
-  static const char *const names[] = {"figure-6.5.json", "figure-6.5.svg", "index.html",
-                                      "thesis.md", ".sealbench-thesis.manifest"};
+  static const char *const names[] = {"figure-6.5.csv", "figure-6.5.json",
+                                      "figure-6.5.svg", "index.html",
+                                      "thesis.md",      ".sealbench-thesis.manifest"};
   for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
     g_autofree char *text = cli_contents(folder, names[i]);
     g_assert_cmpuint(strlen(text), >, 0);

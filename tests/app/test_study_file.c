@@ -323,7 +323,10 @@ static void test_functions(void) {
                {"pow(pow(x; 2); x)", 0.5, NULL},
                {"ln(0)", NAN, "not finite"},
                {"pow(x - 1; x)", NAN, "not finite"},
-               {"pow(2)", NAN, "take (A; B)"},
+               {"round(2.4) + single(x)", 2.5, NULL},
+               {"half_sommerfeld(0; 1)", 0, NULL},
+               {"panel(x; 1) - panel(0 - x; 1)", 0, NULL},
+               {"pow(2)", NAN, "pow takes 2 values"},
                {"sin(x; 2)", NAN, "a parenthesis is missing"},
                {"sin x", NAN, "no parameter and no variable"},
                {"sinh(x)", NAN, "no parameter and no variable"}};
