@@ -138,6 +138,9 @@ SB_CHECKED bool sb_document_set(SbDocument *document, SbParamId id, const char *
 SB_CHECKED bool sb_document_set_value(SbDocument *document, SbParamId id, double value, bool merge,
                                       GError **error);
 
+// The next edit is a step of its own, whatever its key.
+void sb_document_end_merge(SbDocument *document);
+
 // "KEY=VALUE" of --set; a percentage with a sign ("+5 %") changes the value in force by that much.
 // Issues name the file "--set".
 bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray *issues);

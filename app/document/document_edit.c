@@ -68,6 +68,10 @@ static void edit_key(SbDocument *document, SbParamId id, bool given, double valu
   apply(document, &made, 1);
 }
 
+void sb_document_end_merge(SbDocument *document) {
+  document->mergeable = false;
+}
+
 void sb_document_clear_edit(gpointer data) {
   Edit *edit = data;
   sb_named_rubber_release(edit->rubber[0]);

@@ -198,6 +198,10 @@ gboolean sb_session_edit_value(SbSession *session, SbParamId id, double value) {
   return good;
 }
 
+void sb_session_end_merge(SbSession *session) {
+  sb_document_end_merge(session->document);
+}
+
 void sb_session_unset(SbSession *session, SbParamId id) {
   forget_rejected(session, (int)id);
   if (sb_document_gives(session->document, id)) {

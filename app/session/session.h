@@ -76,6 +76,9 @@ gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text);
 // The same by value; successive calls merge into one undo step.
 gboolean sb_session_edit_value(SbSession *session, SbParamId id, double value);
 
+// The next edit by value is a step of its own.
+void sb_session_end_merge(SbSession *session);
+
 // Names the rubber of both rings (NULL: the valve's again); false with an issue.
 gboolean sb_session_set_rubber(SbSession *session, const char *name, GPtrArray *issues);
 

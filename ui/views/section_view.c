@@ -8,11 +8,12 @@
 #include "app/section/draw_cairo.h"
 #include "app/section/gl_renderer.h"
 #include "app/section/section.h"
+#include "app/session/section_source.h"
 #include "ui/views/canvas_area.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/force_balance.h"
 #include "ui/views/section_gl.h"
-#include "app/session/section_source.h"
+#include "ui/views/section_handles.h"
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
 
@@ -41,11 +42,13 @@ typedef struct {
   SbSectionLook look; // of the scene that the toolbar followed last
   double zoom, pan_x, pan_y;
   double press_x, press_y;
+  gboolean pans; // the button holds the picture
   double press_azimuth, press_elevation;
   SbGlContext *context;   // NULL where no GL works
   SbGlRenderer *renderer; // likewise
   cairo_surface_t *read;  // GL's picture
   SbDrawCache *cache;
+  SbSectionHandles *handles;
   guint describe; // source that renews the description, 0 if none is due
 } View;
 
@@ -149,6 +152,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
     // No valve to cut: the plate itself.
     SbRect rect = {MARGIN, 14, fmax(area_width - 2 * MARGIN, 1), fmax(area_height - 28, 1)};
     sb_rig_plate_draw(cr, rect, theme, data, SB_CHART_COMPACT);
+    sb_section_handles_follow(view->handles, NULL, NULL, NULL, (SbPoint){0, 0});
     return;
   }
   SbSectionSourceNow now;
@@ -195,6 +199,11 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
         how.full || 2 * sb_section_strip_height(now.section, &how, &instant) < picture.height - 140;
   }
   sb_section_draw(now.section, &view->list, &how, &instant);
+  const bool enlarges = !cutaway && view->zoom > 1;
+  const SbPoint corner = {picture.x - (enlarges ? view->pan_x : 0),
+                          picture.y - (enlarges ? view->pan_y : 0)};
+  sb_section_handles_follow(view->handles, cutaway || !ran ? NULL : now.section,
+                            sb_run_model(now.run), now.frame, corner);
   cairo_save(cr);
   cairo_rectangle(cr, 0, 0, area_width, picture.y + picture.height + 4);
   cairo_clip(cr);
@@ -379,8 +388,21 @@ static gboolean on_gl_scroll(GtkWidget *widget, GdkEventScroll *event, View *vie
   return on_scroll(view->area, event, view);
 }
 
+// A point of a widget over the picture in the picture's own pixels.
+static SbPoint in_area(GtkWidget *widget, double x, double y, View *view) {
+  int dx = 0, dy = 0;
+  gtk_widget_translate_coordinates(widget, view->area, 0, 0, &dx, &dy);
+  return (SbPoint){x + dx, y + dy};
+}
+
 static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
   gtk_widget_grab_focus(view->area);
+  const SbPoint at = in_area(widget, event->x, event->y, view);
+  view->pans = FALSE;
+  if (event->button != GDK_BUTTON_PRIMARY || sb_section_handles_press(view->handles, at.x, at.y)) {
+    return GDK_EVENT_STOP;
+  }
+  view->pans = TRUE;
   if (is_cutaway(view)) {
     if (event->type == GDK_2BUTTON_PRESS) {
       turn(view, view->look.azimuth, view->look.elevation);
@@ -395,7 +417,22 @@ static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
   return GDK_EVENT_STOP;
 }
 
+static gboolean on_release(GtkWidget *widget, GdkEventButton *event, View *view) {
+  view->pans = FALSE;
+  sb_section_handles_release(view->handles);
+  return GDK_EVENT_STOP;
+}
+
+static gboolean on_leave(GtkWidget *widget, GdkEventCrossing *event, View *view) {
+  sb_section_handles_leave(view->handles);
+  return GDK_EVENT_PROPAGATE;
+}
+
 static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
+  const SbPoint at = in_area(widget, event->x, event->y, view);
+  if (sb_section_handles_motion(view->handles, at.x, at.y, event->state) || !view->pans) {
+    return GDK_EVENT_STOP;
+  }
   if (is_cutaway(view)) {
     // The valve follows the hand: half a turn over 500 pixels.
     const double rate = G_PI / 500;
@@ -531,14 +568,29 @@ static GtkWidget *make_empty(void) {
   return box;
 }
 
+void sb_section_view_listen(GtkWidget *widget,
+                            void (*chosen)(void *data, SbParamId id, const char *typed),
+                            void *data) {
+  View *view = g_object_get_data(G_OBJECT(widget), "view");
+  sb_section_handles_listen(view->handles, chosen, data);
+}
+
+gboolean sb_section_view_key(GtkWidget *widget, const GdkEventKey *event) {
+  View *view = g_object_get_data(G_OBJECT(widget), "view");
+  return gtk_widget_has_focus(view->area) && sb_section_handles_key(view->handles, event);
+}
+
 void sb_section_view_add_start(GtkWidget *widget, GtkWidget *start) {
   View *view = g_object_get_data(G_OBJECT(widget), "view");
   gtk_container_add(GTK_CONTAINER(view->empty), start);
 }
 
 static void take_pointer(GtkWidget *widget, GCallback scrolled, View *view) {
-  gtk_widget_add_events(widget, GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK | GDK_SCROLL_MASK |
-                                    GDK_SMOOTH_SCROLL_MASK);
+  gtk_widget_add_events(widget, GDK_BUTTON_PRESS_MASK | GDK_BUTTON_RELEASE_MASK |
+                                    GDK_POINTER_MOTION_MASK | GDK_LEAVE_NOTIFY_MASK |
+                                    GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK);
+  g_signal_connect(widget, "button-release-event", G_CALLBACK(on_release), view);
+  g_signal_connect(widget, "leave-notify-event", G_CALLBACK(on_leave), view);
   g_signal_connect(widget, "scroll-event", scrolled, view);
   g_signal_connect(widget, "button-press-event", G_CALLBACK(on_press), view);
   g_signal_connect(widget, "motion-notify-event", G_CALLBACK(on_motion), view);
@@ -568,6 +620,7 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   sb_style_name(view->gl, _("Section picture"), NULL);
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->gl);
   g_signal_connect(overlay, "get-child-position", G_CALLBACK(on_place), view);
+  view->handles = sb_section_handles_new(session, GTK_OVERLAY(overlay));
   view->empty = make_empty();
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->empty);
   // Whatever models are being run, the valve at rest is drawn by closed forms.

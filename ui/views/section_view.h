@@ -17,5 +17,14 @@ void sb_section_view_toggle_cutaway(GtkWidget *view);
 // Turns the cutaway's camera by steps to the right and up. Nothing while the section shows.
 void sb_section_view_turn(GtkWidget *view, int right, int up);
 
+// Tells `chosen` which parameter a handle on the section means, with what was typed (NULL:
+// nothing).
+void sb_section_view_listen(GtkWidget *view,
+                            void (*chosen)(void *data, SbParamId id, const char *typed),
+                            void *data);
+
+// A key while the picture has the focus; TRUE if a handle took it.
+gboolean sb_section_view_key(GtkWidget *view, const GdkEventKey *event);
+
 // Puts a widget below what stands over the picture while nothing has run.
 void sb_section_view_add_start(GtkWidget *view, GtkWidget *start);

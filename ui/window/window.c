@@ -421,6 +421,21 @@ static void on_strip_button(GtkButton *button, SbWindow *window) {
   }
 }
 
+// A handle on the section was taken: its row is shown, or takes what is typed.
+static void on_chosen(void *data, SbParamId id, const char *typed) {
+  SbWindow *window = data;
+  if (typed == NULL) {
+    sb_param_panel_show(SB_PARAM_PANEL(window->panel), id);
+    return;
+  }
+  sb_param_panel_reveal(SB_PARAM_PANEL(window->panel), id);
+  GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
+  if (GTK_IS_ENTRY(focus)) {
+    gtk_entry_set_text(GTK_ENTRY(focus), typed);
+    gtk_editable_set_position(GTK_EDITABLE(focus), -1);
+  }
+}
+
 // Keys that belong to the playhead unless a field is being typed into.
 static gboolean on_key(GtkWidget *widget, GdkEventKey *event, gpointer data) {
   SbWindow *window = SB_WINDOW(widget);
@@ -430,6 +445,9 @@ static gboolean on_key(GtkWidget *widget, GdkEventKey *event, gpointer data) {
   const char *page = gtk_stack_get_visible_child_name(GTK_STACK(window->pages));
   if (!plain || GTK_IS_ENTRY(focus) || g_strcmp0(page, "valve") != 0) {
     return GDK_EVENT_PROPAGATE;
+  }
+  if (sb_section_view_key(window->section, event)) {
+    return GDK_EVENT_STOP;
   }
   size_t count = 0;
   sb_session_frames(window->session, &count);
@@ -597,6 +615,7 @@ static void sb_window_init(SbWindow *window) {
   gtk_box_pack_start(GTK_BOX(window->left_column), sb_gland_panel_new(window->session), FALSE,
                      FALSE, 0);
   window->section = sb_section_view_new(window->session);
+  sb_section_view_listen(window->section, on_chosen, window);
   gtk_box_pack_start(GTK_BOX(window->centre_column), window->section, TRUE, TRUE, 0);
   // The charts of the valve's cycle at the right, what belongs to a kind of scene under the
   // section.
