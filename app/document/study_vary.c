@@ -58,6 +58,7 @@ static bool read_value(double *out, const SbVary *vary, const char *text, GError
 // "A .. B".
 static bool read_range(double *low, double *high, const SbVary *vary, const char *text,
                        GError **error) {
+  text += strspn(text, " \t");
   const char *dots = strstr(text, "..");
   if (dots == NULL) {
     return fail(error, "\"%.60s\" is no range", text);

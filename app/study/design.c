@@ -394,10 +394,11 @@ static void judge(SbDesign *out, const View *view) {
   double *row = calloc((problem->sides + n) * n + 1, sizeof *row), gradient[SB_VARY_MAX];
   size_t rows = 0;
   double length = 0;
+  const double least = fmax(out->breach, 0); // where nothing is feasible, what is missed most
   memset(out->limit_active, 0, sizeof out->limit_active);
   for (size_t i = 0; i < problem->sides; i++) {
     const Side *side = &problem->side[i];
-    if (fabs(breach_of(view, i)) > ACTIVE && breach_of(view, i) < out->breach - ACTIVE) {
+    if (fabs(breach_of(view, i)) > ACTIVE && breach_of(view, i) < least - ACTIVE) {
       continue;
     }
     out->limit_active[2 * side->limit + side->upper] = true;

@@ -93,6 +93,7 @@ typedef struct SbFitStart {
   const SbRing *ring;
   SbRingGuide *guide;     // of that ring; NULL: none
   SbRingTangent *tangent; // of that ring, to take it from to first order; NULL: it is solved
+  bool beside;            // where that leads it is solved: sb_ring_tangent_solve()
 } SbFitStart;
 
 // Name of a model's variant (Green & English's rows, the kernel of the disc, ...), counted from 0;

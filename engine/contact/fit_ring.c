@@ -136,7 +136,8 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   const bool tangent = in->start != NULL && in->start->tangent != NULL;
   if (tangent) {
-    status = sb_ring_tangent_at(&ring, in->start->tangent, &body, &load, &options, report);
+    status = (in->start->beside ? sb_ring_tangent_solve : sb_ring_tangent_at)(
+        &ring, in->start->tangent, &body, &load, &options, report);
   } else if (in->start != NULL) {
     status = sb_ring_near(&ring, in->start->ring, in->start->guide, &body, &load, &options, NULL);
   }

@@ -12,7 +12,8 @@ struct SbEvaluator {
   SbRun *run;               // NULL before the first question
   bool answered;            // the run is that of the last question
   const SbEvaluator *start; // of that question
-  bool tangent, held;       // its rings are tangents, and stay
+  bool tangent;             // its rings are tangents
+  SbRingsBeside rings;      // which do this
   bool kept;                // its rings are others' starts
   SbReport why;             // there was none
 };
@@ -118,7 +119,7 @@ static SbStatus prepare(SbEvaluator *evaluator, const SbQuestion *question, SbRe
     sb_plan_figures(&plan, model, question->figure, question->figure_count);
     status = evaluator->run == NULL ? sb_run_create(&evaluator->run, model, &plan, report)
              : question->start == evaluator->start && question->tangent == evaluator->tangent &&
-                     question->held == evaluator->held && !question->keep && !evaluator->kept &&
+                     question->rings == evaluator->rings && !question->keep && !evaluator->kept &&
                      has_solved(evaluator, model, &plan)
                  ? sb_run_renew_same(evaluator->run, model, report)
                  : sb_run_renew(evaluator->run, model, &plan, report);
@@ -139,10 +140,10 @@ SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestio
   if (evaluator->answered) {
     const SbRun *start = question->start != NULL ? question->start->run : NULL;
     (question->tangent ? sb_run_predict_from : sb_run_start_from)(evaluator->run, start);
-    sb_run_hold_rings(evaluator->run, question->held);
+    sb_run_rings_beside(evaluator->run, question->rings);
     evaluator->start = question->start;
     evaluator->tangent = question->tangent;
-    evaluator->held = question->held;
+    evaluator->rings = question->rings;
     evaluator->kept = question->keep;
     if (question->keep) {
       sb_run_keep_rings(evaluator->run);

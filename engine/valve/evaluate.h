@@ -31,8 +31,8 @@ typedef struct {
   // with `keep`.
   const SbEvaluator *start;
   bool keep;
-  bool tangent; // rings are those of `start` to first order: sb_run_predict_from()
-  bool held;    // of tangents: rings stay as they are beside `start`, what lies on them does not
+  bool tangent;        // rings are those of `start` to first order: sb_run_predict_from()
+  SbRingsBeside rings; // of tangents: what they do
   // Polled as in a run (SbRunHooks), at least every 50 ms; may be NULL.
   bool (*cancelled)(void *data);
   void *data;

@@ -16,18 +16,19 @@
 #define CONTACT_COLUMNS(si, shown, digits, better, estimate, needs, ...)                           \
   COLUMNS(si, shown, digits, better, estimate, WHOLE, __VA_ARGS__)
 #define SEAL(name, index, path, member, ...)                                                       \
-  {"seals." name "." path, offsetof(SbSummary, seal[index].member), name " seal",                  \
+  {"seals." name "." path, offsetof(SbSummary, seal[index].member), name " seal", index,           \
    COLUMNS(__VA_ARGS__)},
 #define CONTACT_IN(name, index, path, member, ...)                                                 \
   {"seals." name ".contact.in_stroke." path, offsetof(SbSummary, contact[index].in_stroke.member), \
-   name " seal, in-stroke", COLUMNS(__VA_ARGS__)},
+   name " seal, in-stroke", index, COLUMNS(__VA_ARGS__)},
 #define CONTACT_OUT(name, index, path, member, ...)                                                \
   {"seals." name ".contact.return." path, offsetof(SbSummary, contact[index].back.member),         \
-   name " seal, return", CONTACT_COLUMNS(__VA_ARGS__)},
+   name " seal, return", index, CONTACT_COLUMNS(__VA_ARGS__)},
 static const SbFigure figures[SB_FIGURE_COUNT] = {
-#define SB_FIGURE(path, member, ...) {path, offsetof(SbSummary, member), "", COLUMNS(__VA_ARGS__)},
+#define SB_FIGURE(path, member, ...)                                                               \
+  {path, offsetof(SbSummary, member), "", SB_SEAL_COUNT, COLUMNS(__VA_ARGS__)},
 #define SB_FIGURE_AT(path, place, where, ...)                                                      \
-  {path, offsetof(SbSummary, place), where, COLUMNS(__VA_ARGS__)},
+  {path, offsetof(SbSummary, place), where, SB_SEAL_COUNT, COLUMNS(__VA_ARGS__)},
 #include "engine/valve/figures.def"
 #define SB_SEAL_FIGURE(...)    SEAL("outer", SB_OUTER, __VA_ARGS__)
 #define SB_CONTACT_FIGURE(...) CONTACT_IN("outer", SB_OUTER, __VA_ARGS__)

@@ -11,6 +11,7 @@ typedef struct {
   const char *path;
   size_t offset;          // of its value in SbSummary
   const char *where;      // "outer seal", "stage B": what tells it from others of its label; or ""
+  int seal;               // that it is of; SB_SEAL_COUNT: of none, or of the valve through one
   const char *si, *shown; // unit, and that which people read
   int digits;             // significant ones in tables; 0: a yes or no, 1 or 0
   SbBetter better;

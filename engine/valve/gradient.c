@@ -83,7 +83,8 @@ static SbStatus ask(Work *work, double *value, double x, bool tell) {
   }
   SbGradientOutcome now;
   const SbSummary *summary = sb_evaluator_summary(by);
-  work->fault = summary != NULL ? summary->ring_fault : 0;
+  work->fault =
+      summary != NULL ? fmax(summary->ring_fault[SB_OUTER], summary->ring_fault[SB_INNER]) : 0;
   if (summary != NULL) {
     sb_gradient_contacts(&work->moved, summary);
   }
@@ -366,6 +367,26 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
   }
 }
 
+// Share of what a seal's contact changes by that slopes of a figure scatter by, by its line in the
+// table of figures: what a solved film or a load is told to be out by, or what leaks.
+static double scatter_of(const SbFigure *row, double order) {
+  if (strcmp(row->estimate, "load") == 0) {
+    return SCATTER_LOAD;
+  }
+  const bool leak =
+      row->verdict == SB_VERDICT_LEAK && row->needs != SB_DEPTH_SIZES; // not the shelf
+  const bool film = leak || strcmp(row->estimate, "film") == 0;
+  return !film ? SCATTER : order > ORDER_MOST ? SCATTER_ROUGH : SCATTER_FILM;
+}
+
+// Whether a seal's contact, which was to stay, did, for all that it moves otherwise: where the
+// base's films have not converged nothing but the whole state is to be had.
+static bool stayed(const Work *work, int seal) {
+  const size_t size = sizeof work->up.size[seal];
+  return memcmp(work->moved.size[seal], work->up.size[seal], size) != 0 ||
+         memcmp(work->up.size[seal], work->contacts.size[seal], size) == 0;
+}
+
 // Adds to the errors what a ring's slopes scatter between meshes, by what its contacts change.
 static SbStatus add_scatter(Work *work, size_t parameter, double x, double scale) {
   SbGradient *out = work->out;
@@ -391,22 +412,19 @@ static SbStatus add_scatter(Work *work, size_t parameter, double x, double scale
     most = fmax(most, moved[i]);
   }
   double *held = value_of(work, FIRST, 0);
-  work->question.held = true;
+  work->question.rings = SB_RINGS_STAY;
   SbStatus status = ask(work, held, x + h, false);
-  work->question.held = false;
+  work->question.rings = SB_RINGS_FOLLOW;
+  const bool stay[SB_SEAL_COUNT + 1] = {stayed(work, 0), stayed(work, 1),
+                                        stayed(work, 0) && stayed(work, 1)};
   for (size_t i = 0; i < out->figures; i++) {
     const size_t cell = i * out->parameters + parameter;
     const SbFigure *row = sb_figure(out->figure[i]);
-    const bool load = strstr(row->path, "load") != NULL;
-    const bool film = strcmp(row->estimate, "film") == 0 || strstr(row->path, "leak") != NULL;
-    const bool inner = strncmp(row->path, "seals.inner.", 12) == 0;
-    const bool outer = strncmp(row->path, "seals.outer.", 12) == 0;
-    const double by = inner ? moved[SB_INNER] : outer ? moved[SB_OUTER] : most;
+    const double by = row->seal < SB_SEAL_COUNT ? moved[row->seal] : most;
+    const double share = scatter_of(row, work->order) * by / (1 + by * scale / MANY);
     // What does not hang on the rings scatters with none.
-    const double thin = work->order > ORDER_MOST ? SCATTER_ROUGH : SCATTER_FILM;
-    const double part = load ? SCATTER_LOAD : film ? thin : SCATTER;
-    const double share = part * by / (1 + by * scale / MANY);
-    out->error[cell] += value[i] == held[i] ? 0 : share * work->size[i];
+    const bool hangs = stay[row->seal] ? value[i] != held[i] : out->slope[cell] != 0;
+    out->error[cell] += hangs ? share * work->size[i] : 0;
     const double error = out->error[cell];
     if (error > fabs(out->slope[cell]) && error * scale > KNOWN * work->size[i]) {
       refuse(work, parameter, i, "not known: what the rings' meshes leave open is more than it is");

@@ -2,6 +2,7 @@
 #include "engine/valve/gradient_private.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 void sb_gradient_outcome(SbGradientOutcome *out, const SbSummary *summary) {
@@ -67,10 +68,13 @@ void sb_gradient_contacts(SbGradientContacts *out, const SbSummary *summary) {
 double sb_gradient_size(const SbSummary *summary, int figure) {
   const double value = fabs(sb_figure_value(summary, figure));
   const SbFigure *row = sb_figure(figure);
-  const bool energy = strcmp(row->si, "J") == 0, leak = strncmp(row->path, "cycle.leak", 10) == 0;
-  const double whole = energy ? summary->energy.external_max
-                       : leak ? summary->leakage_carried
-                       : strcmp(row->path, "cycle.energy_closure") == 0 ? 1
-                                                                        : 0;
+  const bool energy = strcmp(row->si, "J") == 0;
+  const bool leak =
+      row->verdict == SB_VERDICT_LEAK && row->seal == SB_SEAL_COUNT && strcmp(row->si, "m3") == 0;
+  const bool closure = row->offset == offsetof(SbSummary, energy.closure);
+  const double whole = energy    ? summary->energy.external_max
+                       : leak    ? summary->leakage_carried
+                       : closure ? 1
+                                 : 0;
   return fmax(value, whole); // leaves out what is not known
 }

@@ -80,8 +80,8 @@ void sb_sliding_memory_ahead(SbSlidingMemory *memory, SbSlidingMemory *ahead) {
   memory->ahead = ahead;
 }
 
-void sb_sliding_memory_hold(SbSlidingMemory *memory, bool hold) {
-  memory->held = hold;
+void sb_sliding_memory_beside(SbSlidingMemory *memory, SbRingsBeside how) {
+  memory->beside = how;
 }
 
 void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data) {

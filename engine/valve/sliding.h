@@ -67,8 +67,8 @@ void sb_sliding_memory_end(SbSlidingMemory *memory);
 void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *from, bool tangent,
                              bool drawn);
 
-// Of rings beside a kept state, not drawn: whether they stay as in the first one asked for.
-void sb_sliding_memory_hold(SbSlidingMemory *memory, bool hold);
+// What rings beside a kept state do, not drawn: sb_run_rings_beside().
+void sb_sliding_memory_beside(SbSlidingMemory *memory, SbRingsBeside how);
 
 // Polled while a fitment or a film is solved; true ends it with SB_ERROR_CANCELLED. NULL: nobody.
 void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data);

@@ -465,7 +465,8 @@ SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
   z[DIFFERENCE] -= z[LEVEL];
   SbStatus status;
   Anchor *anchor = anchor_of(beside, task, law, z, inputs, &status);
-  SbSumDepth depth = anchor != NULL ? SB_SUM_ALL : SB_SUM_NOTHING;
+  const bool solved = memory->beside == SB_RINGS_SOLVED;
+  SbSumDepth depth = anchor != NULL && !solved ? SB_SUM_ALL : SB_SUM_NOTHING;
   SbSlidingSolution *sum = depth == SB_SUM_ALL ? malloc(sizeof *sum) : NULL;
   if (sum != NULL) {
     *sum = anchor->is;
@@ -474,7 +475,7 @@ SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
   }
   for (int i = 0; i < inputs && depth != SB_SUM_NOTHING; i++) {
     const double by_this = z[i] - anchor->z[i];
-    if (by_this == 0 || (memory->held && i < FILMS)) {
+    if (by_this == 0 || (memory->beside == SB_RINGS_STAY && i < FILMS)) {
       continue;
     }
     const bool off = !(step_of(i, anchor->z[i], 1) > 0);
@@ -490,7 +491,7 @@ SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
     memory->sum = *sum;
   }
   free(sum);
-  if (depth == SB_SUM_FITMENT) {
+  if (depth == SB_SUM_FITMENT || (solved && anchor != NULL)) {
     lend(memory, beside, anchor, true);
   }
   memory->sums = depth;

@@ -71,7 +71,7 @@ struct SbSlidingMemory {
   const struct SbSlidingMemory *from; // whose states rings start from, borrowed; NULL: cold
   bool tangent;                       // they are taken from there to first order
   bool summed;                        // the films with them
-  bool held;                          // only these: rings stay
+  SbRingsBeside beside;               // what these do
   SbSumDepth sums;                    // of the state in work, what is not solved
   SbSlidingSolution sum;              // but this
   SbSlidingMemory *ahead;             // where the next ring may be solved already, borrowed

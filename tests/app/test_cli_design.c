@@ -166,7 +166,8 @@ static void test_told(void) {
   g_assert_cmpint(result.code, ==, 1);
   g_assert_nonnull(strstr(result.err, "x.study: design: is missing"));
   cli_clear(&result);
-  g_free(write_study(SIZES "[design]\nobjective = maximise " LOAD "\n"));
+  g_free(write_study(SIZES "[design]\nobjective = maximise " LOAD "\n[limits]\n" RETURN
+                           " = >= -100 N\n"));
   result = CLI("study", study);
   g_assert_cmpint(result.code, ==, 1);
   g_assert_nonnull(strstr(result.err, "study.samples: is missing"));
@@ -179,6 +180,7 @@ static void test_told(void) {
   g_autofree char *written = cli_contents(folder, "results.json");
   g_autoptr(JsonNode) root = cli_parse(written);
   g_assert_true(is_active(root, "seal.section_diameter") && is_active(root, "gland.radial_space"));
+  g_assert_false(is_active(root, RETURN)); // far within it
   g_unlink(study);
 }
 

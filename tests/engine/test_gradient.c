@@ -18,7 +18,7 @@ static const char *const paths[] = {"cycle.force_peak_N",
                                     "seals.inner.lambda",
                                     "seals.outer.friction_static_N",
                                     "seals.outer.leakage_per_stroke_m3"};
-enum { FIGURES = G_N_ELEMENTS(paths), OVERRIDES_MAX = 8 };
+enum { FIGURES = G_N_ELEMENTS(paths), LOAD = 4, WIDTH = 5, OVERRIDES_MAX = 8 };
 
 typedef struct {
   SbModel *model;
@@ -386,8 +386,9 @@ static void test_ring_near(void) {
   sb_ring_destroy(ring);
 }
 
-// Any argument: films by all that the campaign compares.
+// An argument, the seed of the draws: films and rings by all that the campaign compares.
 static bool whole;
+static guint32 seed = 23;
 
 // Solved films, and the consistent set but for its ring.
 static void test_films(void) {
@@ -424,7 +425,7 @@ static bool solved_at(double *value, const Valve *valve, const SbEvaluator *star
 static void hold_rings(const SbOverride *change, size_t changes) {
   static const SbParamId parameter[] = {SB_P_SEAL_OUTER_MODULUS, SB_P_GLAND_RADIAL_SPACE,
                                         SB_P_CANISTER_PRESSURE, SB_P_STEM_PRESSURE_DIAMETER};
-  enum { PARAMETERS = G_N_ELEMENTS(parameter), LOAD = 4, WIDTH = 5 }; // of outer, inner seal
+  enum { PARAMETERS = G_N_ELEMENTS(parameter) };
   static const double H = 1e-3;
   double value[FIGURES], up[FIGURES], down[FIGURES];
   Valve valve;
@@ -465,67 +466,151 @@ static void hold_rings(const SbOverride *change, size_t changes) {
   clear(&valve);
 }
 
-// Slopes by `count` parameters, drawn as above, against differences of whole runs whose rings start
-// from the base's: how many agree to 1e-4, and that all are within the error that is told. The
-// steps are so wide because friction is known to the tolerance, or to what the film scatters by,
-// and solved rings stay while it changes by less. Slopes that are not known are few.
-static void compare_rings(const SbOverride *change, size_t changes, size_t count, guint32 seed,
-                          double tolerance) {
-  static const double H = 2e-2, CLOSE = 1e-4;
-  Valve valve;
-  SbEvaluator *start;
-  SbParamId parameter[SB_PARAM_COUNT];
-  double value[FIGURES], up[FIGURES], down[FIGURES];
-  size_t compared = 0, moved = 0, close = 0, told = 0, none = 0, unknown = 0;
-  set_up(&valve, change, changes);
-  draw(parameter, &valve, count, seed);
+// Figures with one parameter elsewhere and the rings solved beside the base's: on its meshes, moved
+// with the contacts, films on theirs; *same: with its active sets, of each seal and of both. False:
+// no such valve.
+static bool beside_at(double *value, bool same[SB_SEAL_COUNT + 1], const Valve *valve,
+                      SbEvaluator *evaluator, const SbEvaluator *start, SbParamId id, double x) {
+  const SbOverride override = {id, x};
+  SbQuestion question = valve->question;
+  question.override = &override;
+  question.override_count = 1;
+  question.start = start;
+  question.tangent = true;
+  question.rings = SB_RINGS_SOLVED;
+  if (sb_evaluator_ask(value, evaluator, &question, NULL) != SB_OK) {
+    return false;
+  }
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const bool is = sb_evaluator_summary(evaluator)->ring_fault[i] == 0;
+    same[i] = same[i] && is;
+    same[SB_SEAL_COUNT] = same[SB_SEAL_COUNT] && is;
+  }
+  return true;
+}
+
+typedef struct {
+  size_t compared, none, unknown, moved, held, close, other, told, wide, within;
+} Count;
+
+// A parameter's slopes against differences of rings that are solved: to 1e-4 where both ends have
+// the base's active sets and meshes, else within the error that is told and what of a friction is
+// left open then (drag_beside() in sliding_fit.c).
+static void hold_slopes(Count *count, const Valve *valve, const SbGradient *gradient, size_t k,
+                        SbEvaluator *evaluator, const SbEvaluator *start) {
+  static const double H = 2e-3, CLOSE = 1e-4, ROUNDING = 4e-9, TURNS = 5e-6;
+  const double x = sb_gradient_at(gradient, k), h = H * fabs(x);
+  const SbParamId id = sb_gradient_parameter(gradient, k);
+  double up[FIGURES], down[FIGURES];
+  bool same[SB_SEAL_COUNT + 1] = {true, true, true};
+  if (!beside_at(up, same, valve, evaluator, start, id, x + h) ||
+      !beside_at(down, same, valve, evaluator, start, id, x - h)) {
+    return;
+  }
+  for (size_t i = 0; i < FIGURES; i++) {
+    const double is = sb_gradient_slope(gradient, i, k), error = sb_gradient_error(gradient, i, k);
+    const double solved = (up[i] - down[i]) / (2 * h), off = fabs(is - solved);
+    const double unit = fabs(sb_gradient_value(gradient, i)) / h;
+    const bool sets = same[sb_figure(valve->figure[i])->seal];
+    if (!isfinite(is) || (is == 0 && solved == 0)) {
+      continue;
+    }
+    const bool well = off <= (sets ? CLOSE * fabs(solved) + ROUNDING * unit
+                                   : error + TURNS * unit + 2 * H * H * fabs(solved));
+    *(sets ? &count->held : &count->other) += 1;
+    *(sets ? &count->close : &count->told) += well;
+    if (!well || g_test_verbose()) {
+      g_test_message("%s by %s: %.8g, error %.2g; %.8g solved beside, %s sets", paths[i],
+                     sb_param(id)->key, is, error, solved, sets ? "the same" : "other");
+    }
+  }
+}
+
+// The same against whole runs, each on meshes of its own, whose figures scatter about smooth curves
+// by up to 0.25 % (ring_near.c): so far apart that what a contact changes by is many times that.
+static void hold_runs(Count *count, const Valve *valve, const SbGradient *gradient, size_t k,
+                      const double *value, const SbEvaluator *start, double tolerance) {
+  static const double LEAST = 2e-2, MOST = 0.3, MOVES = 0.03;
+  const double x = sb_gradient_at(gradient, k);
+  const SbParamId id = sb_gradient_parameter(gradient, k);
+  double moves = 0, up[FIGURES], down[FIGURES];
+  for (size_t i = LOAD; i <= WIDTH; i++) { // of one seal each
+    const double by = fabs(sb_gradient_slope(gradient, i, k) * x / value[i]);
+    moves = fmax(moves, isfinite(by) ? by : 0);
+  }
+  const double H = fmin(MOST, fmax(LEAST, MOVES / moves)), h = H * fabs(x);
+  if (!solved_at(up, valve, start, id, x + h) || !solved_at(down, valve, start, id, x - h)) {
+    return;
+  }
+  for (size_t i = 0; i < FIGURES; i++) {
+    const double is = sb_gradient_slope(gradient, i, k);
+    const double solved = (up[i] - down[i]) / (2 * h);
+    const double allowed =
+        sb_gradient_error(gradient, i, k) + H * H * fabs(solved) + tolerance * fabs(value[i]) / h;
+    if (!isfinite(is) || (is == 0 && solved == 0)) {
+      continue;
+    }
+    count->wide++;
+    count->within += fabs(is - solved) <= allowed;
+    if (!(fabs(is - solved) <= allowed)) {
+      g_test_message("%s by %s: %.6g, error %.2g; %.6g by runs %.2g apart", paths[i],
+                     sb_param(id)->key, is, sb_gradient_error(gradient, i, k), solved, H);
+    }
+  }
+}
+
+// Slopes by parameters, most of which move something; how many with the base's sets. Those that are
+// not known are few.
+static size_t compare_rings(const Valve *valve, const SbParamId *parameter, size_t parameters,
+                            double tolerance) {
+  SbEvaluator *start, *beside;
+  double value[FIGURES];
+  bool same[SB_SEAL_COUNT + 1];
+  Count count = {0};
   g_assert_cmpint(sb_evaluator_create(&start, NULL), ==, SB_OK);
-  SbQuestion base = valve.question;
+  g_assert_cmpint(sb_evaluator_create(&beside, NULL), ==, SB_OK);
+  SbQuestion base = valve->question;
   base.keep = true;
   g_assert_cmpint(sb_evaluator_ask(value, start, &base, NULL), ==, SB_OK);
-  SbGradient *gradient = gradient_of(&valve, parameter, count);
-  for (size_t k = 0; k < count; k++) {
-    const double x = sb_gradient_at(gradient, k), h = H * fabs(x);
-    if (!solved_at(up, &valve, start, parameter[k], x + h) ||
-        !solved_at(down, &valve, start, parameter[k], x - h)) {
-      continue;
+  SbGradient *gradient = gradient_of((Valve *)valve, parameter, parameters);
+  g_assert_true(
+      beside_at(value, same, valve, beside, start, parameter[0], sb_gradient_at(gradient, 0)));
+  for (size_t k = 0; k < parameters; k++) {
+    bool again = false, moves = false;
+    for (size_t i = 0; i < k; i++) {
+      again = again || parameter[i] == parameter[k];
     }
     for (size_t i = 0; i < FIGURES; i++) {
       const double is = sb_gradient_slope(gradient, i, k);
-      const double solved = (up[i] - down[i]) / (2 * h), off = fabs(is - solved);
-      const double error = sb_gradient_error(gradient, i, k);
-      compared++;
-      if (!isfinite(is)) {
-        g_assert_nonnull(sb_gradient_reason(gradient, i, k));
-        unknown += strstr(sb_gradient_reason(gradient, i, k), "not known") != NULL;
-        none++;
-        continue;
-      }
-      if (is == 0 && solved == 0) {
-        continue;
-      }
-      moved++;
-      // The stencil leaves the square of its step, and what its ends are solved to.
-      const double rounding = 1e-9 * fabs(value[i]) / h, stencil = 2 * H * H * fabs(solved);
-      const bool well = off <= CLOSE * fabs(solved) + rounding;
-      const bool within = well || off <= error + stencil + tolerance * fabs(value[i]) / h;
-      close += well;
-      told += within;
-      if (!within) {
-        g_test_message("%s by %s: %.6g, error %.2g; solved %.6g", paths[i],
-                       sb_param(parameter[k])->key, is, error, solved);
-      }
+      const char *why = sb_gradient_reason(gradient, i, k);
+      g_assert_true(isfinite(is) == (why == NULL));
+      count.compared++;
+      count.none += why != NULL;
+      count.unknown += why != NULL && strstr(why, "not known") != NULL;
+      count.moved += why == NULL && is != 0;
+      moves = moves || is != 0;
+    }
+    if (!again) {
+      hold_runs(&count, valve, gradient, k, value, start, tolerance);
+    }
+    if (!again && moves) {
+      hold_slopes(&count, valve, gradient, k, beside, start);
     }
   }
-  g_test_message("%zu compared, %zu without slope, %zu of them not known; %zu not zero: %zu agree "
-                 "to 1e-4, %zu within what is told",
-                 compared, none, unknown, moved, close, told);
-  g_assert_cmpuint(compared, >, count * FIGURES / 3);
-  g_assert_cmpuint(unknown, <=, moved / 4);
-  g_assert_cmpuint(told, ==, moved);
+  g_test_message("%zu slopes, %zu not zero, %zu without, %zu of them not known; solved beside: %zu "
+                 "of %zu with the base's sets agree to 1e-4, %zu of %zu with others within what is "
+                 "told; %zu of %zu by whole runs",
+                 count.compared, count.moved, count.none, count.unknown, count.close, count.held,
+                 count.told, count.other, count.within, count.wide);
+  g_assert_cmpuint(count.unknown, <=, count.moved / 4);
+  g_assert_cmpuint(count.held + count.other, >, count.moved / 4); // some were drawn again
+  g_assert_cmpuint(count.close, ==, count.held);
+  g_assert_cmpuint(count.told, ==, count.other);
+  g_assert_cmpuint(count.within, ==, count.wide);
   sb_gradient_destroy(gradient);
+  sb_evaluator_destroy(beside);
   sb_evaluator_destroy(start);
-  clear(&valve);
+  return count.held;
 }
 
 static void test_rings(void) {
@@ -539,6 +624,7 @@ static void test_rings(void) {
 }
 
 static void test_ring_draws(void) {
+  enum { DRAWS = 50 };
   // Tightened: how well friction and fitment agree, and the films.
   static const SbOverride thesis[] = {{SB_P_MODELS_FIT, SB_FIT_RING},
                                       {SB_P_GLAND_FLOOR_FRICTION, 0.3},
@@ -547,10 +633,24 @@ static void test_ring_draws(void) {
                                       {SB_P_OUTPUT_TOLERANCE, 1e-5}};
   static const SbOverride consistent[] = {{SB_P_MODELS_SET, SB_MODEL_SET_CONSISTENT},
                                           {SB_P_OUTPUT_TOLERANCE, 1e-4}};
-  if (g_test_slow()) {
-    compare_rings(thesis, G_N_ELEMENTS(thesis), whole ? 50 : 4, 23, 1e-5);
-    compare_rings(consistent, G_N_ELEMENTS(consistent), whole ? 50 : 4, whole ? 24 : 26, 1e-4);
+  const struct {
+    const SbOverride *change;
+    size_t changes;
+    double tolerance;
+  } sets[] = {{thesis, G_N_ELEMENTS(thesis), 1e-5}, {consistent, G_N_ELEMENTS(consistent), 1e-4}};
+  // The first two act through friction alone: a weak slope.
+  const SbParamId few[] = {SB_P_FLUID_VISCOSITY, SB_P_DRIVE_SPEED, SB_P_CANISTER_PRESSURE};
+  size_t held = 0; // on a rough floor nodes slip and stick by the least change
+  for (size_t i = 0; g_test_slow() && i < G_N_ELEMENTS(sets); i++) {
+    SbParamId drawn[DRAWS];
+    Valve valve;
+    set_up(&valve, sets[i].change, sets[i].changes);
+    draw(drawn, &valve, DRAWS, seed + (guint32)i);
+    held += compare_rings(&valve, whole ? drawn : few, whole ? DRAWS : G_N_ELEMENTS(few),
+                          sets[i].tolerance);
+    clear(&valve);
   }
+  g_assert_true(held > 0 || !g_test_slow());
 }
 
 // A ring that rolls has no tangent: no derivative by what enters it, and why; what the sizes alone
@@ -584,6 +684,7 @@ static void test_rolls(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   whole = argc > 1;
+  seed = whole ? (guint32)g_ascii_strtoull(argv[1], NULL, 10) : seed;
   g_test_add_func("/gradient/closed-forms", test_closed_forms);
   g_test_add_func("/gradient/disc", test_disc);
   g_test_add_func("/gradient/zeros", test_zeros);

@@ -166,6 +166,12 @@ void sb_ring_tangent_destroy(SbRingTangent *tangent); // takes NULL
 SbStatus sb_ring_tangent_at(SbRing **out, SbRingTangent *tangent, const SbRingBody *body,
                             const SbRingLoad *load, const SbRingOptions *options, SbReport *report);
 
+// The same, solved from there on that mesh. Its result's fault is 0 where it has the active set of
+// the tangent's ring, else infinite.
+SbStatus sb_ring_tangent_solve(SbRing **out, SbRingTangent *tangent, const SbRingBody *body,
+                               const SbRingLoad *load, const SbRingOptions *options,
+                               SbReport *report);
+
 // The present state on another mesh, of `element_size` throughout its contacts. Owned.
 // SB_ERROR_NOT_CONVERGED where that mesh has no such state.
 SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *options,

@@ -264,3 +264,31 @@ SbStatus sb_ring_tangent_at(SbRing **out, SbRingTangent *tangent, const SbRingBo
   }
   return status == SB_OK ? sb_succeed(report) : status;
 }
+
+// Whether two rings on meshes of the same nodes hold and slip alike.
+static bool same_set(const SbRing *a, const SbRing *b) {
+  bool same = true;
+  for (int i = 0; same && i < SB_RING_SURFACES * a->contact->count; i++) {
+    const SbRingTouch *p = &a->contact->is.touch[i], *q = &b->contact->is.touch[i];
+    same = p->held == q->held && p->slip == q->slip;
+  }
+  return same;
+}
+
+SbStatus sb_ring_tangent_solve(SbRing **out, SbRingTangent *tangent, const SbRingBody *body,
+                               const SbRingLoad *load, const SbRingOptions *options,
+                               SbReport *report) {
+  SbStatus status = sb_ring_tangent_at(out, tangent, body, load, options, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  SbRing *ring = *out;
+  ring->first_order = false;
+  status = sb_ring_newton(ring, SB_RING_DIRECT, report);
+  ring->fault = same_set(ring, tangent->ring) ? 0.0 : INFINITY;
+  if (status != SB_OK) {
+    sb_ring_destroy(ring);
+    *out = NULL;
+  }
+  return status;
+}

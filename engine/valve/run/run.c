@@ -117,9 +117,9 @@ void sb_run_predict_from(SbRun *run, const SbRun *base) {
   start_from(run, base, true);
 }
 
-void sb_run_hold_rings(SbRun *run, bool hold) {
+void sb_run_rings_beside(SbRun *run, SbRingsBeside how) {
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    sb_sliding_memory_hold(run->memory[i], hold);
+    sb_sliding_memory_beside(run->memory[i], how);
   }
 }
 

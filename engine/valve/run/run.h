@@ -178,9 +178,9 @@ typedef struct {
   SbVerdict verdict[SB_VERDICT_COUNT];
   bool converged;
   size_t frames, steps, rejected_steps;
-  double wall_s;      // elapsed time of the computation [s]
-  double ring_fault;  // of a predicted run's rings: forces that violate their active sets, over the
-                      // bore's [1]
+  double wall_s;                    // elapsed time of the computation [s]
+  double ring_fault[SB_SEAL_COUNT]; // of a predicted run's rings: forces that violate their active
+                                    // sets, over the bore's [1]
   double ring_order;  // most polynomials of a ring's recovered pressure for each node [1]
   double error_width; // of contact widths, relative as error_load [1]; NaN: does not apply
   SbCounters counters;
@@ -221,9 +221,13 @@ void sb_run_start_from(SbRun *run, const SbRun *base);
 // that the base has not (they roll, jam, do not touch) have none: SB_ERROR_NOT_CONVERGED.
 void sb_run_predict_from(SbRun *run, const SbRun *base);
 
-// Of such a prediction: whether its rings stay as they are at the first state that was predicted
-// beside the base, so that only what lies on them follows.
-void sb_run_hold_rings(SbRun *run, bool hold);
+// What the rings of such a prediction do: follow to first order; stay as they are at the first
+// state that was predicted beside the base, so that only what lies on them follows; or be solved
+// where the first order leads them, on its meshes, films next to the base's on theirs: what a
+// prediction is measured by. SbSummary.ring_fault is then 0 where all have the base's active set,
+// else infinite.
+typedef enum { SB_RINGS_FOLLOW, SB_RINGS_STAY, SB_RINGS_SOLVED } SbRingsBeside;
+void sb_run_rings_beside(SbRun *run, SbRingsBeside how);
 
 // Frames published so far, oldest first; borrowed, valid until sb_run_destroy(). Any thread.
 const SbFrame *sb_run_frames(const SbRun *run, size_t *count);

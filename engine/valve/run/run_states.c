@@ -548,7 +548,8 @@ static void join(SbRun *run, const Lane *lane) {
   summary->error_film = fmax(summary->error_film, lane->error_film);
   summary->error_load = fmax(summary->error_load, lane->error_load);
   summary->error_width = fmax(summary->error_width, lane->error_width);
-  summary->ring_fault = fmax(summary->ring_fault, lane->fault);
+  double *fault = &summary->ring_fault[lane->seal];
+  *fault = fmax(*fault, lane->fault);
   summary->ring_order = fmax(summary->ring_order, lane->order);
 }
 
