@@ -93,6 +93,9 @@ void sb_session_name_pins(SbSession *session) {
     pin->name = given != NULL ? g_strdup(given) : differences(session, params, true);
     pin->drawn_name = given != NULL ? g_strdup(given) : differences(session, params, false);
   }
+  if (session->pins->len > 0) {
+    sb_session_refresh_chart(session); // it had the names before
+  }
 }
 
 static int free_slot(const SbSession *session) {
