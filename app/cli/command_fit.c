@@ -1,7 +1,9 @@
 // sealbench fit: one seal in its gland, by any of the contact models.
+#include "app/base/output.h"
 #include "app/cli/cli.h"
 #include "app/cli/plots.h"
 #include "app/cli/timing.h"
+#include "app/export/cae.h"
 #include "app/export/results.h"
 
 #include <math.h>
@@ -116,6 +118,38 @@ static bool choose_drag(SbFitProblem *problem, bool *limit, const char *text, bo
   return true;
 }
 
+// Whether all files of --export are of kinds that are written, by the ring, and can be; an exit
+// code.
+static int check_exports(char **exports, const SbFitProblem *problem) {
+  int code = SB_EXIT_DONE;
+  for (char **path = exports; path != NULL && *path != NULL && code == SB_EXIT_DONE; path++) {
+    if (!sb_cae_knows(*path)) {
+      sb_cli_fail("--export: %s has no known ending (allowed .vtu, .inp, .dxf)", *path);
+      code = SB_EXIT_INPUT;
+    } else if (problem->model != SB_FIT_RING) {
+      sb_cli_fail("--export: only the ring model has a mesh, not %s (--model ring)",
+                  sb_fit_model_name(problem->model));
+      code = SB_EXIT_INPUT;
+    } else {
+      code = sb_cli_check_outputs(NULL, NULL, *path);
+    }
+  }
+  return code;
+}
+
+// Writes them; an exit code.
+static int write_exports(char **exports, const SbRing *ring, const SbFitProblem *problem) {
+  int code = SB_EXIT_DONE;
+  for (char **path = exports; path != NULL && *path != NULL && code == SB_EXIT_DONE; path++) {
+    GError *error = NULL;
+    char *text = sb_cae_text(*path, ring, problem, &error);
+    const bool good = text != NULL && sb_output_write(*path, text, strlen(text), &error);
+    code = good ? SB_EXIT_DONE : sb_cli_error(error);
+    g_free(text);
+  }
+  return code;
+}
+
 int sb_command_fit(int argc, char **argv) {
   char *seal = NULL;
   char *pressure = NULL;
@@ -125,6 +159,8 @@ int sb_command_fit(int argc, char **argv) {
   char *target = NULL;
   char **settings = NULL;
   SbCliPlots plots = {0};
+  char **exports = NULL;
+  SbRing *ring = NULL;
   const GOptionEntry entries[] = {
       {"seal", 0, 0, G_OPTION_ARG_FILENAME, &seal, "outer or inner", "NAME"},
       {"pressure", 0, 0, G_OPTION_ARG_FILENAME, &pressure,
@@ -135,6 +171,9 @@ int sb_command_fit(int argc, char **argv) {
        "Friction of the sliding bore, > 0 towards the wall; limit or -limit: the greatest", "MU"},
       {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &tolerance, "Relative error wanted", "T"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
+      {"export", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &exports,
+       "The ring's mesh and fields (.vtu), as a CalculiX problem (.inp), its outlines (.dxf)",
+       "FILE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
       {"plot", 0, 0, G_OPTION_ARG_NONE, &plots.on, SB_CLI_PLOT_HELP, NULL},
       {"no-plot", 0, 0, G_OPTION_ARG_NONE, &plots.off, SB_CLI_NO_PLOT_HELP, NULL},
@@ -190,6 +229,10 @@ int sb_command_fit(int argc, char **argv) {
     goto done;
   }
   code = sb_cli_check_outputs(NULL, NULL, target);
+  if (code == SB_EXIT_DONE) {
+    code = check_exports(exports, &problem);
+  }
+  problem.kept = exports != NULL ? &ring : NULL;
   if (code != SB_EXIT_DONE) {
     goto done;
   }
@@ -226,12 +269,17 @@ int sb_command_fit(int argc, char **argv) {
         sb_cli_plot_profile(fit->profile_x, fit->profile_p, NULL, fit->profile_count);
       }
     }
+    if (written == SB_EXIT_DONE && ring != NULL) {
+      written = write_exports(exports, ring, &problem);
+    }
     code = written != SB_EXIT_DONE ? written : code;
   }
 done:
   g_free(fit);
   sb_document_free(document);
   g_strfreev(settings);
+  g_strfreev(exports);
+  sb_ring_destroy(ring);
   g_free(seal);
   g_free(pressure);
   g_free(name);

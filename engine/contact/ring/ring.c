@@ -166,6 +166,36 @@ static SbRingMeshPlan first_plan(const SbRing *ring, const SbRingLoad *s, double
   return plan;
 }
 
+// Whether one of the four triangles that an element is drawn as is turned over.
+static bool turned_over(const SbRing *ring) {
+  static const int PART[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+  for (int i = 0; i < 4 * ring->mesh->elements; i++) {
+    double x[3][2];
+    for (int k = 0; k < 3; k++) {
+      sb_ring_fem_place(ring->fem, ring->mesh->tri[i / 4 * 6 + PART[i % 4][k]], x[k]);
+    }
+    if (!((x[1][0] - x[0][0]) * (x[2][1] - x[0][1]) > (x[1][1] - x[0][1]) * (x[2][0] - x[0][0]))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// A section that touches itself has no such state: what would keep it apart is not modelled.
+static SbStatus check_apart(const SbRing *ring, SbReport *report) {
+  if (!is_circle(ring) && turned_over(ring)) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "an element of the %s section is turned over",
+                   sb_seal_profile_name(ring->body.profile.kind));
+  }
+  if (!is_circle(ring) && sb_ring_crosses_itself(ring->contact)) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile",
+                             "the %s section folds onto itself: contact of the section with itself "
+                             "is not modelled",
+                             sb_seal_profile_name(ring->body.profile.kind));
+  }
+  return SB_OK;
+}
+
 SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report) {
   const SbRingBody *body = &ring->body;
   double mu = ring->stress;
@@ -290,17 +320,6 @@ void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *lo
       body->plane_strain ? load->floor_radius / d + 0.5 : 0.5 * (body->inner_diameter + d) / d;
   // A profile that makes no outline has been refused.
   (void)sb_ring_outline_of_profile(&ring->outline, &body->profile, d, NULL);
-}
-
-// A section that touches itself has no such state: what would keep it apart is not modelled.
-static SbStatus check_apart(const SbRing *ring, SbReport *report) {
-  if (!is_circle(ring) && sb_ring_crosses_itself(ring->contact)) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile",
-                             "the %s section folds onto itself: contact of the section with itself "
-                             "is not modelled",
-                             sb_seal_profile_name(ring->body.profile.kind));
-  }
-  return SB_OK;
 }
 
 SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *load,
@@ -491,6 +510,9 @@ SbStatus sb_ring_remesh(SbRing *fresh, const SbRing *ring, double element_size, 
     // Too far from the transferred state: follow the whole path again on the new mesh.
     SbRingLoad setting = ring->contact->is.now;
     status = sb_ring_fit_and_press(fresh, &setting, report);
+  }
+  if (status == SB_OK) {
+    status = check_apart(fresh, report);
   }
   if (status != SB_OK) {
     drop(fresh);

@@ -48,9 +48,14 @@ SbRingFrame sb_ring_frame(const SbRingLoad *load, SbRingSurface surface, const d
                        .curvature = chamfer * (c1 + c2) / (length * length)};
 }
 
-// Twice the signed area of a triangle.
-static double turn_of(const double a[2], const double b[2], const double c[2]) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+// Whether two points lie on different sides of a line, beyond rounding: sides in one flat contact
+// lie on a line.
+static bool parts(const double a[2], const double b[2], const double c[2], const double d[2]) {
+  static const double ROUNDING = 1e-9; // twice the area of a triangle, in section diameters
+  const double u[2] = {b[0] - a[0], b[1] - a[1]};
+  const double at_c = u[0] * (c[1] - a[1]) - u[1] * (c[0] - a[0]);
+  const double at_d = u[0] * (d[1] - a[1]) - u[1] * (d[0] - a[0]);
+  return at_c * at_d < 0.0 && fmin(fabs(at_c), fabs(at_d)) > ROUNDING;
 }
 
 bool sb_ring_crosses_itself(const SbRingContact *contact) {
@@ -63,7 +68,7 @@ bool sb_ring_crosses_itself(const SbRingContact *contact) {
       double c[2], d[2];
       sb_ring_contact_place(contact, k, c);
       sb_ring_contact_place(contact, k + 1, d);
-      if (turn_of(a, b, c) * turn_of(a, b, d) < 0.0 && turn_of(c, d, a) * turn_of(c, d, b) < 0.0) {
+      if (parts(a, b, c, d) && parts(c, d, a, b)) {
         return true;
       }
     }

@@ -1,0 +1,422 @@
+// Files of a solved ring for other programs; what they hold: cae.h.
+#include "app/export/cae.h"
+#include "app/base/output.h"
+
+#include <math.h>
+#include <string.h>
+
+// A ring's nodes, elements and fields, taken once.
+typedef struct {
+  int nodes, elements, sides;
+  SbRingSection section;
+  SbRingFields fields;
+  double *values; // of all fields
+  SbRingBody body;
+  SbRingLoad load;
+  SbRingResult result;
+} Mesh;
+
+static void take(Mesh *mesh, const SbRing *ring, const SbFitProblem *problem) {
+  int triangles, outline;
+  sb_ring_section_sizes(ring, &mesh->nodes, &mesh->elements, &mesh->sides);
+  sb_ring_sizes(ring, &mesh->nodes, &triangles, &outline);
+  const size_t n = (size_t)mesh->nodes;
+  mesh->section = (SbRingSection){g_new(double, 2 * n), g_new(int, 6 * mesh->elements),
+                                  g_new(int, 2 * mesh->sides), g_new(unsigned char, mesh->sides)};
+  double *at = mesh->values = g_new(double, 8 * n);
+  mesh->fields = (SbRingFields){.place = at,
+                                .displacement = at + 2 * n,
+                                .mises = at + 4 * n,
+                                .hydrostatic = at + 5 * n,
+                                .shear = at + 6 * n,
+                                .contact = at + 7 * n,
+                                .triangle = g_new(int, 3 * triangles),
+                                .outline = g_new(int, outline)};
+  sb_ring_section(ring, &mesh->section);
+  sb_ring_fields(ring, &mesh->fields);
+  sb_fit_ring_problem(&mesh->body, &mesh->load, problem);
+  sb_ring_result(ring, &mesh->result);
+}
+
+static void drop(Mesh *mesh) {
+  g_free(mesh->section.place);
+  g_free(mesh->section.triangle);
+  g_free(mesh->section.loop);
+  g_free(mesh->section.side);
+  g_free(mesh->values);
+  g_free(mesh->fields.triangle);
+  g_free(mesh->fields.outline);
+}
+
+// Numbers with a mark before each, the same in every locale.
+static void put(GString *out, const char *mark, double value) {
+  char text[G_ASCII_DTOSTR_BUF_SIZE];
+  g_string_append(out, mark);
+  g_string_append(out, g_ascii_formatd(text, sizeof text, "%.10g", value));
+}
+
+// Axial and radial place of a node of the free section [m].
+static double free_place(const Mesh *mesh, int node, int axis) {
+  const int at = 2 * node + axis;
+  return mesh->fields.place[at] - mesh->fields.displacement[at];
+}
+
+// ---- VTU
+
+static void put_field(GString *out, const Mesh *mesh, const char *name, const double *value,
+                      int components) {
+  g_string_append_printf(out,
+                         "<DataArray type=\"Float64\" Name=\"%s\" NumberOfComponents=\"%d\" "
+                         "format=\"ascii\">\n",
+                         name, components == 1 ? 1 : 3);
+  for (int i = 0; i < mesh->nodes; i++) {
+    for (int k = 0; k < components; k++) {
+      put(out, k > 0 ? " " : "", value[components * i + k]);
+    }
+    g_string_append(out, components == 1 ? "\n" : " 0\n");
+  }
+  g_string_append(out, "</DataArray>\n");
+}
+
+static void write_vtu(GString *out, const Mesh *mesh) {
+  enum { QUADRATIC_TRIANGLE = 22 };
+  g_string_append_printf(out,
+                         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" "
+                         "version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
+                         "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n<Points>\n",
+                         mesh->nodes, mesh->elements);
+  put_field(out, mesh, "place_m", mesh->fields.place, 2);
+  g_string_append(out, "</Points>\n<Cells>\n<DataArray type=\"Int32\" Name=\"connectivity\" "
+                       "format=\"ascii\">\n");
+  for (int i = 0; i < 6 * mesh->elements; i++) {
+    g_string_append_printf(out, "%d%s", mesh->section.triangle[i], i % 6 == 5 ? "\n" : " ");
+  }
+  g_string_append(out, "</DataArray>\n<DataArray type=\"Int32\" Name=\"offsets\" "
+                       "format=\"ascii\">\n");
+  for (int i = 1; i <= mesh->elements; i++) {
+    g_string_append_printf(out, "%d\n", 6 * i);
+  }
+  g_string_append(out, "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" "
+                       "format=\"ascii\">\n");
+  for (int i = 0; i < mesh->elements; i++) {
+    g_string_append_printf(out, "%d\n", QUADRATIC_TRIANGLE);
+  }
+  g_string_append(out, "</DataArray>\n</Cells>\n<PointData>\n");
+  put_field(out, mesh, "displacement_m", mesh->fields.displacement, 2);
+  put_field(out, mesh, "von_mises_Pa", mesh->fields.mises, 1);
+  put_field(out, mesh, "mean_stress_Pa", mesh->fields.hydrostatic, 1);
+  put_field(out, mesh, "shear_stress_Pa", mesh->fields.shear, 1);
+  put_field(out, mesh, "boundary_pressure_Pa", mesh->fields.contact, 1);
+  g_string_append(out, "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+}
+
+// ---- DXF
+
+static void put_vertex(GString *out, const char *layer, double x, double y) {
+  g_string_append_printf(out, "0\nVERTEX\n8\n%s\n", layer);
+  put(out, "10\n", 1e3 * x);
+  put(out, "\n20\n", 1e3 * y);
+  g_string_append(out, "\n30\n0\n");
+}
+
+static void begin_polyline(GString *out, const char *layer, bool closed) {
+  g_string_append_printf(out, "0\nPOLYLINE\n8\n%s\n66\n1\n70\n%d\n10\n0\n20\n0\n30\n0\n", layer,
+                         closed ? 1 : 0);
+}
+
+static void end_polyline(GString *out, const char *layer) {
+  g_string_append_printf(out, "0\nSEQEND\n8\n%s\n", layer);
+}
+
+static void write_dxf(GString *out, const Mesh *mesh) {
+  static const char *const outline[] = {"FREE", "DEFORMED"}, *const line[] = {"FLOOR", "BORE"};
+  const double radius[] = {mesh->load.floor_radius, mesh->load.bore_radius};
+  g_string_append(out, "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$INSUNITS\n70\n4\n"
+                       "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n");
+  for (int deformed = 0; deformed < 2; deformed++) {
+    begin_polyline(out, outline[deformed], true);
+    for (int i = 0; i < 2 * mesh->sides; i++) {
+      const int node = mesh->section.loop[i];
+      const double *place = &mesh->fields.place[2 * node];
+      put_vertex(out, outline[deformed], deformed ? place[0] : free_place(mesh, node, 0),
+                 deformed ? place[1] : free_place(mesh, node, 1));
+    }
+    end_polyline(out, outline[deformed]);
+  }
+  for (int k = 0; k < 2; k++) {
+    begin_polyline(out, line[k], false);
+    put_vertex(out, line[k], 1.5 * mesh->result.axial_left, radius[k]);
+    put_vertex(out, line[k], 1.5 * mesh->result.axial_right, radius[k]);
+    end_polyline(out, line[k]);
+  }
+  g_string_append(out, "0\nENDSEC\n0\nEOF\n");
+}
+
+// ---- CalculiX
+
+// A side of an element, numbered as there, for each boundary side.
+typedef struct {
+  int element, face;
+  double out[2]; // direction outwards in the free section, axial and radial
+} Face;
+
+static Face *faces_of(const Mesh *mesh) {
+  const SbRingSection *section = &mesh->section;
+  int *side_of = g_new(int, mesh->nodes); // boundary side of a mid-side node
+  Face *face = g_new0(Face, mesh->sides);
+  for (int i = 0; i < mesh->nodes; i++) {
+    side_of[i] = -1;
+  }
+  for (int k = 0; k < mesh->sides; k++) {
+    side_of[section->loop[2 * k + 1]] = k;
+    const int from = section->loop[2 * k], to = section->loop[2 * ((k + 1) % mesh->sides)];
+    const double axial = free_place(mesh, to, 0) - free_place(mesh, from, 0);
+    const double radial = free_place(mesh, to, 1) - free_place(mesh, from, 1);
+    const double length = hypot(axial, radial);
+    // Counter-clockwise in (r, z) the inside is to the left.
+    face[k].out[0] = -radial / length;
+    face[k].out[1] = axial / length;
+  }
+  for (int i = 0; i < 3 * mesh->elements; i++) {
+    const int side = side_of[section->triangle[i / 3 * 6 + 3 + i % 3]];
+    if (side >= 0) {
+      face[side].element = i / 3 + 1;
+      face[side].face = i % 3 + 1;
+    }
+  }
+  g_free(side_of);
+  return face;
+}
+
+// A rigid ring: four-node elements along an axis, from a place to another, its far side beyond.
+typedef struct {
+  const char *name;
+  int axis;            // along which it is divided: 0 axial, 1 radial
+  double from, to;     // along it [mm]
+  double face, back;   // across: of the side that is touched, and behind it [mm]
+  double out[2], move; // the ring's faces that may touch it look here; its motion across [mm]
+  int first, first_element;
+} Rigid;
+
+enum { PIECES = 8 };
+
+static void put_rigid_nodes(GString *out, const Rigid *rigid) {
+  for (int i = 0; i <= PIECES; i++) {
+    const double along = rigid->from + (rigid->to - rigid->from) * i / PIECES;
+    const double across[2] = {rigid->face, rigid->back};
+    for (int k = 0; k < 2; k++) {
+      g_string_append_printf(out, "%d", rigid->first + 2 * i + k);
+      put(out, ", ", rigid->axis == 0 ? across[k] : along);
+      put(out, ", ", rigid->axis == 0 ? along : across[k]);
+      g_string_append(out, ", 0\n");
+    }
+  }
+}
+
+// Counter-clockwise in (r, z), with the touched side's number.
+static int put_rigid_elements(GString *out, const Rigid *rigid) {
+  const bool behind = rigid->back > rigid->face; // further out, or further right
+  const bool turned = rigid->axis == 0 ? !behind : behind;
+  g_string_append_printf(out, "*ELEMENT, TYPE=CAX4, ELSET=%s\n", rigid->name);
+  for (int i = 0; i < PIECES; i++) {
+    const int a = rigid->first + 2 * i, b = a + 1, c = a + 3, d = a + 2;
+    g_string_append_printf(out, "%d, %d, %d, %d, %d\n", rigid->first_element + i, a, turned ? d : b,
+                           c, turned ? b : d);
+  }
+  return turned ? 1 : 4;
+}
+
+static void put_move(GString *out, const Rigid *rigid, bool moved) {
+  const int across = rigid->axis == 0 ? 1 : 2;
+  g_string_append_printf(out, "N%s, %d, %d, 0\nN%s, %d, %d", rigid->name, 3 - across, 3 - across,
+                         rigid->name, across, across);
+  put(out, ", ", moved ? rigid->move : 0.0);
+  g_string_append_c(out, '\n');
+}
+
+static void write_inp(GString *out, const Mesh *mesh) {
+  // A straight element of a rigid ring is a chord of the wedge: its middle stands at the radius.
+  const double chord = 1.0 / cos(M_PI / 180.0), mm = 1e3, d = mm * mesh->body.section_diameter;
+  const SbRingBody *body = &mesh->body;
+  const SbRingLoad *load = &mesh->load;
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, drift = 0.0;
+  for (int i = 0; i < mesh->nodes; i++) {
+    drift += mm * mesh->fields.displacement[2 * i] / mesh->nodes;
+    for (int k = 0; k < 2; k++) {
+      low[k] = fmin(low[k], mm * free_place(mesh, i, k));
+      high[k] = fmax(high[k], mm * free_place(mesh, i, k));
+    }
+  }
+  // The free ring stands where the pressed one will: only its place beside the wall counts.
+  low[0] += drift;
+  high[0] += drift;
+  const bool pressed = load->pressure_left != 0.0 || load->pressure_right != 0.0;
+  const bool right = load->pressure_left > load->pressure_right;
+  const double wall = mm * (right ? load->wall_right : load->wall_left);
+  Rigid rigid[3] = {
+      {"FLOOR", 0, low[0] - d, high[0] + d, low[1] - 1e-3, low[1] - 0.3, {0, -1}, 0, 0, 0},
+      {"BORE",
+       0,
+       low[0] - d,
+       high[0] + d,
+       high[1] + 0.02 * d,
+       high[1] + 0.02 * d + 0.3,
+       {0, 1},
+       0,
+       0,
+       0},
+      {"WALL",
+       1,
+       0.2 * low[1],
+       high[1] + d,
+       right ? high[0] + 0.3 * d : low[0] - 0.3 * d,
+       0,
+       {right ? 1 : -1, 0},
+       0,
+       0,
+       0}};
+  const int count = pressed && isfinite(wall) ? 3 : 2;
+  rigid[0].move = chord * mm * load->floor_radius - rigid[0].face;
+  rigid[1].move = chord * mm * load->bore_radius - rigid[1].face;
+  rigid[2].move = wall - rigid[2].face;
+  rigid[2].back = rigid[2].face + (right ? 0.3 : -0.3);
+  for (int k = 0; k < count; k++) {
+    rigid[k].first = mesh->nodes + 1 + k * 2 * (PIECES + 1);
+    rigid[k].first_element = mesh->elements + 1 + k * PIECES;
+  }
+  g_string_append_printf(out, "** A seal ring by sealbench: mm, N, MPa; r = x, axial = y.\n"
+                              "** Forces are those of 2 degrees of the ring, its 180th part.\n");
+  put(out, "** Bore load by sealbench [N], whole ring: ", mesh->result.bore_force);
+  g_string_append(out, "\n*NODE, NSET=ALL\n");
+  double nearest = HUGE_VAL;
+  int middle = 0; // holds the ring axially while nothing else does
+  for (int i = 0; i < mesh->nodes; i++) {
+    const double r = mm * free_place(mesh, i, 1), z = mm * free_place(mesh, i, 0) + drift;
+    g_string_append_printf(out, "%d", i + 1);
+    put(out, ", ", r);
+    put(out, ", ", z);
+    g_string_append(out, ", 0\n");
+    const double away = hypot(r - 0.5 * (low[1] + high[1]), z - 0.5 * (low[0] + high[0]));
+    middle = away < nearest ? i + 1 : middle;
+    nearest = fmin(nearest, away);
+  }
+  for (int k = 0; k < count; k++) {
+    put_rigid_nodes(out, &rigid[k]);
+  }
+  g_string_append(out, "*ELEMENT, TYPE=CAX6, ELSET=RUBBER\n");
+  for (int i = 0; i < 6 * mesh->elements; i++) {
+    if (i % 6 == 0) {
+      g_string_append_printf(out, "%d", i / 6 + 1);
+    }
+    g_string_append_printf(out, ", %d%s", mesh->section.triangle[i] + 1, i % 6 == 5 ? "\n" : "");
+  }
+  int face_number[3];
+  for (int k = 0; k < count; k++) {
+    face_number[k] = put_rigid_elements(out, &rigid[k]);
+    g_string_append_printf(out, "*NSET, NSET=N%s, GENERATE\n%d, %d\n", rigid[k].name,
+                           rigid[k].first, rigid[k].first + 2 * PIECES + 1);
+  }
+  // A contact's faces look towards it, or lie in it.
+  Face *face = faces_of(mesh);
+  for (int k = 0; k < count; k++) {
+    g_string_append_printf(out, "*SURFACE, NAME=S%s, TYPE=ELEMENT\n", rigid[k].name);
+    for (int i = 0; i < mesh->sides; i++) {
+      if (rigid[k].out[0] * face[i].out[0] + rigid[k].out[1] * face[i].out[1] > 0.25) {
+        g_string_append_printf(out, "%d, S%d\n", face[i].element, face[i].face);
+      }
+    }
+    g_string_append_printf(out, "*SURFACE, NAME=M%s, TYPE=ELEMENT\n", rigid[k].name);
+    for (int i = 0; i < PIECES; i++) {
+      g_string_append_printf(out, "%d, S%d\n", rigid[k].first_element + i, face_number[k]);
+    }
+  }
+  const double shear = 1e-6 * body->modulus / (2.0 * (1.0 + body->poisson_ratio));
+  const double bulk = 1e-6 * body->modulus / (3.0 * (1.0 - 2.0 * body->poisson_ratio));
+  g_string_append_printf(out, "*MATERIAL, NAME=RUBBER\n*HYPERELASTIC, %s\n",
+                         body->mooney_share > 0.0 ? "MOONEY-RIVLIN" : "NEO HOOKE");
+  put(out, "", 0.5 * shear * (1.0 - body->mooney_share));
+  if (body->mooney_share > 0.0) {
+    put(out, ", ", 0.5 * shear * body->mooney_share);
+  }
+  put(out, ", ", 2.0 / bulk);
+  g_string_append(out, "\n*SOLID SECTION, ELSET=RUBBER, MATERIAL=RUBBER\n"
+                       "** So soft that its own stress does not count; all its nodes are moved.\n"
+                       "*MATERIAL, NAME=RIGID\n*ELASTIC\n1e-6, 0\n");
+  for (int k = 0; k < count; k++) {
+    g_string_append_printf(out, "*SOLID SECTION, ELSET=%s, MATERIAL=RIGID\n", rigid[k].name);
+  }
+  g_string_append(out, "*SURFACE INTERACTION, NAME=SMOOTH\n"
+                       "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e4, 0.0025, 0.01\n");
+  for (int k = 0; k < count; k++) {
+    g_string_append_printf(out,
+                           "*CONTACT PAIR, INTERACTION=SMOOTH, TYPE=SURFACE TO SURFACE\nS%s, "
+                           "M%s\n",
+                           rigid[k].name, rigid[k].name);
+  }
+  // Onto the floor; the bore to its place; the wall to its place, with the fluid on the faces that
+  // it was found to wet; let go.
+  for (int step = 0; step < (count == 3 ? 4 : 2); step++) {
+    g_string_append(out, "*STEP, NLGEOM, INC=500\n*STATIC\n0.05, 1, 1e-6, 0.1\n*BOUNDARY, OP=NEW\n");
+    for (int k = 0; k < count; k++) {
+      put_move(out, &rigid[k], step >= k);
+    }
+    if (step < 3) {
+      g_string_append_printf(out, "%d, 2, 2, 0\n", middle);
+    }
+    if (step >= 2) {
+      g_string_append(out, "*DLOAD\n");
+      for (int i = 0; i < mesh->sides; i++) {
+        const unsigned char at = mesh->section.side[i];
+        const double p = at == SB_RING_SIDE_LEFT    ? load->pressure_left
+                         : at == SB_RING_SIDE_RIGHT ? load->pressure_right
+                                                    : 0.0;
+        if (p != 0.0) {
+          g_string_append_printf(out, "%d, P%d", face[i].element, face[i].face);
+          put(out, ", ", 1e-6 * p);
+          g_string_append_c(out, '\n');
+        }
+      }
+    }
+    for (int k = 0; k < count; k++) {
+      g_string_append_printf(out, "*NODE PRINT, NSET=N%s, TOTALS=ONLY, FREQUENCY=1000\nRF\n",
+                             rigid[k].name);
+    }
+    g_string_append(out, "*END STEP\n");
+  }
+  g_free(face);
+}
+
+// ----
+
+static const struct {
+  const char *ending;
+  void (*write)(GString *, const Mesh *);
+} KIND[] = {{".vtu", write_vtu}, {".inp", write_inp}, {".dxf", write_dxf}};
+
+static size_t kind_of(const char *path) {
+  size_t kind = 0;
+  while (kind < G_N_ELEMENTS(KIND) && !sb_output_ends_in(path, KIND[kind].ending)) {
+    kind++;
+  }
+  return kind;
+}
+
+bool sb_cae_knows(const char *path) {
+  return kind_of(path) < G_N_ELEMENTS(KIND);
+}
+
+char *sb_cae_text(const char *path, const SbRing *ring, const SbFitProblem *problem,
+                  GError **error) {
+  const size_t kind = kind_of(path);
+  if (KIND[kind].write == write_inp && problem->dragged) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "%s: a ring with friction is not written for CalculiX: it hangs on its path", path);
+    return NULL;
+  }
+  Mesh mesh;
+  take(&mesh, ring, problem);
+  GString *out = g_string_new(NULL);
+  KIND[kind].write(out, &mesh);
+  drop(&mesh);
+  return g_string_free(out, FALSE);
+}

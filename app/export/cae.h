@@ -1,0 +1,21 @@
+// A solved ring for other programs: mesh and fields as VTU (ParaView), the same problem as an input
+// file of CalculiX, free and deformed section as DXF.
+//
+// VTU: the deformed six-node triangles, x axial, y radial [m], with displacement [m], stresses and
+// contact pressure [Pa] at the nodes. DXF: closed polylines in millimetres, x axial, y radial, on
+// the layers FREE, DEFORMED, FLOOR, BORE. CalculiX: the free mesh, rubber, groove and bore as rigid
+// rings that move to their places, the fluid on the faces that we found wetted; millimetres,
+// newtons, megapascals. It turns a section into a wedge of two degrees: forces are those of the
+// 180th part of the ring. Rings without friction only.
+#pragma once
+
+#include "app/base/error.h"
+#include "engine/contact/fit.h"
+
+// Whether a path has an ending that is written: .vtu, .inp or .dxf.
+bool sb_cae_knows(const char *path);
+
+// The text of such a file for a solved fitment; free it. NULL with an error without memory, or for
+// an .inp of a ring with friction.
+char *sb_cae_text(const char *path, const SbRing *ring, const SbFitProblem *problem,
+                  GError **error);
