@@ -14,9 +14,9 @@ typedef struct {
 // What is kept of each run.
 typedef struct {
   size_t count;
-  const char **name; // borrowed
-  double **figure;   // [SB_FIGURE_COUNT] each
-  SbRun **run;       // for the chart; NULL: none is drawn
+  char **name;
+  double **figure; // [SB_FIGURE_COUNT] each
+  SbRun **run;     // for the chart; NULL: none is drawn
   SbMeasured **measured;
   SbComparison **comparison; // NULL: nothing measured
 } Runs;
@@ -25,8 +25,9 @@ static void on_progress(void *data, double fraction, size_t frames) {
   sb_progress_update(data, fraction);
 }
 
-// Runs one file and keeps its figures; an exit code.
-static int run_file(Runs *runs, const SbCliFile *file, const Options *options) {
+// Runs one model of a file, keeps its figures and calls it `name`; an exit code.
+static int run_model(Runs *runs, const SbCliFile *file, const SbModel *model, const char *name,
+                     const Options *options) {
   SbPlan plan;
   SbReport report = {0};
   SbRun *run = NULL;
@@ -35,13 +36,13 @@ static int run_file(Runs *runs, const SbCliFile *file, const Options *options) {
   if (code != SB_EXIT_DONE) {
     return code;
   }
-  if (!sb_cli_has_memory(file->model)) {
+  if (!sb_cli_has_memory(model)) {
     sb_measured_free(measured);
     return SB_EXIT_IO;
   }
   const SbPlanWishes wishes = {.views = SB_VIEW_HYSTERESIS, .life = true};
-  sb_plan_wished(&plan, file->model, &wishes);
-  SbStatus status = sb_run_create(&run, file->model, &plan, &report);
+  sb_plan_wished(&plan, model, &wishes);
+  SbStatus status = sb_run_create(&run, model, &plan, &report);
   if (status == SB_OK) {
     SbProgress progress;
     sb_progress_start(&progress, "");
@@ -53,7 +54,7 @@ static int run_file(Runs *runs, const SbCliFile *file, const Options *options) {
   }
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     const size_t at = runs->count++;
-    runs->name[at] = sb_document_title(file->document);
+    runs->name[at] = g_strdup(name);
     runs->figure[at] = g_new(double, SB_FIGURE_COUNT);
     for (int f = 0; f < SB_FIGURE_COUNT; f++) {
       runs->figure[at][f] = sb_figure_value(sb_run_summary(run), f);
@@ -75,6 +76,24 @@ static int run_file(Runs *runs, const SbCliFile *file, const Options *options) {
   sb_measured_free(measured);
   sb_run_destroy(run);
   return sb_cli_status(status, &report);
+}
+
+// A file's document and its pins; an exit code.
+static int run_file(Runs *runs, const SbCliFile *file, const Options *options) {
+  const SbDocument *document = file->document;
+  int code = run_model(runs, file, file->model, sb_document_title(document), options);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  for (size_t i = 0; i < sb_document_pin_count(document); i++) {
+    g_autoptr(SbModel) model = NULL;
+    const char *given = sb_document_pin_name(document, i);
+    g_autofree char *name = given != NULL ? g_strdup(given) : g_strdup_printf("pin %zu", i + 1);
+    if (!sb_cli_interrupted(NULL) && sb_document_compile_pin(document, i, &model, issues)) {
+      const int ran = run_model(runs, file, model, name, options);
+      code = MAX(code, ran);
+    }
+  }
+  sb_cli_issues(issues);
+  return issues->len > 0 ? MAX(code, SB_EXIT_INPUT) : code;
 }
 
 // The short table's figures of all runs, and what each differs by from the first.
@@ -119,8 +138,13 @@ int sb_command_compare(int argc, char **argv) {
   SbCliFiles files = {.code = SB_EXIT_INPUT};
   if (sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) &&
       sb_cli_files_open(&files, argc, argv, options.settings, NULL)) {
-    const size_t room = (size_t)files.count;
-    Runs runs = {.name = g_new0(const char *, room),
+    size_t room = (size_t)files.count;
+    for (int i = 0; i < files.count; i++) {
+      if (files.file[i].document != NULL) {
+        room += sb_document_pin_count(files.file[i].document);
+      }
+    }
+    Runs runs = {.name = g_new0(char *, room + 1),
                  .figure = g_new0(double *, room),
                  .run = g_new0(SbRun *, room),
                  .measured = g_new0(SbMeasured *, room),
@@ -132,8 +156,8 @@ int sb_command_compare(int argc, char **argv) {
       sb_cli_files_done(&files, run_file(&runs, file, &options));
     }
     if (runs.count > 0 && options.json != NULL) {
-      g_autofree char *json =
-          sb_results_compare(runs.count, runs.name, runs.figure, runs.comparison);
+      g_autofree char *json = sb_results_compare(runs.count, (const char *const *)runs.name,
+                                                 runs.figure, runs.comparison);
       sb_cli_files_done(&files, sb_cli_emit(json, options.json));
     } else if (runs.count > 0 && !sb_cli_quiet()) {
       print_figures(&runs);
@@ -144,7 +168,7 @@ int sb_command_compare(int argc, char **argv) {
         }
       }
       if (runs.run[0] != NULL) {
-        sb_cli_plot_runs(runs.run, runs.name, runs.count, runs.comparison[0]);
+        sb_cli_plot_runs(runs.run, (const char *const *)runs.name, runs.count, runs.comparison[0]);
       }
     }
     for (size_t i = 0; i < runs.count; i++) {
@@ -153,7 +177,7 @@ int sb_command_compare(int argc, char **argv) {
       sb_comparison_free(runs.comparison[i]);
       sb_measured_free(runs.measured[i]);
     }
-    g_free(runs.name);
+    g_strfreev(runs.name);
     g_free(runs.figure);
     g_free(runs.run);
     g_free(runs.measured);

@@ -36,7 +36,9 @@ int sb_command_check(int argc, char **argv) {
   if (sb_cli_parse(&argc, &argv, NULL, 1, SB_CLI_FILES_MAX, NULL) &&
       sb_cli_files_open(&files, argc, argv, NULL, NULL)) {
     for (const SbCliFile *file; (file = sb_cli_files_next(&files)) != NULL;) {
-      const char *kind = sb_document_kind(file->document) == SB_DOCUMENT_SCENE ? "scene" : "valve";
+      const char *kind = sb_document_kind(file->document) != SB_DOCUMENT_SCENE ? "valve"
+                         : sb_document_is_project(file->document)              ? "project"
+                                                                               : "scene";
       g_autofree char *shown = sb_printable(file->path, strlen(file->path));
       g_autoptr(GPtrArray) remarks = sb_issues_new();
       sb_document_remarks(file->document, file->model, remarks);

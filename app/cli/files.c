@@ -12,7 +12,7 @@ static char *folder_name(const char *path) {
     return g_strdup("standard-input");
   }
   char *name = g_path_get_basename(path);
-  static const char *const endings[] = {".scene", ".valve", ".png"};
+  static const char *const endings[] = {".scene", ".valve", ".project", ".png"};
   for (size_t i = 0; i < G_N_ELEMENTS(endings); i++) {
     size_t length = strlen(name), tail = strlen(endings[i]);
     // "..scene" stays as it is: "." and ".." are other folders.

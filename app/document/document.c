@@ -25,6 +25,7 @@ SbDocument *sb_document_new(void) {
   document->notes = g_ptr_array_new_with_free_func(g_free);
   document->cases = sb_document_cases_new();
   document->pins = sb_document_pins_new();
+  sb_document_remarks_init(document);
   document->shapes = sb_shapes_new();
   sb_params_init(&document->base);
   sb_params_init(&document->own);
@@ -57,6 +58,7 @@ void sb_document_free(SbDocument *document) {
   g_ptr_array_unref(document->notes);
   g_ptr_array_unref(document->cases);
   g_ptr_array_unref(document->pins);
+  sb_document_remarks_clear(document);
   sb_shapes_free(document->shapes);
   g_free(document);
 }
@@ -91,7 +93,8 @@ static char *group_of(SbParamId id) {
 // Whether a group's names are no keys of the catalogue.
 static bool has_own_names(const char *group) {
   return strcmp(group, SB_LIMITS_GROUP) == 0 || strcmp(group, SB_CASES_GROUP) == 0 ||
-         strcmp(group, SB_PINS_GROUP) == 0 || sb_data_is_group(group);
+         strcmp(group, SB_PINS_GROUP) == 0 || sb_data_is_group(group) ||
+         sb_document_is_remark_group(group);
 }
 
 // Whether any key stands in `group`; else an issue.
@@ -193,10 +196,10 @@ static bool read_meta(SbDocumentKind *kind, const GPtrArray *entries, const char
   const char *name = meta_value(entries, "kind");
   if (name != NULL && strcmp(name, "valve") == 0) {
     *kind = SB_DOCUMENT_VALVE;
-  } else if (name != NULL && strcmp(name, "scene") == 0) {
+  } else if (name != NULL && (strcmp(name, "scene") == 0 || strcmp(name, "project") == 0)) {
     *kind = SB_DOCUMENT_SCENE;
   } else {
-    sb_issues_add(issues, shown, 0, "sealbench.kind", "valve, scene", "%s",
+    sb_issues_add(issues, shown, 0, "sealbench.kind", "valve, scene, project", "%s",
                   name == NULL ? "is missing" : "is unknown");
     return false;
   }
@@ -337,6 +340,7 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   read_series(document, entries, directory, issues);
   document->measured = sb_data_read(entries, directory, name, issues);
   sb_document_data_saved(document);
+  sb_document_remarks_read(document, name, issues);
   const SbValveOutlines *outlines = &document->shapes->outlines;
   if (outlines->housing || outlines->stem) {
     data_of(document)->outlines = *outlines;
@@ -434,6 +438,10 @@ char *sb_document_shape_note(const SbDocument *document, SbParamId id) {
 
 SbDocumentKind sb_document_kind(const SbDocument *document) {
   return document->kind;
+}
+
+bool sb_document_is_project(const SbDocument *document) {
+  return g_strcmp0(meta_value(document->entries, "kind"), "project") == 0;
 }
 
 const char *sb_document_path(const SbDocument *document) {

@@ -1,4 +1,5 @@
-// A document: one valve or scene file, what it says, and what the user has changed since.
+// A document: one valve, scene or project file (a scene with what a review adds to it), what it
+// says, and what the user has changed since.
 //
 // Values lie in layers: the catalogue's defaults, then (for a scene) its valve's file, then the
 // document's own keys. Edits go to the document's own keys and can be undone. Files are GKeyFile
@@ -41,6 +42,9 @@ void sb_document_free(SbDocument *document);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbDocument, sb_document_free)
 
 SbDocumentKind sb_document_kind(const SbDocument *document);
+
+// Whether its file says kind = project: a scene with its pins, data, bookmarks and notes.
+bool sb_document_is_project(const SbDocument *document);
 
 // Path of the file, or NULL before the first save; borrowed until the next save.
 const char *sb_document_path(const SbDocument *document);
@@ -121,6 +125,25 @@ void sb_document_take_pins(SbDocument *document, const SbDocument *other);
 // Makes a pin's values the document's, as one step that can be undone.
 void sb_document_use_pin(SbDocument *document, size_t index);
 
+// What a review adds (document_review.c): [bookmarks] NAME = TIME of the run, [notes] NAME = text.
+// Each kind has its names; borrowed until the next change.
+typedef enum { SB_REMARK_BOOKMARK, SB_REMARK_NOTE, SB_REMARK_KINDS } SbRemarkKind;
+enum { SB_REMARKS_MAX = 100 }; // of each kind
+size_t sb_document_remark_count(const SbDocument *document, SbRemarkKind kind);
+const char *sb_document_remark_name(const SbDocument *document, SbRemarkKind kind, size_t index);
+const char *sb_document_remark_text(const SbDocument *document, SbRemarkKind kind, size_t index);
+
+// Time of a bookmark [s].
+double sb_document_bookmark(const SbDocument *document, size_t index);
+
+// Adds one, or changes that of this name; `text` NULL takes it away. Saved with the document, but
+// no edit that can be undone. On failure SB_APP_ERROR_INPUT and nothing changes.
+SB_CHECKED bool sb_document_put_remark(SbDocument *document, SbRemarkKind kind, const char *name,
+                                       const char *text, GError **error);
+
+// Keeps those of another document in place of its own.
+void sb_document_take_remarks(SbDocument *document, const SbDocument *other);
+
 // Adds what is possible in a compiled document's geometry and hardly meant, as compile() does for
 // what is not possible.
 void sb_document_remarks(const SbDocument *document, const SbModel *model, GPtrArray *issues);
@@ -176,7 +199,8 @@ int sb_document_next_undo(const SbDocument *document, bool redo, double value[2]
 bool sb_document_can_undo(const SbDocument *document);
 bool sb_document_can_redo(const SbDocument *document);
 
-// Counts every change of a value or a pin; two equal numbers mean that nothing has changed.
+// Counts every change of a value, a pin, a bookmark or a note; two equal numbers mean that nothing
+// has changed.
 unsigned sb_document_serial(const SbDocument *document);
 
 // The text that saving to `path` would write (NULL: where it is now). Owned by the caller.

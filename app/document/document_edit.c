@@ -238,7 +238,7 @@ bool sb_document_differs(const SbDocument *document, SbParamId id) {
 }
 
 bool sb_document_is_modified(const SbDocument *document) {
-  if (document->pins_changed || sb_document_data_differs(document) ||
+  if (document->pins_changed || document->remarks_changed || sb_document_data_differs(document) ||
       !sb_named_rubber_same(document->own_rubber, document->saved_rubber)) {
     return true;
   }

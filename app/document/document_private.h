@@ -4,6 +4,7 @@
 
 #include "app/document/document_parts.h"
 
+#include "app/base/writer.h"
 #include "app/document/document.h"
 #include "engine/valve/sealbench.h"
 
@@ -46,21 +47,23 @@ struct SbDocument {
   GPtrArray *measured;                                    // of SbData, its own [data] groups
   SbData *saved_measured;                                 // the first of them in its file, or NULL
   SbNamedRubber *base_rubber, *own_rubber, *saved_rubber; // as the params; NULL: none
-  SbModelData *data;  // series, outlines and rubber, for its models; NULL: none
-  char *text;         // of the file as last read or written
-  GPtrArray *entries; // of that text
-  SbParams base;      // what the valve gives (scenes)
-  SbParams own;       // what the document gives
-  SbParams saved;     // what its file gives
-  SbLimits limits;    // on figures: the valve's, and its own in their place
-  GPtrArray *cases;   // in the same way (document_cases.c)
-  GPtrArray *pins;    // its own alone, see document_pins.c
-  bool pins_changed;  // since the file was read or written
-  SbShapes *shapes;   // of the parts
-  GPtrArray *notes;   // of char *, what shapes say against given values
-  GArray *edits;      // Edit
-  guint done;         // edits before this one are in force
-  bool mergeable;     // the last edit may swallow the next one of its key
+  SbModelData *data;                  // series, outlines and rubber, for its models; NULL: none
+  char *text;                         // of the file as last read or written
+  GPtrArray *entries;                 // of that text
+  SbParams base;                      // what the valve gives (scenes)
+  SbParams own;                       // what the document gives
+  SbParams saved;                     // what its file gives
+  SbLimits limits;                    // on figures: the valve's, and its own in their place
+  GPtrArray *cases;                   // in the same way (document_cases.c)
+  GPtrArray *pins;                    // its own alone, see document_pins.c
+  bool pins_changed;                  // since the file was read or written
+  GPtrArray *remark[SB_REMARK_KINDS]; // what a review adds (document_review.c)
+  bool remarks_changed;               // in the same way
+  SbShapes *shapes;                   // of the parts
+  GPtrArray *notes;                   // of char *, what shapes say against given values
+  GArray *edits;                      // Edit
+  guint done;                         // edits before this one are in force
+  bool mergeable;                     // the last edit may swallow the next one of its key
   unsigned serial;
 };
 
@@ -103,6 +106,15 @@ GPtrArray *sb_document_pins_new(void);
 void sb_document_read_pins(SbDocument *document, const GPtrArray *entries, const char *shown,
                            GPtrArray *issues);
 void sb_document_change_pins(GArray *changes, const SbDocument *document);
+
+// The groups of bookmarks and notes (document_review.c).
+bool sb_document_is_remark_group(const char *group);
+void sb_document_remarks_init(SbDocument *document);
+void sb_document_remarks_clear(SbDocument *document);
+void sb_document_remarks_read(SbDocument *document, const char *shown, GPtrArray *issues);
+
+// Adds the lines that differ from the file's (of SbChange).
+void sb_document_change_remarks(GArray *changes, const SbDocument *document);
 
 // Range of a problem in the parameter's unit, "at least 5.79 mm"; NULL: none. Owned by the caller.
 char *sb_document_problem_range(const SbProblem *problem, const SbParam *param);

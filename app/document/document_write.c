@@ -145,6 +145,7 @@ char *sb_document_to_text(const SbDocument *document, const char *path) {
       g_array_append_val(changes, change);
     }
   }
+  sb_document_change_remarks(changes, document);
   g_autofree char *folder = path != NULL ? g_path_get_dirname(path) : NULL;
   char *rubber = sb_document_rubber_name_at(document, folder);
   const bool was = document->saved_rubber != NULL;
@@ -292,6 +293,7 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
   }
   sb_document_data_saved(document);
   document->pins_changed = false;
+  document->remarks_changed = false;
   g_ptr_array_unref(none);
   char *kept = g_strdup(path);
   g_free(document->path);

@@ -492,6 +492,29 @@ static void draw_warnings(SbReportPages *pages, const SbWarnings *warnings,
   }
 }
 
+// What reviewers wrote.
+static void draw_remarks(SbReportPages *pages, const SbDocument *document) {
+  static const SbReportColumn columns[] = {{"", 2, SB_REPORT_WORDS}, {"", 6, SB_REPORT_WORDS}};
+  static const char *const names[SB_REMARK_KINDS] = {"Bookmarks", "Notes"};
+  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  bool headed = false;
+  for (int kind = 0; kind < SB_REMARK_KINDS; kind++) {
+    for (size_t i = 0; i < sb_document_remark_count(document, (SbRemarkKind)kind); i++) {
+      if (!headed) {
+        sb_report_heading(pages, "From the review", 60);
+        headed = true;
+      }
+      const char *const head[] = {names[kind], NULL};
+      if (i == 0) {
+        sb_report_row(pages, &table, head, SB_REPORT_GROUP);
+      }
+      const char *const cell[] = {sb_document_remark_name(document, (SbRemarkKind)kind, i),
+                                  sb_document_remark_text(document, (SbRemarkKind)kind, i)};
+      sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
+    }
+  }
+}
+
 // ---- Studies ----
 
 static void draw_study(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
@@ -525,6 +548,7 @@ static void draw_scene(SbReportPages *pages, const void *of) {
   draw_cycle(pages, scene);
   draw_figures(pages, scene);
   draw_warnings(pages, &scene->summary->warnings, scene->of->document);
+  draw_remarks(pages, scene->of->document);
   draw_studies(pages, scene);
   sb_report_page(pages, false);
   sb_report_inputs(pages, scene->of->document, scene->model);
@@ -545,7 +569,16 @@ bool sb_report_scene(FILE *stream, const SbReportScene *of, const SbReportHooks 
   size_t count;
   const SbFrame *frames = sb_run_frames(of->run, &count);
   sb_trace_extend(trace, frames, count, 0);
-  scene.data = (SbChartData){.title = sb_document_title(of->document), .measured = of->measured};
+  const size_t markers = sb_document_remark_count(of->document, SB_REMARK_BOOKMARK);
+  g_autofree SbChartMarker *marker = g_new0(SbChartMarker, markers + 1);
+  for (size_t i = 0; i < markers; i++) {
+    marker[i] = (SbChartMarker){sb_document_bookmark(of->document, i),
+                                sb_document_remark_name(of->document, SB_REMARK_BOOKMARK, i)};
+  }
+  scene.data = (SbChartData){.title = sb_document_title(of->document),
+                             .measured = of->measured,
+                             .marker = marker,
+                             .marker_count = markers};
   sb_chart_run_init(&scene.data.run, of->run, trace, sb_chart_state_of(scene.summary));
   // A run without a frame has pages of figures all the same.
   (void)sb_render_frame_at(&scene.data.playhead, of->run, NULL, NULL);

@@ -144,6 +144,7 @@ gboolean sb_session_restore(SbSession *session, const char *path, const char *te
     sb_document_put_data(document, measured ? sb_data_copy(now) : NULL);
   }
   sb_document_take_pins(document, changed_one);
+  sb_document_take_remarks(document, changed_one);
   replace_document(session, g_steal_pointer(&document));
   return TRUE;
 }
@@ -309,6 +310,7 @@ static void finalize(GObject *object) {
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     forget_rejected(session, id);
   }
+  g_free(session->markers);
   sb_document_free(session->document);
   sb_model_destroy(session->model);
   G_OBJECT_CLASS(sb_session_parent_class)->finalize(object);

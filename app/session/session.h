@@ -63,6 +63,13 @@ const char *sb_session_measured_failure(SbSession *session);
 // Of the drive at present, for records over time alone [m/s]; 0: it has no constant one.
 double sb_session_drive_speed(SbSession *session);
 
+// Adds, changes or (`text` NULL) takes away what a review keeps with the document, as
+// sb_document_put_remark(); a bookmark of the shown frame; shows the frame of a time [s].
+gboolean sb_session_put_remark(SbSession *session, SbRemarkKind kind, const char *name,
+                               const char *text, GError **error);
+gboolean sb_session_put_bookmark(SbSession *session, const char *name, GError **error);
+void sb_session_show_time(SbSession *session, double time);
+
 gboolean sb_session_is_modified(SbSession *session);
 
 // Where the cutaway is seen from in this window [rad]; the scene's own at first. No signal.

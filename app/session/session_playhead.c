@@ -47,11 +47,20 @@ void sb_session_step(SbSession *session, int frames) {
 
 void sb_session_step_event(SbSession *session, int direction) {
   size_t count = 0;
-  sb_session_frames(session, &count);
+  const SbFrame *frames = sb_session_frames(session, &count);
   if (session->shown == NULL || count == 0) {
     return;
   }
   size_t frame = sb_playhead_event(&session->playhead, session->shown->trace, count, direction);
+  // A bookmark on the way comes first.
+  const size_t now = session->playhead.frame;
+  for (size_t i = 0; i < session->chart.marker_count; i++) {
+    const size_t at = sb_playhead_nearest(frames, count, session->chart.marker[i].time);
+    if (direction > 0 ? at > now && (at < frame || frame <= now)
+                      : at < now && (at > frame || frame >= now)) {
+      frame = at;
+    }
+  }
   sb_session_play(session, FALSE);
   sb_session_set_playhead(session, frame);
 }

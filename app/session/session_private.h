@@ -78,7 +78,8 @@ struct _SbSession {
   double azimuth, elevation; // of the cutaway's camera [rad]
 
   SbPlayhead playhead;
-  SbChartData chart; // what views are given
+  SbChartData chart;      // what views are given
+  SbChartMarker *markers; // owned: the document's bookmarks, for the chart
   char *hash;
 };
 
@@ -118,6 +119,7 @@ void sb_session_hold(SbDisplayedRun **run, SbDisplayedRun *value);
 SbSessionState sb_session_shown_state(const SbSession *session);
 gboolean sb_session_is_former(SbSession *session);
 void sb_session_refresh_chart(SbSession *session);
+void sb_session_refresh_markers(SbSession *session);
 void sb_session_run_changed(SbSession *session);
 
 // Reads the document's data anew; what is compared with the shown run, NULL: nothing; forgets both.

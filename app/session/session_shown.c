@@ -63,6 +63,7 @@ void sb_session_refresh_chart(SbSession *session) {
   chart->hash = session->hash;
   chart->failure = session->failure;
   sb_session_chart_pins(session);
+  sb_session_refresh_markers(session);
 }
 
 void sb_session_run_changed(SbSession *session) {

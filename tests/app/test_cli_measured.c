@@ -215,6 +215,31 @@ static void test_calibrate(void) {
   cli_clear(&result);
 }
 
+// A project's pins stand beside its scene.
+static void test_project(void) {
+  g_autofree char *path = g_build_filename(folder, "x.project", NULL);
+  g_autofree char *text = g_strdup_printf(
+      "[sealbench]\nformat = 1\nkind = project\nvalve = %s\n[models]\n"
+      "fit = karaszkiewicz\nfilm = thesis\n[pins]\nwide = gland.radial_space = 1.38 mm\n"
+      "[notes]\nwide = loose\n",
+      cli.valve);
+  write_text(path, text);
+  CliResult result = CLI("compare", path, "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *root = cli_parse(result.out);
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "runs.1.name")), ==, "wide");
+  CliResult set = CLI("run", path, "--set", "gland.radial_space=1.38 mm", "--json", "-");
+  JsonNode *same = cli_parse(set.out);
+  const double force = cli_number(same, "cycle.force_breakaway_N");
+  JsonObject *figures = json_node_get_object(cli_at(root, "runs.1.figures"));
+  g_assert_cmpfloat(json_object_get_double_member(figures, "cycle.force_breakaway_N"), ==, force);
+  json_node_unref(root);
+  json_node_unref(same);
+  cli_clear(&result);
+  cli_clear(&set);
+  g_unlink(path);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -223,6 +248,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-measured/differences", test_differences);
   g_test_add_func("/cli-measured/shown", test_shown);
   g_test_add_func("/cli-measured/refused", test_refused);
+  g_test_add_func("/cli-measured/project", test_project);
   g_test_add_func("/cli-measured/calibrate", test_calibrate);
   const int result = g_test_run();
   g_unlink(scene);

@@ -620,8 +620,70 @@ static void test_own_rubber(void) {
 #undef RUBBER
 }
 
+// A scene with pins, bookmarks and notes: kept over saving, refused where they are no such.
+static void test_project(void) {
+  static const char text[] =
+      "[sealbench]\nformat = 1\nkind = project\nvalve = piston.valve\n"
+      "# a comment\n[pins]\nwide = gland.radial_space = 1.38 mm\n"
+      "[bookmarks]\nfirst slip = 0.8 s\n[notes]\nwide = one\\ntwo \\\\ three\n";
+  g_autofree char *folder = g_build_filename(g_getenv("SEALBENCH_ASSETS"), "valves", NULL);
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  SbDocument *document = sb_document_parse(text, strlen(text), "x.project", folder, issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  g_assert_cmpint(sb_document_kind(document), ==, SB_DOCUMENT_SCENE);
+  g_assert_true(sb_document_is_project(document));
+  g_assert_cmpuint(sb_document_pin_count(document), ==, 1);
+  g_assert_cmpfloat(sb_document_bookmark(document, 0), ==, 0.8);
+  g_assert_cmpstr(sb_document_remark_text(document, SB_REMARK_NOTE, 0), ==, "one\ntwo \\ three");
+  g_autoptr(SbModel) model = NULL;
+  g_assert_true(sb_document_compile_pin(document, 0, &model, issues));
+  g_assert_cmpfloat(sb_model_value(model, SB_P_GLAND_RADIAL_SPACE), ==, 1.38e-3);
+  g_autofree char *same = sb_document_to_text(document, NULL);
+  g_assert_cmpstr(same, ==, text);
+  g_assert_false(sb_document_is_modified(document));
+  // Edits, and back through the text.
+  GError *error = NULL;
+  g_assert_false(sb_document_put_remark(document, SB_REMARK_BOOKMARK, "x", "soon", &error));
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+  g_clear_error(&error);
+  g_assert_false(sb_document_put_remark(document, SB_REMARK_NOTE, "a = b", "text", &error));
+  g_clear_error(&error);
+  g_assert_false(sb_document_is_modified(document));
+  g_assert_true(sb_document_put_remark(document, SB_REMARK_NOTE, "all", "a\nb", NULL));
+  g_assert_true(sb_document_put_remark(document, SB_REMARK_BOOKMARK, "first slip", NULL, NULL));
+  g_assert_true(sb_document_is_modified(document));
+  g_autofree char *changed = sb_document_to_text(document, NULL);
+  g_assert_nonnull(strstr(changed, "# a comment"));
+  g_assert_null(strstr(changed, "first slip"));
+  SbDocument *again = sb_document_parse(changed, strlen(changed), "x.project", folder, issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  g_assert_cmpstr(sb_document_remark_text(again, SB_REMARK_NOTE, 1), ==, "a\nb");
+  sb_document_free(again);
+  sb_document_free(document);
+  // What is no such.
+  static const struct {
+    const char *lines, *word;
+  } bad[] = {{"[bookmarks]\nx = -1 s\n", "at least 0 s"},
+             {"[bookmarks]\nx = 3\n", "unit"},
+             {"[notes]\n a] = b\n", "name"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+    g_autoptr(GPtrArray) told = sb_issues_new();
+    g_autofree char *whole = g_strconcat("[sealbench]\nformat = 1\nkind = project\n"
+                                         "valve = piston.valve\n",
+                                         bad[i].lines, NULL);
+    document = sb_document_parse(whole, strlen(whole), "x.project", folder, told);
+    g_assert_cmpuint(told->len, >, 0);
+    g_autofree char *line = sb_issue_line(told->pdata[0]);
+    if (strstr(line, bad[i].word) == NULL) {
+      g_error("case %zu: %s", i, line);
+    }
+    sb_document_free(document);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/document/project", test_project);
   g_test_add_func("/document/piston", test_piston);
   g_test_add_func("/document/scenes", test_scenes);
   g_test_add_func("/document/layers", test_layers);

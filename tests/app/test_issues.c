@@ -47,9 +47,10 @@ static void test_table(void) {
       {"[sealbench]\nkind = valve\n", "x.valve: [sealbench] format: is missing (allowed 1)"},
       {"[sealbench]\nformat = 2\nkind = valve\n",
        "x.valve: [sealbench] format: is a format that this version cannot read (allowed 1)"},
-      {"[sealbench]\nformat = 1\n", "x.valve: [sealbench] kind: is missing (allowed valve, scene)"},
+      {"[sealbench]\nformat = 1\n",
+       "x.valve: [sealbench] kind: is missing (allowed valve, scene, project)"},
       {"[sealbench]\nformat = 1\nkind = pump\n",
-       "x.valve: [sealbench] kind: is unknown (allowed valve, scene)"},
+       "x.valve: [sealbench] kind: is unknown (allowed valve, scene, project)"},
       {VALVE "colour = red\n",
        "x.valve: [sealbench] colour: unknown key (allowed format, kind, title, valve)"},
       // Unknown key and group.

@@ -101,9 +101,10 @@ gboolean sb_window_files_may_discard(SbWindowFiles *files) {
 // A picture that this program drew opens as its scene, but nothing is saved as one.
 static void add_filters(GtkFileChooser *chooser, gboolean to_open) {
   static const struct {
-    const char *name, *patterns[3];
-  } filters[] = {{N_("Valves and scenes"), {"*.valve", "*.scene"}},
-                 {N_("Valves, scenes and pictures of them"), {"*.valve", "*.scene", "*.png"}},
+    const char *name, *patterns[4];
+  } filters[] = {{N_("Valves, scenes and projects"), {"*.valve", "*.scene", "*.project"}},
+                 {N_("Valves, scenes, projects and pictures of them"),
+                  {"*.valve", "*.scene", "*.project", "*.png"}},
                  {N_("All files"), {"*"}}};
   for (guint i = 0; i < G_N_ELEMENTS(filters); i++) {
     if (i < 2 && (i == 1) != to_open) {
@@ -111,7 +112,7 @@ static void add_filters(GtkFileChooser *chooser, gboolean to_open) {
     }
     GtkFileFilter *filter = gtk_file_filter_new();
     gtk_file_filter_set_name(filter, _(filters[i].name));
-    for (int k = 0; k < 3 && filters[i].patterns[k] != NULL; k++) {
+    for (int k = 0; k < 4 && filters[i].patterns[k] != NULL; k++) {
       gtk_file_filter_add_pattern(filter, filters[i].patterns[k]);
     }
     gtk_file_chooser_add_filter(chooser, filter);
@@ -329,7 +330,9 @@ static GPtrArray *recent_paths(void) {
   for (GList *link = items; link != NULL && paths->len < RECENT_MAX; link = link->next) {
     const char *uri = gtk_recent_info_get_uri(link->data);
     g_autofree char *path = g_filename_from_uri(uri, NULL, NULL);
-    if (path != NULL && (g_str_has_suffix(path, ".scene") || g_str_has_suffix(path, ".valve")) &&
+    if (path != NULL &&
+        (g_str_has_suffix(path, ".scene") || g_str_has_suffix(path, ".valve") ||
+         g_str_has_suffix(path, ".project")) &&
         g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
       g_ptr_array_add(paths, g_steal_pointer(&path));
     }
@@ -361,6 +364,7 @@ static GtkWidget *recent_menu(SbWindowFiles *files) {
   GtkRecentFilter *filter = gtk_recent_filter_new();
   gtk_recent_filter_add_pattern(filter, "*.valve");
   gtk_recent_filter_add_pattern(filter, "*.scene");
+  gtk_recent_filter_add_pattern(filter, "*.project");
   gtk_recent_chooser_set_filter(GTK_RECENT_CHOOSER(menu), filter);
   gtk_recent_chooser_set_sort_type(GTK_RECENT_CHOOSER(menu), GTK_RECENT_SORT_MRU);
   gtk_recent_chooser_set_local_only(GTK_RECENT_CHOOSER(menu), TRUE);
