@@ -356,7 +356,8 @@ static void write_inp(GString *out, const Mesh *mesh) {
   // Onto the floor; the bore to its place; the wall to its place, with the fluid on the faces that
   // it was found to wet; let go.
   for (int step = 0; step < (count == 3 ? 4 : 2); step++) {
-    g_string_append(out, "*STEP, NLGEOM, INC=500\n*STATIC\n0.1, 1, 1e-6, 0.25\n*BOUNDARY, OP=NEW\n");
+    g_string_append(out,
+                    "*STEP, NLGEOM, INC=500\n*STATIC\n0.1, 1, 1e-6, 0.25\n*BOUNDARY, OP=NEW\n");
     for (int k = 0; k < count; k++) {
       put_move(out, &rigid[k], step >= k);
     }

@@ -36,7 +36,7 @@ typedef struct {
   bool dark;
   bool read_outs; // stage, time, stroke and force in place of a title, where no page has them
   bool hide_insets, hide_forces, hide_labels;
-  bool bare; // the valve or a seal fills the picture: no title, legends, scale or insets
+  bool bare;      // the valve or a seal fills the picture: no title, legends, scale or insets
   int inset_seal; // SB_OUTER or SB_INNER
   SbSectionZoom zoom;
   bool full;    // both halves; not when zoomed

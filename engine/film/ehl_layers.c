@@ -162,10 +162,10 @@ static double place_of(double lambda, double slope) {
 }
 
 // Place of the least film before a flooded outlet, read off our own solutions (M from 1.3 to 1e6,
-// pressures up to 3.05 p_H apart): at rest the layer lies on the edge, higher outlet pressure pushes
-// it out, thick films less. On a half-plane the edges' slopes have the mean 1; another mean K, of a
-// fitted body, scales the pressure: the layers are those of lambda / K^3 (their widths) with the
-// slopes over K.
+// pressures up to 3.05 p_H apart): at rest the layer lies on the edge, higher outlet pressure
+// pushes it out, thick films less. On a half-plane the edges' slopes have the mean 1; another mean
+// K, of a fitted body, scales the pressure: the layers are those of lambda / K^3 (their widths)
+// with the slopes over K.
 double sb_ehl_layers_outlet(const SbEhlLayers *l) {
   if (l->end != SB_EHL_FULL) {
     return 1.0;

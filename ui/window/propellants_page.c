@@ -5,11 +5,11 @@
 #include "app/base/translation.h"
 #include "app/chart/propellants.h"
 #include "app/document/unit.h"
+#include "app/session/study_job.h"
 #include "engine/fluid/fluid.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
-#include "app/session/study_job.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -7,11 +7,11 @@
 #include "app/base/translation.h"
 #include "app/chart/study.h"
 #include "app/export/studies.h"
+#include "app/session/study_job.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/style.h"
 #include "ui/window/export_dialog.h"
 #include "ui/window/preferences.h"
-#include "app/session/study_job.h"
 
 #include <glib/gi18n.h>
 
