@@ -118,21 +118,13 @@ static bool choose_drag(SbFitProblem *problem, bool *limit, const char *text, bo
   return true;
 }
 
-// Whether all files of --export are of kinds that are written, by the ring, and can be; an exit
-// code.
+// Whether all files of --export are of kinds that are written, and can be; an exit code.
 static int check_exports(char **exports, const SbFitProblem *problem) {
   int code = SB_EXIT_DONE;
   for (char **path = exports; path != NULL && *path != NULL && code == SB_EXIT_DONE; path++) {
-    if (!sb_cae_knows(*path)) {
-      sb_cli_fail("--export: %s has no known ending (allowed .vtu, .inp, .dxf)", *path);
-      code = SB_EXIT_INPUT;
-    } else if (problem->model != SB_FIT_RING) {
-      sb_cli_fail("--export: only the ring model has a mesh, not %s (--model ring)",
-                  sb_fit_model_name(problem->model));
-      code = SB_EXIT_INPUT;
-    } else {
-      code = sb_cli_check_outputs(NULL, NULL, *path);
-    }
+    GError *error = NULL;
+    code = sb_cae_check(*path, problem, &error) ? sb_cli_check_outputs(NULL, NULL, *path)
+                                                : sb_cli_error(error);
   }
   return code;
 }
@@ -142,8 +134,8 @@ static int write_exports(char **exports, const SbRing *ring, const SbFitProblem 
   int code = SB_EXIT_DONE;
   for (char **path = exports; path != NULL && *path != NULL && code == SB_EXIT_DONE; path++) {
     GError *error = NULL;
-    char *text = sb_cae_text(*path, ring, problem, &error);
-    const bool good = text != NULL && sb_output_write(*path, text, strlen(text), &error);
+    char *text = sb_cae_text(*path, ring, problem);
+    const bool good = sb_output_write(*path, text, strlen(text), &error);
     code = good ? SB_EXIT_DONE : sb_cli_error(error);
     g_free(text);
   }

@@ -402,22 +402,29 @@ static size_t kind_of(const char *path) {
   return kind;
 }
 
-bool sb_cae_knows(const char *path) {
-  return kind_of(path) < G_N_ELEMENTS(KIND);
-}
-
-char *sb_cae_text(const char *path, const SbRing *ring, const SbFitProblem *problem,
-                  GError **error) {
+bool sb_cae_check(const char *path, const SbFitProblem *problem, GError **error) {
   const size_t kind = kind_of(path);
-  if (KIND[kind].write == write_inp && problem->dragged) {
+  if (kind == G_N_ELEMENTS(KIND)) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "--export: %s has no known ending (allowed .vtu, .inp, .dxf)", path);
+  } else if (problem->model != SB_FIT_RING) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "--export: only the ring model has a mesh, not %s (--model ring)",
+                sb_fit_model_name(problem->model));
+  } else if (KIND[kind].write == write_inp && problem->dragged) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "%s: a ring with friction is not written for CalculiX: it hangs on its path", path);
-    return NULL;
+  } else {
+    return true;
   }
+  return false;
+}
+
+char *sb_cae_text(const char *path, const SbRing *ring, const SbFitProblem *problem) {
   Mesh mesh;
   take(&mesh, ring, problem);
   GString *out = g_string_new(NULL);
-  KIND[kind].write(out, &mesh);
+  KIND[kind_of(path)].write(out, &mesh);
   drop(&mesh);
   return g_string_free(out, FALSE);
 }

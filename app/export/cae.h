@@ -12,10 +12,9 @@
 #include "app/base/error.h"
 #include "engine/contact/fit.h"
 
-// Whether a path has an ending that is written: .vtu, .inp or .dxf.
-bool sb_cae_knows(const char *path);
+// Whether a path has an ending that is written (.vtu, .inp or .dxf) and such a fitment can be: a
+// solved ring, as .inp one without friction.
+bool sb_cae_check(const char *path, const SbFitProblem *problem, GError **error);
 
-// The text of such a file for a solved fitment; free it. NULL with an error without memory, or for
-// an .inp of a ring with friction.
-char *sb_cae_text(const char *path, const SbRing *ring, const SbFitProblem *problem,
-                  GError **error);
+// The text of such a file for a solved fitment; free it.
+char *sb_cae_text(const char *path, const SbRing *ring, const SbFitProblem *problem);
