@@ -399,7 +399,8 @@ void sb_chart_histogram(SbCells *cells, SbCellRect rect, const SbCellTheme *them
   for (size_t i = 0; i < count; i++) {
     if (isfinite(value[i])) {
       const int bin = CLAMP((int)((value[i] - lo) / (hi - lo) * bins), 0, bins - 1);
-      most = MAX(most, ++in[bin]);
+      in[bin]++;
+      most = MAX(most, in[bin]);
     }
   }
   sb_plot_axes(&plot, cells, (SbCellRect){rect.x, rect.y + 1, rect.width, rect.height - 1},

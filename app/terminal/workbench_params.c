@@ -171,7 +171,8 @@ static void draw_effect(SbBench *bench, int x, int y, int id) {
   const bool stale = g_strcmp0(now, bench->effects_hash) != 0;
   const SbColor color = sb_theme_diverging(sb_theme(true), change[id] < 0 ? -0.95 : 0.95);
   const uint32_t ink = stale ? bench->theme.role[SB_ROLE_THIRD] : sb_cell_color(color);
-  const int eighths = (int)lround(8 * (EFFECT / 2) * change[id] / largest);
+  const int longest = 8 * (EFFECT / 2); // eighths of a column on each side of the line
+  const int eighths = (int)lround(longest * change[id] / largest);
   sb_cells_bar(&bench->cells, eighths < 0 ? middle : middle + 1, y, eighths,
                (SbPen){ink, SB_CELL_OWN, 0});
 }
