@@ -190,8 +190,10 @@ static void gradients(double *out, const SbRing *ring, int *around) {
       around[node[k]]++;
     }
   }
-  for (int i = 0; i < 4 * mesh->nodes; i++) {
-    out[i] /= around[i / 4];
+  for (int n = 0; n < mesh->nodes; n++) {
+    for (int k = 0; k < 4; k++) {
+      out[4 * n + k] /= around[n];
+    }
   }
 }
 
