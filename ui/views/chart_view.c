@@ -501,13 +501,24 @@ static gboolean on_leave(GtkWidget *widget, GdkEventCrossing *event, View *view)
   return GDK_EVENT_PROPAGATE;
 }
 
-static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
+// Reads the loop there.
+static void read_at(View *view, GtkWidget *widget, double x, double y) {
   const SbChartData data = data_of(view);
   double cursor = NAN;
   const gboolean inside =
       may_zoom(view) && view->hand != HAND_BOXES &&
-      sb_hysteresis_cursor(&cursor, whole(widget), &data, SB_CHART_COMPACT, event->x, event->y);
-  set_cursor(view, inside ? cursor : NAN, event->x, event->y);
+      sb_hysteresis_cursor(&cursor, whole(widget), &data, SB_CHART_COMPACT, x, y);
+  set_cursor(view, inside ? cursor : NAN, x, y);
+}
+
+// A pointer that comes in at one stroke and rests moves no more.
+static gboolean on_enter(GtkWidget *widget, GdkEventCrossing *event, View *view) {
+  read_at(view, widget, event->x, event->y);
+  return GDK_EVENT_PROPAGATE;
+}
+
+static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
+  read_at(view, widget, event->x, event->y);
   if (view->hand == HAND_SCRUBS) {
     scrub(view, event->x, event->y, 80);
   } else if (view->hand == HAND_MOVES) {
@@ -554,13 +565,14 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   g_object_set_data_full(G_OBJECT(view->area), "view", view, g_free);
   sb_style_class(view->area, "sb-canvas");
   gtk_widget_set_can_focus(view->area, TRUE);
-  gtk_widget_add_events(view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON_RELEASE_MASK |
-                                        GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK |
-                                        GDK_POINTER_MOTION_MASK | GDK_LEAVE_NOTIFY_MASK |
-                                        GDK_KEY_PRESS_MASK | GDK_FOCUS_CHANGE_MASK);
+  gtk_widget_add_events(
+      view->area, GDK_BUTTON_PRESS_MASK | GDK_BUTTON_RELEASE_MASK | GDK_SCROLL_MASK |
+                      GDK_SMOOTH_SCROLL_MASK | GDK_POINTER_MOTION_MASK | GDK_ENTER_NOTIFY_MASK |
+                      GDK_LEAVE_NOTIFY_MASK | GDK_KEY_PRESS_MASK | GDK_FOCUS_CHANGE_MASK);
   atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_CHART);
   view->cache = sb_draw_cache_attach(view->area, draw, view);
   g_signal_connect_after(view->area, "draw", G_CALLBACK(on_draw_cursor), view);
+  g_signal_connect(view->area, "enter-notify-event", G_CALLBACK(on_enter), view);
   g_signal_connect(view->area, "leave-notify-event", G_CALLBACK(on_leave), view);
   g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
   g_signal_connect(view->area, "button-release-event", G_CALLBACK(on_release), view);
