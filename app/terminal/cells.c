@@ -40,7 +40,6 @@ static uint32_t stand_in(uint32_t glyph) {
     return top && bottom ? ':' : top ? '\'' : '.';
   }
   // Letters without their accents.
-  g_autofree char *simple = NULL;
   gunichar base[G_UNICHAR_MAX_DECOMPOSITION_LENGTH];
   if (g_unichar_fully_decompose(glyph, FALSE, base, G_N_ELEMENTS(base)) > 0 && base[0] < 0x7f) {
     return base[0];
