@@ -1,5 +1,9 @@
 // A GtkGLArea around the renderer. Functions are looked up in the library that GDK's back end uses:
 // GLX on X11, EGL on Wayland.
+//
+// GDK paints a window through GL from its first GL context on, and in software that copies the whole
+// window for every small change. So the GL is tried on a window that is never shown, and where it is
+// not taken the widget is no GtkGLArea.
 #include "ui/views/section_gl.h"
 
 #include "app/section/gl_renderer.h"
@@ -39,7 +43,7 @@ static gboolean open_library(Area *area) {
   const char *library = "libEGL.so.1";
   const char *function = "eglGetProcAddress";
 #ifdef GDK_WINDOWING_X11
-  if (GDK_IS_X11_DISPLAY(gtk_widget_get_display(area->area))) {
+  if (GDK_IS_X11_DISPLAY(gdk_display_get_default())) {
     library = "libGL.so.1";
     function = "glXGetProcAddress";
   }
@@ -55,13 +59,53 @@ static gboolean is_software(const char *text) {
          strstr(text, "swrast") != NULL;
 }
 
-// Tries the window's GL and leaves the reason.
-static gboolean open_gl(Area *area) {
+// Wraps the GL that is current; leaves the reason where it does not do.
+static gboolean wrap_gl(Area *area, SbReport *report) {
+  if (open_library(area) &&
+      sb_gl_context_wrap(&area->context, get_proc, area, "window", report) == SB_OK) {
+    return TRUE;
+  }
+  g_snprintf(area->reason, sizeof area->reason, "the window's GL does not do: %.240s",
+             report->text[0] != '\0' ? report->text : "its library is missing");
+  return FALSE;
+}
+
+// Whether the display's GL is worth a GtkGLArea, by a window that is never shown; leaves the reason
+// where it is not.
+static gboolean is_wanted(Area *area) {
   const char *wish = g_getenv("SEALBENCH_SECTION");
   if (g_strcmp0(wish, "picture") == 0) {
     g_strlcpy(area->reason, "SEALBENCH_SECTION asks for a picture", sizeof area->reason);
     return FALSE;
   }
+  if (g_strcmp0(wish, "window") == 0) {
+    return TRUE;
+  }
+  GtkWidget *window = gtk_window_new(GTK_WINDOW_TOPLEVEL);
+  gtk_widget_realize(window);
+  g_autoptr(GError) error = NULL;
+  GdkGLContext *gl = gdk_window_create_gl_context(gtk_widget_get_window(window), &error);
+  gboolean wanted = FALSE;
+  if (gl == NULL || !gdk_gl_context_realize(gl, &error)) {
+    g_snprintf(area->reason, sizeof area->reason, "the window has no GL: %.240s", error->message);
+  } else {
+    gdk_gl_context_make_current(gl);
+    SbReport report = {0};
+    if (wrap_gl(area, &report)) {
+      const char *context = sb_gl_context_reason(area->context);
+      wanted = !is_software(context);
+      g_snprintf(area->reason, sizeof area->reason, "the window's GL is software: %.240s", context);
+      g_clear_pointer(&area->context, sb_gl_context_destroy);
+    }
+    gdk_gl_context_clear_current();
+  }
+  g_clear_object(&gl);
+  gtk_widget_destroy(window);
+  return wanted;
+}
+
+// Opens the widget's GL and leaves the reason.
+static gboolean open_gl(Area *area) {
   gtk_gl_area_make_current(GTK_GL_AREA(area->area));
   const GError *error = gtk_gl_area_get_error(GTK_GL_AREA(area->area));
   if (error != NULL) {
@@ -69,19 +113,15 @@ static gboolean open_gl(Area *area) {
     return FALSE;
   }
   SbReport report = {0};
-  if (!open_library(area) ||
-      sb_gl_context_wrap(&area->context, get_proc, area, "window", &report) != SB_OK ||
-      sb_gl_renderer_create(&area->renderer, area->context, &report) != SB_OK) {
+  if (!wrap_gl(area, &report)) {
+    return FALSE;
+  }
+  if (sb_gl_renderer_create(&area->renderer, area->context, &report) != SB_OK) {
     g_snprintf(area->reason, sizeof area->reason, "the window's GL does not do: %.240s",
-               report.text[0] != '\0' ? report.text : "its library is missing");
+               report.text);
     return FALSE;
   }
-  const char *context = sb_gl_context_reason(area->context);
-  if (is_software(context) && g_strcmp0(wish, "window") != 0) {
-    g_snprintf(area->reason, sizeof area->reason, "the window's GL is software: %.240s", context);
-    return FALSE;
-  }
-  g_strlcpy(area->reason, context, sizeof area->reason);
+  g_strlcpy(area->reason, sb_gl_context_reason(area->context), sizeof area->reason);
   return TRUE;
 }
 
@@ -95,7 +135,7 @@ static void close_gl(Area *area) {
 }
 
 static void on_realize(GtkWidget *widget, Area *area) {
-  area->works = open_gl(area);
+  area->works = GTK_IS_GL_AREA(widget) && open_gl(area);
   if (!area->works) {
     close_gl(area);
   }
@@ -122,16 +162,20 @@ static void area_free(gpointer data) {
 
 GtkWidget *sb_section_gl_new(const SbDrawList *list, void (*decided)(void *data), void *data) {
   Area *area = g_new0(Area, 1);
-  area->area = gtk_gl_area_new();
   area->list = list;
   area->decided = decided;
   area->data = data;
-  gtk_gl_area_set_required_version(GTK_GL_AREA(area->area), 3, 3);
-  gtk_gl_area_set_auto_render(GTK_GL_AREA(area->area), FALSE);
+  if (is_wanted(area)) {
+    area->area = gtk_gl_area_new();
+    gtk_gl_area_set_required_version(GTK_GL_AREA(area->area), 3, 3);
+    gtk_gl_area_set_auto_render(GTK_GL_AREA(area->area), FALSE);
+    g_signal_connect_swapped(area->area, "unrealize", G_CALLBACK(close_gl), area);
+    g_signal_connect(area->area, "render", G_CALLBACK(on_render), area);
+  } else {
+    area->area = gtk_drawing_area_new();
+  }
   g_object_set_data_full(G_OBJECT(area->area), "sb-section-gl", area, area_free);
   g_signal_connect(area->area, "realize", G_CALLBACK(on_realize), area);
-  g_signal_connect_swapped(area->area, "unrealize", G_CALLBACK(close_gl), area);
-  g_signal_connect(area->area, "render", G_CALLBACK(on_render), area);
   return area->area;
 }
 

@@ -3,7 +3,8 @@
 // Whether that works is known only when the widget is realized. Elsewhere (no GLX, a GL before 3.3)
 // it hides itself, and the window shows the picture of a context without a window. So it does by
 // choice where the window's GL is a software one: that is no faster, and every part of the window
-// would have to go through it. SEALBENCH_SECTION=window or =picture overrides the choice.
+// would have to go through it (half of the time of a playing frame, measured).
+// SEALBENCH_SECTION=window or =picture overrides the choice.
 #pragma once
 
 #include "app/section/draw_list.h"
