@@ -22,12 +22,16 @@ def a_study_of_the_document(folder):
         wait("the result", lambda: app.label(r"^law\.png is written\.$"))
         with open(path, "rb") as file:
             assert file.read(8) == b"\x89PNG\r\n\x1a\n"
+        # One that takes seconds, so that it can be looked at while it is computed.
+        app.choose("Study", "Leak over squeeze")
+        wait("the leak", lambda: (chart.description or "").startswith("Leak over squeeze")
+             and not app.label(r"^Computing"))
         # A change of values marks it and computes nothing by itself.
         app.edit("Viscosity", "0.3 mPa.s")
         wait("the mark", lambda: app.label(r"^Values have changed: the study shown is of earlier"))
         app.press("push button", "Compute Again")
         wait("the former one named", lambda: app.label(
-            r"^Computing: Film law.*\. The picture is of the study before\.$")
+            r"^Computing: Leak over squeeze.*\. The picture is of the study before\.$")
             and "of the one before" in chart.description)
         wait("no mark", lambda: not app.label(r"^(Values have changed: the study|Computing)"))
 
