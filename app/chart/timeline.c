@@ -191,26 +191,98 @@ static void draw_axis(View *v) {
   }
 }
 
+// Where a bookmark's name stands, above the strips: bare flags where another's name is.
+typedef struct {
+  const SbChartMarker *marker;
+  size_t index; // in the data
+  SbRect plate;
+  bool named;
+} Flag;
+
+static int earlier(const void *a, const void *b) {
+  const Flag *one = a, *other = b;
+  return (one->marker->time > other->marker->time) - (one->marker->time < other->marker->time);
+}
+
+static SbTextStyle flag_style(const SbCanvas *c) {
+  SbColor violet = sb_canvas_role(c, SB_ROLE_VIOLET);
+  return (SbTextStyle){SB_TYPE_NOTE, 700,
+                       sb_theme_readable(c->theme, sb_canvas_role(c, SB_ROLE_PANEL), violet), 1};
+}
+
+// All of them in the order of their times; freed by the caller (g_free).
+static Flag *place_flags(SbCanvas *c, SbRect rect, const SbScale *scale, const SbChartData *data) {
+  enum { BARE = 8, GAP = 2 };
+  Flag *flags = g_new0(Flag, data->marker_count + 1);
+  SbTextStyle style = flag_style(c);
+  for (size_t i = 0; i < data->marker_count; i++) {
+    flags[i].marker = &data->marker[i];
+    flags[i].index = i;
+  }
+  qsort(flags, data->marker_count, sizeof *flags, earlier);
+  double taken = rect.x - GAP;
+  for (size_t i = 0; i < data->marker_count; i++) {
+    const double x = floor(sb_axis_at(scale, flags[i].marker->time));
+    double width = sb_canvas_text_width(c, flags[i].marker->name, &style) + 6;
+    double left = fmin(x, rect.x + rect.width - width);
+    flags[i].named = left >= taken + GAP;
+    if (!flags[i].named) {
+      width = BARE;
+      left = x;
+    }
+    flags[i].plate = (SbRect){left, rect.y + 1, width, 15};
+    taken = fmax(taken, left + width);
+  }
+  return flags;
+}
+
+bool sb_timeline_marker_hit(size_t *index, SbRect rect, const SbChartData *data, double x,
+                            double y) {
+  enum { NEAR = 3 };
+  if (data->marker_count == 0 || data->run.count == 0) {
+    return false;
+  }
+  cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+  cairo_t *cr = cairo_create(surface);
+  SbCanvas canvas;
+  sb_canvas_init(&canvas, cr, sb_theme(false));
+  SbScale scale = sb_timeline_scale(rect, data);
+  Flag *flags = place_flags(&canvas, rect, &scale, data);
+  bool hit = false;
+  // The later one is drawn over the earlier.
+  for (size_t i = data->marker_count; i-- > 0 && !hit;) {
+    const SbRect *plate = &flags[i].plate;
+    hit = x >= plate->x - NEAR && x <= plate->x + plate->width + NEAR && y >= plate->y - NEAR &&
+          y <= plate->y + plate->height;
+    *index = hit ? flags[i].index : *index;
+  }
+  g_free(flags);
+  sb_canvas_finish(&canvas);
+  cairo_destroy(cr);
+  cairo_surface_destroy(surface);
+  return hit;
+}
+
 static void draw_markers(View *v) {
   SbCanvas *c = &v->canvas;
   SbColor violet = sb_canvas_role(c, SB_ROLE_VIOLET);
+  SbTextStyle style = flag_style(c);
+  Flag *flags = place_flags(c, v->rect, &v->x, v->data);
   for (size_t i = 0; i < v->data->marker_count; i++) {
-    const SbChartMarker *m = &v->data->marker[i];
-    double x = floor(sb_axis_at(&v->x, m->time)) + 0.5;
+    const SbRect *plate = &flags[i].plate;
+    double x = floor(sb_axis_at(&v->x, flags[i].marker->time)) + 0.5;
     sb_canvas_pen(c, 1.4, &sb_dash_dimension);
     sb_canvas_color(c, violet, 1);
     cairo_move_to(c->cr, x, v->top);
     cairo_line_to(c->cr, x, v->bottom);
     cairo_stroke(c->cr);
-    SbTextStyle style = {SB_TYPE_NOTE, 700,
-                         sb_theme_readable(c->theme, sb_canvas_role(c, SB_ROLE_PANEL), violet), 1};
-    double width = sb_canvas_text_width(c, m->name, &style) + 6;
-    double left = fmin(x - 0.5, v->rect.x + v->rect.width - width);
-    sb_canvas_color(c, violet, 1);
-    cairo_rectangle(c->cr, left, v->top - 17, width, 15);
+    cairo_rectangle(c->cr, plate->x, plate->y, plate->width, plate->height);
     cairo_fill(c->cr);
-    sb_canvas_text(c, m->name, &style, left + 3, v->top - 5.5, SB_LEFT);
+    if (flags[i].named) {
+      sb_canvas_text(c, flags[i].marker->name, &style, plate->x + 3, v->top - 5.5, SB_LEFT);
+    }
   }
+  g_free(flags);
 }
 
 // Which of several cycles begins here, in the first of its strips that has room.

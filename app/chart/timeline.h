@@ -14,3 +14,7 @@ SbScale sb_timeline_scale(SbRect rect, const SbChartData *data);
 
 // Frame nearest to a pixel; false without frames.
 bool sb_timeline_hit(size_t *frame, SbRect rect, const SbChartData *data, double x);
+
+// The bookmark whose flag or name is at a pixel; false where none is.
+bool sb_timeline_marker_hit(size_t *index, SbRect rect, const SbChartData *data, double x,
+                            double y);

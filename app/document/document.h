@@ -133,6 +133,9 @@ size_t sb_document_remark_count(const SbDocument *document, SbRemarkKind kind);
 const char *sb_document_remark_name(const SbDocument *document, SbRemarkKind kind, size_t index);
 const char *sb_document_remark_text(const SbDocument *document, SbRemarkKind kind, size_t index);
 
+// The text of a name; NULL: there is none.
+const char *sb_document_remark(const SbDocument *document, SbRemarkKind kind, const char *name);
+
 // Time of a bookmark [s].
 double sb_document_bookmark(const SbDocument *document, size_t index);
 

@@ -115,6 +115,12 @@ static Remark *find(const SbDocument *document, SbRemarkKind kind, const char *n
   return NULL;
 }
 
+const char *sb_document_remark(const SbDocument *document, SbRemarkKind kind, const char *name) {
+  guint at;
+  const Remark *remark = find(document, kind, name, &at);
+  return remark != NULL ? remark->text : NULL;
+}
+
 static void add(SbDocument *document, SbRemarkKind kind, const char *name, const char *text) {
   Remark *remark = g_new(Remark, 1);
   *remark = (Remark){g_strdup(name), g_strdup(text)};

@@ -173,6 +173,35 @@ static void test_timeline_hit(void) {
   synthetic_clear(&run);
 }
 
+// A bookmark is hit at its name, above the strips; where its name would cover another's, at a bare
+// flag. Names stand in the order of their times, whatever that of the bookmarks.
+static void test_marker_hit(void) {
+  Synthetic run;
+  synthetic_init(&run, 1250, 1);
+  SbChartData data;
+  synthetic_data(&data, &run, 0);
+  const SbRect rect = {30, 0, 1300, 104};
+  const SbScale scale = sb_timeline_scale(rect, &data);
+  const double last = run.frames[run.count - 1].time, near = 20 * last / 1300;
+  const SbChartMarker markers[] = {
+      {0.5 * last + near, "second"}, {0.5 * last, "a long first name"}, {last, "end"}};
+  data.marker = markers;
+  data.marker_count = G_N_ELEMENTS(markers);
+  size_t hit = SIZE_MAX;
+  const double first = sb_axis_at(&scale, markers[1].time);
+  g_assert_true(sb_timeline_marker_hit(&hit, rect, &data, first + 50, 8));
+  g_assert_cmpuint(hit, ==, 1);
+  g_assert_true(sb_timeline_marker_hit(&hit, rect, &data, first + 24, 8));
+  g_assert_cmpuint(hit, ==, 0);
+  g_assert_true(sb_timeline_marker_hit(&hit, rect, &data, 1325, 8));
+  g_assert_cmpuint(hit, ==, 2);
+  g_assert_false(sb_timeline_marker_hit(&hit, rect, &data, first + 50, 40));
+  g_assert_false(sb_timeline_marker_hit(&hit, rect, &data, first - 20, 8));
+  data.marker_count = 0;
+  g_assert_false(sb_timeline_marker_hit(&hit, rect, &data, first + 50, 8));
+  synthetic_clear(&run);
+}
+
 // What is read off the loop at a displacement lies between the forces of the frames beside it, each
 // way; beyond the stroke there is nothing to read.
 static void test_cursor(void) {
@@ -280,6 +309,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/trace/bounded", test_bounded);
   g_test_add_func("/trace/hit", test_hit);
   g_test_add_func("/trace/timeline-hit", test_timeline_hit);
+  g_test_add_func("/trace/marker-hit", test_marker_hit);
   g_test_add_func("/trace/cursor", test_cursor);
   g_test_add_func("/trace/contact-cursor", test_contact_cursor);
   return g_test_run();

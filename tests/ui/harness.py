@@ -21,6 +21,7 @@ import pyatspi  # noqa: E402
 from gi.repository import Atspi  # noqa: E402
 
 PROGRAM = os.environ["SEALBENCH_GTK"]
+COMMAND = os.path.join(os.path.dirname(os.path.dirname(PROGRAM)), "sealbench")
 ASSETS = os.environ["SEALBENCH_ASSETS"]
 TIMEOUT = 40.0
 # By the names that AT-SPI has for them.
@@ -215,14 +216,18 @@ class App:
                         "org.gtk.Actions.Activate", name, "[]", "{}"], check=True,
                        stdout=subprocess.DEVNULL)
 
+    def waction(self, name, number=1):
+        """Calls an action of a window."""
+        subprocess.run(["gdbus", "call", "--session", "--dest", "org.sealbench.Sealbench",
+                        "--object-path", "/org/sealbench/Sealbench/window/%d" % number, "--method",
+                        "org.gtk.Actions.Activate", name, "[]", "{}"], check=True,
+                       stdout=subprocess.DEVNULL)
+
     def replace_window(self, path, number):
         """Opens a file as a desktop would, which makes a window, and closes window `number` (from 1)."""
         subprocess.run([PROGRAM, path], env=self.surroundings, check=True)
         wait("the other window", lambda: self.node.childCount == 2)
-        subprocess.run(["gdbus", "call", "--session", "--dest", "org.sealbench.Sealbench",
-                        "--object-path", "/org/sealbench/Sealbench/window/%d" % number, "--method",
-                        "org.gtk.Actions.Activate", "close", "[]", "{}"], check=True,
-                       stdout=subprocess.DEVNULL)
+        self.waction("close", number)
         wait("the former window gone", lambda: self.node.childCount == 1)
 
     def latency(self):

@@ -196,6 +196,7 @@ def search_finds_parameters(folder):
         app.act(undo, "click")
         wait("it is no change any more, and still shown", lambda: app.value("Radial space") == "1.36 mm"
              and app.has("text", "Radial space"))
+        wait("what was undone", lambda: app.label(r"^Undone: Radial space 1\.36 → 1\.38 mm$"))
         assert app.find("push button", "Redo").description == "Radial space 1.36 → 1.38 mm"
 
 

@@ -3,7 +3,7 @@ import os
 import struct
 import subprocess
 
-from harness import App, main, scene, wait
+from harness import COMMAND, App, main, scene, wait
 
 
 def open_dialog(app, path, kind, view=None):
@@ -100,5 +100,39 @@ def a_place_that_cannot_be_written(folder):
         wait("the reason", lambda: app.label(r"^Nothing was written: "))
 
 
+def a_report(folder):
+    """The pages of the shown run by the menu's action, and a bookmark that they and the file keep."""
+    path = os.path.join(folder, "pages.pdf")
+    file = scene(folder)
+    day = {"SOURCE_DATE_EPOCH": "1700000000"}
+    with App(file, env=day) as app:
+        wait("the first run", app.run_done)
+        app.waction("bookmark")
+        wait("an edited document", lambda: app.label(r", edited$"))
+        app.waction("save")
+        wait("a saved document", lambda: not app.label(r", edited$"))
+        with open(file) as saved:
+            assert "[bookmarks]\n" in saved.read()
+        app.waction("report")
+        dialog = app.find("file chooser", "Report to")
+        name = wait("the name of the file", lambda: [
+            node for node in app.all("text", root=dialog) if app.text(node) == "thesis-cycle.pdf"])[0]
+        name.queryEditableText().setTextContents(path)
+        # The header has a button of that name, too.
+        app.act(app.all("push button", "Save", root=dialog)[0], "click")
+        wait("the result", lambda: app.label(r"^pages\.pdf is written"))
+    with open(path, "rb") as pages:
+        text = pages.read()
+    assert text[:4] == b"%PDF"
+    for heading in ["Summary", "Figures", "From the review", "Inputs", "Sources"]:
+        assert b"/Title (" + heading.encode() + b")" in text, heading
+    # The same pages as the command's, byte for byte.
+    other = os.path.join(folder, "command.pdf")
+    subprocess.run([COMMAND, "report", file, "-o", other], env={**os.environ, **day}, check=True)
+    with open(other, "rb") as pages:
+        assert pages.read() == text
+
+
 if __name__ == "__main__":
-    main(a_picture, a_film, a_sequence, a_cancelled_film, a_place_that_cannot_be_written)
+    main(a_picture, a_film, a_sequence, a_cancelled_film, a_place_that_cannot_be_written,
+         a_report)

@@ -1,6 +1,7 @@
 // The cycle in time, with the controls of the playhead: previous event, play, next event, looping
-// and speed. Press or drag on the timeline scrubs to the nearest frame. The keys (Space, arrows,
-// Home, End) are the window's, so that they work wherever no text is typed.
+// and speed. Press or drag on the timeline scrubs to the nearest frame, a bookmark's flag goes to
+// it. The keys (Space, arrows, Home, End) are the window's, so that they work wherever no text is
+// typed.
 #include "ui/views/timeline_view.h"
 
 #include "app/chart/timeline.h"
@@ -18,6 +19,7 @@ typedef struct {
   GtkWidget *area, *play, *play_icon, *loop, *speed;
   SbDrawCache *cache;
   gboolean playing; // as the button shows
+  gboolean scrubs;  // the button holds the playhead
   guint describe;   // source that renews the description, 0 if none is due
   double cycle;     // duration that the speed texts were made for [s]
 } View;
@@ -49,16 +51,45 @@ static void scrub(View *view, double x) {
   }
 }
 
+static gboolean marker_at(View *view, double x, double y, size_t *marker) {
+  return sb_timeline_marker_hit(marker, whole(view->area), sb_session_chart(view->session), x, y);
+}
+
 static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
   gtk_widget_grab_focus(widget);
-  if (event->button == GDK_BUTTON_PRIMARY) {
+  size_t marker = 0;
+  view->scrubs = FALSE;
+  if (event->button != GDK_BUTTON_PRIMARY) {
+    return GDK_EVENT_STOP;
+  }
+  if (marker_at(view, event->x, event->y, &marker)) {
+    sb_session_show_time(view->session, sb_session_chart(view->session)->marker[marker].time);
+  } else {
+    view->scrubs = TRUE;
     scrub(view, event->x);
   }
   return GDK_EVENT_STOP;
 }
 
+// What a bookmark's flag says, with the note of its name.
+static gboolean on_tooltip(GtkWidget *widget, int x, int y, gboolean by_keys, GtkTooltip *tip,
+                           View *view) {
+  size_t marker = 0;
+  if (by_keys || !marker_at(view, x, y, &marker)) {
+    return FALSE;
+  }
+  const SbDocument *document = sb_session_document(view->session);
+  const char *name = sb_session_chart(view->session)->marker[marker].name;
+  const char *note = sb_document_remark(document, SB_REMARK_NOTE, name);
+  g_autofree char *text = note != NULL ? g_strdup_printf("%s\n%s", name, note) : g_strdup(name);
+  gtk_tooltip_set_text(tip, text);
+  return TRUE;
+}
+
 static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
-  scrub(view, event->x);
+  if (view->scrubs) {
+    scrub(view, event->x);
+  }
   return GDK_EVENT_STOP;
 }
 
@@ -237,6 +268,8 @@ GtkWidget *sb_timeline_view_new(SbSession *session) {
   g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
   g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
   g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_scroll), view);
+  gtk_widget_set_has_tooltip(view->area, TRUE);
+  g_signal_connect(view->area, "query-tooltip", G_CALLBACK(on_tooltip), view);
   gtk_box_pack_start(GTK_BOX(box), view->area, TRUE, TRUE, 0);
 
   g_signal_connect(box, "destroy", G_CALLBACK(on_destroy), view);

@@ -5,7 +5,9 @@
 #include "app/base/output.h"
 #include "app/data/compare.h"
 #include "app/export/render_movie.h"
+#include "app/export/report.h"
 #include "app/session/worker.h"
+#include "app/study/view.h"
 
 #include <glib/gi18n.h>
 #include <string.h>
@@ -20,9 +22,9 @@ struct SbExportJob {
 };
 
 void sb_export_request_clear(SbExportRequest *request) {
-  char **texts[] = {&request->path,     &request->view, &request->at,    &request->title,
-                    &request->subtitle, &request->hash, &request->scene, &request->from,
-                    &request->to,       &request->stale};
+  char **texts[] = {&request->path,     &request->view,  &request->at,    &request->title,
+                    &request->subtitle, &request->hash,  &request->scene, &request->from,
+                    &request->to,       &request->stale, &request->file,  &request->document};
   for (guint i = 0; i < G_N_ELEMENTS(texts); i++) {
     g_clear_pointer(texts[i], g_free);
   }
@@ -38,6 +40,12 @@ static void on_film_progress(void *user, size_t done, size_t total) {
 
 static bool film_cancelled(void *user) {
   SbExportJob *job = user;
+  return sb_worker_cancelled(&job->worker);
+}
+
+static bool on_report_page(void *data, int done, int count) {
+  SbExportJob *job = data;
+  sb_worker_tell(&job->worker, (double)done / MAX(count, 1));
   return sb_worker_cancelled(&job->worker);
 }
 
@@ -134,12 +142,82 @@ static void make(SbExportJob *job, SbSectionPainter *painter) {
   sb_worker_tell(&job->worker, 1);
 }
 
+// The studies that the scene asks for; how many.
+static size_t make_studies(SbExportJob *job, SbStudy *out, const SbModel *model) {
+  const unsigned mask = (unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES);
+  const SbStudyHooks hooks = {.cancelled = film_cancelled, .data = job};
+  size_t count = 0;
+  for (int i = 0; i < SB_STUDY_COUNT; i++) {
+    SbReport report = {0};
+    if ((mask & (1u << i)) != 0 && !film_cancelled(job)) {
+      count += sb_study_make(&out[count], (SbStudyKind)i, model, &hooks, &report) == SB_OK;
+    }
+  }
+  return count;
+}
+
+// The pages of `sealbench report`, from a document of this thread's own.
+static bool write_report(SbExportJob *job, const SbDocument *document, GError **error) {
+  const SbRun *run = sb_run_handle_run(job->handle);
+  const SbRunHooks hooks = {.cancelled = film_cancelled, .data = job};
+  SbCaseVerdict verdict[SB_VERDICT_COUNT];
+  g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
+  (void)sb_cases_judge(verdict, run, document, &hooks, problems);
+  g_autoptr(SbMeasured) measured = read_measured(&job->request);
+  SbLoop loop = {0};
+  g_autoptr(SbComparison) comparison =
+      measured != NULL && sb_loop_take(&loop, run) ? sb_comparison_create(measured, &loop) : NULL;
+  sb_loop_clear(&loop);
+  g_autofree SbStudy *studies = g_new(SbStudy, SB_STUDY_COUNT);
+  const SbReportScene scene = {.document = document,
+                               .run = run,
+                               .verdict = verdict,
+                               .measured = comparison,
+                               .studies = studies,
+                               .study_count = make_studies(job, studies, sb_run_model(run))};
+  const SbReportHooks pages = {on_report_page, job};
+  SbOutput out = {0};
+  if (!sb_output_begin(&out, job->request.path, error)) {
+    return false;
+  }
+  if (film_cancelled(job) || !sb_report_scene(out.stream, &scene, &pages, error)) {
+    sb_output_abort(&out);
+    return false;
+  }
+  return sb_output_commit(&out, error);
+}
+
+static void make_report(SbExportJob *job) {
+  const SbExportRequest *request = &job->request;
+  g_autoptr(GError) error = NULL;
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autofree char *folder = request->file != NULL ? g_path_get_dirname(request->file) : NULL;
+  const char *name = request->file != NULL ? request->file : _("the unsaved changes");
+  g_autoptr(SbDocument) document =
+      request->document != NULL
+          ? sb_document_parse(request->document, strlen(request->document), name, folder, issues)
+      : request->file != NULL ? sb_document_load(request->file, issues)
+                              : sb_document_new();
+  job->good = document != NULL && write_report(job, document, &error);
+  g_autofree char *shown = g_filename_display_basename(request->path);
+  g_autofree char *issue =
+      document == NULL && issues->len > 0 ? sb_issue_line(issues->pdata[0]) : NULL;
+  const char *why = issue != NULL ? issue : error != NULL ? error->message : "";
+  job->result = job->good             ? g_strdup_printf(_("%s is written."), shown)
+                : film_cancelled(job) ? g_strdup(_("Cancelled: nothing was written."))
+                                      : g_strdup_printf(_("Nothing was written: %s."), why);
+}
+
 // Thread -----------------------------------------------------------------------------------------
 
 static void work(void *owner) {
   SbExportJob *job = owner;
   SbSectionPainter *painter = NULL;
   SbReport report = {0};
+  if (strcmp(job->request.view, "report") == 0) {
+    make_report(job);
+    return;
+  }
   if (sb_section_painter_create(&painter, true, SB_GL_AUTO, &report) != SB_OK) {
     job->result = g_strdup_printf(_("Nothing was written: %s."), report.text);
   } else {

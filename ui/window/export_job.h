@@ -11,7 +11,7 @@
 typedef struct {
   char *stale;          // why the run no longer fits the values, NULL if it does
   char *path;           // .png, .svg, .pdf, .mp4 for a film, or the pattern of a sequence
-  char *view;           // name in sb_render_views()
+  char *view;           // name in sb_render_views(), or "report"
   double width, height; // pixels
   gboolean dark;
   SbSectionStyle style; // of views that show the section
@@ -23,6 +23,8 @@ typedef struct {
   char *title, *subtitle, *hash, *scene;
   SbData *measured;   // drawn beside the run, owned; NULL: none
   double drive_speed; // for it, as sb_measured_load()
+  // Of a report: the document's file (NULL: it has none), and its text where that differs.
+  char *file, *document;
 } SbExportRequest;
 
 void sb_export_request_clear(SbExportRequest *request);

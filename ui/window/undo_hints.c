@@ -11,8 +11,7 @@ typedef struct {
   GtkWidget *button[2]; // undo, redo
 } Hints;
 
-// "Outer seal: section diameter 1.7 → 1.58 mm"; NULL if there is nothing to take back.
-static char *describe(const SbDocument *document, bool redo) {
+char *sb_undo_hints_text(const SbDocument *document, bool redo) {
   double value[2];
   const int id = sb_document_next_undo(document, redo, value);
   if (id < 0) {
@@ -41,7 +40,7 @@ static char *describe(const SbDocument *document, bool redo) {
 static void refresh(Hints *hints) {
   const SbDocument *document = sb_session_document(hints->session);
   for (int redo = 0; redo < 2; redo++) {
-    g_autofree char *what = describe(document, redo);
+    g_autofree char *what = sb_undo_hints_text(document, redo);
     const char *plain = redo ? _("Redo (Ctrl+Shift+Z)") : _("Undo (Ctrl+Z)");
     g_autofree char *tip = what != NULL ? g_strdup_printf("%s\n%s", plain, what) : g_strdup(plain);
     gtk_widget_set_tooltip_text(hints->button[redo], tip);

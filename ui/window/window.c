@@ -21,9 +21,11 @@
 #include "ui/window/paned_layout.h"
 #include "ui/window/preferences.h"
 #include "ui/window/propellants_page.h"
+#include "ui/window/review.h"
 #include "ui/window/status_bar.h"
 #include "ui/window/study_window.h"
 #include "ui/window/thesis_page.h"
+#include "ui/window/toast.h"
 #include "ui/window/undo_hints.h"
 #include "ui/window/verdict_strip.h"
 #include "ui/window/window_files.h"
@@ -287,18 +289,25 @@ static void on_frames(SbWindow *window) {
 
 // Actions ----------------------------------------------------------------------------------------
 
-static void show_change(SbWindow *window, int id) {
+// Takes an edit back or makes it again: tells which, and shows its row.
+static void go_back(SbWindow *window, bool redo) {
+  g_autofree char *what = sb_undo_hints_text(sb_session_document(window->session), redo);
+  const int id = redo ? sb_session_redo(window->session) : sb_session_undo(window->session);
+  if (what != NULL) {
+    g_autofree char *text = g_strdup_printf(redo ? _("Done again: %s") : _("Undone: %s"), what);
+    sb_toast_show(GTK_WINDOW(window), text, NULL, NULL, FALSE);
+  }
   if (id >= 0) {
     sb_param_panel_show(SB_PARAM_PANEL(window->panel), (SbParamId)id);
   }
 }
 
 static void on_undo(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  show_change(data, sb_session_undo(SB_WINDOW(data)->session));
+  go_back(data, false);
 }
 
 static void on_redo(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  show_change(data, sb_session_redo(SB_WINDOW(data)->session));
+  go_back(data, true);
 }
 
 static void on_run_or_stop(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -328,7 +337,10 @@ static void on_event(GSimpleAction *action, GVariant *parameter, gpointer data) 
 }
 
 static void on_pin(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  sb_session_pin(SB_WINDOW(data)->session); // refresh() follows
+  if (sb_session_pin(SB_WINDOW(data)->session)) { // refresh() follows
+    sb_toast_show(GTK_WINDOW(data), _("This run is kept to compare the next ones with."), NULL,
+                  NULL, FALSE);
+  }
 }
 
 static void on_auto_run(GSimpleAction *action, GVariant *state, gpointer data) {
@@ -374,6 +386,7 @@ static void on_turn(GSimpleAction *action, GVariant *parameter, gpointer data) {
 static void on_copy_table(GSimpleAction *action, GVariant *parameter, gpointer data) {
   g_autofree char *text = sb_chart_view_table(SB_WINDOW(data)->session);
   gtk_clipboard_set_text(gtk_clipboard_get(GDK_SELECTION_CLIPBOARD), text, -1);
+  sb_toast_show(GTK_WINDOW(data), _("The data table is in the clipboard."), NULL, NULL, FALSE);
 }
 
 static void on_export(GSimpleAction *action, GVariant *parameter, gpointer data) {
@@ -588,6 +601,8 @@ static void sb_window_init(SbWindow *window) {
   g_action_map_add_action(G_ACTION_MAP(window), G_ACTION(page));
 
   sb_style_window(GTK_WIDGET(window));
+  sb_toast_attach(GTK_WINDOW(window));
+  sb_review_attach(GTK_APPLICATION_WINDOW(window), window->session);
 
   // The parts.
   GtkWidget *charts = gtk_toggle_button_new();

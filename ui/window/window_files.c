@@ -6,6 +6,7 @@
 
 #include "ui/views/style.h"
 #include "ui/window/preferences.h"
+#include "ui/window/toast.h"
 
 #include "app/document/shipped.h"
 
@@ -196,6 +197,10 @@ static gboolean save(SbWindowFiles *files, gboolean as) {
       gtk_recent_manager_add_item(gtk_recent_manager_get_default(), uri);
     }
   }
+  g_autofree char *shown =
+      g_filename_display_basename(sb_document_path(sb_session_document(files->session)));
+  g_autofree char *text = g_strdup_printf(_("%s is saved."), shown);
+  sb_toast_show(files->window, text, NULL, NULL, FALSE);
   return TRUE;
 }
 
