@@ -187,6 +187,10 @@ void sb_session_rename_pin(SbSession *session, size_t index, const char *name);
 int sb_session_pin_slot(SbSession *session, size_t index);
 void sb_session_draw_pin(SbSession *session, size_t index, gboolean on);
 
+// Its run, name as pictures have it, look and the frame that stands where the playhead does; FALSE
+// while there is no run. Borrowed until the next signal.
+gboolean sb_session_pin_chart(SbSession *session, size_t index, SbChartPin *out);
+
 // NULL while its run is computed, or if there is none (`failed`).
 const SbSummary *sb_session_pin_summary(SbSession *session, size_t index);
 gboolean sb_session_pin_failed(SbSession *session, size_t index);

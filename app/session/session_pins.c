@@ -224,6 +224,18 @@ static size_t frame_of(SbSession *session, const SbDisplayedRun *run) {
   return place.frame;
 }
 
+gboolean sb_session_pin_chart(SbSession *session, size_t index, SbChartPin *out) {
+  const Pin *pin = pin_at(session, index);
+  if (pin->run == NULL || pin->run->chart.count == 0) {
+    return FALSE;
+  }
+  *out = (SbChartPin){.run = &pin->run->chart,
+                      .name = pin->drawn_name,
+                      .look = MAX(pin->slot, 0),
+                      .frame = frame_of(session, pin->run)};
+  return TRUE;
+}
+
 void sb_session_place_pins(SbSession *session) {
   SbChartData *chart = &session->chart;
   for (size_t i = 0; i < chart->pin_count; i++) {

@@ -1,9 +1,9 @@
 // A GtkGLArea around the renderer. Functions are looked up in the library that GDK's back end uses:
 // GLX on X11, EGL on Wayland.
 //
-// GDK paints a window through GL from its first GL context on, and in software that copies the whole
-// window for every small change. So the GL is tried on a window that is never shown, and where it is
-// not taken the widget is no GtkGLArea.
+// GDK paints a window through GL from its first GL context on, and in software that copies the
+// whole window for every small change. So the GL is tried on a window that is never shown, and
+// where it is not taken the widget is no GtkGLArea.
 #include "ui/views/section_gl.h"
 
 #include "app/section/gl_renderer.h"

@@ -7,6 +7,7 @@
 #include "app/chart/timeline.h"
 #include "ui/views/canvas_area.h"
 #include "ui/views/draw_cache.h"
+#include "ui/views/notes_button.h"
 #include "ui/views/pin_bar.h"
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
@@ -231,6 +232,7 @@ static GtkWidget *make_controls(View *view) {
   gtk_widget_set_tooltip_text(pin, _("Keep this run to compare the next ones with (Ctrl+P)"));
   sb_style_name(pin, _("Pin this run"), NULL);
   gtk_container_add(GTK_CONTAINER(row), pin);
+  gtk_container_add(GTK_CONTAINER(row), sb_notes_button_new(view->session));
 
   view->speed = sb_toolbar_combo(GTK_BOX(row), NULL, 0, _("Speed"), _("How fast the cycle plays"));
   gtk_widget_set_tooltip_text(view->speed, _("How fast the cycle plays"));

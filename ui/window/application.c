@@ -87,6 +87,7 @@ static void set_accels(GtkApplication *application) {
       {"win.report", {"<Primary><Shift>e"}},
       {"win.bookmark", {"<Primary>b"}},
       {"win.full-screen", {"F11"}},
+      {"win.present", {"F5"}},
       {"win.zoom-in", {"<Primary>plus", "<Primary>equal"}},
       {"win.zoom-out", {"<Primary>minus"}},
       {"win.zoom-fit", {"<Primary>0"}},

@@ -4,6 +4,7 @@
 
 #include "ui/window/export_job.h"
 #include "ui/window/preferences.h"
+#include "ui/window/presentation.h"
 #include "ui/window/toast.h"
 
 #include <glib/gi18n.h>
@@ -179,6 +180,11 @@ static gboolean on_window_state(GtkWidget *widget, GdkEventWindowState *event, R
   return GDK_EVENT_PROPAGATE;
 }
 
+static void on_present(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  Review *review = data;
+  sb_presentation_open(review->window, review->session);
+}
+
 // Life -------------------------------------------------------------------------------------------
 
 static void review_free(gpointer data) {
@@ -203,6 +209,7 @@ void sb_review_attach(GtkApplicationWindow *window, SbSession *session) {
       {.name = "show-report", .activate = on_show_report},
       {.name = "bookmark", .activate = on_bookmark},
       {.name = "clear-bookmarks", .activate = on_clear_bookmarks},
+      {.name = "present", .activate = on_present},
       {.name = "full-screen", .state = "false", .change_state = on_full_screen},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(window), entries, G_N_ELEMENTS(entries), review);

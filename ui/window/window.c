@@ -456,7 +456,7 @@ static gboolean on_key(GtkWidget *widget, GdkEventKey *event, gpointer data) {
   gboolean plain =
       (event->state & gtk_accelerator_get_default_mod_mask() & ~(guint)GDK_SHIFT_MASK) == 0;
   const char *page = gtk_stack_get_visible_child_name(GTK_STACK(window->pages));
-  if (!plain || GTK_IS_ENTRY(focus) || g_strcmp0(page, "valve") != 0) {
+  if (!plain || GTK_IS_ENTRY(focus) || GTK_IS_TEXT_VIEW(focus) || g_strcmp0(page, "valve") != 0) {
     return GDK_EVENT_PROPAGATE;
   }
   if (sb_section_view_key(window->section, event)) {
