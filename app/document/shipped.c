@@ -56,7 +56,7 @@ char *sb_shipped_find(const char *name) {
 }
 
 char *sb_shipped_runs(void) {
-  static const char *const places[] = {"../share/sealbench/runs", "..", NULL};
+  static const char *const places[] = {"../share/sealbench/runs", ".", "..", NULL};
   return find(places, "piston.run", false);
 }
 

@@ -1,8 +1,8 @@
-// Runs of a session. An edit starts a run shortly after; a newer edit cancels it and starts again
-// with the newest values. The new run replaces the shown one when it is complete, or once it has
-// lasted long enough to be watched while it grows; the run before then stays behind it, paler,
-// until the new one is complete, and comes back if the new one fails. Values that were solved
-// before have their run back at once (run_cache.h).
+// Runs of a session. An edit starts a run, a heavy one shortly after; a newer edit cancels it and
+// starts again with the newest values. The new run replaces the shown one when it is complete, or
+// once it has lasted long enough to be watched while it grows; the run before then stays behind it,
+// paler, until the new one is complete, and comes back if the new one fails. Values that were
+// solved before have their run back at once (run_cache.h).
 //
 // Solved rings take seconds. Where the plan expects more than HEAVY_S, runs come in grades, each
 // shown when it is complete, one at a time, the one before paler until then:
@@ -30,7 +30,7 @@
 #include <string.h>
 
 enum {
-  DEBOUNCE_MS = 30,       // after the last edit; a run that is overtaken ends within 50 ms
+  DEBOUNCE_MS = 30,       // before a heavy run; one that is overtaken ends within 50 ms
   IDLE_MS = 1000,         // after a near run, before the whole one
   FRAMES_PER_TICK = 20000 // read per drawn frame: about 2 ms
 };
@@ -431,7 +431,9 @@ void sb_session_values_changed(SbSession *session) {
       adopt(session, known != NULL ? known : stored);
       sb_displayed_run_unref(stored);
     } else if (session->model != NULL && session->auto_run) {
-      session->debounce = g_timeout_add(DEBOUNCE_MS, on_debounced, session);
+      // What was just opened is complete, and a quick run ends before the next edit.
+      const guint wait = session->heavy && session->shown != NULL ? DEBOUNCE_MS : 0;
+      session->debounce = g_timeout_add(wait, on_debounced, session);
       session->state = session->heavy ? SB_SESSION_RUNNING : session->state;
     }
   }

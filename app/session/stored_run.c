@@ -9,16 +9,17 @@
 #include <time.h>
 
 enum { HEAD_MAX = 512 };
-static const char TITLE[] = "sealbench kept run 1";
+static const char TITLE[] = "sealbench kept run 2";
 
 SbPlanWishes sb_stored_run_wishes(void) {
   return (SbPlanWishes){.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION,
                         .life = true};
 }
 
-// Without the date: all that must be the same.
+// Without the date: all that must be the same. The sum is against damage, not against intent, and a
+// session waits for it: GLib's MD5 takes a fifth of the time of its SHA-256.
 static char *head_new(const char *hash, const void *bytes, size_t size) {
-  g_autofree char *sum = g_compute_checksum_for_data(G_CHECKSUM_SHA256, bytes, size);
+  g_autofree char *sum = g_compute_checksum_for_data(G_CHECKSUM_MD5, bytes, size);
   return g_strdup_printf("%s\nengine %s\nvalues %s\nchecksum %s\n", TITLE, SB_SOURCE_HASH, hash,
                          sum);
 }

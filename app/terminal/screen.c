@@ -198,8 +198,13 @@ static bool same_cell(const SbCell *a, const SbCell *b) {
          (a->glyph == ' ' || a->pen.ink == b->pen.ink);
 }
 
+static bool same_pen(const SbPen *a, const SbPen *b) {
+  return a->ink == b->ink && a->ground == b->ground && a->style == b->style;
+}
+
 static void send_cells(SbScreen *screen, const SbCells *cells) {
   enum { BRIDGE = 4 }; // cells that are sent again rather than jumped over
+  const SbPen *set = NULL;
   for (int y = 0; y < cells->rows; y++) {
     const size_t line = (size_t)y * (size_t)cells->columns;
     const SbCell *next = &cells->cell[line];
@@ -215,7 +220,10 @@ static void send_cells(SbScreen *screen, const SbCells *cells) {
       }
       for (; at <= x; at++) {
         char text[8];
-        set_pen(screen, &next[at].pen);
+        if (set == NULL || !same_pen(set, &next[at].pen)) {
+          set = &next[at].pen;
+          set_pen(screen, set);
+        }
         const int length = g_unichar_to_utf8(next[at].glyph, text);
         tickit_term_printn(screen->term, text, (size_t)length);
         old[at] = next[at];

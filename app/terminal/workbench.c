@@ -125,6 +125,10 @@ static gboolean on_draw(gpointer data) {
   if (!sb_screen_is_behind(bench->screen)) {
     compose(bench);
     sb_screen_show(bench->screen, &bench->cells, bench->pixels, bench->pixels_at);
+    if (!bench->begun) {
+      bench->begun = true;
+      sb_bench_changed(bench); // with the section
+    }
   }
   return G_SOURCE_REMOVE;
 }

@@ -53,8 +53,8 @@ typedef struct {
   SbAutosave *autosave;
   SbScreen *screen;
   GMainLoop *loop;
-  guint tick, draw; // sources, 0 if none
-  bool ended;
+  guint tick, draw;  // sources, 0 if none
+  bool begun, ended; // begun: a screen was sent
 
   SbCellTheme theme;
   SbCells cells;

@@ -254,6 +254,12 @@ static void draw_table(SbBench *bench, SbCellRect rect) {
 static bool section_list(SbBench *bench, int columns, double rows) {
   enum { ACROSS = 8, DOWN = 16 }; // logical pixels of a cell: letters fill it
   SbSectionSourceNow now;
+  // Its fonts and scales take as long as all the rest of the first screen, which does not wait for
+  // them; nor is the valve at rest solved to be seen for the milliseconds of the first run.
+  if (!bench->begun || (sb_session_run(bench->session) == NULL &&
+                        sb_session_state(bench->session) == SB_SESSION_RUNNING)) {
+    return false;
+  }
   if (sb_chart_is_rig(&sb_session_chart(bench->session)->run) ||
       !sb_section_source_now(bench->source, &now)) {
     return false;
@@ -311,8 +317,12 @@ static void draw_section_head(SbBench *bench, int x, int y, int width, bool draw
     }
     at += sb_cells_text(cells, at, y, MAX(room - at, 0), end, quiet);
   } else {
+    const bool soon = !bench->begun || sb_session_state(bench->session) == SB_SESSION_RUNNING;
     at += sb_cells_text(cells, at, y, MAX(room - at, 0),
-                        drawn ? _("rings schematic ") : _("nothing to draw "), quiet);
+                        drawn  ? _("rings schematic ")
+                        : soon ? ""
+                               : _("nothing to draw "),
+                        quiet);
   }
   if (width > 50) {
     g_autofree char *keys = g_strdup_printf(" f %s  i %s ", _("field"), _("inset"));
