@@ -196,6 +196,7 @@ int sb_command_compare(int argc, char **argv);
 int sb_command_design(int argc, char **argv);
 int sb_command_sensitivity(int argc, char **argv);
 int sb_command_surface(int argc, char **argv);
+int sb_command_cad(int argc, char **argv);
 int sb_command_thesis(int argc, char **argv);
 int sb_command_report(int argc, char **argv);
 int sb_command_open(int argc, char **argv);

@@ -25,6 +25,8 @@ static const SbCommand commands[] = {
     {"merge", "STORE FROM...", "Joins stores of studies", sb_command_merge},
     {"surface", "SCAN", "Roughness, asperities and spectrum of a measured surface",
      sb_command_surface},
+    {"cad", "FILE.{dxf,step}", "Bodies of a drawing, and a scene with the parts shaped by them",
+     sb_command_cad},
     {"thesis", "[ITEM]", "Computes a table or figure of the thesis anew, beside what it prints",
      sb_command_thesis},
     {"report", "FILE.scene|FILE.study -o OUT.pdf",

@@ -1,0 +1,137 @@
+// See cad.h.
+#include "app/cad/cad_private.h"
+
+#include "app/base/error.h"
+#include "app/base/number.h"
+#include "app/base/output.h"
+
+#include <math.h>
+#include <string.h>
+
+SbCadBody *sb_cad_body_new(const char *name) {
+  SbCadBody *body = g_new0(SbCadBody, 1);
+  body->name = g_strdup(name);
+  body->profile = g_array_new(FALSE, FALSE, sizeof(SbProfilePoint));
+  body->features = g_array_new(FALSE, FALSE, sizeof(SbCadFeature));
+  return body;
+}
+
+void sb_cad_body_free(SbCadBody *body) {
+  g_array_unref(body->profile);
+  g_array_unref(body->features);
+  g_free(body->name);
+  g_free(body->why);
+  g_free(body);
+}
+
+SbCad *sb_cad_new(const char *format) {
+  SbCad *cad = g_new0(SbCad, 1);
+  cad->format = format;
+  cad->bodies = g_ptr_array_new_with_free_func((GDestroyNotify)sb_cad_body_free);
+  cad->warnings = g_ptr_array_new_with_free_func(g_free);
+  return cad;
+}
+
+void sb_cad_free(SbCad *cad) {
+  if (cad == NULL) {
+    return;
+  }
+  g_ptr_array_unref(cad->bodies);
+  g_ptr_array_unref(cad->warnings);
+  g_free(cad->unit);
+  g_free(cad->axis);
+  g_free(cad);
+}
+
+// Area of a profile, > 0 counter-clockwise; the axis closes an open one.
+static double area(const GArray *profile) {
+  double sum = 0;
+  for (guint i = 0; i < profile->len; i++) {
+    const SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i);
+    const SbProfilePoint *q = &g_array_index(profile, SbProfilePoint, (i + 1) % profile->len);
+    sum += (p->x * q->r - q->x * p->r) / 2;
+    if (p->bulge != 0) {
+      const double angle = 4 * atan(p->bulge), chord = hypot(q->x - p->x, q->r - p->r);
+      const double radius = chord / (2 * sin(angle / 2));
+      sum += radius * radius * (angle - sin(angle)) / 2;
+    }
+  }
+  return sum;
+}
+
+static void reverse(GArray *profile, bool closed) {
+  const guint n = profile->len;
+  g_autofree SbProfilePoint *old = g_memdup2(profile->data, n * sizeof *old);
+  for (guint i = 0; i < n; i++) {
+    SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i);
+    *p = old[n - 1 - i];
+    p->bulge = i + 1 < n ? -old[n - 2 - i].bulge : closed ? -old[n - 1].bulge : 0;
+  }
+}
+
+void sb_cad_body_settle(SbCadBody *body, const SbCadChoices *choices) {
+  const double sign = choices->flip ? -1 : 1;
+  for (guint i = 0; i < body->profile->len; i++) {
+    SbProfilePoint *p = &g_array_index(body->profile, SbProfilePoint, i);
+    // Nothing below a hundredth of a nanometre: what moving and cutting leaves.
+    p->x = round(1e11 * (sign * p->x + choices->shift)) / 1e11;
+    p->r = round(1e11 * p->r) / 1e11;
+    p->bulge *= sign;
+  }
+  body->solid.centre[0] = sign * body->solid.centre[0] + choices->shift;
+  if (body->profile->len == 0) {
+    return;
+  }
+  if (area(body->profile) < 0) {
+    reverse(body->profile, body->closed);
+  }
+  const SbProfile profile = {(const SbProfilePoint *)(void *)body->profile->data,
+                             body->profile->len, body->closed};
+  SbReport report = {0};
+  if (sb_solid_revolve(&body->revolved, &profile, 1, &report) != SB_OK) {
+    body->why = g_strdup(report.text);
+    g_array_set_size(body->profile, 0);
+    return;
+  }
+  if (!body->measured) {
+    body->solid = body->revolved;
+  }
+  sb_cad_features(body);
+}
+
+SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error) {
+  if (sb_output_ends_in(path, ".step") || sb_output_ends_in(path, ".stp")) {
+    return sb_cad_read_step(path, choices, error);
+  }
+  const size_t bytes_max = (size_t)64 << 20;
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autofree char *shown = sb_printable(path, strlen(path));
+  size_t length;
+  g_autofree char *text = sb_reader_load(&length, path, shown, bytes_max, issues);
+  if (text == NULL) {
+    g_autofree char *says = sb_issue_line(issues->pdata[0]);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s", says);
+    return NULL;
+  }
+  return sb_cad_parse_dxf(text, length, shown, choices, error);
+}
+
+char *sb_cad_profile_text(const SbCadBody *body) {
+  if (body->profile->len == 0) {
+    return NULL;
+  }
+  GString *text = g_string_new("mm");
+  const guint points = body->profile->len;
+  for (guint i = 0; i < points + body->closed; i++) {
+    const SbProfilePoint *p = &g_array_index(body->profile, SbProfilePoint, i % points);
+    char x[SB_NUMBER_SIZE], r[SB_NUMBER_SIZE], bulge[SB_NUMBER_SIZE];
+    sb_number_round(x, 1e3 * p->x, 12);
+    sb_number_round(r, 1e3 * p->r, 12);
+    g_string_append_printf(text, " %s,%s", x, r);
+    if (p->bulge != 0 && i < points) {
+      sb_number_round(bulge, p->bulge, 12);
+      g_string_append_printf(text, ",%s", bulge);
+    }
+  }
+  return g_string_free(text, FALSE);
+}

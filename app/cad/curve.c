@@ -1,0 +1,67 @@
+// Curves as straight pieces and arcs. Also compiled into sealbench-cad.
+#include "app/cad/cad_private.h"
+
+#include <math.h>
+
+enum { DEPTH_MAX = 12, PIECES_MAX = 20000 };
+
+SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]) {
+  const double ax = from[0] - middle[0], ay = from[1] - middle[1];
+  const double bx = to[0] - middle[0], by = to[1] - middle[1];
+  // The inscribed angle phi leaves an arc of 2 (pi - phi); it turns left where its middle lies on
+  // the right of the chord.
+  const double cross = ax * by - ay * bx;
+  const double phi = atan2(fabs(cross), ax * bx + ay * by);
+  const double chord = hypot(to[0] - from[0], to[1] - from[1]);
+  double bulge = tan((M_PI - phi) / 2);
+  if (phi > M_PI / 2 && bulge * chord / 2 < 1e-12) {
+    bulge = 0;
+  }
+  return (SbCadPiece){from[0], from[1], to[0], to[1], cross > 0 ? -bulge : bulge};
+}
+
+// Distance of a point from a piece, as if that went on.
+static double off(const SbCadPiece *piece, const double at[2]) {
+  const double dx = piece->x1 - piece->x0, dy = piece->y1 - piece->y0;
+  const double chord = hypot(dx, dy);
+  if (chord == 0) {
+    return hypot(at[0] - piece->x0, at[1] - piece->y0);
+  }
+  const double along = ((at[0] - piece->x0) * dx + (at[1] - piece->y0) * dy) / chord;
+  const double left = ((at[1] - piece->y0) * dx - (at[0] - piece->x0) * dy) / chord;
+  if (piece->bulge == 0) {
+    return fabs(left);
+  }
+  // The centre lies on the chord's bisector, on the left for an arc that turns left by less than
+  // half a turn.
+  const double b = piece->bulge, centre = chord * (1 - b * b) / (4 * b);
+  const double radius = chord * (1 + b * b) / (4 * fabs(b));
+  return fabs(hypot(along - chord / 2, left - centre) - radius);
+}
+
+static bool divide(GArray *pieces, SbCadCurve at, const void *curve, double t0, double t1,
+                   int depth, double tolerance) {
+  double p[5][2];
+  for (int i = 0; i < 5; i++) {
+    at(curve, t0 + (t1 - t0) * i / 4, p[i]);
+    if (!isfinite(p[i][0]) || !isfinite(p[i][1])) {
+      return false;
+    }
+  }
+  const SbCadPiece piece = sb_cad_arc(p[0], p[2], p[4]);
+  if (fabs(piece.bulge) <= 1 && off(&piece, p[1]) <= tolerance && off(&piece, p[3]) <= tolerance) {
+    g_array_append_val(pieces, piece);
+    return pieces->len <= PIECES_MAX;
+  }
+  const double middle = (t0 + t1) / 2;
+  return depth < DEPTH_MAX && divide(pieces, at, curve, t0, middle, depth + 1, tolerance) &&
+         divide(pieces, at, curve, middle, t1, depth + 1, tolerance);
+}
+
+bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps, double tolerance) {
+  bool good = true;
+  for (int i = 0; good && i < steps; i++) {
+    good = divide(pieces, at, curve, (double)i / steps, (double)(i + 1) / steps, 0, tolerance);
+  }
+  return good;
+}

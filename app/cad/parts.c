@@ -1,0 +1,185 @@
+// See parts.h.
+#include "app/cad/parts.h"
+
+#include "app/base/number.h"
+
+#include <math.h>
+#include <string.h>
+
+// Two grooves for equal rings: widths and floors within this, relative.
+static const double ALIKE = 0.02;
+
+// Beyond this a body is not what its half-section makes, revolved: mass and moments are told apart.
+static const double REVOLVED = 1e-3;
+
+static const char *const names[SB_CAD_PART_COUNT] = {"housing", "stem_centre", "stem_top",
+                                                     "stem_bottom"};
+
+const char *sb_cad_part_name(SbCadPart part) {
+  return names[part];
+}
+
+int sb_cad_part_of(const char *name) {
+  g_autofree char *plain = g_ascii_strdown(name, -1);
+  g_strdelimit(plain, " -", '_');
+  for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
+    if (strcmp(plain, names[i]) == 0) {
+      return i;
+    }
+  }
+  return -1;
+}
+
+void sb_cad_parts_by_name(int body[SB_CAD_PART_COUNT], const SbCad *cad) {
+  for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
+    body[i] = -1;
+  }
+  for (guint i = 0; i < cad->bodies->len; i++) {
+    const SbCadBody *one = cad->bodies->pdata[i];
+    const int part = sb_cad_part_of(one->name);
+    if (part >= 0 && body[part] < 0 && one->profile->len > 0) {
+      body[part] = (int)i;
+    }
+  }
+}
+
+// ---- Stretches ----
+
+static void append_stretch(GString *text, const char *key, const SbCadFeature *feature) {
+  char x0[SB_NUMBER_SIZE], x1[SB_NUMBER_SIZE];
+  sb_number_round(x0, 1e3 * feature->x0, 12);
+  sb_number_round(x1, 1e3 * feature->x1, 12);
+  g_string_append_printf(text, "%s = %s mm .. %s mm\n", key, x0, x1);
+}
+
+// The longest of the largest (LAND) or smallest (BORE) cylinders.
+static const SbCadFeature *cylinder(const SbCadBody *body, SbCadKind kind) {
+  const SbCadFeature *best = NULL;
+  for (guint i = 0; i < body->features->len; i++) {
+    const SbCadFeature *one = &g_array_index(body->features, SbCadFeature, i);
+    if (one->kind != kind) {
+      continue;
+    }
+    const double more = best == NULL          ? 1
+                        : kind == SB_CAD_LAND ? one->diameter - best->diameter
+                                              : best->diameter - one->diameter;
+    const bool same = best != NULL && fabs(more) <= 1e-6;
+    if (same ? one->x1 - one->x0 > best->x1 - best->x0 : more > 0) {
+      best = one;
+    }
+  }
+  return best;
+}
+
+// The two grooves that are alike and furthest apart; the only one twice.
+static bool grooves(const SbCadBody *body, const SbCadFeature *pair[2]) {
+  pair[0] = pair[1] = NULL;
+  double apart = 0;
+  for (guint i = 0; i < body->features->len; i++) {
+    const SbCadFeature *one = &g_array_index(body->features, SbCadFeature, i);
+    for (guint k = i + 1; one->kind == SB_CAD_GROOVE && k < body->features->len; k++) {
+      const SbCadFeature *other = &g_array_index(body->features, SbCadFeature, k);
+      const double width = one->x1 - one->x0, other_width = other->x1 - other->x0;
+      if (other->kind == SB_CAD_GROOVE && fabs(width - other_width) <= ALIKE * width &&
+          fabs(one->diameter - other->diameter) <= ALIKE * one->diameter &&
+          other->x0 - one->x0 > apart) {
+        apart = other->x0 - one->x0;
+        pair[0] = one;
+        pair[1] = other;
+      }
+    }
+  }
+  return pair[0] != NULL;
+}
+
+static void append_part(GString *text, const SbCadBody *body, SbCadPart part, double density,
+                        const char *drawing) {
+  char number[SB_NUMBER_SIZE];
+  g_autofree char *profile = sb_cad_profile_text(body);
+  g_autofree char *file = g_path_get_basename(drawing);
+  g_autofree char *shown = sb_printable(file, strlen(file));
+  g_string_append_printf(text, "\n# Drawing: %s, %s\n[part.%s]\n", shown, body->name, names[part]);
+  g_string_append_printf(text, "density = %s kg/m3\n", sb_number_round(number, density, 12));
+  g_string_append_printf(text, "profile = %s\n", profile);
+  const double volume = body->solid.volume;
+  if (body->measured && fabs(body->revolved.volume - volume) > REVOLVED * volume) {
+    // Ports and flats: what the kernel measured of the whole body.
+    const double across = (body->solid.inertia[1][1] + body->solid.inertia[2][2]) / 2;
+    char axial[SB_NUMBER_SIZE], transverse[SB_NUMBER_SIZE];
+    g_string_append_printf(text,
+                           "mass = %s g\ninertia_axial = %s g.mm2\ninertia_transverse = %s g.mm2\n",
+                           sb_number_round(number, 1e3 * density * volume, 12),
+                           sb_number_round(axial, 1e9 * density * body->solid.inertia[0][0], 12),
+                           sb_number_round(transverse, 1e9 * density * across, 12));
+  }
+  const SbCadFeature *found, *pair[2];
+  if (part == SB_CAD_HOUSING && (found = cylinder(body, SB_CAD_BORE)) != NULL) {
+    append_stretch(text, "bore", found);
+  }
+  if (part == SB_CAD_STEM_CENTRE && (found = cylinder(body, SB_CAD_LAND)) != NULL) {
+    append_stretch(text, "land", found);
+  }
+  if (part == SB_CAD_STEM_CENTRE && grooves(body, pair)) {
+    append_stretch(text, "inner_groove", pair[0]);
+    append_stretch(text, "outer_groove", pair[1]);
+  }
+}
+
+// ---- The scene ----
+
+// The document's text without its groups of the parts that are drawn.
+static char *without_parts(const char *text, const int body[SB_CAD_PART_COUNT]) {
+  g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
+  GString *kept = g_string_new(NULL);
+  bool drop = false;
+  for (char **line = lines; *line != NULL; line++) {
+    if (**line == '[') {
+      drop = false;
+      for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
+        g_autofree char *group = g_strdup_printf("[part.%s]", names[i]);
+        drop = drop || (body[i] >= 0 && g_str_has_prefix(*line, group));
+      }
+    }
+    if (!drop) {
+      g_string_append_printf(kept, "%s%s", *line, line[1] != NULL ? "\n" : "");
+    }
+  }
+  return g_string_free(kept, FALSE);
+}
+
+char *sb_cad_scene(const SbCad *cad, const int body[SB_CAD_PART_COUNT], double density,
+                   const SbDocument *base, const char *drawing, const char *path,
+                   GPtrArray *issues) {
+  g_autoptr(GString) parts = g_string_new(NULL);
+  for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
+    if (body[i] >= 0) {
+      append_part(parts, cad->bodies->pdata[body[i]], (SbCadPart)i, density, drawing);
+    }
+  }
+  // What the shapes alone give.
+  g_autoptr(GString) alone =
+      g_string_new("[sealbench]\nformat = 1\nkind = valve\ntitle = Drawing\n");
+  g_string_append(alone, parts->str);
+  g_autoptr(SbDocument) shapes = sb_document_parse(alone->str, alone->len, drawing, NULL, issues);
+  if (shapes == NULL || issues->len > 0) {
+    return NULL;
+  }
+  // A copy of the base as a scene's text, in which those sizes are not given.
+  g_autofree char *flat = sb_document_kind(base) == SB_DOCUMENT_SCENE
+                              ? sb_document_to_text(base, path)
+                              : sb_document_to_flat_text(base);
+  g_autofree char *directory = g_path_get_dirname(path);
+  g_autofree char *plain = without_parts(flat, body);
+  g_autoptr(SbDocument) copy = sb_document_parse(plain, strlen(plain), drawing, directory, issues);
+  if (copy == NULL || issues->len > 0) {
+    return NULL;
+  }
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    if (sb_document_shape_source(shapes, (SbParamId)i) != NULL &&
+        sb_document_gives(copy, (SbParamId)i)) {
+      sb_document_unset(copy, (SbParamId)i);
+    }
+  }
+  g_autofree char *kept = sb_document_to_text(copy, path);
+  return g_strconcat(kept, parts->str, NULL);
+}

@@ -1,0 +1,228 @@
+// STEP files through sealbench-cad (helper.c), which is ended after a while whatever it does.
+#include "app/cad/cad_private.h"
+
+#include "app/base/error.h"
+#include "app/base/number.h"
+#include "app/base/translation.h"
+
+#include <gio/gio.h>
+
+#include <math.h>
+#include <string.h>
+
+enum { SECONDS_MAX = 120, TEXT_MAX = 64 << 20 };
+
+// Beside this program where it is not installed, else in libexecdir.
+static char *helper_path(void) {
+  const char *given = g_getenv("SEALBENCH_CAD");
+  if (given != NULL) {
+    return g_strdup(given);
+  }
+  g_autofree char *self = g_file_read_link("/proc/self/exe", NULL);
+  g_autofree char *folder = self != NULL ? g_path_get_dirname(self) : g_strdup(".");
+  static const char *const places[] = {SB_LIBEXEC_FROM_PROGRAM, ".", "..", NULL};
+  for (size_t i = 0; places[i] != NULL; i++) {
+    char *path = g_build_filename(folder, places[i], "sealbench-cad", NULL);
+    if (g_file_test(path, G_FILE_TEST_IS_EXECUTABLE)) {
+      return path;
+    }
+    g_free(path);
+  }
+  return NULL;
+}
+
+typedef struct {
+  GSubprocess *process;
+  GMainLoop *loop;
+  char *text;
+  GError *error;
+  bool late;
+} Helper;
+
+static void on_done(GObject *process, GAsyncResult *result, gpointer data) {
+  Helper *helper = data;
+  g_autoptr(GBytes) bytes = NULL;
+  g_subprocess_communicate_finish(G_SUBPROCESS(process), result, &bytes, NULL, &helper->error);
+  gsize length = 0;
+  const char *text = bytes != NULL ? g_bytes_get_data(bytes, &length) : NULL;
+  helper->text = text != NULL ? g_strndup(text, MIN(length, TEXT_MAX)) : g_strdup("");
+  g_main_loop_quit(helper->loop);
+}
+
+static gboolean on_late(gpointer data) {
+  Helper *helper = data;
+  helper->late = true;
+  g_subprocess_force_exit(helper->process);
+  return G_SOURCE_CONTINUE;
+}
+
+// What the helper prints; NULL with an error.
+static char *run_helper(const char *path, double angle, GError **error) {
+  g_autofree char *program = helper_path();
+  if (program == NULL) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "STEP files need sealbench-cad, which is not installed (built without gmsh): "
+                "save a DXF of the section instead");
+    return NULL;
+  }
+  char number[SB_NUMBER_SIZE];
+  g_autofree char *whole = g_canonicalize_filename(path, NULL);
+  g_autoptr(GMainContext) context = g_main_context_new();
+  g_main_context_push_thread_default(context);
+  Helper helper = {.loop = g_main_loop_new(context, FALSE)};
+  helper.process =
+      g_subprocess_new(G_SUBPROCESS_FLAGS_STDOUT_PIPE | G_SUBPROCESS_FLAGS_STDERR_SILENCE, error,
+                       program, whole, sb_number_format(number, angle), NULL);
+  if (helper.process != NULL) {
+    GSource *late = g_timeout_source_new_seconds(SECONDS_MAX);
+    g_source_set_callback(late, on_late, &helper, NULL);
+    g_source_attach(late, context);
+    g_subprocess_communicate_async(helper.process, NULL, NULL, on_done, &helper);
+    g_main_loop_run(helper.loop);
+    g_source_destroy(late);
+    g_source_unref(late);
+    g_object_unref(helper.process);
+  }
+  g_main_loop_unref(helper.loop);
+  g_main_context_pop_thread_default(context);
+  if (helper.error != NULL) {
+    g_propagate_error(error, helper.error);
+    g_clear_pointer(&helper.text, g_free);
+  } else if (helper.late) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "is not read within %d s: left",
+                SECONDS_MAX);
+    g_clear_pointer(&helper.text, g_free);
+  }
+  return helper.text;
+}
+
+static bool read_numbers(double *out, int count, const char *text) {
+  for (int i = 0; i < count; i++) {
+    text += strspn(text, " ");
+    const size_t length = sb_number_read(&out[i], text);
+    if (length == 0) {
+      return false;
+    }
+    text += length;
+  }
+  return *text == '\0';
+}
+
+// The outlines of one body's half-section become its profile: the one of most area.
+static void finish_body(SbCad *cad, SbCadBody *body, GPtrArray *outlines) {
+  g_autoptr(SbCad) found = sb_cad_new("");
+  for (guint i = 0; i < outlines->len; i++) {
+    sb_cad_outlines(found, outlines->pdata[i], body->name, 1e-8);
+  }
+  const SbCadChoices none = {0};
+  SbCadBody *best = NULL;
+  guint count = 0;
+  for (guint i = 0; i < found->bodies->len; i++) {
+    SbCadBody *one = found->bodies->pdata[i];
+    sb_cad_body_settle(one, &none);
+    count += one->profile->len > 0;
+    if (best == NULL || one->revolved.volume > best->revolved.volume) {
+      best = one;
+    }
+  }
+  if (best == NULL || best->profile->len == 0) {
+    if (body->why == NULL) {
+      body->why = g_strdup(best != NULL && best->why != NULL ? best->why : "no outline closes");
+    }
+    return;
+  }
+  if (count > 1) {
+    g_ptr_array_add(cad->warnings,
+                    g_strdup_printf("%s: cut into %u pieces or hollow inside; the largest outline "
+                                    "stands for it",
+                                    body->name, count));
+  }
+  g_array_append_vals(body->profile, best->profile->data, best->profile->len);
+  body->closed = best->closed;
+}
+
+// Fills `cad` from the helper's lines; false where they are not complete.
+static bool take_text(SbCad *cad, char *text, GError **error) {
+  g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
+  g_autoptr(GPtrArray) outlines = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
+  SbCadBody *body = NULL;
+  for (char **each = lines; *each != NULL; each++) {
+    const char *line = *each;
+    double n[10];
+    if (g_str_has_prefix(line, "error ")) {
+      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s", line + 6);
+      return false;
+    }
+    const bool end = strcmp(line, "end") == 0;
+    if ((end || g_str_has_prefix(line, "body ")) && body != NULL) {
+      finish_body(cad, body, outlines);
+      g_ptr_array_set_size(outlines, 0);
+    }
+    if (end) {
+      return true;
+    }
+    if (g_str_has_prefix(line, "axis ") && read_numbers(n, 6, line + 5)) {
+      char shown[6][SB_NUMBER_SIZE];
+      for (int i = 0; i < 6; i++) {
+        const double value = i < 3 ? 1e3 * n[i] : n[i];
+        sb_number_round(shown[i], fabs(value) < 1e-9 ? 0 : value, 6);
+      }
+      cad->axis = g_strdup_printf("through %s, %s, %s mm along %s, %s, %s", shown[0], shown[1],
+                                  shown[2], shown[3], shown[4], shown[5]);
+    } else if (g_str_has_prefix(line, "body ")) {
+      g_autofree char *name = sb_printable(line + 5, strlen(line + 5));
+      body = sb_cad_body_new(name);
+      g_ptr_array_add(cad->bodies, body);
+    } else if (body != NULL && g_str_has_prefix(line, "solid ") && read_numbers(n, 10, line + 6)) {
+      body->measured = true;
+      body->solid = (SbSolid){n[0],
+                              n[0],
+                              {n[1], n[2], n[3]},
+                              {{n[4], n[5], n[6]}, {n[5], n[7], n[8]}, {n[6], n[8], n[9]}}};
+    } else if (body != NULL && g_str_has_prefix(line, "why ") && body->why == NULL) {
+      body->why = sb_printable(line + 4, strlen(line + 4));
+    } else if (body != NULL && strcmp(line, "outline") == 0) {
+      g_ptr_array_add(outlines, g_array_new(FALSE, FALSE, sizeof(SbCadPiece)));
+    } else if (outlines->len > 0 && g_str_has_prefix(line, "piece ") &&
+               read_numbers(n, 5, line + 6)) {
+      const SbCadPiece piece = {n[0], n[1], n[2], n[3], n[4]};
+      g_array_append_val((GArray *)outlines->pdata[outlines->len - 1], piece);
+    }
+  }
+  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+              "ends the CAD kernel before it is read (a crash, or more than 60 s or 4 GB)");
+  return false;
+}
+
+SbCad *sb_cad_read_step(const char *path, const SbCadChoices *choices, GError **error) {
+  GError *problem = NULL;
+  g_autofree char *shown = sb_printable(path, strlen(path));
+  SbCad *cad = NULL;
+  // A file that is not there or not to be read is told as such, not as the kernel does.
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  const size_t bytes_max = (size_t)512 << 20;
+  size_t length;
+  g_autofree char *text = sb_reader_load(&length, path, shown, bytes_max, issues);
+  if (text == NULL) {
+    g_autofree char *says = sb_issue_line(issues->pdata[0]);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s", says);
+    return NULL;
+  }
+  if (strstr(text, "ISO-10303-21") == NULL) {
+    g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT, "is no STEP file (ISO 10303-21)");
+  } else {
+    g_autofree char *told = run_helper(path, choices->angle, &problem);
+    cad = told != NULL ? sb_cad_new("STEP") : NULL;
+    if (cad != NULL && !take_text(cad, told, &problem)) {
+      g_clear_pointer(&cad, sb_cad_free);
+    }
+  }
+  for (guint i = 0; cad != NULL && i < cad->bodies->len; i++) {
+    sb_cad_body_settle(cad->bodies->pdata[i], choices);
+  }
+  if (problem != NULL) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: %s", shown, problem->message);
+    g_error_free(problem);
+  }
+  return cad;
+}

@@ -1,0 +1,337 @@
+// sealbench cad: bodies of a drawing, and a scene with the valve's parts shaped by them.
+#include "app/base/output.h"
+#include "app/cad/parts.h"
+#include "app/cli/cli.h"
+#include "app/document/unit.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct {
+  char *unit, *axis, *angle, *shift, *density, *scene, *output, *json;
+  char **parts; // NAME=BODY
+  gboolean flip;
+  double density_si;
+  SbCadChoices choices;
+} Options;
+
+static const char *const kind_names[] = {"land", "bore", "groove"};
+
+// ---- Options ----
+
+static int read_quantity(double *out, const char *option, const char *text, const char *si,
+                         const char *unit) {
+  g_autoptr(GError) error = NULL;
+  return text == NULL || sb_quantity_parse(out, text, si, unit, &error)
+             ? SB_EXIT_DONE
+             : sb_cli_fail("--%s: %s", option, error->message);
+}
+
+static int read_options(Options *options) {
+  SbCadChoices *choices = &options->choices;
+  // Off the planes in which ports and flats are drawn.
+  *choices = (SbCadChoices){
+      .unit = options->unit, .axis = options->axis, .angle = 0.6580, .flip = options->flip};
+  // Acetal, as in piston-profiles.valve.
+  options->density_si = 1410;
+  if (options->axis != NULL && strcmp(options->axis, "x") != 0 && strcmp(options->axis, "y") != 0) {
+    return sb_cli_fail("--axis: x or y, not '%s'", options->axis);
+  }
+  int code = read_quantity(&choices->angle, "angle", options->angle, "rad", "deg");
+  if (code == SB_EXIT_DONE) {
+    code = read_quantity(&choices->shift, "shift", options->shift, "m", "mm");
+  }
+  if (code == SB_EXIT_DONE) {
+    code = read_quantity(&options->density_si, "density", options->density, "kg/m3", "kg/m3");
+  }
+  if (code == SB_EXIT_DONE && !(options->density_si >= 1 && options->density_si <= 30000)) {
+    code = sb_cli_fail("--density: 1 to 30000 kg/m3");
+  }
+  if (code == SB_EXIT_DONE && (options->scene == NULL) != (options->output == NULL)) {
+    code = sb_cli_fail("--scene and --output go together: the scene, and the copy of it");
+  }
+  return code;
+}
+
+// Which body stands for each part: by names, then as --part says.
+static int choose_parts(int body[SB_CAD_PART_COUNT], const SbCad *cad, char **settings) {
+  sb_cad_parts_by_name(body, cad);
+  for (char **each = settings; each != NULL && *each != NULL; each++) {
+    g_auto(GStrv) sides = g_strsplit(*each, "=", 2);
+    const int part = sides[0] != NULL ? sb_cad_part_of(sides[0]) : -1;
+    if (part < 0 || sides[1] == NULL) {
+      return sb_cli_fail(
+          "--part: NAME=BODY with housing, stem_centre, stem_top or stem_bottom, not "
+          "'%s'",
+          *each);
+    }
+    double number = 0;
+    int found = -1;
+    if (sb_number_parse(&number, sides[1]) && number >= 1 && number <= cad->bodies->len) {
+      found = (int)number - 1;
+    }
+    for (guint i = 0; found < 0 && i < cad->bodies->len; i++) {
+      const SbCadBody *one = cad->bodies->pdata[i];
+      found = g_ascii_strcasecmp(one->name, sides[1]) == 0 ? (int)i : -1;
+    }
+    if (found < 0) {
+      return sb_cli_fail("--part: there is no body '%s' (1 to %u, or its name)", sides[1],
+                         cad->bodies->len);
+    }
+    const SbCadBody *one = cad->bodies->pdata[found];
+    if (one->profile->len == 0) {
+      return sb_cli_fail("--part: '%s' has no half-section: %s", one->name, one->why);
+    }
+    body[part] = found;
+  }
+  return SB_EXIT_DONE;
+}
+
+// ---- What people read ----
+
+static double across(const SbSolid *solid) {
+  return (solid->inertia[1][1] + solid->inertia[2][2]) / 2;
+}
+
+static void print_body(const SbCadBody *body, guint number, const int *chosen) {
+  const char *part = NULL;
+  for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
+    part = chosen[i] == (int)number ? sb_cad_part_name((SbCadPart)i) : part;
+  }
+  printf("%u %s%s%s%s\n", number + 1, body->name, part != NULL ? " (" : "",
+         part != NULL ? part : "", part != NULL ? ")" : "");
+  char volume[SB_NUMBER_SIZE], share[SB_NUMBER_SIZE], x[3][SB_NUMBER_SIZE];
+  if (body->measured || body->profile->len > 0) {
+    g_autofree char *text = g_strdup_printf("%s mm3, centre at %s mm",
+                                            sb_number_round(volume, 1e9 * body->solid.volume, 6),
+                                            sb_number_round(x[0], 1e3 * body->solid.centre[0], 5));
+    sb_cli_line("Volume", text);
+  }
+  if (body->profile->len == 0) {
+    g_autofree char *text = g_strdup_printf("none: %s", body->why);
+    sb_cli_line("Half-section", text);
+    return;
+  }
+  if (body->measured) {
+    const double off = body->revolved.volume / body->solid.volume - 1;
+    g_autofree char *text =
+        g_strdup_printf("%u points; revolved it has %s %% %s volume", body->profile->len,
+                        sb_number_round(share, 100 * fabs(off), 2), off < 0 ? "less" : "more");
+    sb_cli_line("Half-section", text);
+  }
+  for (guint i = 0; i < body->features->len; i++) {
+    const SbCadFeature *f = &g_array_index(body->features, SbCadFeature, i);
+    char depth[SB_NUMBER_SIZE];
+    g_autofree char *label =
+        g_strdup_printf("%s, %s .. %s", kind_names[f->kind], sb_number_round(x[0], 1e3 * f->x0, 5),
+                        sb_number_round(x[1], 1e3 * f->x1, 5));
+    g_autofree char *deep =
+        f->kind == SB_CAD_GROOVE
+            ? g_strdup_printf(", %s deep", sb_number_round(depth, 1e3 * f->depth, 5))
+            : g_strdup("");
+    g_autofree char *text =
+        g_strdup_printf("diameter %s mm%s", sb_number_round(x[2], 1e3 * f->diameter, 6), deep);
+    sb_cli_line(label, text);
+  }
+}
+
+static void print_bodies(const SbCad *cad, const int *chosen) {
+  printf("%s%s%s, x along %s; lengths in mm\n", cad->format, cad->unit != NULL ? " in " : "",
+         cad->unit != NULL ? cad->unit : "", cad->axis);
+  for (guint i = 0; i < cad->bodies->len; i++) {
+    print_body(cad->bodies->pdata[i], i, chosen);
+  }
+  for (guint i = 0; i < cad->warnings->len; i++) {
+    printf("  %s\n", (const char *)cad->warnings->pdata[i]);
+  }
+}
+
+// Values in force that the drawing changes.
+static void print_differences(const SbDocument *before, const SbDocument *after) {
+  bool any = false;
+  printf("%-36s %-16s drawing\n", "Parameter", "in force");
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParamId id = (SbParamId)i;
+    const double old = sb_document_value(before, id), now = sb_document_value(after, id);
+    if (fabs(old - now) <= 1e-9 * fabs(old)) {
+      continue;
+    }
+    const SbParam *param = sb_param(id);
+    char one[SB_NUMBER_SIZE], other[SB_NUMBER_SIZE];
+    sb_number_round(one, sb_quantity_to_shown(old, param->si, param->unit), 6);
+    sb_number_round(other, sb_quantity_to_shown(now, param->si, param->unit), 6);
+    g_autofree char *left = g_strdup_printf("%s %s", one, param->unit);
+    printf("  %-34s %-16s %s %s\n", param->key, left, other, param->unit);
+    any = true;
+  }
+  if (!any) {
+    printf("  none differs\n");
+  }
+}
+
+// ---- JSON ----
+
+static char *to_json(const SbCad *cad, const int *chosen) {
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_object(&json, NULL);
+  sb_json_string(&json, "format", cad->format);
+  sb_json_string(&json, "unit", cad->unit);
+  sb_json_string(&json, "axis", cad->axis);
+  sb_json_array(&json, "bodies");
+  for (guint i = 0; i < cad->bodies->len; i++) {
+    const SbCadBody *body = cad->bodies->pdata[i];
+    const bool known = body->measured || body->profile->len > 0;
+    const char *part = NULL;
+    for (int k = 0; k < SB_CAD_PART_COUNT; k++) {
+      part = chosen[k] == (int)i ? sb_cad_part_name((SbCadPart)k) : part;
+    }
+    g_autofree char *profile = sb_cad_profile_text(body);
+    sb_json_object(&json, NULL);
+    sb_json_string(&json, "name", body->name);
+    sb_json_string(&json, "part", part);
+    sb_json_number(&json, "volume_m3", known ? body->solid.volume : NAN);
+    sb_json_number(&json, "centre_m", known ? body->solid.centre[0] : NAN);
+    sb_json_number(&json, "inertia_axial_m5", known ? body->solid.inertia[0][0] : NAN);
+    sb_json_number(&json, "inertia_transverse_m5", known ? across(&body->solid) : NAN);
+    sb_json_number(&json, "revolved_volume_m3",
+                   body->profile->len > 0 ? body->revolved.volume : NAN);
+    sb_json_string(&json, "profile", profile);
+    sb_json_string(&json, "profile_reason", profile != NULL ? NULL : body->why);
+    sb_json_array(&json, "features");
+    for (guint k = 0; k < body->features->len; k++) {
+      const SbCadFeature *f = &g_array_index(body->features, SbCadFeature, k);
+      sb_json_object(&json, NULL);
+      sb_json_string(&json, "kind", kind_names[f->kind]);
+      sb_json_number(&json, "from_m", f->x0);
+      sb_json_number(&json, "to_m", f->x1);
+      sb_json_number(&json, "diameter_m", f->diameter);
+      sb_json_number(&json, "depth_m", f->kind == SB_CAD_GROOVE ? f->depth : NAN);
+      sb_json_object_end(&json);
+    }
+    sb_json_array_end(&json);
+    sb_json_object_end(&json);
+  }
+  sb_json_array_end(&json);
+  sb_json_array(&json, "left_out");
+  for (guint i = 0; i < cad->warnings->len; i++) {
+    sb_json_string(&json, NULL, cad->warnings->pdata[i]);
+  }
+  sb_json_array_end(&json);
+  sb_json_object_end(&json);
+  return sb_json_finish(&json);
+}
+
+// ---- The command ----
+
+static int print_issues(const GPtrArray *issues) {
+  for (guint i = 0; i < issues->len; i++) {
+    g_autofree char *line = sb_issue_line(issues->pdata[i]);
+    sb_cli_fail("%s", line);
+  }
+  return SB_EXIT_INPUT;
+}
+
+static int write_scene(const SbCad *cad, const int *chosen, const char *path,
+                       const Options *options) {
+  SbModel *model = NULL;
+  g_autoptr(SbDocument) base = sb_cli_open(&model, options->scene, NULL);
+  sb_model_destroy(model);
+  if (base == NULL) {
+    return SB_EXIT_INPUT;
+  }
+  bool any = false;
+  for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
+    any = any || chosen[i] >= 0;
+  }
+  if (!any) {
+    return sb_cli_fail("--scene: no body is a part of the valve by its name: say which by --part "
+                       "stem_centre=1");
+  }
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autofree char *text =
+      sb_cad_scene(cad, chosen, options->density_si, base, path, options->output, issues);
+  if (text == NULL) {
+    return print_issues(issues);
+  }
+  g_autofree char *directory = g_path_get_dirname(options->output);
+  g_autoptr(SbDocument) after =
+      sb_document_parse(text, strlen(text), options->output, directory, issues);
+  if (after == NULL || issues->len > 0) {
+    return print_issues(issues);
+  }
+  if (!sb_cli_quiet()) {
+    print_differences(base, after);
+  }
+  GError *error = NULL;
+  return sb_output_write(options->output, text, strlen(text), &error) ? SB_EXIT_DONE
+                                                                      : sb_cli_error(error);
+}
+
+static int compute(const char *path, const Options *options) {
+  GError *error = NULL;
+  g_autoptr(SbCad) cad = sb_cad_read(path, &options->choices, &error);
+  if (cad == NULL) {
+    return sb_cli_error(error);
+  }
+  int chosen[SB_CAD_PART_COUNT];
+  int code = choose_parts(chosen, cad, options->parts);
+  SbOutputCheck check = {0};
+  if (code == SB_EXIT_DONE && (!sb_output_check(&check, options->json, false, &error) ||
+                               !sb_output_check(&check, options->output, false, &error))) {
+    code = sb_cli_error(error);
+  }
+  sb_output_check_clear(&check);
+  if (code != SB_EXIT_DONE) {
+    return code;
+  }
+  if (options->json != NULL) {
+    g_autofree char *json = to_json(cad, chosen);
+    code = sb_cli_emit(json, options->json);
+  } else if (!sb_cli_quiet()) {
+    print_bodies(cad, chosen);
+  }
+  if (code == SB_EXIT_DONE && options->scene != NULL) {
+    code = write_scene(cad, chosen, path, options);
+  }
+  return code;
+}
+
+int sb_command_cad(int argc, char **argv) {
+  Options options = {0};
+  const GOptionEntry entries[] = {
+      {"unit", 0, 0, G_OPTION_ARG_FILENAME, &options.unit, "Unit of a DXF; default the file's",
+       "UNIT"},
+      {"axis", 0, 0, G_OPTION_ARG_FILENAME, &options.axis,
+       "Line of a DXF that bodies turn about; default its centre line, else x", "x|y"},
+      {"angle", 0, 0, G_OPTION_ARG_FILENAME, &options.angle,
+       "Half-plane that cuts the bodies of a STEP; default 37.7 deg, off most ports", "ANGLE"},
+      {"flip", 0, 0, G_OPTION_ARG_NONE, &options.flip,
+       "x the other way: it points out of the canister", NULL},
+      {"shift", 0, 0, G_OPTION_ARG_FILENAME, &options.shift, "Added to x afterwards", "LENGTH"},
+      {"part", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.parts,
+       "Body (number or name) that is a part of the valve; default by names", "NAME=BODY"},
+      {"density", 0, 0, G_OPTION_ARG_FILENAME, &options.density,
+       "Of the parts; default 1410 kg/m3, acetal", "DENSITY"},
+      {"scene", 0, 0, G_OPTION_ARG_FILENAME, &options.scene,
+       "Scene or valve of which a copy gets the parts; differences are shown", "FILE"},
+      {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output, "That copy", "FILE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
+      {0},
+  };
+  int code = SB_EXIT_INPUT;
+  if (sb_cli_parse(&argc, &argv, entries, 1, 1,
+                   "A drawing is a DXF (text) of half or whole sections, or a STEP file.")) {
+    code = read_options(&options);
+    if (code == SB_EXIT_DONE) {
+      code = compute(argv[1], &options);
+    }
+  }
+  char *texts[] = {options.unit,    options.axis,  options.angle,  options.shift,
+                   options.density, options.scene, options.output, options.json};
+  for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
+    g_free(texts[i]);
+  }
+  g_strfreev(options.parts);
+  return code;
+}

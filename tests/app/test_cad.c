@@ -1,0 +1,350 @@
+// Drawings: outlines of a DXF as half-sections, the lands, bores and grooves on them, a scene
+// shaped by them, and what is refused.
+#include "app/cad/parts.h"
+
+#include "app/base/error.h"
+
+#include <math.h>
+#include <string.h>
+
+// The stem centre of piston-profiles.valve, about the axis: x, r [mm], bulge.
+static const double stem[][3] = {{7.5, 0},
+                                 {7.5, 0.9},
+                                 {9.3, 0.9},
+                                 {9.3, 2.697, 0.41421},
+                                 {9.1, 2.897},
+                                 {8.2, 2.897},
+                                 {8.2, 1.64},
+                                 {6.2, 1.64},
+                                 {6.2, 2.897},
+                                 {5.55, 2.897},
+                                 {5.55, 2.55, -0.41421},
+                                 {5.05, 2.05},
+                                 {3.15, 2.05, -0.41421},
+                                 {2.65, 2.55},
+                                 {2.65, 2.897},
+                                 {2, 2.897},
+                                 {2, 1.64},
+                                 {0, 1.64},
+                                 {0, 2.897},
+                                 {-0.3, 2.897, 0.41421},
+                                 {-0.5, 2.697},
+                                 {-0.5, 0.9},
+                                 {1.1, 0.9},
+                                 {1.1, 0}};
+enum { STEM = G_N_ELEMENTS(stem) };
+
+// Its volume, from the engine [m3].
+static double stem_volume(void) {
+  SbProfilePoint point[STEM];
+  for (size_t i = 0; i < STEM; i++) {
+    point[i] = (SbProfilePoint){1e-3 * stem[i][0], 1e-3 * stem[i][1], stem[i][2]};
+  }
+  const SbProfile profile = {point, STEM, false};
+  SbSolid solid;
+  SbReport report = {0};
+  g_assert_cmpint(sb_solid_revolve(&solid, &profile, 1, &report), ==, SB_OK);
+  return solid.volume;
+}
+
+// ---- Writing a DXF ----
+
+typedef struct {
+  double x, y, angle; // where the drawing's own origin and axis lie
+} Place;
+
+static void put(GString *dxf, int code, const char *format, ...) G_GNUC_PRINTF(3, 4);
+static void put(GString *dxf, int code, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *value = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  g_string_append_printf(dxf, "%3d\r\n%s\r\n", code, value);
+}
+
+static GString *begin(int unit) {
+  GString *dxf = g_string_new(NULL);
+  put(dxf, 0, "SECTION");
+  put(dxf, 2, "HEADER");
+  put(dxf, 9, "$ACADVER");
+  put(dxf, 1, "AC1015");
+  put(dxf, 9, "$INSUNITS");
+  put(dxf, 70, "%d", unit);
+  put(dxf, 0, "ENDSEC");
+  put(dxf, 0, "SECTION");
+  put(dxf, 2, "ENTITIES");
+  return dxf;
+}
+
+static void end(GString *dxf) {
+  put(dxf, 0, "ENDSEC");
+  put(dxf, 0, "EOF");
+}
+
+static void move(const Place *place, double *x, double *y) {
+  const double u = *x, v = *y;
+  *x = place->x + u * cos(place->angle) - v * sin(place->angle);
+  *y = place->y + u * sin(place->angle) + v * cos(place->angle);
+}
+
+static void put_line(GString *dxf, const char *layer, double x0, double y0, double x1, double y1) {
+  put(dxf, 0, "LINE");
+  put(dxf, 8, "%s", layer);
+  put(dxf, 10, "%.15g", x0);
+  put(dxf, 20, "%.15g", y0);
+  put(dxf, 11, "%.15g", x1);
+  put(dxf, 21, "%.15g", y1);
+}
+
+// An arc from one end to the other; CAD knows counter-clockwise ones only.
+static void put_arc(GString *dxf, const char *layer, double x0, double y0, double x1, double y1,
+                    double bulge) {
+  const double c = (1 - bulge * bulge) / (4 * bulge), r = hypot(x1 - x0, y1 - y0);
+  const double cx = (x0 + x1) / 2 - (y1 - y0) * c, cy = (y0 + y1) / 2 + (x1 - x0) * c;
+  const double start = atan2(y0 - cy, x0 - cx) * 180 / M_PI;
+  const double stop = atan2(y1 - cy, x1 - cx) * 180 / M_PI;
+  put(dxf, 0, "ARC");
+  put(dxf, 8, "%s", layer);
+  put(dxf, 10, "%.15g", cx);
+  put(dxf, 20, "%.15g", cy);
+  put(dxf, 40, "%.15g", r * (1 + bulge * bulge) / (4 * fabs(bulge)));
+  put(dxf, 50, "%.15g", bulge > 0 ? start : stop);
+  put(dxf, 51, "%.15g", bulge > 0 ? stop : start);
+}
+
+// The stem's outline as lines and arcs, in no order; side -1: below the axis.
+static void put_stem(GString *dxf, const Place *place, double scale, int side) {
+  for (size_t k = 0; k + 1 < STEM; k++) {
+    const size_t i = (k * 7) % (STEM - 1);
+    double x0 = scale * stem[i][0], y0 = side * scale * stem[i][1];
+    double x1 = scale * stem[i + 1][0], y1 = side * scale * stem[i + 1][1];
+    move(place, &x0, &y0);
+    move(place, &x1, &y1);
+    if (stem[i][2] != 0) {
+      put_arc(dxf, "Stem centre", x0, y0, x1, y1, side * stem[i][2]);
+    } else if (k % 2 == 0) {
+      put_line(dxf, "Stem centre", x0, y0, x1, y1);
+    } else {
+      put_line(dxf, "Stem centre", x1, y1, x0, y0);
+    }
+  }
+}
+
+static SbCad *parse(const GString *dxf, const SbCadChoices *choices) {
+  GError *error = NULL;
+  SbCad *cad = sb_cad_parse_dxf(dxf->str, dxf->len, "a.dxf", choices, &error);
+  g_assert_no_error(error);
+  return cad;
+}
+
+// ---- What is read ----
+
+static void check_stem(const SbCadBody *body, double tolerance) {
+  static const SbCadFeature expected[] = {
+      {SB_CAD_BORE, -0.5, 1.1, 1.8, 0},        {SB_CAD_LAND, -0.3, 0, 5.794, 0},
+      {SB_CAD_GROOVE, 0, 2, 3.28, 1.257},      {SB_CAD_LAND, 2, 2.65, 5.794, 0},
+      {SB_CAD_GROOVE, 2.65, 5.55, 4.1, 0.847}, {SB_CAD_LAND, 5.55, 6.2, 5.794, 0},
+      {SB_CAD_GROOVE, 6.2, 8.2, 3.28, 1.257},  {SB_CAD_BORE, 7.5, 9.3, 1.8, 0},
+      {SB_CAD_LAND, 8.2, 9.1, 5.794, 0}};
+  g_assert_cmpstr(body->why, ==, NULL);
+  g_assert_cmpfloat_with_epsilon(body->solid.volume / stem_volume(), 1, tolerance);
+  g_assert_cmpuint(body->profile->len, ==, STEM);
+  g_assert_cmpuint(body->features->len, ==, G_N_ELEMENTS(expected));
+  for (size_t i = 0; i < G_N_ELEMENTS(expected); i++) {
+    const SbCadFeature *f = &g_array_index(body->features, SbCadFeature, i);
+    const SbCadFeature *e = &expected[i];
+    g_assert_cmpint(f->kind, ==, e->kind);
+    g_assert_cmpfloat_with_epsilon(f->x0, 1e-3 * e->x0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(f->x1, 1e-3 * e->x1, 1e-9);
+    g_assert_cmpfloat_with_epsilon(f->diameter, 1e-3 * e->diameter, 1e-9);
+    g_assert_cmpfloat_with_epsilon(f->depth, 1e-3 * e->depth, 1e-9);
+  }
+}
+
+// A half-section above the axis, below it, a whole section, and one about a centre line anywhere,
+// in inches: all the same body.
+static void test_sections(void) {
+  const SbCadChoices none = {0};
+  const Place plain = {0, 0, 0};
+  for (int kind = 0; kind < 4; kind++) {
+    const double scale = kind == 3 ? 1 / 25.4 : 1;
+    // Along its own line a drawing begins where the line is nearest to the origin: across it lies
+    // off.
+    const Place off = {-3 * sin(0.5), 3 * cos(0.5), 0.5};
+    const Place *place = kind == 3 ? &off : &plain;
+    g_autoptr(GString) dxf = begin(kind == 3 ? 1 : 4);
+    if (kind != 1) {
+      put_stem(dxf, place, scale, 1);
+    }
+    if (kind == 1 || kind == 2) {
+      put_stem(dxf, place, scale, -1);
+    }
+    if (kind == 3) {
+      double x0 = -1, y0 = 0, x1 = 2, y1 = 0;
+      move(place, &x0, &y0);
+      move(place, &x1, &y1);
+      put_line(dxf, "AXIS", x0, y0, x1, y1);
+    }
+    put(dxf, 0, "TEXT");
+    put(dxf, 1, "scale 10 : 1");
+    end(dxf);
+    g_autoptr(SbCad) cad = parse(dxf, &none);
+    g_assert_cmpuint(cad->bodies->len, ==, 1);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_assert_cmpstr(body->name, ==, "Stem centre");
+    check_stem(body, 1e-9);
+    g_assert_cmpuint(cad->warnings->len, ==, 1);
+    g_assert_cmpstr(cad->warnings->pdata[0], ==, "left out: 1 TEXT");
+  }
+}
+
+// The other way round and moved: from the other end, at another place.
+static void test_flip(void) {
+  const Place plain = {0, 0, 0};
+  const SbCadChoices flip = {.flip = true, .shift = 8.8e-3};
+  g_autoptr(GString) dxf = begin(4);
+  put_stem(dxf, &plain, 1, 1);
+  end(dxf);
+  g_autoptr(SbCad) cad = parse(dxf, &flip);
+  const SbCadBody *body = cad->bodies->pdata[0];
+  g_assert_cmpfloat_with_epsilon(body->solid.volume / stem_volume(), 1, 1e-9);
+  const SbCadFeature *f = &g_array_index(body->features, SbCadFeature, 1);
+  g_assert_cmpint(f->kind, ==, SB_CAD_LAND);
+  g_assert_cmpfloat_with_epsilon(f->x0, -0.3e-3, 1e-9);
+  g_assert_cmpfloat_with_epsilon(f->x1, 0.6e-3, 1e-9);
+}
+
+// A ring as a polyline with bulges, on the plane's back; an ellipse and a circle as splines.
+static void test_curves(void) {
+  const SbCadChoices millimetres = {.unit = "mm"};
+  g_autoptr(GString) dxf = begin(0);
+  put(dxf, 0, "LWPOLYLINE");
+  put(dxf, 8, "ring");
+  put(dxf, 70, "1");
+  put(dxf, 10, "-1");
+  put(dxf, 20, "3");
+  put(dxf, 42, "1");
+  put(dxf, 10, "-2");
+  put(dxf, 20, "3");
+  put(dxf, 42, "1");
+  put(dxf, 230, "-1");
+  put(dxf, 0, "ELLIPSE");
+  put(dxf, 8, "spheroid");
+  put(dxf, 10, "5");
+  put(dxf, 20, "0");
+  put(dxf, 11, "2");
+  put(dxf, 21, "0");
+  put(dxf, 40, "0.5");
+  put(dxf, 41, "0");
+  put(dxf, 42, "3.141592653589793");
+  // A quarter of a circle of radius 2 as a rational quadratic, closed by two lines.
+  put(dxf, 0, "SPLINE");
+  put(dxf, 8, "quarter");
+  put(dxf, 71, "2");
+  for (int i = 0; i < 6; i++) {
+    put(dxf, 40, "%d", i / 3);
+  }
+  static const double control[3][3] = {{2, 1, 1}, {2, 3, M_SQRT1_2}, {0, 3, 1}};
+  for (int i = 0; i < 3; i++) {
+    put(dxf, 10, "%.15g", control[i][0]);
+    put(dxf, 20, "%.15g", control[i][1]);
+    put(dxf, 41, "%.15g", control[i][2]);
+  }
+  put_line(dxf, "quarter", 0, 3, 0, 1);
+  put_line(dxf, "quarter", 0, 1, 2, 1);
+  end(dxf);
+  g_autoptr(SbCad) cad = parse(dxf, &millimetres);
+  g_assert_cmpuint(cad->bodies->len, ==, 3);
+  const SbCadBody *ring = cad->bodies->pdata[0], *spheroid = cad->bodies->pdata[1];
+  const SbCadBody *quarter = cad->bodies->pdata[2];
+  g_assert_cmpfloat_with_epsilon(1e9 * ring->solid.volume, M_PI / 4 * 2 * M_PI * 3, 1e-9);
+  g_assert_cmpfloat_with_epsilon(ring->solid.centre[0], 1.5e-3, 1e-12);
+  // Arcs within 0.1 um of an ellipse of 2 x 1 mm.
+  g_assert_cmpfloat_with_epsilon(1e9 * spheroid->solid.volume / (4 * M_PI / 3 * 2), 1, 1e-4);
+  g_assert_cmpuint(spheroid->profile->len, <, 60);
+  // Pappus: the quarter's area at the radius of its centre.
+  const double area = M_PI, middle = 1 + 4 * 2 / (3 * M_PI);
+  g_assert_cmpfloat_with_epsilon(1e9 * quarter->solid.volume / (2 * M_PI * middle * area), 1, 1e-9);
+}
+
+// The drawing's sizes take the place of the scene's; everything else stays.
+static void test_scene(void) {
+  const SbCadChoices none = {0};
+  const Place plain = {0, 0, 0};
+  g_autoptr(GString) dxf = begin(4);
+  put_stem(dxf, &plain, 1, 1);
+  end(dxf);
+  g_autoptr(SbCad) cad = parse(dxf, &none);
+  int body[SB_CAD_PART_COUNT];
+  sb_cad_parts_by_name(body, cad);
+  g_assert_cmpint(body[SB_CAD_STEM_CENTRE], ==, 0);
+  g_assert_cmpint(body[SB_CAD_HOUSING], ==, -1);
+  static const char text[] = "[sealbench]\nformat = 1\nkind = valve\n"
+                             "[gland]\nradial_space = 1.4 mm\n[seal]\nmodulus = 3 MPa\n"
+                             "[part.stem_centre]\nmass = 2 g\n";
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) base = sb_document_parse(text, strlen(text), "base", NULL, issues);
+  g_autofree char *made = sb_cad_scene(cad, body, 1000, base, "a.dxf", "out.valve", issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  g_assert_nonnull(strstr(made, "# Drawing: a.dxf, Stem centre\n[part.stem_centre]\n"));
+  g_autoptr(SbDocument) after = sb_document_parse(made, strlen(made), "out", NULL, issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  const struct {
+    SbParamId id;
+    double value;
+  } sizes[] = {{SB_P_GLAND_RADIAL_SPACE, 1.36e-3},
+               {SB_P_GLAND_AXIAL_WIDTH, 2e-3},
+               {SB_P_STEM_PRESSURE_DIAMETER, 5.794e-3},
+               {SB_P_STEM_SEAL_SPACING, 6.2e-3},
+               {SB_P_SEAL_MODULUS, 3e6},
+               {SB_P_PART_STEM_CENTRE_MASS, 1000 * stem_volume()}};
+  for (size_t i = 0; i < G_N_ELEMENTS(sizes); i++) {
+    g_assert_cmpfloat_with_epsilon(sb_document_value(after, sizes[i].id) / sizes[i].value, 1, 1e-9);
+  }
+}
+
+static void test_refused(void) {
+  static const struct {
+    const char *text, *says;
+  } cases[] = {
+      {"", "a.dxf: has no section of a DXF"},
+      {"hello\nworld\n", "a.dxf: line 1 is no group code of a DXF"},
+      {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\nfar\n", "a.dxf: line 8: 'far' is no number"},
+      {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n", "a.dxf: the file ends behind line 7"},
+      {"  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n",
+       "a.dxf: tells no unit ($INSUNITS): say it by --unit"},
+      {"AutoCAD Binary DXF\r\n\x1a", "a.dxf: is a binary DXF: save it as text (ASCII)"},
+  };
+  const SbCadChoices none = {0}, millimetres = {.unit = "mm"}, wrong = {.unit = "kg"};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    GError *error = NULL;
+    const size_t length = strlen(cases[i].text) + (i == 5 ? 3 : 0);
+    g_assert_null(sb_cad_parse_dxf(cases[i].text, length, "a.dxf", &none, &error));
+    g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+    g_assert_cmpstr(error->message, ==, cases[i].says);
+    g_error_free(error);
+  }
+  // Lines that close to nothing; a unit that is no length.
+  g_autoptr(GString) open = begin(4);
+  put_line(open, "0", 0, 1, 2, 3);
+  put_line(open, "0", 2, 3, 4, 1);
+  end(open);
+  GError *error = NULL;
+  g_assert_null(sb_cad_parse_dxf(open->str, open->len, "a.dxf", &millimetres, &error));
+  g_assert_cmpstr(error->message, ==,
+                  "a.dxf: holds no closed outline; 0: 1 line that closes to no outline");
+  g_clear_error(&error);
+  g_assert_null(sb_cad_parse_dxf(open->str, open->len, "a.dxf", &wrong, &error));
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+  g_error_free(error);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/cad/sections", test_sections);
+  g_test_add_func("/cad/flip", test_flip);
+  g_test_add_func("/cad/curves", test_curves);
+  g_test_add_func("/cad/scene", test_scene);
+  g_test_add_func("/cad/refused", test_refused);
+  return g_test_run();
+}

@@ -1,0 +1,274 @@
+// STEP files that OpenCASCADE writes of bodies made here: axis, volume and moments against the
+// kernel's own, lands and grooves against what they were made with, wherever the bodies lie; broken
+// files.
+#include "app/cad/cad.h"
+
+#include "app/base/error.h"
+
+#include <glib/gstdio.h>
+#include <gmshc.h>
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+// A stem with two seal grooves and a dose chamber: x, r [mm], bulge; between them the axis.
+static const double stem[][3] = {{9.3, 0},
+                                 {9.3, 2.7, 0.41421356237309503},
+                                 {9.1, 2.9},
+                                 {8.2, 2.9},
+                                 {8.2, 1.64},
+                                 {6.2, 1.64},
+                                 {6.2, 2.9},
+                                 {5.55, 2.9},
+                                 {5.55, 2.5, -0.41421356237309503},
+                                 {5.05, 2.0},
+                                 {3.15, 2.0, -0.41421356237309503},
+                                 {2.65, 2.5},
+                                 {2.65, 2.9},
+                                 {2, 2.9},
+                                 {2, 1.64},
+                                 {0, 1.64},
+                                 {0, 2.9},
+                                 {-0.5, 2.7},
+                                 {-0.5, 0}};
+enum { STEM = G_N_ELEMENTS(stem) };
+
+static char *folder;
+
+// The stem as a solid of the kernel, revolved about x.
+static int make_stem(void) {
+  int ierr, points[STEM], curves[STEM], wire, face;
+  for (int i = 0; i < STEM; i++) {
+    points[i] = gmshModelOccAddPoint(stem[i][0], stem[i][1], 0, 0, -1, &ierr);
+  }
+  for (int i = 0; i < STEM; i++) {
+    const double *p = stem[i], *q = stem[(i + 1) % STEM];
+    const double b = p[2];
+    if (b == 0) {
+      curves[i] = gmshModelOccAddLine(points[i], points[(i + 1) % STEM], -1, &ierr);
+    } else {
+      const double c = (1 - b * b) / (4 * b);
+      const int centre =
+          gmshModelOccAddPoint((p[0] + q[0]) / 2 - (q[1] - p[1]) * c,
+                               (p[1] + q[1]) / 2 + (q[0] - p[0]) * c, 0, 0, -1, &ierr);
+      curves[i] = gmshModelOccAddCircleArc(points[i], centre, points[(i + 1) % STEM], -1, &ierr);
+    }
+    g_assert_cmpint(ierr, ==, 0);
+  }
+  wire = gmshModelOccAddCurveLoop(curves, STEM, -1, &ierr);
+  face = gmshModelOccAddPlaneSurface(&wire, 1, -1, &ierr);
+  int of[2] = {2, face}, *out, tag = -1;
+  size_t count;
+  gmshModelOccRevolve(of, 2, 0, 0, 0, 1, 0, 0, 2 * M_PI, &out, &count, NULL, 0, NULL, 0, 0, &ierr);
+  g_assert_cmpint(ierr, ==, 0);
+  for (size_t i = 0; i < count; i += 2) {
+    tag = out[i] == 3 ? out[i + 1] : tag;
+  }
+  gmshFree(out);
+  g_assert_cmpint(tag, >, 0);
+  return tag;
+}
+
+typedef struct {
+  double volume, along, axial, transverse; // SI at 1 kg/m3; along: of the centre, on the axis
+} Measured;
+
+// What the kernel says of a body about the axis (point 0, `d`).
+static Measured measure(int tag, const double d[3]) {
+  int ierr;
+  double volume, c[3], *m, axial = 0;
+  size_t count;
+  gmshModelOccGetMass(3, tag, &volume, &ierr);
+  gmshModelOccGetCenterOfMass(3, tag, &c[0], &c[1], &c[2], &ierr);
+  gmshModelOccGetMatrixOfInertia(3, tag, &m, &count, &ierr);
+  g_assert_cmpint(ierr, ==, 0);
+  for (int i = 0; i < 9; i++) {
+    axial += d[i / 3] * m[i] * d[i % 3];
+  }
+  const double trace = m[0] + m[4] + m[8];
+  gmshFree(m);
+  return (Measured){1e-9 * volume, 1e-3 * (c[0] * d[0] + c[1] * d[1] + c[2] * d[2]), 1e-15 * axial,
+                    1e-15 * (trace - axial) / 2};
+}
+
+// Writes what is in the kernel and reads it by sealbench-cad.
+static SbCad *through_file(const char *name, double angle) {
+  int ierr;
+  g_autofree char *path = g_build_filename(folder, name, NULL);
+  gmshModelOccSynchronize(&ierr);
+  // The kernel tells standard output of every file it writes.
+  fflush(stdout);
+  const int kept = dup(STDOUT_FILENO);
+  g_assert_cmpint(dup2(STDERR_FILENO, STDOUT_FILENO), >=, 0);
+  gmshWrite(path, &ierr);
+  fflush(stdout);
+  g_assert_cmpint(dup2(kept, STDOUT_FILENO), >=, 0);
+  close(kept);
+  g_assert_cmpint(ierr, ==, 0);
+  const SbCadChoices choices = {.angle = angle};
+  GError *error = NULL;
+  SbCad *cad = sb_cad_read(path, &choices, &error);
+  g_assert_no_error(error);
+  return cad;
+}
+
+static void begin(void) {
+  int ierr;
+  gmshInitialize(0, NULL, 0, &ierr);
+  gmshOptionSetNumber("General.Terminal", 0, &ierr);
+  g_assert_cmpint(ierr, ==, 0);
+}
+
+static void finish(void) {
+  int ierr;
+  gmshFinalize(&ierr);
+}
+
+static void check_measured(const SbCadBody *body, const Measured *kernel) {
+  const double transverse = (body->solid.inertia[1][1] + body->solid.inertia[2][2]) / 2;
+  g_assert_true(body->measured);
+  g_assert_cmpfloat_with_epsilon(body->solid.volume / kernel->volume, 1, 1e-9);
+  g_assert_cmpfloat_with_epsilon(body->solid.inertia[0][0] / kernel->axial, 1, 1e-9);
+  g_assert_cmpfloat_with_epsilon(transverse / kernel->transverse, 1, 1e-9);
+  g_assert_cmpfloat_with_epsilon(body->solid.centre[0], kernel->along, 1e-10);
+}
+
+// Lands and grooves to a nanometre; `start`: where x = 0 of the drawing lies on the axis found.
+static void check_stem(const SbCadBody *body, double start) {
+  static const SbCadFeature expected[] = {
+      {SB_CAD_GROOVE, 0, 2, 3.28, 1.06},     {SB_CAD_LAND, 2, 2.65, 5.8, 0},
+      {SB_CAD_GROOVE, 2.65, 5.55, 4, 0.9},   {SB_CAD_LAND, 5.55, 6.2, 5.8, 0},
+      {SB_CAD_GROOVE, 6.2, 8.2, 3.28, 1.26}, {SB_CAD_LAND, 8.2, 9.1, 5.8, 0}};
+  g_assert_cmpstr(body->why, ==, NULL);
+  g_assert_cmpuint(body->profile->len, ==, STEM);
+  g_assert_cmpuint(body->features->len, ==, G_N_ELEMENTS(expected));
+  for (size_t i = 0; i < G_N_ELEMENTS(expected); i++) {
+    const SbCadFeature *f = &g_array_index(body->features, SbCadFeature, i);
+    g_assert_cmpint(f->kind, ==, expected[i].kind);
+    g_assert_cmpfloat_with_epsilon(f->x0, start + 1e-3 * expected[i].x0, 1e-9);
+    g_assert_cmpfloat_with_epsilon(f->x1, start + 1e-3 * expected[i].x1, 1e-9);
+    g_assert_cmpfloat_with_epsilon(f->diameter, 1e-3 * expected[i].diameter, 1e-9);
+  }
+}
+
+// As it is made, and turned and moved.
+static void test_stem(void) {
+  for (int moved = 0; moved < 2; moved++) {
+    begin();
+    int ierr, body[2] = {3, make_stem()};
+    double d[3] = {1, 0, 0}, start = 0;
+    if (moved) {
+      // Half a turn about the line between x and the new axis.
+      const double by[3] = {1 + 0.48, 0.6, 0.64}, n = sqrt(2 * (1 + 0.48));
+      gmshModelOccRotate(body, 2, 0, 0, 0, by[0] / n, by[1] / n, by[2] / n, M_PI, &ierr);
+      gmshModelOccTranslate(body, 2, 12, -7, 5, &ierr);
+      d[0] = 0.48;
+      d[1] = 0.6;
+      d[2] = 0.64;
+      start = 1e-3 * (12 * 0.48 - 7 * 0.6 + 5 * 0.64);
+    }
+    const Measured kernel = measure(body[1], d);
+    g_autoptr(SbCad) cad = through_file("stem.step", 0.658);
+    finish();
+    g_assert_cmpstr(cad->format, ==, "STEP");
+    g_assert_cmpuint(cad->bodies->len, ==, 1);
+    const SbCadBody *read = cad->bodies->pdata[0];
+    check_measured(read, &kernel);
+    check_stem(read, start);
+    // Revolved, the half-section is the body.
+    g_assert_cmpfloat_with_epsilon(read->revolved.volume / kernel.volume, 1, 5e-9);
+  }
+}
+
+// With a port: the kernel's volume, the section beside it, and a difference that tells.
+static void test_port(void) {
+  begin();
+  int ierr, body[2] = {3, make_stem()}, *out, **map;
+  size_t count, *map_counts, maps;
+  int drill[2] = {3, gmshModelOccAddCylinder(8.6, 0, -5, 0, 0, 10, 0.3, -1, 2 * M_PI, &ierr)};
+  gmshModelOccCut(body, 2, drill, 2, &out, &count, &map, &map_counts, &maps, -1, 1, 1, &ierr);
+  for (size_t i = 0; i < maps; i++) {
+    gmshFree(map[i]);
+  }
+  gmshFree(map);
+  gmshFree(map_counts);
+  g_assert_cmpint(ierr, ==, 0);
+  g_assert_cmpuint(count, ==, 2);
+  const Measured kernel = measure(out[1], (const double[]){1, 0, 0});
+  gmshFree(out);
+  g_autoptr(SbCad) cad = through_file("port.stp", 0.658);
+  finish();
+  const SbCadBody *read = cad->bodies->pdata[0];
+  check_measured(read, &kernel);
+  check_stem(read, 0);
+  // The hole is some pi/4 0.6^2 5.8 mm3.
+  g_assert_cmpfloat_with_epsilon(1e9 * (read->revolved.volume - read->solid.volume),
+                                 M_PI * 0.09 * 5.8, 0.02);
+}
+
+// Not there, not STEP, cut short, of no solid, and lengths that no double holds.
+static void test_broken(void) {
+  begin();
+  make_stem();
+  g_autoptr(SbCad) cad = through_file("whole.step", 0);
+  finish();
+  g_autofree char *whole = g_build_filename(folder, "whole.step", NULL);
+  g_autofree char *text = NULL;
+  gsize length;
+  g_assert_true(g_file_get_contents(whole, &text, &length, NULL));
+  g_autofree char *path = g_build_filename(folder, "broken.step", NULL);
+  const SbCadChoices none = {0};
+  for (int kind = 0; kind < 6; kind++) {
+    GString *bad = g_string_new_len(text, (gssize)(kind == 1 ? length / 3 : length));
+    if (kind == 0) {
+      g_string_assign(bad, "PNG\n");
+    } else if (kind == 2) {
+      g_string_assign(bad, "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n");
+    } else if (kind == 3) {
+      g_string_replace(bad, "CARTESIAN_POINT('',(", "CARTESIAN_POINT('',(1.E999", 0);
+    } else if (kind == 4) {
+      // Every reference to the entity that refers to it.
+      g_string_replace(bad, "#2", "#17", 0);
+    } else if (kind == 5) {
+      g_string_replace(bad, "ADVANCED_FACE", "ADVANCED_FAKE", 0);
+    }
+    g_assert_true(g_file_set_contents(path, bad->str, (gssize)bad->len, NULL));
+    g_string_free(bad, TRUE);
+    GError *error = NULL;
+    const gint64 start = g_get_monotonic_time();
+    SbCad *read = sb_cad_read(path, &none, &error);
+    g_assert_cmpint(g_get_monotonic_time() - start, <, 130 * G_USEC_PER_SEC);
+    g_test_message("%s", read != NULL ? "read" : error->message);
+    // Either complete or refused, naming the file.
+    if (read == NULL) {
+      g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+      g_assert_true(g_str_has_prefix(error->message, path));
+      g_error_free(error);
+    } else {
+      g_assert_cmpint(kind, >=, 3);
+      sb_cad_free(read);
+    }
+  }
+  GError *error = NULL;
+  g_remove(path);
+  g_assert_null(sb_cad_read(path, &none, &error));
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+  g_error_free(error);
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  folder = g_dir_make_tmp("sealbench-cad-XXXXXX", NULL);
+  g_test_add_func("/cad-step/stem", test_stem);
+  g_test_add_func("/cad-step/port", test_port);
+  g_test_add_func("/cad-step/broken", test_broken);
+  const int code = g_test_run();
+  static const char *const files[] = {"stem.step", "port.stp", "whole.step", "broken.step"};
+  for (size_t i = 0; i < G_N_ELEMENTS(files); i++) {
+    g_autofree char *path = g_build_filename(folder, files[i], NULL);
+    g_remove(path);
+  }
+  g_rmdir(folder);
+  g_free(folder);
+  return code;
+}
