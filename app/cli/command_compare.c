@@ -2,6 +2,7 @@
 #include "app/cli/cli.h"
 #include "app/cli/plots.h"
 #include "app/export/measured_results.h"
+#include "app/session/pin_names.h"
 
 #include <math.h>
 
@@ -85,8 +86,7 @@ static int run_file(Runs *runs, const SbCliFile *file, const Options *options) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   for (size_t i = 0; i < sb_document_pin_count(document); i++) {
     g_autoptr(SbModel) model = NULL;
-    const char *given = sb_document_pin_name(document, i);
-    g_autofree char *name = given != NULL ? g_strdup(given) : g_strdup_printf("pin %zu", i + 1);
+    g_autofree char *name = sb_pin_name(document, i, false);
     if (!sb_cli_interrupted(NULL) && sb_document_compile_pin(document, i, &model, issues)) {
       const int ran = run_model(runs, file, model, name, options);
       code = MAX(code, ran);

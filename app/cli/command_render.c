@@ -5,6 +5,7 @@
 #include "app/export/render_movie.h"
 #include "app/export/studies.h"
 #include "app/section/painter.h"
+#include "app/session/pin_names.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,7 @@ typedef struct {
   char *output, *format, *view, *size, *at, *fps, *duration, *speed, *from, *to, *backend;
   char *field, *field_max, *insets, *zoom, *azimuth, *elevation, *measured;
   char **settings;
-  gboolean dark, full, undeformed;
+  gboolean dark, full, undeformed, no_pins;
 } Options;
 
 // What they mean.
@@ -28,6 +29,12 @@ typedef struct {
   SbStudyKind study;
   char *name; // of a picture in its file's folder: "section.png"; NULL: -o names it
 } Request;
+
+// The runs of kept designs, drawn beside the file's.
+typedef struct {
+  SbRun *run[SB_CHART_PINS];
+  char *name[SB_CHART_PINS];
+} Pins;
 
 static void options_clear(Options *options) {
   char *const texts[] = {options->output,    options->format,  options->view,    options->size,
@@ -273,6 +280,41 @@ static SbStatus compute(SbRun **run, const SbModel *model, const char *view, SbR
   return status;
 }
 
+// Computes the first kept designs where the view shows them, and notes those that it leaves out. An
+// exit code; what cannot be computed is told and left out.
+static int compute_pins(Pins *pins, const SbDocument *document, Request *request) {
+  const size_t count = sb_document_pin_count(document);
+  SbRenderOptions *how = &request->how;
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  int code = SB_EXIT_DONE;
+  for (size_t i = 0; i < count && i < SB_CHART_PINS && !sb_cli_interrupted(NULL); i++) {
+    g_autoptr(SbModel) model = NULL;
+    SbReport report = {0};
+    if (!sb_document_compile_pin(document, i, &model, issues)) {
+      code = SB_EXIT_INPUT;
+      continue;
+    }
+    pins->name[i] = sb_pin_name(document, i, false);
+    const SbStatus status = compute(&pins->run[i], model, how->view, &report);
+    code = MAX(code, sb_cli_status(status, &report));
+    if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+      how->pin[how->pin_count++] = (SbRenderPin){pins->run[i], pins->name[i], (int)i};
+    }
+  }
+  sb_cli_issues(issues);
+  if (count > SB_CHART_PINS) {
+    sb_cli_note("of %zu kept designs the first %d are drawn", count, SB_CHART_PINS);
+  }
+  return code;
+}
+
+static void pins_clear(Pins *pins) {
+  for (int i = 0; i < SB_CHART_PINS; i++) {
+    sb_run_destroy(pins->run[i]);
+    g_free(pins->name[i]);
+  }
+}
+
 // The film or sequence, with its own progress.
 static int render_film(const SbRun *run, Request *request, const char *output) {
   SbProgress progress;
@@ -384,6 +426,9 @@ static int render(const SbRun *run, const SbDocument *document, const SbMeasured
   how->subtitle = subtitle;
   how->hash = sha256;
   how->scene = scene;
+  g_autofree SbChartMarker *marker = NULL;
+  how->marker_count = sb_render_markers(&marker, document);
+  how->marker = marker;
   how->section = sb_section_painter_draw;
   how->section_data = painter;
   SbLoop loop = {0};
@@ -452,10 +497,18 @@ static int render_file(const SbCliFile *file, const Request *asked, const Option
     SbReport report = {0};
     SbStatus status = compute(&run, model, request.how.view, &report);
     code = sb_cli_status(status, &report);
+    Pins pins = {0};
     if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
-      int drawn = render(run, file->document, measured, &request, output);
+      if (sb_render_view(request.how.view)->compares && !options->no_pins) {
+        const int kept = compute_pins(&pins, file->document, &request);
+        code = MAX(code, kept);
+      }
+      int drawn = sb_cli_interrupted(NULL)
+                      ? SB_EXIT_INTERRUPTED
+                      : render(run, file->document, measured, &request, output);
       code = drawn != SB_EXIT_DONE ? drawn : code;
     }
+    pins_clear(&pins);
     sb_run_destroy(run);
   }
   if (request.name != NULL && !was_there && code != SB_EXIT_DONE) {
@@ -513,6 +566,8 @@ int sb_command_render(int argc, char **argv) {
        "The rings' outline before fitting, dashed (output.undeformed)", NULL},
       {"measured", 0, 0, G_OPTION_ARG_FILENAME, &options.measured, SB_CLI_MEASURED_HELP, "FILE"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
+      {"no-pins", 0, 0, G_OPTION_ARG_NONE, &options.no_pins,
+       "Without the file's kept designs, of which loops and contacts show the first two", NULL},
       {"dark", 0, 0, G_OPTION_ARG_NONE, &options.dark, "Dark theme", NULL},
       {0},
   };

@@ -13,19 +13,20 @@
 #include "app/chart/shelf.h"
 #include "app/chart/signal.h"
 #include "app/export/still.h"
+#include "app/session/playhead.h"
 
 #include <math.h>
 #include <string.h>
 
 static const SbRenderView views[] = {
-    {"section", "Axial section", 1280, 720, true},
-    {"cutaway", "Cutaway in three dimensions", 1280, 720, true},
-    {"hysteresis", "Force and displacement", 960, 720, false},
-    {"profiles", "Contact pressure and film", 1440, 520, false},
-    {"dashboard", "Dashboard", 1920, 1080, true},
-    {"rig", "Thread force and coefficients", 1440, 720, false},
-    {"life", "Life over its actuations", 1440, 620, false},
-    {"shelf", "Loss on the shelf", 1440, 760, false},
+    {"section", "Axial section", 1280, 720, true, false},
+    {"cutaway", "Cutaway in three dimensions", 1280, 720, true, false},
+    {"hysteresis", "Force and displacement", 960, 720, false, true},
+    {"profiles", "Contact pressure and film", 1440, 520, false, true},
+    {"dashboard", "Dashboard", 1920, 1080, true, true},
+    {"rig", "Thread force and coefficients", 1440, 720, false, false},
+    {"life", "Life over its actuations", 1440, 620, false, false},
+    {"shelf", "Loss on the shelf", 1440, 760, false, false},
 };
 
 const SbRenderView *sb_render_views(size_t *count) {
@@ -169,6 +170,54 @@ bool sb_render_frame_at(size_t *frame, const SbRun *run, const char *at, GError 
   return true;
 }
 
+size_t sb_render_markers(SbChartMarker **out, const SbDocument *document) {
+  const size_t count = sb_document_remark_count(document, SB_REMARK_BOOKMARK);
+  *out = g_new0(SbChartMarker, count + 1);
+  for (size_t i = 0; i < count; i++) {
+    (*out)[i] = (SbChartMarker){sb_document_bookmark(document, i),
+                                sb_document_remark_name(document, SB_REMARK_BOOKMARK, i)};
+  }
+  return count;
+}
+
+void sb_render_beside_begin(SbRenderBeside *beside, SbChartData *data,
+                            const SbRenderOptions *options) {
+  *beside = (SbRenderBeside){0};
+  data->title = options->title;
+  data->subtitle = options->subtitle;
+  data->hash = options->hash;
+  data->stale = options->stale;
+  data->measured = options->measured;
+  data->marker = options->marker;
+  data->marker_count = options->marker_count;
+  data->pin_count = 0;
+  for (size_t i = 0; i < options->pin_count; i++) {
+    const SbRenderPin *pin = &options->pin[i];
+    size_t count;
+    const SbFrame *frames = sb_run_frames(pin->run, &count);
+    if (count > 0) {
+      beside->trace[i] = sb_trace_create(sb_run_model(pin->run));
+      sb_trace_extend(beside->trace[i], frames, count, 0);
+      sb_chart_run_init(&beside->run[i], pin->run, beside->trace[i],
+                        sb_chart_state_of(sb_run_summary(pin->run)));
+      data->pin[data->pin_count++] =
+          (SbChartPin){.run = &beside->run[i], .name = pin->name, .look = pin->look};
+    }
+  }
+}
+
+void sb_render_beside_place(SbChartData *data) {
+  for (size_t i = 0; i < data->pin_count; i++) {
+    data->pin[i].frame = sb_playhead_same_place(&data->run, data->playhead, data->pin[i].run);
+  }
+}
+
+void sb_render_beside_end(SbRenderBeside *beside) {
+  for (int i = 0; i < SB_CHART_PINS; i++) {
+    sb_trace_destroy(beside->trace[i]);
+  }
+}
+
 typedef struct {
   const SbRenderView *view;
   const SbRenderOptions *options;
@@ -206,13 +255,11 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
   const SbFrame *frames = sb_run_frames(run, &count);
   SbTrace *trace = sb_trace_create(sb_run_model(run));
   sb_trace_extend(trace, frames, count, 0);
-  SbChartData data = {.playhead = frame,
-                      .title = options->title,
-                      .subtitle = options->subtitle,
-                      .hash = options->hash,
-                      .stale = options->stale,
-                      .measured = options->measured};
+  SbChartData data = {.playhead = frame};
+  SbRenderBeside beside;
+  sb_render_beside_begin(&beside, &data, options);
   sb_chart_run_init(&data.run, run, trace, sb_chart_state_of(summary));
+  sb_render_beside_place(&data);
 
   // Models, errors and warnings also go into the file's own texts.
   char models[256], errors[256];
@@ -242,6 +289,7 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
                    .user = &page};
   bool good = sb_still_write(&still, path, error);
   g_string_free(comment, TRUE);
+  sb_render_beside_end(&beside);
   sb_trace_destroy(trace);
   return good;
 }

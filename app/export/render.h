@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/chart/dashboard.h"
+#include "app/document/document.h"
 #include "app/document/unit.h"
 #include "engine/valve/run/run.h"
 
@@ -12,6 +13,7 @@ typedef struct {
   const char *label;    // "Force and displacement"
   double width, height; // size it is made for
   bool section;         // needs the section's drawing function
+  bool compares;        // draws kept designs beside the run
 } SbRenderView;
 
 // The table, `*count` rows; static.
@@ -30,6 +32,13 @@ typedef struct {
 // The table, `*count` rows; static.
 const SbRenderSize *sb_render_sizes(size_t *count);
 
+// A kept design's run to draw beside.
+typedef struct {
+  const SbRun *run;
+  const char *name;
+  int look; // of SB_CHART_PINS
+} SbRenderPin;
+
 // What a picture takes beside the run. Pointers are borrowed; zero is a good default everywhere but
 // `view`.
 typedef struct {
@@ -45,7 +54,11 @@ typedef struct {
   const char *ending;   // of a still whose path has none; NULL: the path's
   const char *stale;    // why the run no longer fits the scene, said on the page; NULL: it does
   const SbComparison *measured; // of the run; NULL: nothing
-  SbSectionDraw section;        // draws the section; NULL: views that need it are refused
+  SbRenderPin pin[SB_CHART_PINS];
+  size_t pin_count;
+  const SbChartMarker *marker; // bookmarks on timelines, `marker_count` of them
+  size_t marker_count;
+  SbSectionDraw section; // draws the section; NULL: views that need it are refused
   void *section_data;
 } SbRenderOptions;
 
@@ -56,6 +69,25 @@ bool sb_render_view_fits(const SbRenderView *view, const SbRun *run, GError **er
 // an image surface. `data` may be of a run that is still going.
 void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                     unsigned flags, const SbRenderView *view, SbSectionDraw section, void *user);
+
+// What the options add to a run's chart data: texts, measured data, bookmarks and kept designs,
+// each at the frame that stands where the playhead does.
+typedef struct {
+  SbTrace *trace[SB_CHART_PINS];
+  SbChartRun run[SB_CHART_PINS];
+} SbRenderBeside;
+
+// The bookmarks of a document for SbRenderOptions; how many. The array is the caller's (g_free),
+// its names are the document's.
+size_t sb_render_markers(SbChartMarker **out, const SbDocument *document);
+
+// Fills all of `data` but its run and playhead; both are borrowed until sb_render_beside_end().
+void sb_render_beside_begin(SbRenderBeside *beside, SbChartData *data,
+                            const SbRenderOptions *options);
+
+// After the playhead has moved.
+void sb_render_beside_place(SbChartData *data);
+void sb_render_beside_end(SbRenderBeside *beside);
 
 // Renders a finished run (done, cancelled or failed) into PNG, SVG or PDF by the ending of `path`.
 // Fails with SB_APP_ERROR_INPUT (unknown view, stage not reached, size, ending) or SB_APP_ERROR_IO.

@@ -569,12 +569,8 @@ bool sb_report_scene(FILE *stream, const SbReportScene *of, const SbReportHooks 
   size_t count;
   const SbFrame *frames = sb_run_frames(of->run, &count);
   sb_trace_extend(trace, frames, count, 0);
-  const size_t markers = sb_document_remark_count(of->document, SB_REMARK_BOOKMARK);
-  g_autofree SbChartMarker *marker = g_new0(SbChartMarker, markers + 1);
-  for (size_t i = 0; i < markers; i++) {
-    marker[i] = (SbChartMarker){sb_document_bookmark(of->document, i),
-                                sb_document_remark_name(of->document, SB_REMARK_BOOKMARK, i)};
-  }
+  g_autofree SbChartMarker *marker = NULL;
+  const size_t markers = sb_render_markers(&marker, of->document);
   scene.data = (SbChartData){.title = sb_document_title(of->document),
                              .measured = of->measured,
                              .marker = marker,

@@ -107,6 +107,16 @@ void sb_playhead_return(SbPlayhead *playhead, const SbTrace *trace, const SbFram
   playhead->time = frames[frame].time;
 }
 
+size_t sb_playhead_same_place(const SbChartRun *run, size_t frame, const SbChartRun *other) {
+  SbPlayhead place = {.frame = frame};
+  if (run->count == 0) {
+    return 0;
+  }
+  sb_playhead_remember(&place, run->trace, run->frames, run->count);
+  sb_playhead_return(&place, other->trace, other->frames, other->count, TRUE);
+  return place.frame;
+}
+
 void sb_playhead_play(SbPlayhead *playhead, const SbFrame *frames, size_t count, gboolean on) {
   playhead->playing = on && count > 1;
   playhead->last = 0;

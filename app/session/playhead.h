@@ -2,6 +2,7 @@
 // signals: each call says whether the shown frame changed.
 #pragma once
 
+#include "app/chart/data.h"
 #include "app/chart/trace.h"
 #include "engine/valve/frame.h"
 
@@ -50,6 +51,9 @@ void sb_playhead_remember(SbPlayhead *playhead, const SbTrace *trace, const SbFr
 // time.
 void sb_playhead_return(SbPlayhead *playhead, const SbTrace *trace, const SbFrame *frames,
                         size_t count, gboolean complete);
+
+// The frame of a whole `other` run that stands where `frame` does in this one.
+size_t sb_playhead_same_place(const SbChartRun *run, size_t frame, const SbChartRun *other);
 
 // Starts or stops playing; from the end it starts again at the beginning.
 void sb_playhead_play(SbPlayhead *playhead, const SbFrame *frames, size_t count, gboolean on);

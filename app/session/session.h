@@ -191,6 +191,9 @@ void sb_session_draw_pin(SbSession *session, size_t index, gboolean on);
 // while there is no run. Borrowed until the next signal.
 gboolean sb_session_pin_chart(SbSession *session, size_t index, SbChartPin *out);
 
+// The run itself for others to keep: a reference for the caller, NULL while there is none.
+SbRunHandle *sb_session_pin_handle(SbSession *session, size_t index);
+
 // NULL while its run is computed, or if there is none (`failed`).
 const SbSummary *sb_session_pin_summary(SbSession *session, size_t index);
 gboolean sb_session_pin_failed(SbSession *session, size_t index);

@@ -4,13 +4,7 @@
 // run is wanted, cold, as `sealbench run` has them.
 #include "app/session/session_private.h"
 
-#include "app/base/translation.h"
-
-#include <glib/gi18n.h>
-#include <string.h>
-
-// Differences that a name tells.
-enum { NAMED_MAX = 2 };
+#include "app/session/pin_names.h"
 
 typedef struct {
   SbDisplayedRun *run; // owned reference; NULL: not there yet
@@ -32,66 +26,13 @@ static Pin *pin_at(const SbSession *session, size_t index) {
   return session->pins->pdata[index];
 }
 
-// Whether a parameter tells a pin from the present values; not where it follows from others.
-static bool differs(const SbParams *pin, const SbParams *now, SbParamId id) {
-  return (pin->given[id] || now->given[id]) && sb_params_get(pin, id) != sb_params_get(now, id);
-}
-
-// Whether it tells the pins from each other.
-static bool parts_pins(const SbSession *session, SbParamId id) {
-  bool parts = false;
-  for (size_t i = 1; i < session->pins->len; i++) {
-    parts = parts || sb_params_get(sb_document_pin_params(session->document, i), id) !=
-                         sb_params_get(sb_document_pin_params(session->document, 0), id);
-  }
-  return parts;
-}
-
-// What a pin is called: what it differs in from the present values, "section diameter 1.63 mm";
-// where that are several, what the pins have in common is left out.
-static char *differences(SbSession *session, const SbParams *pin, bool translated) {
-  const SbParams now = sb_document_params(session->document);
-  int id[SB_PARAM_COUNT], count = 0, telling = 0;
-  for (int i = 0; i < SB_PARAM_COUNT; i++) {
-    if (differs(pin, &now, (SbParamId)i)) {
-      id[count++] = i;
-      telling += parts_pins(session, (SbParamId)i);
-    }
-  }
-  g_autoptr(GString) text = g_string_new(NULL);
-  int named = 0, told = telling > 0 ? telling : count;
-  for (int k = 0; k < count && named < NAMED_MAX; k++) {
-    if (telling > 0 && !parts_pins(session, (SbParamId)id[k])) {
-      continue;
-    }
-    const SbParam *param = sb_param((SbParamId)id[k]);
-    g_autofree char *shown =
-        sb_param_format((SbParamId)id[k], sb_params_get(pin, (SbParamId)id[k]));
-    g_autofree char *label = param->kind == SB_PARAM_CHOICE ? g_strdup("")
-                             : translated                   ? sb_translation_inside(param->label)
-                                                            : g_utf8_strdown(param->label, -1);
-    g_string_append_printf(text, "%s%s%s%s", named > 0 ? ", " : "", label,
-                           *label != '\0' ? " " : "", shown);
-    named++;
-  }
-  if (told > named) {
-    g_string_append_printf(text, translated ? _(" and %d more") : " and %d more", told - named);
-  }
-  if (named == 0) {
-    g_string_append(text, translated ? _("as now") : "as now");
-  }
-  return g_string_free(g_steal_pointer(&text), FALSE);
-}
-
 void sb_session_name_pins(SbSession *session) {
   for (size_t i = 0; i < session->pins->len; i++) {
     Pin *pin = pin_at(session, i);
-    const char *given = sb_document_pin_name(session->document, i);
-    const SbParams *params = sb_document_pin_params(session->document, i);
     g_free(pin->name);
     g_free(pin->drawn_name);
-    pin->name = given != NULL ? g_strdup(given) : differences(session, params, true);
-    pin->drawn_name = given != NULL ? g_strdup(given) : differences(session, params, false);
+    pin->name = sb_pin_name(session->document, i, true);
+    pin->drawn_name = sb_pin_name(session->document, i, false);
   }
   if (session->pins->len > 0) {
     sb_session_refresh_chart(session); // it had the names before
@@ -212,16 +153,10 @@ SbDisplayedRun *sb_session_pinned_answer(SbSession *session, const SbParams *par
 
 // The frame that stands where the playhead does in the displayed run.
 static size_t frame_of(SbSession *session, const SbDisplayedRun *run) {
-  SbPlayhead place = session->playhead;
-  size_t count = 0;
-  const SbFrame *frames = sb_session_frames(session, &count);
-  if (session->shown == NULL || count == 0) {
-    return 0;
-  }
-  place.follows = FALSE;
-  sb_playhead_remember(&place, session->shown->trace, frames, count);
-  sb_playhead_return(&place, run->trace, run->chart.frames, run->chart.count, TRUE);
-  return place.frame;
+  const SbDisplayedRun *shown = session->shown;
+  return shown != NULL && session->playhead.frame < shown->chart.count
+             ? sb_playhead_same_place(&shown->chart, session->playhead.frame, &run->chart)
+             : 0;
 }
 
 gboolean sb_session_pin_chart(SbSession *session, size_t index, SbChartPin *out) {
@@ -234,6 +169,11 @@ gboolean sb_session_pin_chart(SbSession *session, size_t index, SbChartPin *out)
                       .look = MAX(pin->slot, 0),
                       .frame = frame_of(session, pin->run)};
   return TRUE;
+}
+
+SbRunHandle *sb_session_pin_handle(SbSession *session, size_t index) {
+  const Pin *pin = pin_at(session, index);
+  return pin->run != NULL ? sb_run_handle_ref(pin->run->handle) : NULL;
 }
 
 void sb_session_place_pins(SbSession *session) {

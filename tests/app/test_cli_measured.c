@@ -215,6 +215,9 @@ static void test_calibrate(void) {
   cli_clear(&result);
 }
 
+// As cairo writes the dashes of the first pin (sb_chart_pin_dash()).
+#define PIN_DASHES "stroke-dasharray:7,3"
+
 // A project's pins stand beside its scene.
 static void test_project(void) {
   g_autofree char *path = g_build_filename(folder, "x.project", NULL);
@@ -237,6 +240,36 @@ static void test_project(void) {
   json_node_unref(same);
   cli_clear(&result);
   cli_clear(&set);
+  // In pictures, too: its loop has the first pin's dashes; in each picture of a film its contact.
+  g_autofree char *picture = g_build_filename(folder, "pins.svg", NULL);
+  for (int without = 0; without < 2; without++) {
+    result = CLI("render", path, "--view", "hysteresis", "-o", picture,
+                 without ? "--no-pins" : "--quiet");
+    g_assert_cmpint(result.code, ==, 0);
+    cli_clear(&result);
+    g_autofree char *drawn = cli_contents(folder, "pins.svg");
+    g_assert_cmpint(strstr(drawn, PIN_DASHES) != NULL, ==, !without);
+  }
+  g_unlink(picture);
+  guchar *film[2];
+  gsize size[2];
+  for (int without = 0; without < 2; without++) {
+    g_autofree char *pattern = g_build_filename(folder, "pins%d.png", NULL);
+    g_autofree char *second = g_build_filename(folder, "pins2.png", NULL);
+    result = CLI("render", path, "--view", "profiles", "-o", pattern, "--size", "640x360", "--fps",
+                 "2", "--duration", "1 s", without ? "--no-pins" : "--quiet");
+    g_assert_cmpint(result.code, ==, 0);
+    cli_clear(&result);
+    g_assert_true(g_file_get_contents(second, (char **)&film[without], &size[without], NULL));
+  }
+  g_assert_false(size[0] == size[1] && memcmp(film[0], film[1], size[0]) == 0);
+  g_free(film[0]);
+  g_free(film[1]);
+  for (int i = 1; i <= 2; i++) {
+    g_autofree char *name = g_strdup_printf("pins%d.png", i);
+    g_autofree char *each = g_build_filename(folder, name, NULL);
+    g_assert_cmpint(g_unlink(each), ==, 0);
+  }
   g_unlink(path);
 }
 

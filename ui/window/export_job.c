@@ -21,6 +21,21 @@ struct SbExportJob {
   gboolean good;
 };
 
+void sb_export_request_beside(SbExportRequest *request, SbSession *session) {
+  for (size_t i = 0; i < sb_session_pin_count(session); i++) {
+    const int look = sb_session_pin_slot(session, i);
+    SbChartPin pin;
+    if (look >= 0 && sb_session_pin_chart(session, i, &pin)) {
+      request->pin[look] = sb_session_pin_handle(session, i);
+      request->pin_name[look] = g_strdup(pin.name);
+    }
+  }
+  request->marker_count = sb_render_markers(&request->marker, sb_session_document(session));
+  for (size_t i = 0; i < request->marker_count; i++) {
+    request->marker[i].name = g_strdup(request->marker[i].name);
+  }
+}
+
 void sb_export_request_clear(SbExportRequest *request) {
   char **texts[] = {&request->path,     &request->view,  &request->at,    &request->title,
                     &request->subtitle, &request->hash,  &request->scene, &request->from,
@@ -29,6 +44,15 @@ void sb_export_request_clear(SbExportRequest *request) {
     g_clear_pointer(texts[i], g_free);
   }
   g_clear_pointer(&request->measured, sb_data_free);
+  for (int i = 0; i < SB_CHART_PINS; i++) {
+    g_clear_pointer(&request->pin[i], sb_run_handle_unref);
+    g_clear_pointer(&request->pin_name[i], g_free);
+  }
+  for (size_t i = 0; i < request->marker_count; i++) {
+    g_free((char *)request->marker[i].name);
+  }
+  g_clear_pointer(&request->marker, g_free);
+  request->marker_count = 0;
 }
 
 // Drawing ----------------------------------------------------------------------------------------
@@ -113,9 +137,17 @@ static void make(SbExportJob *job, SbSectionPainter *painter) {
       .scene = request->scene,
       .stale = request->stale,
       .measured = comparison,
+      .marker = request->marker,
+      .marker_count = request->marker_count,
       .section = sb_section_painter_draw,
       .section_data = painter,
   };
+  for (int look = 0; look < SB_CHART_PINS; look++) {
+    if (request->pin[look] != NULL) {
+      options.pin[options.pin_count++] =
+          (SbRenderPin){sb_run_handle_run(request->pin[look]), request->pin_name[look], look};
+    }
+  }
   SbRenderMovie movie = {.fps = request->fps,
                          .duration = request->duration,
                          .speed = request->speed,

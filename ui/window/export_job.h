@@ -1,9 +1,11 @@
 // One export on a thread of its own: a picture or a film of a finished run.
 #pragma once
 
+#include "app/chart/data.h"
 #include "app/data/measured.h"
 #include "app/run/runner.h"
 #include "app/section/painter.h"
+#include "app/session/session.h"
 
 #include <glib.h>
 
@@ -23,9 +25,17 @@ typedef struct {
   char *title, *subtitle, *hash, *scene;
   SbData *measured;   // drawn beside the run, owned; NULL: none
   double drive_speed; // for it, as sb_measured_load()
+  // Kept designs drawn beside, by their looks, NULL: none; and bookmarks. Both are owned.
+  SbRunHandle *pin[SB_CHART_PINS];
+  char *pin_name[SB_CHART_PINS]; // as pictures have it
+  SbChartMarker *marker;         // `marker_count` of them, with names of their own
+  size_t marker_count;
   // Of a report: the document's file (NULL: it has none), and its text where that differs.
   char *file, *document;
 } SbExportRequest;
+
+// Adds the designs that a session draws beside its run, and its bookmarks.
+void sb_export_request_beside(SbExportRequest *request, SbSession *session);
 
 void sb_export_request_clear(SbExportRequest *request);
 
