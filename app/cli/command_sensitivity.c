@@ -2,6 +2,7 @@
 #include "app/base/nearest.h"
 #include "app/cli/cli.h"
 #include "app/export/sensitivity.h"
+#include "app/study/effects.h"
 
 #include <math.h>
 #include <string.h>

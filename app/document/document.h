@@ -114,8 +114,9 @@ const SbParams *sb_document_pin_params(const SbDocument *document, size_t index)
 bool sb_document_compile_pin(const SbDocument *document, size_t index, SbModel **out,
                              GPtrArray *issues);
 
-// Keeps the present values; false where there are 100 already.
-bool sb_document_add_pin(SbDocument *document);
+// Keeps the present values with `count` others in place of some of them; false where there are 100
+// already, or one is out of range.
+bool sb_document_add_pin(SbDocument *document, const SbOverride *override, size_t count);
 void sb_document_remove_pin(SbDocument *document, size_t index);
 void sb_document_name_pin(SbDocument *document, size_t index, const char *name);
 
@@ -163,6 +164,9 @@ SB_CHECKED bool sb_document_set(SbDocument *document, SbParamId id, const char *
 // undo step (a drag).
 SB_CHECKED bool sb_document_set_value(SbDocument *document, SbParamId id, double value, bool merge,
                                       GError **error);
+
+// Several values as one undo step; false where one of them was out of range and left out.
+bool sb_document_set_values(SbDocument *document, const SbOverride *override, size_t count);
 
 // The next edit is a step of its own, whatever its key.
 void sb_document_end_merge(SbDocument *document);

@@ -151,11 +151,15 @@ const SbParams *sb_document_pin_params(const SbDocument *document, size_t index)
   return &pin_at(document, index)->params;
 }
 
-bool sb_document_add_pin(SbDocument *document) {
-  if (document->pins->len >= SB_CASES_MAX) {
+bool sb_document_add_pin(SbDocument *document, const SbOverride *override, size_t count) {
+  SbParams params = sb_document_params(document);
+  bool good = document->pins->len < SB_CASES_MAX;
+  for (size_t i = 0; good && i < count; i++) {
+    good = sb_params_set(&params, override[i].id, override[i].value, NULL) == SB_OK;
+  }
+  if (!good) {
     return false;
   }
-  const SbParams params = sb_document_params(document);
   add(document, NULL, &params, sb_named_rubber_hold(sb_document_rubber_in_force(document)));
   pins_changed(document);
   return true;
@@ -212,6 +216,13 @@ bool sb_document_compile_pin(const SbDocument *document, size_t index, SbModel *
   return sb_document_case_model(document, pin->params, pin->rubber, shown, path, out, issues);
 }
 
+// Makes the edits since `before` one step.
+static void join(SbDocument *document, guint before) {
+  for (guint i = before + 1; i < document->done; i++) {
+    g_array_index(document->edits, Edit, i).joined = true;
+  }
+}
+
 void sb_document_use_pin(SbDocument *document, size_t index) {
   const Pin *pin = pin_at(document, index);
   const guint before = document->done;
@@ -225,7 +236,15 @@ void sb_document_use_pin(SbDocument *document, size_t index) {
     g_warn_if_fail(
         sb_document_set_value(document, id, sb_params_get(&pin->params, id), false, NULL));
   }
-  for (guint i = before + 1; i < document->done; i++) {
-    g_array_index(document->edits, Edit, i).joined = true;
+  join(document, before);
+}
+
+bool sb_document_set_values(SbDocument *document, const SbOverride *override, size_t count) {
+  const guint before = document->done;
+  bool good = true;
+  for (size_t i = 0; i < count; i++) {
+    good &= sb_document_set_value(document, override[i].id, override[i].value, false, NULL);
   }
+  join(document, before);
+  return good;
 }

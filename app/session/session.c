@@ -199,6 +199,12 @@ gboolean sb_session_edit_value(SbSession *session, SbParamId id, double value) {
   return good;
 }
 
+gboolean sb_session_edit_values(SbSession *session, const SbOverride *override, size_t count) {
+  const gboolean good = sb_document_set_values(session->document, override, count);
+  sb_session_document_changed(session);
+  return good;
+}
+
 void sb_session_end_merge(SbSession *session) {
   sb_document_end_merge(session->document);
 }

@@ -83,6 +83,9 @@ gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text);
 // The same by value; successive calls merge into one undo step.
 gboolean sb_session_edit_value(SbSession *session, SbParamId id, double value);
 
+// Several values as one undo step; FALSE where one was out of range and left out.
+gboolean sb_session_edit_values(SbSession *session, const SbOverride *override, size_t count);
+
 // The next edit by value is a step of its own.
 void sb_session_end_merge(SbSession *session);
 
@@ -173,6 +176,10 @@ const SbSummary *sb_session_summary(SbSession *session);
 // Keeps the shown run, which must be a whole one of the present values; FALSE where it is not.
 gboolean sb_session_may_pin(SbSession *session);
 gboolean sb_session_pin(SbSession *session);
+
+// Keeps the present design with other values in place of some, whose run is then computed; FALSE
+// where one is out of range.
+gboolean sb_session_pin_values(SbSession *session, const SbOverride *override, size_t count);
 
 size_t sb_session_pin_count(SbSession *session);
 void sb_session_unpin(SbSession *session, size_t index);

@@ -84,7 +84,7 @@ gboolean sb_session_may_pin(SbSession *session) {
 }
 
 gboolean sb_session_pin(SbSession *session) {
-  if (!sb_session_may_pin(session) || !sb_document_add_pin(session->document)) {
+  if (!sb_session_may_pin(session) || !sb_document_add_pin(session->document, NULL, 0)) {
     return FALSE;
   }
   Pin *pin = g_new0(Pin, 1);
@@ -96,6 +96,18 @@ gboolean sb_session_pin(SbSession *session) {
   } else {
     changed(session);
   }
+  return TRUE;
+}
+
+gboolean sb_session_pin_values(SbSession *session, const SbOverride *override, size_t count) {
+  if (!sb_document_add_pin(session->document, override, count)) {
+    return FALSE;
+  }
+  Pin *pin = g_new0(Pin, 1); // its run is computed
+  pin->slot = free_slot(session);
+  g_ptr_array_add(session->pins, pin);
+  changed(session);
+  sb_session_poll_pins(session);
   return TRUE;
 }
 

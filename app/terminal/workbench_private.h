@@ -4,11 +4,11 @@
 #pragma once
 
 #include "app/session/autosave.h"
+#include "app/session/effect_job.h"
 #include "app/session/section_source.h"
 #include "app/session/session.h"
 #include "app/session/study_job.h"
 #include "app/terminal/charts.h"
-#include "app/terminal/effects.h"
 #include "app/terminal/workbench.h"
 
 typedef enum {

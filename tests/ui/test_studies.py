@@ -126,5 +126,53 @@ def a_loop_is_fitted(folder):
         app.find("chart", "Force and displacement")
 
 
+def a_better_design_is_found(folder):
+    """The page Design: the map fills in, the best is found within limits that can be changed, any two
+    parameters are axes, a point is opened or kept, and the best goes into the valve in one step."""
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        app.key("ctrl+2")
+        chart = app.find("chart", "Map of the design")
+        wait("the map", lambda: "1089 of 1089 points" in (chart.description or ""))
+        app.press("push button", "Find best")
+        wait("the best", lambda: "best found, Section diameter" in chart.description
+             and app.has("push button", "Find best"))
+        first = float(re.search(r"best found.*Break-away force ([\d.]+)", chart.description).group(1))
+        assert app.label(r"^8 of 8 starts meet all limits")
+        # A stricter limit costs break-away force.
+        app.edit("Least Squeeze, outer seal", "12")
+        wait("the map again", lambda: "best found" not in chart.description
+             and app.has("push button", "Find best"))
+        app.press("push button", "Find best")
+        wait("the best again", lambda: "best found" in chart.description
+             and app.has("push button", "Find best"))
+        second = float(re.search(r"best found.*Break-away force ([\d.]+)", chart.description).group(1))
+        assert second > first, (first, second)
+        squeeze = re.search(r"best found.*Squeeze ([\d.]+)", chart.description).group(1)
+        assert squeeze == "12.0", chart.description
+        app.press("push button", "Use best")
+        app.key("ctrl+1")
+        wait("the values", lambda: app.value("Section diameter") == "1.45 mm")
+        app.key("ctrl+z")
+        wait("both taken back", lambda: app.value("Section diameter") == "1.63 mm"
+             or app.value("Section diameter") == "1.61 mm")
+        before = app.value("Radial space")
+        assert before == "1.36 mm", before
+        # Two other axes.
+        app.key("ctrl+2")
+        app.choose("Parameter across", "Inner diameter")
+        wait("the other map", lambda: "Map of Inner diameter and Radial space: 1089 of 1089"
+             in chart.description)
+        # A point by keys, kept and opened.
+        chart.queryComponent().grabFocus()
+        app.key("Up")
+        wait("the point", lambda: app.label(r"^inner diameter 2\.84\d* mm, radial space 1\.3"))
+        app.press("push button", "Keep design")
+        wait("it is told", lambda: app.label(r"^The design is kept"))
+        app.press("push button", "Open design")
+        app.key("ctrl+1")
+        wait("its value", lambda: app.value("Radial space") != before)
+
+
 if __name__ == "__main__":
-    main(the_thesis_is_computed, a_loop_is_fitted, propellants_are_swapped, a_study_of_the_document, a_study_can_be_cancelled, glands_of_both_seals)
+    main(a_better_design_is_found, the_thesis_is_computed, a_loop_is_fitted, propellants_are_swapped, a_study_of_the_document, a_study_can_be_cancelled, glands_of_both_seals)

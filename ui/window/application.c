@@ -79,6 +79,7 @@ static void set_accels(GtkApplication *application) {
       {"win.export", {"<Primary>e"}},
       {"win.studies", {"<Primary>t"}},
       {"win.page::valve", {"<Primary>1"}},
+      {"win.page::design", {"<Primary>2"}},
       {"win.page::calibrate", {"<Primary>3"}},
       {"win.page::propellants", {"<Primary>4"}},
       {"win.page::thesis", {"<Primary>5"}},

@@ -14,6 +14,7 @@
 #include "ui/views/style.h"
 #include "ui/views/timeline_view.h"
 #include "ui/window/calibrate_page.h"
+#include "ui/window/design_page.h"
 #include "ui/window/export_dialog.h"
 #include "ui/window/header_room.h"
 #include "ui/window/import_dialog.h"
@@ -642,6 +643,8 @@ static void sb_window_init(SbWindow *window) {
   gtk_box_pack_start(GTK_BOX(window->bottom), sb_timeline_view_new(window->session), FALSE, FALSE,
                      0);
   gtk_box_pack_start(GTK_BOX(window->bottom), sb_status_bar_new(window->session), FALSE, FALSE, 0);
+  gtk_stack_add_titled(GTK_STACK(window->pages), sb_design_page_new(window->session), "design",
+                       _("Design"));
   gtk_stack_add_titled(GTK_STACK(window->pages), sb_calibrate_page_new(window->session),
                        "calibrate", _("Calibrate"));
   gtk_stack_add_titled(GTK_STACK(window->pages), sb_propellants_page_new(window->session),

@@ -1,5 +1,5 @@
 // What the main parameters do to the figures that a design is about, computed on a thread beside
-// the workbench.
+// what the user does.
 #pragma once
 
 #include "engine/valve/sealbench.h"

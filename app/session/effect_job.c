@@ -1,9 +1,9 @@
-// Effects of the main parameters. See effects.h. Derivatives are the engine's (gradient.h).
-#include "app/terminal/effects.h"
+// Effects of the main parameters. See effect_job.h. Derivatives are the engine's (gradient.h).
+#include "app/session/effect_job.h"
 
-#include "app/export/sensitivity.h"
 #include "app/run/process.h"
 #include "app/session/worker.h"
+#include "app/study/effects.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -1,0 +1,368 @@
+// Tolerances and scatter of a design question. See design_map.h. Shares of the variance are those
+// of independent normal parameters to first order, a tolerance's half-width being three deviations.
+#include "app/export/design_map.h"
+
+#include "app/base/format.h"
+#include "app/base/translation.h"
+#include "app/chart/axis.h"
+#include "app/document/unit.h"
+
+#include <glib/gi18n.h>
+#include <math.h>
+#include <string.h>
+
+static int id_of(const SbDesignAnswer *answer, size_t figure) {
+  return g_array_index(answer->study->figures, int, figure);
+}
+
+// The limit on a figure, open where there is none.
+static SbLimit limit_on(const SbDesignAnswer *answer, int id) {
+  for (size_t i = 0; i < answer->study->limits.count; i++) {
+    if (answer->study->limits.item[i].figure == id) {
+      return answer->study->limits.item[i];
+    }
+  }
+  return (SbLimit){id, -INFINITY, INFINITY};
+}
+
+static int shown_place(const SbDesignAnswer *answer) {
+  return answer->place[SB_DESIGN_BEST].known ? SB_DESIGN_BEST : SB_DESIGN_PRESENT;
+}
+
+static void draw_title(SbCanvas *c, SbRect rect, const char *title, const char *note) {
+  const SbTextStyle bold = sb_canvas_style(c, 13, 700, SB_ROLE_INK);
+  const SbTextStyle plain = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+  const double wide = sb_canvas_text(c, title, &bold, rect.x, rect.y + 16, SB_LEFT);
+  sb_canvas_text_fit(c, note, &plain, rect.x + wide + 10, rect.y + 16, rect.width - wide - 10);
+}
+
+// Tornado -----------------------------------------------------------------------------------------
+
+static char *step_text(SbParamId id, double step, bool tolerance) {
+  const SbParam *param = sb_param(id);
+  char digits[SB_NUMBER_SIZE];
+  if (!tolerance) {
+    return g_strdup("± 5 %");
+  }
+  sb_number_round(digits, sb_quantity_to_shown(step, param->si, param->unit), 3);
+  return g_strdup_printf("± %s %s", digits, param->unit);
+}
+
+void sb_design_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
+                            const SbDesignAnswer *answer, int figure) {
+  SbCanvas canvas;
+  SbCanvas *c = &canvas;
+  sb_canvas_init(c, cr, theme);
+  const int which = shown_place(answer), column = sb_design_answer_figure(answer, figure);
+  const SbDesignPlace *at = &answer->place[which];
+  const SbFigure *of = sb_figure(figure);
+  g_autofree char *label = sb_translation_inside(of->label);
+  g_autofree char *note = g_strdup_printf(which == SB_DESIGN_BEST ? _("%s at the best found / %s")
+                                                                  : _("%s at present / %s"),
+                                          label, of->shown);
+  draw_title(c, rect, _("Which tolerance matters"), note);
+  const SbTextStyle name = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
+  const SbTextStyle small = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+  const size_t count = column >= 0 && at->known ? at->effects[column] : 0;
+  if (count == 0) {
+    sb_canvas_text(c, at->known ? _("Nothing changes it.") : _("Not computed yet."), &small, rect.x,
+                   rect.y + 44, SB_LEFT);
+    sb_canvas_finish(c);
+    return;
+  }
+  const SbLimit limit = limit_on(answer, figure);
+  const double names = fmin(150, 0.27 * rect.width), steps = 72, shares = 52;
+  const SbRect plot = {rect.x + names + steps, rect.y + 40, rect.width - names - steps - shares,
+                       fmax(rect.height - 40 - 26, 20)};
+  const double middle = sb_quantity_to_shown(at->figure[column], of->si, of->shown);
+  double reach = 0;
+  for (size_t k = 0; k < count; k++) {
+    reach =
+        fmax(reach, fabs(sb_quantity_to_shown(at->effect[column][k].change, of->si, of->shown)));
+  }
+  double ends[2] = {middle - 1.4 * reach, middle + 1.4 * reach};
+  const double sides[2] = {sb_quantity_to_shown(limit.low, of->si, of->shown),
+                           sb_quantity_to_shown(limit.high, of->si, of->shown)};
+  // A limit that is near is in sight.
+  for (int side = 0; side < 2; side++) {
+    if (isfinite(sides[side]) && fabs(sides[side] - middle) < 3 * reach) {
+      ends[0] = fmin(ends[0], sides[side] - 0.15 * reach);
+      ends[1] = fmax(ends[1], sides[side] + 0.15 * reach);
+    }
+  }
+  const SbScale x = {ends[0], ends[1], plot.x, plot.x + plot.width, false};
+  SbTicks ticks;
+  sb_axis_ticks(&ticks, x.lo, x.hi, 5);
+  for (int k = 0; k < ticks.count; k++) {
+    char digits[SB_FORMAT_MAX];
+    const double px = sb_axis_at(&x, ticks.value[k]);
+    sb_canvas_hairline(c, px, plot.y, px, plot.y + plot.height, sb_canvas_role(c, SB_ROLE_GRID));
+    sb_format_fixed(digits, ticks.value[k], ticks.decimals);
+    sb_canvas_text(c, digits, &small, px, plot.y + plot.height + 16, SB_MIDDLE);
+  }
+  for (int side = 0; side < 2; side++) {
+    if (!isfinite(sides[side]) || sides[side] < x.lo || sides[side] > x.hi) {
+      continue;
+    }
+    const double px = sb_axis_at(&x, sides[side]), end = side == 0 ? plot.x : plot.x + plot.width;
+    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_ERROR_GROUND), 1);
+    cairo_rectangle(cr, fmin(px, end), plot.y, fabs(px - end), plot.height);
+    cairo_fill(cr);
+    sb_canvas_pen(c, 1.6, NULL);
+    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_ERROR), 1);
+    cairo_move_to(cr, px, plot.y);
+    cairo_line_to(cr, px, plot.y + plot.height);
+    cairo_stroke(cr);
+  }
+  const double row = fmin(21, plot.height / (double)count);
+  const size_t fit = (size_t)fmax(plot.height / 14, 1);
+  const double zero = sb_axis_at(&x, middle);
+  sb_canvas_text(c, _("of the variance"), &small, rect.x + rect.width, rect.y + 32, SB_RIGHT);
+  for (size_t k = 0; k < count && k < fit; k++) {
+    const double y = plot.y + fmax(row, 14) * (double)k, high = fmax(row, 14);
+    const double change = sb_quantity_to_shown(at->effect[column][k].change, of->si, of->shown);
+    const double a = sb_axis_at(&x, middle - fabs(change)),
+                 b = sb_axis_at(&x, middle + fabs(change));
+    const SbParamId id = at->effect[column][k].id;
+    sb_canvas_color(c, sb_theme_diverging(theme, -0.6), 1);
+    cairo_rectangle(cr, a, y + 3, zero - a, high - 6);
+    cairo_fill(cr);
+    sb_canvas_color(c, sb_theme_diverging(theme, 0.6), 1);
+    cairo_rectangle(cr, zero, y + 3, b - zero, high - 6);
+    cairo_fill(cr);
+    // Which end the greater value makes.
+    if (k < 2 && a - plot.x > 34 && plot.x + plot.width - b > 34) {
+      sb_canvas_text(c, change > 0 ? _("less") : _("more"), &small, a - 4, y + high / 2 + 4,
+                     SB_RIGHT);
+      sb_canvas_text(c, change > 0 ? _("more") : _("less"), &small, b + 4, y + high / 2 + 4,
+                     SB_LEFT);
+    }
+    sb_canvas_text_fit(c, sb_translation(sb_param(id)->label), &name, rect.x, y + high / 2 + 4,
+                       names - 6);
+    g_autofree char *step =
+        step_text(id, at->effect[column][k].step, at->effect[column][k].tolerance);
+    sb_canvas_text(c, step, &small, plot.x - 10, y + high / 2 + 4, SB_RIGHT);
+    const double sigma = at->effect[column][k].change / 3;
+    const double part = at->variance[column] > 0 ? 100 * sigma * sigma / at->variance[column] : NAN;
+    char share[32];
+    if (!at->effect[column][k].tolerance) {
+      g_strlcpy(share, "–", sizeof share);
+    } else if (part < 1) {
+      g_strlcpy(share, "< 1 %", sizeof share);
+    } else {
+      g_snprintf(share, sizeof share, "%.0f %%", part);
+    }
+    sb_canvas_text(c, share, &name, rect.x + rect.width, y + high / 2 + 4, SB_RIGHT);
+  }
+  sb_canvas_pen(c, 1.6, NULL);
+  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
+  cairo_move_to(cr, zero, plot.y);
+  cairo_line_to(cr, zero, plot.y + plot.height);
+  cairo_stroke(cr);
+  sb_canvas_finish(c);
+}
+
+// Scatter -----------------------------------------------------------------------------------------
+
+enum { BINS = 44 };
+
+static size_t beyond_of(const SbDesignPlace *at, size_t figures, size_t column,
+                        const SbLimit *limit, size_t *of) {
+  size_t beyond = 0;
+  *of = 0;
+  for (size_t i = 0; i < at->samples; i++) {
+    const double value = at->sample[i * figures + column];
+    if (isfinite(value)) {
+      beyond += value < limit->low || value > limit->high;
+      (*of)++;
+    }
+  }
+  return beyond;
+}
+
+static void spread(const SbDesignPlace *at, size_t figures, size_t column, double *lo, double *hi) {
+  for (size_t i = 0; i < at->samples; i++) {
+    const double value = at->sample[i * figures + column];
+    if (isfinite(value)) {
+      *lo = fmin(*lo, value);
+      *hi = fmax(*hi, value);
+    }
+  }
+}
+
+static void draw_bins(SbCanvas *c, SbRect plot, const SbScale *x, const SbDesignPlace *at,
+                      size_t figures, size_t column, const SbLimit *limit, SbRole role) {
+  double lo = INFINITY, hi = -INFINITY, most = 0, bins[BINS] = {0};
+  spread(at, figures, column, &lo, &hi);
+  sb_axis_repair(&lo, &hi);
+  const int count = (int)fmin(fmax(sqrt((double)at->samples), 8), BINS);
+  for (size_t i = 0; i < at->samples; i++) {
+    const double value = at->sample[i * figures + column];
+    if (isfinite(value)) {
+      const int bin = (int)((value - lo) / (hi - lo) * count);
+      bins[bin < 0 ? 0 : bin >= count ? count - 1 : bin] += 1;
+    }
+  }
+  for (int k = 0; k < count; k++) {
+    most = fmax(most, bins[k]);
+  }
+  for (int k = 0; k < count && most > 0; k++) {
+    const double from = lo + (hi - lo) * k / count, to = lo + (hi - lo) * (k + 1) / count;
+    const double a = sb_axis_at(x, from), b = sb_axis_at(x, to);
+    const double height = plot.height * bins[k] / most;
+    const double middle = (from + to) / 2;
+    const bool beyond = middle < limit->low || middle > limit->high;
+    sb_canvas_color(c, sb_canvas_role(c, beyond ? SB_ROLE_ERROR : role),
+                    role == SB_ROLE_PASS ? 0.6 : 0.45);
+    const double gap = b - a > 3 ? 0.6 : 0; // narrow bars are a surface
+    cairo_rectangle(c->cr, a + gap / 2, plot.y + plot.height - height, b - a - gap, height);
+    cairo_fill(c->cr);
+  }
+}
+
+static void draw_one(SbCanvas *c, SbRect rect, const SbDesignAnswer *answer, size_t limit_at) {
+  const SbLimit limit = answer->study->limits.item[limit_at];
+  const SbFigure *of = sb_figure(limit.figure);
+  const size_t column = (size_t)sb_design_answer_figure(answer, limit.figure);
+  const size_t figures = answer->map.figures;
+  const SbTextStyle bold = sb_canvas_style(c, SB_TYPE_NOTE, 700, SB_ROLE_INK);
+  const SbTextStyle small = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+  double lo = INFINITY, hi = -INFINITY;
+  g_autofree char *label = sb_translation_inside(of->label);
+  sb_canvas_text_fit(c, label, &bold, rect.x, rect.y + 12, rect.width);
+  for (int place = 0; place < SB_DESIGN_PLACES; place++) {
+    spread(&answer->place[place], figures, column, &lo, &hi);
+  }
+  if (!(lo <= hi)) {
+    sb_canvas_text(c, _("no valve has it"), &small, rect.x, rect.y + 40, SB_LEFT);
+    return;
+  }
+  const double wide = hi - lo;
+  // A limit far away stays out of sight: its side is told by the share beyond it.
+  lo = isfinite(limit.low) && limit.low > lo - 2 * wide ? fmin(lo, limit.low) : lo;
+  hi = isfinite(limit.high) && limit.high < hi + 2 * wide ? fmax(hi, limit.high) : hi;
+  sb_axis_repair(&lo, &hi);
+  const SbRect plot = {rect.x, rect.y + 52, rect.width, fmax(rect.height - 52 - 24, 10)};
+  const SbScale x = {lo - 0.03 * (hi - lo), hi + 0.03 * (hi - lo), plot.x, plot.x + plot.width,
+                     false};
+  SbTicks ticks;
+  sb_axis_ticks(&ticks, sb_quantity_to_shown(x.lo, of->si, of->shown),
+                sb_quantity_to_shown(x.hi, of->si, of->shown), 4);
+  static const SbRole roles[] = {SB_ROLE_THIRD, SB_ROLE_PASS};
+  double line = rect.y + 28;
+  for (int place = 0; place < SB_DESIGN_PLACES; place++) {
+    const SbDesignPlace *at = &answer->place[place];
+    if (at->samples == 0) {
+      continue;
+    }
+    draw_bins(c, plot, &x, at, figures, column, &limit, roles[place]);
+    size_t valves = 0;
+    const size_t beyond = beyond_of(at, figures, column, &limit, &valves);
+    g_autofree char *value = sb_design_value_text(limit.figure, at->figure[column]);
+    g_autofree char *text =
+        g_strdup_printf(place == SB_DESIGN_BEST ? _("best %s, %zu of %zu beyond")
+                                                : _("present %s, %zu of %zu beyond"),
+                        value, beyond, valves);
+    const SbTextStyle style = {SB_TYPE_NOTE, 600,
+                               sb_canvas_role(c, beyond > 0                ? SB_ROLE_ERROR
+                                                 : place == SB_DESIGN_BEST ? SB_ROLE_PASS
+                                                                           : SB_ROLE_SECOND),
+                               1};
+    sb_canvas_text_fit(c, text, &style, rect.x, line, rect.width);
+    line += 15;
+  }
+  sb_canvas_hairline(c, plot.x, plot.y + plot.height, plot.x + plot.width, plot.y + plot.height,
+                     sb_canvas_role(c, SB_ROLE_AXIS));
+  for (int k = 0; k < ticks.count; k++) {
+    char digits[SB_FORMAT_MAX];
+    sb_format_fixed(digits, ticks.value[k], ticks.decimals);
+    const double px = sb_axis_at(&x, sb_quantity_from_shown(ticks.value[k], of->si, of->shown));
+    if (px < plot.x + plot.width - 30) {
+      sb_canvas_text(c, digits, &small, px, plot.y + plot.height + 16, SB_MIDDLE);
+    }
+  }
+  sb_canvas_text(c, of->shown, &small, plot.x + plot.width, plot.y + plot.height + 16, SB_RIGHT);
+  for (int side = 0; side < 2; side++) {
+    const double at = side == 0 ? limit.low : limit.high;
+    if (isfinite(at) && at >= x.lo && at <= x.hi) {
+      sb_canvas_pen(c, 1.6, NULL);
+      sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_ERROR), 1);
+      cairo_move_to(c->cr, sb_axis_at(&x, at), plot.y);
+      cairo_line_to(c->cr, sb_axis_at(&x, at), plot.y + plot.height);
+      cairo_stroke(c->cr);
+    }
+  }
+}
+
+void sb_design_scatter_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
+                            const SbDesignAnswer *answer) {
+  SbCanvas canvas;
+  SbCanvas *c = &canvas;
+  sb_canvas_init(c, cr, theme);
+  size_t drawn = 0;
+  for (int place = 0; place < SB_DESIGN_PLACES; place++) {
+    drawn = MAX(drawn, answer->place[place].samples);
+  }
+  g_autofree char *title =
+      drawn > 0 ? g_strdup_printf(_("%zu valves"), drawn) : g_strdup(_("Valves within tolerances"));
+  draw_title(c, rect, title,
+             drawn > 0 ? _("drawn from the tolerances; green: best found, grey: present")
+                       : _("not drawn yet"));
+  // Those nearest to their limits, from the left.
+  const SbLimits *limits = &answer->study->limits;
+  const int which = shown_place(answer);
+  const size_t room = (size_t)fmin(fmax(rect.width / 200, 1), 4);
+  bool taken[SB_LIMITS_MAX] = {false};
+  const size_t count = MIN(room, limits->count);
+  for (size_t k = 0; drawn > 0 && k < count; k++) {
+    size_t next = limits->count;
+    double nearest = INFINITY;
+    for (size_t i = 0; i < limits->count; i++) {
+      const double sigmas = sb_design_sigmas(answer, which, i);
+      const double rank = isnan(sigmas) ? 1e9 : sigmas;
+      if (!taken[i] && (next == limits->count || rank < nearest)) {
+        next = i;
+        nearest = rank;
+      }
+    }
+    taken[next] = true;
+    const double gap = 24, each = (rect.width - gap * (double)(count - 1)) / (double)count;
+    draw_one(c, (SbRect){rect.x + (each + gap) * (double)k, rect.y + 26, each, rect.height - 26},
+             answer, next);
+  }
+  sb_canvas_finish(c);
+}
+
+static double shown_of_param(SbParamId id, double value) {
+  return sb_quantity_to_shown(value, sb_param(id)->si, sb_param(id)->unit);
+}
+
+// Words -------------------------------------------------------------------------------------------
+
+char *sb_design_text(const SbDesignAnswer *answer) {
+  GString *text = g_string_new(NULL);
+  const SbDesignMap *map = &answer->map;
+  g_string_append_printf(text, _("Map of %s and %s: %zu of %zu points."),
+                         sb_translation(sb_param(map->axis[0])->label),
+                         sb_translation(sb_param(map->axis[1])->label), map->done, map->n * map->n);
+  for (int place = 0; place < SB_DESIGN_PLACES; place++) {
+    const SbDesignPlace *at = &answer->place[place];
+    if (!at->known) {
+      continue;
+    }
+    g_string_append_printf(text, "\n%s", place == SB_DESIGN_BEST ? _("best found") : _("present"));
+    for (guint k = 0; k < answer->study->vary->len; k++) {
+      const SbParamId id = g_array_index(answer->study->vary, SbVary, k).id;
+      char digits[SB_NUMBER_SIZE];
+      sb_number_round(digits, shown_of_param(id, at->value[k]), 4);
+      g_string_append_printf(text, ", %s %s %s", sb_translation(sb_param(id)->label), digits,
+                             sb_param(id)->unit);
+    }
+    for (size_t i = 0; i < map->figures; i++) {
+      g_autofree char *value = sb_design_value_text(id_of(answer, i), at->figure[i]);
+      g_string_append_printf(text, ", %s %s", sb_translation(sb_figure(id_of(answer, i))->label),
+                             value);
+    }
+  }
+  return g_string_free(text, FALSE);
+}
