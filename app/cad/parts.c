@@ -1,7 +1,9 @@
 // See parts.h.
 #include "app/cad/parts.h"
 
+#include "app/base/error.h"
 #include "app/base/number.h"
+#include "app/document/unit.h"
 
 #include <math.h>
 #include <string.h>
@@ -30,7 +32,81 @@ int sb_cad_part_of(const char *name) {
   return -1;
 }
 
-void sb_cad_parts_by_name(int body[SB_CAD_PART_COUNT], const SbCad *cad) {
+// ---- Choices ----
+
+void sb_cad_settings_init(SbCadSettings *settings) {
+  // A plane off those in which ports and flats are drawn; acetal, as in piston-profiles.valve.
+  *settings = (SbCadSettings){.read = {.angle = 0.658}, .density = 1410};
+}
+
+void sb_cad_settings_clear(SbCadSettings *settings) {
+  g_free(settings->unit);
+  g_free(settings->axis);
+  for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
+    g_free(settings->part[i]);
+  }
+  *settings = (SbCadSettings){0};
+}
+
+static bool refuse(GError **error, const char *says) {
+  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s", says);
+  return false;
+}
+
+bool sb_cad_choose(SbCadSettings *settings, const char *name, const char *text, GError **error) {
+  const int part = sb_cad_part_of(name);
+  if (part >= 0) {
+    g_free(settings->part[part]);
+    settings->part[part] = g_strdup(text);
+    return true;
+  }
+  if (strcmp(name, "unit") == 0) {
+    g_free(settings->unit);
+    settings->unit = g_strdup(text);
+    settings->read.unit = settings->unit;
+    return true;
+  }
+  if (strcmp(name, "axis") == 0) {
+    g_free(settings->axis);
+    settings->axis = g_strdup(text);
+    settings->read.axis = settings->axis;
+    return strcmp(text, "x") == 0 || strcmp(text, "y") == 0 || refuse(error, "x or y");
+  }
+  if (strcmp(name, "flip") == 0) {
+    settings->read.flip = strcmp(text, "yes") == 0;
+    return settings->read.flip || strcmp(text, "no") == 0 || refuse(error, "yes or no");
+  }
+  if (strcmp(name, "angle") == 0) {
+    return sb_quantity_parse(&settings->read.angle, text, "rad", "deg", error);
+  }
+  if (strcmp(name, "shift") == 0) {
+    return sb_quantity_parse(&settings->read.shift, text, "m", "mm", error);
+  }
+  if (strcmp(name, "density") == 0) {
+    return sb_quantity_parse(&settings->density, text, "kg/m3", "kg/m3", error) &&
+           ((settings->density >= 1 && settings->density <= 30000) ||
+            refuse(error, "1 to 30000 kg/m3"));
+  }
+  return refuse(error, "there is no such choice");
+}
+
+// The body of that number (from 1) or name; -1: none.
+static int find_body(const SbCad *cad, const char *text) {
+  double number = 0;
+  if (sb_number_parse(&number, text) && number >= 1 && number <= cad->bodies->len) {
+    return (int)number - 1;
+  }
+  for (guint i = 0; i < cad->bodies->len; i++) {
+    const SbCadBody *one = cad->bodies->pdata[i];
+    if (g_ascii_strcasecmp(one->name, text) == 0) {
+      return (int)i;
+    }
+  }
+  return -1;
+}
+
+// By names, where nobody chose.
+static void find_parts(int body[SB_CAD_PART_COUNT], const SbCad *cad) {
   for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
     body[i] = -1;
   }
@@ -41,6 +117,30 @@ void sb_cad_parts_by_name(int body[SB_CAD_PART_COUNT], const SbCad *cad) {
       body[part] = (int)i;
     }
   }
+}
+
+bool sb_cad_parts(int body[SB_CAD_PART_COUNT], const SbCad *cad, const SbCadSettings *settings,
+                  GError **error) {
+  find_parts(body, cad);
+  for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
+    const char *text = settings->part[i];
+    if (text == NULL) {
+      continue;
+    }
+    body[i] = find_body(cad, text);
+    if (body[i] < 0) {
+      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                  "there is no body '%s' for %s (give its number or name)", text, names[i]);
+      return false;
+    }
+    const SbCadBody *one = cad->bodies->pdata[body[i]];
+    if (one->profile->len == 0) {
+      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "'%s' has no half-section for %s: %s",
+                  one->name, names[i], one->why);
+      return false;
+    }
+  }
+  return true;
 }
 
 // ---- Stretches ----
@@ -147,9 +247,10 @@ static char *without_parts(const char *text, const int body[SB_CAD_PART_COUNT]) 
   return g_string_free(kept, FALSE);
 }
 
-char *sb_cad_scene(const SbCad *cad, const int body[SB_CAD_PART_COUNT], double density,
-                   const SbDocument *base, const char *drawing, const char *path,
+char *sb_cad_scene(SbDocument **after, const SbCad *cad, const int body[SB_CAD_PART_COUNT],
+                   double density, const SbDocument *base, const char *drawing, const char *path,
                    GPtrArray *issues) {
+  *after = NULL;
   g_autoptr(GString) parts = g_string_new(NULL);
   for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
     if (body[i] >= 0) {
@@ -181,5 +282,28 @@ char *sb_cad_scene(const SbCad *cad, const int body[SB_CAD_PART_COUNT], double d
     }
   }
   g_autofree char *kept = sb_document_to_text(copy, path);
-  return g_strconcat(kept, parts->str, NULL);
+  char *text = g_strconcat(kept, parts->str, NULL);
+  *after = sb_document_parse(text, strlen(text), path, directory, issues);
+  if (*after == NULL || issues->len > 0) {
+    g_clear_pointer(after, sb_document_free);
+    g_clear_pointer(&text, g_free);
+  }
+  return text;
+}
+
+char *sb_cad_differences(const SbDocument *before, const SbDocument *after) {
+  GString *lines = g_string_new(NULL);
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParamId id = (SbParamId)i;
+    const SbParam *param = sb_param(id);
+    const double old = sb_document_value(before, id), now = sb_document_value(after, id);
+    if (fabs(old - now) > 1e-9 * fabs(old)) {
+      char one[SB_NUMBER_SIZE], other[SB_NUMBER_SIZE];
+      sb_number_round(one, sb_quantity_to_shown(old, param->si, param->unit), 6);
+      sb_number_round(other, sb_quantity_to_shown(now, param->si, param->unit), 6);
+      g_string_append_printf(lines, "%s: %s %s → %s %s\n", param->key, one, param->unit, other,
+                             param->unit);
+    }
+  }
+  return g_string_free(lines, FALSE);
 }

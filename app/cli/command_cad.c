@@ -1,88 +1,56 @@
 // sealbench cad: bodies of a drawing, and a scene with the valve's parts shaped by them.
+#include "app/base/number.h"
 #include "app/base/output.h"
 #include "app/cad/parts.h"
+#include "app/chart/half_sections.h"
 #include "app/cli/cli.h"
-#include "app/document/unit.h"
+#include "app/export/still.h"
 
 #include <math.h>
 #include <string.h>
 
 typedef struct {
-  char *unit, *axis, *angle, *shift, *density, *scene, *output, *json;
+  char *unit, *axis, *angle, *shift, *density, *scene, *output, *json, *plot;
   char **parts; // NAME=BODY
   gboolean flip;
-  double density_si;
-  SbCadChoices choices;
+  SbCadSettings settings;
 } Options;
 
 static const char *const kind_names[] = {"land", "bore", "groove"};
 
 // ---- Options ----
 
-static int read_quantity(double *out, const char *option, const char *text, const char *si,
-                         const char *unit) {
+static int choose(SbCadSettings *settings, const char *option, const char *name, const char *text) {
   g_autoptr(GError) error = NULL;
-  return text == NULL || sb_quantity_parse(out, text, si, unit, &error)
+  return sb_cad_choose(settings, name, text, &error)
              ? SB_EXIT_DONE
              : sb_cli_fail("--%s: %s", option, error->message);
 }
 
 static int read_options(Options *options) {
-  SbCadChoices *choices = &options->choices;
-  // Off the planes in which ports and flats are drawn.
-  *choices = (SbCadChoices){
-      .unit = options->unit, .axis = options->axis, .angle = 0.6580, .flip = options->flip};
-  // Acetal, as in piston-profiles.valve.
-  options->density_si = 1410;
-  if (options->axis != NULL && strcmp(options->axis, "x") != 0 && strcmp(options->axis, "y") != 0) {
-    return sb_cli_fail("--axis: x or y, not '%s'", options->axis);
+  const struct {
+    const char *name, *text;
+  } named[] = {{"unit", options->unit},       {"axis", options->axis},
+               {"angle", options->angle},     {"shift", options->shift},
+               {"density", options->density}, {"flip", options->flip ? "yes" : NULL}};
+  for (size_t i = 0; i < G_N_ELEMENTS(named); i++) {
+    if (named[i].text != NULL &&
+        choose(&options->settings, named[i].name, named[i].name, named[i].text) != SB_EXIT_DONE) {
+      return SB_EXIT_INPUT;
+    }
   }
-  int code = read_quantity(&choices->angle, "angle", options->angle, "rad", "deg");
-  if (code == SB_EXIT_DONE) {
-    code = read_quantity(&choices->shift, "shift", options->shift, "m", "mm");
-  }
-  if (code == SB_EXIT_DONE) {
-    code = read_quantity(&options->density_si, "density", options->density, "kg/m3", "kg/m3");
-  }
-  if (code == SB_EXIT_DONE && !(options->density_si >= 1 && options->density_si <= 30000)) {
-    code = sb_cli_fail("--density: 1 to 30000 kg/m3");
-  }
-  if (code == SB_EXIT_DONE && (options->scene == NULL) != (options->output == NULL)) {
-    code = sb_cli_fail("--scene and --output go together: the scene, and the copy of it");
-  }
-  return code;
-}
-
-// Which body stands for each part: by names, then as --part says.
-static int choose_parts(int body[SB_CAD_PART_COUNT], const SbCad *cad, char **settings) {
-  sb_cad_parts_by_name(body, cad);
-  for (char **each = settings; each != NULL && *each != NULL; each++) {
+  for (char **each = options->parts; each != NULL && *each != NULL; each++) {
     g_auto(GStrv) sides = g_strsplit(*each, "=", 2);
-    const int part = sides[0] != NULL ? sb_cad_part_of(sides[0]) : -1;
-    if (part < 0 || sides[1] == NULL) {
+    if (sides[0] == NULL || sides[1] == NULL || sb_cad_part_of(sides[0]) < 0) {
       return sb_cli_fail(
           "--part: NAME=BODY with housing, stem_centre, stem_top or stem_bottom, not "
           "'%s'",
           *each);
     }
-    double number = 0;
-    int found = -1;
-    if (sb_number_parse(&number, sides[1]) && number >= 1 && number <= cad->bodies->len) {
-      found = (int)number - 1;
-    }
-    for (guint i = 0; found < 0 && i < cad->bodies->len; i++) {
-      const SbCadBody *one = cad->bodies->pdata[i];
-      found = g_ascii_strcasecmp(one->name, sides[1]) == 0 ? (int)i : -1;
-    }
-    if (found < 0) {
-      return sb_cli_fail("--part: there is no body '%s' (1 to %u, or its name)", sides[1],
-                         cad->bodies->len);
-    }
-    const SbCadBody *one = cad->bodies->pdata[found];
-    if (one->profile->len == 0) {
-      return sb_cli_fail("--part: '%s' has no half-section: %s", one->name, one->why);
-    }
-    body[part] = found;
+    (void)choose(&options->settings, "part", sides[0], sides[1]);
+  }
+  if ((options->scene == NULL) != (options->output == NULL)) {
+    return sb_cli_fail("--scene and --output go together: the scene, and the copy of it");
   }
   return SB_EXIT_DONE;
 }
@@ -143,29 +111,6 @@ static void print_bodies(const SbCad *cad, const int *chosen) {
   }
   for (guint i = 0; i < cad->warnings->len; i++) {
     printf("  %s\n", (const char *)cad->warnings->pdata[i]);
-  }
-}
-
-// Values in force that the drawing changes.
-static void print_differences(const SbDocument *before, const SbDocument *after) {
-  bool any = false;
-  printf("%-36s %-16s drawing\n", "Parameter", "in force");
-  for (int i = 0; i < SB_PARAM_COUNT; i++) {
-    const SbParamId id = (SbParamId)i;
-    const double old = sb_document_value(before, id), now = sb_document_value(after, id);
-    if (fabs(old - now) <= 1e-9 * fabs(old)) {
-      continue;
-    }
-    const SbParam *param = sb_param(id);
-    char one[SB_NUMBER_SIZE], other[SB_NUMBER_SIZE];
-    sb_number_round(one, sb_quantity_to_shown(old, param->si, param->unit), 6);
-    sb_number_round(other, sb_quantity_to_shown(now, param->si, param->unit), 6);
-    g_autofree char *left = g_strdup_printf("%s %s", one, param->unit);
-    printf("  %-34s %-16s %s %s\n", param->key, left, other, param->unit);
-    any = true;
-  }
-  if (!any) {
-    printf("  none differs\n");
   }
 }
 
@@ -249,46 +194,70 @@ static int write_scene(const SbCad *cad, const int *chosen, const char *path,
                        "stem_centre=1");
   }
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_autofree char *text =
-      sb_cad_scene(cad, chosen, options->density_si, base, path, options->output, issues);
+  g_autoptr(SbDocument) after = NULL;
+  g_autofree char *text = sb_cad_scene(&after, cad, chosen, options->settings.density, base, path,
+                                       options->output, issues);
   if (text == NULL) {
     return print_issues(issues);
   }
-  g_autofree char *directory = g_path_get_dirname(options->output);
-  g_autoptr(SbDocument) after =
-      sb_document_parse(text, strlen(text), options->output, directory, issues);
-  if (after == NULL || issues->len > 0) {
-    return print_issues(issues);
-  }
   if (!sb_cli_quiet()) {
-    print_differences(base, after);
+    g_autofree char *lines = sb_cad_differences(base, after);
+    printf("In force → drawing\n%s", *lines != '\0' ? lines : "no value differs\n");
   }
   GError *error = NULL;
   return sb_output_write(options->output, text, strlen(text), &error) ? SB_EXIT_DONE
                                                                       : sb_cli_error(error);
 }
 
+// Before the work; an exit code.
+static int check_outputs(const Options *options) {
+  SbOutputCheck check = {0};
+  GError *error = NULL;
+  const bool good = sb_output_check(&check, options->json, false, &error) &&
+                    sb_output_check(&check, options->output, false, &error) &&
+                    sb_output_check(&check, options->plot, false, &error);
+  sb_output_check_clear(&check);
+  return good ? SB_EXIT_DONE : sb_cli_error(error);
+}
+
+typedef struct {
+  const SbCad *cad;
+  const int *chosen;
+} Picture;
+
+static void draw(cairo_t *cr, double width, double height, void *user) {
+  const Picture *picture = user;
+  const SbTheme *theme = sb_theme(false);
+  const SbColor ground = theme->role[SB_ROLE_BACKGROUND];
+  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
+  cairo_paint(cr);
+  sb_half_sections_draw(cr,
+                        (SbRect){SB_GRID_MARGIN, SB_GRID_MARGIN, width - 2 * SB_GRID_MARGIN,
+                                 height - 2 * SB_GRID_MARGIN},
+                        theme, picture->cad, picture->chosen);
+}
+
 static int compute(const char *path, const Options *options) {
   GError *error = NULL;
-  g_autoptr(SbCad) cad = sb_cad_read(path, &options->choices, &error);
+  g_autoptr(SbCad) cad = sb_cad_read(path, &options->settings.read, &error);
   if (cad == NULL) {
     return sb_cli_error(error);
   }
   int chosen[SB_CAD_PART_COUNT];
-  int code = choose_parts(chosen, cad, options->parts);
-  SbOutputCheck check = {0};
-  if (code == SB_EXIT_DONE && (!sb_output_check(&check, options->json, false, &error) ||
-                               !sb_output_check(&check, options->output, false, &error))) {
-    code = sb_cli_error(error);
+  if (!sb_cad_parts(chosen, cad, &options->settings, &error)) {
+    return sb_cli_error(error);
   }
-  sb_output_check_clear(&check);
-  if (code != SB_EXIT_DONE) {
-    return code;
+  int code = check_outputs(options);
+  if (code == SB_EXIT_DONE && options->plot != NULL) {
+    Picture picture = {cad, chosen};
+    const SbStill still = {
+        .width = 1200, .height = 640, .title = "Drawing", .draw = draw, .user = &picture};
+    code = sb_still_write(&still, options->plot, &error) ? SB_EXIT_DONE : sb_cli_error(error);
   }
-  if (options->json != NULL) {
+  if (code == SB_EXIT_DONE && options->json != NULL) {
     g_autofree char *json = to_json(cad, chosen);
     code = sb_cli_emit(json, options->json);
-  } else if (!sb_cli_quiet()) {
+  } else if (code == SB_EXIT_DONE && !sb_cli_quiet()) {
     print_bodies(cad, chosen);
   }
   if (code == SB_EXIT_DONE && options->scene != NULL) {
@@ -299,6 +268,7 @@ static int compute(const char *path, const Options *options) {
 
 int sb_command_cad(int argc, char **argv) {
   Options options = {0};
+  sb_cad_settings_init(&options.settings);
   const GOptionEntry entries[] = {
       {"unit", 0, 0, G_OPTION_ARG_FILENAME, &options.unit, "Unit of a DXF; default the file's",
        "UNIT"},
@@ -316,6 +286,8 @@ int sb_command_cad(int argc, char **argv) {
       {"scene", 0, 0, G_OPTION_ARG_FILENAME, &options.scene,
        "Scene or valve of which a copy gets the parts; differences are shown", "FILE"},
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output, "That copy", "FILE"},
+      {"plot", 0, 0, G_OPTION_ARG_FILENAME, &options.plot, "The half-sections",
+       "FILE.{png,svg,pdf}"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
       {0},
   };
@@ -327,11 +299,12 @@ int sb_command_cad(int argc, char **argv) {
       code = compute(argv[1], &options);
     }
   }
-  char *texts[] = {options.unit,    options.axis,  options.angle,  options.shift,
-                   options.density, options.scene, options.output, options.json};
+  char *texts[] = {options.unit,  options.axis,   options.angle, options.shift, options.density,
+                   options.scene, options.output, options.json,  options.plot};
   for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
     g_free(texts[i]);
   }
   g_strfreev(options.parts);
+  sb_cad_settings_clear(&options.settings);
   return code;
 }

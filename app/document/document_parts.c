@@ -349,10 +349,14 @@ static void derive_chamber(const Part *part) {
   for (size_t i = 0; i + 1 < s->count; i++) {
     double from = MAX(s->x[i], left), to = MIN(s->x[i + 1], right);
     double side = 1e-9 * (to - from);
-    if (to > from && sb_outline_radii(&low, &high, s, from + side)) {
+    // Less than a nanometre is the wall's own place, rounded otherwise than the stretch's end.
+    if (to - from <= 1e-9) {
+      continue;
+    }
+    if (sb_outline_radii(&low, &high, s, from + side)) {
       deepest = MIN(deepest, high);
     }
-    if (to > from && sb_outline_radii(&low, &high, s, to - side)) {
+    if (sb_outline_radii(&low, &high, s, to - side)) {
       deepest = MIN(deepest, high);
     }
   }

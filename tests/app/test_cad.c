@@ -269,14 +269,18 @@ static void test_curves(void) {
 
 // The drawing's sizes take the place of the scene's; everything else stays.
 static void test_scene(void) {
-  const SbCadChoices none = {0};
+  // At a place that no unit makes round.
+  const SbCadChoices none = {.shift = 0.09627022e-3};
   const Place plain = {0, 0, 0};
   g_autoptr(GString) dxf = begin(4);
   put_stem(dxf, &plain, 1, 1);
   end(dxf);
   g_autoptr(SbCad) cad = parse(dxf, &none);
   int body[SB_CAD_PART_COUNT];
-  sb_cad_parts_by_name(body, cad);
+  SbCadSettings settings;
+  GError *error = NULL;
+  sb_cad_settings_init(&settings);
+  g_assert_true(sb_cad_parts(body, cad, &settings, &error));
   g_assert_cmpint(body[SB_CAD_STEM_CENTRE], ==, 0);
   g_assert_cmpint(body[SB_CAD_HOUSING], ==, -1);
   static const char text[] = "[sealbench]\nformat = 1\nkind = valve\n"
@@ -284,11 +288,13 @@ static void test_scene(void) {
                              "[part.stem_centre]\nmass = 2 g\n";
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(SbDocument) base = sb_document_parse(text, strlen(text), "base", NULL, issues);
-  g_autofree char *made = sb_cad_scene(cad, body, 1000, base, "a.dxf", "out.valve", issues);
+  g_autoptr(SbDocument) after = NULL;
+  g_autofree char *made = sb_cad_scene(&after, cad, body, 1000, base, "a.dxf", "out.valve", issues);
   g_assert_cmpuint(issues->len, ==, 0);
+  g_autofree char *differs = sb_cad_differences(base, after);
+  g_assert_nonnull(strstr(differs, "gland.radial_space: 1.4 mm → 1.36 mm\n"));
+  g_assert_null(strstr(differs, "seal.modulus"));
   g_assert_nonnull(strstr(made, "# Drawing: a.dxf, Stem centre\n[part.stem_centre]\n"));
-  g_autoptr(SbDocument) after = sb_document_parse(made, strlen(made), "out", NULL, issues);
-  g_assert_cmpuint(issues->len, ==, 0);
   const struct {
     SbParamId id;
     double value;
@@ -296,11 +302,25 @@ static void test_scene(void) {
                {SB_P_GLAND_AXIAL_WIDTH, 2e-3},
                {SB_P_STEM_PRESSURE_DIAMETER, 5.794e-3},
                {SB_P_STEM_SEAL_SPACING, 6.2e-3},
+               {SB_P_STEM_CHAMBER_DEPTH, 0.847e-3},
                {SB_P_SEAL_MODULUS, 3e6},
                {SB_P_PART_STEM_CENTRE_MASS, 1000 * stem_volume()}};
   for (size_t i = 0; i < G_N_ELEMENTS(sizes); i++) {
     g_assert_cmpfloat_with_epsilon(sb_document_value(after, sizes[i].id) / sizes[i].value, 1, 1e-9);
   }
+  // Chosen by hand: a number or a name, of a body that is there.
+  g_assert_true(sb_cad_choose(&settings, "stem-top", "1", &error));
+  g_assert_true(sb_cad_parts(body, cad, &settings, &error));
+  g_assert_cmpint(body[SB_CAD_STEM_TOP], ==, 0);
+  g_assert_true(sb_cad_choose(&settings, "housing", "block", &error));
+  g_assert_false(sb_cad_parts(body, cad, &settings, &error));
+  g_assert_cmpstr(error->message, ==,
+                  "there is no body 'block' for housing (give its number or name)");
+  g_clear_error(&error);
+  g_assert_false(sb_cad_choose(&settings, "density", "0 kg/m3", &error));
+  g_assert_cmpstr(error->message, ==, "1 to 30000 kg/m3");
+  g_error_free(error);
+  sb_cad_settings_clear(&settings);
 }
 
 static void test_refused(void) {

@@ -196,6 +196,23 @@ static void test_import(void) {
   g_assert_cmpfloat(sb_document_value(document, SB_P_SURFACE_GT_PRODUCT), !=, before);
   g_assert_true(sb_document_gives(document, SB_P_SURFACE_SIGMA));
   g_remove(scan);
+  // A drawing waits until a body is a part, and tells what that changes.
+  g_autofree char *drawing =
+      g_strdup_printf("%s/../tests/fuzz/corpus/dxf/lines.dxf", g_getenv("SEALBENCH_ASSETS"));
+  sb_import_drawing(GTK_WINDOW(parent), session, drawing);
+  dialog = open_dialog();
+  turn(300);
+  wait_for(dialog, FALSE);
+  gtk_entry_set_text(GTK_ENTRY(named(dialog, "Stem centre: body")), "stem");
+  wait_for(dialog, TRUE);
+  const char *told = atk_object_get_description(
+      gtk_widget_get_accessible(named(dialog, "Half-sections of the bodies")));
+  g_assert_nonnull(strstr(told, "1 stem: 62.83 mm³\n"));
+  g_assert_nonnull(strstr(told, "stem.pressure_diameter: 5.794 mm → 4 mm\n"));
+  gtk_entry_set_text(GTK_ENTRY(named(dialog, "Stem centre: body")), "2");
+  turn(500);
+  wait_for(dialog, FALSE);
+  gtk_dialog_response(dialog, GTK_RESPONSE_CANCEL);
   gtk_widget_destroy(parent);
 }
 

@@ -2,12 +2,16 @@
 // choices not made are filled with what was found. What was read is drawn as it will be seen.
 #include "ui/window/import_dialog.h"
 
+#include "app/base/output.h"
+#include "app/chart/half_sections.h"
 #include "app/chart/hysteresis.h"
 #include "app/export/surface.h"
 #include "app/session/measure_job.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/style.h"
+#include "ui/window/drawing_job.h"
 #include "ui/window/scan_job.h"
+#include "ui/window/window.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -20,7 +24,7 @@ typedef struct {
   const char *key, *label, *words;
 } Row;
 
-enum { ROWS = 10 };
+enum { ROWS = 10, PART_ROW = 6 }; // the row of a drawing's first part
 
 // What kinds of files differ in.
 typedef struct {
@@ -29,8 +33,8 @@ typedef struct {
   void (*start)(Dialog *dialog);
   char *(*take)(Dialog *dialog); // what was recognised; NULL with the message shown
   void (*draw)(cairo_t *cr, double width, double height, void *dialog);
-  void (*use)(Dialog *dialog);
-  int width, height; // of the dialog
+  bool (*use)(Dialog *dialog); // false: the dialog stays, its message says why
+  int width, height;           // of the dialog
 } Kind;
 
 struct Dialog {
@@ -47,6 +51,8 @@ struct Dialog {
   SbComparison *comparison;
   SbScanJob *scanning;
   const SbSurface *surface; // of `scanning`, once it is done
+  SbDrawingJob *drawing;
+  const SbDrawing *drawn; // of `drawing`, once it is done
 };
 
 // The form ---------------------------------------------------------------------------------------
@@ -216,11 +222,12 @@ static void draw_measured(cairo_t *cr, double width, double height, void *user) 
   }
 }
 
-static void use_measured(Dialog *dialog) {
+static bool use_measured(Dialog *dialog) {
   SbData *data = sb_data_of_file(dialog->path);
   g_autofree char *keys = sb_measured_keys(dialog->measured);
   sb_data_take_keys(data, keys);
   sb_session_set_data(dialog->session, data);
+  return true;
 }
 
 static const Kind measured_kind = {N_("Import measured data"),
@@ -292,7 +299,7 @@ static void draw_scan(cairo_t *cr, double width, double height, void *user) {
   }
 }
 
-static void use_scan(Dialog *dialog) {
+static bool use_scan(Dialog *dialog) {
   const char *reason = NULL;
   g_auto(GStrv) settings = sb_surface_settings(&reason, dialog->surface);
   for (char **each = settings; each != NULL && *each != NULL; each++) {
@@ -302,6 +309,7 @@ static void use_scan(Dialog *dialog) {
       (void)sb_session_edit(dialog->session, (SbParamId)id, parts[1]);
     }
   }
+  return true;
 }
 
 static const Kind scan_kind = {N_("Import a scan"),
@@ -314,11 +322,146 @@ static const Kind scan_kind = {N_("Import a scan"),
                                1320,
                                820};
 
+// Drawings ---------------------------------------------------------------------------------------
+
+static const Row drawing_rows[] = {
+    {"unit", N_("Unit of a DXF"), NULL},
+    {"axis", N_("Axis of a DXF"), "x|y"},
+    {"angle", N_("Half-plane of a STEP"), NULL},
+    {"flip", N_("Canister on the right"), "no|yes"},
+    {"shift", N_("Moved along the axis by"), NULL},
+    {"density", N_("Density of the parts"), NULL},
+    {"housing", N_("Housing: body"), NULL},
+    {"stem_centre", N_("Stem centre: body"), NULL},
+    {"stem_top", N_("Stem top: body"), NULL},
+    {"stem_bottom", N_("Stem bottom: body"), NULL},
+    {0},
+};
+
+G_STATIC_ASSERT(G_N_ELEMENTS(drawing_rows) <= ROWS + 1);
+
+static void start_drawing(Dialog *dialog) {
+  dialog->drawn = NULL;
+  g_clear_pointer(&dialog->drawing, sb_drawing_job_free);
+  g_autofree char *keys = said_keys(dialog);
+  dialog->drawing = sb_drawing_job_start(dialog->path, keys, on_read, dialog);
+}
+
+// The scene with the drawing's parts for a file `path`, and how it differs from the document; NULL
+// with the message shown.
+static char *drawn_scene(Dialog *dialog, const char *path, char **differences) {
+  const SbDocument *document = sb_session_document(dialog->session);
+  const SbDrawing *drawn = dialog->drawn;
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) after = NULL;
+  char *text = sb_cad_scene(&after, drawn->cad, drawn->part, drawn->settings.density, document,
+                            drawn->path, path, issues);
+  if (text == NULL) {
+    g_autofree char *line = sb_issue_line(issues->pdata[0]);
+    gtk_label_set_text(GTK_LABEL(dialog->message), line);
+    return NULL;
+  }
+  *differences = sb_cad_differences(document, after);
+  return text;
+}
+
+static char *take_drawing(Dialog *dialog) {
+  const char *why = NULL;
+  dialog->drawn = sb_drawing_job_drawing(dialog->drawing, &why);
+  if (dialog->drawn == NULL) {
+    gtk_label_set_text(GTK_LABEL(dialog->message), why);
+    return NULL;
+  }
+  const SbCad *cad = dialog->drawn->cad;
+  GString *text = g_string_new(NULL);
+  bool any = false;
+  for (guint i = 0; i < cad->bodies->len; i++) {
+    const SbCadBody *body = cad->bodies->pdata[i];
+    char volume[SB_NUMBER_SIZE];
+    g_string_append_printf(text, "%u %s: %s mm³%s%s\n", i + 1, body->name,
+                           sb_number_round(volume, 1e9 * body->solid.volume, 4),
+                           body->why != NULL ? "; " : "", body->why != NULL ? body->why : "");
+  }
+  for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
+    const int body = dialog->drawn->part[i];
+    any = any || body >= 0;
+    if (body >= 0 && !dialog->said[PART_ROW + i]) {
+      char number[SB_NUMBER_SIZE];
+      set_choice(dialog, PART_ROW + i, sb_number_round(number, body + 1, 3));
+    }
+  }
+  for (guint i = 0; i < cad->warnings->len; i++) {
+    g_string_append_printf(text, "%s\n", (const char *)cad->warnings->pdata[i]);
+  }
+  g_autofree char *differences = NULL;
+  g_autofree char *scene = any ? drawn_scene(dialog, "drawn.scene", &differences) : NULL;
+  if (!any) {
+    gtk_label_set_text(GTK_LABEL(dialog->message),
+                       _("Say which body is which part, by its number or name."));
+  }
+  if (scene != NULL) {
+    g_string_append_printf(text, "\n%s",
+                           *differences != '\0' ? differences : _("No value in force differs."));
+  }
+  gtk_label_set_text(GTK_LABEL(dialog->text), text->str);
+  return g_string_free(text, scene == NULL);
+}
+
+static void draw_drawing(cairo_t *cr, double width, double height, void *user) {
+  Dialog *dialog = user;
+  const SbTheme *theme = sb_style_ground(cr);
+  if (dialog->drawn != NULL) {
+    sb_half_sections_draw(cr, (SbRect){0, 0, width, height}, theme, dialog->drawn->cad,
+                          dialog->drawn->part);
+  }
+}
+
+static bool use_drawing(Dialog *dialog) {
+  const char *own = sb_document_path(sb_session_document(dialog->session));
+  GtkWindow *parent = gtk_window_get_transient_for(GTK_WINDOW(dialog->dialog));
+  GtkFileChooserNative *chooser =
+      gtk_file_chooser_native_new(_("Write the scene with these parts"), GTK_WINDOW(dialog->dialog),
+                                  GTK_FILE_CHOOSER_ACTION_SAVE, _("_Save"), _("_Cancel"));
+  gtk_file_chooser_set_do_overwrite_confirmation(GTK_FILE_CHOOSER(chooser), TRUE);
+  gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), "drawn.scene");
+  g_autofree char *folder = own != NULL ? g_path_get_dirname(own) : NULL;
+  if (folder != NULL) {
+    gtk_file_chooser_set_current_folder(GTK_FILE_CHOOSER(chooser), folder);
+  }
+  bool written = false;
+  if (gtk_native_dialog_run(GTK_NATIVE_DIALOG(chooser)) == GTK_RESPONSE_ACCEPT) {
+    g_autofree char *path = gtk_file_chooser_get_filename(GTK_FILE_CHOOSER(chooser));
+    g_autofree char *differences = NULL;
+    g_autofree char *text = drawn_scene(dialog, path, &differences);
+    g_autoptr(GError) error = NULL;
+    written = text != NULL && sb_output_write(path, text, strlen(text), &error);
+    if (error != NULL) {
+      gtk_label_set_text(GTK_LABEL(dialog->message), error->message);
+    }
+    if (written) {
+      g_autoptr(GFile) file = g_file_new_for_path(path);
+      sb_window_open(SB_WINDOW(parent), file);
+    }
+  }
+  g_object_unref(chooser);
+  return written;
+}
+
+static const Kind drawing_kind = {N_("Import a drawing"),
+                                  N_("Half-sections of the bodies"),
+                                  drawing_rows,
+                                  start_drawing,
+                                  take_drawing,
+                                  draw_drawing,
+                                  use_drawing,
+                                  1180,
+                                  680};
+
 // Life -------------------------------------------------------------------------------------------
 
 static void on_response(GtkDialog *widget, int response, Dialog *dialog) {
-  if (response == GTK_RESPONSE_ACCEPT) {
-    dialog->kind->use(dialog);
+  if (response == GTK_RESPONSE_ACCEPT && !dialog->kind->use(dialog)) {
+    return;
   }
   gtk_widget_destroy(dialog->dialog);
 }
@@ -328,6 +471,7 @@ static void on_destroy(GtkWidget *widget, Dialog *dialog) {
   sb_measure_job_free(dialog->measuring);
   forget_measured(dialog);
   sb_scan_job_free(dialog->scanning);
+  sb_drawing_job_free(dialog->drawing);
   g_object_unref(dialog->session);
   g_free(dialog->path);
   g_free(dialog);
@@ -446,4 +590,8 @@ void sb_import_measured(GtkWindow *parent, SbSession *session, const char *path)
 
 void sb_import_scan(GtkWindow *parent, SbSession *session, const char *path) {
   import(parent, session, &scan_kind, path);
+}
+
+void sb_import_drawing(GtkWindow *parent, SbSession *session, const char *path) {
+  import(parent, session, &drawing_kind, path);
 }

@@ -402,6 +402,10 @@ static void on_import_scan(GSimpleAction *action, GVariant *parameter, gpointer 
   sb_import_scan(GTK_WINDOW(data), SB_WINDOW(data)->session, NULL);
 }
 
+static void on_import_drawing(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_import_drawing(GTK_WINDOW(data), SB_WINDOW(data)->session, NULL);
+}
+
 static void on_studies(GSimpleAction *action, GVariant *parameter, gpointer data) {
   sb_study_window_open(GTK_WINDOW(data), SB_WINDOW(data)->session);
 }
@@ -588,6 +592,7 @@ static void sb_window_init(SbWindow *window) {
       {.name = "export", .activate = on_export},
       {.name = "import-measured", .activate = on_import_measured},
       {.name = "import-scan", .activate = on_import_scan},
+      {.name = "import-drawing", .activate = on_import_drawing},
       {.name = "studies", .activate = on_studies},
       {.name = "close", .activate = on_close},
       {.name = "show-help-overlay", .activate = on_shortcuts},
