@@ -416,6 +416,54 @@ static void pressure_chart(Small *s) {
   sb_contact_curve_finish(&curve);
 }
 
+// Central and least film where one line of both is wider than the contact: one under the other, the
+// least next to the curve; where that would cross the curve, with the word on a line of its own.
+static void narrow_label(Small *s, const char *const *value, int count, const SbTextStyle *style,
+                         const SbSealFrame *seal, double y) {
+  const double right_px = s->plot.x + s->plot.width;
+  const double left = sb_axis_at(&s->x, seal->contact_left * 1e3) - 8;
+  const double right = sb_axis_at(&s->x, seal->contact_right * 1e3) + 8;
+  const double x = 0.5 * (left + right), line = 17;
+  char text[SB_FORMAT_MAX + 8];
+  g_snprintf(text, sizeof text, count > 1 ? "least %s" : "%s", value[count - 1]);
+  const double crossing_max = s->labels->crossing_max;
+  s->labels->crossing_max = 1;
+  const SbPlace clear[] = {{x, y - 9, SB_MIDDLE},
+                           {right_px - 4, y - 9, SB_RIGHT},
+                           {left, y - 9, SB_RIGHT},
+                           {right, y - 9, SB_LEFT}};
+  double next = y - 26;
+  if (!small_label(s, text, style, clear, 4)) {
+    // In three lines within the contact, or on the side of it that has more room.
+    const double wide = sb_canvas_text_width(s->canvas, value[count - 1], style);
+    const bool inside = right - left - 24 >= wide, before = left - s->plot.x > right_px - right;
+    const SbPlace at = inside   ? (SbPlace){x, y - 9, SB_MIDDLE}
+                       : before ? (SbPlace){left, y - 9, SB_RIGHT}
+                                : (SbPlace){right, y - 9, SB_LEFT};
+    const bool beside = count > 1 && (inside || fmax(left - s->plot.x, right_px - right) >= wide) &&
+                        small_label(s, value[count - 1], style, &at, 1) &&
+                        small_label(s, "least", style, &(SbPlace){at.x, at.y - line, at.align}, 1);
+    s->labels->crossing_max = crossing_max;
+    if (!beside) {
+      small_label(s, text, style, clear, 3);
+    } else {
+      next = at.y - 2 * line;
+    }
+  }
+  s->labels->crossing_max = 1;
+  if (count > 1) {
+    const SbPlace above[] = {{x, next, SB_MIDDLE},
+                             {right_px - 4, next, SB_RIGHT},
+                             {left, next, SB_RIGHT},
+                             {right, next, SB_LEFT}};
+    if (!small_label(s, value[0], style, above, 4)) {
+      s->labels->crossing_max = crossing_max;
+      small_label(s, value[0], style, above, 3);
+    }
+  }
+  s->labels->crossing_max = crossing_max;
+}
+
 static void film_chart(Small *s) {
   SbCanvas *c = s->canvas;
   cairo_t *cr = c->cr;
@@ -467,17 +515,8 @@ static void film_chart(Small *s) {
     if (sb_canvas_text_width(c, text, &style) + 8 <= room) {
       small_label(s, text, &style, (SbPlace[]){{x, y - 9, SB_MIDDLE}, {x, y - 24, SB_MIDDLE}}, 2);
     } else {
-      // Narrow: one line under the other, the least film next to the curve.
-      g_snprintf(text, sizeof text, "least %s", least);
-      double edge = sb_axis_at(&s->x, seal->contact_left * 1e3) - 8;
-      const SbPlace near[] = {
-          {x, y - 9, SB_MIDDLE}, {right_px - 4, y - 9, SB_RIGHT}, {edge, y - 9, SB_RIGHT}};
-      const SbPlace above[] = {
-          {x, y - 26, SB_MIDDLE}, {right_px - 4, y - 26, SB_RIGHT}, {edge, y - 26, SB_RIGHT}};
-      if (!uniform) {
-        small_label(s, text, &style, near, 3);
-      }
-      small_label(s, value, &style, uniform ? near : above, 3);
+      const char *const lines[] = {value, least};
+      narrow_label(s, lines, uniform ? 1 : 2, &style, seal, y);
     }
   } else {
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);

@@ -92,5 +92,22 @@ def a_presentation_steps(folder):
         assert app.value("Radial space") == "1.4 mm"
 
 
+def panels_are_hidden(folder):
+    with App(scene(folder), parameters=0) as app:
+        wait("the first run", app.run_done)
+        for key, role, name in (("F9", "text", "Radial space"),
+                                ("shift+F9", "chart", "Force and displacement"),
+                                ("ctrl+F9", "slider", "Timeline")):
+            assert app.has(role, name), name
+            app.key(key)
+            wait("%s gone" % name, lambda: not app.has(role, name))
+        # A search needs what it searches in.
+        app.key("ctrl+f")
+        wait("the parameters", lambda: app.has("text", "Radial space"))
+        app.key("shift+F9")
+        app.key("ctrl+F9")
+        wait("all", lambda: app.has("chart", "Force and displacement") and app.has("slider", "Timeline"))
+
+
 if __name__ == "__main__":
-    main(a_bookmark_is_clicked, notes_are_kept, a_presentation_steps)
+    main(a_bookmark_is_clicked, notes_are_kept, a_presentation_steps, panels_are_hidden)

@@ -35,7 +35,9 @@ typedef struct {
   GtkWidget *gl; // over the picture where the window's own GL draws it
   GtkWidget *box, *area, *field_combo, *inset_combo, *forces, *labels, *mesh, *empty, *toggles,
       *heading;
-  GtkWidget *cutaway, *rest;
+  GtkWidget *cutaway, *rest, *no_field, *bar, *zooms;
+  int zooms_width; // of the zoom buttons, with their gap
+  guint fit;       // source that fits the toolbar to a new width, 0 if none is due
   SbSectionSource *source;
   SbDrawList list;
   SbText *text;
@@ -144,6 +146,23 @@ static gboolean draw_by_gl(View *view, cairo_t *cr, const SbRect *rect) {
 
 // Drawing ----------------------------------------------------------------------------------------
 
+static SbField chosen_field(View *view) {
+  return (SbField)MAX(gtk_combo_box_get_active(GTK_COMBO_BOX(view->field_combo)), 0);
+}
+
+// The shown run has rings with fields, but not the chosen one.
+static gboolean lacks_field(View *view) {
+  const SbRun *run = sb_session_run(view->session);
+  return run != NULL && chosen_field(view) == SB_FIELD_PERMEATION &&
+         sb_run_plan(run)->section_fields && !sb_run_plan(run)->permeation;
+}
+
+// The values ask for it: the run to come will have it.
+static gboolean asks_field(View *view) {
+  const SbModel *model = sb_session_model(view->session);
+  return model != NULL && sb_model_look(model)->field == SB_FIELD_PERMEATION;
+}
+
 static void draw(cairo_t *cr, double area_width, double area_height, void *user) {
   View *view = user;
   const SbTheme *theme = sb_style_ground(cr);
@@ -177,7 +196,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
       .hide_forces = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->forces)),
       .hide_labels = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->labels)),
       .inset_seal = inset == 1 ? SB_INNER : SB_OUTER,
-      .field = (SbField)MAX(gtk_combo_box_get_active(GTK_COMBO_BOX(view->field_combo)), 0),
+      .field = lacks_field(view) ? SB_FIELD_VON_MISES : chosen_field(view),
       .mesh = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->mesh)),
       .full = look->section == SB_SECTION_FULL,
       .cutaway = cutaway,
@@ -281,6 +300,7 @@ static void follow_look(View *view) {
 static void show_state(View *view) {
   follow_look(view);
   gtk_widget_queue_resize(view->gl);
+  gtk_widget_set_visible(view->no_field, lacks_field(view) && !asks_field(view));
   gtk_widget_set_visible(view->empty, sb_session_state(view->session) == SB_SESSION_EMPTY);
   gtk_widget_set_visible(view->rest, sb_session_state(view->session) == SB_SESSION_RUNNING &&
                                          sb_session_run(view->session) == NULL);
@@ -455,6 +475,10 @@ static void on_destroy(GtkWidget *widget, View *view) {
     g_source_remove(view->describe);
     view->describe = 0;
   }
+  if (view->fit != 0) {
+    g_source_remove(view->fit);
+    view->fit = 0;
+  }
 }
 
 static void view_free(gpointer data) {
@@ -482,12 +506,43 @@ static GtkWidget *toggle_new(View *view, const char *label, const char *tip, gbo
   return toggle;
 }
 
+static void on_field(View *view) {
+  gtk_widget_set_visible(view->no_field, lacks_field(view) && !asks_field(view));
+  on_change(view);
+}
+
 // Insets belong to the section. The zoom starts anew: it means another thing.
 static void on_cutaway(View *view) {
   gtk_widget_set_sensitive(view->inset_combo, !is_cutaway(view));
   view->zoom = 1;
   view->pan_x = view->pan_y = 0;
   gtk_widget_queue_resize(view->gl);
+}
+
+// The zoom buttons, which wheel and keys do as well, give way where the toolbar has no room.
+static gboolean on_fit(gpointer data) {
+  View *view = data;
+  view->fit = 0;
+  const gboolean shown = gtk_widget_get_visible(view->zooms);
+  const int room = gtk_widget_get_allocated_width(gtk_widget_get_parent(view->bar));
+  int least = 0;
+  gtk_widget_get_preferred_width(view->bar, &least, NULL);
+  if (shown) {
+    enum { GAP = 8 };
+    view->zooms_width = gtk_widget_get_allocated_width(view->zooms) + GAP;
+  }
+  const gboolean fits = room >= least + (shown ? 0 : view->zooms_width);
+  if (fits != shown) {
+    gtk_widget_set_visible(view->zooms, fits);
+  }
+  return G_SOURCE_REMOVE;
+}
+
+// Not inside an allocation, where nothing may come or go.
+static void on_toolbar_allocate(View *view) {
+  if (view->fit == 0) {
+    view->fit = g_idle_add(on_fit, view);
+  }
 }
 
 static GtkWidget *make_toolbar(View *view) {
@@ -506,7 +561,7 @@ static GtkWidget *make_toolbar(View *view) {
   view->field_combo = sb_toolbar_combo(GTK_BOX(bar), fields, SB_FIELD_COUNT, _("Field"),
                                        _("What the colours of solved rings show"));
   gtk_widget_set_no_show_all(view->field_combo, TRUE);
-  g_signal_connect_swapped(view->field_combo, "changed", G_CALLBACK(on_change), view);
+  g_signal_connect_swapped(view->field_combo, "changed", G_CALLBACK(on_field), view);
   static const char *const insets[] = {N_("Insets: outer seal"), N_("Insets: inner seal"),
                                        N_("No insets")};
   view->inset_combo = sb_toolbar_combo(GTK_BOX(bar), insets, G_N_ELEMENTS(insets), _("Insets"),
@@ -535,6 +590,9 @@ static GtkWidget *make_toolbar(View *view) {
                     "win.zoom-fit");
   sb_toolbar_button(GTK_BOX(zooms), "zoom-in-symbolic", _("Zoom in"), _("Zoom in"), "win.zoom-in");
   gtk_box_pack_end(GTK_BOX(bar), zooms, FALSE, FALSE, 0);
+  view->bar = bar;
+  view->zooms = zooms;
+  g_signal_connect_swapped(bar, "size-allocate", G_CALLBACK(on_toolbar_allocate), view);
 
   // In a narrow window the toolbar scrolls, so that it does not decide how narrow that can be.
   GtkWidget *scroller = gtk_scrolled_window_new(NULL, NULL);
@@ -631,6 +689,13 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   gtk_label_set_line_wrap(GTK_LABEL(view->rest), TRUE);
   place_top(view->rest, 70);
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->rest);
+  view->no_field =
+      gtk_label_new(_("This run has no permeation: set Field (output.field) to permeation to have "
+                      "it computed. Shown: von Mises stress."));
+  sb_style_class(view->no_field, "sb-plate");
+  gtk_label_set_line_wrap(GTK_LABEL(view->no_field), TRUE);
+  place_top(view->no_field, 70);
+  gtk_overlay_add_overlay(GTK_OVERLAY(overlay), view->no_field);
   gtk_box_pack_start(GTK_BOX(view->box), overlay, TRUE, TRUE, 0);
 
   g_signal_connect_swapped(view->area, "size-allocate", G_CALLBACK(clamp_pan), view);

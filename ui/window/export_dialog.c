@@ -314,6 +314,15 @@ static gboolean start(gpointer data) {
     }
     return G_SOURCE_REMOVE;
   }
+  const SbRun *run = sb_run_handle_run(handle);
+  if (has_fields(dialog) && view_of(dialog)->section &&
+      gtk_combo_box_get_active(GTK_COMBO_BOX(dialog->field)) == SB_FIELD_PERMEATION &&
+      !sb_run_plan(run)->permeation) {
+    sb_run_handle_unref(handle);
+    set_status(dialog, _("This run has no permeation: set Field (output.field) to permeation."),
+               "sb-error");
+    return G_SOURCE_REMOVE;
+  }
   g_autofree char *folder = g_path_get_dirname(path);
   sb_preferences_set_string("export-folder", folder);
   const SbDocument *document = sb_session_document(dialog->session);

@@ -3,7 +3,14 @@
 #include "ui/window/preferences.h"
 
 // Widths of the look in its window of 1600 px, and the least that still reads well.
-enum { LOOK_WINDOW = 1600, LOOK_LEFT = 346, LOOK_RIGHT = 424, LEAST_LEFT = 316, LEAST_RIGHT = 284 };
+enum {
+  LOOK_WINDOW = 1600,
+  LOOK_LEFT = 346,
+  LOOK_RIGHT = 424,
+  LEAST_LEFT = 316,
+  LEAST_RIGHT = 284,
+  MOST_RIGHT = 720 // of a very wide window
+};
 
 // Below it three columns leave the section less than their own widths.
 enum { THREE_COLUMNS = 1150 };
@@ -15,8 +22,8 @@ typedef struct {
   guint later;       // source that shows or hides the right column, 0 if none is due
 } PanedLayout;
 
-static int scaled(int width, int look, int least) {
-  return CLAMP(width * look / LOOK_WINDOW, least, look);
+static int scaled(int width, int look, int least, int most) {
+  return CLAMP(width * look / LOOK_WINDOW, least, most);
 }
 
 // Not inside an allocation: the column leaves or joins the layout.
@@ -51,10 +58,10 @@ static void on_allocate(GtkPaned *paned, GdkRectangle *allocation, PanedLayout *
   int left = sb_preferences_int("left-column", 0);
   int right = sb_preferences_int("right-column", 0);
   if (left < LEAST_LEFT || left > allocation->width / 2) {
-    left = scaled(allocation->width, LOOK_LEFT, LEAST_LEFT);
+    left = scaled(allocation->width, LOOK_LEFT, LEAST_LEFT, LOOK_LEFT);
   }
   if (right < LEAST_RIGHT || right > allocation->width / 2) {
-    right = scaled(allocation->width, LOOK_RIGHT, LEAST_RIGHT);
+    right = scaled(allocation->width, LOOK_RIGHT, LEAST_RIGHT, MOST_RIGHT);
   }
   gtk_paned_set_position(layout->columns, left);
   gtk_paned_set_position(layout->views, MAX(allocation->width - left - right - 2, 1));

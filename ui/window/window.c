@@ -321,6 +321,7 @@ static void on_run_or_stop(GSimpleAction *action, GVariant *parameter, gpointer 
 }
 
 static void on_search(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  gtk_widget_show(SB_WINDOW(data)->left_column);
   sb_param_panel_search(SB_PARAM_PANEL(SB_WINDOW(data)->panel));
 }
 
@@ -328,6 +329,7 @@ static void on_next_error(GSimpleAction *action, GVariant *parameter, gpointer d
   SbWindow *window = data;
   int id = sb_session_first_error(window->session);
   if (id >= 0) {
+    gtk_widget_show(window->left_column);
     sb_param_panel_reveal(SB_PARAM_PANEL(window->panel), (SbParamId)id);
   }
 }
@@ -446,6 +448,7 @@ static void on_chosen(void *data, SbParamId id, const char *typed) {
     sb_param_panel_show(SB_PARAM_PANEL(window->panel), id);
     return;
   }
+  gtk_widget_show(window->left_column);
   sb_param_panel_reveal(SB_PARAM_PANEL(window->panel), id);
   GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
   if (GTK_IS_ENTRY(focus)) {
@@ -605,6 +608,19 @@ static void sb_window_init(SbWindow *window) {
   g_autoptr(GPropertyAction) page =
       g_property_action_new("page", window->pages, "visible-child-name");
   g_action_map_add_action(G_ACTION_MAP(window), G_ACTION(page));
+
+  // What can be hidden has an action of its own.
+  const struct {
+    const char *name;
+    GtkWidget *panel;
+  } panels[] = {{"show-parameters", window->left_column},
+                {"show-charts", window->right_column},
+                {"show-timeline", window->bottom}};
+  for (guint i = 0; i < G_N_ELEMENTS(panels); i++) {
+    g_autoptr(GPropertyAction) shown =
+        g_property_action_new(panels[i].name, panels[i].panel, "visible");
+    g_action_map_add_action(G_ACTION_MAP(window), G_ACTION(shown));
+  }
 
   sb_style_window(GTK_WIDGET(window));
   sb_toast_attach(GTK_WINDOW(window));
