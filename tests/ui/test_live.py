@@ -38,6 +38,13 @@ def an_edit_is_solved_and_back_at_once(folder):
 
         wait("the first run", whole, timeout=120)
         first = app.breakaway()
+        # A field that this run does not have is told, not drawn as zeros.
+        fields = app.find("combo box", "Field").querySelection()
+        assert not app.label(r"^This run has no permeation")
+        fields.selectChild(5)
+        wait("why there is none", lambda: app.label(r"^This run has no permeation: .* von Mises"))
+        fields.selectChild(0)
+        wait("a field that is there", lambda: not app.label(r"^This run has no permeation"))
         app.edit("Radial space", "1.38 mm")
         wait("the whole run", lambda: app.breakaway() != first and whole(), timeout=120)
         last = app.breakaway()
