@@ -6,6 +6,7 @@
 typedef struct {
   GtkWidget *words[2]; // beside icons that say enough
   GtkWidget *document; // its name, which the window's title has too
+  GtkWidget *pages;    // the tabs: of one width where there is room
   GtkWidget *progress, *model_switch;
 } SbHeaderParts;
 

@@ -695,6 +695,7 @@ static void sb_window_init(SbWindow *window) {
 
   const SbHeaderParts parts = {{window->run_label, window->export_label},
                                window->document_box,
+                               window->switcher,
                                window->run_progress,
                                window->model_switch};
   sb_header_room_attach(GTK_WIDGET(window), &parts, sb_preferences_int("width", 1600));
