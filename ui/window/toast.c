@@ -81,7 +81,7 @@ void sb_toast_attach(GtkWindow *window) {
   toast->label = gtk_label_new(NULL);
   gtk_label_set_ellipsize(GTK_LABEL(toast->label), PANGO_ELLIPSIZE_MIDDLE);
   gtk_label_set_max_width_chars(GTK_LABEL(toast->label), WIDE_CHARS);
-  toast->button = gtk_button_new_with_label("");
+  toast->button = gtk_button_new_with_label(_("Open")); // until it is for something
   gtk_container_add(GTK_CONTAINER(box), toast->label);
   gtk_container_add(GTK_CONTAINER(box), toast->button);
   gtk_container_add(GTK_CONTAINER(events), box);
