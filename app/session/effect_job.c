@@ -13,6 +13,7 @@ static const struct {
 } goals[SB_EFFECT_GOALS] = {{"cycle.force_return_min_N", N_("least return")},
                             {"cycle.force_breakaway_N", N_("break-away")},
                             {"cycle.energy_loss_J", N_("loss")},
+                            {"cycle.leakage_per_cycle_m3", N_("leak")},
                             {"seals.outer.pressure_peak_Pa", N_("peak pressure")}};
 
 struct SbEffectJob {

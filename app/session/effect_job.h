@@ -8,7 +8,7 @@
 
 typedef struct SbEffectJob SbEffectJob;
 
-enum { SB_EFFECT_GOALS = 4 };
+enum { SB_EFFECT_GOALS = 5 };
 
 // Goal `index`, a figure of figures.def, and its short name; borrowed.
 int sb_effect_goal(int index);

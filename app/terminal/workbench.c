@@ -13,8 +13,7 @@
 enum {
   LEAST_COLUMNS = 40, // below that nothing can be told
   LEAST_ROWS = 10,
-  TICK_MS = 33, // while something moves
-  PLAY_S = 10   // one cycle
+  TICK_MS = 33 // while something moves
 };
 
 SbPen sb_bench_pen(const SbBench *bench, SbRole role, uint8_t style) {
@@ -74,7 +73,7 @@ static void draw_keys(SbBench *bench, int y) {
 // A line that is typed for something else than a field of the list.
 static void draw_question(SbBench *bench, int y) {
   const char *question = bench->input == SB_INPUT_SAVE     ? _("Save as: ")
-                         : bench->input == SB_INPUT_EXPORT ? _("Export to (.json, .txt): ")
+                         : bench->input == SB_INPUT_EXPORT ? _("Export to, then a view: ")
                                                            : _("Open: ");
   SbCells *cells = &bench->cells;
   const int x = 1 + sb_cells_text(cells, 1, y, cells->columns - 2, question,
@@ -133,13 +132,18 @@ static gboolean on_draw(gpointer data) {
   return G_SOURCE_REMOVE;
 }
 
+// Whether something is under way that tells how far it is.
+static bool is_busy(const SbBench *bench) {
+  return bench->job != NULL || bench->export != NULL;
+}
+
 static gboolean on_tick(gpointer data) {
   SbBench *bench = data;
   sb_session_tick(bench->session, g_get_monotonic_time());
-  if (bench->job != NULL) {
+  if (is_busy(bench)) {
     sb_bench_changed(bench);
   }
-  if (sb_session_wants_ticks(bench->session) || bench->job != NULL) {
+  if (sb_session_wants_ticks(bench->session) || is_busy(bench)) {
     return G_SOURCE_CONTINUE;
   }
   bench->tick = 0;
@@ -150,7 +154,7 @@ void sb_bench_changed(SbBench *bench) {
   if (bench->draw == 0 && !bench->ended) {
     bench->draw = g_idle_add(on_draw, bench);
   }
-  if (bench->tick == 0 && (sb_session_wants_ticks(bench->session) || bench->job != NULL)) {
+  if (bench->tick == 0 && (sb_session_wants_ticks(bench->session) || is_busy(bench))) {
     bench->tick = g_timeout_add(TICK_MS, on_tick, bench);
   }
 }
@@ -193,7 +197,7 @@ static gboolean on_effects_later(gpointer data) {
   SbBench *bench = data;
   const SbModel *model = sb_session_model(bench->session);
   const SbSessionState state = sb_session_state(bench->session);
-  if (state == SB_SESSION_RUNNING || bench->job != NULL) {
+  if (state == SB_SESSION_RUNNING || is_busy(bench)) {
     return G_SOURCE_CONTINUE;
   }
   bench->effects_later = 0;
@@ -224,7 +228,28 @@ static void on_params(SbBench *bench) {
   sb_bench_changed(bench);
 }
 
+static void on_cases(void *data) {
+  sb_bench_changed(data);
+}
+
+// The verdict takes the worst of the scene's cases, once its own run is whole.
+static void judge_cases(SbBench *bench) {
+  const SbDocument *document = sb_session_document(bench->session);
+  const bool whole =
+      sb_session_may_keep(bench->session) && !sb_session_is_stale(bench->session, NULL, NULL);
+  if (bench->cases != NULL && sb_cases_job_run(bench->cases) != sb_session_run(bench->session)) {
+    g_clear_pointer(&bench->cases, sb_cases_job_free);
+  }
+  SbRunHandle *handle = whole && bench->cases == NULL && sb_document_case_count(document) > 0
+                            ? sb_session_handle(bench->session)
+                            : NULL;
+  if (handle != NULL) {
+    bench->cases = sb_cases_job_start(handle, document, on_cases, bench);
+  }
+}
+
 static void on_run(SbBench *bench) {
+  judge_cases(bench);
   sb_section_source_forget(bench->source);
   sb_bench_changed(bench);
 }
@@ -272,6 +297,8 @@ static void finish(SbBench *bench) {
   }
   g_signal_handlers_disconnect_by_data(bench->session, bench);
   g_clear_pointer(&bench->job, sb_study_job_free);
+  g_clear_pointer(&bench->export, sb_export_job_free);
+  g_clear_pointer(&bench->cases, sb_cases_job_free);
   g_clear_pointer(&bench->effect_job, sb_effect_job_free);
   sb_autosave_free(bench->autosave);
   sb_section_source_free(bench->source);
@@ -310,7 +337,7 @@ bool sb_workbench_run(const SbWorkbenchOptions *options, GError **error) {
   sb_draw_list_init(&bench.drawing);
   bench.source = sb_section_source_new(bench.session);
   bench.autosave = sb_autosave_new(bench.session);
-  sb_session_set_play_duration(bench.session, PLAY_S);
+  sb_session_set_play_duration(bench.session, SB_PLAY_S);
   sb_session_set_loops(bench.session, TRUE);
   const SbScreenClient client = {.key = on_key, .draw = on_screen, .end = on_end, .data = &bench};
   const bool good = open_file(&bench, options->path, error) &&

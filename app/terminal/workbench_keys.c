@@ -1,9 +1,6 @@
 // What keys and the mouse do.
 #include "app/terminal/workbench_private.h"
 
-#include "app/base/output.h"
-#include "app/export/json.h"
-#include "app/export/results.h"
 #include "app/session/param_list.h"
 #include "app/session/verdict_text.h"
 
@@ -42,38 +39,6 @@ static bool save(SbBench *bench, const char *path) {
   return true;
 }
 
-// The picture that stands, as the terminal shows it, or the run's figures.
-static void export_to(SbBench *bench, const char *path) {
-  g_autoptr(GError) error = NULL;
-  g_autofree char *text = NULL;
-  if (sb_output_ends_in(path, ".txt")) {
-    text = sb_cells_to_text(&bench->cells);
-  } else if (!sb_output_ends_in(path, ".json")) {
-    sb_bench_say(bench, true, _("%s: .json writes the figures, .txt this screen"), path);
-    return;
-  } else if (!sb_session_may_keep(bench->session)) {
-    sb_bench_say(bench, true, _("No whole run is shown yet."));
-    return;
-  } else {
-    const SbDocument *document = sb_session_document(bench->session);
-    g_autofree char *hash = sb_document_sha256(document);
-    const char *scene = sb_document_path(document);
-    const SbSummary *summary = sb_session_summary(bench->session);
-    SbCaseVerdict verdict[SB_VERDICT_COUNT];
-    for (int i = 0; i < SB_VERDICT_COUNT; i++) {
-      verdict[i] = (SbCaseVerdict){summary->verdict[i], NULL};
-    }
-    const SbResultsInfo info = {
-        .scene = scene != NULL ? scene : "", .sha256 = hash, .verdict = verdict};
-    text = sb_results_run(sb_session_run(bench->session), &info);
-  }
-  if (sb_output_write(path, text, strlen(text), &error)) {
-    sb_bench_say(bench, false, _("written: %s"), path);
-  } else {
-    sb_bench_say(bench, true, "%s", error->message);
-  }
-}
-
 static void commit(SbBench *bench) {
   const SbInput input = bench->input;
   g_autofree char *text = g_strdup(bench->typed->str);
@@ -91,7 +56,7 @@ static void commit(SbBench *bench) {
     save(bench, text);
     break;
   case SB_INPUT_EXPORT:
-    export_to(bench, text);
+    sb_bench_export(bench, text);
     break;
   case SB_INPUT_OPEN:
     if (!sb_session_open(bench->session, text, issues)) {
@@ -220,27 +185,27 @@ static void choose_page(SbBench *bench, SbPage page) {
   }
 }
 
-static void step_value(SbBench *bench, const SbKey *key, double direction) {
-  const SbParamId id = (SbParamId)bench->selected;
-  const char *lock = sb_session_lock(bench->session, id);
-  if (bench->rows->len == 0) {
-    return;
-  }
-  if (lock != NULL) {
+// Whether the chosen row has a value to change; why not is told.
+static bool may_change(SbBench *bench) {
+  const char *lock = sb_session_lock(bench->session, (SbParamId)bench->selected);
+  if (bench->rows->len > 0 && lock != NULL) {
     sb_bench_say(bench, true, "%s", lock);
-    return;
   }
-  sb_param_step(bench->session, id, direction * (key->shift ? 0.1 : key->control ? 10 : 1));
+  return bench->rows->len > 0 && lock == NULL;
+}
+
+static void step_value(SbBench *bench, const SbKey *key, double direction) {
+  if (may_change(bench)) {
+    sb_param_step(bench->session, (SbParamId)bench->selected,
+                  direction * (key->shift     ? 0.1
+                               : key->control ? 10
+                                              : 1));
+  }
 }
 
 static void edit_value(SbBench *bench) {
   const SbParamId id = (SbParamId)bench->selected;
-  const char *lock = sb_session_lock(bench->session, id);
-  if (bench->rows->len == 0) {
-    return;
-  }
-  if (lock != NULL) {
-    sb_bench_say(bench, true, "%s", lock);
+  if (!may_change(bench)) {
     return;
   }
   const char *rejected = sb_session_rejected(bench->session, id);
@@ -279,6 +244,9 @@ static void unpin(SbBench *bench) {
 static void cancel(SbBench *bench) {
   if (bench->job != NULL) {
     sb_bench_study_stop(bench);
+  } else if (bench->export != NULL) {
+    sb_export_job_cancel(bench->export);
+    sb_bench_say(bench, false, _("cancelling…"));
   } else if (sb_session_state(bench->session) == SB_SESSION_RUNNING) {
     sb_session_stop(bench->session);
     sb_bench_say(bench, false, _("cancelled"));

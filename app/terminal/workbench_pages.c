@@ -274,7 +274,8 @@ static const char *const help[] = {
     N_("v  w            verdict and warnings in words"),
     N_("c               cancel the run or the study"),
     N_("1 2 3 4         valve, studies, measured, propellants"),
-    N_("s  S  o  x      save, save as, open, export"),
+    N_("s  S  o         save, save as, open"),
+    N_("x               export: .json, .txt of this screen, .png .svg .pdf .mp4 of a view"),
     N_("Ctrl-L          draw the screen anew; Ctrl-Z suspend"),
     N_("q               quit"),
 };
@@ -292,8 +293,13 @@ static char *popup_text(SbBench *bench, const char **title) {
   case SB_POPUP_VERDICT:
     *title = _("Verdict");
     for (int i = 0; summary != NULL && i < SB_VERDICT_COUNT; i++) {
-      g_autofree char *why = sb_verdict_why(summary, i, &summary->verdict[i]);
-      g_string_append_printf(text, "%s\n\n", why);
+      const SbCaseVerdict verdict = sb_bench_verdict(bench, i);
+      g_autofree char *why = sb_verdict_why(summary, i, &verdict.of);
+      g_string_append(text, why);
+      if (verdict.name != NULL) {
+        g_string_append_printf(text, _("\nCase: %s."), verdict.name);
+      }
+      g_string_append(text, "\n\n");
     }
     break;
   case SB_POPUP_WARNINGS:

@@ -4,7 +4,9 @@
 #pragma once
 
 #include "app/session/autosave.h"
+#include "app/session/cases_job.h"
 #include "app/session/effect_job.h"
+#include "app/session/export_job.h"
 #include "app/session/section_source.h"
 #include "app/session/session.h"
 #include "app/session/study_job.h"
@@ -40,7 +42,7 @@ typedef enum {
   SB_POPUP_RESTORE
 } SbPopup;
 
-enum { SB_HEADING_ROW = -1 };
+enum { SB_HEADING_ROW = -1, SB_PLAY_S = 10 }; // the latter: one cycle
 
 // A line of the list: a parameter, or the heading of those that follow.
 typedef struct {
@@ -101,6 +103,9 @@ typedef struct {
   SbStudyKind job_kind;
   SbStudy *study; // shown, NULL: none yet
   char *study_hash, *job_hash;
+
+  SbExportJob *export; // under way; NULL: none
+  SbCasesJob *cases;   // of the shown run, where the scene has cases; NULL: none
 } SbBench;
 
 // workbench.c
@@ -116,6 +121,8 @@ void sb_bench_move(SbBench *bench, int rows); // the selection
 void sb_bench_select(SbBench *bench, int id);
 
 // workbench_valve.c
+// An answer of the verdict over all cases and the case that gives it (NULL name: the scene itself).
+SbCaseVerdict sb_bench_verdict(SbBench *bench, int kind);
 void sb_bench_draw_header(SbBench *bench);
 void sb_bench_draw_verdict(SbBench *bench, int y);
 void sb_bench_draw_valve(SbBench *bench, SbCellRect rect);
@@ -126,6 +133,9 @@ void sb_bench_draw_page(SbBench *bench, SbCellRect rect);
 void sb_bench_draw_popup(SbBench *bench);
 void sb_bench_study_start(SbBench *bench);
 void sb_bench_study_stop(SbBench *bench);
+
+// workbench_export.c
+void sb_bench_export(SbBench *bench, const char *text); // "loop.png hysteresis"
 
 // workbench_keys.c
 void sb_bench_key(SbBench *bench, const SbKey *key);

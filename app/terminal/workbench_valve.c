@@ -60,6 +60,22 @@ void sb_bench_draw_header(SbBench *bench) {
 
 // Verdict ----------------------------------------------------------------------------------------
 
+SbCaseVerdict sb_bench_verdict(SbBench *bench, int kind) {
+  const SbCaseVerdict *judged =
+      bench->cases != NULL && sb_cases_job_run(bench->cases) == sb_session_run(bench->session)
+          ? sb_cases_job_verdict(bench->cases)
+          : NULL;
+  return judged != NULL ? judged[kind]
+                        : (SbCaseVerdict){sb_session_summary(bench->session)->verdict[kind], NULL};
+}
+
+// "−1.1 N · cold".
+static char *verdict_figure(const SbSummary *summary, int kind, const SbCaseVerdict *verdict) {
+  g_autofree char *figure = sb_verdict_figure_text(summary, kind, &verdict->of);
+  return verdict->name == NULL ? g_steal_pointer(&figure)
+                               : g_strdup_printf("%s · %s", figure, verdict->name);
+}
+
 void sb_bench_draw_verdict(SbBench *bench, int y) {
   const SbChartRun *shown = &sb_session_chart(bench->session)->run;
   const SbSummary *summary = shown->state == SB_CHART_DONE ? shown->summary : NULL;
@@ -69,9 +85,10 @@ void sb_bench_draw_verdict(SbBench *bench, int y) {
   char *figure[SB_VERDICT_COUNT];
   SbAnswer answer[SB_VERDICT_COUNT];
   for (int i = 0; i < SB_VERDICT_COUNT; i++) {
-    const SbVerdict *verdict = summary != NULL ? &summary->verdict[i] : NULL;
-    answer[i] = verdict != NULL ? verdict->ok : SB_ANSWER_UNKNOWN;
-    figure[i] = verdict != NULL ? sb_verdict_figure_text(summary, i, verdict) : g_strdup("");
+    const SbCaseVerdict verdict =
+        summary != NULL ? sb_bench_verdict(bench, i) : (SbCaseVerdict){{0}, NULL};
+    answer[i] = summary != NULL ? verdict.of.ok : SB_ANSWER_UNKNOWN;
+    figure[i] = summary != NULL ? verdict_figure(summary, i, &verdict) : g_strdup("");
   }
   // Short of room, figures of what passes go first, then their words.
   SbCells *cells = &bench->cells;
@@ -470,9 +487,11 @@ void sb_bench_draw_valve(SbBench *bench, SbCellRect rect) {
 
 static char *run_text(SbBench *bench) {
   const SbSummary *summary = sb_session_summary(bench->session);
-  if (sb_session_state(bench->session) == SB_SESSION_RUNNING) {
+  const bool running = sb_session_state(bench->session) == SB_SESSION_RUNNING;
+  if (running || bench->export != NULL) {
     enum { CELLS = 12 };
-    const double share = sb_session_progress(bench->session);
+    const double share =
+        running ? sb_session_progress(bench->session) : sb_export_job_progress(bench->export);
     GString *bar = g_string_new(NULL);
     for (int i = 0; i < CELLS; i++) {
       g_string_append(bar, i < share * CELLS ? "█" : "·");

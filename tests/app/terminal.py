@@ -177,6 +177,33 @@ def test_session():
         same(terminal.stty(), terminal.modes, 'stty after the end')
 
 
+def test_export():
+    """The verdict takes the worst of the scene's cases; what x writes is what `run` writes, and a
+    view as a picture."""
+    with Terminal() as terminal:
+        with open(f'{terminal.folder}/quick-look.scene', 'a', encoding='utf-8') as scene:
+            scene.write('\n[cases]\ncold = canister.pressure=0.1MPa\n')
+        terminal.start('quick-look.scene')
+        terminal.see('✗ Returns .* · cold')
+        for typed, said in (('out.json', 'out.json is written'), ('x.abc', 'x.abc: .json the'),
+                            ('loop.png hysteresis', 'loop.png is written')):
+            terminal.keys('x', 'C-u')
+            terminal.keys('-l', typed)
+            terminal.keys('Enter')
+            terminal.see(said)
+        with open(f'{terminal.folder}/loop.png', 'rb') as picture:
+            same(struct.unpack('>8sI4sII', picture.read(24))[2:], (b'IHDR', 960, 720), 'picture')
+        with open(f'{terminal.folder}/out.json', encoding='utf-8') as out:
+            got = json.load(out)
+        want = json.loads(subprocess.run([PROGRAM, 'run', 'quick-look.scene', '-q', '--json', '-'],
+                                         cwd=terminal.folder, capture_output=True,
+                                         check=True).stdout)
+        same(got['cycle']['verdict']['returns']['case'], 'cold', 'case of the verdict')
+        got.pop('solver')
+        want.pop('solver')  # times
+        same(got, want, 'figures')
+
+
 def test_plain():
     """80 x 24 without colours and in ASCII; other sizes down to nothing and back."""
     with Terminal(80, 24, NO_COLOR='1', LC_ALL='C') as terminal:
@@ -380,7 +407,8 @@ def test_random(count=250, seed=20):
 
 
 def main():
-    tests = [test_session, test_plain, test_signals, test_plots, test_times, test_random]
+    tests = [test_session, test_export, test_plain, test_signals, test_plots, test_times,
+             test_random]
     arguments = ()
     if '--keys' in sys.argv:
         tests, arguments = [test_random], tuple(map(int, sys.argv[sys.argv.index('--keys') + 1:]))

@@ -421,6 +421,12 @@ static void test_cancelled(void) {
                     SB_ERROR_CANCELLED);
     g_assert_cmpstr(report.text, ==, "the study was cancelled");
   }
+  // One without a grid, before it has begun: a sanitizer sees that nothing stays behind.
+  int left = 1;
+  const SbStudyHooks hooks = {NULL, poll_cancels, &left};
+  SbReport report = {0};
+  g_assert_cmpint(sb_study_make(study, SB_STUDY_PROPELLANTS, &model, &hooks, &report), ==,
+                  SB_ERROR_CANCELLED);
 }
 
 static void test_hooks(void) {

@@ -2,7 +2,7 @@
 // behind: no window outlives its closing, and the memory in use stops growing. (Leaks that nothing
 // points to are the sanitizers' to find; this finds what something still points to.)
 #include "ui/window/application.h"
-#include "ui/window/export_job.h"
+#include "app/session/export_job.h"
 #include "ui/window/import_dialog.h"
 #include "ui/window/window.h"
 

@@ -6,7 +6,7 @@
 #include "app/base/translation.h"
 #include "app/export/render.h"
 #include "ui/views/style.h"
-#include "ui/window/export_job.h"
+#include "app/session/export_job.h"
 #include "ui/window/preferences.h"
 
 #include <glib/gi18n.h>

@@ -169,8 +169,8 @@ static void hold_base(SbStudyWork *work) {
   const SbStatus status = sb_model_hold(&held, work->scene, SB_HOLD_MACHINE, &report);
   if (sb_study_goes_on(work, status, &report)) {
     work->base = *held;
-    sb_model_destroy(held);
   }
+  sb_model_destroy(held); // of a study that was cancelled before, too
 }
 
 bool sb_study_has_grid(SbStudyKind kind) {

@@ -1,11 +1,13 @@
 // One export on a thread of its own: the run is complete and immutable, the painter and the trace
 // belong to this thread, so nothing is shared with the window but a counter and a flag.
-#include "ui/window/export_job.h"
+#include "app/session/export_job.h"
 
 #include "app/base/output.h"
 #include "app/data/compare.h"
+#include "app/export/json.h"
 #include "app/export/render_movie.h"
 #include "app/export/report.h"
+#include "app/export/results.h"
 #include "app/session/worker.h"
 #include "app/study/view.h"
 
@@ -188,8 +190,33 @@ static size_t make_studies(SbExportJob *job, SbStudy *out, const SbModel *model)
   return count;
 }
 
-// The pages of `sealbench report`, from a document of this thread's own.
-static bool write_report(SbExportJob *job, const SbDocument *document, GError **error) {
+static bool write_pages(SbExportJob *job, const SbReportScene *scene, GError **error) {
+  const SbReportHooks pages = {on_report_page, job};
+  SbOutput out = {0};
+  if (!sb_output_begin(&out, job->request.path, error)) {
+    return false;
+  }
+  if (!sb_report_scene(out.stream, scene, &pages, error)) {
+    sb_output_abort(&out);
+    return false;
+  }
+  return sb_output_commit(&out, error);
+}
+
+static bool write_json(SbExportJob *job, const SbReportScene *scene, GError **error) {
+  const SbExportRequest *request = &job->request;
+  const SbResultsInfo info = {.scene = request->file != NULL ? request->file : "",
+                              .sha256 = request->hash,
+                              .verdict = scene->verdict,
+                              .measured = scene->measured,
+                              .studies = scene->studies,
+                              .study_count = scene->study_count};
+  g_autofree char *text = sb_results_run(scene->run, &info);
+  return sb_output_write(request->path, text, strlen(text), error);
+}
+
+// What `sealbench run --json` or `sealbench report` writes, with the verdict over all cases.
+static bool write_results(SbExportJob *job, const SbDocument *document, GError **error) {
   const SbRun *run = sb_run_handle_run(job->handle);
   const SbRunHooks hooks = {.cancelled = film_cancelled, .data = job};
   SbCaseVerdict verdict[SB_VERDICT_COUNT];
@@ -207,19 +234,12 @@ static bool write_report(SbExportJob *job, const SbDocument *document, GError **
                                .measured = comparison,
                                .studies = studies,
                                .study_count = make_studies(job, studies, sb_run_model(run))};
-  const SbReportHooks pages = {on_report_page, job};
-  SbOutput out = {0};
-  if (!sb_output_begin(&out, job->request.path, error)) {
-    return false;
-  }
-  if (film_cancelled(job) || !sb_report_scene(out.stream, &scene, &pages, error)) {
-    sb_output_abort(&out);
-    return false;
-  }
-  return sb_output_commit(&out, error);
+  return !film_cancelled(job) &&
+         (sb_output_ends_in(job->request.path, ".json") ? write_json(job, &scene, error)
+                                                        : write_pages(job, &scene, error));
 }
 
-static void make_report(SbExportJob *job) {
+static void make_results(SbExportJob *job) {
   const SbExportRequest *request = &job->request;
   g_autoptr(GError) error = NULL;
   g_autoptr(GPtrArray) issues = sb_issues_new();
@@ -230,7 +250,7 @@ static void make_report(SbExportJob *job) {
           ? sb_document_parse(request->document, strlen(request->document), name, folder, issues)
       : request->file != NULL ? sb_document_load(request->file, issues)
                               : sb_document_new();
-  job->good = document != NULL && write_report(job, document, &error);
+  job->good = document != NULL && write_results(job, document, &error);
   g_autofree char *shown = g_filename_display_basename(request->path);
   g_autofree char *issue =
       document == NULL && issues->len > 0 ? sb_issue_line(issues->pdata[0]) : NULL;
@@ -247,7 +267,7 @@ static void work(void *owner) {
   SbSectionPainter *painter = NULL;
   SbReport report = {0};
   if (strcmp(job->request.view, "report") == 0) {
-    make_report(job);
+    make_results(job);
     return;
   }
   if (sb_section_painter_create(&painter, true, SB_GL_AUTO, &report) != SB_OK) {

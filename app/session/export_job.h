@@ -13,7 +13,7 @@
 typedef struct {
   char *stale;          // why the run no longer fits the values, NULL if it does
   char *path;           // .png, .svg, .pdf, .mp4 for a film, or the pattern of a sequence
-  char *view;           // name in sb_render_views(), or "report"
+  char *view;           // name in sb_render_views(), or "report": the pages, .json the figures
   double width, height; // pixels
   gboolean dark;
   SbSectionStyle style; // of views that show the section
@@ -30,7 +30,7 @@ typedef struct {
   char *pin_name[SB_CHART_PINS]; // as pictures have it
   SbChartMarker *marker;         // `marker_count` of them, with names of their own
   size_t marker_count;
-  // Of a report: the document's file (NULL: it has none), and its text where that differs.
+  // Of a report or .json: the document's file (NULL: it has none), and its text where that differs.
   char *file, *document;
 } SbExportRequest;
 
