@@ -3,10 +3,10 @@
 // workbench_keys.c (keys and mouse).
 #pragma once
 
+#include "app/export/export_job.h"
 #include "app/session/autosave.h"
 #include "app/session/cases_job.h"
 #include "app/session/effect_job.h"
-#include "app/session/export_job.h"
 #include "app/session/section_source.h"
 #include "app/session/session.h"
 #include "app/session/study_job.h"

@@ -1,8 +1,8 @@
 // Windows opened on scenes and closed again, while their run goes and after it, leave nothing
 // behind: no window outlives its closing, and the memory in use stops growing. (Leaks that nothing
 // points to are the sanitizers' to find; this finds what something still points to.)
+#include "app/export/export_job.h"
 #include "ui/window/application.h"
-#include "app/session/export_job.h"
 #include "ui/window/import_dialog.h"
 #include "ui/window/window.h"
 

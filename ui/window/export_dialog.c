@@ -4,9 +4,9 @@
 #include "ui/window/export_dialog.h"
 
 #include "app/base/translation.h"
+#include "app/export/export_job.h"
 #include "app/export/render.h"
 #include "ui/views/style.h"
-#include "app/session/export_job.h"
 #include "ui/window/preferences.h"
 
 #include <glib/gi18n.h>

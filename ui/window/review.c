@@ -2,7 +2,7 @@
 // told at the window's foot.
 #include "ui/window/review.h"
 
-#include "app/session/export_job.h"
+#include "app/export/export_job.h"
 #include "ui/window/preferences.h"
 #include "ui/window/presentation.h"
 #include "ui/window/toast.h"

@@ -1,6 +1,6 @@
 // One export on a thread of its own: the run is complete and immutable, the painter and the trace
 // belong to this thread, so nothing is shared with the window but a counter and a flag.
-#include "app/session/export_job.h"
+#include "app/export/export_job.h"
 
 #include "app/base/output.h"
 #include "app/data/compare.h"
