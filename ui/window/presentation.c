@@ -32,7 +32,8 @@ typedef struct {
   SbSession *session;
   GtkWidget *window, *area;
   SbDrawCache *cache;
-  SbSectionPainter *painter;
+  // By GL where rings have fields and for the cutaway, else by cairo, which is quicker.
+  SbSectionPainter *painter[2];
   guint picture; // of the table
   size_t design; // 0: live, else of a kept one + 1
   guint tick;
@@ -141,15 +142,18 @@ static void draw_picture(Presentation *self, cairo_t *cr, SbRect rect, const SbT
   SbRenderView view = *sb_render_view(cutaway || strcmp(name, "cutaway") != 0 ? name : "section");
   view.width *= pictures[self->picture].share;
   view.height *= pictures[self->picture].share;
+  const SbRun *run = sb_session_run(self->session);
+  SbSectionPainter *painter =
+      self->painter[cutaway || (run != NULL && sb_run_plan(run)->section_fields)];
   if (data->run.model != NULL) {
     SbSectionStyle style = sb_section_style_of(data->run.model);
     style.cutaway = cutaway;
     sb_session_camera(self->session, &style.azimuth, &style.elevation);
-    sb_section_painter_style(self->painter, &style);
+    sb_section_painter_style(painter, &style);
   }
   // GDK may have a context of its own in mind.
   gdk_gl_context_clear_current();
-  sb_render_draw(cr, rect, theme, data, 0, &view, sb_section_painter_draw, self->painter);
+  sb_render_draw(cr, rect, theme, data, 0, &view, sb_section_painter_draw, painter);
 }
 
 // Draws a text of some lines with its top at y; its height.
@@ -309,7 +313,9 @@ static gboolean on_key(GtkWidget *widget, GdkEventKey *event, Presentation *self
 static void on_destroy(GtkWidget *widget, Presentation *self) {
   g_signal_handlers_disconnect_by_data(self->session, self);
   gdk_gl_context_clear_current();
-  g_clear_pointer(&self->painter, sb_section_painter_destroy);
+  for (int gl = 0; gl < 2; gl++) {
+    g_clear_pointer(&self->painter[gl], sb_section_painter_destroy);
+  }
 }
 
 static void presentation_free(gpointer data) {
@@ -322,9 +328,12 @@ void sb_presentation_open(GtkWindow *parent, SbSession *session) {
   Presentation *self = g_new0(Presentation, 1);
   SbReport report = {0};
   gdk_gl_context_clear_current();
-  if (sb_section_painter_create(&self->painter, true, SB_GL_AUTO, &report) != SB_OK) {
-    g_free(self);
-    return;
+  for (int gl = 0; gl < 2; gl++) {
+    if (sb_section_painter_create(&self->painter[gl], gl, SB_GL_AUTO, &report) != SB_OK) {
+      sb_section_painter_destroy(self->painter[0]);
+      g_free(self);
+      return;
+    }
   }
   self->session = g_object_ref(session);
   self->window = gtk_window_new(GTK_WINDOW_TOPLEVEL);
