@@ -314,6 +314,16 @@ void sb_canvas_polyline(SbCanvas *canvas, const SbPoint *point, size_t count) {
   walk(canvas, point, count, true);
 }
 
+double sb_canvas_predicted(SbCanvas *canvas, double right, double y) {
+  const SbTextStyle style = sb_canvas_style(canvas, SB_TYPE_LABEL, 600, SB_ROLE_INK);
+  const double left = right - sb_canvas_text_width(canvas, "predicted", &style) - 8;
+  sb_canvas_pen(canvas, SB_LINE_SEAL, &sb_dash_predicted);
+  sb_canvas_color(canvas, sb_canvas_role(canvas, SB_ROLE_INK), 1);
+  sb_canvas_polyline(canvas, (SbPoint[]){{left - 24, y - 5}, {left, y - 5}}, 2);
+  sb_canvas_text(canvas, "predicted", &style, right, y, SB_RIGHT);
+  return right - left + 24;
+}
+
 void sb_canvas_path(SbCanvas *canvas, const SbPoint *point, size_t count) {
   walk(canvas, point, count, false);
 }

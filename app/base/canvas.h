@@ -85,6 +85,10 @@ void sb_canvas_hairline(SbCanvas *canvas, double x0, double y0, double x1, doubl
 // width and dash are those set; dashes go on from run to run.
 void sb_canvas_polyline(SbCanvas *canvas, const SbPoint *point, size_t count);
 
+// The name of predicted curves behind a piece of one, up to `right` on the line y. Returns its
+// width.
+double sb_canvas_predicted(SbCanvas *canvas, double right, double y);
+
 // Adds the thinned polyline to the current path without stroking.
 void sb_canvas_path(SbCanvas *canvas, const SbPoint *point, size_t count);
 

@@ -38,6 +38,13 @@ typedef struct {
   const double *displacement, *force;
 } SbChartCurve;
 
+// What is predicted of a run that is not solved yet: its loop, and a run of one frame, that which
+// stands where the playhead does, with its contacts' profiles and all figures.
+typedef struct {
+  SbChartCurve loop;
+  SbChartRun run;
+} SbChartPredicted;
+
 // A run that is kept to compare with.
 typedef struct {
   const SbChartRun *run;
@@ -69,7 +76,7 @@ typedef struct {
   SbChartPin pin[SB_CHART_PINS]; // to compare with, `pin_count` of them
   size_t pin_count;
   // What `run`, which is then of former values, will be at the present ones; NULL: not known.
-  const SbChartCurve *predicted;
+  const SbChartPredicted *predicted;
   const SbComparison *measured; // of `run`; NULL: nothing was measured
   const SbChartZoom *zoom;      // of the loop; NULL: all of it
   size_t playhead;              // frame shown

@@ -43,10 +43,11 @@ void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartDat
   for (size_t i = 0; i < data->pin_count; i++) {
     include_run(data->pin[i].run, &x1, &y0, &y1);
   }
-  for (size_t i = 0; data->predicted != NULL && i < data->predicted->count; i++) {
-    x1 = fmax(x1, 1e3 * data->predicted->displacement[i]);
-    y0 = fmin(y0, data->predicted->force[i]);
-    y1 = fmax(y1, data->predicted->force[i]);
+  const SbChartCurve *loop = data->predicted != NULL ? &data->predicted->loop : NULL;
+  for (size_t i = 0; loop != NULL && i < loop->count; i++) {
+    x1 = fmax(x1, 1e3 * loop->displacement[i]);
+    y0 = fmin(y0, loop->force[i]);
+    y1 = fmax(y1, loop->force[i]);
   }
   if (data->measured != NULL) {
     sb_hysteresis_measured_range(data->measured, &x1, &y0, &y1);
@@ -245,7 +246,7 @@ static void draw_other(SbHysteresisView *v, const SbChartRun *run, const SbChart
 
 // The loop that is predicted of the present values, over the paler one of the former: dashed.
 static void draw_predicted(SbHysteresisView *v, SbRect rect) {
-  const SbChartCurve *curve = v->data->predicted;
+  const SbChartCurve *curve = &v->data->predicted->loop;
   SbCanvas *c = &v->canvas;
   const size_t n = curve->count;
   SbPoint *p = g_new(SbPoint, n);
@@ -255,13 +256,9 @@ static void draw_predicted(SbHysteresisView *v, SbRect rect) {
   sb_canvas_pen(c, SB_LINE_SEAL, &sb_dash_predicted);
   sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
   sb_canvas_polyline(c, p, n);
-  // Its name with a piece of it, on the line of the axis' name, where nothing else stands.
-  const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
+  // Named on the line of the axis' name, where nothing else stands.
   const SbRect in = inner_rect(rect, v->flags);
-  const double right = in.x + in.width, y = in.y + (v->flags & SB_CHART_COMPACT ? 34 : 64);
-  const double left = right - sb_canvas_text_width(c, "predicted", &style) - 8;
-  sb_canvas_polyline(c, (SbPoint[]){{left - 24, y - 5}, {left, y - 5}}, 2);
-  sb_canvas_text(c, "predicted", &style, right, y, SB_RIGHT);
+  sb_canvas_predicted(c, in.x + in.width, in.y + (v->flags & SB_CHART_COMPACT ? 34 : 64));
   g_free(p);
 }
 

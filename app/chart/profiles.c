@@ -45,6 +45,14 @@ static SbTraceRange range_of(const SbChartData *data) {
                                                     : fmax(r.film_min, pin.film_min);
     r.film_max = fmax(r.film_max, pin.film_max);
   }
+  for (int i = 0; data->predicted != NULL && i < SB_SEAL_COUNT; i++) {
+    const SbSealFrame *seal = &data->predicted->run.frames[0].seal[i];
+    if (sb_contact_touches(seal)) {
+      r.contact_left = fmin(r.contact_left, seal->contact_left);
+      r.contact_right = fmax(r.contact_right, seal->contact_right);
+      r.pressure_peak_max = fmax(r.pressure_peak_max, seal->pressure_peak);
+    }
+  }
   return r;
 }
 
@@ -288,33 +296,49 @@ static void contact_ends(const SbContactCurve *curve, const SbSealFrame *seal, d
   }
 }
 
-// The pinned runs' curves at the frame that stands where the playhead does.
-static void pinned_curves(Small *s, bool film) {
+// The curve of another run's seal, with the pen and colour in force.
+static void other_curve(Small *s, const SbChartRun *run, const SbSealFrame *seal, bool film) {
   SbCanvas *c = s->canvas;
+  if (!sb_contact_touches(seal) || (film && !(seal->film_central > 0))) {
+    return;
+  }
+  SbContactCurve curve;
+  size_t n = 0;
+  double left, right;
+  sb_contact_curve_init(&curve, run, seal, s->index);
+  contact_ends(&curve, seal, &left, &right);
+  SbPoint *p =
+      film ? film_points(s, &curve, seal, &n) : pressure_points(s, &curve, left, right, &n);
   cairo_save(c->cr);
   cairo_rectangle(c->cr, s->plot.x, s->plot.y, s->plot.width, s->plot.height);
   cairo_clip(c->cr);
+  sb_canvas_polyline(c, p, n);
+  cairo_restore(c->cr);
+  sb_labels_avoid(s->labels, p, n, 0.7);
+  g_free(p);
+  sb_contact_curve_finish(&curve);
+}
+
+// The pinned runs' curves at the frame that stands where the playhead does.
+static void pinned_curves(Small *s, bool film) {
   for (size_t i = 0; i < s->data->pin_count; i++) {
     const SbChartPin *pin = &s->data->pin[i];
-    const SbSealFrame *seal = &pin->run->frames[pin->frame].seal[s->index];
-    if (!sb_contact_touches(seal) || (film && !(seal->film_central > 0))) {
-      continue;
-    }
-    SbContactCurve curve;
-    size_t n = 0;
-    double left, right;
-    sb_contact_curve_init(&curve, pin->run, seal, s->index);
-    contact_ends(&curve, seal, &left, &right);
-    SbPoint *p =
-        film ? film_points(s, &curve, seal, &n) : pressure_points(s, &curve, left, right, &n);
-    sb_canvas_pen(c, SB_LINE_PINNED, sb_chart_pin_dash(pin->look));
-    sb_canvas_color(c, sb_canvas_role(c, sb_chart_pin_role(pin->look)), 1);
-    sb_canvas_polyline(c, p, n);
-    sb_labels_avoid(s->labels, p, n, 0.7);
-    g_free(p);
-    sb_contact_curve_finish(&curve);
+    sb_canvas_pen(s->canvas, SB_LINE_PINNED, sb_chart_pin_dash(pin->look));
+    sb_canvas_color(s->canvas, sb_canvas_role(s->canvas, sb_chart_pin_role(pin->look)), 1);
+    other_curve(s, pin->run, &pin->run->frames[pin->frame].seal[s->index], film);
   }
-  cairo_restore(c->cr);
+}
+
+// A seal's contact as it is predicted of the present values; NULL: not known, or there is none to
+// draw.
+static const SbSealFrame *predicted_seal(const SbChartData *data, int index, bool film) {
+  if (data->predicted == NULL) {
+    return NULL;
+  }
+  const SbChartRun *run = &data->predicted->run;
+  const SbSealFrame *seal = &run->frames[0].seal[index];
+  const bool known = run->profile(run->source, seal->profile) != NULL;
+  return known && sb_contact_touches(seal) && (!film || seal->film_central > 0) ? seal : NULL;
 }
 
 static void pressure_chart(Small *s) {
@@ -675,7 +699,10 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
     g_strlcat(note, "  \xc2\xb7  ", sizeof note);
     g_strlcat(note, model, sizeof note);
   }
-  sb_canvas_text_fit(c, note, &label, in.x + width + 12, in.y + 14, in.width - width - 12);
+  const bool predicted =
+      predicted_seal(data, SB_INNER, film) != NULL || predicted_seal(data, SB_OUTER, film) != NULL;
+  const double key = predicted ? sb_canvas_predicted(c, in.x + in.width, in.y + 14) + 12 : 0;
+  sb_canvas_text_fit(c, note, &label, in.x + width + 12, in.y + 14, in.width - width - 12 - key);
 
   SbTicks xt, yt;
   static const int order[2] = {SB_INNER, SB_OUTER};
@@ -694,13 +721,23 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
                    in.y + (compact ? 34 : 40), SB_LEFT);
     if (film) {
       continuum_band(&s);
-      small_axes(&s, &xt, &yt, true, k == 0);
-      pinned_curves(&s, true);
-      film_chart(&s);
-    } else {
-      small_axes(&s, &xt, &yt, false, k == 0);
-      pinned_curves(&s, false);
-      pressure_chart(&s);
+    }
+    small_axes(&s, &xt, &yt, film, k == 0);
+    pinned_curves(&s, film);
+    // What is predicted is dashed, over the paler curve of the former run.
+    const SbSealFrame *coming = predicted_seal(data, s.index, film);
+    if (data->predicted != NULL) {
+      cairo_push_group(cr);
+    }
+    (film ? film_chart : pressure_chart)(&s);
+    if (data->predicted != NULL) {
+      cairo_pop_group_to_source(cr);
+      cairo_paint_with_alpha(cr, SB_OPACITY_EARLIER);
+    }
+    if (coming != NULL) {
+      sb_canvas_pen(c, SB_LINE_SEAL, &sb_dash_predicted);
+      sb_canvas_color(c, s.color, 1);
+      other_curve(&s, &data->predicted->run, coming, film);
     }
   }
   g_free(labels);

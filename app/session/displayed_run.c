@@ -2,6 +2,8 @@
 // by more than one update, so that a curve and its playhead agree.
 #include "app/session/displayed_run.h"
 
+#include "app/session/tangent.h"
+
 enum { LARGE = 100000 }; // frames
 
 SbDisplayedRun *sb_displayed_run_new(SbRunHandle *handle, const SbParams *params,
@@ -48,6 +50,10 @@ void sb_displayed_run_unref(SbDisplayedRun *shown) {
   }
   sb_trace_destroy(shown->trace);
   g_free(shown->date);
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    sb_tangent_free(shown->tangent[id]);
+  }
+  sb_displayed_run_unref(shown->level);
   GThread *thread = sb_run_capacity(shown->run) > LARGE
                         ? g_thread_try_new("release", release, shown->handle, NULL)
                         : NULL;

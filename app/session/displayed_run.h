@@ -17,7 +17,11 @@ typedef enum {
   SB_GRADE_WHOLE   // cold: the figures of `sealbench run`, to the bit
 } SbRunGrade;
 
-typedef struct {
+// Slopes of a run by a parameter (tangent.h).
+typedef struct SbTangent SbTangent;
+
+typedef struct SbDisplayedRun SbDisplayedRun;
+struct SbDisplayedRun {
   int references;
   SbRunHandle *handle; // owned reference
   const SbRun *run;    // the handle's
@@ -26,7 +30,12 @@ typedef struct {
   SbParams params;     // the values it was made from
   SbRunGrade grade;
   char *date; // of a stored one, "2026-11-23"; else NULL. Owned
-} SbDisplayedRun;
+  // Its slopes so far, owned, found in the background (session_slope.c); whether they were sought
+  // at all; the run of no change that they are found with, owned.
+  SbTangent *tangent[SB_PARAM_COUNT];
+  bool sought[SB_PARAM_COUNT];
+  SbDisplayedRun *level;
+};
 
 // Takes the reference over; the handle's run must exist.
 SbDisplayedRun *sb_displayed_run_new(SbRunHandle *handle, const SbParams *params, SbRunGrade grade);

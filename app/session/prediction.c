@@ -1,16 +1,29 @@
-// Points of the base's thinned trace, moved. See the header.
+// Sums over the parameters that differ. See the header.
 #include "app/session/prediction.h"
 
+#include "engine/valve/figures.h"
+
 #include <math.h>
+#include <string.h>
 
 // How far a tangent is followed, over the base's value.
 static const double REACH = 0.1;
 
+typedef struct {
+  const SbTangent *tangent; // of the base
+  double by;                // [SI]
+} Change;
+
 struct SbPrediction {
-  SbDisplayedRun *base;                      // owned reference, NULL: none
-  SbDisplayedRun *neighbour[SB_PARAM_COUNT]; // owned references, NULL: none
-  GArray *displacement, *force;              // of double
-  SbChartCurve curve;
+  const SbDisplayedRun *base;
+  Change change[SB_PARAM_COUNT];
+  size_t changes;
+  GArray *displacement, *force; // of double
+  SbSummary summary;
+  SbFrame frame;
+  SbContactProfile profile[SB_SEAL_COUNT];
+  double *block[SB_SEAL_COUNT]; // of their arrays, owned
+  SbChartPredicted chart;
 };
 
 SbPrediction *sb_prediction_new(void) {
@@ -20,187 +33,156 @@ SbPrediction *sb_prediction_new(void) {
   return prediction;
 }
 
-static void forget(SbPrediction *prediction) {
-  for (int id = 0; id < SB_PARAM_COUNT; id++) {
-    g_clear_pointer(&prediction->neighbour[id], sb_displayed_run_unref);
-  }
-  prediction->curve = (SbChartCurve){0};
-}
-
 void sb_prediction_free(SbPrediction *prediction) {
   if (prediction != NULL) {
-    forget(prediction);
-    sb_displayed_run_unref(prediction->base);
     g_array_unref(prediction->displacement);
     g_array_unref(prediction->force);
+    for (int i = 0; i < SB_SEAL_COUNT; i++) {
+      g_free(prediction->block[i]);
+    }
     g_free(prediction);
   }
 }
 
-// Whether a value differs by itself; one that only follows its parent does not.
-static bool differs(const SbParams *a, const SbParams *b, int id) {
+bool sb_prediction_differs(const SbParams *a, const SbParams *b, int id) {
   const bool follows = sb_param((SbParamId)id)->parent >= 0 && !a->given[id] && !b->given[id];
   return !follows && sb_params_get(a, (SbParamId)id) != sb_params_get(b, (SbParamId)id);
 }
 
-int sb_prediction_difference(const SbParams *a, const SbParams *b) {
-  int found = -1;
+// Finds what differs; false where one of it has no slopes, or lies too far.
+static bool find_changes(SbPrediction *prediction, const SbDisplayedRun *base,
+                         const SbParams *params) {
+  prediction->base = base;
+  prediction->changes = 0;
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
-    if (differs(a, b, id)) {
-      if (found >= 0 || sb_param((SbParamId)id)->kind != SB_PARAM_REAL) {
-        return -1;
-      }
-      found = id;
+    if (!sb_prediction_differs(&base->params, params, id)) {
+      continue;
     }
-  }
-  return found;
-}
-
-// Whether two runs have the same events in the same order.
-static bool same_events(const SbTrace *a, const SbTrace *b) {
-  size_t count, others;
-  const SbTraceEvent *one = sb_trace_events(a, &count), *other = sb_trace_events(b, &others);
-  bool same = count == others && count > 0;
-  for (size_t i = 0; same && i < count; i++) {
-    same = one[i].stage == other[i].stage && one[i].cycle == other[i].cycle;
-  }
-  return same;
-}
-
-void sb_prediction_take(SbPrediction *prediction, SbDisplayedRun *run) {
-  const SbDisplayedRun *base = prediction->base;
-  const int id = base != NULL && base != run && sb_displayed_run_complete(run)
-                     ? sb_prediction_difference(&base->params, &run->params)
-                     : -1;
-  if (id >= 0 && same_events(base->trace, run->trace)) {
-    sb_displayed_run_unref(prediction->neighbour[id]);
-    prediction->neighbour[id] = sb_displayed_run_ref(run);
-  }
-}
-
-void sb_prediction_set_base(SbPrediction *prediction, SbDisplayedRun *base) {
-  SbDisplayedRun *before = prediction->base;
-  if (base != before) {
-    forget(prediction);
-    prediction->base = sb_displayed_run_ref(base);
-    if (before != NULL) {
-      sb_prediction_take(prediction, before);
+    const double from = sb_params_get(&base->params, (SbParamId)id);
+    const double by = sb_params_get(params, (SbParamId)id) - from;
+    if (base->tangent[id] == NULL || !(fabs(by) <= REACH * fabs(from))) {
+      return false;
     }
-    sb_displayed_run_unref(before);
+    prediction->change[prediction->changes++] = (Change){base->tangent[id], by};
   }
+  return prediction->changes > 0;
 }
 
-bool sb_prediction_knows(const SbPrediction *prediction, SbParamId id) {
-  return prediction->neighbour[id] != NULL;
-}
-
-const SbChartCurve *sb_prediction_curve(const SbPrediction *prediction) {
-  return &prediction->curve;
-}
-
-// A run and where its present stage lies in it, by frames.
-typedef struct {
-  const SbFrame *frames;
-  size_t count, begin, end;
-} Span;
-
-static void to_stage(Span *span, const SbTrace *trace, size_t stage) {
+static void make_loop(SbPrediction *prediction) {
   size_t count;
-  const SbTraceEvent *event = sb_trace_events(trace, &count);
-  span->begin = event[stage].mark.frame;
-  span->end = stage + 1 < count ? event[stage + 1].mark.frame : span->count - 1;
-}
-
-// Displacement and force at a share of a stage's time; of frames at the same time, before and after
-// an event, the last.
-static void at_share(double *displacement, double *force, const Span *span, double share) {
-  const SbFrame *frames = span->frames;
-  const double from = frames[span->begin].time, to = frames[span->end].time;
-  const double time = from + share * (to - from);
-  size_t low = span->begin, high = span->end;
-  while (high > low + 1) {
-    const size_t middle = low + (high - low) / 2;
-    *(frames[middle].time <= time ? &low : &high) = middle;
-  }
-  const SbFrame *a = &frames[low], *b = &frames[high];
-  const double part = b->time > a->time ? fmin((time - a->time) / (b->time - a->time), 1) : 0;
-  *displacement = a->displacement + part * (b->displacement - a->displacement);
-  *force = a->force + part * (b->force - a->force);
-}
-
-// Adds one neighbour's change times `share`.
-static void add(SbPrediction *prediction, const SbDisplayedRun *neighbour, double share) {
-  const SbDisplayedRun *base = prediction->base;
-  Span mine = {base->chart.frames, base->chart.count, 0, 0};
-  Span its = {neighbour->chart.frames, neighbour->chart.count, 0, 0};
-  size_t events, points, stage = 0;
-  const SbTraceEvent *event = sb_trace_events(base->trace, &events);
-  const SbTracePoint *point = sb_trace_points(base->trace, &points);
-  to_stage(&mine, base->trace, 0);
-  to_stage(&its, neighbour->trace, 0);
-  for (size_t i = 0; i < points; i++) {
-    // An event's own frame ends the stage before it.
-    while (stage + 1 < events && point[i].frame > event[stage + 1].mark.frame) {
-      stage++;
-      to_stage(&mine, base->trace, stage);
-      to_stage(&its, neighbour->trace, stage);
-    }
-    double s, f;
-    const double from = mine.frames[mine.begin].time, to = mine.frames[mine.end].time;
-    const bool first = point[i].frame <= mine.begin, last = point[i].frame >= mine.end;
-    if (first || last) {
-      const SbFrame *frame = &its.frames[first ? its.begin : its.end];
-      s = frame->displacement;
-      f = frame->force;
-    } else {
-      at_share(&s, &f, &its, to > from ? (point[i].time - from) / (to - from) : 0);
-    }
-    g_array_index(prediction->displacement, double, i) += share * (s - point[i].displacement);
-    g_array_index(prediction->force, double, i) += share * (f - point[i].force);
-  }
-}
-
-// The share of a neighbour's change that a value wants; NaN: it cannot be predicted.
-static double share_of(const SbPrediction *prediction, const SbParams *params, int id) {
-  const SbDisplayedRun *neighbour = prediction->neighbour[id];
-  if (neighbour == NULL) {
-    return NAN;
-  }
-  const double from = sb_params_get(&prediction->base->params, (SbParamId)id);
-  const double step = sb_params_get(&neighbour->params, (SbParamId)id) - from;
-  const double change = sb_params_get(params, (SbParamId)id) - from;
-  return fabs(change) <= fmax(REACH * fabs(from), fabs(step)) ? change / step : NAN;
-}
-
-bool sb_prediction_make(SbPrediction *prediction, const SbParams *params) {
-  const SbDisplayedRun *base = prediction->base;
-  prediction->curve = (SbChartCurve){0};
-  size_t count = 0;
-  const SbTracePoint *point = base != NULL ? sb_trace_points(base->trace, &count) : NULL;
-  int changed = 0;
-  for (int id = 0; base != NULL && id < SB_PARAM_COUNT; id++) {
-    if (differs(&base->params, params, id)) {
-      if (isnan(share_of(prediction, params, id))) {
-        return false;
-      }
-      changed++;
-    }
-  }
-  if (changed == 0 || count == 0) {
-    return false;
-  }
+  const SbTracePoint *point = sb_trace_points(prediction->base->trace, &count);
   g_array_set_size(prediction->displacement, (guint)count);
   g_array_set_size(prediction->force, (guint)count);
+  double *displacement = (double *)(void *)prediction->displacement->data;
+  double *force = (double *)(void *)prediction->force->data;
   for (size_t i = 0; i < count; i++) {
-    g_array_index(prediction->displacement, double, i) = point[i].displacement;
-    g_array_index(prediction->force, double, i) = point[i].force;
-  }
-  for (int id = 0; id < SB_PARAM_COUNT; id++) {
-    if (differs(&base->params, params, id)) {
-      add(prediction, prediction->neighbour[id], share_of(prediction, params, id));
+    displacement[i] = point[i].displacement;
+    force[i] = point[i].force;
+    for (size_t k = 0; k < prediction->changes; k++) {
+      const Change *change = &prediction->change[k];
+      sb_tangent_add_loop(&displacement[i], &force[i], change->tangent, point[i].frame, change->by);
     }
   }
-  prediction->curve = (SbChartCurve){count, (const double *)prediction->displacement->data,
-                                     (const double *)prediction->force->data};
+  prediction->chart.loop = (SbChartCurve){count, displacement, force};
+}
+
+static void make_figures(SbPrediction *prediction, const SbModel *model) {
+  SbSummary *summary = &prediction->summary;
+  *summary = *sb_run_summary(prediction->base->run);
+  for (int f = 0; f < SB_FIGURE_COUNT; f++) {
+    double *value = (double *)(void *)((char *)summary + sb_figure(f)->offset);
+    for (size_t k = 0; k < prediction->changes; k++) {
+      const Change *change = &prediction->change[k];
+      *value += change->by * sb_tangent_figure(change->tangent, f);
+      const char *why = sb_tangent_reason(change->tangent, f);
+      if (why != NULL) {
+        sb_reason(summary, sb_figure(f)->path, "%s", why);
+      }
+    }
+  }
+  sb_figures_of_model(summary, model);
+  summary->returns = summary->returned > 0;
+  sb_verdict_fill(summary, model);
+}
+
+// `run->profile` of the chart: the predicted frame's profiles are numbered by their seals.
+static const SbContactProfile *profile_of(const void *source, uint32_t index) {
+  const SbPrediction *prediction = source;
+  const bool known = index < SB_SEAL_COUNT && prediction->profile[index].count > 0;
+  return known ? &prediction->profile[index] : NULL;
+}
+
+bool sb_prediction_make(SbPrediction *prediction, const SbDisplayedRun *base,
+                        const SbParams *params, const SbModel *model) {
+  if (!find_changes(prediction, base, params)) {
+    prediction->changes = 0;
+    return false;
+  }
+  make_loop(prediction);
+  make_figures(prediction, model);
+  SbChartRun *run = &prediction->chart.run;
+  memset(run, 0, sizeof *run);
+  run->state = SB_CHART_DONE;
+  run->frames = &prediction->frame;
+  run->count = 1;
+  run->model = model;
+  run->summary = &prediction->summary;
+  run->profile = profile_of;
+  run->source = prediction;
+  sb_prediction_show(prediction, 0);
   return true;
+}
+
+// The profile of a seal in the shown frame; none where one of the changes has no slopes of it.
+static void make_profile(SbPrediction *prediction, int seal, uint32_t index) {
+  SbContactProfile *out = &prediction->profile[seal];
+  const SbContactProfile *base = sb_run_profile(prediction->base->run, index);
+  const size_t n = base->count;
+  double *block = g_renew(double, prediction->block[seal], 4 * n + 1);
+  prediction->block[seal] = block;
+  const SbTangentProfile arrays = {block, block + n, block + 2 * n, block + 3 * n};
+  memcpy(arrays.x, base->x, n * sizeof *block);
+  memcpy(arrays.pressure, base->pressure, n * sizeof *block);
+  memcpy(arrays.film, base->film, n * sizeof *block);
+  memset(arrays.asperity, 0, n * sizeof *block);
+  if (base->asperity_pressure != NULL) {
+    memcpy(arrays.asperity, base->asperity_pressure, n * sizeof *block);
+  }
+  bool known = true;
+  for (size_t k = 0; k < prediction->changes && known; k++) {
+    const Change *change = &prediction->change[k];
+    SbTangentProfile moved = arrays;
+    known = sb_tangent_add_profile(&moved, change->tangent, index, change->by);
+  }
+  *out = (SbContactProfile){.count = known ? n : 0,
+                            .x = arrays.x,
+                            .pressure = arrays.pressure,
+                            .film = arrays.film,
+                            .asperity_pressure =
+                                base->asperity_pressure != NULL ? arrays.asperity : NULL,
+                            .model = base->model};
+}
+
+void sb_prediction_show(SbPrediction *prediction, size_t frame) {
+  const SbDisplayedRun *base = prediction->base;
+  SbFrame *out = &prediction->frame;
+  frame = MIN(frame, base->chart.count - 1);
+  *out = base->chart.frames[frame];
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const uint32_t index = out->seal[i].profile;
+    prediction->profile[i].count = 0;
+    if (index != UINT32_MAX && sb_run_profile(base->run, index) != NULL) {
+      make_profile(prediction, i, index);
+    }
+    out->seal[i].profile = (uint32_t)i;
+    out->seal[i].shape = UINT32_MAX;
+  }
+  for (size_t k = 0; k < prediction->changes; k++) {
+    const Change *change = &prediction->change[k];
+    sb_tangent_add_frame(out, change->tangent, frame, change->by);
+  }
+}
+
+const SbChartPredicted *sb_prediction_chart(const SbPrediction *prediction) {
+  return &prediction->chart;
 }

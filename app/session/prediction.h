@@ -1,37 +1,33 @@
-// What the loop will be at other values, to first order: from a solved run, the base, and
-// neighbours that differ from it in one real parameter each.
+// What loop, contacts and figures will be at other values, to first order, from a solved run, the
+// base, and its slopes by the parameters that differ (tangent.h):
 //
-//   s(p) = s_0 + sum_i (p_i - p_i0) (s_i - s_0)/(p_i1 - p_i0),   s: displacement and force of an
-//   instant
+//   s(p) = s_0 + sum_i (p_i - p_i0) ds/dp_i
 //
-// Instants of two runs correspond where they lie at the same share of the time from one event to
-// the next. Foretold is nothing where a changed value has no neighbour, where it lies further from
-// the base than both its neighbour and a tenth of itself, or where events come or go.
+// Microseconds for each parameter; nothing is solved. Not predicted is anything where a changed
+// value has no slopes (it is no real number, or they are not there yet), or lies further from the
+// base than a tenth of itself; a figure without a slope is NaN and tells why. What follows from the
+// sizes alone is computed at the new values, and so is the verdict, from the predicted figures.
+// Blind to what happens between: slips, nodes of the contact and events that come and go.
 #pragma once
 
-#include "app/session/displayed_run.h"
+#include "app/session/tangent.h"
 
 typedef struct SbPrediction SbPrediction;
 
 SbPrediction *sb_prediction_new(void);
 void sb_prediction_free(SbPrediction *prediction); // takes NULL
 
-// Gives it another base, NULL: none. Neighbours of the one before are forgotten; that one itself
-// becomes a neighbour where it is one.
-void sb_prediction_set_base(SbPrediction *prediction, SbDisplayedRun *base);
+// Predicts the run of `params`, whose model is `model`, from a base that stays as long as the
+// prediction is shown; false where it cannot, or where there is nothing to predict.
+bool sb_prediction_make(SbPrediction *prediction, const SbDisplayedRun *base,
+                        const SbParams *params, const SbModel *model);
 
-// Takes a complete run as a neighbour if it is one; the latest of a parameter counts.
-void sb_prediction_take(SbPrediction *prediction, SbDisplayedRun *run);
+// Whether a real parameter of two sets of values differs by itself; one that only follows its
+// parent does not.
+bool sb_prediction_differs(const SbParams *a, const SbParams *b, int id);
 
-// Whether a parameter has a neighbour.
-bool sb_prediction_knows(const SbPrediction *prediction, SbParamId id);
+// Turns the frame that it shows, with its contacts, to that of a frame of the base.
+void sb_prediction_show(SbPrediction *prediction, size_t frame);
 
-// Predicts the loop at `params`; false where it cannot, or where there is nothing to predict.
-bool sb_prediction_make(SbPrediction *prediction, const SbParams *params);
-
-// What was made last; borrowed until the next call, empty if nothing was.
-const SbChartCurve *sb_prediction_curve(const SbPrediction *prediction);
-
-// The one real parameter in which two sets of values differ; -1 if there is none, another kind, or
-// more than one.
-int sb_prediction_difference(const SbParams *a, const SbParams *b);
+// What was made last; borrowed, its contents until the next call. Only after it was made.
+const SbChartPredicted *sb_prediction_chart(const SbPrediction *prediction);

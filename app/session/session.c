@@ -336,6 +336,8 @@ static void sb_session_class_init(SbSessionClass *class) {
 static void sb_session_init(SbSession *session) {
   session->document = sb_document_new();
   session->last_edited = -1;
+  session->slope_first = -1;
+  session->slope_id = SB_SLOPE_NONE;
   sb_session_init_runs(session);
   compile(session);
 }

@@ -128,7 +128,7 @@ SbSessionState sb_session_state(SbSession *session);
 // Share of the run under way that is done, 0 to 1.
 double sb_session_progress(SbSession *session);
 
-// How long the last edit took until its loop was predicted, and until a run of its values was
+// How long the last edit took until its run was predicted, and until a run of its values was
 // shown, whatever its grade [s]; NaN: it was not, or not yet.
 typedef struct {
   double predicted, shown;
@@ -157,8 +157,8 @@ char *sb_session_grade_text(SbSession *session);
 // Whether the shown run may be exported: it has ended and is a whole one.
 gboolean sb_session_may_keep(SbSession *session);
 
-// An edit of a parameter is about to begin: what its loop will be is made ready in the background,
-// where runs take long.
+// An edit of a parameter is about to begin: what its run will be is made ready in the background,
+// before that of other parameters, where runs take long.
 void sb_session_prepare(SbSession *session, SbParamId id);
 
 // The shown run for others to keep, once it may be kept: a reference for the caller; NULL before.
@@ -166,6 +166,10 @@ SbRunHandle *sb_session_handle(SbSession *session);
 
 // The shown run's summary; NULL while it is computed.
 const SbSummary *sb_session_summary(SbSession *session);
+
+// That of the present values as predicted, figures and verdict, while the shown run is of others
+// (prediction.h); NULL where nothing is predicted. Loop and contacts are in sb_session_chart().
+const SbSummary *sb_session_predicted(SbSession *session);
 
 // Designs that are kept to compare with ----------------------------------------------------------
 //

@@ -163,8 +163,7 @@ SbDisplayedRun *sb_session_pinned_answer(SbSession *session, const SbParams *par
 
 // For the charts ---------------------------------------------------------------------------------
 
-// The frame that stands where the playhead does in the displayed run.
-static size_t frame_of(SbSession *session, const SbDisplayedRun *run) {
+size_t sb_session_frame_of(SbSession *session, const SbDisplayedRun *run) {
   const SbDisplayedRun *shown = session->shown;
   return shown != NULL && session->playhead.frame < shown->chart.count
              ? sb_playhead_same_place(&shown->chart, session->playhead.frame, &run->chart)
@@ -179,7 +178,7 @@ gboolean sb_session_pin_chart(SbSession *session, size_t index, SbChartPin *out)
   *out = (SbChartPin){.run = &pin->run->chart,
                       .name = pin->drawn_name,
                       .look = MAX(pin->slot, 0),
-                      .frame = frame_of(session, pin->run)};
+                      .frame = sb_session_frame_of(session, pin->run)};
   return TRUE;
 }
 
@@ -191,7 +190,7 @@ SbRunHandle *sb_session_pin_handle(SbSession *session, size_t index) {
 void sb_session_place_pins(SbSession *session) {
   SbChartData *chart = &session->chart;
   for (size_t i = 0; i < chart->pin_count; i++) {
-    chart->pin[i].frame = frame_of(session, pin_at(session, session->drawn[i])->run);
+    chart->pin[i].frame = sb_session_frame_of(session, pin_at(session, session->drawn[i])->run);
   }
 }
 

@@ -77,6 +77,7 @@ void sb_session_play(SbSession *session, gboolean on) {
   const SbFrame *frames = sb_session_frames(session, &count);
   sb_playhead_play(&session->playhead, frames, count, on);
   sb_session_playhead_changed(session);
+  sb_session_find_slopes(session);
 }
 
 gboolean sb_session_loops(SbSession *session) {

@@ -9,6 +9,7 @@
 #include "app/session/prediction.h"
 #include "app/session/run_cache.h"
 #include "app/session/session.h"
+#include "app/session/tangent.h"
 
 typedef enum {
   SB_SIGNAL_PARAMS,
@@ -48,14 +49,17 @@ struct _SbSession {
   SbRunCache *cache;
   char *runs; // folder of kept runs, owned; NULL: those that ship
 
-  // What other values' rings start from, and what is predicted of their loops.
+  // What other values' rings start from, and what is predicted of their runs.
   SbDisplayedRun *base; // the last whole run of solved rings, NULL: none
   SbPrediction *prediction;
-  gboolean predicted;    // its curve is of the present values
-  SbRunner *slopes;      // owned, NULL until it is needed
-  unsigned slope_ticket; // of the neighbour under way; 0 if none is
-  SbParamId slope_id;
-  SbParams slope_params;
+  gboolean predicted;       // it is of the present values
+  SbRunner *slopes;         // owned, NULL until it is needed
+  unsigned slope_ticket;    // of the run beside the base under way; 0 if none is
+  int slope_id;             // its parameter, SB_SLOPE_LEVEL of no change
+  SbParams slope_params;    // its values
+  SbDisplayedRun *slope_up; // that to the one side, while the other is under way; NULL: none
+  bool slope_down;          // the other side is what is under way
+  int slope_first;          // parameter that is edited: the first whose slopes are found; -1: none
 
   // Kept designs, one a pin of the document.
   GPtrArray *pins;             // see session_pins.c
@@ -130,15 +134,21 @@ void sb_session_clear_measured(SbSession *session);
 // SbRunnerNotify; `data` is the session's inbox.
 void sb_session_notify(void *data);
 
-// Predicts the loop of the present values, if the shown one is not theirs.
+// Predicts the run of the present values, if the shown one is not theirs; turns it to the playhead.
 void sb_session_predict(SbSession *session);
+void sb_session_place_predicted(SbSession *session);
 
-// Takes a complete run as the base, or as a neighbour of it, if it is one.
+// Takes a complete run as the base, if it is one.
 void sb_session_set_base(SbSession *session, SbDisplayedRun *run);
 void sb_session_drop_base(SbSession *session);
 
-// Looks whether a neighbour is there.
+// Looks whether a run beside the base is there; goes on with what is wanted of them now.
+enum { SB_SLOPE_LEVEL = -1, SB_SLOPE_NONE = -2 };
 void sb_session_poll_slope(SbSession *session);
+void sb_session_find_slopes(SbSession *session);
+
+// The frame of a run that stands where the playhead does in the displayed one.
+size_t sb_session_frame_of(SbSession *session, const SbDisplayedRun *run);
 
 // The window shows everything: the views of the scene do not limit it.
 #define SB_SESSION_VIEWS (SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION)

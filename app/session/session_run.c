@@ -158,7 +158,7 @@ static void go_on(SbSession *session) {
   }
 }
 
-// A complete run for others: by its values, as a neighbour, as the base of rings and of tangents.
+// A complete run for others: by its values, as the base of rings and of slopes.
 static void keep(SbSession *session, SbDisplayedRun *run) {
   if (run->grade > SB_GRADE_COARSE) {
     g_autofree char *hash = sb_document_sha256(session->document);
@@ -496,8 +496,12 @@ void sb_session_tick(SbSession *session, gint64 now) {
   }
   size_t count = 0;
   const SbFrame *frames = sb_session_frames(session, &count);
+  const gboolean played = session->playhead.playing;
   if (sb_playhead_tick(&session->playhead, frames, count, now) || more) {
     sb_session_playhead_changed(session);
+  }
+  if (played && !session->playhead.playing) {
+    sb_session_find_slopes(session);
   }
 }
 
@@ -517,6 +521,7 @@ static void drop_runs(SbSession *session) {
   sb_session_hold(&session->shown, NULL);
   sb_session_hold(&session->earlier, NULL);
   sb_session_drop_base(session);
+  session->slope_first = -1;
   sb_run_cache_clear(session->cache);
   g_clear_pointer(&session->failure, g_free);
   bool loops = session->playhead.loops;
@@ -559,6 +564,7 @@ void sb_session_dispose_runs(SbSession *session) {
   cancel_source(&session->debounce);
   cancel_source(&session->later);
   g_clear_pointer(&session->runner, sb_runner_destroy);
+  sb_session_drop_base(session);
   g_clear_pointer(&session->slopes, sb_runner_destroy);
   sb_session_dispose_pins(session);
   session->inbox->session = NULL;

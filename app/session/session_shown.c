@@ -54,7 +54,7 @@ void sb_session_refresh_chart(SbSession *session) {
     chart->run.model = sb_session_model(session);
   }
   chart->earlier = session->earlier != NULL ? &session->earlier->chart : NULL;
-  chart->predicted = session->predicted ? sb_prediction_curve(session->prediction) : NULL;
+  chart->predicted = session->predicted ? sb_prediction_chart(session->prediction) : NULL;
   chart->measured = sb_session_compare(session);
   chart->playhead = session->playhead.frame;
   chart->playing = session->playhead.playing;
@@ -77,6 +77,7 @@ void sb_session_run_changed(SbSession *session) {
     session->edited = 0;
   }
   sb_session_refresh_chart(session);
+  sb_session_find_slopes(session);
   sb_session_emit(session, SB_SIGNAL_RUN);
 }
 
@@ -84,6 +85,7 @@ void sb_session_playhead_changed(SbSession *session) {
   session->chart.playhead = session->playhead.frame;
   session->chart.playing = session->playhead.playing;
   sb_session_place_pins(session);
+  sb_session_place_predicted(session);
   sb_session_emit(session, SB_SIGNAL_PLAYHEAD);
 }
 

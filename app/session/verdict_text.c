@@ -26,6 +26,12 @@ static const struct {
     [SB_VERDICT_FITS] = {NC_("verdict", "Fits"), "seals.outer.squeeze", SB_STAGE_A, 0},
 };
 
+const SbSummary *sb_verdict_summary(SbSession *session) {
+  const SbSummary *predicted = sb_session_predicted(session);
+  const SbChartRun *shown = &sb_session_chart(session)->run;
+  return predicted != NULL ? predicted : shown->state == SB_CHART_DONE ? shown->summary : NULL;
+}
+
 const char *sb_verdict_word(int kind) {
   return g_dpgettext2(NULL, "verdict", questions[kind].word);
 }

@@ -3,6 +3,10 @@
 
 #include "app/session/session.h"
 
+// The summary whose verdict is shown: what is predicted of the present values, else the shown
+// run's; NULL while that is computed.
+const SbSummary *sb_verdict_summary(SbSession *session);
+
 // "Seals", "Presses", ...; borrowed.
 const char *sb_verdict_word(int kind);
 

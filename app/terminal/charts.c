@@ -189,7 +189,7 @@ void sb_chart_loop(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
     draw_run(&plot, pin->run, &line);
   }
   if (data->predicted != NULL) {
-    draw_predicted(&plot, data->predicted,
+    draw_predicted(&plot, &data->predicted->loop,
                    &(SbPlotLine){.ink = theme->role[SB_ROLE_SECOND], .rank = 4, .on = 1, .off = 2});
   }
   draw_run(&plot, &data->run, &(SbPlotLine){theme->role[SB_ROLE_INK], 5, SB_CELL_BOLD, 0, 0});

@@ -77,11 +77,11 @@ static char *verdict_figure(const SbSummary *summary, int kind, const SbCaseVerd
 }
 
 void sb_bench_draw_verdict(SbBench *bench, int y) {
-  const SbChartRun *shown = &sb_session_chart(bench->session)->run;
-  const SbSummary *summary = shown->state == SB_CHART_DONE ? shown->summary : NULL;
+  const SbSummary *summary = sb_verdict_summary(bench->session);
+  const bool predicted = sb_session_predicted(bench->session) != NULL;
   static const uint32_t sign[] = {
       [SB_ANSWER_UNKNOWN] = 0x2013, [SB_ANSWER_NO] = 0x2717, [SB_ANSWER_YES] = 0x2713};
-  const bool former = sb_session_shows_former(bench->session);
+  const bool former = sb_session_shows_former(bench->session) || predicted;
   char *figure[SB_VERDICT_COUNT];
   SbAnswer answer[SB_VERDICT_COUNT];
   for (int i = 0; i < SB_VERDICT_COUNT; i++) {
@@ -92,9 +92,10 @@ void sb_bench_draw_verdict(SbBench *bench, int y) {
   }
   // Short of room, figures of what passes go first, then their words.
   SbCells *cells = &bench->cells;
+  const char *note = predicted ? _("predicted") : "";
   int level = 0;
   for (; level < 3; level++) {
-    int need = 0;
+    int need = sb_cells_width(cells, note);
     for (int i = 0; i < SB_VERDICT_COUNT; i++) {
       const bool fails = answer[i] == SB_ANSWER_NO;
       const int words = sb_cells_width(cells, sb_verdict_word(i)) + 1;
@@ -134,6 +135,7 @@ void sb_bench_draw_verdict(SbBench *bench, int y) {
     x += 3 + (start == x);
     g_free(figure[i]);
   }
+  sb_cells_text(cells, x, y, cells->columns - x, note, sb_bench_pen(bench, SB_ROLE_WARN, 0));
 }
 
 // Figures beside the loop ------------------------------------------------------------------------
@@ -175,7 +177,8 @@ static void draw_bar(SbBench *bench, SbCellRect rect, int y, const char *name, d
 
 static void draw_now(SbBench *bench, SbCellRect rect) {
   const SbChartData *data = sb_session_chart(bench->session);
-  const SbFrame *frame = sb_chart_frame(data);
+  const SbChartPredicted *predicted = data->predicted;
+  const SbFrame *frame = predicted != NULL ? predicted->run.frames : sb_chart_frame(data);
   if (frame == NULL || rect.height < 2) {
     return;
   }
@@ -184,8 +187,9 @@ static void draw_now(SbBench *bench, SbCellRect rect) {
   int y = rect.y;
   g_autofree char *phase = g_strdup_printf("%s, %s", sb_chart_span(&data->run, frame->stage),
                                            sb_chart_phase(&data->run, frame->stage));
-  const int word = sb_cells_text(cells, rect.x, y, rect.width, _("Now"),
-                                 sb_bench_pen(bench, SB_ROLE_NOW, SB_CELL_BOLD));
+  const int word =
+      sb_cells_text(cells, rect.x, y, rect.width, predicted != NULL ? _("Predicted") : _("Now"),
+                    sb_bench_pen(bench, SB_ROLE_NOW, SB_CELL_BOLD));
   sb_cells_text(cells, rect.x + word + 2, y, rect.width - word - 2, phase,
                 sb_bench_pen(bench, SB_ROLE_NOW, 0));
   y++;
@@ -241,7 +245,11 @@ static void draw_table(SbBench *bench, SbCellRect rect) {
   const SbPen plain = sb_bench_pen(bench, SB_ROLE_SECOND, 0);
   const int live = rect.x + 13, each = 8;
   sb_cells_text(cells, rect.x, rect.y, 12, _("Compare"), bold);
-  sb_cells_text_right(cells, live, rect.y, 7, _("live"), bold);
+  const SbSummary *predicted = sb_session_predicted(bench->session);
+  const SbSummary *summary = predicted != NULL ? predicted : data->run.summary;
+  const SbPen own = predicted != NULL ? sb_bench_pen(bench, SB_ROLE_WARN, 0) : bold;
+  sb_cells_text_right(cells, live - 2, rect.y, 9,
+                      predicted != NULL ? C_("column", "predicted") : _("live"), own);
   for (size_t i = 0; i < data->pin_count; i++) {
     // The end of a name tells it from others: "1.63 mm".
     const char *name = data->pin[i].name;
@@ -254,8 +262,8 @@ static void draw_table(SbBench *bench, SbCellRect rect) {
   for (size_t i = 0; i < G_N_ELEMENTS(compared) && y < rect.y + rect.height; i++, y++) {
     char number[SB_FORMAT_MAX];
     sb_cells_text(cells, rect.x, y, 13, _(compared[i].label), plain);
-    figure_number(number, data->run.summary, compared[i].figure);
-    sb_cells_text_right(cells, live, y, 7, number, bold);
+    figure_number(number, summary, compared[i].figure);
+    sb_cells_text_right(cells, live, y, 7, number, own);
     for (size_t k = 0; k < data->pin_count; k++) {
       figure_number(number, data->pin[k].run->summary, compared[i].figure);
       sb_cells_text_right(cells, live + 7 + (int)k * each, y, each, number,
@@ -430,7 +438,8 @@ static void draw_loop(SbBench *bench, SbCellRect rect) {
   g_autofree char *former = sb_session_former_text(bench->session);
   g_autofree char *grade = sb_session_grade_text(bench->session);
   sb_cells_text(cells, rect.x + title + 2, rect.y, rect.width - title - 2,
-                former != NULL               ? former
+                data.predicted != NULL       ? _("dotted: predicted")
+                : former != NULL             ? former
                 : grade != NULL              ? grade
                 : sb_chart_is_rig(&data.run) ? _("N over s")
                                              : _("N over mm"),

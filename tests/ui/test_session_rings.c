@@ -4,6 +4,7 @@
 
 #include "app/session/session_private.h"
 #include "app/session/stored_run.h"
+#include "engine/valve/figures.h"
 #include "tests/sanitized.h"
 
 #include <glib/gstdio.h>
@@ -86,10 +87,20 @@ static void at_stage_c(SbSession *session) {
 // Waits for what sb_session_prepare() has begun.
 static void prepare(SbSession *session, SbParamId id) {
   sb_session_prepare(session, id);
-  while (session->slope_ticket != 0) {
+  while (!session->base->sought[id]) {
     turn(session);
   }
 }
+
+// Processor time of this thread [s].
+static double own_seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+// What a prediction or an edit with one may take [s].
+static const double OWN_MOST = SB_SANITIZED ? 0.1 : 5e-3;
 
 // Opens the values of session_with_rings() with a folder of kept runs; whether one was shown.
 static gboolean opens_stored(const char *folder, SbSession *whole) {
@@ -184,19 +195,16 @@ static void test_order(void) {
   const double force_before = sb_session_summary(session)->stage[SB_STAGE_C].force;
   prepare(session, SB_P_GLAND_RADIAL_SPACE);
 
-  struct timespec from, to;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &from);
+  const double from = own_seconds();
   sb_session_edit(session, SB_P_GLAND_RADIAL_SPACE, "1.3668 mm"); // +0.5 %
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &to);
-  const double own =
-      1e3 * (double)(to.tv_sec - from.tv_sec) + 1e-6 * (double)(to.tv_nsec - from.tv_nsec);
-  g_test_message("own work of an edit with its prediction %.2f ms", own);
-  g_assert_cmpfloat(own, <, SB_SANITIZED ? 100 : 5);
+  const double own = own_seconds() - from;
+  g_test_message("own work of an edit with its prediction %.2f ms", 1e3 * own);
+  g_assert_cmpfloat(own, <, OWN_MOST);
   g_assert_true(sb_session_run(session) == before);
   g_assert_true(sb_session_shows_former(session));
   g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_RUNNING);
-  const SbChartCurve *curve = sb_session_chart(session)->predicted;
-  g_assert_nonnull(curve);
+  g_assert_nonnull(sb_session_chart(session)->predicted);
+  const SbChartCurve *curve = &sb_session_chart(session)->predicted->loop;
   const SbTrace *trace = sb_session_chart(session)->run.trace;
   const double predicted =
       curve->force[sb_trace_find(trace, sb_trace_marks(trace)[SB_STAGE_C].frame)];
@@ -234,7 +242,15 @@ static void test_order(void) {
   g_assert_cmpfloat(fabs(near_load / whole->seal[SB_OUTER].load - 1), <, whole->error_load);
   const double force = whole->stage[SB_STAGE_C].force, change = force - force_before;
   g_test_message("force at C %.4f N, predicted %.4f N, change %.4f N", force, predicted, change);
-  g_assert_cmpfloat(fabs(predicted - force), <, 0.3 * fabs(change));
+  g_assert_cmpfloat(fabs(predicted - force), <, 0.1 * fabs(change));
+
+  // Slopes of the base before are none of this one.
+  g_assert_true(session->base->run == sb_session_run(session));
+  g_assert_null(session->base->tangent[SB_P_GLAND_RADIAL_SPACE]);
+  sb_session_edit(session, SB_P_GLAND_RADIAL_SPACE, "1.367 mm");
+  g_assert_null(sb_session_chart(session)->predicted);
+  g_assert_null(sb_session_predicted(session));
+  sb_session_undo(session);
 
   const SbRun *after = sb_session_run(session);
   sb_session_undo(session);
@@ -249,8 +265,17 @@ static void test_order(void) {
   g_assert_true(sb_session_may_keep(session));
   g_assert_false(sb_session_wants_ticks(session));
 
-  // What has no neighbour is not predicted, nor is what lies far off.
-  sb_session_edit(session, SB_P_SEAL_MODULUS, "2.6 MPa");
+  // What is under way for one base is dropped with it; that one still has its own slopes.
+  sb_session_prepare(session, SB_P_GLAND_AXIAL_WIDTH);
+  const unsigned ticket = session->slope_ticket;
+  g_assert_cmpuint(ticket, !=, 0);
+  sb_session_undo(session);
+  g_assert_true(session->base->run == before);
+  g_assert_cmpuint(session->slope_ticket, !=, ticket);
+  g_assert_nonnull(session->base->tangent[SB_P_GLAND_RADIAL_SPACE]);
+
+  // What has no slopes is not predicted, nor is what lies far off.
+  sb_session_edit(session, SB_P_MODELS_SURFACE, "persson");
   g_assert_null(sb_session_chart(session)->predicted);
   g_assert_true(sb_session_shows_former(session));
   sb_session_undo(session);
@@ -258,6 +283,201 @@ static void test_order(void) {
   g_assert_nonnull(sb_session_chart(session)->predicted);
   sb_session_edit(session, SB_P_GLAND_RADIAL_SPACE, "1.2 mm");
   g_assert_null(sb_session_chart(session)->predicted);
+}
+
+// A base with the slopes of all main parameters.
+static SbSession *session_with_slopes(void) {
+  SbSession *session = session_with_rings();
+  sb_session_start(session);
+  g_array_unref(settle(session));
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    while (sb_param_is_main((SbParamId)id) && sb_param((SbParamId)id)->kind == SB_PARAM_REAL &&
+           !session->base->sought[id]) {
+      turn(session);
+    }
+  }
+  return session;
+}
+
+// Predicts a change of one parameter of the session's base by a share of it, and solves it, rings
+// next to the base's.
+static const SbChartPredicted *predict(SbSession *session, SbParamId id, double share,
+                                       SbRun **solved) {
+  SbParams params = session->base->params;
+  SbModel *model = NULL;
+  const SbOverride moved = {id, sb_params_get(&params, id) * (1 + share)};
+  g_assert_cmpint(sb_params_set(&params, id, moved.value, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_derive(&model, sb_run_model(session->base->run), &moved, 1, NULL), ==,
+                  SB_OK);
+  const double from = own_seconds();
+  g_assert_true(sb_prediction_make(session->prediction, session->base, &params, model));
+  const double own = own_seconds() - from;
+  g_test_message("%s %+g %%: predicted in %.3f ms", sb_param(id)->key, 100 * share, 1e3 * own);
+  g_assert_cmpfloat(own, <, OWN_MOST);
+  SbPlan plan;
+  sb_plan_wished(&plan, model, &(SbPlanWishes){.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES});
+  g_assert_cmpint(sb_run_create(solved, model, &plan, NULL), ==, SB_OK);
+  sb_run_start_from(*solved, session->base->run);
+  g_assert_cmpint(sb_run_execute(*solved, NULL, NULL), ==, SB_OK);
+  sb_run_start_from(*solved, NULL);
+  sb_model_destroy(model);
+  return sb_prediction_chart(session->prediction);
+}
+
+// Predicted less solved, over the base's value; and in *change what the value changes by.
+static double off(double *change, const SbSession *session, const SbChartPredicted *predicted,
+                  const SbRun *solved, int figure) {
+  const double base = sb_figure_value(sb_run_summary(session->base->run), figure);
+  const double now = sb_figure_value(sb_run_summary(solved), figure);
+  *change = now / base - 1;
+  return (sb_figure_value(predicted->run.summary, figure) - now) / base;
+}
+
+static double peak_of(const SbContactProfile *profile) {
+  double peak = 0;
+  for (size_t i = 0; i < profile->count; i++) {
+    peak = fmax(peak, profile->pressure[i]);
+  }
+  return peak;
+}
+
+static double film_in_the_middle(const SbContactProfile *profile, const SbSealFrame *seal) {
+  const double x = 0.5 * (seal->contact_left + seal->contact_right);
+  size_t i = 1;
+  while (i + 1 < profile->count && profile->x[i] < x) {
+    i++;
+  }
+  const double part = (x - profile->x[i - 1]) / (profile->x[i] - profile->x[i - 1]);
+  return profile->film[i - 1] + part * (profile->film[i] - profile->film[i - 1]);
+}
+
+// The verdict is that of the predicted figures, sizes are those of the present values.
+static void check_verdict(SbSession *session) {
+  sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, "1.65 mm");
+  const SbSummary *predicted = sb_session_predicted(session), *was = sb_session_summary(session);
+  g_assert_nonnull(predicted);
+  g_assert_cmpfloat(predicted->seal[SB_OUTER].squeeze, ==,
+                    sb_model_seal(sb_session_model(session), SB_OUTER)->squeeze);
+  g_assert_cmpfloat(predicted->seal[SB_OUTER].load, >, was->seal[SB_OUTER].load);
+  g_assert_cmpint(predicted->verdict[SB_VERDICT_SEALS].ok, ==, SB_ANSWER_YES);
+  const SbVerdict *seals = &predicted->verdict[SB_VERDICT_SEALS];
+  g_assert_cmpfloat(seals->value, ==, sb_figure_value(predicted, seals->figure));
+  sb_session_undo(session);
+  g_assert_null(sb_session_predicted(session));
+}
+
+// Moves a parameter of the base in a copy of its run of no change.
+static SbDisplayedRun level_at(const SbSession *session, SbParamId id, double share) {
+  SbDisplayedRun run = *session->base->level;
+  const double value = sb_params_get(&run.params, id);
+  g_assert_cmpint(sb_params_set(&run.params, id, value * (1 + share), NULL), ==, SB_OK);
+  return run;
+}
+
+// A base to one side of which nothing changes has a kink there: such figures, and the answers that
+// hang on them, are told as not predicted; those that change to neither side are known.
+static void check_kink(SbSession *session) {
+  SbDisplayedRun *base = session->base;
+  const SbParamId id = SB_P_SEAL_MODULUS;
+  const SbDisplayedRun up = level_at(session, id, SB_TANGENT_STEP);
+  const SbDisplayedRun still = level_at(session, id, -SB_TANGENT_STEP);
+  const SbOverride moved = {id, sb_params_get(&still.params, id)};
+  SbModel *model = NULL;
+  SbRun *run = NULL;
+  SbPlan plan;
+  g_assert_cmpint(sb_model_derive(&model, sb_run_model(base->run), &moved, 1, NULL), ==, SB_OK);
+  sb_plan_wished(&plan, model, &(SbPlanWishes){.views = SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES});
+  g_assert_cmpint(sb_run_create(&run, model, &plan, NULL), ==, SB_OK);
+  sb_run_predict_from(run, base->run);
+  g_assert_cmpint(sb_run_execute(run, NULL, NULL), ==, SB_OK);
+  SbDisplayedRun *down = sb_displayed_run_new(sb_run_handle_of(run), &still.params, SB_GRADE_NEAR);
+  sb_displayed_run_update(down, G_MAXSIZE);
+  sb_model_destroy(model);
+  const SbTangentRuns bent = {base->level, &up, down}, flat = {base->level, &up, &still};
+  SbTangent *none = sb_tangent_new(base, &flat, id);
+  const int load = sb_figure_find("seals.outer.load_N");
+  g_assert_cmpfloat(sb_tangent_figure(none, load), ==, 0);
+  sb_tangent_free(none);
+
+  sb_tangent_free(base->tangent[id]);
+  base->tangent[id] = sb_tangent_new(base, &bent, id);
+  sb_session_edit(session, id, "2.52 MPa");
+  const SbSummary *predicted = sb_session_predicted(session);
+  g_assert_nonnull(predicted);
+  g_assert_true(isnan(sb_figure_value(predicted, load)));
+  g_assert_nonnull(strstr(sb_figure_reason(predicted, load), "kink"));
+  g_assert_cmpint(predicted->verdict[SB_VERDICT_SEALS].ok, ==, SB_ANSWER_UNKNOWN);
+  g_assert_nonnull(strstr(predicted->verdict[SB_VERDICT_SEALS].reason, "kink"));
+  const int returns = sb_figure_find("cycle.returns");
+  g_assert_cmpfloat(sb_figure_value(predicted, returns), ==,
+                    sb_figure_value(sb_session_summary(session), returns));
+  sb_displayed_run_unref(down);
+}
+
+// Predicted against solved: a prediction errs in second order, so twice the change has four times
+// the error (2.5 to 6 are allowed for the third order), and a few per cent of a change by 1 %.
+static void test_predicted(void) {
+  g_autoptr(SbSession) session = session_with_slopes();
+  static const struct {
+    SbParamId id;
+    const char *figure;
+    double most; // of the error over the change, at 1 % and at 5 %
+    double far;
+    bool order; // its error is well above the solved runs' scatter
+  } cases[] = {
+      {SB_P_SEAL_SECTION_DIAMETER, "seals.outer.load_N", 0.06, 0.25, true},
+      {SB_P_SEAL_SECTION_DIAMETER, "seals.outer.film_central_m", 0.1, 0.4, true},
+      {SB_P_SEAL_SECTION_DIAMETER, "cycle.force_breakaway_N", 0.06, 0.25, true},
+      {SB_P_SEAL_MODULUS, "seals.inner.load_N", 0.01, 0.01, false},
+      {SB_P_SEAL_MODULUS, "cycle.force_breakaway_N", 0.01, 0.01, false},
+      {SB_P_SEAL_MODULUS, "cycle.energy_loss_J", 0.01, 0.02, false},
+  };
+  static const double shares[] = {0.005, 0.01, 0.05};
+  static const SbParamId ids[] = {SB_P_SEAL_SECTION_DIAMETER, SB_P_SEAL_MODULUS};
+  double error[G_N_ELEMENTS(cases)][G_N_ELEMENTS(shares)];
+  for (size_t p = 0; p < G_N_ELEMENTS(ids); p++) {
+    for (size_t k = 0; k < G_N_ELEMENTS(shares); k++) {
+      SbRun *solved = NULL;
+      const SbChartPredicted *predicted = predict(session, ids[p], shares[k], &solved);
+      for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+        if (cases[i].id == ids[p]) {
+          double change;
+          error[i][k] = off(&change, session, predicted, solved, sb_figure_find(cases[i].figure));
+          g_test_message("  %s: changes by %.2e, off by %.1e", cases[i].figure, change,
+                         error[i][k]);
+          const double most = shares[k] > 0.02 ? cases[i].far : cases[i].most;
+          g_assert_cmpfloat(fabs(error[i][k]), <, most * fabs(change));
+        }
+      }
+      // The contact of the frame that the base shows at the middle of B to C.
+      const SbDisplayedRun *base = session->base;
+      const SbStageMark *b = sb_trace_mark(base->trace, SB_STAGE_B, 0);
+      const size_t frame = (b->frame + sb_trace_mark(base->trace, SB_STAGE_C, 0)->frame) / 2;
+      sb_prediction_show(session->prediction, frame);
+      const uint32_t index = base->chart.frames[frame].seal[SB_OUTER].profile;
+      const SbSealFrame *seal = &predicted->run.frames[0].seal[SB_OUTER];
+      const SbContactProfile *was = sb_run_profile(base->run, index);
+      const SbContactProfile *is = sb_run_profile(solved, index);
+      const SbContactProfile *mine = predicted->run.profile(predicted->run.source, seal->profile);
+      g_assert_nonnull(mine);
+      const double peak = peak_of(is), change = peak - peak_of(was);
+      g_assert_cmpfloat(fabs(peak_of(mine) - peak), <, 0.1 * fabs(change));
+      g_assert_cmpfloat(fabs(peak_of(mine) - seal->pressure_peak), <, 1e-2 * peak);
+      const double film = film_in_the_middle(mine, seal);
+      g_assert_cmpfloat(fabs(film / seal->film_central - 1), <, 0.03);
+      sb_run_destroy(solved);
+    }
+  }
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    const double ratio = error[i][1] / error[i][0];
+    if (cases[i].order) {
+      g_test_message("%s: twice the change, %.2f times the error", cases[i].figure, ratio);
+      g_assert_cmpfloat(ratio, >, 2.5);
+      g_assert_cmpfloat(ratio, <, 6);
+    }
+  }
+  check_verdict(session);
+  check_kink(session);
 }
 
 // Edits in a row: only the last one's runs are shown. Stopped before the whole run, the near one
@@ -330,6 +550,7 @@ static void test_coarse(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/session-rings/order", test_order);
+  g_test_add_func("/session-rings/predicted", test_predicted);
   g_test_add_func("/session-rings/cancel", test_cancel);
   g_test_add_func("/session-rings/coarse", test_coarse);
   return g_test_run();

@@ -1,6 +1,7 @@
 // What follows from the values of the displayed run: squeeze, stretch and gland fill from its
 // model, the return force from its result, so that all are of one run; before the first run those
-// of the values at once. (gland_panel.c follows the values.) Each has a bar with the recommended
+// of the values at once. While values differ from that run and what they give is predicted, it is
+// that, paler and named so. (gland_panel.c follows the values.) Each has a bar with the recommended
 // band, a word and a sign, so that colour is not alone.
 //
 // Bands of squeeze, stretch and fill are those of the gland's read-outs (engine/contact/gland.h,
@@ -12,6 +13,7 @@
 #include "app/base/format.h"
 #include "app/base/theme.h"
 #include "app/base/translation.h"
+#include "app/session/verdict_text.h"
 #include "engine/valve/figures.h"
 #include "ui/views/style.h"
 
@@ -159,10 +161,12 @@ static void show(Panel *panel, int index, double value, const char *why) {
 
 static void refresh(Panel *panel) {
   const SbRun *run = sb_session_run(panel->session);
-  const SbModel *model = run != NULL ? sb_run_model(run) : sb_session_model(panel->session);
-  const SbChartRun *shown = &sb_session_chart(panel->session)->run;
-  const SbSummary *summary = shown->state == SB_CHART_DONE ? shown->summary : NULL;
-  g_autofree char *former = sb_session_former_text(panel->session);
+  const SbSummary *predicted = sb_session_predicted(panel->session);
+  const SbModel *model =
+      run != NULL && predicted == NULL ? sb_run_model(run) : sb_session_model(panel->session);
+  const SbSummary *summary = sb_verdict_summary(panel->session);
+  g_autofree char *former = predicted != NULL ? g_strdup(_("predicted, being solved"))
+                                              : sb_session_former_text(panel->session);
   // A plate on its rings has no glands, return or doses.
   gtk_widget_set_visible(panel->grid, !sb_model_is_rig(model));
   sb_figures_clear(&panel->model);

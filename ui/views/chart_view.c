@@ -201,8 +201,7 @@ static void describe_loop(SbSession *session, GString *text) {
   g_string_append_printf(text, _("now %s."), where);
 }
 
-static void describe_contacts(SbSession *session, SbChartViewKind kind, GString *text) {
-  const SbFrame *frame = sb_session_frame(session);
+static void describe_contacts(const SbFrame *frame, SbChartViewKind kind, GString *text) {
   char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
   if (frame == NULL) {
     g_string_append(text, _("No run yet."));
@@ -263,6 +262,14 @@ static void describe_shelf(SbSession *session, GString *text) {
   }
 }
 
+// What the view draws of a prediction itself, over its paler former run; NULL: nothing.
+static const SbChartPredicted *shown_prediction(const View *view) {
+  const SbChartData *data = sb_session_chart(view->session);
+  const bool draws = view->kind == SB_CHART_VIEW_LOOP || view->kind == SB_CHART_VIEW_PRESSURE ||
+                     view->kind == SB_CHART_VIEW_FILM;
+  return draws && !sb_chart_is_rig(&data->run) ? data->predicted : NULL;
+}
+
 static gboolean describe(gpointer data) {
   View *view = data;
   g_autoptr(GString) text = g_string_new(NULL);
@@ -282,7 +289,7 @@ static gboolean describe(gpointer data) {
     g_autofree char *reasons = sb_rig_reasons_text(run);
     g_string_append(text, reasons);
   } else {
-    describe_contacts(view->session, view->kind, text);
+    describe_contacts(sb_session_frame(view->session), view->kind, text);
   }
   if (view->zoomed) {
     g_string_append_printf(text, _(" Enlarged: %.3g to %.3g mm, %.3g to %.3g N."), view->zoom.x0,
@@ -306,8 +313,12 @@ static gboolean describe(gpointer data) {
   if (grade != NULL) {
     g_string_append_printf(text, _(" Solved: %s."), grade);
   }
-  if (view->kind == SB_CHART_VIEW_LOOP && sb_session_chart(view->session)->predicted != NULL) {
-    g_string_append(text, _(" Dashed: predicted for the present values."));
+  const SbChartPredicted *predicted = shown_prediction(view);
+  if (predicted != NULL) {
+    g_string_append(text, _(" Dashed: predicted for the present values. "));
+    if (view->kind != SB_CHART_VIEW_LOOP) {
+      describe_contacts(predicted->run.frames, view->kind, text);
+    }
   }
   sb_style_name(view->area, name, text->str);
   view->describe = 0;
@@ -535,11 +546,8 @@ static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) 
 
 static void on_change(View *view) {
   gtk_widget_set_visible(view->area, applies(view));
-  // The loop draws its former run paler by itself where it shows the predicted one over it.
-  const bool over = view->kind == SB_CHART_VIEW_LOOP &&
-                    sb_session_chart(view->session)->predicted != NULL &&
-                    !sb_chart_is_rig(&sb_session_chart(view->session)->run);
-  sb_style_former(view->area, sb_session_shows_former(view->session) && !over);
+  sb_style_former(view->area,
+                  sb_session_shows_former(view->session) && shown_prediction(view) == NULL);
   sb_draw_cache_change(view->cache,
                        sb_session_wants_ticks(view->session) ? kinds[view->kind].interval : 0);
   // Screen readers need no more than a few sentences a second.

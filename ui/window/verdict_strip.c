@@ -1,6 +1,7 @@
-// Of the displayed run alone: while the values have changed it is pale, like the pictures. A pass
-// is quiet, only what fails has a ground. In a narrow window figures go before words: first those
-// of what passes or has no limit, then those questions' words, then the other figures.
+// Of the displayed run, or of what is predicted while that one's values are former: it is pale
+// then, like the pictures, and says which of both. A pass is quiet, only what fails has a ground.
+// In a narrow window figures go before words: first those of what passes or has no limit, then
+// those questions' words, then the other figures.
 #include "ui/window/verdict_strip.h"
 
 #include "app/session/verdict_text.h"
@@ -15,7 +16,7 @@ enum { ALL, FAILING_FIGURES, FAILING_WORDS, WORDS, LEVELS };
 
 typedef struct {
   SbSession *session;
-  GtkWidget *box;
+  GtkWidget *box, *predicted;
   GtkWidget *button[SB_VERDICT_COUNT], *sign[SB_VERDICT_COUNT], *word[SB_VERDICT_COUNT],
       *figure[SB_VERDICT_COUNT], *why[SB_VERDICT_COUNT];
   bool fails[SB_VERDICT_COUNT];
@@ -60,8 +61,8 @@ static void on_allocate(GtkWidget *scroller, GdkRectangle *allocation, Strip *st
 }
 
 static void refresh(Strip *strip) {
-  const SbChartRun *shown = &sb_session_chart(strip->session)->run;
-  const SbSummary *summary = shown->state == SB_CHART_DONE ? shown->summary : NULL;
+  const SbSummary *predicted = sb_session_predicted(strip->session);
+  const SbSummary *summary = sb_verdict_summary(strip->session);
   static const char *const signs[] = {
       [SB_ANSWER_UNKNOWN] = "–", [SB_ANSWER_NO] = "✗", [SB_ANSWER_YES] = "✓"};
   for (int i = 0; i < SB_VERDICT_COUNT; i++) {
@@ -70,8 +71,11 @@ static void refresh(Strip *strip) {
     strip->fails[i] = verdict->ok == SB_ANSWER_NO;
     g_autofree char *figure =
         summary != NULL ? sb_verdict_figure_text(summary, i, verdict) : g_strdup("");
-    g_autofree char *why = summary != NULL ? sb_verdict_why(summary, i, verdict)
-                                           : g_strdup(_("No whole run is shown yet."));
+    g_autofree char *found = summary != NULL ? sb_verdict_why(summary, i, verdict)
+                                             : g_strdup(_("No whole run is shown yet."));
+    g_autofree char *why =
+        predicted != NULL ? g_strdup_printf(_("Predicted, until the new run is solved.\n%s"), found)
+                          : g_strdup(found);
     gtk_label_set_text(GTK_LABEL(strip->sign[i]), signs[verdict->ok]);
     gtk_label_set_text(GTK_LABEL(strip->figure[i]), figure);
     gtk_label_set_text(GTK_LABEL(strip->why[i]), why);
@@ -91,6 +95,7 @@ static void refresh(Strip *strip) {
     gtk_widget_set_sensitive(strip->button[i], summary != NULL);
   }
   sb_style_former(strip->box, sb_session_shows_former(strip->session));
+  gtk_widget_set_visible(strip->predicted, predicted != NULL);
   refit(strip);
 }
 
@@ -145,6 +150,8 @@ GtkWidget *sb_verdict_strip_new(SbSession *session) {
   for (int i = 0; i < SB_VERDICT_COUNT; i++) {
     gtk_box_pack_start(GTK_BOX(strip->box), make_button(strip, i), FALSE, FALSE, 0);
   }
+  strip->predicted = add_label(strip->box, _("predicted"), "sb-note");
+  gtk_widget_hide(strip->predicted);
   // It never decides how narrow the window can be.
   GtkWidget *scroller = gtk_scrolled_window_new(NULL, NULL);
   gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_EXTERNAL,

@@ -178,8 +178,8 @@ static void refresh_strip(SbWindow *window) {
     g_autofree char *text =
         g_strdup_printf(!running ? _("Values have changed. Pictures show the %s.")
                         : sb_session_chart(session)->predicted != NULL
-                            ? _("Until the new run is solved the pictures show the %s; the dashed "
-                                "loop is predicted.")
+                            ? _("Until the new run is solved the pictures show the %s; dashed "
+                                "curves and pale figures are predicted.")
                             : _("Until the first new frame the pictures show the %s."),
                         former);
     set_strip(window, "warn", text, running ? NULL : _("Run"));
