@@ -860,12 +860,12 @@ GtkWidget *sb_design_page_new(SbSession *session) {
   g_signal_connect(map, "button-press-event", G_CALLBACK(on_press), page);
   g_signal_connect(map, "key-press-event", G_CALLBACK(on_key), page);
   add_picked(page, main);
-  GtkBox *columns = GTK_BOX(gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0));
-  gtk_box_pack_start(columns, GTK_WIDGET(main), TRUE, TRUE, 0);
-  gtk_box_pack_start(columns, gtk_separator_new(GTK_ORIENTATION_VERTICAL), FALSE, FALSE, 0);
-  gtk_box_pack_start(columns, page->side, FALSE, FALSE, 0);
+  // The window may be narrower than both need.
+  GtkWidget *columns = gtk_paned_new(GTK_ORIENTATION_HORIZONTAL);
+  gtk_paned_pack1(GTK_PANED(columns), GTK_WIDGET(main), TRUE, FALSE);
+  gtk_paned_pack2(GTK_PANED(columns), page->side, FALSE, TRUE);
   gtk_box_pack_start(GTK_BOX(page->box), sb_verdict_strip_new(session), FALSE, FALSE, 0);
-  gtk_box_pack_start(GTK_BOX(page->box), GTK_WIDGET(columns), TRUE, TRUE, 0);
+  gtk_box_pack_start(GTK_BOX(page->box), columns, TRUE, TRUE, 0);
   gtk_widget_show_all(page->box);
   gtk_widget_set_visible(page->side_button, FALSE);
   g_signal_connect(page->box, "size-allocate", G_CALLBACK(on_allocate), page);
