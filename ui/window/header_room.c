@@ -3,7 +3,7 @@
 
 #include "ui/window/model_switch.h"
 
-enum { WHOLE = 1440, NAMED = 1200 };
+enum { WHOLE = 1440, NAMED = 1200, TABS = 440 };
 
 typedef struct {
   GtkWidget *window;
@@ -23,6 +23,7 @@ static void fit(Room *room, int width) {
   }
   gtk_widget_set_visible(room->parts.document, level > 0);
   gtk_box_set_homogeneous(GTK_BOX(room->parts.pages), level == 2);
+  gtk_widget_set_size_request(room->parts.pages, level == 2 ? TABS : -1, -1);
   gtk_widget_set_size_request(room->parts.progress, level == 2 ? 120 : 30, -1);
   sb_model_switch_set_short(room->parts.model_switch, level < 2);
 }
