@@ -425,7 +425,7 @@ static void test_cancelled(void) {
   int left = 1;
   const SbStudyHooks hooks = {NULL, poll_cancels, &left};
   SbReport report = {0};
-  g_assert_cmpint(sb_study_make(study, SB_STUDY_PROPELLANTS, &model, &hooks, &report), ==,
+  g_assert_cmpint(sb_study_make(study, SB_STUDY_STRIBECK, &model, &hooks, &report), ==,
                   SB_ERROR_CANCELLED);
 }
 
