@@ -193,7 +193,7 @@ static void test_memory(void) {
   g_autofree char *scene = g_build_filename(folder, "quick-look.scene", NULL);
   const char *const run[] = {"run", scene, "--quiet", NULL};
   int refused = 0, solved = 0;
-  for (most = (rlim_t)260000 << 10; most <= (rlim_t)500000 << 10; most += (rlim_t)40000 << 10) {
+  for (most = (rlim_t)140000 << 10; most <= (rlim_t)380000 << 10; most += (rlim_t)40000 << 10) {
     CliResult result = cli_run(version, environment, limit_memory);
     g_assert_cmpint(result.code, ==, 0);
     g_assert_true(g_str_has_prefix(result.out, "sealbench "));
