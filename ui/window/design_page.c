@@ -674,6 +674,8 @@ static void add_toolbar(Page *page, GtkBox *to) {
                           _("The best valve within bounds and limits, from eight starts; then "
                             "tolerances and valves drawn from them"),
                           G_CALLBACK(on_find), page);
+  // Where the bar is cut, what the page is for stays.
+  gtk_box_reorder_child(bar, page->find, 0);
   page->side_button = gtk_toggle_button_new_with_label(_("Limits"));
   g_signal_connect(page->side_button, "toggled", G_CALLBACK(on_side), page);
   gtk_box_pack_start(bar, page->side_button, FALSE, FALSE, 0);
