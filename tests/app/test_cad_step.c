@@ -210,7 +210,7 @@ static void test_port(void) {
 static void test_broken(void) {
   begin();
   make_stem();
-  g_autoptr(SbCad) cad = through_file("whole.step", 0);
+  sb_cad_free(through_file("whole.step", 0));
   finish();
   g_autofree char *whole = g_build_filename(folder, "whole.step", NULL);
   g_autofree char *text = NULL;
