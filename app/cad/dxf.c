@@ -63,6 +63,13 @@ static bool read_line(Reader *reader, const char **text, size_t *length) {
   return true;
 }
 
+// A part of the file, which no NUL ends, as a string, cut to fit.
+static void copy(char *to, size_t size, const char *text, size_t length) {
+  length = MIN(length, size - 1);
+  memcpy(to, text, length);
+  to[length] = '\0';
+}
+
 // The next pair. False at the end; a code that is no number sets an error.
 static bool read_pair(Reader *reader, GError **error) {
   const char *text;
@@ -72,7 +79,7 @@ static bool read_pair(Reader *reader, GError **error) {
   }
   char digits[16];
   double code;
-  g_strlcpy(digits, text, MIN(length + 1, sizeof digits));
+  copy(digits, sizeof digits, text, length);
   if (length >= sizeof digits || !sb_number_parse(&code, digits) || code != floor(code) ||
       fabs(code) > 9999) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "line %d is no group code of a DXF",
@@ -85,7 +92,7 @@ static bool read_pair(Reader *reader, GError **error) {
                 reader->line);
     return false;
   }
-  g_strlcpy(reader->value, text, MIN(length + 1, sizeof reader->value));
+  copy(reader->value, sizeof reader->value, text, length);
   return true;
 }
 
