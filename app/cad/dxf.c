@@ -96,11 +96,13 @@ static bool read_pair(Reader *reader, GError **error) {
   return true;
 }
 
+// Codes 70 to 79 are 16-bit integers.
 static bool value_number(const Reader *reader, double *out, GError **error) {
-  if (sb_number_parse(out, reader->value) && fabs(*out) < 1e12) {
+  const double most = reader->code >= 70 && reader->code < 80 ? 32768 : 1e12;
+  if (sb_number_parse(out, reader->value) && fabs(*out) < most) {
     return true;
   }
-  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "line %d: '%.20s' is no number",
+  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "line %d: '%.20s' is no number here",
               reader->line, reader->value);
   return false;
 }

@@ -329,7 +329,7 @@ static void test_refused(void) {
   } cases[] = {
       {"", "a.dxf: has no section of a DXF"},
       {"hello\nworld\n", "a.dxf: line 1 is no group code of a DXF"},
-      {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\nfar\n", "a.dxf: line 8: 'far' is no number"},
+      {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\nfar\n", "a.dxf: line 8: 'far' is no number here"},
       {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n", "a.dxf: the file ends behind line 7"},
       {"  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n",
        "a.dxf: tells no unit ($INSUNITS): say it by --unit"},
