@@ -426,7 +426,7 @@ static bool read_drawing(Drawing *drawing, Reader *reader, const char **unit, GE
     } else if (strcmp(variable, "$INSUNITS") == 0 && reader->code == 70) {
       double number = 0;
       good = value_number(reader, &number, &problem);
-      for (size_t i = 0; units[i].unit != NULL; i++) {
+      for (size_t i = 0; good && units[i].unit != NULL; i++) {
         *unit = !chosen && units[i].code == (int)number ? units[i].unit : *unit;
       }
       variable[0] = '\0';
