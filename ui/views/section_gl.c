@@ -81,11 +81,18 @@ static gboolean is_wanted(Area *area) {
   if (g_strcmp0(wish, "window") == 0) {
     return TRUE;
   }
+  // The display's GL stays what it is: one look for all windows.
+  static gboolean looked, wanted;
+  static char reason[sizeof area->reason];
+  if (looked) {
+    g_strlcpy(area->reason, reason, sizeof area->reason);
+    return wanted;
+  }
+  looked = TRUE;
   GtkWidget *window = gtk_window_new(GTK_WINDOW_TOPLEVEL);
   gtk_widget_realize(window);
   g_autoptr(GError) error = NULL;
   GdkGLContext *gl = gdk_window_create_gl_context(gtk_widget_get_window(window), &error);
-  gboolean wanted = FALSE;
   if (gl == NULL || !gdk_gl_context_realize(gl, &error)) {
     g_snprintf(area->reason, sizeof area->reason, "the window has no GL: %.240s", error->message);
   } else {
@@ -101,6 +108,7 @@ static gboolean is_wanted(Area *area) {
   }
   g_clear_object(&gl);
   gtk_widget_destroy(window);
+  g_strlcpy(reason, area->reason, sizeof reason);
   return wanted;
 }
 
