@@ -36,5 +36,6 @@ void sb_cad_features(SbCadBody *body);
 
 SbCad *sb_cad_new(const char *format);
 
-// Through sealbench-cad.
-SbCad *sb_cad_read_step(const char *path, const SbCadChoices *choices, GError **error);
+// Through sealbench-cad; `shown` stands for the file in messages.
+SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,
+                        GError **error);

@@ -435,7 +435,8 @@ static bool read_drawing(Drawing *drawing, Reader *reader, const char **unit, GE
   good = good && problem == NULL && drawing_end_entity(drawing, &entity, &problem);
   entity_clear(&entity);
   if (problem == NULL && !sections) {
-    g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT, "has no section of a DXF");
+    g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "is neither a STEP file (ISO 10303-21) nor a DXF: it has no section");
   }
   if (problem != NULL) {
     g_propagate_error(error, problem);

@@ -24,6 +24,7 @@
 
 // The kernel works in mm, for which its tolerances are made.
 static const double SCALE = 1e-3;
+enum { PIECES_MAX = 100000 };
 static const rlim_t MEMORY_MAX = (rlim_t)4 << 30, SECONDS_MAX = 60;
 
 // What standard output was: the kernel prints there as it likes, from now on to nowhere.
@@ -221,6 +222,9 @@ static bool print_edges(int face) {
     gmshFree(low);
     gmshFree(high);
   }
+  static guint told;
+  told += pieces->len;
+  good = good && told <= PIECES_MAX;
   fprintf(out, "outline\n");
   for (guint i = 0; good && i < pieces->len; i++) {
     const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);

@@ -14,18 +14,11 @@ static const double ALIKE = 0.02;
 // Beyond this a body is not what its half-section makes, revolved: mass and moments are told apart.
 static const double REVOLVED = 1e-3;
 
-static const char *const names[SB_CAD_PART_COUNT] = {"housing", "stem_centre", "stem_top",
-                                                     "stem_bottom"};
-
-const char *sb_cad_part_name(SbCadPart part) {
-  return names[part];
-}
-
 int sb_cad_part_of(const char *name) {
   g_autofree char *plain = g_ascii_strdown(name, -1);
   g_strdelimit(plain, " -", '_');
   for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
-    if (strcmp(plain, names[i]) == 0) {
+    if (strcmp(plain, sb_shape_parts[i]) == 0) {
       return i;
     }
   }
@@ -130,13 +123,14 @@ bool sb_cad_parts(int body[SB_CAD_PART_COUNT], const SbCad *cad, const SbCadSett
     body[i] = find_body(cad, text);
     if (body[i] < 0) {
       g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                  "there is no body '%s' for %s (give its number or name)", text, names[i]);
+                  "there is no body '%s' for %s (give its number or name)", text,
+                  sb_shape_parts[i]);
       return false;
     }
     const SbCadBody *one = cad->bodies->pdata[body[i]];
     if (one->profile->len == 0) {
       g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "'%s' has no half-section for %s: %s",
-                  one->name, names[i], one->why);
+                  one->name, sb_shape_parts[i], one->why);
       return false;
     }
   }
@@ -192,13 +186,14 @@ static bool grooves(const SbCadBody *body, const SbCadFeature *pair[2]) {
   return pair[0] != NULL;
 }
 
-static void append_part(GString *text, const SbCadBody *body, SbCadPart part, double density,
+static void append_part(GString *text, const SbCadBody *body, int part, double density,
                         const char *drawing) {
   char number[SB_NUMBER_SIZE];
   g_autofree char *profile = sb_cad_profile_text(body);
   g_autofree char *file = g_path_get_basename(drawing);
   g_autofree char *shown = sb_printable(file, strlen(file));
-  g_string_append_printf(text, "\n# Drawing: %s, %s\n[part.%s]\n", shown, body->name, names[part]);
+  g_string_append_printf(text, "\n# Drawing: %s, %s\n[part.%s]\n", shown, body->name,
+                         sb_shape_parts[part]);
   g_string_append_printf(text, "density = %s kg/m3\n", sb_number_round(number, density, 12));
   g_string_append_printf(text, "profile = %s\n", profile);
   const double volume = body->solid.volume;
@@ -213,13 +208,13 @@ static void append_part(GString *text, const SbCadBody *body, SbCadPart part, do
                            sb_number_round(transverse, 1e9 * density * across, 12));
   }
   const SbCadFeature *found, *pair[2];
-  if (part == SB_CAD_HOUSING && (found = cylinder(body, SB_CAD_BORE)) != NULL) {
+  if (part == SB_VALVE_HOUSING && (found = cylinder(body, SB_CAD_BORE)) != NULL) {
     append_stretch(text, "bore", found);
   }
-  if (part == SB_CAD_STEM_CENTRE && (found = cylinder(body, SB_CAD_LAND)) != NULL) {
+  if (part == SB_VALVE_STEM_CENTRE && (found = cylinder(body, SB_CAD_LAND)) != NULL) {
     append_stretch(text, "land", found);
   }
-  if (part == SB_CAD_STEM_CENTRE && grooves(body, pair)) {
+  if (part == SB_VALVE_STEM_CENTRE && grooves(body, pair)) {
     append_stretch(text, "inner_groove", pair[0]);
     append_stretch(text, "outer_groove", pair[1]);
   }
@@ -236,7 +231,7 @@ static char *without_parts(const char *text, const int body[SB_CAD_PART_COUNT]) 
     if (**line == '[') {
       drop = false;
       for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
-        g_autofree char *group = g_strdup_printf("[part.%s]", names[i]);
+        g_autofree char *group = g_strdup_printf("[part.%s]", sb_shape_parts[i]);
         drop = drop || (body[i] >= 0 && g_str_has_prefix(*line, group));
       }
     }
@@ -254,7 +249,7 @@ char *sb_cad_scene(SbDocument **after, const SbCad *cad, const int body[SB_CAD_P
   g_autoptr(GString) parts = g_string_new(NULL);
   for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
     if (body[i] >= 0) {
-      append_part(parts, cad->bodies->pdata[body[i]], (SbCadPart)i, density, drawing);
+      append_part(parts, cad->bodies->pdata[body[i]], i, density, drawing);
     }
   }
   // What the shapes alone give.

@@ -4,17 +4,12 @@
 
 #include "app/cad/cad.h"
 #include "app/document/document.h"
+#include "app/document/document_parts.h"
 
-typedef enum {
-  SB_CAD_HOUSING,
-  SB_CAD_STEM_CENTRE,
-  SB_CAD_STEM_TOP,
-  SB_CAD_STEM_BOTTOM,
-  SB_CAD_PART_COUNT
-} SbCadPart;
+// The parts are the valve's first ones, in its order: SB_VALVE_HOUSING to SB_VALVE_STEM_BOTTOM.
+enum { SB_CAD_PART_COUNT = SB_VALVE_STEM_BOTTOM + 1 };
 
-// "housing" ...; and the part of that name, or -1.
-const char *sb_cad_part_name(SbCadPart part);
+// The part of that name ("housing", "Stem centre", "stem-top"), or -1.
 int sb_cad_part_of(const char *name);
 
 // What somebody chose, as texts by the names of the command's options.

@@ -3,7 +3,6 @@
 
 #include "app/base/error.h"
 #include "app/base/number.h"
-#include "app/base/translation.h"
 
 #include <gio/gio.h>
 
@@ -194,28 +193,13 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
   return false;
 }
 
-SbCad *sb_cad_read_step(const char *path, const SbCadChoices *choices, GError **error) {
+SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,
+                        GError **error) {
   GError *problem = NULL;
-  g_autofree char *shown = sb_printable(path, strlen(path));
-  SbCad *cad = NULL;
-  // A file that is not there or not to be read is told as such, not as the kernel does.
-  g_autoptr(GPtrArray) issues = sb_issues_new();
-  const size_t bytes_max = (size_t)512 << 20;
-  size_t length;
-  g_autofree char *text = sb_reader_load(&length, path, shown, bytes_max, issues);
-  if (text == NULL) {
-    g_autofree char *says = sb_issue_line(issues->pdata[0]);
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s", says);
-    return NULL;
-  }
-  if (strstr(text, "ISO-10303-21") == NULL) {
-    g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT, "is no STEP file (ISO 10303-21)");
-  } else {
-    g_autofree char *told = run_helper(path, choices->angle, &problem);
-    cad = told != NULL ? sb_cad_new("STEP") : NULL;
-    if (cad != NULL && !take_text(cad, told, &problem)) {
-      g_clear_pointer(&cad, sb_cad_free);
-    }
+  g_autofree char *told = run_helper(path, choices->angle, &problem);
+  SbCad *cad = told != NULL ? sb_cad_new("STEP") : NULL;
+  if (cad != NULL && !take_text(cad, told, &problem)) {
+    g_clear_pointer(&cad, sb_cad_free);
   }
   for (guint i = 0; cad != NULL && i < cad->bodies->len; i++) {
     sb_cad_body_settle(cad->bodies->pdata[i], choices);

@@ -67,7 +67,7 @@ static void draw_features(const Frame *frame, const SbCadBody *body) {
 static SbRole ground_of(int body, const int part[SB_CAD_PART_COUNT]) {
   for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
     if (part[i] == body) {
-      return i == SB_CAD_HOUSING ? SB_ROLE_HOUSING : SB_ROLE_STEM;
+      return i == SB_VALVE_HOUSING ? SB_ROLE_HOUSING : SB_ROLE_STEM;
     }
   }
   return SB_ROLE_PANEL;

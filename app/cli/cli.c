@@ -388,6 +388,17 @@ int sb_cli_check_outputs(const char *folder, char *const *names, const char *tar
   return good ? SB_EXIT_DONE : sb_cli_error(error);
 }
 
+int sb_cli_check_targets(const char *const *targets, size_t count) {
+  GError *error = NULL;
+  SbOutputCheck check = {0};
+  bool good = true;
+  for (size_t i = 0; i < count && good; i++) {
+    good = sb_output_check(&check, targets[i], false, &error);
+  }
+  sb_output_check_clear(&check);
+  return good ? SB_EXIT_DONE : sb_cli_error(error);
+}
+
 void sb_cli_kept(const char *folder, const GPtrArray *kept) {
   for (guint i = 0; i < kept->len; i++) {
     g_autofree char *path = g_build_filename(folder, kept->pdata[i], NULL);

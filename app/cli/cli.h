@@ -134,6 +134,9 @@ bool sb_cli_has_memory(const SbModel *model);
 // read and before the work. An exit code.
 int sb_cli_check_outputs(const char *folder, char *const *names, const char *target);
 
+// The same for files that do not go into a folder; any may be NULL.
+int sb_cli_check_targets(const char *const *targets, size_t count);
+
 // Tells which files of an earlier result (char *) are still in the folder.
 void sb_cli_kept(const char *folder, const GPtrArray *kept);
 

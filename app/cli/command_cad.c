@@ -64,7 +64,7 @@ static double across(const SbSolid *solid) {
 static void print_body(const SbCadBody *body, guint number, const int *chosen) {
   const char *part = NULL;
   for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
-    part = chosen[i] == (int)number ? sb_cad_part_name((SbCadPart)i) : part;
+    part = chosen[i] == (int)number ? sb_shape_parts[i] : part;
   }
   printf("%u %s%s%s%s\n", number + 1, body->name, part != NULL ? " (" : "",
          part != NULL ? part : "", part != NULL ? ")" : "");
@@ -129,7 +129,7 @@ static char *to_json(const SbCad *cad, const int *chosen) {
     const bool known = body->measured || body->profile->len > 0;
     const char *part = NULL;
     for (int k = 0; k < SB_CAD_PART_COUNT; k++) {
-      part = chosen[k] == (int)i ? sb_cad_part_name((SbCadPart)k) : part;
+      part = chosen[k] == (int)i ? sb_shape_parts[k] : part;
     }
     g_autofree char *profile = sb_cad_profile_text(body);
     sb_json_object(&json, NULL);
@@ -169,14 +169,6 @@ static char *to_json(const SbCad *cad, const int *chosen) {
 
 // ---- The command ----
 
-static int print_issues(const GPtrArray *issues) {
-  for (guint i = 0; i < issues->len; i++) {
-    g_autofree char *line = sb_issue_line(issues->pdata[i]);
-    sb_cli_fail("%s", line);
-  }
-  return SB_EXIT_INPUT;
-}
-
 static int write_scene(const SbCad *cad, const int *chosen, const char *path,
                        const Options *options) {
   SbModel *model = NULL;
@@ -198,7 +190,8 @@ static int write_scene(const SbCad *cad, const int *chosen, const char *path,
   g_autofree char *text = sb_cad_scene(&after, cad, chosen, options->settings.density, base, path,
                                        options->output, issues);
   if (text == NULL) {
-    return print_issues(issues);
+    sb_cli_issues(issues);
+    return SB_EXIT_INPUT;
   }
   if (!sb_cli_quiet()) {
     g_autofree char *lines = sb_cad_differences(base, after);
@@ -207,17 +200,6 @@ static int write_scene(const SbCad *cad, const int *chosen, const char *path,
   GError *error = NULL;
   return sb_output_write(options->output, text, strlen(text), &error) ? SB_EXIT_DONE
                                                                       : sb_cli_error(error);
-}
-
-// Before the work; an exit code.
-static int check_outputs(const Options *options) {
-  SbOutputCheck check = {0};
-  GError *error = NULL;
-  const bool good = sb_output_check(&check, options->json, false, &error) &&
-                    sb_output_check(&check, options->output, false, &error) &&
-                    sb_output_check(&check, options->plot, false, &error);
-  sb_output_check_clear(&check);
-  return good ? SB_EXIT_DONE : sb_cli_error(error);
 }
 
 typedef struct {
@@ -247,7 +229,8 @@ static int compute(const char *path, const Options *options) {
   if (!sb_cad_parts(chosen, cad, &options->settings, &error)) {
     return sb_cli_error(error);
   }
-  int code = check_outputs(options);
+  int code =
+      sb_cli_check_targets((const char *const[]){options->json, options->output, options->plot}, 3);
   if (code == SB_EXIT_DONE && options->plot != NULL) {
     Picture picture = {cad, chosen};
     const SbStill still = {

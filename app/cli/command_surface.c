@@ -247,24 +247,14 @@ static int write_scene(const SbSurface *surface, const Options *options) {
 
 // ---- The command ----
 
-// Before the work; an exit code.
-static int check_outputs(const Options *options) {
-  SbOutputCheck check = {0};
-  GError *error = NULL;
-  const bool good = sb_output_check(&check, options->json, false, &error) &&
-                    sb_output_check(&check, options->output, false, &error) &&
-                    sb_output_check(&check, options->plot, false, &error);
-  sb_output_check_clear(&check);
-  return good ? SB_EXIT_DONE : sb_cli_error(error);
-}
-
 static int compute(const char *path, Options *options) {
   GError *error = NULL;
   SbScan scan;
   if (!sb_scan_read(&scan, path, &options->choices.scan, &error)) {
     return sb_cli_error(error);
   }
-  int code = check_outputs(options);
+  int code =
+      sb_cli_check_targets((const char *const[]){options->json, options->output, options->plot}, 3);
   if (code != SB_EXIT_DONE) {
     sb_scan_clear(&scan);
     return code;

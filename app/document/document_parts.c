@@ -29,6 +29,11 @@
 #include <math.h>
 #include <string.h>
 
+const char *const sb_shape_parts[] = {[SB_VALVE_HOUSING] = "housing",
+                                      [SB_VALVE_STEM_CENTRE] = "stem_centre",
+                                      [SB_VALVE_STEM_TOP] = "stem_top",
+                                      [SB_VALVE_STEM_BOTTOM] = "stem_bottom"};
+
 static const char *const shape_keys[] = {"density",      "profile",      "stl",  "unit",
                                          "axis",         "bore",         "land", "groove",
                                          "inner_groove", "outer_groove", NULL};
@@ -544,14 +549,13 @@ void sb_shapes_settle(SbShapes *shapes, const char *shown, GPtrArray *notes) {
   outlines->housing = shapes->has_bore && outlines->part[SB_VALVE_HOUSING].count > 0;
   outlines->stem = shapes->has_groove[SB_INNER] && shapes->has_groove[SB_OUTER] &&
                    outlines->part[SB_VALVE_STEM_CENTRE].count > 0;
-  static const char *const parts[] = {"housing", "stem_centre", "stem_top", "stem_bottom"};
-  for (size_t i = 0; i < G_N_ELEMENTS(parts); i++) {
+  for (size_t i = 0; i < G_N_ELEMENTS(sb_shape_parts); i++) {
     if (shapes->mesh[i]) {
       // A mesh need not be a body of revolution, and facets are no diameters.
       g_ptr_array_add(notes,
                       g_strdup_printf("%s: the mesh of [part.%s] gives mass and moments only; "
                                       "the section draws a profile, not a mesh",
-                                      shown, parts[i]));
+                                      shown, sb_shape_parts[i]));
     }
   }
   static const char *const needs[] = {"a bore", "an inner_groove and an outer_groove"};

@@ -8,6 +8,9 @@
 // Whether `name` in `group` belongs to a part's shape and is no key of the catalogue.
 bool sb_parts_is_shape_key(const char *group, const char *name);
 
+// "housing", "stem_centre" ... of the parts that may have a shape, by the valve's index.
+extern const char *const sb_shape_parts[SB_VALVE_STEM_BOTTOM + 1];
+
 // Keys beside a shape may differ from it by rounding, relative.
 #define SB_SHAPE_ROUNDING 1e-3
 

@@ -202,8 +202,7 @@ static void append_group(GString *text, const SbParams *params, const char *grou
 // shape in one file that would be an error, and the numbers are what counts.
 static void append_shape(GString *text, const SbDocument *document, const char *group,
                          size_t length) {
-  static const char *const names[] = {"part.housing", "part.stem_centre", "part.stem_top",
-                                      "part.stem_bottom"};
+  const size_t prefix = strlen("part.");
   const SbShapes *shapes = document->shapes;
   for (guint i = 0; i < shapes->sizes->len; i++) {
     SbParamId id = ((const SbShapeSize *)shapes->sizes->pdata[i])->id;
@@ -212,9 +211,10 @@ static void append_shape(GString *text, const SbDocument *document, const char *
       return;
     }
   }
-  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
-    if (shapes->text[i] != NULL && strlen(names[i]) == length &&
-        strncmp(group, names[i], length) == 0) {
+  for (size_t i = 0; i < G_N_ELEMENTS(sb_shape_parts); i++) {
+    if (shapes->text[i] != NULL && strlen(sb_shape_parts[i]) + prefix == length &&
+        strncmp(group, "part.", prefix) == 0 &&
+        strncmp(group + prefix, sb_shape_parts[i], length - prefix) == 0) {
       g_string_append(text, shapes->text[i]);
     }
   }

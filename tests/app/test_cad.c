@@ -281,8 +281,8 @@ static void test_scene(void) {
   GError *error = NULL;
   sb_cad_settings_init(&settings);
   g_assert_true(sb_cad_parts(body, cad, &settings, &error));
-  g_assert_cmpint(body[SB_CAD_STEM_CENTRE], ==, 0);
-  g_assert_cmpint(body[SB_CAD_HOUSING], ==, -1);
+  g_assert_cmpint(body[SB_VALVE_STEM_CENTRE], ==, 0);
+  g_assert_cmpint(body[SB_VALVE_HOUSING], ==, -1);
   static const char text[] = "[sealbench]\nformat = 1\nkind = valve\n"
                              "[gland]\nradial_space = 1.4 mm\n[seal]\nmodulus = 3 MPa\n"
                              "[part.stem_centre]\nmass = 2 g\n";
@@ -311,7 +311,7 @@ static void test_scene(void) {
   // Chosen by hand: a number or a name, of a body that is there.
   g_assert_true(sb_cad_choose(&settings, "stem-top", "1", &error));
   g_assert_true(sb_cad_parts(body, cad, &settings, &error));
-  g_assert_cmpint(body[SB_CAD_STEM_TOP], ==, 0);
+  g_assert_cmpint(body[SB_VALVE_STEM_TOP], ==, 0);
   g_assert_true(sb_cad_choose(&settings, "housing", "block", &error));
   g_assert_false(sb_cad_parts(body, cad, &settings, &error));
   g_assert_cmpstr(error->message, ==,
@@ -327,9 +327,10 @@ static void test_refused(void) {
   static const struct {
     const char *text, *says;
   } cases[] = {
-      {"", "a.dxf: has no section of a DXF"},
+      {"", "a.dxf: is neither a STEP file (ISO 10303-21) nor a DXF: it has no section"},
       {"hello\nworld\n", "a.dxf: line 1 is no group code of a DXF"},
-      {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\nfar\n", "a.dxf: line 8: 'far' is no number here"},
+      {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\nfar\n",
+       "a.dxf: line 8: 'far' is no number here"},
       {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n", "a.dxf: the file ends behind line 7"},
       {"  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n",
        "a.dxf: tells no unit ($INSUNITS): say it by --unit"},
