@@ -61,7 +61,8 @@ void sb_design_ask_init(SbDesignAsk *ask, const SbDocument *document) {
   *ask = (SbDesignAsk){.goal = sb_figure_find("cycle.force_breakaway_N"),
                        .closed = true,
                        .limits = *sb_document_limits(document)};
-  ask->limits.count = MIN(ask->limits.count, SB_DESIGN_LIMITS);
+  ask->left_out = ask->limits.count - MIN(ask->limits.count, SB_DESIGN_LIMITS);
+  ask->limits.count -= ask->left_out;
   for (size_t i = 0; ask->limits.count == 0 && i < G_N_ELEMENTS(usual); i++) {
     const int figure = sb_figure_find(usual[i].figure);
     ask->limits.item[i] = (SbLimit){figure, usual[i].low, usual[i].high};

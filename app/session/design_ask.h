@@ -23,7 +23,8 @@ typedef struct {
   SbDesignRange range[SB_DESIGN_RANGES];
   size_t axis[2]; // ranges of the map, across and up
   SbLimits limits;
-  bool usual; // nobody set the limits: they are usual ones
+  size_t left_out; // limits of the file beyond SB_DESIGN_LIMITS
+  bool usual;      // nobody set the limits: they are usual ones
 } SbDesignAsk;
 
 // What a document is asked at first: the least break-away force of section diameter and radial

@@ -335,8 +335,15 @@ void sb_design_limits_show(GtkWidget *limits, const SbDesignAsk *ask, const SbDe
     g_autofree char *text = answer != NULL ? fails_text(&answer->place[place]) : g_strdup("–");
     gtk_label_set_text(GTK_LABEL(table->fails[place]), text);
   }
-  gtk_label_set_text(GTK_LABEL(table->note), ask->usual ? _("usual ones: the file sets none")
-                                                        : _("barred: active at the best found"));
+  g_autofree char *more =
+      ask->left_out > 0
+          ? g_strdup_printf(ngettext("%zu limit of the file has no room here",
+                                     "%zu limits of the file have no room here", ask->left_out),
+                            ask->left_out)
+          : NULL;
+  gtk_label_set_text(GTK_LABEL(table->note), more != NULL ? more
+                                             : ask->usual ? _("usual ones: the file sets none")
+                                                          : _("barred: active at the best found"));
   gtk_widget_set_sensitive(table->add, ask->limits.count < SB_DESIGN_LIMITS);
   gtk_combo_box_set_active(GTK_COMBO_BOX(table->add), 0);
   table->refreshing = FALSE;
