@@ -40,8 +40,12 @@ static void compile(SbSession *session) {
     }
   }
   g_autoptr(GPtrArray) issues = sb_issues_new();
+  const bool charted = session->model != NULL && session->chart.run.model == session->model;
   g_clear_pointer(&session->model, sb_model_destroy);
   bool valid = sb_document_compile(session->document, &session->model, issues);
+  if (charted) { // before the first frame the chart's axes are those of the values
+    session->chart.run.model = session->model;
+  }
   for (guint i = 0; !valid && i < issues->len; i++) {
     const SbIssue *issue = g_ptr_array_index(issues, i);
     int id = issue->key != NULL ? sb_param_find(issue->key) : -1;

@@ -54,7 +54,14 @@ def sizes_are_handles(folder):
             """Where the inner ring's edge is, at rest."""
             wait("a shown run", app.run_done)
             xdotool("mousemove", box.x + box.width - 30, box.y + 30)
-            return wait("the handles", lambda: (lambda all: len(all) == HANDLES and all[0])(centres(box)))
+            at = []
+
+            def rests():
+                at.append(centres(box))
+                time.sleep(0.2)  # a run that is shown may still move the picture
+                return len(at[-1]) == HANDLES and at[-2:-1] == at[-1:] and at[-1][0]
+
+            return wait("the handles", rests)
 
         def grab(dx, steps=4):
             x, y = ring()

@@ -258,6 +258,23 @@ static void test_another_document_forgets(void) {
   g_assert_null(sb_session_run(session));
 }
 
+// Before the first frame the chart's axes are those of the values, whatever they become.
+static void test_edit_before_the_first_frame(void) {
+  g_autoptr(SbSession) session = sb_session_new();
+  sb_session_set_auto_run(session, FALSE);
+  sb_session_edit(session, SB_P_MODELS_FILM, "thesis");
+  sb_session_start(session);
+  g_assert_null(sb_session_run(session));
+  for (int i = 0; i < 3; i++) {
+    const SbModel *former = sb_session_chart(session)->run.model;
+    g_assert_true(former != NULL && former == sb_session_model(session));
+    sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, i % 2 == 0 ? "1.62" : "1.61");
+    g_assert_true(sb_session_chart(session)->run.model == sb_session_model(session));
+  }
+  sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, "9 m");
+  g_assert_true(sb_session_chart(session)->run.model == sb_session_model(session));
+}
+
 // Given up in the middle of a run.
 static void test_gone_while_running(void) {
   for (int i = 0; i < 20; i++) {
@@ -279,6 +296,7 @@ int main(int argc, char **argv) {
                   test_cancelled_before_the_first_frame);
   g_test_add_func("/session/pins", test_pins);
   g_test_add_func("/session/another-document-forgets", test_another_document_forgets);
+  g_test_add_func("/session/edit-before-the-first-frame", test_edit_before_the_first_frame);
   g_test_add_func("/session/gone-while-running", test_gone_while_running);
   return g_test_run();
 }
