@@ -128,6 +128,9 @@ static const double RESPONSE = 3;
 // (measured: 0.6 with 7, none with 12).
 static const double SCATTER_LOAD = 0.08, SCATTER_FILM = 0.13, SCATTER = 0.13;
 static const double SCATTER_ROUGH = 0.7, ORDER_MOST = 0.1, MANY = 16;
+// And films of two meshes some per cent of a parameter apart differ by this, as parts of the film
+// for each of the parameter itself, where their contacts hardly move (measured: 2.4e-5 at most).
+static const double FLOOR_FILM = 7e-5;
 
 // A slope that is less than its error is none, unless both are small: what the figure changes by as
 // the parameter does by itself is known to this part of it.
@@ -367,16 +370,19 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
   }
 }
 
-// Share of what a seal's contact changes by that slopes of a figure scatter by, by its line in the
-// table of figures: what a solved film or a load is told to be out by, or what leaks.
+// Whether a figure is of a film by its line in the table of figures: what a solved film is told to
+// be out by, or what leaks.
+static bool is_of_film(const SbFigure *row) {
+  const bool shelf = row->needs == SB_DEPTH_SIZES;
+  return (row->verdict == SB_VERDICT_LEAK && !shelf) || strcmp(row->estimate, "film") == 0;
+}
+
+// Share of what a seal's contact changes by that slopes of a figure scatter by.
 static double scatter_of(const SbFigure *row, double order) {
   if (strcmp(row->estimate, "load") == 0) {
     return SCATTER_LOAD;
   }
-  const bool leak =
-      row->verdict == SB_VERDICT_LEAK && row->needs != SB_DEPTH_SIZES; // not the shelf
-  const bool film = leak || strcmp(row->estimate, "film") == 0;
-  return !film ? SCATTER : order > ORDER_MOST ? SCATTER_ROUGH : SCATTER_FILM;
+  return !is_of_film(row) ? SCATTER : order > ORDER_MOST ? SCATTER_ROUGH : SCATTER_FILM;
 }
 
 // Whether a seal's contact, which was to stay, did, for all that it moves otherwise: where the
@@ -421,7 +427,8 @@ static SbStatus add_scatter(Work *work, size_t parameter, double x, double scale
     const size_t cell = i * out->parameters + parameter;
     const SbFigure *row = sb_figure(out->figure[i]);
     const double by = row->seal < SB_SEAL_COUNT ? moved[row->seal] : most;
-    const double share = scatter_of(row, work->order) * by / (1 + by * scale / MANY);
+    const double share = scatter_of(row, work->order) * by / (1 + by * scale / MANY) +
+                         (is_of_film(row) ? FLOOR_FILM / scale : 0);
     // What does not hang on the rings scatters with none.
     const bool hangs = stay[row->seal] ? value[i] != held[i] : out->slope[cell] != 0;
     out->error[cell] += hangs ? share * work->size[i] : 0;
