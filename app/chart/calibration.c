@@ -228,17 +228,12 @@ static double draw_sentence(Draw *d, SbRect rect) {
   const SbTextStyle head =
       sb_canvas_style(c, SB_TYPE_LABEL, 700, all ? SB_ROLE_PASS : SB_ROLE_WARN);
   const SbTextStyle text = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
-  cairo_push_group(c->cr);
-  const double lines =
-      sb_canvas_paragraph(c, d->view->sentence, &text, rect.x + 14, rect.y + 30, rect.width - 28);
-  cairo_pattern_t *words = cairo_pop_group(c->cr);
-  const double height = lines + 42;
+  const double width = rect.width - 28;
+  const double height = 42 + sb_canvas_paragraph_height(c, d->view->sentence, &text, width);
   sb_canvas_rounded(c, (SbRect){rect.x, rect.y, rect.width, height}, 5);
   sb_canvas_color(c, sb_canvas_role(c, all ? SB_ROLE_GRID : SB_ROLE_WARN_GROUND), 1);
   cairo_fill(c->cr);
-  cairo_set_source(c->cr, words);
-  cairo_paint(c->cr);
-  cairo_pattern_destroy(words);
+  sb_canvas_paragraph(c, d->view->sentence, &text, rect.x + 14, rect.y + 30, width);
   sb_canvas_text(c, all ? "What these data tell" : "What these data cannot tell", &head,
                  rect.x + 14, rect.y + 20, SB_LEFT);
   return height;
