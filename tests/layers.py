@@ -70,6 +70,13 @@ source, engine, app, program, library = sys.argv[1:]
 libraries = subprocess.run(['ldd', program], capture_output=True, text=True, check=True).stdout
 
 
+def lost_rooms(source):
+    """Places that the help of parameters names and that are not there."""
+    with open(source + '/engine/valve/param_equation.c', encoding='utf-8') as text:
+        rooms = re.findall(r'"(engine/[^"]*|docs/[^"]*)"', text.read())
+    return [room for room in rooms if not os.path.exists(f'{source}/{room}')]
+
+
 def visible(path):
     """What a shared library lets others see, but for the linker's own marks."""
     out = subprocess.run(['nm', '-D', '--defined-only', path], capture_output=True, text=True, check=True)
@@ -95,6 +102,7 @@ checks = [
     ('the library needs GLib, GIO, udunits and the engine\'s libraries alone',
      [name for name in needed if not re.match(LIBRARY_MAY_NEED, name)]),
     ('no file outside engine/valve sees what a model is made of', readers_of_the_model(source)),
+    ('the help of parameters names places that are there', lost_rooms(source)),
     ('sealbench is not linked with GTK', re.findall(r'lib(?:gtk|gdk)-\S+', libraries)),
 ]
 print(f'1..{len(checks)}')

@@ -241,9 +241,23 @@ def unsaved_changes_survive_a_crash(folder):
         assert "section_diameter = 1.65 mm" in file.read()
 
 
+def help_of_the_parameter_that_is_edited(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        app.field("Section diameter").queryComponent().grabFocus()
+        app.key("F1")
+        wait("its key", lambda: app.label(r"^seal\.section_diameter, d$"))
+        assert app.label(r"^0\.2 mm to 20 mm$"), "no range"
+        assert app.label(r"^squeeze \(d − g\)/d"), "no equation"
+        app.key("Escape")
+        wait("no page", lambda: not app.label(r"^seal\.section_diameter"))
+        assert app.value("Section diameter") == "1.61 mm"
+
+
 if __name__ == "__main__":
     main(edit_with_a_unit_changes_the_breakaway_force, bad_values_stay_in_their_field,
          values_that_do_not_go_together_are_told_at_their_field, undo_and_redo,
          saved_values_come_back, one_run_is_shown_and_values_keep_their_digits,
          unsaved_changes_survive_a_crash, closing_asks_about_changes,
-         broken_files_are_told_in_one_dialog, search_finds_parameters)
+         broken_files_are_told_in_one_dialog, search_finds_parameters,
+         help_of_the_parameter_that_is_edited)

@@ -6,6 +6,7 @@
 
 #include "app/base/translation.h"
 #include "app/session/param_list.h"
+#include "ui/params/param_help.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -353,6 +354,14 @@ void sb_param_row_refresh(SbParamRow *row) {
 void sb_param_row_focus(SbParamRow *row) {
   GtkWidget *field = row->field != NULL ? row->field : row->flags[0];
   gtk_widget_grab_focus(field);
+}
+
+gboolean sb_param_row_help(GtkWidget *widget) {
+  GtkWidget *row = widget != NULL ? gtk_widget_get_ancestor(widget, SB_TYPE_PARAM_ROW) : NULL;
+  if (row != NULL) {
+    sb_param_help_show(SB_PARAM_ROW(row)->session, SB_PARAM_ROW(row)->id, widget);
+  }
+  return row != NULL;
 }
 
 static void finalize(GObject *object) {

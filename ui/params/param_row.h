@@ -18,3 +18,6 @@ void sb_param_row_refresh(SbParamRow *row);
 
 // Moves the keyboard focus into the row's field.
 void sb_param_row_focus(SbParamRow *row);
+
+// Shows the help page of the row that `widget`, which may be NULL, lies in; FALSE: in none.
+gboolean sb_param_row_help(GtkWidget *widget);

@@ -102,7 +102,8 @@ static void set_accels(GtkApplication *application) {
       {"win.turn-down", {"<Alt>Down"}},
       {"win.previous-event", {"<Primary>Left"}},
       {"win.next-event", {"<Primary>Right"}},
-      {"win.show-help-overlay", {"<Primary>question", "F1"}},
+      {"win.help", {"F1"}},
+      {"win.show-help-overlay", {"<Primary>question"}},
       {"app.quit", {"<Primary>q"}},
   };
   for (guint i = 0; i < G_N_ELEMENTS(table); i++) {

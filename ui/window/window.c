@@ -8,6 +8,7 @@
 #include "ui/params/derived_panel.h"
 #include "ui/params/gland_panel.h"
 #include "ui/params/param_panel.h"
+#include "ui/params/param_row.h"
 #include "ui/views/chart_column.h"
 #include "ui/views/chart_view.h"
 #include "ui/views/section_view.h"
@@ -426,6 +427,13 @@ static void on_shortcuts(GSimpleAction *action, GVariant *parameter, gpointer da
   gtk_window_present(GTK_WINDOW(overview));
 }
 
+// The parameter's page in whose row the focus is, else the keys.
+static void on_help(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  if (!sb_param_row_help(gtk_window_get_focus(GTK_WINDOW(data)))) {
+    on_shortcuts(action, parameter, data);
+  }
+}
+
 // Asks about unsaved changes on the way.
 static void on_close(GSimpleAction *action, GVariant *parameter, gpointer data) {
   gtk_window_close(GTK_WINDOW(data));
@@ -598,6 +606,7 @@ static void sb_window_init(SbWindow *window) {
       {.name = "import-drawing", .activate = on_import_drawing},
       {.name = "studies", .activate = on_studies},
       {.name = "close", .activate = on_close},
+      {.name = "help", .activate = on_help},
       {.name = "show-help-overlay", .activate = on_shortcuts},
       {.name = "copy-table", .activate = on_copy_table},
       {.name = "pin", .activate = on_pin},
