@@ -28,8 +28,15 @@ static void turn(int milliseconds) {
   } while (g_get_monotonic_time() < end);
 }
 
-// Whatever asks something is sent away; another window is closed.
+// Whatever asks something is sent away, the one that waits for an answer first; another window is
+// closed.
 static gboolean send_away(gpointer data) {
+  GtkWidget *grab = gtk_grab_get_current();
+  GtkWidget *asks = grab != NULL ? gtk_widget_get_toplevel(grab) : NULL;
+  if (GTK_IS_DIALOG(asks)) {
+    gtk_dialog_response(GTK_DIALOG(asks), GTK_RESPONSE_CANCEL);
+    return G_SOURCE_CONTINUE;
+  }
   g_autoptr(GList) tops = gtk_window_list_toplevels();
   for (GList *one = tops; one != NULL; one = one->next) {
     if (one->data == window || !gtk_widget_get_visible(one->data)) {
