@@ -5,6 +5,7 @@
 // who kills the program (tests/campaigns/monkey).
 //
 // test-ui-monkey [SEED [ACTIONS [LOG]]]
+#include "app/run/process.h"
 #include "app/session/autosave.h"
 #include "ui/window/window.h"
 
@@ -243,6 +244,7 @@ static char *copy_scene(const char *folder) {
 int main(int argc, char **argv) {
   const guint32 seed = argc > 1 ? (guint32)g_ascii_strtoull(argv[1], NULL, 10) : SEED;
   const int actions = argc > 2 ? (int)g_ascii_strtoull(argv[2], NULL, 10) : ACTIONS;
+  sb_process_set_up(); // as the window's own main
   g_autofree char *folder = g_dir_make_tmp("sealbench-monkey-XXXXXX", NULL);
   if (argc <= 3) { // else they are the caller's
     g_setenv("XDG_DATA_HOME", folder, TRUE);
