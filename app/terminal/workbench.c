@@ -133,7 +133,8 @@ static gboolean on_draw(gpointer data) {
 }
 
 // Whether something is under way that tells how far it is.
-static bool is_busy(const SbBench *bench) {
+static bool is_busy(const void *data) {
+  const SbBench *bench = data;
   return bench->job != NULL || bench->export != NULL;
 }
 
@@ -179,49 +180,10 @@ static void on_end(void *data) {
 }
 
 static void on_effects(void *data) {
-  SbBench *bench = data;
-  SbEffects *effects = g_new(SbEffects, 1);
-  if (sb_effect_job_take(bench->effect_job, effects)) {
-    g_free(bench->effects);
-    bench->effects = g_steal_pointer(&effects);
-    g_free(bench->effects_hash);
-    bench->effects_hash = g_steal_pointer(&bench->effect_job_hash);
-  }
-  g_free(effects);
-  g_clear_pointer(&bench->effect_job, sb_effect_job_free);
-  sb_bench_changed(bench);
-}
-
-// Once the values have stood for a moment and their run is there: it goes first.
-static gboolean on_effects_later(gpointer data) {
-  SbBench *bench = data;
-  const SbModel *model = sb_session_model(bench->session);
-  const SbSessionState state = sb_session_state(bench->session);
-  if (state == SB_SESSION_RUNNING || is_busy(bench)) {
-    return G_SOURCE_CONTINUE;
-  }
-  bench->effects_later = 0;
-  g_autofree char *hash = sb_document_sha256(sb_session_document(bench->session));
-  if (model != NULL && !sb_model_is_rig(model) && bench->effect_job == NULL &&
-      g_strcmp0(hash, bench->effects_hash) != 0) {
-    g_free(bench->effect_job_hash);
-    bench->effect_job_hash = g_steal_pointer(&hash);
-    bench->effect_job = sb_effect_job_start(model, on_effects, bench);
-  }
-  return G_SOURCE_REMOVE;
-}
-
-static void ask_effects(SbBench *bench) {
-  enum { STANDS_MS = 400 };
-  g_clear_pointer(&bench->effect_job, sb_effect_job_free);
-  if (bench->effects_later != 0) {
-    g_source_remove(bench->effects_later);
-  }
-  bench->effects_later = g_timeout_add(STANDS_MS, on_effects_later, bench);
+  sb_bench_changed(data);
 }
 
 static void on_params(SbBench *bench) {
-  ask_effects(bench);
   if (bench->list == SB_LIST_CHANGED && bench->input == SB_INPUT_NONE) {
     sb_bench_list(bench);
   }
@@ -289,7 +251,7 @@ static bool open_file(SbBench *bench, const char *path, GError **error) {
 
 static void finish(SbBench *bench) {
   sb_screen_close(bench->screen);
-  const guint sources[] = {bench->tick, bench->draw, bench->effects_later};
+  const guint sources[] = {bench->tick, bench->draw};
   for (size_t i = 0; i < G_N_ELEMENTS(sources); i++) {
     if (sources[i] != 0) {
       g_source_remove(sources[i]);
@@ -299,7 +261,7 @@ static void finish(SbBench *bench) {
   g_clear_pointer(&bench->job, sb_study_job_free);
   g_clear_pointer(&bench->export, sb_export_job_free);
   g_clear_pointer(&bench->cases, sb_cases_job_free);
-  g_clear_pointer(&bench->effect_job, sb_effect_job_free);
+  g_clear_pointer(&bench->effects, sb_effect_watch_free);
   sb_autosave_free(bench->autosave);
   sb_section_source_free(bench->source);
   sb_draw_list_finish(&bench->drawing);
@@ -317,9 +279,6 @@ static void finish(SbBench *bench) {
   g_free(bench->orphan);
   g_free(bench->study);
   g_free(bench->study_hash);
-  g_free(bench->effects);
-  g_free(bench->effects_hash);
-  g_free(bench->effect_job_hash);
   g_free(bench->job_hash);
 }
 
@@ -354,7 +313,7 @@ bool sb_workbench_run(const SbWorkbenchOptions *options, GError **error) {
     g_signal_connect_swapped(bench.session, "playhead-changed", G_CALLBACK(sb_bench_changed),
                              &bench);
     sb_bench_list(&bench);
-    ask_effects(&bench);
+    bench.effects = sb_effect_watch_new(bench.session, on_effects, is_busy, &bench);
     sb_bench_changed(&bench);
     g_timeout_add(300, on_restore, &bench);
     g_main_loop_run(bench.loop);

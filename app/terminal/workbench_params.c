@@ -156,42 +156,18 @@ static void draw_typed(SbBench *bench, int x, int y, int width) {
 static void draw_effect(SbBench *bench, int x, int y, int id) {
   const int middle = x + EFFECT / 2;
   sb_cells_put(&bench->cells, middle, y, 0x2502, sb_bench_pen(bench, SB_ROLE_AXIS, 0));
-  if (bench->effects == NULL || id < 0) {
+  bool former;
+  const SbEffects *effects = sb_effect_watch_effects(bench->effects, &former);
+  const double share = id >= 0 ? sb_effect_share(effects, bench->goal, id) : NAN;
+  if (!isfinite(share)) {
     return;
   }
-  const double *change = bench->effects->change[bench->goal];
-  double largest = 0;
-  for (int i = 0; i < SB_PARAM_COUNT; i++) {
-    largest = isfinite(change[i]) ? fmax(largest, fabs(change[i])) : largest;
-  }
-  if (!isfinite(change[id]) || largest <= 0) {
-    return;
-  }
-  g_autofree char *now = sb_document_sha256(sb_session_document(bench->session));
-  const bool stale = g_strcmp0(now, bench->effects_hash) != 0;
-  const SbColor color = sb_theme_diverging(sb_theme(true), change[id] < 0 ? -0.95 : 0.95);
-  const uint32_t ink = stale ? bench->theme.role[SB_ROLE_THIRD] : sb_cell_color(color);
+  const SbColor color = sb_theme_diverging(sb_theme(true), share < 0 ? -0.95 : 0.95);
+  const uint32_t ink = former ? bench->theme.role[SB_ROLE_THIRD] : sb_cell_color(color);
   const int longest = 8 * (EFFECT / 2); // eighths of a column on each side of the line
-  const int eighths = (int)lround(longest * change[id] / largest);
+  const int eighths = (int)lround(longest * share);
   sb_cells_bar(&bench->cells, eighths < 0 ? middle : middle + 1, y, eighths,
                (SbPen){ink, SB_CELL_OWN, 0});
-}
-
-// "Section diameter −0.97 N per 0.02 mm".
-static char *effect_text(SbBench *bench, SbParamId id) {
-  const SbEffects *effects = bench->effects;
-  if (effects == NULL || !isfinite(effects->change[bench->goal][id]) ||
-      !isfinite(effects->step[id])) {
-    return NULL;
-  }
-  const SbFigure *figure = sb_figure(sb_effect_goal(bench->goal));
-  char change[SB_FORMAT_MAX], step[SB_FORMAT_MAX];
-  sb_format_digits(
-      change, sb_quantity_to_shown(effects->change[bench->goal][id], figure->si, figure->shown), 2);
-  sb_format_digits(
-      step, sb_quantity_to_shown(effects->step[id], sb_param(id)->si, sb_param(id)->unit), 2);
-  return g_strdup_printf(_("%s %s %s per %s %s"), sb_effect_goal_name(bench->goal), change,
-                         figure->shown, step, sb_param(id)->unit);
 }
 
 static void draw_row(SbBench *bench, SbCellRect rect, const SbListRow *row, int y) {
@@ -261,7 +237,9 @@ static void draw_foot(SbBench *bench, SbCellRect rect) {
           ? g_strdup_printf("%s. %s", sb_param(id)->key, sb_param(id)->help)
           : g_strdup_printf("%s. %s", range, sb_param(id)->help);
   const bool wrong = error != NULL;
-  g_autofree char *effect = wrong ? NULL : effect_text(bench, id);
+  bool former;
+  const SbEffects *effects = sb_effect_watch_effects(bench->effects, &former);
+  g_autofree char *effect = wrong ? NULL : sb_effect_text(effects, bench->goal, id);
   if (effect != NULL && rect.height > 1) {
     sb_cells_text(&bench->cells, rect.x + 1, rect.y, rect.width - 2, effect,
                   sb_bench_pen(bench, SB_ROLE_INK, 0));

@@ -6,7 +6,7 @@
 #include "app/export/export_job.h"
 #include "app/session/autosave.h"
 #include "app/session/cases_job.h"
-#include "app/session/effect_job.h"
+#include "app/session/effect_watch.h"
 #include "app/session/section_source.h"
 #include "app/session/session.h"
 #include "app/session/study_job.h"
@@ -90,12 +90,8 @@ typedef struct {
   GString *pixels; // for the terminal; NULL: none
   SbCellRect pixels_at;
 
-  // What parameters do to the goal, of the values of `effects_hash` (NULL: not known yet).
-  SbEffectJob *effect_job;
-  SbEffects *effects; // NULL: none yet
-  char *effects_hash, *effect_job_hash;
+  SbEffectWatch *effects; // what parameters do to the goal
   int goal;
-  guint effects_later; // source that will ask
 
   // Studies.
   SbStudyKind study_kind; // chosen

@@ -55,6 +55,7 @@ typedef struct {
   double fault;                 // of the last answer's rings
   SbGradientContacts contacts, moved, up; // of the base's rings to first order, of the last
                                           // answer's, at a step up
+  double tolerance;                       // that films are solved to
   double order;                   // of the rings' recovered pressures (SbSummary.ring_order)
   char changed[SB_GRADIENT_TEXT]; // what another outcome at a smallest step was, or empty
   SbReport report;                // of the last question that was refused or failed
@@ -128,9 +129,10 @@ static const double RESPONSE = 3;
 // (measured: 0.6 with 7, none with 12).
 static const double SCATTER_LOAD = 0.08, SCATTER_FILM = 0.13, SCATTER = 0.13;
 static const double SCATTER_ROUGH = 0.7, ORDER_MOST = 0.1, MANY = 16;
-// And films of two meshes some per cent of a parameter apart differ by this, as parts of the film
-// for each of the parameter itself, where their contacts hardly move (measured: 2.4e-5 at most).
-static const double FLOOR_FILM = 7e-5;
+// And where contacts hardly move, rings of two meshes some per cent of a parameter apart differ, as
+// part of a figure for a change by the parameter itself (measured: 2.7e-3 at most), and films by
+// what they are solved to, so many times the tolerance (measured: 56 at most).
+static const double FLOOR = 4e-3, FLOOR_FILM = 80;
 
 // A slope that is less than its error is none, unless both are small: what the figure changes by as
 // the parameter does by itself is known to this part of it.
@@ -428,7 +430,7 @@ static SbStatus add_scatter(Work *work, size_t parameter, double x, double scale
     const SbFigure *row = sb_figure(out->figure[i]);
     const double by = row->seal < SB_SEAL_COUNT ? moved[row->seal] : most;
     const double share = scatter_of(row, work->order) * by / (1 + by * scale / MANY) +
-                         (is_of_film(row) ? FLOOR_FILM / scale : 0);
+                         (FLOOR + (is_of_film(row) ? FLOOR_FILM * work->tolerance : 0)) / scale;
     // What does not hang on the rings scatters with none.
     const bool hangs = stay[row->seal] ? value[i] != held[i] : out->slope[cell] != 0;
     out->error[cell] += hangs ? share * work->size[i] : 0;
@@ -521,6 +523,7 @@ static SbStatus find_start(Work *work, const SbQuestion *question, SbReport *rep
   SbModel *model;
   SbStatus status = sb_model_derive(&model, base.base, base.override, base.override_count, report);
   const bool rings = status == SB_OK && sb_model_number(model, SB_P_MODELS_FIT) == SB_FIT_RING;
+  work->tolerance = status == SB_OK ? sb_model_value(model, SB_P_OUTPUT_TOLERANCE) : NAN;
   sb_model_destroy(model);
   if (status != SB_OK || !rings) {
     return status;

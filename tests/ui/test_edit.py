@@ -254,10 +254,23 @@ def help_of_the_parameter_that_is_edited(folder):
         assert app.value("Section diameter") == "1.61 mm"
 
 
+def effects_stand_beside_the_main_parameters(folder):
+    with App(scene(folder)) as app:
+        wait("the first run", app.run_done)
+        app.choose("Effects", "effect on least return")
+
+        def told():
+            return [node.description for node in app.all("drawing area", "Effect") if node.description]
+
+        wait("bars", lambda: any(re.match(r"least return [−-].* N per 0\.020 mm$", text) for text in told()))
+        app.choose("Effects", "no effects")
+        wait("no bars", lambda: not told())
+
+
 if __name__ == "__main__":
     main(edit_with_a_unit_changes_the_breakaway_force, bad_values_stay_in_their_field,
          values_that_do_not_go_together_are_told_at_their_field, undo_and_redo,
          saved_values_come_back, one_run_is_shown_and_values_keep_their_digits,
          unsaved_changes_survive_a_crash, closing_asks_about_changes,
          broken_files_are_told_in_one_dialog, search_finds_parameters,
-         help_of_the_parameter_that_is_edited)
+         help_of_the_parameter_that_is_edited, effects_stand_beside_the_main_parameters)

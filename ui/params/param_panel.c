@@ -4,12 +4,14 @@
 // Whatever leaves rows out unfolds the groups of those that stay.
 #include "ui/params/param_panel.h"
 
+#include "app/session/effect_watch.h"
 #include "app/session/param_list.h"
 #include "ui/params/param_row.h"
 #include "ui/params/rubber_row.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
+#include <math.h>
 #include <string.h>
 
 typedef struct {
@@ -23,7 +25,8 @@ enum { MARKED_MS = 1500 }; // a row that was shown
 struct _SbParamPanel {
   GtkBox parent_instance;
   SbSession *session;
-  GtkWidget *search, *scroller, *list, *nothing;
+  GtkWidget *search, *scroller, *list, *nothing, *goal;
+  SbEffectWatch *effects; // NULL: nobody asks for them
   GtkWidget *filters[SB_PARAM_FILTER_ALL + 1];
   SbParamFilter filter;
   GtkWidget *row[SB_PARAM_COUNT];
@@ -151,11 +154,38 @@ static void name_filters(SbParamPanel *panel) {
   }
 }
 
+// Bars beside the main parameters of what they do to the chosen figure.
+static void show_effects(void *data) {
+  SbParamPanel *panel = data;
+  const int goal = gtk_combo_box_get_active(GTK_COMBO_BOX(panel->goal)) - 1;
+  bool former = false;
+  const SbEffects *effects =
+      panel->effects != NULL ? sb_effect_watch_effects(panel->effects, &former) : NULL;
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    g_autofree char *text = goal >= 0 ? sb_effect_text(effects, goal, (SbParamId)id) : NULL;
+    const double share = text != NULL ? sb_effect_share(effects, goal, id) : NAN;
+    sb_param_row_show_effect(SB_PARAM_ROW(panel->row[id]), share, former, text);
+  }
+}
+
+static void on_goal(GtkComboBox *goal, SbParamPanel *panel) {
+  const gboolean asked = gtk_combo_box_get_active(goal) > 0;
+  if (asked && panel->effects == NULL) {
+    panel->effects = sb_effect_watch_new(panel->session, show_effects, NULL, panel);
+  } else if (!asked) {
+    g_clear_pointer(&panel->effects, sb_effect_watch_free);
+  }
+  show_effects(panel);
+}
+
 static void refresh(SbParamPanel *panel) {
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     sb_param_row_refresh(SB_PARAM_ROW(panel->row[id]));
   }
   sb_rubber_row_refresh(panel->rubber);
+  if (panel->effects != NULL) {
+    show_effects(panel); // of former values from now on
+  }
   name_filters(panel);
   // A row that is being edited stays until another list is asked for.
   GtkWidget *top = gtk_widget_get_toplevel(GTK_WIDGET(panel));
@@ -291,12 +321,18 @@ GtkWidget *sb_param_panel_new(SbSession *session) {
   return GTK_WIDGET(panel);
 }
 
+static void dispose(GObject *object) {
+  g_clear_pointer(&SB_PARAM_PANEL(object)->effects, sb_effect_watch_free);
+  G_OBJECT_CLASS(sb_param_panel_parent_class)->dispose(object);
+}
+
 static void finalize(GObject *object) {
   g_array_unref(SB_PARAM_PANEL(object)->groups);
   G_OBJECT_CLASS(sb_param_panel_parent_class)->finalize(object);
 }
 
 static void sb_param_panel_class_init(SbParamPanelClass *class) {
+  G_OBJECT_CLASS(class)->dispose = dispose;
   G_OBJECT_CLASS(class)->finalize = finalize;
 }
 
@@ -331,6 +367,19 @@ static void sb_param_panel_init(SbParamPanel *panel) {
   gtk_widget_set_tooltip_text(panel->filters[SB_PARAM_FILTER_CHANGED],
                               _("Values other than their defaults"));
   gtk_box_pack_start(GTK_BOX(panel), filters, FALSE, FALSE, 0);
+
+  panel->goal = gtk_combo_box_text_new();
+  gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(panel->goal), _("no effects"));
+  for (int i = 0; i < SB_EFFECT_GOALS; i++) {
+    g_autofree char *name = g_strdup_printf(_("effect on %s"), sb_effect_goal_name(i));
+    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(panel->goal), name);
+  }
+  gtk_combo_box_set_active(GTK_COMBO_BOX(panel->goal), 0);
+  sb_style_name(panel->goal, _("Effects"),
+                _("What each main parameter does to a figure, per tolerance or 5 %"));
+  g_object_set(panel->goal, "margin-start", 20, "margin-end", 20, "margin-bottom", 6, NULL);
+  g_signal_connect(panel->goal, "changed", G_CALLBACK(on_goal), panel);
+  gtk_box_pack_start(GTK_BOX(panel), panel->goal, FALSE, FALSE, 0);
 
   panel->list = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
   g_object_set(panel->list, "margin-start", 18, "margin-end", 16, "margin-bottom", 12, NULL);

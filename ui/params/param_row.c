@@ -17,7 +17,9 @@ struct _SbParamRow {
   GtkBox parent_instance;
   SbSession *session; // borrowed; the window keeps it alive longer than its rows
   SbParamId id;
-  GtkWidget *label, *range, *field, *reset, *error, *symbol;
+  GtkWidget *label, *range, *field, *reset, *error, *symbol, *effect;
+  double share; // of the effect's bar
+  gboolean former;
   GtkWidget **flags; // check buttons of a flags parameter
   int flag_count;
   gboolean refreshing; // changes come from the session, not from the user
@@ -135,6 +137,22 @@ static void on_reset(GtkButton *button, SbParamRow *row) {
   sb_session_unset(row->session, row->id);
 }
 
+// From the middle to the side that the figure goes as the parameter rises.
+static gboolean on_draw_effect(GtkWidget *widget, cairo_t *cr, SbParamRow *row) {
+  const SbTheme *theme = sb_theme(sb_style_is_dark());
+  const double width = gtk_widget_get_allocated_width(widget), middle = floor(0.5 * width) + 0.5;
+  const SbColor axis = theme->role[SB_ROLE_AXIS];
+  const SbColor bar = sb_theme_diverging(theme, row->share < 0 ? -0.95 : 0.95);
+  cairo_set_source_rgb(cr, axis.r, axis.g, axis.b);
+  cairo_rectangle(cr, middle - 0.5, 0, 1, 8);
+  cairo_fill(cr);
+  const double length = row->share * (middle - 1);
+  cairo_set_source_rgba(cr, bar.r, bar.g, bar.b, row->former ? 0.4 : 1);
+  cairo_rectangle(cr, middle + fmin(length, 0), 2, fabs(length), 4);
+  cairo_fill(cr);
+  return GDK_EVENT_STOP;
+}
+
 static void add_entry(SbParamRow *row, GtkBox *line, const char *name, const char *range) {
   const SbParam *param = sb_param(row->id);
   row->field = gtk_entry_new();
@@ -151,7 +169,15 @@ static void add_entry(SbParamRow *row, GtkBox *line, const char *name, const cha
   gtk_box_pack_start(line, row->field, FALSE, FALSE, 0);
   row->symbol = sb_style_label(param->symbol, "sb-row-symbol", 0);
   gtk_widget_set_size_request(row->symbol, 42, -1);
-  gtk_box_pack_start(line, row->symbol, FALSE, FALSE, 0);
+  GtkWidget *column = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+  gtk_widget_set_valign(column, GTK_ALIGN_CENTER);
+  gtk_container_add(GTK_CONTAINER(column), row->symbol);
+  row->effect = gtk_drawing_area_new();
+  gtk_widget_set_size_request(row->effect, 42, 8);
+  gtk_widget_set_no_show_all(row->effect, TRUE);
+  g_signal_connect(row->effect, "draw", G_CALLBACK(on_draw_effect), row);
+  gtk_container_add(GTK_CONTAINER(column), row->effect);
+  gtk_box_pack_start(line, column, FALSE, FALSE, 0);
 }
 
 static void add_combo(SbParamRow *row, GtkBox *line, const char *name) {
@@ -349,6 +375,18 @@ void sb_param_row_refresh(SbParamRow *row) {
   gtk_widget_set_tooltip_text(row->reset, tip);
   refresh_tooltip(row, &derived, lock, note);
   row->refreshing = FALSE;
+}
+
+void sb_param_row_show_effect(SbParamRow *row, double share, gboolean former, const char *text) {
+  if (row->effect == NULL) {
+    return;
+  }
+  row->share = share;
+  row->former = former;
+  gtk_widget_set_visible(row->effect, isfinite(share));
+  gtk_widget_set_tooltip_text(row->effect, text);
+  sb_style_name(row->effect, _("Effect"), text);
+  gtk_widget_queue_draw(row->effect);
 }
 
 void sb_param_row_focus(SbParamRow *row) {

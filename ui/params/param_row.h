@@ -21,3 +21,7 @@ void sb_param_row_focus(SbParamRow *row);
 
 // Shows the help page of the row that `widget`, which may be NULL, lies in; FALSE: in none.
 gboolean sb_param_row_help(GtkWidget *widget);
+
+// Draws what the parameter does to a figure: -1 to 1 of the largest, NaN where that is not known;
+// paler where it is of `former` values. `text`, which may be NULL, tells it in words.
+void sb_param_row_show_effect(SbParamRow *row, double share, gboolean former, const char *text);
