@@ -2,6 +2,7 @@
 #include "app/data/scan/scan_figures.h"
 
 #include <math.h>
+#include <string.h>
 
 // ---- Cut-offs ----
 
@@ -127,7 +128,7 @@ static void warn(SbScanFigures *out, const SbHeights *h, const SbHeightsChoices 
 
 SbStatus sb_scan_figures(SbScanFigures *out, SbHeights *heights, const SbHeightsChoices *choices,
                          SbReport *report) {
-  *out = (SbScanFigures){0};
+  memset(out, 0, sizeof *out);
   SbStatus status = sb_heights_prepare(&out->done, heights, choices, report);
   if (status == SB_OK) {
     status = sb_height_figures(&out->figures, heights, report);

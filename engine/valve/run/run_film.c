@@ -64,9 +64,9 @@ static bool both_alike(const SbRun *run, int seal, int chamber) {
          in->contact_right == back->contact_right;
 }
 
-// Begins a stretch at rest.
-static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *hooks,
-                              SbReport *report) {
+// Begins a stretch at rest. Not in its caller's frame: the two are more than one may take.
+__attribute__((noinline)) static SbStatus begin_stretch(History *history, int chamber,
+                                                        const SbRunHooks *hooks, SbReport *report) {
   SbRun *run = history->run;
   const int seal = history->seal;
   SbFilmTransientProblem problem = {.speed_scale = history->speed_scale,
