@@ -64,9 +64,9 @@ static bool both_alike(const SbRun *run, int seal, int chamber) {
          in->contact_right == back->contact_right;
 }
 
-// Begins a stretch at rest. Not in its caller's frame: the two are more than one may take.
-__attribute__((noinline)) static SbStatus begin_stretch(History *history, int chamber,
-                                                        const SbRunHooks *hooks, SbReport *report) {
+// Begins a stretch at rest.
+static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *hooks,
+                              SbReport *report) {
   SbRun *run = history->run;
   const int seal = history->seal;
   SbFilmTransientProblem problem = {.speed_scale = history->speed_scale,
@@ -101,8 +101,10 @@ __attribute__((noinline)) static SbStatus begin_stretch(History *history, int ch
   return status;
 }
 
-// The present film into a frame.
-static void show(const History *history, const SbFilmTransientResult *result, SbFrame *frame) {
+// The present film into a frame of the run. Not in its caller's frame on the stack, for a film's
+// size.
+__attribute__((noinline)) static void show(const History *history,
+                                           const SbFilmTransientResult *result, SbFrame *frame) {
   const SbFilm film = {.film_min = result->film_min,
                        .film_central = result->film_central,
                        .film_ratio = result->film_central / history->run->model->sigma,
