@@ -62,6 +62,11 @@ static void on_params(SbSession *session, gpointer data) {
   fflush(states);
 }
 
+// With nothing to ask about the window would close, and all would end.
+static gboolean on_delete(GtkWidget *widget, GdkEvent *event, gpointer data) {
+  return !sb_session_is_modified(sb_window_session(SB_WINDOW(widget)));
+}
+
 // Actions ----------------------------------------------------------------------------------------
 
 static void edit(SbSession *session) {
@@ -259,6 +264,7 @@ int main(int argc, char **argv) {
   g_assert_true(g_application_register(G_APPLICATION(application), NULL, NULL));
   g_application_hold(G_APPLICATION(application));
   window = sb_window_new(application);
+  g_signal_connect(window, "delete-event", G_CALLBACK(on_delete), NULL);
   g_autofree char *scene = copy_scene(folder);
   g_autoptr(GFile) file = g_file_new_for_path(scene);
   sb_window_open(SB_WINDOW(window), file);
