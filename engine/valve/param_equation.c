@@ -84,7 +84,7 @@ static const SbParamEquation table[] = {
      "engine/contact/rough"},
     {"surface.", "A_a = π²(ζβσ)² A F₂(λ), p_a = (8√2/15) π(ζβσ)² √(σ/β) E′ F₅⸝₂(λ)",
      "Greenwood, Tripp 1970; thesis 5.11 to 5.13", "engine/contact/rough"},
-    {"friction.stribeck_speed", "static share × exp(−|v|/v_s)", "Stribeck 1902",
+    {"friction.stribeck_speed", "F = F_k (1 + (r − 1) exp(−v/v_s))", "Stribeck 1902",
      "engine/mechanism"},
     {"friction.tangential_stiffness", "F = k s before it slips", "docs/physics.md",
      "engine/mechanism"},
