@@ -239,29 +239,52 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr, SbSectionHandles *handles) 
 
 // Editing ----------------------------------------------------------------------------------------
 
-// Puts the size to `value`, or leaves it at the last good one where the valve cannot be so.
-static void put(SbSectionHandles *handles, SbParamId id, double value) {
+// `value` and `count` steps on, as the number that is typed for it would be read.
+static double step_from(double value, gboolean fine, double count) {
+  return sb_quantity_step(value, "m", "mm", fine ? FINE_POWER : STEP_POWER, count);
+}
+
+static gboolean goes(const SbModel *model, SbParamId id, double value) {
+  SbModel *trial = NULL;
+  const gboolean good = sb_model_derive(&trial, model, &(SbOverride){id, value}, 1, NULL) == SB_OK;
+  sb_model_destroy(trial);
+  return good;
+}
+
+// The step next to `wanted` at which the valve can still be; that of the value now where none is.
+static double last_good(const SbModel *model, SbParamId id, double now, double wanted,
+                        gboolean fine) {
+  const double step = 1e-3 * pow(10, fine ? FINE_POWER : STEP_POWER);
+  double good = 0, bad = round((wanted - now) / step);
+  while (fabs(bad - good) > 1) {
+    const double middle = trunc(0.5 * (good + bad));
+    *(goes(model, id, step_from(now, fine, middle)) ? &good : &bad) = middle;
+  }
+  return good == 0 ? now : step_from(now, fine, good);
+}
+
+// Puts the size to `value`, or as far towards it as the valve can be: a fast hand leaves out steps.
+static void put(SbSectionHandles *handles, SbParamId id, double value, gboolean fine) {
   SbSession *session = handles->session;
   const SbParam *param = sb_param(id);
-  const double wanted = fmin(fmax(value, param->min), param->max);
+  const SbModel *model = sb_session_model(session);
+  double wanted = fmin(fmax(value, param->min), param->max);
   handles->limit = wanted != value;
+  if (model != NULL && wanted != handles->value && !goes(model, id, wanted)) {
+    wanted = last_good(model, id, handles->value, wanted, fine);
+    handles->limit = TRUE;
+  }
   if (wanted == handles->value) {
     return;
   }
-  const gboolean good = sb_session_model(session) != NULL;
   sb_session_edit_value(session, id, wanted);
-  if (good && sb_session_model(session) == NULL) {
+  if (model != NULL && sb_session_model(session) == NULL) { // a part's shape forbids it
     sb_session_edit_value(session, id, handles->value);
     handles->limit = TRUE;
     return;
   }
   handles->value = wanted;
   handles->moved = TRUE;
-}
-
-// `value` and `count` steps on, as the number that is typed for it would be read.
-static double step_from(double value, gboolean fine, int count) {
-  return sb_quantity_step(value, "m", "mm", fine ? FINE_POWER : STEP_POWER, count);
 }
 
 gboolean sb_section_handles_press(SbSectionHandles *handles, double x, double y) {
@@ -309,7 +332,7 @@ gboolean sb_section_handles_motion(SbSectionHandles *handles, double x, double y
   handles->last = (SbPoint){x, y};
   // A press that trembles is none.
   if (handles->moved || hypot(x - handles->press.x, y - handles->press.y) > 2) {
-    put(handles, handle->id, step_from(handles->start + handles->travel, fine, 0));
+    put(handles, handle->id, step_from(handles->start + handles->travel, fine, 0), fine);
   }
   return TRUE;
 }
@@ -357,7 +380,7 @@ gboolean sb_section_handles_key(SbSectionHandles *handles, const GdkEventKey *ev
   case GDK_KEY_Left: {
     const int sign = event->keyval == GDK_KEY_Up || event->keyval == GDK_KEY_Right ? 1 : -1;
     handles->value = value_of(handles, id);
-    put(handles, id, step_from(handles->value, fine, sign));
+    put(handles, id, step_from(handles->value, fine, sign), fine);
     gtk_widget_queue_draw(handles->layer);
     return TRUE;
   }
