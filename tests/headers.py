@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Every header compiles alone, twice, by the flags of its layer, and so does a variable of each type
 that it gives an initialiser for (SbRingLoad, SB_RING_LOAD_INIT); a dropped status does not pass.
+The build itself has compiled a header that comes first in its own source; it needs a guard alone.
 
 headers.py BUILD SOURCE LAYER..., TAP on standard output.
 """
@@ -38,12 +39,25 @@ def compiles(layer, text, *options):
         input=text, capture_output=True, text=True, cwd=folder, check=False).stderr
 
 
+def first_in_source(header):
+    """Whether the header's own source begins with it."""
+    try:
+        with open(os.path.join(source, header[:-2] + '.c'), encoding='utf-8') as file:
+            includes = re.search(r'^#include ["<](.*)[">]', file.read(), re.M)
+    except FileNotFoundError:
+        return False
+    return includes is not None and includes[1] == header
+
+
 def alone(header):
     layer = header.split(os.sep)[0]
     # GObject's macros do not pass -Wpedantic.
     options = ['-Wno-pedantic'] if layer == 'ui' else []
     with open(os.path.join(source, header), encoding='utf-8') as file:
-        names = re.findall(r'^#define SB_(\w+)_INIT\b', file.read(), re.M)
+        text = file.read()
+    names = re.findall(r'^#define SB_(\w+)_INIT\b', text, re.M)
+    if not names and first_in_source(header):
+        return '' if re.search('^#(pragma once|ifndef SB_)', text, re.M) else 'no guard'
     used = ''.join(f'Sb{name.title().replace("_", "")} v{name} = SB_{name}_INIT;\n' for name in names)
     return compiles(layer, f'#include "{header}"\n#include "{header}"\nint used;\n{used}', *options)
 

@@ -527,10 +527,11 @@ static void hold_slopes(Count *count, const Valve *valve, const SbGradient *grad
 }
 
 // The same against whole runs, each on meshes of its own, whose figures scatter about smooth curves
-// by up to 0.25 % (ring_near.c): so far apart that what a contact changes by is many times that.
+// by up to 0.25 % (ring_near.c): so far apart that what a contact changes by is many times that. A
+// slope of zero leaves that scatter alone; hold_slopes() holds it on the base's meshes.
 static void hold_runs(Count *count, const Valve *valve, const SbGradient *gradient, size_t k,
                       const double *value, const SbEvaluator *start, double tolerance) {
-  static const double LEAST = 2e-2, MOST = 0.3, MOVES = 0.03;
+  static const double LEAST = 2e-2, MOST = 0.3, MOVES = 0.03, SCATTER = 2.5e-3;
   const double x = sb_gradient_at(gradient, k);
   const SbParamId id = sb_gradient_parameter(gradient, k);
   double moves = 0, up[FIGURES], down[FIGURES];
@@ -545,8 +546,8 @@ static void hold_runs(Count *count, const Valve *valve, const SbGradient *gradie
   for (size_t i = 0; i < FIGURES; i++) {
     const double is = sb_gradient_slope(gradient, i, k);
     const double solved = (up[i] - down[i]) / (2 * h);
-    const double allowed =
-        sb_gradient_error(gradient, i, k) + H * H * fabs(solved) + tolerance * fabs(value[i]) / h;
+    const double apart = (is == 0 ? SCATTER : tolerance) * fabs(value[i]);
+    const double allowed = sb_gradient_error(gradient, i, k) + H * H * fabs(solved) + apart / h;
     if (!isfinite(is) || (is == 0 && solved == 0)) {
       continue;
     }
@@ -593,7 +594,7 @@ static size_t compare_rings(const Valve *valve, const SbParamId *parameter, size
     if (!again) {
       hold_runs(&count, valve, gradient, k, value, start, tolerance);
     }
-    if (!again && moves) {
+    if (!again && (moves || whole)) {
       hold_slopes(&count, valve, gradient, k, beside, start);
     }
   }
