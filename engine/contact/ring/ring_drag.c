@@ -152,13 +152,18 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
     if (ring->easy && ring->count.iterations - first > EASY_MOST) {
       return sb_fail(report, SB_ERROR_NOT_CONVERGED, "an easy path ends after many steps");
     }
+    const bool spent = ring->count.iterations - first >= ITERATIONS_MOST;
     bool refit = fabs(is->turn - fitted) > (ring->easy ? EASY_TURN : REFIT_TURN);
+    if (status == SB_OK && spent && is->now.friction_bore < aim) {
+      status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the path takes more than %d iterations",
+                       ITERATIONS_MOST);
+    }
     if (status == SB_ERROR_NOT_CONVERGED) {
       ring->count.rejected++;
       length *= 0.5;
-      if (length < ARC_LEAST) {
+      if (length < ARC_LEAST || spent) {
         // What stops at single nodes of one mesh goes on with another.
-        refit = ++meshes <= MESHES && ring->count.iterations - first < ITERATIONS_MOST;
+        refit = ++meshes <= MESHES && !spent;
         if (!refit && fabs(is->turn - level_turn) > FLAT_TURN) {
           return end_at_limit(ring, SB_RING_ROLLS, most, limit);
         }
@@ -194,7 +199,9 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
         direction[k] = way[k] / norm;
         anchor[k] += way[k];
       }
-      length = used <= QUICK ? fmin(ARC_MOST, 1.5 * length) : used > SLOW ? 0.7 * length : length;
+      length = used <= QUICK ? fmin(ARC_MOST, 1.5 * length)
+               : used > SLOW ? fmax(ARC_LEAST, 0.7 * length)
+                             : length;
     }
     if (refit && (status == SB_OK || status == SB_ERROR_NOT_CONVERGED)) {
       status = fit_mesh(ring, (1.0 - FINER * meshes) * ring->options.element_size, report);
