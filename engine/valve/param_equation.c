@@ -44,6 +44,8 @@ static const SbParamEquation table[] = {
      "engine/contact/gland.h"},
     {"bore.diameter", "squeeze (d − g)/d, friction's area: width × πD", "Parker ORD 5700",
      "engine/contact/gland.h"},
+    {"bore.entry", NULL, NULL, NULL}, // for the drawing only
+    {"bore.land_length", NULL, NULL, NULL},
     {"bore.vent", "dp/dt = K (Q_in − Q_out)/V, Q = C_d A √(2Δp/ρ)", "orifice flow",
      "engine/mechanism/chamber.h"},
     {"bore.refill", "dp/dt = K (Q_in − Q_out)/V, Q = C_d A √(2Δp/ρ)", "orifice flow",
@@ -76,7 +78,14 @@ static const SbParamEquation table[] = {
     {"chamber.", "dp/dt = K (Q_in − Q_out)/V, Q = C_d A √(2Δp/ρ)", "orifice flow",
      "engine/mechanism/chamber.h"},
     {"stem.spring", "F = F₀ + k s", "Hooke", "engine/mechanism"},
-    {"stem.pressure_diameter", "F_p = p π d_p²/4", "statics", "engine/mechanism"},
+    {"stem.chamber", "V = bore − stem − rings, between the grooves' middles", "geometry",
+     "engine/mechanism/chamber.h"},
+    {"stem.seal_spacing", "V = bore − stem − rings, between the grooves' middles", "geometry",
+     "engine/mechanism/chamber.h"},
+    {"stem.nose", NULL, NULL, NULL},
+    {"stem.shoulder", NULL, NULL, NULL},
+    {"stem.rod", NULL, NULL, NULL},
+    {"stem.pressure_diameter", "F_p = p π D_p²/4", "statics", "engine/mechanism"},
     {"stem.", "m s″ = drive + pressure − spring − friction + stops", "Newton", "engine/mechanism"},
     {"surface.hamaker_constant", "p = A_H/(6π h³), cut off at 0.165 nm", "thesis 5.17",
      "engine/contact/rough"},
@@ -129,5 +138,5 @@ const SbParamEquation *sb_param_equation(SbParamId id) {
       best = &table[i];
     }
   }
-  return best;
+  return best != NULL && best->equation != NULL ? best : NULL;
 }

@@ -249,6 +249,7 @@ def help_of_the_parameter_that_is_edited(folder):
         wait("its key", lambda: app.label(r"^seal\.section_diameter, d$"))
         assert app.label(r"^0\.2 mm to 20 mm$"), "no range"
         assert app.label(r"^squeeze \(d − g\)/d"), "no equation"
+        assert app.has("drawing area", "Sketch"), "no sketch"
         app.key("Escape")
         wait("no page", lambda: not app.label(r"^seal\.section_diameter"))
         assert app.value("Section diameter") == "1.61 mm"

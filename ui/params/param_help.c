@@ -2,6 +2,7 @@
 
 #include "app/base/translation.h"
 #include "engine/valve/param_equation.h"
+#include "ui/params/param_sketch.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -63,6 +64,12 @@ void sb_param_help_show(SbSession *session, SbParamId id, GtkWidget *field) {
   gtk_container_add(GTK_CONTAINER(box),
                     sb_style_label(sb_translation(param->label), "sb-heading", 0));
   gtk_container_add(GTK_CONTAINER(box), wrapped(sb_translation(param->help), "sb-derived-name"));
+  const SbModel *model = sb_session_model(session);
+  GtkWidget *sketch = model != NULL ? sb_param_sketch_new(model, id) : NULL;
+  if (sketch != NULL) {
+    sb_style_name(sketch, _("Sketch"), sb_translation(param->label));
+    gtk_container_add(GTK_CONTAINER(box), sketch);
+  }
   GtkWidget *grid = gtk_grid_new();
   gtk_grid_set_column_spacing(GTK_GRID(grid), 14);
   gtk_grid_set_row_spacing(GTK_GRID(grid), 6);

@@ -1,5 +1,5 @@
-// The help page of a parameter: what it is, what it may be and why it is what it is, and the
-// equation that it enters first.
+// The help page of a parameter: what it is, where on the valve it is measured, what it may be and
+// why it is what it is, and the equation that it enters first.
 #pragma once
 
 #include "app/session/session.h"
