@@ -182,7 +182,16 @@ def search_finds_parameters(folder):
                                   ("stiction", "text", "Static ratio")):
             box.queryEditableText().setTextContents(text)
             wait(found, lambda: app.has(role, found) and not app.has("text", "Section diameter"))
+        # Actions too, which do what they say.
+        box.queryEditableText().setTextContents("movie")
+        wait("the export", lambda: app.has("push button", "Export"))
+        box.queryEditableText().setTextContents("3d")
+        cutaway = app.find("push button", "Cutaway or section")
+        app.act(cutaway, "click")
+        wait("the cutaway", lambda: app.find("toggle button", "Cutaway").getState().contains(
+            pyatspi.STATE_CHECKED))
         box.queryEditableText().setTextContents("")
+        wait("no action", lambda: not app.has("push button", "Cutaway or section"))
         # The main ones, what was changed, all.
         app.press("toggle button", re.compile(r"^Main 16$"))
         # All would have the share below the modulus; what is scrolled out of sight does not count.

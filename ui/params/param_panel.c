@@ -6,6 +6,7 @@
 
 #include "app/session/effect_watch.h"
 #include "app/session/param_list.h"
+#include "ui/params/actions.h"
 #include "ui/params/param_row.h"
 #include "ui/params/rubber_row.h"
 #include "ui/views/style.h"
@@ -25,7 +26,7 @@ enum { MARKED_MS = 1500 }; // a row that was shown
 struct _SbParamPanel {
   GtkBox parent_instance;
   SbSession *session;
-  GtkWidget *search, *scroller, *list, *nothing, *goal;
+  GtkWidget *search, *scroller, *list, *actions, *nothing, *goal;
   SbEffectWatch *effects; // NULL: nobody asks for them
   GtkWidget *filters[SB_PARAM_FILTER_ALL + 1];
   SbParamFilter filter;
@@ -131,6 +132,7 @@ static void list(SbParamPanel *panel) {
       gtk_expander_set_expanded(GTK_EXPANDER(group->expander), group->unfolded);
     }
   }
+  found += sb_action_finder_search(panel->actions, needle);
   gtk_widget_set_visible(panel->nothing, found == 0);
   panel->narrowed = narrowed;
 }
@@ -346,7 +348,7 @@ static void sb_param_panel_init(SbParamPanel *panel) {
   sb_style_name(panel->search, _("Search parameters"),
                 _("Shows the parameters whose name, key, symbol, choices or help holds the text, "
                   "or which are "
-                  "also called that"));
+                  "also called that, and the actions"));
   g_object_set(panel->search, "margin-start", 20, "margin-end", 20, "margin-top", 10,
                "margin-bottom", 6, NULL);
   g_signal_connect(panel->search, "search-changed", G_CALLBACK(on_search), panel);
@@ -383,6 +385,8 @@ static void sb_param_panel_init(SbParamPanel *panel) {
 
   panel->list = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
   g_object_set(panel->list, "margin-start", 18, "margin-end", 16, "margin-bottom", 12, NULL);
+  panel->actions = sb_action_finder_new();
+  gtk_box_pack_start(GTK_BOX(panel->list), panel->actions, FALSE, FALSE, 0);
   panel->nothing = gtk_label_new(_("No parameter matches."));
   sb_style_class(panel->nothing, "sb-note");
   gtk_widget_set_margin_top(panel->nothing, 24);

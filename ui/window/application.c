@@ -3,6 +3,7 @@
 #include "ui/window/application.h"
 
 #include "engine/valve/sealbench.h"
+#include "ui/params/actions.h"
 #include "ui/views/style.h"
 #include "ui/window/latency.h"
 #include "ui/window/preferences.h"
@@ -64,51 +65,12 @@ static void on_reset_latency(GSimpleAction *action, GVariant *parameter, gpointe
 }
 
 static void set_accels(GtkApplication *application) {
-  static const struct {
-    const char *action, *accels[3];
-  } table[] = {
-      {"win.open", {"<Primary>o"}},
-      {"win.new", {"<Primary>n"}},
-      {"win.save", {"<Primary>s"}},
-      {"win.save-as", {"<Primary><Shift>s"}},
-      {"win.undo", {"<Primary>z"}},
-      {"win.redo", {"<Primary><Shift>z", "<Primary>y"}},
-      {"win.search", {"<Primary>f"}},
-      {"win.next-error", {"F8"}},
-      {"win.run-or-stop", {"<Primary>r"}},
-      {"win.export", {"<Primary>e"}},
-      {"win.studies", {"<Primary>t"}},
-      {"win.page::valve", {"<Primary>1"}},
-      {"win.page::design", {"<Primary>2"}},
-      {"win.page::calibrate", {"<Primary>3"}},
-      {"win.page::propellants", {"<Primary>4"}},
-      {"win.page::thesis", {"<Primary>5"}},
-      {"win.close", {"<Primary>w"}},
-      {"win.pin", {"<Primary>p"}},
-      {"win.report", {"<Primary><Shift>e"}},
-      {"win.bookmark", {"<Primary>b"}},
-      {"win.full-screen", {"F11"}},
-      {"win.present", {"F5"}},
-      {"win.show-parameters", {"F9"}},
-      {"win.show-charts", {"<Shift>F9"}},
-      {"win.show-timeline", {"<Primary>F9"}},
-      {"win.zoom-in", {"<Primary>plus", "<Primary>equal"}},
-      {"win.zoom-out", {"<Primary>minus"}},
-      {"win.zoom-fit", {"<Primary>0"}},
-      {"win.cutaway", {"<Primary>d"}},
-      {"win.turn-left", {"<Alt>Left"}},
-      {"win.turn-right", {"<Alt>Right"}},
-      {"win.turn-up", {"<Alt>Up"}},
-      {"win.turn-down", {"<Alt>Down"}},
-      {"win.previous-event", {"<Primary>Left"}},
-      {"win.next-event", {"<Primary>Right"}},
-      {"win.help", {"F1"}},
-      {"win.show-help-overlay", {"<Primary>question"}},
-      {"app.quit", {"<Primary>q"}},
-  };
-  for (guint i = 0; i < G_N_ELEMENTS(table); i++) {
-    const char *accels[4] = {table[i].accels[0], table[i].accels[1], table[i].accels[2], NULL};
-    gtk_application_set_accels_for_action(application, table[i].action, accels);
+  size_t count;
+  const SbAction *action = sb_actions(&count);
+  for (size_t i = 0; i < count; i++) {
+    const char *const *accels = action[i].accels;
+    gtk_application_set_accels_for_action(application, action[i].name,
+                                          (const char *[]){accels[0], accels[1], accels[2], NULL});
   }
 }
 
