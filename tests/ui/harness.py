@@ -80,6 +80,7 @@ class App:
         self.latency_path = os.path.join(self.folder, "latency.json")
         self.surroundings = dict(
             os.environ, XDG_CONFIG_HOME=self.folder, XDG_DATA_HOME=self.folder,
+            XDG_CACHE_HOME=self.folder,
             SEALBENCH_LATENCY=self.latency_path, NO_AT_BRIDGE="0", G_DEBUG="fatal-criticals",
             GTK_RECENT_FILES_ENABLED="0")
         self.surroundings.update(env or {})

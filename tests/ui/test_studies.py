@@ -1,6 +1,9 @@
 """The window of studies: computed beside the window, marked when values change, cancelled, written."""
+import contextlib
+import glob
 import os
 import re
+import sqlite3
 
 from harness import ASSETS, App, main, scene, wait
 
@@ -126,6 +129,23 @@ def a_loop_is_fitted(folder):
         app.find("chart", "Force and displacement")
 
 
+def answers_of_a_design_are_kept(folder):
+    """What the page Design has computed is there in the next session: nothing is computed again."""
+    path, counts = scene(folder), []
+    for _ in range(2):
+        with App(path, env={"XDG_CACHE_HOME": folder}) as app:
+            wait("the first run", app.run_done)
+            app.key("ctrl+2")
+            chart = app.find("chart", "Map of the design")
+            wait("the map", lambda: "1089 of 1089 points" in (chart.description or ""))
+            app.waction("close")
+            app.process.wait(10)
+        kept, = glob.glob(os.path.join(folder, "sealbench", "answers-*.store"))
+        with contextlib.closing(sqlite3.connect(kept)) as store:
+            counts.append(store.execute("SELECT count(*) FROM answer").fetchone()[0])
+    assert counts[0] >= 1089 and counts[1] == counts[0], counts
+
+
 def a_better_design_is_found(folder):
     """The page Design: the map fills in, the best is found within limits that can be changed, any two
     parameters are axes, a point is opened or kept, and the best goes into the valve in one step."""
@@ -175,4 +195,5 @@ def a_better_design_is_found(folder):
 
 
 if __name__ == "__main__":
-    main(a_better_design_is_found, the_thesis_is_computed, a_loop_is_fitted, propellants_are_swapped, a_study_of_the_document, a_study_can_be_cancelled, glands_of_both_seals)
+    main(a_better_design_is_found, answers_of_a_design_are_kept, the_thesis_is_computed, a_loop_is_fitted,
+         propellants_are_swapped, a_study_of_the_document, a_study_can_be_cancelled, glands_of_both_seals)

@@ -220,6 +220,7 @@ int main(int argc, char **argv) {
   g_autofree char *folder = g_dir_make_tmp("sealbench-windows-XXXXXX", NULL);
   g_setenv("XDG_CONFIG_HOME", folder, TRUE);
   g_setenv("XDG_DATA_HOME", folder, TRUE);
+  g_setenv("XDG_CACHE_HOME", folder, TRUE);
   g_setenv("GTK_RECENT_FILES_ENABLED", "0", TRUE);
   gtk_init(&argc, &argv);
   g_test_init(&argc, &argv, NULL);

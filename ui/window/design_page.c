@@ -6,7 +6,7 @@
 #include "app/document/typed.h"
 #include "app/export/design_map.h"
 #include "app/session/design_job.h"
-#include "app/study/store.h"
+#include "app/session/kept_store.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
@@ -282,7 +282,7 @@ static void compute(Page *page, gboolean search) {
     return;
   }
   if (page->store == NULL) {
-    page->store = sb_store_open(NULL, NULL);
+    page->store = sb_kept_store_open();
   }
   g_free(page->hash);
   page->hash = sb_document_sha256(document);
