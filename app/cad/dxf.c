@@ -1,9 +1,9 @@
 // Outlines from DXF text: LINE, ARC, CIRCLE, ELLIPSE, LWPOLYLINE, POLYLINE and SPLINE of the
-// section ENTITIES, by layers. A pair of lines is a group code and its value.
-#include "app/cad/cad_private.h"
-
+// section ENTITIES and of blocks that it inserts, by layers. A pair of lines is a group code and
+// its value.
 #include "app/base/error.h"
 #include "app/base/number.h"
+#include "app/cad/dxf_blocks.h"
 #include "app/document/unit.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ typedef struct {
 
 // The entity that is being read: its values by group code; repeated ones in lists.
 typedef struct {
-  char type[32], layer[256], line_type[64];
+  char type[32], layer[256], line_type[64], name[256];
   double number[256];
   GArray *x, *y, *bulge, *knot, *weight; // of double
   bool mirrored;                         // drawn on the plane's back: extrusion towards -z
@@ -36,6 +36,7 @@ typedef struct {
   GHashTable *left_out; // type -> count
   GArray *centre;       // of SbCadPiece: centre lines
   guint pieces;
+  SbDxfBlocks *blocks;
   double tolerance; // of curves, in the drawing's unit
   bool in_polyline; // between POLYLINE and SEQEND
   Entity polyline;
@@ -133,7 +134,7 @@ static void entity_begin(Entity *entity, const char *type) {
   entity->mirrored = false;
   g_strlcpy(entity->type, type, sizeof entity->type);
   g_strlcpy(entity->layer, "0", sizeof entity->layer);
-  entity->line_type[0] = '\0';
+  entity->line_type[0] = entity->name[0] = '\0';
 }
 
 // Takes a pair of an entity.
@@ -141,6 +142,10 @@ static bool entity_take(Entity *entity, const Reader *reader, GError **error) {
   const int code = reader->code;
   if (code == 8) {
     g_strlcpy(entity->layer, reader->value, sizeof entity->layer);
+    return true;
+  }
+  if (code == 2) {
+    g_strlcpy(entity->name, reader->value, sizeof entity->name);
     return true;
   }
   if (code == 6) {
@@ -316,34 +321,29 @@ static bool is_centre_line(const Entity *entity) {
           g_str_has_prefix(layer, "cent"));
 }
 
-static bool drawing_add(Drawing *drawing, const Entity *entity, GError **error) {
-  if (entity->type[0] == '\0') {
-    return true;
+static void count_left_out(void *data, const char *type) {
+  const Drawing *drawing = data;
+  const guint count = GPOINTER_TO_UINT(g_hash_table_lookup(drawing->left_out, type));
+  if (count > 0 || g_hash_table_size(drawing->left_out) < 20) {
+    g_hash_table_insert(drawing->left_out, g_strdup(type), GUINT_TO_POINTER(count + 1));
   }
-  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-  if (!add_entity(pieces, entity, drawing->tolerance)) {
-    const guint count = GPOINTER_TO_UINT(g_hash_table_lookup(drawing->left_out, entity->type));
-    if (count > 0 || g_hash_table_size(drawing->left_out) < 20) {
-      g_hash_table_insert(drawing->left_out, g_strdup(entity->type), GUINT_TO_POINTER(count + 1));
-    }
-    return true;
-  }
-  for (guint i = 0; entity->mirrored && strcmp(entity->type, "LINE") != 0 && i < pieces->len; i++) {
-    SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
-    *piece = (SbCadPiece){-piece->x0, piece->y0, -piece->x1, piece->y1, -piece->bulge};
-  }
-  if (is_centre_line(entity)) {
-    g_array_append_vals(drawing->centre, pieces->data, pieces->len);
-    return true;
-  }
-  GArray *layer = g_hash_table_lookup(drawing->layers, entity->layer);
-  if (layer == NULL) {
-    layer = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-    g_hash_table_insert(drawing->layers, g_strdup(entity->layer), layer);
-    g_ptr_array_add(drawing->names, g_strdup(entity->layer));
-  }
-  g_array_append_vals(layer, pieces->data, pieces->len);
+}
+
+static bool add_pieces(void *data, const char *name, bool centre, const GArray *pieces,
+                       GError **error) {
+  Drawing *drawing = data;
   drawing->pieces += pieces->len;
+  if (centre) {
+    g_array_append_vals(drawing->centre, pieces->data, pieces->len);
+  } else {
+    GArray *layer = g_hash_table_lookup(drawing->layers, name);
+    if (layer == NULL) {
+      layer = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+      g_hash_table_insert(drawing->layers, g_strdup(name), layer);
+      g_ptr_array_add(drawing->names, g_strdup(name));
+    }
+    g_array_append_vals(layer, pieces->data, pieces->len);
+  }
   if (drawing->pieces > PIECES_MAX || drawing->names->len > LAYERS_MAX) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "more than %d pieces or %d layers: export the seal's parts alone", PIECES_MAX,
@@ -353,9 +353,61 @@ static bool drawing_add(Drawing *drawing, const Entity *entity, GError **error) 
   return true;
 }
 
+// What is not given is 1 (41, 42, 70, 71): the lists tell whether a scale was.
+static bool add_insert(Drawing *drawing, const Entity *entity, GError **error) {
+  const double *n = entity->number;
+  return sb_dxf_blocks_insert(drawing->blocks,
+                              &(SbDxfInsert){.name = entity->name,
+                                             .layer = entity->layer,
+                                             .at = {n[10], n[20]},
+                                             .scale = {entity->weight->len > 0 ? n[41] : 1,
+                                                       entity->bulge->len > 0 ? n[42] : 1},
+                                             .turn = n[50],
+                                             .spacing = {n[44], n[45]},
+                                             .columns = MAX((int)n[70], 1),
+                                             .rows = MAX((int)n[71], 1),
+                                             .mirrored = entity->mirrored},
+                              error);
+}
+
+static bool drawing_add(Drawing *drawing, const Entity *entity, GError **error) {
+  if (entity->type[0] == '\0') {
+    return true;
+  }
+  const bool inside = sb_dxf_blocks_inside(drawing->blocks);
+  if (strcmp(entity->type, "INSERT") == 0) {
+    return add_insert(drawing, entity, error);
+  }
+  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  // An insert may enlarge a block.
+  if (!add_entity(pieces, entity, (inside ? 0.1 : 1) * drawing->tolerance)) {
+    if (inside) {
+      sb_dxf_blocks_left_out(drawing->blocks, entity->type);
+    } else {
+      count_left_out(drawing, entity->type);
+    }
+    return true;
+  }
+  for (guint i = 0; entity->mirrored && strcmp(entity->type, "LINE") != 0 && i < pieces->len; i++) {
+    SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
+    *piece = (SbCadPiece){-piece->x0, piece->y0, -piece->x1, piece->y1, -piece->bulge};
+  }
+  const bool centre = is_centre_line(entity);
+  return inside ? sb_dxf_blocks_pieces(drawing->blocks, entity->layer, centre, pieces, error)
+                : add_pieces(drawing, entity->layer, centre, pieces, error);
+}
+
 // An entity has ended. A POLYLINE takes the points of the VERTEX entities that follow it.
 static bool drawing_end_entity(Drawing *drawing, const Entity *entity, GError **error) {
   Entity *polyline = &drawing->polyline;
+  if (strcmp(entity->type, "BLOCK") == 0) {
+    sb_dxf_blocks_begin(drawing->blocks, entity->name, entity->number[10], entity->number[20]);
+    return true;
+  }
+  if (strcmp(entity->type, "ENDBLK") == 0) {
+    sb_dxf_blocks_end(drawing->blocks);
+    return true;
+  }
   if (strcmp(entity->type, "POLYLINE") == 0) {
     entity_begin(polyline, "POLYLINE");
     g_strlcpy(polyline->layer, entity->layer, sizeof polyline->layer);
@@ -377,7 +429,8 @@ static bool drawing_end_entity(Drawing *drawing, const Entity *entity, GError **
     return drawing_add(drawing, polyline, error) &&
            (strcmp(entity->type, "SEQEND") == 0 || drawing_add(drawing, entity, error));
   }
-  return drawing_add(drawing, entity, error);
+  // Ends the attributes of an insert.
+  return strcmp(entity->type, "SEQEND") == 0 || drawing_add(drawing, entity, error);
 }
 
 // Metres to the unit; 0 with an error where it is no length.
@@ -410,7 +463,8 @@ static bool read_drawing(Drawing *drawing, Reader *reader, const char **unit, GE
       sections = sections || named;
       if (strcmp(value, "ENDSEC") == 0) {
         section[0] = '\0';
-      } else if (!named && strcmp(section, "ENTITIES") == 0) {
+        sb_dxf_blocks_end(drawing->blocks);
+      } else if (!named && (strcmp(section, "ENTITIES") == 0 || strcmp(section, "BLOCKS") == 0)) {
         entity_begin(&entity, value);
       }
     } else if (named && reader->code == 2) {
@@ -433,6 +487,9 @@ static bool read_drawing(Drawing *drawing, Reader *reader, const char **unit, GE
     }
   }
   good = good && problem == NULL && drawing_end_entity(drawing, &entity, &problem);
+  sb_dxf_blocks_end(drawing->blocks);
+  const SbDxfSink sink = {add_pieces, count_left_out, drawing};
+  good = good && sb_dxf_blocks_place(drawing->blocks, drawing->tolerance, &sink, &problem);
   entity_clear(&entity);
   if (problem == NULL && !sections) {
     g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT,
@@ -532,6 +589,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
       .names = g_ptr_array_new_with_free_func(g_free),
       .left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
       .centre = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)),
+      .blocks = sb_dxf_blocks_new(),
   };
   entity_init(&drawing.polyline);
   GError *problem = NULL;
@@ -566,5 +624,6 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
   g_ptr_array_unref(drawing.names);
   g_hash_table_unref(drawing.left_out);
   g_array_unref(drawing.centre);
+  sb_dxf_blocks_free(drawing.blocks);
   return cad;
 }

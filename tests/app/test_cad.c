@@ -161,6 +161,140 @@ static void check_stem(const SbCadBody *body, double tolerance) {
   }
 }
 
+// ---- Blocks ----
+
+static GString *begin_blocks(void) {
+  GString *dxf = begin(4);
+  // The section of the entities comes last.
+  const char entities[] = "  0\r\nSECTION\r\n  2\r\nENTITIES\r\n";
+  g_assert_true(g_str_has_suffix(dxf->str, entities));
+  g_string_truncate(dxf, dxf->len - strlen(entities));
+  put(dxf, 0, "SECTION");
+  put(dxf, 2, "BLOCKS");
+  return dxf;
+}
+
+static void begin_block(GString *dxf, const char *name, double x, double y) {
+  put(dxf, 0, "BLOCK");
+  put(dxf, 8, "0");
+  put(dxf, 2, "%s", name);
+  put(dxf, 10, "%.15g", x);
+  put(dxf, 20, "%.15g", y);
+}
+
+static void begin_entities(GString *dxf) {
+  put(dxf, 0, "ENDSEC");
+  put(dxf, 0, "SECTION");
+  put(dxf, 2, "ENTITIES");
+}
+
+static void put_insert(GString *dxf, const char *name, double x, double y, double scale_x,
+                       double scale_y, double turn) {
+  put(dxf, 0, "INSERT");
+  put(dxf, 8, "Stem centre");
+  put(dxf, 2, "%s", name);
+  put(dxf, 10, "%.15g", x);
+  put(dxf, 20, "%.15g", y);
+  put(dxf, 41, "%.15g", scale_x);
+  put(dxf, 42, "%.15g", scale_y);
+  put(dxf, 50, "%.15g", turn);
+}
+
+// The stem drawn once in a block, at half size, off its place, below the axis and turned, within
+// another block that is turned back and mirrored: the same body.
+static void test_blocks(void) {
+  const SbCadChoices none = {0};
+  g_autoptr(GString) dxf = begin_blocks();
+  const Place off = {1, 2, 0};
+  begin_block(dxf, "OUTER", 0, 0);
+  put_insert(dxf, "STEM", 3, 4, 2, -2, 30); // used before it is defined
+  put(dxf, 0, "ENDBLK");
+  begin_block(dxf, "STEM", 1, 2);
+  put_stem(dxf, &off, 0.5, -1);
+  put(dxf, 0, "MTEXT");
+  put(dxf, 8, "0");
+  put(dxf, 0, "ENDBLK");
+  begin_entities(dxf);
+  // OUTER's point (3, 4) comes to the origin, its 30 degrees to none.
+  const double c = cos(G_PI / 6), s = sin(G_PI / 6);
+  put_insert(dxf, "OUTER", -(3 * c + 4 * s), -(4 * c - 3 * s), 1, 1, -30);
+  put_insert(dxf, "NOWHERE", 0, 0, 1, 1, 0);
+  end(dxf);
+  g_autoptr(SbCad) cad = parse(dxf, &none);
+  g_assert_cmpuint(cad->bodies->len, ==, 1);
+  const SbCadBody *body = cad->bodies->pdata[0];
+  g_assert_cmpstr(body->name, ==, "Stem centre");
+  check_stem(body, 1e-9);
+  g_assert_cmpuint(cad->warnings->len, ==, 1);
+  g_assert_cmpstr(cad->warnings->pdata[0], ==, "left out: 1 INSERT, 1 MTEXT");
+}
+
+// A circle that is stretched to an ellipse is revolved to a torus of its area; a row of them.
+static void test_stretched_block(void) {
+  const SbCadChoices none = {0};
+  g_autoptr(GString) dxf = begin_blocks();
+  begin_block(dxf, "O", 0, 0);
+  put(dxf, 0, "CIRCLE");
+  put(dxf, 8, "0");
+  put(dxf, 10, "0");
+  put(dxf, 20, "0");
+  put(dxf, 40, "1");
+  put(dxf, 0, "ENDBLK");
+  begin_entities(dxf);
+  put_insert(dxf, "O", 0, 5, 2, 0.5, 90);
+  put(dxf, 70, "3");
+  put(dxf, 45, "0");
+  put(dxf, 44, "10");
+  end(dxf);
+  g_autoptr(SbCad) cad = parse(dxf, &none);
+  g_assert_cmpuint(cad->bodies->len, ==, 3); // turned by 90 degrees, columns go outwards
+  double volume = 0;
+  for (guint i = 0; i < 3; i++) {
+    const SbCadBody *body = cad->bodies->pdata[i];
+    g_assert_cmpstr(body->why, ==, NULL);
+    volume += body->solid.volume;
+  }
+  g_assert_cmpfloat_with_epsilon(volume / (2 * G_PI * G_PI * (5 + 15 + 25) * 1e-9), 1, 1e-4);
+}
+
+static void test_hostile_blocks(void) {
+  static const char *const nested[] = {"A", "B"};
+  const SbCadChoices none = {0};
+  for (int kind = 0; kind < 2; kind++) {
+    g_autoptr(GError) error = NULL;
+    g_autoptr(GString) dxf = begin_blocks();
+    if (kind == 0) { // two blocks that hold each other
+      for (int i = 0; i < 2; i++) {
+        begin_block(dxf, nested[i], 0, 0);
+        put_insert(dxf, nested[1 - i], 0, 0, 1, 1, 0);
+        put(dxf, 0, "ENDBLK");
+      }
+    } else { // each holds thirty of the next
+      for (int i = 0; i < 7; i++) {
+        g_autofree char *name = g_strdup_printf("%c", 'A' + i);
+        g_autofree char *next = g_strdup_printf("%c", 'B' + i);
+        begin_block(dxf, name, 0, 0);
+        for (int k = 0; k < 30; k++) {
+          put_insert(dxf, next, 0, 0, 1, 1, 0);
+        }
+        put(dxf, 0, "ENDBLK");
+      }
+      begin_block(dxf, "H", 0, 0);
+      put(dxf, 0, "ENDBLK");
+    }
+    begin_entities(dxf);
+    put_insert(dxf, "A", 0, 0, 1, 1, 0);
+    end(dxf);
+    SbCad *cad = sb_cad_parse_dxf(dxf->str, dxf->len, "a.dxf", &none, &error);
+    g_assert_null(cad);
+    g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+    g_assert_nonnull(
+        strstr(error->message, kind == 0 ? "nested more than 8 deep" : "blocks place more"));
+  }
+}
+
+// ---- Sections ----
+
 // A half-section above the axis, below it, a whole section, and one about a centre line anywhere,
 // in inches: all the same body.
 static void test_sections(void) {
@@ -362,6 +496,9 @@ static void test_refused(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/cad/blocks", test_blocks);
+  g_test_add_func("/cad/blocks/stretched", test_stretched_block);
+  g_test_add_func("/cad/blocks/hostile", test_hostile_blocks);
   g_test_add_func("/cad/sections", test_sections);
   g_test_add_func("/cad/flip", test_flip);
   g_test_add_func("/cad/curves", test_curves);
