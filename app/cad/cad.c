@@ -114,7 +114,8 @@ SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error
   enum { HEAD = 1000 };
   return g_strstr_len(text, (gssize)MIN(length, HEAD), step) != NULL
              ? sb_cad_read_step(path, shown, choices, error)
-             : sb_cad_parse_dxf(text, length, shown, choices, error);
+         : sb_cad_is_stl(text, length) ? sb_cad_parse_stl(text, length, shown, choices, error)
+                                       : sb_cad_parse_dxf(text, length, shown, choices, error);
 }
 
 char *sb_cad_profile_text(const SbCadBody *body) {

@@ -1,10 +1,11 @@
-// Bodies of drawings: half-sections, volume and moments of the parts in a DXF or STEP file, and the
-// lands, bores and grooves on them.
+// Bodies of drawings: half-sections, volume and moments of the parts in a DXF, STEP or STL file,
+// and the lands, bores and grooves on them.
 //
 // A STEP file is read by sealbench-cad, a program of its own (gmsh with OpenCASCADE) with limits of
 // time and memory, which finds the axis, cuts the bodies by a half-plane and measures them. A DXF
-// is read here: its closed outlines are bodies. Both give half-profiles of straight pieces and arcs
-// as [part.NAME] takes them; other curves become arcs that lie within SB_CAD_TOLERANCE of them.
+// is read here: its closed outlines are bodies; of an STL the mesh is cut. All give half-profiles
+// of straight pieces and arcs as [part.NAME] takes them; other curves become arcs that lie within
+// SB_CAD_TOLERANCE of them.
 #pragma once
 
 #include "app/base/reader.h"
@@ -40,17 +41,18 @@ typedef struct {
 } SbCadBody;
 
 typedef struct {
-  const char *format;  // "DXF", "STEP"
+  const char *format;  // "DXF", "STEP", "STL"
   char *unit;          // of the file
   char *axis;          // in words
   GPtrArray *bodies;   // of SbCadBody
   GPtrArray *warnings; // of char *: what was left out
 } SbCad;
 
-// unit: of a DXF, in place of the file's; NULL: the file's. axis: "x" or "y", the line of a DXF
-// that bodies are revolved about; NULL: its centre line, else x. angle: of the half-plane about the
-// axis of a STEP's bodies [rad]. flip: x the other way, for a valve drawn with the canister on its
-// right. shift: added to x afterwards [m].
+// unit: of a DXF or STL, in place of the file's; NULL: the file's, or the one in which an STL is as
+// large as a valve's part. axis: "x" or "y", the line of a DXF that bodies are revolved about;
+// NULL: its centre line, else x; of an STL "x", "y" or "z"; NULL: about which its moments are most
+// alike. angle: of the half-plane about the axis of a STEP's bodies [rad]. flip: x the other way,
+// for a valve drawn with the canister on its right. shift: added to x afterwards [m].
 typedef struct {
   const char *unit, *axis;
   double angle, shift;

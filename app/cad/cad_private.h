@@ -39,3 +39,8 @@ SbCad *sb_cad_new(const char *format);
 // Through sealbench-cad; `shown` stands for the file in messages.
 SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,
                         GError **error);
+
+// Whether bytes are an STL file, by its size or its first word; and its body, of the file's name.
+bool sb_cad_is_stl(const char *data, gsize length);
+SbCad *sb_cad_parse_stl(const char *data, gsize length, const char *path,
+                        const SbCadChoices *choices, GError **error);

@@ -598,6 +598,8 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
   if (length >= 22 && memcmp(text, "AutoCAD Binary DXF", 18) == 0) {
     g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "is a binary DXF: save it as text (ASCII)");
+  } else if (choices->axis != NULL && strcmp(choices->axis, "z") == 0) {
+    g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT, "a DXF has the axes x and y, not z");
   } else if (read_drawing(&drawing, &reader, &unit, &problem)) {
     const double scale = unit != NULL ? scale_of(unit, &problem) : 0;
     if (unit == NULL) {

@@ -63,7 +63,8 @@ bool sb_cad_choose(SbCadSettings *settings, const char *name, const char *text, 
     g_free(settings->axis);
     settings->axis = g_strdup(text);
     settings->read.axis = settings->axis;
-    return strcmp(text, "x") == 0 || strcmp(text, "y") == 0 || refuse(error, "x or y");
+    const bool one = strlen(text) == 1 && strchr("xyz", text[0]) != NULL;
+    return one || refuse(error, "x or y, or z of an STL");
   }
   if (strcmp(name, "flip") == 0) {
     settings->read.flip = strcmp(text, "yes") == 0;

@@ -253,10 +253,11 @@ int sb_command_cad(int argc, char **argv) {
   Options options = {0};
   sb_cad_settings_init(&options.settings);
   const GOptionEntry entries[] = {
-      {"unit", 0, 0, G_OPTION_ARG_FILENAME, &options.unit, "Unit of a DXF; default the file's",
-       "UNIT"},
+      {"unit", 0, 0, G_OPTION_ARG_FILENAME, &options.unit,
+       "Unit of a DXF; default the file's; of an STL, default guessed by its size", "UNIT"},
       {"axis", 0, 0, G_OPTION_ARG_FILENAME, &options.axis,
-       "Line of a DXF that bodies turn about; default its centre line, else x", "x|y"},
+       "Line of a DXF that bodies turn about, default its centre line, else x; axis of an STL",
+       "x|y|z"},
       {"angle", 0, 0, G_OPTION_ARG_FILENAME, &options.angle,
        "Half-plane that cuts the bodies of a STEP; default 37.7 deg, off most ports", "ANGLE"},
       {"flip", 0, 0, G_OPTION_ARG_NONE, &options.flip,
@@ -275,8 +276,9 @@ int sb_command_cad(int argc, char **argv) {
       {0},
   };
   int code = SB_EXIT_INPUT;
-  if (sb_cli_parse(&argc, &argv, entries, 1, 1,
-                   "A drawing is a DXF (text) of half or whole sections, or a STEP file.")) {
+  if (sb_cli_parse(
+          &argc, &argv, entries, 1, 1,
+          "A drawing is a DXF (text) of half or whole sections, a STEP file, or an STL mesh.")) {
     code = read_options(&options);
     if (code == SB_EXIT_DONE) {
       code = compute(argv[1], &options);

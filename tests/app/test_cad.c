@@ -1,5 +1,6 @@
 // Drawings: outlines of a DXF as half-sections, the lands, bores and grooves on them, a scene
 // shaped by them, and what is refused.
+#include "app/cad/cad_private.h"
 #include "app/cad/parts.h"
 
 #include "app/base/error.h"
@@ -293,6 +294,113 @@ static void test_hostile_blocks(void) {
   }
 }
 
+// ---- Meshes ----
+
+// A shaft with a groove, 6 mm long, revolved in 48 facets about the file's z at (10, -3), as a
+// binary STL in millimetres or, by `scale`, another unit.
+static GByteArray *shaft_mesh(double scale, bool slotted) {
+  enum { N = 48, P = 8 };
+  static const double outline[P][2] = {{0, 0},   {0, 2.5}, {2, 2.5}, {2, 1.6},
+                                       {4, 1.6}, {4, 2.5}, {6, 2.5}, {6, 0}};
+  GByteArray *out = g_byte_array_new();
+  const guint32 count = N * 2 * (P - 2);
+  guint8 head[80] = "binary";
+  g_byte_array_append(out, head, sizeof head);
+  g_byte_array_append(out, (const guint8 *)&count, 4);
+  for (int k = 0; k < N; k++) {
+    for (int i = 0; i + 1 < P; i++) {
+      float v[4][3];
+      for (int c = 0; c < 4; c++) {
+        const double *p = outline[i + c % 2];
+        const double angle = 0.1 + 2 * G_PI * (k + c / 2) / N;
+        const double r = slotted && (k + c / 2) % (N / 2) < 6 ? 0.6 * p[1] : p[1];
+        v[c][0] = (float)(scale * (10 + r * cos(angle)));
+        v[c][1] = (float)(scale * (-3 + r * sin(angle)));
+        v[c][2] = (float)(scale * p[0]);
+      }
+      static const int facet[2][3] = {{0, 3, 1}, {0, 2, 3}};
+      for (int f = 0; f < 2; f++) {
+        if ((i == 0 && f == 1) || (i == P - 2 && f == 0)) {
+          continue; // of a cap, which has one facet
+        }
+        const float normal[3] = {0};
+        const guint16 none = 0;
+        g_byte_array_append(out, (const guint8 *)normal, sizeof normal);
+        for (int c = 0; c < 3; c++) {
+          g_byte_array_append(out, (const guint8 *)v[facet[f][c]], sizeof v[0]);
+        }
+        g_byte_array_append(out, (const guint8 *)&none, sizeof none);
+      }
+    }
+  }
+  return out;
+}
+
+static SbCad *parse_mesh(const GByteArray *mesh, const SbCadChoices *choices, GError **error) {
+  return sb_cad_parse_stl((const char *)mesh->data, mesh->len, "parts/Stem-centre.stl", choices,
+                          error);
+}
+
+// Its unit, axis, section and groove are found; mass is the mesh's, of chords.
+static void test_mesh(void) {
+  static const SbCadFeature expected[] = {
+      {SB_CAD_LAND, 0, 2, 5, 0}, {SB_CAD_GROOVE, 2, 4, 3.2, 0.9}, {SB_CAD_LAND, 4, 6, 5, 0}};
+  const SbCadChoices none = {0}, inch = {.unit = "inch"};
+  for (int kind = 0; kind < 2; kind++) {
+    g_autoptr(GError) error = NULL;
+    g_autoptr(GByteArray) mesh = shaft_mesh(kind == 0 ? 1 : 1 / 25.4, false);
+    g_assert_true(sb_cad_is_stl((const char *)mesh->data, mesh->len));
+    g_autoptr(SbCad) cad = parse_mesh(mesh, kind == 0 ? &none : &inch, &error);
+    g_assert_no_error(error);
+    g_assert_cmpstr(cad->unit, ==, kind == 0 ? "mm" : "inch");
+    g_assert_cmpstr(cad->axis, ==, "the file's z");
+    for (guint i = 0; i < cad->warnings->len; i++) {
+      g_test_message("%s", (const char *)cad->warnings->pdata[i]);
+    }
+    g_assert_cmpuint(cad->warnings->len, ==, kind == 0);
+    g_assert_cmpuint(cad->bodies->len, ==, 1);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_assert_cmpstr(body->name, ==, "Stem-centre");
+    g_assert_cmpstr(body->why, ==, NULL);
+    g_assert_cmpuint(body->profile->len, ==, 8);
+    const double volume = G_PI * (4 * 2.5 * 2.5 + 2 * 1.6 * 1.6) * 1e-9;
+    const double chords = 48 / (2 * G_PI) * sin(2 * G_PI / 48);
+    g_assert_cmpfloat_with_epsilon(body->revolved.volume / volume, 1, 1e-5);
+    g_assert_cmpfloat_with_epsilon(body->solid.volume / (volume * chords), 1, 1e-5);
+    g_assert_cmpfloat_with_epsilon(body->solid.centre[0], 3e-3, 1e-8);
+    g_assert_cmpuint(body->features->len, ==, G_N_ELEMENTS(expected));
+    for (size_t i = 0; i < G_N_ELEMENTS(expected); i++) {
+      const SbCadFeature *f = &g_array_index(body->features, SbCadFeature, i);
+      g_assert_cmpint(f->kind, ==, expected[i].kind);
+      g_assert_cmpfloat_with_epsilon(f->x0, 1e-3 * expected[i].x0, 1e-7);
+      g_assert_cmpfloat_with_epsilon(f->diameter, 1e-3 * expected[i].diameter, 1e-6);
+      g_assert_cmpfloat_with_epsilon(f->depth, 1e-3 * expected[i].depth, 1e-6);
+    }
+  }
+}
+
+// What is no body of revolution is told; a size that could be two units is asked about; broken
+// meshes are refused.
+static void test_mesh_refused(void) {
+  const SbCadChoices none = {0};
+  g_autoptr(GError) error = NULL;
+  g_autoptr(GByteArray) slotted = shaft_mesh(1, true), small = shaft_mesh(0.2, false);
+  g_autoptr(SbCad) cad = parse_mesh(slotted, &none, &error);
+  g_assert_no_error(error);
+  g_assert_true(g_str_has_prefix(cad->warnings->pdata[1], "it is no body of revolution"));
+  g_assert_null(parse_mesh(small, &none, &error));
+  g_assert_cmpstr(error->message, ==,
+                  "parts/Stem-centre.stl: an STL file knows no unit, and its longest side of 1.2 "
+                  "is in mm 1.2 mm, in inch 30.5 mm: say it by --unit");
+  g_clear_error(&error);
+  // A facet is missing: open.
+  const guint32 fewer = slotted->data[80] - 1U + 256U * slotted->data[81];
+  memcpy(slotted->data + 80, &fewer, 4);
+  g_byte_array_set_size(slotted, slotted->len - 50);
+  g_assert_null(parse_mesh(slotted, &none, &error));
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+}
+
 // ---- Sections ----
 
 // A half-section above the axis, below it, a whole section, and one about a centre line anywhere,
@@ -499,6 +607,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/cad/blocks", test_blocks);
   g_test_add_func("/cad/blocks/stretched", test_stretched_block);
   g_test_add_func("/cad/blocks/hostile", test_hostile_blocks);
+  g_test_add_func("/cad/mesh", test_mesh);
+  g_test_add_func("/cad/mesh/refused", test_mesh_refused);
   g_test_add_func("/cad/sections", test_sections);
   g_test_add_func("/cad/flip", test_flip);
   g_test_add_func("/cad/curves", test_curves);

@@ -325,8 +325,8 @@ static const Kind scan_kind = {N_("Import a scan"),
 // Drawings ---------------------------------------------------------------------------------------
 
 static const Row drawing_rows[] = {
-    {"unit", N_("Unit of a DXF"), NULL},
-    {"axis", N_("Axis of a DXF"), "x|y"},
+    {"unit", N_("Unit of a DXF or STL"), NULL},
+    {"axis", N_("Axis of a DXF or STL"), "x|y|z"},
     {"angle", N_("Half-plane of a STEP"), NULL},
     {"flip", N_("Canister on the right"), "no|yes"},
     {"shift", N_("Moved along the axis by"), NULL},
