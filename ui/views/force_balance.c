@@ -65,8 +65,11 @@ void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
   // One scale for the whole run; the thesis valve's 38 N or the run's largest sum fill the width.
   double largest = data->run.trace != NULL ? sb_trace_range(data->run.trace).force_max : 0;
   double span = fmax(38, fmax(2.6 * fabs(frame->pressure_force), 1.1 * largest));
-  double x = rect.x + 102;
-  double scale = (rect.width - 102 - 60) / span;
+  // Room for the word in any language, and for two digits, so that nothing moves with the force.
+  snprintf(text, sizeof text, _("Drive %s"), "00.0\xc2\xa0N");
+  const double lead = fmax(102, sb_canvas_text_width(&canvas, text, &bold) + 22);
+  double x = rect.x + lead;
+  double scale = (rect.width - lead - 60) / span;
   sb_canvas_text(&canvas, "=", &plain, x - 14, y, SB_MIDDLE);
   if (frame->pressure_force < 0) {
     x += sb_canvas_text(&canvas, "\xe2\x88\x92", &plain, x, y, SB_LEFT) + 4;
