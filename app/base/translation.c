@@ -4,6 +4,7 @@
 #include "app/base/translation.h"
 
 #include <glib/gi18n.h>
+#include <string.h>
 
 // For xgettext only.
 G_GNUC_UNUSED static const char *const listed[] = {
@@ -135,6 +136,11 @@ G_GNUC_UNUSED static const char *const listed[] = {
     N_("peak against ring"),
     N_("width"),
     N_("width against ring"),
+    N_("as designed"),
+    N_("load against ring at 10 %"),
+    N_("load against ring at 20 %"),
+    N_("load against ring at 30 %"),
+    N_("load against ring at 40 %"),
     // storage
     N_("storage time"),
     N_("sliding friction"),
@@ -220,6 +226,12 @@ G_GNUC_UNUSED static const char *const listed[] = {
 const char *sb_translation(const char *text) {
   // The empty text stands for a catalogue's header.
   return text != NULL && text[0] != '\0' ? _(text) : "";
+}
+
+char *sb_translation_of_case(const char *text) {
+  const char *whole = sb_translation(text), *comma = whole == text ? strchr(text, ',') : NULL;
+  g_autofree char *name = comma != NULL ? g_strndup(text, (size_t)(comma - text)) : NULL;
+  return name != NULL ? g_strconcat(sb_translation(name), comma, NULL) : g_strdup(whole);
 }
 
 locale_t sb_translation_pause(void) {

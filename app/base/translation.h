@@ -16,6 +16,10 @@ void sb_translation_begin(void);
 // the user's language; the text itself where it has no translation. Borrowed; NULL gives "".
 const char *sb_translation(const char *text);
 
+// Of a name with a value after it, "as designed, 15.5 %", what stands before the comma; all of it
+// where all has a translation. Owned by the caller (g_free).
+char *sb_translation_of_case(const char *text);
+
 // English on this thread until it is resumed: for what goes into a file and is made of words that
 // are drawn elsewhere. Resume with what pause gave.
 locale_t sb_translation_pause(void);

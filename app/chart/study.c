@@ -338,7 +338,7 @@ static void draw_marks(Plot *plot) {
                               {x - 5, r.y + 5, SB_RIGHT},
                               {x + 5, r.y + r.height - 7, SB_LEFT},
                               {x - 5, r.y + r.height - 7, SB_RIGHT}};
-    const char *shown = sb_translation(mark->text);
+    g_autofree char *shown = sb_translation_of_case(mark->text);
     if (sb_labels_place(plot->labels, c, shown, &style, places, 4, &at)) {
       sb_canvas_text_halo(c, shown, &style, at.x, at.y, at.align);
     }
@@ -446,8 +446,8 @@ static void draw_gutter(Plot *plot, Name *name, int count, double width) {
     cairo_move_to(c->cr, name[i].end.x + 4, name[i].end.y);
     cairo_line_to(c->cr, x - 4, name[i].y);
     cairo_stroke(c->cr);
-    sb_canvas_text_fit_ends(c, sb_translation(name[i].series->name), &style, x, name[i].y + 4.3,
-                            width - 22);
+    g_autofree char *shown = sb_translation_of_case(name[i].series->name);
+    sb_canvas_text_fit_ends(c, shown, &style, x, name[i].y + 4.3, width - 22);
   }
 }
 
@@ -479,7 +479,7 @@ static int name_series(Plot *plot, SbPoint **points, double gutter) {
                               {end.x - 6, end.y - 6, SB_RIGHT},  {end.x - 6, end.y + 14, SB_RIGHT},
                               {end.x + 14, end.y - 20, SB_LEFT}, {end.x + 14, end.y + 28, SB_LEFT},
                               {end.x, end.y - 22, SB_RIGHT},     {end.x, end.y + 30, SB_RIGHT}};
-    const char *shown = sb_translation(series->name);
+    g_autofree char *shown = sb_translation_of_case(series->name);
     if (sb_labels_place(plot->labels, c, shown, &style, places, G_N_ELEMENTS(places), &at)) {
       sb_labels_draw(plot->labels, c, shown, &style, &at);
     }
@@ -511,8 +511,8 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
 
   double gutter = narrow ? 0 : 40;
   for (size_t s = 0; !narrow && s < panel->series_count; s++) {
-    gutter =
-        fmax(gutter, sb_canvas_text_width(c, sb_translation(panel->series[s].name), &label) + 24);
+    g_autofree char *shown = sb_translation_of_case(panel->series[s].name);
+    gutter = fmax(gutter, sb_canvas_text_width(c, shown, &label) + 24);
   }
   gutter = fmin(gutter, 0.4 * rect.width);
   SbLabels *labels = g_new(SbLabels, 1);

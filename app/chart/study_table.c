@@ -77,11 +77,12 @@ void sb_study_table_draw(SbCanvas *c, SbRect rect, const SbStudy *study) {
   SbTextStyle value = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
 
   // The first column is as wide as its longest entry, the others share the rest.
-  double first = sb_canvas_text_width(c, sb_translation(study->row_heading), &head);
+  g_autofree char *heading = sb_translation_of_case(study->row_heading);
+  double first = sb_canvas_text_width(c, heading, &head);
   for (size_t r = 0; r < study->row_count; r++) {
     char label[96];
-    g_snprintf(label, sizeof label, "%s / %s", sb_translation(study->row[r].name),
-               study->row[r].unit);
+    g_autofree char *shown = sb_translation_of_case(study->row[r].name);
+    g_snprintf(label, sizeof label, "%s / %s", shown, study->row[r].unit);
     first = fmax(first, sb_canvas_text_width(c, label, &name));
   }
   first = fmin(first + 16, 0.4 * (right - left));
@@ -98,7 +99,7 @@ void sb_study_table_draw(SbCanvas *c, SbRect rect, const SbStudy *study) {
     }
     sb_canvas_text(c, study->column[k].unit, &unit, x, units_y, SB_RIGHT);
   }
-  sb_canvas_text_fit(c, sb_translation(study->row_heading), &head, left, units_y, first - 8);
+  sb_canvas_text_fit(c, heading, &head, left, units_y, first - 8);
   double y = units_y + 7;
   double end = left + first + each * (double)study->column_count;
   sb_canvas_hairline(c, left, y, end, y, sb_canvas_role(c, SB_ROLE_AXIS));
@@ -108,7 +109,8 @@ void sb_study_table_draw(SbCanvas *c, SbRect rect, const SbStudy *study) {
     if (base > rect.y + rect.height - 4) {
       break;
     }
-    double used = sb_canvas_text_fit(c, sb_translation(row->name), &name, left, base, first - 8);
+    g_autofree char *shown = sb_translation_of_case(row->name);
+    double used = sb_canvas_text_fit(c, shown, &name, left, base, first - 8);
     if (row->unit[0] != '\0') {
       g_autofree char *text = g_strdup_printf(" / %s", row->unit);
       sb_canvas_text(c, text, &unit, left + used, base, SB_LEFT);
@@ -129,7 +131,8 @@ char *sb_study_text(const SbStudy *study) {
   GString *out = g_string_new(sb_translation(sb_study_title(study->kind)));
   g_string_append_c(out, '\n');
   if (study->row_count > 0) {
-    g_string_append(out, sb_translation(study->row_heading));
+    g_autofree char *heading = sb_translation_of_case(study->row_heading);
+    g_string_append(out, heading);
     for (size_t k = 0; k < study->column_count; k++) {
       const SbStudyColumn *column = &study->column[k];
       g_string_append_printf(out, "\t%s%s%s", sb_translation(column->name),
@@ -138,8 +141,8 @@ char *sb_study_text(const SbStudy *study) {
     g_string_append_c(out, '\n');
     for (size_t r = 0; r < study->row_count; r++) {
       const SbStudyRow *row = &study->row[r];
-      g_string_append_printf(out, "%s%s%s", sb_translation(row->name), row->unit[0] ? " / " : "",
-                             row->unit);
+      g_autofree char *shown = sb_translation_of_case(row->name);
+      g_string_append_printf(out, "%s%s%s", shown, row->unit[0] ? " / " : "", row->unit);
       for (size_t k = 0; k < study->column_count; k++) {
         char text[SB_FORMAT_MAX];
         cell_text(text, &study->column[k], row, row->value[k]);
