@@ -2,6 +2,7 @@
 // looks at device pixels, so that a picture at scale 2 keeps twice the points. Leaves out clipping:
 // callers clip to their plot.
 #include "app/base/canvas.h"
+#include "app/base/translation.h"
 
 #include <glib.h>
 #include <math.h>
@@ -316,11 +317,12 @@ void sb_canvas_polyline(SbCanvas *canvas, const SbPoint *point, size_t count) {
 
 double sb_canvas_predicted(SbCanvas *canvas, double right, double y) {
   const SbTextStyle style = sb_canvas_style(canvas, SB_TYPE_LABEL, 600, SB_ROLE_INK);
-  const double left = right - sb_canvas_text_width(canvas, "predicted", &style) - 8;
+  const char *predicted = sb_translation("predicted");
+  const double left = right - sb_canvas_text_width(canvas, predicted, &style) - 8;
   sb_canvas_pen(canvas, SB_LINE_SEAL, &sb_dash_predicted);
   sb_canvas_color(canvas, sb_canvas_role(canvas, SB_ROLE_INK), 1);
   sb_canvas_polyline(canvas, (SbPoint[]){{left - 24, y - 5}, {left, y - 5}}, 2);
-  sb_canvas_text(canvas, "predicted", &style, right, y, SB_RIGHT);
+  sb_canvas_text(canvas, predicted, &style, right, y, SB_RIGHT);
   return right - left + 24;
 }
 

@@ -8,6 +8,7 @@
 #include "app/chart/page.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 
 enum { LOOPS_MAX = 3, PAIRS_MAX = 5, DOTS = 260 };
@@ -136,18 +137,18 @@ static void draw_loop(Draw *d, SbRect rect, size_t index, const Ranges *r) {
     }
   }
   char before[SB_FORMAT_MAX], after[SB_FORMAT_MAX];
-  g_autofree char *rms =
-      points != NULL && isfinite(of->before_rms)
-          ? g_strdup_printf("rms %s \xe2\x86\x92 %s", sb_format_digits(before, of->before_rms, 2),
-                            sb_format_digits(after, points->rms, 2))
-          : g_strdup("does not slide");
+  g_autofree char *rms = points != NULL && isfinite(of->before_rms)
+                             ? g_strdup_printf(_("rms %s \xe2\x86\x92 %s"),
+                                               sb_format_digits(before, of->before_rms, 2),
+                                               sb_format_digits(after, points->rms, 2))
+                             : g_strdup(_("does not slide"));
   sb_canvas_text(c, rms, &name, rect.x + rect.width, strip.y - 12, SB_RIGHT);
   if (index == 0) {
-    sb_canvas_text_fit(c, "measured \xe2\x88\x92 model / N", &label, rect.x, strip.y - 12,
+    sb_canvas_text_fit(c, _("measured \xe2\x88\x92 model / N"), &label, rect.x, strip.y - 12,
                        rect.width - 120);
   }
-  sb_canvas_text(c, "displacement / mm", &label, rect.x + rect.width, strip.y + strip.height + 34,
-                 SB_RIGHT);
+  sb_canvas_text(c, _("displacement / mm"), &label, rect.x + rect.width,
+                 strip.y + strip.height + 34, SB_RIGHT);
 }
 
 static void draw_loops(Draw *d, SbRect rect) {
@@ -156,9 +157,9 @@ static void draw_loops(Draw *d, SbRect rect) {
   const SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   const size_t shown = MIN(d->view->loops, LOOPS_MAX);
   g_autofree char *note = g_strdup_printf(
-      "force on the stem / N; grey: before, blue: after, bands hold 95 %% of the model%s",
-      shown < d->view->loops ? "; the first three" : "");
-  sb_canvas_text(c, "Measured loops and model", &title, rect.x, rect.y + 14, SB_LEFT);
+      _("force on the stem / N; grey: before, blue: after, bands hold 95 %% of the model%s"),
+      shown < d->view->loops ? _("; the first three") : "");
+  sb_canvas_text(c, _("Measured loops and model"), &title, rect.x, rect.y + 14, SB_LEFT);
   sb_canvas_text_fit(c, note, &label, rect.x, rect.y + 34, rect.width);
   const Ranges ranges = ranges_of(d->view);
   const double gap = 46, width = (rect.width - gap * (double)shown) / (double)MAX(shown, 1);
@@ -187,13 +188,13 @@ static void draw_table(Draw *d, SbRect rect) {
   const double column[] = {rect.x + 0.43 * rect.width, rect.x + 0.535 * rect.width,
                            rect.x + 0.735 * rect.width};
   const double bar = rect.x + 0.76 * rect.width, bar_width = 0.09 * rect.width;
-  sb_canvas_text(c, "Fitted parameters", &title, rect.x, rect.y + 14, SB_LEFT);
-  static const char *const heads[] = {"before", "estimate", "95 % interval"};
+  sb_canvas_text(c, _("Fitted parameters"), &title, rect.x, rect.y + 14, SB_LEFT);
+  static const char *const heads[] = {N_("before"), N_("estimate"), N_("95 % interval")};
   for (int i = 0; i < 3; i++) {
-    sb_canvas_text(c, heads[i], &head, column[i], rect.y + 38, SB_RIGHT);
+    sb_canvas_text(c, _(heads[i]), &head, column[i], rect.y + 38, SB_RIGHT);
   }
-  sb_canvas_text(c, "narrowed to", &head, bar, rect.y + 38, SB_LEFT);
-  sb_canvas_text(c, "told?", &head, right, rect.y + 38, SB_RIGHT);
+  sb_canvas_text(c, _("narrowed to"), &head, bar, rect.y + 38, SB_LEFT);
+  sb_canvas_text(c, _("told?"), &head, right, rect.y + 38, SB_RIGHT);
   for (size_t j = 0; j < d->view->rows; j++) {
     const SbCalibrationRow *row = &d->view->row[j];
     const double y = rect.y + 48 + ROW * (double)j, base = y + 20;
@@ -234,7 +235,7 @@ static double draw_sentence(Draw *d, SbRect rect) {
   sb_canvas_color(c, sb_canvas_role(c, all ? SB_ROLE_GRID : SB_ROLE_WARN_GROUND), 1);
   cairo_fill(c->cr);
   sb_canvas_paragraph(c, d->view->sentence, &text, rect.x + 14, rect.y + 30, width);
-  sb_canvas_text(c, all ? "What these data tell" : "What these data cannot tell", &head,
+  sb_canvas_text(c, all ? _("What these data tell") : _("What these data cannot tell"), &head,
                  rect.x + 14, rect.y + 20, SB_LEFT);
   return height;
 }
@@ -368,8 +369,8 @@ static void draw_posterior(Draw *d, SbRect rect) {
   const SbTextStyle title = sb_canvas_style(c, SB_TYPE_PANEL, 700, SB_ROLE_INK);
   const SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   const SbTextStyle name = sb_canvas_style(c, SB_TYPE_NOTE, 600, SB_ROLE_INK);
-  sb_canvas_text(c, "Posterior", &title, rect.x, rect.y + 14, SB_LEFT);
-  sb_canvas_text_fit(c, "pairs; ellipses hold 50 and 95 %, grey: before", &label, rect.x + 90,
+  sb_canvas_text(c, _("Posterior"), &title, rect.x, rect.y + 14, SB_LEFT);
+  sb_canvas_text_fit(c, _("pairs; ellipses hold 50 and 95 %, grey: before"), &label, rect.x + 90,
                      rect.y + 14, rect.width - 90);
   if (view->samples < 10 || rect.height < 160) {
     return;

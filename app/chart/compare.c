@@ -8,6 +8,7 @@
 #include "app/document/unit.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -25,17 +26,17 @@ enum { AT_PLAYHEAD = 2, COLUMNS = 1 + SB_CHART_PINS };
 static const struct {
   const char *label, *path;
   int stage; // whose force was measured, too; -1: none
-} figures[] = {{"B break-away", "cycle.force_breakaway_N", SB_STAGE_B},
+} figures[] = {{N_("B break-away"), "cycle.force_breakaway_N", SB_STAGE_B},
                {"C", "cycle.stages.C.force_N", SB_STAGE_C},
                {"D", "cycle.stages.D.force_N", SB_STAGE_D},
                {"E", "cycle.stages.E.force_N", SB_STAGE_E},
-               {"least return", "cycle.force_return_min_N", -1},
-               {"loss per cycle", "cycle.energy_loss_J", -1},
-               {"leak per cycle", "cycle.leakage_per_cycle_m3", -1},
-               {"outer peak", "seals.outer.pressure_peak_Pa", -1},
-               {"outer film", "seals.outer.film_central_m", -1},
-               {"squeeze", "seals.outer.squeeze", -1},
-               {"gland fill", "seals.outer.gland_fill", -1}};
+               {N_("least return"), "cycle.force_return_min_N", -1},
+               {N_("loss per cycle"), "cycle.energy_loss_J", -1},
+               {N_("leak per cycle"), "cycle.leakage_per_cycle_m3", -1},
+               {N_("outer peak"), "seals.outer.pressure_peak_Pa", -1},
+               {N_("outer film"), "seals.outer.film_central_m", -1},
+               {N_("squeeze"), "seals.outer.squeeze", -1},
+               {N_("gland fill"), "seals.outer.gland_fill", -1}};
 enum { ROWS = AT_PLAYHEAD + G_N_ELEMENTS(figures) };
 
 // A row in the unit that is shown; NAN: not known.
@@ -61,8 +62,8 @@ static void playhead_row(Row *row, const SbChartData *data, int way) {
   const double at = frame != NULL ? frame->displacement : NAN;
   char number[SB_FORMAT_MAX];
   *row = (Row){.unit = "N", .force = true, .measured = NAN};
-  g_snprintf(row->label, sizeof row->label, "at %s mm, %s", sb_format_fixed(number, 1e3 * at, 2),
-             way == 0 ? "in" : "back");
+  g_snprintf(row->label, sizeof row->label, way == 0 ? _("at %s mm, in") : _("at %s mm, back"),
+             sb_format_fixed(number, 1e3 * at, 2));
   for (size_t i = 0; i <= data->pin_count; i++) {
     double force[2] = {NAN, NAN};
     const SbChartRun *run = run_of(data, i);
@@ -77,7 +78,7 @@ static void figure_row(Row *row, const SbChartData *data, size_t k) {
   const int index = sb_figure_find(figures[k].path);
   const SbFigure *figure = sb_figure(index);
   *row = (Row){.force = strcmp(figure->si, "N") == 0, .measured = NAN};
-  g_strlcpy(row->label, figures[k].label, sizeof row->label);
+  g_strlcpy(row->label, _(figures[k].label), sizeof row->label);
   g_strlcpy(row->unit, figure->shown, sizeof row->unit);
   for (size_t i = 0; i <= data->pin_count; i++) {
     const SbSummary *summary = run_of(data, i)->summary;
@@ -172,7 +173,7 @@ void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCha
   const SbTextStyle stuck = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_ERROR);
   const SbTextStyle dots = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_WARN);
   double y = rect.y + 14;
-  draw_head(c, live - VALUE - gap, live, y, SB_ROLE_INK, SB_LINE_ACTIVE, NULL, "live");
+  draw_head(c, live - VALUE - gap, live, y, SB_ROLE_INK, SB_LINE_ACTIVE, NULL, _("live"));
   for (size_t i = 0; i < data->pin_count; i++) {
     const SbChartPin *pin = &data->pin[i];
     const double right = live + (double)(i + 1) * (each + gap);
@@ -180,7 +181,7 @@ void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCha
               sb_chart_pin_dash(pin->look), pin->name);
   }
   if (measured) {
-    sb_canvas_text(c, "measured", &dots, rect.x + rect.width, y, SB_RIGHT);
+    sb_canvas_text(c, _("measured"), &dots, rect.x + rect.width, y, SB_RIGHT);
   }
   y = rect.y + HEAD;
   for (size_t k = 0; k < ROWS && y + ROW <= rect.y + rect.height + 0.5; k++, y += ROW) {
@@ -201,7 +202,7 @@ void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCha
       const double right = live + (double)i * (each + gap);
       const double at = i == 0 ? right : right - CHANGE - (percent ? PERCENT : 0);
       if (row.stuck[i]) {
-        sb_canvas_text(c, "does not return", &stuck, right, base, SB_RIGHT);
+        sb_canvas_text(c, _("does not return"), &stuck, right, base, SB_RIGHT);
         continue;
       }
       sb_canvas_text(c, value_text(text, &row, row.value[i]), i == 0 ? &bold : &name, at, base,
@@ -223,19 +224,20 @@ void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCha
 }
 
 char *sb_compare_text(const SbChartData *data) {
-  GString *text = g_string_new("figure\tunit\tlive");
+  GString *text = g_string_new(_("figure\tunit\tlive"));
   char number[SB_FORMAT_MAX];
   for (size_t i = 0; i < data->pin_count; i++) {
-    g_string_append_printf(text, "\t%s\tdifference", data->pin[i].name);
+    g_string_append_printf(text, _("\t%s\tdifference"), data->pin[i].name);
   }
-  g_string_append(text, data->measured != NULL ? "\tmeasured\n" : "\n");
+  g_string_append(text, data->measured != NULL ? _("\tmeasured\n") : "\n");
   for (size_t k = 0; k < ROWS; k++) {
     Row row;
     make(&row, data, k);
     g_string_append_printf(text, "%s\t%s", row.label, row.unit);
     for (size_t i = 0; i <= data->pin_count; i++) {
-      g_string_append_printf(
-          text, "\t%s", row.stuck[i] ? "does not return" : value_text(number, &row, row.value[i]));
+      g_string_append_printf(text, "\t%s",
+                             row.stuck[i] ? _("does not return")
+                                          : value_text(number, &row, row.value[i]));
       if (i > 0) {
         g_string_append_printf(text, "\t%s", change_text(number, &row, row.value[i]));
       }

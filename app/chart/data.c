@@ -4,6 +4,7 @@
 #include "app/base/format.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 
 const SbFrame *sb_chart_frame(const SbChartData *data) {
@@ -40,7 +41,7 @@ bool sb_chart_complete(const SbChartData *data) {
 
 const char *sb_chart_phase(const SbChartRun *run, int stage) {
   if (sb_chart_is_rig(run)) {
-    return stage == SB_STAGE_A ? "force builds up" : "sticks and slips";
+    return stage == SB_STAGE_A ? _("force builds up") : _("sticks and slips");
   }
   // Whether the inner seal touches at all is the run's own business: look at its frames.
   bool inner = true, outer = true;
@@ -54,22 +55,22 @@ const char *sb_chart_phase(const SbChartRun *run, int stage) {
   }
   switch (stage) {
   case SB_STAGE_A:
-    return "at rest, force builds up";
+    return _("at rest, force builds up");
   case SB_STAGE_B:
-    return inner && outer ? "both seals slide"
-           : outer        ? "outer seal slides"
-           : inner        ? "inner seal slides"
-                          : "stem slides free";
+    return inner && outer ? _("both seals slide")
+           : outer        ? _("outer seal slides")
+           : inner        ? _("inner seal slides")
+                          : _("stem slides free");
   case SB_STAGE_C:
-    return "chamber open";
+    return _("chamber open");
   case SB_STAGE_D:
-    return "at the stop";
+    return _("at the stop");
   case SB_STAGE_E:
-    return "return, chamber open";
+    return _("return, chamber open");
   case SB_STAGE_F:
-    return inner && outer ? "both seals slide back"
-           : outer        ? "outer seal slides back"
-                          : "stem slides back";
+    return inner && outer ? _("both seals slide back")
+           : outer        ? _("outer seal slides back")
+                          : _("stem slides back");
   default:
     return "";
   }
@@ -79,9 +80,9 @@ const char *sb_chart_cycle_name(char *out, const SbChartRun *run, int cycle) {
   const SbModel *m = run->model;
   out[0] = '\0';
   if (m && sb_model_number(m, SB_P_LIFE_ACTUATIONS) > 1 && sb_model_shown_actuation(m) > 1) {
-    g_snprintf(out, SB_FORMAT_MAX, "actuation %d", cycle == 0 ? 1 : sb_model_shown_actuation(m));
+    g_snprintf(out, SB_FORMAT_MAX, _("actuation %d"), cycle == 0 ? 1 : sb_model_shown_actuation(m));
   } else if (m && sb_model_number(m, SB_P_DRIVE_CYCLES) > 1 && !sb_chart_is_rig(run)) {
-    g_snprintf(out, SB_FORMAT_MAX, "cycle %d", cycle + 1);
+    g_snprintf(out, SB_FORMAT_MAX, _("cycle %d"), cycle + 1);
   }
   return out;
 }

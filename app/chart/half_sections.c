@@ -4,6 +4,7 @@
 #include "app/base/canvas.h"
 #include "app/base/number.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 
 // Room for the axis' line below and for diameters above [px].
@@ -89,7 +90,7 @@ void sb_half_sections_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const
   sb_canvas_init(&canvas, cr, theme);
   const SbTextStyle note = sb_canvas_style(&canvas, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
   if (!(high > low) || !(top > 0)) {
-    sb_canvas_text(&canvas, "no half-section", &note, rect.x + rect.width / 2,
+    sb_canvas_text(&canvas, _("no half-section"), &note, rect.x + rect.width / 2,
                    rect.y + rect.height / 2, SB_MIDDLE);
     sb_canvas_finish(&canvas);
     return;
@@ -125,6 +126,6 @@ void sb_half_sections_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const
   sb_canvas_hairline(&canvas, right - scale * length, y, right, y,
                      sb_canvas_role(&canvas, SB_ROLE_INK));
   sb_canvas_text(&canvas, text, &note, right - scale * length - 8, y + 4, SB_RIGHT);
-  sb_canvas_text(&canvas, "canister side", &note, rect.x + SIDE, y + 4, SB_LEFT);
+  sb_canvas_text(&canvas, _("canister side"), &note, rect.x + SIDE, y + 4, SB_LEFT);
   sb_canvas_finish(&canvas);
 }

@@ -6,6 +6,7 @@
 #include "app/chart/hysteresis_private.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -179,7 +180,7 @@ static void draw_axes(SbHysteresisView *v) {
     // Forces below zero, or none near it: the ticks stay at the bottom.
     sb_canvas_hairline(c, left, bottom, right, bottom, sb_canvas_role(c, SB_ROLE_AXIS));
   }
-  sb_canvas_text(c, "stem displacement / mm", &label, right, bottom + 36, SB_RIGHT);
+  sb_canvas_text(c, _("stem displacement / mm"), &label, right, bottom + 36, SB_RIGHT);
 }
 
 static void draw_titles(SbHysteresisView *v, SbRect rect) {
@@ -189,39 +190,42 @@ static void draw_titles(SbHysteresisView *v, SbRect rect) {
   SbTextStyle title =
       sb_canvas_style(c, compact ? SB_TYPE_PANEL_WINDOW : SB_TYPE_PANEL, 700, SB_ROLE_INK);
   SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  sb_canvas_text_fit(c, "Force and displacement", &title, in.x, in.y + 14, in.width);
+  sb_canvas_text_fit(c, _("Force and displacement"), &title, in.x, in.y + 14, in.width);
   if (!compact) {
     const char *note = "";
-    char several[64] = "";
+    char several[96] = "";
     const SbModel *m = v->data->run.model;
     if (m && sb_model_number(m, SB_P_LIFE_ACTUATIONS) > 1) {
-      g_snprintf(several, sizeof several, "actuations 1 and %d of %d, stages of the first",
+      g_snprintf(several, sizeof several, _("actuations 1 and %d of %d, stages of the first"),
                  sb_model_shown_actuation(m), sb_model_number(m, SB_P_LIFE_ACTUATIONS));
     } else if (m && sb_model_number(m, SB_P_DRIVE_CYCLES) > 1) {
-      g_snprintf(several, sizeof several, "%d cycles, stages of the first",
-                 sb_model_number(m, SB_P_DRIVE_CYCLES));
+      const int cycles = sb_model_number(m, SB_P_DRIVE_CYCLES);
+      g_snprintf(several, sizeof several,
+                 ngettext("%d cycle, stages of the first", "%d cycles, stages of the first",
+                          (unsigned long)cycles),
+                 cycles);
     }
     switch (v->data->run.state) {
     case SB_CHART_RUNNING:
-      note = v->data->earlier ? "being computed; faint: the earlier run" : "being computed";
+      note = v->data->earlier ? _("being computed; faint: the earlier run") : _("being computed");
       break;
     case SB_CHART_PARTIAL:
-      note = "partial: the run was cancelled";
+      note = _("partial: the run was cancelled");
       break;
     case SB_CHART_FAILED:
-      note = "up to the last good state";
+      note = _("up to the last good state");
       break;
     case SB_CHART_DONE:
       note = several[0]                  ? several
-             : v->flags & SB_CHART_WHOLE ? "one actuation, A to F"
-                                         : "thick line: played so far";
+             : v->flags & SB_CHART_WHOLE ? _("one actuation, A to F")
+                                         : _("thick line: played so far");
       break;
     default:
       break;
     }
     sb_canvas_text_fit(c, note, &label, in.x, in.y + 34, in.width);
   }
-  sb_canvas_text(c, "force on the stem / N", &label, in.x, in.y + (compact ? 34 : 64), SB_LEFT);
+  sb_canvas_text(c, _("force on the stem / N"), &label, in.x, in.y + (compact ? 34 : 64), SB_LEFT);
 }
 
 // Another run behind: in its look when it is a pin, faint when earlier (`pin` NULL).
@@ -375,7 +379,8 @@ static void draw_arrows(SbHysteresisView *v) {
 static void draw_empty(SbHysteresisView *v) {
   SbCanvas *c = &v->canvas;
   SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  const char *text = v->data->run.state == SB_CHART_RUNNING ? "The run has begun." : "No run yet.";
+  const char *text =
+      v->data->run.state == SB_CHART_RUNNING ? _("The run has begun.") : _("No run yet.");
   sb_canvas_text_halo(c, text, &style, v->at.plot.x + 0.5 * v->at.plot.width,
                       v->at.plot.y + 0.5 * v->at.plot.height, SB_MIDDLE);
 }

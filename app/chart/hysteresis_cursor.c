@@ -5,6 +5,7 @@
 #include "app/chart/hysteresis_private.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 
 // The straight piece between two points of the trace that crosses it, of each way the longest that
@@ -34,9 +35,9 @@ char *sb_hysteresis_cursor_text(const SbChartRun *run, double displacement) {
     sb_format_text(text[way], SB_QUANTITY_FORCE, force[way], sb_chart_error_force(run));
   }
   return isnan(force[0]) && isnan(force[1]) ? g_strdup_printf("%s\u00a0mm", at)
-         : isnan(force[1])                  ? g_strdup_printf("%s\u00a0mm  in %s", at, text[0])
-         : isnan(force[0])                  ? g_strdup_printf("%s\u00a0mm  back %s", at, text[1])
-                           : g_strdup_printf("%s\u00a0mm  in %s  back %s", at, text[0], text[1]);
+         : isnan(force[1])                  ? g_strdup_printf(_("%s\u00a0mm  in %s"), at, text[0])
+         : isnan(force[0])                  ? g_strdup_printf(_("%s\u00a0mm  back %s"), at, text[1])
+                           : g_strdup_printf(_("%s\u00a0mm  in %s  back %s"), at, text[0], text[1]);
 }
 
 bool sb_hysteresis_cursor(double *displacement, SbRect rect, const SbChartData *data,

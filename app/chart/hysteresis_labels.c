@@ -5,6 +5,7 @@
 #include "app/chart/hysteresis_private.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -205,14 +206,14 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
   double left = v->at.plot.x, right = left + v->at.plot.width;
   if (mark[SB_STAGE_D].reached) {
     p = sb_hysteresis_pixel(&v->at, mark[SB_STAGE_D].displacement, v->at.y.hi);
-    label_curve(v, "stop", SB_ROLE_SECOND,
+    label_curve(v, C_("label", "stop"), SB_ROLE_SECOND,
                 (SbPlace[]){{p.x - 8, p.y + 5, SB_RIGHT}, {p.x + 8, p.y + 5, SB_LEFT}}, 2);
   }
   double reference = run->model ? sb_model_pressure_force(run->model) : 0;
   if (reference > 0) {
     double y = sb_axis_at(&v->at.y, reference);
     sb_format_text(value, SB_QUANTITY_FORCE, reference, 0);
-    g_snprintf(text, sizeof text, "pressure force %s", value);
+    g_snprintf(text, sizeof text, _("pressure force %s"), value);
     double zero = sb_axis_at(&v->at.x, 0), end = sb_axis_at(&v->at.x, v->at.x.hi);
     double stroke = run->model
                         ? sb_axis_at(&v->at.x, sb_model_value(run->model, SB_P_DRIVE_STROKE) * 1e3)
@@ -236,9 +237,11 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
       sb_format_figure(value, sum, sb_figure_find("cycle.energy_loss_J"));
       int cycles = run->model ? sb_model_number(run->model, SB_P_DRIVE_CYCLES) : 1;
       if (cycles > 1) {
-        g_snprintf(text, sizeof text, "loss of %d cycles %s", cycles, value);
+        g_snprintf(text, sizeof text,
+                   ngettext("loss of %d cycle %s", "loss of %d cycles %s", (unsigned long)cycles),
+                   cycles, value);
       } else {
-        g_snprintf(text, sizeof text, "loss per cycle %s", value);
+        g_snprintf(text, sizeof text, _("loss per cycle %s"), value);
       }
       double y = sb_axis_at(&v->at.y, reference > 0 ? reference : 0.5 * v->at.y.hi);
       label_curve(v, text, SB_ROLE_SECOND,
@@ -252,7 +255,7 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
     }
     if (isfinite(sum->force_return_min)) {
       sb_format_figure(value, sum, sb_figure_find("cycle.force_return_min_N"));
-      g_snprintf(text, sizeof text, "least return %s", value);
+      g_snprintf(text, sizeof text, _("least return %s"), value);
       double y = sb_axis_at(&v->at.y, fmax(sum->force_return_min, v->at.y.lo));
       label_curve(v, text, SB_ROLE_INK,
                   (SbPlace[]){{zero + 12, y - 9, SB_LEFT},
@@ -263,7 +266,7 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
     }
   }
   if (between(v, SB_STAGE_C, 0, 0.5, &p)) {
-    label_curve(v, "in-stroke", SB_ROLE_INK,
+    label_curve(v, _("in-stroke"), SB_ROLE_INK,
                 (SbPlace[]){{p.x, p.y - 10, SB_MIDDLE},
                             {p.x, p.y + 19, SB_MIDDLE},
                             {p.x + 50, p.y - 10, SB_MIDDLE},
@@ -271,7 +274,7 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
                 4);
   }
   if (between(v, SB_STAGE_E, 0, 0.32, &p)) {
-    label_curve(v, "return", SB_ROLE_INK,
+    label_curve(v, C_("label", "return"), SB_ROLE_INK,
                 (SbPlace[]){{p.x, p.y + 17, SB_MIDDLE},
                             {p.x, p.y - 10, SB_MIDDLE},
                             {p.x - 40, p.y + 17, SB_MIDDLE}},

@@ -7,6 +7,7 @@
 #include "app/base/format.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 
 enum { DOTS = 360 };
@@ -65,8 +66,10 @@ static void draw_legend(SbHysteresisView *v, SbRect in) {
   const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
   g_autofree char *text =
       m->measured->last > m->measured->first
-          ? g_strdup_printf("measured, %zu cycles", m->measured->last - m->measured->first + 1)
-          : g_strdup("measured");
+          ? g_strdup_printf(ngettext("measured, %zu cycle", "measured, %zu cycles",
+                                     m->measured->last - m->measured->first + 1),
+                            m->measured->last - m->measured->first + 1)
+          : g_strdup(_("measured"));
   const double right = in.x + in.width, y = in.y + (v->flags & SB_CHART_COMPACT ? 34 : 64);
   sb_canvas_text(c, text, &style, right, y, SB_RIGHT);
   draw_dot(c, (SbPoint){right - sb_canvas_text_width(c, text, &style) - 9, y - 4}, false);
@@ -111,11 +114,11 @@ static void draw_strip(SbHysteresisView *v) {
   const SbTextStyle strong = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
   char digits[SB_FORMAT_MAX];
   g_autofree char *rms = isfinite(m->rms)
-                             ? g_strdup_printf("rms %s N", sb_format_digits(digits, m->rms, 3))
-                             : g_strdup("no point beside the model");
+                             ? g_strdup_printf(_("rms %s N"), sb_format_digits(digits, m->rms, 3))
+                             : g_strdup(_("no point beside the model"));
   sb_canvas_text_fit(c,
-                     compact ? "measured \xe2\x88\x92 model / N"
-                             : "measured \xe2\x88\x92 model / N; filled in-stroke, open return",
+                     compact ? _("measured \xe2\x88\x92 model / N")
+                             : _("measured \xe2\x88\x92 model / N; filled in-stroke, open return"),
                      &label, strip.x, top - 10, strip.width - 90);
   sb_canvas_text(c, rms, &strong, strip.x + strip.width, top - 10, SB_RIGHT);
 }

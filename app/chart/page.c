@@ -4,6 +4,7 @@
 #include "app/base/format.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -22,15 +23,15 @@ void sb_page_models_text(char *out, size_t size, const SbChartRun *run) {
   g_autoptr(GString) text = g_string_new(NULL);
   const SbModel *m = run->model;
   if (sb_model_is_rig(m)) {
-    append_choice(text, "motion", m, SB_P_MODELS_MOTION);
+    append_choice(text, _("motion"), m, SB_P_MODELS_MOTION);
   } else if (m) {
-    append_choice(text, "fit", m, SB_P_MODELS_FIT);
-    append_choice(text, "film", m, SB_P_MODELS_FILM);
-    append_choice(text, "surface", m, SB_P_MODELS_SURFACE);
+    append_choice(text, _("fit"), m, SB_P_MODELS_FIT);
+    append_choice(text, _("film"), m, SB_P_MODELS_FILM);
+    append_choice(text, _("surface"), m, SB_P_MODELS_SURFACE);
     if (sb_model_number(m, SB_P_MODELS_ASPERITIES) == SB_MODEL_ASPERITIES_COUPLED) {
-      append_choice(text, "asperities", m, SB_P_MODELS_ASPERITIES);
+      append_choice(text, _("asperities"), m, SB_P_MODELS_ASPERITIES);
     }
-    append_choice(text, "motion", m, SB_P_MODELS_MOTION);
+    append_choice(text, _("motion"), m, SB_P_MODELS_MOTION);
   }
   g_strlcpy(out, text->str, size);
 }
@@ -44,7 +45,7 @@ void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run) {
   char pressure[SB_FORMAT_MAX], speed[SB_FORMAT_MAX], map[64];
   if (sb_model_is_rig(m)) {
     const SbRig *rig = sb_model_rig(m);
-    g_snprintf(out, size, "load %s" DOT "thread %s" DOT "%.4g samples a second",
+    g_snprintf(out, size, _("load %s  \xc2\xb7  thread %s  \xc2\xb7  %.4g samples a second"),
                sb_format_given(pressure, SB_QUANTITY_FORCE, rig->load),
                sb_format_given(speed, SB_QUANTITY_SPEED, rig->speed), rig->rate);
     return;
@@ -55,7 +56,7 @@ void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run) {
     // A speed belongs to the machine only.
     char kind[32];
     sb_model_choice_name(m, SB_P_DRIVE_KIND, kind, sizeof kind);
-    g_snprintf(speed, sizeof speed, "drive %s", kind);
+    g_snprintf(speed, sizeof speed, _("drive %s"), kind);
   } else if (v < 1e-3) {
     // As test machines are set.
     char number[SB_FORMAT_MAX];
@@ -65,7 +66,7 @@ void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run) {
     sb_format_given(speed, SB_QUANTITY_SPEED, v);
   }
   sb_model_choice_name(m, SB_P_CANISTER_PRESSURE_MAP, map, sizeof map);
-  g_snprintf(out, size, "canister %s" DOT "%s" DOT "%s", pressure, speed, map);
+  g_snprintf(out, size, _("canister %s  \xc2\xb7  %s  \xc2\xb7  %s"), pressure, speed, map);
 }
 
 // Below this an estimate is rounding of double numbers, not discretisation.
@@ -98,17 +99,17 @@ static void append_rounding(GString *out, const char *label, double error) {
 void sb_page_errors_text(char *out, size_t size, const SbChartRun *run) {
   const SbSummary *s = run->summary;
   if (!s) {
-    g_strlcpy(out, "known when the run has ended", size);
+    g_strlcpy(out, _("known when the run has ended"), size);
     return;
   }
   const struct {
     const char *label;
     double error;
-  } parts[] = {{"load", s->error_load},
-               {"force", s->error_force},
-               {"film", s->error_film},
-               {"energy", s->error_energy},
-               {"energy closure", s->energy.closure}};
+  } parts[] = {{_("load"), s->error_load},
+               {_("force"), s->error_force},
+               {_("film"), s->error_film},
+               {_("energy"), s->error_energy},
+               {_("energy closure"), s->energy.closure}};
   g_autoptr(GString) text = g_string_new(NULL);
   g_autoptr(GString) rounding = g_string_new(NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(parts); i++) {
@@ -116,9 +117,9 @@ void sb_page_errors_text(char *out, size_t size, const SbChartRun *run) {
     append_rounding(rounding, parts[i].label, parts[i].error);
   }
   if (rounding->len) {
-    g_string_append_printf(text, "%s%s: rounding only", text->len ? "; " : "", rounding->str);
+    g_string_append_printf(text, _("%s%s: rounding only"), text->len ? "; " : "", rounding->str);
   }
-  g_string_append(text, "  (discretisation, not the choice of model)");
+  g_string_append(text, _("  (discretisation, not the choice of model)"));
   g_strlcpy(out, text->str, size);
 }
 
@@ -197,16 +198,17 @@ void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   if (frame) {
     SbFormatted f;
     sb_format(&f, SB_QUANTITY_FORCE, frame->force, sb_chart_error_force(&data->run));
-    double x = readout(c, right, y, f.number, f.unit, "00.0",
-                       sb_chart_is_rig(&data->run) ? "force in the thread" : "force on the stem",
-                       SB_ROLE_INK);
+    double x =
+        readout(c, right, y, f.number, f.unit, "00.0",
+                sb_chart_is_rig(&data->run) ? _("force in the thread") : _("force on the stem"),
+                SB_ROLE_INK);
     // Place and time get a fixed number of decimals: digits that come and go distract.
     char number[SB_FORMAT_MAX];
     sb_format_fixed(number, frame->displacement * 1e3, 2);
-    x = readout(c, x - 42, y, number, "mm", "0.00", "displacement", SB_ROLE_INK);
+    x = readout(c, x - 42, y, number, "mm", "0.00", C_("stem", "displacement"), SB_ROLE_INK);
     double duration = data->run.trace ? sb_trace_range(data->run.trace).time_max : 0;
     sb_format_fixed(number, frame->time, duration < 1 ? 4 : duration < 200 ? 2 : 1);
-    x = readout(c, x - 42, y, number, "s", "00.00", "time", SB_ROLE_INK);
+    x = readout(c, x - 42, y, number, "s", "00.00", _("time"), SB_ROLE_INK);
     double x_time = x - 42;
     free_right = readout(c, x_time, y, sb_chart_span(&data->run, frame->stage), "",
                          "B\xe2\x80\x93"
@@ -230,13 +232,13 @@ void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   } else if (data->stale) {
     g_strlcpy(text, data->stale, sizeof text);
   } else if (data->run.state == SB_CHART_PARTIAL) {
-    g_strlcpy(text, "partial: the run was cancelled", sizeof text);
+    g_strlcpy(text, _("partial: the run was cancelled"), sizeof text);
   } else if (data->run.state == SB_CHART_FAILED) {
-    g_strlcpy(text, "the solver did not converge: up to the last good state", sizeof text);
+    g_strlcpy(text, _("the solver did not converge: up to the last good state"), sizeof text);
     ink = SB_ROLE_ERROR;
     ground = SB_ROLE_ERROR_GROUND;
   } else if (data->run.state == SB_CHART_RUNNING) {
-    g_snprintf(text, sizeof text, "being computed, %.0f\xc2\xa0%%",
+    g_snprintf(text, sizeof text, _("being computed, %.0f\xc2\xa0%%"),
                100 * CLAMP(data->progress, 0, 1));
   }
   if (text[0]) {
@@ -301,7 +303,7 @@ void sb_page_foot_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbP
   sb_canvas_text(c, version, &third, right, y_version, SB_RIGHT);
 
   // Left: models and errors.
-  double width = sb_canvas_text(c, "Models", &bold, left, y, SB_LEFT);
+  double width = sb_canvas_text(c, _("Models"), &bold, left, y, SB_LEFT);
   const char *text = foot->models;
   double models_width = sb_canvas_text_width(c, text, &plain);
   size_t warnings = foot->warnings ? foot->warnings->count + foot->warnings->dropped : 0;
@@ -310,14 +312,14 @@ void sb_page_foot_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbP
   models_room = sb_canvas_text_fit(c, text, &plain, left + width + 8, y, models_room);
   double warn_left = narrow ? left : left + width + 8 + models_room + 32;
 
-  width = sb_canvas_text(c, "Error estimates", &bold, left, y2, SB_LEFT);
+  width = sb_canvas_text(c, _("Error estimates"), &bold, left, y2, SB_LEFT);
   sb_canvas_text_fit(c, foot->errors, &plain, left + width + 8, y2,
                      right - left - width - 8 - (narrow ? 0 : version_width + 24));
 
   // Right: as many warnings as fit, the number of the others.
   if (warnings) {
     const SbWarnings *list = foot->warnings;
-    const char *head = warnings == 1 ? "Warning" : "Warnings";
+    const char *head = warnings == 1 ? _("Warning") : _("Warnings");
     double head_width = sb_canvas_text_width(c, head, &warn_bold) + 8;
     double space = right - warn_left - head_width;
     g_autoptr(GString) line = g_string_new(NULL);
@@ -334,9 +336,9 @@ void sb_page_foot_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbP
     while (shown < list->count) {
       g_autofree char *tried =
           g_strdup_printf("%s%s%s", line->str, shown ? ";  " : "", texts[shown]);
-      char rest[32] = "";
+      char rest[48] = "";
       if (warnings - shown - 1 > 0) {
-        g_snprintf(rest, sizeof rest, "  and %zu more", warnings - shown - 1);
+        g_snprintf(rest, sizeof rest, _("  and %zu more"), warnings - shown - 1);
       }
       g_autofree char *whole = g_strconcat(tried, rest, NULL);
       if (shown > 0 && sb_canvas_text_width(c, whole, &warn) > space) {
@@ -345,9 +347,9 @@ void sb_page_foot_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbP
       g_string_assign(line, tried);
       shown++;
     }
-    char rest[32] = "";
+    char rest[48] = "";
     if (warnings > shown) {
-      g_snprintf(rest, sizeof rest, "  and %zu more", warnings - shown);
+      g_snprintf(rest, sizeof rest, _("  and %zu more"), warnings - shown);
     }
     double rest_width = rest[0] ? sb_canvas_text_width(c, rest, &warn_bold) : 0;
     double line_width = fmin(sb_canvas_text_width(c, line->str, &warn), space - rest_width);
@@ -368,16 +370,17 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   sb_page_errors_text(errors, sizeof errors, &data->run);
   g_snprintf(version, sizeof version, "Sealbench %s", sb_version());
   if (data->hash && data->hash[0]) {
-    g_strlcat(version, DOT "run ", sizeof version);
+    g_strlcat(version, _("  \xc2\xb7  run "), sizeof version);
     size_t used = strlen(version);
     g_strlcpy(version + used, data->hash, MIN(sizeof version - used, 9));
   }
   if (data->run.count > 0) {
     size_t used = strlen(version);
     if (flags & SB_CHART_WHOLE) {
-      g_snprintf(version + used, sizeof version - used, DOT "%zu frames", data->run.count);
+      g_snprintf(version + used, sizeof version - used, _("  \xc2\xb7  %zu frames"),
+                 data->run.count);
     } else {
-      g_snprintf(version + used, sizeof version - used, DOT "frame %zu of %zu",
+      g_snprintf(version + used, sizeof version - used, _("  \xc2\xb7  frame %zu of %zu"),
                  MIN(data->playhead, data->run.count - 1) + 1, data->run.count);
     }
   }

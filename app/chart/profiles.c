@@ -11,6 +11,7 @@
 #include "app/chart/contact_curve.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -188,7 +189,7 @@ static void asperity_share(Small *s, const SbContactCurve *curve, double left, d
                               {p[top].x, p[top].y - 6, SB_MIDDLE},
                               {p[top].x, p[top].y + 14, SB_MIDDLE},
                               {p[n - 1].x + 8, p[top].y, SB_LEFT}};
-    small_label(s, "asperities", &style, places + !low, 3);
+    small_label(s, _("asperities"), &style, places + !low, 3);
   }
   g_free(p);
 }
@@ -224,7 +225,7 @@ static void fluid_label(Small *s, double from, double to, double pressure) {
   double y = sb_axis_at(&s->y, pressure * 1e-6);
   char value[SB_FORMAT_MAX], text[64];
   sb_format_given(value, SB_QUANTITY_PRESSURE, pressure);
-  g_snprintf(text, sizeof text, "fluid %s", value);
+  g_snprintf(text, sizeof text, _("fluid %s"), value);
   SbTextStyle style = sb_canvas_style(s->canvas, SB_TYPE_LABEL, 400, SB_ROLE_FLUID);
   if (sb_canvas_text_width(s->canvas, text, &style) + 8 > x1 - x0) {
     g_strlcpy(text, value, sizeof text);
@@ -243,7 +244,7 @@ static void common_label(Small *s) {
   }
   char value[SB_FORMAT_MAX], text[96];
   sb_format_given(value, SB_QUANTITY_PRESSURE, common);
-  g_snprintf(text, sizeof text, "fluid %s on both sides", value);
+  g_snprintf(text, sizeof text, _("fluid %s on both sides"), value);
   SbTextStyle style = sb_canvas_style(s->canvas, SB_TYPE_NOTE, 400, SB_ROLE_FLUID);
   double left = s->plot.x + 4, right = s->plot.x + s->plot.width - 4;
   small_label(s, text, &style,
@@ -352,7 +353,7 @@ static void pressure_chart(Small *s) {
     fluid_label(s, -far, far, side);
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
     double x = s->plot.x + 0.5 * s->plot.width, y = s->plot.y + 0.5 * s->plot.height;
-    small_label(s, seal ? "no contact" : "no run yet", &note,
+    small_label(s, seal ? _("no contact") : _("no run yet"), &note,
                 (SbPlace[]){{x, y, SB_MIDDLE}, {x, y - 30, SB_MIDDLE}, {x, y + 30, SB_MIDDLE}}, 3);
     common_label(s);
     return;
@@ -395,7 +396,7 @@ static void pressure_chart(Small *s) {
     double x = sb_axis_at(&s->x, peak_x * 1e3), y = sb_axis_at(&s->y, peak * 1e-6);
     sb_canvas_dot(c, x, y, 2.6, s->color);
     shared_format(value, s, peak, other ? other->pressure_peak : 0, 1e-6, "MPa");
-    g_snprintf(text, sizeof text, "peak %s", value);
+    g_snprintf(text, sizeof text, _("peak %s"), value);
     SbTextStyle style = {SB_TYPE_LABEL, 600, s->color, 1};
     small_label(s, text, &style,
                 (SbPlace[]){{x, y - 9, SB_MIDDLE},
@@ -426,7 +427,7 @@ static void pressure_chart(Small *s) {
     asperity_share(s, &curve, left, right);
   }
   if (seal->land_fraction < 0.999F) {
-    g_snprintf(text, sizeof text, "%.0f\xc2\xa0%% on the land",
+    g_snprintf(text, sizeof text, _("%.0f\xc2\xa0%% on the land"),
                100.0 * (double)seal->land_fraction);
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
     // The land's edge takes the canister side away: there is room on that side.
@@ -448,8 +449,8 @@ static void narrow_label(Small *s, const char *const *value, int count, const Sb
   const double left = sb_axis_at(&s->x, seal->contact_left * 1e3) - 8;
   const double right = sb_axis_at(&s->x, seal->contact_right * 1e3) + 8;
   const double x = 0.5 * (left + right), line = 17;
-  char text[SB_FORMAT_MAX + 8];
-  g_snprintf(text, sizeof text, count > 1 ? "least %s" : "%s", value[count - 1]);
+  char text[SB_FORMAT_MAX + 24];
+  g_snprintf(text, sizeof text, count > 1 ? C_("film", "least %s") : "%s", value[count - 1]);
   const double crossing_max = s->labels->crossing_max;
   s->labels->crossing_max = 1;
   const SbPlace clear[] = {{x, y - 9, SB_MIDDLE},
@@ -464,9 +465,10 @@ static void narrow_label(Small *s, const char *const *value, int count, const Sb
     const SbPlace at = inside   ? (SbPlace){x, y - 9, SB_MIDDLE}
                        : before ? (SbPlace){left, y - 9, SB_RIGHT}
                                 : (SbPlace){right, y - 9, SB_LEFT};
-    const bool beside = count > 1 && (inside || fmax(left - s->plot.x, right_px - right) >= wide) &&
-                        small_label(s, value[count - 1], style, &at, 1) &&
-                        small_label(s, "least", style, &(SbPlace){at.x, at.y - line, at.align}, 1);
+    const bool beside =
+        count > 1 && (inside || fmax(left - s->plot.x, right_px - right) >= wide) &&
+        small_label(s, value[count - 1], style, &at, 1) &&
+        small_label(s, C_("film", "least"), style, &(SbPlace){at.x, at.y - line, at.align}, 1);
     s->labels->crossing_max = crossing_max;
     if (!beside) {
       small_label(s, text, style, clear, 3);
@@ -533,7 +535,7 @@ static void film_chart(Small *s) {
     sb_format_text(least, SB_QUANTITY_FILM, seal->film_min, error);
     bool uniform = seal->film_min >= 0.995 * seal->film_central;
     SbTextStyle style = {SB_TYPE_LABEL, 600, s->color, 1};
-    g_snprintf(text, sizeof text, uniform ? "%s, uniform" : "%s, least %s", value, least);
+    g_snprintf(text, sizeof text, uniform ? _("%s, uniform") : _("%s, least %s"), value, least);
     double room =
         sb_axis_at(&s->x, seal->contact_right * 1e3) - sb_axis_at(&s->x, seal->contact_left * 1e3);
     if (sb_canvas_text_width(c, text, &style) + 8 <= room) {
@@ -545,15 +547,15 @@ static void film_chart(Small *s) {
   } else {
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
     double x = left_px + 0.5 * s->plot.width, y = s->plot.y + 0.62 * s->plot.height;
-    const char *words = !seal                       ? "no run yet"
-                        : !sb_contact_touches(seal) ? "no contact"
-                                                    : "at rest: no film";
+    const char *words = !seal                       ? _("no run yet")
+                        : !sb_contact_touches(seal) ? _("no contact")
+                                                    : _("at rest: no film");
     small_label(s, words, &note, (SbPlace[]){{x, y, SB_MIDDLE}, {x, y - 20, SB_MIDDLE}}, 2);
   }
 
   if (sigma_y > s->plot.y && sigma_y < bottom) {
     sb_format_given(value, SB_QUANTITY_FILM, sigma);
-    g_snprintf(text, sizeof text, "roughness \xcf\x83 %s", value);
+    g_snprintf(text, sizeof text, _("roughness \xcf\x83 %s"), value);
     SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
     double x = sb_contact_touches(seal)
                    ? sb_axis_at(&s->x, 0.5e3 * (seal->contact_left + seal->contact_right))
@@ -572,7 +574,7 @@ static void film_chart(Small *s) {
     double y = fmin(sb_axis_at(&s->y, SB_CONTINUUM_LIMIT) + 13, bottom - 5);
     // Once is enough: both charts share the scale. Over a curve only if there is no other way.
     s->labels->crossing_max = s->index == SB_INNER ? 1 : INFINITY;
-    *s->band_named = small_label(s, "below continuum", &style,
+    *s->band_named = small_label(s, _("below continuum"), &style,
                                  (SbPlace[]){{right_px - 6, bottom - 7, SB_RIGHT},
                                              {right_px - 6, y, SB_RIGHT},
                                              {left_px + 6, bottom - 7, SB_LEFT},
@@ -608,7 +610,7 @@ static const char *curve_model(const SbChartData *data, const SbFrame *frame, bo
       model = kept && kept->count > 1 ? kept->model : NULL;
     }
   }
-  return any ? (model ? model : "schematic, shape of Hertz") : NULL;
+  return any ? (model ? model : _("schematic, shape of Hertz")) : NULL;
 }
 
 // Where a panel puts the chart of a seal.
@@ -678,20 +680,22 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   SbTextStyle title =
       sb_canvas_style(c, compact ? SB_TYPE_PANEL_WINDOW : SB_TYPE_PANEL, 700, SB_ROLE_INK);
   SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  double width = sb_canvas_text(c, film ? "Film thickness" : "Contact pressure", &title, in.x,
+  double width = sb_canvas_text(c, film ? _("Film thickness") : _("Contact pressure"), &title, in.x,
                                 in.y + 14, SB_LEFT);
   char note[160];
   if (film) {
-    const char *bore = !frame || frame->velocity == 0 ? "at rest"
-                       : frame->velocity > 0          ? "bore moves right"
-                                                      : "bore moves left";
+    const char *bore = !frame || frame->velocity == 0 ? _("at rest")
+                       : frame->velocity > 0          ? _("bore moves right")
+                                                      : _("bore moves left");
     g_snprintf(note, sizeof note, "%s%s",
-               compact ? "log scale, position / mm, " : "log scale against axial position / mm, ",
+               compact ? _("log scale, position / mm, ")
+                       : _("log scale against axial position / mm, "),
                bore);
   } else {
     g_strlcpy(note,
-              compact ? "MPa above the lower fluid, position / mm"
-                      : "MPa above the lower fluid pressure, position / mm, canister on the left",
+              compact
+                  ? _("MPa above the lower fluid, position / mm")
+                  : _("MPa above the lower fluid pressure, position / mm, canister on the left"),
               sizeof note);
   }
   const char *model = curve_model(data, frame, film);
@@ -717,7 +721,7 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
     sb_labels_init(labels,
                    (SbRect){s.plot.x - 2, s.plot.y - 12, s.plot.width + 4, s.plot.height + 12});
     SbTextStyle name = {SB_TYPE_LABEL, 600, s.color, 1};
-    sb_canvas_text(c, s.index == SB_INNER ? "Inner seal" : "Outer seal", &name, s.plot.x,
+    sb_canvas_text(c, s.index == SB_INNER ? _("Inner seal") : _("Outer seal"), &name, s.plot.x,
                    in.y + (compact ? 34 : 40), SB_LEFT);
     if (film) {
       continuum_band(&s);

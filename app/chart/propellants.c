@@ -5,6 +5,7 @@
 #include "app/chart/propellants_private.h"
 #include "engine/fluid/fluid.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -386,7 +387,7 @@ static void draw_begins(const Chart *chart) {
 
 static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbStudy *study,
                        const SbModel *model, const SbPropellantsLook *look, int panel) {
-  static const char *const titles[] = {"Pressure force", "Break-away", "Least return"};
+  static const char *const titles[] = {N_("Pressure force"), N_("Break-away"), N_("Least return")};
   char number[SB_FORMAT_MAX];
   const SbRect card = layout->chart[panel];
   sb_canvas_panel(c, card);
@@ -397,10 +398,12 @@ static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbS
   const SbTextStyle note = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
   const SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   g_autofree char *land = g_strdup_printf(
-      "gauge pressure on the stem's %s mm",
+      _("gauge pressure on the stem's %s mm"),
       sb_format_fixed(number, 1e3 * sb_model_value(model, SB_P_STEM_PRESSURE_DIAMETER), 3));
-  const char *const notes[] = {land, "first slip, in-stroke", "pressure force minus friction"};
-  const double used = sb_canvas_text(c, titles[panel], &title, card.x + 20, card.y + 27, SB_LEFT);
+  const char *const notes[] = {land, _("first slip, in-stroke"),
+                               _("pressure force minus friction")};
+  const double used =
+      sb_canvas_text(c, _(titles[panel]), &title, card.x + 20, card.y + 27, SB_LEFT);
   sb_canvas_text_fit(c, notes[panel], &note, card.x + 30 + used, card.y + 27,
                      card.width - 50 - used);
   sb_canvas_text(c, "N", &label, r.x - 8, r.y - 8, SB_RIGHT);
@@ -415,13 +418,13 @@ static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbS
   const double limit = study->panel[panel].limit_high;
   if (isfinite(limit)) {
     g_autofree char *text =
-        g_strdup_printf("limit %s", sb_format_given(number, SB_QUANTITY_FORCE, limit));
+        g_strdup_printf(_("limit %s"), sb_format_given(number, SB_QUANTITY_FORCE, limit));
     draw_level(&chart, limit, text, false);
   }
   if (panel == RETURN) {
     const double weak = sb_propellants_weak_below(study), zero = height_of(&chart, 0);
     g_autofree char *text =
-        g_strdup_printf("returns under %s", sb_format_given(number, SB_QUANTITY_FORCE, weak));
+        g_strdup_printf(_("returns under %s"), sb_format_given(number, SB_QUANTITY_FORCE, weak));
     draw_level(&chart, weak, text, zero - height_of(&chart, weak) > 22);
     sb_canvas_pen(c, 1.6, NULL);
     sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_ERROR), 1);
@@ -430,7 +433,7 @@ static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbS
     cairo_stroke(c->cr);
     if (r.y + r.height - zero > 40) {
       const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_ERROR);
-      sb_canvas_text_plate(c, "stem does not return", &style, r.x + r.width - 12,
+      sb_canvas_text_plate(c, _("stem does not return"), &style, r.x + r.width - 12,
                            r.y + r.height - 14, SB_RIGHT, sb_canvas_role(c, SB_ROLE_ERROR_GROUND));
     }
   }
@@ -453,14 +456,15 @@ static void draw_foot(SbCanvas *c, SbRect r, const SbStudy *study) {
   const SbTextStyle plain = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
   const SbTextStyle bold = sb_canvas_style(c, SB_TYPE_NOTE, 700, SB_ROLE_SECOND);
   const SbTextStyle warn = sb_canvas_style(c, SB_TYPE_NOTE, 700, SB_ROLE_WARN);
-  const char *const texts[][2] = {{"Pressure", "saturated at the canister's temperature"},
-                                  {"Friction", study->models},
-                                  {"Left out", "swell by another propellant, cooling as it boils"}};
+  const char *const texts[][2] = {
+      {_("Pressure"), _("saturated at the canister's temperature")},
+      {_("Friction"), study->models},
+      {_("Left out"), _("swell by another propellant, cooling as it boils")}};
   const double y = r.y + 20;
   double x = r.x, end = r.x + r.width;
   if (study->warnings.count > 0) {
-    g_autofree char *text = g_strdup_printf("%zu warning%s", study->warnings.count,
-                                            study->warnings.count == 1 ? "" : "s");
+    g_autofree char *text = g_strdup_printf(
+        ngettext("%zu warning", "%zu warnings", study->warnings.count), study->warnings.count);
     end -= sb_canvas_text(c, text, &warn, end, y, SB_RIGHT) + 16;
   }
   for (size_t i = 0; i < G_N_ELEMENTS(texts) && x < end - 80; i++) {

@@ -2,6 +2,7 @@
 #include "app/chart/propellants_private.h"
 #include "engine/fluid/fluid.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 
 enum { RETURN = SB_PROPELLANTS_RETURN, DOSE };
@@ -40,17 +41,17 @@ static char *answer_text(const SbStudy *study, int k, double T, double gauge) {
   sb_propellants_force(force, value);
   sb_propellants_degrees(at, T);
   if (gauge <= 0) {
-    return g_strdup_printf("delivers nothing at %s °C: below ambient", at);
+    return g_strdup_printf(_("delivers nothing at %s °C: below ambient"), at);
   }
   switch (sb_propellants_answer(study, value)) {
   case SB_PROPELLANT_STUCK:
-    return g_strdup_printf("does not return, %s at %s °C", force, at);
+    return g_strdup_printf(_("does not return, %s at %s °C"), force, at);
   case SB_PROPELLANT_WEAKLY:
-    return g_strdup_printf("returns weakly, %s at %s °C", force, at);
+    return g_strdup_printf(_("returns weakly, %s at %s °C"), force, at);
   case SB_PROPELLANT_RETURNS:
-    return g_strdup_printf("returns with %s at %s °C", force, at);
+    return g_strdup_printf(_("returns with %s at %s °C"), force, at);
   default:
-    return g_strdup_printf("no value at %s °C", at);
+    return g_strdup_printf(_("no value at %s °C"), at);
   }
 }
 
@@ -63,15 +64,15 @@ static char *range_text(const SbStudy *study, int k) {
                enough = sb_propellants_rises(series, weak);
   const bool always = series != NULL && series->count > 0 && series->y[0] > 0;
   if (isnan(begins) && !always) {
-    return g_strdup("returns nowhere");
+    return g_strdup(_("returns nowhere"));
   }
   g_autofree char *first =
-      always ? g_strdup("returns everywhere")
-             : g_strdup_printf("from %s °C", sb_format_fixed(from, begins - ZERO, 0));
+      always ? g_strdup(_("returns everywhere"))
+             : g_strdup_printf(_("from %s °C"), sb_format_fixed(from, begins - ZERO, 0));
   if (isnan(enough)) {
     return g_steal_pointer(&first);
   }
-  return g_strdup_printf("%s, %s from %s °C", first,
+  return g_strdup_printf(_("%s, %s from %s °C"), first,
                          sb_format_given(limit, SB_QUANTITY_FORCE, weak),
                          sb_format_fixed(full, enough - ZERO, 0));
 }
@@ -159,7 +160,7 @@ void sb_propellants_card(SbCanvas *c, const SbPropellantsLayout *layout, const S
   sb_canvas_text_fit(c, sb_propellants_name(k), &title, x + line + 8, card.y + 29,
                      width - line - 8 - (layout->small && own ? 0 : 76));
   if (own && !layout->small) {
-    sb_canvas_text(c, "in this design", &note, x + width, card.y + 28, SB_RIGHT);
+    sb_canvas_text(c, _("in this design"), &note, x + width, card.y + 28, SB_RIGHT);
   }
   if (layout->small) {
     draw_strip(c, (SbRect){x, card.y + 50, width, 8}, study, k, T);
@@ -174,9 +175,10 @@ void sb_propellants_card(SbCanvas *c, const SbPropellantsLayout *layout, const S
     double value, at;
     int decimals; // -1: three digits
   } figures[] = {
-      {"gauge pressure", "MPa", 1e-6 * gauge, 0, 2},
-      {"density", "kg/m³", known ? state.figure[SB_FLUID_LIQUID].value : NAN, 0.26, 0},
-      {"viscosity", "mPa s", known ? 1e3 * state.figure[SB_FLUID_VISCOSITY].value : NAN, 0.53, 3},
+      {_("gauge pressure"), "MPa", 1e-6 * gauge, 0, 2},
+      {_("density"), "kg/m³", known ? state.figure[SB_FLUID_LIQUID].value : NAN, 0.26, 0},
+      {_("viscosity"), "mPa s", known ? 1e3 * state.figure[SB_FLUID_VISCOSITY].value : NAN, 0.53,
+       3},
       {"GWP", "", known ? state.figure[SB_FLUID_GWP].value : NAN, 0.82, -1}};
   for (size_t i = 0; i < G_N_ELEMENTS(figures); i++) {
     const double value = figures[i].value;
@@ -201,7 +203,8 @@ void sb_propellants_card(SbCanvas *c, const SbPropellantsLayout *layout, const S
   const double dose = sb_propellants_value(sb_propellants_series(study, DOSE, k), T);
   double used = 0;
   if (isfinite(dose)) {
-    g_autofree char *mass = g_strdup_printf("dose %s mg", sb_format_digits(number, 1e6 * dose, 3));
+    g_autofree char *mass =
+        g_strdup_printf(_("dose %s mg"), sb_format_digits(number, 1e6 * dose, 3));
     used = sb_canvas_text(c, mass, &note, x + width, card.y + 116, SB_RIGHT) + 8;
   }
   sb_canvas_text_fit(c, text, &verdict, x + 20, card.y + 117, width - 20 - used);

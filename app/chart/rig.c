@@ -8,6 +8,7 @@
 #include "app/chart/signal.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -23,8 +24,8 @@ char *sb_rig_reasons_text(const SbChartRun *run) {
   const SbRigSummary *rig = summary_of(run);
   if (!rig) {
     return g_strdup(run->summary
-                        ? "The force has no first peak: there is no coefficient to compare."
-                        : "Known when the run has ended.");
+                        ? _("The force has no first peak: there is no coefficient to compare.")
+                        : _("Known when the run has ended."));
   }
   const SbRigCoefficients *of = &rig->of;
   const SbModel *m = run->model;
@@ -33,37 +34,37 @@ char *sb_rig_reasons_text(const SbChartRun *run) {
   double bias = of->dynamic_coefficient - of->mean_coefficient;
   if (of->stick_slip) {
     g_string_append_printf(out,
-                           "Measured %s is a mean of stick-slip peaks, and peaks lie above the "
-                           "mean force: here by %s, "
-                           "%s over %s.\n",
+                           _("Measured %s is a mean of stick-slip peaks, and peaks lie above the "
+                             "mean force: here by %s, "
+                             "%s over %s.\n"),
                            sb_format_digits(a, SB_RIG_MEASURED_DYNAMIC, 2),
                            sb_format_digits(b, bias, 2),
                            sb_format_digits(d, of->dynamic_coefficient, 3),
                            sb_format_digits(e, of->mean_coefficient, 3));
   } else {
     g_string_append_printf(out,
-                           "Measured %s is a mean of stick-slip peaks; here the plate slides "
-                           "without sticking, and the mean force gives %s.\n",
+                           _("Measured %s is a mean of stick-slip peaks; here the plate slides "
+                             "without sticking, and the mean force gives %s.\n"),
                            sb_format_digits(a, SB_RIG_MEASURED_DYNAMIC, 2),
                            sb_format_digits(b, of->mean_coefficient, 3));
   }
   g_string_append_printf(
       out,
-      "Predicted %s is sliding friction alone, without stick and slip: it is set against %s, not "
-      "against the peaks.\n",
+      _("Predicted %s is sliding friction alone, without stick and slip: it is set against %s, not "
+        "against the peaks.\n"),
       sb_format_digits(a, SB_RIG_PREDICTED_DYNAMIC, 2),
       sb_format_digits(b, of->mean_coefficient, 3));
   char load[SB_FORMAT_MAX];
   sb_format_given(load, SB_QUANTITY_FORCE, sb_model_rig(m)->load);
   g_string_append_printf(
       out,
-      "It was also predicted for the valve's seal, pressed on by some 12 N. Real area grows more "
-      "slowly than load: shear strength times real area is %s of the load under the %s of this "
-      "plate",
+      _("It was also predicted for the valve's seal, pressed on by some 12 N. Real area grows more "
+        "slowly than load: shear strength times real area is %s of the load under the %s of this "
+        "plate"),
       sb_format_digits(a, rig->contact_coefficient, 2), load);
   if (isfinite(rig->contact_load)) {
     g_string_append_printf(
-        out, ", and falls to %s only at %s, %s a ring.\n",
+        out, _(", and falls to %s only at %s, %s a ring.\n"),
         sb_format_digits(a, sb_model_rig(m)->coefficient, 2),
         sb_format_text(b, SB_QUANTITY_FORCE, rig->contact_load, 0),
         sb_format_text(d, SB_QUANTITY_FORCE, rig->contact_load / SB_RIG_RINGS, 0));
@@ -72,8 +73,9 @@ char *sb_rig_reasons_text(const SbChartRun *run) {
   }
   g_string_append_printf(
       out,
-      "The thesis gives neither the load nor the speed of its rig; sliding %s, load and speed are "
-      "inputs here. The first peak has had %.3g s of rest, those that follow a fraction of one.",
+      _("The thesis gives neither the load nor the speed of its rig; sliding %s, load and speed "
+        "are "
+        "inputs here. The first peak has had %.3g s of rest, those that follow a fraction of one."),
       sb_format_digits(a, sb_model_rig(m)->coefficient, 2), sb_model_rig(m)->rest);
   return g_string_free(out, FALSE);
 }
@@ -131,11 +133,11 @@ static void draw_scale(SbCanvas *c, SbRect in, const SbChartRun *run) {
     bool ours;
     int digits;
   } rows[] = {
-      {"static, first peak", of->static_coefficient, ink, true, 3},
-      {"dynamic, mean of peaks", of->dynamic_coefficient, outer, true, 3},
-      {"thesis, measured", SB_RIG_MEASURED_DYNAMIC, outer, false, 2},
-      {"mean force", of->mean_coefficient, fluid, true, 3},
-      {"thesis, predicted", SB_RIG_PREDICTED_DYNAMIC, fluid, false, 2},
+      {_("static, first peak"), of->static_coefficient, ink, true, 3},
+      {_("dynamic, mean of peaks"), of->dynamic_coefficient, outer, true, 3},
+      {_("thesis, measured"), SB_RIG_MEASURED_DYNAMIC, outer, false, 2},
+      {_("mean force"), of->mean_coefficient, fluid, true, 3},
+      {_("thesis, predicted"), SB_RIG_PREDICTED_DYNAMIC, fluid, false, 2},
   };
   const int count = (int)G_N_ELEMENTS(rows);
   double step = fmin(28, in.height / count);
@@ -169,12 +171,12 @@ static SbRect begin(SbCanvas *c, cairo_t *cr, SbRect rect, const SbTheme *theme,
   return (SbRect){in.x, in.y + head, in.width, fmax(in.height - head, 10)};
 }
 
-static const char scale_note[] = "filled: this run, outlined: thesis table 7.8";
+static const char *const scale_note = N_("filled: this run, outlined: thesis table 7.8");
 
 void sb_rig_scale_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                        unsigned flags) {
   SbCanvas canvas;
-  SbRect in = begin(&canvas, cr, rect, theme, flags, "Friction over load", scale_note);
+  SbRect in = begin(&canvas, cr, rect, theme, flags, _("Friction over load"), _(scale_note));
   draw_scale(&canvas, in, &data->run);
   sb_canvas_finish(&canvas);
 }
@@ -182,7 +184,7 @@ void sb_rig_scale_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
 void sb_rig_reasons_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                          unsigned flags) {
   SbCanvas canvas;
-  SbRect in = begin(&canvas, cr, rect, theme, flags, "Why they differ", NULL);
+  SbRect in = begin(&canvas, cr, rect, theme, flags, _("Why they differ"), NULL);
   draw_reasons(&canvas, in, &data->run);
   sb_canvas_finish(&canvas);
 }
@@ -191,7 +193,7 @@ void sb_rig_figures_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
                          unsigned flags) {
   SbCanvas canvas;
   SbCanvas *c = &canvas;
-  SbRect in = begin(c, cr, rect, theme, flags, "Friction over load", scale_note);
+  SbRect in = begin(c, cr, rect, theme, flags, _("Friction over load"), _(scale_note));
   SbRect scale = in, words = in;
   if (in.width > 2.4 * in.height) {
     scale.width = floor(0.42 * in.width);
@@ -204,7 +206,7 @@ void sb_rig_figures_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   }
   draw_scale(c, scale, &data->run);
   SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
-  sb_canvas_text(c, "Why they differ", &bold, words.x, words.y + 10, SB_LEFT);
+  sb_canvas_text(c, _("Why they differ"), &bold, words.x, words.y + 10, SB_LEFT);
   words.y += 20;
   draw_reasons(c, words, &data->run);
   sb_canvas_finish(c);
@@ -255,8 +257,8 @@ void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
                        unsigned flags) {
   SbCanvas canvas;
   SbCanvas *c = &canvas;
-  SbRect in = begin(c, cr, rect, theme, flags, "Sliding plate",
-                    "schematic, from the side: two of the four rings");
+  SbRect in = begin(c, cr, rect, theme, flags, _("Sliding plate"),
+                    _("schematic, from the side: two of the four rings"));
   const SbModel *m = data->run.model;
   const SbFrame *f = sb_chart_frame(data);
   double travel = m ? fmax(sb_model_rig(m)->speed * sb_model_rig(m)->duration, 1e-6) : 1e-3;
@@ -311,7 +313,7 @@ void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   SbTextStyle strong = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
   SbTextStyle at_now = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_NOW);
-  sb_canvas_text(c, "cell", &label, cell, thread_y + 4.3, SB_MIDDLE);
+  sb_canvas_text(c, _("cell"), &label, cell, thread_y + 4.3, SB_MIDDLE);
   double centre_y = thread_y + drum_r;
   cairo_arc(cr, drum_x, centre_y, drum_r, 0, 2 * G_PI);
   sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_HOUSING), 1);
@@ -323,12 +325,12 @@ void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   cairo_move_to(cr, drum_x, centre_y);
   cairo_line_to(cr, drum_x + 0.8 * drum_r * sin(turn), centre_y - 0.8 * drum_r * cos(turn));
   cairo_stroke(cr);
-  sb_canvas_text(c, "motor", &label, drum_x, thread_y - 10, SB_MIDDLE);
+  sb_canvas_text(c, _("motor"), &label, drum_x, thread_y - 10, SB_MIDDLE);
 
   // Figures at the playhead.
   char value[SB_FORMAT_MAX], text[96];
   if (m) {
-    g_snprintf(text, sizeof text, "load %s",
+    g_snprintf(text, sizeof text, _("load %s"),
                sb_format_given(value, SB_QUANTITY_FORCE, sb_model_rig(m)->load));
     double x = plate_x + 0.5 * plate_w, y = plate_y - block_h - 40;
     sb_canvas_text(c, text, &strong, x, y - 6, SB_MIDDLE);
@@ -341,15 +343,15 @@ void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   }
   if (f) {
     g_snprintf(
-        text, sizeof text, "thread %s",
+        text, sizeof text, _("thread %s"),
         sb_format_text(value, SB_QUANTITY_FORCE, f->force, sb_chart_error_force(&data->run)));
     sb_canvas_text(c, text, &at_now, cell, thread_y - 20, SB_MIDDLE);
     char place[SB_FORMAT_MAX];
     sb_format_fixed(place, f->displacement * 1e3, 3);
-    g_snprintf(text, sizeof text, "plate %s\xc2\xa0mm, %s", place,
-               f->stage == SB_STAGE_A                                        ? "not yet broken away"
-               : fabs(f->velocity) < 1e-3 * (m ? sb_model_rig(m)->speed : 1) ? "stuck"
-                                                                             : "slipping");
+    g_snprintf(text, sizeof text, _("plate %s\xc2\xa0mm, %s"), place,
+               f->stage == SB_STAGE_A ? _("not yet broken away")
+               : fabs(f->velocity) < 1e-3 * (m ? sb_model_rig(m)->speed : 1) ? _("stuck")
+                                                                             : _("slipping"));
     sb_canvas_color(c, now, 1);
     sb_canvas_text(c, text, &at_now, plate_x, floor_y + 0.12 * h + 18, SB_LEFT);
   }

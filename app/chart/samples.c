@@ -7,6 +7,7 @@
 #include "app/chart/axis.h"
 #include "app/document/unit.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -103,11 +104,11 @@ void sb_histogram_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbH
   fill(&bins, of);
   char note[120];
   if (bins.count == 0) {
-    g_strlcpy(note, "no sample has a value", sizeof note);
+    g_strlcpy(note, _("no sample has a value"), sizeof note);
   } else if (isfinite(of->low) || isfinite(of->high)) {
-    g_snprintf(note, sizeof note, "%zu of %zu beyond the limit", bins.beyond, bins.count);
+    g_snprintf(note, sizeof note, _("%zu of %zu beyond the limit"), bins.beyond, bins.count);
   } else {
-    g_snprintf(note, sizeof note, "%zu samples", bins.count);
+    g_snprintf(note, sizeof note, _("%zu samples"), bins.count);
   }
   draw_title(c, rect, of->title, note);
   if (bins.count == 0) {
@@ -192,7 +193,7 @@ void sb_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbTor
   sb_canvas_hairline(c, zero, top - 4, zero, top + 18 * (double)(count < rows ? count : rows),
                      sb_canvas_role(c, SB_ROLE_AXIS));
   if (count == 0) {
-    sb_canvas_text(c, "no value depends on anything", &name, rect.x + 14, top + 10, SB_LEFT);
+    sb_canvas_text(c, _("no value depends on anything"), &name, rect.x + 14, top + 10, SB_LEFT);
   }
   sb_canvas_finish(c);
 }

@@ -7,6 +7,7 @@
 #include "app/base/label.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 
 typedef struct {
@@ -54,22 +55,22 @@ static void draw_axes(View *v, SbRect rect, unsigned flags) {
       sb_canvas_style(c, compact ? SB_TYPE_PANEL_WINDOW : SB_TYPE_PANEL, 700, SB_ROLE_INK);
   SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   double left = v->plot.x, right = left + v->plot.width, bottom = v->plot.y + v->plot.height;
-  sb_canvas_text_fit(c, "Thread force and time", &title, rect.x + pad, rect.y + pad + 14,
+  sb_canvas_text_fit(c, _("Thread force and time"), &title, rect.x + pad, rect.y + pad + 14,
                      rect.width - 2 * pad);
   const SbModel *m = v->data->run.model;
   if (!compact && m) {
     char load[SB_FORMAT_MAX], speed[SB_FORMAT_MAX], note[160];
     g_snprintf(
-        note, sizeof note, "load %s on %d rings, thread wound up at %s, %.0f samples a second",
+        note, sizeof note, _("load %s on %d rings, thread wound up at %s, %.0f samples a second"),
         sb_format_given(load, SB_QUANTITY_FORCE, sb_model_rig(m)->load), SB_RIG_RINGS,
         sb_format_given(speed, SB_QUANTITY_SPEED, sb_model_rig(m)->speed), sb_model_rig(m)->rate);
     sb_canvas_text_fit(c, note, &label, rect.x + pad, rect.y + pad + 34, rect.width - 2 * pad);
   }
-  sb_canvas_text(c, "force in the thread / N", &label, rect.x + pad,
+  sb_canvas_text(c, _("force in the thread / N"), &label, rect.x + pad,
                  rect.y + pad + (compact ? 34 : 64), SB_LEFT);
   sb_axis_draw(c, v->plot, &v->x, &v->x_ticks, &v->y, &v->y_ticks);
   sb_canvas_hairline(c, left, bottom, right, bottom, sb_canvas_role(c, SB_ROLE_AXIS));
-  sb_canvas_text(c, "time / s", &label, right, bottom + 36, SB_RIGHT);
+  sb_canvas_text(c, _("time / s"), &label, right, bottom + 36, SB_RIGHT);
 }
 
 static SbPoint at(const View *v, double time, double force) {
@@ -153,7 +154,7 @@ static void draw_peaks(View *v) {
     SbPoint p = at(v, peak[0].time, peak[0].force);
     sb_canvas_ringed_dot(c, p.x, p.y, sb_canvas_role(c, SB_ROLE_INK));
     sb_labels_block(v->labels, (SbRect){p.x - 5, p.y - 5, 10, 10});
-    g_snprintf(text, sizeof text, "B  first peak %s, static %s",
+    g_snprintf(text, sizeof text, _("B  first peak %s, static %s"),
                sb_format_text(force, SB_QUANTITY_FORCE, of->first_peak, s->error_force),
                sb_format_digits(number, of->static_coefficient, 3));
     place(v, text, sb_canvas_role(c, SB_ROLE_INK),
@@ -164,7 +165,7 @@ static void draw_peaks(View *v) {
   if (of->stick_slip) {
     high = sb_axis_at(&v->y, of->dynamic_coefficient * load);
     g_snprintf(
-        text, sizeof text, "mean of %zu peaks %s, dynamic %s", of->peaks,
+        text, sizeof text, _("mean of %zu peaks %s, dynamic %s"), of->peaks,
         sb_format_text(force, SB_QUANTITY_FORCE, of->dynamic_coefficient * load, s->error_force),
         sb_format_digits(number, of->dynamic_coefficient, 3));
     place(v, text, outer, (SbPlace[]){{end, high - 10, SB_RIGHT}, {end, high - 26, SB_RIGHT}}, 2);
@@ -172,7 +173,7 @@ static void draw_peaks(View *v) {
   // Below the teeth of the saw.
   SbTraceRange range = sb_trace_range(run->trace);
   low = sb_axis_at(&v->y, fmin(of->mean_coefficient * load, range.force_max));
-  g_snprintf(text, sizeof text, "mean force %s, over load %s",
+  g_snprintf(text, sizeof text, _("mean force %s, over load %s"),
              sb_format_text(force, SB_QUANTITY_FORCE, of->mean_coefficient * load, s->error_force),
              sb_format_digits(number, of->mean_coefficient, 3));
   double below = of->stick_slip ? low + (low - high) : low;
@@ -227,9 +228,9 @@ void sb_signal_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChar
     g_free(v.labels);
   } else {
     SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-    sb_canvas_text_halo(c, run->state == SB_CHART_RUNNING ? "The run has begun." : "No run yet.",
-                        &style, v.plot.x + 0.5 * v.plot.width, v.plot.y + 0.5 * v.plot.height,
-                        SB_MIDDLE);
+    sb_canvas_text_halo(
+        c, run->state == SB_CHART_RUNNING ? _("The run has begun.") : _("No run yet."), &style,
+        v.plot.x + 0.5 * v.plot.width, v.plot.y + 0.5 * v.plot.height, SB_MIDDLE);
   }
   sb_canvas_finish(c);
 }

@@ -6,10 +6,12 @@
 #include "app/chart/study.h"
 #include "app/base/format.h"
 #include "app/base/label.h"
+#include "app/base/translation.h"
 #include "app/chart/axis.h"
 #include "app/document/unit.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -306,8 +308,8 @@ static void draw_axes(Plot *plot) {
     }
   }
   const SbStudyAxis *axis = &plot->study->x;
-  g_autofree char *title =
-      g_strdup_printf("%s%s%s", axis->quantity, axis->unit[0] ? " / " : "", axis->unit);
+  g_autofree char *title = g_strdup_printf("%s%s%s", sb_translation(axis->quantity),
+                                           axis->unit[0] ? " / " : "", sb_translation(axis->unit));
   // Under the plot's right end; a title longer than that begins at the card's left.
   double left = plot->card.x + 12, width = sb_canvas_text_width(c, title, &label);
   sb_canvas_text_fit(c, title, &label, fmax(r.x + r.width - width, left), bottom + 35,
@@ -336,8 +338,9 @@ static void draw_marks(Plot *plot) {
                               {x - 5, r.y + 5, SB_RIGHT},
                               {x + 5, r.y + r.height - 7, SB_LEFT},
                               {x - 5, r.y + r.height - 7, SB_RIGHT}};
-    if (sb_labels_place(plot->labels, c, mark->text, &style, places, 4, &at)) {
-      sb_canvas_text_halo(c, mark->text, &style, at.x, at.y, at.align);
+    g_autofree char *shown = sb_translation_of_case(mark->text);
+    if (sb_labels_place(plot->labels, c, shown, &style, places, 4, &at)) {
+      sb_canvas_text_halo(c, shown, &style, at.x, at.y, at.align);
     }
   }
 }
@@ -443,7 +446,8 @@ static void draw_gutter(Plot *plot, Name *name, int count, double width) {
     cairo_move_to(c->cr, name[i].end.x + 4, name[i].end.y);
     cairo_line_to(c->cr, x - 4, name[i].y);
     cairo_stroke(c->cr);
-    sb_canvas_text_fit_ends(c, name[i].series->name, &style, x, name[i].y + 4.3, width - 22);
+    g_autofree char *shown = sb_translation_of_case(name[i].series->name);
+    sb_canvas_text_fit_ends(c, shown, &style, x, name[i].y + 4.3, width - 22);
   }
 }
 
@@ -475,8 +479,9 @@ static int name_series(Plot *plot, SbPoint **points, double gutter) {
                               {end.x - 6, end.y - 6, SB_RIGHT},  {end.x - 6, end.y + 14, SB_RIGHT},
                               {end.x + 14, end.y - 20, SB_LEFT}, {end.x + 14, end.y + 28, SB_LEFT},
                               {end.x, end.y - 22, SB_RIGHT},     {end.x, end.y + 30, SB_RIGHT}};
-    if (sb_labels_place(plot->labels, c, series->name, &style, places, G_N_ELEMENTS(places), &at)) {
-      sb_labels_draw(plot->labels, c, series->name, &style, &at);
+    g_autofree char *shown = sb_translation_of_case(series->name);
+    if (sb_labels_place(plot->labels, c, shown, &style, places, G_N_ELEMENTS(places), &at)) {
+      sb_labels_draw(plot->labels, c, shown, &style, &at);
     }
   }
   if (count > 0) {
@@ -492,10 +497,12 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
   SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
   bool narrow = rect.width < NARROW;
   double pad = narrow ? 12 : SB_GRID_PADDING;
-  char *first = g_utf8_strup(panel->y.quantity, 1);
-  const char *rest = g_utf8_next_char(panel->y.quantity);
-  g_autofree char *text = g_strdup_printf("%s%s%s%s%s", first, rest, panel->y.unit[0] ? " / " : "",
-                                          panel->y.unit, panel->y.logarithmic ? ", log scale" : "");
+  const char *quantity = sb_translation(panel->y.quantity);
+  const char *rest = *quantity != '\0' ? g_utf8_next_char(quantity) : quantity;
+  char *first = g_utf8_strup(quantity, rest - quantity);
+  g_autofree char *text =
+      g_strdup_printf("%s%s%s%s%s", first, rest, panel->y.unit[0] ? " / " : "", panel->y.unit,
+                      panel->y.logarithmic ? _(", log scale") : "");
   g_free(first);
   if (sb_canvas_text_width(c, text, &title) > rect.width - 2 * pad) {
     title = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
@@ -504,7 +511,8 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
 
   double gutter = narrow ? 0 : 40;
   for (size_t s = 0; !narrow && s < panel->series_count; s++) {
-    gutter = fmax(gutter, sb_canvas_text_width(c, panel->series[s].name, &label) + 24);
+    g_autofree char *shown = sb_translation_of_case(panel->series[s].name);
+    gutter = fmax(gutter, sb_canvas_text_width(c, shown, &label) + 24);
   }
   gutter = fmin(gutter, 0.4 * rect.width);
   SbLabels *labels = g_new(SbLabels, 1);
@@ -543,9 +551,10 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
   draw_marks(&plot);
   if (name_series(&plot, points, gutter) == 0) {
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
-    double half = fmin(sb_canvas_text_width(c, panel->empty, &note), rect.width - 2 * pad) / 2;
+    const char *empty = sb_translation(panel->empty);
+    double half = fmin(sb_canvas_text_width(c, empty, &note), rect.width - 2 * pad) / 2;
     double x = CLAMP(r.x + r.width / 2, rect.x + pad + half, rect.x + rect.width - pad - half);
-    sb_canvas_text_fit(c, panel->empty, &note, x - half, r.y + r.height / 2, 2 * half + 1);
+    sb_canvas_text_fit(c, empty, &note, x - half, r.y + r.height / 2, 2 * half + 1);
   }
   for (size_t s = 0; s < panel->series_count; s++) {
     g_free(points[s]);
@@ -572,11 +581,11 @@ void sb_study_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbStudy
   SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_SECOND);
   double y = layout.notes.y + 12, x = rect.x;
   for (size_t i = 0; i < study->note_count; i++, y += NOTE_LINE) {
-    sb_canvas_text_fit(c, study->note[i], &plain, x, y, rect.width);
+    sb_canvas_text_fit(c, sb_translation(study->note[i]), &plain, x, y, rect.width);
   }
   if (study->validity[0] != '\0') {
-    double used = sb_canvas_text(c, "Valid", &bold, x, y, SB_LEFT) + 8;
-    sb_canvas_text_fit(c, study->validity, &plain, x + used, y, rect.width - used);
+    double used = sb_canvas_text(c, _("Valid"), &bold, x, y, SB_LEFT) + 8;
+    sb_canvas_text_fit(c, sb_translation(study->validity), &plain, x + used, y, rect.width - used);
   }
   sb_canvas_finish(c);
 }

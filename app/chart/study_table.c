@@ -1,6 +1,7 @@
 // The table of a study: one heading column, then figures in the column's or the row's unit, three
 // significant digits, an en dash where there is none. Headings wrap at words.
 #include "app/base/format.h"
+#include "app/base/translation.h"
 #include "app/chart/study.h"
 #include "app/document/unit.h"
 
@@ -76,10 +77,12 @@ void sb_study_table_draw(SbCanvas *c, SbRect rect, const SbStudy *study) {
   SbTextStyle value = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
 
   // The first column is as wide as its longest entry, the others share the rest.
-  double first = sb_canvas_text_width(c, study->row_heading, &head);
+  g_autofree char *heading = sb_translation_of_case(study->row_heading);
+  double first = sb_canvas_text_width(c, heading, &head);
   for (size_t r = 0; r < study->row_count; r++) {
     char label[96];
-    g_snprintf(label, sizeof label, "%s / %s", study->row[r].name, study->row[r].unit);
+    g_autofree char *shown = sb_translation_of_case(study->row[r].name);
+    g_snprintf(label, sizeof label, "%s / %s", shown, study->row[r].unit);
     first = fmax(first, sb_canvas_text_width(c, label, &name));
   }
   first = fmin(first + 16, 0.4 * (right - left));
@@ -90,13 +93,13 @@ void sb_study_table_draw(SbCanvas *c, SbRect rect, const SbStudy *study) {
   for (size_t k = 0; k < study->column_count; k++) {
     double x = left + first + each * (double)(k + 1);
     char lines[HEAD_LINES][48];
-    int count = wrap(c, study->column[k].name, &head, each - 10, lines);
+    int count = wrap(c, sb_translation(study->column[k].name), &head, each - 10, lines);
     for (int i = 0; i < count; i++) {
       sb_canvas_text(c, lines[i], &head, x, units_y - HEAD_LINE * (count - i), SB_RIGHT);
     }
     sb_canvas_text(c, study->column[k].unit, &unit, x, units_y, SB_RIGHT);
   }
-  sb_canvas_text_fit(c, study->row_heading, &head, left, units_y, first - 8);
+  sb_canvas_text_fit(c, heading, &head, left, units_y, first - 8);
   double y = units_y + 7;
   double end = left + first + each * (double)study->column_count;
   sb_canvas_hairline(c, left, y, end, y, sb_canvas_role(c, SB_ROLE_AXIS));
@@ -106,7 +109,8 @@ void sb_study_table_draw(SbCanvas *c, SbRect rect, const SbStudy *study) {
     if (base > rect.y + rect.height - 4) {
       break;
     }
-    double used = sb_canvas_text_fit(c, row->name, &name, left, base, first - 8);
+    g_autofree char *shown = sb_translation_of_case(row->name);
+    double used = sb_canvas_text_fit(c, shown, &name, left, base, first - 8);
     if (row->unit[0] != '\0') {
       g_autofree char *text = g_strdup_printf(" / %s", row->unit);
       sb_canvas_text(c, text, &unit, left + used, base, SB_LEFT);
@@ -124,19 +128,21 @@ void sb_study_table_draw(SbCanvas *c, SbRect rect, const SbStudy *study) {
 }
 
 char *sb_study_text(const SbStudy *study) {
-  GString *out = g_string_new(sb_study_title(study->kind));
+  GString *out = g_string_new(sb_translation(sb_study_title(study->kind)));
   g_string_append_c(out, '\n');
   if (study->row_count > 0) {
-    g_string_append(out, study->row_heading);
+    g_autofree char *heading = sb_translation_of_case(study->row_heading);
+    g_string_append(out, heading);
     for (size_t k = 0; k < study->column_count; k++) {
       const SbStudyColumn *column = &study->column[k];
-      g_string_append_printf(out, "\t%s%s%s", column->name, column->unit[0] ? " / " : "",
-                             column->unit);
+      g_string_append_printf(out, "\t%s%s%s", sb_translation(column->name),
+                             column->unit[0] ? " / " : "", column->unit);
     }
     g_string_append_c(out, '\n');
     for (size_t r = 0; r < study->row_count; r++) {
       const SbStudyRow *row = &study->row[r];
-      g_string_append_printf(out, "%s%s%s", row->name, row->unit[0] ? " / " : "", row->unit);
+      g_autofree char *shown = sb_translation_of_case(row->name);
+      g_string_append_printf(out, "%s%s%s", shown, row->unit[0] ? " / " : "", row->unit);
       for (size_t k = 0; k < study->column_count; k++) {
         char text[SB_FORMAT_MAX];
         cell_text(text, &study->column[k], row, row->value[k]);
@@ -146,7 +152,7 @@ char *sb_study_text(const SbStudy *study) {
     }
   }
   for (size_t i = 0; i < study->note_count; i++) {
-    g_string_append_printf(out, "%s\n", study->note[i]);
+    g_string_append_printf(out, "%s\n", sb_translation(study->note[i]));
   }
   return g_string_free(out, FALSE);
 }

@@ -7,6 +7,7 @@
 #include "app/base/label.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 
 static double duration_of(const SbChartData *data) {
@@ -340,7 +341,7 @@ static void draw_names(View *v) {
     double x = sb_axis_at(&v->x, mark[SB_STAGE_D].time) - 8;
     char value[SB_FORMAT_MAX], text[64];
     sb_format_text(value, SB_QUANTITY_LENGTH, mark[SB_STAGE_D].displacement, 0);
-    g_snprintf(text, sizeof text, "stroke %s", value);
+    g_snprintf(text, sizeof text, _("stroke %s"), value);
     // Only where there is room left for it.
     v->labels->crossing_max = 1;
     if (sb_labels_place(v->labels, c, text, &plain, (SbPlace[]){{x, v->bottom - 9, SB_RIGHT}}, 1,
@@ -352,8 +353,8 @@ static void draw_names(View *v) {
     double x0 = sb_axis_at(&v->x, last), x1 = v->rect.x + v->rect.width;
     if (x1 - x0 > 60) {
       SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_WARN);
-      sb_canvas_text_plate(c, run->state == SB_CHART_PARTIAL ? "partial" : "not computed", &style,
-                           0.5 * (x0 + x1), 0.5 * (v->top + v->bottom) + 4, SB_MIDDLE,
+      sb_canvas_text_plate(c, run->state == SB_CHART_PARTIAL ? _("partial") : _("not computed"),
+                           &style, 0.5 * (x0 + x1), 0.5 * (v->top + v->bottom) + 4, SB_MIDDLE,
                            sb_canvas_role(c, SB_ROLE_WARN_GROUND));
     }
   }

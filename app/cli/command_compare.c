@@ -86,7 +86,7 @@ static int run_file(Runs *runs, const SbCliFile *file, const Options *options) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   for (size_t i = 0; i < sb_document_pin_count(document); i++) {
     g_autoptr(SbModel) model = NULL;
-    g_autofree char *name = sb_pin_name(document, i, false);
+    g_autofree char *name = sb_pin_name(document, i);
     if (!sb_cli_interrupted(NULL) && sb_document_compile_pin(document, i, &model, issues)) {
       const int ran = run_model(runs, file, model, name, options);
       code = MAX(code, ran);

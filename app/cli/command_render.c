@@ -294,7 +294,7 @@ static int compute_pins(Pins *pins, const SbDocument *document, Request *request
       code = SB_EXIT_INPUT;
       continue;
     }
-    pins->name[i] = sb_pin_name(document, i, false);
+    pins->name[i] = sb_pin_name(document, i);
     const SbStatus status = compute(&pins->run[i], model, how->view, &report);
     code = MAX(code, sb_cli_status(status, &report));
     if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {

@@ -3,6 +3,7 @@
 // nothing is interpolated.
 #include "app/export/movie_pictures.h"
 
+#include "app/base/translation.h"
 #include "app/chart/page.h"
 
 #include <math.h>
@@ -95,7 +96,9 @@ bool sb_movie_pictures_open(SbMoviePictures **out, const SbRun *run, const SbRen
                     : ended == SB_ERROR_CANCELLED ? SB_CHART_PARTIAL
                                                   : SB_CHART_FAILED);
   char models[256];
+  const locale_t paused = sb_translation_pause();
   sb_page_models_text(models, sizeof models, &film->data.run);
+  sb_translation_resume(paused);
   film->comment = g_strdup_printf("Models: %s. Parameters: %s", models,
                                   options->hash != NULL ? options->hash : "-");
   *out = film;

@@ -5,6 +5,7 @@
 #include "app/export/render.h"
 
 #include "app/base/format.h"
+#include "app/base/translation.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/life.h"
 #include "app/chart/page.h"
@@ -263,8 +264,10 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
 
   // Models, errors and warnings also go into the file's own texts.
   char models[256], errors[256];
+  const locale_t paused = sb_translation_pause();
   sb_page_models_text(models, sizeof models, &data.run);
   sb_page_errors_text(errors, sizeof errors, &data.run);
+  sb_translation_resume(paused);
   GString *comment = g_string_new(NULL);
   g_string_append_printf(comment, "Models: %s\nError estimates: %s", models, errors);
   if (options->stale) {

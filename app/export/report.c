@@ -4,6 +4,7 @@
 #include "app/export/report.h"
 
 #include "app/base/format.h"
+#include "app/base/translation.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/life.h"
 #include "app/chart/page.h"
@@ -565,6 +566,8 @@ bool sb_report_scene(FILE *stream, const SbReportScene *of, const SbReportHooks 
   }
   const SbSectionStyle style = sb_section_style_of(scene.model);
   sb_section_painter_style(scene.painter, &style);
+  // A report is a file, in English whatever the window speaks.
+  const locale_t paused = sb_translation_pause();
   SbTrace *trace = sb_trace_create(scene.model);
   size_t count;
   const SbFrame *frames = sb_run_frames(of->run, &count);
@@ -592,6 +595,7 @@ bool sb_report_scene(FILE *stream, const SbReportScene *of, const SbReportHooks 
                                .hash = hash,
                                .bookmark = "Summary"};
   const bool good = sb_report_pages_write(stream, &texts, draw_scene, &scene, hooks, error);
+  sb_translation_resume(paused);
   sb_section_painter_destroy(scene.painter);
   sb_trace_destroy(trace);
   g_free(scene.files);

@@ -1,12 +1,14 @@
 // Pages and tables of studies.
 #include "app/export/studies.h"
 
+#include "app/base/translation.h"
 #include "app/chart/page.h"
 #include "app/chart/propellants.h"
 #include "app/chart/study.h"
 #include "app/export/still.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -32,11 +34,11 @@ static void errors_text(char *out, size_t size, const SbStudy *study) {
   if (study->error > 1e-9) { // below it is rounding
     g_snprintf(
         out, size,
-        "at most %.2g\xc2\xa0%% of a film or of the largest load solved  (discretisation, not "
-        "the choice of model)",
+        _("at most %.2g\xc2\xa0%% of a film or of the largest load solved  (discretisation, not "
+          "the choice of model)"),
         100 * study->error);
   } else {
-    g_strlcpy(out, "closed forms: rounding only  (not the choice of model)", size);
+    g_strlcpy(out, _("closed forms: rounding only  (not the choice of model)"), size);
   }
 }
 
@@ -64,12 +66,12 @@ void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const Sb
   // The header and its state are those of every page; the title is the study's and the scene's.
   const char *name = sb_study_title(study->kind);
   const char *scene = page->title != NULL && strcmp(page->title, name) != 0 ? page->title : "";
-  g_autofree char *title =
-      g_strdup_printf("%s%s%s", name, scene[0] != '\0' ? "  \xc2\xb7  " : "", scene);
+  g_autofree char *title = g_strdup_printf("%s%s%s", sb_translation(name),
+                                           scene[0] != '\0' ? "  \xc2\xb7  " : "", scene);
   SbChartData data = {.title = title, .subtitle = page->subtitle, .stale = page->stale};
   data.run.model = page->model;
   data.run.state = SB_CHART_DONE;
-  data.failure = study->complete ? NULL : "incomplete: a solver did not converge at every point";
+  data.failure = study->complete ? NULL : _("incomplete: a solver did not converge at every point");
   sb_page_header_draw(cr, frame.whole, theme, &data, SB_CHART_WHOLE);
   if (study->kind == SB_STUDY_PROPELLANTS) {
     draw_swap(cr, frame.body, theme, study, page->model);
@@ -77,12 +79,12 @@ void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const Sb
     sb_study_draw(cr, frame.body, theme, study);
   }
 
-  char errors[160], version[64];
+  char errors[192], version[64];
   errors_text(errors, sizeof errors, study);
   g_snprintf(version, sizeof version, "Sealbench %s", sb_version());
   if (page->hash != NULL && page->hash[0] != '\0') {
     size_t used = strlen(version);
-    g_snprintf(version + used, sizeof version - used, "  \xc2\xb7  scene %.8s", page->hash);
+    g_snprintf(version + used, sizeof version - used, _("  \xc2\xb7  scene %.8s"), page->hash);
   }
   SbPageFoot foot = {study->models, errors, version, &study->warnings};
   sb_page_foot_draw(cr, frame.whole, theme, &foot);
@@ -102,7 +104,9 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
 bool sb_study_still(const SbStudy *study, const SbStudyPage *page, const char *path,
                     GError **error) {
   char errors[160];
+  const locale_t paused = sb_translation_pause();
   errors_text(errors, sizeof errors, study);
+  sb_translation_resume(paused);
   g_autoptr(GString) comment = g_string_new(NULL);
   g_string_append_printf(comment, "Models: %s\nError estimates: %s\nValid: %s", study->models,
                          errors, study->validity);

@@ -11,6 +11,7 @@
 #include "app/section/section_private.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -440,10 +441,10 @@ static void paint_labels(SbCutaway *cutaway, SbSection *section) {
   double s = frame->displacement;
   char text[96], value[SB_SECTION_NUMBER];
   static const char *const name[SB_SEAL_COUNT] = {
-      [SB_OUTER] = "Outer seal", [SB_INNER] = "Inner seal"};
+      [SB_OUTER] = N_("Outer seal"), [SB_INNER] = N_("Inner seal")};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     bool free = frame->seal[i].land_fraction <= 0;
-    snprintf(text, sizeof text, "%s%s", name[i], free ? ", off the land" : "");
+    snprintf(text, sizeof text, "%s%s", _(name[i]), free ? _(", off the land") : "");
     double x = sb_section_origin(section, i);
     name_point(row, &count, sb_section_plane_at(&upper, x, (valve->floor + valve->bore) / 2),
                palette->seal[i], text);
@@ -454,14 +455,14 @@ static void paint_labels(SbCutaway *cutaway, SbSection *section) {
   double low, high;
   if (sb_outline_radii(&low, &high, &cutaway->valve.housing, place)) {
     name_point(row, &count, sb_section_plane_at(&upper, place, (low + high) / 2), palette->ink,
-               "Housing");
+               _("Housing"));
   }
-  snprintf(text, sizeof text, "Chamber %s",
+  snprintf(text, sizeof text, _("Chamber %s"),
            sb_section_megapascal(value, (double)frame->seal[SB_INNER].pressure_right));
   double middle = (valve->chamber_floor + valve->land) / 2;
   name_point(row, &count, sb_section_plane_at(&upper, valve->chamber - s, middle),
              palette->fluid_line, text);
-  snprintf(text, sizeof text, "Canister %s",
+  snprintf(text, sizeof text, _("Canister %s"),
            sb_section_megapascal(value, (double)frame->seal[SB_INNER].pressure_left));
   double mouth = 0.9 * valve->face;
   double hole = sb_valve_outline_bore(valve, mouth);
@@ -474,7 +475,7 @@ static void paint_labels(SbCutaway *cutaway, SbSection *section) {
   count = 0;
   name_point(row, &count,
              sb_section_plane_at(&lower, valve->chamber - s, 0.5 * valve->chamber_floor),
-             palette->ink, "Stem");
+             palette->ink, _("Stem"));
   draw_row(cutaway, section, row, count, false);
 }
 
@@ -485,14 +486,14 @@ static void paint_caption(SbSection *section) {
   bool schematic =
       section->instant->ring[SB_OUTER] == NULL || section->instant->ring[SB_INNER] == NULL;
   char azimuth[SB_SECTION_NUMBER], elevation[SB_SECTION_NUMBER], caption[200];
-  const char *const parts[3] = {"a quarter cut away, parallel projection",
-                                schematic ? "; rings: schematic shape" : "",
-                                view->undeformed ? "; dashed: rings before fitting" : ""};
-  snprintf(caption, sizeof caption, "%s%s%s; azimuth %s\xc2\xb0, elevation %s\xc2\xb0", parts[0],
+  const char *const parts[3] = {_("a quarter cut away, parallel projection"),
+                                schematic ? _("; rings: schematic shape") : "",
+                                view->undeformed ? _("; dashed: rings before fitting") : ""};
+  snprintf(caption, sizeof caption, _("%s%s%s; azimuth %s\xc2\xb0, elevation %s\xc2\xb0"), parts[0],
            parts[1], parts[2], sb_section_fixed(azimuth, view->azimuth * 180 / G_PI, 0),
            sb_section_fixed(elevation, view->elevation * 180 / G_PI, 0));
   if (sb_text_width(section->text, caption, 11, 400) > (double)section->strip.width) {
-    snprintf(caption, sizeof caption, "%s", schematic ? "rings: schematic shape" : parts[0]);
+    snprintf(caption, sizeof caption, "%s", schematic ? _("rings: schematic shape") : parts[0]);
   }
   sb_draw_text(section->list, section->strip.x, y, 11, 400, SB_LEFT, section->palette->second,
                caption);

@@ -2,9 +2,11 @@
 #include "app/section/section_private.h"
 
 #include "app/base/theme.h"
+#include "app/base/translation.h"
 #include "app/chart/data.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -62,18 +64,19 @@ static void force_bars(SbSection *section, double x, double y, double width) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
   const SbFrame *frame = section->instant->frame;
-  sb_draw_text(list, x, y, 12, 600, SB_LEFT, palette->ink, "forces on the stem");
-  sb_draw_text(list, x + sb_text_width(section->text, "forces on the stem", 12, 600) + 7, y, 12,
-               400, SB_LEFT, palette->second, "N");
+  const char *title = _("forces on the stem");
+  sb_draw_text(list, x, y, 12, 600, SB_LEFT, palette->ink, title);
+  sb_draw_text(list, x + sb_text_width(section->text, title, 12, 600) + 7, y, 12, 400, SB_LEFT,
+               palette->second, "N");
   const struct {
     const char *name;
     double force;
     SbColor color;
   } row[4] = {
-      {"drive", frame->force, palette->ink},
-      {"pressure", frame->pressure_force, palette->fluid_line},
-      {"inner friction", frame->seal[SB_INNER].friction, palette->seal[SB_INNER]},
-      {"outer friction", frame->seal[SB_OUTER].friction, palette->seal[SB_OUTER]},
+      {_("drive"), frame->force, palette->ink},
+      {_("pressure"), frame->pressure_force, palette->fluid_line},
+      {_("inner friction"), frame->seal[SB_INNER].friction, palette->seal[SB_INNER]},
+      {_("outer friction"), frame->seal[SB_OUTER].friction, palette->seal[SB_OUTER]},
   };
   double zero = x + 106;
   double px = (x + width - 44 - zero) / fmax(section->limits.force_max, 36);
@@ -100,8 +103,8 @@ static void draw_title(SbSection *section, double x, double y) {
   sb_section_fixed(time, frame->time, 2);
   if (!section->view->read_outs) {
     sb_draw_text(list, x, y + 14, SB_TYPE_PANEL, 700, SB_LEFT, palette->ink,
-                 section->view->cutaway ? "Cutaway" : "Axial section");
-    snprintf(text, sizeof text, "stem and seals at %s s, housing at rest", time);
+                 section->view->cutaway ? _("Cutaway") : _("Axial section"));
+    snprintf(text, sizeof text, _("stem and seals at %s s, housing at rest"), time);
     sb_draw_text(list, x, y + 34, 12, 400, SB_LEFT, palette->second, text);
     return;
   }
@@ -109,12 +112,12 @@ static void draw_title(SbSection *section, double x, double y) {
   sb_draw_text(list, x, y + 20, 26, 700, SB_LEFT, palette->now, span);
   double width = sb_text_width(section->text, span, 26, 700);
   static const char *const phase[SB_STAGE_COUNT] = {
-      [SB_STAGE_A] = "force builds up",      [SB_STAGE_B] = "both seals slide",
-      [SB_STAGE_C] = "chamber open",         [SB_STAGE_D] = "at the stop",
-      [SB_STAGE_E] = "return, chamber open", [SB_STAGE_F] = "both seals slide back",
+      [SB_STAGE_A] = N_("force builds up"),      [SB_STAGE_B] = N_("both seals slide"),
+      [SB_STAGE_C] = N_("chamber open"),         [SB_STAGE_D] = N_("at the stop"),
+      [SB_STAGE_E] = N_("return, chamber open"), [SB_STAGE_F] = N_("both seals slide back"),
   };
   sb_draw_text(list, x + width + 10, y + 20, 13, 600, SB_LEFT, palette->now,
-               phase[MIN(frame->stage, SB_STAGE_COUNT - 1)]);
+               _(phase[MIN(frame->stage, SB_STAGE_COUNT - 1)]));
   char stroke[SB_SECTION_NUMBER], force[SB_SECTION_NUMBER];
   snprintf(text, sizeof text, "%s s    %s    %s", time,
            sb_section_millimetre(stroke, frame->displacement),
@@ -126,7 +129,7 @@ void sb_section_draw_legends(SbSection *section, double x, double y, double widt
   const SbPalette *palette = section->palette;
   const SbSectionView *view = section->view;
   bool ring = section->instant->ring[SB_OUTER] != NULL || section->instant->ring[SB_INNER] != NULL;
-  const char *name = sb_section_field_name(view->field);
+  const char *name = sb_translation(sb_section_field_name(view->field));
   const char *unit = sb_section_field_unit(view->field);
   double least, most;
   sb_section_field_limits(section, view->field, &least, &most);
@@ -146,8 +149,8 @@ void sb_section_draw_legends(SbSection *section, double x, double y, double widt
       each = MIN(each, MAX((right - left - 24) / 2, 120));
     }
     if (right - each >= left) {
-      legend(section, right - each, y + 8, each, "fluid pressure", "MPa, gauge", &palette->fluid, 0,
-             fluid_full);
+      legend(section, right - each, y + 8, each, _("fluid pressure"), _("MPa, gauge"),
+             &palette->fluid, 0, fluid_full);
     }
     if (ring && right - 2 * each - 24 >= left) {
       legend(section, right - 2 * each - 24, y + 8, each, name, unit, map, least, most);
@@ -158,8 +161,8 @@ void sb_section_draw_legends(SbSection *section, double x, double y, double widt
   if (ring) {
     at += legend(section, x, at, width, name, unit, map, least, most);
   }
-  at +=
-      legend(section, x, at, width, "fluid pressure", "MPa, gauge", &palette->fluid, 0, fluid_full);
+  at += legend(section, x, at, width, _("fluid pressure"), _("MPa, gauge"), &palette->fluid, 0,
+               fluid_full);
   if (!view->hide_forces && at + 84 < low) {
     force_bars(section, x, at + 4, width);
   }

@@ -7,6 +7,7 @@
 #include "app/section/section_private.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -52,7 +53,7 @@ static size_t curve(const Inset *inset, const SbContactProfile *profile, const d
 static void inset_title(SbSection *section, const Inset *inset, int seal, const char *what,
                         const char *brief) {
   const SbPalette *palette = section->palette;
-  const char *const name = seal == SB_OUTER ? "Outer seal" : "Inner seal";
+  const char *const name = seal == SB_OUTER ? _("Outer seal") : _("Inner seal");
   double y = inset->rect.y - 9;
   sb_draw_text(section->list, inset->rect.x, y, 13, 700, SB_LEFT, palette->ink, name);
   double width = sb_text_width(section->text, name, 13, 700);
@@ -158,7 +159,7 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
         false;
     sb_draw_line(list, side[i][0], bore - height, side[i][1], bore - height, 2,
                  palette->fluid_line);
-    snprintf(text, sizeof text, "fluid %s", sb_section_megapascal(value, side[i][2]));
+    snprintf(text, sizeof text, _("fluid %s"), sb_section_megapascal(value, side[i][2]));
     SbSectionLabel style = {11, 600, i == 0 ? SB_LEFT : SB_RIGHT, palette->fluid_line,
                             &palette->housing};
     double x = i == 0 ? rect->x + 8 : rect->x + rect->width - 8;
@@ -192,7 +193,7 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
                      sb_section_megapascal(value, peak_pressure));
     double y = bore + 17;
     SbColor line = palette->ink;
-    snprintf(text, sizeof text, "contact %s",
+    snprintf(text, sizeof text, _("contact %s"),
              sb_section_millimetre(value, frame->contact_right - frame->contact_left));
     sb_draw_line(list, left_px, y - 5, left_px, y + 5, 1.2, line);
     sb_draw_line(list, right_px, y - 5, right_px, y + 5, 1.2, line);
@@ -205,10 +206,10 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
   } else {
     SbSectionLabel style = {12, 600, SB_MIDDLE, palette->seal[seal], &palette->panel};
     sb_section_label(section, rect->x + rect->width / 2, rect->y + 24, &style,
-                     "off the land: no contact");
+                     _("off the land: no contact"));
   }
   frame_inset(section, inset, seal);
-  inset_title(section, inset, seal, ", contact pressure on the bore", ", pressure");
+  inset_title(section, inset, seal, _(", contact pressure on the bore"), _(", pressure"));
 }
 
 // Least round number (1, 2, 3, 4, 5, 6, 8 times a power of ten) that is not below v.
@@ -324,9 +325,9 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     bool out = whole->velocity < 0;
     sb_draw_arrow(list, rect->x + (out ? 58 : 14), ground, rect->x + (out ? 14 : 58), ground, 1.4,
                   8, 7, palette->ink);
-    sb_section_label(section, rect->x + 68, ground + 4, &small, "bore, relative to the seal");
+    sb_section_label(section, rect->x + 68, ground + 4, &small, _("bore, relative to the seal"));
   } else {
-    sb_section_label(section, rect->x + 14, ground + 4, &small, "bore, at rest");
+    sb_section_label(section, rect->x + 14, ground + 4, &small, _("bore, at rest"));
   }
 
   // The figures: inside the ring's body, or in the film where that is thicker.
@@ -338,19 +339,20 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
   SbAlign centre = SB_MIDDLE;
   if (!contact) {
     sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->seal[seal],
-                 "off the land: no film");
+                 _("off the land: no film"));
   } else if (!film) {
     // In a narrow inset in the middle, and its first words only.
     bool rest = frame->film_central <= 0;
-    const char *why = rest ? "at rest: no film, the surfaces touch" : "no film profile in this run";
+    const char *why =
+        rest ? _("at rest: no film, the surfaces touch") : _("no film profile in this run");
     if (sb_text_width(section->text, why, 12, 600) > rect->width - 16) {
-      why = rest ? "at rest: no film" : "no film profile";
+      why = rest ? _("at rest: no film") : _("no film profile");
     }
     double half = sb_text_width(section->text, why, 12, 600) / 2 + 8;
     x = CLAMP(x, rect->x + half, rect->x + rect->width - half);
     sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->ink, why);
     if (rest) {
-      snprintf(text, sizeof text, "asperities carry the load, \xcf\x83 %s %s",
+      snprintf(text, sizeof text, _("asperities carry the load, \xcf\x83 %s %s"),
                sb_section_significant(value, sb_model_sigma(section->model) * 1e6), "\xc2\xb5m");
       half = sb_text_width(section->text, text, 11, 400) / 2 + 8;
       if (2 * half < rect->width) {
@@ -362,39 +364,39 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
     char least[SB_SECTION_NUMBER];
     sb_section_film(value, frame->film_central);
     sb_section_film(least, frame->film_min);
-    snprintf(text, sizeof text, "centre %s, least %s", value, least);
+    snprintf(text, sizeof text, _("centre %s, least %s"), value, least);
     bool narrow = sb_text_width(section->text, text, 12, 600) > split - left_edge - 12;
     if (narrow) {
-      snprintf(text, sizeof text, "centre %s", value);
+      snprintf(text, sizeof text, _("centre %s"), value);
       sb_draw_text(list, x, y, 12, 600, centre, palette->ink, text);
       y += 17;
-      snprintf(text, sizeof text, "least %s", least);
+      snprintf(text, sizeof text, C_("film", "least %s"), least);
     }
     sb_draw_text(list, x, y, 12, 600, centre, palette->ink, text);
     sb_section_two_digits(value, px / inset->scale);
     if (narrow) {
-      sb_draw_text(list, x, y + 18, 12, 400, centre, palette->ink, "radial scale");
+      sb_draw_text(list, x, y + 18, 12, 400, centre, palette->ink, _("radial scale"));
       y += 17;
-      snprintf(text, sizeof text, "\xc3\x97 %s of axial", value);
+      snprintf(text, sizeof text, _("\xc3\x97 %s of axial"), value);
     } else {
-      snprintf(text, sizeof text, "radial scale \xc3\x97 %s of axial", value);
+      snprintf(text, sizeof text, _("radial scale \xc3\x97 %s of axial"), value);
     }
     sb_draw_text(list, x, y + 18, 12, 400, centre, palette->ink, text);
     char sigma[SB_SECTION_NUMBER];
-    snprintf(text, sizeof text, "roughness \xcf\x83 %s %s is not drawn",
+    snprintf(text, sizeof text, _("roughness \xcf\x83 %s %s is not drawn"),
              sb_section_significant(sigma, sb_model_sigma(section->model) * 1e6), "\xc2\xb5m");
     if (y + 40 < floor && !narrow) {
       sb_draw_text(list, x, y + 35, 11, 400, centre, palette->second, text);
     }
     double share = asperity_share(profile, frame);
     if (share > 0 && y + 58 < floor && !narrow) {
-      snprintf(text, sizeof text, "asperities carry %s %% of the load",
+      snprintf(text, sizeof text, _("asperities carry %s %% of the load"),
                sb_section_fixed(value, 100 * share, share > 0.1 ? 0 : 1));
       sb_draw_text(list, x, y + 52, 11, 400, centre, palette->second, text);
     }
   }
   frame_inset(section, inset, seal);
-  inset_title(section, inset, seal, ", film under the contact", ", film");
+  inset_title(section, inset, seal, _(", film under the contact"), _(", film"));
 }
 
 // The part of a seal that both insets show.

@@ -4,6 +4,7 @@
 #include "app/section/section_private.h"
 
 #include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -55,23 +56,23 @@ static void draw_regions(SbSection *section) {
   const SbValveOutline *valve = &section->valve;
   const SbRect *strip = &section->strip;
   double top = (double)strip->y + 22;
-  name_and_pressure(section, (double)strip->x + 12, top, "Canister",
+  name_and_pressure(section, (double)strip->x + 12, top, _("Canister"),
                     (double)frame->seal[SB_INNER].pressure_left, false);
   double end = (double)sb_section_at(section, valve->end, 0).x;
-  name_and_pressure(section, end + 10, top, "Ambient", (double)frame->seal[SB_OUTER].pressure_right,
-                    true);
+  name_and_pressure(section, end + 10, top, _("Ambient"),
+                    (double)frame->seal[SB_OUTER].pressure_right, true);
 
   bool has_vent = valve->vent_right > valve->vent_left;
   double vent = (double)sb_section_at(section, valve->vent_left, 0).x;
   double vent_end = (double)sb_section_at(section, valve->vent_right, 0).x;
   SbSectionLabel style = label_style(palette->ink, 600, SB_RIGHT, &palette->housing);
   const double housing[1][2] = {{has_vent ? vent - 12 : end - 50, top}};
-  place(section, housing, 1, &style, "Housing");
+  place(section, housing, 1, &style, _("Housing"));
   SbSectionLabel small = label_style(palette->second, 400, SB_LEFT, &palette->housing);
   double room = end - vent_end - 16;
-  if (has_vent && sb_text_width(section->text, "vent", 12, 400) < room) {
+  if (has_vent && sb_text_width(section->text, _("vent"), 12, 400) < room) {
     const double at[1][2] = {{vent_end + 10, top}};
-    place(section, at, 1, &small, "vent");
+    place(section, at, 1, &small, _("vent"));
   }
 
   // The chamber, in the fluid between the stem's lands.
@@ -88,13 +89,13 @@ static void draw_regions(SbSection *section) {
   SbSectionLabel bold = label_style(palette->ink, 600, SB_MIDDLE, NULL);
   SbSectionLabel plain = label_style(palette->ink, 400, SB_MIDDLE, NULL);
   double length = sb_model_shape(section->model)->chamber_length * section->scale;
-  if (length > 1.3 * sb_text_width(section->text, "Chamber", 12, 600)) {
+  if (length > 1.3 * sb_text_width(section->text, _("Chamber"), 12, 600)) {
     const double high[1][2] = {{(double)chamber.x, (double)chamber.y + 1}};
     const double middle[1][2] = {{(double)chamber.x, (double)chamber.y + 6}};
-    if (depth > 38 && place(section, high, 1, &bold, "Chamber")) {
+    if (depth > 38 && place(section, high, 1, &bold, _("Chamber"))) {
       sb_section_label(section, (double)chamber.x, (double)chamber.y + 17, &plain, value);
     } else if (depth > 18) {
-      place(section, middle, 1, &bold, "Chamber");
+      place(section, middle, 1, &bold, _("Chamber"));
     }
   }
 }
@@ -113,11 +114,11 @@ static void draw_land_edge(SbSection *section) {
   sb_section_millimetre(length, fabs(way));
   bool ahead = way > 0;
   if (ahead && frame->velocity >= 0) {
-    snprintf(text, sizeof text, "land edge: fill path opens in %s", length);
+    snprintf(text, sizeof text, _("land edge: fill path opens in %s"), length);
   } else if (ahead) {
-    snprintf(text, sizeof text, "land edge: passed, %s ago", length);
+    snprintf(text, sizeof text, _("land edge: passed, %s ago"), length);
   } else {
-    snprintf(text, sizeof text, "land edge");
+    snprintf(text, sizeof text, _("land edge"));
   }
   double low = y + 11, bottom = edge.y - 4;
   if (bottom < low + 8) {
@@ -126,7 +127,7 @@ static void draw_land_edge(SbSection *section) {
   // As many of its words as there is room for; lines without a name would say nothing.
   SbSectionLabel letter = label_style(palette->ink, 700, SB_LEFT, &palette->housing);
   SbSectionLabel plain = label_style(palette->ink, 400, SB_LEFT, &palette->housing);
-  const char *const words[3] = {text, "land edge", ""};
+  const char *const words[3] = {text, _("land edge"), ""};
   char whole[140];
   size_t chosen = 0;
   while (chosen < G_N_ELEMENTS(words)) {
@@ -181,14 +182,14 @@ static void reserve_land_edge(SbSection *section) {
 static void draw_seal_names(SbSection *section) {
   const SbPalette *palette = section->palette;
   static const char *const name[SB_SEAL_COUNT] = {
-      [SB_OUTER] = "Outer seal", [SB_INNER] = "Inner seal"};
+      [SB_OUTER] = N_("Outer seal"), [SB_INNER] = N_("Inner seal")};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const SbSealFrame *seal = &section->instant->frame->seal[i];
     char text[64];
-    snprintf(text, sizeof text, "%s%s", name[i],
+    snprintf(text, sizeof text, "%s%s", _(name[i]),
              seal->land_fraction > 0                 ? ""
-             : on_chamfer(section->instant->ring[i]) ? ", on the chamfer only"
-                                                     : ", no contact");
+             : on_chamfer(section->instant->ring[i]) ? _(", on the chamfer only")
+                                                     : _(", no contact"));
     SbPoint below = sb_section_at(section, sb_section_origin(section, i), section->valve.floor);
     SbSectionLabel style = label_style(palette->seal[i], 600, SB_MIDDLE, &palette->stem);
     // In both halves there is room over the lower ring too.
@@ -216,7 +217,7 @@ static void draw_friction(SbSection *section) {
                   palette->seal[i]);
     sb_section_reserve(section, at.x - fabs(length) / 2, y - 5, fabs(length), 10);
     char text[80], value[SB_SECTION_NUMBER];
-    snprintf(text, sizeof text, "friction %s", sb_section_force(value, fabs(seal->friction)));
+    snprintf(text, sizeof text, _("friction %s"), sb_section_force(value, fabs(seal->friction)));
     SbSectionLabel style = label_style(palette->seal[i], 600, SB_MIDDLE, &palette->housing);
     const double place_at[7][2] = {{at.x, y - 10},      {at.x + 30, y - 10}, {at.x + 50, y - 10},
                                    {at.x - 50, y - 10}, {at.x, y - 27},      {at.x + 60, y - 27},
@@ -242,7 +243,7 @@ static void draw_stem_forces(SbSection *section) {
     bool pushes = frame->pressure_force > 0;
     double tail = nose - (pushes ? length : 1.5), tip = nose - (pushes ? 1.5 : length);
     sb_draw_arrow(list, tail, y, tip, y, 5, 15, 16, palette->fluid_line);
-    snprintf(text, sizeof text, "pressure %s", sb_section_force(value, frame->pressure_force));
+    snprintf(text, sizeof text, _("pressure %s"), sb_section_force(value, frame->pressure_force));
     SbSectionLabel style = {13, 700, SB_LEFT, palette->fluid_line, &palette->stem};
     sb_section_label(section, nose + 10, y + 5, &style, text);
     sb_section_reserve(section, nose - length, y - 8, length, 16);
@@ -256,7 +257,7 @@ static void draw_stem_forces(SbSection *section) {
     sb_draw_arrow(list, tail, y, tail + (force > 0 ? -shown : shown), y, 7, 20, 22, palette->ink);
     sb_section_reserve(section, right - shown, y - 11, shown, 22);
   }
-  snprintf(text, sizeof text, "drive %s", sb_section_force(value, force));
+  snprintf(text, sizeof text, _("drive %s"), sb_section_force(value, force));
   SbSectionLabel style = {14, 700, SB_RIGHT, palette->ink, &palette->stem};
   // Above the arrow; behind its point where that would be off a thin rod, or not at all: the
   // read-outs have it too.
@@ -274,7 +275,7 @@ static void draw_stem_forces(SbSection *section) {
     }
     double from = shown > 0 ? right - shown : right;
     sb_draw_arrow(list, from, stop_y, from + shown, stop_y, 3, 11, 10, palette->second);
-    snprintf(text, sizeof text, "stop %s", sb_section_force(value, frame->stop_force));
+    snprintf(text, sizeof text, _("stop %s"), sb_section_force(value, frame->stop_force));
     SbSectionLabel small = label_style(palette->second, 600, SB_RIGHT, &palette->stem);
     // In a small picture it gives way: the balance below the section has it too.
     const double behind[1][2] = {{MIN(from, from + shown) - 8, stop_y + 4}};
@@ -282,7 +283,7 @@ static void draw_stem_forces(SbSection *section) {
   }
 }
 
-// "Stem" and its speed.
+// _("Stem") and its speed.
 static void draw_motion(SbSection *section) {
   const SbPalette *palette = section->palette;
   const SbFrame *frame = section->instant->frame;
@@ -294,7 +295,7 @@ static void draw_motion(SbSection *section) {
   bool deep = axis - 52 < (double)sb_section_at(section, 0, section->valve.chamber_floor).y + 16;
   const double at[2][2] = {{deep ? beside : middle, axis - 52}, {middle + 60, axis - 52}};
   if (axis - 52 > (double)sb_section_at(section, 0, section->valve.floor).y + 16) {
-    place(section, at, deep ? 1 : 2, &bold, "Stem");
+    place(section, at, deep ? 1 : 2, &bold, _("Stem"));
   }
   double speed = fabs(frame->velocity) * 1e3;
   if (speed < 1e-9) {
@@ -395,7 +396,7 @@ static void draw_dose_path(SbSection *section) {
   SbSectionLabel style = label_style(palette->fluid_line, 600, SB_LEFT, NULL);
   const double at[3][2] = {
       {start.x, start.y - 9}, {start.x, start.y + 20}, {section->strip.x + 12, start.y + 20}};
-  place(section, at, 3, &style, "dose path open");
+  place(section, at, 3, &style, _("dose path open"));
 }
 
 // Below the strip: what the picture is, and its scales.
@@ -425,16 +426,16 @@ static void draw_scales(SbSection *section) {
   }
   bool schematic =
       section->instant->ring[SB_OUTER] == NULL || section->instant->ring[SB_INNER] == NULL;
-  const char *const whole = section->view->zoom == SB_SECTION_WHOLE ? "axis of the valve; " : "";
+  const char *const whole = section->view->zoom == SB_SECTION_WHOLE ? _("axis of the valve; ") : "";
   char caption[240];
-  snprintf(caption, sizeof caption, "%sto scale in both directions%s%s", whole,
-           schematic ? "; rings: schematic shape, contact width and area true" : "",
-           section->view->undeformed ? "; dashed: rings before fitting" : "");
+  snprintf(caption, sizeof caption, _("%sto scale in both directions%s%s"), whole,
+           schematic ? _("; rings: schematic shape, contact width and area true") : "",
+           section->view->undeformed ? _("; dashed: rings before fitting") : "");
   if (section->strip.x + sb_text_width(section->text, caption, 11, 400) + 12 < x) {
     sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_LEFT, palette->second, caption);
   } else if (schematic) {
     sb_draw_text(list, section->strip.x, y + 4, 11, 400, SB_LEFT, palette->second,
-                 "rings: schematic shape");
+                 _("rings: schematic shape"));
   }
 }
 
@@ -454,7 +455,7 @@ static void draw_zoom(SbSection *section) {
     sb_draw_line(list, a.x, y - 5, a.x, y + 5, 1.2, palette->ink);
     sb_draw_line(list, b.x, y - 5, b.x, y + 5, 1.2, palette->ink);
     sb_draw_line(list, a.x, y, b.x, y, 1.2, palette->ink);
-    snprintf(text, sizeof text, "contact %s",
+    snprintf(text, sizeof text, _("contact %s"),
              sb_section_millimetre(value, seal->contact_right - seal->contact_left));
     SbSectionLabel style = label_style(palette->ink, 600, SB_MIDDLE, &palette->panel);
     bool inside = sb_text_width(section->text, text, 12, 600) + 30 < (double)(b.x - a.x);
@@ -470,7 +471,7 @@ static void draw_zoom(SbSection *section) {
     // Beyond the wall, on the stem, pointing into the corner.
     SbSectionLabel style =
         label_style(palette->fluid_line, 600, side == 0 ? SB_RIGHT : SB_LEFT, &palette->stem);
-    snprintf(text, sizeof text, "fluid %s", sb_section_megapascal(value, pressure[side]));
+    snprintf(text, sizeof text, _("fluid %s"), sb_section_megapascal(value, pressure[side]));
     double x = wall[side] + (side == 0 ? -20 : 20);
     sb_section_label(section, x, y, &style, text);
   }

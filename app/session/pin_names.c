@@ -25,7 +25,7 @@ static bool parts_pins(const SbDocument *document, SbParamId id) {
 
 // What a pin is called: what it differs in from the present values, "section diameter 1.63 mm";
 // where that are several, what the pins have in common is left out.
-static char *differences(const SbDocument *document, const SbParams *pin, bool translated) {
+static char *differences(const SbDocument *document, const SbParams *pin) {
   const SbParams now = sb_document_params(document);
   int id[SB_PARAM_COUNT], count = 0, telling = 0;
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
@@ -43,24 +43,23 @@ static char *differences(const SbDocument *document, const SbParams *pin, bool t
     const SbParam *param = sb_param((SbParamId)id[k]);
     g_autofree char *shown =
         sb_param_format((SbParamId)id[k], sb_params_get(pin, (SbParamId)id[k]));
-    g_autofree char *label = param->kind == SB_PARAM_CHOICE ? g_strdup("")
-                             : translated                   ? sb_translation_inside(param->label)
-                                                            : g_utf8_strdown(param->label, -1);
+    g_autofree char *label =
+        param->kind == SB_PARAM_CHOICE ? g_strdup("") : sb_translation_inside(param->label);
     g_string_append_printf(text, "%s%s%s%s", named > 0 ? ", " : "", label,
                            *label != '\0' ? " " : "", shown);
     named++;
   }
   if (told > named) {
-    g_string_append_printf(text, translated ? _(" and %d more") : " and %d more", told - named);
+    g_string_append_printf(text, _(" and %d more"), told - named);
   }
   if (named == 0) {
-    g_string_append(text, translated ? _("as now") : "as now");
+    g_string_append(text, _("as now"));
   }
   return g_string_free(g_steal_pointer(&text), FALSE);
 }
 
-char *sb_pin_name(const SbDocument *document, size_t index, bool translated) {
+char *sb_pin_name(const SbDocument *document, size_t index) {
   const char *given = sb_document_pin_name(document, index);
   return given != NULL ? g_strdup(given)
-                       : differences(document, sb_document_pin_params(document, index), translated);
+                       : differences(document, sb_document_pin_params(document, index));
 }

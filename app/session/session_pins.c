@@ -11,14 +11,12 @@ typedef struct {
   int slot;            // of its look in the charts, -1: not drawn
   bool failed;         // there is no run
   char *name;          // in the user's language
-  char *drawn_name;    // as pictures have it
 } Pin;
 
 static void pin_free(gpointer data) {
   Pin *pin = data;
   sb_displayed_run_unref(pin->run);
   g_free(pin->name);
-  g_free(pin->drawn_name);
   g_free(pin);
 }
 
@@ -30,9 +28,7 @@ void sb_session_name_pins(SbSession *session) {
   for (size_t i = 0; i < session->pins->len; i++) {
     Pin *pin = pin_at(session, i);
     g_free(pin->name);
-    g_free(pin->drawn_name);
-    pin->name = sb_pin_name(session->document, i, true);
-    pin->drawn_name = sb_pin_name(session->document, i, false);
+    pin->name = sb_pin_name(session->document, i);
   }
   if (session->pins->len > 0) {
     sb_session_refresh_chart(session); // it had the names before
@@ -176,7 +172,7 @@ gboolean sb_session_pin_chart(SbSession *session, size_t index, SbChartPin *out)
     return FALSE;
   }
   *out = (SbChartPin){.run = &pin->run->chart,
-                      .name = pin->drawn_name,
+                      .name = pin->name,
                       .look = MAX(pin->slot, 0),
                       .frame = sb_session_frame_of(session, pin->run)};
   return TRUE;
@@ -203,7 +199,7 @@ void sb_session_chart_pins(SbSession *session) {
       if (pin->slot == slot && pin->run != NULL && pin->run->chart.count > 0) {
         session->drawn[chart->pin_count] = i;
         chart->pin[chart->pin_count++] =
-            (SbChartPin){.run = &pin->run->chart, .name = pin->drawn_name, .look = slot};
+            (SbChartPin){.run = &pin->run->chart, .name = pin->name, .look = slot};
       }
     }
   }

@@ -28,7 +28,8 @@ def listed():
 
 
 def sources():
-    return [name for folder in ("ui/*", "app/export", "app/session", "app/terminal")
+    return [name for folder in ("ui/*", "app/chart", "app/export", "app/section", "app/session",
+                                "app/terminal")
             for name in glob.glob(folder + "/*.c")]
 
 

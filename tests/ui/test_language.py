@@ -1,4 +1,6 @@
-"""The window in German: its own words are translated, numbers, files and pictures stay as they are."""
+"""The window in German: its own words and what it draws are translated; numbers and files stay as
+they are."""
+import os
 import re
 
 from harness import App, main, scene, wait
@@ -27,10 +29,34 @@ def the_window_speaks_german(folder):
         wait("no error", lambda: not app.label(r"zu berichtigen"))
 
 
+def drawings_speak_german(folder):
+    path = os.path.join(folder, "loop.svg")
+    with App(scene(folder), env=GERMAN) as app:
+        wait("the run", lambda: app.label(r"^Zustand [A-F]"))
+        app.waction("present")
+        picture = app.find("image", "Gezeigtes Bild")
+        wait("the stage in words", lambda: "Kammer offen" in picture.description)
+        app.key("Escape")
+        wait("the window alone", lambda: app.node.childCount == 1)
+        app.press("push button", "Exportieren")
+        app.find("combo box", "Format")
+        app.choose("Format", "Zeichnung, SVG")
+        app.choose("Ansicht", "Kraft und Weg")
+        app.field("Datei").queryEditableText().setTextContents(path)
+        button = [node for node in app.all("push button", "Exportieren")
+                  if node.getState().contains(app.SENSITIVE)][-1]
+        app.act(button, "click")
+        wait("the result", lambda: app.label(r"^loop\.svg ist geschrieben"))
+    # What is in the file beside the drawing is for programs, too.
+    with open(path) as file:
+        text = file.read()
+    assert re.search(r"Models: fit \w+ .*film \w+", text) and "Error estimates: " in text, text[:2000]
+
+
 def an_unknown_language_is_english(folder):
     with App(scene(folder), env={"LC_ALL": "C.UTF-8", "LANGUAGE": "tlh"}) as app:
         wait("the run", app.run_done)
 
 
 if __name__ == "__main__":
-    main(the_window_speaks_german, an_unknown_language_is_english)
+    main(the_window_speaks_german, drawings_speak_german, an_unknown_language_is_english)

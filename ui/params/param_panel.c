@@ -91,7 +91,8 @@ static gboolean is_listed(SbParamPanel *panel, const SbParams *params, const cha
 static gboolean is_rubber_listed(SbParamPanel *panel, const char *needle) {
   const SbDocument *document = sb_session_document(panel->session);
   return needle[0] != '\0'
-             ? strstr("rubber.name", needle) != NULL || strstr(_("rubber"), needle) != NULL
+             ? strstr("rubber.name", needle) != NULL ||
+                   strstr(C_("search", "rubber"), needle) != NULL
              : panel->filter == SB_PARAM_FILTER_ALL || (panel->filter == SB_PARAM_FILTER_CHANGED &&
                                                         sb_document_rubber(document) != NULL);
 }

@@ -5,6 +5,7 @@
 
 #include "app/base/format.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -58,36 +59,41 @@ void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
   double y = rect.y + rect.height / 2 + 5;
   char number[SB_FORMAT_MAX], text[2 * SB_FORMAT_MAX];
   sb_format_text(number, SB_QUANTITY_FORCE, frame->force, sb_chart_error_force(&data->run));
-  snprintf(text, sizeof text, "Drive %s", number);
+  snprintf(text, sizeof text, _("Drive %s"), number);
   sb_canvas_text(&canvas, text, &bold, rect.x, y, SB_LEFT);
 
   // One scale for the whole run; the thesis valve's 38 N or the run's largest sum fill the width.
   double largest = data->run.trace != NULL ? sb_trace_range(data->run.trace).force_max : 0;
   double span = fmax(38, fmax(2.6 * fabs(frame->pressure_force), 1.1 * largest));
-  double x = rect.x + 102;
-  double scale = (rect.width - 102 - 60) / span;
+  // Room for the word in any language, and for two digits, so that nothing moves with the force.
+  snprintf(text, sizeof text, _("Drive %s"), "00.0\xc2\xa0N");
+  const double lead = fmax(102, sb_canvas_text_width(&canvas, text, &bold) + 22);
+  double x = rect.x + lead;
+  double scale = (rect.width - lead - 60) / span;
   sb_canvas_text(&canvas, "=", &plain, x - 14, y, SB_MIDDLE);
   if (frame->pressure_force < 0) {
     x += sb_canvas_text(&canvas, "\xe2\x88\x92", &plain, x, y, SB_LEFT) + 4;
   }
-  x = part(&canvas, x, y, scale, theme->role[SB_ROLE_FLUID], "pressure", frame->pressure_force);
-  static const char *const names[SB_SEAL_COUNT] = {[SB_OUTER] = "outer", [SB_INNER] = "inner"};
+  x = part(&canvas, x, y, scale, theme->role[SB_ROLE_FLUID], _("pressure"), frame->pressure_force);
+  static const char *const names[SB_SEAL_COUNT] = {
+      [SB_OUTER] = N_("outer"), [SB_INNER] = N_("inner")};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const SbSealFrame *seal = &frame->seal[i];
     if (seal->load <= 0 || seal->land_fraction <= 0) {
-      snprintf(text, sizeof text, "%s seal off the land", names[i]);
+      const char *off = i == SB_OUTER ? _("outer seal off the land") : _("inner seal off the land");
       x += 14;
-      x += sb_canvas_text(&canvas, text, &plain, x, y, SB_LEFT);
+      x += sb_canvas_text(&canvas, off, &plain, x, y, SB_LEFT);
     } else if (fabs(seal->friction) > 0.005) {
       sb_canvas_text(&canvas, seal->friction < 0 ? "\xe2\x88\x92" : "+", &plain, x + 9, y,
                      SB_MIDDLE);
-      x = part(&canvas, x + 18, y, scale, sb_theme_seal(theme, i), names[i], seal->friction);
+      x = part(&canvas, x + 18, y, scale, sb_theme_seal(theme, i), _(names[i]), seal->friction);
     }
   }
   if (fabs(frame->stop_force) > 0.005) {
     sb_canvas_text(&canvas, frame->stop_force < 0 ? "\xe2\x88\x92" : "+", &plain, x + 9, y,
                    SB_MIDDLE);
-    part(&canvas, x + 18, y, scale, theme->role[SB_ROLE_THIRD], "stop", frame->stop_force);
+    part(&canvas, x + 18, y, scale, theme->role[SB_ROLE_THIRD], C_("label", "stop"),
+         frame->stop_force);
   }
   cairo_restore(cr);
   sb_canvas_finish(&canvas);
