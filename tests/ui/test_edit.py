@@ -50,6 +50,16 @@ def values_that_do_not_go_together_are_told_at_their_field(folder):
         wait("no error", lambda: not app.label(r"to fix"))
 
 
+def a_file_whose_values_do_not_go_together_opens(folder):
+    path = scene(folder)
+    with open(path, "a") as file:
+        file.write("\n[bore]\ndiameter = 2 mm\n")
+    with App(path) as app:
+        wait("one value to fix", lambda: app.label(r"to fix"))
+        app.edit("Bore diameter", "6 mm")
+        wait("the run", lambda: app.run_done() and not app.label(r"to fix"))
+
+
 def undo_and_redo(folder):
     with App(scene(folder)) as app:
         wait("the first run", app.run_done)
@@ -279,7 +289,8 @@ def effects_stand_beside_the_main_parameters(folder):
 
 if __name__ == "__main__":
     main(edit_with_a_unit_changes_the_breakaway_force, bad_values_stay_in_their_field,
-         values_that_do_not_go_together_are_told_at_their_field, undo_and_redo,
+         values_that_do_not_go_together_are_told_at_their_field,
+         a_file_whose_values_do_not_go_together_opens, undo_and_redo,
          saved_values_come_back, one_run_is_shown_and_values_keep_their_digits,
          unsaved_changes_survive_a_crash, closing_asks_about_changes,
          broken_files_are_told_in_one_dialog, search_finds_parameters,

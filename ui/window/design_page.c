@@ -323,7 +323,8 @@ static void follow(Page *page) {
     page->document = document;
     sb_design_ask_init(&page->ask, document);
     page->chosen = sb_figure_find("cycle.force_return_min_N");
-    if (sb_model_number(sb_session_model(page->session), SB_P_SEAL_PROFILE) != 0) {
+    const SbModel *model = sb_session_model(page->session);
+    if (model != NULL && sb_model_number(model, SB_P_SEAL_PROFILE) != 0) {
       page->ask.closed = FALSE; // no closed form knows such a section
     }
     end_job(page);
