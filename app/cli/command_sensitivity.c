@@ -157,6 +157,7 @@ static int differentiate(SbCliFiles *files, const SbCliFile *file, const Options
   const SbQuestion question = {.base = file->model,
                                .figure = (const int *)(const void *)options->figure->data,
                                .figure_count = options->figure->len,
+                               .as_run = options->figures == NULL,
                                .cancelled = sb_cli_interrupted,
                                .data = &progress};
   sb_progress_start(&progress, "sensitivity ");

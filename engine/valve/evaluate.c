@@ -103,7 +103,7 @@ bool sb_evaluator_has_solved(const SbEvaluator *evaluator, const SbQuestion *que
   bool has = false;
   if (sb_model_derive(&model, question->base, question->override, question->override_count, NULL) ==
       SB_OK) {
-    sb_plan_figures(&plan, model, question->figure, question->figure_count);
+    sb_plan_figures(&plan, model, question->figure, question->figure_count, question->as_run);
     has = has_solved(evaluator, model, &plan);
   }
   sb_model_destroy(model);
@@ -116,7 +116,7 @@ static SbStatus prepare(SbEvaluator *evaluator, const SbQuestion *question, SbRe
   SbStatus status =
       sb_model_derive(&model, question->base, question->override, question->override_count, report);
   if (status == SB_OK) {
-    sb_plan_figures(&plan, model, question->figure, question->figure_count);
+    sb_plan_figures(&plan, model, question->figure, question->figure_count, question->as_run);
     status = evaluator->run == NULL ? sb_run_create(&evaluator->run, model, &plan, report)
              : question->start == evaluator->start && question->tangent == evaluator->tangent &&
                      question->rings == evaluator->rings && !question->keep && !evaluator->kept &&

@@ -31,6 +31,7 @@ typedef struct {
   // with `keep`.
   const SbEvaluator *start;
   bool keep;
+  bool as_run;         // the shelf only where the base's views or limits ask for it
   bool tangent;        // rings are those of `start` to first order: sb_run_predict_from()
   SbRingsBeside rings; // of tangents: what they do
   // Polled as in a run (SbRunHooks), at least every 50 ms; may be NULL.

@@ -320,7 +320,9 @@ static SbPlan basis(const SbModel *model, bool life) {
                   .frame_films = true};
 }
 
-void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size_t count) {
+void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size_t count,
+                     bool as_run) {
+  const SbShelfDepth most = as_run ? shelf_wished(model, model->views) : SB_SHELF_OVER_TIME;
   *out = basis(model, true);
   bool errors = false; // of films at the frames' speeds, too
   for (size_t i = 0; i < count; i++) {
@@ -332,7 +334,7 @@ void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size
     out->seal[seal] = needs > out->seal[seal] ? needs : out->seal[seal];
     out->film_laws = out->film_laws || strstr(figure->path, ".film_by_model.") != NULL;
     errors = errors || strncmp(figure->path, "solver.", 7) == 0;
-    const SbShelfDepth shelf = shelf_of(figure);
+    const SbShelfDepth shelf = shelf_of(figure) < most ? shelf_of(figure) : most;
     out->shelf = shelf > out->shelf ? shelf : out->shelf;
     if (strcmp(figure->path, "solver.error_estimate.film_history") == 0) {
       out->film_history = out->reynolds && model->film_history;

@@ -122,7 +122,7 @@ static void check_case(const Case *of) {
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     double own;
     SbPlan least;
-    sb_plan_figures(&least, &model, &i, 1);
+    sb_plan_figures(&least, &model, &i, 1, false);
     if (least.motion && whole) {
       continue;
     }
