@@ -1,7 +1,7 @@
 // What any bytes must survive as an STL file: either a mesh of finite corners whose triangles point
 // at them, which the engine weighs or refuses, or one complaint and nothing.
+#include "app/cad/cad_private.h"
 #include "app/document/stl.h"
-
 #include "app/document/unit.h"
 #include "engine/mechanism/solid.h"
 
@@ -10,6 +10,26 @@
 #include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+// The same mesh as a body of a drawing.
+static void as_drawing(const char *data, size_t size) {
+  const SbCadChoices choices = {.unit = size % 2 == 0 ? "mm" : NULL, .flip = size % 3 == 0};
+  GError *error = NULL;
+  SbCad *cad = sb_cad_parse_stl(data, size, "fuzz.stl", &choices, &error);
+  if (cad == NULL) {
+    g_assert_true(error->domain == SB_APP_ERROR);
+    g_error_free(error);
+    return;
+  }
+  g_assert_true(error == NULL && cad->bodies->len > 0);
+  for (guint i = 0; i < cad->bodies->len; i++) {
+    const SbCadBody *body = cad->bodies->pdata[i];
+    g_autofree char *text = sb_cad_profile_text(body);
+    g_assert_true(text != NULL || body->why != NULL);
+    g_assert_true(text == NULL || (isfinite(body->solid.volume) && body->solid.volume > 0));
+  }
+  sb_cad_free(cad);
+}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   SbStl stl;
@@ -37,5 +57,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     g_assert_true(report.text[0] != '\0');
   }
   sb_stl_clear(&stl);
+  as_drawing((const char *)data, size);
   return 0;
 }
