@@ -131,8 +131,8 @@ static const double SCATTER_LOAD = 0.08, SCATTER_FILM = 0.13, SCATTER = 0.13;
 static const double SCATTER_ROUGH = 0.7, ORDER_MOST = 0.1, MANY = 16;
 // And where contacts hardly move, rings of two meshes some per cent of a parameter apart differ, as
 // part of a figure for a change by the parameter itself (measured: 2.7e-3 at most), and films by
-// what they are solved to, so many times the tolerance (measured: 83 at most of 280 slopes).
-static const double FLOOR = 4e-3, FLOOR_FILM = 120;
+// what they are solved to, so many times the tolerance (measured: 56 at most).
+static const double FLOOR = 4e-3, FLOOR_FILM = 80;
 
 // A slope that is less than its error is none, unless both are small: what the figure changes by as
 // the parameter does by itself is known to this part of it.
