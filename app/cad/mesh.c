@@ -231,7 +231,9 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
     sb_cad_body_settle(body, choices);
   }
   if (cad->bodies->len == 0) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "its section holds no closed outline");
+    const guint told = cad->warnings->len;
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "its section holds no closed outline%s%s",
+                told > 0 ? "; " : "", told > 0 ? (const char *)cad->warnings->pdata[told - 1] : "");
     g_clear_pointer(&cad, sb_cad_free);
   }
   return cad;

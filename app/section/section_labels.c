@@ -283,7 +283,7 @@ static void draw_stem_forces(SbSection *section) {
   }
 }
 
-// _("Stem") and its speed.
+// "Stem" and its speed.
 static void draw_motion(SbSection *section) {
   const SbPalette *palette = section->palette;
   const SbFrame *frame = section->instant->frame;

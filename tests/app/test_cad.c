@@ -162,6 +162,15 @@ static void check_stem(const SbCadBody *body, double tolerance) {
   }
 }
 
+static void check_stem_alone(const SbCad *cad, const char *warning) {
+  g_assert_cmpuint(cad->bodies->len, ==, 1);
+  const SbCadBody *body = cad->bodies->pdata[0];
+  g_assert_cmpstr(body->name, ==, "Stem centre");
+  check_stem(body, 1e-9);
+  g_assert_cmpuint(cad->warnings->len, ==, 1);
+  g_assert_cmpstr(cad->warnings->pdata[0], ==, warning);
+}
+
 // ---- Blocks ----
 
 static GString *begin_blocks(void) {
@@ -222,12 +231,7 @@ static void test_blocks(void) {
   put_insert(dxf, "NOWHERE", 0, 0, 1, 1, 0);
   end(dxf);
   g_autoptr(SbCad) cad = parse(dxf, &none);
-  g_assert_cmpuint(cad->bodies->len, ==, 1);
-  const SbCadBody *body = cad->bodies->pdata[0];
-  g_assert_cmpstr(body->name, ==, "Stem centre");
-  check_stem(body, 1e-9);
-  g_assert_cmpuint(cad->warnings->len, ==, 1);
-  g_assert_cmpstr(cad->warnings->pdata[0], ==, "left out: 1 INSERT, 1 MTEXT");
+  check_stem_alone(cad, "left out: 1 INSERT, 1 MTEXT");
 }
 
 // A circle that is stretched to an ellipse is revolved to a torus of its area; a row of them.
@@ -431,12 +435,7 @@ static void test_sections(void) {
     put(dxf, 1, "scale 10 : 1");
     end(dxf);
     g_autoptr(SbCad) cad = parse(dxf, &none);
-    g_assert_cmpuint(cad->bodies->len, ==, 1);
-    const SbCadBody *body = cad->bodies->pdata[0];
-    g_assert_cmpstr(body->name, ==, "Stem centre");
-    check_stem(body, 1e-9);
-    g_assert_cmpuint(cad->warnings->len, ==, 1);
-    g_assert_cmpstr(cad->warnings->pdata[0], ==, "left out: 1 TEXT");
+    check_stem_alone(cad, "left out: 1 TEXT");
   }
 }
 
