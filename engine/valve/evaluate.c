@@ -97,13 +97,19 @@ static bool has_solved(const SbEvaluator *evaluator, const SbModel *model, const
   return same;
 }
 
+// A derived model has no limits: those of the base count.
+static void plan_for(SbPlan *plan, const SbModel *model, const SbQuestion *question) {
+  sb_plan_figures(plan, model, question->figure, question->figure_count,
+                  question->as_run ? question->base : NULL);
+}
+
 bool sb_evaluator_has_solved(const SbEvaluator *evaluator, const SbQuestion *question) {
   SbPlan plan;
   SbModel *model;
   bool has = false;
   if (sb_model_derive(&model, question->base, question->override, question->override_count, NULL) ==
       SB_OK) {
-    sb_plan_figures(&plan, model, question->figure, question->figure_count, question->as_run);
+    plan_for(&plan, model, question);
     has = has_solved(evaluator, model, &plan);
   }
   sb_model_destroy(model);
@@ -116,7 +122,7 @@ static SbStatus prepare(SbEvaluator *evaluator, const SbQuestion *question, SbRe
   SbStatus status =
       sb_model_derive(&model, question->base, question->override, question->override_count, report);
   if (status == SB_OK) {
-    sb_plan_figures(&plan, model, question->figure, question->figure_count, question->as_run);
+    plan_for(&plan, model, question);
     status = evaluator->run == NULL ? sb_run_create(&evaluator->run, model, &plan, report)
              : question->start == evaluator->start && question->tangent == evaluator->tangent &&
                      question->rings == evaluator->rings && !question->keep && !evaluator->kept &&

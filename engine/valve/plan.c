@@ -321,8 +321,9 @@ static SbPlan basis(const SbModel *model, bool life) {
 }
 
 void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size_t count,
-                     bool as_run) {
-  const SbShelfDepth most = as_run ? shelf_wished(model, model->views) : SB_SHELF_OVER_TIME;
+                     const SbModel *as_run) {
+  const SbShelfDepth most =
+      as_run != NULL ? shelf_wished(as_run, as_run->views) : SB_SHELF_OVER_TIME;
   *out = basis(model, true);
   bool errors = false; // of films at the frames' speeds, too
   for (size_t i = 0; i < count; i++) {

@@ -71,7 +71,7 @@ double sb_plan_cost(const SbPlan *plan);
 
 // Plans `model` for `count` figures (indices, engine/valve/figures.h) and nothing to look at;
 // without the lists of fields. A run by this plan leaves figures that nobody wants uncomputed;
-// those it has are the same to the bit as a whole run's. as_run: the shelf's only as far as the
-// model's views or limits ask for them.
+// those it has are the same to the bit as a whole run's. as_run: the shelf's only as far as
+// the views or limits of that model ask for them; NULL: as figures do.
 void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size_t count,
-                     bool as_run);
+                     const SbModel *as_run);

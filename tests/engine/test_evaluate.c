@@ -122,7 +122,7 @@ static void check_case(const Case *of) {
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     double own;
     SbPlan least;
-    sb_plan_figures(&least, &model, &i, 1, false);
+    sb_plan_figures(&least, &model, &i, 1, NULL);
     if (least.motion && whole) {
       continue;
     }
@@ -135,6 +135,34 @@ static void check_case(const Case *of) {
   }
   sb_evaluator_destroy(evaluator);
   sb_run_destroy(run);
+}
+
+// As a run of the base the shelf's figures are left out with a reason where no view asks for them,
+// and nothing else is.
+static void test_as_run(void) {
+  const char *const paths[] = {"shelf.loss_kg_per_year", "cycle.force_peak_N"};
+  int figure[2];
+  double value[2][2];
+  SbModel base = base_model();
+  SbEvaluator *evaluator = evaluator_new();
+  for (int i = 0; i < 2; i++) {
+    figure[i] = sb_figure_find(paths[i]);
+    g_assert_cmpint(figure[i], >=, 0);
+  }
+  for (int view = 0; view < 2; view++) {
+    base.views |= view == 1 ? SB_VIEW_SHELF : 0;
+    const SbQuestion question = {
+        .base = &base, .figure = figure, .figure_count = 2, .as_run = true};
+    SbPlan plan;
+    sb_plan_figures(&plan, &base, figure, 2, &base);
+    g_assert_cmpint(plan.shelf, ==, view == 0 ? SB_SHELF_NOTHING : SB_SHELF_RATES);
+    g_assert_cmpint(sb_evaluator_ask(value[view], evaluator, &question, NULL), ==, SB_OK);
+    const char *why = sb_evaluator_reason(evaluator, figure[0]);
+    g_assert_nonnull(why);
+    g_assert_true((strstr(why, "nobody asks for it") != NULL) == (view == 0));
+  }
+  g_assert_true(same_bits(value[0][1], value[1][1]));
+  sb_evaluator_destroy(evaluator);
 }
 
 static void test_bits(void) {
@@ -473,6 +501,7 @@ static void test_model(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/evaluate/as-run", test_as_run);
   g_test_add_func("/evaluate/bits", test_bits);
   g_test_add_func("/evaluate/ring", test_ring);
   g_test_add_func("/evaluate/start", test_start);

@@ -68,7 +68,7 @@ static bool run_at(double *value, const Valve *valve, SbParamId id, double x) {
   if (sb_model_derive(&model, valve->model, &override, 1, NULL) != SB_OK) {
     return false;
   }
-  sb_plan_figures(&plan, model, valve->figure, FIGURES, false);
+  sb_plan_figures(&plan, model, valve->figure, FIGURES, NULL);
   g_assert_cmpint(sb_run_create(&run, model, &plan, NULL), ==, SB_OK);
   bool done = sb_run_execute(run, &(SbRunHooks){.alone = true}, NULL) == SB_OK;
   for (size_t i = 0; i < FIGURES; i++) {
