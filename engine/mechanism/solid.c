@@ -248,6 +248,10 @@ SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *p, double density, Sb
   }
   Moments m;
   moments_of(&m, p, 0.5 * (low + high));
+  // Rounding leaves none, or less, of an outline that encloses next to nothing.
+  if (!(m.volume > 0.0)) {
+    return sb_fail(report, SB_ERROR_INPUT, "the profile encloses no volume");
+  }
   *solid = (SbSolid){.volume = 2.0 * M_PI * m.volume};
   solid->mass = density * solid->volume;
   double at = m.first / m.volume;
