@@ -10,8 +10,9 @@
 //   - else, as long as nothing is shown, one by closed forms: milliseconds, so that no picture
 //   waits
 //     empty;
-//   - with a whole run of other values at hand, one whose rings start from that run's (near); its
-//     figures are a cold run's within the told errors, and hang on these two sets of values alone;
+//   - with a whole run of other values at hand, a coarse one whose rings start from that run's
+//     (near); its figures are a cold run's within the told errors, and hang on these two sets of
+//     values alone;
 //   - without, one to a coarse tolerance, where the plan expects that to take less than half;
 //   - then the whole run, cold: at once after a coarse or a stored one, after IDLE_MS without an
 //   edit
@@ -105,7 +106,7 @@ static void submit(SbSession *session, SbRunGrade grade) {
   if (grade == SB_GRADE_CLOSED && coarse == NULL) {
     grade = SB_GRADE_COARSE;
   }
-  if (grade == SB_GRADE_COARSE) {
+  if (grade == SB_GRADE_COARSE || grade == SB_GRADE_NEAR) {
     coarse = coarse_model(session->model);
   }
   if (grade == SB_GRADE_COARSE &&

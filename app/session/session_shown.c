@@ -127,9 +127,8 @@ char *sb_session_grade_text(SbSession *session) {
   case SB_GRADE_CLOSED:
     return g_strdup(_("closed forms, rings follow"));
   case SB_GRADE_COARSE:
-    return g_strdup(_("coarse, to 1 %"));
   case SB_GRADE_NEAR:
-    return g_strdup(_("warm start"));
+    return g_strdup(_("coarse, to 1 %"));
   case SB_GRADE_STORED:
     return g_strdup_printf(_("stored result of %s"), session->shown->date);
   default:

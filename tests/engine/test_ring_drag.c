@@ -66,6 +66,33 @@ static void test_table(void) {
   }
 }
 
+// A tolerance of 1 % takes a coarser path and tells no less than
+// what that leaves; the table's own states lie within it.
+static void test_coarse(void) {
+  static const struct {
+    double pressure, drag;
+    bool friction;
+  } state[] = {{0.0, 0.3, false}, {0.55e6, 0.2, true}, {0.55e6, -0.2, true}, {0.55e6, 0.1, false}};
+  for (size_t i = 0; i < G_N_ELEMENTS(state); i++) {
+    SbFit fine = dragged(state[i].pressure, state[i].drag, state[i].friction);
+    SbFitProblem problem = thesis(SB_FIT_RING);
+    problem.dragged = problem.start_at_wall = true;
+    problem.drag = state[i].drag;
+    problem.pressure = state[i].pressure;
+    problem.floor_friction = state[i].friction ? 0.3 : 0.0;
+    problem.wall_friction = state[i].friction ? 0.1 : 0.0;
+    problem.tolerance = 1e-2;
+    SbFit coarse;
+    g_assert_cmpint(sb_fit_solve(&coarse, &problem, NULL), ==, SB_OK);
+    g_assert_cmpint(coarse.ring.state, ==, SB_RING_SLIDES);
+    g_test_message("coarse: load %.4f N of %.4f, told %.4f", coarse.load, fine.load,
+                   coarse.solver.error_estimate.load);
+    g_assert_cmpfloat(coarse.solver.error_estimate.load, >=, 1e-2);
+    near(coarse.load, fine.load, coarse.solver.error_estimate.load);
+    near(coarse.contact_width, fine.contact_width, coarse.solver.error_estimate.contact_width);
+  }
+}
+
 // The limit is met beyond a maximum of the path, and what is shown is the ring just below it.
 static void limit(double pressure, double drag, bool friction, double reference, double tolerance) {
   SbFit fit = dragged(pressure, drag, friction);
@@ -308,6 +335,7 @@ static void test_law_coulomb(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/ring-drag/table", test_table);
+  g_test_add_func("/ring-drag/coarse", test_coarse);
   g_test_add_func("/ring-drag/start", test_start);
   g_test_add_func("/ring-drag/law", test_law);
   g_test_add_func("/ring-drag/law-coulomb", test_law_coulomb);

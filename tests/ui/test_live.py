@@ -33,7 +33,7 @@ def an_edit_is_solved_and_back_at_once(folder):
         export = app.find("push button", "Export")
 
         def whole():
-            return (app.run_done() and not app.label(r"warm start")
+            return (app.run_done() and not app.label(r"coarse, to")
                     and export.getState().contains(App.SENSITIVE))
 
         wait("the first run", whole, timeout=120)

@@ -71,7 +71,8 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   double size = SIZE * fmin(sqrt(tolerance / 1e-3), tolerance / floor_load);
   size = fmin(SIZE_MOST, fmax(SIZE_LEAST, size));
   // What is dragged follows its path on this one.
-  first.element_size = load->bore_slides != 0 ? SIZE / RATIO : fmin(0.08, fmax(SIZE, size) / RATIO);
+  const double path = first.element_size > 0.0 ? first.element_size : SIZE / RATIO;
+  first.element_size = load->bore_slides != 0 ? path : fmin(0.08, fmax(SIZE, size) / RATIO);
   first.fit_mesh = false;
   // A ring that does not touch lets the fluid past: no pressure rests on it.
   first.alone = true;
