@@ -242,7 +242,8 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
     }
     degree += 2;
   }
-  return SB_OK;
+  // Of a single level nobody knows the error; rough rows may do better than one of smooth ones.
+  return *levels > 1 || rough ? SB_OK : SB_ERROR_NOT_CONVERGED;
 }
 
 // Outlet's pressure over the inlet's in the units of the rigid wedge, h_min^2 p / (6 U eta
