@@ -159,6 +159,41 @@ static void test_refused(void) {
   g_unlink(bad);
 }
 
+// The estimates of a calibration lie within three deviations of what its data were made with.
+typedef struct {
+  const char *key;
+  double value;
+} Made;
+
+static void assert_recovered(JsonNode *root, const Made *made, size_t count) {
+  JsonObject *parameters = json_object_get_object_member(json_node_get_object(root), "parameters");
+  for (size_t i = 0; i < count; i++) {
+    JsonObject *one = json_object_get_object_member(parameters, made[i].key);
+    g_assert_cmpfloat_with_epsilon(json_object_get_double_member(one, "estimate"), made[i].value,
+                                   3 * json_object_get_double_member(one, "standard_deviation"));
+    g_assert_cmpuint(json_array_get_length(json_object_get_array_member(one, "interval_95")), ==,
+                     2);
+    g_assert_nonnull(json_object_get_string_member(one, "identifiable"));
+    g_assert_nonnull(json_object_get_array_member(one, "with"));
+  }
+}
+
+// The shipped strokes of a valve that runs in.
+static void test_running_in(void) {
+  g_autofree char *study =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "studies", "running-in.study", NULL);
+  CliResult result = CLI("calibrate", study, "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *root = cli_parse(result.out);
+  cli_has_keys(root, "curves.3.measured.recognised");
+  static const Made made[] = {
+      {"life.roughness_new", 1.15}, {"life.roughness_run_in", 0.78}, {"life.running_in", 3}};
+  assert_recovered(root, made, G_N_ELEMENTS(made));
+  g_assert_cmpfloat(cli_number(root, "residual_rms_N"), <, 0.14);
+  cli_clear(&result);
+  json_node_unref(root);
+}
+
 // The shipped bench: the keys of the contract, the values that it was made with, a folder.
 static void test_calibrate(void) {
   g_autofree char *study =
@@ -170,23 +205,11 @@ static void test_calibrate(void) {
   cli_has_keys(root, "converged samples residual_rms_N chi2_reduced parameters correlation.keys "
                      "correlation.matrix.3 stages.B.measured_N stages.F.model_N cannot_tell "
                      "curves.0.measured.recognised posterior.model");
-  static const struct {
-    const char *key;
-    double value;
-  } values[] = {{"friction.load_coefficient", 0.174},
-                {"friction.static_ratio", 1.14},
-                {"bore.land_edge", 3.42e-3},
-                {"stem.pressure_diameter", 5.8e-3}};
-  JsonObject *parameters = json_object_get_object_member(json_node_get_object(root), "parameters");
-  for (size_t i = 0; i < G_N_ELEMENTS(values); i++) {
-    JsonObject *one = json_object_get_object_member(parameters, values[i].key);
-    g_assert_cmpfloat_with_epsilon(json_object_get_double_member(one, "estimate"), values[i].value,
-                                   3 * json_object_get_double_member(one, "standard_deviation"));
-    g_assert_cmpuint(json_array_get_length(json_object_get_array_member(one, "interval_95")), ==,
-                     2);
-    g_assert_nonnull(json_object_get_string_member(one, "identifiable"));
-    g_assert_nonnull(json_object_get_array_member(one, "with"));
-  }
+  static const Made made[] = {{"friction.load_coefficient", 0.174},
+                              {"friction.static_ratio", 1.14},
+                              {"bore.land_edge", 3.42e-3},
+                              {"stem.pressure_diameter", 5.8e-3}};
+  assert_recovered(root, made, G_N_ELEMENTS(made));
   g_assert_cmpfloat(cli_number(root, "residual_rms_N"), <, 0.2);
   cli_clear(&result);
   // The fitted scene meets its data as the fit does, by itself.
@@ -283,6 +306,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-measured/refused", test_refused);
   g_test_add_func("/cli-measured/project", test_project);
   g_test_add_func("/cli-measured/calibrate", test_calibrate);
+  g_test_add_func("/cli-measured/running-in", test_running_in);
   const int result = g_test_run();
   g_unlink(scene);
   cli_remove_results(folder);
