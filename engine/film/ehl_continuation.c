@@ -214,6 +214,22 @@ static SbStatus follow_fronts(SbFilmSolver *solver) {
   return status == SB_ERROR_RANGE ? SB_OK : status; // no room for them
 }
 
+// A mesh for a case whose film's ends may be so sharp that none has room for them all: then less of
+// each, and the change to the next level tells the error.
+static bool lay_out_wider(SbEhlSolution *s, SbEhlCase *c) {
+  enum { WIDENINGS = 6 };
+  for (int i = 0; i <= WIDENINGS; i++) {
+    s->c = *c;
+    if (lay_out(s)) {
+      return true;
+    }
+    for (int k = 0; k < SB_EHL_FRONTS; k++) {
+      c->rough.front[k].width *= 3.0;
+    }
+  }
+  return false;
+}
+
 // Rough rows from the contact at rest: the film marched over it, and the contact sealed with that
 // film's pressure in turns until Newton's method holds from a march, on elements at its film's
 // ends.
@@ -235,9 +251,8 @@ static SbStatus start_marched(SbFilmSolver *solver, const SbEhlCase *target) {
       }
     }
     SbEhlSolution *next = sb_ehl_other(solver);
-    next->c = sealed;
     next->state.shift = solver->now->state.shift;
-    if (!lay_out(next)) {
+    if (!lay_out_wider(next, &sealed)) {
       break;
     }
     sb_ehl_march_state(next, true);

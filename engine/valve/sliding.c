@@ -232,14 +232,15 @@ static void lay_on(SbFilmProblem *problem, const SbSlidingBody *body) {
   problem->modulus = body->compliance.modulus;
 }
 
-// The film on the fitted body in place of the half-plane's; false where there is none or it fails.
+// The film on the fitted body in place of the half-plane's; false where there is none or it fails,
+// then with a reason in `why`, of a body that has one.
 static bool solve_fitted(const SbSlidingTask *task, SbSlidingSolved *out,
-                         const SbFilmProblem *plane) {
+                         const SbFilmProblem *plane, SbReport *why) {
+  *why = (SbReport){0};
   const SbFit *fit = &task->memory->now->fit;
   if (fit->model != SB_FIT_DISC && fit->model != SB_FIT_RING) {
     return false;
   }
-  SbReport report = {0};
   SbSlidingBody *body = &task->memory->body;
   SbFilmProblem problem = *plane;
   SbStatus status = SB_OK;
@@ -249,11 +250,11 @@ static bool solve_fitted(const SbSlidingTask *task, SbSlidingSolved *out,
     return false;
   } else {
     status = sb_sliding_surface(&body->compliance, &body->load, fit, task->model, task->seal,
-                                task->pressure, task->warnings, &report);
+                                task->pressure, task->warnings, why);
   }
   if (status == SB_OK) {
     lay_on(&problem, body);
-    status = sb_sliding_solve_on(task, out, &problem, &report);
+    status = sb_sliding_solve_on(task, out, &problem, why);
   }
   // One that misses the tolerance by little is nearer than the half-plane's, with its error told.
   static const double NEARER = 0.05;
@@ -266,17 +267,21 @@ static bool solve_fitted(const SbSlidingTask *task, SbSlidingSolved *out,
             sb_seal_name(task->seal), error, task->model->tolerance);
     status = SB_OK;
   }
-  if (status != SB_OK) {
-    sb_warn(task->warnings, "film-half-plane", "models.fit",
-            "no film on the fitted %s seal (%s): it is the half-plane's", sb_seal_name(task->seal),
-            report.text);
-  }
   return status == SB_OK;
 }
 
 // A solver that stopped above the tolerance has the figures of its last solution, with their error.
 bool sb_sliding_usable(SbStatus status) {
   return status == SB_OK || status == SB_ERROR_NOT_CONVERGED;
+}
+
+// Tells that a film is the half-plane's, and why; one that the fluid opens is nobody's.
+static void tell_half_plane(const SbSlidingTask *task, SbStatus status, const SbReport *why) {
+  if (sb_sliding_usable(status) && why->text[0] != '\0') {
+    sb_warn(task->warnings, "film-half-plane", "models.fit",
+            "no film on the fitted %s seal (%s): it is the half-plane's", sb_seal_name(task->seal),
+            why->text);
+  }
 }
 
 // A seal's film figures are those of `solved`; NaN stays where the solver stopped before its first
@@ -371,10 +376,13 @@ static SbStatus solve_film(const SbSlidingTask *task, SbSealState *out, SbReport
     limit_law(out, task);
   }
   // The half-plane may be opened or lost by end pressures that the fitted body bears.
-  if (solved && solve_fitted(task, &memory->fitted, &problem)) {
+  SbReport why = {0};
+  if (solved && solve_fitted(task, &memory->fitted, &problem, &why)) {
     take_film(out, &memory->fitted, SB_OK, &memory->now->fit);
     memory->last = &memory->fitted;
     status = sb_succeed(report);
+  } else {
+    tell_half_plane(task, status, &why);
   }
   if (!sb_sliding_usable(status)) {
     return status;
@@ -405,8 +413,13 @@ static SbStatus solve_rough(const SbSlidingTask *task, SbSlidingSolved *out, dou
     problem.inlet_film = task->supply.limited ? task->supply.layer : 0;
     option_warnings(task, &problem);
   }
-  return solve_fitted(task, out, &problem) ? SB_OK
-                                           : sb_sliding_solve_on(task, out, &problem, report);
+  SbReport why;
+  if (solve_fitted(task, out, &problem, &why)) {
+    return SB_OK;
+  }
+  SbStatus status = sb_sliding_solve_on(task, out, &problem, report);
+  tell_half_plane(task, status, &why);
+  return status;
 }
 
 // Break-away after the rest before the first stroke.
