@@ -152,6 +152,69 @@ static void write_dxf(GString *out, const Mesh *mesh) {
   g_string_append(out, "0\nENDSEC\n0\nEOF\n");
 }
 
+// ---- STL
+
+// The corner of a triangle at a place of the section, turned about the axis [mm].
+static void put_corner(GString *out, double x, double r, double angle) {
+  put(out, "vertex ", 1e3 * x);
+  put(out, " ", 1e3 * r * cos(angle));
+  put(out, " ", 1e3 * r * sin(angle));
+  g_string_append_c(out, '\n');
+}
+
+// The triangle of three corners (side's end 0 or 1, step of the turn 0 or 1), outwards.
+static void put_facet(GString *out, const double x[2], const double r[2], const double angle[2],
+                      const int corner[3][2]) {
+  double p[3][3], n[3];
+  for (int i = 0; i < 3; i++) {
+    const double at = angle[corner[i][1]];
+    p[i][0] = x[corner[i][0]];
+    p[i][1] = r[corner[i][0]] * cos(at);
+    p[i][2] = r[corner[i][0]] * sin(at);
+  }
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    n[i] = (p[1][j] - p[0][j]) * (p[2][k] - p[0][k]) - (p[1][k] - p[0][k]) * (p[2][j] - p[0][j]);
+  }
+  const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  for (int i = 0; i < 3; i++) {
+    put(out, i == 0 ? "facet normal " : " ", n[i] / length);
+  }
+  g_string_append(out, "\nouter loop\n");
+  for (int i = 0; i < 3; i++) {
+    put_corner(out, x[corner[i][0]], r[corner[i][0]], angle[corner[i][1]]);
+  }
+  g_string_append(out, "endloop\nendfacet\n");
+}
+
+static void write_body(GString *out, const Mesh *mesh, bool deformed) {
+  enum { TURN = 72 };
+  static const int corner[2][3][2] = {{{0, 0}, {0, 1}, {1, 0}}, {{1, 0}, {0, 1}, {1, 1}}};
+  g_string_append_printf(out, "solid %s\n", deformed ? "DEFORMED" : "FREE");
+  for (int i = 0; i < mesh->sides; i++) {
+    double x[2], r[2];
+    for (int k = 0; k < 2; k++) {
+      const int node = mesh->section.loop[2 * ((i + k) % mesh->sides)];
+      x[k] = deformed ? mesh->fields.place[2 * node] : free_place(mesh, node, 0);
+      r[k] = deformed ? mesh->fields.place[2 * node + 1] : free_place(mesh, node, 1);
+    }
+    for (int step = 0; step < TURN; step++) {
+      const double angle[2] = {2 * M_PI * step / TURN, 2 * M_PI * ((step + 1) % TURN) / TURN};
+      put_facet(out, x, r, angle, corner[0]);
+      put_facet(out, x, r, angle, corner[1]);
+    }
+  }
+  g_string_append_printf(out, "endsolid %s\n", deformed ? "DEFORMED" : "FREE");
+}
+
+static void write_stl(GString *out, const Mesh *mesh) {
+  write_body(out, mesh, true);
+}
+
+static void write_free_stl(GString *out, const Mesh *mesh) {
+  write_body(out, mesh, false);
+}
+
 // ---- CalculiX
 
 // A side of an element, numbered as there, for each boundary side.
@@ -392,7 +455,11 @@ static void write_inp(GString *out, const Mesh *mesh) {
 static const struct {
   const char *ending;
   void (*write)(GString *, const Mesh *);
-} KIND[] = {{".vtu", write_vtu}, {".inp", write_inp}, {".dxf", write_dxf}};
+} KIND[] = {{".vtu", write_vtu},
+            {".inp", write_inp},
+            {".dxf", write_dxf},
+            {".free.stl", write_free_stl},
+            {".stl", write_stl}};
 
 static size_t kind_of(const char *path) {
   size_t kind = 0;
@@ -406,7 +473,8 @@ bool sb_cae_check(const char *path, const SbFitProblem *problem, GError **error)
   const size_t kind = kind_of(path);
   if (kind == G_N_ELEMENTS(KIND)) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "--export: %s has no known ending (allowed .vtu, .inp, .dxf)", path);
+                "--export: %s has no known ending (allowed .vtu, .inp, .dxf, .stl, .free.stl)",
+                path);
   } else if (problem->model != SB_FIT_RING) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "--export: only the ring model has a mesh, not %s (--model ring)",

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""`sealbench fit --export`: the three files hold the same ring, and what cannot be written is refused.
+"""`sealbench fit --export`: the files hold the same ring, and what cannot be written is refused.
 
 Usage: cae.py SEALBENCH VALVE
 """
 
+import json
+import math
 import os
 import re
 import subprocess
@@ -58,16 +60,37 @@ def pressed_ring(folder):
     assert len(faces) > 20 and len(faces) % 2 == 0  # twice the same, in two steps
 
 
+def bodies(folder):
+    """The free ring is a torus but for its chords; pressed it stands between floor and bore."""
+    done = fit(folder, '--model', 'ring', '--pressure', '0.55MPa', '--export', 'r.stl', '--export',
+               'r.free.stl')
+    assert done.returncode == 0, done.stderr
+    volume = {}
+    for name in ('r', 'r.free'):
+        read = subprocess.run([program, 'cad', f'{name}.stl', '--json', '-'], cwd=folder, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=True)
+        found = json.loads(read.stdout)
+        assert found['axis'] == "the file's x" and found['unit'] == 'mm'
+        volume[name] = found['bodies'][0]['volume_m3']
+    torus = 2 * math.pi ** 2 * (1.42e-3 + 0.805e-3) * 0.805e-3 ** 2
+    assert 0.995 < volume['r.free'] / torus < 1, volume
+    assert 0.97 < volume['r'] / volume['r.free'] < 1, volume
+    with open(os.path.join(folder, 'r.stl')) as file:
+        corners = [line.split()[1:] for line in file if line.startswith('vertex')]
+    radii = [math.hypot(float(y), float(z)) for _, y, z in corners]
+    assert abs(min(radii) - 1.64) < 1e-6 and abs(max(radii) - 3) < 1e-6
+
+
 def refusals(folder):
     for words, part in ((['--export', 'a.vtu'], 'only the ring model'),
-                        (['--model', 'ring', '--export', 'a.step'], 'allowed .vtu, .inp, .dxf'),
+                        (['--model', 'ring', '--export', 'a.step'], 'allowed .vtu, .inp, .dxf, .stl, .free.stl'),
                         (['--drag', '0.1', '--export', 'drag.inp'], 'a ring with friction')):
         done = fit(folder, *words)
         assert done.returncode == 1 and part in done.stderr, done.stderr
     assert not os.path.exists(os.path.join(folder, 'drag.inp'))
 
 
-tests = [same_ring, pressed_ring, refusals]
+tests = [same_ring, pressed_ring, bodies, refusals]
 print(f'1..{len(tests)}')
 for number, test in enumerate(tests, 1):
     with tempfile.TemporaryDirectory() as folder:
