@@ -164,7 +164,8 @@ int sb_command_fit(int argc, char **argv) {
       {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &tolerance, "Relative error wanted", "T"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"export", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &exports,
-       "The ring's mesh and fields (.vtu), as a CalculiX problem (.inp), its outlines (.dxf), its body (.stl, free: .free.stl)",
+       "The ring's mesh and fields (.vtu), as a CalculiX problem (.inp), its outlines (.dxf), its "
+       "body (.stl, free: .free.stl)",
        "FILE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
       {"plot", 0, 0, G_OPTION_ARG_NONE, &plots.on, SB_CLI_PLOT_HELP, NULL},
