@@ -24,6 +24,7 @@ struct SbRunner {
   pthread_t thread;
   SbRunnerNotify notify;
   void *data;
+  bool last;
   atomic_uint void_up_to; // tickets up to this one are cancelled
 
   pthread_mutex_t mutex; // guards what follows
@@ -166,6 +167,9 @@ static void compute(SbRunner *runner, const SbRunRequest *request, unsigned tick
 static void *work(void *data) {
   SbRunner *runner = data;
   sb_process_work_behind();
+  if (runner->last) {
+    sb_process_work_behind();
+  }
   // Messages and numbers read the same whatever the program's locale.
   locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
   if (plain != (locale_t)0) {
@@ -198,12 +202,13 @@ static void *work(void *data) {
   return NULL;
 }
 
-SbRunner *sb_runner_create(SbRunnerNotify notify, void *data) {
+SbRunner *sb_runner_create(SbRunnerNotify notify, void *data, bool last) {
   SbRunner *runner = calloc(1, sizeof *runner);
   if (runner == NULL) {
     return NULL;
   }
   runner->notify = notify;
+  runner->last = last;
   runner->data = data;
   atomic_init(&runner->void_up_to, 0);
   pthread_mutex_init(&runner->mutex, NULL);

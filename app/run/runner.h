@@ -41,8 +41,9 @@ typedef struct SbRunner SbRunner;
 // unless one is pending.
 typedef void (*SbRunnerNotify)(void *data);
 
-// Starts the thread. NULL if the system has none left. Owned by the caller.
-SbRunner *sb_runner_create(SbRunnerNotify notify, void *data);
+// Starts the thread; `last`: behind those of other runners, for what nobody waits for. NULL if the
+// system has none left. Owned by the caller.
+SbRunner *sb_runner_create(SbRunnerNotify notify, void *data, bool last);
 
 // Cancels, waits for the thread (at most about 50 ms) and frees. After it returned `notify` is not
 // called again. Handles stay valid. Takes NULL. Not from inside `notify`.

@@ -327,8 +327,8 @@ static void finalize(GObject *object) {
 }
 
 static void sb_session_class_init(SbSessionClass *class) {
-  static const char *const names[SB_SIGNAL_COUNT] = {"params-changed", "run-changed",
-                                                     "frames-changed", "playhead-changed"};
+  static const char *const names[SB_SIGNAL_COUNT] = {
+      "params-changed", "run-changed", "frames-changed", "progress-changed", "playhead-changed"};
   G_OBJECT_CLASS(class)->dispose = dispose;
   G_OBJECT_CLASS(class)->finalize = finalize;
   for (int i = 0; i < SB_SIGNAL_COUNT; i++) {

@@ -4,7 +4,8 @@
 // Signals (all on the main thread):
 //   "params-changed"    a value, a field error, or the document's name or edited state changed
 //   "run-changed"       the state of the run, or which run is shown, changed
-//   "frames-changed"    the run under way has more frames (at most once per drawn frame)
+//   "frames-changed"    the shown run has more frames (at most once per drawn frame)
+//   "progress-changed"  a run is on its way of which nothing new is shown (once per drawn frame)
 //   "playhead-changed"  the shown frame, or whether it plays, changed
 #pragma once
 

@@ -238,7 +238,7 @@ static void compute_next(SbSession *session) {
     g_autoptr(SbModel) model = NULL;
     g_autoptr(GPtrArray) issues = sb_issues_new();
     if (session->pin_runner == NULL) {
-      session->pin_runner = sb_runner_create(sb_session_notify, session->inbox);
+      session->pin_runner = sb_runner_create(sb_session_notify, session->inbox, true);
     }
     if (session->pin_runner == NULL ||
         !sb_document_compile_pin(session->document, i, &model, issues)) {

@@ -491,9 +491,12 @@ void sb_session_tick(SbSession *session, gint64 now) {
   if (session->former != sb_session_is_former(session)) {
     sb_session_run_changed(session);
   }
-  if (more || session->ticket != 0) {
+  if (more || (session->ticket != 0 && session->shown == NULL)) {
     sb_session_refresh_chart(session);
     sb_session_emit(session, SB_SIGNAL_FRAMES);
+  } else if (session->ticket != 0) {
+    // The run before stays as it is: nothing is drawn anew, the processors are the run's.
+    sb_session_emit(session, SB_SIGNAL_PROGRESS);
   }
   size_t count = 0;
   const SbFrame *frames = sb_session_frames(session, &count);
@@ -545,7 +548,7 @@ void sb_session_init_runs(SbSession *session) {
   session->inbox = g_new0(SbSessionInbox, 1);
   session->inbox->session = session;
   session->inbox->references = 1;
-  session->runner = sb_runner_create(sb_session_notify, session->inbox);
+  session->runner = sb_runner_create(sb_session_notify, session->inbox, false);
   if (session->runner == NULL) {
     g_error("The system has no thread left for the engine.");
   }

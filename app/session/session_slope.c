@@ -109,7 +109,7 @@ static bool submit(SbSession *session, int id) {
     return false;
   }
   if (session->slopes == NULL) {
-    session->slopes = sb_runner_create(sb_session_notify, session->inbox);
+    session->slopes = sb_runner_create(sb_session_notify, session->inbox, true);
   }
   if (session->slopes == NULL) {
     return false;

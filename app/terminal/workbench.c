@@ -310,6 +310,8 @@ bool sb_workbench_run(const SbWorkbenchOptions *options, GError **error) {
     g_signal_connect_swapped(bench.session, "params-changed", G_CALLBACK(on_params), &bench);
     g_signal_connect_swapped(bench.session, "run-changed", G_CALLBACK(on_run), &bench);
     g_signal_connect_swapped(bench.session, "frames-changed", G_CALLBACK(sb_bench_changed), &bench);
+    g_signal_connect_swapped(bench.session, "progress-changed", G_CALLBACK(sb_bench_changed),
+                             &bench);
     g_signal_connect_swapped(bench.session, "playhead-changed", G_CALLBACK(sb_bench_changed),
                              &bench);
     sb_bench_list(&bench);

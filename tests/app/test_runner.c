@@ -38,7 +38,7 @@ static void wait_idle(SbRunner *runner) {
 
 static void test_one(void) {
   atomic_uint notes = 0;
-  SbRunner *runner = sb_runner_create(count, &notes);
+  SbRunner *runner = sb_runner_create(count, &notes, false);
   g_assert_null(sb_runner_latest(runner));
   g_autoptr(SbModel) model = model_with(400);
   unsigned ticket = submit(runner, model);
@@ -83,7 +83,7 @@ static int growing_looks(SbRunner *runner) {
 
 static void test_growing(void) {
   atomic_uint notes = 0;
-  SbRunner *runner = sb_runner_create(count, &notes);
+  SbRunner *runner = sb_runner_create(count, &notes, false);
   // On a busy machine this thread may get no turn before a run is over.
   int looks = 0;
   for (int i = 0; i < 20 && looks < 2; i++) {
@@ -126,7 +126,7 @@ static gint64 cancel_one(SbRunner *runner) {
 
 static void test_cancel(void) {
   atomic_uint notes = 0;
-  SbRunner *runner = sb_runner_create(count, &notes);
+  SbRunner *runner = sb_runner_create(count, &notes, false);
   // 50 ms are promised. The machine may be busy with other things, and this thread may have had no
   // turn before the run was over: the best of some.
   const gint64 wanted = 50000;
@@ -151,7 +151,7 @@ static void test_cancel(void) {
 // A storm of requests: the last one is what is seen in the end.
 static void test_newest_wins(void) {
   atomic_uint notes = 0;
-  SbRunner *runner = sb_runner_create(count, &notes);
+  SbRunner *runner = sb_runner_create(count, &notes, false);
   g_autoptr(SbModel) long_model = model_with(300000);
   unsigned ticket = 0;
   for (int i = 0; i < 200; i++) {

@@ -110,7 +110,7 @@ static void test_outlives(void) {
   g_autoptr(SbModel) model = NULL;
   g_assert_true(sb_document_compile(document, &model, issues));
   SbRun *alone = executed_run(model);
-  SbRunner *runner = sb_runner_create(ignore, NULL);
+  SbRunner *runner = sb_runner_create(ignore, NULL, false);
   sb_runner_submit(runner,
                    &(SbRunRequest){.model = model, .wishes = {.views = SB_VIEW_HYSTERESIS}});
   sb_document_free(document);

@@ -19,6 +19,10 @@ static void turn(SbSession *session) {
   g_usleep(1000);
 }
 
+static void count_up(int *count) {
+  ++*count;
+}
+
 // Dry rings without pressure, films by a law: two seconds of a processor each.
 static void set_rings(SbSession *session) {
   sb_session_set_auto_run(session, FALSE);
@@ -209,12 +213,22 @@ static void test_order(void) {
   const double predicted =
       curve->force[sb_trace_find(trace, sb_trace_marks(trace)[SB_STAGE_C].frame)];
 
+  // While the run before stays shown, only the progress is told: nothing is drawn anew.
+  int drawn = 0, told = 0;
+  const gulong frames =
+      g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(count_up), &drawn);
+  const gulong progress =
+      g_signal_connect_swapped(session, "progress-changed", G_CALLBACK(count_up), &told);
   const gint64 end = g_get_monotonic_time() + 100 * G_USEC_PER_SEC;
   while (sb_session_run(session) == before) {
     g_assert_nonnull(sb_session_chart(session)->predicted);
+    g_assert_cmpint(drawn, ==, 0);
     turn(session);
     g_assert_cmpint(g_get_monotonic_time(), <, end);
   }
+  g_assert_cmpint(told, >, 3);
+  g_signal_handler_disconnect(session, frames);
+  g_signal_handler_disconnect(session, progress);
   g_assert_cmpint(sb_session_grade(session), ==, SB_GRADE_NEAR);
   g_autofree char *grade_text = sb_session_grade_text(session);
   g_assert_nonnull(grade_text);

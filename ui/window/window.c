@@ -699,6 +699,8 @@ static void sb_window_init(SbWindow *window) {
                           G_CONNECT_SWAPPED);
   g_signal_connect_object(window->session, "frames-changed", G_CALLBACK(on_frames), window,
                           G_CONNECT_SWAPPED);
+  g_signal_connect_object(window->session, "progress-changed", G_CALLBACK(on_frames), window,
+                          G_CONNECT_SWAPPED);
   g_signal_connect_object(window->session, "playhead-changed", G_CALLBACK(ensure_tick), window,
                           G_CONNECT_SWAPPED);
 
