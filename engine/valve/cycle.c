@@ -238,14 +238,16 @@ static int reach(SbChamber *chamber, const Planner *p, double s) {
 }
 
 // Where the platen stands when a stem that sticks slips the way `direction`, after a rest of
-// `dwell` so far. A contact that ages does so on the way: each pass holds the friction of the one
-// before, so that the first such place is found. Friction is over the kinetic one as the contact of
-// the last sliding has grown.
+// `dwell` so far: where it stands, or ahead of it. A contact that ages does so on the way: each
+// pass holds the friction of the one before, less than its own, so that the passes go one way and
+// the first such place is found. Friction is over the kinetic one as the contact of the last
+// sliding has grown.
 static SbStatus slip_platen(double *out, const Planner *p, int direction, double dwell,
                             SbReport *report) {
   const SbModel *model = p->cycle->model;
   SbDwellLaw law[SB_SEAL_COUNT];
-  double kinetic[SB_SEAL_COUNT], sliding[SB_SEAL_COUNT], X = p->X, before, squeeze_time;
+  enum { PASSES = 100000 }; // near the first place that is none, each is little further
+  double kinetic[SB_SEAL_COUNT], sliding[SB_SEAL_COUNT], X = p->X, squeeze_time;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const SbSealState *state = &p->cycle->state[seal][p->chamber][p->direction];
     SbStatus status = sb_breakaway_law(&law[seal], &squeeze_time, model, seal, state, report);
@@ -255,17 +257,22 @@ static SbStatus slip_platen(double *out, const Planner *p, int direction, double
     kinetic[seal] = sb_sliding_friction(state);
     sliding[seal] = sb_cycle_seal_friction(p->cycle, seal, p->chamber, direction, p->s);
   }
-  do {
+  for (int pass = 0; pass < PASSES; pass++) {
     double friction = 0, rested = dwell + fabs(X - p->X) / model->speed;
     for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
       double grown = kinetic[seal] > 0 ? sb_dwell_at(&law[seal], rested) / kinetic[seal] : 1;
       friction += fmax(1, grown) * sliding[seal];
     }
-    before = X;
+    const double before = X;
     X = p->s + (model->pressure_force + sign_of(direction) * friction) / model->stiffness;
-  } while (fabs(X - before) > 1e-9 * fabs(X - p->s) && X > 0);
-  *out = X;
-  return SB_OK;
+    X = direction == SB_CYCLE_IN ? fmax(X, p->X) : fmin(X, p->X);
+    if (fabs(X - before) <= 1e-9 * fabs(X - p->s) || X <= 0) {
+      *out = X;
+      return SB_OK;
+    }
+  }
+  return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "drive.speed",
+                           "the contact ages as fast as the machine loads it: no end of its rest");
 }
 
 // Adds a segment; `event` ends one at which the stem does not move, else where it comes to decides.

@@ -284,6 +284,40 @@ static void test_stops(void) {
   g_assert_cmpint(s.counters.segments, <, 2000);
 }
 
+// A slow, soft machine that has jumped over the land's edge: the platen stands ahead of the place
+// at which the stem, resting, would slip, which it does at once. Places behind it were sought for
+// ever, and the platen could be led back there.
+static void test_ahead(void) {
+  static const Setting slow[] = {{SB_P_FRICTION_BREAKAWAY, 1},
+                                 {SB_P_FRICTION_AGEING, 0.1},
+                                 {SB_P_FRICTION_AGEING_TIME, 0.165},
+                                 {SB_P_FRICTION_LOAD_COEFFICIENT, 0.24},
+                                 {SB_P_FRICTION_SHEAR_STRENGTH, 702670},
+                                 {SB_P_CANISTER_PRESSURE, 454e3},
+                                 {SB_P_STEM_PRESSURE_DIAMETER, 4.4e-3},
+                                 {SB_P_BORE_LAND_EDGE, 5.8e-3},
+                                 {SB_P_DRIVE_STROKE, 6.024e-3},
+                                 {SB_P_DRIVE_SPEED, 1e-4},
+                                 {SB_P_DRIVE_STIFFNESS, 2711},
+                                 {SB_P_MODELS_FIT, SB_FIT_LINDLEY},
+                                 {SB_P_MODELS_FILM, SB_FILM_THESIS},
+                                 {SB_P_DRIVE_REST, 0},
+                                 {SB_P_MODELS_MOTION, SB_MODEL_MOTION_QUASI_STATIC}};
+  SbModel model;
+  compile(&model, slow, G_N_ELEMENTS(slow));
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  g_assert_cmpfloat(sb_run_summary(run)->energy.closure, <, 1e-9);
+  size_t count;
+  const SbFrame *frames = sb_run_frames(run, &count);
+  bool back = false;
+  for (size_t i = 1; i < count; i++) {
+    back = back || frames[i].platen < frames[i - 1].platen - 1e-12;
+    g_assert_true(!back || frames[i].platen <= frames[i - 1].platen + 1e-12);
+  }
+  g_assert_true(back);
+  sb_run_destroy(run);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/breakaway/squeeze", test_squeeze);
@@ -292,5 +326,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/breakaway/coupled", test_coupled);
   g_test_add_func("/breakaway/start-stop", test_start_stop);
   g_test_add_func("/breakaway/stops", test_stops);
+  g_test_add_func("/breakaway/ahead", test_ahead);
   return g_test_run();
 }
