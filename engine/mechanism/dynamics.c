@@ -408,7 +408,7 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
       }
       s->ready = true;
       s->counters.segments++;
-      if (s->counters.segments > 4 * EVENTS_MAX) {
+      if (s->counters.segments > 10 * EVENTS_MAX) {
         return sb_fail(report, SB_ERROR_NOT_CONVERGED,
                        "too many steps at %.9g s (%ld): the motion is too quick for its duration, "
                        "as with a very stiff machine and a slow stroke",
