@@ -370,6 +370,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
          "models.asperities = beside: asperities share no load with the film"},
         {done, "film*", "the fluid opens the contact or carries it alone: no film law applies"},
         {done, "lambda", "there is no film"},
+        {done, "asperity_load_share", "there is no film to share a load with"},
         {done, "squeeze*", "there is no film to squeeze out"},
         {done, "real_area_share", "there is no film to tell it"},
         {done, "friction*", "there is no film to tell it"},
