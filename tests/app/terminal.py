@@ -334,9 +334,10 @@ def test_times():
         starts, keys = [], []
         for _ in range(3):
             line = Line(folder)
-            line.until(said, PATIENCE)
+            first = line.until(said, PATIENCE)[0]
             starts.append((line.work(), time.monotonic() - line.began))
-            if not loop(line.until(loop, PATIENCE)[0]):
+            # It may have come with the first words, and is not written twice.
+            if not loop(first) and not loop(line.until(loop, PATIENCE)[0]):
                 raise AssertionError('no loop at the start')
             if len(starts) < 3:
                 line.close()
