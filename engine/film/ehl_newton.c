@@ -433,9 +433,9 @@ static bool step_rough(Progress *p, SbEhlSolution *s) {
   p->factored = !cut && largest < reuse(s, REUSE_ROUGH) * p->before && largest < CLOSE;
   p->before = largest;
   // A start that is none shows soon: a good one is below 1 after five steps. Only a meniscus takes
-  // its time to find its node, but never comes back from far off. At rest one that
-  // serves moves by no more than 0.65 after four steps (250 solves), with tips that stick by some
-  // tens; where no flow can pass steps grow without end.
+  // its time to find its node, but never comes back from far off. At rest one that serves moves by
+  // no more than 0.65 after four steps (250 solves), with tips that stick by more than 10; where no
+  // flow can pass steps grow without end, to 1e7 and beyond.
   const bool rest = !(c->layers.lambda > 0);
   const bool hopeless = rest                  ? p->iteration > 5 && largest > 1e4
                         : isfinite(c->supply) ? p->iteration > 2 && largest > 1e3

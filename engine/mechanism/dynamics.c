@@ -408,6 +408,7 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
       }
       s->ready = true;
       s->counters.segments++;
+      // Two minutes of a processor.
       if (s->counters.segments > 10 * EVENTS_MAX) {
         return sb_fail(report, SB_ERROR_NOT_CONVERGED,
                        "too many steps at %.9g s (%ld): the motion is too quick for its duration, "

@@ -83,7 +83,8 @@ def bodies(folder):
 
 def refusals(folder):
     for words, part in ((['--export', 'a.vtu'], 'only the ring model'),
-                        (['--model', 'ring', '--export', 'a.step'], 'allowed .vtu, .inp, .dxf, .stl, .free.stl'),
+                        (['--model', 'ring', '--export', 'a.step'],
+                         'allowed .vtu, .inp, .dxf, .stl, .free.stl'),
                         (['--drag', '0.1', '--export', 'drag.inp'], 'a ring with friction')):
         done = fit(folder, *words)
         assert done.returncode == 1 and part in done.stderr, done.stderr
