@@ -4,14 +4,15 @@
 //
 //   E(z) = E(z0) + sum_i (z_i - z0_i) dE/dz_i
 //
-// z0 is where the state was first asked for, dE/dz_i a central difference found when z_i first
-// differs, and kept: a parameter that enters no solver costs none, and parameters that enter by the
-// same numbers share these solves. Everything else (rough contact, friction, its agreement with the
-// law that drags the ring, the motion) is computed at each question as ever. The tolerance is none
-// of these numbers: meshes and levels stand as long as the base's do. Where the slopes to both
-// sides disagree (a kink, another order of a curve), or an option comes from nothing, the state is
-// solved as asked. Films of a state next to z0 are solved on the meshes of its own (film.h,
-// `beside`).
+// z0 is where the state was first asked for, dE/dz_i a difference found when z_i first differs, and
+// kept. It is a central one; but a forward one of what a number of the ring makes of its surface
+// and its films, which are half of a state's work and bend by nothing over such steps. A parameter
+// that enters no solver costs none, and parameters that enter by the same numbers share these
+// solves. Everything else (rough contact, friction, its agreement with the law that drags the ring,
+// the motion) is computed at each question as ever. The tolerance is none of these numbers: meshes
+// and levels stand as long as the base's do. Where the slopes to both sides disagree (a kink,
+// another order of a curve), or an option comes from nothing, the state is solved as asked. Films
+// of a state next to z0 are solved on the meshes of its own (film.h, `beside`).
 #include "engine/valve/sliding_private.h"
 
 #include <math.h>
@@ -126,7 +127,7 @@ static const struct {
             {RUN(fit.ring.floor_load, fit.ring.drag_limit)},
             {RUN(fit.ring.turn, fit.ring.state)},
             {RUN(fit.profile_x, fit.surface)},
-            {RUN(fit.surface.left, body)},
+            {RUN(fit.surface.left, body)}, // from here on what the fitment alone has not
             {RUN(body.load, body.compliance.modes)},
             {RUN(body.compliance.left, on)},
             FILM_RUNS(0),
@@ -134,16 +135,23 @@ static const struct {
             FILM_RUNS(2)};
 #undef FILM_RUNS
 #undef RUN
+enum { RUNS = sizeof runs / sizeof *runs, FITMENT_RUNS = 4 };
 
-// Adds a multiple of one solution's numbers to another's.
-static void add(SbSlidingSolution *out, double by, const SbSlidingSolution *from) {
-  for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
+// Adds a multiple of one solution's numbers to another's: those of the runs `first` to before
+// `end`.
+static void add_runs(SbSlidingSolution *out, double by, const SbSlidingSolution *from, size_t first,
+                     size_t end) {
+  for (size_t k = first; k < end; k++) {
     double *a = (double *)(void *)((char *)out + runs[k].from);
     const double *b = (const double *)(const void *)((const char *)from + runs[k].from);
     for (size_t i = 0; i < (runs[k].to - runs[k].from) / sizeof(double); i++) {
       a[i] += by * b[i];
     }
   }
+}
+
+static void add(SbSlidingSolution *out, double by, const SbSlidingSolution *from) {
+  add_runs(out, by, from, 0, RUNS);
 }
 
 static void take(SbSlidingSolution *out, SbSlidingMemory *memory) {
@@ -158,13 +166,14 @@ static void take(SbSlidingSolution *out, SbSlidingMemory *memory) {
   }
 }
 
-// Whether a state was solved in the same way as another, so that both may be parts of a sum.
-static bool alike(const SbSlidingSolution *a, const SbSlidingSolution *b) {
+// Whether a state was solved in the same way as another, or its fitment alone was, so that both may
+// be parts of a sum.
+static bool alike(const SbSlidingSolution *a, const SbSlidingSolution *b, bool fitment) {
   bool same = a->fit.profile_count == b->fit.profile_count && a->fit.touches == b->fit.touches &&
-              a->fit.ring.state == b->fit.ring.state &&
-              a->fit.surface.modes == b->fit.surface.modes &&
-              a->body.compliance.modes == b->body.compliance.modes;
-  for (int i = 0; i < SB_SLIDING_FILMS; i++) {
+              a->fit.ring.state == b->fit.ring.state;
+  same = same && (fitment || (a->fit.surface.modes == b->fit.surface.modes &&
+                              a->body.compliance.modes == b->body.compliance.modes));
+  for (int i = 0; i < SB_SLIDING_FILMS && !fitment; i++) {
     same = same && a->on[i].solved == b->on[i].solved && a->on[i].fitted == b->on[i].fitted &&
            a->on[i].film.ruptured == b->on[i].film.ruptured &&
            a->on[i].film.starved == b->on[i].film.starved;
@@ -270,11 +279,14 @@ void sb_sliding_sum_end(SbSlidingMemory *memory) {
   }
 }
 
-// The state of a task whose numbers are z, as it is solved beside an anchor, by the anchor's
-// fitment if only films differ; or, of an anchor that is `made`, its own. Leaves its traces in the
-// task's memory.
+// What of a state is solved.
+typedef enum { WHOLE, BY_FITMENT, FITMENT_ALONE } Part;
+
+// The state of a task whose numbers are z, as it is solved beside an anchor: by the anchor's
+// fitment if only films differ, or its fitment alone, without a surface; or, of an anchor that is
+// `made`, its own. Leaves its traces in the task's memory.
 static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, const SbSlidingLaw *law,
-                         const double *z, SbSlidingBeside *beside, Anchor *anchor, bool films) {
+                         const double *z, SbSlidingBeside *beside, Anchor *anchor, Part part) {
   SbSlidingMemory *memory = task->memory;
   const bool made = out == &anchor->is;
   SbModel *model = malloc(sizeof *model);
@@ -293,16 +305,27 @@ static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, cons
   for (int i = 0; i < SB_SLIDING_FILMS; i++) {
     slot(memory, i)->fresh = false;
   }
-  if (films) {
+  if (part == BY_FITMENT) {
     memory->sum = anchor->is;
   }
-  memory->sums = films ? SB_SUM_FITMENT : SB_SUM_NOTHING;
-  lend(memory, beside, anchor, !made);
+  memory->sums = part == BY_FITMENT ? SB_SUM_FITMENT : SB_SUM_NOTHING;
   sb_sliding_forget_fitment(&other);
+  const SbSlidingLaw *drags = law != NULL ? &by : NULL;
   SbSealState state;
-  SbStatus status = sb_sliding_solve_once(&other, law != NULL ? &by : NULL, &state, NULL);
+  SbStatus status;
+  if (part == FITMENT_ALONE) {
+    bool known;
+    memory->bare = true;
+    status = sb_sliding_fit_contact(&other, drags, &state, &known, NULL);
+    memory->bare = false;
+    out->fit = memory->now->fit;
+    sb_sliding_forget_fitment(&other); // it has no surface
+  } else {
+    lend(memory, beside, anchor, !made);
+    status = sb_sliding_solve_once(&other, drags, &state, NULL);
+    take(out, memory);
+  }
   sb_sliding_sum_end(memory);
-  take(out, memory);
   free(model);
   return status;
 }
@@ -314,11 +337,11 @@ static bool bends(const double *a, const double *middle, const double *b, double
 }
 
 static bool any_bends(const SbSlidingSolution *a, const SbSlidingSolution *middle,
-                      const SbSlidingSolution *b) {
+                      const SbSlidingSolution *b, bool fitment) {
 #define BENDS(member, rounding) bends(&a->member, &middle->member, &b->member, rounding)
   bool any = BENDS(fit.load, ROUNDING) || BENDS(fit.contact_width, ROUNDING) ||
              BENDS(fit.pressure_peak, ROUNDING);
-  for (int i = 0; i < SB_SLIDING_FILMS && !any; i++) {
+  for (int i = 0; i < SB_SLIDING_FILMS && !any && !fitment; i++) {
     any = middle->on[i].solved &&
           (BENDS(on[i].film.film_central, FILM_ROUNDING) ||
            BENDS(on[i].film.film_min, FILM_ROUNDING) || BENDS(on[i].film.real_area, FILM_ROUNDING));
@@ -333,27 +356,33 @@ static bool find_slope(Column *out, SbSlidingSolution end[2], const SbSlidingTas
                        double part, SbStatus *status) {
   const double at = anchor->z[i], h = step_of(i, at, part);
   const double place[2] = {h, at != 0 ? -h : h / 2}; // upwards only from 0
+  const bool bare = i < FILMS && at != 0;            // the second is
   double z[INPUTS];
   memcpy(z, anchor->z, sizeof z);
   for (int k = 0; k < 2; k++) {
     z[i] = at + place[k];
-    *status = solve_at(&end[k], task, law, z, beside, anchor, i >= FILMS);
-    if (*status != SB_OK || !alike(&end[k], &anchor->is)) {
+    const bool alone = bare && k == 1;
+    const Part what = i >= FILMS ? BY_FITMENT : alone ? FITMENT_ALONE : WHOLE;
+    *status = solve_at(&end[k], task, law, z, beside, anchor, what);
+    if (*status != SB_OK || !alike(&end[k], &anchor->is, alone)) {
       return false;
     }
   }
   const SbSlidingSolution *is = &anchor->is;
-  if (at != 0 ? any_bends(&end[0], is, &end[1]) : any_bends(&end[0], &end[1], is)) {
+  if (at != 0 ? any_bends(&end[0], is, &end[1], bare) : any_bends(&end[0], &end[1], is, false)) {
     return false;
   }
   memset(&out->slope, 0, sizeof out->slope);
-  if (at != 0) {
-    add(&out->slope, 1 / (2 * h), &end[0]);
-    add(&out->slope, -1 / (2 * h), &end[1]);
-  } else { // (4 f(h/2) - f(h) - 3 f(0))/h
+  if (at == 0) { // (4 f(h/2) - f(h) - 3 f(0))/h
     add(&out->slope, 4 / h, &end[1]);
     add(&out->slope, -1 / h, &end[0]);
     add(&out->slope, -3 / h, is);
+  } else {
+    const size_t central = bare ? FITMENT_RUNS : RUNS;
+    add_runs(&out->slope, 1 / (2 * h), &end[0], 0, central);
+    add_runs(&out->slope, -1 / (2 * h), &end[1], 0, central);
+    add_runs(&out->slope, 1 / h, &end[0], central, RUNS);
+    add_runs(&out->slope, -1 / h, is, central, RUNS);
   }
   for (int k = 0; k < 2; k++) {
     const double fault = fmax(end[k].fit.ring.fault - is->fit.ring.fault, 0);
@@ -439,7 +468,7 @@ static Anchor *anchor_of(SbSlidingBeside *beside, const SbSlidingTask *task,
   }
   memcpy(made->choice, choice, sizeof choice);
   memcpy(made->z, z, sizeof made->z);
-  *status = solve_at(&made->is, task, law, z, beside, made, false);
+  *status = solve_at(&made->is, task, law, z, beside, made, WHOLE);
   if (*status != SB_OK) {
     free_anchor(made);
     return NULL;

@@ -115,7 +115,8 @@ static void fit_problem(SbFitProblem *problem, const SbSlidingTask *task, SbSlid
   problem->cancel_data = memory;
   // No film lies on a ring at rest, but that of coupled asperities.
   const bool film = model->film == SB_FILM_REYNOLDS && (task->speed != 0 || !is_ring(task));
-  problem->surface_wanted = film || model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  problem->surface_wanted =
+      !memory->bare && (film || model->asperities == SB_MODEL_ASPERITIES_COUPLED);
   problem->kept = &on->ring;
   if (law != NULL) {
     on->law = *law;

@@ -72,6 +72,7 @@ struct SbSlidingMemory {
   bool tangent;                       // they are taken from there to first order
   bool summed;                        // the films with them
   SbRingsBeside beside;               // what these do
+  bool bare;                          // their surfaces are not wanted
   SbSumDepth sums;                    // of the state in work, what is not solved
   SbSlidingSolution sum;              // but this
   SbSlidingMemory *ahead;             // where the next ring may be solved already, borrowed
