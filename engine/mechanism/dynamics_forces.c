@@ -194,8 +194,7 @@ void sb_motion_add_energy(double *term, const SbDynamics *s, const Point *p, con
   } else if (s->wall[SB_DYNAMICS_PLATEN].on) {
     // The platen moves at its own speed against the integral of the force.
     double rate = f->f1 / f->k;
-    term[DRIVE] +=
-        rate * (f->f0 * over->time + f->f1 * over->late - f->k * over->area - f->c * over->travel);
+    term[DRIVE] += rate * (f->f0 * over->time - f->k * over->lag - f->c * over->travel);
     term[MACHINE] += f->c * (rate * (rate * over->time - 2.0 * over->travel) + over->square);
   }
   for (size_t i = 0; i < m->contacts; i++) {

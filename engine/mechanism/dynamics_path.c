@@ -294,6 +294,15 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
       landings = 0;
     } else {
       at = place_of(s, landing, h);
+      // Another event may come before it, which the longer step's dense output had behind it: past
+      // an edge the loads have a corner, and that output is off.
+      double before;
+      const int other = first_event(s, h, live, &before);
+      if (other != EVENT_NONE && other != landing && before < (1.0 - near_end) * fmin(at, h)) {
+        landing = other;
+        landings = 0;
+        at = before;
+      }
     }
     if (landing != EVENT_NONE && (s->t + at <= s->t || at < 1e-14 * h)) {
       at = s->step[0].h = s->step[1].h = 0.0; // at once
@@ -365,15 +374,22 @@ SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report) {
 
 // ---- state and energy in a segment ----
 
-// The closed-form motion over tau, which ends in z.
-static void stretch_to(Stretch *over, const SbDynamics *s, double tau, const SbDynamicsState *z) {
+// The closed-form motion from a point over tau, which ends in z.
+static void stretch_to(Stretch *over, const SbDynamics *s, const Point *p, double tau,
+                       const SbDynamicsState *z) {
+  const Force *platen = &p->wall[SB_DYNAMICS_PLATEN];
   SbOscillatorState end = sb_oscillator_at(&s->motion, tau);
   *over = (Stretch){.time = tau,
-                    .late = 0.5 * tau * tau,
                     .travel = end.travel,
-                    .area = end.area,
-                    .square = sb_oscillator_square(&s->motion, tau)};
-  over->ramp = tau * over->travel - over->area;
+                    .square = sb_oscillator_square(&s->motion, tau),
+                    .ramp = tau * end.travel - end.area};
+  if (platen->k > 0.0) {
+    // Where nothing but the platen's spring holds the stem its way is the platen's but for what
+    // swings, to the last digit: a stiff machine's force is what these small differences leave.
+    const double rate = platen->f1 / platen->k;
+    const double pull = s->held ? 0.0 : (p->sum.f1 - p->sum.k * rate) / s->mass;
+    over->lag = sb_oscillator_lag(&s->motion, tau, rate, pull);
+  }
   for (size_t i = 0; i < s->model->contacts; i++) {
     const SbDynamicsContact *c = &s->model->contact[i];
     double rate0, rate1;
@@ -420,7 +436,7 @@ void sb_motion_energy_at(const SbDynamics *s, double tau, const SbDynamicsState 
     Point p;
     Stretch over;
     sb_motion_point(&p, s, s->t, &s->at);
-    stretch_to(&over, s, tau, z);
+    stretch_to(&over, s, &p, tau, z);
     sb_motion_add_energy(e->term, s, &p, &over);
   } else if (tau > 0.0) {
     double from = 0.0, q[SB_RADAU_POWERS];

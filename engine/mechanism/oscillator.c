@@ -136,6 +136,13 @@ SbOscillatorState sb_oscillator_at(const SbOscillator *o, double tau) {
   };
 }
 
+// u - rate tau has the equation of u, with other coefficients.
+double sb_oscillator_lag(const SbOscillator *o, double tau, double rate, double pull) {
+  double h[ORDERS];
+  answers(h, o, tau);
+  return (o->v0 - rate) * h[2] + (o->g0 - o->damping * rate) * h[3] + pull * h[4];
+}
+
 // Integral of exp(-rate t) over (0, tau).
 static double complex faded(double complex rate, double tau) {
   double complex u = rate * tau, term = tau, sum = 0.0;

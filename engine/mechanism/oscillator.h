@@ -38,6 +38,10 @@ typedef struct {
 // The motion at tau >= 0.
 SbOscillatorState sb_oscillator_at(const SbOscillator *o, double tau);
 
+// Integral of u - rate tau over (0, tau) [m s]; `pull` is g1 - rate K/m [m/s3] without the rounding
+// of its terms.
+double sb_oscillator_lag(const SbOscillator *o, double tau, double rate, double pull);
+
 // Integral of v^2 over (0, tau) [m^2/s].
 double sb_oscillator_square(const SbOscillator *o, double tau);
 

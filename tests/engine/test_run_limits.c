@@ -213,9 +213,92 @@ static void test_tolerance(void) {
   }
 }
 
+// Drawn at random, once with balances of energies open by 4e-4, 2e-3 and 1.5e-6: a stem that a
+// stiff machine drives without friction, whose works are 1e6 times their sum; a long step over the
+// land's edge, behind which another event seemed to come first; and a motion to a tolerance that is
+// coarse.
+static void test_closes(void) {
+  static const char *const valves[] = {
+      "bore.diameter=0.0097895169842848028 gland.radial_space=0.0021754236231215345 "
+      "seal.section_diameter=0.0021837136097922144 seal.inner_diameter=0.0052200215570387849 "
+      "gland.axial_width=0.0023584446238905012 stem.pressure_diameter=0.0082097147860471925 "
+      "stem.seal_spacing=0.0089288148881372133 stem.mass=0.0090627258344759595 "
+      "drive.stroke=0.0086355311132017554 bore.land_edge=0.0079606188661788362 "
+      "seal.modulus=4952703.3320215717 seal.poisson_ratio=0.48853455885759495 "
+      "canister.pressure=148606.53061847138 fluid.viscosity=0.00025829026161084605 "
+      "fluid.density=900.17810525142659 surface.sigma=1.4281765942183983e-06 "
+      "surface.sigma_over_beta=0.011429966168363392 surface.gt_product=0.1506461756339246 "
+      "friction.shear_strength=1480353.2075009847 "
+      "friction.load_coefficient=0.020912707744086712 friction.static_ratio=1.4661598533521905 "
+      "drive.speed=0.0010736215935738134 drive.stiffness=8782993633.5119152 "
+      "drive.reversal_force=65.790623992550437 models.fit=5 models.film=1 models.surface=0 "
+      "models.asperities=1 models.motion=1 canister.pressure_map=0 "
+      "drive.rest=3.2565543033235564 models.adhesion=1 "
+      "surface.hamaker_constant=1.0097452243058541e-19 friction.dwell_gain=0.098274003604478438 "
+      "friction.dwell_time=0.77161111917827607 drive.kind=0 "
+      "housing.stop_restitution=0.17478361500865927 housing.stop_stiffness=223434.58229856184 "
+      "drive.damping_ratio=0.050000000000000003 output.motion_tolerance=1e-08 ",
+      "bore.diameter=0.005234437381452961 gland.radial_space=0.0010177454767060726 "
+      "seal.section_diameter=0.0011251815999109005 seal.inner_diameter=0.0031664928462228083 "
+      "gland.axial_width=0.0011877838841623102 stem.pressure_diameter=0.0048368554929233308 "
+      "stem.seal_spacing=0.004689038437254915 stem.mass=0.0013356504960101885 "
+      "drive.stroke=0.0058394419140046115 bore.land_edge=0.0018663454803362874 "
+      "seal.modulus=1623784.6777015345 seal.poisson_ratio=0.4967632286992768 "
+      "canister.pressure=0 fluid.viscosity=0.00077946898611223577 "
+      "fluid.density=1151.8126658149863 surface.sigma=6.9313048505215862e-07 "
+      "surface.sigma_over_beta=0.073971123615835355 surface.gt_product=0.11290632413500487 "
+      "friction.shear_strength=2117153.4964198195 "
+      "friction.load_coefficient=0.020768031149162303 friction.static_ratio=1.0656698099866586 "
+      "drive.speed=5.6297873471112632e-05 drive.stiffness=280328795.46228755 "
+      "drive.reversal_force=8.3286753374314646 models.fit=2 models.film=3 models.surface=0 "
+      "models.asperities=0 models.motion=1 canister.pressure_map=0 drive.rest=0 "
+      "models.friction=1 seal.mooney_share=0.49983445755342693 life.actuations=3 "
+      "life.running_in=5.0050025933964015 drive.kind=0 "
+      "housing.stop_restitution=0.23809510970553491 housing.stop_stiffness=36611049.686360948 "
+      "drive.damping_ratio=0.050000000000000003 output.motion_tolerance=8.9200566460584286e-09 "
+      "stem.spring_stiffness=168.46051423898447 stem.spring_preload=15.028520638356856 "
+      "friction.stribeck_speed=0.0066672679803629134 "
+      "friction.tangential_stiffness=194194.75695903311 ",
+      "bore.diameter=0.011088904188175663 gland.radial_space=0.003325723240521666 "
+      "seal.section_diameter=0.0035171011400992329 seal.inner_diameter=0.0041159959662217648 "
+      "gland.axial_width=0.0043425565874673083 stem.pressure_diameter=0.0080555127850654388 "
+      "stem.seal_spacing=0.0149390026459867 stem.mass=6.8739654723074432e-06 "
+      "drive.stroke=0.0083392097257431828 bore.land_edge=0.0042518469515846081 "
+      "seal.modulus=10559547.190688327 seal.poisson_ratio=0.49186493551740401 "
+      "canister.pressure=570589.14185460622 fluid.viscosity=0.00015830915358699049 "
+      "fluid.density=877.8722346505657 surface.sigma=6.2550989075229492e-07 "
+      "surface.sigma_over_beta=0.014950985265098023 surface.gt_product=0.1312143590270024 "
+      "friction.shear_strength=1962489.0248173564 friction.load_coefficient=0.2845723163449857 "
+      "friction.static_ratio=1.2673706541280618 drive.speed=6.4248322615659433e-05 "
+      "drive.stiffness=379703.76958418073 drive.reversal_force=8.5667512525079079 models.fit=4 "
+      "models.film=3 models.surface=1 models.asperities=0 models.motion=1 "
+      "canister.pressure_map=0 drive.rest=0 output.tolerance=0.0048823065735838162 drive.kind=3 "
+      "drive.amplitude=0.0011670511657824109 drive.frequency=6.9148249649247751 drive.cycles=3 "
+      "housing.stop_restitution=0.33762266261865814 housing.stop_stiffness=1374447.1235628056 "
+      "drive.damping_ratio=0.41161332922250793 output.motion_tolerance=4.4356312081821666e-08 "
+      "stem.spring_stiffness=1765.5098168564787 stem.spring_preload=3.8654059174056798 "
+      "friction.stribeck_speed=0.00026483718575931903 "
+      "friction.tangential_stiffness=849268.26925118593 "};
+  for (size_t i = 0; i < G_N_ELEMENTS(valves); i++) {
+    g_auto(GStrv) pairs = g_strsplit(valves[i], " ", -1);
+    Setting setting[64];
+    size_t n = 0;
+    for (; pairs[n] != NULL && *pairs[n] != 0; n++) {
+      char *value = strchr(pairs[n], '=');
+      *value++ = '\0';
+      setting[n] = (Setting){(SbParamId)sb_param_find(pairs[n]), g_ascii_strtod(value, NULL)};
+    }
+    SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, setting, n);
+    g_test_message("closure %.1e", sb_run_summary(run)->energy.closure);
+    g_assert_cmpfloat(sb_run_summary(run)->energy.closure, <, 1e-6);
+    sb_run_destroy(run);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-limits/hard", test_hard);
   g_test_add_func("/run-limits/tolerance", test_tolerance);
+  g_test_add_func("/run-limits/closes", test_closes);
   return g_test_run();
 }

@@ -219,8 +219,7 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbStatus status =
       run->plan.inertia ? sb_run_dynamic(run, hooks, &own) : sb_run_quasi_static(run, hooks, &own);
   summary->returned = summary->returns;
-  // The balance of energies is a check of the motion: open, it is not solved.
-  if (status == SB_OK && summary->energy.closure > fmax(1e-6, run->model->motion_tolerance)) {
+  if (status == SB_OK && summary->energy.closure > SB_RUN_CLOSURE) {
     status = sb_fail(&own, SB_ERROR_NOT_CONVERGED, "the energies' balance is open by %.2g",
                      summary->energy.closure);
   }

@@ -16,12 +16,17 @@
 #include "engine/valve/figures.h"
 
 #include <math.h>
+#include <string.h>
 
 // Instants at which a motion without frames halts: for a cancel, no more.
 enum { WITHOUT_FRAMES = 9 };
 
 // Below this rounding tells more than the steps.
 static const double least_tolerance = 1e-12;
+
+// Up to this a motion's frames are shown as they come. A coarser one's balance of energies may be
+// open by more than is allowed, and the motion is then followed anew with smaller steps.
+static const double sure_tolerance = 1e-8;
 
 // A motion and what is noted of it on the way.
 typedef struct {
@@ -270,11 +275,11 @@ static double relative(double a, double b, double scale) {
 // fine motion; a half of it is told, three times as much as that, and never less than the
 // tolerance: the coarse motion may be right by chance. Where it takes no fewer steps its errors are
 // those of the fine one, and a motion at a tenth of the tolerance tells them: twice the difference.
-static SbStatus estimate_error(const Recorder *fine, double *force, double *work,
+static SbStatus estimate_error(const Recorder *fine, double tolerance, double *force, double *work,
                                const SbRunHooks *hooks, SbReport *report) {
   SbRun *run = fine->run;
   Recorder other;
-  const double tolerance = run->model->motion_tolerance, peak = fine->force_peak;
+  const double peak = fine->force_peak;
   const double coarse = fmax(tolerance, fmin(10 * tolerance, 1e-5));
   SbStatus status = run_motion(&other, run, false, coarse, hooks, report);
   double share = 0.5 * fmax(1, tolerance * 10 / coarse);
@@ -359,17 +364,49 @@ static double straight_force(const SbRun *run) {
   return peak > 0 ? run->straight_error * most / peak : 0;
 }
 
+// By how much a motion's balance of energies is open. Work over less than the rounding of places is
+// none: a stem that is pushed and does not move.
+static double closure_of(const Recorder *r) {
+  const SbModel *model = r->run->model;
+  const double pushed = fmax(r->force_peak, fabs(model->pressure_force + model->spring_preload));
+  return r->energy.largest < 1e-12 * pushed * model->stroke ? 0 : r->energy.closure;
+}
+
+// The motion with its frames, to the model's tolerance or, where its energies do not balance, to as
+// much smaller a one as they need. *tolerance is that of the last.
+static SbStatus follow(Recorder *r, double *tolerance, SbRun *run, const SbRunHooks *hooks,
+                       SbReport *report) {
+  SbWarnings *warnings = &run->summary.warnings;
+  const size_t told = warnings->count, dropped = warnings->dropped;
+  const bool held = run->hold;
+  bool again = true;
+  SbStatus status = SB_OK;
+  run->hold = held || *tolerance > sure_tolerance;
+  while (again) {
+    warnings->count = told;
+    warnings->dropped = dropped;
+    memset(run->summary.stage, 0, sizeof run->summary.stage);
+    sb_run_bodies_destroy(run->bodies);
+    run->bodies = NULL;
+    status = run->plan.bodies ? sb_run_bodies_create(run, report) : SB_OK;
+    if (status != SB_OK) {
+      r->count = 0;
+      break;
+    }
+    status = run_motion(r, run, true, *tolerance, hooks, report);
+    again = status == SB_OK && *tolerance > sure_tolerance && closure_of(r) > SB_RUN_CLOSURE;
+    *tolerance *= again ? 0.1 : 1;
+  }
+  run->hold = held;
+  return status;
+}
+
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbModel *model = run->model;
   SbSummary *summary = &run->summary;
-  Recorder r;
-  sb_run_bodies_destroy(run->bodies);
-  run->bodies = NULL;
-  SbStatus status = run->plan.bodies ? sb_run_bodies_create(run, report) : SB_OK;
-  if (status != SB_OK) {
-    return status;
-  }
-  status = run_motion(&r, run, true, 0, hooks, report);
+  Recorder r = {0};
+  double tolerance = model->motion_tolerance;
+  SbStatus status = follow(&r, &tolerance, run, hooks, report);
   sb_run_publish(run, r.count);
   if (r.count == 0) {
     return status;
@@ -389,11 +426,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * model->stroke;
   sb_run_leakage(summary, model, &run->bore, back);
   sb_run_fill_motion(summary, &r.energy, &counters);
-  // Work over less than the rounding of places is none: a stem that is pushed and does not move.
-  double pushed = fmax(r.force_peak, fabs(model->pressure_force + model->spring_preload));
-  if (r.energy.largest < 1e-12 * pushed * model->stroke) {
-    summary->energy.closure = 0;
-  }
+  summary->energy.closure = closure_of(&r);
   summary->counters.newton_iterations += (size_t)counters.newton_iterations;
   if (counters.grouped > 0) {
     sb_warn(
@@ -407,7 +440,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   double work = 1e-12;
   if (status == SB_OK && counters.steps > 0 && !run->follows) {
     SbReport own = {0};
-    SbStatus estimate = estimate_error(&r, &force, &work, hooks, &own);
+    SbStatus estimate = estimate_error(&r, tolerance, &force, &work, hooks, &own);
     if (estimate == SB_ERROR_NOT_CONVERGED) {
       // The motion itself stands.
       force = work = NAN;

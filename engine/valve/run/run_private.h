@@ -163,6 +163,10 @@ uint32_t sb_run_profile_slot(int seal, int chamber, int motion);
 // serves both (run_states.c).
 int sb_run_first_alike(const SbRun *run, int seal, int chamber);
 
+// By how much a motion's balance of energies may be open: a check of the motion, which is not
+// solved beyond it.
+#define SB_RUN_CLOSURE 1e-6
+
 // The motion by the model's choice, if there is all that it needs. One that ends early keeps its
 // frames and the stages it reached; the report says where it ended (run.c).
 SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report);
