@@ -408,8 +408,7 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
       }
       s->ready = true;
       s->counters.segments++;
-      // Two minutes of a processor.
-      if (s->counters.segments > 10 * EVENTS_MAX) {
+      if (s->counters.segments > SEGMENTS_MAX) {
         return sb_fail(report, SB_ERROR_NOT_CONVERGED,
                        "too many steps at %.9g s (%ld): the motion is too quick for its duration, "
                        "as with a very stiff machine and a slow stroke",
@@ -434,9 +433,8 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
         sb_motion_repeat(s, event);
         s->now = s->t;
       }
-      if (event != EVENT_BREAK && (s->counters.events > EVENTS_MAX || accumulates(s))) {
-        return sb_fail(report, SB_ERROR_NOT_CONVERGED, "%s at %.9g s (%ld events)",
-                       s->counters.events > EVENTS_MAX ? "too many events" : "events accumulate",
+      if (event != EVENT_BREAK && accumulates(s)) {
+        return sb_fail(report, SB_ERROR_NOT_CONVERGED, "events accumulate at %.9g s (%ld events)",
                        s->t, s->counters.events);
       }
     }

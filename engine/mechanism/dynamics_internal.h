@@ -51,8 +51,8 @@ typedef struct {
   double shift[SB_DYNAMICS_CONTACTS], fade[SB_DYNAMICS_CONTACTS]; // of d' and d'^2 [m, m2/s]
 } Stretch;
 
-// After so many events, or four times as many segments, a motion is given up.
-enum { EVENTS_MAX = 1000000 };
+// After so many segments a motion is given up: two to four minutes of a processor.
+enum { SEGMENTS_MAX = 40000000 };
 
 // Positions closer than rounding of this are the same [m].
 static const double length_noise = 1e-6;
