@@ -118,8 +118,9 @@ static bool takes_large(const SbFitProblem *in) {
   return in->dragged && in->tolerance >= ENOUGH && in->profile.kind == SB_SEAL_PROFILE_CIRCLE;
 }
 
-static void take_errors(SbFit *out, const SbFitProblem *in, const SbRingResult *result) {
-  const double path = keeps_path(in) ? 1.0 : 0.0, large = takes_large(in) ? ENOUGH : 0.0;
+static void take_errors(SbFit *out, const SbFitProblem *in, bool on_large,
+                        const SbRingResult *result) {
+  const double path = keeps_path(in) ? 1.0 : 0.0, large = on_large ? ENOUGH : 0.0;
   sb_fit_errors(out, fmax(result->error.load, fmax(PATH_LOAD * path, large)),
                 fmax(result->error.peak, fmax(PATH_PEAK * path, large)),
                 fmax(result->error.width, fmax(PATH_WIDTH * path, large)));
@@ -156,16 +157,24 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
     result.error.load = in->start->error_load;
     result.error.peak = in->start->error_peak;
     result.error.width = in->start->error_width;
-  } else if (status == SB_ERROR_NOT_CONVERGED && !tangent) {
+  }
+  bool large = takes_large(in);
+  if (status == SB_ERROR_NOT_CONVERGED && !tangent) {
     SbRingOptions cold = options;
-    cold.element_size = takes_large(in) ? PATH_SIZE : 0.0;
+    cold.element_size = large ? PATH_SIZE : 0.0;
     status = sb_ring_fit(&ring, &result, &body, &load, &cold, &out->warnings, report);
+    if (status == SB_ERROR_NOT_CONVERGED && in->dragged && !large) {
+      // Single nodes end a path, and others make another mesh's.
+      large = true;
+      cold.element_size = PATH_SIZE;
+      status = sb_ring_fit(&ring, &result, &body, &load, &cold, &out->warnings, report);
+    }
   }
   if (status != SB_OK) {
     return status;
   }
   take_result(out, in, ring, &result);
-  take_errors(out, in, &result);
+  take_errors(out, in, large, &result);
   if (in->kept != NULL) {
     sb_ring_destroy(*in->kept);
     *in->kept = ring;

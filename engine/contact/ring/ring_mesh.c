@@ -421,9 +421,10 @@ SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbRep
     SbRingMeshPlan trial = *plan;
     trial.layers += TRIAL[i].rows;
     SbRingMesh *mesh = NULL;
-    Builder *b = calloc(1, sizeof *b);
+    Builder *b = malloc(sizeof *b); // a mesh fills a small part of it
     SbStatus status = SB_ERROR_MEMORY;
     if (b != NULL) {
+      b->vertex_count = b->surface_count = 0;
       b->plan = &trial;
       b->follow = TRIAL[i].follow;
       status = build(&mesh, b);
