@@ -466,24 +466,29 @@ static char *range_end(const SbParam *param, double value, bool lower) {
   return g_strdup_printf("%s %s", text, param->unit);
 }
 
+void sb_param_range_ends(SbParamId id, char *end[2]) {
+  const SbParam *param = sb_param(id);
+  const bool real = param->kind == SB_PARAM_REAL;
+  end[0] = range_end(param, param->min, true);
+  end[1] = real ? range_end(param, param->max, false) : sb_param_format(id, param->max);
+  // A unit that both have stands behind the second only.
+  char *space = param->unit[0] != '\0' ? strchr(end[0], ' ') : NULL;
+  if (space != NULL && g_str_has_suffix(end[1], space)) {
+    *space = '\0';
+  }
+}
+
 char *sb_param_range(SbParamId id) {
   const SbParam *param = sb_param(id);
   if (param->kind == SB_PARAM_CHOICE || param->kind == SB_PARAM_FLAGS) {
-    char **names = g_strsplit(param->choices, "|", 0);
-    char *list = g_strjoinv(", ", names);
-    g_strfreev(names);
-    return list;
+    g_auto(GStrv) names = g_strsplit(param->choices, "|", 0);
+    return g_strjoinv(", ", names);
   }
-  bool real = param->kind == SB_PARAM_REAL;
-  char *min = range_end(param, param->min, true);
-  char *max = real ? range_end(param, param->max, false) : sb_param_format(id, param->max);
-  char *space = param->unit[0] != '\0' ? strchr(min, ' ') : NULL;
-  if (space != NULL && g_str_has_suffix(max, space)) {
-    *space = '\0';
-  }
-  char *range = g_strdup_printf("%s to %s", min, max);
-  g_free(min);
-  g_free(max);
+  char *end[2];
+  sb_param_range_ends(id, end);
+  char *range = g_strdup_printf("%s to %s", end[0], end[1]);
+  g_free(end[0]);
+  g_free(end[1]);
   return range;
 }
 

@@ -54,6 +54,8 @@ char *sb_figure_label(int index);
 // repeat the key or the range.
 SB_CHECKED bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error);
 
-// Allowed range of a parameter for people: "0.2 to 20 mm", "thesis or reynolds". Owned by the
-// caller.
+// Allowed range of a parameter for people: "0.2 to 20 mm", "thesis, reynolds". Owned by the caller.
 char *sb_param_range(SbParamId id);
+
+// Its ends, of a number: "0.2", "20 mm". Both owned by the caller.
+void sb_param_range_ends(SbParamId id, char *end[2]);

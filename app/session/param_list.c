@@ -80,6 +80,19 @@ gboolean sb_param_matches(SbParamId id, const char *needle) {
          (param->choices != NULL && contains(param->choices, needle));
 }
 
+char *sb_param_range_shown(SbParamId id) {
+  const SbParamKind kind = sb_param(id)->kind;
+  if (kind == SB_PARAM_CHOICE || kind == SB_PARAM_FLAGS) {
+    return sb_param_range(id); // names of choices, as in the files
+  }
+  char *end[2];
+  sb_param_range_ends(id, end);
+  char *range = g_strdup_printf(_("%s to %s"), end[0], end[1]);
+  g_free(end[0]);
+  g_free(end[1]);
+  return range;
+}
+
 void sb_param_step(SbSession *session, SbParamId id, double count) {
   const SbParam *param = sb_param(id);
   double value = sb_document_value(sb_session_document(session), id);

@@ -19,6 +19,9 @@ gboolean sb_param_is_changed(const SbParams *params, SbParamId id);
 // "Outer seal: " of a parameter of one part among several alike; "" for most. Borrowed.
 const char *sb_param_owner(const SbParam *param);
 
+// The allowed range as sb_param_range() has it, in the language of the window. Owned by the caller.
+char *sb_param_range_shown(SbParamId id);
+
 // Whether name, key, symbol, help, choices or other words of a parameter hold a text (casefolded).
 gboolean sb_param_matches(SbParamId id, const char *needle);
 

@@ -231,7 +231,7 @@ static void draw_foot(SbBench *bench, SbCellRect rect) {
   const SbParamId id = (SbParamId)bench->selected;
   const char *error = sb_session_error(bench->session, id);
   const char *lock = sb_session_lock(bench->session, id);
-  g_autofree char *range = sb_param_range(id);
+  g_autofree char *range = sb_param_range_shown(id);
   g_autofree char *help =
       sb_param(id)->kind == SB_PARAM_FLAGS || sb_param(id)->kind == SB_PARAM_CHOICE
           ? g_strdup_printf("%s. %s", sb_param(id)->key, sb_param(id)->help)

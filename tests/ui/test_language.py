@@ -19,6 +19,7 @@ def the_window_speaks_german(folder):
         field = app.field("Schnurdurchmesser")
         assert app.text(field) == "1.61 mm", app.text(field)
         app.find("toggle button", "Dichtungen", showing=False)
+        wait("ranges", lambda: app.label(r"^\S+ bis \S+ mm$"))
         # Numbers have a point, whatever the language.
         app.edit("Schnurdurchmesser", "1650 um")
         wait("the value", lambda: app.value("Schnurdurchmesser") == "1.65 mm")
