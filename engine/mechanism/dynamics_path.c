@@ -182,12 +182,15 @@ static int first_event(const SbDynamics *s, double h, const Live *live, double *
   return found;
 }
 
+// Steps that end just behind an event differ from those it was found in by no more than this share.
+static const double LANDS = 0.25;
+
 // Where in steps over h, made to end just behind an event, it is, by Newton's method.
 static double place_of(const SbDynamics *s, int event, double h) {
   double at = h, slope;
   for (int i = 0; i < 3; i++) {
     double value = fall_at(&slope, at, &(Search){s, event});
-    at = slope > 0.0 ? fmin(fmax(at - value / slope, 0.75 * h), 1.25 * h) : at;
+    at = slope > 0.0 ? fmin(fmax(at - value / slope, (1.0 - LANDS) * h), (1.0 + LANDS) * h) : at;
   }
   return at;
 }
@@ -294,11 +297,15 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
       landings = 0;
     } else {
       at = place_of(s, landing, h);
-      // Another event may come before it, which the longer step's dense output had behind it: past
-      // an edge the loads have a corner, and that output is off.
+      // Past an edge the loads have a corner, and the longer step's dense output was off: there may
+      // be no such event as yet, or another one before it.
       double before;
       const int other = first_event(s, h, live, &before);
-      if (other != EVENT_NONE && other != landing && before < (1.0 - near_end) * fmin(at, h)) {
+      if (other == EVENT_NONE && at >= (1.0 + LANDS) * h) {
+        landing = EVENT_NONE;
+        at = h;
+      } else if (other != EVENT_NONE && other != landing &&
+                 before < (1.0 - near_end) * fmin(at, h)) {
         landing = other;
         landings = 0;
         at = before;
