@@ -45,9 +45,9 @@ typedef struct {
 
 // Integrals over a stretch of the motion, or, with a time of 1, their rates at its start.
 typedef struct {
-  double time, travel;                                            // of 1 and v [s, m]
-  double square, ramp;                                            // of v^2 and tau v [m2/s, m s]
-  double lag; // of the way less that of the platen, which goes steadily [m s]
+  double time, travel; // of 1 and v [s, m]
+  double square, ramp; // of v^2 and tau v [m2/s, m s]
+  double lag;          // of the way less that of the platen, which goes steadily [m s]
   double shift[SB_DYNAMICS_CONTACTS], fade[SB_DYNAMICS_CONTACTS]; // of d' and d'^2 [m, m2/s]
 } Stretch;
 

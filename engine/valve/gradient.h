@@ -20,8 +20,8 @@
 // back. Nodes that stick keep their place on floor and walls. Differences of solved rings 2 % to
 // either side, each on a mesh of its own, are 1 to 3 % away where the base's pressure is a smooth
 // curve, and more where a strong drag folds it up at one end, films first: the error has a share of
-// what load, width and peak change by, a small one of loads, three quarters for films. A slope that is
-// less than such an error is not told. A ring that rolls or jams at the base has no tangent, and
+// what load, width and peak change by, a small one of loads, three quarters for films. A slope that
+// is less than such an error is not told. A ring that rolls or jams at the base has no tangent, and
 // its figures no derivative by what enters it. Parameters that do not enter the contacts
 // (sb_evaluator_has_solved()) ask none again, whatever the models.
 //

@@ -27,8 +27,9 @@ enum { PROFILE_STATES = 15, CHAMBERS = 3 };
 // Times that a motion is run to find its own speed, where no machine gives one.
 enum { OWN_SPEED_ROUNDS = 2 };
 
-// States solved over the speed, where films are solved: near a machine's speed, or over decades.
-enum { NEAR_STATES = 16, SPEED_STATES = 40 };
+// States solved over the speed, where films are solved: two of each seal and way beside a machine's
+// speed, or over decades.
+enum { NEAR_STATES = 8, SPEED_STATES = 40 };
 
 // Steps of a seal's film through a cycle: fronts that cross the contact set them, hardly the
 // frames.

@@ -161,21 +161,13 @@ static void interpolate(double out[SB_SPEED_VALUES], const SbSpeedCell *cell, do
   }
 }
 
-// How far the straight line through the ends, or the parabola through ends and middle, misses the
-// quarter: films and friction, relative; *rubs is that of friction alone.
-static double miss_of(double *rubs, const SbSpeedStates *states, const SbSpeedCell *cell,
-                      bool parabola) {
-  static const double WEIGHT[2][3] = {{0.75, 0, 0.25}, {0.375, 0.75, -0.125}};
-  const double *weight = WEIGHT[parabola];
-  const int place = cell->place + cell->width / 4;
-  double guess[SB_SPEED_VALUES];
-  for (int k = 0; k < SB_SPEED_VALUES; k++) {
-    guess[k] = weight[0] * cell->value[0][k] + weight[1] * cell->value[2][k] +
-               weight[2] * cell->value[3][k];
-  }
+// How far guessed values miss the solved ones of a speed: films and friction, relative; *rubs is
+// that of friction alone.
+static double miss_at(double *rubs, const SbSpeedStates *states, double speed, const double *value,
+                      const double *guess) {
   SbSealState solved = states->base, guessed = states->base;
-  give(&solved, states, speed_of(place), cell->value[1]);
-  give(&guessed, states, speed_of(place), guess);
+  give(&solved, states, speed, value);
+  give(&guessed, states, speed, guess);
   const double friction = sb_sliding_friction(&solved);
   double miss = fmax(fabs(guessed.film_min / solved.film_min - 1),
                      fabs(guessed.film_central / solved.film_central - 1));
@@ -185,6 +177,53 @@ static double miss_of(double *rubs, const SbSpeedStates *states, const SbSpeedCe
                         states->task.model->bore_circumference);
   *rubs = fabs(sb_sliding_friction(&guessed) / friction - 1);
   return fmax(miss, *rubs);
+}
+
+// The same of a cell's straight line through its ends, or its parabola through ends and middle, at
+// its quarter.
+static double miss_of(double *rubs, const SbSpeedStates *states, const SbSpeedCell *cell,
+                      bool parabola) {
+  static const double WEIGHT[2][3] = {{0.75, 0, 0.25}, {0.375, 0.75, -0.125}};
+  const double *weight = WEIGHT[parabola];
+  double guess[SB_SPEED_VALUES];
+  for (int k = 0; k < SB_SPEED_VALUES; k++) {
+    guess[k] = weight[0] * cell->value[0][k] + weight[1] * cell->value[2][k] +
+               weight[2] * cell->value[3][k];
+  }
+  return miss_at(rubs, states, speed_of(cell->place + cell->width / 4), cell->value[1], guess);
+}
+
+// How far beside the reference speed the two states are, ln(speed).
+static const double BESIDE = 0.1;
+
+// Values at a speed beside the reference; false where there is no parabola.
+static bool is_beside(double out[SB_SPEED_VALUES], SbSpeedStates *states, double speed) {
+  const double reference = fabs(states->task.speed), t = log(speed / reference) / BESIDE;
+  if (!states->near || fabs(t) > 1) {
+    return false;
+  }
+  double here[SB_SPEED_VALUES];
+  take(here, &states->base);
+  if (!states->beside_known) {
+    double guess[SB_SPEED_VALUES], rubs;
+    states->beside_known = true;
+    const bool solved = solve(states->beside[0], states, reference * exp(-BESIDE)) &&
+                        solve(states->beside[1], states, reference * exp(BESIDE));
+    for (int k = 0; k < SB_SPEED_VALUES && solved; k++) {
+      guess[k] = 0.5 * (states->beside[0][k] + states->beside[1][k]);
+    }
+    const double miss = solved ? miss_at(&rubs, states, reference, here, guess) : NAN;
+    states->beside_usable = miss <= SB_SPEED_TOLERANCE;
+    if (states->beside_usable) {
+      states->error = fmax(states->error, miss);
+      states->friction_error = fmax(states->friction_error, rubs);
+    }
+  }
+  for (int k = 0; k < SB_SPEED_VALUES && states->beside_usable; k++) {
+    const double below = states->beside[0][k], above = states->beside[1][k];
+    out[k] = here[k] + 0.5 * t * (above - below + t * (above - 2 * here[k] + below));
+  }
+  return states->beside_usable;
 }
 
 // What the cubic leaves in friction: less than the parabola by half the factor of that to the
@@ -260,6 +299,10 @@ void sb_speed_state(SbSealState *out, SbSpeedStates *states, double speed) {
   if (!law && is_starved(states, speed)) {
     memcpy(value, states->starved, sizeof value);
     value[VISCOUS] += log(speed / states->starved_from);
+    give(out, states, speed, value);
+    return;
+  }
+  if (!law && is_beside(value, states, speed)) {
     give(out, states, speed, value);
     return;
   }

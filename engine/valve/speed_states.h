@@ -11,6 +11,10 @@
 // functions as in a solved state, so that its identities hold exactly. From the speed on at which
 // the supply alone shapes the film one state stands for all, but for its viscous friction.
 //
+// Where only speeds near the reference are asked for, as of a cycle whose machine gives way a
+// little, two states a tenth to either side of it and the reference state itself make a parabola,
+// whose bend is told as the error; where that is more than SB_SPEED_TOLERANCE cells stand in.
+//
 // Below 1 um/s and above 10 m/s the film is that at these speeds. A film that cannot be solved
 // there goes on from the reference state with the power 0.6 of the speed, with a warning.
 #pragma once
@@ -42,8 +46,10 @@ typedef struct {
   double roughness;   // over the model's
   bool on_body;       // `body` is that of the film
   SbSlidingBody body;
-  bool near;    // to be set: asked for speeds near the reference only; cells are half a decade
-  double power; // of a film that is a power law, else NAN
+  bool near; // to be set: asked for speeds near the reference only; cells are half a decade
+  bool beside_known, beside_usable;
+  double beside[2][SB_SPEED_VALUES]; // below and above the reference speed
+  double power;                      // of a film that is a power law, else NAN
   double starved_from; // speed from which on `starved` stands [m/s]; NAN: not yet asked
   double starved[SB_SPEED_VALUES];
   size_t solves; // to be read: nodes solved

@@ -328,12 +328,48 @@ static void test_history(void) {
   sb_run_destroy(run);
 }
 
+// Beside the run's own speed two states a tenth away and its own make a parabola: films and
+// friction are those solved there, within what is told.
+static void test_beside(void) {
+  const Setting settings[][2] = {
+      {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS}, {SB_P_MODELS_FIT, SB_FIT_DISC}},
+      {{SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED}, {SB_P_SURFACE_SIGMA, 0.5e-6}}};
+  for (size_t k = 0; k < G_N_ELEMENTS(settings); k++) {
+    SbRun *run = steady_run(1e-2, settings[k], 2);
+    const SbSealState *state = &run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+    const SbSpeedStates *own = run->speeds[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+    SbSpeedStates *table = g_new(SbSpeedStates, 1);
+    SbSlidingTask task = own->task;
+    sb_speed_states_init(table, &task, state, own->on_body ? &own->body : NULL);
+    table->near = true;
+    double worst = 0;
+    for (double share = 0.92; share < 1.1; share += 0.04) {
+      SbSealState found, alone = *state;
+      sb_speed_state(&found, table, share * 1e-2);
+      task.speed = share * 1e-2;
+      g_assert_cmpint(sb_sliding_respeed(&alone, &task, own->on_body ? &own->body : NULL, NULL), ==,
+                      SB_OK);
+      worst = fmax(worst, fabs(found.film_central / alone.film_central - 1));
+      worst = fmax(worst, fabs(found.film_min / alone.film_min - 1));
+      worst = fmax(worst, fabs(sb_sliding_friction(&found) / sb_sliding_friction(&alone) - 1));
+    }
+    g_test_message("%zu: off by %.1e, told %.1e", k, worst, table->error);
+    g_assert_cmpuint(table->solves, ==, 2);
+    g_assert_cmpuint(table->cells, ==, 0);
+    g_assert_cmpfloat(table->error, >, 0);
+    g_assert_cmpfloat(worst, <, SB_SPEED_TOLERANCE);
+    g_free(table);
+    sb_run_destroy(run);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-speeds/hand", test_hand);
   g_test_add_func("/run-speeds/hand-solved", test_hand_solved);
   g_test_add_func("/run-speeds/starved", test_starved);
   g_test_add_func("/run-speeds/starved-rough", test_starved_rough);
+  g_test_add_func("/run-speeds/beside", test_beside);
   g_test_add_func("/run-speeds/shared", test_shared);
   g_test_add_func("/run-speeds/sweep", test_sweep);
   g_test_add_func("/run-speeds/slowest", test_slowest);

@@ -379,13 +379,15 @@ static SbStatus follow(Recorder *r, double *tolerance, SbRun *run, const SbRunHo
   SbWarnings *warnings = &run->summary.warnings;
   const size_t told = warnings->count, dropped = warnings->dropped;
   const bool held = run->hold;
+  SbStageMark unmarked[SB_STAGE_COUNT];
+  memcpy(unmarked, run->summary.stage, sizeof unmarked);
   bool again = true;
   SbStatus status = SB_OK;
   run->hold = held || *tolerance > sure_tolerance;
   while (again) {
     warnings->count = told;
     warnings->dropped = dropped;
-    memset(run->summary.stage, 0, sizeof run->summary.stage);
+    memcpy(run->summary.stage, unmarked, sizeof unmarked);
     sb_run_bodies_destroy(run->bodies);
     run->bodies = NULL;
     status = run->plan.bodies ? sb_run_bodies_create(run, report) : SB_OK;

@@ -37,6 +37,7 @@ static SbStatus make(SbRun *run, int seal, int chamber, int direction, const SbS
     // What it holds stands: the same contact on the same supply, solved at another speed.
     (*table)->base = *state;
     (*table)->task = task;
+    (*table)->beside_known = false;
     return SB_OK;
   }
   const size_t solves = *table != NULL ? (*table)->solves : 0;
@@ -100,9 +101,9 @@ static bool alike(const SbRun *run, Place a, Place b) {
          (a.direction == b.direction || (p.left == p.right && !on_body(run, a)));
 }
 
-// The first that is like this one.
-static Place first_like(const SbRun *run, Place own) {
-  for (int i = 0; i < TABLES; i++) {
+// The first that is like this one, from that of index `from` on.
+static Place first_like(const SbRun *run, Place own, int from) {
+  for (int i = from; i < TABLES; i++) {
     const Place at = {i / (SB_CYCLE_CHAMBERS * SB_RUN_REST), i / SB_RUN_REST % SB_CYCLE_CHAMBERS,
                       i % SB_RUN_REST};
     if (alike(run, at, own)) {
@@ -119,7 +120,7 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
     *out = *state;
     return;
   }
-  const Place at = first_like(run, (Place){seal, chamber, direction});
+  const Place at = first_like(run, (Place){seal, chamber, direction}, 0);
   SbSpeedStates **table = &run->speeds[at.seal][at.chamber][at.direction];
   if (*table == NULL && make(run, at.seal, at.chamber, at.direction, NULL, NULL) != SB_OK) {
     run->out_of_memory = true;
@@ -127,6 +128,25 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
     return;
   }
   sb_speed_state(out, *table, speed);
+}
+
+void sb_run_ask_beside(SbRun *run, int seal, SbCounters *counters, SbWarnings *warnings) {
+  static const double FASTER = 1.03;
+  static const int chamber[] = {
+      [SB_CYCLE_IN] = SB_CHAMBER_AT_REST, [SB_CYCLE_OUT] = SB_CHAMBER_CLOSED};
+  for (int way = SB_CYCLE_IN; way <= SB_CYCLE_OUT; way++) {
+    const Place own = {seal, chamber[way], way};
+    const Place at = first_like(run, own, seal * SB_CYCLE_CHAMBERS * SB_RUN_REST);
+    SbSpeedStates *table = run->speeds[seal][at.chamber][at.direction];
+    if (table != NULL) {
+      const SbSlidingTask task = table->task;
+      SbSealState state;
+      table->task.counts = counters;
+      table->task.warnings = warnings;
+      sb_speed_state(&state, table, FASTER * run->speed);
+      table->task = task;
+    }
+  }
 }
 
 SbStatus sb_run_sliding(SbSealState *out, SbRun *run, int seal, int way, double speed,

@@ -431,6 +431,10 @@ static void *solve_lane(void *data) {
       lane->status = status;
     }
   }
+  const SbPlan *plan = &run->plan;
+  if (!fatal(lane->status) && plan->motion && !plan->inertia && plan->frame_films) {
+    sb_run_ask_beside(run, lane->seal, &lane->counters, &lane->warnings);
+  }
   return NULL;
 }
 
