@@ -101,9 +101,11 @@ static bool alike(const SbRun *run, Place a, Place b) {
          (a.direction == b.direction || (p.left == p.right && !on_body(run, a)));
 }
 
-// The first that is like this one, from that of index `from` on.
-static Place first_like(const SbRun *run, Place own, int from) {
-  for (int i = from; i < TABLES; i++) {
+enum { OF_SEAL = SB_CYCLE_CHAMBERS * SB_RUN_REST };
+
+// The first that is like this one, of indices `from` to before `end`.
+static Place first_like(const SbRun *run, Place own, int from, int end) {
+  for (int i = from; i < end; i++) {
     const Place at = {i / (SB_CYCLE_CHAMBERS * SB_RUN_REST), i / SB_RUN_REST % SB_CYCLE_CHAMBERS,
                       i % SB_RUN_REST};
     if (alike(run, at, own)) {
@@ -120,7 +122,7 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
     *out = *state;
     return;
   }
-  const Place at = first_like(run, (Place){seal, chamber, direction}, 0);
+  const Place at = first_like(run, (Place){seal, chamber, direction}, 0, TABLES);
   SbSpeedStates **table = &run->speeds[at.seal][at.chamber][at.direction];
   if (*table == NULL && make(run, at.seal, at.chamber, at.direction, NULL, NULL) != SB_OK) {
     run->out_of_memory = true;
@@ -136,7 +138,8 @@ void sb_run_ask_beside(SbRun *run, int seal, SbCounters *counters, SbWarnings *w
       [SB_CYCLE_IN] = SB_CHAMBER_AT_REST, [SB_CYCLE_OUT] = SB_CHAMBER_CLOSED};
   for (int way = SB_CYCLE_IN; way <= SB_CYCLE_OUT; way++) {
     const Place own = {seal, chamber[way], way};
-    const Place at = first_like(run, own, seal * SB_CYCLE_CHAMBERS * SB_RUN_REST);
+    // The other seal's states may be in work.
+    const Place at = first_like(run, own, seal * OF_SEAL, (seal + 1) * OF_SEAL);
     SbSpeedStates *table = run->speeds[seal][at.chamber][at.direction];
     if (table != NULL) {
       const SbSlidingTask task = table->task;
