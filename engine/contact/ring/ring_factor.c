@@ -4,6 +4,7 @@
 #include "engine/contact/ring/ring_quad.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <suitesparse/amd.h>
@@ -11,6 +12,7 @@
 enum { BLOCK = SB_RING_BLOCK };
 
 struct SbRingFactor {
+  atomic_uint *holders; // of the lists up to mirror_of, which factors alike share
   int nodes;
   int *order;             // [nodes] node of each place
   int *start;             // [nodes + 1] of each column's blocks below the diagonal
@@ -31,9 +33,13 @@ void sb_ring_factor_destroy(SbRingFactor *factor) {
   if (factor == NULL) {
     return;
   }
-  free(factor->order);
-  free(factor->row);
-  free(factor->pattern);
+  if (factor->holders == NULL || atomic_fetch_sub(factor->holders, 1) == 1) {
+    free(factor->holders);
+    free(factor->order);
+    free(factor->row);
+    free(factor->pattern);
+  }
+  free(factor->first);
   free(factor->lower);
   free(factor);
 }
@@ -93,14 +99,19 @@ SbRingFactor *sb_ring_factor_create(int nodes, const int *start, const int *colu
   int *place = malloc(sizeof(int) * 2 * n), *mark = place + n;
   if (f != NULL) {
     f->nodes = nodes;
-    f->order = malloc(sizeof(int) * (5 * n + 1));
+    f->holders = malloc(sizeof *f->holders);
+    if (f->holders != NULL) {
+      atomic_init(f->holders, 1);
+    }
+    f->order = malloc(sizeof(int) * (2 * n + 1));
+    f->first = malloc(sizeof(int) * 3 * n);
     f->pattern = malloc(sizeof(int) * (n + 1 + 3 * blocks));
   }
-  bool good = f != NULL && place != NULL && f->order != NULL && f->pattern != NULL &&
+  bool good = f != NULL && place != NULL && f->holders != NULL && f->order != NULL &&
+              f->first != NULL && f->pattern != NULL &&
               amd_order(nodes, start, column, f->order, NULL, NULL) >= AMD_OK;
   if (good) {
     f->start = f->order + n;
-    f->first = f->start + n + 1;
     f->next = f->first + n;
     f->at = f->next + n;
     f->column_of = f->pattern + n + 1;
@@ -127,21 +138,45 @@ SbRingFactor *sb_ring_factor_create(int nodes, const int *start, const int *colu
     good = find_pattern(f, mark);
   }
   free(place);
-  if (good) {
-    const size_t filled = (size_t)f->start[nodes];
-    f->lower = calloc(BLOCK * (2 * filled + 3 * n) + 2 * n, sizeof(double));
-    good = f->lower != NULL;
-    f->upper = good ? f->lower + BLOCK * filled : NULL;
-    f->inverse = good ? f->upper + BLOCK * filled : NULL;
-    f->below = good ? f->inverse + BLOCK * n : NULL;
-    f->beside = good ? f->below + BLOCK * n : NULL;
-    f->work = good ? f->beside + BLOCK * n : NULL;
-  }
   if (!good) {
     sb_ring_factor_destroy(f);
     f = NULL;
   }
   return f;
+}
+
+SbRingFactor *sb_ring_factor_like(const SbRingFactor *factor) {
+  const size_t n = (size_t)factor->nodes;
+  SbRingFactor *f = malloc(sizeof *f);
+  int *first = malloc(sizeof(int) * 3 * n);
+  if (f == NULL || first == NULL) {
+    free(f);
+    free(first);
+    return NULL;
+  }
+  *f = *factor;
+  f->lower = NULL;
+  f->first = first;
+  f->next = first + n;
+  f->at = f->next + n;
+  atomic_fetch_add(f->holders, 1);
+  return f;
+}
+
+// Room for the numbers.
+static bool make_room(SbRingFactor *f) {
+  const size_t n = (size_t)f->nodes, filled = (size_t)f->start[n];
+  f->lower = malloc(sizeof(double) * (BLOCK * (2 * filled + 3 * n) + 2 * n));
+  if (f->lower == NULL) {
+    return false;
+  }
+  f->upper = f->lower + BLOCK * filled;
+  f->inverse = f->upper + BLOCK * filled;
+  f->below = f->inverse + BLOCK * n;
+  f->beside = f->below + BLOCK * n;
+  f->work = f->beside + BLOCK * n;
+  memset(f->below, 0, sizeof(double) * 2 * BLOCK * n); // all else is written before it is read
+  return true;
 }
 
 SB_QUAD_INLINE bool invert(double *out, const double *a) {
@@ -229,6 +264,9 @@ static bool compute_any(SbRingFactor *f, const double *value) {
 }
 
 bool sb_ring_factor_compute(SbRingFactor *f, const double *value) {
+  if (f->lower == NULL && !make_room(f)) {
+    return false;
+  }
   return sb_quad_wide() ? compute_wide(f, value) : compute_any(f, value);
 }
 

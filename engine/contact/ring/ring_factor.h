@@ -21,8 +21,12 @@ typedef struct SbRingFactor SbRingFactor;
 SbRingFactor *sb_ring_factor_create(int nodes, const int *start, const int *column);
 void sb_ring_factor_destroy(SbRingFactor *factor); // takes NULL
 
-// Factorises: value[4 k] is block k of the pattern, its rows one after the other. Allocates
-// nothing. False where a pivot has no inverse.
+// Another one for the same pattern, which both hold: its order is not sought again. Owned; NULL
+// without memory. From any thread.
+SbRingFactor *sb_ring_factor_like(const SbRingFactor *factor);
+
+// Factorises: value[4 k] is block k of the pattern, its rows one after the other. Allocates at the
+// first call. False where a pivot has no inverse, or without memory.
 SB_CHECKED bool sb_ring_factor_compute(SbRingFactor *factor, const double *value);
 
 // x[2 nodes] = A^-1 b; x may be b. Allocates nothing.

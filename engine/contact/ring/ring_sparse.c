@@ -56,7 +56,7 @@ SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
   }
   fem->row_start[nodes] = at;
   free(next);
-  fem->value = calloc(SB_RING_BLOCK * (size_t)at, sizeof(double));
+  fem->value = malloc(sizeof(double) * SB_RING_BLOCK * (size_t)at); // cleared where it is assembled
   fem->raw = calloc(SB_RING_BLOCK * (size_t)at, sizeof(double));
   return fem->value != NULL && fem->raw != NULL
              ? SB_OK

@@ -212,6 +212,8 @@ static SbStatus linear(SbRing **out, SbRingTangent *tangent, const SbRingBody *b
   if (status != SB_OK) {
     return status;
   }
+  // Its nodes have the base's neighbours; without memory the order is sought anew.
+  other->fem->factor = sb_ring_factor_like(base->factor);
   memcpy(other->contact->is.crest, ring->contact->is.crest, sizeof ring->contact->is.crest);
   status = balance(other, ring->fem->axial_spring, report);
   if (status == SB_OK) {
