@@ -284,6 +284,9 @@ int main(int argc, char **argv) {
   }
   check_kept();
   g_source_remove(away);
+  gtk_widget_destroy(window); // as the program ends: what still computes is cancelled and awaited
+  turn(1);
+  g_application_release(G_APPLICATION(application));
   printf("1..1\nok 1 - %d actions of seed %u\n", actions, seed);
   return 0;
 }
