@@ -114,6 +114,8 @@ static bool keeps_path(const SbFitProblem *in) {
 // the worst by 1.6 % in load.
 static const double ENOUGH = 0.01, PATH_SIZE = 0.07;
 
+// A ring that nothing drags has no path and is then laid anew sooner than beside another one, whose
+// mesh is finer.
 static bool takes_large(const SbFitProblem *in) {
   return in->dragged && in->tolerance >= ENOUGH && in->profile.kind == SB_SEAL_PROFILE_CIRCLE;
 }
@@ -149,7 +151,7 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   if (tangent) {
     status = (in->start->beside ? sb_ring_tangent_solve : sb_ring_tangent_at)(
         &ring, in->start->tangent, &body, &load, &options, report);
-  } else if (in->start != NULL) {
+  } else if (in->start != NULL && (in->dragged || in->tolerance < ENOUGH)) {
     status = sb_ring_near(&ring, in->start->ring, in->start->guide, &body, &load, &options, NULL);
   }
   if (status == SB_OK) {

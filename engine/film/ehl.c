@@ -81,7 +81,9 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
   }
   if (rough) {
     static const double RATE = 0.05, RATE_FLOW = 0.02;
-    solver->error[0] += c->layers.degree < DEGREE_LAST_ROUGH ? 5e-8 : 0.0;
+    // The least film lies between nodes.
+    static const double BETWEEN[] = {5e-8, 4e-7};
+    solver->error[0] += c->layers.degree < DEGREE_LAST_ROUGH ? BETWEEN[c->rough.coarse] : 0.0;
     info->error_contact = noise + RATE_FLOW * change[levels - 1][2];
     if (c->rough.law != NULL) {
       double area = RATE * fabs(now->real_area - before->real_area) + now->area_error;
@@ -178,7 +180,9 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
   const int least = rough || wanted >= 5e-3 ? 2 : 3;
   *levels = 0;
   const int last = rough ? DEGREE_LAST_ROUGH : DEGREE_LAST;
-  bool coarse = false;
+  // Coarse elements leave 1e-8 to 5e-6 of a film, fine ones a hundredth of that.
+  static const double ENOUGH = 5e-3;
+  bool saves = rough && wanted >= ENOUGH, coarse = saves;
   for (int degree = DEGREE_FIRST; degree <= last;) {
     SbEhlCase c = *cold;
     c.layers.degree = degree;
@@ -195,6 +199,13 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
       // So coarse a mesh may hide the load in its own errors: on a finer one from nothing.
       *levels = 0;
       degree += 2;
+      continue;
+    }
+    if (status == SB_ERROR_NOT_CONVERGED && *levels < 2 && saves) {
+      // Elements so large that a meniscus has no node near it.
+      saves = coarse = false;
+      *levels = 0;
+      degree = DEGREE_FIRST;
       continue;
     }
     if (status == SB_ERROR_RANGE && *levels < 2 && rough && !coarse) {
@@ -297,12 +308,16 @@ static SbStatus solve_warm(SbEhlResults *results, SbFilmSolver *solver, const Sb
 static SbStatus solve_cold(SbEhlResults *results, int *levels, SbFilmSolver *solver, SbEhlCase *c,
                            double supply, SbWarnings *warnings) {
   const bool rest = !(c->layers.lambda > 0.0);
+  const bool flows = c->rough.rows && rest && !c->rough.sealed;
+  c->rough.sealed = c->rough.sealed || (flows && sb_ehl_rough_closed(c));
   SbStatus status = climb(results, levels, solver, c, rest ? INFINITY : supply);
   if (c->rough.rows) {
-    if (status == SB_ERROR_NOT_CONVERGED && rest && !c->rough.sealed) {
+    if (status == SB_ERROR_NOT_CONVERGED && flows && !c->rough.sealed) {
       // Closed beyond what the flow at rest can be told from.
       c->rough.sealed = true;
       status = climb(results, levels, solver, c, INFINITY);
+    }
+    if (flows && c->rough.sealed) {
       sb_warn(
           warnings, "film-rest-sealed", "surface.sigma",
           "at rest the gap is closed: no flow passes, and the fluid's pressure between the ends "
@@ -349,18 +364,24 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
 
   SbEhlResults results[LEVELS];
   int levels = 1;
-  if (problem->beside) {
+  if (problem->place != SB_FILM_ALONE) {
     solver->tolerance = RESIDUAL;
-    status = solver->base.solved ? sb_ehl_beside(solver, &c) : SB_ERROR_NOT_CONVERGED;
+    status =
+        solver->base.solved ? sb_ehl_beside(solver, &c, problem->place) : SB_ERROR_NOT_CONVERGED;
+    if (status == SB_OK) {
+      sb_ehl_results(results, solver->now);
+      status = results->film_flux > supply ? SB_ERROR_NOT_CONVERGED : SB_OK; // it is starved
+    }
     if (status != SB_OK) {
       return sb_fail(report, status, "film: none beside the last one");
     }
-    sb_ehl_results(results, solver->now);
     fill(out, problem, scale, &solver->now->c, results);
+    info->unknowns = (size_t)solver->now->mesh.dofs + (rough ? 2 : 3);
+    info->error_contact = solver->base.error_contact;
     give_errors(out, solver, true);
     return sb_succeed(report);
   }
-  solver->base.solved = solver->base.ready = false;
+  solver->base.solved = solver->base.held = solver->base.ready = false;
   bool warm = solver->last.ready && solver->last.tolerance <= problem->tolerance &&
               !isfinite(supply) && !rough;
   solver->last.ready = false;
@@ -400,6 +421,7 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
   info->unknowns = (size_t)found->mesh.dofs + (rough ? 2 : 3);
   give_errors(out, solver, worst(solver) <= problem->tolerance && !(rough && status != SB_OK));
   solver->base.solved = info->converged;
+  solver->base.error_contact = info->error_contact;
   if (info->converged) {
     solver->last.ready = !rough;
     solver->last.tolerance = problem->tolerance;

@@ -189,8 +189,9 @@ struct SbFilmSolver {
 
   // The last solution as the base of others on its mesh, if it converged (ehl_beside.c).
   struct {
-    bool solved, ready; // ready: with its factors in `factors`, and its kernel
-    bool in_use;        // a step changes neither of them
+    bool solved, held, ready; // held: as below; ready: with its factors and its kernel as well
+    bool in_use;              // a step changes neither of them
+    double error_contact;     // of that solution (SbFilmSolverInfo)
     SbEhlCase c;
     SbEhlState state;
     double gap_known[SB_EHL_TARGETS_MAX], load_known;
@@ -260,7 +261,7 @@ SbStatus sb_ehl_factor(SbEhlSolution *s);
 
 // A case next to the base's, on its mesh and by its factors, as the solver's last solution; the
 // base stays. SB_ERROR_NOT_CONVERGED where it is too far or of another kind.
-SbStatus sb_ehl_beside(SbFilmSolver *solver, const SbEhlCase *c);
+SbStatus sb_ehl_beside(SbFilmSolver *solver, const SbEhlCase *c, SbFilmPlace place);
 
 // Where Newton's method of smooth rows ends: what the solver asks for, but no residual is smaller
 // than the rounding of deflections of size one against the film. A fitted body's have more terms.
@@ -322,6 +323,9 @@ SbStatus sb_ehl_rough_case(SbEhlCase *c, SbFilmSolver *solver, const SbFilmScale
 
 // Flux film of a rough case, and where the film's pressure begins, into c->rough.
 void sb_ehl_rough_flux(SbEhlCase *c);
+
+// Whether asperities leave no gap in the middle of a contact through which anything flows.
+bool sb_ehl_rough_closed(const SbEhlCase *c);
 
 // Starting state of rough rows on the solution's mesh.
 void sb_ehl_rough_guess(SbEhlSolution *s);

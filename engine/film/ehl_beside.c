@@ -11,25 +11,55 @@
 #include <math.h>
 #include <string.h>
 
-// Keeps the last solution with its factors.
-static SbStatus ready(SbFilmSolver *solver) {
-  SbEhlSolution *s = solver->now;
+// Keeps the last solution.
+static void hold(SbFilmSolver *solver) {
+  const SbEhlSolution *s = solver->now;
   solver->base.c = s->c;
   solver->base.state = s->state;
   solver->base.load_known = s->mesh.load_known;
   memcpy(solver->base.gap_known, s->mesh.gap_known, sizeof solver->base.gap_known);
-  SbStatus status = sb_ehl_factor(s);
-  solver->base.ready = status == SB_OK;
-  solver->base.solved = solver->base.ready;
-  return status;
+  solver->base.held = true;
 }
 
-SbStatus sb_ehl_beside(SbFilmSolver *solver, const SbEhlCase *c) {
+// Sets the solution back to the base.
+static void take_back(SbFilmSolver *solver) {
   SbEhlSolution *s = solver->now;
+  s->state = solver->base.state;
+  s->mesh.load_known = solver->base.load_known;
+  memcpy(s->mesh.gap_known, solver->base.gap_known, sizeof s->mesh.gap_known);
+  s->mesh.inlet_pressure = solver->base.c.layers.inlet;
+  s->mesh.outlet_pressure = solver->base.c.layers.outlet;
+}
+
+// Keeps it with its factors, those of a body whose compliance is `c`'s.
+static SbStatus ready(SbFilmSolver *solver, const SbEhlCase *c) {
+  SbEhlSolution *s = solver->now;
+  if (solver->base.held) {
+    take_back(solver);
+    s->c = solver->base.c;
+  } else {
+    hold(solver);
+  }
   if (s->c.body.compliance != NULL && c->body.compliance != NULL) {
     s->c.body.compliance = c->body.compliance; // the base's own was borrowed
   }
-  SbStatus status = solver->base.ready ? SB_OK : ready(solver);
+  SbStatus status = sb_ehl_factor(s);
+  solver->base.ready = solver->base.solved = status == SB_OK;
+  return status;
+}
+
+SbStatus sb_ehl_beside(SbFilmSolver *solver, const SbEhlCase *c, SbFilmPlace place) {
+  SbEhlSolution *s = solver->now;
+  // Between asperities nodes of a film merely near change into the cavity, or out of it.
+  const bool anew = place == SB_FILM_NEAR && c->rough.rows;
+  SbStatus status = SB_OK;
+  if (anew) {
+    if (!solver->base.held) {
+      hold(solver);
+    }
+  } else if (!solver->base.ready) {
+    status = ready(solver, c);
+  }
   const SbEhlCase *base = &solver->base.c;
   const bool moves = isfinite(base->supply) || isfinite(base->layers.meniscus) ||
                      base->layers.end == SB_EHL_REFORM || isfinite(c->supply);
@@ -40,18 +70,15 @@ SbStatus sb_ehl_beside(SbFilmSolver *solver, const SbEhlCase *c) {
   }
   // From the base, whatever was solved beside it last.
   const SbEhlRough meshed = base->rough;
-  s->state = solver->base.state;
-  s->mesh.load_known = solver->base.load_known;
-  memcpy(s->mesh.gap_known, solver->base.gap_known, sizeof s->mesh.gap_known);
-  s->mesh.inlet_pressure = base->layers.inlet;
-  s->mesh.outlet_pressure = base->layers.outlet;
+  take_back(solver);
   s->c = *c;
   s->c.layers.degree = base->layers.degree;
   s->c.rough.sealed = meshed.sealed;
   s->c.rough.coarse = meshed.coarse;
   memcpy(s->c.rough.front, meshed.front, sizeof meshed.front);
   sb_ehl_mesh_ends(&s->mesh, c->layers.inlet, c->layers.outlet);
-  solver->base.in_use = true;
+  solver->base.in_use = !anew;
+  solver->base.ready = solver->base.ready && !anew;
   status = sb_ehl_newton(s);
   solver->base.in_use = false;
   return status;

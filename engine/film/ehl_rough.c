@@ -76,6 +76,12 @@ static double gap_under(const SbEhlCase *c, double pressure) {
   return at.gap / c->rough.film;
 }
 
+bool sb_ehl_rough_closed(const SbEhlCase *c) {
+  static const double CLOSED = 3e-12; // m, a hundredth of a molecule
+  const double fluid = 0.5 * (c->layers.inlet + c->layers.outlet);
+  return c->rough.law != NULL && fluid < 1 && gap_under(c, 1 - fluid) * c->rough.film < CLOSED;
+}
+
 static double lacking_slope(double ln_gap, const void *context) {
   const SbEhlCase *c = context;
   double h = exp(ln_gap);

@@ -72,7 +72,7 @@ void sb_film_solver_destroy(SbFilmSolver *solver) {
 }
 
 void sb_film_solver_forget(SbFilmSolver *solver) {
-  solver->last.ready = false;
+  solver->last.ready = solver->base.solved = false;
 }
 
 // Asperities or adhesion take rough rows.

@@ -52,6 +52,14 @@ typedef struct {
 // the film; a warning says so.
 #define SB_FILM_THICK 0.1
 
+// Next to another problem a film is solved on that one's mesh, with its error;
+// SB_ERROR_NOT_CONVERGED where that does not serve.
+typedef enum {
+  SB_FILM_ALONE,
+  SB_FILM_NEAR,  // from its solution
+  SB_FILM_BESIDE // so near that its factors serve as well
+} SbFilmPlace;
+
 // What to solve. Start from sb_film_problem_init(): every option off.
 typedef struct {
   SbFilmModel model;
@@ -93,9 +101,8 @@ typedef struct {
   const double *dry_pressure; // [Pa]
   size_t dry_count;
 
-  // Next to the solver's last problem that did not say so and converged: on its mesh, by its
-  // factors. SB_ERROR_NOT_CONVERGED where that does not serve.
-  bool beside;
+  // Where in relation to the solver's last problem that stood alone and converged.
+  SbFilmPlace place;
 
   SbFilmProfile *profile; // lent to the result for its profile; NULL: none is made
   size_t profile_points; // of the coupled solver's profile, about; 0: as many as serve its accuracy

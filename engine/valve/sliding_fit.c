@@ -450,13 +450,17 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
     memset(own, 0, sizeof *own); // of the last round
     own->subject = task->warnings != NULL ? task->warnings->subject : NULL;
     like.warnings = own;
+    memory->rest_waits = true;
+    memory->near = round > 0;
     status = sb_sliding_solve_with(&like, known && round == 0 ? NULL : &law, out, report);
+    memory->rest_waits = memory->near = false;
     if (!sb_sliding_usable(status) || !(out->load > 0)) {
       break;
     }
     sb_sliding_law(&law, task->model, out);
     double asked = law_force(&law, &on->fit), before = law_force(&on->law, &on->fit);
     if (!isfinite(asked)) {
+      (void)sb_sliding_rest(&like, out, NULL);
       break;
     }
     bool slides = on->fit.ring.state == SB_RING_SLIDES;
@@ -472,6 +476,12 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
       continue;
     }
     on->found = first || round > 0 ? law : on->found;
+    SbStatus rests = sb_sliding_rest(&like, out, status == SB_OK ? report : NULL);
+    if (!sb_sliding_usable(rests)) {
+      status = rests;
+      break;
+    }
+    status = status == SB_OK ? rests : status;
     SbStatus borne = bear(out, &like, on, asked, status == SB_OK ? report : NULL);
     out->friction_error +=
         slides && apart > close * asked ? fabs(asked - fabs(on->fit.ring.drag)) : 0;

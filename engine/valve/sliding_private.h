@@ -62,6 +62,13 @@ typedef struct {
   SbSlidingLaw law, found; // that drags it, and that of its film
 } SbSlidingStart;
 
+// A film that others are solved beside.
+typedef struct {
+  bool known, fitted;
+  double left, right; // pressures [Pa]
+  double speed, load; // [m/s], [N/m]
+} SbSlidingBase;
+
 enum { SB_SLIDING_STARTS = 64 }; // of a run at most three chamber states each way
 
 struct SbSlidingMemory {
@@ -89,6 +96,10 @@ struct SbSlidingMemory {
   const SbSlidingFitment *rest_on;
   SbSlidingBody body;        // of the last film on one
   SbFilmSolver *solver;      // NULL until a film is solved: laws need none
+  SbFilmSolver *rest_solver; // that of `rest`, which leaves a sliding film's solution alone
+  SbSlidingBase base;        // what `solver` solved last from nothing
+  bool near;                 // films next to that one may be solved beside it
+  bool rest_waits;           // a sliding state is not asked what it is at rest
   SbWarnings warnings;       // of one round of a ring's friction
   bool (*cancelled)(void *); // NULL: nobody asks to stop
   void *cancelled_data;
@@ -131,6 +142,9 @@ SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *la
                                SbReport *report);
 SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
                                SbReport *report);
+
+// What a coupled state whose rest has waited (SbSlidingMemory.rest_waits) is at rest.
+SbStatus sb_sliding_rest(const SbSlidingTask *task, SbSealState *out, SbReport *report);
 
 // A film.
 SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,

@@ -296,13 +296,13 @@ void sb_speed_state(SbSealState *out, SbSpeedStates *states, double speed) {
     (void)sb_sliding_refilm(out, &task, states->roughness, NULL);
     return;
   }
-  if (!law && is_starved(states, speed)) {
-    memcpy(value, states->starved, sizeof value);
-    value[VISCOUS] += log(speed / states->starved_from);
+  if (!law && is_beside(value, states, speed)) {
     give(out, states, speed, value);
     return;
   }
-  if (!law && is_beside(value, states, speed)) {
+  if (!law && is_starved(states, speed)) {
+    memcpy(value, states->starved, sizeof value);
+    value[VISCOUS] += log(speed / states->starved_from);
     give(out, states, speed, value);
     return;
   }

@@ -395,6 +395,46 @@ static void test_starved(void) {
   g_assert_cmpint(film.solver.newton_iterations, <, 100);
 }
 
+// Films near a solved one on its mesh: another speed, load and supply; none that is starved, and
+// at rest none of another flow.
+static void test_near(void) {
+  static const double ends[][2] = {{0, 0}, {5.5e5, 0}, {4e5, 4e5}};
+  static const double places[][2] = {{1.1, 1}, {1 / 1.1, 1}, {1, 1.01}, {1.1, 0.99}};
+  for (size_t i = 0; i < G_N_ELEMENTS(ends); i++) {
+    SbFilmProblem problem = rough_seal(1e-3, SB_ROUGH_PERSSON);
+    problem.pressure_left = ends[i][0];
+    problem.pressure_right = ends[i][1];
+    problem.tolerance = 1e-2;
+    SbFilmSolver *own;
+    g_assert_cmpint(sb_film_solver_create(&own, NULL), ==, SB_OK);
+    g_assert_cmpint(sb_film_solve(&film, &problem, own, NULL), ==, SB_OK);
+    const int cold = film.solver.newton_iterations;
+    const double flux = film.film_flux, contact = film.solver.error_contact;
+    for (size_t k = 0; k < G_N_ELEMENTS(places); k++) {
+      SbFilmProblem near = problem;
+      near.speed *= places[k][0];
+      near.load *= places[k][1];
+      near.place = SB_FILM_ALONE;
+      near.tolerance = 1e-6;
+      g_assert_cmpint(solve(&other, &near), ==, SB_OK);
+      near.place = SB_FILM_NEAR;
+      near.tolerance = problem.tolerance;
+      near.inlet_film = flux; // twice of what it takes
+      g_assert_cmpint(sb_film_solve(&film, &near, own, NULL), ==, SB_OK);
+      const SbFilmSolverInfo *info = &film.solver;
+      close_to("least", film.film_min, other.film_min, 3 * info->error_film_min);
+      close_to("centre", film.film_central, other.film_central, 3 * info->error_film_central);
+      close_to("area", film.real_area, other.real_area, 3 * info->error_contact);
+      g_assert_cmpfloat(info->error_film_central, <, 1e-4);
+      g_assert_cmpfloat(info->error_contact, ==, contact);
+      g_assert_cmpint(info->newton_iterations, <, cold);
+      near.inlet_film = 0.4 * flux;
+      g_assert_cmpint(sb_film_solve(&film, &near, own, NULL), ==, SB_ERROR_NOT_CONVERGED);
+    }
+    sb_film_solver_destroy(own);
+  }
+}
+
 static void test_adhesion(void) {
   // Across an open rough gap the pull is small and thins the film; the reference's digits.
   SbFilmProblem problem = rough_seal(1e-4, SB_ROUGH_GREENWOOD_TRIPP);
@@ -636,6 +676,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/mixed/estimate", test_estimate);
   g_test_add_func("/film/mixed/ends", test_ends);
   g_test_add_func("/film/mixed/starved", test_starved);
+  g_test_add_func("/film/mixed/near", test_near);
   g_test_add_func("/film/mixed/adhesion", test_adhesion);
   g_test_add_func("/film/mixed/sticking", test_sticking);
   g_test_add_func("/film/mixed/snap-in", test_snap_in);

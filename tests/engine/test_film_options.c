@@ -328,7 +328,7 @@ static void test_beside(void) {
     problem.rupture_pressure = 1e3;
     g_assert_cmpint(sb_film_solver_create(&own, NULL), ==, SB_OK);
     SbFilmProblem beside = problem;
-    beside.beside = true;
+    beside.place = SB_FILM_BESIDE;
     g_assert_cmpint(sb_film_solve(&film, &beside, own, NULL), ==, SB_ERROR_NOT_CONVERGED);
     g_assert_cmpint(sb_film_solve(&other, &problem, own, NULL), ==, SB_OK);
     const double base = other.film_min;
@@ -338,7 +338,7 @@ static void test_beside(void) {
       *number *= 1 + 1e-3;
       g_assert_cmpint(sb_film_solve(&film, &beside, own, NULL), ==, SB_OK);
       SbFilmProblem alone = beside;
-      alone.beside = false;
+      alone.place = SB_FILM_ALONE;
       g_assert_cmpint(sb_film_solve(&other, &alone, NULL, NULL), ==, SB_OK);
       close_to("minimum", film.film_min, other.film_min, 1e-6);
       close_to("centre", film.film_central, other.film_central, 1e-6);

@@ -52,6 +52,11 @@ static void estimate(SbRingResult *fine, const SbRingResult *coarse, double size
   fine->error.width = fmax(SHARE * width, 1.5e-3 * relative);
 }
 
+double sb_ring_fit_size(const SbRingBody *body, const SbRingLoad *load, double tolerance) {
+  const double size = SIZE * fmin(sqrt(tolerance / 1e-3), tolerance / load_floor(body, load));
+  return fmin(SIZE_MOST, fmax(SIZE_LEAST, size));
+}
+
 SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
                      const SbRingLoad *load, const SbRingOptions *options, SbWarnings *warnings,
                      SbReport *report) {
@@ -68,8 +73,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   // Beyond its first mesh a sliding ring needs no more than what is wanted: finer ones stumble.
   const double enough = load->bore_slides != 0 ? wanted : tolerance;
   double floor_load = load_floor(body, load);
-  double size = SIZE * fmin(sqrt(tolerance / 1e-3), tolerance / floor_load);
-  size = fmin(SIZE_MOST, fmax(SIZE_LEAST, size));
+  double size = sb_ring_fit_size(body, load, tolerance);
   // What is dragged follows its path on this one.
   const double path = first.element_size > 0.0 ? first.element_size : SIZE / RATIO;
   first.element_size = load->bore_slides != 0 ? path : fmin(0.08, fmax(SIZE, size) / RATIO);

@@ -289,7 +289,8 @@ static SbStatus follow(SbRing **out, SbRingGuide *guide, const SbRing *way, cons
   return SB_OK;
 }
 
-// By way of the coarse copy.
+// By way of the coarse copy; which takes the ring's place, on a mesh of its own, where no more is
+// wanted than elements much larger than the ring's give.
 static SbStatus near_guided(SbRing **out, SbRingGuide *guide, const SbRingBody *body,
                             const SbRingLoad *load, const SbRingOptions *options,
                             SbReport *report) {
@@ -309,6 +310,12 @@ static SbStatus near_guided(SbRing **out, SbRingGuide *guide, const SbRingBody *
   }
   const SbRingLoad target = way->contact->is.now;
   status = go_near(way, &guide->coarse->contact->is.now, &target, PARTS_COARSE, report);
+  const double size = sb_ring_fit_size(body, load, options->tolerance);
+  if (status == SB_OK && size > COARSE * guide->ring->fitted_size &&
+      sb_ring_refit(way, size, NULL) == SB_OK) {
+    *out = way;
+    return sb_succeed(report);
+  }
   status = status == SB_OK ? follow(out, guide, way, body, load, options, report) : status;
   if (status == SB_OK) {
     (*out)->count.iterations += way->count.iterations;

@@ -150,6 +150,9 @@ void sb_ring_shift_node(const SbRingShift *shift, const SbRing *ring, int node, 
                         double place[2]);
 double sb_ring_shift_angle(const SbRingShift *shift, double angle);
 
+// Size of the elements that sb_ring_fit() takes for a tolerance.
+double sb_ring_fit_size(const SbRingBody *body, const SbRingLoad *load, double tolerance);
+
 // Leaves the meshes of a tangent's states with the material, as that of sb_ring_near() is.
 void sb_ring_tangent_stay(SbRingTangent *tangent);
 

@@ -323,9 +323,13 @@ SbStatus sb_run_keep_body(SbRun *run, int seal, int chamber, int direction,
 // states. What it solved before stays: films know no roughness.
 SbStatus sb_run_copy_speeds(SbRun *one, const SbRun *run, SbReport *report);
 
-// Solves what states of a seal at speeds beside the run's will ask for, on the thread of its
-// states.
-void sb_run_ask_beside(SbRun *run, int seal, SbCounters *counters, SbWarnings *warnings);
+// The chamber whose state is asked for when the stem slides that way.
+int sb_run_asked_chamber(int way);
+
+// Solves what a state of a seal at speeds beside the run's will ask for, on the thread of its
+// states: soonest right after that state, whose film is then the solver's last.
+void sb_run_ask_beside(SbRun *run, int seal, int chamber, int way, SbCounters *counters,
+                       SbWarnings *warnings);
 
 // Adds what interpolation over the speed leaves in the errors. SB_ERROR_CANCELLED or _MEMORY if
 // that ended it.

@@ -132,30 +132,30 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
   sb_speed_state(out, *table, speed);
 }
 
-void sb_run_ask_beside(SbRun *run, int seal, SbCounters *counters, SbWarnings *warnings) {
+int sb_run_asked_chamber(int way) {
+  return way == SB_CYCLE_IN ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
+}
+
+void sb_run_ask_beside(SbRun *run, int seal, int chamber, int way, SbCounters *counters,
+                       SbWarnings *warnings) {
   static const double FASTER = 1.03;
-  static const int chamber[] = {
-      [SB_CYCLE_IN] = SB_CHAMBER_AT_REST, [SB_CYCLE_OUT] = SB_CHAMBER_CLOSED};
-  for (int way = SB_CYCLE_IN; way <= SB_CYCLE_OUT; way++) {
-    const Place own = {seal, chamber[way], way};
-    // The other seal's states may be in work.
-    const Place at = first_like(run, own, seal * OF_SEAL, (seal + 1) * OF_SEAL);
-    SbSpeedStates *table = run->speeds[seal][at.chamber][at.direction];
-    if (table != NULL) {
-      const SbSlidingTask task = table->task;
-      SbSealState state;
-      table->task.counts = counters;
-      table->task.warnings = warnings;
-      sb_speed_state(&state, table, FASTER * run->speed);
-      table->task = task;
-    }
+  const Place own = {seal, chamber, way};
+  // The other seal's states may be in work.
+  const Place at = first_like(run, own, seal * OF_SEAL, (seal + 1) * OF_SEAL);
+  SbSpeedStates *table = run->speeds[seal][at.chamber][at.direction];
+  if (table != NULL) {
+    const SbSlidingTask task = table->task;
+    SbSealState state;
+    table->task.counts = counters;
+    table->task.warnings = warnings;
+    sb_speed_state(&state, table, FASTER * run->speed);
+    table->task = task;
   }
 }
 
 SbStatus sb_run_sliding(SbSealState *out, SbRun *run, int seal, int way, double speed,
                         SbReport *report) {
-  const SbChamber chamber = way == SB_CYCLE_IN ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
-  sb_run_state_at(out, run, seal, (int)chamber, way, speed);
+  sb_run_state_at(out, run, seal, sb_run_asked_chamber(way), way, speed);
   return sb_run_close_speeds(run, report);
 }
 

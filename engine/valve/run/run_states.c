@@ -398,6 +398,21 @@ static bool fatal(SbStatus status) {
   return status != SB_OK && status != SB_ERROR_NOT_CONVERGED;
 }
 
+// Solves what a state just solved will be asked for, if it will.
+static void ask_beside(const Task *of) {
+  const SbRun *run = of->run;
+  const SbPlan *plan = &run->plan;
+  if (of->motion == SB_RUN_REST || !plan->motion || plan->inertia || !plan->frame_films) {
+    return;
+  }
+  const SbSealPressure asked =
+      sb_model_seal_pressure(run->model, of->seal, (SbChamber)sb_run_asked_chamber(of->motion));
+  if (asked.left == of->pressure.left && asked.right == of->pressure.right) {
+    sb_run_ask_beside(of->run, of->seal, of->chamber, of->motion, &of->lane->counters,
+                      &of->lane->warnings);
+  }
+}
+
 static void *solve_lane(void *data) {
   enum { STATES = SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS };
   Lane *lane = data;
@@ -430,10 +445,9 @@ static void *solve_lane(void *data) {
       lane->report = own; // of failures to converge the first is told
       lane->status = status;
     }
-  }
-  const SbPlan *plan = &run->plan;
-  if (!fatal(lane->status) && plan->motion && !plan->inertia && plan->frame_films) {
-    sb_run_ask_beside(run, lane->seal, &lane->counters, &lane->warnings);
+    if (alike < 0 && !fatal(status)) {
+      ask_beside(&task);
+    }
   }
   return NULL;
 }
