@@ -204,7 +204,7 @@ struct SbFilmSolver {
   } last;
 };
 
-// Readies the memory of a solver, which is zero.
+// Readies the memory of a solver: zero, but for the matrices, whose 20 MB no solve takes whole.
 void sb_ehl_init(SbFilmSolver *solver);
 
 // The solution that is not the last one.

@@ -27,6 +27,7 @@
 
 #include <cblas.h>
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 enum { ITERATIONS_MAX = 24, ITERATIONS_MAX_ROUGH = 40 };
@@ -40,6 +41,20 @@ static const double REUSE = 0.02;
 static const double REUSE_ROUGH = 0.1, CLOSE = 0.03;
 
 void sb_ehl_init(SbFilmSolver *solver) {
+  const struct {
+    size_t at, size;
+  } matrix[] = {
+      {offsetof(SbFilmSolver, solution[0].mesh.gap), sizeof solver->solution[0].mesh.gap},
+      {offsetof(SbFilmSolver, solution[1].mesh.gap), sizeof solver->solution[1].mesh.gap},
+      {offsetof(SbFilmSolver, matrix), sizeof solver->matrix},
+      {offsetof(SbFilmSolver, factors), sizeof solver->factors},
+      {offsetof(SbFilmSolver, kernel), sizeof solver->kernel}};
+  size_t from = 0;
+  for (size_t i = 0; i < sizeof matrix / sizeof *matrix; i++) {
+    memset((char *)solver + from, 0, matrix[i].at - from);
+    from = matrix[i].at + matrix[i].size;
+  }
+  memset((char *)solver + from, 0, sizeof *solver - from);
   sb_ehl_tables_init(&solver->tables);
   for (int i = 0; i < 2; i++) {
     solver->solution[i].solver = solver;
