@@ -50,7 +50,7 @@ void sb_process_set_up(void) {
   // A ring's factors are some 100 kB, made anew at each of its steps. By default their pages go
   // back to the system each time, which costs a fifth of a run with rings.
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
 }
 
 void sb_process_work_behind(void) {

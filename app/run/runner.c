@@ -157,6 +157,10 @@ static void compute(SbRunner *runner, const SbRunRequest *request, unsigned tick
     }
     atomic_store_explicit(&handle->permille, 1000, memory_order_relaxed);
     atomic_store_explicit(&handle->done, true, memory_order_release);
+    if (request->keep && handle->status == SB_OK) {
+      runner->notify(runner->data);
+      sb_run_prepare_rings(handle->run, is_cancelled, &job);
+    }
   } else {
     atomic_store_explicit(&handle->done, true, memory_order_release);
     show(runner, handle);

@@ -45,7 +45,9 @@ void sb_ehl_init(SbFilmSolver *solver) {
     size_t at, size;
   } matrix[] = {
       {offsetof(SbFilmSolver, solution[0].mesh.gap), sizeof solver->solution[0].mesh.gap},
+      {offsetof(SbFilmSolver, solution[0].mesh.local), sizeof solver->solution[0].mesh.local},
       {offsetof(SbFilmSolver, solution[1].mesh.gap), sizeof solver->solution[1].mesh.gap},
+      {offsetof(SbFilmSolver, solution[1].mesh.local), sizeof solver->solution[1].mesh.local},
       {offsetof(SbFilmSolver, matrix), sizeof solver->matrix},
       {offsetof(SbFilmSolver, factors), sizeof solver->factors},
       {offsetof(SbFilmSolver, kernel), sizeof solver->kernel}};

@@ -58,6 +58,9 @@ void sb_sliding_memory_forget(SbSlidingMemory *memory);
 void sb_sliding_memory_keep(SbSlidingMemory *memory);
 void sb_sliding_memory_end(SbSlidingMemory *memory);
 
+// Prepares what others that slide would first wait for, until `stop`.
+void sb_sliding_memory_prepare(const SbSlidingMemory *memory, bool (*stop)(void *), void *data);
+
 // Lets rings start from the kept state of `from`, borrowed, that slides alike at the pressure
 // over modulus nearest to theirs; NULL: cold. What is solved then hangs on that memory and the task
 // alone. `tangent`: rings are not solved but taken from there to first order in all that is changed

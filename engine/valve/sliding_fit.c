@@ -84,6 +84,15 @@ void sb_sliding_keep(SbSlidingMemory *memory, int way) {
   on->known = false;
 }
 
+void sb_sliding_memory_prepare(const SbSlidingMemory *memory, bool (*stop)(void *), void *data) {
+  for (int i = 0; i < memory->kept_count && !stop(data); i++) {
+    const SbSlidingStart *kept = &memory->kept[i];
+    if (kept->guide != NULL && kept->way != REST) {
+      sb_ring_guide_make(kept->guide);
+    }
+  }
+}
+
 static int way_of(const SbSlidingTask *task) {
   return !sb_sliding_drags(task) ? REST : task->speed > 0 ? IN : OUT;
 }

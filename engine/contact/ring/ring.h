@@ -143,6 +143,9 @@ typedef struct SbRingGuide SbRingGuide;
 SbStatus sb_ring_guide_create(SbRingGuide **out, const SbRing *ring, SbReport *report);
 void sb_ring_guide_destroy(SbRingGuide *guide);
 
+// Makes the coarse copy now; else whoever asks first waits for it. Any thread.
+void sb_ring_guide_make(SbRingGuide *guide);
+
 // The state of another body at another load, solved from that of `ring` near it: by way of its
 // guide, on a mesh that follows the contacts; where that fails, or without one (NULL), from its
 // state on its mesh, moved. A ring that slides steadily goes on sliding the same way; friction on

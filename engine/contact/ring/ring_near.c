@@ -229,6 +229,14 @@ static void make_coarse(SbRingGuide *guide) {
   sb_ring_shift_begin(guide->along, guide->coarse);
 }
 
+void sb_ring_guide_make(SbRingGuide *guide) {
+  pthread_mutex_lock(&guide->lock);
+  if (!guide->made) {
+    make_coarse(guide);
+  }
+  pthread_mutex_unlock(&guide->lock);
+}
+
 // Displaces a laid ring as another one was since it was laid (its SB_RING_BEFORE).
 static SbStatus displace(SbRing *ring, const SbRing *way, SbReport *report) {
   const int nodes = way->fem->mesh->nodes;
@@ -296,11 +304,7 @@ static SbStatus near_guided(SbRing **out, SbRingGuide *guide, const SbRingBody *
                             SbReport *report) {
   SbRing *way;
   *out = NULL;
-  pthread_mutex_lock(&guide->lock);
-  if (!guide->made) {
-    make_coarse(guide);
-  }
-  pthread_mutex_unlock(&guide->lock);
+  sb_ring_guide_make(guide);
   if (guide->coarse == NULL) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring has no coarse copy");
   }

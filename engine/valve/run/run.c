@@ -101,6 +101,12 @@ void sb_run_end_rings(SbRun *run) {
   }
 }
 
+void sb_run_prepare_rings(const SbRun *run, bool (*stop)(void *data), void *data) {
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    sb_sliding_memory_prepare(run->memory[i], stop, data);
+  }
+}
+
 static void start_from(SbRun *run, const SbRun *base, bool tangent) {
   run->predicted = tangent && base != NULL;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {

@@ -210,6 +210,10 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 void sb_run_keep_rings(SbRun *run);
 void sb_run_end_rings(SbRun *run);
 
+// Prepares what the first run from kept rings would wait for, until `stop`. Any thread, also while
+// others start from them.
+void sb_run_prepare_rings(const SbRun *run, bool (*stop)(void *data), void *data);
+
 // Lets this run's rings start from those that `base` kept, borrowed until it is told otherwise;
 // NULL: cold, as at first. Its answers then hang on that base and its own model alone.
 void sb_run_start_from(SbRun *run, const SbRun *base);
