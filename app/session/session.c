@@ -67,6 +67,7 @@ static void take_values(SbSession *session) {
 
 // The same after an edit, for which somebody waits.
 static void changed(SbSession *session) {
+  session->lone = session->edited == 0;
   session->edited = g_get_monotonic_time();
   session->latency = (SbEditLatency){NAN, NAN};
   compile(session);

@@ -78,6 +78,7 @@ struct _SbSession {
 
   gint64 started; // [us]
   gint64 edited;  // when the values last changed [us], 0 once their run is shown
+  bool lone;      // that one was not one of several at a time
   SbEditLatency latency;
 
   double azimuth, elevation; // of the cutaway's camera [rad]

@@ -1,8 +1,9 @@
 // What the run of a session will be at values that are not solved yet: the base, the last whole run
 // of solved rings, and its slopes (tangent.h), which stay with that run. They are found in the
 // background, on a thread of its own: first those of the parameter that is edited and of what
-// differs from the base, at any time; then, while no other run is wanted and nothing plays, those
-// of all main parameters. Each takes two runs whose rings are the base's to first order.
+// differs from the base, at any time but while a single edit is solved; then, while no other run is
+// wanted and nothing plays, those of all main parameters. Each takes two runs whose rings are the
+// base's to first order.
 #include "app/session/session_private.h"
 
 #include <math.h>
@@ -61,9 +62,16 @@ static bool is_wanted(const SbSession *session, int id) {
   return sb_param((SbParamId)id)->kind == SB_PARAM_REAL && !session->base->sought[id];
 }
 
+// Whether a coarse run of a single edit is on its way: it is there as soon as slopes would be, and
+// on two cores they slow it down.
+static bool is_soon_there(const SbSession *session) {
+  const bool near = session->ticket != 0 && session->grade == SB_GRADE_NEAR;
+  return session->lone && session->edited != 0 && (near || session->debounce != 0);
+}
+
 // The parameter whose slopes are to be found now; SB_SLOPE_NONE: none.
 static int next_wanted(SbSession *session) {
-  if (session->base == NULL) {
+  if (session->base == NULL || is_soon_there(session)) {
     return SB_SLOPE_NONE;
   }
   if (session->slope_first >= 0 && is_wanted(session, session->slope_first)) {
