@@ -37,6 +37,9 @@ typedef struct {
   guint picture; // of the table
   size_t design; // 0: live, else of a kept one + 1
   guint tick;
+  GdkRectangle screen;
+  GdkWindow *below; // held, of the window that this one lies on
+  gboolean covers;  // it cannot be seen and is not drawn
 } Presentation;
 
 // What is shown -----------------------------------------------------------------------------------
@@ -308,9 +311,23 @@ static gboolean on_key(GtkWidget *widget, GdkEventKey *event, Presentation *self
   return GDK_EVENT_STOP;
 }
 
+// The window below ---------------------------------------------------------------------------------
+
+static void set_covers(Presentation *self, gboolean covers) {
+  if (covers != self->covers && !gdk_window_is_destroyed(self->below)) {
+    (covers ? gdk_window_freeze_updates : gdk_window_thaw_updates)(self->below);
+  }
+  self->covers = covers;
+}
+
+static void on_size(Presentation *self, const GdkRectangle *size) {
+  set_covers(self, size->width >= self->screen.width && size->height >= self->screen.height);
+}
+
 // Life --------------------------------------------------------------------------------------------
 
 static void on_destroy(GtkWidget *widget, Presentation *self) {
+  set_covers(self, FALSE);
   g_signal_handlers_disconnect_by_data(self->session, self);
   gdk_gl_context_clear_current();
   for (int gl = 0; gl < 2; gl++) {
@@ -321,6 +338,7 @@ static void on_destroy(GtkWidget *widget, Presentation *self) {
 static void presentation_free(gpointer data) {
   Presentation *self = data;
   g_object_unref(self->session);
+  g_object_unref(self->below);
   g_free(self);
 }
 
@@ -347,9 +365,9 @@ void sb_presentation_open(GtkWindow *parent, SbSession *session) {
   // As large as the screen also where no window manager makes it so.
   GdkWindow *place = gtk_widget_get_window(GTK_WIDGET(parent));
   GdkDisplay *display = gtk_widget_get_display(GTK_WIDGET(parent));
-  GdkRectangle screen;
-  gdk_monitor_get_geometry(gdk_display_get_monitor_at_window(display, place), &screen);
-  gtk_window_set_default_size(window, screen.width, screen.height);
+  self->below = g_object_ref(place);
+  gdk_monitor_get_geometry(gdk_display_get_monitor_at_window(display, place), &self->screen);
+  gtk_window_set_default_size(window, self->screen.width, self->screen.height);
   sb_style_window(self->window);
   self->area = gtk_drawing_area_new();
   atk_object_set_role(gtk_widget_get_accessible(self->area), ATK_ROLE_IMAGE);
@@ -357,6 +375,7 @@ void sb_presentation_open(GtkWindow *parent, SbSession *session) {
   gtk_container_add(GTK_CONTAINER(window), self->area);
   g_signal_connect(window, "key-press-event", G_CALLBACK(on_key), self);
   g_signal_connect(window, "destroy", G_CALLBACK(on_destroy), self);
+  g_signal_connect_swapped(window, "size-allocate", G_CALLBACK(on_size), self);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_change), self);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_change), self);
   g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_change), self);
