@@ -86,6 +86,9 @@ static void append_error(GString *out, const char *label, double error) {
     while (strchr(number, '.') && number[end - 1] == '0') {
       number[--end] = 0;
     }
+    if (number[end - 1] == '.') {
+      number[--end] = 0;
+    }
   }
   g_string_append_printf(out, "%s%s %s\xc2\xa0%%", out->len ? ", " : "", label, number);
 }

@@ -2,6 +2,7 @@
 // caught.
 #include "app/chart/dashboard.h"
 #include "app/chart/hysteresis.h"
+#include "app/chart/page.h"
 #include "app/chart/profiles.h"
 #include "app/chart/timeline.h"
 #include "tests/app/picture.h"
@@ -325,6 +326,20 @@ static void test_comparison(void) {
 }
 
 // Friction so large that the stem does not return: the axis goes below zero.
+// Estimates have two digits at most, and no point without one behind it.
+static void test_errors(void) {
+  const SbSummary summary = {.error_load = 0.03,
+                             .error_force = 0.0251,
+                             .error_film = 0.2,
+                             .error_energy = 1e-6,
+                             .energy.closure = 1e-12};
+  char text[300];
+  sb_page_errors_text(text, sizeof text, &(SbChartRun){.summary = &summary});
+  g_assert_cmpstr(text, ==,
+                  "load 3\xc2\xa0%, force 2.5\xc2\xa0%, film 20\xc2\xa0%, energy < 0.001\xc2\xa0%; "
+                  "energy closure: rounding only  (discretisation, not the choice of model)");
+}
+
 static void test_no_return(void) {
   Synthetic stuck;
   synthetic_init(&stuck, 1250, 1.3);
@@ -350,6 +365,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/pictures/comparison", test_comparison);
   g_test_add_func("/pictures/timeline", test_timeline);
   g_test_add_func("/pictures/states", test_states);
+  g_test_add_func("/pictures/errors", test_errors);
   g_test_add_func("/pictures/no-return", test_no_return);
   int result = g_test_run();
   synthetic_clear(&run);
