@@ -1,11 +1,4 @@
 // Joins fitment, film, surface and friction for one seal; see sliding.h for the equations.
-//
-// With a fitment model that gives a pressure of its own the solved film lies on this body: its
-// edges, its pressure, its compliance; the half-plane's film stands beside it. The film's load is
-// the net one: the fluid on either side carries its own step, so a contact from l to r under the
-// total load W leaves W - p_left (0 - l) - p_right (r - 0) to the film (README, Definitions). What
-// it leaves out: beside the film, asperities do not take load off it (they carry 1 to 14 % of it at
-// its least, docs/thesis.md, 10; coupled they share it); the closed forms know no inlet starvation.
 #include "engine/valve/sliding_private.h"
 
 #include "engine/contact/rough/greenwood_tripp.h"
@@ -111,351 +104,9 @@ const SbSlidingBody *sb_sliding_body(const SbSlidingMemory *memory) {
   return memory->last->fitted ? &memory->body : NULL;
 }
 
-// One solve of a film, counted; one that is not found beside another is solved alone then.
-static SbStatus solve_once(const SbSlidingTask *task, SbFilm *film, const SbFilmProblem *problem,
-                           SbFilmSolver *solver, SbReport *report) {
-  SbStatus status = sb_film_solve(film, problem, solver, report);
-  if (problem->model == SB_FILM_REYNOLDS) {
-    const bool found = status == SB_OK || problem->place == SB_FILM_ALONE;
-    task->counts->reynolds_solves += found ? 1 : 0;
-    task->counts->newton_iterations += (size_t)film->solver.newton_iterations;
-  }
-  return status;
-}
-
-// Speed from which on a given film stands for that at any higher one; infinite where none does.
-// Once a flooded film would be several times as thick, nothing but the supply shapes it: what
-// passes is given, and the film is twice the layer, but for what pressure moves, which is less the
-// faster it goes (2e-4 of it at four times).
-static double starved_speed(SbFilm *film, const SbFilmProblem *problem) {
-  enum { ROUNDS = 4 };
-  static const double TIMES = 4, POWER = 0.6; // of a flooded film over the speed, nearly
-  SbFilmProblem law = *problem;
-  law.model = SB_FILM_THESIS;
-  law.surface = SB_ROUGH_NONE;
-  law.compliance = NULL;
-  law.profile = NULL;
-  law.inlet_film = 0;
-  law.speed = fabs(problem->speed);
-  for (int round = 0; round < ROUNDS; round++) {
-    if (!(problem->inlet_film > 0) || sb_film_solve(film, &law, NULL, NULL) != SB_OK) {
-      return INFINITY;
-    }
-    law.speed *= pow(TIMES * 2 * problem->inlet_film / film->film_central, 1 / POWER);
-  }
-  return law.speed;
-}
-
-// Solves a film; where it is given, at the share of its speed that is enough, or lower where the
-// solver fails there. How far it then is from twice the layer is added to its error; the
-// constriction at the outlet goes on towards that as well, but slowly: it is half way.
-static SbStatus solve_supplied(const SbSlidingTask *task, SbSlidingSolved *out,
-                               SbFilmProblem *problem, SbFilmSolver *solver, SbReport *report) {
-  static const double STEP = 0.5, LEAST = 1e-3;
-  SbFilm *film = &out->film;
-  const double speed = problem->speed, first = fmin(starved_speed(film, problem) / fabs(speed), 1);
-  double share = first;
-  problem->speed = share * speed;
-  SbStatus status = solve_once(task, film, problem, solver, report);
-  if (status == SB_OK && share < 1 && !film->starved) { // the law is far off
-    share = 1;
-    problem->speed = speed;
-    status = solve_once(task, film, problem, solver, report);
-  }
-  bool flooded = false; // at this speed, and at any lower one
-  while (status == SB_ERROR_NOT_CONVERGED && problem->inlet_film > 0 && share > LEAST * first &&
-         !flooded) {
-    SbReport own = {0};
-    share *= STEP;
-    problem->speed = share * speed;
-    status = solve_once(task, film, problem, solver, &own);
-    flooded = status == SB_OK && !film->starved;
-    status = flooded ? SB_ERROR_NOT_CONVERGED : status;
-  }
-  problem->speed = speed;
-  out->share = share;
-  if (share == 1 || status != SB_OK) {
-    return status;
-  }
-  film->flow /= share;
-  film->friction_couette /= share;
-  film->friction_cavity /= share;
-  const double end = 2 * problem->inlet_film, error = fabs(film->film_central / end - 1);
-  film->solver.error_film_min += 0.5 * fabs(film->film_min / end - 1);
-  film->solver.error_film_central += error;
-  film->solver.error_contact += problem->surface != SB_ROUGH_NONE ? error : 0;
-  if (error > task->model->tolerance) {
-    sb_warn(&film->warnings, "film-starved", "models.inlet",
-            "the bore brings so little that the film at %.3g mm/s stands for that at %.3g mm/s",
-            1e3 * fabs(share * speed), 1e3 * fabs(speed));
-  }
-  return sb_succeed(report);
-}
-
-// Whether a film is near enough to what the solver solved last: it is then solved on that one's
-// mesh in a tenth of the time, with that one's error.
-static bool is_near(const SbSlidingMemory *memory, const SbSlidingSolved *out,
-                    const SbFilmProblem *problem) {
-  static const double SPEED = 1.25, LOAD = 1.03;
-  const SbSlidingBase *base = &memory->base;
-  const bool same = base->known && base->fitted == (problem->compliance != NULL);
-  return memory->near && same && out != &memory->rest && base->left == problem->pressure_left &&
-         base->right == problem->pressure_right && problem->speed / base->speed > 1 / SPEED &&
-         problem->speed / base->speed < SPEED && problem->load / base->load > 1 / LOAD &&
-         problem->load / base->load < LOAD;
-}
-
-SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
-                             const SbFilmProblem *problem, SbReport *report) {
-  SbSlidingMemory *memory = task->memory;
-  bool solved = problem->model == SB_FILM_REYNOLDS;
-  out->speed = problem->speed;
-  out->fresh = true;
-  if (sb_sliding_film_summed(memory, out, problem->compliance != NULL)) {
-    sb_sliding_take_film(out, memory);
-    return sb_succeed(report);
-  }
-  SbFilmSolver **const usual = out == &memory->rest ? &memory->rest_solver : &memory->solver;
-  SbFilmSolver **solver = out->own != NULL && !out->beside ? out->own : usual;
-  if (solved && *solver == NULL) {
-    SbStatus status = sb_film_solver_create(solver, report);
-    if (status != SB_OK) {
-      return status;
-    }
-  }
-  SbFilmProblem lent = *problem;
-  lent.profile = &out->profile;
-  lent.cancelled = memory->cancelled;
-  lent.cancelled_data = memory->cancelled_data;
-  out->fitted = problem->compliance != NULL;
-  // What adhesion closes, or a supply starves, takes several solves.
-  const bool plain = !(lent.hamaker > 0 || lent.work_of_adhesion > 0);
-  const bool next = out->beside && *out->own != NULL && !(lent.inlet_film > 0);
-  const bool near = out->own == NULL && is_near(memory, out, problem);
-  if (solved && plain && (next || near)) {
-    SbFilmProblem beside = lent;
-    beside.place = next ? SB_FILM_BESIDE : SB_FILM_NEAR;
-    beside.profile = near ? lent.profile : NULL;
-    SbStatus status =
-        solve_once(task, &out->film, &beside, next ? *out->own : memory->solver, report);
-    if (status != SB_ERROR_NOT_CONVERGED) {
-      out->share = 1;
-      return status;
-    }
-  }
-  SbStatus status = solve_supplied(task, out, &lent, *solver, report);
-  if (solved && solver == &memory->solver) {
-    const bool stands = status == SB_OK && plain && !out->film.starved && out->share == 1;
-    memory->base = (SbSlidingBase){.known = stands,
-                                   .fitted = problem->compliance != NULL,
-                                   .left = problem->pressure_left,
-                                   .right = problem->pressure_right,
-                                   .speed = problem->speed,
-                                   .load = problem->load};
-  }
-  return status;
-}
-
-static void lay_on(SbFilmProblem *problem, const SbSlidingBody *body) {
-  problem->compliance = &body->compliance;
-  problem->load = body->load;
-  problem->modulus = body->compliance.modulus;
-}
-
-// Whether a film that the solver has just left above the tolerance is nearer than the half-plane's
-// all the same; its error is told.
-static bool misses_by_little(const SbSlidingTask *task, const SbSlidingSolved *solved) {
-  static const double NEARER = 0.05, SOLVED = 1e-6; // of error and residual
-  const SbFilm *film = &solved->film;
-  const double error = fmax(film->solver.error_film_min, film->solver.error_film_central);
-  if (!(film->film_central > 0) || !(error > 0 && error < NEARER) ||
-      !(film->solver.residual < SOLVED) || solved->share != 1) {
-    return false;
-  }
-  sb_warn(task->warnings, "film-tolerance", "output.tolerance",
-          "the film on the fitted %s seal is known to %.2g only, not to %.2g",
-          sb_seal_name(task->seal), error, task->model->tolerance);
-  return true;
-}
-
-// The film on the fitted body in place of the half-plane's; false where there is none or it fails,
-// then with a reason in `why`, of a body that has one.
-static bool solve_fitted(const SbSlidingTask *task, SbSlidingSolved *out,
-                         const SbFilmProblem *plane, SbReport *why) {
-  *why = (SbReport){0};
-  const SbFit *fit = &task->memory->now->fit;
-  if (fit->model != SB_FIT_DISC && fit->model != SB_FIT_RING) {
-    return false;
-  }
-  SbSlidingBody *body = &task->memory->body;
-  SbFilmProblem problem = *plane;
-  SbStatus status = SB_OK;
-  if (sb_sliding_film_summed(task->memory, out, true)) {
-    *body = task->memory->sum.body;
-  } else if (sb_sliding_film_summed(task->memory, out, false)) {
-    return false;
-  } else {
-    status = sb_sliding_surface(&body->compliance, &body->load, fit, task->model, task->seal,
-                                task->pressure, task->warnings, why);
-  }
-  if (status == SB_OK) {
-    lay_on(&problem, body);
-    status = sb_sliding_solve_on(task, out, &problem, why);
-    status = status == SB_ERROR_NOT_CONVERGED && misses_by_little(task, out) ? SB_OK : status;
-  }
-  return status == SB_OK;
-}
-
 // A solver that stopped above the tolerance has the figures of its last solution, with their error.
 bool sb_sliding_usable(SbStatus status) {
   return status == SB_OK || status == SB_ERROR_NOT_CONVERGED;
-}
-
-// Tells that a film is the half-plane's, and why; one that the fluid opens is nobody's.
-static void tell_half_plane(const SbSlidingTask *task, SbStatus status, const SbReport *why) {
-  if (sb_sliding_usable(status) && why->text[0] != '\0') {
-    sb_warn(task->warnings, "film-half-plane", "models.fit",
-            "no film on the fitted %s seal (%s): it is the half-plane's", sb_seal_name(task->seal),
-            why->text);
-  }
-}
-
-// A seal's film figures are those of `solved`; NaN stays where the solver stopped before its first
-// solution (false).
-static bool take_film(SbSealState *out, const SbSlidingSolved *solved, SbStatus status,
-                      const SbFit *fit) {
-  const SbFilm *film = &solved->film;
-  if (status != SB_OK && !(film->film_central > 0)) {
-    return false;
-  }
-  out->film_fitted = solved->fitted;
-  out->layer = film->flow > 0 || film->flow < 0 ? fabs(film->flow / solved->speed) : 0;
-  out->film_min = film->film_min;
-  out->film_central = film->film_central;
-  double ring = 0;
-  if (solved->fitted && fit->model == SB_FIT_RING) {
-    // A thin film goes with the power -0.8 of the strength of the pressure's root at its inlet,
-    // which goes with peak over root of width but hangs on few nodes of the ring's mesh: measured,
-    // it is out by up to five times their relative errors.
-    ring =
-        0.8 * 5 *
-        (fit->solver.error_estimate.pressure_peak + 0.5 * fit->solver.error_estimate.contact_width);
-    // A dragged one's scatters by up to 7 % between the meshes and path tolerances tried.
-    static const double DRAGGED = 0.07;
-    ring = fit->ring.drag != 0 ? fmax(ring, DRAGGED) : ring;
-  }
-  out->central_error = film->solver.error_film_central + ring;
-  out->film_error = fmax(film->solver.error_film_min + ring, out->central_error);
-  return true;
-}
-
-// Whether there is a film: something moves, and the inlet finds liquid.
-static bool has_film(const SbSlidingTask *task) {
-  return task->speed != 0 && !(task->supply.limited && !(task->supply.layer > 0));
-}
-
-// What a run's options cannot reach, told once.
-static void option_warnings(const SbSlidingTask *task, const SbFilmProblem *problem) {
-  const SbModel *model = task->model;
-  bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  bool asked =
-      model->pressure_viscosity > 0 || model->eyring_stress > 0 || model->rupture_pressure != 0;
-  if (asked && problem->model != SB_FILM_REYNOLDS) {
-    sb_warn(task->warnings, "film-options", "models.film",
-            "pressure viscosity, Eyring stress and rupture pressure act on the solved film only "
-            "(models.film = reynolds), not on a power law");
-  } else if (problem->rupture_pressure < model->rupture_pressure) {
-    sb_warn(task->warnings, "rupture-ambient", "fluid.rupture_pressure",
-            "the film of the %s seal breaks at the %.3g MPa around it: the rupture pressure of "
-            "%.3g MPa is higher",
-            sb_seal_name(task->seal), 1e-6 * problem->rupture_pressure,
-            1e-6 * model->rupture_pressure);
-  }
-  if (model->hamaker > 0 && !coupled) {
-    sb_warn(task->warnings, "adhesion-beside", "models.adhesion",
-            "adhesion acts in the solve of film and asperities together only (models.asperities = "
-            "coupled): left out here");
-  }
-}
-
-// A law's film carries half of itself along (thesis eq. 5.20), and no more than the supply.
-static void limit_law(SbSealState *out, const SbSlidingTask *task) {
-  out->layer = out->film_central / 2;
-  if (task->supply.limited && task->supply.layer < out->layer) {
-    out->layer = task->supply.layer;
-    out->film_central = 2 * out->layer;
-    out->film_min = fmin(out->film_min, out->film_central);
-  }
-}
-
-static SbStatus solve_film(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
-  SbSlidingMemory *memory = task->memory;
-  SbFilmProblem problem;
-  sb_sliding_film_problem(&problem, task->model, task->seal, task->pressure, out->load_net,
-                          task->speed);
-  problem.model = task->model->film;
-  option_warnings(task, &problem);
-  bool solved = problem.model == SB_FILM_REYNOLDS;
-  problem.inlet_film = task->supply.limited && solved ? task->supply.layer : 0;
-  SbStatus status = sb_sliding_solve_on(task, &memory->plane, &problem, report);
-  memory->last = &memory->plane;
-  if (status == SB_ERROR_CANCELLED || (!solved && !sb_sliding_usable(status))) {
-    return status;
-  }
-  if (sb_sliding_usable(status)) {
-    take_film(out, &memory->plane, status, &memory->now->fit);
-  }
-  if (solved) {
-    out->film_reynolds = out->film_central;
-  } else {
-    out->film_error = out->central_error = NAN;
-    limit_law(out, task);
-  }
-  // The half-plane may be opened or lost by end pressures that the fitted body bears.
-  SbReport why = {0};
-  if (solved && solve_fitted(task, &memory->fitted, &problem, &why)) {
-    take_film(out, &memory->fitted, SB_OK, &memory->now->fit);
-    memory->last = &memory->fitted;
-    status = sb_succeed(report);
-  } else {
-    tell_half_plane(task, status, &why);
-  }
-  if (!sb_sliding_usable(status)) {
-    return status;
-  }
-  sb_warnings_merge(task->warnings, &memory->last->film.warnings);
-  return status;
-}
-
-static void add_asperities(SbFilmProblem *problem, const SbModel *model) {
-  problem->surface = model->surface;
-  problem->gt_product = model->gt_product;
-  problem->sigma = model->sigma;
-  problem->sigma_over_beta = model->sigma_over_beta;
-  problem->hamaker = model->hamaker;
-  problem->work_of_adhesion = model->work_of_adhesion;
-  problem->shear_strength = model->shear_strength;
-  problem->load_coefficient = model->load_coefficient;
-}
-
-// The film with asperities in it: on the fitted body, or on the half-plane where that cannot be.
-static SbStatus solve_rough(const SbSlidingTask *task, SbSlidingSolved *out, double load_net,
-                            double speed, SbReport *report) {
-  const SbModel *model = task->model;
-  SbFilmProblem problem;
-  sb_sliding_film_problem(&problem, model, task->seal, task->pressure, load_net, speed);
-  add_asperities(&problem, model);
-  if (speed != 0) {
-    problem.inlet_film = task->supply.limited ? task->supply.layer : 0;
-    option_warnings(task, &problem);
-  }
-  SbReport why;
-  if (solve_fitted(task, out, &problem, &why)) {
-    return SB_OK;
-  }
-  SbStatus status = sb_sliding_solve_on(task, out, &problem, report);
-  tell_half_plane(task, status, &why);
-  return status;
 }
 
 // Break-away after the rest before the first stroke.
@@ -504,7 +155,7 @@ static SbStatus solve_rest(const SbSlidingTask *task, const SbSealState *out, Sb
       memory->rest_left == task->pressure.left) {
     return sb_succeed(report);
   }
-  SbStatus status = solve_rough(task, &memory->rest, out->load_net, 0, report);
+  SbStatus status = sb_sliding_solve_rough(task, &memory->rest, out->load_net, 0, report);
   if (sb_sliding_usable(status)) {
     memory->rested = status == SB_OK;
     memory->rest_left = task->pressure.left;
@@ -533,7 +184,7 @@ static SbStatus take_rest(SbSealState *out, const SbSlidingTask *task, SbReport 
 // Film, rough contact and friction from one solution each, sliding and at rest.
 static SbStatus solve_coupled(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
-  const bool slides = has_film(task), rests = !(slides && memory->rest_waits);
+  const bool slides = sb_sliding_has_film(task), rests = !(slides && memory->rest_waits);
   SbStatus at_rest = rests ? solve_rest(task, out, report) : SB_OK;
   if (!sb_sliding_usable(at_rest)) {
     return at_rest;
@@ -542,15 +193,15 @@ static SbStatus solve_coupled(const SbSlidingTask *task, SbSealState *out, SbRep
   SbStatus status = at_rest;
   if (slides) {
     memory->last = &memory->plane;
-    status = solve_rough(task, &memory->plane, out->load_net, task->speed,
-                         at_rest == SB_OK ? report : NULL);
+    status = sb_sliding_solve_rough(task, &memory->plane, out->load_net, task->speed,
+                                    at_rest == SB_OK ? report : NULL);
     if (!sb_sliding_usable(status)) {
       return status;
     }
   }
   const SbFilm *film = &memory->last->film;
   sb_warnings_merge(task->warnings, &film->warnings);
-  if (take_film(out, memory->last, status, &memory->now->fit)) {
+  if (sb_sliding_read_film(out, memory->last, status, &memory->now->fit)) {
     take_asperities(out, task->model, film, memory->last->fitted);
   }
   if (rests) {
@@ -710,7 +361,7 @@ static SbStatus opened_by_fluid(SbSealState *out, SbStatus status, const SbRepor
 
 SbStatus sb_sliding_rest(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
   if (task->model->asperities != SB_MODEL_ASPERITIES_COUPLED || !(out->load_net > 0) ||
-      out->opened || !has_film(task)) {
+      out->opened || !sb_sliding_has_film(task)) {
     return SB_OK;
   }
   SbReport own = {0};
@@ -721,22 +372,6 @@ SbStatus sb_sliding_rest(const SbSlidingTask *task, SbSealState *out, SbReport *
   return opened_by_fluid(out, status, &own, task->seal, task->warnings, report);
 }
 
-void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSlidingTask *task,
-                        const SbSlidingBody *body) {
-  const SbModel *model = task->model;
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  sb_sliding_film_problem(out, model, task->seal, task->pressure, state->load_net, task->speed);
-  out->model = coupled ? SB_FILM_REYNOLDS : model->film;
-  const bool solved = out->model == SB_FILM_REYNOLDS;
-  out->inlet_film = task->supply.limited && solved ? task->supply.layer : 0;
-  if (coupled) {
-    add_asperities(out, model);
-  }
-  if (body != NULL) {
-    lay_on(out, body);
-  }
-}
-
 void sb_sliding_take(SbSealState *state, const SbSlidingTask *task, const SbFilm *film, bool fitted,
                      double roughness) {
   state->film_min = film->film_min;
@@ -745,45 +380,6 @@ void sb_sliding_take(SbSealState *state, const SbSlidingTask *task, const SbFilm
     take_asperities(state, task->model, film, fitted);
   }
   (void)sb_sliding_refilm(state, task, roughness, NULL);
-}
-
-// The same of a film in which asperities carry most of the load, of which no law knows: from solved
-// flooded films.
-static double starved_rough(const SbSlidingTask *task, const SbFilmProblem *problem) {
-  enum { ROUNDS = 6 };
-  static const double TIMES = 4, POWER = 0.6, NEAR = 0.05, FASTEST = 1e3; // m/s
-  SbSlidingMemory *memory = task->memory;
-  SbFilm *film = &memory->plane.film;
-  SbFilmProblem flooded = *problem;
-  flooded.hamaker = flooded.work_of_adhesion = flooded.inlet_film = 0;
-  flooded.compliance = NULL;
-  flooded.cancelled = memory->cancelled;
-  flooded.cancelled_data = memory->cancelled_data;
-  flooded.speed = fabs(problem->speed);
-  memory->base.known = false;
-  if (!(problem->inlet_film > 0) ||
-      (memory->solver == NULL && sb_film_solver_create(&memory->solver, NULL) != SB_OK)) {
-    return INFINITY;
-  }
-  for (int round = 0; round < ROUNDS && flooded.speed < FASTEST; round++) {
-    if (solve_once(task, film, &flooded, memory->solver, NULL) != SB_OK) {
-      return INFINITY;
-    }
-    const double thicker = TIMES * 2 * problem->inlet_film / film->film_central;
-    if (fabs(log(thicker)) < NEAR) {
-      return flooded.speed;
-    }
-    flooded.speed *= pow(thicker, 1 / POWER);
-  }
-  return INFINITY;
-}
-
-double sb_sliding_starved_speed(const SbSealState *state, const SbSlidingTask *task,
-                                const SbSlidingBody *body) {
-  SbFilmProblem problem;
-  sb_sliding_film_of(&problem, state, task, body);
-  return problem.surface != SB_ROUGH_NONE ? starved_rough(task, &problem)
-                                          : starved_speed(&task->memory->plane.film, &problem);
 }
 
 SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
@@ -803,11 +399,11 @@ SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
     return status != SB_OK ? status : sb_fail(report, SB_ERROR_NOT_CONVERGED, "no film");
   }
   const double error = state->film_error, central = state->central_error;
-  take_film(state, on, status, &memory->now->fit);
+  sb_sliding_read_film(state, on, status, &memory->now->fit);
   state->film_error = error;
   state->central_error = central;
   if (!solved) {
-    limit_law(state, task);
+    sb_sliding_limit_law(state, task);
   }
   if (coupled) {
     take_asperities(state, model, &on->film, on->fitted);
@@ -879,14 +475,14 @@ SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *la
   }
 
   // Film, only when sliding on a liquid.
-  if (!has_film(task)) {
+  if (!sb_sliding_has_film(task)) {
     out->film_min = out->film_central = out->layer = 0;
   } else if (out->load_net <= 0) {
     out->opened = true;
     sb_warn(warnings, "film-no-net-load", "canister.pressure",
             "the fluid alone carries the %s seal: no film law applies", sb_seal_name(seal));
   } else {
-    SbStatus film = solve_film(task, out, &own);
+    SbStatus film = sb_sliding_solve_film(task, out, &own);
     film = opened_by_fluid(out, film, &own, seal, warnings, first);
     if (!sb_sliding_usable(film)) {
       return film;

@@ -419,7 +419,7 @@ static SbStatus drag_beside(const SbSlidingTask *task, SbSlidingFitment *on,
 // A ring's states: friction drags it, and hangs on the film that lies on the dragged ring.
 // SbSlidingSolved in turns until the friction that drags it is that of its own film. A ring whose
 // greatest drag is less than its friction rolls or jams; the film is then that of this last state.
-// The film hangs on the nodes at the contact's inlet (take_film() in sliding.c), and where one
+// The film hangs on the nodes at the contact's inlet (sb_sliding_read_film()), and where one
 // comes or goes the friction jumps: a jump inside the film's own error is as near as the two come,
 // and an error of the friction.
 SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *report) {

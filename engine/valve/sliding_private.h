@@ -1,4 +1,4 @@
-// What the parts of a steady sliding state share. Internal to sliding.c and sliding_fit.c.
+// What the parts of a steady sliding state share. Internal to sliding*.c.
 #pragma once
 
 #include "engine/valve/sliding.h"
@@ -145,6 +145,27 @@ SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *la
 
 // What a coupled state whose rest has waited (SbSlidingMemory.rest_waits) is at rest.
 SbStatus sb_sliding_rest(const SbSlidingTask *task, SbSealState *out, SbReport *report);
+
+// ---- The film (sliding_film.c)
+
+// Whether there is one: something moves, and the inlet finds liquid.
+bool sb_sliding_has_film(const SbSlidingTask *task);
+
+// The film of a state whose contact is known, asperities beside it.
+SbStatus sb_sliding_solve_film(const SbSlidingTask *task, SbSealState *out, SbReport *report);
+
+// The film with asperities in it, under a net load [N/m] at a speed [m/s], 0: the dry contact; on
+// the fitted body, or on the half-plane where that cannot be.
+SbStatus sb_sliding_solve_rough(const SbSlidingTask *task, SbSlidingSolved *out, double load_net,
+                                double speed, SbReport *report);
+
+// A state's film figures from a solved one on a fitment; false: the solver stopped before its first
+// solution, and they stay NaN.
+bool sb_sliding_read_film(SbSealState *out, const SbSlidingSolved *solved, SbStatus status,
+                          const SbFit *fit);
+
+// A law's film carries half of itself along (thesis eq. 5.20), and no more than the supply.
+void sb_sliding_limit_law(SbSealState *out, const SbSlidingTask *task);
 
 // A film.
 SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,

@@ -115,7 +115,7 @@ static bool is_starved(SbSpeedStates *states, double speed) {
     states->starved[VISCOUS] += log(share);
     states->starved_from = starved ? share * from : INFINITY;
     if (starved) {
-      // As for one film that stands for another speed (sliding.c).
+      // As for one film that stands for another speed (sliding_film.c).
       const SbFilm *film = sb_sliding_film(memory);
       const double end = 2 * states->task.supply.layer;
       const double least = 0.5 * fabs(film->film_min / end - 1);
