@@ -114,6 +114,9 @@ typedef struct {
   SbSupply supply;
 } SbSlidingTask;
 
+// The ring of a task's way of sliding as it stands, borrowed; NULL where it is that of another.
+const SbRing *sb_sliding_ring_of(const SbSlidingTask *task);
+
 // Evaluates a task. The fitment is reused from the last call when the pressure has not changed. A
 // ring (SB_FIT_RING) that slides is dragged by the friction found, of its direction: where it is
 // known from another speed it goes on from there, else cold, so that a state hangs on what was

@@ -92,17 +92,31 @@ static SbStatus solve_supplied(const SbSlidingTask *task, SbSlidingSolved *out,
   return sb_succeed(report);
 }
 
+// What a film's solution is next to another one by.
+static SbSlidingBase base_of(const SbFilmProblem *problem) {
+  const bool right = problem->speed > 0; // the bore moves to the right, and the fluid with it
+  return (SbSlidingBase){.known = true,
+                         .fitted = problem->compliance != NULL,
+                         .inlet = right ? problem->pressure_left : problem->pressure_right,
+                         .outlet = right ? problem->pressure_right : problem->pressure_left,
+                         .speed = fabs(problem->speed),
+                         .load = problem->load};
+}
+
+static bool is_within(double a, double b, double times) {
+  return a < times * b && b < times * a;
+}
+
 // Whether a film is near enough to what the solver solved last: it is then solved on that one's
-// mesh in a tenth of the time, with that one's error.
+// mesh in a tenth of the time, with that one's error. One the other way on the mirror image of a
+// body is the same.
 static bool is_near(const SbSlidingMemory *memory, const SbSlidingSolved *out,
                     const SbFilmProblem *problem) {
   static const double SPEED = 1.25, LOAD = 1.03;
-  const SbSlidingBase *base = &memory->base;
-  const bool same = base->known && base->fitted == (problem->compliance != NULL);
-  return memory->near && same && out != &memory->rest && base->left == problem->pressure_left &&
-         base->right == problem->pressure_right && problem->speed / base->speed > 1 / SPEED &&
-         problem->speed / base->speed < SPEED && problem->load / base->load > 1 / LOAD &&
-         problem->load / base->load < LOAD;
+  const SbSlidingBase *base = &memory->base, is = base_of(problem);
+  return memory->near && base->known && out != &memory->rest && is.fitted == base->fitted &&
+         is.inlet == base->inlet && is.outlet == base->outlet &&
+         is_within(is.speed, base->speed, SPEED) && is_within(is.load, base->load, LOAD);
 }
 
 SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
@@ -146,12 +160,8 @@ SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
   SbStatus status = solve_supplied(task, out, &lent, *solver, report);
   if (solved && solver == &memory->solver) {
     const bool stands = status == SB_OK && plain && !out->film.starved && out->share == 1;
-    memory->base = (SbSlidingBase){.known = stands,
-                                   .fitted = problem->compliance != NULL,
-                                   .left = problem->pressure_left,
-                                   .right = problem->pressure_right,
-                                   .speed = problem->speed,
-                                   .load = problem->load};
+    memory->base = base_of(problem);
+    memory->base.known = stands;
   }
   return status;
 }

@@ -291,6 +291,13 @@ SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *l
   return status;
 }
 
+const SbRing *sb_sliding_ring_of(const SbSlidingTask *task) {
+  const SbSlidingFitment *on = &task->memory->fitment[way_of(task)];
+  const bool same = on->known && on->seal == task->seal &&
+                    on->pressure == task->pressure.left - task->pressure.right;
+  return same && on->fit.model == SB_FIT_RING ? on->ring : NULL;
+}
+
 // The friction of a contact by closed forms, near that of a ring; none where they have none.
 static void guess(SbSlidingLaw *law, const SbSlidingTask *task, SbSlidingFitment *on) {
   SbFitProblem fit;
@@ -363,6 +370,10 @@ static bool mirror(const SbSlidingTask *task, SbSlidingFitment *on) {
   on->modulus = other->modulus;
   on->jump = other->jump;
   on->seal = task->seal;
+  SbSlidingMemory *memory = task->memory;
+  if (on->known && memory->rested && memory->rest_on == other) {
+    memory->rest_on = on; // its dry contact is the mirror image, too
+  }
   return on->known;
 }
 
@@ -440,10 +451,11 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
     return no_tangent(task, on, report);
   }
   const bool first = !known;
+  bool mirrored = false;
   if (!known) {
     sb_sliding_keep(memory, way_of(task));
     on->jump = 0;
-    known = mirror(task, on);
+    known = mirrored = mirror(task, on);
   }
   SbSlidingLaw law;
   if (!known && start != NULL) {
@@ -460,7 +472,7 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
     own->subject = task->warnings != NULL ? task->warnings->subject : NULL;
     like.warnings = own;
     memory->rest_waits = true;
-    memory->near = round > 0;
+    memory->near = round > 0 || mirrored;
     status = sb_sliding_solve_with(&like, known && round == 0 ? NULL : &law, out, report);
     memory->rest_waits = memory->near = false;
     if (!sb_sliding_usable(status) || !(out->load > 0)) {

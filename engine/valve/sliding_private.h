@@ -65,8 +65,8 @@ typedef struct {
 // A film that others are solved beside.
 typedef struct {
   bool known, fitted;
-  double left, right; // pressures [Pa]
-  double speed, load; // [m/s], [N/m]
+  double inlet, outlet; // pressures [Pa]
+  double speed, load;   // [m/s], >= 0; [N/m]
 } SbSlidingBase;
 
 enum { SB_SLIDING_STARTS = 64 }; // of a run at most three chamber states each way

@@ -268,13 +268,11 @@ static SbStatus keep_shapes(const Task *of, const SbRing *ring, SbReport *report
 }
 
 // The earlier chamber whose state is this one: under the same pressures, on the same supply; -1:
-// none. The row over the land's edge begins with a ring solved for it.
+// none.
 static int find_alike(const Task *of) {
   const SbRun *run = of->run;
   const int first = sb_run_first_alike(run, of->seal, of->chamber);
-  const bool row = run->plan.section_fields && run->plan.ring && of->seal == SB_INNER &&
-                   of->chamber == (int)SB_CHAMBER_CLOSED && of->motion == SB_CYCLE_OUT;
-  if (first == of->chamber || row || !of->lane->solved[first][of->motion]) {
+  if (first == of->chamber || !of->lane->solved[first][of->motion]) {
     return -1;
   }
   const SbSupply a = sb_run_supply(run, of->seal, (SbChamber)first, of->motion);
@@ -336,6 +334,16 @@ static SbSlidingTask sliding_task(const Task *of) {
                          &of->lane->counters,
                          &of->lane->warnings,
                          sb_run_supply(run, of->seal, (SbChamber)of->chamber, of->motion)};
+}
+
+// Whether a state's ring begins the row over the land's edge; one that is not the last of its way,
+// NULL, is solved for it.
+static bool begins_row(const Task *of, const SbRing **ring) {
+  const SbPlan *plan = &of->run->plan;
+  const SbSlidingTask task = sliding_task(of);
+  *ring = sb_sliding_ring_of(&task);
+  return plan->section_fields && plan->ring && of->seal == SB_INNER &&
+         of->chamber == (int)SB_CHAMBER_CLOSED && of->motion == SB_CYCLE_OUT;
 }
 
 // Solves one state and takes its errors, its surface, its profile and its shape.
@@ -438,8 +446,13 @@ static void *solve_lane(void *data) {
     }
     task.pressure = sb_model_seal_pressure(run->model, lane->seal, (SbChamber)chamber);
     own = (SbReport){0};
-    const int alike = find_alike(&task);
+    const SbRing *ring;
+    const bool row = begins_row(&task, &ring);
+    const int alike = row && ring == NULL ? -1 : find_alike(&task);
     SbStatus status = alike >= 0 ? take_alike(&task, alike, &own) : solve_state(&task, &own);
+    if (status == SB_OK && alike >= 0 && row && task.state->load > 0) {
+      status = keep_shapes(&task, ring, &own);
+    }
     lane->solved[chamber][task.motion] = status == SB_OK;
     if (fatal(status) || (status != SB_OK && lane->status == SB_OK)) {
       lane->report = own; // of failures to converge the first is told
