@@ -31,7 +31,7 @@
 #include <string.h>
 
 enum {
-  DEBOUNCE_MS = 30,       // before a heavy run; one that is overtaken ends within 50 ms
+  DEBOUNCE_MS = 30,       // before a heavy run of several edits; an overtaken one ends within 50 ms
   IDLE_MS = 1000,         // after a near run, before the whole one
   FRAMES_PER_TICK = 20000 // read per drawn frame: about 2 ms
 };
@@ -432,8 +432,10 @@ void sb_session_values_changed(SbSession *session) {
       adopt(session, known != NULL ? known : stored);
       sb_displayed_run_unref(stored);
     } else if (session->model != NULL && session->auto_run) {
-      // What was just opened is complete, and a quick run ends before the next edit.
-      const guint wait = session->heavy && session->shown != NULL ? DEBOUNCE_MS : 0;
+      // What was just opened is complete, so is a single edit, and a quick run ends before the
+      // next.
+      const bool waits = session->heavy && session->shown != NULL && !session->lone;
+      const guint wait = waits ? DEBOUNCE_MS : 0;
       session->debounce = g_timeout_add(wait, on_debounced, session);
       session->state = session->heavy ? SB_SESSION_RUNNING : session->state;
     }

@@ -311,7 +311,8 @@ static gboolean on_key(GtkWidget *widget, GdkEventKey *event, Presentation *self
   return GDK_EVENT_STOP;
 }
 
-// The window below ---------------------------------------------------------------------------------
+// The window below
+// ---------------------------------------------------------------------------------
 
 static void set_covers(Presentation *self, gboolean covers) {
   if (covers != self->covers && !gdk_window_is_destroyed(self->below)) {
