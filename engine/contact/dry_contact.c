@@ -86,7 +86,10 @@ static bool edge_residuals(double *r, const double *x, void *context) {
   for (int i = 0; i <= COUNT; i++) {
     const double angle = M_PI * (i + 0.5) / (COUNT + 1), at = middle + half * cos(angle);
     double slope, value[SB_COMPLIANCE_MODES], derivative[SB_COMPLIANCE_MODES];
-    double by_moment[SB_COMPLIANCE_MODES] = {0.0}, here[COUNT + 1];
+    double by_moment[SB_COMPLIANCE_MODES] = {0.0}, here[COUNT + 1], wave[COUNT + 1];
+    for (int n = 0; n <= COUNT; n++) {
+      wave[n] = cos(n * angle);
+    }
     sb_compliance_gap(c, at, &slope);
     slope += C * (d->pressure_left - d->pressure_right) * log(half / window);
     sb_compliance_modes(c, at, value, derivative);
@@ -104,9 +107,9 @@ static bool edge_residuals(double *r, const double *x, void *context) {
       }
     }
     for (int k = 0; k <= COUNT; k++) {
-      here[k] = here[k] / (C * M_PI * (k == 0 ? unit : 1.0)) - (k == 0 ? 0.0 : cos(k * angle));
+      here[k] = here[k] / (C * M_PI * (k == 0 ? unit : 1.0)) - (k == 0 ? 0.0 : wave[k]);
       for (int n = 0; n <= COUNT; n++) {
-        row[n][k] += (n == 0 ? 1.0 : 2.0) / (COUNT + 1) * cos(n * angle) * here[k];
+        row[n][k] += (n == 0 ? 1.0 : 2.0) / (COUNT + 1) * wave[n] * here[k];
       }
     }
   }
@@ -259,8 +262,14 @@ double sb_dry_contact_pressure(const SbDryContact *d, double x) {
   const double angle = acos(fmin(fmax(z, -1.0), 1.0));
   const double step = 1.0 - angle / M_PI;
   double p = d->pressure_left * (1.0 - step) + d->pressure_right * step;
+  // sin((k + 1) angle) by its recurrence.
+  const double twice = 2.0 * cos(angle);
+  double now = sin(angle), before = 0.0;
   for (int k = 0; k < d->count; k++) {
-    p += d->a[k] * sin((k + 1) * angle);
+    p += d->a[k] * now;
+    const double next = twice * now - before;
+    before = now;
+    now = next;
   }
   return p;
 }

@@ -44,8 +44,10 @@ void sb_ehl_init(SbFilmSolver *solver) {
   const struct {
     size_t at, size;
   } matrix[] = {
+      {offsetof(SbFilmSolver, solution[0].mesh.element), sizeof solver->solution[0].mesh.element},
       {offsetof(SbFilmSolver, solution[0].mesh.gap), sizeof solver->solution[0].mesh.gap},
       {offsetof(SbFilmSolver, solution[0].mesh.local), sizeof solver->solution[0].mesh.local},
+      {offsetof(SbFilmSolver, solution[1].mesh.element), sizeof solver->solution[1].mesh.element},
       {offsetof(SbFilmSolver, solution[1].mesh.gap), sizeof solver->solution[1].mesh.gap},
       {offsetof(SbFilmSolver, solution[1].mesh.local), sizeof solver->solution[1].mesh.local},
       {offsetof(SbFilmSolver, matrix), sizeof solver->matrix},

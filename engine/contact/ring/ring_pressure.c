@@ -43,10 +43,18 @@ typedef struct SbRingRecovery {
   double a[TERMS_MOST];
   // Residuals at the ends, beside them, and their slopes to both.
   double here[ROWS_MAX], there[ROWS_MAX], slope[2][ROWS_MAX];
+  // The bore's ends of a state that never changes (SbRing.first_order).
+  bool kept, found;
+  SbRingPatch patch;
+  SbDryContact pressure;
 } Fit;
 
 SbRingRecovery *sb_ring_recovery_create(void) {
-  return malloc(sizeof(Fit));
+  Fit *fit = malloc(sizeof *fit);
+  if (fit != NULL) {
+    fit->kept = false;
+  }
+  return fit;
 }
 
 static bool collect(Fit *fit, const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch) {
@@ -301,8 +309,8 @@ static SbDryContact curve_of(const Fit *fit, const SbRingPatch *patch, const dou
   return out;
 }
 
-bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
-                  SbDryContact *out) {
+static bool fit_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
+                     SbDryContact *out) {
   Fit *fit = ring->recovery;
   const SbRingHeld *held_as = &ring->held[surface];
   const SbRingPatch whole = without_strays(ring, surface, *patch);
@@ -344,4 +352,20 @@ bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
     patch->place[1] = sign * out->right;
   }
   return least < HUGE_VAL;
+}
+
+bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
+                  SbDryContact *out) {
+  Fit *fit = ring->recovery;
+  if (!ring->first_order || surface != SB_RING_BORE) {
+    return fit_ends(ring, surface, patch, out);
+  }
+  if (!fit->kept) {
+    fit->patch = *patch;
+    fit->found = fit_ends(ring, surface, &fit->patch, &fit->pressure);
+    fit->kept = true;
+  }
+  *patch = fit->patch;
+  *out = fit->found ? fit->pressure : *out;
+  return fit->found;
 }
