@@ -47,10 +47,10 @@ static void make(SbRingMesh **mesh, double r0, double r1, double z0, double z1, 
   g_assert_cmpint(create_rectangle(mesh, r0, r1, z0, z1, nr, nz, &report), ==, SB_OK);
 }
 
-static SbRingFem *elements(const SbRingMesh *mesh, SbRingMaterial material, bool axisymmetric) {
+static SbRingFem *elements(const SbRingMesh *mesh, SbRingMaterial material, double around) {
   SbRingFem *fem = NULL;
   SbReport report;
-  g_assert_cmpint(sb_ring_fem_create(&fem, mesh, material, axisymmetric, &report), ==, SB_OK);
+  g_assert_cmpint(sb_ring_fem_create(&fem, mesh, material, around, &report), ==, SB_OK);
   return fem;
 }
 
@@ -96,7 +96,7 @@ static double pseudo(int i) {
 static void test_tangent(void) {
   SbRingMesh *mesh;
   make(&mesh, 1.0, 1.5, 0.0, 0.5, 1, 1);
-  SbRingFem *fem = elements(mesh, (SbRingMaterial){0.4, 0.1, 50.0}, true);
+  SbRingFem *fem = elements(mesh, (SbRingMaterial){0.4, 0.1, 50.0}, 2.0 * M_PI);
   int n = 2 * mesh->nodes;
   for (int i = 0; i < n; i++) {
     fem->u[i] = 0.05 * pseudo(i);
@@ -165,7 +165,7 @@ static void patch(bool axisymmetric, double *f) {
       }
     }
   }
-  SbRingFem *fem = elements(mesh, (SbRingMaterial){0.3, 0.2, 4.0}, axisymmetric);
+  SbRingFem *fem = elements(mesh, (SbRingMaterial){0.3, 0.2, 4.0}, axisymmetric ? 2.0 * M_PI : 0.0);
   newton(fem, hold_patch, f, NULL);
   double first[4] = {0.0};
   for (int e = 0; e < mesh->elements; e++) {
@@ -224,7 +224,7 @@ static void hold_tube(SbRingFem *fem, void *data) {
 static double tube_error(int n) {
   SbRingMesh *mesh;
   make(&mesh, 1.0, 2.0, 0.0, 0.5, n, n / 2 > 0 ? n / 2 : 1);
-  SbRingFem *fem = elements(mesh, (SbRingMaterial){0.5, 0.0, 1e6}, true);
+  SbRingFem *fem = elements(mesh, (SbRingMaterial){0.5, 0.0, 1e6}, 2.0 * M_PI);
   double inner = 1.0;
   for (int step = 0; step < 4; step++) {
     inner += 0.1;
@@ -273,7 +273,7 @@ static double sphere_error(int n) {
     mesh->x[2 * i] = angle > 0.5 * G_PI - 1e-12 ? 0.0 : radius * cos(angle);
     mesh->x[2 * i + 1] = radius * sin(angle);
   }
-  SbRingFem *fem = elements(mesh, (SbRingMaterial){0.5, 0.0, 1e5}, true);
+  SbRingFem *fem = elements(mesh, (SbRingMaterial){0.5, 0.0, 1e5}, 2.0 * M_PI);
   double inner = 1.0;
   for (int step = 0; step < 4; step++) {
     inner += 0.1;
@@ -318,7 +318,7 @@ static double cook(int n, double poisson) {
     mesh->x[2 * i + 1] = (1.0 - t) * 44.0 * s + t * (44.0 + 16.0 * s);
   }
   double bulk = 2.0 * (1.0 + poisson) / (3.0 * (1.0 - 2.0 * poisson));
-  SbRingFem *fem = elements(mesh, (SbRingMaterial){0.5, 0.0, bulk}, false);
+  SbRingFem *fem = elements(mesh, (SbRingMaterial){0.5, 0.0, bulk}, 0.0);
   double *load = g_new0(double, 2 * mesh->nodes);
   double side = 16.0 / n;
   for (int i = 0; i < mesh->nodes; i++) {

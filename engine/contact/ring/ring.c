@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double SIZE_DEFAULT = 0.05, SQUEEZE_MOST = 0.6, STRETCH_MOST = 0.6;
+static const double SIZE_DEFAULT = 0.05, SQUEEZE_MOST = 0.6, STRETCH_MOST = 0.6, CRIMP_MOST = 0.5;
 
 // Arc of a bore contact, in section diameters, below which its elements shrink with it, and the
 // least share of their size that is left.
@@ -33,13 +33,26 @@ static SbStatus check_body(const SbRingBody *body, SbReport *report) {
       {"seal.mooney_share", "the Mooney share", body->mooney_share, 0.0, 0.5});
 }
 
+// The stem in the bore of a ring that seals inwards, and the walls that clamp it.
+static SbStatus check_clamped(const SbRingBody *body, const SbRingOutline *outline,
+                              const SbRingLoad *load, SbReport *report) {
+  const double width = load->wall_right - load->wall_left;
+  const double thick = 2.0 * outline->half * body->section_diameter;
+  const double stem = -2.0 * load->bore_radius / body->inner_diameter;
+  return SB_CHECK(report,
+                  {"gasket.crimp", "the gasket's crimp", 1.0 - width / thick, 0.0, CRIMP_MOST},
+                  {"gasket.bore_diameter", "the stem's diameter over the gasket's bore", stem, 0.5,
+                   1.0 + STRETCH_MOST});
+}
+
 static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
                            const SbRingLoad *load, SbReport *report) {
   const char *friction = "friction.load_coefficient", *fluid = "canister.pressure";
   const char *edge = "bore.land_edge";
   bool land = load->land_left > -HUGE_VAL || load->land_right < HUGE_VAL;
   SbStatus status = SB_CHECK(
-      report, {"", "the groove floor's radius [m]", load->floor_radius, SB_FINITE},
+      report,
+      {"", "the groove floor's radius [m]", body->inward ? 0.0 : load->floor_radius, SB_FINITE},
       {"", "the bore's radius [m]", load->bore_radius, SB_FINITE},
       {"", "the bore's position [m]", load->bore_position, SB_FINITE},
       {"", "the bore's shear [Pa]", load->bore_traction, SB_FINITE},
@@ -56,6 +69,9 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
       {edge, "the length of the land's edge [m]", land ? load->edge_length : 1.0, SB_ABOVE_ZERO});
   if (status != SB_OK) {
     return status;
+  }
+  if (body->inward) {
+    return check_clamped(body, outline, load, report);
   }
   double space = load->bore_radius - load->floor_radius;
   if (!(space > 0.0)) {
@@ -152,10 +168,15 @@ static SbRingMeshPlan first_plan(const SbRing *ring, const SbRingLoad *s, double
   SbRingZone touching[2] = {{-angle, angle, size}, {M_PI - angle, M_PI + angle, size}};
   for (int k = 0; k < 2; k++) {
     if (!is_circle(ring)) {
-      touching[k] = zone_within(&ring->outline, 0.03 + 0.5 * fmax(0.0, squeeze), k == 1);
+      const double sunk = isfinite(squeeze) ? fmax(0.0, squeeze) : 0.0;
+      touching[k] = zone_within(&ring->outline, 0.03 + 0.5 * sunk, k == 1);
       touching[k].size = size;
     }
     plan.zone[plan.zone_count++] = touching[k];
+  }
+  if (ring->body.inward) {
+    plan.zone[1] = (SbRingZone){-M_PI, M_PI, 1.5 * size}; // clamped all over
+    return plan;
   }
   if (s->pressure_left > s->pressure_right && s->wall_right < INFINITY) {
     plan.zone[plan.zone_count++] = (SbRingZone){0.0, M_PI, 1.5 * size};
@@ -202,14 +223,15 @@ SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report) {
   double bulk = body->modulus / (3.0 * (1.0 - 2.0 * body->poisson_ratio));
   SbRingMaterial material = {
       .c1 = 0.5 * (1.0 - body->mooney_share), .c2 = 0.5 * body->mooney_share, .bulk = bulk / mu};
-  SbStatus status =
-      sb_ring_fem_create(&ring->fem, ring->mesh, material, !body->plane_strain, report);
+  const double around = body->plane_strain ? 0.0 : body->inward ? -2.0 * M_PI : 2.0 * M_PI;
+  SbStatus status = sb_ring_fem_create(&ring->fem, ring->mesh, material, around, report);
   if (status == SB_OK) {
     status = sb_ring_contact_create(&ring->contact, ring->fem, report);
   }
   if (status == SB_OK) {
     ring->contact->stress = ring->stress;
-    ring->contact->force_scale = body->plane_strain ? 1.0 : 2.0 * M_PI * ring->centre;
+    ring->contact->lobes = !is_circle(ring);
+    ring->contact->force_scale = body->plane_strain ? 1.0 : around * ring->centre;
   }
   return status;
 }
@@ -252,7 +274,9 @@ static SbStatus slide_at_once(SbRing *ring, const SbRingLoad *target, SbReport *
 static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   SbRingLoad target = *load, smooth = *load;
   smooth.use_bore_traction = false;
-  smooth.friction_bore = smooth.friction_floor = smooth.friction_wall = 0.0;
+  smooth.friction_bore = smooth.friction_floor = 0.0;
+  smooth.friction_wall = ring->body.inward ? target.friction_wall : 0.0;
+  smooth.bore_slides = 0;
   SbStatus status = sb_ring_fit_and_press(ring, &smooth, report);
   if (status == SB_OK && ring->options.fit_mesh) {
     status = sb_ring_refit(ring, ring->options.element_size, report);
@@ -319,8 +343,9 @@ void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *lo
   ring->length = d;
   ring->stress = body->modulus / (2.0 * (1.0 + body->poisson_ratio));
   ring->force = ring->stress * d * (body->plane_strain ? 1.0 : d);
-  ring->centre =
-      body->plane_strain ? load->floor_radius / d + 0.5 : 0.5 * (body->inner_diameter + d) / d;
+  ring->centre = body->plane_strain ? load->floor_radius / d + 0.5
+                 : body->inward     ? -0.5 * (body->inner_diameter + d) / d
+                                    : 0.5 * (body->inner_diameter + d) / d;
   // A profile that makes no outline has been refused.
   (void)sb_ring_outline_of_profile(&ring->outline, &body->profile, d, NULL);
 }

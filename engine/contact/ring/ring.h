@@ -4,6 +4,9 @@
 // at the section's centre before pressure, canister side left (x < 0), thrust wall right; radii are
 // measured from the valve's axis. Forces are those of the whole ring (N); with `plane_strain` they
 // are per metre. Pressures are gauge.
+// A ring that seals inwards has every radius with a minus sign, radial displacements too: the stem
+// is its bore, above it in this sense, and what holds it outside would be its floor. It has none:
+// groove walls clamp it, and the fluid of the higher pressure ends at that side's wall.
 //
 // Material: W = c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3) + K/2 (J - 1)^2 with 2 (c1 + c2) = mu =
 // E / (2 (1 + nu)), K = E / (3 (1 - 2 nu)); c2 = 0 is the neo-Hookean energy.
@@ -28,6 +31,7 @@ typedef struct {
   double poisson_ratio;    // 0.3 .. 0.49995
   double mooney_share;     // c2 / (c1 + c2), 0 .. 0.5
   bool plane_strain;       // a long straight cord instead of a ring
+  bool inward;             // it seals inwards, against a stem in its bore: a gasket
 } SbRingBody;
 
 // Local friction law of the bore: shear [Pa] of sliding at a contact pressure [Pa] (the whole one,
@@ -37,7 +41,7 @@ typedef double (*SbRingShear)(double pressure, double *slope, const void *law);
 
 // Where everything stands and what acts on the ring. Start from SB_RING_LOAD_INIT.
 typedef struct {
-  double floor_radius, bore_radius; // groove floor (stem) and bore, m
+  double floor_radius, bore_radius; // groove floor (stem) and bore, m; floor -INFINITY: none
   double wall_left, wall_right;     // axial places of the groove walls, m; +-INFINITY: none
   double land_left, land_right;     // axial ends of the bore's land, m; +-INFINITY: none
   double chamfer_angle;             // rad, beyond an end of the land the bore opens so

@@ -131,7 +131,7 @@ static bool find_side(const SbRing *ring, const SbRingPatch *patch, double z, in
 // U_l(z), per length of the bore's circumference so that the answer stays symmetric.
 static void load_wave(SbRing *ring, int from, int to, double middle, double half, int l) {
   SbRingFem *fem = ring->fem;
-  double turn = fem->axisymmetric ? 2.0 * M_PI * ring->contact->is.now.bore_radius : 1.0;
+  double turn = fem->around != 0.0 ? fem->around * ring->contact->is.now.bore_radius : 1.0;
   memset(fem->rhs, 0, sizeof(double) * 2 * (size_t)fem->mesh->nodes);
   for (int side = from; side <= to; side++) {
     Side s;

@@ -60,6 +60,7 @@ typedef struct {
   double *fluid;      // [2 count] fluid force on the open sides' nodes
   double *weight;     // [count] current area of the boundary nodes
   double *wet;        // [count / 2] the fluid's pressure on the sides, closed or not
+  bool lobes;         // contacts may have several crests: fluid ends at the first that holds it
   bool settled;       // the state stands still: its crests stay
   bool fixed;         // the held set and the slip states stay
   bool carried;       // from another mesh: while they do, the first iterations are stuck,

@@ -101,24 +101,24 @@ static bool point_geometry(const SbRingFem *fem, int element, double l1, double 
     double value = a < NODES ? n[a] : 27.0 * l0 * l1 * l2;
     g[a] = (jac[1][1] * e1 - jac[0][1] * e2) / det;
     g[ROOM + a] = (jac[0][0] * e2 - jac[1][0] * e1) / det;
-    g[2 * ROOM + a] = fem->axisymmetric ? value / r : 0.0;
+    g[2 * ROOM + a] = fem->around != 0.0 ? value / r : 0.0;
   }
   for (int k = 0; k < 3; k++) {
     g[ROOM * k + SHAPES] = 0.0;
   }
-  g[3 * ROOM] = 0.5 * det * weight * (fem->axisymmetric ? 2.0 * M_PI * r : 1.0);
-  return det > 0.0 && (r > 0.0 || !fem->axisymmetric);
+  g[3 * ROOM] = 0.5 * det * weight * (fem->around != 0.0 ? fem->around * r : 1.0);
+  return det > 0.0 && (fem->around * r > 0.0 || fem->around == 0.0);
 }
 
 SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMaterial material,
-                            bool axisymmetric, SbReport *report) {
+                            double around, SbReport *report) {
   *out = NULL;
   SbRingFem *fem = calloc(1, sizeof *fem);
   if (fem == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's elements");
   }
   fem->mesh = mesh;
-  fem->axisymmetric = axisymmetric;
+  fem->around = around;
   fem->material = material;
   size_t n = (size_t)mesh->nodes, m = (size_t)mesh->elements;
   size_t state = 2 * n + SB_RING_INNER * m;

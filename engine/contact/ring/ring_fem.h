@@ -37,7 +37,7 @@ typedef struct {
 typedef struct SbRingFem SbRingFem;
 struct SbRingFem {
   const SbRingMesh *mesh; // borrowed
-  bool axisymmetric;
+  double around;          // 2 pi, of radii that count inwards -2 pi; 0: a straight cord
   SbRingMaterial material;
   double axial_spring;  // stiffness per node against axial drift, 0 = none
   double axial_rest;    // mean drift since the saved state 1 at which the spring is slack
@@ -74,7 +74,7 @@ static inline void sb_ring_fem_place(const SbRingFem *fem, int node, double x[2]
 
 // Owned, free with sb_ring_fem_destroy; keeps `mesh` borrowed. The state is zero.
 SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMaterial material,
-                            bool axisymmetric, SbReport *report);
+                            double around, SbReport *report);
 void sb_ring_fem_destroy(SbRingFem *fem);
 
 // For create only: the sparse pattern and room for its factors.

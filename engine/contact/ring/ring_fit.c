@@ -31,7 +31,7 @@ static double load_floor(const SbRingBody *body, const SbRingLoad *load) {
 static double fluid_floor(const SbRingResult *result, const SbRingBody *body,
                           const SbRingLoad *load) {
   double pressure = fmax(load->pressure_left, load->pressure_right);
-  double around = body->plane_strain ? 1.0 : 2.0 * M_PI * load->bore_radius;
+  double around = body->plane_strain ? 1.0 : 2.0 * M_PI * fabs(load->bore_radius);
   double fluid = pressure * around * (result->contact_right - result->contact_left);
   return 2e-4 + 1e-3 * fmin(1.0, fluid / result->bore_force);
 }

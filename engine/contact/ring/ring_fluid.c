@@ -1,7 +1,8 @@
 // The fluid's pressure on the ring's open sides: a follower load with its consistent tangent.
 //
 // Three-point Gauss, exact for quadratic sides: f = -int N p n dA, n and dA of the deformed side.
-// Left pressure stands up to the crests of bore and floor contact, right pressure beyond. A side is
+// Left pressure stands up to the crests of bore and floor contact, right pressure beyond; the lower
+// of both behind a ring that seals inwards, from the crest at the higher one's wall on. A side is
 // closed by contact when a surface holds all three of its nodes; what the fluid would press there
 // is kept as the share that the contact must exceed. Leaves out flow and pressure drop.
 #include "engine/contact/ring/ring_contact.h"
@@ -27,6 +28,35 @@ static int crest(const SbRingContact *contact, SbRingSurface surface, double ang
     nearest = fabs(angles[i] - angle) < fabs(angles[nearest] - angle) ? i : nearest;
   }
   return best >= 0 ? best : nearest;
+}
+
+// The same where a contact may have several crests, that is hollows which nothing but the other
+// fluid fills as long as one crest holds the higher pressure: the first crest above it on the way
+// from the bore (to the bore: from the floor) over the flank of the higher pressure.
+static int first_crest(const SbRingContact *contact, SbRingSurface surface, double angle) {
+  static const double FALLS = 0.8; // to this share of a crest it has been passed
+  const SbRingLoad *now = &contact->is.now;
+  const double high = fmax(now->pressure_left, now->pressure_right);
+  if (!contact->lobes || now->pressure_left == now->pressure_right) {
+    return crest(contact, surface, angle);
+  }
+  const bool left = now->pressure_left > now->pressure_right;
+  const int way = (surface == SB_RING_BORE) == left ? 1 : -1;
+  const int start = surface == SB_RING_BORE ? 0 : crest(contact, SB_RING_BORE, 0.0);
+  int best = -1;
+  double most = high;
+  for (int k = 0; k < contact->count; k += 2) {
+    const int i = sb_ring_wrap(contact, start + way * k);
+    const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
+    const double pressure = touch->held ? touch->force / fmax(contact->weight[i], 1e-30) : 0.0;
+    if (pressure > most) {
+      most = pressure;
+      best = i;
+    } else if (best >= 0 && pressure < FALLS * most) {
+      break;
+    }
+  }
+  return best >= 0 ? best : crest(contact, surface, angle);
 }
 
 // Brings the fluid's force on one node of an open side into the balance. What presses a held node
@@ -74,7 +104,7 @@ static void load_node(SbRingContact *contact, int i, const int nodes[3], const d
 void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressure pressure,
                        double force[3][2], double tangent[3][2][3][2], double area[3]) {
   const SbRingFem *fem = contact->fem;
-  double r[3], z[3], turn = fem->axisymmetric ? 2.0 * M_PI : 1.0;
+  double r[3], z[3], turn = fem->around != 0.0 ? fem->around : 1.0;
   for (int a = 0; a < 3; a++) {
     double x[2];
     sb_ring_contact_place(contact, 2 * side + a, x);
@@ -88,7 +118,7 @@ void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressur
     double n[3], d[3];
     sb_ring_side_shape(SB_RING_X3[q], n, d);
     double dr = sb_ring_side_sum(d, r), dz = sb_ring_side_sum(d, z);
-    double radius = fem->axisymmetric ? sb_ring_side_sum(n, r) : 1.0;
+    double radius = fem->around != 0.0 ? sb_ring_side_sum(n, r) : 1.0;
     double p = pressure.value + pressure.slope * (sb_ring_side_sum(n, z) - z[0]);
     for (int a = 0; a < 3; a++) {
       // Outward normal times length is (dz, -dr): the ring is pushed by -p (dz, -dr) radius turn.
@@ -97,7 +127,7 @@ void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressur
       force[a][0] -= c * p * radius * dz;
       force[a][1] += c * p * radius * dr;
       for (int b = 0; b < 3; b++) {
-        double hoop = fem->axisymmetric && !pressure.fixed ? n[b] : 0.0;
+        double hoop = fem->around != 0.0 && !pressure.fixed ? n[b] : 0.0;
         double rise = pressure.slope * n[b];
         tangent[a][0][b][0] += c * p * hoop * dz;
         tangent[a][0][b][1] += c * radius * (p * d[b] + rise * dz);
@@ -109,7 +139,7 @@ void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressur
 }
 
 void sb_ring_side_area_slope(const SbRingContact *contact, int side, int a, double slope[3][2]) {
-  const bool axisymmetric = contact->fem->axisymmetric;
+  const double around = contact->fem->around;
   double r[3], z[3];
   for (int k = 0; k < 3; k++) {
     double x[2];
@@ -122,10 +152,10 @@ void sb_ring_side_area_slope(const SbRingContact *contact, int side, int a, doub
     double n[3], d[3];
     sb_ring_side_shape(SB_RING_X3[q], n, d);
     double dr = sb_ring_side_sum(d, r), dz = sb_ring_side_sum(d, z), length = hypot(dr, dz);
-    double radius = axisymmetric ? sb_ring_side_sum(n, r) : 1.0;
-    double c = SB_RING_W3[q] * (axisymmetric ? 2.0 * M_PI : 1.0) * n[a];
+    double radius = around != 0.0 ? sb_ring_side_sum(n, r) : 1.0;
+    double c = SB_RING_W3[q] * (around != 0.0 ? around : 1.0) * n[a];
     for (int b = 0; b < 3; b++) {
-      slope[b][0] += c * ((axisymmetric ? n[b] * length : 0.0) + radius * d[b] * dr / length);
+      slope[b][0] += c * ((around != 0.0 ? n[b] * length : 0.0) + radius * d[b] * dr / length);
       slope[b][1] += c * radius * d[b] * dz / length;
     }
   }
@@ -153,8 +183,12 @@ bool sb_ring_contact_on_right(const SbRingContact *contact, int side) {
 
 void sb_ring_contact_load_fluid(SbRingContact *contact) {
   if (!contact->settled) {
-    contact->is.crest[0] = crest(contact, SB_RING_BORE, 0.0);
-    contact->is.crest[1] = crest(contact, SB_RING_FLOOR, -M_PI);
+    contact->is.crest[0] = first_crest(contact, SB_RING_BORE, 0.0);
+    const SbRingLoad *now = &contact->is.now;
+    contact->is.crest[1] = contact->fem->around >= 0.0 ? first_crest(contact, SB_RING_FLOOR, -M_PI)
+                           : now->pressure_left > now->pressure_right
+                               ? first_crest(contact, SB_RING_WALL_LEFT, -0.5 * M_PI)
+                               : first_crest(contact, SB_RING_WALL_RIGHT, 0.5 * M_PI);
   }
   const int count = contact->count;
   memset(contact->share, 0, 8 * sizeof(double) * (size_t)count); // and what follows it

@@ -59,11 +59,16 @@ void sb_ring_guide_destroy(SbRingGuide *guide) {
   }
 }
 
+// Radius of what a ring lies on.
+static double seat(const SbRingLoad *load) {
+  return isfinite(load->floor_radius) ? load->floor_radius : load->bore_radius;
+}
+
 // The state of another mesh of the same nodes: displacements that leave the ring as it lies on its
 // floor, and its contact.
 static void lay_alike(SbRing *to, const SbRing *from, const SbRingLoad *target,
                       const SbRingShift *shift) {
-  const double rise = target->floor_radius - from->contact->is.now.floor_radius;
+  const double rise = seat(target) - seat(&from->contact->is.now);
   SbRingFem *fem = to->fem;
   SbRingContactState *is = &to->contact->is;
   for (int i = 0; i < fem->mesh->nodes; i++) {
@@ -127,7 +132,7 @@ static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *
                         SbReport *report) {
   SbRingLoad start = *from;
   start.floor_radius = to->floor_radius; // where it lies
-  start.bore_radius += to->floor_radius - from->floor_radius;
+  start.bore_radius += seat(to) - seat(from);
   start.shear = to->shear;
   start.law = to->law;
   ring->contact->is.now = start;

@@ -43,6 +43,22 @@ static void guess(SbRing *ring, const SbRingLoad *s, double share) {
   ring->contact->is.turn = 0.0;
 }
 
+// The same of a ring that is clamped and seals inwards: r^2 - R^2/c is uniform where the axial
+// compression c is, c the stretch; the bore widens with the free ring's, or lies on the stem.
+static void guess_clamped(SbRing *ring, const SbRingLoad *s) {
+  const double c = fmin(1.0, (s->wall_right - s->wall_left) / (2.0 * ring->outline.half));
+  const double free = -ring->centre - 0.5, bore = fmax(-s->bore_radius, free / sqrt(c));
+  const double middle = 0.5 * (s->wall_left + s->wall_right);
+  SbRingFem *fem = ring->fem;
+  for (int i = 0; i < ring->mesh->nodes; i++) {
+    const double r = ring->mesh->x[2 * i], z = ring->mesh->x[2 * i + 1];
+    fem->u[2 * i] = -sqrt(bore * bore + (r * r - free * free) / c) - r;
+    fem->u[2 * i + 1] = middle + c * z - z;
+  }
+  memset(fem->inner, 0, sizeof(double) * SB_RING_INNER * (size_t)ring->mesh->elements);
+  ring->contact->is.turn = 0.0;
+}
+
 // A pressure difference with nothing to lean on: push the ring against its wall.
 static SbStatus lean(SbRing *ring, const SbRingLoad *s, bool *leaned, SbReport *report) {
   SbRingContact *contact = ring->contact;
@@ -153,15 +169,58 @@ static SbStatus press_open(SbRing *ring, const SbRingLoad *target, SbReport *rep
 static SbStatus start(SbRing *ring, const SbRingLoad *load, const SbRingLoad *guessed, double share,
                       SbReport *report) {
   ring->contact->is.now = *load;
-  guess(ring, guessed, share);
+  if (ring->body.inward) {
+    guess_clamped(ring, guessed);
+  } else {
+    guess(ring, guessed, share);
+  }
   sb_ring_contact_detect(ring->contact);
   return sb_ring_newton(ring, SB_RING_FOLLOW, report);
 }
 
-// Fits the ring without fluid and friction, then brings on the fluid.
+// Brings the fluid on a ring that has been fitted without.
+static SbStatus press_fitted(SbRing *ring, const SbRingLoad *load, SbReport *report) {
+  SbRingPatch patch;
+  const bool touches = sb_ring_patch(ring, SB_RING_BORE, &patch);
+  if (ring->options.alone && !touches) {
+    ring->load.pressure_left = ring->load.pressure_right = 0.0;
+    return SB_OK;
+  }
+  if (load->pressure_left == 0.0 && load->pressure_right == 0.0) {
+    return SB_OK;
+  }
+  const bool differ = load->pressure_left != load->pressure_right;
+  return touches || !differ ? sb_ring_press(ring, load, report) : press_open(ring, load, report);
+}
+
+// Puts the ring over the stem, then closes the walls on it, against their friction; then brings on
+// the fluid. Closed first and widened by the stem then, it bears 1.7 times the load where nothing
+// slips on the walls, and 0.19 times where they rub on the way of the stem alone (measured, thesis'
+// reference gasket: 36, 62 and 6.7 N).
+static SbStatus clamp_and_press(SbRing *ring, const SbRingLoad *load, SbReport *report) {
+  const double middle = 0.5 * (load->wall_left + load->wall_right);
+  SbRingLoad dry = *load;
+  dry.pressure_left = dry.pressure_right = 0.0;
+  SbRingLoad open = dry;
+  open.friction_wall = 0.0;
+  open.wall_left = middle - ring->outline.half;
+  open.wall_right = middle + ring->outline.half;
+  SbStatus status = start(ring, &open, &open, 0.0, report);
+  if (status == SB_OK) {
+    ring->contact->is.now.friction_wall = load->friction_wall;
+    status = sb_ring_advance(ring, &dry, SB_RING_FOLLOW, report);
+  }
+  return status == SB_OK ? press_fitted(ring, load, report) : status;
+}
+
+// Fits the ring without fluid and friction, that of clamping walls but for, then brings on the
+// fluid.
 SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport *report) {
   SbRingLoad dry = *smooth;
   dry.pressure_left = dry.pressure_right = 0.0;
+  if (ring->body.inward && smooth->friction_wall > 0.0) {
+    return clamp_and_press(ring, smooth, report);
+  }
   // Guesses with different shares of the squeeze, then a small squeeze that grows, and the ends of
   // the land that come in from outside.
   SbStatus status = start(ring, &dry, &dry, 0.4, report);
@@ -188,14 +247,5 @@ SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport 
     return status;
   }
   ring->count.steps = ring->count.steps > 0 ? ring->count.steps : 1;
-  SbRingPatch patch;
-  bool touches = sb_ring_patch(ring, SB_RING_BORE, &patch), pass = ring->options.alone && !touches;
-  if (pass) {
-    ring->load.pressure_left = ring->load.pressure_right = 0.0;
-  } else if (smooth->pressure_left != 0.0 || smooth->pressure_right != 0.0) {
-    bool differ = smooth->pressure_left != smooth->pressure_right;
-    status =
-        touches || !differ ? sb_ring_press(ring, smooth, report) : press_open(ring, smooth, report);
-  }
-  return status;
+  return press_fitted(ring, smooth, report);
 }

@@ -67,7 +67,7 @@ static bool collect(Fit *fit, const SbRing *ring, SbRingSurface surface, const S
   if (fit->rows > ROWS_MAX || fit->rows < 9 || fit->rows > contact->count) {
     return false;
   }
-  fit->turn = ring->fem->axisymmetric ? 2.0 * M_PI : 1.0;
+  fit->turn = ring->fem->around != 0.0 ? ring->fem->around : 1.0;
   for (int i = 0; i < fit->rows; i++) {
     int place = sb_ring_wrap(contact, first + i);
     double x[2];
@@ -75,7 +75,7 @@ static bool collect(Fit *fit, const SbRing *ring, SbRingSurface surface, const S
     const SbRingTouch *touch = sb_ring_touch(contact, place, surface);
     fit->x[i] = sign * x[axis];
     fit->z[i] = sign * x[1 - axis];
-    fit->r[i] = ring->fem->axisymmetric ? x[0] : 1.0;
+    fit->r[i] = ring->fem->around != 0.0 ? x[0] : 1.0;
     fit->fits[i] = touch->held && first + i > patch->first && first + i < patch->last;
     fit->force[i] = touch->held ? touch->force : 0.0;
     fit->area[i] = contact->weight[place];

@@ -179,8 +179,8 @@ SbStatus sb_ring_attempt(SbRing *ring, SbRingPath path, SbReport *report);
 // last converged load and state remain, and the report says where equilibrium ended.
 SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path, SbReport *report);
 
-// Fits the ring anew without friction at a load, fluid last, on its present mesh. Errors as
-// sb_ring_create.
+// Fits the ring anew without friction, but for that of clamping walls, at a load, fluid last, on
+// its present mesh. Errors as sb_ring_create.
 SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport *report);
 
 // Shifts a ring that neither wall holds to the one that the bore slides to.

@@ -285,7 +285,7 @@ static SbStatus check(const SbSealProfile *p, double h, SbReport *report) {
                {"seal.axial_height", "the section's axial height over its radial one",
                 wide ? p->axial_height / h : 1.0, 0.2, 5.0},
                {"seal.corner_radius", "the corners' radius over the section's radial height",
-                p->corner_radius / h, 0.02, 0.5});
+                p->corner_radius / h, 0.005, 0.5});
   if (status == SB_OK && p->kind == SB_SEAL_PROFILE_X) {
     const double lobe = p->corner_radius / h;
     status = SB_CHECK(report,

@@ -54,6 +54,9 @@ bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch
   double left = ring->contact->is.now.pressure_left, right = ring->contact->is.now.pressure_right;
   patch->end_pressure[0] = surface == SB_RING_BORE || surface == SB_RING_WALL_LEFT ? left : right;
   patch->end_pressure[1] = surface == SB_RING_BORE || surface == SB_RING_WALL_RIGHT ? right : left;
+  if (ring->body.inward && surface != SB_RING_BORE) { // outside stands the lower pressure
+    patch->end_pressure[surface == SB_RING_WALL_LEFT ? 0 : 1] = fmin(left, right);
+  }
   find_end(ring, surface, patch->first, -1, &patch->angle[0], &patch->place[0]);
   find_end(ring, surface, patch->last, 1, &patch->angle[1], &patch->place[1]);
   return true;
@@ -120,7 +123,7 @@ int sb_ring_profile(const SbRing *ring, double *x, double *pressure, int capacit
 static double end_share(const SbRing *ring, const SbRingPatch *patch) {
   double low = fmin(patch->place[0], patch->place[1]),
          high = fmax(patch->place[0], patch->place[1]);
-  double turn = ring->body.plane_strain ? 1.0 : 2.0 * M_PI, sum = 0.0;
+  double turn = ring->body.plane_strain ? 1.0 : ring->fem->around, sum = 0.0;
   for (int side = (patch->first - 2) / 2; side <= patch->last / 2; side++) {
     if (ring->contact->closed[sb_ring_wrap(ring->contact, 2 * side) / 2]) {
       continue;
