@@ -243,7 +243,9 @@ int sb_command_fit(int argc, char **argv) {
   SbGlandReadout readouts[SB_GLAND_COUNT];
   SbReport gland_report = {0};
   sb_model_gland(&gland, model, index);
-  if (sb_gland_readouts(readouts, &gland, &gland_report) != SB_OK) {
+  // A gasket lies in none.
+  const SbGlandReadout *in_gland = problem.gasket ? NULL : readouts;
+  if (in_gland != NULL && sb_gland_readouts(readouts, &gland, &gland_report) != SB_OK) {
     sb_cli_fail("%s: %s", gland_report.parameter, gland_report.text);
     code = SB_EXIT_INPUT;
     goto done;
@@ -251,13 +253,15 @@ int sb_command_fit(int argc, char **argv) {
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int written = SB_EXIT_DONE;
     if (target != NULL) {
-      char *json = sb_results_fit(fit, &problem, limit, seal, readouts,
+      char *json = sb_results_fit(fit, &problem, limit, seal, in_gland,
                                   &sb_model_seal(model, index)->storage);
       written = sb_cli_emit(json, target);
       g_free(json);
     } else if (!sb_cli_quiet()) {
       print_table(fit, seal, problem.dragged);
-      print_gland(readouts);
+      if (in_gland != NULL) {
+        print_gland(in_gland);
+      }
       if (sb_cli_plots(&plots) && fit->profile_count > 1) {
         sb_cli_plot_profile(fit->profile_x, fit->profile_p, NULL, fit->profile_count);
       }

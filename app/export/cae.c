@@ -130,7 +130,7 @@ static void end_polyline(GString *out, const char *layer) {
 
 static void write_dxf(GString *out, const Mesh *mesh) {
   static const char *const outline[] = {"FREE", "DEFORMED"}, *const line[] = {"FLOOR", "BORE"};
-  const double radius[] = {mesh->load.floor_radius, mesh->load.bore_radius};
+  const double radius[] = {mesh->load.floor_radius, fabs(mesh->load.bore_radius)};
   g_string_append(out, "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$INSUNITS\n70\n4\n"
                        "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n");
   for (int deformed = 0; deformed < 2; deformed++) {
@@ -143,7 +143,7 @@ static void write_dxf(GString *out, const Mesh *mesh) {
     }
     end_polyline(out, outline[deformed]);
   }
-  for (int k = 0; k < 2; k++) {
+  for (int k = mesh->body.inward ? 1 : 0; k < 2; k++) {
     begin_polyline(out, line[k], false);
     put_vertex(out, line[k], 1.5 * mesh->result.axial_left, radius[k]);
     put_vertex(out, line[k], 1.5 * mesh->result.axial_right, radius[k]);
@@ -482,6 +482,10 @@ bool sb_cae_check(const char *path, const SbFitProblem *problem, GError **error)
   } else if (KIND[kind].write == write_inp && problem->dragged) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "%s: a ring with friction is not written for CalculiX: it hangs on its path", path);
+  } else if (KIND[kind].write == write_inp && problem->gasket) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "%s: a gasket is not written for CalculiX: the plates' friction hangs on its path",
+                path);
   } else {
     return true;
   }

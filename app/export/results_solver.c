@@ -172,10 +172,10 @@ char *sb_results_film(const SbFilm *film, const SbResultsHistory *history) {
   return sb_json_finish(&json);
 }
 
-// The gland's read-outs, and what storage made of the ring.
+// The gland's read-outs, none of a seal that lies in none, and what storage made of the ring.
 static void put_gland(SbJson *json, const SbGlandReadout *gland) {
   sb_json_array(json, "gland");
-  for (int i = 0; i < SB_GLAND_COUNT; i++) {
+  for (int i = 0; gland != NULL && i < SB_GLAND_COUNT; i++) {
     const SbGlandReadout *r = &gland[i];
     sb_json_object(json, NULL);
     sb_json_string(json, "name", r->name);

@@ -79,7 +79,8 @@ static SbStatus check(const SbFitProblem *in, SbReport *report) {
       {"seal.section_diameter", "the section diameter [m]", in->section_diameter, SB_ABOVE_ZERO},
       {"seal.inner_diameter", "the inner diameter [m]", in->inner_diameter, SB_ABOVE_ZERO},
       {"seal.modulus", "the rubber's modulus [Pa]", in->modulus, SB_ABOVE_ZERO},
-      {"gland.radial_space", "the radial space [m]", in->radial_space, SB_ABOVE_ZERO},
+      {"gland.radial_space", "the radial space [m]", in->gasket ? 1.0 : in->radial_space,
+       SB_ABOVE_ZERO},
       {"gland.axial_width", "the gland's width [m]", in->gland_width, SB_ABOVE_ZERO},
       {"bore.diameter", "the bore's diameter [m]", in->bore_diameter, SB_ABOVE_ZERO},
       {"seal.poisson_ratio", "the rubber's Poisson's ratio", in->poisson_ratio, SB_POISSON},
@@ -106,7 +107,7 @@ static SbStatus check(const SbFitProblem *in, SbReport *report) {
                              "only the ring model knows a dragged ring, not %s",
                              sb_fit_model_name(in->model));
   }
-  if (!(in->bore_diameter > 2.0 * in->radial_space)) {
+  if (!in->gasket && !(in->bore_diameter > 2.0 * in->radial_space)) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "bore.diameter",
                              "bore %.4g mm leaves no stem inside a radial space of %.4g mm",
                              1e3 * in->bore_diameter, 1e3 * in->radial_space);
@@ -123,6 +124,13 @@ static void fill_sizes(SbFit *out, const SbFitProblem *in) {
   const double mean_fitted = in->bore_diameter - g;
   out->model = in->model;
   out->variant = in->variant;
+  if (in->gasket) {
+    out->squeeze = 1.0 - in->gland_width / in->profile.axial_height;
+    out->stretch_inner = in->bore_diameter / in->inner_diameter - 1.0;
+    out->interference = in->bore_diameter - in->inner_diameter;
+    out->stretch_mean = out->section_diameter_fitted = out->gland_fill = NAN;
+    return;
+  }
   out->squeeze = (d - g) / d;
   out->stretch_mean = (mean_fitted - mean_free) / mean_free;
   out->stretch_inner = (in->bore_diameter - 2.0 * g - in->inner_diameter) / in->inner_diameter;

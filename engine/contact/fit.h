@@ -7,6 +7,8 @@
 // the README's definitions:
 //   squeeze (d - g)/d; stretch_mean ((D - g) - (ID + d))/(ID + d); stretch_inner (D - 2 g)/ID - 1;
 //   section_diameter_fitted d (1 - nu stretch_mean); interference = that - g, diametral;
+// Of a gasket squeeze is its crimp, stretch_inner that of its bore and interference the stem's
+// diameter less the bore's; what only a ring on a floor has is NaN.
 //   gland_fill free ring volume / gland volume = (pi/4) d^2 (ID + d)/(g (D - g) gland width).
 // Load is the integral of the contact pressure over the closed contact (the fluid's share
 // included); load = load_per_length x circumference, and circumference is pi (ID + d) for the
@@ -70,6 +72,10 @@ typedef struct {
   double gland_width;      // axial [m]
   double pressure;         // pressure difference [Pa]; positive on the left (x < 0)
   double tolerance;        // relative, wanted of load, peak and width; 0: 1e-3
+  // Of the ring alone: a flat gasket, clamped between plates `gland_width` apart that rub with
+  // wall_friction, on a stem of bore_diameter in its free bore of inner_diameter; its section's
+  // axial height is its thickness, section_diameter its radial extent. radial_space is then unused.
+  bool gasket;
   // Of the ring alone: dragged by the bore, which slides steadily with friction |drag|, > 0 towards
   // the wall that the fluid presses the ring to (the right one without pressure), with friction on
   // floor and walls, from where it lies before.

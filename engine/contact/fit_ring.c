@@ -22,11 +22,18 @@ void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem 
                        .inner_diameter = in->inner_diameter,
                        .modulus = in->modulus,
                        .poisson_ratio = in->poisson_ratio,
-                       .mooney_share = in->mooney_share};
+                       .mooney_share = in->mooney_share,
+                       .inward = in->gasket};
   *load = (SbRingLoad)SB_RING_LOAD_INIT;
-  load->bore_radius = 0.5 * in->bore_diameter;
-  load->floor_radius = load->bore_radius - in->radial_space;
-  if (in->pressure > 0.0) {
+  load->bore_radius = (in->gasket ? -0.5 : 0.5) * in->bore_diameter;
+  load->floor_radius = in->gasket ? -INFINITY : load->bore_radius - in->radial_space;
+  if (in->gasket) {
+    load->wall_left = -0.5 * in->gland_width;
+    load->wall_right = 0.5 * in->gland_width;
+    load->friction_wall = in->wall_friction;
+    load->pressure_left = fmax(0.0, in->pressure);
+    load->pressure_right = fmax(0.0, -in->pressure);
+  } else if (in->pressure > 0.0) {
     load->pressure_left = in->pressure;
     load->wall_right = 0.5 * in->gland_width;
   } else if (in->pressure < 0.0) {
@@ -50,7 +57,7 @@ void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem 
 static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
                         const SbRingResult *result) {
   const double width = result->axial_right - result->axial_left;
-  if (width > in->gland_width && !in->dragged) {
+  if (width > in->gland_width && !in->dragged && !in->gasket) {
     sb_warn(&out->warnings, "ring-groove-full", "gland.axial_width",
             "the fitted section is %.3g mm wide in a groove of %.3g mm: its other wall is left out",
             1e3 * width, 1e3 * in->gland_width);
@@ -98,14 +105,14 @@ static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
   }
 }
 
-// Rubbing on floor and walls under pressure a dragged ring keeps what the coarse meshes of its path
+// Rubbing on floor and walls under pressure a dragged ring, and a gasket between its plates, keeps what the coarse meshes of its path
 // have left there: by a law that is not Coulomb's other meshes and path tolerances give loads up to
 // 1.2 % and widths up to 0.5 % apart (measured), which its last two meshes do not see.
 static const double PATH_LOAD = 0.012, PATH_PEAK = 0.005, PATH_WIDTH = 0.005;
 
 static bool keeps_path(const SbFitProblem *in) {
   const bool rubs = in->floor_friction > 0.0 || in->wall_friction > 0.0;
-  return in->shear != NULL && rubs && in->pressure != 0.0;
+  return rubs && (in->gasket || (in->shear != NULL && in->pressure != 0.0));
 }
 
 // A dragged round ring that is wanted to no more than ENOUGH follows its path on larger elements,

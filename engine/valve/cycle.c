@@ -4,11 +4,21 @@
 #include "engine/numeric/legendre.h"
 #include "engine/numeric/root.h"
 #include "engine/valve/breakaway.h"
+#include "engine/valve/gasket.h"
 
 #include <math.h>
 
 // ---------------------------------------------------------------------------------------------------
 // Resistance
+
+static bool is_gasket(const SbCycle *cycle) {
+  return cycle->model->kind == SB_VALVE_GASKET;
+}
+
+// What pushes the stem out beside friction and stops: the canister and a return spring.
+static double push(const SbModel *model, double s) {
+  return model->pressure_force + model->spring_preload + model->spring_stiffness * s;
+}
 
 // Whether the inner seal seals at all. While the chamber is open its state is not solved, so the
 // closed states tell.
@@ -24,6 +34,10 @@ double sb_cycle_edge_begin(const SbCycle *cycle, SbChamber chamber, int directio
   const SbSealState *first = &cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   const SbSealState *inner = &cycle->state[SB_INNER][chamber][direction];
   bool both = first->touches && inner->touches;
+  if (is_gasket(cycle)) {
+    // The stem's shoulder comes from the right, and goes to the left.
+    return cycle->model->land_edge + (both ? first->contact_right - inner->contact_right : 0);
+  }
   return cycle->model->land_edge + (both ? inner->contact_left - first->contact_left : 0);
 }
 
@@ -33,7 +47,8 @@ double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction)
          inner->contact_left;
 }
 
-// Share of a seal's contact that the edge has passed; without contact all of it.
+// Share of a seal's contact that the edge has passed, or that a gasket's shoulder has not reached;
+// without contact all of it.
 static double passed(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s) {
   const SbSealState *state = &cycle->state[seal][chamber][direction];
   if (!state->touches || (seal == SB_INNER && chamber == SB_CHAMBER_OPEN)) {
@@ -44,6 +59,7 @@ static double passed(const SbCycle *cycle, int seal, SbChamber chamber, int dire
   }
   double width = state->contact_right - state->contact_left;
   double t = (s - sb_cycle_edge_begin(cycle, chamber, direction)) / width;
+  t = is_gasket(cycle) ? 1 - t : t;
   return t > 1 - 1e-12 ? 1 : fmax(t, 0); // what rounding of s leaves at the end is no contact
 }
 
@@ -102,23 +118,26 @@ static double friction_at(double s, const void *context) {
 // Force that balances sliding: F_p + f on the way in, F_p - f on the way out.
 static double balance_at(double s, const void *context) {
   const Place *p = context;
-  return p->cycle->model->pressure_force + sign_of(p->direction) * friction_at(s, p);
+  return push(p->cycle->model, s) + sign_of(p->direction) * friction_at(s, p);
 }
 
 // dX/ds of balanced sliding at s; the inner seal's friction falls while the edge passes, by the
-// same ellipse as its share of the load.
+// same ellipse as its share of the load. That of a gasket rises as the shoulder does.
 static double rate_at(double s, const void *context) {
   const Place *p = context;
   const SbSealState *inner = &p->cycle->state[SB_INNER][p->chamber][p->direction];
   double t = passed(p->cycle, SB_INNER, p->chamber, p->direction, s);
+  const double spring = 1 + p->cycle->model->spring_stiffness / p->cycle->model->stiffness;
   if (t <= 0 || t >= 1) {
-    return 1;
+    return spring;
   }
   double c = 1 - 2 * t;
-  double slope = -((inner->boundary_area + inner->friction_viscous) +
-                   inner->boundary_load * 4 / M_PI * sqrt(fmax(1 - c * c, 0))) /
+  double falls = is_gasket(p->cycle) ? -1 : 1;
+  double slope = -falls *
+                 ((inner->boundary_area + inner->friction_viscous) +
+                  inner->boundary_load * 4 / M_PI * sqrt(fmax(1 - c * c, 0))) /
                  (inner->contact_right - inner->contact_left);
-  return 1 + sign_of(p->direction) * slope / p->cycle->model->stiffness;
+  return spring + sign_of(p->direction) * slope / p->cycle->model->stiffness;
 }
 
 double sb_cycle_force(const SbCycle *cycle, double X, double s) {
@@ -176,7 +195,7 @@ double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, dou
   }
 
   // At a stop the friction keeps the value it came with until the stop is unloaded.
-  double needed = force - model->pressure_force;
+  double needed = force - push(model, s);
   bool stopped = (s >= model->stroke && needed > segment->friction0) ||
                  (s <= 0 && needed < segment->friction0);
   *stop_force = stopped ? needed - segment->friction0 : 0;
@@ -198,23 +217,53 @@ typedef struct {
   bool full;
 } Planner;
 
-// Ends of the smooth pieces of the way from s in `direction`: the nearest of the edge's start,
-// middle and end, or the stop. On the way in at the edge's end the chamber opens; on the way out it
-// closes there.
-static double piece_end(const Planner *p) {
-  const SbModel *model = p->cycle->model;
+// The nearest of places ahead of the stem on its way, or the stop.
+static double nearest_ahead(const Planner *p, const double *marks, int count) {
   const double sign = sign_of(p->direction);
-  bool closes = p->direction == SB_CYCLE_OUT && p->chamber == SB_CHAMBER_OPEN;
-  SbChamber chamber = closes ? SB_CHAMBER_CLOSED : p->chamber;
-  double start = sb_cycle_edge_begin(p->cycle, chamber, p->direction);
-  double end = sb_cycle_edge_end(p->cycle, chamber, p->direction);
-  const double marks[] = {start, (start + end) / 2, end};
-  double best = p->direction == SB_CYCLE_IN ? model->stroke : 0;
-  for (int i = 0; i < 3; i++) {
+  double best = p->direction == SB_CYCLE_IN ? p->cycle->model->stroke : 0;
+  for (int i = 0; i < count; i++) {
     bool nearer = sign * marks[i] > sign * p->s && sign * marks[i] < sign * best;
     best = nearer ? marks[i] : best;
   }
   return best;
+}
+
+// Ends of the smooth pieces of the way from s in `direction`: the nearest of the edge's start,
+// middle and end, or the stop. On the way in at the edge's end the chamber opens; on the way out it
+// closes there. That of a gasket valve closes and opens at the start, and empties at the port.
+static double piece_end(const Planner *p) {
+  const bool in = p->direction == SB_CYCLE_IN, open = p->chamber == SB_CHAMBER_OPEN;
+  SbChamber chamber = p->chamber;
+  if (is_gasket(p->cycle)) {
+    chamber = open ? SB_CHAMBER_AT_REST : chamber;
+  } else {
+    chamber = open && !in ? SB_CHAMBER_CLOSED : chamber;
+  }
+  double start = sb_cycle_edge_begin(p->cycle, chamber, p->direction);
+  double end = sb_cycle_edge_end(p->cycle, chamber, p->direction);
+  const double port = in ? sb_gasket_port_opens(p->cycle->model) : p->s;
+  const double marks[] = {start, (start + end) / 2, end, port};
+  return nearest_ahead(p, marks, is_gasket(p->cycle) ? 4 : 3);
+}
+
+// The same as reach() of a gasket valve.
+static int reach_gasket(SbChamber *chamber, const Planner *p, double s) {
+  const SbCycle *cycle = p->cycle;
+  const bool in = p->direction == SB_CYCLE_IN, open = p->chamber == SB_CHAMBER_OPEN;
+  const SbChamber closes = open ? SB_CHAMBER_AT_REST : p->chamber;
+  const double edge = sb_cycle_edge_begin(cycle, closes, p->direction);
+  int event = in && s == cycle->model->stroke && p->stage < SB_STAGE_D ? SB_STAGE_D : -1;
+  if (in && open && s >= edge) {
+    *chamber = SB_CHAMBER_AT_REST;
+    event = s == edge && p->stage == SB_STAGE_B ? SB_STAGE_C : event;
+  } else if (!in && !open && s <= edge) {
+    *chamber = SB_CHAMBER_OPEN;
+    event = s == edge ? SB_STAGE_F : event;
+  }
+  if (in && *chamber == SB_CHAMBER_AT_REST && s >= sb_gasket_port_opens(cycle->model)) {
+    *chamber = SB_CHAMBER_CLOSED; // vented
+  }
+  return event;
 }
 
 // The stage that a stem which moves to s reaches there, or -1, and the chamber from there on.
@@ -225,6 +274,9 @@ static int reach(SbChamber *chamber, const Planner *p, double s) {
   *chamber = p->chamber;
   if (!inner_touches(cycle, p->chamber, p->direction)) {
     return event;
+  }
+  if (is_gasket(cycle)) {
+    return reach_gasket(chamber, p, s);
   }
   if (in && p->chamber != SB_CHAMBER_OPEN) {
     bool open = s >= sb_cycle_edge_end(cycle, p->chamber, p->direction);
@@ -264,7 +316,7 @@ static SbStatus slip_platen(double *out, const Planner *p, int direction, double
       friction += fmax(1, grown) * sliding[seal];
     }
     const double before = X;
-    X = p->s + (model->pressure_force + sign_of(direction) * friction) / model->stiffness;
+    X = p->s + (push(model, p->s) + sign_of(direction) * friction) / model->stiffness;
     X = direction == SB_CYCLE_IN ? fmax(X, p->X) : fmin(X, p->X);
     if (fabs(X - before) <= 1e-9 * fabs(X - p->s) || X <= 0) {
       *out = X;
@@ -323,7 +375,7 @@ static void slide(Planner *p) {
     double balance = balance_at(p->s, &place);
     double excess = sign_of(p->direction) * (sb_cycle_force(p->cycle, p->X, p->s) - balance);
     double noise =
-        1e-12 * (fabs(balance) + fabs(model->pressure_force)) + 8 * 2.3e-16 * k * (p->X + p->s);
+        1e-12 * (fabs(balance) + fabs(push(model, p->s))) + 8 * 2.3e-16 * k * (p->X + p->s);
     double end = piece_end(p);
 
     if (excess < -noise || (out && balance < 0)) {
@@ -360,10 +412,23 @@ static void slide(Planner *p) {
 }
 
 double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, bool rested) {
+  const SbModel *model = cycle->model;
   double least = balance_at(s, &(Place){cycle, chamber, SB_CYCLE_OUT, 0});
   if (rested) {
-    least =
-        fmin(least, cycle->model->pressure_force - static_limit(cycle, chamber, SB_CYCLE_OUT, s));
+    least = fmin(least, push(model, s) - static_limit(cycle, chamber, SB_CYCLE_OUT, s));
+  }
+  if (is_gasket(cycle)) {
+    // Both spring and friction fall on the way: the least lies where the shoulder leaves.
+    enum { PLACES = 16 };
+    chamber = chamber == SB_CHAMBER_OPEN ? SB_CHAMBER_AT_REST : chamber;
+    const double begin = sb_cycle_edge_begin(cycle, chamber, SB_CYCLE_OUT);
+    const double width = sb_cycle_edge_end(cycle, chamber, SB_CYCLE_OUT) - begin;
+    for (int i = 0; i <= PLACES; i++) {
+      const double at = fmin(s, begin + width * i / PLACES);
+      least =
+          at >= 0 ? fmin(least, balance_at(at, &(Place){cycle, chamber, SB_CYCLE_OUT, 0})) : least;
+    }
+    return fmin(least, balance_at(0, &(Place){cycle, SB_CHAMBER_OPEN, SB_CYCLE_OUT, 0}));
   }
   if (chamber == SB_CHAMBER_OPEN) {
     chamber = SB_CHAMBER_CLOSED;
@@ -372,16 +437,23 @@ double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, 
   return fmin(least, balance_at(0, &(Place){cycle, chamber, SB_CYCLE_OUT, 0}));
 }
 
+SbChamber sb_cycle_chamber_at_stop(const SbModel *model) {
+  return model->kind == SB_VALVE_GASKET ? SB_CHAMBER_CLOSED : SB_CHAMBER_OPEN;
+}
+
 SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   const SbModel *model = cycle->model;
   cycle->count = 0;
   double k = model->stiffness, dwell = 0;
   Planner p = {.cycle = cycle, .platen = 1, .direction = SB_CYCLE_IN, .stage = SB_STAGE_A};
 
-  // A chamber whose inner seal does not touch is always open.
+  // A chamber whose inner seal does not touch is always open, that of a gasket valve at rest.
   bool touches = inner_touches(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
   p.chamber = touches ? SB_CHAMBER_AT_REST : SB_CHAMBER_OPEN;
-  if (touches && sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN) <= 0) {
+  if (is_gasket(cycle)) {
+    const bool shut = sb_cycle_edge_begin(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN) <= 0;
+    p.chamber = touches && shut ? SB_CHAMBER_AT_REST : SB_CHAMBER_OPEN;
+  } else if (touches && sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN) <= 0) {
     p.chamber = SB_CHAMBER_OPEN;
   }
 
@@ -391,7 +463,7 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
     double friction = p.stage == SB_STAGE_A ? static_limit(cycle, p.chamber, SB_CYCLE_IN, p.s)
                                             : sb_cycle_friction(cycle, p.chamber, SB_CYCLE_IN, p.s);
     // Below ambient the canister's pressure may draw the stem in by itself.
-    double X_slip = fmax(p.s + (model->pressure_force + friction) / k, p.X);
+    double X_slip = fmax(p.s + (push(model, p.s) + friction) / k, p.X);
     if (model->contact_ageing) {
       double rested = p.stage == SB_STAGE_A ? model->rest : 0;
       SbStatus status = slip_platen(&X_slip, &p, SB_CYCLE_IN, rested, report);
@@ -425,7 +497,7 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
       dwell = 0;
     }
     // Where friction has caught up with the pressure the root is known to rounding only.
-    bool stalled = limit <= 1e-9 * fabs(model->pressure_force);
+    bool stalled = limit <= 1e-9 * fabs(push(model, p.s));
     if (p.s <= 0 || stalled || X_slip <= 0) {
       emit(&p, SB_CYCLE_STICK, 0, p.s, -1);
       break;
@@ -437,9 +509,8 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   }
 
   cycle->returns = p.s == 0;
-  cycle->force_return_min = s_return > 0
-                                ? sb_cycle_least_return(cycle, s_return, chamber_return, false)
-                                : model->pressure_force;
+  cycle->force_return_min =
+      s_return > 0 ? sb_cycle_least_return(cycle, s_return, chamber_return, false) : push(model, 0);
   if (p.full) {
     return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "drive.stiffness",
                              "the cycle does not end within %d events", SB_CYCLE_SEGMENTS_MAX);
@@ -505,13 +576,15 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
 
     double force0 = sb_cycle_force(cycle, X0, segment->stem0);
     double force1 = sb_cycle_force(cycle, X1, segment->stem1);
-    out->stored += (force1 * force1 - force0 * force0) / (2 * k);
+    const double spring = (push(model, segment->stem0) + push(model, segment->stem1)) / 2 * ds -
+                          model->pressure_force * ds; // exact: it is straight
+    out->stored += (force1 * force1 - force0 * force0) / (2 * k) + spring;
     // F ds around the loop: in a jump the force falls along the spring's line, in sliding it is F_p
     // +- f.
     if (segment->mode == SB_CYCLE_JUMP) {
       out->loop += (force0 + force1) / 2 * ds;
     } else {
-      out->loop += model->pressure_force * ds + rubbed;
+      out->loop += model->pressure_force * ds + spring + rubbed;
     }
   }
   double sum = out->friction + out->stored + out->seal + out->kinetic + out->stop;

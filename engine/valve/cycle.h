@@ -6,7 +6,7 @@
 //
 //   in-stroke  k (X - s) = F_p + f(s)      return  k (X - s) = F_p - f(s) >= 0
 //
-// with X the platen, s the stem, F_p the canister's force and f the seals' friction, which changes
+// with F_p = F_canister + F_0 + k_r s where a return spring acts, X the platen, s the stem, and f the seals' friction, which changes
 // while the inner seal passes the edge of the bore land: its contact [l, r] then only reaches over
 // x > x_e, x_e = l_in + (s - s_C), l_in that of the in-stroke; the width-bound part of its friction
 // falls linearly, the load-bound part as an elliptic pressure integrates. Stuck means no motion
@@ -102,6 +102,9 @@ double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction)
 // Least F_p - f over the way back from displacement s, whatever moves the stem; `rested`: against
 // the static friction at s.
 double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, bool rested);
+
+// The chamber's state at the end stop, in which the stem turns.
+SbChamber sb_cycle_chamber_at_stop(const SbModel *model);
 
 // Energy of the whole cycle, every term by its own quadrature; fills all fields but kinetic (0).
 void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out);

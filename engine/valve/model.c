@@ -5,7 +5,7 @@
 // g)/d on the free section; fitted mean diameter D - g; mean stretch eps_z = (D - g - (ID + d))/(ID
 // + d); section after stretch d (1 - nu eps_z), the uniform-shrink estimate (the finite-strain ring
 // is flatter, 1.500 mm against 1.576 mm for the thesis valve).
-#include "engine/valve/model.h"
+#include "engine/valve/gasket.h"
 
 #include "engine/contact/closed_forms.h"
 #include "engine/contact/fit.h"
@@ -22,8 +22,8 @@ const char *sb_seal_name(int seal) {
   return seal == SB_OUTER ? "outer" : "inner";
 }
 
-static void SB_PRINTF(5, 6)
-    refuse(SbProblems *problems, const char *key, double min, double max, const char *format, ...) {
+void sb_model_refuse(SbProblems *problems, const char *key, double min, double max,
+                     const char *format, ...) {
   if (problems->count < SB_PROBLEMS_MAX) {
     SbProblem *problem = &problems->item[problems->count++];
     sb_text(problem->key, sizeof problem->key, "%s", key);
@@ -73,6 +73,9 @@ static void take_values(SbModel *model, const SbParams *params) {
   model->rubber.fluid_density = model->density;
   // stem.pressure_diameter keeps its value, so that the pressure force is the pressure's alone.
   const double grown = 1 + model->housing_expansion * (model->temperature - SB_SIZES_TEMPERATURE);
+  if (model->kind == SB_VALVE_GASKET) {
+    sb_gasket_take(model);
+  }
   model->radial_space *= grown;
   model->bore_diameter *= grown;
   model->bore_circumference = M_PI * model->bore_diameter;
@@ -119,8 +122,9 @@ static void compile_rig(SbModel *model, SbProblems *problems) {
   // As many samples as there may be frames.
   const double samples = rig->duration * rig->rate;
   if (model->motion == SB_MODEL_MOTION_RIG && !(samples >= 2 && samples <= 2e7)) {
-    refuse(problems, "rig.duration", 2 / rig->rate, 2e7 / rig->rate,
-           "makes %.3g samples at %.4g Hz, not between 2 and 20 million", samples, rig->rate);
+    sb_model_refuse(problems, "rig.duration", 2 / rig->rate, 2e7 / rig->rate,
+                    "makes %.3g samples at %.4g Hz, not between 2 and 20 million", samples,
+                    rig->rate);
   }
 }
 
@@ -153,7 +157,7 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   seal->stored.radial_space = model->radial_space;
   SbReport report = {0};
   if (sb_rubber_state(&seal->storage, &model->rubber, &seal->stored, NULL, &report) != SB_OK) {
-    refuse(problems, report.parameter, NAN, NAN, "%s", report.text);
+    sb_model_refuse(problems, report.parameter, NAN, NAN, "%s", report.text);
     return;
   }
   seal->section_diameter = seal->storage.section_diameter;
@@ -163,6 +167,10 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   seal->reduced_modulus =
       sb_reduced_modulus(seal->modulus, nu, model->housing_modulus, model->housing_poisson_ratio);
   seal->radius = seal->section_diameter / 2;
+  if (model->kind == SB_VALVE_GASKET) {
+    sb_gasket_derive(seal, model);
+    return;
+  }
 
   double d = seal->section_diameter;
   double g = model->radial_space;
@@ -178,7 +186,7 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   SbRingOutline outline;
   double area, centroid;
   if (sb_ring_outline_of_profile(&outline, &profile, d, &report) != SB_OK) {
-    refuse(problems, report.parameter, NAN, NAN, "%s", report.text);
+    sb_model_refuse(problems, report.parameter, NAN, NAN, "%s", report.text);
   }
   sb_seal_profile_area(&area, &centroid, &profile, d);
   seal->gland_fill =
@@ -186,14 +194,15 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
 
   // Beyond 60 % no model here means anything; the fit models warn long before.
   if (seal->squeeze > 0.6) {
-    refuse(problems, outer ? "seal.outer.section_diameter" : "seal.inner.section_diameter", NAN,
-           g / 0.4, "squeezes the %s seal by %.0f %%, more than 60 %%", sb_seal_name(index),
-           100 * seal->squeeze);
+    sb_model_refuse(problems, outer ? "seal.outer.section_diameter" : "seal.inner.section_diameter",
+                    NAN, g / 0.4, "squeezes the %s seal by %.0f %%, more than 60 %%",
+                    sb_seal_name(index), 100 * seal->squeeze);
   }
   if (seal->stretch_inner > 1) {
-    refuse(problems, outer ? "seal.outer.inner_diameter" : "seal.inner.inner_diameter", floor / 2,
-           NAN, "stretches the %s seal by %.0f %% onto the groove floor, more than 100 %%",
-           sb_seal_name(index), 100 * seal->stretch_inner);
+    sb_model_refuse(problems, outer ? "seal.outer.inner_diameter" : "seal.inner.inner_diameter",
+                    floor / 2, NAN,
+                    "stretches the %s seal by %.0f %% onto the groove floor, more than 100 %%",
+                    sb_seal_name(index), 100 * seal->stretch_inner);
   }
 }
 
@@ -202,16 +211,18 @@ static void check_sizes(const SbModel *model, SbProblems *problems) {
   double stem = model->stem_diameter;
   double floor = model->bore_diameter - 2 * model->radial_space;
   if (stem > model->bore_diameter) {
-    refuse(problems, "bore.diameter", stem, NAN,
-           "the bore is smaller than the stem (stem.pressure_diameter %.4g mm)", stem * 1e3);
+    sb_model_refuse(problems, "bore.diameter", stem, NAN,
+                    "the bore is smaller than the stem (stem.pressure_diameter %.4g mm)",
+                    stem * 1e3);
   }
   if (floor <= 0) {
-    refuse(problems, "gland.radial_space", NAN, model->bore_diameter / 2,
-           "the groove leaves no stem: twice the radial space exceeds the bore diameter");
+    sb_model_refuse(problems, "gland.radial_space", NAN, model->bore_diameter / 2,
+                    "the groove leaves no stem: twice the radial space exceeds the bore diameter");
   } else if (stem <= floor) {
-    refuse(problems, "stem.pressure_diameter", floor, model->bore_diameter,
-           "the stem's land lies below the floor of its groove (%.4g mm): nothing holds the ring",
-           floor * 1e3);
+    sb_model_refuse(
+        problems, "stem.pressure_diameter", floor, model->bore_diameter,
+        "the stem's land lies below the floor of its groove (%.4g mm): nothing holds the ring",
+        floor * 1e3);
   }
 }
 
@@ -223,12 +234,9 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
                                       SB_P_STUDY_TEMPERATURE_MAX};
   // The quasi-static balance is not silently asked for what only the motion with inertia can do:
   // it knows their least values.
-  static const SbParamId inertial[] = {SB_P_DRIVE_KIND,
-                                       SB_P_DRIVE_CYCLES,
+  static const SbParamId inertial[] = {SB_P_DRIVE_KIND, SB_P_DRIVE_CYCLES,
                                        SB_P_FRICTION_STRIBECK_SPEED,
-                                       SB_P_FRICTION_TANGENTIAL_STIFFNESS,
-                                       SB_P_STEM_SPRING_STIFFNESS,
-                                       SB_P_STEM_SPRING_PRELOAD};
+                                       SB_P_FRICTION_TANGENTIAL_STIFFNESS};
   static const char needs_inertia[] =
       "needs models.motion = dynamic; the quasi-static cycle knows only the machine";
   const bool balance = model->motion == SB_MODEL_MOTION_QUASI_STATIC;
@@ -236,63 +244,68 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
   for (size_t i = 0; i < sizeof largest / sizeof largest[0]; i++) {
     double least = sb_params_get(&model->params, largest[i] - 1);
     if (!(sb_params_get(&model->params, largest[i]) > least)) {
-      refuse(problems, sb_param(largest[i])->key, least, NAN,
-             "the range of the study does not rise");
+      sb_model_refuse(problems, sb_param(largest[i])->key, least, NAN,
+                      "the range of the study does not rise");
     }
   }
   for (size_t i = 0; balance && i < sizeof inertial / sizeof inertial[0]; i++) {
     const SbParam *param = sb_param(inertial[i]);
     if (sb_params_get(&model->params, inertial[i]) > param->min) {
-      refuse(problems, param->key, NAN, NAN, "%s", needs_inertia);
+      sb_model_refuse(problems, param->key, NAN, NAN, "%s", needs_inertia);
     }
   }
   if (balance && model->pressure_map == SB_MAP_PORTS) {
-    refuse(problems, "canister.pressure_map", NAN, NAN, "%s", needs_inertia);
+    sb_model_refuse(problems, "canister.pressure_map", NAN, NAN, "%s", needs_inertia);
   }
   if (!balance && model->stribeck_speed > 0 && model->tangential_stiffness > 0 &&
       !(model->damping_ratio > 0)) {
-    refuse(problems, "drive.damping_ratio", 1e-3, 2,
-           "must be above 0 where friction that depends on speed (friction.stribeck_speed) acts "
-           "through an elastic seal (friction.tangential_stiffness)");
+    sb_model_refuse(
+        problems, "drive.damping_ratio", 1e-3, 2,
+        "must be above 0 where friction that depends on speed (friction.stribeck_speed) acts "
+        "through an elastic seal (friction.tangential_stiffness)");
   }
   if (lives && (model->motion == SB_MODEL_MOTION_RIG || model->motion == SB_MODEL_MOTION_BODIES)) {
-    refuse(problems, "life.actuations", NAN, 1, "needs models.motion = quasi-static or dynamic");
+    sb_model_refuse(problems, "life.actuations", NAN, 1,
+                    "needs models.motion = quasi-static or dynamic");
   }
   if (model->life_shown > model->life_actuations) {
-    refuse(problems, "life.shown", 0, model->life_actuations,
-           "is beyond the life's last actuation (life.actuations %d)", model->life_actuations);
+    sb_model_refuse(problems, "life.shown", 0, model->life_actuations,
+                    "is beyond the life's last actuation (life.actuations %d)",
+                    model->life_actuations);
   }
   if (model->fit_variant < 0) {
     char variant[40];
     sb_model_choice_name(model, SB_P_MODELS_FIT_VARIANT, variant, sizeof variant);
-    refuse(problems, "models.fit_variant", NAN, NAN, "models.fit = %s has no variant %s",
-           sb_fit_model_name(model->fit), variant);
+    sb_model_refuse(problems, "models.fit_variant", NAN, NAN, "models.fit = %s has no variant %s",
+                    sb_fit_model_name(model->fit), variant);
   }
   if (model->work_of_adhesion > 0 && model->surface != SB_ROUGH_GREENWOOD_TRIPP) {
-    refuse(problems, "models.adhesion", NAN, NAN,
-           "asperities: tips that stick are those of models.surface = greenwood-tripp");
+    sb_model_refuse(problems, "models.adhesion", NAN, NAN,
+                    "asperities: tips that stick are those of models.surface = greenwood-tripp");
   }
 }
 
 // What only a round section has.
 static void check_profile(const SbModel *model, SbProblems *problems) {
-  const char *name = sb_seal_profile_name(model->profile);
+  const bool gasket = model->kind == SB_VALVE_GASKET;
+  const char *key = gasket ? "valve.kind" : "seal.profile";
+  const char *name = gasket ? "gasket" : sb_seal_profile_name(model->profile);
   if (model->profile == SB_SEAL_PROFILE_CIRCLE) {
     return;
   }
   if (model->fit != SB_FIT_RING) {
-    refuse(problems, "models.fit", NAN, NAN,
-           "%s knows round sections only: seal.profile = %s needs the ring",
-           sb_fit_model_name(model->fit), name);
+    sb_model_refuse(problems, "models.fit", NAN, NAN,
+                    "%s knows round sections only: %s = %s needs the ring",
+                    sb_fit_model_name(model->fit), key, name);
   }
   if (model->film != SB_FILM_REYNOLDS) {
-    refuse(problems, "models.film", NAN, NAN,
-           "%s is a closed form for a round section: seal.profile = %s needs reynolds",
-           sb_film_model_name(model->film), name);
+    sb_model_refuse(problems, "models.film", NAN, NAN,
+                    "%s is a closed form for a round section: %s = %s needs reynolds",
+                    sb_film_model_name(model->film), key, name);
   }
   if (model->motion == SB_MODEL_MOTION_RIG) {
-    refuse(problems, "models.motion", NAN, NAN,
-           "the rig's contacts are those of round sections, not of seal.profile = %s", name);
+    sb_model_refuse(problems, "models.motion", NAN, NAN,
+                    "the rig's contacts are those of round sections, not of %s = %s", key, name);
   }
 }
 
@@ -302,15 +315,15 @@ static void check_fluid(const SbModel *model, SbProblems *problems) {
   SbFluidState state;
   SbReport report = {0};
   if (model->fluid == 0 && model->ethanol > 0) {
-    refuse(problems, "fluid.ethanol", NAN, 0, "needs a propellant by name (fluid.name)");
+    sb_model_refuse(problems, "fluid.ethanol", NAN, 0, "needs a propellant by name (fluid.name)");
   } else if (model->fluid > 0) {
     const SbStatus status =
         sb_fluid_state(&state, NULL, fluid, model->temperature, model->ethanol, &report);
     if (status == SB_ERROR_INPUT) {
-      refuse(problems, "fluid.ethanol", NAN, 0, "%s", report.text);
+      sb_model_refuse(problems, "fluid.ethanol", NAN, 0, "%s", report.text);
     } else if (status != SB_OK) {
-      refuse(problems, "canister.temperature", fluid->temperature_min, fluid->temperature_max, "%s",
-             report.text);
+      sb_model_refuse(problems, "canister.temperature", fluid->temperature_min,
+                      fluid->temperature_max, "%s", report.text);
     }
   }
 }
@@ -318,9 +331,10 @@ static void check_fluid(const SbModel *model, SbProblems *problems) {
 // Metered volume and doses; with ports there must be a chamber.
 static void compile_dose(SbModel *model, SbProblems *problems) {
   const SbValveShape *shape = &model->shape;
+  const bool gasket = model->kind == SB_VALVE_GASKET;
   // Housing and stem expand alike, and with them the room between them.
   const double grown = model->bore_diameter / sb_model_value(model, SB_P_BORE_DIAMETER);
-  model->supply.volume = sb_chamber_metered_volume(&(SbDoseGeometry){
+  const SbDoseGeometry between = {
       .bore = model->bore_diameter,
       .land = model->stem_diameter * grown,
       .floor = model->bore_diameter - 2 * model->radial_space,
@@ -330,7 +344,8 @@ static void compile_dose(SbModel *model, SbProblems *problems) {
       .recess_length = shape->chamber_length * grown,
       .rings = {{model->seal[SB_OUTER].section_diameter, model->seal[SB_OUTER].inner_diameter},
                 {model->seal[SB_INNER].section_diameter, model->seal[SB_INNER].inner_diameter}},
-  });
+  };
+  model->supply.volume = gasket ? sb_gasket_volume(model) : sb_chamber_metered_volume(&between);
   model->supply.density = model->density;
   SbFluidState state;
   if (model->fluid > 0 && sb_fluid_state(&state, NULL, &sb_fluids[model->fluid], model->temperature,
@@ -342,15 +357,17 @@ static void compile_dose(SbModel *model, SbProblems *problems) {
                                        fmin(model->ambient_pressure, model->supply.pressure));
     model->supply.gas = model->ethanol > 0 || isnan(gas) ? 0 : gas;
   }
-  const double gap = M_PI / 4 * (model->bore_diameter - model->stem_diameter) *
-                     (model->bore_diameter + model->stem_diameter);
+  const double gap = gasket ? sb_gasket_neck(model)
+                            : M_PI / 4 * (model->bore_diameter - model->stem_diameter) *
+                                  (model->bore_diameter + model->stem_diameter);
   model->filling_time = sb_chamber_filling(model->supply.volume, model->discharge_coefficient * gap,
                                            model->canister_pressure, model->density);
   if (model->pressure_map == SB_MAP_PORTS && !(model->supply.volume > 0)) {
-    refuse(problems, "stem.seal_spacing", NAN, NAN,
-           "leaves no dose chamber between the seals (%.3g µl), which canister.pressure_map = "
-           "ports needs",
-           model->supply.volume * 1e9);
+    sb_model_refuse(
+        problems, "stem.seal_spacing", NAN, NAN,
+        "leaves no dose chamber between the seals (%.3g µl), which canister.pressure_map = "
+        "ports needs",
+        model->supply.volume * 1e9);
   }
 }
 
@@ -374,8 +391,8 @@ static void check_joints(const SbModel *model, SbAssemblyWork *work, SbProblems 
                (int)sb_param(SB_P_JOINT_HOUSING_GROUND + changed)->fallback) {
       changed++;
     }
-    refuse(problems, sb_param(SB_P_JOINT_HOUSING_GROUND + changed)->key, NAN, NAN, "%s",
-           report.text);
+    sb_model_refuse(problems, sb_param(SB_P_JOINT_HOUSING_GROUND + changed)->key, NAN, NAN, "%s",
+                    report.text);
   }
 }
 
@@ -386,9 +403,9 @@ static void compile_parts(SbModel *model, SbProblems *problems) {
   for (int i = 0; i < SB_VALVE_PARTS; i++) {
     if (part[i].axial > 2 * part[i].transverse * 1.001) {
       // The catalogue has mass, axial and transverse moment of each part in a row.
-      refuse(problems, sb_param(SB_P_PART_HOUSING_INERTIA_AXIAL + 3 * i)->key, NAN,
-             2 * part[i].transverse,
-             "no body has an axial moment of inertia above twice its transverse one");
+      sb_model_refuse(problems, sb_param(SB_P_PART_HOUSING_INERTIA_AXIAL + 3 * i)->key, NAN,
+                      2 * part[i].transverse,
+                      "no body has an axial moment of inertia above twice its transverse one");
     }
   }
   double sum = part[SB_VALVE_STEM_CENTRE].mass + part[SB_VALVE_STEM_TOP].mass +
@@ -418,7 +435,11 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   take_values(model, params);
   check_fluid(model, found);
   check_profile(model, found);
-  check_sizes(model, found);
+  if (model->kind == SB_VALVE_GASKET) {
+    sb_gasket_check(model, found);
+  } else {
+    check_sizes(model, found);
+  }
   check_combinations(model, found);
   compile_rig(model, found);
   for (int i = 0; found->count == 0 && i < SB_SEAL_COUNT; i++) {
@@ -471,14 +492,14 @@ static SbStatus complete(SbModel *out, const SbParams *params, const SbModelData
   problems->count = 0;
   if (sb_params_get(params, SB_P_DRIVE_KIND) == SB_MODEL_DRIVE_MEASURED &&
       (data == NULL || data->measured.count == 0)) {
-    refuse(problems, "drive.file", NAN, NAN,
-           "drive.kind = measured needs the CSV file of a measured series");
+    sb_model_refuse(problems, "drive.file", NAN, NAN,
+                    "drive.kind = measured needs the CSV file of a measured series");
     return SB_ERROR_INPUT;
   }
   if (sb_params_get(params, SB_P_SHELF_HISTORY) == SB_SHELF_FILE &&
       (data == NULL || data->shelf.count == 0)) {
-    refuse(problems, "shelf.file", NAN, NAN,
-           "shelf.history = file needs the CSV file of temperatures over time");
+    sb_model_refuse(problems, "shelf.file", NAN, NAN,
+                    "shelf.history = file needs the CSV file of temperatures over time");
     return SB_ERROR_INPUT;
   }
   const SbLimits none = {0}, kept = limits != NULL ? *limits : none; // it may be out's
@@ -655,16 +676,30 @@ static const char stored_only_text[] = "storage.temperature is that of storage a
 void sb_model_remarks(const SbModel *model, SbProblems *out) {
   out->count = 0;
   if (stored_only(model)) {
-    refuse(out, "storage.temperature", NAN, NAN, "%s", stored_only_text);
+    sb_model_refuse(out, "storage.temperature", NAN, NAN, "%s", stored_only_text);
   }
   // Where the vent lies between the contacts, their widths left out (run_valve.c has them).
   double hole = model->shape.vent_diameter;
   double nearest = model->land_edge - model->stroke - hole / 2;
   double furthest = model->land_edge + model->shape.seal_spacing + hole / 2;
+  if (model->kind == SB_VALVE_GASKET) {
+    const double opens = sb_gasket_port_opens(model);
+    if (opens >= model->stroke) {
+      sb_model_refuse(
+          out, "stem.port_travel", NAN, model->stroke + model->port_diameter / 2,
+          "the side port does not reach the chamber before the stop: no dose leaves it");
+    } else if (opens <= model->land_edge) {
+      sb_model_refuse(out, "stem.port_travel", model->land_edge + model->port_diameter / 2, NAN,
+                      "the side port reaches the chamber before the chamber gasket has closed: the "
+                      "canister empties through it");
+    }
+    return;
+  }
   if (model->pressure_map == SB_MAP_PORTS && hole > 0 &&
       (model->shape.vent_position <= nearest || model->shape.vent_position >= furthest)) {
-    refuse(out, "bore.vent_position", fmax(nearest, 0), furthest,
-           "the dose chamber never reaches the vent between rest and stop: it does not empty");
+    sb_model_refuse(
+        out, "bore.vent_position", fmax(nearest, 0), furthest,
+        "the dose chamber never reaches the vent between rest and stop: it does not empty");
   }
 }
 
@@ -730,6 +765,10 @@ SbRoughSurface sb_model_surface(const SbModel *model, int seal, double roughness
 
 SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber) {
   double canister = model->canister_pressure;
+  if (model->kind == SB_VALVE_GASKET) {
+    const double held = chamber == SB_CHAMBER_CLOSED ? 0 : canister; // vented, else full
+    return seal == SB_INNER ? (SbSealPressure){canister, held} : (SbSealPressure){held, 0};
+  }
   // With ports the pressure lies between: vented stands for none, closed for all of it.
   bool vented_at_rest = model->pressure_map != SB_MAP_CHAMBER_FILLED;
   double in_chamber = chamber == SB_CHAMBER_AT_REST && vented_at_rest ? 0 : canister;

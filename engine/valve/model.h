@@ -50,6 +50,10 @@ struct SbModel {
   SbLimits limits;         // filled by whoever read them, none otherwise
 };
 
+// Adds a problem with a key: why, and the range that would do (NaN: open).
+void SB_PRINTF(5, 6) sb_model_refuse(SbProblems *problems, const char *key, double min, double max,
+                                     const char *format, ...);
+
 // Compiles parameters into *out, with neither data nor limits. Otherwise as sb_model_create(), *out
 // as it was.
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems);
@@ -71,5 +75,11 @@ typedef struct {
 
 // Rough surface of a seal on the bore, its roughness over the model's.
 SbRoughSurface sb_model_surface(const SbModel *model, int seal, double roughness);
+
+// Way of the surface that slides on the seals along x on the in-stroke: the bore's past rings is +1,
+// that of the stem through gaskets -1.
+static inline double sb_model_way(const SbModel *model) {
+  return model->kind == SB_VALVE_GASKET ? -1 : 1;
+}
 
 SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber);

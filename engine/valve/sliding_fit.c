@@ -516,8 +516,8 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
       sb_warn(own, rolls ? "ring-rolls" : "ring-jams", "gland.floor_friction",
               "the %s ring %s %s: its section bears %.0f %% of its friction, turned by %.0f°",
               sb_seal_name(task->seal), rolls ? "rolls" : "jams",
-              task->speed > 0 ? "on the in-stroke" : "on the return", 100 * out->borne_share,
-              out->rotation);
+              sb_model_way(task->model) * task->speed > 0 ? "on the in-stroke" : "on the return",
+              100 * out->borne_share, out->rotation);
     }
     break;
   }

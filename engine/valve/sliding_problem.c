@@ -22,6 +22,7 @@ void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, dou
       .floor_friction = model->floor_friction,
       .wall_friction = model->wall_friction,
       .start_at_wall = model->start_at_wall,
+      .gasket = model->kind == SB_VALVE_GASKET,
       .pressure = pressure,
       .tolerance = model->tolerance,
   };
@@ -90,7 +91,8 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
             "takes the ring's pressure, but gives way like a linear disc",
             sb_seal_name(seal));
   }
-  double radius = 0.5 * fit->section_diameter_fitted;
+  const bool known = isfinite(fit->section_diameter_fitted); // not of a gasket
+  double radius = known ? 0.5 * fit->section_diameter_fitted : ring->radius;
   double middle = 0.5 * (fit->contact_left + fit->contact_right);
   // The disc's middle is the contact's: pressure against the wall moves both.
   double reach = 0.7 * fit->contact_width;

@@ -55,6 +55,11 @@ typedef struct {
 } SbProblems;
 
 typedef enum {
+  SB_VALVE_PISTON, // rings on the stem slide in a bore
+  SB_VALVE_GASKET  // the stem slides through gaskets
+} SbValveKind;
+
+typedef enum {
   SB_MAP_CHAMBER_FILLED,
   SB_MAP_CHAMBER_VENTED,
   SB_MAP_PORTS // the chamber's pressure is a state

@@ -132,7 +132,11 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
              summary->returned > 0 ? "" : "the stem does not come to rest by itself");
   }
   verdict[SB_VERDICT_RETURNS] = returns;
-  if (summary->dose_mass == 0) {
+  if (summary->dose_mass == 0 && model->canister_pressure > 0) {
+    verdict[SB_VERDICT_DOSES] =
+        (SbVerdict){SB_ANSWER_NO, sb_figure_find("cycle.dose_mass_kg"), 0, NAN,
+                    "the chamber keeps its dose: no port opens it to the outside for long enough"};
+  } else if (summary->dose_mass == 0) {
     verdict[SB_VERDICT_DOSES] =
         (SbVerdict){SB_ANSWER_NO, sb_figure_find("cycle.dose_mass_kg"), 0, NAN,
                     "the canister's pressure is not above ambient: nothing is delivered"};

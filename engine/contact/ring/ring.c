@@ -114,12 +114,6 @@ SbStatus sb_ring_check(const SbRingBody *body, const SbRingLoad *load, SbReport 
   if (status == SB_OK) {
     status = sb_ring_outline_of_profile(&outline, &body->profile, body->section_diameter, report);
   }
-  const bool fluid = load->pressure_left != 0.0 || load->pressure_right != 0.0;
-  if (status == SB_OK && fluid && body->profile.kind == SB_SEAL_PROFILE_X) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile",
-                             "an x ring is solved without fluid only: under pressure the hollow "
-                             "between its lobes has a state of its own, which is not modelled");
-  }
   return status == SB_OK ? check_load(body, &outline, load, report) : status;
 }
 

@@ -9,6 +9,12 @@
 #include <math.h>
 #include <string.h>
 
+static void swap(int *a, int *b) {
+  const int kept = *a;
+  *a = *b;
+  *b = kept;
+}
+
 void sb_ring_sizes(const SbRing *ring, int *nodes, int *triangles, int *outline) {
   *nodes = ring->mesh->nodes;
   *triangles = 4 * ring->mesh->elements;
@@ -75,6 +81,20 @@ void sb_ring_fields(const SbRing *ring, const SbRingFields *out) {
   }
   for (int i = 0; i < mesh->loop_count; i++) {
     out->outline[i] = mesh->loop[mesh->loop_count - 1 - i];
+  }
+  if (!ring->body.inward) {
+    return;
+  }
+  for (int i = 0; i < mesh->nodes; i++) {
+    out->place[2 * i + 1] = -out->place[2 * i + 1];
+    out->displacement[2 * i + 1] = -out->displacement[2 * i + 1];
+    out->shear[i] = -out->shear[i];
+  }
+  for (int i = 0; i < 4 * mesh->elements; i++) {
+    swap(&out->triangle[3 * i + 1], &out->triangle[3 * i + 2]);
+  }
+  for (int i = 0; i < mesh->loop_count / 2; i++) {
+    swap(&out->outline[i], &out->outline[mesh->loop_count - 1 - i]);
   }
 }
 
@@ -153,6 +173,26 @@ static void close_contact(const SbRing *ring, const SbRingSection *out, SbRingSu
   }
 }
 
+// Gives a ring that seals inwards its radii: elements and boundary run the other way round then.
+static void turn_outwards(const SbRing *ring, const SbRingSection *out) {
+  const int sides = ring->mesh->loop_count / 2;
+  for (int i = 0; i < ring->mesh->nodes; i++) {
+    out->place[2 * i] = -out->place[2 * i];
+  }
+  for (int i = 0; i < ring->mesh->elements; i++) {
+    swap(&out->triangle[6 * i + 1], &out->triangle[6 * i + 2]);
+    swap(&out->triangle[6 * i + 3], &out->triangle[6 * i + 5]);
+  }
+  for (int i = 1; i < sides; i++) { // the first node stays
+    swap(&out->loop[i], &out->loop[2 * sides - i]);
+  }
+  for (int i = 0; i < sides / 2; i++) {
+    const unsigned char side = out->side[i];
+    out->side[i] = out->side[sides - 1 - i];
+    out->side[sides - 1 - i] = side;
+  }
+}
+
 void sb_ring_section(const SbRing *ring, const SbRingSection *out) {
   const SbRingMesh *mesh = ring->mesh;
   for (int i = 0; i < 2 * mesh->nodes; i++) {
@@ -166,5 +206,8 @@ void sb_ring_section(const SbRing *ring, const SbRingSection *out) {
   }
   for (int surface = 0; surface < SB_RING_SURFACES; surface++) {
     close_contact(ring, out, (SbRingSurface)surface);
+  }
+  if (ring->body.inward) {
+    turn_outwards(ring, out);
   }
 }

@@ -19,7 +19,8 @@ static void fill_frame(SbFrame *out, SbRun *run, const SbCycleSegment *segment, 
       .sample = {.time = time_of(run, segment, X),
                  .position = s,
                  .drive_position = X,
-                 .drive_force = sb_cycle_force(cycle, X, s)},
+                 .drive_force = sb_cycle_force(cycle, X, s),
+                 .spring_force = -run->model->spring_preload - run->model->spring_stiffness * s},
       .stage = segment->stage,
       .chamber = chamber,
       .solved = {chamber, direction, direction},
@@ -104,7 +105,8 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   // Here the stem keeps its film where it stops (cycle.h). Held at the stop for longer it would
   // not.
   if (summary->returns && summary->stage[SB_STAGE_D].reached) {
-    double held = sb_cycle_least_return(cycle, run->model->stroke, SB_CHAMBER_OPEN, true);
+    double held = sb_cycle_least_return(cycle, run->model->stroke,
+                                        sb_cycle_chamber_at_stop(run->model), true);
     if (held < 0) {
       sb_warn(&summary->warnings, "static-hold", "friction.static_ratio",
               "the stem returns because it keeps its film at the stop; after a rest there static "
@@ -114,10 +116,11 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   }
   // Film dragged out under the outer seal on the way in, less what comes back (thesis equation
   // 5.21).
-  sb_bore_start(&run->bore, cycle->segment[0].stem0);
+  const double carries = sb_model_way(run->model); // the way that leaves a layer outside
+  sb_bore_start(&run->bore, carries * cycle->segment[0].stem0);
   summary->force_peak = 0;
   for (const SbCycleSegment *at = cycle->segment; at < cycle->segment + cycle->count; at++) {
-    sb_bore_move(&run->bore, at->stem0, at->stem1,
+    sb_bore_move(&run->bore, carries * at->stem0, carries * at->stem1,
                  sb_run_layer(run, SB_OUTER, at->chamber, at->direction, run->speed));
     summary->force_peak = fmax(summary->force_peak, sb_cycle_force(cycle, at->platen1, at->stem1));
   }

@@ -10,7 +10,9 @@ static double platen_top(const SbCycle *cycle) {
   double hold =
       model->pressure_force + model->spring_preload + model->spring_stiffness * model->stroke;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    hold += sb_cycle_static_friction(cycle, seal, SB_CHAMBER_AT_REST, SB_CYCLE_IN, 0);
+    const bool gasket = model->kind == SB_VALVE_GASKET;
+    const SbChamber chamber = gasket ? SB_CHAMBER_CLOSED : SB_CHAMBER_AT_REST;
+    hold += sb_cycle_static_friction(cycle, seal, chamber, SB_CYCLE_IN, gasket ? model->stroke : 0);
   }
   return model->stroke + fmax(model->reversal_force, 1.02 * hold) / model->stiffness;
 }
@@ -19,8 +21,8 @@ static double platen_top(const SbCycle *cycle) {
 // force, and half as long again.
 static double free_return_time(const SbRun *run) {
   const SbModel *model = run->model;
-  double least = sb_cycle_least_return(&run->cycle, model->stroke, SB_CHAMBER_OPEN, true) +
-                 model->spring_preload;
+  double least =
+      sb_cycle_least_return(&run->cycle, model->stroke, sb_cycle_chamber_at_stop(model), true);
   double force = fmax(least, 1e-3 * (fabs(model->pressure_force) + 1e-3));
   return 1.5 * sqrt(2 * model->stroke * model->moving_mass / force);
 }

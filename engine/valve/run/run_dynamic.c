@@ -67,7 +67,8 @@ static void leak(Recorder *r, double time, double x, double pressure, bool now) 
     const SbChamber chamber = sb_valve_solved(&r->valve, direction, pressure).chamber;
     double speed = until > r->leak_since ? way / (until - r->leak_since) : run->speed;
     if (way != 0) {
-      sb_bore_move(&run->bore, r->leak_from, end,
+      const double carries = sb_model_way(run->model);
+      sb_bore_move(&run->bore, carries * r->leak_from, carries * end,
                    sb_run_layer(run, SB_OUTER, chamber, direction, speed));
     }
     r->leak_from = end;
@@ -413,13 +414,14 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   if (r.count == 0) {
     return status;
   }
-  double least = sb_cycle_least_return(&run->cycle, model->stroke, SB_CHAMBER_OPEN, true);
+  double least =
+      sb_cycle_least_return(&run->cycle, model->stroke, sb_cycle_chamber_at_stop(model), true);
   if (model->stribeck_speed > 0) {
     // Slow sliding rubs nearly as rest does, on both seals.
     least = fmin(least, sb_cycle_least_return(&run->cycle, 0, SB_CHAMBER_CLOSED, true));
   }
   // What a fast return's viscous friction takes, beyond that at the films' speed.
-  summary->force_return_min = fmin(least + model->spring_preload, r.return_least);
+  summary->force_return_min = fmin(least, r.return_least);
   const SbDynamicsCounters counters = r.motion.counters;
   const SbFrame *last = &run->frames[r.count - 1];
   summary->duration = last->time;

@@ -34,6 +34,11 @@ static double film_by(SbRun *run, int seal, const SbSealState *state, SbFilmMode
   return NAN;
 }
 
+// What to change where a seal does not press enough.
+static const char *pressed_by(const SbModel *model) {
+  return model->kind == SB_VALVE_GASKET ? "gasket.crimp" : "gland.radial_space";
+}
+
 // Whether a seal presses the bore in every state in which the cycle needs it to.
 static bool presses(const SbRun *run, int seal) {
   for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
@@ -65,7 +70,7 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
                        : "the seal does not touch the bore under its pressures: the path is "
                          "open");
     sb_seal_reason(&run->summary, seal, "closing*", "the rubber does not press the bore");
-    sb_warn(&run->summary.warnings, "seal-open", "gland.radial_space",
+    sb_warn(&run->summary.warnings, "seal-open", pressed_by(model),
             "the %s seal is open: it does not press the bore under its pressures",
             sb_seal_name(seal));
   }
@@ -129,12 +134,12 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
   out->leak_state = open ? SB_LEAK_OPEN : leak.percolates ? SB_LEAK_PERCOLATING : SB_LEAK_CLOSED;
   if (leak.percolates) {
     sb_warn(
-        &run->summary.warnings, "static-leak", "gland.radial_space",
+        &run->summary.warnings, "static-leak", pressed_by(model),
         "the %s seal leaks at rest: %.3g MPa of contact pressure, open channels close at %.3g MPa",
         sb_seal_name(seal), problem.contact_pressure * 1e-6, leak.closing_pressure * 1e-6);
   } else if (problem.contact_pressure < 1.5 * leak.closing_pressure) {
     sb_warn(
-        &run->summary.warnings, "static-leak-near", "gland.radial_space",
+        &run->summary.warnings, "static-leak-near", pressed_by(model),
         "the %s seal is near its leak at rest: %.3g MPa of contact pressure, channels open below "
         "%.3g MPa",
         sb_seal_name(seal), problem.contact_pressure * 1e-6, leak.closing_pressure * 1e-6);
@@ -169,11 +174,16 @@ static void fill_contact(SbContact *out, const SbSealState *state, double speed)
 double sb_run_filled_share(const SbSummary *summary, const SbModel *model) {
   const SbStageMark *opens = &summary->stage[SB_STAGE_C], *closes = &summary->stage[SB_STAGE_F];
   const bool both = opens->reached && closes->reached && isfinite(model->filling_time);
+  if (model->kind == SB_VALVE_GASKET) {
+    return NAN; // it fills at rest, which lasts as long as it takes
+  }
   return both ? fmin(1, (closes->time - opens->time) / model->filling_time) : NAN;
 }
 
 // Time [s] for which the vent is open: on the way back, or both ways; for good if it is at the end.
 static double vent_time(const SbRun *run, double low, double high) {
+  const SbModel *model = run->model;
+  const bool both_ways = !model->vent_on_return || model->kind == SB_VALVE_GASKET;
   bool open = false;
   double time = 0;
   for (size_t i = 1; i < run->count; i++) {
@@ -181,7 +191,7 @@ static double vent_time(const SbRun *run, double low, double high) {
     const double a = from->displacement, b = to->displacement;
     const double least = fmin(a, b), most = fmax(a, b);
     const double inside = fmin(most, high) - fmax(least, low);
-    open = inside >= 0 && (open || !run->model->vent_on_return || (b < a && a >= high));
+    open = inside >= 0 && (open || both_ways || (b < a && a >= high));
     if (open) {
       time += (to->time - from->time) * (most > least ? inside / (most - least) : 1);
     }
@@ -194,11 +204,12 @@ static double vent_time(const SbRun *run, double low, double high) {
 // has all the time it takes.
 static double kept(const SbRun *run) {
   const SbModel *model = run->model;
+  const bool gasket = model->kind == SB_VALVE_GASKET;
   double low, high, time = INFINITY;
-  if (model->pressure_map == SB_MAP_PORTS && !model->chamber_at_once) {
+  if (gasket || (model->pressure_map == SB_MAP_PORTS && !model->chamber_at_once)) {
     time = sb_run_vent(&low, &high, run) ? vent_time(run, low, high) : 0;
   }
-  const double hole = model->shape.vent_diameter;
+  const double hole = gasket ? model->port_diameter : model->shape.vent_diameter;
   return model->canister_pressure > 0
              ? sb_chamber_kept(&model->supply,
                                model->discharge_coefficient * M_PI / 4 * hole * hole,
@@ -344,6 +355,8 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
       {!(model->canister_pressure > 0), "dose.fill*", "nothing drives liquid into the chamber"},
       {!(model->canister_pressure > 0), "dose.kept_mass_kg", "nothing drives liquid out"},
       {!(model->supply.vapour > 0), "dose.kept_mass_kg", "the fluid's vapour has no figures"},
+      {model->kind == SB_VALVE_GASKET, "dose.filled_share",
+       "a gasket valve's chamber fills at rest, before the stroke"},
       {well, "dose.filled_share", "the stem does not open and close the chamber: C to F"},
       {well, "dose.prime_loss_per_day", "the outer seal's leak at rest is not known"},
   };

@@ -79,7 +79,9 @@ static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *h
   problem.film.speed = problem.film.inlet_film = 0;
   for (int way = SB_CYCLE_IN; way <= SB_CYCLE_OUT; way++) {
     const SbSupply supply = sb_run_supply(run, seal, (SbChamber)chamber, way);
-    problem.inlet_film[way] = supply.limited ? supply.layer : 0;
+    // By the way of the surface along x, first to the right.
+    const bool right = (way == SB_CYCLE_IN) == (sb_model_way(run->model) > 0);
+    problem.inlet_film[right ? 0 : 1] = supply.limited ? supply.layer : 0;
   }
   problem.film.cancelled = hooks->cancelled;
   problem.film.cancelled_data = hooks->data;
@@ -165,7 +167,8 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
       }
       status = begin_stretch(history, frame->chamber, hooks, report);
     } else if (dt > 0) {
-      status = sb_film_transient_step(history->film, dt, frame->velocity, report);
+      status = sb_film_transient_step(history->film, dt, sb_model_way(run->model) * frame->velocity,
+                                      report);
     }
     if (status == SB_ERROR_NOT_CONVERGED && history->film != NULL && history->finer < FINER_MAX) {
       end_stretch(history);

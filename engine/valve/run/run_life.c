@@ -28,7 +28,7 @@ static SbStatus resurface(SbRun *run, double factor, SbReport *report) {
     const SbSlidingTask task = {
         .model = run->model,
         .seal = i / (SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS),
-        .speed = motion == SB_CYCLE_IN ? run->speed : -run->speed,
+        .speed = sb_model_way(run->model) * (motion == SB_CYCLE_IN ? run->speed : -run->speed),
         .warnings = &run->summary.warnings,
     };
     if (motion != SB_RUN_REST) {

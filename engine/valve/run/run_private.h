@@ -269,7 +269,8 @@ typedef struct {
   SbChamber chamber;  // passed on the way
   bool touches;       // the inner seal seals at all
   double edge_open;   // stem displacement behind which the chamber opens on the way in
-  double edge_closed; // and closes on the way out
+  double edge_closed; // and closes on the way out; of a gasket valve closes and opens
+  double port;        // of a gasket valve, from which on the chamber empties
   double middle;      // of B-C, and of F-A [m]
   // What the land carries of the inner contact where it was last asked for.
   double land_at[SB_CYCLE_CHAMBERS];

@@ -61,6 +61,10 @@ static int edge_shape(int way, int place) {
 }
 
 uint32_t sb_run_shape_over_edge(const SbRun *run, int way, double s) {
+  if (run->model->kind == SB_VALVE_GASKET) {
+    // The neck's shoulder is steep: the gasket is free until it has passed, then as it slides.
+    return slot(SB_INNER, SB_RUN_SHAPE_FREE);
+  }
   double first = run->cycle.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].contact_left;
   int place = edge_of(&run->edge[way], first + s - run->model->land_edge);
   // A place without a solution takes the one before.
@@ -124,7 +128,9 @@ SbStatus sb_run_keep_shape(SbRun *run, int seal, int index, const SbRing *ring, 
                          .triangle = triangle,
                          .outline = triangle + corners};
   sb_ring_fields(ring, &fields);
-  double floor = sb_ring_load(ring)->floor_radius;
+  const SbModel *model = run->model;
+  const bool gasket = model->kind == SB_VALVE_GASKET;
+  const double floor = gasket ? model->bore_diameter / 2 : sb_ring_load(ring)->floor_radius;
   for (size_t i = 0; i < n; i++) {
     place[2 * i + 1] -= floor;
     field[SB_FIELD_VON_MISES * n + i] = (float)fields.mises[i];
@@ -148,7 +154,7 @@ SbStatus sb_run_keep_shape(SbRun *run, int seal, int index, const SbRing *ring, 
                               .contact_left = result.touching ? result.contact_left : 0,
                               .contact_right = result.touching ? result.contact_right : 0,
                               .load = result.bore_force,
-                              .drag = result.bore_drag};
+                              .drag = sb_model_way(model) * result.bore_drag};
   for (size_t f = 0; f < SB_FIELD_COUNT; f++) {
     shape->view.field[f] = field + f * n;
   }
@@ -168,14 +174,16 @@ static double clear_of(const SbSealShape *free_ring, double height, const SbRing
   return end;
 }
 
-// The free inner ring.
+// The free inner ring: out of the bore, or clamped around the stem's neck.
 static SbStatus solve_free(SbRun *run, const SbRingBody *body, SbRingLoad load,
                            const SbRingOptions *options, SbReport *report) {
   SbRing *ring;
-  load.bore_radius += body->section_diameter;
+  load.bore_radius =
+      body->inward ? -0.3 * body->inner_diameter : load.bore_radius + body->section_diameter;
   load.pressure_left = load.pressure_right = 0;
   load.bore_slides = 0;
-  load.friction_bore = load.friction_floor = load.friction_wall = 0;
+  load.friction_bore = load.friction_floor = 0;
+  load.friction_wall = body->inward ? load.friction_wall : 0;
   SbStatus status = sb_ring_create(&ring, body, &load, options, report);
   status =
       status == SB_OK ? sb_run_keep_shape(run, SB_INNER, SB_RUN_SHAPE_FREE, ring, report) : status;
@@ -200,7 +208,7 @@ SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *
     counts->field_evaluations++;
     status = solve_free(run, &body, load, options, report);
   }
-  if (status != SB_OK) {
+  if (status != SB_OK || run->model->kind == SB_VALVE_GASKET) {
     return status;
   }
   double begin = state.contact_left;

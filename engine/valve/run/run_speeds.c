@@ -14,7 +14,8 @@ static SbSlidingTask task_of(SbRun *run, int seal, int chamber, int direction, d
   return (SbSlidingTask){.model = run->model,
                          .seal = seal,
                          .pressure = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber),
-                         .speed = direction == SB_CYCLE_IN ? speed : -speed,
+                         .speed =
+                             sb_model_way(run->model) * (direction == SB_CYCLE_IN ? speed : -speed),
                          .memory = run->memory[seal],
                          .counts = &run->summary.counters,
                          .warnings = &run->summary.warnings,

@@ -4,7 +4,8 @@
 // none: how fast the stem slides follows from the friction, which is known over the speed
 // (run_speeds.c). Profiles and figures are those of the stem's speed at the middle of B-C, found by
 // running the motion without frames. Solved rings take seconds: their profiles are those of that
-// speed in the same valve with the thesis' closed forms, and only the figures of its own.
+// speed in the same valve with the thesis' closed forms, and only the figures of its own; where the
+// section is no circle, which closed forms do not know, they are those of drive.speed.
 //
 // The two seals share nothing until then: where their rings are solved, each has a thread, and what
 // both add to the run is joined in the seals' order, so that results do not depend on the threads.
@@ -329,7 +330,7 @@ static SbSlidingTask sliding_task(const Task *of) {
   return (SbSlidingTask){run->model,
                          of->seal,
                          of->pressure,
-                         way[of->motion] * run->speed,
+                         sb_model_way(run->model) * way[of->motion] * run->speed,
                          run->memory[of->seal],
                          &of->lane->counters,
                          &of->lane->warnings,
@@ -658,7 +659,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   SbStatus status = SB_OK;
   run->speed = model->speed;
   bool own = run->plan.motion && run->plan.inertia && model->drive != SB_MODEL_DRIVE_MACHINE;
-  if (own && run->plan.ring) {
+  if (own && run->plan.ring && model->profile == SB_SEAL_PROFILE_CIRCLE) {
     status = proxy_speed(run, hooks, report);
   }
   SbWarnings before = *warnings;

@@ -1,6 +1,7 @@
 // What the strokes find at their inlets, and what lies on the bore.
 //
-// The bore enters the contact from the left on the in-stroke and from the right on the return. Left
+// The bore enters the contact from the left on the in-stroke and from the right on the return, the
+// stem of a gasket valve the other way round. Left
 // of a seal is what it holds back, right of it the next room, right of the outer one the air.
 // Liquid floods the inlet; in a room without liquid the bore brings what the stroke before left on
 // it: the layer that the contact let through, flow over speed. The layer is a volume by area, so
@@ -16,17 +17,26 @@
 #include <math.h>
 
 // Whether a seal has liquid on its left or right in a state of the chamber. With ports the chamber
-// at rest stands for the vented one.
+// at rest stands for the vented one; that of a gasket valve is vented where both its gaskets close
+// after the dose.
 static bool is_wet(const SbModel *model, int seal, SbChamber chamber, bool left) {
   if (left ? seal == SB_INNER : seal == SB_OUTER) {
     return left; // the canister; the air
   }
+  if (model->kind == SB_VALVE_GASKET) {
+    return chamber != SB_CHAMBER_CLOSED;
+  }
   return chamber != SB_CHAMBER_AT_REST || model->pressure_map == SB_MAP_CHAMBER_FILLED;
 }
 
-// Whether nothing is carried: an in-stroke out of a room without liquid.
+// Whether a way of the stem brings what is left of the seal into its contact.
+static bool enters_left(const SbModel *model, int direction) {
+  return (direction == SB_CYCLE_IN) == (sb_model_way(model) > 0);
+}
+
+// Whether nothing is carried: towards the air out of a room without liquid.
 static bool is_dry(const SbModel *model, int seal, SbChamber chamber, int direction) {
-  return direction == SB_CYCLE_IN && !is_wet(model, seal, chamber, true);
+  return enters_left(model, direction) && !is_wet(model, seal, chamber, true);
 }
 
 double sb_run_layer(SbRun *run, int seal, SbChamber chamber, int direction, double speed) {
@@ -40,10 +50,15 @@ double sb_run_layer(SbRun *run, int seal, SbChamber chamber, int direction, doub
 
 SbSupply sb_run_supply(const SbRun *run, int seal, SbChamber chamber, int motion) {
   const SbModel *model = run->model;
-  const bool in = motion == SB_CYCLE_IN;
-  if (!model->inlet_carried || motion == SB_RUN_REST || is_wet(model, seal, chamber, in)) {
+  if (!model->inlet_carried || motion == SB_RUN_REST ||
+      is_wet(model, seal, chamber, enters_left(model, motion))) {
     return (SbSupply){0};
   }
+  if (model->kind == SB_VALVE_GASKET) {
+    // What the way out left on the stem has flashed off before the next way in.
+    return (SbSupply){true, 0};
+  }
+  const bool in = motion == SB_CYCLE_IN;
   // A chamber that is cut off again slides back over what it passed at rest; where ports fill and
   // vent it that is not known beforehand, and the same chamber stands in.
   const bool ports = model->pressure_map == SB_MAP_PORTS;
@@ -75,6 +90,7 @@ static void halve(SbBore *bore) {
 void sb_bore_move(SbBore *bore, double from, double to, double layer) {
   if (to > from) {
     SbBoreLayer *last = bore->count > 0 ? &bore->item[bore->count - 1] : NULL;
+    bore->start = last == NULL ? from : bore->start;
     bore->out += layer * (to - from);
     if (last != NULL && last->layer == layer) {
       last->end = to;

@@ -18,6 +18,7 @@
 // contacts (open wholly or not at all), and the canister through a by-pass below
 // bore.refill_travel.
 #include "engine/valve/breakaway.h"
+#include "engine/valve/gasket.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
@@ -25,10 +26,13 @@
 // Of the friction without a film.
 static const double band_tolerance = 1e-3;
 
-// How full of pressure the chamber is, 0 vented, 1 at the canister's.
+// How near the chamber is to the state that stands for SB_CHAMBER_CLOSED, from 0, that for
+// SB_CHAMBER_AT_REST, to 1: by its pressure, which the closed chamber holds in full; that of a
+// gasket valve has been emptied then.
 static double filling(const SbRun *run, double pressure) {
   double canister = run->model->canister_pressure;
-  return canister != 0 ? fmin(fmax(pressure / canister, 0), 1) : 1;
+  double full = canister != 0 ? fmin(fmax(pressure / canister, 0), 1) : 1;
+  return run->model->kind == SB_VALVE_GASKET ? 1 - full : full;
 }
 
 // The states that friction lies between: with ports those of the vented and the filled chamber.
@@ -229,10 +233,28 @@ static void valve_band(SbDynamicsBand *out, double x, size_t region, int directi
   }
 }
 
+// The shoulder closes the full chamber and opens it again, the port empties it.
+static void cross_gasket(SbValve *valve, double x, int direction) {
+  const SbChamber chamber = valve->chamber;
+  if (direction > 0 && x == valve->edge_open && chamber == SB_CHAMBER_OPEN) {
+    valve->chamber = SB_CHAMBER_AT_REST;
+  } else if (direction > 0 && x == valve->port && chamber == SB_CHAMBER_AT_REST) {
+    valve->chamber = SB_CHAMBER_CLOSED;
+  } else if (direction < 0 && ((x == valve->edge_closed && chamber == SB_CHAMBER_CLOSED) ||
+                               (x == valve->edge_open && chamber == SB_CHAMBER_AT_REST))) {
+    valve->chamber = SB_CHAMBER_OPEN;
+  }
+}
+
 static void valve_cross(size_t edge, int direction, double *extra, void *user) {
   SbValve *valve = user;
   double x = valve->edge[edge];
-  if (valve->touches && direction > 0 && x == valve->edge_open) {
+  const SbModel *model = valve->run->model;
+  if (model->kind == SB_VALVE_GASKET) {
+    if (valve->touches) {
+      cross_gasket(valve, x, direction);
+    }
+  } else if (valve->touches && direction > 0 && x == valve->edge_open) {
     valve->chamber = SB_CHAMBER_OPEN;
   } else if (valve->touches && direction < 0 && x == valve->edge_closed &&
              valve->chamber == SB_CHAMBER_OPEN) {
@@ -273,6 +295,11 @@ bool sb_run_vent(double *low, double *high, const SbRun *run) {
   const SbSealState *outer = &run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   const SbValveShape *shape = &model->shape;
   const double hole = shape->vent_diameter, edge = model->land_edge;
+  if (model->kind == SB_VALVE_GASKET) {
+    *low = sb_gasket_port_opens(model);
+    *high = INFINITY;
+    return *low < model->stroke;
+  }
   *low = edge + inner->contact_right - inner->contact_left - shape->vent_position - hole / 2;
   *high = edge - inner->contact_left + shape->seal_spacing + outer->contact_left -
           shape->vent_position + hole / 2;
@@ -294,27 +321,31 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
   // The land's edge: an annulus between stem and bore.
   double annulus = M_PI / 4 * (model->bore_diameter - model->stem_diameter) *
                    (model->bore_diameter + model->stem_diameter);
+  const bool gasket = model->kind == SB_VALVE_GASKET;
+  annulus = gasket ? sb_gasket_neck(model) : annulus;
   double land_area = at_once || annulus <= 0 ? INFINITY : coefficient * annulus;
   double opens = valve->touches ? valve->edge_open : -INFINITY;
+  const double closes = valve->touches ? valve->edge_open : INFINITY;
   chamber->port[chamber->ports++] =
-      (SbChamberPort){opens, INFINITY, SB_PORT_BOTH_WAYS, canister, land_area};
+      (SbChamberPort){gasket ? -INFINITY : opens, gasket ? closes : INFINITY, SB_PORT_BOTH_WAYS,
+                      canister, land_area};
 
-  double low, high, hole = shape->vent_diameter;
+  double low, high, hole = gasket ? model->port_diameter : shape->vent_diameter;
   const bool vents = sb_run_vent(&low, &high, valve->run);
-  if (hole > 0 && !vents) {
+  if (hole > 0 && !vents && !gasket) {
     sb_warn(&valve->run->summary.warnings, "ports-no-vent", "bore.vent_position",
             "the dose chamber never reaches the vent: it would at a stem of %.3g to %.3g mm, which "
             "moves from 0 to %.3g mm",
             1e3 * low, 1e3 * high, 1e3 * model->stroke);
   }
   if (vents) {
-    chamber->port[chamber->ports++] =
-        (SbChamberPort){low, high, model->vent_on_return ? SB_PORT_ON_RETURN : SB_PORT_BOTH_WAYS, 0,
-                        at_once ? INFINITY : coefficient * M_PI / 4 * hole * hole};
+    chamber->port[chamber->ports++] = (SbChamberPort){
+        low, high, model->vent_on_return && !gasket ? SB_PORT_ON_RETURN : SB_PORT_BOTH_WAYS, 0,
+        at_once ? INFINITY : coefficient * M_PI / 4 * hole * hole};
   }
 
   // The by-pass at rest.
-  if (model->refill_travel > 0) {
+  if (model->refill_travel > 0 && !gasket) {
     chamber->port[chamber->ports++] =
         (SbChamberPort){-INFINITY, model->refill_travel, SB_PORT_BOTH_WAYS, canister,
                         at_once ? INFINITY : coefficient * model->refill_area};
@@ -423,15 +454,22 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
 
   // Edges: where the contact meets the land's end, where it has left, where it comes back.
   valve->touches = cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].touches;
+  const bool gasket = model->kind == SB_VALVE_GASKET;
   double near = INFINITY, far = -INFINITY;
   if (valve->touches) {
     double closed = sb_cycle_edge_begin(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
     near = fmin(model->land_edge, closed);
     add_edge(out, closed);
-    valve->edge_open = sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
-    valve->edge_closed = sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
-    far = fmax(valve->edge_open, valve->edge_closed);
-    if (valve->ports) {
+    const double end_open = sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
+    const double end_closed = sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
+    far = fmax(end_open, end_closed);
+    add_edge(out, end_open);
+    add_edge(out, end_closed);
+    valve->edge_open = gasket ? model->land_edge : end_open;
+    valve->edge_closed = gasket ? closed : end_closed;
+    if (valve->ports && gasket) {
+      valve->edge_open = valve->edge_closed = near;
+    } else if (valve->ports) {
       // The wider contact decides, whatever the pressure is when it leaves.
       valve->edge_open = valve->edge_closed = far;
     }
@@ -444,6 +482,13 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   }
   bool behind = out->start_position >= valve->edge_open;
   valve->chamber = !valve->touches || behind ? SB_CHAMBER_OPEN : SB_CHAMBER_AT_REST;
+  if (gasket) {
+    valve->port = sb_gasket_port_opens(model);
+    add_edge(out, valve->port);
+    valve->chamber = !valve->touches || !behind           ? SB_CHAMBER_OPEN
+                     : out->start_position >= valve->port ? SB_CHAMBER_CLOSED
+                                                          : SB_CHAMBER_AT_REST;
+  }
   if (valve->ports) {
     SbStatus status = set_ports(out, valve, report);
     if (status != SB_OK) {
