@@ -65,7 +65,11 @@ void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run) {
   } else {
     sb_format_given(speed, SB_QUANTITY_SPEED, v);
   }
-  sb_model_choice_name(m, SB_P_CANISTER_PRESSURE_MAP, map, sizeof map);
+  if (sb_model_number(m, SB_P_VALVE_KIND) == SB_VALVE_GASKET) {
+    sb_model_choice_name(m, SB_P_VALVE_KIND, map, sizeof map); // its pressures follow the stem
+  } else {
+    sb_model_choice_name(m, SB_P_CANISTER_PRESSURE_MAP, map, sizeof map);
+  }
   g_snprintf(out, size, _("canister %s  \xc2\xb7  %s  \xc2\xb7  %s"), pressure, speed, map);
 }
 

@@ -63,10 +63,10 @@ SbCutaway *sb_cutaway_create(const SbModel *model, double inner_contact_left) {
   sb_revolve_init(&cutaway->revolve);
   cutaway->point = g_array_new(FALSE, FALSE, sizeof(SbPoint));
   cutaway->scalar = g_array_new(FALSE, FALSE, sizeof(float));
-  double bore = sb_model_value(model, SB_P_BORE_DIAMETER);
-  double radius =
-      fmax(SB_SECTION_TOP * bore, sb_model_shape(model)->entry_diameter / 2 + 0.12 * bore);
   SbValveOutline *valve = &cutaway->valve;
+  sb_valve_outline_make(valve, model, inner_contact_left, HUGE_VAL, false);
+  const double bore = valve->size, mouth = sb_model_shape(model)->entry_diameter / 2;
+  const double radius = fmax(SB_SECTION_TOP * bore, valve->gasket ? 0 : mouth + 0.12 * bore);
   sb_valve_outline_make(valve, model, inner_contact_left, radius, false);
   if (!valve->shaped_housing) {
     finish_housing(&valve->solid[0], radius, CHAMFER * bore);
@@ -440,18 +440,21 @@ static void paint_labels(SbCutaway *cutaway, SbSection *section) {
   size_t count = 0;
   double s = frame->displacement;
   char text[96], value[SB_SECTION_NUMBER];
-  static const char *const name[SB_SEAL_COUNT] = {
-      [SB_OUTER] = N_("Outer seal"), [SB_INNER] = N_("Inner seal")};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     bool free = frame->seal[i].land_fraction <= 0;
-    snprintf(text, sizeof text, "%s%s", _(name[i]), free ? _(", off the land") : "");
+    snprintf(text, sizeof text, "%s%s", sb_section_seal_name(section, i),
+             !free           ? ""
+             : valve->gasket ? _(", around the neck")
+                             : _(", off the land"));
     double x = sb_section_origin(section, i);
-    name_point(row, &count, sb_section_plane_at(&upper, x, (valve->floor + valve->bore) / 2),
+    name_point(row, &count,
+               sb_section_plane_at(&upper, x,
+                                   valve->gasket ? (valve->bore + valve->rim) / 2
+                                                 : (valve->floor + valve->bore) / 2),
                palette->seal[i], text);
   }
   double end = valve->vent_right > valve->vent_left ? valve->vent_left : valve->end;
-  double place =
-      fmax(end - 0.15 * sb_model_value(section->model, SB_P_BORE_DIAMETER), valve->face / 2);
+  double place = fmax(end - 0.15 * valve->size, valve->face / 2);
   double low, high;
   if (sb_outline_radii(&low, &high, &cutaway->valve.housing, place)) {
     name_point(row, &count, sb_section_plane_at(&upper, place, (low + high) / 2), palette->ink,
@@ -459,8 +462,9 @@ static void paint_labels(SbCutaway *cutaway, SbSection *section) {
   }
   snprintf(text, sizeof text, _("Chamber %s"),
            sb_section_megapascal(value, (double)frame->seal[SB_INNER].pressure_right));
-  double middle = (valve->chamber_floor + valve->land) / 2;
-  name_point(row, &count, sb_section_plane_at(&upper, valve->chamber - s, middle),
+  double middle = (valve->chamber_floor + (valve->gasket ? valve->chamber_roof : valve->land)) / 2;
+  name_point(row, &count,
+             sb_section_plane_at(&upper, valve->chamber - (valve->gasket ? 0 : s), middle),
              palette->fluid_line, text);
   snprintf(text, sizeof text, _("Canister %s"),
            sb_section_megapascal(value, (double)frame->seal[SB_INNER].pressure_left));

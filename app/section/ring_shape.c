@@ -122,3 +122,14 @@ void sb_ring_shape_make(SbRingShape *shape, const SbRingRoom *room, double left,
   shape->contact_left = flat.contact_left;
   shape->contact_right = flat.contact_right;
 }
+
+void sb_ring_shape_rectangle(SbRingShape *shape, double left, double right, double height) {
+  *shape = (SbRingShape){.count = 4,
+                         .x = {left, right, right, left},
+                         .y = {0, 0, height, height},
+                         .contact = true,
+                         .contact_left = left,
+                         .contact_right = right,
+                         .area = (right - left) * height,
+                         .area_conserved = true};
+}

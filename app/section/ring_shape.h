@@ -37,5 +37,8 @@ typedef struct {
 void sb_ring_shape_make(SbRingShape *shape, const SbRingRoom *room, double left, double right,
                         double land_fraction);
 
+// A rectangle between two walls, as high as it must be.
+void sb_ring_shape_rectangle(SbRingShape *shape, double left, double right, double height);
+
 // Area of a polygon [m2], positive counterclockwise.
 double sb_ring_shape_area(const double *x, const double *y, size_t count);

@@ -111,7 +111,8 @@ double sb_section_displacement(const SbSection *section) {
 }
 
 double sb_section_origin(const SbSection *section, int seal) {
-  return section->valve.origin[seal] - sb_section_displacement(section);
+  const SbValveOutline *valve = &section->valve;
+  return valve->origin[seal] - (valve->gasket ? 0 : sb_section_displacement(section));
 }
 
 const SbRingShape *sb_section_ring(const SbSection *section, int seal) {
@@ -153,6 +154,13 @@ static void shape_rings(SbSection *section) {
         .housing = housing_above,
         .data = &around,
     };
+    if (valve->gasket) { // drawn so only where none is solved
+      sb_ring_shape_rectangle(&section->ring[i], room.wall_left, room.wall_right,
+                              room.area / (room.wall_right - room.wall_left));
+      section->ring[i].contact_left = seal->contact_left;
+      section->ring[i].contact_right = seal->contact_right;
+      continue;
+    }
     double edge = -around.origin;
     double left = fmax(seal->contact_left, fmin(edge, seal->contact_right));
     sb_ring_shape_make(&section->ring[i], &room, left, seal->contact_right, seal->land_fraction);
@@ -191,6 +199,21 @@ static void draw_fluid(SbSection *section) {
                    sb_palette_fluid(section->palette, pressure[i]))
           ->feather = false;
     }
+  }
+}
+
+// What stands behind the gaskets, in their pockets: the lower of their two pressures.
+static void draw_pockets(SbSection *section) {
+  const SbValveOutline *valve = &section->valve;
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const SbSealFrame *seal = &section->instant->frame->seal[i];
+    const SbPoint a = sb_section_at(section, valve->groove_left[i], valve->rim);
+    const SbPoint b =
+        sb_section_at(section, valve->groove_right[i], (valve->rim + valve->bore) / 2);
+    sb_draw_rect(
+        section->list, a.x, a.y, b.x - a.x, b.y - a.y,
+        sb_palette_fluid(section->palette, (double)MIN(seal->pressure_left, seal->pressure_right)))
+        ->feather = false;
   }
 }
 
@@ -304,11 +327,10 @@ void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map) {
   }
 }
 
-static void draw_stem(SbSection *section, const SbSectionFrameMap *map) {
+void sb_section_draw_stem(SbSection *section, const SbSectionFrameMap *map) {
   const SbValveOutline *valve = &section->valve;
   double s = sb_section_displacement(section);
-  SbDrawHatch lines =
-      hatch(section->palette->stem_hatch, -1, section->x0 - s * section->scale - section->y0);
+  SbDrawHatch lines = hatch(section->palette->stem_hatch, -1, map->x0 - s * map->scale - map->y0);
   for (size_t i = 0; i < valve->solid_count; i++) {
     if (valve->solid[i].moves) {
       draw_solid(section, map, &valve->solid[i], s, &lines);
@@ -333,8 +355,11 @@ void sb_section_draw_strip(SbSection *section) {
   size_t first = list->item_count;
   const SbRect *strip = &section->strip;
   SbSectionFrameMap map = sb_section_frame_map(section->x0, section->y0, section->scale, strip);
+  if (section->valve.gasket) {
+    draw_pockets(section);
+  }
   sb_section_draw_housing(section, &map);
-  draw_stem(section, &map);
+  sb_section_draw_stem(section, &map);
 
   // Rings, and the contact bars over exactly the engine's contact.
   double bore = section->valve.bore;
@@ -394,9 +419,11 @@ static void lay_out_zoom(SbSection *section, const Layout *layout, double bottom
   double width = view->bare ? view->width : view->width - layout->margin - left;
   double tall = bottom - top;
   section->strip = (SbRect){left, top, width, tall};
-  double g = sb_model_value(section->model, SB_P_GLAND_RADIAL_SPACE);
+  const bool gasket = valve->gasket;
+  double g =
+      sb_model_value(section->model, gasket ? SB_P_GASKET_THICKNESS : SB_P_GLAND_RADIAL_SPACE);
   section->scale = MIN(width / (2.6 * g), tall / (1.85 * g));
-  double centre = valve->origin[seal] - sb_section_displacement(section);
+  double centre = sb_section_origin(section, seal);
   section->x0 = left + width / 2 - centre * section->scale;
   section->y0 = bottom - tall * 0.56 + (valve->floor + g / 2) * section->scale;
 }
@@ -404,7 +431,7 @@ static void lay_out_zoom(SbSection *section, const Layout *layout, double bottom
 // The strip fills the picture, its top cut where it is too high to be wide.
 static void lay_out_bare(SbSection *section, double left, double right, double left_room) {
   const SbSectionView *view = section->view;
-  const double bore = sb_model_value(section->model, SB_P_BORE_DIAMETER);
+  const double bore = section->valve.size;
   static const double LEAST = 0.66; // of the bore's diameter: the housing over the seals
   const double scale =
       fmin((view->width - left_room) / (right - left), view->height / (LEAST * bore));
@@ -438,7 +465,7 @@ static void lay_out(SbSection *section, Layout *layout) {
   double strip_width = view->width - 2 * margin;
   double left_room = 3.4 * fabs(sb_model_pressure_force(model)) + 18;
   double left = MIN(valve->nose - sb_model_value(model, SB_P_DRIVE_STROKE), valve->face);
-  double bore = sb_model_value(model, SB_P_BORE_DIAMETER);
+  double bore = valve->size;
   double right = valve->end + RIGHT_ROOM * bore;
   if (view->bare) {
     lay_out_bare(section, left, right, left_room);

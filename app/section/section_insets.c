@@ -53,7 +53,7 @@ static size_t curve(const Inset *inset, const SbContactProfile *profile, const d
 static void inset_title(SbSection *section, const Inset *inset, int seal, const char *what,
                         const char *brief) {
   const SbPalette *palette = section->palette;
-  const char *const name = seal == SB_OUTER ? _("Outer seal") : _("Inner seal");
+  const char *const name = sb_section_seal_name(section, seal);
   double y = inset->rect.y - 9;
   sb_draw_text(section->list, inset->rect.x, y, 13, 700, SB_LEFT, palette->ink, name);
   double width = sb_text_width(section->text, name, 13, 700);
@@ -84,8 +84,13 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
   const SbSealFrame *frame = &section->instant->frame->seal[seal];
   const SbContactProfile *profile = section->instant->profile[seal];
   bool contact = frame->land_fraction > 0 && frame->contact_right > frame->contact_left;
-  double bore = rect->y + 0.74 * rect->height;
+  // Pressure rises from the line of the contact into what slides: the housing above rings, the stem
+  // below gaskets.
+  const bool gasket = section->valve.gasket;
+  const double up = gasket ? -1 : 1;
+  double bore = rect->y + (gasket ? 0.5 : 0.74) * rect->height;
   char text[96], value[SB_SECTION_NUMBER];
+  const SbColor *body = gasket ? &palette->stem : &palette->housing;
 
   // Fluid, then the housing as it stands over the seal, then the ring.
   sb_draw_clip(list, rect);
@@ -101,28 +106,37 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
       sb_section_frame_map(inset_x(inset, -sb_section_origin(section, seal)),
                            bore + section->valve.bore * inset->scale, inset->scale, rect);
   sb_section_draw_housing(section, &map);
-  const SbSectionPlane plane = {inset_x(inset, 0),
-                                inset->scale,
-                                0,
-                                bore + sb_model_value(section->model, SB_P_GLAND_RADIAL_SPACE) *
-                                           inset->scale,
-                                0,
+  if (gasket) {
+    sb_section_draw_stem(section, &map);
+  }
+  const double deep = section->valve.bore - section->valve.floor;
+  const SbSectionPlane plane = {inset_x(inset, 0), inset->scale, 0, bore + deep * inset->scale, 0,
                                 -inset->scale};
   sb_section_draw_ring(section, seal, &plane);
+  if (gasket) {
+    const double free = sb_model_seal(section->model, seal)->inner_diameter / 2;
+    const double line = bore + (section->valve.bore - free) * inset->scale;
+    sb_draw_line(list, rect->x, line, rect->x + rect->width, line, 1.2, palette->seal[seal])->dash =
+        &sb_dash_dimension;
+    SbSectionLabel style = {11, 400, SB_RIGHT, palette->seal[seal], body};
+    sb_section_label(section, rect->x + rect->width - 8, line + 14, &style, _("free bore"));
+  }
 
   // Pressure rises from the bore line into the housing.
-  double px = (bore - rect->y - 34) / fmax(section->limits.pressure_max, 1);
+  const double room = gasket ? rect->y + rect->height - bore : bore - rect->y;
+  double px = (room - 34) / fmax(section->limits.pressure_max, 1);
   double left_px = inset_x(inset, frame->contact_left);
   double right_px = inset_x(inset, frame->contact_right);
   if (profile != NULL && profile->count > 1 && contact) {
     g_autofree SbPoint *points = g_new(SbPoint, CURVE_MAX + 2);
-    size_t count = curve(inset, profile, profile->pressure, bore, px, bore, points + 1);
+    size_t count = curve(inset, profile, profile->pressure, bore, up * px,
+                         gasket ? rect->y + rect->height : bore, points + 1);
     // Outside the contact as far as the pressure is the fluid's it is drawn in the fluid's colour;
     // a film's inlet belongs to the seal.
     SbPoint *first = points + 1;
     double near = 0.01 * section->limits.pressure_max * px;
-    double left_y = bore - (double)frame->pressure_left * px;
-    double right_y = bore - (double)frame->pressure_right * px;
+    double left_y = bore - up * (double)frame->pressure_left * px;
+    double right_y = bore - up * (double)frame->pressure_right * px;
     size_t begin = 0, end = count;
     while (begin + 1 < count && (double)first[begin].x < left_px - 0.3 &&
            fabs((double)first[begin + 1].y - left_y) < near) {
@@ -155,16 +169,14 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
     }
     SbColor wash = palette->fluid_line;
     wash.a = 0.16;
-    sb_draw_rect(list, side[i][0], bore - height, side[i][1] - side[i][0], height, wash)->feather =
-        false;
-    sb_draw_line(list, side[i][0], bore - height, side[i][1], bore - height, 2,
-                 palette->fluid_line);
+    const double top = gasket ? bore : bore - height, line = bore - up * height;
+    sb_draw_rect(list, side[i][0], top, side[i][1] - side[i][0], height, wash)->feather = false;
+    sb_draw_line(list, side[i][0], line, side[i][1], line, 2, palette->fluid_line);
     snprintf(text, sizeof text, _("fluid %s"), sb_section_megapascal(value, side[i][2]));
-    SbSectionLabel style = {11, 600, i == 0 ? SB_LEFT : SB_RIGHT, palette->fluid_line,
-                            &palette->housing};
+    SbSectionLabel style = {11, 600, i == 0 ? SB_LEFT : SB_RIGHT, palette->fluid_line, body};
     double x = i == 0 ? rect->x + 8 : rect->x + rect->width - 8;
     if (sb_text_width(section->text, text, 11, 600) + 14 < side[i][1] - side[i][0]) {
-      sb_section_label(section, x, bore - height - 7, &style, text);
+      sb_section_label(section, x, gasket ? line + 16 : line - 7, &style, text);
     }
   }
 
@@ -187,11 +199,11 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
         peak_pressure = best;
       }
     }
-    SbSectionLabel peak = {13, 700, SB_MIDDLE, palette->seal[seal], &palette->housing};
+    SbSectionLabel peak = {13, 700, SB_MIDDLE, palette->seal[seal], body};
     sb_section_label(section, CLAMP(peak_x, rect->x + 50, rect->x + rect->width - 50),
-                     bore - peak_pressure * px - 9, &peak,
+                     bore - up * peak_pressure * px + (gasket ? 18 : -9), &peak,
                      sb_section_megapascal(value, peak_pressure));
-    double y = bore + 17;
+    double y = bore + up * 17;
     SbColor line = palette->ink;
     snprintf(text, sizeof text, _("contact %s"),
              sb_section_millimetre(value, frame->contact_right - frame->contact_left));
@@ -201,15 +213,19 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
     SbSectionLabel style = {11, 600, SB_MIDDLE, palette->ink, &palette->panel};
     bool inside = right_px - left_px > sb_text_width(section->text, text, 11, 600) + 30;
     sb_section_label(section, (left_px + right_px) / 2,
-                     inside ? y + 4 : fmin(y + 20, (double)(rect->y + rect->height) - 6), &style,
-                     text);
+                     inside   ? y + 4
+                     : gasket ? y - 10
+                              : fmin(y + 20, (double)(rect->y + rect->height) - 6),
+                     &style, text);
   } else {
     SbSectionLabel style = {12, 600, SB_MIDDLE, palette->seal[seal], &palette->panel};
     sb_section_label(section, rect->x + rect->width / 2, rect->y + 24, &style,
-                     _("off the land: no contact"));
+                     gasket ? _("around the neck: no contact") : _("off the land: no contact"));
   }
   frame_inset(section, inset, seal);
-  inset_title(section, inset, seal, _(", contact pressure on the bore"), _(", pressure"));
+  inset_title(section, inset, seal,
+              gasket ? _(", contact pressure on the stem") : _(", contact pressure on the bore"),
+              _(", pressure"));
 }
 
 // Least round number (1, 2, 3, 4, 5, 6, 8 times a power of ten) that is not below v.
@@ -322,12 +338,15 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
   double ground = rect->y + (bore - rect->y) / 2;
   SbSectionLabel small = {11, 400, SB_LEFT, palette->ink, &palette->housing};
   if (fabs(whole->velocity) > 0) {
-    bool out = whole->velocity < 0;
+    bool out = (whole->velocity < 0) != section->valve.gasket; // the surface, to the left
     sb_draw_arrow(list, rect->x + (out ? 58 : 14), ground, rect->x + (out ? 14 : 58), ground, 1.4,
                   8, 7, palette->ink);
-    sb_section_label(section, rect->x + 68, ground + 4, &small, _("bore, relative to the seal"));
+    sb_section_label(section, rect->x + 68, ground + 4, &small,
+                     section->valve.gasket ? _("stem, relative to the seal")
+                                           : _("bore, relative to the seal"));
   } else {
-    sb_section_label(section, rect->x + 14, ground + 4, &small, _("bore, at rest"));
+    sb_section_label(section, rect->x + 14, ground + 4, &small,
+                     section->valve.gasket ? _("stem, at rest") : _("bore, at rest"));
   }
 
   // The figures: inside the ring's body, or in the film where that is thicker.
@@ -339,7 +358,8 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
   SbAlign centre = SB_MIDDLE;
   if (!contact) {
     sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->seal[seal],
-                 _("off the land: no film"));
+                 section->valve.gasket ? _("around the neck: no film")
+                                       : _("off the land: no film"));
   } else if (!film) {
     // In a narrow inset in the middle, and its first words only.
     bool rest = frame->film_central <= 0;

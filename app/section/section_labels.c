@@ -8,8 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double PX_PER_NEWTON = 3.4;
-
 // The valve's axis in a whole picture, the lower end of a zoomed one [px].
 static double axis_of(const SbSection *section) {
   return fmin((double)section->strip.y + (double)section->strip.height, section->y0);
@@ -20,8 +18,8 @@ static SbSectionLabel label_style(SbColor color, int weight, SbAlign align, cons
 }
 
 // First of the candidate places (pairs x, y) where the label fits; false: none did.
-static bool place(SbSection *section, const double (*at)[2], size_t count,
-                  const SbSectionLabel *style, const char *string) {
+bool sb_section_place(SbSection *section, const double (*at)[2], size_t count,
+                      const SbSectionLabel *style, const char *string) {
   for (size_t i = 0; i < count; i++) {
     if (sb_section_label_fits(section, at[i][0], at[i][1], style, string, &section->strip)) {
       sb_section_label(section, at[i][0], at[i][1], style, string);
@@ -32,7 +30,7 @@ static bool place(SbSection *section, const double (*at)[2], size_t count,
 }
 
 // "Canister 0.55 MPa" and its likes: a bold name, the value behind it or below. Gives way.
-static void name_and_pressure(SbSection *section, double x, double y, const char *name,
+void sb_section_name_pressure(SbSection *section, double x, double y, const char *name,
                               double pressure, bool below) {
   const SbPalette *palette = section->palette;
   char value[SB_SECTION_NUMBER];
@@ -40,7 +38,7 @@ static void name_and_pressure(SbSection *section, double x, double y, const char
   SbSectionLabel plain = label_style(palette->ink, 400, SB_LEFT, NULL);
   sb_section_megapascal(value, pressure);
   const double at[1][2] = {{x, y}};
-  if (!place(section, at, 1, &bold, name)) {
+  if (!sb_section_place(section, at, 1, &bold, name)) {
     return;
   }
   double width = sb_text_width(section->text, name, bold.size, bold.weight);
@@ -56,23 +54,23 @@ static void draw_regions(SbSection *section) {
   const SbValveOutline *valve = &section->valve;
   const SbRect *strip = &section->strip;
   double top = (double)strip->y + 22;
-  name_and_pressure(section, (double)strip->x + 12, top, _("Canister"),
-                    (double)frame->seal[SB_INNER].pressure_left, false);
+  sb_section_name_pressure(section, (double)strip->x + 12, top, _("Canister"),
+                           (double)frame->seal[SB_INNER].pressure_left, false);
   double end = (double)sb_section_at(section, valve->end, 0).x;
-  name_and_pressure(section, end + 10, top, _("Ambient"),
-                    (double)frame->seal[SB_OUTER].pressure_right, true);
+  sb_section_name_pressure(section, end + 10, top, _("Ambient"),
+                           (double)frame->seal[SB_OUTER].pressure_right, true);
 
   bool has_vent = valve->vent_right > valve->vent_left;
   double vent = (double)sb_section_at(section, valve->vent_left, 0).x;
   double vent_end = (double)sb_section_at(section, valve->vent_right, 0).x;
   SbSectionLabel style = label_style(palette->ink, 600, SB_RIGHT, &palette->housing);
   const double housing[1][2] = {{has_vent ? vent - 12 : end - 50, top}};
-  place(section, housing, 1, &style, _("Housing"));
+  sb_section_place(section, housing, 1, &style, _("Housing"));
   SbSectionLabel small = label_style(palette->second, 400, SB_LEFT, &palette->housing);
   double room = end - vent_end - 16;
   if (has_vent && sb_text_width(section->text, _("vent"), 12, 400) < room) {
     const double at[1][2] = {{vent_end + 10, top}};
-    place(section, at, 1, &small, _("vent"));
+    sb_section_place(section, at, 1, &small, _("vent"));
   }
 
   // The chamber, in the fluid between the stem's lands.
@@ -92,10 +90,10 @@ static void draw_regions(SbSection *section) {
   if (length > 1.3 * sb_text_width(section->text, _("Chamber"), 12, 600)) {
     const double high[1][2] = {{(double)chamber.x, (double)chamber.y + 1}};
     const double middle[1][2] = {{(double)chamber.x, (double)chamber.y + 6}};
-    if (depth > 38 && place(section, high, 1, &bold, _("Chamber"))) {
+    if (depth > 38 && sb_section_place(section, high, 1, &bold, _("Chamber"))) {
       sb_section_label(section, (double)chamber.x, (double)chamber.y + 17, &plain, value);
     } else if (depth > 18) {
-      place(section, middle, 1, &bold, _("Chamber"));
+      sb_section_place(section, middle, 1, &bold, _("Chamber"));
     }
   }
 }
@@ -195,7 +193,7 @@ static void draw_seal_names(SbSection *section) {
     // In both halves there is room over the lower ring too.
     double mirrored = 2 * section->y0 - (double)below.y - 12;
     const double at[3][2] = {{below.x, below.y + 21}, {below.x, below.y + 38}, {below.x, mirrored}};
-    place(section, at, section->view->full ? 3 : 2, &style, text);
+    sb_section_place(section, at, section->view->full ? 3 : 2, &style, text);
   }
 }
 
@@ -204,7 +202,7 @@ static void draw_friction(SbSection *section) {
   const SbFrame *frame = section->instant->frame;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const SbSealFrame *seal = &frame->seal[i];
-    double length = PX_PER_NEWTON * seal->friction;
+    double length = SB_SECTION_PX_PER_NEWTON * seal->friction;
     if (fabs(seal->friction) < 0.05 || seal->land_fraction <= 0) {
       continue;
     }
@@ -212,17 +210,20 @@ static void draw_friction(SbSection *section) {
     double middle = sb_section_origin(section, i) +
                     (section->ring[i].contact_left + section->ring[i].contact_right) / 2;
     SbPoint at = sb_section_at(section, middle, section->valve.bore);
-    double y = at.y - 14;
+    const double up = section->valve.gasket ? -1 : 1; // into the stem, or into the housing
+    double y = at.y - up * 14;
     sb_draw_arrow(section->list, at.x - length / 2, y, at.x + length / 2, y, 3, 11, 10,
                   palette->seal[i]);
     sb_section_reserve(section, at.x - fabs(length) / 2, y - 5, fabs(length), 10);
     char text[80], value[SB_SECTION_NUMBER];
     snprintf(text, sizeof text, _("friction %s"), sb_section_force(value, fabs(seal->friction)));
-    SbSectionLabel style = label_style(palette->seal[i], 600, SB_MIDDLE, &palette->housing);
-    const double place_at[7][2] = {{at.x, y - 10},      {at.x + 30, y - 10}, {at.x + 50, y - 10},
-                                   {at.x - 50, y - 10}, {at.x, y - 27},      {at.x + 60, y - 27},
-                                   {at.x + 76, y - 10}};
-    place(section, place_at, 7, &style, text);
+    SbSectionLabel style =
+        label_style(palette->seal[i], 600, SB_MIDDLE, up > 0 ? &palette->housing : &palette->stem);
+    const double near = up > 0 ? y - 10 : y + 18, far = up > 0 ? y - 27 : y + 35;
+    const double place_at[7][2] = {{at.x, near},      {at.x + 30, near}, {at.x + 50, near},
+                                   {at.x - 50, near}, {at.x, far},       {at.x + 60, far},
+                                   {at.x + 76, near}};
+    sb_section_place(section, place_at, 7, &style, text);
   }
 }
 
@@ -237,7 +238,7 @@ static void draw_stem_forces(SbSection *section) {
   char text[80], value[SB_SECTION_NUMBER];
 
   double nose = sb_section_at(section, section->valve.nose - frame->displacement, 0).x;
-  double length = PX_PER_NEWTON * fabs(frame->pressure_force);
+  double length = SB_SECTION_PX_PER_NEWTON * fabs(frame->pressure_force);
   if (length > 2) {
     // Below ambient it draws the stem in.
     bool pushes = frame->pressure_force > 0;
@@ -249,10 +250,20 @@ static void draw_stem_forces(SbSection *section) {
     sb_section_reserve(section, nose - length, y - 8, length, 16);
   }
 
+  if (frame->spring_force >= 0.05) {
+    const double shown = SB_SECTION_PX_PER_NEWTON * frame->spring_force, line = axis - 15;
+    sb_draw_arrow(list, nose - shown, line, nose - 1.5, line, 3, 11, 10, palette->second);
+    snprintf(text, sizeof text, _("spring %s"), sb_section_force(value, frame->spring_force));
+    SbSectionLabel small = label_style(palette->second, 600, SB_LEFT, &palette->stem);
+    const double behind[1][2] = {{nose + 10, line + 4}};
+    sb_section_place(section, behind, 1, &small, text);
+    sb_section_reserve(section, nose - shown, line - 5, shown, 10);
+  }
+
   double right = strip->x + strip->width - 10;
   double force = frame->force;
   if (fabs(force) >= 0.05) {
-    double shown = PX_PER_NEWTON * fabs(force);
+    double shown = SB_SECTION_PX_PER_NEWTON * fabs(force);
     double tail = force > 0 ? right : right - shown;
     sb_draw_arrow(list, tail, y, tail + (force > 0 ? -shown : shown), y, 7, 20, 22, palette->ink);
     sb_section_reserve(section, right - shown, y - 11, shown, 22);
@@ -262,12 +273,12 @@ static void draw_stem_forces(SbSection *section) {
   // Above the arrow; behind its point where that would be off a thin rod, or not at all: the
   // read-outs have it too.
   bool above = y - 34 > (double)sb_section_at(section, 0, section->valve.rod).y;
-  double point = fabs(force) >= 0.05 ? right - PX_PER_NEWTON * fabs(force) - 8 : right;
+  double point = fabs(force) >= 0.05 ? right - SB_SECTION_PX_PER_NEWTON * fabs(force) - 8 : right;
   const double at[2][2] = {{right, y - 18}, {point, y + 5}};
-  bool written = place(section, at + !above, 1 + above, &style, text);
+  bool written = sb_section_place(section, at + !above, 1 + above, &style, text);
 
   if (fabs(frame->stop_force) >= 0.05) {
-    double shown = PX_PER_NEWTON * frame->stop_force;
+    double shown = SB_SECTION_PX_PER_NEWTON * frame->stop_force;
     double stop_y = axis - 15;
     // On a thin rod it has no line of its own: left of the drive's arrow and label.
     if (y + 11 > stop_y - 6) {
@@ -279,7 +290,7 @@ static void draw_stem_forces(SbSection *section) {
     SbSectionLabel small = label_style(palette->second, 600, SB_RIGHT, &palette->stem);
     // In a small picture it gives way: the balance below the section has it too.
     const double behind[1][2] = {{MIN(from, from + shown) - 8, stop_y + 4}};
-    place(section, behind, 1, &small, text);
+    sb_section_place(section, behind, 1, &small, text);
   }
 }
 
@@ -288,14 +299,16 @@ static void draw_motion(SbSection *section) {
   const SbPalette *palette = section->palette;
   const SbFrame *frame = section->instant->frame;
   double axis = axis_of(section);
-  double middle = sb_section_at(section, section->valve.chamber - frame->displacement, 0).x;
+  const SbValveOutline *valve = &section->valve;
+  const double named = valve->gasket ? (valve->shoulder + valve->port_left) / 2 : valve->chamber;
+  double middle = sb_section_at(section, named - frame->displacement, 0).x;
   SbSectionLabel bold = label_style(palette->ink, 600, SB_MIDDLE, &palette->stem);
   // Below the chamber, or beside it where it is deep.
   double beside = middle + sb_model_shape(section->model)->chamber_length / 2 * section->scale + 30;
   bool deep = axis - 52 < (double)sb_section_at(section, 0, section->valve.chamber_floor).y + 16;
   const double at[2][2] = {{deep ? beside : middle, axis - 52}, {middle + 60, axis - 52}};
   if (axis - 52 > (double)sb_section_at(section, 0, section->valve.floor).y + 16) {
-    place(section, at, deep ? 1 : 2, &bold, _("Stem"));
+    sb_section_place(section, at, deep ? 1 : 2, &bold, _("Stem"));
   }
   double speed = fabs(frame->velocity) * 1e3;
   if (speed < 1e-9) {
@@ -307,7 +320,7 @@ static void draw_motion(SbSection *section) {
   SbSectionLabel plain = label_style(palette->second, 400, SB_LEFT, &palette->stem);
   double from = middle - 34, to = middle + 34;
   const double left[1][2] = {{to + 10, axis - 15}};
-  if (place(section, left, 1, &plain, text)) {
+  if (sb_section_place(section, left, 1, &plain, text)) {
     bool in = frame->velocity > 0;
     sb_draw_arrow(section->list, in ? to : from, axis - 19, in ? from : to, axis - 19, 1.4, 8, 7,
                   palette->second);
@@ -396,7 +409,7 @@ static void draw_dose_path(SbSection *section) {
   SbSectionLabel style = label_style(palette->fluid_line, 600, SB_LEFT, NULL);
   const double at[3][2] = {
       {start.x, start.y - 9}, {start.x, start.y + 20}, {section->strip.x + 12, start.y + 20}};
-  place(section, at, 3, &style, _("dose path open"));
+  sb_section_place(section, at, 3, &style, _("dose path open"));
 }
 
 // Below the strip: what the picture is, and its scales.
@@ -419,10 +432,10 @@ static void draw_scales(SbSection *section) {
   sb_draw_text(list, right - bar - 8, y + 4, 11, 400, SB_RIGHT, palette->second, text);
   double x = right - bar - 8 - sb_text_width(section->text, text, 11, 400) - 24;
   if (!section->view->hide_forces && section->view->zoom == SB_SECTION_WHOLE) {
-    sb_draw_arrow(list, x, y, x - 10 * PX_PER_NEWTON, y, 3, 9, 9, palette->ink);
-    sb_draw_text(list, x - 10 * PX_PER_NEWTON - 8, y + 4, 11, 400, SB_RIGHT, palette->second,
-                 "10 N");
-    x -= 10 * PX_PER_NEWTON + 44;
+    sb_draw_arrow(list, x, y, x - 10 * SB_SECTION_PX_PER_NEWTON, y, 3, 9, 9, palette->ink);
+    sb_draw_text(list, x - 10 * SB_SECTION_PX_PER_NEWTON - 8, y + 4, 11, 400, SB_RIGHT,
+                 palette->second, "10 N");
+    x -= 10 * SB_SECTION_PX_PER_NEWTON + 44;
   }
   bool schematic =
       section->instant->ring[SB_OUTER] == NULL || section->instant->ring[SB_INNER] == NULL;
@@ -451,7 +464,7 @@ static void draw_zoom(SbSection *section) {
   if (seal->land_fraction > 0) {
     SbPoint a = sb_section_at(section, origin + section->ring[i].contact_left, valve->bore);
     SbPoint b = sb_section_at(section, origin + section->ring[i].contact_right, valve->bore);
-    double y = (double)a.y + 17;
+    double y = (double)a.y + (valve->gasket ? -17 : 17);
     sb_draw_line(list, a.x, y - 5, a.x, y + 5, 1.2, palette->ink);
     sb_draw_line(list, b.x, y - 5, b.x, y + 5, 1.2, palette->ink);
     sb_draw_line(list, a.x, y, b.x, y, 1.2, palette->ink);
@@ -462,8 +475,8 @@ static void draw_zoom(SbSection *section) {
     sb_section_label(section, (double)(a.x + b.x) / 2, inside ? y + 4 : y + 22, &style, text);
   }
   // In the groove's corners, beside the ring.
-  double s = section->instant->frame->displacement;
-  double y = sb_section_at(section, 0, valve->floor).y - 14;
+  double s = valve->gasket ? 0 : section->instant->frame->displacement;
+  double y = sb_section_at(section, 0, valve->floor).y + (valve->gasket ? 30 : -14);
   const double wall[2] = {sb_section_at(section, valve->groove_left[i] - s, 0).x + 8,
                           sb_section_at(section, valve->groove_right[i] - s, 0).x - 8};
   const double pressure[2] = {seal->pressure_left, seal->pressure_right};
@@ -484,16 +497,20 @@ void sb_section_draw_strip_labels(SbSection *section) {
   if (forces && whole) {
     draw_stem_forces(section);
   }
-  if (labels && whole) {
+  if (labels && whole && !section->valve.gasket) {
     reserve_land_edge(section);
   }
   if (forces) {
     draw_friction(section);
   }
-  if (labels) {
+  if (labels && section->valve.gasket) {
+    sb_section_gasket_labels(section, whole);
+  } else if (labels) {
     draw_seal_names(section);
   }
-  if (labels && whole) {
+  if (labels && whole && section->valve.gasket) {
+    draw_motion(section);
+  } else if (labels && whole) {
     draw_regions(section);
     draw_land_edge(section);
     draw_dose_path(section);

@@ -62,7 +62,10 @@ bool sb_section_label_fits(SbSection *section, double x, double y, const SbSecti
 // Reserves a rectangle.
 void sb_section_reserve(SbSection *section, double x, double y, double width, double height);
 
-// Radius drawn above the axis [m per m of bore diameter].
+// Newtons of an arrow [px/N].
+#define SB_SECTION_PX_PER_NEWTON 3.4
+
+// Radius drawn above the axis [m per m of the valve's size].
 #define SB_SECTION_TOP 0.79
 
 // Parts of the picture.
@@ -82,6 +85,21 @@ typedef struct {
 SbSectionFrameMap sb_section_frame_map(double x0, double y0, double scale, const SbRect *rect);
 
 void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map);
+void sb_section_draw_stem(SbSection *section, const SbSectionFrameMap *map);
+
+// First of the candidate places (pairs x, y) in the strip where a label fits; false: none did.
+bool sb_section_place(SbSection *section, const double (*at)[2], size_t count,
+                      const SbSectionLabel *style, const char *string);
+
+// A bold name with its pressure behind or below; gives way.
+void sb_section_name_pressure(SbSection *section, double x, double y, const char *name,
+                              double pressure, bool below);
+
+// What a seal is called in its valve; borrowed, translated.
+const char *sb_section_seal_name(const SbSection *section, int seal);
+
+// Names, regions and the liquid's way of a gasket valve (section_gasket.c).
+void sb_section_gasket_labels(SbSection *section, bool whole);
 
 // Limits of a field's colour map, in its SI unit.
 void sb_section_field_limits(const SbSection *section, SbField field, double *least,

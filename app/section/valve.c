@@ -2,7 +2,7 @@
 // lead-in to the mouth, chamfered housing ends, stem nose with a chamfer, two rectangular grooves,
 // the dose chamber with sloped flanks, the shoulder, the rod. Left out there: fillets, the split of
 // the stem into its three parts, the crimp.
-#include "app/section/valve.h"
+#include "app/section/valve_private.h"
 
 #include "engine/valve/sealbench.h"
 
@@ -20,13 +20,13 @@ static const double FLANK_SLOPE = 0.33;
 static const double LEAD_ANGLE = 0.5, EDGE_LENGTH = 5e-5; // [rad], [m]
 enum { EDGE_POINTS = 6 };
 
-static void add(SbValveSolid *solid, double x, double y) {
+void sb_valve_add(SbValveSolid *solid, double x, double y) {
   if (solid->count < SB_VALVE_POINTS_MAX) {
     solid->point[solid->count++] = (SbValvePoint){x, y};
   }
 }
 
-static SbValveSolid *new_solid(SbValveOutline *valve, bool moves) {
+SbValveSolid *sb_valve_new_solid(SbValveOutline *valve, bool moves) {
   SbValveSolid *solid = &valve->solid[valve->solid_count++];
   solid->moves = moves;
   solid->count = 0;
@@ -40,10 +40,10 @@ static void cut(SbValveSolid *to, const SbValveSolid *from, double x, int side) 
     SbValvePoint a = from->point[i], b = from->point[(i + 1) % from->count];
     bool a_in = side * (a.x - x) >= 0, b_in = side * (b.x - x) >= 0;
     if (a_in) {
-      add(to, a.x, a.y);
+      sb_valve_add(to, a.x, a.y);
     }
     if (a_in != b_in) {
-      add(to, x, a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x));
+      sb_valve_add(to, x, a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x));
     }
   }
 }
@@ -82,7 +82,7 @@ static void finish_housing(SbValveOutline *valve) {
   sb_outline_surface(&valve->housing, outline);
   if (valve->vent_right > valve->vent_left) {
     g_autofree SbValveSolid *uncut = g_memdup2(whole, sizeof *whole);
-    cut(new_solid(valve, false), uncut, valve->vent_right, 1);
+    cut(sb_valve_new_solid(valve, false), uncut, valve->vent_right, 1);
     cut(whole, uncut, valve->vent_left, -1);
     whole->moves = false;
   }
@@ -101,19 +101,19 @@ static void make_housing(SbValveOutline *valve, const SbModel *model, double top
   valve->face = -entry;
   valve->mouth = mouth;
 
-  SbValveSolid *solid = new_solid(valve, false);
-  add(solid, -entry, top);
-  add(solid, -entry, mouth + chamfer);
-  add(solid, -entry + chamfer, mouth);
-  add(solid, -lead, mouth);
+  SbValveSolid *solid = sb_valve_new_solid(valve, false);
+  sb_valve_add(solid, -entry, top);
+  sb_valve_add(solid, -entry, mouth + chamfer);
+  sb_valve_add(solid, -entry + chamfer, mouth);
+  sb_valve_add(solid, -lead, mouth);
   for (int i = EDGE_POINTS; i >= 0; i--) {
     double t = (double)i / EDGE_POINTS;
     double opening = EDGE_LENGTH * t * t * t * (1 - t / 2);
-    add(solid, -EDGE_LENGTH * t, valve->bore + slope * opening);
+    sb_valve_add(solid, -EDGE_LENGTH * t, valve->bore + slope * opening);
   }
-  add(solid, valve->end - chamfer, valve->bore);
-  add(solid, valve->end, valve->bore + chamfer);
-  add(solid, valve->end, top);
+  sb_valve_add(solid, valve->end - chamfer, valve->bore);
+  sb_valve_add(solid, valve->end, valve->bore + chamfer);
+  sb_valve_add(solid, valve->end, top);
 }
 
 static void make_stem(SbValveOutline *valve, const SbModel *model) {
@@ -135,27 +135,27 @@ static void make_stem(SbValveOutline *valve, const SbModel *model) {
   valve->rod = rod;
 
   double far = valve->end + 40 * sb_model_value(model, SB_P_BORE_DIAMETER);
-  SbValveSolid *solid = new_solid(valve, true);
-  add(solid, far, 0);
-  add(solid, far, rod);
-  add(solid, shoulder, rod);
-  add(solid, shoulder, land - shoulder_chamfer);
-  add(solid, shoulder - shoulder_chamfer, land);
-  add(solid, valve->groove_right[SB_OUTER], land);
-  add(solid, valve->groove_right[SB_OUTER], valve->floor);
-  add(solid, valve->groove_left[SB_OUTER], valve->floor);
-  add(solid, valve->groove_left[SB_OUTER], land);
-  add(solid, valve->chamber + chamber / 2, land);
-  add(solid, valve->chamber + chamber / 2 - flank, land - depth);
-  add(solid, valve->chamber_left + flank, land - depth);
-  add(solid, valve->chamber_left, land);
-  add(solid, valve->groove_right[SB_INNER], land);
-  add(solid, valve->groove_right[SB_INNER], valve->floor);
-  add(solid, valve->groove_left[SB_INNER], valve->floor);
-  add(solid, valve->groove_left[SB_INNER], land);
-  add(solid, valve->nose + chamfer, land);
-  add(solid, valve->nose, land - 1.22 * chamfer);
-  add(solid, valve->nose, 0);
+  SbValveSolid *solid = sb_valve_new_solid(valve, true);
+  sb_valve_add(solid, far, 0);
+  sb_valve_add(solid, far, rod);
+  sb_valve_add(solid, shoulder, rod);
+  sb_valve_add(solid, shoulder, land - shoulder_chamfer);
+  sb_valve_add(solid, shoulder - shoulder_chamfer, land);
+  sb_valve_add(solid, valve->groove_right[SB_OUTER], land);
+  sb_valve_add(solid, valve->groove_right[SB_OUTER], valve->floor);
+  sb_valve_add(solid, valve->groove_left[SB_OUTER], valve->floor);
+  sb_valve_add(solid, valve->groove_left[SB_OUTER], land);
+  sb_valve_add(solid, valve->chamber + chamber / 2, land);
+  sb_valve_add(solid, valve->chamber + chamber / 2 - flank, land - depth);
+  sb_valve_add(solid, valve->chamber_left + flank, land - depth);
+  sb_valve_add(solid, valve->chamber_left, land);
+  sb_valve_add(solid, valve->groove_right[SB_INNER], land);
+  sb_valve_add(solid, valve->groove_right[SB_INNER], valve->floor);
+  sb_valve_add(solid, valve->groove_left[SB_INNER], valve->floor);
+  sb_valve_add(solid, valve->groove_left[SB_INNER], land);
+  sb_valve_add(solid, valve->nose + chamfer, land);
+  sb_valve_add(solid, valve->nose, land - 1.22 * chamfer);
+  sb_valve_add(solid, valve->nose, 0);
 }
 
 // ---- Parts with a shape of their own ----
@@ -195,7 +195,7 @@ static bool map_stretches(const Map *map) {
 
 static void add_outline(SbValveSolid *solid, const SbOutline *outline, const Map *x, const Map *r) {
   for (size_t i = 0; i < outline->count; i++) {
-    add(solid, map_to(x, outline->point[i].x), map_to(r, outline->point[i].r));
+    sb_valve_add(solid, map_to(x, outline->point[i].x), map_to(r, outline->point[i].r));
   }
 }
 
@@ -203,7 +203,7 @@ static void shape_housing(SbValveOutline *valve, const SbValveOutlines *given) {
   Map x = {1, {given->land_edge}, {0}};
   Map r = {2, {0, given->bore}, {0, valve->bore}};
   valve->adjusted = valve->adjusted || map_stretches(&r);
-  add_outline(new_solid(valve, false), &given->part[SB_VALVE_HOUSING], &x, &r);
+  add_outline(sb_valve_new_solid(valve, false), &given->part[SB_VALVE_HOUSING], &x, &r);
   valve->shaped_housing = true;
   const SbValveSolid *solid = &valve->solid[0];
   valve->face = HUGE_VAL;
@@ -233,7 +233,7 @@ static void shape_stem(SbValveOutline *valve, const SbValveOutlines *given) {
   for (int part = SB_VALVE_STEM_CENTRE; part <= SB_VALVE_STEM_BOTTOM; part++) {
     const SbOutline *outline = &given->part[part];
     if (outline->count > 0) {
-      add_outline(new_solid(valve, true), outline, &x, &r);
+      add_outline(sb_valve_new_solid(valve, true), outline, &x, &r);
     }
     for (size_t i = 0; i < outline->count; i++) {
       valve->nose = fmin(valve->nose, map_to(&x, outline->point[i].x));
@@ -274,11 +274,17 @@ static void shape_stem(SbValveOutline *valve, const SbValveOutlines *given) {
 void sb_valve_outline_make(SbValveOutline *valve, const SbModel *model, double inner_contact_left,
                            double top, bool vent) {
   memset(valve, 0, sizeof *valve);
+  if (sb_model_number(model, SB_P_VALVE_KIND) == SB_VALVE_GASKET) {
+    sb_valve_gasket_make(valve, model, top, vent);
+    finish_housing(valve);
+    return;
+  }
   const SbValveShape *shape = sb_model_shape(model);
   double b = sb_model_value(model, SB_P_GLAND_AXIAL_WIDTH);
   double g = sb_model_value(model, SB_P_GLAND_RADIAL_SPACE);
   double stem = sb_model_value(model, SB_P_STEM_PRESSURE_DIAMETER) / 2;
-  valve->bore = sb_model_value(model, SB_P_BORE_DIAMETER) / 2;
+  valve->size = sb_model_value(model, SB_P_BORE_DIAMETER);
+  valve->bore = valve->size / 2;
   valve->floor = valve->bore - g;
   valve->land = fmax(stem, valve->floor + 0.2 * g);
   valve->adjusted = valve->land > stem;

@@ -7,7 +7,8 @@
 // radially at bore or groove floor and land, axially at the grooves' walls.
 //
 // Axes: x axial, canister on the left; y radial from the axis. The housing's frame has the land
-// edge at x = 0, the land on its right. The stem's frame lies on the housing's at displacement 0: a
+// edge at x = 0, the land on its right; that of a gasket valve the chamber gasket's middle, and its
+// seals' frames stand with it. The stem's frame lies on the housing's at displacement 0: a
 // point of the stem sits at x - s. The origin of a seal's frame (x = 0) moves with
 // the stem. Sizes that no result depends on come from the drawing's own parameters; where those
 // contradict each other or the gland (a spacing shorter than a groove...) they are stretched to the
@@ -47,7 +48,15 @@ typedef struct {
   double groove_left[SB_SEAL_COUNT], groove_right[SB_SEAL_COUNT]; // stem's frame
   double origin[SB_SEAL_COUNT];       // origin of the seal's frame, stem's frame
   double section_area[SB_SEAL_COUNT]; // of the fitted ring, volume kept: A/(1 + stretch) [m2]
-  bool adjusted; // some drawing size had to give way, or a profile was stretched
+  double size;                        // diameter that pictures are laid out by: the bore's
+  // Of a gasket valve: bore, floor and land are the stem, which slides on the gaskets.
+  bool gasket;
+  double rim;                   // radius of the pockets that hold the gaskets
+  double chamber_roof;          // radius of the chamber
+  double shoulder;              // x of the stem's shoulder behind the neck, stem's frame
+  double port_left, port_right; // of the stem's side port, stem's frame
+  double channel;               // radius of the channel behind it
+  bool adjusted;                // some drawing size had to give way, or a profile was stretched
 } SbValveOutline;
 
 // Builds the outlines, the housing with its vent or without. inner_contact_left: left end of the

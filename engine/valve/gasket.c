@@ -62,7 +62,8 @@ double sb_gasket_volume(const SbModel *model) {
   const double grown = model->bore_diameter / model->stem_diameter;
   const double bore = grown * sb_model_value(model, SB_P_BORE_DIAMETER);
   return M_PI / 4 * (bore * bore - model->bore_diameter * model->bore_diameter) *
-         (grown * model->shape.seal_spacing - model->axial_width);
+         (grown * (model->shape.seal_spacing - 2 * SB_GASKET_PLATE * model->gasket_thickness) -
+          model->axial_width);
 }
 
 double sb_gasket_neck(const SbModel *model) {

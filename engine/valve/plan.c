@@ -161,7 +161,9 @@ static SbCounters expect(const SbPlan *plan, const SbModel *model) {
   const size_t drags = plan->ring ? way * fits : 0;
   const size_t films = drags + (plan->ring ? 0 : 2 * fits);
   const size_t each = plan->ring || (model->fit == SB_FIT_DISC && !coupled) ? 2 : 1;
-  const size_t edges = plan->over_edge ? 2 * SB_RUN_EDGES + 1 : 0;
+  // Rows over the land's edge and the free ring; of a gasket valve the free gasket alone.
+  const size_t rows = model->kind == SB_VALVE_GASKET ? 0 : 2 * SB_RUN_EDGES;
+  const size_t edges = plan->over_edge ? rows + 1 : 0;
   const size_t shapes = SB_RUN_MOTIONS * fits + edges;
   SbCounters out = {.fit_solves = drags + fits,
                     .disc_solves = disc ? fits : 0,

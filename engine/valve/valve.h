@@ -59,6 +59,9 @@ typedef enum {
   SB_VALVE_GASKET  // the stem slides through gaskets
 } SbValveKind;
 
+// Thickness of a gasket's plate on the chamber's side, over its own.
+#define SB_GASKET_PLATE 0.12
+
 typedef enum {
   SB_MAP_CHAMBER_FILLED,
   SB_MAP_CHAMBER_VENTED,
