@@ -6,15 +6,15 @@
 //
 //   in-stroke  k (X - s) = F_p + f(s)      return  k (X - s) = F_p - f(s) >= 0
 //
-// with F_p = F_canister + F_0 + k_r s where a return spring acts, X the platen, s the stem, and f the seals' friction, which changes
-// while the inner seal passes the edge of the bore land: its contact [l, r] then only reaches over
-// x > x_e, x_e = l_in + (s - s_C), l_in that of the in-stroke; the width-bound part of its friction
-// falls linearly, the load-bound part as an elliptic pressure integrates. Stuck means no motion
-// until the limit is passed: the static friction after the rest before A, the kinetic one where the
-// stem stops on the way, for without dwell the contact keeps its film (the thesis sees the peak on
-// the first motion only). Where the resistance falls faster than the spring relaxes the stem jumps
-// to the next balance at constant X, and the energy set free is counted as lost in the seal. End
-// stop and rest stop are rigid.
+// with F_p = F_canister + F_0 + k_r s where a return spring acts, X the platen, s the stem, and f
+// the seals' friction, which changes while the inner seal passes the edge of the bore land: its
+// contact [l, r] then only reaches over x > x_e, x_e = l_in + (s - s_C), l_in that of the
+// in-stroke; the width-bound part of its friction falls linearly, the load-bound part as an
+// elliptic pressure integrates. Stuck means no motion until the limit is passed: the static
+// friction after the rest before A, the kinetic one where the stem stops on the way, for without
+// dwell the contact keeps its film (the thesis sees the peak on the first motion only). Where the
+// resistance falls faster than the spring relaxes the stem jumps to the next balance at constant X,
+// and the energy set free is counted as lost in the seal. End stop and rest stop are rigid.
 //
 // Everything is located exactly: slip onset, edge, stop, reversal, jumps. Nothing here steps in
 // time.

@@ -103,8 +103,8 @@ typedef enum {
 // run.
 typedef struct {
   size_t nodes, triangles, outline;
-  const double *place; // [2 nodes]: x in the seal's frame, y above the groove floor, of a gasket above the
-                       // stem [m]
+  const double *place; // [2 nodes]: x in the seal's frame, y above the groove floor, of a gasket
+                       // above the stem [m]
   const float *field[SB_FIELD_COUNT]; // [nodes] each
   const int *triangle;                // [3 triangles] node numbers
   const int *outline_node;            // [outline] in order, closed by the first

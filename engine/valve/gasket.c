@@ -51,6 +51,10 @@ void sb_gasket_check(const SbModel *model, SbProblems *problems) {
                     "leaves no chamber between two gaskets of %.4g mm",
                     1e3 * model->gasket_thickness);
   }
+  if (model->film_history) {
+    sb_model_refuse(problems, "models.film_time", NAN, NAN,
+                    "a gasket's film is reckoned from its edge's pressure, steady, not followed");
+  }
   if (model->motion == SB_MODEL_MOTION_BODIES) {
     sb_model_refuse(problems, "models.motion", NAN, NAN,
                     "bodies are those of the piston valve; a gasket valve moves by quasi-static or "

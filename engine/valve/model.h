@@ -76,8 +76,8 @@ typedef struct {
 // Rough surface of a seal on the bore, its roughness over the model's.
 SbRoughSurface sb_model_surface(const SbModel *model, int seal, double roughness);
 
-// Way of the surface that slides on the seals along x on the in-stroke: the bore's past rings is +1,
-// that of the stem through gaskets -1.
+// Way of the surface that slides on the seals along x on the in-stroke: the bore's past rings is
+// +1, that of the stem through gaskets -1.
 static inline double sb_model_way(const SbModel *model) {
   return model->kind == SB_VALVE_GASKET ? -1 : 1;
 }

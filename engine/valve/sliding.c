@@ -361,7 +361,7 @@ static SbStatus opened_by_fluid(SbSealState *out, SbStatus status, const SbRepor
 
 SbStatus sb_sliding_rest(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
   if (task->model->asperities != SB_MODEL_ASPERITIES_COUPLED || !(out->load_net > 0) ||
-      out->opened || !sb_sliding_has_film(task)) {
+      task->model->kind == SB_VALVE_GASKET || out->opened || !sb_sliding_has_film(task)) {
     return SB_OK;
   }
   SbReport own = {0};
@@ -387,6 +387,12 @@ SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
   const SbModel *model = task->model;
   SbSlidingMemory *memory = task->memory;
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  if (model->kind == SB_VALVE_GASKET) {
+    memory->last = &memory->plane;
+    SbStatus edges = sb_sliding_edge_contact(state, task, report);
+    share_kinetic(state);
+    return edges;
+  }
   SbFilmProblem problem;
   sb_sliding_film_of(&problem, state, task, body);
   const bool solved = problem.model == SB_FILM_REYNOLDS;
@@ -415,7 +421,7 @@ SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
 SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double roughness,
                            SbReport *report) {
   const SbModel *model = task->model;
-  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
+  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED || model->kind == SB_VALVE_GASKET) {
     state->lambda = state->film_central / model->sigma;
     state->boundary_area = model->shear_strength * state->real_area_share *
                            (state->contact_right - state->contact_left) * model->bore_circumference;
@@ -468,6 +474,13 @@ SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *la
   }
   SbReport own = {0};
   SbReport *first = status == SB_OK ? report : NULL; // the first failure is told
+  if (task->model->kind == SB_VALVE_GASKET && out->load_net > 0) {
+    sb_sliding_take_edges(out, &task->memory->now->fit);
+    task->memory->last = &task->memory->plane; // which has none
+    SbStatus edges = sb_sliding_edge_contact(out, task, first);
+    edges = edges == SB_OK ? set_static(out, task, first) : edges;
+    return edges != SB_OK ? edges : status;
+  }
   if (task->model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0) {
     SbStatus coupled = solve_coupled(task, out, &own);
     coupled = opened_by_fluid(out, coupled, &own, seal, warnings, first);

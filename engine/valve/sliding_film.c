@@ -176,15 +176,10 @@ static void lay_on(SbFilmProblem *problem, const SbSlidingBody *body) {
 // all the same; its error is told.
 static bool misses_by_little(const SbSlidingTask *task, const SbSlidingSolved *solved) {
   static const double NEARER = 0.05, SOLVED = 1e-6; // of error and residual
-  // Where the asperities bear all of a contact friction does not hang on what film is left: that of
-  // the last mesh that had one will do.
-  static const double DRY = 0.01, DRY_NEARER = 0.5; // of the roughness, of error
   const SbFilm *film = &solved->film;
-  const bool dry = task->model->asperities == SB_MODEL_ASPERITIES_COUPLED &&
-                   film->film_central < DRY * task->model->sigma;
   const double error = fmax(film->solver.error_film_min, film->solver.error_film_central);
-  if (!(film->film_central > 0) || !(error > 0 && error < (dry ? DRY_NEARER : NEARER)) ||
-      !(dry || film->solver.residual < SOLVED) || solved->share != 1) {
+  if (!(film->film_central > 0) || !(error > 0 && error < NEARER) ||
+      !(film->solver.residual < SOLVED) || solved->share != 1) {
     return false;
   }
   sb_warn(task->warnings, "film-tolerance", "output.tolerance",

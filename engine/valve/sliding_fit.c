@@ -263,7 +263,17 @@ SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *l
   sb_sliding_clear(out);
   *known = false;
   // The fit takes the difference; the common part only shifts the fluid's level.
-  SbStatus status = solve_fit(task, law, report);
+  SbReport own = {0};
+  SbStatus status = solve_fit(task, law, &own);
+  const bool passed = status == SB_ERROR_INFEASIBLE && strcmp(own.parameter, "gasket.crimp") == 0;
+  if (passed) { // a result: the gasket is open
+    sb_warn(task->warnings, "gasket-passed", own.parameter, "%s", own.text);
+    memset(&task->memory->now->fit, 0, sizeof task->memory->now->fit);
+    task->memory->now->known = false;
+    status = SB_OK;
+  } else if (status != SB_OK && report != NULL) {
+    *report = own;
+  }
   if (!sb_sliding_usable(status)) {
     return status;
   }

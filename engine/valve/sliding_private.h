@@ -180,3 +180,12 @@ SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbRep
 
 // A ring's state: friction drags it, and hangs on the film that lies on the dragged ring.
 SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *report);
+
+// ---- A gasket (sliding_gasket.c)
+
+// Gives a state the pressure of its fitment.
+void sb_sliding_take_edges(SbSealState *out, const SbFit *fit);
+
+// Film, real area and kinetic friction of a gasket's state, whose pressure is known, at the task's
+// speed; what rest makes of them, but for the static friction.
+SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, SbReport *report);

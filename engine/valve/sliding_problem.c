@@ -91,8 +91,7 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
             "takes the ring's pressure, but gives way like a linear disc",
             sb_seal_name(seal));
   }
-  const bool known = isfinite(fit->section_diameter_fitted); // not of a gasket
-  double radius = known ? 0.5 * fit->section_diameter_fitted : ring->radius;
+  double radius = 0.5 * fit->section_diameter_fitted;
   double middle = 0.5 * (fit->contact_left + fit->contact_right);
   // The disc's middle is the contact's: pressure against the wall moves both.
   double reach = 0.7 * fit->contact_width;

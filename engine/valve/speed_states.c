@@ -17,7 +17,8 @@ static double speed_of(int place) {
 }
 
 static bool is_coupled(const SbSpeedStates *states) {
-  return states->task.model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const SbModel *model = states->task.model; // a gasket's friction goes with its film, too
+  return model->asperities == SB_MODEL_ASPERITIES_COUPLED || model->kind == SB_VALVE_GASKET;
 }
 
 static SbSlidingTask task_at(const SbSpeedStates *states, double speed) {

@@ -178,6 +178,37 @@ static SbStatus start(SbRing *ring, const SbRingLoad *load, const SbRingLoad *gu
   return sb_ring_newton(ring, SB_RING_FOLLOW, report);
 }
 
+// The greatest contact pressure on a surface.
+static double crest_of(const SbRing *ring, SbRingSurface surface) {
+  double most = 0.0;
+  for (int i = 0; i < ring->contact->count; i += 2) {
+    most = fmax(most, sb_ring_node_pressure(ring, i, surface));
+  }
+  return most;
+}
+
+// A clamped ring's contacts on stem and plate end in a fold as the fluid rises to the pressure of
+// their crests: beyond, the fluid passes. Tells so where a rise to a load has ended near there.
+static SbStatus tell_passed(const SbRing *ring, const SbRingLoad *load, SbStatus status,
+                            SbReport *report) {
+  static const double NEAR = 1.5; // crests over the fluid's pressure
+  const SbRingLoad *now = &ring->contact->is.now;
+  const bool left = load->pressure_left > load->pressure_right;
+  const double on_stem = crest_of(ring, SB_RING_BORE);
+  const double on_plate = crest_of(ring, left ? SB_RING_WALL_LEFT : SB_RING_WALL_RIGHT);
+  const double most = fmin(on_stem, on_plate);
+  const double reached = fmax(now->pressure_left, now->pressure_right);
+  const double wanted = fmax(load->pressure_left, load->pressure_right);
+  if (!ring->body.inward || status != SB_ERROR_NOT_CONVERGED || most > NEAR * wanted) {
+    return status;
+  }
+  return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gasket.crimp",
+                           "the fluid passes the gasket along the %s: the contact there, %.3g MPa "
+                           "at most, was followed to %.3g of %.3g MPa",
+                           on_stem < on_plate ? "stem" : "plate", 1e-6 * most * ring->stress,
+                           1e-6 * reached * ring->stress, 1e-6 * wanted * ring->stress);
+}
+
 // Brings the fluid on a ring that has been fitted without.
 static SbStatus press_fitted(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   SbRingPatch patch;
@@ -190,7 +221,9 @@ static SbStatus press_fitted(SbRing *ring, const SbRingLoad *load, SbReport *rep
     return SB_OK;
   }
   const bool differ = load->pressure_left != load->pressure_right;
-  return touches || !differ ? sb_ring_press(ring, load, report) : press_open(ring, load, report);
+  const bool rises = touches || !differ || ring->body.inward;
+  SbStatus status = rises ? sb_ring_press(ring, load, report) : press_open(ring, load, report);
+  return tell_passed(ring, load, status, report);
 }
 
 // Puts the ring over the stem, then closes the walls on it, against their friction; then brings on

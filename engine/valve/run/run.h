@@ -33,6 +33,8 @@ typedef struct {
   size_t frame;        // index of the frame that sits on it
 } SbStageMark;
 
+enum { SB_SEAL_EDGE_POINTS = 33 };
+
 // One seal in a steady state, sliding or at rest, by one member for each SB_SEAL_FIGURE (meaning
 // and unit there; NaN: not computed) and what they come from. A run's summary has that in the
 // middle of B-C, friction_static at B.
@@ -56,6 +58,9 @@ typedef struct {
   // section bears of the whole friction, its turn [degrees], > 0 as friction turns it.
   double area_cut, borne_share, rotation;
   SbRingState section;
+  // Of a gasket's contact, at equal steps of the angle t from its left end, place = middle - half
+  // cos t: pressure above the lower fluid's [Pa]; 0 of rings.
+  double edge_pressure[SB_SEAL_EDGE_POINTS];
 } SbSealState;
 
 // What sliding makes of a seal's contact: "slides", "rolls", "jams", "no-contact"; borrowed.

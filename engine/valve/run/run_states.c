@@ -109,7 +109,9 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   const SbFit *fit = sb_sliding_fit(run->memory[seal]);
   const SbFilm *film = sb_sliding_film(run->memory[seal]);
   bool coupled = run->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  bool solved = (coupled || run->model->film == SB_FILM_REYNOLDS) && state->film_central > 0;
+  const bool gasket = run->model->kind == SB_VALVE_GASKET; // whose film is reckoned, not solved
+  bool solved =
+      !gasket && (coupled || run->model->film == SB_FILM_REYNOLDS) && state->film_central > 0;
   bool fitted = state->touches && isfinite(state->load);
   bool own_pressure = run->model->fit == SB_FIT_DISC || run->model->fit == SB_FIT_DISC_THESIS ||
                       run->model->fit == SB_FIT_RING;
@@ -134,7 +136,7 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
       h[n] = film->film[n];
     }
   } else if (fitted) {
-    double scale = a * a / run->model->seal[seal].radius;
+    double scale = a * a / run->model->seal[seal].radius, edge = run->model->profile_corner_radius;
     for (int i = -OUTSIDE_POINTS; i <= OUTSIDE_POINTS; i++) {
       double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
       for (size_t k = 0; i == 0 && k < fit->profile_count; k++) {
@@ -145,12 +147,18 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
       if (i != 0) {
         x[n] = middle + copysign(xi * a, i);
         p[n] = i < 0 ? left : right;
-        h[n++] = state->film_central + scale * sb_film_dry_gap(xi);
+        h[n++] = state->film_central +
+                 (gasket ? pow((xi - 1) * a, 2) / (2 * edge) : scale * sb_film_dry_gap(xi));
       }
     }
   }
   if (solved && coupled) {
     memcpy(asperities, film->asperity_pressure, n * sizeof *asperities);
+  } else if (gasket && fitted) {
+    const double share = isfinite(state->asperity_share) ? state->asperity_share : 1;
+    for (size_t i = 0; i < n; i++) {
+      asperities[i] = share * fmax(p[i] - (x[i] < middle ? left : right), 0);
+    }
   } else if (fitted && run->model->surface == SB_ROUGH_GREENWOOD_TRIPP) {
     asperity_pressure(run->model, seal, h, asperities, n);
   }

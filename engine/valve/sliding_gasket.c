@@ -1,0 +1,141 @@
+// Film and rough contact under a gasket, whose edges are sharp.
+//
+// What a surface drags into a contact hangs on how steeply the pressure rises at the inlet (Blok
+// 1963, film/inverse.c): the film that passes its steepest place, p'_max, is
+//   h = 2/3 sqrt(4 eta u_m / p'_max), u_m half the sliding speed.
+// A ring's film thus lies on a surface that curves over its own radius. A gasket's pressure rises
+// within its edge's radius r, where the finite elements' pressure goes with a root and has no
+// steepest slope: its rise over r stands for it, (p(r) - p(0))/r. The film that is left is
+// nanometres thick, and does not lift the gasket: the pressure stays the dry one, at each place the
+// gap is the larger of h and the dry rough contact's, and the asperities bear what they bear at
+// that gap, the fluid the rest. Towards the outlet Reynolds' equation then wants
+// k y^3 - y + 1 = 0, y = h_min/h, k = p' h^2/(12 eta u_m) < 0.
+//
+// Valid while h is a small part of the roughness; above a tenth of it the user is told. Leaves out:
+// the edge's deformation by the film, adhesion.
+#include "engine/contact/rough/rough_law.h"
+#include "engine/valve/sliding_private.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { POINTS = SB_SEAL_EDGE_POINTS, LAST = POINTS - 1 };
+
+static double angle_of(int i) {
+  return M_PI * i / LAST;
+}
+
+void sb_sliding_take_edges(SbSealState *out, const SbFit *fit) {
+  const double middle = (fit->contact_left + fit->contact_right) / 2, half = fit->contact_width / 2;
+  size_t at = 0;
+  for (int i = 0; i < POINTS; i++) {
+    const double x = middle - half * cos(angle_of(i));
+    while (at + 2 < fit->profile_count && fit->profile_x[at + 1] < x) {
+      at++;
+    }
+    const double from = fit->profile_x[at], to = fit->profile_x[at + 1];
+    const double t = to > from ? fmin(fmax((x - from) / (to - from), 0), 1) : 0;
+    out->edge_pressure[i] = fit->profile_p[at] + t * (fit->profile_p[at + 1] - fit->profile_p[at]);
+  }
+}
+
+// Pressure at a distance from the left end.
+static double pressure_at(const SbSealState *state, double distance) {
+  const double half = (state->contact_right - state->contact_left) / 2;
+  const double place = acos(fmin(fmax(1 - distance / half, -1), 1)) / M_PI * LAST;
+  const int at = (int)fmin(floor(place), LAST - 1);
+  const double t = place - at;
+  return (1 - t) * state->edge_pressure[at] + t * state->edge_pressure[at + 1];
+}
+
+// Rise of the pressure over the edge's radius, from either end inwards [Pa/m].
+static double rise(const SbSealState *state, const SbModel *model, bool left) {
+  const double radius = model->profile_corner_radius;
+  const double width = state->contact_right - state->contact_left;
+  const double inside = pressure_at(state, left ? radius : width - radius);
+  return (inside - state->edge_pressure[left ? 0 : LAST]) / radius;
+}
+
+// h_min/h behind an outlet that falls as k says, k >= 0 its magnitude: y + k y^3 = 1.
+static double outlet(double k) {
+  double y = 1;
+  for (int i = 0; i < 60; i++) {
+    y -= (y + k * y * y * y - 1) / (1 + 3 * k * y * y);
+  }
+  return y;
+}
+
+// What the asperities do over the contact where the gap is no less than `film`.
+typedef struct {
+  double area, load, shear; // real area, their load and the open part's shear, per length
+} Rough;
+
+static Rough rough_at(const SbSealState *state, const SbModel *model, const SbRoughLaw *law,
+                      double film, double speed) {
+  const double half = (state->contact_right - state->contact_left) / 2;
+  Rough sum = {0};
+  for (int i = 1; i < LAST; i++) { // at both ends sin t is 0
+    const double p = state->edge_pressure[i], dx = half * sin(angle_of(i)) * M_PI / LAST;
+    if (!(p > 0)) {
+      continue;
+    }
+    SbRoughPoint at;
+    sb_rough_law_at(&at, law, sb_rough_law_of_pressure(law, p));
+    if (film > at.gap) {
+      sb_rough_law_at(&at, law, sb_rough_law_of_gap(law, film));
+    }
+    const double shear = model->viscosity * fabs(speed) / fmax(at.gap, 1e-30);
+    sum.area += at.share * dx;
+    sum.load += fmin(at.pressure, p) * dx;
+    sum.shear += fmin(shear, model->shear_strength) * (1 - at.share) * dx;
+  }
+  return sum;
+}
+
+SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
+  const SbModel *model = task->model;
+  const double width = out->contact_right - out->contact_left;
+  const double around = model->bore_circumference, speed = task->speed;
+  const bool slides = sb_sliding_has_film(task);
+  const SbRoughSurface surface = sb_model_surface(model, task->seal, 1);
+  SbRoughLaw *law = malloc(sizeof *law); // too large for a small stack
+  SbStatus status = law != NULL
+                        ? sb_rough_law_init(law, &surface, report)
+                        : sb_fail(report, SB_ERROR_MEMORY, "no memory for a rough surface's law");
+  if (status != SB_OK) {
+    free(law);
+    return status;
+  }
+  double film = 0, least = 0;
+  if (slides) {
+    const double mean = fabs(speed) / 2, inlet = rise(out, model, speed > 0);
+    film = inlet > 0 ? 2.0 / 3 * sqrt(4 * model->viscosity * mean / inlet) : 0;
+    const double most = task->supply.limited ? 2 * task->supply.layer : INFINITY;
+    film = fmin(film, most);
+    const double falls = fmax(rise(out, model, speed < 0), 0);
+    least = film * outlet(falls * film * film / (12 * model->viscosity * mean));
+  }
+  out->film_central = film;
+  out->film_min = least;
+  out->lambda = slides ? film / model->sigma : NAN;
+  out->layer = film / 2;
+  out->film_error = out->central_error = out->friction_error = NAN;
+  const Rough on = rough_at(out, model, law, film, speed), dry = rough_at(out, model, law, 0, 0);
+  free(law);
+  out->real_area_share = fmin(on.area / width, 1);
+  out->rest_area_share = fmin(dry.area / width, 1);
+  out->asperity_share = out->load_net > 0 ? fmin(on.load / out->load_net, 1) : NAN;
+  out->boundary_area = model->shear_strength * out->real_area_share * width * around;
+  out->rest_area = model->shear_strength * out->rest_area_share * width * around;
+  out->rest_load = model->load_coefficient * out->load;
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  out->boundary_load = out->rest_load * (coupled && slides ? out->asperity_share : 1);
+  out->friction_viscous = slides ? on.shear * around : 0;
+  if (out->lambda > 0.1) {
+    sb_warn(task->warnings, "film-edge", "drive.speed",
+            "%.3g nm of film under the %s gasket, a tenth of the roughness and more: it would "
+            "round the edge that it is reckoned with",
+            1e9 * film, sb_seal_name(task->seal));
+  }
+  return SB_OK;
+}
