@@ -142,7 +142,8 @@ static bool is_told(const SbModel *model, const SbParams *params, SbParamId id) 
     return true;
   }
   return sb_param(id)->parent < 0 &&
-         (sb_param_is_main(id) || sb_model_default(&follows, model, id));
+         (sb_param_is_main(id, sb_model_number(model, SB_P_VALVE_KIND)) ||
+          sb_model_default(&follows, model, id));
 }
 
 // Two parameters a row.

@@ -71,17 +71,21 @@ void sb_design_ask_init(SbDesignAsk *ask, const SbDocument *document) {
       ask->usual = true;
     }
   }
+  const SbParams params = sb_document_params(document);
+  const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
   for (int id = 0; id < SB_PARAM_COUNT && ask->count < SB_DESIGN_RANGES; id++) {
-    if (sb_param_is_main((SbParamId)id) && sb_param((SbParamId)id)->kind == SB_PARAM_REAL) {
+    if (sb_param_is_main((SbParamId)id, kind) && sb_param((SbParamId)id)->kind == SB_PARAM_REAL) {
       SbDesignRange *range = &ask->range[ask->count];
       *range = (SbDesignRange){.id = (SbParamId)id};
       lay_bounds(range, document);
       if (!(range->low < range->high)) {
         continue;
       }
-      const int axis = id == SB_P_GLAND_RADIAL_SPACE      ? 1
-                       : id == SB_P_SEAL_SECTION_DIAMETER ? 0
-                                                          : -1;
+      const bool gasket = kind == SB_VALVE_GASKET;
+      const int axis = id == (gasket ? SB_P_GASKET_CRIMP : SB_P_GLAND_RADIAL_SPACE) ? 1
+                       : id == (gasket ? SB_P_GASKET_BORE_DIAMETER : SB_P_SEAL_SECTION_DIAMETER)
+                           ? 0
+                           : -1;
       range->free = axis >= 0;
       if (axis >= 0) {
         ask->axis[axis] = ask->count;

@@ -157,13 +157,14 @@ static SbStatus take_effects(SbDesignPlace *at, SbDesignJob *job, SbReport *repo
   SbOverride override[SB_VARY_MAX];
   SbParamId id[SB_PARAM_COUNT];
   size_t count = 0;
+  const int kind = sb_model_number(study->base, SB_P_VALVE_KIND);
   for (guint k = 0; k < study->vary->len; k++) {
     override[k] = (SbOverride){g_array_index(study->vary, SbVary, k).id, at->value[k]};
   }
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
     if (param->kind == SB_PARAM_REAL && param->parent < 0 &&
-        (sb_param_is_main((SbParamId)i) || sb_param_tolerance((SbParamId)i) >= 0)) {
+        (sb_param_is_main((SbParamId)i, kind) || sb_param_tolerance((SbParamId)i) >= 0)) {
       id[count++] = (SbParamId)i;
     }
   }

@@ -40,10 +40,11 @@ static void work(void *owner) {
   SbParamId id[SB_PARAM_COUNT];
   size_t count = 0;
   int figure[SB_EFFECT_GOALS];
+  const int kind = sb_model_number(job->model, SB_P_VALVE_KIND);
   sb_process_work_behind();
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     job->effects.step[i] = NAN;
-    if (sb_param_is_main((SbParamId)i) && sb_param((SbParamId)i)->kind == SB_PARAM_REAL) {
+    if (sb_param_is_main((SbParamId)i, kind) && sb_param((SbParamId)i)->kind == SB_PARAM_REAL) {
       id[count++] = (SbParamId)i;
     }
   }

@@ -24,6 +24,7 @@ static const SbParamHeading headings[] = {
     {"chamber.", N_("Chamber"), NULL, FALSE},
     {"fluid.", N_("Fluid"), NULL, FALSE},
     {"friction.", N_("Friction"), NULL, FALSE},
+    {"gasket.", N_("Gasket"), NULL, FALSE},
     {"housing.", N_("Housing"), NULL, FALSE},
     {"joint.", N_("Joint"), NULL, FALSE},
     {"life.", N_("Life"), NULL, FALSE},
@@ -36,6 +37,7 @@ static const SbParamHeading headings[] = {
     {"stem.", N_("Stem"), NULL, FALSE},
     {"storage.", N_("Storage"), NULL, FALSE},
     {"study.", N_("Study"), NULL, FALSE},
+    {"valve.", N_("Valve"), NULL, FALSE},
     {"", N_("Other"), NULL, FALSE},
 };
 

@@ -83,10 +83,11 @@ static int next_wanted(SbSession *session) {
       return id;
     }
   }
+  const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
   const bool idle = session->ticket == 0 && session->debounce == 0 && session->later == 0 &&
                     !session->playhead.playing;
   for (int id = 0; idle && id < SB_PARAM_COUNT; id++) {
-    if (sb_param_is_main((SbParamId)id) && is_wanted(session, id)) {
+    if (sb_param_is_main((SbParamId)id, kind) && is_wanted(session, id)) {
       return id;
     }
   }

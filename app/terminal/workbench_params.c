@@ -23,8 +23,9 @@ enum {
 
 static bool is_listed(const SbBench *bench, const SbParams *params, const char *needle,
                       SbParamId id) {
-  return needle[0] != '\0'                ? sb_param_matches(id, needle)
-         : bench->list == SB_LIST_MAIN    ? sb_param_is_main(id)
+  return needle[0] != '\0' ? sb_param_matches(id, needle)
+         : bench->list == SB_LIST_MAIN
+             ? sb_param_is_main(id, (int)sb_params_get(params, SB_P_VALVE_KIND))
          : bench->list == SB_LIST_CHANGED ? sb_param_is_changed(params, id)
                                           : true;
 }
@@ -103,9 +104,10 @@ static bool shows_effects(const SbBench *bench, int width) {
 
 static void draw_head(SbBench *bench, SbCellRect rect) {
   const SbParams params = sb_document_params(sb_session_document(bench->session));
+  const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
   int count[SB_LIST_COUNT] = {0};
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
-    count[SB_LIST_MAIN] += sb_param_is_main((SbParamId)id);
+    count[SB_LIST_MAIN] += sb_param_is_main((SbParamId)id, kind);
     count[SB_LIST_CHANGED] += sb_param_is_changed(&params, (SbParamId)id);
     count[SB_LIST_ALL]++;
   }

@@ -55,8 +55,10 @@ bool sb_params_brought(SbParamDefault *out, int *choice, SbParamId id, int index
   return false;
 }
 
-static const bool main_ones[SB_PARAM_COUNT] = {
-#define SB_MAIN(id) [SB_P_##id] = true,
+// Of which kinds of valves it is one of the main ones, a bit each.
+enum { PISTON = 1 << SB_VALVE_PISTON, GASKET = 1 << SB_VALVE_GASKET, BOTH = PISTON | GASKET };
+static const unsigned char main_ones[SB_PARAM_COUNT] = {
+#define SB_MAIN(id, kinds) [SB_P_##id] = kinds,
 #include "engine/valve/params.def"
 };
 
@@ -65,8 +67,8 @@ static const char *const words[SB_PARAM_COUNT] = {
 #include "engine/valve/params.def"
 };
 
-bool sb_param_is_main(SbParamId id) {
-  return main_ones[id];
+bool sb_param_is_main(SbParamId id, int kind) {
+  return ((unsigned)main_ones[id] >> kind & 1u) != 0;
 }
 
 const char *sb_param_words(SbParamId id) {

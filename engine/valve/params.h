@@ -43,8 +43,8 @@ typedef struct {
                        // when not given; -1 for every other parameter
 } SbParam;
 
-// Whether it is one of the few that a design begins with.
-bool sb_param_is_main(SbParamId id);
+// Whether it is one of the few that a design begins with, of a kind of valve (valve.kind).
+bool sb_param_is_main(SbParamId id, int kind);
 
 // What people also call it, in small letters; "" for most. Borrowed.
 const char *sb_param_words(SbParamId id);

@@ -162,13 +162,17 @@ static SbCounters expect(const SbPlan *plan, const SbModel *model) {
   const size_t films = drags + (plan->ring ? 0 : 2 * fits);
   const size_t each = plan->ring || (model->fit == SB_FIT_DISC && !coupled) ? 2 : 1;
   // Rows over the land's edge and the free ring; of a gasket valve the free gasket alone.
-  const size_t rows = model->kind == SB_VALVE_GASKET ? 0 : 2 * SB_RUN_EDGES;
+  const size_t rows = model->kind == SB_VALVE_GASKET ? 0 : 2 * SB_RUN_EDGES; // drawn
   const size_t edges = plan->over_edge ? rows + 1 : 0;
   const size_t shapes = SB_RUN_MOTIONS * fits + edges;
+  const bool gasket = model->kind == SB_VALVE_GASKET; // closed forms over the speed
+  const size_t nodes = gasket           ? plan->inertia ? SPEED_STATES : 0
+                       : plan->reynolds ? plan->inertia ? SPEED_STATES : NEAR_STATES
+                                        : 0;
   SbCounters out = {.fit_solves = drags + fits,
                     .disc_solves = disc ? fits : 0,
                     .ring_solves = drags + (plan->ring ? fits : 0) + edges,
-                    .speed_nodes = plan->reynolds ? plan->inertia ? SPEED_STATES : NEAR_STATES : 0,
+                    .speed_nodes = nodes,
                     .film_steps = plan->film_history ? SB_SEAL_COUNT * FILM_STEPS : 0,
                     .field_evaluations = plan->section_fields ? shapes : 0,
                     .profile_evaluations = plan->profiles ? rounds * PROFILE_STATES : 0};
@@ -202,6 +206,7 @@ static SbShelfDepth shelf_wished(const SbModel *model, unsigned views) {
 // fields only where the fitment model has an interior.
 static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *wishes) {
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED, finds = finds_speed(model);
+  const bool gasket = model->kind == SB_VALVE_GASKET; // whose film is a closed form of its pressure
   const bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
   const bool solved = model->film == SB_FILM_REYNOLDS,
              body = plan->ring || model->fit == SB_FIT_DISC;
@@ -228,7 +233,9 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
                                          : 2.0 * fits * (finds ? OWN_SPEED_ROUNDS : 1);
   const double at_speed = sb_cost_speed_state(model);
   // Each film on the half-plane has one on the fitted body beside it.
-  const double states = on_body > 0 && !coupled ? films / 2 * (film + on_body) : films * at_speed;
+  const double states = gasket                    ? 2.0 * fits * SB_COST_ROUGH
+                        : on_body > 0 && !coupled ? films / 2 * (film + on_body)
+                                                  : films * at_speed;
   const double rests = fits; // of rings
   const double dragged = (double)n->fit_solves - rests;
   const double ring = sb_cost_ring_share(model->tolerance) *
@@ -265,8 +272,13 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
       {true, "contact load and width", fit,
        plan->ring ? ring : (double)n->fit_solves * sb_cost_fit(model->fit), fit_off, text[0], NULL},
       {plan->ring, "ring", "", 0, 0, NULL, text[1]},
-      {true, "film", coupled ? "reynolds with asperities" : law, states, film_off,
-       coupled ? "models.asperities = coupled: film and asperities share the load"
+      {true, "film",
+       gasket    ? "blok"
+       : coupled ? "reynolds with asperities"
+                 : law,
+       states, film_off,
+       gasket    ? "a gasket's edge lets little in: from the rise of its pressure there"
+       : coupled ? "models.asperities = coupled: film and asperities share the load"
        : on_body > 0
            ? "boundary share, viscous friction and leakage need it; on the half-plane and "
              "on the fitted ring"
@@ -275,7 +287,7 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
       {plan->reynolds, "film over speed", coupled ? "reynolds with asperities" : law,
        (double)n->speed_nodes * at_speed, SB_SPEED_TOLERANCE,
        "film and friction of every frame are those of its own speed", NULL},
-      {plan->reynolds, "reynolds film", "", 0, 0, NULL, text[2]},
+      {plan->reynolds, "reynolds film", "", 0, 0, NULL, gasket ? NULL : text[2]},
       {plan->film_history, "film history", "finite volumes",
        (double)n->film_steps * SB_COST_FILM_STEP, 0.03,
        "models.film_time = transient; the motion keeps to the steady film's friction",
@@ -314,9 +326,10 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
 
 // What the model alone decides.
 static SbPlan basis(const SbModel *model, bool life) {
-  bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool gasket = model->kind == SB_VALVE_GASKET;
   return (SbPlan){.ring = model->fit == SB_FIT_RING,
-                  .reynolds = model->film == SB_FILM_REYNOLDS || coupled,
+                  .reynolds = (model->film == SB_FILM_REYNOLDS || coupled) && !gasket,
                   .life = life && model->life_actuations > 1,
                   .inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC,
                   .frames = model->frames,

@@ -305,8 +305,8 @@ static SbSession *session_with_slopes(void) {
   sb_session_start(session);
   g_array_unref(settle(session));
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
-    while (sb_param_is_main((SbParamId)id) && sb_param((SbParamId)id)->kind == SB_PARAM_REAL &&
-           !session->base->sought[id]) {
+    while (sb_param_is_main((SbParamId)id, SB_VALVE_PISTON) &&
+           sb_param((SbParamId)id)->kind == SB_PARAM_REAL && !session->base->sought[id]) {
       turn(session);
     }
   }

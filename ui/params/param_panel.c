@@ -82,8 +82,9 @@ static Group *group_at(SbParamPanel *panel, int index) {
 
 static gboolean is_listed(SbParamPanel *panel, const SbParams *params, const char *needle,
                           SbParamId id) {
-  return needle[0] != '\0'                          ? sb_param_matches(id, needle)
-         : panel->filter == SB_PARAM_FILTER_MAIN    ? sb_param_is_main(id)
+  return needle[0] != '\0' ? sb_param_matches(id, needle)
+         : panel->filter == SB_PARAM_FILTER_MAIN
+             ? sb_param_is_main(id, (int)sb_params_get(params, SB_P_VALVE_KIND))
          : panel->filter == SB_PARAM_FILTER_CHANGED ? sb_param_is_changed(params, id)
                                                     : TRUE;
 }
@@ -140,9 +141,10 @@ static void list(SbParamPanel *panel) {
 
 static void name_filters(SbParamPanel *panel) {
   const SbParams params = sb_document_params(sb_session_document(panel->session));
+  const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
   int count[SB_PARAM_FILTER_ALL + 1] = {0};
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
-    count[SB_PARAM_FILTER_MAIN] += sb_param_is_main((SbParamId)id);
+    count[SB_PARAM_FILTER_MAIN] += sb_param_is_main((SbParamId)id, kind);
     count[SB_PARAM_FILTER_CHANGED] += sb_param_is_changed(&params, (SbParamId)id);
     count[SB_PARAM_FILTER_ALL]++;
   }

@@ -565,8 +565,11 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
   const bool moving = at->moving && sample->contact[seal] != SB_CONTACT_STUCK;
   const bool mixed = model->pressure_map == SB_MAP_PORTS && at->chamber != SB_CHAMBER_OPEN;
   const double filled = filling(run, at->pressure), s = sample->position;
-  // Where a quasi-static stem jumps its speed is not known.
-  const bool own = moving && sample->speed != 0 && run->plan.frame_films;
+  // Where a quasi-static stem jumps its speed is not known. A gasket's balance is that of the
+  // drive's speed, from which the spring takes a hundredth.
+  const bool balanced =
+      model->kind == SB_VALVE_GASKET && model->motion == SB_MODEL_MOTION_QUASI_STATIC;
+  const bool own = moving && sample->speed != 0 && run->plan.frame_films && !balanced;
   const double speed = own ? sample->speed : run->speed;
   SbSealState state;
   SbLandShare on = sb_cycle_land_share(&run->cycle, seal, chamber, at->solved.land, s);
