@@ -26,6 +26,7 @@ void sb_valve_gasket_make(SbValveOutline *valve, const SbModel *model, double to
   // Volume that crimping moves outwards.
   const double crimped = outer * (1 + 0.5 * sb_model_value(model, SB_P_GASKET_CRIMP));
   const double pocket = crimped + POCKET * thick, apart = shape->seal_spacing;
+  top = fmax(top, pocket + 0.3 * thick);
   valve->gasket = true;
   valve->bore = valve->floor = valve->land = valve->rod = stem;
   valve->size = 2 * 0.85 * pocket;

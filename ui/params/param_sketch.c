@@ -40,6 +40,44 @@ static gboolean name_of(char name[64], int *seal, SbParamId id) {
   return of_seal;
 }
 
+// The same of a gasket valve.
+static gboolean find_gasket_mark(Mark *mark, const SbValveOutline *v, const SbModel *model,
+                                 const char *name, gboolean of_seal) {
+  const double bore = 0.5 * sb_model_value(model, SB_P_GASKET_BORE_DIAMETER);
+  const double outer = 0.5 * sb_model_value(model, SB_P_GASKET_OUTER_DIAMETER);
+  const double left = v->groove_left[SB_OUTER], right = v->groove_right[SB_OUTER];
+  const double middle = v->origin[SB_OUTER], stroke = sb_model_value(model, SB_P_DRIVE_STROKE);
+  const double port = 0.5 * (v->port_left + v->port_right);
+  const double neck = v->shoulder - sb_model_value(model, SB_P_STEM_CHAMBER_LENGTH);
+  const struct {
+    const char *name;
+    Mark mark;
+  } all[] = {
+      {"gasket.bore_diameter", {DIAMETER, 0, bore, middle}},
+      {"gasket.outer_diameter", {DIAMETER, 0, outer, middle}},
+      {"gasket.thickness", {AXIAL, left, right, 0.5 * (v->bore + v->rim)}},
+      {"gasket.crimp", {AXIAL, left, right, 0.5 * (v->bore + v->rim)}},
+      {"bore.diameter", {DIAMETER, 0, v->chamber_roof, v->chamber}},
+      {"bore.land_edge", {AXIAL, v->groove_right[SB_INNER], v->shoulder, v->bore}},
+      {"stem.pressure_diameter", {DIAMETER, 0, v->bore, v->chamber}},
+      {"stem.seal_spacing", {AXIAL, v->origin[SB_INNER], middle, 0.5 * (v->bore + v->rim)}},
+      {"stem.chamber_depth",
+       {RADIAL, v->bore - sb_model_value(model, SB_P_STEM_CHAMBER_DEPTH), v->bore,
+        0.5 * (neck + v->shoulder)}},
+      {"stem.chamber_length", {AXIAL, neck, v->shoulder, v->bore}},
+      {"stem.port_travel", {AXIAL, left, port, 0.8 * v->bore}},
+      {"stem.port_diameter", {AXIAL, v->port_left, v->port_right, 0.8 * v->bore}},
+      {"drive.stroke", {AXIAL, v->nose - stroke, v->nose, 0.4 * v->bore}},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(all); i++) {
+    if (!of_seal && strcmp(name, all[i].name) == 0 && fabs(all[i].mark.to - all[i].mark.from) > 0) {
+      *mark = all[i].mark;
+      return TRUE;
+    }
+  }
+  return FALSE;
+}
+
 // Where the dimension lies; false: the parameter is no such size.
 static gboolean find_mark(Mark *mark, const SbValveOutline *v, const SbModel *model,
                           double contact_left, SbParamId id) {
@@ -52,6 +90,9 @@ static gboolean find_mark(Mark *mark, const SbValveOutline *v, const SbModel *mo
   const double stroke = sb_model_value(model, SB_P_DRIVE_STROKE);
   const double shoulder = sb_model_value(model, SB_P_STEM_SHOULDER_LENGTH);
   const double chamber_right = 2 * v->chamber - v->chamber_left;
+  if (v->gasket) {
+    return find_gasket_mark(mark, v, model, name, of_seal);
+  }
   const struct {
     const char *name;
     gboolean of_seal;

@@ -69,6 +69,29 @@ static void add(SbSectionHandles *handles, SbParamId id, SbPoint at, double dx, 
   }
 }
 
+// Those of a gasket valve: its stem, chamber and gaskets, the shoulder and the port.
+static void add_gasket(SbSectionHandles *handles, const SbValveOutline *valve, double s) {
+  const struct {
+    SbParamId id;
+    double x, y;   // in the housing's frame
+    double dx, dy; // the way that the size grows
+    double share;
+  } all[] = {
+      {SB_P_STEM_PRESSURE_DIAMETER, 0.35 * valve->chamber, valve->bore, 0, -1, 2},
+      {SB_P_BORE_DIAMETER, valve->chamber, valve->chamber_roof, 0, -1, 2},
+      {SB_P_GASKET_OUTER_DIAMETER, valve->origin[SB_OUTER], valve->rim, 0, -1, 2},
+      {SB_P_STEM_SEAL_SPACING, valve->groove_right[SB_OUTER], (valve->bore + valve->rim) / 2, 1, 0,
+       1},
+      {SB_P_BORE_LAND_EDGE, valve->shoulder - s, valve->bore, 1, 0, 1},
+      {SB_P_STEM_PORT_TRAVEL, valve->port_left - s, 0.8 * valve->bore, 1, 0, 1},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(all); i++) {
+    const SbPoint at = {handles->x0 + all[i].x * handles->scale,
+                        handles->y0 - all[i].y * handles->scale};
+    add(handles, all[i].id, at, all[i].dx, all[i].dy, all[i].share);
+  }
+}
+
 void sb_section_handles_follow(SbSectionHandles *handles, const SbSection *section,
                                const SbModel *model, const SbFrame *frame, SbPoint corner) {
   static const char *const own[SB_SEAL_COUNT] = {
@@ -89,7 +112,7 @@ void sb_section_handles_follow(SbSectionHandles *handles, const SbSection *secti
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     // In the seal's frame, from the groove's floor.
     const SbRingShape *ring = sb_section_ring(section, i);
-    const double origin = valve->origin[i] - s;
+    const double origin = valve->origin[i] - (valve->gasket ? 0 : s);
     double left = INFINITY, mean = 0;
     for (size_t k = 0; k < ring->count; k++) {
       left = fmin(left, ring->x[k]);
@@ -105,11 +128,17 @@ void sb_section_handles_follow(SbSectionHandles *handles, const SbSection *secti
     const double height = y0 - (valve->floor + mean) * scale;
     handles->floor_y[i] = y0 - valve->floor * scale;
     handles->centre[i] = (SbPoint){x0 + origin * scale, height};
-    if (ring->count > 0) {
+    if (ring->count > 0 && !valve->gasket) {
       // Its centre stays: an edge moves by half of what the size grows by.
       add(handles, of_seal(handles, SB_P_SEAL_SECTION_DIAMETER, own[i]),
           (SbPoint){x0 + (origin + left) * scale, height}, -1, 0, 2);
     }
+  }
+  if (valve->gasket) {
+    add_gasket(handles, valve, s);
+    handles->over = handles->over < handles->count ? handles->over : NONE;
+    handles->picked = handles->picked < handles->count ? handles->picked : NONE;
+    return;
   }
   const double middle = valve->origin[SB_OUTER] - s, wall = valve->groove_right[SB_OUTER] - s;
   add(handles, SB_P_GLAND_RADIAL_SPACE, (SbPoint){x0 + middle * scale, y0 - valve->floor * scale},
