@@ -39,8 +39,14 @@ bool sb_chart_complete(const SbChartData *data) {
          sb_trace_frames(data->run.trace) >= data->run.count;
 }
 
-// Of a gasket valve's stages.
-static const char *gasket_phase(int stage) {
+const char *sb_chart_seal_name(const SbModel *model, int seal) {
+  const bool gasket = sb_model_is_gasket(model);
+  return seal == SB_OUTER ? gasket ? _("Stem gasket") : _("Outer seal")
+         : gasket ? _("Chamber gasket")
+                          : _("Inner seal");
+}
+
+const char *sb_chart_gasket_phase(int stage) {
   static const char *const names[SB_STAGE_COUNT] = {
       N_("at rest, force builds up"),   N_("chamber fills past the neck"),
       N_("chamber shut, then empties"), N_("dose, at the stop"),
@@ -52,8 +58,8 @@ const char *sb_chart_phase(const SbChartRun *run, int stage) {
   if (sb_chart_is_rig(run)) {
     return stage == SB_STAGE_A ? _("force builds up") : _("sticks and slips");
   }
-  if (run->model && sb_model_number(run->model, SB_P_VALVE_KIND) == SB_VALVE_GASKET) {
-    return gasket_phase(stage);
+  if (sb_model_is_gasket(run->model)) {
+    return sb_chart_gasket_phase(stage);
   }
   // Whether the inner seal touches at all is the run's own business: look at its frames.
   bool inner = true, outer = true;

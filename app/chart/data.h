@@ -111,6 +111,12 @@ bool sb_chart_is_rig(const SbChartRun *run);
 // The whole run is readable: done, and the trace has caught up.
 bool sb_chart_complete(const SbChartData *data);
 
+// The same of a gasket valve, whatever has run: "chamber fills past the neck".
+const char *sb_chart_gasket_phase(int stage);
+
+// What a seal of a model (NULL: of the piston valve) is called, "Inner seal"; translated.
+const char *sb_chart_seal_name(const SbModel *model, int seal);
+
 // What happens after stage `stage` until the next: "both seals slide".
 const char *sb_chart_phase(const SbChartRun *run, int stage);
 

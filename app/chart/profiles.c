@@ -547,9 +547,10 @@ static void film_chart(Small *s) {
   } else {
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
     double x = left_px + 0.5 * s->plot.width, y = s->plot.y + 0.62 * s->plot.height;
-    const char *words = !seal                       ? _("no run yet")
-                        : !sb_contact_touches(seal) ? _("no contact")
-                                                    : _("at rest: no film");
+    const char *words = !seal                                    ? _("no run yet")
+                        : !sb_contact_touches(seal)              ? _("no contact")
+                        : sb_chart_frame(s->data)->velocity != 0 ? _("no liquid: no film")
+                                                                 : _("at rest: no film");
     small_label(s, words, &note, (SbPlace[]){{x, y, SB_MIDDLE}, {x, y - 20, SB_MIDDLE}}, 2);
   }
 
@@ -684,9 +685,12 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
                                 in.y + 14, SB_LEFT);
   char note[160];
   if (film) {
-    const char *bore = !frame || frame->velocity == 0 ? _("at rest")
-                       : frame->velocity > 0          ? _("bore moves right")
-                                                      : _("bore moves left");
+    const bool gasket = sb_model_is_gasket(data->run.model);
+    const char *bore = !frame || frame->velocity == 0  ? _("at rest")
+                       : gasket && frame->velocity > 0 ? _("stem moves left")
+                       : gasket                        ? _("stem moves right")
+                       : frame->velocity > 0           ? _("bore moves right")
+                                                       : _("bore moves left");
     g_snprintf(note, sizeof note, "%s%s",
                compact ? _("log scale, position / mm, ")
                        : _("log scale against axial position / mm, "),
@@ -721,7 +725,7 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
     sb_labels_init(labels,
                    (SbRect){s.plot.x - 2, s.plot.y - 12, s.plot.width + 4, s.plot.height + 12});
     SbTextStyle name = {SB_TYPE_LABEL, 600, s.color, 1};
-    sb_canvas_text(c, s.index == SB_INNER ? _("Inner seal") : _("Outer seal"), &name, s.plot.x,
+    sb_canvas_text(c, sb_chart_seal_name(data->run.model, s.index), &name, s.plot.x,
                    in.y + (compact ? 34 : 40), SB_LEFT);
     if (film) {
       continuum_band(&s);

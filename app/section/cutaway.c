@@ -8,6 +8,7 @@
 // part.
 #include "app/section/cutaway.h"
 
+#include "app/chart/data.h"
 #include "app/section/section_private.h"
 
 #include <glib.h>
@@ -442,7 +443,7 @@ static void paint_labels(SbCutaway *cutaway, SbSection *section) {
   char text[96], value[SB_SECTION_NUMBER];
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     bool free = frame->seal[i].land_fraction <= 0;
-    snprintf(text, sizeof text, "%s%s", sb_section_seal_name(section, i),
+    snprintf(text, sizeof text, "%s%s", sb_chart_seal_name(section->model, i),
              !free           ? ""
              : valve->gasket ? _(", around the neck")
                              : _(", off the land"));

@@ -117,7 +117,8 @@ static void draw_title(SbSection *section, double x, double y) {
       [SB_STAGE_E] = N_("return, chamber open"), [SB_STAGE_F] = N_("both seals slide back"),
   };
   sb_draw_text(list, x + width + 10, y + 20, 13, 600, SB_LEFT, palette->now,
-               _(phase[MIN(frame->stage, SB_STAGE_COUNT - 1)]));
+               section->valve.gasket ? sb_chart_gasket_phase(frame->stage)
+                                     : _(phase[MIN(frame->stage, SB_STAGE_COUNT - 1)]));
   char stroke[SB_SECTION_NUMBER], force[SB_SECTION_NUMBER];
   snprintf(text, sizeof text, "%s s    %s    %s", time,
            sb_section_millimetre(stroke, frame->displacement),

@@ -1,17 +1,11 @@
 // Labels of a gasket valve's strip: its gaskets, its rooms and the liquid's way.
+#include "app/chart/data.h"
 #include "app/section/section_private.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>
 #include <math.h>
 #include <stdio.h>
-
-const char *sb_section_seal_name(const SbSection *section, int seal) {
-  const bool gasket = section->valve.gasket;
-  return seal == SB_OUTER ? gasket ? _("Stem gasket") : _("Outer seal")
-         : gasket ? _("Chamber gasket")
-                          : _("Inner seal");
-}
 
 static SbSectionLabel style_of(SbColor color, int weight, SbAlign align, const SbColor *plate) {
   return (SbSectionLabel){12, weight, align, color, plate};
@@ -23,7 +17,7 @@ static void draw_names(SbSection *section) {
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const SbSealFrame *seal = &section->instant->frame->seal[i];
     char text[64];
-    snprintf(text, sizeof text, "%s%s", sb_section_seal_name(section, i),
+    snprintf(text, sizeof text, "%s%s", sb_chart_seal_name(section->model, i),
              seal->land_fraction > 0 ? "" : _(", around the neck"));
     const SbPoint above = sb_section_at(section, sb_section_origin(section, i), section->valve.rim);
     const SbSectionLabel style = style_of(palette->seal[i], 600, SB_MIDDLE, &palette->housing);

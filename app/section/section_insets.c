@@ -4,6 +4,7 @@
 // Pressure is the profile's total contact pressure with the fluid's outside the contact; its scale
 // is the same over the whole film. The film inset leaves the roughness out and says so. Where the
 // seal is off the land or the run kept no profile, the inset says that instead.
+#include "app/chart/data.h"
 #include "app/section/section_private.h"
 
 #include <glib.h>
@@ -53,7 +54,7 @@ static size_t curve(const Inset *inset, const SbContactProfile *profile, const d
 static void inset_title(SbSection *section, const Inset *inset, int seal, const char *what,
                         const char *brief) {
   const SbPalette *palette = section->palette;
-  const char *const name = sb_section_seal_name(section, seal);
+  const char *const name = sb_chart_seal_name(section->model, seal);
   double y = inset->rect.y - 9;
   sb_draw_text(section->list, inset->rect.x, y, 13, 700, SB_LEFT, palette->ink, name);
   double width = sb_text_width(section->text, name, 13, 700);
@@ -362,11 +363,12 @@ static void draw_film(SbSection *section, const Inset *inset, int seal) {
                                        : _("off the land: no film"));
   } else if (!film) {
     // In a narrow inset in the middle, and its first words only.
-    bool rest = frame->film_central <= 0;
-    const char *why =
-        rest ? _("at rest: no film, the surfaces touch") : _("no film profile in this run");
+    bool rest = frame->film_central <= 0, dry = rest && fabs(whole->velocity) > 0;
+    const char *why = dry    ? _("no liquid at the inlet: no film")
+                      : rest ? _("at rest: no film, the surfaces touch")
+                             : _("no film profile in this run");
     if (sb_text_width(section->text, why, 12, 600) > rect->width - 16) {
-      why = rest ? _("at rest: no film") : _("no film profile");
+      why = dry ? _("no liquid: no film") : rest ? _("at rest: no film") : _("no film profile");
     }
     double half = sb_text_width(section->text, why, 12, 600) / 2 + 8;
     x = CLAMP(x, rect->x + half, rect->x + rect->width - half);

@@ -95,9 +95,6 @@ bool sb_section_place(SbSection *section, const double (*at)[2], size_t count,
 void sb_section_name_pressure(SbSection *section, double x, double y, const char *name,
                               double pressure, bool below);
 
-// What a seal is called in its valve; borrowed, translated.
-const char *sb_section_seal_name(const SbSection *section, int seal);
-
 // Names, regions and the liquid's way of a gasket valve (section_gasket.c).
 void sb_section_gasket_labels(SbSection *section, bool whole);
 

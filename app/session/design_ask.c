@@ -63,16 +63,16 @@ void sb_design_ask_init(SbDesignAsk *ask, const SbDocument *document) {
                        .limits = *sb_document_limits(document)};
   ask->left_out = ask->limits.count - MIN(ask->limits.count, SB_DESIGN_LIMITS);
   ask->limits.count -= ask->left_out;
-  for (size_t i = 0; ask->limits.count == 0 && i < G_N_ELEMENTS(usual); i++) {
-    const int figure = sb_figure_find(usual[i].figure);
-    ask->limits.item[i] = (SbLimit){figure, usual[i].low, usual[i].high};
-    if (i + 1 == G_N_ELEMENTS(usual)) {
-      ask->limits.count = G_N_ELEMENTS(usual);
-      ask->usual = true;
-    }
-  }
   const SbParams params = sb_document_params(document);
   const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
+  if (ask->limits.count == 0) {
+    // The last is of a ring in its groove.
+    ask->usual = true;
+    ask->limits.count = G_N_ELEMENTS(usual) - (kind == SB_VALVE_GASKET ? 1 : 0);
+    for (size_t i = 0; i < ask->limits.count; i++) {
+      ask->limits.item[i] = (SbLimit){sb_figure_find(usual[i].figure), usual[i].low, usual[i].high};
+    }
+  }
   for (int id = 0; id < SB_PARAM_COUNT && ask->count < SB_DESIGN_RANGES; id++) {
     if (sb_param_is_main((SbParamId)id, kind) && sb_param((SbParamId)id)->kind == SB_PARAM_REAL) {
       SbDesignRange *range = &ask->range[ask->count];

@@ -623,6 +623,10 @@ bool sb_model_is_rig(const SbModel *model) {
   return model != NULL && model->motion == SB_MODEL_MOTION_RIG;
 }
 
+bool sb_model_is_gasket(const SbModel *model) {
+  return model != NULL && model->kind == SB_VALVE_GASKET;
+}
+
 const SbSealModel *sb_model_seal(const SbModel *model, int seal) {
   return &model->seal[seal];
 }

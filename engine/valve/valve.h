@@ -255,6 +255,9 @@ void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t
 // Whether it is the sliding plate in place of a valve (NULL: no).
 bool sb_model_is_rig(const SbModel *model);
 
+// Whether its stem slides through gaskets (NULL: no).
+bool sb_model_is_gasket(const SbModel *model);
+
 // What follows from the parameters; borrowed.
 const SbSealModel *sb_model_seal(const SbModel *model, int seal);
 const SbValveShape *sb_model_shape(const SbModel *model);

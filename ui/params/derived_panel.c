@@ -169,6 +169,16 @@ static void refresh(Panel *panel) {
                                               : sb_session_former_text(panel->session);
   // A plate on its rings has no glands, return or doses.
   gtk_widget_set_visible(panel->grid, !sb_model_is_rig(model));
+  for (int i = 0; i < ITEMS; i++) {
+    // What only a ring on a floor has.
+    const gboolean shown = !sb_model_is_gasket(model) || (items[i].gland != SB_GLAND_FILL &&
+                                                          items[i].gland != SB_GLAND_STRETCH_INNER);
+    GtkWidget *const row[] = {panel->name[i], panel->value[i], panel->bar[i], panel->icon[i],
+                              panel->verdict[i]};
+    for (size_t k = 0; k < G_N_ELEMENTS(row); k++) {
+      gtk_widget_set_visible(row[k], shown);
+    }
+  }
   sb_figures_clear(&panel->model);
   if (model != NULL) {
     sb_figures_of_model(&panel->model, model);

@@ -136,8 +136,9 @@ static void refresh(Panel *panel) {
   const SbModel *model = sb_session_model(panel->session);
   SbGlandReadout all[SB_SEAL_COUNT][SB_GLAND_COUNT];
   gboolean swollen = FALSE;
-  // The rings of the sliding-plate rig lie in no gland.
-  gtk_widget_set_visible(panel->expander, !sb_model_is_rig(model));
+  // The rings of the sliding-plate rig lie in no gland, nor do gaskets.
+  gtk_widget_set_visible(panel->expander, !sb_model_is_rig(model) && !sb_model_is_gasket(model));
+  model = sb_model_is_gasket(model) ? NULL : model;
   for (int seal = 0; model != NULL && seal < SB_SEAL_COUNT; seal++) {
     SbGland gland;
     sb_model_gland(&gland, model, seal);

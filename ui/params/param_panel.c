@@ -34,6 +34,7 @@ struct _SbParamPanel {
   GtkWidget *rubber; // the one row that is of no parameter
   int group_of[SB_PARAM_COUNT];
   GArray *groups;    // of Group
+  int kind;          // of the valve whose main ones are listed
   gboolean narrowed; // rows are left out, and all groups unfolded
   gboolean refreshing;
 };
@@ -192,6 +193,12 @@ static void refresh(SbParamPanel *panel) {
     show_effects(panel); // of former values from now on
   }
   name_filters(panel);
+  const SbParams params = sb_document_params(sb_session_document(panel->session));
+  const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
+  if (kind != panel->kind) {
+    panel->kind = kind;
+    list(panel);
+  }
   // A row that is being edited stays until another list is asked for.
   GtkWidget *top = gtk_widget_get_toplevel(GTK_WIDGET(panel));
   GtkWidget *focus = GTK_IS_WINDOW(top) ? gtk_window_get_focus(GTK_WINDOW(top)) : NULL;

@@ -201,7 +201,8 @@ static void describe_loop(SbSession *session, GString *text) {
   g_string_append_printf(text, _("now %s."), where);
 }
 
-static void describe_contacts(const SbFrame *frame, SbChartViewKind kind, GString *text) {
+static void describe_contacts(const SbModel *model, const SbFrame *frame, SbChartViewKind kind,
+                              GString *text) {
   char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
   if (frame == NULL) {
     g_string_append(text, _("No run yet."));
@@ -209,7 +210,7 @@ static void describe_contacts(const SbFrame *frame, SbChartViewKind kind, GStrin
   }
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const SbSealFrame *seal = &frame->seal[i];
-    const char *name = i == SB_OUTER ? _("Outer seal") : _("Inner seal");
+    const char *name = sb_chart_seal_name(model, i);
     double width = seal->contact_right - seal->contact_left;
     if (width <= 0 || seal->land_fraction <= 0) {
       g_string_append_printf(text, _("%s: no contact. "), name);
@@ -289,7 +290,8 @@ static gboolean describe(gpointer data) {
     g_autofree char *reasons = sb_rig_reasons_text(run);
     g_string_append(text, reasons);
   } else {
-    describe_contacts(sb_session_frame(view->session), view->kind, text);
+    describe_contacts(sb_session_model(view->session), sb_session_frame(view->session), view->kind,
+                      text);
   }
   if (view->zoomed) {
     g_string_append_printf(text, _(" Enlarged: %.3g to %.3g mm, %.3g to %.3g N."), view->zoom.x0,
@@ -317,7 +319,7 @@ static gboolean describe(gpointer data) {
   if (predicted != NULL) {
     g_string_append(text, _(" Dashed: predicted for the present values. "));
     if (view->kind != SB_CHART_VIEW_LOOP) {
-      describe_contacts(predicted->run.frames, view->kind, text);
+      describe_contacts(sb_session_model(view->session), predicted->run.frames, view->kind, text);
     }
   }
   sb_style_name(view->area, name, text->str);

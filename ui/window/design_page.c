@@ -29,7 +29,11 @@ typedef struct {
       *area[AREAS], *limits, *side, *side_button, *progress, *pause, *stop, *map_again, *find,
       *message;
   GtkWidget *picked, *told, *open, *pin, *use_best;
+  GtkWidget *popover; // of the bounds
   GtkWidget *free[SB_DESIGN_RANGES], *end[SB_DESIGN_RANGES][2];
+  SbParamId named[SB_DESIGN_RANGES]; // whose bounds these are, as many as
+  size_t named_count;
+  int kind; // of the valve
   SbDrawCache *cache[AREAS];
   SbDesignJob *job;
   SbDesignAnswer *answer; // the last one; NULL before
@@ -189,8 +193,44 @@ static void refresh(Page *page) {
   redraw(page);
 }
 
+static GtkWidget *make_ranges(Page *page);
+
+// Whether bounds and axes are named for the parameters of the question.
+static gboolean are_named(const Page *page) {
+  gboolean same = page->named_count == page->ask.count;
+  for (size_t i = 0; same && i < page->ask.count; i++) {
+    same = page->named[i] == page->ask.range[i].id;
+  }
+  return same;
+}
+
+// Makes the bounds' fields anew, and the axes' names.
+static void name_ranges(Page *page) {
+  GtkWidget *before = gtk_bin_get_child(GTK_BIN(page->popover));
+  if (before != NULL) {
+    gtk_widget_destroy(before);
+  }
+  GtkWidget *ranges = make_ranges(page);
+  gtk_container_add(GTK_CONTAINER(page->popover), ranges);
+  gtk_widget_show_all(ranges);
+  page->named_count = page->ask.count;
+  for (size_t i = 0; i < page->ask.count; i++) {
+    page->named[i] = page->ask.range[i].id;
+  }
+  for (int axis = 0; axis < 2 && page->axis[axis] != NULL; axis++) {
+    GtkComboBoxText *combo = GTK_COMBO_BOX_TEXT(page->axis[axis]);
+    gtk_combo_box_text_remove_all(combo);
+    for (size_t i = 0; i < page->ask.count; i++) {
+      gtk_combo_box_text_append_text(combo, sb_translation(sb_param(page->named[i])->label));
+    }
+  }
+}
+
 static void show_ranges(Page *page) {
   page->refreshing = TRUE;
+  if (!are_named(page)) {
+    name_ranges(page);
+  }
   for (size_t i = 0; i < page->ask.count; i++) {
     const SbDesignRange *range = &page->ask.range[i];
     gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(page->free[i]), range->free);
@@ -319,12 +359,16 @@ static gboolean on_later(gpointer data) {
 // Another document has its own question; other values another map.
 static void follow(Page *page) {
   const SbDocument *document = sb_session_document(page->session);
-  if (document != page->document) {
+  const SbParams params = sb_document_params(document);
+  const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
+  if (document != page->document || kind != page->kind) {
     page->document = document;
+    page->kind = kind;
     sb_design_ask_init(&page->ask, document);
     page->chosen = sb_figure_find("cycle.force_return_min_N");
     const SbModel *model = sb_session_model(page->session);
-    if (model != NULL && sb_model_number(model, SB_P_SEAL_PROFILE) != 0) {
+    if (kind == SB_VALVE_GASKET ||
+        (model != NULL && sb_model_number(model, SB_P_SEAL_PROFILE) != 0)) {
       page->ask.closed = FALSE; // no closed form knows such a section
     }
     end_job(page);
@@ -786,11 +830,8 @@ static void add_question(Page *page, GtkBox *to) {
   gtk_widget_set_hexpand(page->goal, TRUE);
   g_signal_connect(page->goal, "changed", G_CALLBACK(on_goal), page);
   page->parameters = gtk_menu_button_new();
-  GtkWidget *popover = gtk_popover_new(page->parameters);
-  GtkWidget *ranges = make_ranges(page);
-  gtk_container_add(GTK_CONTAINER(popover), ranges);
-  gtk_widget_show_all(ranges);
-  gtk_menu_button_set_popover(GTK_MENU_BUTTON(page->parameters), popover);
+  page->popover = gtk_popover_new(page->parameters);
+  gtk_menu_button_set_popover(GTK_MENU_BUTTON(page->parameters), page->popover);
   gtk_container_add(GTK_CONTAINER(page->parameters), gtk_label_new(_("Bounds")));
   gtk_widget_set_tooltip_text(page->parameters,
                               _("Which parameters the search moves, and between what"));

@@ -28,7 +28,8 @@ static void refresh(Switch *self) {
     gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(self->button[i]), fit == choices[i].fit);
   }
   self->refreshing = FALSE;
-  gtk_widget_set_visible(self->box, !sb_model_is_rig(sb_session_model(self->session)));
+  const SbModel *model = sb_session_model(self->session);
+  gtk_widget_set_visible(self->box, !sb_model_is_rig(model) && !sb_model_is_gasket(model));
 }
 
 static void on_toggled(GtkToggleButton *button, Switch *self) {
