@@ -105,9 +105,10 @@ static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
   }
 }
 
-// Rubbing on floor and walls under pressure a dragged ring, and a gasket between its plates, keeps what the coarse meshes of its path
-// have left there: by a law that is not Coulomb's other meshes and path tolerances give loads up to
-// 1.2 % and widths up to 0.5 % apart (measured), which its last two meshes do not see.
+// Rubbing on floor and walls under pressure a dragged ring, and a gasket between its plates, keeps
+// what the coarse meshes of its path have left there: by a law that is not Coulomb's other meshes
+// and path tolerances give loads up to 1.2 % and widths up to 0.5 % apart (measured), which its
+// last two meshes do not see.
 static const double PATH_LOAD = 0.012, PATH_PEAK = 0.005, PATH_WIDTH = 0.005;
 
 static bool keeps_path(const SbFitProblem *in) {

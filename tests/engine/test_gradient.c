@@ -121,7 +121,8 @@ static void scatter(double *off, const Valve *valve, const SbGradient *gradient,
 // Leaves out groups of which few parameters or none enter these figures, so that draws are no
 // waste.
 static bool may_enter(SbParamId id) {
-  static const char *const groups[] = {"part.", "study.", "output.", "rig.", "life.", "rubber."};
+  static const char *const groups[] = {"part.", "study.",  "output.", "rig.",
+                                       "life.", "rubber.", "gasket."};
   for (size_t i = 0; i < G_N_ELEMENTS(groups); i++) {
     if (g_str_has_prefix(sb_param(id)->key, groups[i])) {
       return false;
