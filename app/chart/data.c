@@ -46,6 +46,22 @@ const char *sb_chart_seal_name(const SbModel *model, int seal) {
                           : _("Inner seal");
 }
 
+size_t sb_chart_forces(SbChartForce *force, const SbModel *model, const SbFrame *frame) {
+  const bool gasket = sb_model_is_gasket(model);
+  size_t n = 0;
+  force[n++] = (SbChartForce){_("drive"), frame->force, SB_ROLE_INK};
+  force[n++] = (SbChartForce){_("pressure"), frame->pressure_force, SB_ROLE_FLUID};
+  if (sb_model_value(model, SB_P_STEM_SPRING_STIFFNESS) > 0 ||
+      sb_model_value(model, SB_P_STEM_SPRING_PRELOAD) > 0) {
+    force[n++] = (SbChartForce){_("spring"), frame->spring_force, SB_ROLE_SECOND};
+  }
+  force[n++] = (SbChartForce){gasket ? _("chamber gasket") : _("inner friction"),
+                              frame->seal[SB_INNER].friction, SB_ROLE_INNER};
+  force[n++] = (SbChartForce){gasket ? _("stem gasket") : _("outer friction"),
+                              frame->seal[SB_OUTER].friction, SB_ROLE_OUTER};
+  return n;
+}
+
 const char *sb_chart_gasket_phase(int stage) {
   static const char *const names[SB_STAGE_COUNT] = {
       N_("at rest, force builds up"),   N_("chamber fills past the neck"),

@@ -117,6 +117,19 @@ const char *sb_chart_gasket_phase(int stage);
 // What a seal of a model (NULL: of the piston valve) is called, "Inner seal"; translated.
 const char *sb_chart_seal_name(const SbModel *model, int seal);
 
+// A force on the stem with what it is called and the colour it has.
+typedef struct {
+  const char *name; // translated
+  double force;     // as in SbFrame [N]
+  SbRole role;
+} SbChartForce;
+
+enum { SB_CHART_FORCES_MAX = 5 };
+
+// The drive, and what it works against while the stem meets no stop: pressure, the spring of a
+// valve that has one, friction of both seals. Returns how many.
+size_t sb_chart_forces(SbChartForce *force, const SbModel *model, const SbFrame *frame);
+
 // What happens after stage `stage` until the next: "both seals slide".
 const char *sb_chart_phase(const SbChartRun *run, int stage);
 

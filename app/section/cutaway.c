@@ -67,7 +67,8 @@ SbCutaway *sb_cutaway_create(const SbModel *model, double inner_contact_left) {
   SbValveOutline *valve = &cutaway->valve;
   sb_valve_outline_make(valve, model, inner_contact_left, HUGE_VAL, false);
   const double bore = valve->size, mouth = sb_model_shape(model)->entry_diameter / 2;
-  const double radius = fmax(SB_SECTION_TOP * bore, valve->gasket ? 0 : mouth + 0.12 * bore);
+  const double radius =
+      valve->gasket ? valve->outside : fmax(SB_SECTION_TOP * bore, mouth + 0.12 * bore);
   sb_valve_outline_make(valve, model, inner_contact_left, radius, false);
   if (!valve->shaped_housing) {
     finish_housing(&valve->solid[0], radius, CHAMFER * bore);
@@ -459,7 +460,7 @@ static void paint_labels(SbCutaway *cutaway, SbSection *section) {
   double low, high;
   if (sb_outline_radii(&low, &high, &cutaway->valve.housing, place)) {
     name_point(row, &count, sb_section_plane_at(&upper, place, (low + high) / 2), palette->ink,
-               _("Housing"));
+               valve->gasket ? _("Body") : _("Housing"));
   }
   snprintf(text, sizeof text, _("Chamber %s"),
            sb_section_megapascal(value, (double)frame->seal[SB_INNER].pressure_right));

@@ -202,21 +202,6 @@ static void draw_fluid(SbSection *section) {
   }
 }
 
-// What stands behind the gaskets, in their pockets: the lower of their two pressures.
-static void draw_pockets(SbSection *section) {
-  const SbValveOutline *valve = &section->valve;
-  for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    const SbSealFrame *seal = &section->instant->frame->seal[i];
-    const SbPoint a = sb_section_at(section, valve->groove_left[i], valve->rim);
-    const SbPoint b =
-        sb_section_at(section, valve->groove_right[i], (valve->rim + valve->bore) / 2);
-    sb_draw_rect(
-        section->list, a.x, a.y, b.x - a.x, b.y - a.y,
-        sb_palette_fluid(section->palette, (double)MIN(seal->pressure_left, seal->pressure_right)))
-        ->feather = false;
-  }
-}
-
 SbSectionFrameMap sb_section_frame_map(double x0, double y0, double scale, const SbRect *rect) {
   enum { BEYOND = 20 };
   double left = (double)rect->x - BEYOND, top = (double)rect->y - BEYOND;
@@ -252,27 +237,39 @@ static size_t clip(SbPoint *points, size_t count, bool row, double limit, double
   return n;
 }
 
-// Fills and outlines one solid shifted by dx. Edges on the axis are no edges.
-static void draw_solid(SbSection *section, const SbSectionFrameMap *map, const SbValveSolid *solid,
-                       double dx, const SbDrawHatch *lines) {
+// Fills a polygon shifted by -dx, clipped. Returns its points, which are the caller's, and their
+// count; NULL where nothing is left.
+static SbPoint *fill(SbSection *section, const SbSectionFrameMap *map, const SbValvePoint *point,
+                     size_t *count, double dx, SbColor color, const SbDrawHatch *lines) {
   g_autofree SbPoint *pixel = g_new(SbPoint, CLIPPED_MAX);
-  size_t n = solid->count;
+  size_t n = *count;
   for (size_t i = 0; i < n; i++) {
-    const SbValvePoint *at = &solid->point[i];
+    const SbValvePoint *at = &point[i];
     pixel[i] = (SbPoint){(map->x0 + (at->x - dx) * map->scale), (map->y0 - at->y * map->scale)};
   }
   n = clip(pixel, n, false, map->left, 1);
   n = clip(pixel, n, false, map->right, -1);
   n = clip(pixel, n, true, map->top, 1);
   n = clip(pixel, n, true, map->bottom, -1);
+  *count = n;
   if (n < 3) {
+    return NULL;
+  }
+  SbDrawItem *item = sb_draw_fill(section->list, pixel, n, color);
+  if (lines != NULL) {
+    item->hatch = *lines;
+  }
+  item->feather = false;
+  return g_steal_pointer(&pixel);
+}
+
+// Fills and outlines a part. Edges on the axis are no edges.
+static void draw_part(SbSection *section, const SbSectionFrameMap *map, const SbValvePoint *point,
+                      size_t n, double dx, SbColor color, const SbDrawHatch *lines) {
+  g_autofree SbPoint *pixel = fill(section, map, point, &n, dx, color, lines);
+  if (pixel == NULL) {
     return;
   }
-  const SbPalette *palette = section->palette;
-  SbDrawItem *item =
-      sb_draw_fill(section->list, pixel, n, solid->moves ? palette->stem : palette->housing);
-  item->hatch = *lines;
-  item->feather = false;
   float axis = map->y0;
   size_t start = 0;
   bool closed = true;
@@ -286,7 +283,7 @@ static void draw_solid(SbSection *section, const SbSectionFrameMap *map, const S
   for (size_t i = 0; i < n; i++) {
     line[i] = pixel[(start + i) % n];
   }
-  sb_draw_stroke(section->list, line, n, 1.8, palette->outline)->closed = closed;
+  sb_draw_stroke(section->list, line, n, 1.8, section->palette->outline)->closed = closed;
 }
 
 static SbDrawHatch hatch(SbColor color, double lean, double offset) {
@@ -314,15 +311,74 @@ static void draw_outside(SbSection *section, const SbSectionFrameMap *map) {
   }
 }
 
+// What stands behind the gaskets, in their pockets: the lower of their two pressures.
+static void draw_pockets(SbSection *section, const SbSectionFrameMap *map) {
+  const SbValveOutline *valve = &section->valve;
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    const SbSealFrame *seal = &section->instant->frame->seal[i];
+    const double left = valve->groove_left[i], right = valve->groove_right[i];
+    const double low = (valve->rim + valve->bore) / 2;
+    const SbValvePoint room[] = {
+        {left, low}, {right, low}, {right, valve->rim}, {left, valve->rim}};
+    size_t n = G_N_ELEMENTS(room);
+    const double pressure = (double)MIN(seal->pressure_left, seal->pressure_right);
+    g_free(fill(section, map, room, &n, 0, sb_palette_fluid(section->palette, pressure), NULL));
+  }
+}
+
+// Rooms, can, ferrule and cage around a gasket valve's body, and its spring.
+static void draw_around(SbSection *section, const SbSectionFrameMap *map) {
+  const SbValveOutline *valve = &section->valve;
+  const SbPalette *palette = section->palette;
+  const SbSealFrame *seal = section->instant->frame->seal;
+  const SbDrawHatch lines = hatch(palette->housing_hatch, 1, map->x0 + map->y0);
+  const SbColor color[] = {
+      [SB_VALVE_CANISTER] = sb_palette_fluid(palette, (double)seal[SB_INNER].pressure_left),
+      [SB_VALVE_AMBIENT] = sb_palette_fluid(palette, (double)seal[SB_OUTER].pressure_right),
+      [SB_VALVE_SHEET] = palette->stem,
+      [SB_VALVE_RUBBER] = sb_color_mix(palette->panel, palette->seal[SB_OUTER], 0.5),
+      [SB_VALVE_PLASTIC] = palette->housing};
+  for (size_t i = 0; i < valve->around_count; i++) {
+    const SbValveAround *part = &valve->around[i];
+    size_t n = part->count;
+    if (part->stuff < SB_VALVE_SHEET) {
+      g_free(fill(section, map, part->point, &n, 0, color[part->stuff], NULL));
+    } else {
+      draw_part(section, map, part->point, n, 0, color[part->stuff],
+                part->stuff == SB_VALVE_PLASTIC ? &lines : NULL);
+    }
+  }
+  // Coils apart by what room there is.
+  enum { ROUND = 24 };
+  const bool sprung = sb_model_value(section->model, SB_P_STEM_SPRING_STIFFNESS) > 0 ||
+                      sb_model_value(section->model, SB_P_STEM_SPRING_PRELOAD) > 0;
+  const double first = valve->spring_seat + valve->coil / 2;
+  const double last = valve->nose - sb_section_displacement(section) - valve->coil / 2;
+  for (int i = 0; i < SB_VALVE_COILS && sprung; i++) {
+    SbValvePoint coil[ROUND];
+    for (int k = 0; k < ROUND; k++) {
+      const double angle = 2 * G_PI * k / ROUND;
+      coil[k].x = first + (last - first) * i / (SB_VALVE_COILS - 1) + valve->coil / 2 * cos(angle);
+      coil[k].y = valve->spring_radius + valve->coil / 2 * sin(angle);
+    }
+    draw_part(section, map, coil, ROUND, 0, palette->stem, NULL);
+  }
+}
+
 void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map) {
   const SbValveOutline *valve = &section->valve;
+  if (valve->gasket) {
+    draw_around(section, map);
+    draw_pockets(section, map);
+  }
   if (valve->shaped_housing) {
     draw_outside(section, map);
   }
   SbDrawHatch lines = hatch(section->palette->housing_hatch, 1, map->x0 + map->y0);
   for (size_t i = 0; i < valve->solid_count; i++) {
     if (!valve->solid[i].moves) {
-      draw_solid(section, map, &valve->solid[i], 0, &lines);
+      draw_part(section, map, valve->solid[i].point, valve->solid[i].count, 0,
+                section->palette->housing, &lines);
     }
   }
 }
@@ -333,7 +389,8 @@ void sb_section_draw_stem(SbSection *section, const SbSectionFrameMap *map) {
   SbDrawHatch lines = hatch(section->palette->stem_hatch, -1, map->x0 - s * map->scale - map->y0);
   for (size_t i = 0; i < valve->solid_count; i++) {
     if (valve->solid[i].moves) {
-      draw_solid(section, map, &valve->solid[i], s, &lines);
+      draw_part(section, map, valve->solid[i].point, valve->solid[i].count, s,
+                section->palette->stem, &lines);
     }
   }
 }
@@ -355,9 +412,6 @@ void sb_section_draw_strip(SbSection *section) {
   size_t first = list->item_count;
   const SbRect *strip = &section->strip;
   SbSectionFrameMap map = sb_section_frame_map(section->x0, section->y0, section->scale, strip);
-  if (section->valve.gasket) {
-    draw_pockets(section);
-  }
   sb_section_draw_housing(section, &map);
   sb_section_draw_stem(section, &map);
 
@@ -463,8 +517,10 @@ static void lay_out(SbSection *section, Layout *layout) {
 
   // Room on the left for the pressure arrow at full stroke, on the right for the ambient.
   double strip_width = view->width - 2 * margin;
-  double left_room = 3.4 * fabs(sb_model_pressure_force(model)) + 18;
-  double left = MIN(valve->nose - sb_model_value(model, SB_P_DRIVE_STROKE), valve->face);
+  double left_room = valve->gasket ? 0 : 3.4 * fabs(sb_model_pressure_force(model)) + 18;
+  double left = valve->gasket
+                    ? valve->left
+                    : MIN(valve->nose - sb_model_value(model, SB_P_DRIVE_STROKE), valve->face);
   double bore = valve->size;
   double right = valve->end + RIGHT_ROOM * bore;
   if (view->bare) {

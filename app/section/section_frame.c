@@ -59,39 +59,34 @@ static double legend(SbSection *section, double x, double y, double width, const
   return 62;
 }
 
-// The forces on the stem as lengths on one scale.
-static void force_bars(SbSection *section, double x, double y, double width) {
+// The forces on the stem as lengths on one scale, where they fit above `low`.
+static void force_bars(SbSection *section, double x, double y, double width, double low) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
   const SbFrame *frame = section->instant->frame;
+  SbChartForce row[SB_CHART_FORCES_MAX];
+  const size_t rows = sb_chart_forces(row, section->model, frame);
+  if (y + 12 + 17 * (double)rows >= low) {
+    return;
+  }
   const char *title = _("forces on the stem");
   sb_draw_text(list, x, y, 12, 600, SB_LEFT, palette->ink, title);
   sb_draw_text(list, x + sb_text_width(section->text, title, 12, 600) + 7, y, 12, 400, SB_LEFT,
                palette->second, "N");
-  const struct {
-    const char *name;
-    double force;
-    SbColor color;
-  } row[4] = {
-      {_("drive"), frame->force, palette->ink},
-      {_("pressure"), frame->pressure_force, palette->fluid_line},
-      {_("inner friction"), frame->seal[SB_INNER].friction, palette->seal[SB_INNER]},
-      {_("outer friction"), frame->seal[SB_OUTER].friction, palette->seal[SB_OUTER]},
-  };
   double zero = x + 106;
   double px = (x + width - 44 - zero) / fmax(section->limits.force_max, 36);
-  for (int i = 0; i < 4; i++) {
-    double base = y + 19 + 17 * i;
+  for (size_t i = 0; i < rows; i++) {
+    double base = y + 19 + 17 * (double)i;
     char text[SB_SECTION_NUMBER];
     sb_draw_text(list, x, base, 11, 400, SB_LEFT, palette->second, row[i].name);
     double length = fabs(row[i].force) * px;
     if (length > 0.5) {
-      sb_draw_rect(list, zero, base - 8, length, 8, row[i].color);
+      sb_draw_rect(list, zero, base - 8, length, 8, sb_theme(palette->dark)->role[row[i].role]);
     }
     sb_section_fixed(text, row[i].force, 1);
     sb_draw_text(list, zero + length + 6, base, 11, 600, SB_LEFT, palette->ink, text);
   }
-  sb_draw_line(list, zero - 0.5, y + 8, zero - 0.5, y + 8 + 17 * 4, 1, palette->axis);
+  sb_draw_line(list, zero - 0.5, y + 8, zero - 0.5, y + 8 + 17 * (double)rows, 1, palette->axis);
 }
 
 // Title of the panel, or the frame's read-outs in its place. At most 44 px high.
@@ -164,7 +159,7 @@ void sb_section_draw_legends(SbSection *section, double x, double y, double widt
   }
   at += legend(section, x, at, width, _("fluid pressure"), _("MPa, gauge"), &palette->fluid, 0,
                fluid_full);
-  if (!view->hide_forces && at + 84 < low) {
-    force_bars(section, x, at + 4, width);
+  if (!view->hide_forces) {
+    force_bars(section, x, at + 4, width, low);
   }
 }

@@ -15,14 +15,27 @@ static SbSectionLabel style_of(SbColor color, int weight, SbAlign align, const S
 static void draw_names(SbSection *section) {
   const SbPalette *palette = section->palette;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    const SbSealFrame *seal = &section->instant->frame->seal[i];
-    char text[64];
-    snprintf(text, sizeof text, "%s%s", sb_chart_seal_name(section->model, i),
-             seal->land_fraction > 0 ? "" : _(", around the neck"));
     const SbPoint above = sb_section_at(section, sb_section_origin(section, i), section->valve.rim);
     const SbSectionLabel style = style_of(palette->seal[i], 600, SB_MIDDLE, &palette->housing);
     const double at[2][2] = {{above.x, above.y - 10}, {above.x, above.y - 27}};
-    sb_section_place(section, at, 2, &style, text);
+    sb_section_place(section, at, 2, &style, sb_chart_seal_name(section->model, i));
+  }
+}
+
+// What stands around the body, each named from outside.
+static void draw_around_names(SbSection *section) {
+  const SbValveOutline *valve = &section->valve;
+  const SbSectionLabel style = style_of(section->palette->second, 400, SB_LEFT, NULL);
+  const SbPoint side = sb_section_at(section, valve->ferrule, 0.75 * valve->outside);
+  const SbPoint over =
+      sb_section_at(section, valve->neck_gasket, (valve->outside + valve->flange) / 2);
+  const SbPoint can = sb_section_at(section, valve->face, valve->flange);
+  const double ferrule[1][2] = {{side.x + 8, side.y}};
+  const double gasket[1][2] = {{over.x + 8, over.y + 1}};
+  const double neck[1][2] = {{can.x, can.y + 4}};
+  if (sb_section_place(section, ferrule, 1, &style, _("ferrule")) &&
+      sb_section_place(section, gasket, 1, &style, _("neck gasket"))) {
+    sb_section_place(section, neck, 1, &style, _("can"));
   }
 }
 
@@ -94,7 +107,7 @@ static void draw_liquid(SbSection *section) {
     const double right = fmin(valve->shoulder - s, valve->chamber);
     const double middle = valve->bore + 0.2 * (valve->chamber_roof - valve->bore);
     const SbValvePoint way[] = {{left, valve->bore + 0.1 * valve->size},
-                                {valve->face - 0.04 * valve->size, valve->bore},
+                                {valve->slot - 0.03 * valve->size, valve->bore},
                                 {valve->groove_left[SB_INNER], neck},
                                 {valve->groove_right[SB_INNER], neck},
                                 {right, (neck + middle) / 2},
@@ -112,7 +125,7 @@ static void draw_liquid(SbSection *section) {
                                 {port, out + 0.1 * valve->bore},
                                 {port + 0.08 * valve->size, out},
                                 {valve->end + 0.1 * valve->size, out}};
-    const SbPoint text = sb_section_at(section, valve->end + 0.1 * valve->size, valve->bore);
+    const SbPoint text = sb_section_at(section, valve->ferrule + 0.13 * valve->size, valve->bore);
     draw_way(section, way, 6, _("to the atomiser"), text.x, text.y - 8);
   }
 }
@@ -121,6 +134,7 @@ void sb_section_gasket_labels(SbSection *section, bool whole) {
   draw_names(section);
   if (whole) {
     draw_rooms(section);
+    draw_around_names(section);
     draw_liquid(section);
   }
 }

@@ -275,7 +275,7 @@ void sb_valve_outline_make(SbValveOutline *valve, const SbModel *model, double i
                            double top, bool vent) {
   memset(valve, 0, sizeof *valve);
   if (sb_model_number(model, SB_P_VALVE_KIND) == SB_VALVE_GASKET) {
-    sb_valve_gasket_make(valve, model, top, vent);
+    sb_valve_gasket_make(valve, model, vent);
     finish_housing(valve);
     return;
   }

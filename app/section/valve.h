@@ -31,6 +31,24 @@ typedef struct {
   SbValvePoint point[SB_VALVE_POINTS_MAX];
 } SbValveSolid;
 
+// What stands around a gasket valve's body: rooms by their fluid, sheet metal, rubber, plastic.
+typedef enum {
+  SB_VALVE_CANISTER,
+  SB_VALVE_AMBIENT,
+  SB_VALVE_SHEET,
+  SB_VALVE_RUBBER,
+  SB_VALVE_PLASTIC
+} SbValveStuff;
+
+enum { SB_VALVE_AROUND_POINTS = 12, SB_VALVE_AROUND_MAX = 8, SB_VALVE_COILS = 5 };
+
+// One of those in the housing's frame, back to front; no result depends on them.
+typedef struct {
+  SbValveStuff stuff;
+  size_t count;
+  SbValvePoint point[SB_VALVE_AROUND_POINTS];
+} SbValveAround;
+
 typedef struct {
   double bore, floor, land;     // radii: bore, groove floor, stem's land [m]
   double mouth;                 // radius of the housing's mouth at its face
@@ -52,11 +70,19 @@ typedef struct {
   // Of a gasket valve: bore, floor and land are the stem, which slides on the gaskets.
   bool gasket;
   double rim;                   // radius of the pockets that hold the gaskets
+  double outside;               // radius of the body
   double chamber_roof;          // radius of the chamber
   double shoulder;              // x of the stem's shoulder behind the neck, stem's frame
   double port_left, port_right; // of the stem's side port, stem's frame
   double channel;               // radius of the channel behind it
-  bool adjusted;                // some drawing size had to give way, or a profile was stretched
+  size_t around_count;
+  SbValveAround around[SB_VALVE_AROUND_MAX];
+  double spring_seat;                  // x on which the spring stands; its other end is the nose
+  double spring_radius, coil;          // of its wire's middle; diameter of the wire
+  double slot;                         // x of the slots' edge, behind which the liquid comes in
+  double left;                         // of all that is to be seen
+  double ferrule, neck_gasket, flange; // x of the ferrule's outer faces; radius of the can's flange
+  bool adjusted; // some drawing size had to give way, or a profile was stretched
 } SbValveOutline;
 
 // Builds the outlines, the housing with its vent or without. inner_contact_left: left end of the

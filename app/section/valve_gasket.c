@@ -1,20 +1,78 @@
 // Outlines of a gasket valve (engine/valve/gasket.h): the body that clamps both gaskets between
 // plates and holds the chamber, and the stem with its neck, its side port and the channel behind.
 //
-// The housing's frame has the chamber gasket's middle at x = 0. Left out: the can's neck and the
-// ferrule's crimp, which the body stands for, and the spring.
+// The housing's frame has the chamber gasket's middle at x = 0. Can, ferrule, neck gasket, cage and
+// spring are a scheme around it: no result depends on their sizes.
 #include "app/section/valve_private.h"
 
 #include "engine/valve/sealbench.h"
 
 #include <math.h>
+#include <string.h>
 
 // Proportions that are not worth a parameter, of the gaskets' thickness: the body beyond the outer
-// plates, the plates' way past the stem, the room around the gaskets; of the stem's radius: the
-// channel; of the neck's depth: its ends.
-static const double END = 0.7, CLEARANCE = 0.03, POCKET = 0.1, CHANNEL = 0.4, BEVEL = 0.6;
+// plates, the plates' way past the stem, the room around the gaskets, the body's wall around that,
+// sheet metal, the spring's cage, the can's flange; of the stem's radius: the channel; of the
+// neck's depth: its ends. The rise of the can's shoulder.
+static const double END = 0.7, CLEARANCE = 0.03, POCKET = 0.1, WALL = 0.7, SHEET = 0.22,
+                    CAGE = 0.45, CAGE_IN = 0.35, CAGE_OUT = 0.95, FLANGE = 0.5, CHANNEL = 0.4,
+                    BEVEL = 0.6, CONE = 0.7;
 
-void sb_valve_gasket_make(SbValveOutline *valve, const SbModel *model, double top, bool port) {
+enum { COILS = SB_VALVE_COILS };
+
+static void add_around(SbValveOutline *valve, SbValveStuff stuff, const SbValvePoint *point,
+                       size_t count) {
+  SbValveAround *around = &valve->around[valve->around_count++];
+  around->stuff = stuff;
+  around->count = count;
+  memcpy(around->point, point, count * sizeof *point);
+}
+
+#define ADD_AROUND(valve, stuff, ...)                                                              \
+  add_around(valve, stuff, (const SbValvePoint[]){__VA_ARGS__},                                    \
+             sizeof((const SbValvePoint[]){__VA_ARGS__}) / sizeof(SbValvePoint))
+
+// The ferrule, which clamps the body and is crimped behind the flange of the can's neck, a gasket
+// between them.
+static void stand_around(SbValveOutline *valve, double thick) {
+  const double sheet = SHEET * thick, out = valve->outside, end = valve->end;
+  const double neck = out + 0.12 * thick, flange = neck + FLANGE * thick;
+  const double at = 0.4 * (valve->face + end) + 0.6 * valve->chamber, step = at + 0.35 * thick;
+  const double lip = at - sheet, back = 0.3 * thick, shoulder = valve->face - 0.3 * thick;
+  valve->ferrule = end + sheet;
+  valve->neck_gasket = step + sheet;
+  valve->flange = flange;
+  const double far = 40 * thick, high = neck + CONE * far, fold = valve->mouth + 0.25 * thick;
+  ADD_AROUND(valve, SB_VALVE_CANISTER, {valve->face, out}, {step, out}, {step, neck + sheet},
+             {valve->face, neck + sheet});
+  ADD_AROUND(valve, SB_VALVE_AMBIENT, {shoulder - far, high + sheet}, {shoulder, neck + sheet},
+             {lip, neck + sheet}, {lip, flange}, {step, flange}, {step, out}, {end, out}, {end, 0},
+             {end + far, 0}, {end + far, high + far});
+  ADD_AROUND(valve, SB_VALVE_SHEET, {at, neck}, {at, flange}, {lip, flange}, {lip, neck + sheet},
+             {shoulder, neck + sheet}, {shoulder - far, high + 1.22 * sheet},
+             {shoulder - far, high}, {shoulder, neck});
+  ADD_AROUND(valve, SB_VALVE_RUBBER, {at, neck}, {step, neck}, {step, flange}, {at, flange});
+  ADD_AROUND(valve, SB_VALVE_SHEET, {step, flange}, {step, out}, {end, out}, {end, fold},
+             {end + sheet, fold}, {end + sheet, out + sheet}, {step + sheet, out + sheet},
+             {step + sheet, flange + sheet}, {lip - 0.3 * sheet, flange + sheet},
+             {lip - back - 0.7 * sheet, flange - back + 0.7 * sheet}, {lip - back, flange - back},
+             {lip, flange});
+}
+
+// The cage that the spring stands in, with room for its coils at full stroke and slots to fill by.
+static void cage_spring(SbValveOutline *valve, double thick, double stroke) {
+  const double wire = fmin(0.36 * thick, 0.5 * valve->bore), wall = CAGE * thick;
+  const double in = valve->bore + CAGE_IN * thick, out = valve->bore + CAGE_OUT * thick;
+  const double seat = valve->nose - stroke - (COILS + 0.3) * wire;
+  valve->coil = wire;
+  valve->spring_radius = 0.96 * valve->bore - 0.5 * wire;
+  valve->spring_seat = seat;
+  valve->left = seat - wall - 0.3 * thick;
+  ADD_AROUND(valve, SB_VALVE_PLASTIC, {seat - wall, 0.45 * valve->bore}, {seat, 0.45 * valve->bore},
+             {seat, in}, {seat + 0.8 * thick, in}, {seat + 0.8 * thick, out}, {seat - wall, out});
+}
+
+void sb_valve_gasket_make(SbValveOutline *valve, const SbModel *model, bool port) {
   const SbValveShape *shape = sb_model_shape(model);
   const double thick = sb_model_value(model, SB_P_GASKET_THICKNESS);
   const double half = 0.5 * thick * (1 - sb_model_value(model, SB_P_GASKET_CRIMP));
@@ -26,11 +84,12 @@ void sb_valve_gasket_make(SbValveOutline *valve, const SbModel *model, double to
   // Volume that crimping moves outwards.
   const double crimped = outer * (1 + 0.5 * sb_model_value(model, SB_P_GASKET_CRIMP));
   const double pocket = crimped + POCKET * thick, apart = shape->seal_spacing;
-  top = fmax(top, pocket + 0.3 * thick);
+  const double top = pocket + WALL * thick;
   valve->gasket = true;
   valve->bore = valve->floor = valve->land = valve->rod = stem;
-  valve->size = 2 * 0.85 * pocket;
+  valve->size = 2 * 0.93 * pocket;
   valve->rim = pocket;
+  valve->outside = top;
   valve->origin[SB_INNER] = 0;
   valve->origin[SB_OUTER] = apart;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
@@ -47,7 +106,13 @@ void sb_valve_gasket_make(SbValveOutline *valve, const SbModel *model, double to
   valve->chamber_roof = chamber;
 
   SbValveSolid *body = sb_valve_new_solid(valve, false);
+  const double cage_in = stem + CAGE_IN * thick, cage_out = stem + CAGE_OUT * thick;
+  const double slot = valve->slot = valve->face - CAGE * thick;
   const SbValvePoint inside[] = {{valve->face, top},
+                                 {valve->face, cage_out},
+                                 {slot, cage_out},
+                                 {slot, cage_in},
+                                 {valve->face, cage_in},
                                  {valve->face, hole},
                                  {-half, hole},
                                  {-half, pocket},
@@ -83,6 +148,8 @@ void sb_valve_gasket_make(SbValveOutline *valve, const SbModel *model, double to
   valve->port_left = hole_left;
   valve->port_right = hole_right;
   valve->channel = channel;
+  stand_around(valve, thick);
+  cage_spring(valve, thick, sb_model_value(model, SB_P_DRIVE_STROKE));
   SbValveSolid *solid = sb_valve_new_solid(valve, true);
   if (!port) {
     sb_valve_add(solid, far, channel);

@@ -9,4 +9,4 @@ void sb_valve_add(SbValveSolid *solid, double x, double y);
 
 // The outlines of a gasket valve, the stem with its side port or as if it had none, its channel
 // alone.
-void sb_valve_gasket_make(SbValveOutline *valve, const SbModel *model, double top, bool port);
+void sb_valve_gasket_make(SbValveOutline *valve, const SbModel *model, bool port);

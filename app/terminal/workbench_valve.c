@@ -193,21 +193,14 @@ static void draw_now(SbBench *bench, SbCellRect rect) {
   sb_cells_text(cells, rect.x + word + 2, y, rect.width - word - 2, phase,
                 sb_bench_pen(bench, SB_ROLE_NOW, 0));
   y++;
-  const SbSealFrame *outer = &frame->seal[SB_OUTER], *inner = &frame->seal[SB_INNER];
-  const struct {
-    const char *name;
-    double value;
-    SbRole role;
-  } force[] = {{_("drive"), frame->force, SB_ROLE_INK},
-               {_("pressure"), frame->pressure_force, SB_ROLE_FLUID},
-               {_("outer friction"), outer->friction, SB_ROLE_OUTER},
-               {_("inner friction"), inner->friction, SB_ROLE_INNER}};
+  SbChartForce force[SB_CHART_FORCES_MAX];
+  const size_t forces = sb_chart_forces(force, data->run.model, frame);
   double scale = 0;
-  for (size_t i = 0; i < G_N_ELEMENTS(force); i++) {
-    scale = fmax(scale, fabs(force[i].value));
+  for (size_t i = 0; i < forces; i++) {
+    scale = fmax(scale, fabs(force[i].force));
   }
-  for (size_t i = 0; i < G_N_ELEMENTS(force) && y < bottom; i++) {
-    draw_bar(bench, rect, y++, force[i].name, force[i].value, scale, force[i].role);
+  for (size_t i = 0; i < forces && y < bottom; i++) {
+    draw_bar(bench, rect, y++, force[i].name, force[i].force, scale, force[i].role);
   }
   y++;
   static const char *const contacts[SB_SEAL_COUNT] = {N_("outer contact"), N_("inner contact")};

@@ -1,6 +1,6 @@
-// The balance of forces on the stem: machine force = pressure force + friction of both seals
-// (negative on the way back) + stop force. What is missing from it is inertia, which a quasi-static
-// run lacks and the window does not draw.
+// The balance of forces on the stem: machine force = pressure force + spring force + friction of
+// both seals (negative on the way back) + stop force. What is missing from it is inertia, which a
+// quasi-static run lacks and the window does not draw.
 #include "ui/views/force_balance.h"
 
 #include "app/base/format.h"
@@ -75,18 +75,26 @@ void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
     x += sb_canvas_text(&canvas, "\xe2\x88\x92", &plain, x, y, SB_LEFT) + 4;
   }
   x = part(&canvas, x, y, scale, theme->role[SB_ROLE_FLUID], _("pressure"), frame->pressure_force);
-  static const char *const names[SB_SEAL_COUNT] = {
-      [SB_OUTER] = N_("outer"), [SB_INNER] = N_("inner")};
+  if (frame->spring_force > 0.005) {
+    sb_canvas_text(&canvas, "+", &plain, x + 9, y, SB_MIDDLE);
+    x = part(&canvas, x + 18, y, scale, theme->role[SB_ROLE_SECOND], _("spring"),
+             frame->spring_force);
+  }
+  const bool gasket = sb_model_is_gasket(data->run.model);
+  const char *const names[SB_SEAL_COUNT] = {[SB_OUTER] = gasket ? _("stem gasket") : _("outer"),
+                                            [SB_INNER] = gasket ? _("chamber gasket") : _("inner")};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const SbSealFrame *seal = &frame->seal[i];
     if (seal->load <= 0 || seal->land_fraction <= 0) {
-      const char *off = i == SB_OUTER ? _("outer seal off the land") : _("inner seal off the land");
+      const char *off = gasket          ? _("no friction around the neck")
+                        : i == SB_OUTER ? _("outer seal off the land")
+                                        : _("inner seal off the land");
       x += 14;
       x += sb_canvas_text(&canvas, off, &plain, x, y, SB_LEFT);
     } else if (fabs(seal->friction) > 0.005) {
       sb_canvas_text(&canvas, seal->friction < 0 ? "\xe2\x88\x92" : "+", &plain, x + 9, y,
                      SB_MIDDLE);
-      x = part(&canvas, x + 18, y, scale, sb_theme_seal(theme, i), _(names[i]), seal->friction);
+      x = part(&canvas, x + 18, y, scale, sb_theme_seal(theme, i), names[i], seal->friction);
     }
   }
   if (fabs(frame->stop_force) > 0.005) {
