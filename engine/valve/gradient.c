@@ -29,9 +29,11 @@ static const double parts[LEVELS] = {1e-3, 6e-5, 4e-6, 1.6e-2, 8e-6, 1.3e-4};
 
 typedef struct {
   bool asked, one_sided;
-  bool pair;    // no half steps were asked: the outer ones are enough
-  double h;     // [SI]; one-sided: of the side's sign
-  double fault; // of the rings' active sets over the step, the mean of both sides [1/SI]
+  bool pair; // no half steps were asked: the outer ones are enough
+  double h;  // [SI]; one-sided: of the side's sign
+  // Of each seal's rings' active sets over the step, the mean of both sides, last the larger
+  // [1/SI].
+  double fault[SB_SEAL_COUNT + 1];
 } Level;
 
 typedef struct {
@@ -52,7 +54,7 @@ typedef struct {
   SbEvaluator *start;           // beside whose rings all others are, owned; NULL: there are none
   bool rings;                   // this parameter enters rings
   bool refused;                 // the last question, by the parameters alone
-  double fault;                 // of the last answer's rings
+  double fault[SB_SEAL_COUNT];  // of the last answer's rings
   SbGradientContacts contacts, moved, up; // of the base's rings to first order, of the last
                                           // answer's, at a step up
   double tolerance;                       // that films are solved to
@@ -84,8 +86,9 @@ static SbStatus ask(Work *work, double *value, double x, bool tell) {
   }
   SbGradientOutcome now;
   const SbSummary *summary = sb_evaluator_summary(by);
-  work->fault =
-      summary != NULL ? fmax(summary->ring_fault[SB_OUTER], summary->ring_fault[SB_INNER]) : 0;
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    work->fault[i] = summary != NULL ? summary->ring_fault[i] : 0;
+  }
   if (summary != NULL) {
     sb_gradient_contacts(&work->moved, summary);
   }
@@ -171,10 +174,11 @@ static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
                       .step = h / 2};
     nearest = fmax(fabs(up), fabs(down));
   }
+  const int seal = sb_figure(work->question.figure[figure])->seal;
   const double part = at >= RINGS ? RINGS_ROUNDING : ROUNDING;
   const double rounding = part * work->size[figure] / out->step;
   out->error =
-      fabs(out->slope - last) + 2 * rounding + RESPONSE * level->fault * work->size[figure];
+      fabs(out->slope - last) + 2 * rounding + RESPONSE * level->fault[seal] * work->size[figure];
   out->hidden = 2 * rounding > 0.5 * out->error;
   const bool falls = out->apart < 0.75 * out->before;
   const bool small = out->apart <= fmax(1e-4 * nearest, 8 * rounding);
@@ -298,7 +302,7 @@ static SbStatus ask_places(Work *work, int at, double x, bool *refused) {
   const double *places = level->one_sided ? one : sides;
   refused[0] = refused[1] = false;
   level->asked = true;
-  level->fault = 0;
+  memset(level->fault, 0, sizeof level->fault);
   for (int i = 0; i < POINTS; i++) {
     if (i == 2 && at >= RINGS && !level->one_sided) {
       // A value that is given may mean more than the same by default.
@@ -325,7 +329,11 @@ static SbStatus ask_places(Work *work, int at, double x, bool *refused) {
     work->up = i == 0 ? work->moved : work->up;
     refused[places[i] * level->h < 0] |= work->refused;
     if (i < 2) {
-      level->fault += work->fault / fabs(places[i] * level->h) / 2;
+      const double half = 0.5 / fabs(places[i] * level->h);
+      for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+        level->fault[seal] += half * work->fault[seal];
+      }
+      level->fault[SB_SEAL_COUNT] += half * fmax(work->fault[SB_OUTER], work->fault[SB_INNER]);
     }
   }
   return SB_OK;

@@ -17,7 +17,9 @@
 // What they do to it is told in the error: three times the forces that violate the base's set
 // beside it, over the step (ring_contact.h), in smooth grooves 0, with friction on floor and walls
 // usually per cents: there the nodes that slide in the base stick as soon as a change leads them
-// back. Nodes that stick keep their place on floor and walls. Differences of solved rings 2 % to
+// back. Nodes that stick keep their place on floor and walls; a ring that pressure or gland.start
+// laid on its wall goes with it, and where friction dragged it there the error has what the floor's
+// friction could change by on a longer way. Differences of solved rings 2 % to
 // either side, each on a mesh of its own, are 1 to 3 % away where the base's pressure is a smooth
 // curve, and more where a strong drag folds it up at one end, films first: the error has a share of
 // what load, width and peak change by, a small one of loads, three quarters for films. A slope that

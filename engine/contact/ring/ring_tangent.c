@@ -231,7 +231,9 @@ static SbStatus linear(SbRing **out, SbRingTangent *tangent, const SbRingBody *b
   memcpy(other->held, tangent->base->held, sizeof other->held);
   other->first_order = true;
   move(other, base);
-  other->fault = fmax(0.0, sb_ring_contact_fault(other->contact) - tangent->base->fault);
+  const SbRingLoad target = sb_ring_load_in(load, other->length, other->stress);
+  other->fault = fmax(0.0, sb_ring_contact_fault(other->contact) - tangent->base->fault) +
+                 sb_ring_way_fault(ring, &target);
   *out = other;
   return SB_OK;
 }
