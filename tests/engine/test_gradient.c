@@ -499,8 +499,9 @@ typedef struct {
 // left open then (drag_beside() in sliding_fit.c).
 static void hold_slopes(Count *count, const Valve *valve, const SbGradient *gradient, size_t k,
                         SbEvaluator *evaluator, const SbEvaluator *start) {
-  // OWN: rounding of solved rings and films (measured: 2e-10) over a gradient's step.
-  static const double H = 2e-3, CLOSE = 1e-4, ROUNDING = 4e-9, TURNS = 5e-6, OWN = 3e-10 / 8e-6;
+  // OWN: to what friction and ring agree (drag_beside()) over a gradient's step: where nothing
+  // depends there is that alone.
+  static const double H = 2e-3, CLOSE = 1e-4, ROUNDING = 4e-9, TURNS = 5e-6, OWN = 1e-9 / 8e-6;
   const double x = sb_gradient_at(gradient, k), h = H * fabs(x);
   const SbParamId id = sb_gradient_parameter(gradient, k);
   double up[FIGURES], down[FIGURES];
@@ -513,7 +514,8 @@ static void hold_slopes(Count *count, const Valve *valve, const SbGradient *grad
     const double is = sb_gradient_slope(gradient, i, k), error = sb_gradient_error(gradient, i, k);
     const double solved = (up[i] - down[i]) / (2 * h), off = fabs(is - solved);
     const double unit = fabs(sb_gradient_value(gradient, i)) / h;
-    const double rounding = ROUNDING * unit + OWN * fabs(sb_gradient_value(gradient, i) / x);
+    const double least = OWN * fabs(sb_gradient_value(gradient, i) / x);
+    const double rounding = ROUNDING * unit + (fabs(solved) < ROUNDING * unit ? least : 0);
     const bool sets = same[sb_figure(valve->figure[i])->seal];
     if (!isfinite(is) || (is == 0 && solved == 0)) {
       continue;
