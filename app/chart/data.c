@@ -51,8 +51,7 @@ size_t sb_chart_forces(SbChartForce *force, const SbModel *model, const SbFrame 
   size_t n = 0;
   force[n++] = (SbChartForce){_("drive"), frame->force, SB_ROLE_INK};
   force[n++] = (SbChartForce){_("pressure"), frame->pressure_force, SB_ROLE_FLUID};
-  if (sb_model_value(model, SB_P_STEM_SPRING_STIFFNESS) > 0 ||
-      sb_model_value(model, SB_P_STEM_SPRING_PRELOAD) > 0) {
+  if (sb_model_has_spring(model)) {
     force[n++] = (SbChartForce){_("spring"), frame->spring_force, SB_ROLE_SECOND};
   }
   force[n++] = (SbChartForce){gasket ? _("chamber gasket") : _("inner friction"),

@@ -65,11 +65,12 @@ SbCutaway *sb_cutaway_create(const SbModel *model, double inner_contact_left) {
   cutaway->point = g_array_new(FALSE, FALSE, sizeof(SbPoint));
   cutaway->scalar = g_array_new(FALSE, FALSE, sizeof(float));
   SbValveOutline *valve = &cutaway->valve;
-  sb_valve_outline_make(valve, model, inner_contact_left, HUGE_VAL, false);
-  const double bore = valve->size, mouth = sb_model_shape(model)->entry_diameter / 2;
-  const double radius =
-      valve->gasket ? valve->outside : fmax(SB_SECTION_TOP * bore, mouth + 0.12 * bore);
+  const double diameter = sb_model_value(model, SB_P_BORE_DIAMETER);
+  const double entry = sb_model_shape(model)->entry_diameter / 2;
+  double radius = fmax(SB_SECTION_TOP * diameter, entry + 0.12 * diameter);
   sb_valve_outline_make(valve, model, inner_contact_left, radius, false);
+  const double bore = valve->size;
+  radius = valve->gasket ? valve->outside : radius; // which has its own
   if (!valve->shaped_housing) {
     finish_housing(&valve->solid[0], radius, CHAMFER * bore);
   }

@@ -341,20 +341,18 @@ static void draw_around(SbSection *section, const SbSectionFrameMap *map) {
   for (size_t i = 0; i < valve->around_count; i++) {
     const SbValveAround *part = &valve->around[i];
     size_t n = part->count;
-    if (part->stuff < SB_VALVE_SHEET) {
-      g_free(fill(section, map, part->point, &n, 0, color[part->stuff], NULL));
+    if (part->material < SB_VALVE_SHEET) {
+      g_free(fill(section, map, part->point, &n, 0, color[part->material], NULL));
     } else {
-      draw_part(section, map, part->point, n, 0, color[part->stuff],
-                part->stuff == SB_VALVE_PLASTIC ? &lines : NULL);
+      draw_part(section, map, part->point, n, 0, color[part->material],
+                part->material == SB_VALVE_PLASTIC ? &lines : NULL);
     }
   }
   // Coils apart by what room there is.
   enum { ROUND = 24 };
-  const bool sprung = sb_model_value(section->model, SB_P_STEM_SPRING_STIFFNESS) > 0 ||
-                      sb_model_value(section->model, SB_P_STEM_SPRING_PRELOAD) > 0;
   const double first = valve->spring_seat + valve->coil / 2;
   const double last = valve->nose - sb_section_displacement(section) - valve->coil / 2;
-  for (int i = 0; i < SB_VALVE_COILS && sprung; i++) {
+  for (int i = 0; i < SB_VALVE_COILS && sb_model_has_spring(section->model); i++) {
     SbValvePoint coil[ROUND];
     for (int k = 0; k < ROUND; k++) {
       const double angle = 2 * G_PI * k / ROUND;

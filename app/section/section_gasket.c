@@ -68,30 +68,12 @@ static void draw_rooms(SbSection *section) {
   sb_section_place(section, place, 1, &body, _("Body"));
 }
 
-// An arrow along points of the housing's frame, by a Catmull-Rom curve, and what it says.
-static void draw_way(SbSection *section, const SbValvePoint *way, int count, const char *text,
+// An arrow along knots of the housing's frame, and what it says.
+static void draw_way(SbSection *section, const SbValvePoint *knot, int knots, const char *text,
                      double text_x, double text_y) {
-  enum { STEPS = 10, MOST = 8 };
-  const SbPalette *palette = section->palette;
-  SbPoint curve[MOST * STEPS + 1];
-  size_t n = 0;
-  for (int i = 0; i < count - 1; i++) {
-    const SbValvePoint a = way[MAX(i - 1, 0)], b = way[i], c = way[i + 1];
-    const SbValvePoint d = way[MIN(i + 2, count - 1)];
-    for (int k = 0; k < STEPS + (i == count - 2 ? 1 : 0); k++) {
-      const double t = (double)k / STEPS, wa = -t * (1 - t) * (1 - t) / 2;
-      const double wb = 1 - 2.5 * t * t + 1.5 * t * t * t, wd = -t * t * (1 - t) / 2;
-      const double wc = 1 - wa - wb - wd;
-      curve[n++] = sb_section_at(section, wa * a.x + wb * b.x + wc * c.x + wd * d.x,
-                                 wa * a.y + wb * b.y + wc * c.y + wd * d.y);
-    }
-  }
-  sb_draw_clip(section->list, &section->strip);
-  sb_draw_stroke(section->list, curve, n - 3, 2.2, palette->fluid_line)->dash = &sb_dash_dose;
-  sb_draw_arrow(section->list, curve[n - 4].x, curve[n - 4].y, curve[n - 1].x, curve[n - 1].y, 2.2,
-                11, 9, palette->fluid_line);
-  sb_draw_clip(section->list, NULL);
-  const SbSectionLabel style = style_of(palette->fluid_line, 600, SB_MIDDLE, NULL);
+  SbValvePoint way[SB_SECTION_WAY];
+  sb_section_draw_way(section, way, sb_section_curve(way, knot, knots));
+  const SbSectionLabel style = style_of(section->palette->fluid_line, 600, SB_MIDDLE, NULL);
   const double at[1][2] = {{text_x, text_y}};
   sb_section_place(section, at, 1, &style, text);
 }

@@ -327,6 +327,36 @@ static void draw_motion(SbSection *section) {
   }
 }
 
+size_t sb_section_curve(SbValvePoint *out, const SbValvePoint *knot, int knots) {
+  enum { STEPS = (SB_SECTION_WAY - 1) / (SB_SECTION_KNOTS - 1) };
+  size_t count = 0;
+  for (int i = 0; i < knots - 1; i++) {
+    const SbValvePoint a = knot[MAX(i - 1, 0)], b = knot[i], c = knot[i + 1];
+    const SbValvePoint d = knot[MIN(i + 2, knots - 1)];
+    for (int j = 0; j < STEPS + (i == knots - 2); j++) {
+      const double t = (double)j / STEPS;
+      const double wa = -t * (1 - t) * (1 - t) / 2, wb = 1 - 2.5 * t * t + 1.5 * t * t * t;
+      const double wc = t * (1 + t * (4 - 3 * t)) / 2, wd = -t * t * (1 - t) / 2;
+      out[count++] = (SbValvePoint){wa * a.x + wb * b.x + wc * c.x + wd * d.x,
+                                    wa * a.y + wb * b.y + wc * c.y + wd * d.y};
+    }
+  }
+  return count;
+}
+
+void sb_section_draw_way(SbSection *section, const SbValvePoint *way, size_t count) {
+  SbPoint curve[SB_SECTION_WAY];
+  for (size_t i = 0; i < count; i++) {
+    curve[i] = sb_section_at(section, way[i].x, way[i].y);
+  }
+  const SbColor color = section->palette->fluid_line;
+  sb_draw_clip(section->list, &section->strip);
+  sb_draw_stroke(section->list, curve, count - 3, 2.2, color)->dash = &sb_dash_dose;
+  sb_draw_arrow(section->list, curve[count - 4].x, curve[count - 4].y, curve[count - 1].x,
+                curve[count - 1].y, 2.2, 11, 9, color);
+  sb_draw_clip(section->list, NULL);
+}
+
 // The way of the dose once the chamber is open: from the canister over the freed ring.
 static void draw_dose_path(SbSection *section) {
   const SbPalette *palette = section->palette;
@@ -351,8 +381,8 @@ static void draw_dose_path(SbSection *section) {
   double roof = fmin(sb_valve_outline_bore(valve, behind), top + 0.1 * g);
   double mouth_left = valve->chamber_left - s;
   double depth = valve->land - valve->chamber_floor;
-  enum { KNOTS = 7, STEPS = 12 };
-  // Knots of the way, from left to right; in between a Catmull-Rom curve.
+  enum { KNOTS = 7 };
+  // Knots of the way, from left to right.
   const SbValvePoint knot[KNOTS] = {
       {fmin(valve->face, ring) - 1.75 * g, valve->bore + 0.62 * g},
       {fmin(valve->face, ring) - 0.45 * g, valve->mouth - 0.02 * g},
@@ -362,20 +392,8 @@ static void draw_dose_path(SbSection *section) {
       {fmax(mouth_left + 0.1 * g, behind + 0.15 * g), valve->land + 0.02 * g},
       {fmax(mouth_left, behind) + 0.46 * g, valve->land - 0.4 * depth},
   };
-  enum { COUNT = (KNOTS - 1) * STEPS + 1 };
-  SbValvePoint way[COUNT];
-  size_t count = 0;
-  for (int i = 0; i < KNOTS - 1; i++) {
-    SbValvePoint a = knot[MAX(i - 1, 0)], b = knot[i], c = knot[i + 1];
-    SbValvePoint d = knot[MIN(i + 2, KNOTS - 1)];
-    for (int j = 0; j < STEPS + (i == KNOTS - 2); j++) {
-      double t = (double)j / STEPS;
-      double wa = -t * (1 - t) * (1 - t) / 2, wb = 1 - 2.5 * t * t + 1.5 * t * t * t;
-      double wc = t * (1 + t * (4 - 3 * t)) / 2, wd = -t * t * (1 - t) / 2;
-      way[count++] = (SbValvePoint){wa * a.x + wb * b.x + wc * c.x + wd * d.x,
-                                    wa * a.y + wb * b.y + wc * c.y + wd * d.y};
-    }
-  }
+  SbValvePoint way[SB_SECTION_WAY];
+  const size_t count = sb_section_curve(way, knot, KNOTS);
   // Smoothed, and kept clear of ring and housing.
   double least = HUGE_VAL;
   for (int round = 0; round < 6; round++) {
@@ -396,16 +414,8 @@ static void draw_dose_path(SbSection *section) {
   if (least * section->scale < 4) {
     return;
   }
-  SbPoint curve[COUNT];
-  for (size_t i = 0; i < count; i++) {
-    curve[i] = sb_section_at(section, way[i].x, way[i].y);
-  }
-  sb_draw_clip(section->list, &section->strip);
-  sb_draw_stroke(section->list, curve, count - 3, 2.2, palette->fluid_line)->dash = &sb_dash_dose;
-  sb_draw_arrow(section->list, curve[count - 4].x, curve[count - 4].y, curve[count - 1].x,
-                curve[count - 1].y, 2.2, 11, 9, palette->fluid_line);
-  sb_draw_clip(section->list, NULL);
-  SbPoint start = curve[0];
+  sb_section_draw_way(section, way, count);
+  const SbPoint start = sb_section_at(section, way[0].x, way[0].y);
   SbSectionLabel style = label_style(palette->fluid_line, 600, SB_LEFT, NULL);
   const double at[3][2] = {
       {start.x, start.y - 9}, {start.x, start.y + 20}, {section->strip.x + 12, start.y + 20}};

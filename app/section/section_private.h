@@ -91,6 +91,13 @@ void sb_section_draw_stem(SbSection *section, const SbSectionFrameMap *map);
 bool sb_section_place(SbSection *section, const double (*at)[2], size_t count,
                       const SbSectionLabel *style, const char *string);
 
+// A Catmull-Rom curve through at most SB_SECTION_KNOTS knots, its points into `out` of
+// SB_SECTION_WAY, whose count is returned; and the liquid's way along such points, an arrow in the
+// strip.
+enum { SB_SECTION_KNOTS = 7, SB_SECTION_WAY = 73 };
+size_t sb_section_curve(SbValvePoint *out, const SbValvePoint *knot, int knots);
+void sb_section_draw_way(SbSection *section, const SbValvePoint *way, size_t count);
+
 // A bold name with its pressure behind or below; gives way.
 void sb_section_name_pressure(SbSection *section, double x, double y, const char *name,
                               double pressure, bool below);

@@ -38,13 +38,13 @@ typedef enum {
   SB_VALVE_SHEET,
   SB_VALVE_RUBBER,
   SB_VALVE_PLASTIC
-} SbValveStuff;
+} SbValveMaterial;
 
-enum { SB_VALVE_AROUND_POINTS = 12, SB_VALVE_AROUND_MAX = 8, SB_VALVE_COILS = 5 };
+enum { SB_VALVE_AROUND_POINTS = 12, SB_VALVE_AROUND_MAX = 6, SB_VALVE_COILS = 5 };
 
 // One of those in the housing's frame, back to front; no result depends on them.
 typedef struct {
-  SbValveStuff stuff;
+  SbValveMaterial material;
   size_t count;
   SbValvePoint point[SB_VALVE_AROUND_POINTS];
 } SbValveAround;

@@ -18,19 +18,13 @@ static const double END = 0.7, CLEARANCE = 0.03, POCKET = 0.1, WALL = 0.7, SHEET
                     CAGE = 0.45, CAGE_IN = 0.35, CAGE_OUT = 0.95, FLANGE = 0.5, CHANNEL = 0.4,
                     BEVEL = 0.6, CONE = 0.7;
 
-enum { COILS = SB_VALVE_COILS };
-
-static void add_around(SbValveOutline *valve, SbValveStuff stuff, const SbValvePoint *point,
+static void add_around(SbValveOutline *valve, SbValveMaterial material, const SbValvePoint *point,
                        size_t count) {
   SbValveAround *around = &valve->around[valve->around_count++];
-  around->stuff = stuff;
+  around->material = material;
   around->count = count;
   memcpy(around->point, point, count * sizeof *point);
 }
-
-#define ADD_AROUND(valve, stuff, ...)                                                              \
-  add_around(valve, stuff, (const SbValvePoint[]){__VA_ARGS__},                                    \
-             sizeof((const SbValvePoint[]){__VA_ARGS__}) / sizeof(SbValvePoint))
 
 // The ferrule, which clamps the body and is crimped behind the flange of the can's neck, a gasket
 // between them.
@@ -43,33 +37,59 @@ static void stand_around(SbValveOutline *valve, double thick) {
   valve->neck_gasket = step + sheet;
   valve->flange = flange;
   const double far = 40 * thick, high = neck + CONE * far, fold = valve->mouth + 0.25 * thick;
-  ADD_AROUND(valve, SB_VALVE_CANISTER, {valve->face, out}, {step, out}, {step, neck + sheet},
-             {valve->face, neck + sheet});
-  ADD_AROUND(valve, SB_VALVE_AMBIENT, {shoulder - far, high + sheet}, {shoulder, neck + sheet},
-             {lip, neck + sheet}, {lip, flange}, {step, flange}, {step, out}, {end, out}, {end, 0},
-             {end + far, 0}, {end + far, high + far});
-  ADD_AROUND(valve, SB_VALVE_SHEET, {at, neck}, {at, flange}, {lip, flange}, {lip, neck + sheet},
-             {shoulder, neck + sheet}, {shoulder - far, high + 1.22 * sheet},
-             {shoulder - far, high}, {shoulder, neck});
-  ADD_AROUND(valve, SB_VALVE_RUBBER, {at, neck}, {step, neck}, {step, flange}, {at, flange});
-  ADD_AROUND(valve, SB_VALVE_SHEET, {step, flange}, {step, out}, {end, out}, {end, fold},
-             {end + sheet, fold}, {end + sheet, out + sheet}, {step + sheet, out + sheet},
-             {step + sheet, flange + sheet}, {lip - 0.3 * sheet, flange + sheet},
-             {lip - back - 0.7 * sheet, flange - back + 0.7 * sheet}, {lip - back, flange - back},
-             {lip, flange});
+  const SbValvePoint room[] = {
+      {valve->face, out}, {step, out}, {step, neck + sheet}, {valve->face, neck + sheet}};
+  const SbValvePoint air[] = {{shoulder - far, high + sheet},
+                              {shoulder, neck + sheet},
+                              {lip, neck + sheet},
+                              {lip, flange},
+                              {step, flange},
+                              {step, out},
+                              {end, out},
+                              {end, 0},
+                              {end + far, 0},
+                              {end + far, high + far}};
+  const SbValvePoint can[] = {{at, neck},
+                              {at, flange},
+                              {lip, flange},
+                              {lip, neck + sheet},
+                              {shoulder, neck + sheet},
+                              {shoulder - far, high + 1.22 * sheet},
+                              {shoulder - far, high},
+                              {shoulder, neck}};
+  const SbValvePoint gasket[] = {{at, neck}, {step, neck}, {step, flange}, {at, flange}};
+  const SbValvePoint ferrule[] = {{step, flange},
+                                  {step, out},
+                                  {end, out},
+                                  {end, fold},
+                                  {end + sheet, fold},
+                                  {end + sheet, out + sheet},
+                                  {step + sheet, out + sheet},
+                                  {step + sheet, flange + sheet},
+                                  {lip - 0.3 * sheet, flange + sheet},
+                                  {lip - back - 0.7 * sheet, flange - back + 0.7 * sheet},
+                                  {lip - back, flange - back},
+                                  {lip, flange}};
+  add_around(valve, SB_VALVE_CANISTER, room, sizeof room / sizeof *room);
+  add_around(valve, SB_VALVE_AMBIENT, air, sizeof air / sizeof *air);
+  add_around(valve, SB_VALVE_SHEET, can, sizeof can / sizeof *can);
+  add_around(valve, SB_VALVE_RUBBER, gasket, sizeof gasket / sizeof *gasket);
+  add_around(valve, SB_VALVE_SHEET, ferrule, sizeof ferrule / sizeof *ferrule);
 }
 
 // The cage that the spring stands in, with room for its coils at full stroke and slots to fill by.
 static void cage_spring(SbValveOutline *valve, double thick, double stroke) {
   const double wire = fmin(0.36 * thick, 0.5 * valve->bore), wall = CAGE * thick;
   const double in = valve->bore + CAGE_IN * thick, out = valve->bore + CAGE_OUT * thick;
-  const double seat = valve->nose - stroke - (COILS + 0.3) * wire;
+  const double seat = valve->nose - stroke - (SB_VALVE_COILS + 0.3) * wire;
   valve->coil = wire;
   valve->spring_radius = 0.96 * valve->bore - 0.5 * wire;
   valve->spring_seat = seat;
   valve->left = seat - wall - 0.3 * thick;
-  ADD_AROUND(valve, SB_VALVE_PLASTIC, {seat - wall, 0.45 * valve->bore}, {seat, 0.45 * valve->bore},
-             {seat, in}, {seat + 0.8 * thick, in}, {seat + 0.8 * thick, out}, {seat - wall, out});
+  const SbValvePoint cage[] = {
+      {seat - wall, 0.45 * valve->bore}, {seat, 0.45 * valve->bore}, {seat, in},
+      {seat + 0.8 * thick, in},          {seat + 0.8 * thick, out},  {seat - wall, out}};
+  add_around(valve, SB_VALVE_PLASTIC, cage, sizeof cage / sizeof *cage);
 }
 
 void sb_valve_gasket_make(SbValveOutline *valve, const SbModel *model, bool port) {

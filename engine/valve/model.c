@@ -627,6 +627,10 @@ bool sb_model_is_gasket(const SbModel *model) {
   return model != NULL && model->kind == SB_VALVE_GASKET;
 }
 
+bool sb_model_has_spring(const SbModel *model) {
+  return model->spring_stiffness > 0 || model->spring_preload > 0;
+}
+
 const SbSealModel *sb_model_seal(const SbModel *model, int seal) {
   return &model->seal[seal];
 }

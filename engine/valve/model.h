@@ -82,4 +82,10 @@ static inline double sb_model_way(const SbModel *model) {
   return model->kind == SB_VALVE_GASKET ? -1 : 1;
 }
 
+// What pushes the stem out at a displacement beside friction and stops: the canister and a return
+// spring [N].
+static inline double sb_model_push(const SbModel *model, double s) {
+  return model->pressure_force + model->spring_preload + model->spring_stiffness * s;
+}
+
 SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber);

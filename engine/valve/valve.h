@@ -258,6 +258,9 @@ bool sb_model_is_rig(const SbModel *model);
 // Whether its stem slides through gaskets (NULL: no).
 bool sb_model_is_gasket(const SbModel *model);
 
+// Whether a return spring pushes the stem out.
+bool sb_model_has_spring(const SbModel *model);
+
 // What follows from the parameters; borrowed.
 const SbSealModel *sb_model_seal(const SbModel *model, int seal);
 const SbValveShape *sb_model_shape(const SbModel *model);
