@@ -313,6 +313,39 @@ static void test_predict(void) {
   clear(&valve);
 }
 
+// A ring that the pressure laid on its wall goes with it in a wider groove, whatever its floor
+// rubs: beside the base's as laid anew.
+static void test_ring_on_wall(void) {
+  const SbRingBody body = {.section_diameter = 1.61e-3,
+                           .inner_diameter = 2.84e-3,
+                           .modulus = 2.5e6,
+                           .poisson_ratio = 0.49};
+  SbRingLoad load = SB_RING_LOAD_INIT;
+  load.bore_radius = 3e-3;
+  load.floor_radius = 1.64e-3;
+  load.wall_left = -1e-3;
+  load.wall_right = 1e-3;
+  load.pressure_left = 0.55e6;
+  load.friction_bore = 0.2;
+  load.friction_floor = 0.3;
+  load.friction_wall = 0.1;
+  load.bore_slides = 1;
+  const SbRingOptions options = {0};
+  SbRing *ring, *near;
+  SbRingResult is, moved;
+  g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, NULL), ==, SB_OK);
+  sb_ring_result(ring, &is);
+  g_assert_cmpfloat(is.wall_right_force, >, 0);
+  load.wall_left = -1.05e-3;
+  load.wall_right = 1.05e-3;
+  g_assert_cmpint(sb_ring_near(&near, ring, NULL, &body, &load, &options, NULL), ==, SB_OK);
+  sb_ring_result(near, &moved);
+  g_test_message("load %.10g N, %.10g N in the wider groove", is.bore_force, moved.bore_force);
+  g_assert_cmpfloat_with_epsilon(moved.bore_force, is.bore_force, 1e-8 * is.bore_force);
+  sb_ring_destroy(near);
+  sb_ring_destroy(ring);
+}
+
 static bool stop(void *data) {
   return ++*(int *)data > 5;
 }
@@ -699,6 +732,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/gradient/predict", test_predict);
   g_test_add_func("/gradient/refused", test_refused);
   g_test_add_func("/gradient/ring-near", test_ring_near);
+  g_test_add_func("/gradient/ring-on-wall", test_ring_on_wall);
   g_test_add_func("/gradient/films", test_films);
   g_test_add_func("/gradient/rings", test_rings);
   g_test_add_func("/gradient/ring-draws", test_ring_draws);

@@ -89,12 +89,12 @@ static double along_wall(const SbRing *ring, const SbRingLoad *target) {
   return laid ? moves : 0.0;
 }
 
-double sb_ring_way_fault(const SbRing *ring, const SbRingLoad *target) {
+double sb_ring_travel_fault(const SbRing *ring, const SbRingLoad *target) {
   const SbRingContact *contact = ring->contact;
   const SbRingLoad *now = &contact->is.now;
   bool laid;
   const double moves = fabs(wall_moves(ring, target, &laid));
-  const double way = 0.5 * (now->wall_right - now->wall_left) - ring->outline.half;
+  const double travel = 0.5 * (now->wall_right - now->wall_left) - ring->outline.half;
   double floor = 0.0;
   if (laid || !(moves > 0.0) || now->bore_slides == 0) {
     return 0.0;
@@ -102,7 +102,7 @@ double sb_ring_way_fault(const SbRing *ring, const SbRingLoad *target) {
   for (int i = 0; i < contact->count; i++) {
     floor += sb_ring_touch(contact, i, SB_RING_FLOOR)->force;
   }
-  return now->friction_floor * fmax(floor, 0.0) * (moves < way ? moves / way : 1.0);
+  return now->friction_floor * fmax(floor, 0.0) * (moves < travel ? moves / travel : 1.0);
 }
 
 // The state of another mesh of the same nodes: displacements that leave the ring as it lies on its

@@ -228,8 +228,8 @@ static SbStatus press_fitted(SbRing *ring, const SbRingLoad *load, SbReport *rep
 
 // Puts the ring over the stem, then closes the walls on it, against their friction; then brings on
 // the fluid. Closed first and widened by the stem then, it bears 1.7 times the load where nothing
-// slips on the walls, and 0.19 times where they rub on the way of the stem alone (measured, thesis'
-// reference gasket: 36, 62 and 6.7 N).
+// slips on the walls, and 0.19 times where they rub on the way of the stem alone (measured on the
+// gasket of docs/verification.md: 36, 62 and 6.7 N).
 static SbStatus clamp_and_press(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   const double middle = 0.5 * (load->wall_left + load->wall_right);
   SbRingLoad dry = *load;

@@ -164,8 +164,8 @@ SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
                      SbReport *report);
 
 // What floor friction could change by where friction has dragged a ring to a wall that another load
-// displaces, and so on a longer or shorter way (its share of that way); 0 where it was laid there.
-double sb_ring_way_fault(const SbRing *ring, const SbRingLoad *target);
+// displaces, by the share of its travel that this is; 0 where it was laid there.
+double sb_ring_travel_fault(const SbRing *ring, const SbRingLoad *target);
 
 // How load steps are taken: followed in viscous steps where the next equilibrium is not near, never
 // so, or as long as the bore is touched.

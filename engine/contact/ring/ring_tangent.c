@@ -233,7 +233,7 @@ static SbStatus linear(SbRing **out, SbRingTangent *tangent, const SbRingBody *b
   move(other, base);
   const SbRingLoad target = sb_ring_load_in(load, other->length, other->stress);
   other->fault = fmax(0.0, sb_ring_contact_fault(other->contact) - tangent->base->fault) +
-                 sb_ring_way_fault(ring, &target);
+                 sb_ring_travel_fault(ring, &target);
   *out = other;
   return SB_OK;
 }
