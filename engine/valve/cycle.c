@@ -15,11 +15,6 @@ static bool is_gasket(const SbCycle *cycle) {
   return cycle->model->kind == SB_VALVE_GASKET;
 }
 
-// What pushes the stem out beside friction and stops: the canister and a return spring.
-static double push(const SbModel *model, double s) {
-  return model->pressure_force + model->spring_preload + model->spring_stiffness * s;
-}
-
 // Whether the inner seal seals at all. While the chamber is open its state is not solved, so the
 // closed states tell.
 static bool inner_touches(const SbCycle *cycle, SbChamber chamber, int direction) {
@@ -118,7 +113,7 @@ static double friction_at(double s, const void *context) {
 // Force that balances sliding: F_p + f on the way in, F_p - f on the way out.
 static double balance_at(double s, const void *context) {
   const Place *p = context;
-  return push(p->cycle->model, s) + sign_of(p->direction) * friction_at(s, p);
+  return sb_model_push(p->cycle->model, s) + sign_of(p->direction) * friction_at(s, p);
 }
 
 // dX/ds of balanced sliding at s; the inner seal's friction falls while the edge passes, by the
@@ -195,7 +190,7 @@ double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, dou
   }
 
   // At a stop the friction keeps the value it came with until the stop is unloaded.
-  double needed = force - push(model, s);
+  double needed = force - sb_model_push(model, s);
   bool stopped = (s >= model->stroke && needed > segment->friction0) ||
                  (s <= 0 && needed < segment->friction0);
   *stop_force = stopped ? needed - segment->friction0 : 0;
@@ -316,7 +311,7 @@ static SbStatus slip_platen(double *out, const Planner *p, int direction, double
       friction += fmax(1, grown) * sliding[seal];
     }
     const double before = X;
-    X = p->s + (push(model, p->s) + sign_of(direction) * friction) / model->stiffness;
+    X = p->s + (sb_model_push(model, p->s) + sign_of(direction) * friction) / model->stiffness;
     X = direction == SB_CYCLE_IN ? fmax(X, p->X) : fmin(X, p->X);
     if (fabs(X - before) <= 1e-9 * fabs(X - p->s) || X <= 0) {
       *out = X;
@@ -374,8 +369,8 @@ static void slide(Planner *p) {
     const Place place = {p->cycle, p->chamber, p->direction, p->X};
     double balance = balance_at(p->s, &place);
     double excess = sign_of(p->direction) * (sb_cycle_force(p->cycle, p->X, p->s) - balance);
-    double noise =
-        1e-12 * (fabs(balance) + fabs(push(model, p->s))) + 8 * 2.3e-16 * k * (p->X + p->s);
+    double noise = 1e-12 * (fabs(balance) + fabs(sb_model_push(model, p->s))) +
+                   8 * 2.3e-16 * k * (p->X + p->s);
     double end = piece_end(p);
 
     if (excess < -noise || (out && balance < 0)) {
@@ -415,7 +410,7 @@ double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, 
   const SbModel *model = cycle->model;
   double least = balance_at(s, &(Place){cycle, chamber, SB_CYCLE_OUT, 0});
   if (rested) {
-    least = fmin(least, push(model, s) - static_limit(cycle, chamber, SB_CYCLE_OUT, s));
+    least = fmin(least, sb_model_push(model, s) - static_limit(cycle, chamber, SB_CYCLE_OUT, s));
   }
   if (is_gasket(cycle)) {
     // Both spring and friction fall on the way: the least lies where the shoulder leaves.
@@ -463,7 +458,7 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
     double friction = p.stage == SB_STAGE_A ? static_limit(cycle, p.chamber, SB_CYCLE_IN, p.s)
                                             : sb_cycle_friction(cycle, p.chamber, SB_CYCLE_IN, p.s);
     // Below ambient the canister's pressure may draw the stem in by itself.
-    double X_slip = fmax(p.s + (push(model, p.s) + friction) / k, p.X);
+    double X_slip = fmax(p.s + (sb_model_push(model, p.s) + friction) / k, p.X);
     if (model->contact_ageing) {
       double rested = p.stage == SB_STAGE_A ? model->rest : 0;
       SbStatus status = slip_platen(&X_slip, &p, SB_CYCLE_IN, rested, report);
@@ -497,7 +492,7 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
       dwell = 0;
     }
     // Where friction has caught up with the pressure the root is known to rounding only.
-    bool stalled = limit <= 1e-9 * fabs(push(model, p.s));
+    bool stalled = limit <= 1e-9 * fabs(sb_model_push(model, p.s));
     if (p.s <= 0 || stalled || X_slip <= 0) {
       emit(&p, SB_CYCLE_STICK, 0, p.s, -1);
       break;
@@ -509,8 +504,9 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   }
 
   cycle->returns = p.s == 0;
-  cycle->force_return_min =
-      s_return > 0 ? sb_cycle_least_return(cycle, s_return, chamber_return, false) : push(model, 0);
+  cycle->force_return_min = s_return > 0
+                                ? sb_cycle_least_return(cycle, s_return, chamber_return, false)
+                                : sb_model_push(model, 0);
   if (p.full) {
     return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "drive.stiffness",
                              "the cycle does not end within %d events", SB_CYCLE_SEGMENTS_MAX);
@@ -576,8 +572,9 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
 
     double force0 = sb_cycle_force(cycle, X0, segment->stem0);
     double force1 = sb_cycle_force(cycle, X1, segment->stem1);
-    const double spring = (push(model, segment->stem0) + push(model, segment->stem1)) / 2 * ds -
-                          model->pressure_force * ds; // exact: it is straight
+    const double spring =
+        (sb_model_push(model, segment->stem0) + sb_model_push(model, segment->stem1)) / 2 * ds -
+        model->pressure_force * ds; // exact: it is straight
     out->stored += (force1 * force1 - force0 * force0) / (2 * k) + spring;
     // F ds around the loop: in a jump the force falls along the spring's line, in sliding it is F_p
     // +- f.

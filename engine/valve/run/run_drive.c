@@ -7,8 +7,7 @@
 // what it takes to hold the stem there if that is greater.
 static double platen_top(const SbCycle *cycle) {
   const SbModel *model = cycle->model;
-  double hold =
-      model->pressure_force + model->spring_preload + model->spring_stiffness * model->stroke;
+  double hold = sb_model_push(model, model->stroke);
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const bool gasket = model->kind == SB_VALVE_GASKET;
     const SbChamber chamber = gasket ? SB_CHAMBER_CLOSED : SB_CHAMBER_AT_REST;

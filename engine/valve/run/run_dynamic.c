@@ -369,7 +369,7 @@ static double straight_force(const SbRun *run) {
 // none: a stem that is pushed and does not move.
 static double closure_of(const Recorder *r) {
   const SbModel *model = r->run->model;
-  const double pushed = fmax(r->force_peak, fabs(model->pressure_force + model->spring_preload));
+  const double pushed = fmax(r->force_peak, fabs(sb_model_push(model, 0)));
   return r->energy.largest < 1e-12 * pushed * model->stroke ? 0 : r->energy.closure;
 }
 

@@ -36,8 +36,6 @@ SbStatus sb_model_hold(SbModel **out, const SbModel *scene, SbHold hold, SbRepor
       {SB_P_FRICTION_DWELL_GAIN, 0},
       {SB_P_FRICTION_STRIBECK_SPEED, 0},
       {SB_P_FRICTION_TANGENTIAL_STIFFNESS, 0},
-      {SB_P_STEM_SPRING_STIFFNESS, 0},
-      {SB_P_STEM_SPRING_PRELOAD, 0},
       {SB_P_CANISTER_PRESSURE_MAP,
        scene->pressure_map == SB_MAP_PORTS ? SB_MAP_CHAMBER_VENTED : scene->pressure_map},
   };
@@ -61,6 +59,10 @@ SbStatus sb_model_hold(SbModel **out, const SbModel *scene, SbHold hold, SbRepor
   };
   if (hold == SB_HOLD_MACHINE) {
     return sb_model_derive(out, scene, machine, sizeof machine / sizeof machine[0], report);
+  }
+  if (hold == SB_HOLD_OUTER && scene->kind == SB_VALVE_GASKET) {
+    return sb_fail_parameter(report, SB_ERROR_INPUT, "valve.kind",
+                             "outer-seal is of rings in their grooves; a gasket valve has none");
   }
   if (hold == SB_HOLD_OUTER) {
     return sb_model_derive(out, scene, outer, sizeof outer / sizeof outer[0], report);
