@@ -52,8 +52,9 @@ void sb_gasket_check(const SbModel *model, SbProblems *problems) {
                     1e3 * model->gasket_thickness);
   }
   if (model->film_history) {
-    sb_model_refuse(problems, "models.film_time", NAN, NAN,
-                    "a gasket's film is reckoned from its edge's pressure, steady, not followed");
+    sb_model_refuse(
+        problems, "models.film_time", NAN, NAN,
+        "a gasket's film is computed from its edge's pressure, steady, not followed in time");
   }
   if (model->motion == SB_MODEL_MOTION_BODIES) {
     sb_model_refuse(problems, "models.motion", NAN, NAN,

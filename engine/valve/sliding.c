@@ -389,9 +389,8 @@ SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   if (model->kind == SB_VALVE_GASKET) {
     memory->last = &memory->plane;
-    SbStatus edges = sb_sliding_edge_contact(state, task, report);
-    share_kinetic(state);
-    return edges;
+    sb_sliding_edge_film(state, task);
+    return sb_sliding_refilm(state, task, 1, report);
   }
   SbFilmProblem problem;
   sb_sliding_film_of(&problem, state, task, body);
@@ -421,17 +420,25 @@ SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
 SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double roughness,
                            SbReport *report) {
   const SbModel *model = task->model;
-  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED || model->kind == SB_VALVE_GASKET) {
+  // Without a film what stands has none either, whatever the speed.
+  const SbSealState rest = *state;
+  if (model->kind == SB_VALVE_GASKET) {
+    SbStatus edges = sb_sliding_edge_contact(state, task, roughness, report);
+    state->rest_area_share = rest.rest_area_share;
+    state->rest_area = rest.rest_area;
+    state->rest_load = rest.rest_load;
+    share_kinetic(state);
+    return edges;
+  }
+  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
     state->lambda = state->film_central / model->sigma;
     state->boundary_area = model->shear_strength * state->real_area_share *
                            (state->contact_right - state->contact_left) * model->bore_circumference;
     share_kinetic(state);
     return sb_succeed(report);
   }
-  // Without a film what stands has none either, whatever the speed.
-  const double rest_share = state->rest_area_share;
   SbStatus status = rub(state, task, roughness, report);
-  state->rest_area_share = rest_share;
+  state->rest_area_share = rest.rest_area_share;
   share_kinetic(state);
   return status;
 }
@@ -439,8 +446,13 @@ SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double
 SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report) {
   sb_warn_about(task->warnings, about(task->seal));
-  SbStatus status = state->touches ? sb_sliding_rough_contact(state, task, roughness, report)
-                                   : sb_succeed(report);
+  SbStatus status = SB_OK;
+  if (state->touches && task->model->kind == SB_VALVE_GASKET) {
+    status = sb_sliding_edge_contact(state, task, roughness, report);
+    status = status == SB_OK ? set_static(state, task, report) : status;
+  } else if (state->touches) {
+    status = sb_sliding_rough_contact(state, task, roughness, report);
+  }
   status = status == SB_OK ? sb_sliding_share_out(state, task, report) : status;
   sb_warn_about(task->warnings, NULL);
   return status;
@@ -477,7 +489,8 @@ SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *la
   if (task->model->kind == SB_VALVE_GASKET && out->load_net > 0) {
     sb_sliding_take_edges(out, &task->memory->now->fit);
     task->memory->last = &task->memory->plane; // which has none
-    SbStatus edges = sb_sliding_edge_contact(out, task, first);
+    sb_sliding_edge_film(out, task);
+    SbStatus edges = sb_sliding_edge_contact(out, task, 1, first);
     edges = edges == SB_OK ? set_static(out, task, first) : edges;
     return edges != SB_OK ? edges : status;
   }

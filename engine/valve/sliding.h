@@ -179,6 +179,11 @@ SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double
 SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report);
 
+// What the asperities under a gasket bear of `count` pressures above the fluid's where its film is
+// no thinner than `film` [Pa, m] (sliding_gasket.c).
+SbStatus sb_sliding_edge_asperities(double *out, const double *p, size_t count,
+                                    const SbModel *model, int seal, double film, SbReport *report);
+
 // The film problem of a seal in a run: net load, reduced modulus, radius, pressures (thesis
 // sections 5.2 and 7.1; entrainment is half the sliding speed). `model` of the problem is left at
 // its default.

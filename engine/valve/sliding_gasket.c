@@ -65,6 +65,42 @@ static double outlet(double k) {
   return y;
 }
 
+// The rough contact that bears a pressure, or what it bears at the gap of the film if that is more.
+static SbRoughPoint point_at(const SbRoughLaw *law, double p, double film) {
+  SbRoughPoint at;
+  sb_rough_law_at(&at, law, sb_rough_law_of_pressure(law, p));
+  if (film > at.gap) {
+    sb_rough_law_at(&at, law, sb_rough_law_of_gap(law, film));
+  }
+  return at;
+}
+
+// The law of a seal's surface, owned; too large for a small stack.
+static SbStatus make_law(SbRoughLaw **out, const SbModel *model, int seal, double roughness,
+                         SbReport *report) {
+  const SbRoughSurface surface = sb_model_surface(model, seal, roughness);
+  *out = malloc(sizeof **out);
+  SbStatus status = *out != NULL
+                        ? sb_rough_law_init(*out, &surface, report)
+                        : sb_fail(report, SB_ERROR_MEMORY, "no memory for a rough surface's law");
+  if (status != SB_OK) {
+    free(*out);
+    *out = NULL;
+  }
+  return status;
+}
+
+SbStatus sb_sliding_edge_asperities(double *out, const double *p, size_t count,
+                                    const SbModel *model, int seal, double film, SbReport *report) {
+  SbRoughLaw *law;
+  SbStatus status = make_law(&law, model, seal, 1, report);
+  for (size_t i = 0; status == SB_OK && i < count; i++) {
+    out[i] = p[i] > 0 ? fmin(point_at(law, p[i], film).pressure, p[i]) : 0;
+  }
+  free(law);
+  return status;
+}
+
 // What the asperities do over the contact where the gap is no less than `film`.
 typedef struct {
   double area, load, shear; // real area, their load and the open part's shear, per length
@@ -79,11 +115,7 @@ static Rough rough_at(const SbSealState *state, const SbModel *model, const SbRo
     if (!(p > 0)) {
       continue;
     }
-    SbRoughPoint at;
-    sb_rough_law_at(&at, law, sb_rough_law_of_pressure(law, p));
-    if (film > at.gap) {
-      sb_rough_law_at(&at, law, sb_rough_law_of_gap(law, film));
-    }
+    const SbRoughPoint at = point_at(law, p, film);
     const double shear = model->viscosity * fabs(speed) / fmax(at.gap, 1e-30);
     sum.area += at.share * dx;
     sum.load += fmin(at.pressure, p) * dx;
@@ -92,34 +124,36 @@ static Rough rough_at(const SbSealState *state, const SbModel *model, const SbRo
   return sum;
 }
 
-SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
+void sb_sliding_edge_film(SbSealState *out, const SbSlidingTask *task) {
   const SbModel *model = task->model;
-  const double width = out->contact_right - out->contact_left;
-  const double around = model->bore_circumference, speed = task->speed;
-  const bool slides = sb_sliding_has_film(task);
-  const SbRoughSurface surface = sb_model_surface(model, task->seal, 1);
-  SbRoughLaw *law = malloc(sizeof *law); // too large for a small stack
-  SbStatus status = law != NULL
-                        ? sb_rough_law_init(law, &surface, report)
-                        : sb_fail(report, SB_ERROR_MEMORY, "no memory for a rough surface's law");
-  if (status != SB_OK) {
-    free(law);
-    return status;
-  }
   double film = 0, least = 0;
-  if (slides) {
-    const double mean = fabs(speed) / 2, inlet = rise(out, model, speed > 0);
+  if (sb_sliding_has_film(task)) {
+    const double mean = fabs(task->speed) / 2, inlet = rise(out, model, task->speed > 0);
     film = inlet > 0 ? 2.0 / 3 * sqrt(4 * model->viscosity * mean / inlet) : 0;
     const double most = task->supply.limited ? 2 * task->supply.layer : INFINITY;
     film = fmin(film, most);
-    const double falls = fmax(rise(out, model, speed < 0), 0);
+    const double falls = fmax(rise(out, model, task->speed < 0), 0);
     least = film * outlet(falls * film * film / (12 * model->viscosity * mean));
   }
   out->film_central = film;
   out->film_min = least;
-  out->lambda = slides ? film / model->sigma : NAN;
   out->layer = film / 2;
   out->film_error = out->central_error = out->friction_error = NAN;
+}
+
+SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
+                                 SbReport *report) {
+  const SbModel *model = task->model;
+  const double width = out->contact_right - out->contact_left;
+  const double around = model->bore_circumference, speed = task->speed;
+  const bool slides = sb_sliding_has_film(task);
+  SbRoughLaw *law;
+  SbStatus status = make_law(&law, model, task->seal, roughness, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  const double film = out->film_central;
+  out->lambda = slides ? film / (roughness * model->sigma) : NAN;
   const Rough on = rough_at(out, model, law, film, speed), dry = rough_at(out, model, law, 0, 0);
   free(law);
   out->real_area_share = fmin(on.area / width, 1);
@@ -134,7 +168,7 @@ SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, Sb
   if (out->lambda > 0.1) {
     sb_warn(task->warnings, "film-edge", "drive.speed",
             "%.3g nm of film under the %s gasket, a tenth of the roughness and more: it would "
-            "round the edge that it is reckoned with",
+            "round the edge that it is computed for",
             1e9 * film, sb_seal_name(task->seal));
   }
   return SB_OK;

@@ -186,6 +186,11 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
 // Gives a state the pressure of its fitment.
 void sb_sliding_take_edges(SbSealState *out, const SbFit *fit);
 
-// Film, real area and kinetic friction of a gasket's state, whose pressure is known, at the task's
-// speed; what rest makes of them, but for the static friction.
-SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, SbReport *report);
+// Film of a gasket's state, whose pressure is known, at the task's speed.
+void sb_sliding_edge_film(SbSealState *out, const SbSlidingTask *task);
+
+// Real area and kinetic friction of a gasket's state under its film at the task's speed, of a
+// surface `roughness` times as rough as the model's; what rest makes of them, but for the static
+// friction.
+SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
+                                 SbReport *report);

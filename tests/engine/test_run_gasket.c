@@ -1,6 +1,7 @@
 // The gasket valve: its cycle balances in every frame, and its figures answer to interference,
 // crimp and port the way a valve's do.
 #include "engine/valve/cycle.h"
+#include "engine/valve/studies/hold.h"
 #include "tests/engine/models.h"
 #include "tests/executed.h"
 
@@ -181,6 +182,40 @@ static void leaks(void) {
   sb_run_destroy(run);
 }
 
+// Running in, asperities solved with the film or beside it: where nearly all of the contact is real
+// both say the same. Most actuations lie between those that are solved.
+static void lives(void) {
+  double last[2];
+  for (int beside = 0; beside < 2; beside++) {
+    const SbOverride over[] = {{SB_P_LIFE_ACTUATIONS, 50},
+                               {SB_P_MODELS_ASPERITIES,
+                                beside ? SB_MODEL_ASPERITIES_BESIDE : SB_MODEL_ASPERITIES_COUPLED}};
+    SbRun *run = run_with(over, G_N_ELEMENTS(over));
+    size_t count;
+    const SbLifeActuation *life = sb_run_life(run, &count);
+    g_assert_cmpuint(count, ==, 50);
+    g_assert_cmpfloat(life[49].roughness, <, 0.9 * life[0].roughness);
+    last[beside] = life[49].force_return;
+    g_assert_cmpfloat(last[beside], !=, life[0].force_return);
+    g_assert_cmpuint(sb_run_summary(run)->counters.ring_solves, <, 250);
+    sb_run_destroy(run);
+  }
+  g_assert_cmpfloat_with_epsilon(last[0], last[1], 1e-4 * last[0]);
+}
+
+// A study of the machine's cycle keeps the return spring; one of rings in their grooves says that
+// there are none.
+static void held(void) {
+  SbModel *base = gasket_model(NULL, 0), *machine, *none;
+  SbReport report = {0};
+  g_assert_cmpint(sb_model_hold(&machine, base, SB_HOLD_MACHINE, NULL), ==, SB_OK);
+  g_assert_true(sb_model_has_spring(machine));
+  sb_model_destroy(machine);
+  g_assert_cmpint(sb_model_hold(&none, base, SB_HOLD_OUTER, &report), ==, SB_ERROR_INPUT);
+  g_assert_cmpstr(report.parameter, ==, "valve.kind");
+  sb_model_destroy(base);
+}
+
 // What makes no gasket valve is refused with its key.
 static void refusals(void) {
   static const struct {
@@ -212,6 +247,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-gasket/answers", answers);
   g_test_add_func("/run-gasket/port", port);
   g_test_add_func("/run-gasket/leaks", leaks);
+  g_test_add_func("/run-gasket/lives", lives);
+  g_test_add_func("/run-gasket/held", held);
   g_test_add_func("/run-gasket/refusals", refusals);
   return g_test_run();
 }

@@ -211,10 +211,12 @@ static void between(Solved *s, const long at[3], long n) {
 }
 
 // How far a guess is from what was solved: forces over that of the first slip, which friction makes
-// alone, or the peak; volumes over the carried one.
+// alone, or the peak; volumes over the carried one or the net one, if that is larger: a gasket's
+// stem carries on its return only.
 static double apart(SbLifeActuation *guess, SbLifeActuation *found) {
   const double slip = found->force_breakaway, force = slip > 0 ? slip : found->force_peak;
-  const double unit[] = {found->lambda, found->carried, found->carried, force, force, force};
+  const double volume = fmax(found->carried, fabs(found->leakage)); // of a net one that is known
+  const double unit[] = {found->lambda, volume, volume, force, force, force};
   double *a[6], *b[6], most = 0;
   members(a, guess);
   members(b, found);

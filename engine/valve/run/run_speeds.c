@@ -214,6 +214,9 @@ void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled,
     double *a = (double *)((char *)out + straight[i]);
     *a = between(*a, *(const double *)((const char *)&full + straight[i]), filled);
   }
+  for (int i = 0; i < SB_SEAL_EDGE_POINTS; i++) {
+    out->edge_pressure[i] = between(out->edge_pressure[i], full.edge_pressure[i], filled);
+  }
   if (out->touches && full.touches) {
     sb_sliding_whole(out);
     sb_run_refilm(out, run, seal, SB_CHAMBER_AT_REST, direction, speed);

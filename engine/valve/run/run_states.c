@@ -109,7 +109,7 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   const SbFit *fit = sb_sliding_fit(run->memory[seal]);
   const SbFilm *film = sb_sliding_film(run->memory[seal]);
   bool coupled = run->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  const bool gasket = run->model->kind == SB_VALVE_GASKET; // whose film is reckoned, not solved
+  const bool gasket = run->model->kind == SB_VALVE_GASKET; // its film is a closed form
   bool solved =
       !gasket && (coupled || run->model->film == SB_FILM_REYNOLDS) && state->film_central > 0;
   bool fitted = state->touches && isfinite(state->load);
@@ -155,9 +155,14 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   if (solved && coupled) {
     memcpy(asperities, film->asperity_pressure, n * sizeof *asperities);
   } else if (gasket && fitted) {
-    const double share = isfinite(state->asperity_share) ? state->asperity_share : 1;
     for (size_t i = 0; i < n; i++) {
-      asperities[i] = share * fmax(p[i] - (x[i] < middle ? left : right), 0);
+      asperities[i] = fmax(p[i] - (x[i] < middle ? left : right), 0);
+    }
+    SbStatus status = sb_sliding_edge_asperities(asperities, asperities, n, run->model, seal,
+                                                 state->film_central, report);
+    if (status != SB_OK) {
+      free(x);
+      return status;
     }
   } else if (fitted && run->model->surface == SB_ROUGH_GREENWOOD_TRIPP) {
     asperity_pressure(run->model, seal, h, asperities, n);
