@@ -64,7 +64,9 @@ void sb_sliding_keep(SbSlidingMemory *memory, int way) {
                            .way = way,
                            .strain = on->pressure / on->modulus,
                            .law = on->law,
-                           .found = on->found};
+                           .found = on->found,
+                           .guess = on->guess};
+  sb_ring_hand_over(kept->ring, &kept->law, memory);
   if (apart) { // there is nothing to start from
     kept->ring = NULL;
     kept->start.ring = NULL;
@@ -336,6 +338,24 @@ static void guess(SbSlidingLaw *law, const SbSlidingTask *task, SbSlidingFitment
   }
 }
 
+static double ratio(double now, double then) {
+  const double is = now / then;
+  return isfinite(is) && is > 0 ? is : 1;
+}
+
+// The law to drag a ring with first: by closed forms, or that of the start as these change from
+// there.
+static SbSlidingLaw first_law(const SbSlidingTask *task, SbSlidingFitment *on,
+                              const SbSlidingStart *start) {
+  guess(&on->guess, task, on);
+  if (start == NULL) {
+    return on->guess;
+  }
+  return (SbSlidingLaw){.coefficient = start->law.coefficient *
+                                       ratio(on->guess.coefficient, start->guess.coefficient),
+                        .shear = start->law.shear * ratio(on->guess.shear, start->guess.shear)};
+}
+
 void sb_sliding_solve_ahead(const SbSlidingTask *task, const SbSlidingMemory *like) {
   SbSlidingMemory *memory = task->memory;
   const bool drags = sb_sliding_drags(task);
@@ -346,10 +366,8 @@ void sb_sliding_solve_ahead(const SbSlidingTask *task, const SbSlidingMemory *li
   memory->from = like->from;
   const SbSlidingStart *start = sb_sliding_start_of(task);
   SbSlidingLaw law;
-  if (drags && start != NULL) {
-    law = start->law;
-  } else if (drags) {
-    guess(&law, task, &memory->fitment[way_of(task)]);
+  if (drags) {
+    law = first_law(task, &memory->fitment[way_of(task)], start);
   }
   (void)solve_fit(task, drags ? &law : NULL, NULL);
 }
@@ -379,6 +397,7 @@ static bool mirror(const SbSlidingTask *task, SbSlidingFitment *on) {
   on->pressure = 0;
   on->modulus = other->modulus;
   on->jump = other->jump;
+  on->guess = other->guess;
   on->seal = task->seal;
   SbSlidingMemory *memory = task->memory;
   if (on->known && memory->rested && memory->rest_on == other) {
@@ -468,10 +487,8 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
     known = mirrored = mirror(task, on);
   }
   SbSlidingLaw law;
-  if (!known && start != NULL) {
-    law = start->law;
-  } else if (!known) {
-    guess(&law, task, on);
+  if (!known) {
+    law = first_law(task, on, start);
   }
   SbWarnings *own = &memory->warnings;
   SbStatus status = SB_OK;

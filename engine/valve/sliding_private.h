@@ -28,6 +28,7 @@ typedef struct {
   double
       jump; // of what its film asks from that, relative, where they come no nearer; 0: they agree
   SbSlidingLaw found; // that of the film which then lies on it
+  SbSlidingLaw guess; // the first one by closed forms
 } SbSlidingFitment;
 
 // What the solvers have found for a state (sliding_beside.c).
@@ -60,6 +61,7 @@ typedef struct {
   int way;                 // of sliding: index of SbSlidingMemory.fitment
   double strain;           // pressure difference over modulus
   SbSlidingLaw law, found; // that drags it, and that of its film
+  SbSlidingLaw guess;      // by closed forms
 } SbSlidingStart;
 
 // A film that others are solved beside.

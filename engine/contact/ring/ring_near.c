@@ -5,8 +5,9 @@
 // without short ends, and shows the way: its displacement and how its contacts are displaced. The
 // fitted mesh is shifted along with the contacts (ring_ends.c), displaced alike, and solved, with
 // its contact fixed until the balance is near. Where that fails the solved ring's own mesh goes, in
-// parts. What is solved last is the same balance as of any ring: the way enters by friction on
-// floor and walls alone, which sees the motion from the solved ring to the new one as monotonic.
+// parts, and where that fails too the coarse ring is taken over to a fitted mesh. What is solved
+// last is the same balance as of any ring: the way enters by friction on floor and walls alone,
+// which sees the motion from the solved ring to the new one as monotonic.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -23,8 +24,8 @@ static const double COARSE = 1.5, COARSE_EDGE = 0.5;
 // the same (measured over 120 samples).
 static const double OUTGROWN = 0.2;
 
-// In how many parts a state is gone to at most.
-enum { PARTS = 4, PARTS_COARSE = 2 };
+// The least part of the way to a state that is gone at once.
+static const double PART_LEAST = 1.0 / 8.0;
 
 // So near its balance single nodes that have no state are what is in the way: they are held, as on
 // a path, against a small pull.
@@ -169,30 +170,70 @@ static SbStatus attempt(SbRing *ring, const SbRingLoad *load, SbReport *report) 
   return status;
 }
 
-// From a load to another one, at once or in parts. SB_RING_BEFORE is where it was laid.
-static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *to, int parts_most,
+// A law on the way from one to another.
+typedef struct {
+  SbRingShear shear[2];
+  const void *law[2];
+  double part;
+} LawBetween;
+
+static double shear_between(double pressure, double *slope, const void *law) {
+  const LawBetween *on = law;
+  double before;
+  const double from = on->shear[0](pressure, &before, on->law[0]);
+  const double to = on->shear[1](pressure, slope, on->law[1]);
+  *slope = before + on->part * (*slope - before);
+  return from + on->part * (to - from);
+}
+
+// Puts a law in place of that of every load that a ring remembers.
+static void take_law(SbRing *ring, SbRingShear shear, const void *law) {
+  SbRingContact *contact = ring->contact;
+  contact->is.now.shear = shear;
+  contact->is.now.law = law;
+  for (size_t i = 0; i < sizeof contact->saved / sizeof *contact->saved; i++) {
+    contact->saved[i].now.shear = shear;
+    contact->saved[i].now.law = law;
+  }
+}
+
+// From a load to another one, at once or in parts, the least ones `least`. SB_RING_BEFORE is where
+// it was laid.
+static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *to, double least,
                         SbReport *report) {
   SbRingLoad start = *from;
   start.floor_radius = to->floor_radius; // where it lies
   start.bore_radius += seat(to) - seat(from);
   start.wall_left += along_wall(ring, to);
   start.wall_right += along_wall(ring, to);
+  LawBetween between = {{from->shear, to->shear}, {from->law, to->law}, 0.0};
+  const bool law = from->shear != NULL && to->shear != NULL;
   start.shear = to->shear;
   start.law = to->law;
   ring->contact->is.now = start;
   sb_ring_save(ring->contact, SB_RING_BEFORE);
-  SbStatus status = SB_ERROR_NOT_CONVERGED;
-  for (int parts = 1; parts <= parts_most && status == SB_ERROR_NOT_CONVERGED; parts *= 2) {
-    sb_ring_restore(ring->contact, SB_RING_BEFORE);
-    status = SB_OK;
-    for (int i = 1; i <= parts && status == SB_OK; i++) {
-      sb_ring_save(ring->contact, SB_RING_START);
-      const SbRingLoad next =
-          i == parts ? *to : sb_ring_load_between(&start, to, (double)i / parts);
-      status = attempt(ring, &next, report);
-      ring->count.steps++;
+  SbStatus status = SB_OK;
+  double done = 0.0, share = 1.0;
+  while (done < 1.0 && share >= least) {
+    const double next = fmin(1.0, done + share);
+    SbRingLoad load = next < 1.0 ? sb_ring_load_between(&start, to, next) : *to;
+    if (law && next < 1.0) {
+      between.part = next;
+      load.shear = shear_between;
+      load.law = &between;
+    }
+    sb_ring_save(ring->contact, SB_RING_START);
+    status = attempt(ring, &load, report);
+    ring->count.steps++;
+    if (status == SB_OK) {
+      done = next;
+    } else if (status == SB_ERROR_NOT_CONVERGED) {
+      share *= 0.5;
+    } else {
+      break;
     }
   }
+  take_law(ring, to->shear, to->law);
   return status;
 }
 
@@ -347,12 +388,13 @@ static SbStatus follow(SbRing **out, SbRingGuide *guide, const SbRing *way, cons
 }
 
 // By way of the coarse copy; which takes the ring's place, on a mesh of its own, where no more is
-// wanted than elements much larger than the ring's give.
-static SbStatus near_guided(SbRing **out, SbRingGuide *guide, const SbRingBody *body,
+// wanted than elements much larger than the ring's give. Where it alone arrives the caller has it,
+// in *kept, owned.
+static SbStatus near_guided(SbRing **out, SbRing **kept, SbRingGuide *guide, const SbRingBody *body,
                             const SbRingLoad *load, const SbRingOptions *options,
                             SbReport *report) {
   SbRing *way;
-  *out = NULL;
+  *out = *kept = NULL;
   sb_ring_guide_make(guide);
   if (guide->coarse == NULL) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring has no coarse copy");
@@ -362,18 +404,23 @@ static SbStatus near_guided(SbRing **out, SbRingGuide *guide, const SbRingBody *
     return status;
   }
   const SbRingLoad target = way->contact->is.now;
-  status = go_near(way, &guide->coarse->contact->is.now, &target, PARTS_COARSE, report);
+  status = go_near(way, &guide->coarse->contact->is.now, &target, PART_LEAST, report);
   const double size = sb_ring_fit_size(body, load, options->tolerance);
   if (status == SB_OK && size > COARSE * guide->ring->fitted_size &&
       sb_ring_refit(way, size, NULL) == SB_OK) {
     *out = way;
     return sb_succeed(report);
   }
-  status = status == SB_OK ? follow(out, guide, way, body, load, options, report) : status;
+  const bool arrived = status == SB_OK;
+  status = arrived ? follow(out, guide, way, body, load, options, report) : status;
   if (status == SB_OK) {
     (*out)->count.iterations += way->count.iterations;
   }
-  sb_ring_destroy(way);
+  if (arrived && status == SB_ERROR_NOT_CONVERGED) {
+    *kept = way;
+  } else {
+    sb_ring_destroy(way);
+  }
   return status;
 }
 
@@ -387,7 +434,7 @@ static SbStatus near_alike(SbRing **out, const SbRing *ring, const SbRingBody *b
     return status;
   }
   const SbRingLoad target = other->contact->is.now;
-  status = go_near(other, &ring->contact->is.now, &target, PARTS, report);
+  status = go_near(other, &ring->contact->is.now, &target, PART_LEAST, report);
   if (status != SB_OK) {
     sb_ring_destroy(other);
     return status;
@@ -398,7 +445,7 @@ static SbStatus near_alike(SbRing **out, const SbRing *ring, const SbRingBody *b
 
 SbStatus sb_ring_near(SbRing **out, const SbRing *ring, SbRingGuide *guide, const SbRingBody *body,
                       const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
-  SbRing *other = NULL;
+  SbRing *other = NULL, *way = NULL;
   SbReport own; // of what is tried
   *out = NULL;
   SbStatus status = sb_ring_check(body, load, report);
@@ -411,11 +458,19 @@ SbStatus sb_ring_near(SbRing **out, const SbRing *ring, SbRingGuide *guide, cons
   if (!is_near(&ring->contact->is.now, &target)) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring is not near");
   }
-  status = guide != NULL ? near_guided(&other, guide, body, load, options, &own)
+  status = guide != NULL ? near_guided(&other, &way, guide, body, load, options, &own)
                          : SB_ERROR_NOT_CONVERGED;
   if (status == SB_ERROR_NOT_CONVERGED) {
     status = near_alike(&other, ring, body, load, options, &own);
   }
+  if (status == SB_ERROR_NOT_CONVERGED && way != NULL) {
+    status = sb_ring_refit(way, ring->fitted_size, &own);
+    if (status == SB_OK) {
+      other = way;
+      way = NULL;
+    }
+  }
+  sb_ring_destroy(way);
   // Where the finer ends of the mesh no longer are the contact's: anew, unless that fails.
   if (status == SB_OK && sb_ring_outgrown(other, OUTGROWN)) {
     status = sb_ring_refit(other, other->fitted_size, &own);
