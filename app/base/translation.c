@@ -60,7 +60,7 @@ G_GNUC_UNUSED static const char *const listed[] = {
     N_("share of that"),
     N_("time on the shelf"),
     N_("path"),
-    // engine/valve/studies/, app/document/unit.c
+    // engine/valve/studies/, app/base/unit.c
     N_("day"),
     N_("month"),
     N_("no value in this range"),

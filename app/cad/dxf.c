@@ -3,8 +3,8 @@
 // its value.
 #include "app/base/error.h"
 #include "app/base/number.h"
+#include "app/base/unit.h"
 #include "app/cad/dxf_blocks.h"
-#include "app/document/unit.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,8 +4,8 @@
 #include "app/cad/cad_private.h"
 
 #include "app/base/error.h"
-#include "app/document/stl.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
+#include "app/cad/stl.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,8 +4,8 @@
 #include "app/chart/compare.h"
 
 #include "app/base/format.h"
+#include "app/base/unit.h"
 #include "app/chart/hysteresis.h"
-#include "app/document/unit.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>

@@ -4,7 +4,7 @@
 
 #include "app/base/geometry.h"
 #include "app/base/theme.h"
-#include "app/cad/parts.h"
+#include "app/document/cad_parts.h"
 
 #include <cairo.h>
 

@@ -2,8 +2,8 @@
 // significant digits, an en dash where there is none. Headings wrap at words.
 #include "app/base/format.h"
 #include "app/base/translation.h"
+#include "app/base/unit.h"
 #include "app/chart/study.h"
-#include "app/document/unit.h"
 
 #include <glib.h>
 #include <math.h>

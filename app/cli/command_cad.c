@@ -1,9 +1,9 @@
 // sealbench cad: bodies of a drawing, and a scene with the valve's parts shaped by them.
 #include "app/base/number.h"
 #include "app/base/output.h"
-#include "app/cad/parts.h"
 #include "app/chart/half_sections.h"
 #include "app/cli/cli.h"
+#include "app/document/cad_parts.h"
 #include "app/export/still.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 // sealbench surface: roughness parameters of a scan.
 #include "app/base/output.h"
+#include "app/base/unit.h"
 #include "app/cli/cli.h"
-#include "app/document/unit.h"
 #include "app/export/surface.h"
 
 #include <math.h>

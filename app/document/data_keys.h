@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/base/issue.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 // code, key
 #define SB_DATA_KEYS(X)                                                                            \

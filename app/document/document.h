@@ -9,8 +9,8 @@
 #pragma once
 
 #include "app/base/issue.h"
+#include "app/base/unit.h"
 #include "app/document/data_keys.h"
-#include "app/document/unit.h"
 
 #include "engine/valve/valve.h"
 

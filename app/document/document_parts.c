@@ -21,8 +21,8 @@
 // A recess of any form counts as the rectangular one of its depth and volume.
 #include "app/document/document_parts.h"
 
-#include "app/document/stl.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
+#include "app/cad/stl.h"
 
 #include "engine/mechanism/solid.h"
 

@@ -1,7 +1,7 @@
 // A recursive descent over the text, each rule a function.
 #include "app/document/expression.h"
 
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include "engine/contact/deflection.h"
 #include "engine/film/laws.h"

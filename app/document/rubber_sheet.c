@@ -2,8 +2,8 @@
 #include "app/document/rubber_sheet.h"
 
 #include "app/base/reader.h"
+#include "app/base/unit.h"
 #include "app/document/shipped.h"
-#include "app/document/unit.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 
 #include "app/base/reader.h"
 #include "app/base/table.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 // [leakage_test] of a study file; see study_file.h.
 #include "app/document/study_file_private.h"
 
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 #include "engine/valve/figures.h"
 
 #include <math.h>

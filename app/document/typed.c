@@ -2,7 +2,7 @@
 #include "app/document/typed.h"
 
 #include "app/base/number.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 // The bench as a picture: error against time for every solver, and the table behind it.
 #pragma once
 
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 #include "engine/valve/bench.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 // Frames and profiles as text tables.
 #include "app/export/csv.h"
 
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include "engine/valve/sealbench.h"
 

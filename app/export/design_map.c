@@ -4,8 +4,8 @@
 #include "app/base/format.h"
 #include "app/base/label.h"
 #include "app/base/translation.h"
+#include "app/base/unit.h"
 #include "app/chart/axis.h"
-#include "app/document/unit.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

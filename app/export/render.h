@@ -2,9 +2,9 @@
 // a film.
 #pragma once
 
+#include "app/base/unit.h"
 #include "app/chart/dashboard.h"
 #include "app/document/document.h"
-#include "app/document/unit.h"
 #include "engine/valve/run/run.h"
 
 // One view of the table.

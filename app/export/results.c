@@ -1,7 +1,7 @@
 // The JSON documents of runs and plans; see the header.
 #include "app/export/results.h"
 
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 #include "app/export/csv.h"
 #include "app/export/json.h"
 #include "app/export/measured_results.h"

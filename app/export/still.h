@@ -2,7 +2,7 @@
 // all.
 #pragma once
 
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include <cairo.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/base/canvas.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 #include "app/export/json.h"
 #include "engine/valve/studies/study.h"
 

@@ -1,7 +1,7 @@
 // See surface.h.
 #include "app/export/surface.h"
 
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 // Choices of a scan by name; see surface.h.
 #include "app/base/error.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 #include "app/export/surface.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 #include "app/export/thesis_results.h"
 
+#include "app/base/unit.h"
 #include "app/chart/study.h"
-#include "app/document/unit.h"
 #include "app/export/still.h"
 #include "app/export/studies.h"
 

@@ -1,7 +1,7 @@
 #include "app/session/effect_watch.h"
 
 #include "app/base/format.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

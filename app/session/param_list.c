@@ -2,7 +2,7 @@
 #include "app/session/param_list.h"
 
 #include "app/base/translation.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

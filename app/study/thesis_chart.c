@@ -2,7 +2,7 @@
 // over a contact, and what the thesis prints.
 #include "app/study/thesis_private.h"
 
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include <math.h>
 #include <string.h>

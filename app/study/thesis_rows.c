@@ -1,7 +1,7 @@
 // Rows of a table of the thesis: printed, computed, and the steps between.
 #include "app/study/thesis_private.h"
 
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include <math.h>
 #include <string.h>

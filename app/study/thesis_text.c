@@ -1,7 +1,7 @@
 // Texts of the thesis' items with values in them: cells of the printed row, computed figures.
 #include "app/study/thesis_private.h"
 
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include <math.h>
 #include <string.h>

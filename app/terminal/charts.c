@@ -3,8 +3,8 @@
 #include "app/terminal/charts.h"
 
 #include "app/base/format.h"
+#include "app/base/unit.h"
 #include "app/chart/hysteresis.h"
-#include "app/document/unit.h"
 
 #include <glib.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 
 #include "app/base/format.h"
 #include "app/base/translation.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 #include "app/session/param_list.h"
 
 #include <glib/gi18n.h>

@@ -1,7 +1,7 @@
 // Drawings: outlines of a DXF as half-sections, the lands, bores and grooves on them, a scene
 // shaped by them, and what is refused.
 #include "app/cad/cad_private.h"
-#include "app/cad/parts.h"
+#include "app/document/cad_parts.h"
 
 #include "app/base/error.h"
 

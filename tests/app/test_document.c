@@ -1,7 +1,7 @@
 // Documents: shipped files hold what the catalogue says, edits undo, saving changes nothing else.
 #include "app/base/output.h"
+#include "app/base/unit.h"
 #include "app/document/document.h"
-#include "app/document/unit.h"
 #include "app/export/still.h"
 
 #include <glib/gstdio.h>

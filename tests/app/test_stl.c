@@ -1,7 +1,7 @@
 // STL files: both forms, units, what is refused; and the mass of what they hold.
-#include "app/document/stl.h"
+#include "app/cad/stl.h"
 
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 #include "engine/mechanism/solid.h"
 
 #include <glib/gstdio.h>
@@ -260,11 +260,11 @@ static void test_largest(void) {
 
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
-  g_test_add_func("/document/stl/forms", test_forms);
-  g_test_add_func("/document/stl/refused", test_refused);
-  g_test_add_func("/document/stl/dropped", test_dropped);
-  g_test_add_func("/document/stl/rounded", test_rounded);
-  g_test_add_func("/document/stl/numbers", test_numbers);
-  g_test_add_func("/document/stl/largest", test_largest);
+  g_test_add_func("/cad/stl/forms", test_forms);
+  g_test_add_func("/cad/stl/refused", test_refused);
+  g_test_add_func("/cad/stl/dropped", test_dropped);
+  g_test_add_func("/cad/stl/rounded", test_rounded);
+  g_test_add_func("/cad/stl/numbers", test_numbers);
+  g_test_add_func("/cad/stl/largest", test_largest);
   return g_test_run();
 }

@@ -1,6 +1,6 @@
 // Text to SI and back: exact, in every unit of the catalogue, and every wrong text has its message.
+#include "app/base/unit.h"
 #include "app/document/typed.h"
-#include "app/document/unit.h"
 
 #include <locale.h>
 #include <math.h>

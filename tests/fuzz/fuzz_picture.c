@@ -1,7 +1,7 @@
 // What any bytes must survive as a PNG that may hold a scene: a text, or one complaint.
+#include "app/base/unit.h"
 #include "app/document/document.h"
 #include "app/document/picture.h"
-#include "app/document/unit.h"
 #include "app/export/still.h"
 #include "tests/crc.h"
 

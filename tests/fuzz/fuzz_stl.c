@@ -1,8 +1,8 @@
 // What any bytes must survive as an STL file: either a mesh of finite corners whose triangles point
 // at them, which the engine weighs or refuses, or one complaint and nothing.
+#include "app/base/unit.h"
 #include "app/cad/cad_private.h"
-#include "app/document/stl.h"
-#include "app/document/unit.h"
+#include "app/cad/stl.h"
 #include "engine/mechanism/solid.h"
 
 #include <math.h>

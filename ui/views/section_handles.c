@@ -6,7 +6,7 @@
 
 #include "app/base/canvas.h"
 #include "app/base/translation.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>

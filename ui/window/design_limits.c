@@ -4,7 +4,7 @@
 
 #include "app/base/format.h"
 #include "app/base/translation.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>

@@ -1,7 +1,7 @@
 // Reads a drawing (DXF, STEP) on a thread beside the window.
 #pragma once
 
-#include "app/cad/parts.h"
+#include "app/document/cad_parts.h"
 
 typedef struct SbDrawingJob SbDrawingJob;
 

@@ -3,8 +3,8 @@
 #include "ui/window/propellants_page.h"
 
 #include "app/base/translation.h"
+#include "app/base/unit.h"
 #include "app/chart/propellants.h"
-#include "app/document/unit.h"
 #include "app/session/study_job.h"
 #include "engine/fluid/fluid.h"
 #include "ui/views/draw_cache.h"

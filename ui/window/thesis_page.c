@@ -3,8 +3,8 @@
 #include "ui/window/thesis_page.h"
 
 #include "app/base/translation.h"
+#include "app/base/unit.h"
 #include "app/chart/study.h"
-#include "app/document/unit.h"
 #include "app/export/thesis_results.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/style.h"

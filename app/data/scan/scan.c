@@ -2,8 +2,8 @@
 #include "app/data/scan/scan.h"
 
 #include "app/base/reader.h"
+#include "app/base/unit.h"
 #include "app/data/scan/scan_private.h"
-#include "app/document/unit.h"
 
 #include <math.h>
 

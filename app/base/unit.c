@@ -2,7 +2,7 @@
 //
 // udunits keeps one parser and one unit system per process and reads numbers by the locale, so one
 // lock and the C locale surround every call to it. Scales of unit pairs are remembered.
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include "app/base/format.h"
 #include "app/base/issue.h"

@@ -1,9 +1,9 @@
 // See parts.h.
-#include "app/cad/parts.h"
+#include "app/document/cad_parts.h"
 
 #include "app/base/error.h"
 #include "app/base/number.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include <math.h>
 #include <string.h>

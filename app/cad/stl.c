@@ -1,8 +1,8 @@
 // See stl.h.
-#include "app/document/stl.h"
+#include "app/cad/stl.h"
 
 #include "app/base/reader.h"
-#include "app/document/unit.h"
+#include "app/base/unit.h"
 
 #include <math.h>
 #include <string.h>
