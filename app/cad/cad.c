@@ -3,6 +3,7 @@
 
 #include "app/base/error.h"
 #include "app/base/number.h"
+#include "app/cad/profile.h"
 
 #include <math.h>
 #include <string.h>
@@ -42,32 +43,6 @@ void sb_cad_free(SbCad *cad) {
   g_free(cad);
 }
 
-// Area of a profile, > 0 counter-clockwise; the axis closes an open one.
-static double area(const GArray *profile) {
-  double sum = 0;
-  for (guint i = 0; i < profile->len; i++) {
-    const SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i);
-    const SbProfilePoint *q = &g_array_index(profile, SbProfilePoint, (i + 1) % profile->len);
-    sum += (p->x * q->r - q->x * p->r) / 2;
-    if (p->bulge != 0) {
-      const double angle = 4 * atan(p->bulge), chord = hypot(q->x - p->x, q->r - p->r);
-      const double radius = chord / (2 * sin(angle / 2));
-      sum += radius * radius * (angle - sin(angle)) / 2;
-    }
-  }
-  return sum;
-}
-
-static void reverse(GArray *profile, bool closed) {
-  const guint n = profile->len;
-  g_autofree SbProfilePoint *old = g_memdup2(profile->data, n * sizeof *old);
-  for (guint i = 0; i < n; i++) {
-    SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i);
-    *p = old[n - 1 - i];
-    p->bulge = i + 1 < n ? -old[n - 2 - i].bulge : closed ? -old[n - 1].bulge : 0;
-  }
-}
-
 void sb_cad_body_settle(SbCadBody *body, const SbCadChoices *choices) {
   const double sign = choices->flip ? -1 : 1;
   for (guint i = 0; i < body->profile->len; i++) {
@@ -81,9 +56,7 @@ void sb_cad_body_settle(SbCadBody *body, const SbCadChoices *choices) {
   if (body->profile->len == 0) {
     return;
   }
-  if (area(body->profile) < 0) {
-    reverse(body->profile, body->closed);
-  }
+  sb_profile_turn(body->profile, body->closed);
   const SbProfile profile = {(const SbProfilePoint *)(void *)body->profile->data,
                              body->profile->len, body->closed};
   SbReport report = {0};

@@ -52,11 +52,12 @@ typedef struct {
 // large as a valve's part. axis: "x" or "y", the line of a DXF that bodies are revolved about;
 // NULL: its centre line, else x; of an STL "x", "y" or "z"; NULL: about which its moments are most
 // alike. angle: of the half-plane about the axis of a STEP's bodies [rad]. flip: x the other way,
-// for a valve drawn with the canister on its right. shift: added to x afterwards [m].
+// for a valve drawn with the canister on its right. shift: added to x afterwards [m]. section: a
+// DXF's outlines are whole sections, wherever they lie, and no half-sections about an axis.
 typedef struct {
   const char *unit, *axis;
   double angle, shift;
-  bool flip;
+  bool flip, section;
 } SbCadChoices;
 
 // Reads `path`; NULL with an error of SB_APP_ERROR. Owned by the caller.

@@ -557,9 +557,34 @@ static void left_out(SbCad *cad, const Drawing *drawing) {
   }
 }
 
+// Moves a drawing's pieces to one side of the line y = 0, and away from it.
+static void lift(const Drawing *drawing) {
+  const double away = 1; // in the drawing's unit
+  double low = INFINITY;
+  for (int pass = 0; pass < 2; pass++) {
+    for (guint k = 0; k < drawing->names->len; k++) {
+      GArray *pieces = g_hash_table_lookup(drawing->layers, drawing->names->pdata[k]);
+      for (guint i = 0; i < pieces->len; i++) {
+        SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
+        if (pass == 0) {
+          // No arc goes further from its chord than that is long times the bulge.
+          const double bow = fabs(p->bulge) * hypot(p->x1 - p->x0, p->y1 - p->y0);
+          low = fmin(low, fmin(p->y0, p->y1) - bow);
+        } else {
+          p->y0 += away - low;
+          p->y1 += away - low;
+        }
+      }
+    }
+  }
+}
+
 static void make_bodies(SbCad *cad, const Drawing *drawing, double scale,
                         const SbCadChoices *choices) {
-  const Axis axis = find_axis(cad, drawing, choices->axis);
+  if (choices->section) {
+    lift(drawing);
+  }
+  const Axis axis = find_axis(cad, drawing, choices->section ? "x" : choices->axis);
   for (guint k = 0; k < drawing->names->len; k++) {
     const char *name = drawing->names->pdata[k];
     GArray *pieces = g_hash_table_lookup(drawing->layers, name);
@@ -604,7 +629,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
     const double scale = unit != NULL ? scale_of(unit, &problem) : 0;
     if (unit == NULL) {
       g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                  "tells no unit ($INSUNITS): say it by --unit");
+                  "tells no unit ($INSUNITS)%s", choices->section ? "" : ": say it by --unit");
     } else if (scale > 0) {
       cad = sb_cad_new("DXF");
       cad->unit = g_strdup(unit);

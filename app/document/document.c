@@ -44,10 +44,10 @@ void sb_document_free(SbDocument *document) {
   g_free(document->valve_name);
   g_clear_pointer(&document->measured, g_ptr_array_unref);
   sb_data_free(document->saved_measured);
-  g_free(document->series_name);
-  g_free(document->series_path);
-  g_free(document->shelf_name);
-  g_free(document->shelf_path);
+  for (int i = 0; i < SB_FILE_COUNT; i++) {
+    g_free(document->file[i].name);
+    g_free(document->file[i].path);
+  }
   sb_named_rubber_release(document->base_rubber);
   sb_named_rubber_release(document->own_rubber);
   sb_named_rubber_release(document->saved_rubber);
@@ -153,8 +153,8 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
             document, params == &document->base ? &document->base_rubber : &document->own_rubber,
             rubber);
       }
-    } else if (strcmp(key, SB_SERIES_KEY) == 0 || strcmp(key, SB_SHELF_KEY) == 0) {
-      // A file's name, no value: read_series.
+    } else if (sb_document_find_file(key) >= 0) {
+      // A file's name, no value: read_files.
     } else if (id < 0) {
       g_autofree char *hint = issues->len < SB_ISSUES_MAX ? sb_document_key_hint(key) : NULL;
       sb_issues_add(issues, shown, entry->line, key, NULL, "unknown key%s",
@@ -218,6 +218,22 @@ static bool read_meta(SbDocumentKind *kind, const GPtrArray *entries, const char
   return true;
 }
 
+// Reads the files that keys name.
+static void read_files(SbDocument *document, const GPtrArray *entries, const char *shown,
+                       const char *directory, bool in_valve, GPtrArray *issues) {
+  for (guint i = 0; i < entries->len; i++) {
+    const SbEntry *entry = entries->pdata[i];
+    if (entry->name != NULL) {
+      g_autofree char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
+      const int file = sb_document_find_file(key);
+      if (file >= 0) {
+        (void)sb_document_read_file(document, (SbFileKey)file, entry->value, directory, in_valve,
+                                    shown, entry->line, issues);
+      }
+    }
+  }
+}
+
 // Reads a scene's valve into document->base.
 static void read_valve(SbDocument *document, const char *directory, const char *shown,
                        GPtrArray *issues) {
@@ -255,33 +271,10 @@ static void read_valve(SbDocument *document, const char *directory, const char *
   }
   char *beside = g_path_get_dirname(document->valve_path);
   read_values(document, &document->base, NULL, entries, document->valve_path, beside, issues);
+  read_files(document, entries, document->valve_path, beside, true, issues);
   g_free(beside);
   g_ptr_array_unref(entries);
   g_free(text);
-}
-
-static char *path_from(const char *directory, const char *name) {
-  return g_path_is_absolute(name) || directory == NULL ? g_strdup(name)
-                                                       : g_build_filename(directory, name, NULL);
-}
-
-// Reads the measured series that [drive] file names, if it does, and the temperatures of [shelf].
-static void read_series(SbDocument *document, const GPtrArray *entries, const char *directory,
-                        GPtrArray *issues) {
-  for (guint i = 0; i < entries->len; i++) {
-    const SbEntry *entry = entries->pdata[i];
-    if (entry->name != NULL && strcmp(entry->group, "drive") == 0 &&
-        strcmp(entry->name, "file") == 0) {
-      document->series_name = g_strdup(entry->value);
-      document->series_path = path_from(directory, entry->value);
-      sb_series_read(&data_of(document)->measured, document->series_path, issues);
-    } else if (entry->name != NULL && strcmp(entry->group, "shelf") == 0 &&
-               strcmp(entry->name, "file") == 0) {
-      document->shelf_name = g_strdup(entry->value);
-      document->shelf_path = path_from(directory, entry->value);
-      sb_series_read_temperature(&data_of(document)->shelf, document->shelf_path, issues);
-    }
-  }
 }
 
 void sb_document_refresh_title(SbDocument *document) {
@@ -337,7 +330,8 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
     sb_document_note_override(document, size->id, name);
   }
   sb_shapes_settle(document->shapes, name, document->notes);
-  read_series(document, entries, directory, issues);
+  read_files(document, entries, name, directory, false, issues);
+  sb_document_note_section(document);
   document->measured = sb_data_read(entries, directory, name, issues);
   sb_document_data_saved(document);
   sb_document_remarks_read(document, name, issues);
@@ -557,6 +551,18 @@ static void sum_series(GChecksum *sum, const SbModelSeries *series) {
   }
 }
 
+static void sum_section(GChecksum *sum, const SbSealDrawing *section) {
+  for (int i = 0; i < section->count; i++) {
+    const SbSealPoint *p = &section->point[i];
+    char digits[3][SB_NUMBER_SIZE];
+    sb_number_format(digits[0], p->r);
+    sb_number_format(digits[1], p->z);
+    sb_number_format(digits[2], p->bulge);
+    g_autofree char *line = g_strdup_printf("%s,%s,%s\n", digits[0], digits[1], digits[2]);
+    g_checksum_update(sum, (const guchar *)line, -1);
+  }
+}
+
 char *sb_document_sha256(const SbDocument *document) {
   SbParams params = sb_document_params(document);
   GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
@@ -570,6 +576,7 @@ char *sb_document_sha256(const SbDocument *document) {
   if (document->data != NULL) {
     sum_series(sum, &document->data->measured);
     sum_series(sum, &document->data->shelf);
+    sum_section(sum, &document->data->profile);
   }
   char *hex = g_strdup(g_checksum_get_string(sum));
   g_checksum_free(sum);

@@ -203,6 +203,10 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
     if (good) {
       sb_document_put_rubber(document, &document->own_rubber, rubber);
     }
+  } else if (sb_document_find_file(key) >= 0) {
+    g_autofree char *name = g_strstrip(g_strdup(equal + 1));
+    good = sb_document_read_file(document, (SbFileKey)sb_document_find_file(key), name, NULL, false,
+                                 "--set", 0, issues);
   } else if (id < 0) {
     g_autofree char *hint = issues->len < SB_ISSUES_MAX ? sb_document_key_hint(key) : NULL;
     sb_issues_add(issues, "--set", 0, key, NULL, "unknown key%s", hint != NULL ? hint : "");

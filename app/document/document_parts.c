@@ -22,6 +22,7 @@
 #include "app/document/document_parts.h"
 
 #include "app/base/unit.h"
+#include "app/cad/profile.h"
 #include "app/cad/stl.h"
 
 #include "engine/mechanism/solid.h"
@@ -141,58 +142,6 @@ static double quantity(const Part *part, const char *name, const char *text, con
     value = NAN;
   }
   return value;
-}
-
-// Points of a profile; NULL with an issue. Owned by the caller.
-static SbProfilePoint *read_points(const Part *part, const char *text, size_t *count,
-                                   bool *closed) {
-  static const char form[] = "mm 0,0 10,0 10,2 0,2";
-  g_auto(GStrv) words = g_strsplit_set(text, " \t", -1);
-  guint n = g_strv_length(words);
-  SbProfilePoint *points = g_new0(SbProfilePoint, n);
-  GError *error = NULL;
-  double scale = 0;
-  *count = 0;
-  for (guint i = 0; i < n; i++) {
-    if (*words[i] == '\0') {
-      continue;
-    }
-    if (scale == 0) {
-      g_autofree char *one = g_strdup_printf("1 %s", words[i]);
-      if (!sb_quantity_parse(&scale, one, "m", "mm", &error) || scale <= 0) {
-        complain(part, "profile", form, "starts with the unit of its points, not '%.20s'",
-                 words[i]);
-        g_clear_error(&error);
-        g_free(points);
-        return NULL;
-      }
-      continue;
-    }
-    g_auto(GStrv) numbers = g_strsplit(words[i], ",", -1);
-    guint parts = g_strv_length(numbers);
-    double value[3] = {0};
-    bool good = parts == 2 || parts == 3;
-    for (guint k = 0; good && k < parts; k++) {
-      good = sb_number_parse(&value[k], numbers[k]);
-    }
-    if (!good || *count == SB_PROFILE_MAX) {
-      complain(part, "profile", form,
-               good ? "has more than %d points" : "point %d is not x,r or x,r,bulge",
-               good ? SB_PROFILE_MAX : (int)*count + 1);
-      g_free(points);
-      return NULL;
-    }
-    points[(*count)++] = (SbProfilePoint){scale * value[0], scale * value[1], value[2]};
-  }
-  *closed =
-      *count > 1 && points[0].x == points[*count - 1].x && points[0].r == points[*count - 1].r;
-  *count -= *closed;
-  if (*count < 2) {
-    complain(part, "profile", form, "has %zu points, not two or more", *count);
-    g_free(points);
-    return NULL;
-  }
-  return points;
 }
 
 // Sets `id` to what the shape says, if that is within its range.
@@ -478,12 +427,15 @@ static void keep_text(const Part *part, const char *directory) {
 
 // A half-profile: its solid, its outline for the drawing and its sizes. False with an issue.
 static bool solve_profile(SbSolid *solid, const Part *part, const char *text, double density) {
-  SbProfile shape = {0};
-  SbProfilePoint *points = read_points(part, text, &shape.count, &shape.closed);
+  bool closed;
+  GError *error = NULL;
+  g_autoptr(GArray) points = sb_profile_parse(text, &closed, &error);
   if (points == NULL) {
+    complain(part, "profile", SB_PROFILE_FORM, "%s", error->message);
+    g_error_free(error);
     return false;
   }
-  shape.point = points;
+  const SbProfile shape = {(const SbProfilePoint *)(void *)points->data, points->len, closed};
   SbReport report = {0};
   bool good = sb_solid_revolve(solid, &shape, density, &report) == SB_OK;
   if (good && part->index <= SB_VALVE_STEM_BOTTOM) {
@@ -495,7 +447,6 @@ static bool solve_profile(SbSolid *solid, const Part *part, const char *text, do
   } else {
     complain(part, "profile", NULL, "%s", report.text);
   }
-  g_free(points);
   return good;
 }
 

@@ -13,9 +13,18 @@
 #define SB_CASES_GROUP  "cases"
 #define SB_PINS_GROUP   "pins"
 
-// The one key that names a file and no value.
-#define SB_SERIES_KEY "drive.file"
-#define SB_SHELF_KEY  "shelf.file"
+// Keys that name a file and no value: a measured series, a shelf's temperatures, a seal's section.
+typedef enum { SB_FILE_DRIVE, SB_FILE_SHELF, SB_FILE_SECTION, SB_FILE_COUNT } SbFileKey;
+
+// "drive.file"...
+extern const char *const sb_document_file_key[SB_FILE_COUNT];
+
+// One of them in force; name NULL: none.
+typedef struct {
+  char *name, *path; // as it is written; to open
+  bool in_valve;     // the scene's valve gives it, not the document itself
+} SbNamedFile;
+
 // The one that names a rubber (rubber_sheet.h).
 #define SB_RUBBER_KEY "rubber.name"
 
@@ -41,13 +50,12 @@ struct SbDocument {
   char *title;                                            //
   char *valve_path;                                       // scenes: path to open, else NULL
   char *valve_name;                                       // scenes: as the file has it
-  char *series_name;                                      // value of drive.file, NULL without one
-  char *series_path;                                      // path to open
-  char *shelf_name, *shelf_path;                          // the same of shelf.file
+  SbNamedFile file[SB_FILE_COUNT];                        //
+  double section_height;                                  // as its file draws it [m]
   GPtrArray *measured;                                    // of SbData, its own [data] groups
   SbData *saved_measured;                                 // the first of them in its file, or NULL
   SbNamedRubber *base_rubber, *own_rubber, *saved_rubber; // as the params; NULL: none
-  SbModelData *data;                  // series, outlines and rubber, for its models; NULL: none
+  SbModelData *data;                  // what files brought, and rubber, for its models; NULL: none
   char *text;                         // of the file as last read or written
   GPtrArray *entries;                 // of that text
   SbParams base;                      // what the valve gives (scenes)
@@ -66,6 +74,18 @@ struct SbDocument {
   bool mergeable;                     // the last edit may swallow the next one of its key
   unsigned serial;
 };
+
+// The key's index, or -1.
+int sb_document_find_file(const char *key);
+
+// Reads the file of a key, `name` from `directory` (NULL: the current one), and puts it in force.
+// False with an issue about line `line` of `shown`.
+bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name,
+                           const char *directory, bool in_valve, const char *shown, int line,
+                           GPtrArray *issues);
+
+// Notes a drawn section that is not as high as the seals.
+void sb_document_note_section(SbDocument *document);
 
 // Sets the title anew from the text or the path.
 void sb_document_refresh_title(SbDocument *document);

@@ -49,6 +49,8 @@ SbModelData *sb_document_data_with(const SbDocument *document, const SbNamedRubb
   }
   if (document->data != NULL) {
     data->measured = document->data->measured;
+    data->shelf = document->data->shelf;
+    data->profile = document->data->profile;
     data->outlines = document->data->outlines;
   }
   data->rubber = rubber != NULL ? rubber->sheet : (SbRubberSheet){0};

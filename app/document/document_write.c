@@ -55,12 +55,10 @@ static char *moved_valve(const SbDocument *document, const char *path) {
   return moved_name(document, document->valve_path, document->valve_name, path);
 }
 
-static char *moved_series(const SbDocument *document, const char *path) {
-  return moved_name(document, document->series_path, document->series_name, path);
-}
-
-static char *moved_shelf(const SbDocument *document, const char *path) {
-  return moved_name(document, document->shelf_path, document->shelf_name, path);
+// The name of a file of its own there; NULL if nothing changes. Owned by the caller.
+static char *moved_file(const SbDocument *document, int key, const char *path) {
+  const SbNamedFile *file = &document->file[key];
+  return file->in_valve ? NULL : moved_name(document, file->path, file->name, path);
 }
 
 // Splits a catalogue key at its last dot; both owned by the caller.
@@ -122,15 +120,13 @@ char *sb_document_to_text(const SbDocument *document, const char *path) {
     SbChange change = {g_strdup(SB_META_GROUP), g_strdup("valve"), valve};
     g_array_append_val(changes, change);
   }
-  char *series = moved_series(document, path);
-  if (series != NULL) {
-    SbChange change = {g_strdup("drive"), g_strdup("file"), series};
-    g_array_append_val(changes, change);
-  }
-  char *shelf = moved_shelf(document, path);
-  if (shelf != NULL) {
-    SbChange change = {g_strdup("shelf"), g_strdup("file"), shelf};
-    g_array_append_val(changes, change);
+  for (int i = 0; i < SB_FILE_COUNT; i++) {
+    char *name = moved_file(document, i, path);
+    if (name != NULL) {
+      SbChange change = {.value = name};
+      split_key(sb_document_file_key[i], (char **)&change.group, (char **)&change.name);
+      g_array_append_val(changes, change);
+    }
   }
   const bool data_differs = sb_document_data_differs(document);
   if (data_differs) {
@@ -220,6 +216,19 @@ static void append_shape(GString *text, const SbDocument *document, const char *
   }
 }
 
+// Appends the files that keys of a group name, from the root.
+static void append_files(GString *text, const SbDocument *document, const char *group,
+                         size_t length) {
+  for (int i = 0; i < SB_FILE_COUNT; i++) {
+    const char *key = sb_document_file_key[i], *dot = strrchr(key, '.');
+    if (document->file[i].path != NULL && (size_t)(dot - key) == length &&
+        strncmp(key, group, length) == 0) {
+      g_autofree char *whole = g_canonicalize_filename(document->file[i].path, NULL);
+      g_string_append_printf(text, "%s = %s\n", dot + 1, whole);
+    }
+  }
+}
+
 char *sb_document_to_flat_text(const SbDocument *document) {
   SbParams params = sb_document_params(document);
   GString *text = g_string_new("[" SB_META_GROUP "]\nformat = 1\nkind = valve\n");
@@ -232,14 +241,7 @@ char *sb_document_to_flat_text(const SbDocument *document) {
     if (g_hash_table_add(seen, g_strndup(key, length))) {
       append_group(text, &params, key, length);
       append_shape(text, document, key, length);
-      if (document->series_path != NULL && length == 5 && strncmp(key, "drive", 5) == 0) {
-        g_autofree char *whole = g_canonicalize_filename(document->series_path, NULL);
-        g_string_append_printf(text, "file = %s\n", whole);
-      }
-      if (document->shelf_path != NULL && length == 5 && strncmp(key, "shelf", 5) == 0) {
-        g_autofree char *whole = g_canonicalize_filename(document->shelf_path, NULL);
-        g_string_append_printf(text, "file = %s\n", whole);
-      }
+      append_files(text, document, key, length);
     }
   }
   g_hash_table_unref(seen);
@@ -264,22 +266,15 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
     document->valve_path = g_build_filename(directory, valve, NULL);
     g_free(directory);
   }
-  char *series = moved_series(document, path);
-  if (series != NULL) {
-    g_free(document->series_name);
-    document->series_name = series;
-    char *directory = g_path_get_dirname(path);
-    g_free(document->series_path);
-    document->series_path = g_build_filename(directory, series, NULL);
-    g_free(directory);
-  }
-  char *shelf = moved_shelf(document, path);
-  if (shelf != NULL) {
-    g_free(document->shelf_name);
-    document->shelf_name = shelf;
-    g_autofree char *directory = g_path_get_dirname(path);
-    g_free(document->shelf_path);
-    document->shelf_path = g_build_filename(directory, shelf, NULL);
+  for (int i = 0; i < SB_FILE_COUNT; i++) {
+    char *name = moved_file(document, i, path);
+    if (name != NULL) {
+      g_autofree char *directory = g_path_get_dirname(path);
+      SbNamedFile *file = &document->file[i];
+      g_free(file->name);
+      g_free(file->path);
+      *file = (SbNamedFile){name, g_build_filename(directory, name, NULL), false};
+    }
   }
   g_free(document->text);
   document->text = text;

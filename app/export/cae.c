@@ -112,11 +112,16 @@ static void write_vtu(GString *out, const Mesh *mesh) {
 
 // ---- DXF
 
-static void put_vertex(GString *out, const char *layer, double x, double y) {
+// A vertex [m] and the bulge of the arc to the next one.
+static void put_vertex(GString *out, const char *layer, double x, double y, double bulge) {
   g_string_append_printf(out, "0\nVERTEX\n8\n%s\n", layer);
   put(out, "10\n", 1e3 * x);
   put(out, "\n20\n", 1e3 * y);
   g_string_append(out, "\n30\n0\n");
+  if (bulge != 0.0) {
+    put(out, "42\n", bulge);
+    g_string_append_c(out, '\n');
+  }
 }
 
 static void begin_polyline(GString *out, const char *layer, bool closed) {
@@ -128,25 +133,39 @@ static void end_polyline(GString *out, const char *layer) {
   g_string_append_printf(out, "0\nSEQEND\n8\n%s\n", layer);
 }
 
+// The free section by the lines and arcs that it has. Its (r, z) are y and x here, so that arcs
+// turn the other way, and a gasket's bore lies inwards, so that they turn once more.
+static void put_free(GString *out, const Mesh *mesh, const char *layer) {
+  const SbRingBody *body = &mesh->body;
+  const double d = body->section_diameter, middle = 0.5 * (body->inner_diameter + d);
+  const double way = body->inward ? -1.0 : 1.0;
+  SbRingOutline outline;
+  (void)sb_ring_outline_of_profile(&outline, &body->profile, d, NULL); // it was solved
+  begin_polyline(out, layer, true);
+  for (int i = 0; i < outline.count; i++) {
+    const SbRingOutlinePart *part = &outline.part[i];
+    put_vertex(out, layer, d * part->from[1], middle + way * d * part->from[0],
+               part->radius > 0.0 ? -way * tan(0.25 * part->sweep) : 0.0);
+  }
+  end_polyline(out, layer);
+}
+
 static void write_dxf(GString *out, const Mesh *mesh) {
-  static const char *const outline[] = {"FREE", "DEFORMED"}, *const line[] = {"FLOOR", "BORE"};
+  static const char *const line[] = {"FLOOR", "BORE"}, deformed[] = "DEFORMED";
   const double radius[] = {mesh->load.floor_radius, fabs(mesh->load.bore_radius)};
   g_string_append(out, "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$INSUNITS\n70\n4\n"
                        "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n");
-  for (int deformed = 0; deformed < 2; deformed++) {
-    begin_polyline(out, outline[deformed], true);
-    for (int i = 0; i < 2 * mesh->sides; i++) {
-      const int node = mesh->section.loop[i];
-      const double *place = &mesh->fields.place[2 * node];
-      put_vertex(out, outline[deformed], deformed ? place[0] : free_place(mesh, node, 0),
-                 deformed ? place[1] : free_place(mesh, node, 1));
-    }
-    end_polyline(out, outline[deformed]);
+  put_free(out, mesh, "FREE");
+  begin_polyline(out, deformed, true);
+  for (int i = 0; i < 2 * mesh->sides; i++) {
+    const double *place = &mesh->fields.place[2 * mesh->section.loop[i]];
+    put_vertex(out, deformed, place[0], place[1], 0.0);
   }
+  end_polyline(out, deformed);
   for (int k = mesh->body.inward ? 1 : 0; k < 2; k++) {
     begin_polyline(out, line[k], false);
-    put_vertex(out, line[k], 1.5 * mesh->result.axial_left, radius[k]);
-    put_vertex(out, line[k], 1.5 * mesh->result.axial_right, radius[k]);
+    put_vertex(out, line[k], 1.5 * mesh->result.axial_left, radius[k], 0.0);
+    put_vertex(out, line[k], 1.5 * mesh->result.axial_right, radius[k], 0.0);
     end_polyline(out, line[k]);
   }
   g_string_append(out, "0\nENDSEC\n0\nEOF\n");

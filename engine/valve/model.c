@@ -138,7 +138,8 @@ static SbSealProfile profile_of(const SbModel *model, double grown) {
                          .flange_height = grown * model->profile_flange_height,
                          .lip_thickness = grown * model->profile_lip_thickness,
                          .lip_depth = grown * model->profile_lip_depth,
-                         .lip_flare = grown * model->profile_lip_flare};
+                         .lip_flare = grown * model->profile_lip_flare,
+                         .drawn = model->data != NULL ? model->data->profile : (SbSealDrawing){0}};
 }
 
 SbSealProfile sb_model_profile(const SbModel *model, int seal) {
@@ -421,7 +422,8 @@ static void compile_parts(SbModel *model, SbProblems *problems) {
                        part[SB_VALVE_OUTER_SEAL].mass + part[SB_VALVE_BLOCK].mass;
 }
 
-SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems) {
+SbStatus sb_model_compile(SbModel *out, const SbParams *params, const SbModelData *data,
+                          SbProblems *problems) {
   struct {
     SbModel model;
     SbAssemblyWork work;
@@ -433,6 +435,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *prob
   SbModel *model = &made->model;
   SbProblems *found = &made->problems;
   take_values(model, params);
+  model->data = data;
   check_fluid(model, found);
   check_profile(model, found);
   if (model->kind == SB_VALVE_GASKET) {
@@ -503,9 +506,8 @@ static SbStatus complete(SbModel *out, const SbParams *params, const SbModelData
     return SB_ERROR_INPUT;
   }
   const SbLimits none = {0}, kept = limits != NULL ? *limits : none; // it may be out's
-  SbStatus status = sb_model_compile(out, params, problems);
+  SbStatus status = sb_model_compile(out, params, data, problems);
   if (status == SB_OK) {
-    out->data = data;
     out->limits = kept;
   }
   return status;

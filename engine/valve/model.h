@@ -46,7 +46,7 @@ struct SbModel {
   SbValveShape shape;     // for the drawing only
   SbStudyRange study;
   SbShelfInput shelf;      // what a loss on the shelf hangs on beside the rest
-  const SbModelData *data; // borrowed; NULL: neither a measured series nor outlines
+  const SbModelData *data; // borrowed; NULL: no series, drawn section or outlines
   SbLimits limits;         // filled by whoever read them, none otherwise
 };
 
@@ -54,9 +54,10 @@ struct SbModel {
 void SB_PRINTF(5, 6) sb_model_refuse(SbProblems *problems, const char *key, double min, double max,
                                      const char *format, ...);
 
-// Compiles parameters into *out, with neither data nor limits. Otherwise as sb_model_create(), *out
-// as it was.
-SbStatus sb_model_compile(SbModel *out, const SbParams *params, SbProblems *problems);
+// Compiles parameters into *out, which borrows `data`, without limits. Otherwise as
+// sb_model_create(), *out as it was.
+SbStatus sb_model_compile(SbModel *out, const SbParams *params, const SbModelData *data,
+                          SbProblems *problems);
 
 // As sb_model_derive(), into *out, which borrows the data and may be `base`, and is as it was where
 // it fails. What else was written into `base` is left behind.

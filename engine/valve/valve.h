@@ -209,6 +209,7 @@ typedef struct {
   atomic_uint holders;
   SbModelSeries measured; // count 0: none
   SbModelSeries shelf;    // temperatures [K] over time, of shelf.file; count 0: none
+  SbSealDrawing profile;  // of seal.profile_file; count 0: none
   SbValveOutlines outlines;
   SbRubberSheet rubber; // of the parameters that it comes with, which borrow it
 } SbModelData;
@@ -219,10 +220,10 @@ SbStatus sb_model_data_create(SbModelData **out);
 // Lets go of it; with the last holder it goes. From any thread; takes NULL.
 void sb_model_data_release(const SbModelData *data);
 
-// Compiles parameters. On SB_OK *out is owned by the caller and holds `data` (NULL: neither a
-// measured series nor outlines); it has `limits` (NULL: none). Otherwise *out is NULL:
-// SB_ERROR_MEMORY, or SB_ERROR_INPUT, and `problems` (may be NULL) lists every combination that
-// makes no sense: bore smaller than the stem, no room for the ring...
+// Compiles parameters. On SB_OK *out is owned by the caller and holds `data` (NULL: no
+// measured series, drawn section or outlines); it has `limits` (NULL: none). Otherwise *out is
+// NULL: SB_ERROR_MEMORY, or SB_ERROR_INPUT, and `problems` (may be NULL) lists every combination
+// that makes no sense: bore smaller than the stem, no room for the ring...
 SbStatus sb_model_create(SbModel **out, const SbParams *params, const SbModelData *data,
                          const SbLimits *limits, SbProblems *problems);
 

@@ -22,7 +22,7 @@ static inline void compile(SbModel *model, const Setting *settings, size_t count
       g_assert_cmpint(status, ==, SB_OK);
     }
   }
-  g_assert_cmpint(sb_model_compile(model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(model, &params, NULL, NULL), ==, SB_OK);
 }
 
 // Plans and executes a run, which must end so; the caller owns it.

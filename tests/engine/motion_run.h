@@ -25,7 +25,7 @@ static inline SbRun *run_with(SbModelMotion motion, const Setting *settings, siz
   }
   SbModel model;
   SbProblems problems;
-  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_OK);
   SbPlan plan;
   sb_plan_make(&plan, &model);
   SbRun *run = NULL;

@@ -192,7 +192,7 @@ static SbRun *run_cycle(int asperities, double sigma, double speed, double toler
   SbModel model;
   SbPlan plan;
   SbRun *run = NULL;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   sb_plan_make(&plan, &model);
   g_assert_cmpint(sb_run_create(&run, &model, &plan, NULL), ==, SB_OK);
   g_assert_cmpint(sb_run_execute(run, NULL, NULL), ==, SB_OK);
@@ -254,7 +254,7 @@ static SbStudy *study_of(SbStudyKind kind, double tolerance) {
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_TOLERANCE, tolerance, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==, SB_OK);
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   SbStudy *study = g_new(SbStudy, 1);
   g_assert_cmpint(sb_study_make(study, kind, &model, NULL, NULL), ==, SB_OK);
   return study;

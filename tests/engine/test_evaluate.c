@@ -52,7 +52,7 @@ static SbModel base_model(void) {
   SbParams params;
   SbModel model;
   sb_params_init(&params);
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   return model;
 }
 

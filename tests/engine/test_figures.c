@@ -401,7 +401,7 @@ static void test_no_work(void) {
     SbParamId id = (SbParamId)sb_param_find(given[i].key);
     g_assert_cmpint(sb_params_set(&params, id, given[i].value, NULL), ==, SB_OK);
   }
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   SbRun *run = run_of(&model, SB_OK, NULL);
   g_assert_cmpfloat(sb_run_summary(run)->energy.closure, ==, 0);
   g_assert_cmpfloat(sb_run_summary(run)->energy.external_max, <, 1e-12);
@@ -469,7 +469,7 @@ static void test_geometry(void) {
   SbProblems problems;
   sb_params_init(&params);
   g_assert_cmpint(sb_params_set(&params, SB_P_STEM_PRESSURE_DIAMETER, 3.2e-3, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpstr(problems.item[0].key, ==, "stem.pressure_diameter");
   g_assert_cmpfloat_with_epsilon(problems.item[0].min, 3.28e-3, 1e-12);
   const Setting changes[] = {{SB_P_CANISTER_PRESSURE_MAP, SB_MAP_PORTS},

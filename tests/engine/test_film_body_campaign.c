@@ -91,7 +91,7 @@ static void test_bodies(void) {
     double ratio;
     draw(&params, random, &ratio);
     SbProblems problems = {0};
-    if (sb_model_compile(&model, &params, &problems) != SB_OK) {
+    if (sb_model_compile(&model, &params, NULL, &problems) != SB_OK) {
       refused++;
       continue;
     }
@@ -156,7 +156,7 @@ static void films_of(guint32 of_seed, const int *discs, size_t discs_count) {
     SbModel model;
     double ratio;
     draw(&params, random, &ratio);
-    if (sb_model_compile(&model, &params, NULL) != SB_OK || i++ != discs[next]) {
+    if (sb_model_compile(&model, &params, NULL, NULL) != SB_OK || i++ != discs[next]) {
       continue;
     }
     next++;

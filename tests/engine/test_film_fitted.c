@@ -189,7 +189,7 @@ static void test_run(void) {
   g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, SB_FIT_DISC, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==, SB_OK);
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   SbSlidingMemory *memory = NULL;
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
   for (int chamber = 0; chamber < 3; chamber++) {
@@ -238,7 +238,7 @@ static void solve_ring(SbSealState *out, SbDryContact *dry, double *modulus, dou
   g_assert_cmpint(sb_params_set(&params, SB_P_GLAND_WALL_FRICTION, 0.1, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_FRICTION_SHEAR_STRENGTH, 1e6, NULL), ==, SB_OK);
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   SbSlidingMemory *memory = NULL;
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
   const int seal = chamber == 0 ? SB_OUTER : SB_INNER;

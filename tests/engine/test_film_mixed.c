@@ -552,7 +552,7 @@ static void test_sliding(void) {
   g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED, NULL),
                   ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_SURFACE_SIGMA, 2e-7, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   SbSlidingMemory *memory = NULL;
   SbCounters counts = {0};
   SbWarnings warnings = {0};
@@ -590,7 +590,7 @@ static void test_sliding(void) {
   // Adhesion reaches the run where it is asked for.
   g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_ADHESION, 1, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_SURFACE_HAMAKER_CONSTANT, 1e-18, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   SbSealState pulled;
   g_assert_cmpint(
       sb_sliding_solve(
@@ -611,7 +611,7 @@ static void test_sliding(void) {
                                     k == 0 ? SB_MODEL_ADHESION_OFF : SB_MODEL_ADHESION_ASPERITIES,
                                     NULL),
                       ==, SB_OK);
-      g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+      g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
       sb_sliding_memory_forget(memory);
       g_assert_cmpint(
           sb_sliding_solve(

@@ -136,7 +136,7 @@ static void run_seal(int fit_model) {
   g_assert_cmpint(sb_params_set(&params, SB_P_GLAND_WALL_FRICTION, 0.1, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_FRICTION_SHEAR_STRENGTH, 1e6, NULL), ==, SB_OK);
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   SbSlidingMemory *memory = NULL;
   g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
   for (int seal_side = 0; seal_side < SB_SEAL_COUNT; seal_side++) {

@@ -22,7 +22,7 @@ static SbModel model_with(const Setting *setting, size_t count) {
   }
   SbModel model;
   SbProblems problems;
-  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_OK);
   return model;
 }
 

@@ -59,7 +59,7 @@ static void test_model_names(void) {
     g_assert_cmpint(
         sb_params_set(&params, SB_P_MODELS_SURFACE, i % sb_param_choice_count(surface), NULL), ==,
         SB_OK);
-    g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+    g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
     sb_param_choice_name(fit, i, name, sizeof name);
     g_assert_cmpstr(sb_fit_model_name(model.fit), ==, name);
     sb_param_choice_name(film, (int)params.value[SB_P_MODELS_FILM], name, sizeof name);
@@ -92,7 +92,7 @@ static void test_life_motions(void) {
     g_assert_cmpint(sb_params_set(&params, SB_P_LIFE_ACTUATIONS, 3, NULL), ==, SB_OK);
     SbModel model;
     SbProblems problems;
-    bool good = sb_model_compile(&model, &params, &problems) == SB_OK;
+    bool good = sb_model_compile(&model, &params, NULL, &problems) == SB_OK;
     g_assert_true(good == cases[i].allowed);
     bool named = false;
     for (size_t k = 0; !good && k < problems.count; k++) {
@@ -148,14 +148,14 @@ static void test_sets(void) {
     sb_params_default(&derived, &params, rows[i].id);
     g_assert_cmpint(derived.giver, ==, SB_P_MODELS_SET);
     g_assert_cmpstr(derived.source, !=, sb_param(rows[i].id)->source);
-    g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+    g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
     g_assert_cmpfloat(sb_model_value(&model, rows[i].id), ==, rows[i].consistent);
     const SbOverride back = {SB_P_MODELS_SET, SB_MODEL_SET_THESIS};
     g_assert_cmpint(sb_model_override(&model, &model, &back, 1, NULL), ==, SB_OK);
     g_assert_cmpfloat(sb_model_value(&model, rows[i].id), ==, rows[i].thesis);
     // Given, it stays.
     g_assert_cmpint(sb_params_set(&params, rows[i].id, rows[i].thesis, NULL), ==, SB_OK);
-    g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+    g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
     g_assert_cmpfloat(sb_model_value(&model, rows[i].id), ==, rows[i].thesis);
   }
 }
@@ -164,7 +164,7 @@ static void test_derived(void) {
   SbParams params;
   sb_params_init(&params);
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   const SbSealModel *seal = &model.seal[SB_OUTER];
   g_assert_cmpfloat_with_epsilon(seal->squeeze, 0.25 / 1.61, 1e-12);
   g_assert_cmpfloat_with_epsilon(seal->stretch_mean, 0.0427, 5e-5);
@@ -187,7 +187,7 @@ static void test_problems(void) {
   g_assert_cmpint(sb_params_set(&params, SB_P_BORE_DIAMETER, 5e-3, &report), ==, SB_OK);
   SbModel model;
   SbProblems problems;
-  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpuint(problems.count, ==, 1);
   g_assert_cmpstr(problems.item[0].key, ==, "bore.diameter");
 }
@@ -196,7 +196,7 @@ static void test_pressure_maps(void) {
   SbParams params;
   sb_params_init(&params);
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   SbSealPressure outer = sb_model_seal_pressure(&model, SB_OUTER, SB_CHAMBER_AT_REST);
   SbSealPressure inner = sb_model_seal_pressure(&model, SB_INNER, SB_CHAMBER_AT_REST);
   g_assert_cmpfloat(outer.left - outer.right, ==, 0.55e6);
@@ -219,7 +219,7 @@ static void test_storage(void) {
   SbParams params;
   sb_params_init(&params);
   SbModel fresh;
-  g_assert_cmpint(sb_model_compile(&fresh, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&fresh, &params, NULL, NULL), ==, SB_OK);
   g_assert_cmpfloat(fresh.seal[SB_OUTER].section_diameter, ==, 1.61e-3);
   g_assert_cmpfloat(fresh.seal[SB_OUTER].modulus, ==, 2.5e6);
 
@@ -227,7 +227,7 @@ static void test_storage(void) {
   set(&params, "rubber.swell_mass", 0.17);
   set(&params, "rubber.relaxation_share_1", 0.2);
   SbModel stored;
-  g_assert_cmpint(sb_model_compile(&stored, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&stored, &params, NULL, NULL), ==, SB_OK);
   const SbSealModel *seal = &stored.seal[SB_INNER];
   const double growth = cbrt(1 + 0.17 * 1090 / 1226);
   g_assert_cmpfloat_with_epsilon(seal->section_diameter, 1.61e-3 * growth, 1e-8);
@@ -249,7 +249,7 @@ static void test_storage(void) {
   // Constants that make no sense together are a problem with its key.
   set(&params, "rubber.relaxation_share_2", 0.9);
   SbProblems problems;
-  g_assert_cmpint(sb_model_compile(&stored, &params, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpint(sb_model_compile(&stored, &params, NULL, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpuint(problems.count, >=, 1);
   g_assert_cmpstr(problems.item[0].key, ==, "rubber.relaxation_share_1");
 }
@@ -258,7 +258,7 @@ static void test_gland(void) {
   SbParams params;
   sb_params_init(&params);
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   SbGland gland;
   sb_model_gland(&gland, &model, SB_OUTER);
   SbGlandReadout out[SB_GLAND_COUNT];
@@ -271,7 +271,7 @@ static void test_gland(void) {
   // The tolerance of one seal is its own.
   set(&params, "seal.outer.section_diameter_tolerance", 0);
   set(&params, "gland.radial_space_tolerance", 0);
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   sb_model_gland(&gland, &model, SB_OUTER);
   g_assert_cmpint(sb_gland_readouts(out, &gland, NULL), ==, SB_OK);
   g_assert_cmpfloat(out[SB_GLAND_SQUEEZE].worst_low, ==, out[SB_GLAND_SQUEEZE].worst_high);

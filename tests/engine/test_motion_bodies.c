@@ -19,7 +19,7 @@ static SbStatus thesis_valve(SbAssembly *assembly, SbReport *report) {
   SbParams params;
   SbModel model;
   sb_params_init(&params);
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   return sb_assembly_valve(assembly, &model.parts, report);
 }
 

@@ -291,7 +291,7 @@ static void test_as_one(void) {
   SbAssemblyTangent t, anew;
   SbReport report = {0};
   sb_params_init(&params);
-  g_assert_cmpint(sb_model_compile(&valve, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&valve, &params, NULL, NULL), ==, SB_OK);
   g_assert_cmpint(sb_assembly_valve(&a, &valve.parts, &report), ==, SB_OK);
   g_assert_cmpint(
       sb_assembly_tangent(&t, &a, SB_VALVE_STEM_CENTRE, x_axis, &assembly_work, &report), ==,
@@ -329,7 +329,7 @@ static void test_cycle(void) {
   SbAssemblyTangent t;
   SbReport report = {0};
   sb_params_init(&params);
-  g_assert_cmpint(sb_model_compile(&valve, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&valve, &params, NULL, NULL), ==, SB_OK);
   g_assert_cmpint(sb_assembly_valve(&a, &valve.parts, &report), ==, SB_OK);
   g_assert_cmpint(
       sb_assembly_tangent(&t, &a, SB_VALVE_STEM_CENTRE, x_axis, &assembly_work, &report), ==,

@@ -99,10 +99,10 @@ static void test_joints(void) {
     sb_params_init(&params);
     g_assert_cmpint(sb_params_set(&params, cases[i].id, cases[i].kind, NULL), ==, SB_OK);
     // Nobody asks: nothing to refuse.
-    g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_OK);
+    g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_OK);
     g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_MOTION, SB_MODEL_MOTION_BODIES, NULL), ==,
                     SB_OK);
-    g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
+    g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_ERROR_INPUT);
     g_assert_cmpstr(problems.item[0].key, ==, cases[i].key);
     g_test_message("%s", problems.item[0].text);
     g_assert_nonnull(strstr(problems.item[0].text, cases[i].text));

@@ -243,7 +243,7 @@ static void test_refused(void) {
   g_assert_cmpint(sb_params_set(&params, SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND, NULL), ==, SB_OK);
   SbModel model;
   SbProblems problems;
-  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpstr(problems.item[0].key, ==, "drive.kind");
   sb_params_init(&params);
   problems.count = 0;
@@ -251,9 +251,9 @@ static void test_refused(void) {
                   SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_FRICTION_STRIBECK_SPEED, 1e-3, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_FRICTION_TANGENTIAL_STIFFNESS, 1e4, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_DRIVE_DAMPING_RATIO, 0, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpstr(problems.item[0].key, ==, "drive.damping_ratio");
 }
 

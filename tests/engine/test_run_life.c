@@ -20,7 +20,7 @@ static SbRun *run_with(const Change *changes, int count) {
     g_assert_cmpint(sb_params_set(&params, changes[i].id, changes[i].value, NULL), ==, SB_OK);
   }
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   return executed_run(&model);
 }
 
@@ -249,7 +249,7 @@ static void test_cancel(void) {
   sb_params_init(&params);
   g_assert_cmpint(sb_params_set(&params, SB_P_LIFE_ACTUATIONS, 100000, NULL), ==, SB_OK);
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   SbPlan plan;
   sb_plan_make(&plan, &model);
   SbRun *run = NULL;

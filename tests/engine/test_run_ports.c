@@ -114,7 +114,7 @@ static void test_through_flow(void) {
   }
   SbModel model;
   SbPlan plan;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   sb_plan_make(&plan, &model);
   g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
   g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_ERROR_INFEASIBLE);

@@ -25,7 +25,7 @@ static SbRun *pull(const double changes[][2], int count) {
                     SB_OK);
   }
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   return executed_run(&model);
 }
 
@@ -129,7 +129,7 @@ static void test_range(void) {
   g_assert_cmpint(sb_params_set(&params, SB_P_RIG_DURATION, 1e4, NULL), ==, SB_OK);
   SbModel model;
   SbProblems problems;
-  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpstr(problems.item[0].key, ==, "rig.duration");
   ASSERT_NEAR(problems.item[0].max, 20, 1e-9);
 }

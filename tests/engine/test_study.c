@@ -18,7 +18,7 @@ static SbModel thesis_model(double tolerance) {
   sb_params_init(&params);
   g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_TOLERANCE, tolerance, NULL), ==, SB_OK);
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   return model;
 }
 
@@ -198,7 +198,7 @@ static void test_storage(void) {
   g_assert_cmpint(sb_params_set(&params, SB_P_RUBBER_RELAXATION_SHARE_1, 0.3, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_RUBBER_RELAXATION_TIME_1, 86400, NULL), ==, SB_OK);
   SbModel model;
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   SbModel before = model;
   SbStudy *study = make(SB_STUDY_STORAGE, &model);
   g_assert_cmpmem(&model, sizeof model, &before, sizeof before);
@@ -218,7 +218,7 @@ static void test_storage(void) {
   // Swell of 17 % by mass: 0.17 x 1090/1226 by volume, squeeze from the swollen section.
   sb_params_init(&params);
   g_assert_cmpint(sb_params_set(&params, SB_P_RUBBER_SWELL_MASS, 0.17, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   study = make(SB_STUDY_STORAGE, &model);
   double d = 1.61e-3 * cbrt(1 + 0.17 * 1090 / 1226);
   NEAR(cell(study, "1 year", "section, free"), d, 1e-9);
@@ -460,7 +460,7 @@ static void test_rings(void) {
   for (size_t i = 0; i < G_N_ELEMENTS(few); i++) {
     g_assert_cmpint(sb_params_set(&params, few[i].id, few[i].value, NULL), ==, SB_OK);
   }
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
   SbStudy *study = make(SB_STUDY_PROPELLANTS, &model);
   g_assert_true(study->complete);
   g_assert_nonnull(strstr(study->models, "rings solved at"));
@@ -533,7 +533,7 @@ static void test_range(void) {
   sb_params_init(&params);
   g_assert_cmpint(sb_params_set(&params, SB_P_STUDY_SQUEEZE_MIN, 0.3, NULL), ==, SB_OK);
   g_assert_cmpint(sb_params_set(&params, SB_P_STUDY_SQUEEZE_MAX, 0.2, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_model_compile(&model, &params, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpstr(problems.item[0].key, ==, "study.squeeze_max");
 }
 

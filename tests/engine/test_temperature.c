@@ -57,7 +57,7 @@ static void test_follows(void) {
       g_assert_cmpstr(derived.tag, ==, "published");
       g_assert_true(sb_param_follows(rows[i].id));
       SbModel model;
-      g_assert_cmpint(sb_model_compile(&model, &params, NULL), ==, SB_OK);
+      g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
       g_assert_cmpfloat(sb_model_value(&model, rows[i].id), ==, derived.value);
       const double own = sb_param(rows[i].id)->fallback;
       g_assert_cmpint(sb_params_set(&params, rows[i].id, own, NULL), ==, SB_OK);
@@ -115,7 +115,7 @@ static void test_refused(void) {
       g_assert_cmpint(sb_params_set(&params, (SbParamId)settings[k].id, settings[k].value, NULL),
                       ==, SB_OK);
     }
-    const SbStatus status = sb_model_compile(&model, &params, &problems);
+    const SbStatus status = sb_model_compile(&model, &params, NULL, &problems);
     g_assert_cmpint(status, ==, rows[i].key != NULL ? SB_ERROR_INPUT : SB_OK);
     if (rows[i].key != NULL) {
       g_assert_cmpuint(problems.count, ==, 1);

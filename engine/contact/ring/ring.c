@@ -705,7 +705,7 @@ SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbRep
                                                         [SB_RING_WALL_LEFT] = SB_RING_WALL_RIGHT};
   SbRing *other;
   *out = NULL;
-  if (sb_seal_profile_has_sides(&ring->body.profile)) {
+  if (sb_ring_outline_has_sides(&ring->outline)) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the section's mirror image is another one");
   }
   SbStatus status = sb_ring_beside(&other, ring, report);

@@ -1,8 +1,8 @@
-// Outlines of the named profiles.
+// Outlines of named and drawn profiles.
 //
 // A profile is a polygon whose corners are rounded (rectangle, D, T, lip) or, of the x, eight
 // tangent arcs: lobes of one radius in the corners of a square, hollows between them tangent to
-// both. Geometry only; see the header.
+// both. Of a drawn one, corners between straight sides are rounded. Geometry only; see the header.
 #include "engine/contact/ring/ring_profile.h"
 #include "engine/base/check.h"
 
@@ -11,13 +11,16 @@
 
 enum { CORNERS_MAX = 12 };
 
+// A joint that turns by less is smooth [rad]: pieces that stand for a curve.
+static const double SMOOTH = 0.2;
+
 typedef struct {
   double r, z, radius;
 } Corner;
 
 const char *sb_seal_profile_name(SbSealProfileKind kind) {
-  static const char *const names[SB_SEAL_PROFILE_COUNT] = {"circle", "rectangle", "x",
-                                                           "d",      "t",         "lip"};
+  static const char *const names[SB_SEAL_PROFILE_COUNT] = {"circle", "rectangle", "x",   "d",
+                                                           "t",      "lip",       "file"};
   return (unsigned)kind < SB_SEAL_PROFILE_COUNT ? names[kind] : NULL;
 }
 
@@ -88,6 +91,83 @@ static bool round_corners(SbRingOutline *out, const Corner *corner, int count) {
     add_line(out, end[i], start[(i + 1) % count]);
   }
   return true;
+}
+
+// ---- drawn ones
+
+// A piece of a drawn outline; radius > 0 of an arc.
+static SbRingOutlinePart piece_of(const SbSealPoint *from, const SbSealPoint *to) {
+  SbRingOutlinePart part = {.from = {from->r, from->z}, .to = {to->r, to->z}};
+  const double d[2] = {to->r - from->r, to->z - from->z}, b = from->bulge;
+  part.length = hypot(d[0], d[1]);
+  if (fabs(b) > 1e-9) {
+    const double off = (1.0 - b * b) / (4.0 * b);
+    part.radius = part.length * (1.0 + b * b) / (4.0 * fabs(b));
+    part.centre[0] = 0.5 * (from->r + to->r) - off * d[1];
+    part.centre[1] = 0.5 * (from->z + to->z) + off * d[0];
+    part.angle = atan2(from->z - part.centre[1], from->r - part.centre[0]);
+    part.sweep = 4.0 * atan(b);
+  }
+  return part;
+}
+
+// Direction at a piece's beginning or end [rad].
+static double heading(const SbRingOutlinePart *part, bool at_end) {
+  if (part->radius > 0.0) {
+    return part->angle + (at_end ? part->sweep : 0.0) + copysign(0.5 * M_PI, part->sweep);
+  }
+  return atan2(part->to[1] - part->from[1], part->to[0] - part->from[0]);
+}
+
+// A drawn outline; its corners between straight sides rounded. A corner at an arc must be smooth.
+static SbStatus drawn(SbRingOutline *out, const SbSealDrawing *on, double radius,
+                      SbReport *report) {
+  double turn[SB_SEAL_POINTS_MAX], cut[SB_SEAL_POINTS_MAX];
+  const int n = on->count;
+  for (int i = 0; i < n; i++) {
+    const SbRingOutlinePart before = piece_of(&on->point[(i + n - 1) % n], &on->point[i]);
+    const SbRingOutlinePart after = piece_of(&on->point[i], &on->point[(i + 1) % n]);
+    turn[i] = remainder(heading(&after, false) - heading(&before, true), 2.0 * M_PI);
+    cut[i] = 0.0;
+    if (fabs(turn[i]) > SMOOTH && (before.radius > 0.0 || after.radius > 0.0)) {
+      return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile_file",
+                               "point %d is a sharp corner of %.0f degrees at an arc: end the arc "
+                               "along its neighbour",
+                               i + 1, fabs(turn[i]) * 180.0 / M_PI);
+    }
+    if (fabs(turn[i]) > SMOOTH) {
+      cut[i] = radius * fabs(tan(0.5 * turn[i]));
+    }
+  }
+  for (int i = 0; i < n; i++) {
+    const SbRingOutlinePart before = piece_of(&on->point[(i + n - 1) % n], &on->point[i]);
+    SbRingOutlinePart piece = piece_of(&on->point[i], &on->point[(i + 1) % n]);
+    const double ends[2] = {cut[i], cut[(i + 1) % n]};
+    if (ends[0] + ends[1] > piece.length * (1.0 + 1e-9)) {
+      return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.corner_radius",
+                               "the side from point %d of the drawn section is too short for "
+                               "corners rounded by %.3g of its height",
+                               i + 1, radius);
+    }
+    if (cut[i] > 0.0) {
+      const double u = heading(&before, true), side = copysign(1.0, turn[i]);
+      const double start[2] = {on->point[i].r - cut[i] * cos(u), on->point[i].z - cut[i] * sin(u)};
+      const double normal = u + side * 0.5 * M_PI;
+      add_arc(out, start[0] + radius * cos(normal), start[1] + radius * sin(normal), radius,
+              normal + M_PI, turn[i]);
+    }
+    if (piece.radius > 0.0) {
+      add_arc(out, piece.centre[0], piece.centre[1], piece.radius, piece.angle, piece.sweep);
+      continue;
+    }
+    double end[2][2];
+    for (int k = 0; k < 2; k++) {
+      end[0][k] = piece.from[k] + ends[0] / piece.length * (piece.to[k] - piece.from[k]);
+      end[1][k] = piece.to[k] - ends[1] / piece.length * (piece.to[k] - piece.from[k]);
+    }
+    add_line(out, end[0], end[1]);
+  }
+  return SB_OK;
 }
 
 // ---- the whole
@@ -279,7 +359,7 @@ static void x_ring(SbRingOutline *out, double lobe, double valley) {
 
 // Sizes, in section heights, that each kind needs.
 static SbStatus check(const SbSealProfile *p, double h, SbReport *report) {
-  const bool wide = p->kind != SB_SEAL_PROFILE_X;
+  const bool wide = p->kind != SB_SEAL_PROFILE_X && p->kind != SB_SEAL_PROFILE_FILE;
   SbStatus status =
       SB_CHECK(report,
                {"seal.axial_height", "the section's axial height over its radial one",
@@ -326,7 +406,19 @@ SbStatus sb_ring_outline_of_profile(SbRingOutline *out, const SbSealProfile *p, 
     out->half = 0.5;
     return sb_succeed(report);
   }
+  if (p->kind == SB_SEAL_PROFILE_FILE && p->drawn.count == 0) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile_file",
+                             "seal.profile = file needs the file of a section");
+  }
   SbStatus status = check(p, h, report);
+  if (status == SB_OK && p->kind == SB_SEAL_PROFILE_FILE) {
+    status = drawn(out, &p->drawn, p->corner_radius / h, report);
+    if (status == SB_OK) {
+      order(out);
+      status = sb_succeed(report);
+    }
+    return status;
+  }
   if (status != SB_OK) {
     return status;
   }
@@ -377,6 +469,16 @@ void sb_seal_profile_area(double *area, double *centroid, const SbSealProfile *p
   }
 }
 
-bool sb_seal_profile_has_sides(const SbSealProfile *profile) {
-  return profile->kind == SB_SEAL_PROFILE_LIP;
+bool sb_ring_outline_has_sides(const SbRingOutline *outline) {
+  enum { PLACES = 128 };
+  for (int i = 1; i < PLACES; i++) {
+    const double angle = M_PI * i / PLACES;
+    double left[2], right[2];
+    sb_ring_outline_place(outline, sb_ring_outline_arc(outline, -angle), left);
+    sb_ring_outline_place(outline, sb_ring_outline_arc(outline, angle), right);
+    if (hypot(left[0] - right[0], left[1] + right[1]) > 1e-6) {
+      return true;
+    }
+  }
+  return false;
 }

@@ -1,4 +1,5 @@
-// Free sections of a ring that are not circles: named profiles and the outline that they make.
+// Free sections of a ring that are not circles: named profiles, drawn ones, and the outline that
+// they make.
 //
 // An outline is a closed row of lines and arcs, counter-clockwise in (r, z), of straight or smooth
 // joints. It begins where it crosses z = 0 at the least radius (the floor's side), runs over the
@@ -18,21 +19,39 @@ typedef enum {
   SB_SEAL_PROFILE_D,
   SB_SEAL_PROFILE_T,
   SB_SEAL_PROFILE_LIP,
+  SB_SEAL_PROFILE_FILE, // drawn: SbSealProfile.drawn
   SB_SEAL_PROFILE_COUNT
 } SbSealProfileKind;
+
+enum { SB_SEAL_POINTS_MAX = 64 };
+
+// A section as somebody drew it, in units of its radial height: r from its middle radially,
+// -0.5 .. 0.5, z from its middle axially, which is its mirror plane if it has one. Closed,
+// counter-clockwise in (r, z). `bulge` bends the piece to the next point: tan of a quarter of the
+// arc's angle, > 0 counter-clockwise.
+typedef struct {
+  double r, z, bulge;
+} SbSealPoint;
+
+typedef struct {
+  int count; // 0: there is none
+  SbSealPoint point[SB_SEAL_POINTS_MAX];
+} SbSealDrawing;
 
 // A named profile; lengths in one unit with the section's radial height, which the caller has.
 // Zero-initialised: a circle.
 typedef struct {
   SbSealProfileKind kind;
   double axial_height;  // axial extent; not of circle and x, which are as high as wide
-  double corner_radius; // of all corners; of x its lobes; of lip half the tip's thickness at most
+  double corner_radius; // of all corners; of x its lobes; of lip half the tip's thickness at most;
+                        // of a drawn section those between two straight sides
   double valley_depth;  // x: of the hollows between its lobes
   double web_width;     // t: axial width of the web that touches the bore
   double flange_height; // t: radial height of the flange on the floor
   double lip_thickness; // lip: radial thickness of both lips at their tips
   double lip_depth;     // lip: axial depth of the hollow between them, open to the left
   double lip_flare;     // lip: radial reach of each lip beyond the heel
+  SbSealDrawing drawn;  // file
 } SbSealProfile;
 
 // Name of a kind ("rectangle"); NULL outside the enumeration.
@@ -45,7 +64,7 @@ typedef struct {
   double at, length; // arc from the outline's beginning, own length
 } SbRingOutlinePart;
 
-enum { SB_RING_OUTLINE_MAX = 96 };
+enum { SB_RING_OUTLINE_MAX = 2 * SB_SEAL_POINTS_MAX + 2 };
 
 // In units of the section's radial height; r from the section's middle, -0.5 .. 0.5.
 typedef struct {
@@ -68,8 +87,8 @@ SbStatus sb_ring_outline_of_profile(SbRingOutline *out, const SbSealProfile *pro
 void sb_seal_profile_area(double *area, double *centroid, const SbSealProfile *profile,
                           double height);
 
-// Whether its mirror image in z = 0 is another one.
-bool sb_seal_profile_has_sides(const SbSealProfile *profile);
+// Whether its mirror image in z = 0 is another one, by more than 1e-6.
+bool sb_ring_outline_has_sides(const SbRingOutline *outline);
 
 // Place of an arc from the beginning, 0 .. length.
 void sb_ring_outline_place(const SbRingOutline *outline, double arc, double x[2]);

@@ -1,0 +1,98 @@
+// Profiles; see the header.
+#include "app/cad/profile.h"
+
+#include "app/base/error.h"
+#include "app/base/unit.h"
+
+#include <math.h>
+
+static void fault(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
+static void fault(GError **error, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *text = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, text);
+}
+
+static bool read_point(SbProfilePoint *out, const char *word, double scale) {
+  g_auto(GStrv) numbers = g_strsplit(word, ",", -1);
+  const guint parts = g_strv_length(numbers);
+  double value[3] = {0};
+  bool good = parts == 2 || parts == 3;
+  for (guint k = 0; good && k < parts; k++) {
+    good = sb_number_parse(&value[k], numbers[k]);
+  }
+  *out = (SbProfilePoint){scale * value[0], scale * value[1], value[2]};
+  return good;
+}
+
+GArray *sb_profile_parse(const char *text, bool *closed, GError **error) {
+  g_auto(GStrv) words = g_strsplit_set(text, " \t\r\n", -1);
+  g_autoptr(GArray) points = g_array_new(FALSE, FALSE, sizeof(SbProfilePoint));
+  double scale = 0;
+  for (char **word = words; *word != NULL; word++) {
+    if (**word == '\0') {
+      continue;
+    }
+    if (scale == 0) {
+      g_autofree char *one = g_strdup_printf("1 %s", *word);
+      if (!sb_quantity_parse(&scale, one, "m", "mm", NULL) || scale <= 0) {
+        fault(error, "starts with the unit of its points, not '%.20s'", *word);
+        return NULL;
+      }
+      continue;
+    }
+    SbProfilePoint point;
+    if (points->len == SB_PROFILE_MAX) {
+      fault(error, "has more than %d points", SB_PROFILE_MAX);
+      return NULL;
+    }
+    if (!read_point(&point, *word, scale)) {
+      fault(error, "point %u is not x,r or x,r,bulge", points->len + 1);
+      return NULL;
+    }
+    g_array_append_val(points, point);
+  }
+  const SbProfilePoint *point = (const SbProfilePoint *)(void *)points->data;
+  const guint count = points->len;
+  *closed = count > 1 && point[0].x == point[count - 1].x && point[0].r == point[count - 1].r;
+  g_array_set_size(points, count - (*closed ? 1 : 0));
+  if (points->len < 2) {
+    fault(error, "has %u points, not two or more", points->len);
+    return NULL;
+  }
+  return g_steal_pointer(&points);
+}
+
+// Area of a profile, > 0 counter-clockwise; the axis closes an open one.
+static double area(const GArray *profile) {
+  double sum = 0;
+  for (guint i = 0; i < profile->len; i++) {
+    const SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i);
+    const SbProfilePoint *q = &g_array_index(profile, SbProfilePoint, (i + 1) % profile->len);
+    sum += (p->x * q->r - q->x * p->r) / 2;
+    if (p->bulge != 0) {
+      const double angle = 4 * atan(p->bulge), chord = hypot(q->x - p->x, q->r - p->r);
+      const double radius = chord / (2 * sin(angle / 2));
+      sum += radius * radius * (angle - sin(angle)) / 2;
+    }
+  }
+  return sum;
+}
+
+static void reverse(GArray *profile, bool closed) {
+  const guint n = profile->len;
+  g_autofree SbProfilePoint *old = g_memdup2(profile->data, n * sizeof *old);
+  for (guint i = 0; i < n; i++) {
+    SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i);
+    *p = old[n - 1 - i];
+    p->bulge = i + 1 < n ? -old[n - 2 - i].bulge : closed ? -old[n - 1].bulge : 0;
+  }
+}
+
+void sb_profile_turn(GArray *points, bool closed) {
+  if (area(points) < 0) {
+    reverse(points, closed);
+  }
+}

@@ -1,0 +1,77 @@
+// Files that keys of a document name: what they hold goes into the data of its models.
+#include "app/document/document_private.h"
+
+#include "app/document/seal_file.h"
+#include "app/document/series.h"
+
+#include <math.h>
+#include <string.h>
+
+const char *const sb_document_file_key[SB_FILE_COUNT] = {[SB_FILE_DRIVE] = "drive.file",
+                                                         [SB_FILE_SHELF] = "shelf.file",
+                                                         [SB_FILE_SECTION] = "seal.profile_file"};
+
+int sb_document_find_file(const char *key) {
+  for (int i = 0; i < SB_FILE_COUNT; i++) {
+    if (strcmp(key, sb_document_file_key[i]) == 0) {
+      return i;
+    }
+  }
+  return -1;
+}
+
+void sb_document_note_section(SbDocument *document) {
+  static const SbParamId section[] = {SB_P_SEAL_OUTER_SECTION_DIAMETER,
+                                      SB_P_SEAL_INNER_SECTION_DIAMETER};
+  const double height = document->section_height;
+  for (int i = 0; i < 2 && document->data != NULL && document->data->profile.count > 0; i++) {
+    const double is = sb_document_value(document, section[i]);
+    if (fabs(height - is) > 1e-3 * is) {
+      g_ptr_array_add(document->notes,
+                      g_strdup_printf("seal.profile_file: the section of %s is %.4g mm high; %s = "
+                                      "%.4g mm is in force, to which it is scaled",
+                                      document->file[SB_FILE_SECTION].name, 1e3 * height,
+                                      sb_param(section[i])->key, 1e3 * is));
+    }
+  }
+}
+
+bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name,
+                           const char *directory, bool in_valve, const char *shown, int line,
+                           GPtrArray *issues) {
+  char *path = g_path_is_absolute(name) || directory == NULL
+                   ? g_strdup(name)
+                   : g_build_filename(directory, name, NULL);
+  SbNamedFile *file = &document->file[key];
+  g_free(file->name);
+  g_free(file->path);
+  *file = (SbNamedFile){g_strdup(name), path, in_valve};
+  SbModelData *data = sb_document_data_with(document, sb_document_rubber_in_force(document));
+  bool good = false;
+  switch (key) {
+  case SB_FILE_DRIVE:
+    good = sb_series_read(&data->measured, path, issues);
+    break;
+  case SB_FILE_SHELF:
+    good = sb_series_read_temperature(&data->shelf, path, issues);
+    break;
+  default: {
+    GError *error = NULL;
+    good = sb_seal_file_read(&data->profile, &document->section_height, path, &error);
+    if (!good) {
+      sb_issues_add(issues, shown, line, sb_document_file_key[key], NULL, "%s", error->message);
+      g_error_free(error);
+    }
+    break;
+  }
+  }
+  if (!good) {
+    sb_model_data_release(data);
+    return false;
+  }
+  // Models may hold the data before, which nobody changes.
+  sb_model_data_release(document->data);
+  document->data = data;
+  document->serial++;
+  return true;
+}

@@ -1,0 +1,269 @@
+// Sections of seals from files; see the header.
+#include "app/document/seal_file.h"
+
+#include "app/base/error.h"
+#include "app/base/reader.h"
+#include "app/cad/cad.h"
+#include "app/cad/profile.h"
+
+#include <math.h>
+#include <string.h>
+
+// As the named profiles' (ring_profile.c).
+static const double WIDE = 5.0;
+
+// Of more pieces than there may be, rows become arcs that lie so near, in heights, and bend by less
+// than a corner at each joint [rad].
+static const double NEAR = 2e-4, CORNER = 0.35;
+
+static void fault(GError **error, const char *path, const char *format, ...) G_GNUC_PRINTF(3, 4);
+static void fault(GError **error, const char *path, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *text = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  g_autofree char *shown = sb_printable(path, strlen(path));
+  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: %s", shown, text);
+}
+
+// Comments become blanks.
+static void drop_comments(char *text) {
+  for (char *c = text; (c = strchr(c, '#')) != NULL;) {
+    for (; *c != '\0' && *c != '\n'; c++) {
+      *c = ' ';
+    }
+  }
+}
+
+// Whether a layer's name says that a seal's section is on it.
+static bool is_section(const char *name) {
+  static const char *const names[] = {"seal", "section", "free"};
+  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+    if (g_ascii_strcasecmp(name, names[i]) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// The closed outline of a drawing that has one, or one that is called so; NULL with an error.
+static GArray *from_drawing(const char *path, GError **error) {
+  const SbCadChoices choices = {.section = true};
+  g_autoptr(SbCad) cad = sb_cad_read(path, &choices, error);
+  const SbCadBody *found = NULL;
+  guint count = 0, called = 0;
+  if (cad == NULL) {
+    return NULL;
+  }
+  for (guint i = 0; i < cad->bodies->len; i++) {
+    const SbCadBody *body = cad->bodies->pdata[i];
+    if (body->profile->len > 0 && body->closed) {
+      found = called == 0 || is_section(body->name) ? body : found;
+      called += is_section(body->name) ? 1 : 0;
+      count++;
+    }
+  }
+  if (count != 1 && called != 1) {
+    fault(error, path,
+          count == 0 ? "holds no closed outline of a section"
+                     : "holds %u closed outlines, not one of them alone on a layer \"seal\"",
+          count);
+    return NULL;
+  }
+  GArray *points = g_array_new(FALSE, FALSE, sizeof(SbProfilePoint));
+  g_array_append_vals(points, found->profile->data, found->profile->len);
+  return points;
+}
+
+// Its points [m]; NULL with an error.
+static GArray *read_points(const char *path, GError **error) {
+  const size_t bytes_max = (size_t)256 << 20; // as sb_cad_read()
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autofree char *shown = sb_printable(path, strlen(path));
+  size_t length = 0;
+  g_autofree char *text = sb_reader_load(&length, path, shown, bytes_max, issues);
+  if (text == NULL) {
+    const SbIssue *issue = issues->pdata[0];
+    fault(error, path, "%s", issue->text);
+    return NULL;
+  }
+  // Points begin with their unit, a DXF with a number, a STEP with its name.
+  drop_comments(text);
+  const char *word = text + strspn(text, " \t\r\n");
+  if (!g_ascii_isalpha(*word) || g_str_has_prefix(word, "ISO-10303") ||
+      g_str_has_prefix(word, "solid") || g_str_has_prefix(word, "AutoCAD")) {
+    return from_drawing(path, error);
+  }
+  bool closed;
+  GError *own = NULL;
+  GArray *points = sb_profile_parse(text, &closed, &own);
+  if (points == NULL) {
+    fault(error, path, "%s (as in \"" SB_PROFILE_FORM "\")", own->message);
+    g_error_free(own);
+  } else if (!closed) {
+    fault(error, path, "does not close: a section repeats its first point");
+    g_clear_pointer(&points, g_array_unref);
+  }
+  return points;
+}
+
+// Extent of the piece from p to q along x and r.
+static void extend(double low[2], double high[2], const SbProfilePoint *p,
+                   const SbProfilePoint *q) {
+  const double from[2] = {p->x, p->r};
+  for (int k = 0; k < 2; k++) {
+    low[k] = fmin(low[k], from[k]);
+    high[k] = fmax(high[k], from[k]);
+  }
+  const double b = p->bulge, dx = q->x - p->x, dr = q->r - p->r;
+  if (b == 0) {
+    return;
+  }
+  const double off = (1 - b * b) / (4 * b);
+  const double centre[2] = {(p->x + q->x) / 2 - off * dr, (p->r + q->r) / 2 + off * dx};
+  const double radius = hypot(dx, dr) * (1 + b * b) / (4 * fabs(b)), sweep = 4 * atan(b);
+  const double start = atan2(p->r - centre[1], p->x - centre[0]);
+  for (int quarter = 0; quarter < 4; quarter++) {
+    double way = fmod((quarter * M_PI / 2 - start) * copysign(1, sweep), 2 * M_PI);
+    way += way < 0 ? 2 * M_PI : 0;
+    if (way < fabs(sweep)) {
+      const int k = quarter % 2;
+      const double at = centre[k] + (quarter < 2 ? radius : -radius);
+      low[k] = fmin(low[k], at);
+      high[k] = fmax(high[k], at);
+    }
+  }
+}
+
+// Heading of a piece at its end or beginning [rad].
+static double heading(const SbProfilePoint *p, const SbProfilePoint *q, bool at_end) {
+  return atan2(q->r - p->r, q->x - p->x) + (at_end ? 2 : -2) * atan(p->bulge);
+}
+
+// How far a place lies from the arc from `from` through `by` to `to`, which is a line where these
+// are on one.
+static double off_arc(const SbProfilePoint *from, const SbProfilePoint *by,
+                      const SbProfilePoint *to, double x, double r) {
+  const double ax = by->x - from->x, ar = by->r - from->r;
+  const double bx = to->x - from->x, br = to->r - from->r, cross = ax * br - ar * bx;
+  const double aa = ax * ax + ar * ar, bb = bx * bx + br * br;
+  if (fabs(cross) < 1e-6 * bb) {
+    return fabs((x - from->x) * br - (r - from->r) * bx) / sqrt(bb);
+  }
+  const double cx = (br * aa - ar * bb) / (2 * cross), cr = (ax * bb - bx * aa) / (2 * cross);
+  return fabs(hypot(x - from->x - cx, r - from->r - cr) - hypot(cx, cr));
+}
+
+// Whether the row of pieces from `first` to `last` is nearly one arc or line; its bulge.
+static bool one_arc(double *bulge, const GArray *row, guint first, guint last, double near) {
+  const SbProfilePoint *p = (const SbProfilePoint *)(void *)row->data;
+  const SbProfilePoint *from = &p[first], *to = &p[last], *by = &p[(first + last) / 2];
+  const double chord = hypot(to->x - from->x, to->r - from->r);
+  double turn = 0;
+  for (guint i = first; i < last; i++) {
+    const double bow = p[i].bulge / 2; // of the chord, to the right
+    const double x = (p[i].x + p[i + 1].x) / 2 + bow * (p[i + 1].r - p[i].r);
+    const double r = (p[i].r + p[i + 1].r) / 2 - bow * (p[i + 1].x - p[i].x);
+    const double bend =
+        i > first ? remainder(heading(&p[i], &p[i + 1], false) - heading(&p[i - 1], &p[i], true),
+                              2 * M_PI)
+                  : 0;
+    turn += bend + 4 * atan(p[i].bulge);
+    if (!(chord > 0) || off_arc(from, by, to, x, r) > near ||
+        off_arc(from, by, to, p[i].x, p[i].r) > near || fabs(bend) > CORNER ||
+        fabs(turn) > 0.9 * M_PI) {
+      return false;
+    }
+  }
+  // By the middle vertex: sagitta over half the chord, to the right.
+  const double side =
+      ((by->x - from->x) * (to->r - from->r) - (by->r - from->r) * (to->x - from->x)) / chord;
+  const double along =
+      ((by->x - from->x) * (to->x - from->x) + (by->r - from->r) * (to->r - from->r)) / chord;
+  const double angle = atan2(side, along) + atan2(side, chord - along); // half of the arc's
+  *bulge = fabs(angle) < 1e-6 ? 0 : tan(angle / 2);
+  return true;
+}
+
+// Joins rows of pieces; from a corner on, if there is one.
+static GArray *join(const GArray *points, double near) {
+  const guint n = points->len;
+  const SbProfilePoint *p = (const SbProfilePoint *)(void *)points->data;
+  guint begin = 0;
+  for (guint i = 0; i < n && begin == 0; i++) {
+    const double bend =
+        heading(&p[i], &p[(i + 1) % n], false) - heading(&p[(i + n - 1) % n], &p[i], true);
+    begin = fabs(remainder(bend, 2 * M_PI)) > CORNER ? i : 0;
+  }
+  g_autoptr(GArray) row = g_array_new(FALSE, FALSE, sizeof *p);
+  g_array_append_vals(row, &p[begin], n - begin);
+  g_array_append_vals(row, p, begin);
+  g_array_append_val(row, p[begin]);
+  GArray *out = g_array_new(FALSE, FALSE, sizeof *p);
+  for (guint i = 0; i < n;) {
+    SbProfilePoint point = g_array_index(row, SbProfilePoint, i);
+    guint end = i + 1;
+    double bulge;
+    while (end < n && one_arc(&bulge, row, i, end + 1, near)) {
+      point.bulge = bulge;
+      end++;
+    }
+    g_array_append_val(out, point);
+    i = end;
+  }
+  return out;
+}
+
+bool sb_seal_file_read(SbSealDrawing *out, double *height, const char *path, GError **error) {
+  out->count = 0;
+  g_autoptr(GArray) points = read_points(path, error);
+  if (points == NULL) {
+    return false;
+  }
+  sb_profile_turn(points, true);
+  SbProfilePoint *point = (SbProfilePoint *)(void *)points->data;
+  double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+  for (guint i = 0; i < points->len; i++) {
+    extend(low, high, &point[i], &point[(i + 1) % points->len]);
+  }
+  const double h = high[1] - low[1], w = high[0] - low[0];
+  if (!(h > 0) || !(w > 0) || w > WIDE * h || h > WIDE * w) {
+    fault(error, path,
+          "is %.4g mm wide (x) and %.4g mm high (r): no more than %g times as the other", 1e3 * w,
+          1e3 * h, WIDE);
+    return false;
+  }
+  const guint pieces = points->len;
+  if (pieces > SB_SEAL_POINTS_MAX) {
+    GArray *fewer = join(points, NEAR * h);
+    g_array_unref(points);
+    points = fewer;
+    point = (SbProfilePoint *)(void *)points->data;
+  }
+  if (points->len > SB_SEAL_POINTS_MAX) {
+    fault(error, path,
+          "has %u pieces, which arcs within %g of its height make no less than %u of, not %d",
+          pieces, NEAR, points->len, SB_SEAL_POINTS_MAX);
+    return false;
+  }
+  const int n = (int)points->len;
+  // Off the axis, wherever it was drawn.
+  for (int i = 0; i < n; i++) {
+    point[i].r += h - low[1];
+  }
+  const SbProfile profile = {point, points->len, true};
+  SbReport report = {0};
+  if (sb_profile_check(&profile, &report) != SB_OK) {
+    fault(error, path, "%s", report.text);
+    return false;
+  }
+  // Counter-clockwise in (x, r) is clockwise in (r, x): the other way round.
+  for (int i = 0; i < n; i++) {
+    const SbProfilePoint *p = &point[n - 1 - i], *before = &point[(2 * n - 2 - i) % n];
+    out->point[i] =
+        (SbSealPoint){(p->r - h) / h - 0.5, (p->x - (low[0] + high[0]) / 2) / h, before->bulge};
+  }
+  out->count = n;
+  *height = h;
+  return true;
+}

@@ -1,0 +1,13 @@
+// The section of a seal from a file, for seal.profile = file: a text of points as a part's profile
+// has them (app/cad/profile.h, # begins a comment), a DXF with one closed outline, or a STEP of the
+// ring. x is axial, pointing out of the canister.
+#pragma once
+
+#include "engine/contact/ring/ring_profile.h"
+
+#include <glib.h>
+
+// Reads `path` into *out and the section's radial height [m]. False with an error of SB_APP_ERROR
+// that names the file, *out empty: no closed outline or several, one that crosses itself, more than
+// SB_SEAL_POINTS_MAX pieces, a section more than 5 times as wide as high or the other way.
+bool sb_seal_file_read(SbSealDrawing *out, double *height, const char *path, GError **error);

@@ -1,0 +1,199 @@
+// Sections of seals from files: the outline that was drawn, wherever and whichever way round, and
+// what is no section.
+#include "app/document/seal_file.h"
+
+#include "app/document/document.h"
+
+#include "engine/valve/sealbench.h"
+
+#include <glib/gstdio.h>
+#include <math.h>
+#include <string.h>
+
+static char *folder;
+
+static char *write_file(const char *name, const char *text) {
+  char *path = g_build_filename(folder, name, NULL);
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+  return path;
+}
+
+static void read_text(SbSealDrawing *out, double *height, const char *text) {
+  g_autofree char *path = write_file("section.txt", text);
+  GError *error = NULL;
+  sb_seal_file_read(out, height, path, &error);
+  g_assert_no_error(error);
+}
+
+// How far two outlines lie apart at the same share of their length, in heights.
+static double apart(const SbRingOutline *a, const SbRingOutline *b) {
+  double most = fabs(a->area - b->area);
+  for (int i = 0; i < 500; i++) {
+    double x[2], y[2];
+    sb_ring_outline_place(a, a->length * i / 500, x);
+    sb_ring_outline_place(b, b->length * i / 500, y);
+    most = fmax(most, hypot(x[0] - y[0], x[1] - y[1]));
+  }
+  return most;
+}
+
+static SbRingOutline drawn(const char *text, double radius) {
+  SbSealProfile profile = {.kind = SB_SEAL_PROFILE_FILE};
+  double height;
+  read_text(&profile.drawn, &height, text);
+  profile.corner_radius = radius * height;
+  SbRingOutline outline;
+  SbReport report = {0};
+  if (sb_ring_outline_of_profile(&outline, &profile, height, &report) != SB_OK) {
+    g_error("%s", report.text);
+  }
+  return outline;
+}
+
+// A rectangle by its corners, from any corner either way, is the named one; so is a circle by its
+// arcs, and one of 200 sides to within its sides.
+static void test_alike(void) {
+  static const char *const rectangles[] = {"mm 0,0 1.2,0 1.2,1.6 0,1.6 0,0",
+                                           "# a ring\nmm 7,-3 7,-1.4\n5.8,-1.4 5.8,-3 7,-3",
+                                           "m 1e-3,0 1e-3,1.6e-3 2.2e-3,1.6e-3 2.2e-3,0 1e-3,0",
+                                           "mm 0.3,0 1.2,0 1.2,1.6 0,1.6 0,0 0.3,0"};
+  const SbSealProfile named = {
+      .kind = SB_SEAL_PROFILE_RECTANGLE, .axial_height = 1.2, .corner_radius = 0.16};
+  SbRingOutline wanted;
+  g_assert_cmpint(sb_ring_outline_of_profile(&wanted, &named, 1.6, NULL), ==, SB_OK);
+  for (size_t i = 0; i < G_N_ELEMENTS(rectangles); i++) {
+    const SbRingOutline is = drawn(rectangles[i], 0.1);
+    g_assert_cmpfloat(apart(&is, &wanted), <, 1e-12);
+    g_assert_false(sb_ring_outline_has_sides(&is));
+  }
+  const SbSealProfile round = {0};
+  g_assert_cmpint(sb_ring_outline_of_profile(&wanted, &round, 1, NULL), ==, SB_OK);
+  const SbRingOutline arcs =
+      drawn("mm 0,-0.8,0.414213562373095 0.8,0,0.414213562373095 0,0.8,0.414213562373095 "
+            "-0.8,0,0.414213562373095 0,-0.8",
+            0.1);
+  g_assert_cmpfloat(apart(&arcs, &wanted), <, 1e-5); // areas are those of 256 sides an arc
+  g_autoptr(GString) many = g_string_new("mm");
+  for (int i = 0; i <= 200; i++) {
+    g_string_append_printf(many, " %.9f,%.9f", 0.8 * cos(M_PI * (i % 200) / 100),
+                           0.8 * sin(M_PI * (i % 200) / 100));
+  }
+  const SbRingOutline sides = drawn(many->str, 0.1);
+  g_assert_cmpint(sides.count, <, 20);
+  g_assert_cmpfloat(apart(&sides, &wanted), <, 1e-3);
+}
+
+// x points out of the canister: a hollow drawn at the lower x is open to its side.
+static void test_sides(void) {
+  const SbRingOutline open = drawn("mm 0,0 2,0 2,2 0,2 0,1.5 1,1.5 1,0.5 0,0.5 0,0", 0.05);
+  double low = 0;
+  g_assert_true(sb_ring_outline_has_sides(&open));
+  for (int i = 0; i < 400; i++) {
+    double x[2];
+    sb_ring_outline_place(&open, open.length * i / 400, x);
+    low += fabs(x[0]) < 0.2 && x[1] < -0.1 && x[1] > -0.4 ? 1 : 0; // nothing between the lips
+  }
+  g_assert_cmpfloat(low, ==, 0);
+}
+
+static void test_refused(void) {
+  static const struct {
+    const char *text, *said;
+  } cases[] = {
+      {"mm 0,0 1,0 1,1 0,1", "does not close"},
+      {"mm 0,0 1,1 1,0 0,1 0,0", "cross"},
+      {"mm 0,0 1,0 1,a 0,0", "point 3 is not x,r"},
+      {"stone 0,0 1,0 1,1 0,0", "starts with the unit"},
+      {"mm 0,0 20,0 20,1 0,1 0,0", "20 mm wide (x) and 1 mm high (r)"},
+      {"mm 0,0 1,0 0,0", ""},
+      {"", "is empty"},
+      {"0\nSECTION\n", "dxf"},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autofree char *path = write_file("bad.txt", cases[i].text);
+    SbSealDrawing out;
+    double height;
+    GError *error = NULL;
+    g_assert_false(sb_seal_file_read(&out, &height, path, &error));
+    g_assert_nonnull(error);
+    g_test_message("%s", error->message);
+    g_assert_cmpint(out.count, ==, 0);
+    g_assert_nonnull(strstr(error->message, "bad.txt"));
+    if (i < 5 && strstr(error->message, cases[i].said) == NULL) {
+      g_error("%s without %s", error->message, cases[i].said);
+    }
+    g_error_free(error);
+  }
+}
+
+static SbDocument *load(const char *path, guint problems) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  SbDocument *document = sb_document_load(path, issues);
+  for (guint i = 0; i < issues->len && problems == 0; i++) {
+    g_autofree char *line = sb_issue_line(issues->pdata[i]);
+    g_test_message("%s", line);
+  }
+  g_assert_cmpuint(issues->len, ==, problems);
+  return document;
+}
+
+// A valve names its section's file from where it is, a scene takes it over, a document saved
+// elsewhere still finds it; other points make another model, and a height that is not the seals' is
+// told.
+static void test_document(void) {
+  g_autofree char *section = write_file("section.txt", "mm 0,0 1.2,0 1.2,2 0,2 0,0");
+  g_autofree char *valve =
+      write_file("own.valve", "[sealbench]\nformat = 1\nkind = valve\n[seal]\nprofile = file\n"
+                              "profile_file = section.txt\nsection_diameter = 1.61 mm\n");
+  g_autofree char *scene = write_file(
+      "own.scene", "[sealbench]\nformat = 1\nkind = scene\nvalve = own.valve\n[drive]\nspeed = "
+                   "20 mm/min\n");
+  g_autoptr(SbDocument) document = load(scene, 0);
+  g_autofree char *hash = sb_document_sha256(document);
+  const GPtrArray *notes = sb_document_notes(document);
+  g_assert_cmpuint(notes->len, ==, 2);
+  g_assert_nonnull(strstr(notes->pdata[0], "is 2 mm high"));
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbModel) model = NULL;
+  g_assert_true(sb_document_compile(document, &model, issues));
+  g_assert_cmpint(sb_model_profile(model, SB_OUTER).drawn.count, ==, 4);
+
+  g_autofree char *other = g_build_filename(folder, "sub", NULL);
+  g_assert_cmpint(g_mkdir(other, 0755), ==, 0);
+  g_autofree char *copy = g_build_filename(other, "copy.valve", NULL);
+  g_autoptr(SbDocument) moved = load(valve, 0);
+  g_assert_true(sb_document_save(moved, copy, NULL));
+  g_autoptr(SbDocument) again = load(copy, 0);
+  g_autofree char *text = sb_document_to_text(again, copy);
+  g_assert_nonnull(strstr(text, "profile_file = ../section.txt"));
+  g_autofree char *flat = sb_document_to_flat_text(document);
+  g_autoptr(SbDocument) alone = sb_document_parse(flat, strlen(flat), "flat", NULL, issues);
+  g_assert_cmpuint(issues->len, ==, 0);
+  g_autofree char *same = sb_document_sha256(alone);
+  g_assert_cmpstr(same, ==, hash);
+
+  g_autofree char *wider = write_file("wider.txt", "mm 0,0 1.3,0 1.3,2 0,2 0,0");
+  g_autofree char *option = g_strconcat("seal.profile_file=", wider, NULL);
+  g_assert_true(sb_document_set_option(document, option, issues));
+  g_autofree char *differs = sb_document_sha256(document);
+  g_assert_cmpstr(differs, !=, hash);
+  g_assert_false(sb_document_set_option(document, "seal.profile_file=none.txt", issues));
+  g_assert_cmpuint(issues->len, ==, 1);
+
+  // Without a file, and with one that is none.
+  g_autofree char *bare =
+      write_file("bare.valve", "[sealbench]\nformat = 1\nkind = valve\n[seal]\nprofile = file\n");
+  sb_document_free(load(bare, 1));
+  (void)write_file("section.txt", "mm 0,0 1,0");
+  sb_document_free(load(valve, 1));
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  folder = g_dir_make_tmp("seal-XXXXXX", NULL);
+  g_test_add_func("/seal-file/alike", test_alike);
+  g_test_add_func("/seal-file/sides", test_sides);
+  g_test_add_func("/seal-file/refused", test_refused);
+  g_test_add_func("/seal-file/document", test_document);
+  return g_test_run();
+}
