@@ -628,8 +628,8 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
   } else if (read_drawing(&drawing, &reader, &unit, &problem)) {
     const double scale = unit != NULL ? scale_of(unit, &problem) : 0;
     if (unit == NULL) {
-      g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                  "tells no unit ($INSUNITS)%s", choices->section ? "" : ": say it by --unit");
+      g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT, "tells no unit ($INSUNITS)%s",
+                  choices->section ? "" : ": say it by --unit");
     } else if (scale > 0) {
       cad = sb_cad_new("DXF");
       cad->unit = g_strdup(unit);

@@ -501,6 +501,12 @@ bool sb_cae_check(const char *path, const SbFitProblem *problem, GError **error)
   } else if (KIND[kind].write == write_inp && problem->dragged) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "%s: a ring with friction is not written for CalculiX: it hangs on its path", path);
+  } else if (KIND[kind].write == write_inp &&
+             (problem->wall_draft > 0 || problem->groove_corner > 0 ||
+              problem->groove_chamfer > 0)) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "%s: only grooves with upright walls and sharp edges are written for CalculiX",
+                path);
   } else if (KIND[kind].write == write_inp && problem->gasket) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "%s: a gasket is not written for CalculiX: the plates' friction hangs on its path",

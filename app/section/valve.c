@@ -116,6 +116,43 @@ static void make_housing(SbValveOutline *valve, const SbModel *model, double top
   sb_valve_add(solid, valve->end, top);
 }
 
+// Points of a groove from its right edge to its left one: chamfers, walls, corners, floor.
+static void add_groove(SbValveSolid *solid, const SbValveOutline *valve, int seal,
+                       const SbModel *model) {
+  enum { ARC = 8 };
+  const double draft = tan(sb_model_value(model, SB_P_GLAND_DRAFT));
+  const double corner = sb_model_value(model, SB_P_GLAND_CORNER_RADIUS);
+  const double chamfer = sb_model_value(model, SB_P_GLAND_EDGE_CHAMFER);
+  const double lean = atan(draft);
+  SbOutlinePoint side[2 * ARC + 3]; // from the land down, x into the wall from its foot
+  size_t count = 0;
+  // The chamfer sets in as solved rings meet it (engine/contact/ring/ring_groove.c).
+  for (int i = chamfer > 0 ? ARC : 0; i >= 0; i--) {
+    const double t = (double)i / ARC, r = valve->land - 1.5 * chamfer * (1 - t);
+    const double way = 1.5 * t;
+    const double recess = way < 1 ? way * way * way * (1 - way / 2) : way - 0.5;
+    side[count++] =
+        (SbOutlinePoint){draft * (r - valve->floor) + (chamfer > 0 ? chamfer * recess : 0), r};
+  }
+  if (corner > 0) {
+    // The arc's centre is a radius above the floor and off the wall.
+    const double x = draft * corner - corner / cos(lean);
+    for (int i = 0; i <= ARC; i++) {
+      const double angle = -lean - (M_PI / 2 - lean) * i / ARC;
+      side[count++] =
+          (SbOutlinePoint){x + corner * cos(angle), valve->floor + corner * (1 + sin(angle))};
+    }
+  } else {
+    side[count++] = (SbOutlinePoint){0, valve->floor};
+  }
+  for (size_t i = 0; i < count; i++) {
+    sb_valve_add(solid, valve->groove_right[seal] + side[i].x, side[i].r);
+  }
+  for (size_t i = count; i-- > 0;) {
+    sb_valve_add(solid, valve->groove_left[seal] - side[i].x, side[i].r);
+  }
+}
+
 static void make_stem(SbValveOutline *valve, const SbModel *model) {
   const SbValveShape *shape = sb_model_shape(model);
   double g = sb_model_value(model, SB_P_GLAND_RADIAL_SPACE);
@@ -141,18 +178,12 @@ static void make_stem(SbValveOutline *valve, const SbModel *model) {
   sb_valve_add(solid, shoulder, rod);
   sb_valve_add(solid, shoulder, land - shoulder_chamfer);
   sb_valve_add(solid, shoulder - shoulder_chamfer, land);
-  sb_valve_add(solid, valve->groove_right[SB_OUTER], land);
-  sb_valve_add(solid, valve->groove_right[SB_OUTER], valve->floor);
-  sb_valve_add(solid, valve->groove_left[SB_OUTER], valve->floor);
-  sb_valve_add(solid, valve->groove_left[SB_OUTER], land);
+  add_groove(solid, valve, SB_OUTER, model);
   sb_valve_add(solid, valve->chamber + chamber / 2, land);
   sb_valve_add(solid, valve->chamber + chamber / 2 - flank, land - depth);
   sb_valve_add(solid, valve->chamber_left + flank, land - depth);
   sb_valve_add(solid, valve->chamber_left, land);
-  sb_valve_add(solid, valve->groove_right[SB_INNER], land);
-  sb_valve_add(solid, valve->groove_right[SB_INNER], valve->floor);
-  sb_valve_add(solid, valve->groove_left[SB_INNER], valve->floor);
-  sb_valve_add(solid, valve->groove_left[SB_INNER], land);
+  add_groove(solid, valve, SB_INNER, model);
   sb_valve_add(solid, valve->nose + chamfer, land);
   sb_valve_add(solid, valve->nose, land - 1.22 * chamfer);
   sb_valve_add(solid, valve->nose, 0);

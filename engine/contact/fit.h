@@ -69,9 +69,11 @@ typedef struct {
   double housing_poisson;  // nu of bore and stem [-]
   double radial_space;     // g [m]
   double bore_diameter;    // D [m]
-  double gland_width;      // axial [m]
-  double pressure;         // pressure difference [Pa]; positive on the left (x < 0)
-  double tolerance;        // relative, wanted of load, peak and width; 0: 1e-3
+  double gland_width;      // axial, at the floor [m]
+  double wall_draft, groove_corner, groove_chamfer; // of the ring alone: SbRingLoad's [rad, m, m]
+  double land_diameter;                             // of the stem beside the groove [m]
+  double pressure;  // pressure difference [Pa]; positive on the left (x < 0)
+  double tolerance; // relative, wanted of load, peak and width; 0: 1e-3
   // Of the ring alone: a flat gasket, clamped between plates `gland_width` apart that rub with
   // wall_friction, on a stem of bore_diameter in its free bore of inner_diameter; its section's
   // axial height is its thickness, section_diameter its radial extent. radial_space is then unused.

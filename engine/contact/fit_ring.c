@@ -40,6 +40,12 @@ void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem 
     load->pressure_right = -in->pressure;
     load->wall_left = -0.5 * in->gland_width;
   }
+  if (!in->gasket) {
+    load->wall_draft = in->wall_draft;
+    load->floor_corner = in->groove_corner;
+    load->wall_chamfer = in->groove_chamfer;
+    load->wall_top = 0.5 * in->land_diameter;
+  }
   if (in->dragged) {
     load->wall_left = -0.5 * in->gland_width;
     load->wall_right = 0.5 * in->gland_width;

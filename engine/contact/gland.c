@@ -20,6 +20,11 @@ static const struct {
 };
 enum { SIZES = sizeof SIZE / sizeof SIZE[0], CORNERS = 1 << SIZES };
 
+double sb_groove_area(double radial_space, double axial_width, double draft, double corner_radius) {
+  return radial_space * (axial_width + tan(draft) * radial_space) -
+         (2.0 - 0.5 * M_PI) * corner_radius * corner_radius;
+}
+
 static double number(const SbGland *gland, size_t at) {
   return *(const double *)((const char *)gland + at);
 }
@@ -36,8 +41,8 @@ static void evaluate(double *q, const SbGland *s) {
   q[SB_GLAND_SQUEEZE_FITTED] = q[SB_GLAND_INTERFERENCE] / q[SB_GLAND_SECTION_FITTED];
   double area, centroid;
   sb_seal_profile_area(&area, &centroid, &s->profile, d);
-  q[SB_GLAND_FILL] =
-      area * d * d * (id + d + 2.0 * centroid * d) / (g * (bore - g) * s->axial_width);
+  const double groove = sb_groove_area(g, s->axial_width, s->draft, s->corner_radius);
+  q[SB_GLAND_FILL] = area * d * d * (id + d + 2.0 * centroid * d) / (groove * (bore - g));
   q[SB_GLAND_FILL_SWOLLEN] = q[SB_GLAND_FILL] * (1.0 + s->volume_swell);
   const double growth = cbrt(1.0 + s->volume_swell);
   const double mean_swollen = (bore - g) / (growth * (id + d)) - 1.0;

@@ -49,13 +49,18 @@ typedef enum {
       SB_GLAND_COUNT
 } SbGlandQuantity;
 
+// Area of a groove's section up to the bore [m2]: walls lean apart by the draft [rad], corners at
+// the floor are rounded.
+double sb_groove_area(double radial_space, double axial_width, double draft, double corner_radius);
+
 // Sizes with half-widths of their tolerance bands [m].
 typedef struct {
   SbSealProfile profile; // of the section; of others than the circle section_diameter is its height
   double section_diameter, section_diameter_tolerance;
   double inner_diameter, inner_diameter_tolerance;
   double radial_space, radial_space_tolerance;
-  double axial_width, axial_width_tolerance;
+  double axial_width, axial_width_tolerance; // at the floor
+  double draft, corner_radius;               // of walls [rad], of the corners at the floor [m]
   double bore_diameter, bore_diameter_tolerance;
   double land_diameter, land_diameter_tolerance; // of the stem beside the groove
   double poisson_ratio;                          // [-]

@@ -54,12 +54,15 @@ static bool same_states(SbModel *a, const SbModel *b) {
   LIKE(radial_space_tolerance), LIKE(axial_width_tolerance), LIKE(bore_diameter_tolerance);
   LIKE(land_edge), LIKE(refill_travel), LIKE(refill_area), LIKE(housing_expansion);
   LIKE(ethanol), LIKE(temperature), LIKE(ambient_pressure), LIKE(discharge_coefficient);
-  LIKE(chamber_stiffness), LIKE(stem_diameter), LIKE(stem_diameter_tolerance), LIKE(stem_mass);
+  LIKE(chamber_stiffness), LIKE(stem_diameter_tolerance), LIKE(stem_mass);
   LIKE(density), LIKE(stroke), LIKE(reversal_force), LIKE(stiffness), LIKE(peak_force);
   LIKE(rise_time), LIKE(hold_time), LIKE(finger_damping), LIKE(damping_ratio), LIKE(amplitude);
   LIKE(frequency), LIKE(stribeck_speed), LIKE(tangential_stiffness), LIKE(stop_stiffness);
   LIKE(stop_restitution), LIKE(spring_stiffness), LIKE(spring_preload), LIKE(rig_prominence);
   LIKE(motion_tolerance);
+  if (!(b->groove_chamfer > 0)) {
+    LIKE(stem_diameter); // where the chamfers of the grooves end
+  }
 #undef LIKE
   bool same = a->bore_circumference == b->bore_circumference && a->surface == b->surface &&
               a->data == b->data;

@@ -190,8 +190,9 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
     sb_model_refuse(problems, report.parameter, NAN, NAN, "%s", report.text);
   }
   sb_seal_profile_area(&area, &centroid, &profile, d);
-  seal->gland_fill =
-      area * d * d / (g * model->axial_width) * (mean_free + 2 * centroid * d) / mean_fitted;
+  const double groove =
+      sb_groove_area(g, model->axial_width, model->groove_draft, model->groove_corner);
+  seal->gland_fill = area * d * d / groove * (mean_free + 2 * centroid * d) / mean_fitted;
 
   // Beyond 60 % no model here means anything; the fit models warn long before.
   if (seal->squeeze > 0.6) {
@@ -224,6 +225,16 @@ static void check_sizes(const SbModel *model, SbProblems *problems) {
         problems, "stem.pressure_diameter", floor, model->bore_diameter,
         "the stem's land lies below the floor of its groove (%.4g mm): nothing holds the ring",
         floor * 1e3);
+  } else {
+    const double depth = (stem - floor) / 2, corner = fmin(model->axial_width, depth) / 2;
+    if (model->groove_corner > corner) {
+      sb_model_refuse(problems, "gland.corner_radius", 0, corner,
+                      "the groove's corners meet: it is %.4g mm wide and %.4g mm deep",
+                      1e3 * model->axial_width, 1e3 * depth);
+    } else if (model->groove_chamfer > depth - model->groove_corner) {
+      sb_model_refuse(problems, "gland.edge_chamfer", 0, depth - model->groove_corner,
+                      "the edges' chamfers leave no walls in a groove %.4g mm deep", 1e3 * depth);
+    }
   }
 }
 
@@ -754,6 +765,8 @@ void sb_model_gland(SbGland *out, const SbModel *model, int seal) {
       .radial_space = sb_model_value(model, SB_P_GLAND_RADIAL_SPACE),
       .radial_space_tolerance = model->radial_space_tolerance,
       .axial_width = model->axial_width,
+      .draft = model->groove_draft,
+      .corner_radius = model->groove_corner,
       .axial_width_tolerance = model->axial_width_tolerance,
       .bore_diameter = sb_model_value(model, SB_P_BORE_DIAMETER),
       .bore_diameter_tolerance = model->bore_diameter_tolerance,

@@ -50,6 +50,7 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
   const char *friction = "friction.load_coefficient", *fluid = "canister.pressure";
   const char *edge = "bore.land_edge";
   bool land = load->land_left > -HUGE_VAL || load->land_right < HUGE_VAL;
+  const double width = load->wall_right - load->wall_left;
   SbStatus status = SB_CHECK(
       report,
       {"", "the groove floor's radius [m]", body->inward ? 0.0 : load->floor_radius, SB_FINITE},
@@ -58,6 +59,11 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
       {"", "the bore's shear [Pa]", load->bore_traction, SB_FINITE},
       {"", "the left wall's place [m]", load->wall_left, -INFINITY, INFINITY},
       {"", "the right wall's place [m]", load->wall_right, -INFINITY, INFINITY},
+      {"gland.draft", "the walls' draft [rad]", load->wall_draft, 0.0, 0.35},
+      {"gland.corner_radius", "the radius of the groove's corners [m]", load->floor_corner, 0.0,
+       load->floor_corner > 0.0 ? 0.5 * width : 1.0},
+      {"gland.edge_chamfer", "the chamfer of the groove's edges [m]", load->wall_chamfer, 0.0,
+       load->wall_chamfer > 0.0 ? load->wall_top - load->floor_radius : 1.0},
       {"", "the land's left end [m]", load->land_left, -INFINITY, INFINITY},
       {"", "the land's right end [m]", load->land_right, -INFINITY, INFINITY},
       {friction, "the friction on the bore, as a share of its law,", load->friction_bore, 0.0, 2.0},
@@ -89,7 +95,7 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
   if (status != SB_OK) {
     return status;
   }
-  double width = load->wall_right - load->wall_left;
+
   if (!(width > 0.0)) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
                              "the groove has no width");

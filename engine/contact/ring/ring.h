@@ -43,6 +43,9 @@ typedef double (*SbRingShear)(double pressure, double *slope, const void *law);
 typedef struct {
   double floor_radius, bore_radius; // groove floor (stem) and bore, m; floor -INFINITY: none
   double wall_left, wall_right;     // axial places of the groove walls, m; +-INFINITY: none
+  double wall_draft;                // rad, by which the walls lean apart from the floor outwards
+  double floor_corner;              // m, radius of the corners between floor and walls
+  double wall_chamfer, wall_top;    // m, 45 degrees off the walls' edges at this radius
   double land_left, land_right;     // axial ends of the bore's land, m; +-INFINITY: none
   double chamfer_angle;             // rad, beyond an end of the land the bore opens so
   double edge_length;               // m, axial length over which the chamfer sets in

@@ -327,6 +327,7 @@ double sb_ring_contact_apply(SbRingContact *contact) {
       condition->count = 1;
       memcpy(condition->direction[1], frame.t, sizeof frame.t);
       condition->curve = frame.curvature;
+      condition->axis = frame.axis;
       if (contact->stuck) {
         condition->count = corner(contact, i, s) ? 1 : 2;
       } else if (s == SB_RING_BORE && contact->is.now.use_bore_traction) {

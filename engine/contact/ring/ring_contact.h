@@ -24,7 +24,8 @@ typedef enum {
 typedef struct {
   double n[2], t[2]; // unit normal into the free side, tangent (r, z)
   double gap;        // along the normal, > 0 outside
-  double curvature;  // the normal's turn towards the tangent per axial length
+  double curvature;  // the normal's turn towards the tangent per length along `axis`
+  int axis;          // of r, z: the one that the surface runs along
 } SbRingFrame;
 
 // One boundary node against one surface.

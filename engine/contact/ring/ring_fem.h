@@ -22,14 +22,15 @@ typedef struct {
 // count 0: free, the residual vanishes. count 1: n . du = gap, and along t the residual vanishes
 // with a share `mix` of the normal reaction: (t + mix n) . R = drive. count 2: both `direction`
 // rows hold: direction[k] . du = gap[k]. `curve` is the turn of the normal towards the tangent per
-// axial length (a curved surface): dn/dz = curve t, dt/dz = -curve n. `drive` changes with the
-// places of the nodes `beside`.
+// length along x, r or z by `axis` (a curved surface): dn/dx = curve t, dt/dx = -curve n. `drive`
+// changes with the places of the nodes `beside`.
 enum { SB_RING_BESIDE = 5 };
 typedef struct {
   int count;
   double direction[2][2];
   double gap[2];            // m
   double mix, curve, drive; // 1, 1/m, N
+  int axis;                 // of `curve`: 0 r, 1 z
   int beside_count, beside[SB_RING_BESIDE];
   double drive_slope[SB_RING_BESIDE][2]; // N/m
 } SbRingCondition;

@@ -88,7 +88,8 @@ static void load_node(SbRingContact *contact, int i, const int nodes[3], const d
     fem->residual[2 * node + r] -= acting;
     if (held == 1 && frame.curvature != 0.0) {
       double along = t[0] * force[0] + t[1] * force[1], across = n[0] * force[0] + n[1] * force[1];
-      sb_ring_fem_add(fem, node, r, node, 1, frame.curvature * (t[r] * across + n[r] * along));
+      sb_ring_fem_add(fem, node, r, node, frame.axis,
+                      frame.curvature * (t[r] * across + n[r] * along));
     }
     for (int b = 0; b < 3; b++) {
       for (int c = 0; c < 2; c++) {

@@ -2,8 +2,12 @@
 //
 // Each gives the gap of a place, its normal, tangent and curvature; and what can be done with a
 // load, which says where they stand. Beyond an end of the land the bore opens with the chamfer's
-// slope, which sets in smoothly over the edge's rounding. Leaves out fillets of the groove's
-// corners and any give of the surfaces.
+// slope, which sets in smoothly over the edge's rounding; so do the chamfers of the walls' edges.
+// Walls lean by their draft from where they meet the floor. A rounded corner is the floor's: its
+// arc up to 60 degrees, then the straight line to the wall, which lies within 3.6 % of the radius
+// from the arc's rest; an arc of its own for a wall would leave places that two surfaces of one
+// normal hold. Beside a wall with draft it is that of an upright one. Leaves out any give of the
+// surfaces.
 #include "engine/contact/ring/ring_contact.h"
 
 #include <math.h>
@@ -27,15 +31,80 @@ static double ramp(double x, double length, double *slope, double *curvature) {
   return x - 0.5 * length;
 }
 
+// The slope to which a rounded corner rises from the floor, tan 60 degrees, and where, in radii.
+static const double CORNER_SLOPE = 1.7320508075688772, CORNER_END = 0.8660254037844386;
+
+// Height of a circle over its tangent; from 60 degrees on the straight line there.
+static double bend(double x, double radius, double *slope, double *curvature) {
+  *slope = *curvature = 0.0;
+  if (x <= 0.0) {
+    return 0.0;
+  }
+  const double end = CORNER_END * radius;
+  if (x < end) {
+    const double down = sqrt(radius * radius - x * x);
+    *slope = x / down;
+    *curvature = radius * radius / (down * down * down);
+    return radius - down;
+  }
+  *slope = CORNER_SLOPE;
+  return 0.5 * radius + CORNER_SLOPE * (x - end);
+}
+
+// A wall's place over the radius, from that at the floor, > 0 into the wall.
+static double wall_recess(const SbRingLoad *load, double r, double *slope, double *curvature) {
+  double recess = 0.0, s, c;
+  *slope = *curvature = 0.0;
+  if (load->wall_draft != 0.0) {
+    *slope = tan(load->wall_draft);
+    recess = *slope * (r - load->floor_radius);
+  }
+  if (load->wall_chamfer > 0.0) {
+    const double rounded = load->wall_chamfer;
+    recess += ramp(r - (load->wall_top - load->wall_chamfer - 0.5 * rounded), rounded, &s, &c);
+    *slope += s;
+    *curvature += c;
+  }
+  return recess;
+}
+
+// What the floor's rounded corners rise above it.
+static double floor_rise(const SbRingLoad *load, double z, double *slope, double *curvature) {
+  *slope = *curvature = 0.0;
+  if (!(load->floor_corner > 0.0)) {
+    return 0.0;
+  }
+  double s1, c1, s2, c2;
+  const double radius = load->floor_corner;
+  const double rise = bend(z - (load->wall_right - radius), radius, &s1, &c1) +
+                      bend(load->wall_left + radius - z, radius, &s2, &c2);
+  *slope = s1 - s2;
+  *curvature = c1 + c2;
+  return rise;
+}
+
 SbRingFrame sb_ring_frame(const SbRingLoad *load, SbRingSurface surface, const double x[2]) {
   if (surface == SB_RING_FLOOR) {
-    return (SbRingFrame){.n = {1.0, 0.0}, .t = {0.0, 1.0}, .gap = x[0] - load->floor_radius};
+    double slope, curvature;
+    const double gap = x[0] - load->floor_radius - floor_rise(load, x[1], &slope, &curvature);
+    const double length = sqrt(1.0 + slope * slope);
+    return (SbRingFrame){.n = {1.0 / length, -slope / length},
+                         .t = {slope / length, 1.0 / length},
+                         .gap = gap / length,
+                         .curvature = -curvature / (length * length),
+                         .axis = 1};
   }
-  if (surface == SB_RING_WALL_RIGHT) {
-    return (SbRingFrame){.n = {0.0, -1.0}, .t = {1.0, 0.0}, .gap = load->wall_right - x[1]};
-  }
-  if (surface == SB_RING_WALL_LEFT) {
-    return (SbRingFrame){.n = {0.0, 1.0}, .t = {1.0, 0.0}, .gap = x[1] - load->wall_left};
+  if (surface == SB_RING_WALL_RIGHT || surface == SB_RING_WALL_LEFT) {
+    // Mirrored for the left one.
+    const double way = surface == SB_RING_WALL_RIGHT ? 1.0 : -1.0;
+    const double wall = surface == SB_RING_WALL_RIGHT ? load->wall_right : -load->wall_left;
+    double slope, curvature;
+    const double gap = wall - way * x[1] + wall_recess(load, x[0], &slope, &curvature);
+    const double length = sqrt(1.0 + slope * slope);
+    return (SbRingFrame){.n = {slope / length, -way / length},
+                         .t = {1.0 / length, way * slope / length},
+                         .gap = gap / length,
+                         .curvature = curvature / (length * length)};
   }
   double s1, c1, s2, c2;
   double opening = ramp(x[1] - load->land_right, load->edge_length, &s1, &c1) +
@@ -45,7 +114,8 @@ SbRingFrame sb_ring_frame(const SbRingLoad *load, SbRingSurface surface, const d
   return (SbRingFrame){.n = {-1.0 / length, slope / length},
                        .t = {slope / length, 1.0 / length},
                        .gap = (load->bore_radius + chamfer * opening - x[0]) / length,
-                       .curvature = chamfer * (c1 + c2) / (length * length)};
+                       .curvature = chamfer * (c1 + c2) / (length * length),
+                       .axis = 1};
 }
 
 // Whether two points lie on different sides of a line, beyond rounding: sides in one flat contact
@@ -102,6 +172,10 @@ static const struct {
     {offsetof(SbRingLoad, bore_radius), 1, 0, 0},
     {offsetof(SbRingLoad, wall_left), 1, 0, 0},
     {offsetof(SbRingLoad, wall_right), 1, 0, 0},
+    {offsetof(SbRingLoad, wall_draft), 0, 0, 0},
+    {offsetof(SbRingLoad, floor_corner), 1, 0, 0},
+    {offsetof(SbRingLoad, wall_chamfer), 1, 0, 0},
+    {offsetof(SbRingLoad, wall_top), 1, 0, 0},
     {offsetof(SbRingLoad, land_left), 1, 0, -1},
     {offsetof(SbRingLoad, land_right), 1, 0, 1},
     {offsetof(SbRingLoad, chamfer_angle), 0, 0, 0},

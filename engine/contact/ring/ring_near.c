@@ -65,6 +65,13 @@ static double seat(const SbRingLoad *load) {
   return isfinite(load->floor_radius) ? load->floor_radius : load->bore_radius;
 }
 
+// Distance of a wall from the plane z = 0, half way up the groove.
+static double wall_place(const SbRingLoad *load, SbRingSurface wall) {
+  const double x[2] = {0.5 * (load->floor_radius + load->bore_radius), 0.0};
+  const SbRingFrame frame = sb_ring_frame(load, wall, x);
+  return frame.gap / fabs(frame.n[1]);
+}
+
 // How far the one wall that a ring rests on is displaced at another load; *laid: it lay there
 // before friction dragged it.
 static double wall_moves(const SbRing *ring, const SbRingLoad *target, bool *laid) {
@@ -78,9 +85,8 @@ static double wall_moves(const SbRing *ring, const SbRingLoad *target, bool *lai
   }
   const int side = (int)right - (int)left;
   *laid = side * pressed > 0.0 || (now->rests_on_wall && side * now->bore_slides > 0);
-  return side < 0   ? target->wall_left - now->wall_left
-         : side > 0 ? target->wall_right - now->wall_right
-                    : 0.0;
+  const SbRingSurface wall = side < 0 ? SB_RING_WALL_LEFT : SB_RING_WALL_RIGHT;
+  return side != 0 ? side * (wall_place(target, wall) - wall_place(now, wall)) : 0.0;
 }
 
 // A ring that was laid on its wall goes with it.

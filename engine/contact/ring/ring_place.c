@@ -87,7 +87,7 @@ static SbStatus lean(SbRing *ring, const SbRingLoad *s, bool *leaned, SbReport *
     double x[2];
     sb_ring_contact_place(contact, i, x);
     holds = holds || sb_ring_touch(contact, i, wall)->held;
-    least = fmin(least, fabs(place - x[1]));
+    least = fmin(least, isfinite(place) ? sb_ring_frame(s, wall, x).gap : INFINITY);
   }
   *leaned = difference != 0.0 && isfinite(place) && !holds;
   if (!*leaned) {
@@ -102,8 +102,11 @@ static SbStatus lean(SbRing *ring, const SbRingLoad *s, bool *leaned, SbReport *
   for (int i = 0; i < contact->count; i++) {
     double x[2];
     sb_ring_contact_place(contact, i, x);
-    sb_ring_touch(contact, i, SB_RING_WALL_RIGHT)->held = difference > 0.0 && x[1] >= place;
-    sb_ring_touch(contact, i, SB_RING_WALL_LEFT)->held = difference < 0.0 && x[1] <= place;
+    for (int side = 0; side < 2; side++) {
+      const SbRingSurface other = side == 0 ? SB_RING_WALL_RIGHT : SB_RING_WALL_LEFT;
+      sb_ring_touch(contact, i, other)->held =
+          other == wall && sb_ring_frame(s, wall, x).gap <= 0.0;
+    }
   }
   return SB_OK;
 }

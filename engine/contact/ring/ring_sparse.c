@@ -108,7 +108,7 @@ static void apply_condition(SbRingFem *fem, int node) {
     diagonal[2 * other + 1] = scale * t[1];
     rhs[other] = scale * c->gap[1];
   } else {
-    diagonal[2 * other + 1] +=
+    diagonal[2 * other + c->axis] +=
         c->curve * (c->mix * (t[0] * r0 + t[1] * r1) - (n[0] * r0 + n[1] * r1));
     rhs[other] = c->drive - (w0 * r0 + w1 * r1);
     for (int b = 0; b < c->beside_count; b++) {
