@@ -141,7 +141,7 @@ static SbDocument *load(const char *path, guint problems) {
 // elsewhere still finds it; other points make another model, and a height that is not the seals' is
 // told.
 static void test_document(void) {
-  g_autofree char *section = write_file("section.txt", "mm 0,0 1.2,0 1.2,2 0,2 0,0");
+  g_free(write_file("section.txt", "mm 0,0 1.2,0 1.2,2 0,2 0,0"));
   g_autofree char *valve =
       write_file("own.valve", "[sealbench]\nformat = 1\nkind = valve\n[seal]\nprofile = file\n"
                               "profile_file = section.txt\nsection_diameter = 1.61 mm\n");
@@ -184,7 +184,7 @@ static void test_document(void) {
   g_autofree char *bare =
       write_file("bare.valve", "[sealbench]\nformat = 1\nkind = valve\n[seal]\nprofile = file\n");
   sb_document_free(load(bare, 1));
-  (void)write_file("section.txt", "mm 0,0 1,0");
+  g_free(write_file("section.txt", "mm 0,0 1,0"));
   sb_document_free(load(valve, 1));
 }
 

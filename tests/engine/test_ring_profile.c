@@ -1,5 +1,6 @@
 // Rings whose free section is no circle: outlines, meshes, loads against independent figures.
 #include "engine/contact/ring/ring_mesh.h"
+#include "engine/contact/ring/ring_private.h"
 
 #include "seals.h"
 
@@ -214,6 +215,43 @@ static void blocks(void) {
   sb_ring_destroy(ring);
 }
 
+// An x whose lobes close on each other, and a t whose web the fluid lays onto its flange: what
+// presses them apart is no force from outside, and lets them into each other by little.
+static void folds(void) {
+  static const struct {
+    SbSealProfileKind kind;
+    double axial, corner, squeeze;
+  } cases[] = {{SB_SEAL_PROFILE_X, 0, 0.32e-3, 0.42}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    SbRingBody body = body_of(cases[i].kind, cases[i].axial, cases[i].corner);
+    body.plane_strain = true;
+    SbRingLoad load = SB_RING_LOAD_INIT;
+    load.bore_radius = load.floor_radius + (1 - cases[i].squeeze) * body.section_diameter;
+    SbRing *ring;
+    SbRingResult is;
+    SbReport report = {0};
+    if (sb_ring_create(&ring, &body, &load, NULL, &report) != SB_OK) {
+      g_error("%s", report.text);
+    }
+    sb_ring_result(ring, &is);
+    g_test_message("%s: bore %.8g, floor %.8g N/m, folded by %.2g of its height",
+                   sb_seal_profile_name(cases[i].kind), is.bore_force, is.floor_force,
+                   ring->contact->folded);
+    g_assert_cmpfloat(ring->contact->folded, >, 0);
+    g_assert_cmpfloat(ring->contact->folded, <, 5e-3);
+    g_assert_cmpfloat_with_epsilon(is.bore_force, is.floor_force, 1e-8 * is.bore_force);
+    sb_ring_destroy(ring);
+  }
+  const SbRingBody t = body_of(SB_SEAL_PROFILE_T, 1.2e-3, 0.1e-3);
+  const SbRingLoad pressed = groove(0.55e6);
+  SbRing *ring;
+  g_assert_cmpint(sb_ring_create(&ring, &t, &pressed, NULL, NULL), ==, SB_OK);
+  g_test_message("t: folded by %.2g of its height", ring->contact->folded);
+  g_assert_cmpfloat(ring->contact->folded, >, 0);
+  g_assert_cmpfloat(ring->contact->folded, <, 1e-2);
+  sb_ring_destroy(ring);
+}
+
 // What is not modelled is refused with its reason.
 static void refusals(void) {
   SbRingLoad load = groove(0.55e6);
@@ -225,10 +263,6 @@ static void refusals(void) {
   body = body_of(SB_SEAL_PROFILE_RECTANGLE, 12e-3, 0.2e-3);
   g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, &report), ==, SB_ERROR_RANGE);
   g_assert_cmpstr(report.parameter, ==, "seal.axial_height");
-  // The web under pressure lays the flange over.
-  body = body_of(SB_SEAL_PROFILE_T, 1.2e-3, 0.1e-3);
-  g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
-  g_assert_nonnull(strstr(report.text, "folds onto itself"));
   SbFit fit;
   SbFitProblem problem = thesis(SB_FIT_HERTZ);
   problem.profile = body_of(SB_SEAL_PROFILE_D, 1.2e-3, 0.2e-3).profile;
@@ -242,7 +276,7 @@ static double draw(GRand *random, double from, double to) {
 }
 
 // Any profile in any gland: solved, without an element that is turned over, or refused as a state
-// that there is not, or as one that is not modelled; at most one in twelve is given up.
+// that there is not; at most one in fifteen is given up.
 static void random_rings(int first, int count) {
   int outcome[3] = {0}; // solved, refused, given up
   for (int number = first; number < first + count; number++) {
@@ -297,8 +331,8 @@ static void random_rings(int first, int count) {
     g_rand_free(random);
   }
   g_test_message("%d solved, %d refused, %d given up", outcome[0], outcome[1], outcome[2]);
-  if (count >= 100) { // of 180 tried 7 were given up: t and lip, squeezed by 15 % and more
-    g_assert_cmpint(12 * outcome[2], <=, count);
+  if (count >= 100) { // of 400 tried 20 were given up: t and lip, most under fluid
+    g_assert_cmpint(15 * outcome[2], <=, count);
   }
 }
 
@@ -328,6 +362,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/ring-profile/reference", reference);
   g_test_add_func("/ring-profile/errors", errors);
   g_test_add_func("/ring-profile/blocks", blocks);
+  g_test_add_func("/ring-profile/folds", folds);
   g_test_add_func("/ring-profile/refusals", refusals);
   return g_test_run();
 }

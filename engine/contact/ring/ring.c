@@ -19,6 +19,9 @@ static const double WIDE = 0.3, NARROW_LEAST = 0.12;
 // fitted anew: their short elements end there.
 static const double OUTGROWN = 0.1;
 
+// How deep a section may lie in itself, in its heights, by the stiffness that presses it apart.
+static const double FOLDED = 0.02;
+
 // Largest change of the friction by another mesh at a held turn.
 static const double SAME_STATE = 0.05;
 
@@ -202,17 +205,26 @@ static bool turned_over(const SbRing *ring) {
   return false;
 }
 
-// A section that touches itself has no such state: what would keep it apart is not modelled.
+// What presses a section apart where it touches itself is that of its hollows alone (ring_fold.c),
+// and bears no more than some shear moduli.
 static SbStatus check_apart(const SbRing *ring, SbReport *report) {
+  const char *name = sb_seal_profile_name(ring->body.profile.kind);
   if (!is_circle(ring) && turned_over(ring)) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "an element of the %s section is turned over",
-                   sb_seal_profile_name(ring->body.profile.kind));
+                   name);
+  }
+  if (ring->contact->folded > FOLDED) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile",
+                             "the %s section folds onto itself and would be pressed into itself by "
+                             "%.2g of its height",
+                             name, ring->contact->folded);
   }
   if (!is_circle(ring) && sb_ring_crosses_itself(ring->contact)) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile",
-                             "the %s section folds onto itself: contact of the section with itself "
-                             "is not modelled",
-                             sb_seal_profile_name(ring->body.profile.kind));
+    // Where elements are large beside a corner's rounding that may be theirs: finer ones are tried.
+    return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "seal.profile",
+                             "the %s section folds onto itself beside its hollows: contact with "
+                             "itself is not modelled there",
+                             name);
   }
   return SB_OK;
 }

@@ -307,6 +307,7 @@ static bool corner(const SbRingContact *contact, int i, int surface) {
 double sb_ring_contact_apply(SbRingContact *contact) {
   SbRingFem *fem = contact->fem;
   sb_ring_contact_load_fluid(contact);
+  contact->folded = sb_ring_fold_apply(contact);
   double worst = 0.0;
   for (int i = 0; i < contact->count; i++) {
     SbRingCondition *condition = &fem->condition[fem->mesh->loop[i]];

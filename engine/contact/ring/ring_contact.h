@@ -71,6 +71,8 @@ typedef struct {
   double slid;        // how far sliding nodes may go back before they stick: what they came
   double slip_excess; // departure from Coulomb's law at nodes that could not settle
   double force_scale; // for tolerances
+  double folded;      // how deep the section is in itself at most
+  unsigned folds;     // which nodes are behind which pieces, as a number
   double stress;      // unit of stress, Pa
   int unsteady;       // touch that last changed, -1: none since the solve began
 } SbRingContact;
@@ -115,9 +117,16 @@ SbRingLoad sb_ring_load_mirrored(const SbRingLoad *load);
 #define SB_RING_REACH 1.5
 SbRingLoad sb_ring_load_between(const SbRingLoad *a, const SbRingLoad *b, double t);
 
-// Whether the deformed boundary crosses itself: contact of the section with itself, which no
-// surface here stops.
+// Whether the deformed boundary crosses itself: contact of the section with itself beside its
+// hollows, which nothing here stops.
 bool sb_ring_crosses_itself(const SbRingContact *contact);
+
+// Numbers the hollows of the free section, [loop_count]; 0 where a node lies in none (ring_fold.c).
+void sb_ring_hollows(int *hollow, const SbRingMesh *mesh);
+
+// After assembly: adds what the sides of a hollow press on each other to residual and tangent.
+// Returns how deep a node is behind the other side at most.
+double sb_ring_fold_apply(SbRingContact *contact);
 
 // Adds the fluid to residual and tangent; renews `closed`, `wet`, `weight`, `share`, `pressed`,
 // `fluid`.

@@ -171,7 +171,7 @@ void sb_ring_fem_destroy(SbRingFem *fem) {
   sb_ring_factor_destroy(fem->factor);
   void *owned[] = {fem->u,         fem->condition, fem->work_int, fem->gauss,
                    fem->condensed, fem->row_start, fem->column,   fem->value,
-                   fem->raw,       fem->scatter,   fem->diagonal};
+                   fem->raw,       fem->scatter,   fem->diagonal, fem->hollow};
   for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
     free(owned[i]);
   }

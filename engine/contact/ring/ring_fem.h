@@ -65,6 +65,7 @@ struct SbRingFem {
   double *value, *raw, *rhs, *left;
   SbRingFactor *factor;
   int *work_int; // [nodes] scratch
+  int *hollow;   // [loop_count] number of the hollow that a boundary node lies in or by; 0: none
 };
 
 // Deformed place (r, z) of a node.

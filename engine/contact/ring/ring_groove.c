@@ -128,6 +128,15 @@ static bool parts(const double a[2], const double b[2], const double c[2], const
   return at_c * at_d < 0.0 && fmin(fabs(at_c), fabs(at_d)) > ROUNDING;
 }
 
+// Whether two sides of the boundary lie in one hollow, where what presses them apart lets them
+// cross.
+static bool presses(const SbRingContact *contact, int i, int k) {
+  const int *hollow = contact->fem->hollow;
+  const int number = hollow[i];
+  return number != 0 && hollow[sb_ring_wrap(contact, i + 1)] == number && hollow[k] == number &&
+         hollow[sb_ring_wrap(contact, k + 1)] == number;
+}
+
 bool sb_ring_crosses_itself(const SbRingContact *contact) {
   const int count = contact->count;
   for (int i = 0; i < count; i++) {
@@ -138,7 +147,7 @@ bool sb_ring_crosses_itself(const SbRingContact *contact) {
       double c[2], d[2];
       sb_ring_contact_place(contact, k, c);
       sb_ring_contact_place(contact, k + 1, d);
-      if (parts(a, b, c, d) && parts(c, d, a, b)) {
+      if (parts(a, b, c, d) && parts(c, d, a, b) && !presses(contact, i, k)) {
         return true;
       }
     }

@@ -160,6 +160,7 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
   int changes = 0, stumbles = 0, recentres = 0, repeats = 0, rounds = 0;
   double last = INFINITY, least = INFINITY;
   bool slack = false;
+  unsigned folded = contact->folds;
   double step = 1.0, det_before = 1.0, friction = contact->is.now.friction_bore, change = 0.0;
   sb_ring_contact_begin(contact);
   contact->passed = ring->passing;
@@ -205,7 +206,9 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
     contact->fixed = contact->fixed && residual > NEAR_FIXED && it < FIXED_MAX;
     stumbles += step < STUMBLE ? 1 : 0;
     repeats = changes > 0 && fabs(residual - last) < SAME * last ? repeats + 1 : 0;
-    const bool falls = changes > 0 || contact->fixed || residual < FALLS * least;
+    const bool folds = contact->folds != folded;
+    folded = contact->folds;
+    const bool falls = changes > 0 || folds || contact->fixed || residual < FALLS * least;
     rounds = falls ? 0 : rounds + 1;
     least = falls ? residual : least;
     last = residual;

@@ -4,7 +4,7 @@
 // mesh. Each solution's residual is checked, and refined where it asks for that. A condition
 // replaces the two rows of its node (Dirichlet along a normal, balance with friction along the
 // tangent); the raw rows are kept, since their residual is the reaction.
-#include "engine/contact/ring/ring_fem.h"
+#include "engine/contact/ring/ring_contact.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,22 +19,38 @@ enum { REFINEMENTS = 3 };
 SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
   const SbRingMesh *mesh = fem->mesh;
   size_t nodes = (size_t)mesh->nodes, corners = 6 * (size_t)mesh->elements;
-  // Room for rows in which each element has its own blocks, though neighbours share theirs.
+  fem->hollow = malloc(sizeof(int) * ((size_t)mesh->loop_count + 1));
+  if (fem->hollow == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
+  }
+  sb_ring_hollows(fem->hollow, mesh);
+  // Room for rows in which each element has its own blocks, though neighbours share theirs; and
+  // for those of nodes in one hollow, which may touch.
   size_t most = 6 * corners;
+  for (int i = 0; i < mesh->loop_count; i++) {
+    for (int k = 0; k < mesh->loop_count && fem->hollow[i] != 0; k++) {
+      most += fem->hollow[k] == fem->hollow[i] ? 1 : 0;
+    }
+  }
   fem->row_start = malloc(sizeof(int) * (nodes + 1));
   fem->scatter = malloc(sizeof(int) * most);
   fem->diagonal = malloc(sizeof(int) * nodes);
   fem->column = malloc(sizeof(int) * most);
   // The elements' corners at each node, as lists; of a row's neighbours, which row last had each
   // and where.
-  int *next = malloc(sizeof(int) * (corners + 3 * nodes));
+  int *next = malloc(sizeof(int) * (corners + 4 * nodes));
   int *first = next + corners, *seen = first + nodes, *place = seen + nodes, at = 0;
+  int *by = place + nodes; // its place on the boundary, -1: inside
   if (fem->row_start == NULL || fem->scatter == NULL || fem->diagonal == NULL ||
       fem->column == NULL || next == NULL) {
     free(next);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
   }
   memset(first, -1, sizeof(int) * 2 * nodes);
+  memset(by, -1, sizeof(int) * nodes);
+  for (int i = 0; i < mesh->loop_count; i++) {
+    by[mesh->loop[i]] = i;
+  }
   for (int i = (int)corners - 1; i >= 0; i--) {
     next[i] = first[mesh->tri[i]];
     first[mesh->tri[i]] = i;
@@ -50,6 +66,13 @@ SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
           fem->column[at++] = other;
         }
         fem->scatter[6 * c + b] = place[other];
+      }
+    }
+    for (int k = 0; by[i] >= 0 && fem->hollow[by[i]] != 0 && k < mesh->loop_count; k++) {
+      const int other = mesh->loop[k];
+      if (fem->hollow[k] == fem->hollow[by[i]] && seen[other] != i) {
+        seen[other] = i;
+        fem->column[at++] = other;
       }
     }
     fem->diagonal[i] = place[i];
