@@ -193,6 +193,13 @@ bool sb_document_is_modified(const SbDocument *document);
 const char *sb_document_rubber(const SbDocument *document);
 SB_CHECKED bool sb_document_set_rubber(SbDocument *document, const char *name, GPtrArray *issues);
 bool sb_document_gives_rubber(const SbDocument *document);
+
+// The file that draws the seals' section, as the document names it; NULL: none. And one that was
+// read from `path` (seal_file.h), which the document then names; it counts where seal.profile =
+// file.
+const char *sb_document_section(const SbDocument *document);
+void sb_document_set_section(SbDocument *document, const char *path, const SbSealDrawing *section,
+                             double height);
 char **sb_document_rubbers(const SbDocument *document);
 
 // Undo and redo; each returns the parameter that changed, SB_DOCUMENT_RUBBER, SB_DOCUMENT_MEASURED,

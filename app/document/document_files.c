@@ -36,16 +36,44 @@ void sb_document_note_section(SbDocument *document) {
   }
 }
 
+const char *sb_document_section(const SbDocument *document) {
+  return document->file[SB_FILE_SECTION].name;
+}
+
+// Names a file; takes `path`.
+static void name_file(SbDocument *document, SbFileKey key, const char *name, char *path,
+                      bool in_valve) {
+  SbNamedFile *file = &document->file[key];
+  g_free(file->name);
+  g_free(file->path);
+  *file = (SbNamedFile){g_strdup(name), path, in_valve};
+}
+
+// Models may hold the data before, which nobody changes.
+static void put_data(SbDocument *document, SbModelData *data) {
+  sb_model_data_release(document->data);
+  document->data = data;
+  document->serial++;
+}
+
+void sb_document_set_section(SbDocument *document, const char *path, const SbSealDrawing *section,
+                             double height) {
+  SbModelData *data = sb_document_data_with(document, sb_document_rubber_in_force(document));
+  data->profile = *section;
+  document->section_height = height;
+  char *whole = g_canonicalize_filename(path, NULL);
+  g_autofree char *name = g_strdup(whole);
+  name_file(document, SB_FILE_SECTION, name, whole, false);
+  put_data(document, data);
+}
+
 bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name,
                            const char *directory, bool in_valve, const char *shown, int line,
                            GPtrArray *issues) {
   char *path = g_path_is_absolute(name) || directory == NULL
                    ? g_strdup(name)
                    : g_build_filename(directory, name, NULL);
-  SbNamedFile *file = &document->file[key];
-  g_free(file->name);
-  g_free(file->path);
-  *file = (SbNamedFile){g_strdup(name), path, in_valve};
+  name_file(document, key, name, path, in_valve);
   SbModelData *data = sb_document_data_with(document, sb_document_rubber_in_force(document));
   bool good = false;
   switch (key) {
@@ -69,9 +97,6 @@ bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name
     sb_model_data_release(data);
     return false;
   }
-  // Models may hold the data before, which nobody changes.
-  sb_model_data_release(document->data);
-  document->data = data;
-  document->serial++;
+  put_data(document, data);
   return true;
 }

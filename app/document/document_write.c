@@ -55,17 +55,37 @@ static char *moved_valve(const SbDocument *document, const char *path) {
   return moved_name(document, document->valve_path, document->valve_name, path);
 }
 
-// The name of a file of its own there; NULL if nothing changes. Owned by the caller.
-static char *moved_file(const SbDocument *document, int key, const char *path) {
-  const SbNamedFile *file = &document->file[key];
-  return file->in_valve ? NULL : moved_name(document, file->path, file->name, path);
-}
-
 // Splits a catalogue key at its last dot; both owned by the caller.
 static void split_key(const char *key, char **group, char **name) {
   const char *dot = strrchr(key, '.');
   *group = g_strndup(key, (size_t)(dot - key));
   *name = g_strdup(dot + 1);
+}
+
+// Whether the document's text gives a key this value.
+static bool stands(const SbDocument *document, const char *key, const char *value) {
+  g_autofree char *group = NULL, *name = NULL;
+  split_key(key, &group, &name);
+  for (guint i = 0; i < document->entries->len; i++) {
+    const SbEntry *entry = document->entries->pdata[i];
+    if (entry->name != NULL && strcmp(entry->group, group) == 0 && strcmp(entry->name, name) == 0 &&
+        strcmp(entry->value, value) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// The name of a file of its own there; NULL if nothing changes. Owned by the caller.
+static char *moved_file(const SbDocument *document, int key, const char *path) {
+  const SbNamedFile *file = &document->file[key];
+  if (file->in_valve || file->path == NULL) {
+    return NULL;
+  }
+  char *moved = moved_name(document, file->path, file->name, path);
+  return moved != NULL || stands(document, sb_document_file_key[key], file->name)
+             ? moved
+             : g_strdup(file->name);
 }
 
 static void free_changes(GArray *changes) {

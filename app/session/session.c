@@ -228,6 +228,13 @@ gboolean sb_session_set_rubber(SbSession *session, const char *name, GPtrArray *
   return good;
 }
 
+void sb_session_set_section(SbSession *session, const char *path, const SbSealDrawing *section,
+                            double height) {
+  sb_document_set_section(session->document, path, section, height);
+  sb_session_edit(session, SB_P_SEAL_PROFILE, "file");
+  changed(session);
+}
+
 static int changed_by(SbSession *session, int id) {
   const bool parameter = id >= 0 && id < SB_PARAM_COUNT;
   if (parameter) {

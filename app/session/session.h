@@ -93,6 +93,10 @@ void sb_session_end_merge(SbSession *session);
 // Names the rubber of both rings (NULL: the valve's again); false with an issue.
 gboolean sb_session_set_rubber(SbSession *session, const char *name, GPtrArray *issues);
 
+// Takes a section that was read from a file for both seals: seal.profile = file.
+void sb_session_set_section(SbSession *session, const char *path, const SbSealDrawing *section,
+                            double height);
+
 // The value of the valve, the parent or the catalogue again; clears the field's error.
 void sb_session_unset(SbSession *session, SbParamId id);
 

@@ -180,6 +180,20 @@ static void test_document(void) {
   g_assert_false(sb_document_set_option(document, "seal.profile_file=none.txt", issues));
   g_assert_cmpuint(issues->len, ==, 1);
 
+  // One that somebody chooses is named where the document is saved next, and found from there.
+  SbSealDrawing chosen;
+  double height;
+  g_assert_true(sb_seal_file_read(&chosen, &height, wider, NULL));
+  g_autoptr(SbDocument) own = load(copy, 0);
+  sb_document_set_section(own, wider, &chosen, height);
+  g_autofree char *set = g_build_filename(folder, "set.valve", NULL);
+  g_assert_true(sb_document_save(own, set, NULL));
+  g_autoptr(SbDocument) found = load(set, 0);
+  g_assert_cmpstr(sb_document_section(found), ==, wider);
+  g_autofree char *like = sb_document_sha256(found);
+  g_autofree char *was = sb_document_sha256(own);
+  g_assert_cmpstr(like, ==, was);
+
   // Without a file, and with one that is none.
   g_autofree char *bare =
       write_file("bare.valve", "[sealbench]\nformat = 1\nkind = valve\n[seal]\nprofile = file\n");

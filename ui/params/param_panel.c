@@ -9,6 +9,7 @@
 #include "ui/params/actions.h"
 #include "ui/params/param_row.h"
 #include "ui/params/rubber_row.h"
+#include "ui/params/section_row.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -31,7 +32,7 @@ struct _SbParamPanel {
   GtkWidget *filters[SB_PARAM_FILTER_ALL + 1];
   SbParamFilter filter;
   GtkWidget *row[SB_PARAM_COUNT];
-  GtkWidget *rubber; // the one row that is of no parameter
+  GtkWidget *rubber, *section; // the rows that are of no parameter
   int group_of[SB_PARAM_COUNT];
   GArray *groups;    // of Group
   int kind;          // of the valve whose main ones are listed
@@ -99,6 +100,12 @@ static gboolean is_rubber_listed(SbParamPanel *panel, const char *needle) {
                                                         sb_document_rubber(document) != NULL);
 }
 
+static gboolean is_section_listed(SbParamPanel *panel, const SbParams *params, const char *needle) {
+  return needle[0] != '\0' ? strstr("seal.profile_file", needle) != NULL ||
+                                 strstr(C_("search", "section drawn file dxf step"), needle) != NULL
+                           : is_listed(panel, params, needle, SB_P_SEAL_PROFILE);
+}
+
 // Shows the rows that are listed and unfolds their groups; with all of them as it was before.
 static void list(SbParamPanel *panel) {
   g_autofree char *needle = g_utf8_casefold(gtk_entry_get_text(GTK_ENTRY(panel->search)), -1);
@@ -125,6 +132,11 @@ static void list(SbParamPanel *panel) {
     if (group->box == gtk_widget_get_parent(panel->rubber)) {
       const gboolean listed = is_rubber_listed(panel, needle);
       gtk_widget_set_visible(panel->rubber, listed);
+      in_group += listed;
+    }
+    if (group->box == gtk_widget_get_parent(panel->section)) {
+      const gboolean listed = is_section_listed(panel, &params, needle);
+      gtk_widget_set_visible(panel->section, listed);
       in_group += listed;
     }
     found += in_group;
@@ -189,6 +201,7 @@ static void refresh(SbParamPanel *panel) {
     sb_param_row_refresh(SB_PARAM_ROW(panel->row[id]));
   }
   sb_rubber_row_refresh(panel->rubber);
+  sb_section_row_refresh(panel->section);
   if (panel->effects != NULL) {
     show_effects(panel); // of former values from now on
   }
@@ -325,6 +338,11 @@ GtkWidget *sb_param_panel_new(SbSession *session) {
     panel->row[id] = sb_param_row_new(session, (SbParamId)id, fields);
     gtk_box_pack_start(GTK_BOX(group_at(panel, panel->group_of[id])->box), panel->row[id], FALSE,
                        FALSE, 0);
+    if (id == SB_P_SEAL_PROFILE) {
+      panel->section = sb_section_row_new(session);
+      gtk_box_pack_start(GTK_BOX(group_at(panel, panel->group_of[id])->box), panel->section, FALSE,
+                         FALSE, 0);
+    }
   }
   g_signal_connect_object(session, "params-changed", G_CALLBACK(refresh), panel, G_CONNECT_SWAPPED);
   gtk_widget_show_all(GTK_WIDGET(panel->list));
