@@ -456,6 +456,12 @@ static bool enters_rings(Work *work, double x, double scale) {
   return work->start != NULL && !sb_evaluator_has_solved(work->evaluator, &work->question);
 }
 
+// Features of a groove that it may do without: where it does, rings have no slope by them that is
+// worth a tenth of all others' time.
+static bool is_feature(SbParamId id) {
+  return id == SB_P_GLAND_DRAFT || id == SB_P_GLAND_CORNER_RADIUS || id == SB_P_GLAND_EDGE_CHAMFER;
+}
+
 static SbStatus differentiate(Work *work, size_t parameter) {
   SbGradient *out = work->out;
   const SbParamId id = out->parameter[parameter];
@@ -468,6 +474,14 @@ static SbStatus differentiate(Work *work, size_t parameter) {
     work->open[i] = isfinite(out->value[i]);
   }
   work->rings = enters_rings(work, x, scale);
+  if (work->rings && x == 0 && is_feature(id)) {
+    for (size_t i = 0; i < out->figures; i++) {
+      if (work->open[i]) {
+        refuse(work, parameter, i, "not known at 0: the groove does without it");
+      }
+    }
+    return SB_OK;
+  }
   memcpy(work->base_value, work->rings ? work->ring_value : work->own_value,
          out->figures * sizeof *out->value);
   for (int at = work->rings ? RINGS : FIRST; at < (work->rings ? LEVELS : RINGS); at++) {

@@ -107,6 +107,11 @@ static double *input(int i, SbModel *model, SbSlidingTask *task, SbSlidingLaw *l
   return place[i];
 }
 
+// Whether a number enters: the stem's land where the chamfers of its grooves end there.
+static bool counts(int i, const SbModel *model) {
+  return i != LAND || model->groove_chamfer > 0;
+}
+
 // Numbers that go with 0 as smoothly as elsewhere, upwards; others are options that are off.
 static double step_of(int i, double at, double part) {
   static const double unit[INPUTS] = {
@@ -307,7 +312,9 @@ static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, cons
   other.model = model;
   other.warnings = NULL;
   for (int i = 0; i < INPUTS; i++) {
-    *input(i, model, &other, &by) = z[i];
+    if (counts(i, task->model)) {
+      *input(i, model, &other, &by) = z[i];
+    }
   }
   other.pressure.left += other.pressure.right;
   for (int i = 0; i < SB_SLIDING_FILMS; i++) {
@@ -497,7 +504,7 @@ SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
   SbSlidingLaw by = law != NULL ? *law : (SbSlidingLaw){0};
   double z[INPUTS];
   for (int i = 0; i < INPUTS; i++) {
-    z[i] = *input(i, (SbModel *)task->model, &read, &by);
+    z[i] = counts(i, task->model) ? *input(i, (SbModel *)task->model, &read, &by) : 0;
   }
   z[DIFFERENCE] -= z[LEVEL];
   SbStatus status;
