@@ -98,7 +98,6 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
   if (status != SB_OK) {
     return status;
   }
-
   if (!(width > 0.0)) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
                              "the groove has no width");

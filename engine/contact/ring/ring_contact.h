@@ -121,9 +121,6 @@ SbRingLoad sb_ring_load_between(const SbRingLoad *a, const SbRingLoad *b, double
 // hollows, which nothing here stops.
 bool sb_ring_crosses_itself(const SbRingContact *contact);
 
-// Numbers the hollows of the free section, [loop_count]; 0 where a node lies in none (ring_fold.c).
-void sb_ring_hollows(int *hollow, const SbRingMesh *mesh);
-
 // After assembly: adds what the sides of a hollow press on each other to residual and tangent.
 // Returns how deep a node is behind the other side at most.
 double sb_ring_fold_apply(SbRingContact *contact);

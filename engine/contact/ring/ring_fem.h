@@ -79,6 +79,10 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
                             double around, SbReport *report);
 void sb_ring_fem_destroy(SbRingFem *fem);
 
+// For create only: numbers the hollows of the free section, [loop_count]; 0 where a node lies in
+// none (ring_fold.c).
+void sb_ring_hollows(int *hollow, const SbRingMesh *mesh);
+
 // For create only: the sparse pattern and room for its factors.
 SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report);
 

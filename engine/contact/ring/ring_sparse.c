@@ -4,7 +4,7 @@
 // mesh. Each solution's residual is checked, and refined where it asks for that. A condition
 // replaces the two rows of its node (Dirichlet along a normal, balance with friction along the
 // tangent); the raw rows are kept, since their residual is the reaction.
-#include "engine/contact/ring/ring_contact.h"
+#include "engine/contact/ring/ring_fem.h"
 
 #include <math.h>
 #include <stdlib.h>
