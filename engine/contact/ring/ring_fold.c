@@ -8,7 +8,7 @@
 //   g = n . (x - a) < 0, s = t . (x - a)/L, force -k w g [n, -(1 - s) n, -s n] on (x, a, b),
 //
 // with the consistent tangent (Wriggers, Computational Contact Mechanics, section 9.2). What is
-// left behind is the pressure over the stiffness, 0.2 % of the section's height for one shear
+// left behind is the pressure over the stiffness, 0.1 % of the section's height for one shear
 // modulus. Leaves out fluid between the sides and friction.
 #include "engine/contact/ring/ring_contact.h"
 
