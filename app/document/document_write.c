@@ -293,7 +293,9 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
       SbNamedFile *file = &document->file[i];
       g_free(file->name);
       g_free(file->path);
-      *file = (SbNamedFile){name, g_build_filename(directory, name, NULL), false};
+      const bool whole = g_path_is_absolute(name);
+      *file = (SbNamedFile){name, whole ? g_strdup(name) : g_build_filename(directory, name, NULL),
+                            false};
     }
   }
   g_free(document->text);

@@ -188,6 +188,9 @@ static void test_document(void) {
   sb_document_set_section(own, wider, &chosen, height);
   g_autofree char *set = g_build_filename(folder, "set.valve", NULL);
   g_assert_true(sb_document_save(own, set, NULL));
+  g_autofree char *saved = sb_document_to_flat_text(own);
+  g_autofree char *line = g_strdup_printf("profile_file = %s\n", wider);
+  g_assert_nonnull(strstr(saved, line));
   g_autoptr(SbDocument) found = load(set, 0);
   g_assert_cmpstr(sb_document_section(found), ==, wider);
   g_autofree char *like = sb_document_sha256(found);

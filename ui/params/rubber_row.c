@@ -2,7 +2,7 @@
 // somebody adds is there.
 #include "ui/params/rubber_row.h"
 
-#include "ui/views/style.h"
+#include "ui/params/own_row.h"
 
 #include <glib/gi18n.h>
 
@@ -11,7 +11,7 @@
 
 typedef struct {
   SbSession *session;
-  GtkWidget *combo, *error;
+  GtkWidget *box, *combo;
   gboolean refreshing;
 } Row;
 
@@ -45,8 +45,7 @@ static void on_choice(GtkComboBox *combo, Row *row) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autofree char *name = *id != '\0' ? g_strdup(id) : NULL;
   const gboolean good = sb_session_set_rubber(row->session, name, issues);
-  gtk_label_set_text(GTK_LABEL(row->error), good ? "" : ((const SbIssue *)issues->pdata[0])->text);
-  gtk_widget_set_visible(row->error, !good);
+  sb_own_row_complain(row->box, good ? NULL : ((const SbIssue *)issues->pdata[0])->text);
 }
 
 void sb_rubber_row_refresh(GtkWidget *widget) {
@@ -70,26 +69,12 @@ static void on_popup(Row *row) {
 GtkWidget *sb_rubber_row_new(SbSession *session) {
   Row *row = g_new0(Row, 1);
   row->session = session;
-  GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-  GtkWidget *line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
-  sb_style_class(box, "sb-row");
   row->combo = gtk_combo_box_text_new();
-  sb_style_name(row->combo, _("Rubber of both rings"), NULL);
-  gtk_widget_set_tooltip_text(
-      box,
+  GtkWidget *box = row->box = sb_own_row_new(
+      _("Rubber of both rings"),
       _("Takes modulus, glass transition, expansion and swell from a file of the rubber; values "
-        "that are set stay (rubber.name)"));
-  GtkWidget *label = sb_style_label(_("Rubber of both rings"), "sb-row-label", 0);
-  gtk_label_set_mnemonic_widget(GTK_LABEL(label), row->combo);
-  gtk_box_pack_start(GTK_BOX(line), label, TRUE, TRUE, 0);
-  gtk_box_pack_start(GTK_BOX(line), row->combo, FALSE, FALSE, 0);
-  gtk_widget_set_margin_end(row->combo, 36); // where the other rows have their symbols
-  gtk_box_pack_start(GTK_BOX(box), line, FALSE, FALSE, 0);
-  row->error = sb_style_label(NULL, "sb-row-error", 0);
-  gtk_label_set_line_wrap(GTK_LABEL(row->error), TRUE);
-  gtk_widget_set_no_show_all(row->error, TRUE);
-  gtk_widget_set_visible(row->error, FALSE);
-  gtk_box_pack_start(GTK_BOX(box), row->error, FALSE, FALSE, 0);
+        "that are set stay (rubber.name)"),
+      row->combo);
   g_object_set_data_full(G_OBJECT(box), "row", row, g_free);
   fill(row);
   g_signal_connect(row->combo, "changed", G_CALLBACK(on_choice), row);

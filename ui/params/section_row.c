@@ -2,13 +2,13 @@
 #include "ui/params/section_row.h"
 
 #include "app/document/seal_file.h"
-#include "ui/views/style.h"
+#include "ui/params/own_row.h"
 
 #include <glib/gi18n.h>
 
 typedef struct {
   SbSession *session; // owned reference
-  GtkWidget *button, *error;
+  GtkWidget *button;
 } Row;
 
 typedef struct {
@@ -37,8 +37,7 @@ static void on_read(GObject *widget, GAsyncResult *result, gpointer ignored) {
   GError *error = NULL;
   g_autofree Section *section = g_task_propagate_pointer(G_TASK(result), &error);
   gtk_widget_set_sensitive(row->button, TRUE);
-  gtk_label_set_text(GTK_LABEL(row->error), error != NULL ? error->message : "");
-  gtk_widget_set_visible(row->error, error != NULL);
+  sb_own_row_complain(GTK_WIDGET(widget), error != NULL ? error->message : NULL);
   if (section != NULL) {
     const char *path = g_task_get_task_data(G_TASK(result));
     sb_session_set_section(row->session, path, &section->section, section->height);
@@ -93,25 +92,12 @@ void sb_section_row_refresh(GtkWidget *widget) {
 GtkWidget *sb_section_row_new(SbSession *session) {
   Row *row = g_new0(Row, 1);
   row->session = g_object_ref(session);
-  GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-  GtkWidget *line = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
-  sb_style_class(box, "sb-row");
   row->button = gtk_button_new_with_label("");
-  sb_style_name(row->button, _("Drawn section"), NULL);
-  gtk_widget_set_tooltip_text(
-      box, _("Takes the section of both seals from points, a DXF or a STEP of the ring, scaled to "
-             "their section diameter (seal.profile_file)"));
-  GtkWidget *label = sb_style_label(_("Drawn section"), "sb-row-label", 0);
-  gtk_label_set_mnemonic_widget(GTK_LABEL(label), row->button);
-  gtk_box_pack_start(GTK_BOX(line), label, TRUE, TRUE, 0);
-  gtk_box_pack_start(GTK_BOX(line), row->button, FALSE, FALSE, 0);
-  gtk_widget_set_margin_end(row->button, 36); // where the other rows have their symbols
-  gtk_box_pack_start(GTK_BOX(box), line, FALSE, FALSE, 0);
-  row->error = sb_style_label(NULL, "sb-row-error", 0);
-  gtk_label_set_line_wrap(GTK_LABEL(row->error), TRUE);
-  gtk_widget_set_no_show_all(row->error, TRUE);
-  gtk_widget_set_visible(row->error, FALSE);
-  gtk_box_pack_start(GTK_BOX(box), row->error, FALSE, FALSE, 0);
+  GtkWidget *box = sb_own_row_new(
+      _("Drawn section"),
+      _("Takes the section of both seals from points, a DXF or a STEP of the ring, scaled to their "
+        "section diameter (seal.profile_file)"),
+      row->button);
   g_object_set_data_full(G_OBJECT(box), "row", row, (GDestroyNotify)free_row);
   g_signal_connect(row->button, "clicked", G_CALLBACK(on_choose), box);
   gtk_drag_dest_set(box, GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);
