@@ -13,6 +13,7 @@ void sb_playhead_init(SbPlayhead *playhead) {
       (SbPlayhead){.loops = TRUE,
                    .duration = 10,
                    .waits = TRUE,
+                   .placed = G_MAXSIZE,
                    .place = {.stage = SB_STAGE_C, .share = 0.5, .time = INFINITY, .whole = 0.5}};
 }
 
@@ -54,8 +55,8 @@ size_t sb_playhead_event(const SbPlayhead *playhead, const SbTrace *trace, size_
 }
 
 void sb_playhead_remember(SbPlayhead *playhead, const SbTrace *trace, const SbFrame *frames,
-                          size_t count) {
-  if (playhead->waits || count == 0 || playhead->frame >= count) {
+                          size_t count, gboolean complete) {
+  if (playhead->waits || playhead->frame >= count || playhead->frame == playhead->placed) {
     return;
   }
   // An event's own frame counts to its stage here.
@@ -68,9 +69,12 @@ void sb_playhead_remember(SbPlayhead *playhead, const SbTrace *trace, const SbFr
   double now = frames[playhead->frame].time, end = frames[count - 1].time;
   double from = events > 0 ? event[i].mark.time : 0;
   double to = i + 1 < events ? event[i + 1].mark.time : end;
+  const gboolean ends = complete || i + 1 < events;
   playhead->place = (SbPlayheadPlace){.stage = events > 0 ? event[i].stage : SB_STAGE_A,
                                       .cycle = events > 0 ? event[i].cycle : 0,
-                                      .share = to > from ? fmin((now - from) / (to - from), 1) : 0,
+                                      .share = now == from ? 0
+                                               : ends      ? fmin((now - from) / (to - from), 1)
+                                                           : NAN,
                                       .time = now - from,
                                       .whole = end > 0 ? now / end : 0};
 }
@@ -80,6 +84,7 @@ void sb_playhead_return(SbPlayhead *playhead, const SbTrace *trace, const SbFram
   playhead->waits = FALSE;
   if (count == 0) {
     playhead->frame = 0;
+    playhead->placed = G_MAXSIZE;
     return;
   }
   const SbPlayheadPlace *place = &playhead->place;
@@ -89,7 +94,7 @@ void sb_playhead_return(SbPlayhead *playhead, const SbTrace *trace, const SbFram
     size_t last = sb_trace_stage_end(trace, place->stage, place->cycle, count);
     double end = frames[count - 1].time;
     double time = INFINITY;
-    if (mark != NULL && (complete || last + 1 < count)) {
+    if (mark != NULL && !isnan(place->share) && (complete || last + 1 < count)) {
       time = mark->time + place->share * (frames[last].time - mark->time);
     } else if (mark != NULL) {
       time = mark->time + place->time; // how long the stage lasts here is not known yet
@@ -103,16 +108,16 @@ void sb_playhead_return(SbPlayhead *playhead, const SbTrace *trace, const SbFram
       frame = sb_playhead_nearest(frames, count, time);
     }
   }
-  playhead->frame = frame;
+  playhead->frame = playhead->placed = frame;
   playhead->time = frames[frame].time;
 }
 
 size_t sb_playhead_same_place(const SbChartRun *run, size_t frame, const SbChartRun *other) {
-  SbPlayhead place = {.frame = frame};
+  SbPlayhead place = {.frame = frame, .placed = G_MAXSIZE};
   if (run->count == 0) {
     return 0;
   }
-  sb_playhead_remember(&place, run->trace, run->frames, run->count);
+  sb_playhead_remember(&place, run->trace, run->frames, run->count, TRUE);
   sb_playhead_return(&place, other->trace, other->frames, other->count, TRUE);
   return place.frame;
 }

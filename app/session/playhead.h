@@ -13,7 +13,7 @@
 typedef struct {
   SbStage stage; // of the event
   int cycle;
-  double share; // of the time to the next event, or to the end
+  double share; // of the time to the next event, or to the end; NaN where that is not known
   double time;  // since the event [s]
   double whole; // share of the whole run's time
 } SbPlayheadPlace;
@@ -28,6 +28,7 @@ typedef struct {
   gint64 last;      // frame clock at the last tick [us], 0 before the first
   gboolean waits;   // the run has not come to `place` yet: shows its newest frame until then
   SbPlayheadPlace place;
+  size_t placed; // the frame that it was returned to; G_MAXSIZE before
 } SbPlayhead;
 
 // Waits for the first run to come half way from stage C to D.
@@ -41,10 +42,11 @@ size_t sb_playhead_nearest(const SbFrame *frames, size_t count, double time);
 size_t sb_playhead_event(const SbPlayhead *playhead, const SbTrace *trace, size_t count,
                          int direction);
 
-// Remembers the place of the present frame, so that sb_playhead_return() finds it in another run;
-// one that still waits keeps the place it waits for.
+// Remembers the place of the present frame, so that sb_playhead_return() finds it in another run.
+// One that still waits, or stands where it was returned to, keeps its place: a frame is only near
+// it. In a growing run (`complete` false) the last stage's share of its time is not known yet.
 void sb_playhead_remember(SbPlayhead *playhead, const SbTrace *trace, const SbFrame *frames,
-                          size_t count);
+                          size_t count, gboolean complete);
 
 // Moves to the remembered place, or to the newest frame if it follows or a growing run (`complete`
 // false) is not that far; a stage that a complete run does not reach is found by its share of the

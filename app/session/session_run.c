@@ -170,16 +170,26 @@ static void keep(SbSession *session, SbDisplayedRun *run) {
 
 // Showing ----------------------------------------------------------------------------------------
 
+static gboolean shows_all(const SbSession *session) {
+  return session->shown != NULL && session->shown->chart.state == SB_CHART_DONE &&
+         sb_displayed_run_complete(session->shown);
+}
+
+static void remember_place(SbSession *session) {
+  size_t count = 0;
+  const SbFrame *frames = sb_session_frames(session, &count);
+  sb_playhead_remember(&session->playhead, session->shown->trace, frames, count,
+                       shows_all(session));
+}
+
 // Displays the fresh run, which has frames; the run before stays behind it until it is complete.
 // The playhead keeps its place.
 static void display_fresh(SbSession *session) {
   if (session->shown == session->fresh) {
     return;
   }
-  size_t count = 0;
-  const SbFrame *frames = sb_session_frames(session, &count);
   if (session->shown != NULL) {
-    sb_playhead_remember(&session->playhead, session->shown->trace, frames, count);
+    remember_place(session);
   }
   sb_session_hold(&session->earlier, session->shown);
   sb_session_hold(&session->shown, session->fresh);
@@ -189,9 +199,7 @@ static void place_playhead(SbSession *session) {
   size_t count = 0;
   const SbFrame *frames = sb_session_frames(session, &count);
   const SbTrace *trace = session->shown != NULL ? session->shown->trace : NULL;
-  gboolean complete = session->shown != NULL && session->shown->chart.state == SB_CHART_DONE &&
-                      sb_displayed_run_complete(session->shown);
-  sb_playhead_return(&session->playhead, trace, frames, count, complete);
+  sb_playhead_return(&session->playhead, trace, frames, count, shows_all(session));
   session->playhead.waits = session->playhead.waits && !session->playhead.playing;
 }
 
@@ -254,7 +262,9 @@ static void finish(SbSession *session) {
     display_fresh(session);
     // A short run is read at once; a long one goes on being read by the ticks.
     sb_displayed_run_update(fresh, FRAMES_PER_TICK);
-    if (!watched || session->playhead.follows || session->playhead.waits) {
+    // Where a growing run placed it by a stage of unknown length, it is placed anew.
+    if (!watched || session->playhead.follows || session->playhead.waits ||
+        session->playhead.frame == session->playhead.placed) {
       place_playhead(session);
     }
   }
@@ -342,9 +352,7 @@ static void start_now(SbSession *session) {
   if (session->ticket != 0 && session->shown != NULL && session->shown == session->fresh) {
     session->shown->chart.state = SB_CHART_PARTIAL;
     if (session->earlier != NULL) {
-      size_t count = 0;
-      const SbFrame *frames = sb_session_frames(session, &count);
-      sb_playhead_remember(&session->playhead, session->shown->trace, frames, count);
+      remember_place(session);
       sb_session_hold(&session->shown, session->earlier);
       place_playhead(session);
     }

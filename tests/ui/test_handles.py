@@ -45,7 +45,11 @@ def sizes_are_handles(folder):
     with App(scene(folder), parameters=0) as app:
         wait("the first run", app.run_done)
         area = app.find("image", "Section")
-        box = area.queryComponent().getExtents(pyatspi.DESKTOP_COORDS)
+
+        def extents():
+            return area.queryComponent().getExtents(pyatspi.DESKTOP_COORDS)
+
+        place = extents()
 
         def value():
             return float(app.value(NAME).split()[0])
@@ -53,13 +57,16 @@ def sizes_are_handles(folder):
         def ring():
             """Where the inner ring's edge is, at rest."""
             wait("a shown run", app.run_done)
+            box = extents()
             xdotool("mousemove", box.x + box.width - 30, box.y + 30)
             at = []
 
             def rests():
                 at.append(centres(box))
                 time.sleep(0.2)  # a run that is shown may still move the picture
-                return len(at[-1]) == HANDLES and at[-2:-1] == at[-1:] and at[-1][0]
+                if len(at[-1]) != HANDLES or at[-2:-1] != at[-1:]:
+                    raise AssertionError("handles at %s, then at %s" % (at[-2:-1], at[-1]))
+                return at[-1][0]
 
             return wait("the handles", rests)
 
@@ -105,6 +112,7 @@ def sizes_are_handles(folder):
             app.key("ctrl+z")
             wait("as before", lambda: value() == 1.57)
         assert largest[0] == largest[1], largest
+        assert extents() == place, "values that come and go move the picture"
 
 
 if __name__ == "__main__":

@@ -53,7 +53,7 @@ static void test_place(void) {
   playhead.waits = FALSE;
   playhead.frame = 25; // half way from B to C
   SbTrace *trace = trace_of(COUNT);
-  sb_playhead_remember(&playhead, trace, frames, COUNT);
+  sb_playhead_remember(&playhead, trace, frames, COUNT, TRUE);
   g_assert_cmpint(playhead.place.stage, ==, SB_STAGE_B);
   sb_trace_destroy(trace);
   // While the run grows: its newest frame, then the place.
@@ -61,7 +61,7 @@ static void test_place(void) {
   sb_playhead_return(&playhead, trace, frames, 20, FALSE);
   g_assert_true(playhead.waits);
   g_assert_cmpuint(playhead.frame, ==, 19);
-  sb_playhead_remember(&playhead, trace, frames, 20); // the place stays what it was
+  sb_playhead_remember(&playhead, trace, frames, 20, FALSE); // the place stays what it was
   sb_trace_destroy(trace);
   trace = trace_of(COUNT);
   sb_playhead_return(&playhead, trace, frames, COUNT, TRUE);
@@ -69,7 +69,7 @@ static void test_place(void) {
   g_assert_cmpuint(playhead.frame, ==, 25);
   // On an event's frame it stays on the event.
   playhead.frame = 40;
-  sb_playhead_remember(&playhead, trace, frames, COUNT);
+  sb_playhead_remember(&playhead, trace, frames, COUNT, TRUE);
   sb_playhead_return(&playhead, trace, frames, COUNT, TRUE);
   g_assert_cmpuint(playhead.frame, ==, 40);
   // At the end it follows the end.
@@ -77,6 +77,32 @@ static void test_place(void) {
   sb_playhead_return(&playhead, trace, frames, COUNT, TRUE);
   g_assert_cmpuint(playhead.frame, ==, COUNT - 1);
   sb_trace_destroy(trace);
+}
+
+// Returned to a frame, it keeps its place, not that frame's: runs of other frames, and those that
+// are overtaken while they grow, do not lead it away.
+static void test_keeps(void) {
+  SbPlayhead playhead;
+  sb_playhead_init(&playhead);
+  SbTrace *whole = trace_of(COUNT), *grows = trace_of(80);
+  sb_playhead_return(&playhead, whole, frames, COUNT, TRUE);
+  g_assert_cmpuint(playhead.frame, ==, 70);
+  for (int i = 0; i < 3; i++) {
+    sb_playhead_return(&playhead, grows, frames, 80 + (size_t)i, FALSE);
+    sb_playhead_remember(&playhead, grows, frames, 80 + (size_t)i, FALSE);
+  }
+  sb_playhead_return(&playhead, whole, frames, COUNT, TRUE);
+  g_assert_cmpuint(playhead.frame, ==, 70);
+  g_assert_cmpfloat(playhead.place.share, ==, 0.5);
+  // Moved by hand in a growing run it stays that long after the stage's event.
+  sb_playhead_return(&playhead, grows, frames, 80, FALSE);
+  playhead.waits = FALSE;
+  playhead.frame = 60;
+  sb_playhead_remember(&playhead, grows, frames, 80, FALSE);
+  sb_playhead_return(&playhead, whole, frames, COUNT, TRUE);
+  g_assert_cmpuint(playhead.frame, ==, 60);
+  sb_trace_destroy(whole);
+  sb_trace_destroy(grows);
 }
 
 // The first run opens half way through stage C; one that does not reach it, in its middle.
@@ -157,6 +183,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/playhead/nearest", test_nearest);
   g_test_add_func("/playhead/events", test_events);
   g_test_add_func("/playhead/place", test_place);
+  g_test_add_func("/playhead/keeps", test_keeps);
   g_test_add_func("/playhead/opens", test_opens);
   g_test_add_func("/playhead/play", test_play);
   g_test_add_func("/playhead/loop", test_loop);

@@ -231,17 +231,19 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
   gtk_grid_attach(GTK_GRID(grid), panel->note, 1, 0, 4, 1);
   for (int i = 0; i < ITEMS; i++) {
     panel->figure[i] = sb_figure_find(items[i].path);
-    GtkWidget *name = panel->name[i] = sb_style_label(name_of(panel, i), "sb-derived-name", 0);
-    gtk_widget_set_hexpand(name, TRUE);
+    panel->name[i] = sb_style_label(name_of(panel, i), "sb-derived-name", 0);
     panel->value[i] = sb_style_label("", "sb-derived-value", 1);
+    // Room for every value and word, so that none moves what is beside the panel.
+    gtk_label_set_width_chars(GTK_LABEL(panel->value[i]), 8);
     panel->bar[i] = gtk_drawing_area_new();
-    gtk_widget_set_size_request(panel->bar[i], 80, 18);
+    gtk_widget_set_size_request(panel->bar[i], 64, 18);
+    gtk_widget_set_hexpand(panel->bar[i], TRUE);
     g_object_set_data(G_OBJECT(panel->bar[i]), "index", GINT_TO_POINTER(i));
     g_signal_connect(panel->bar[i], "draw", G_CALLBACK(on_draw), panel);
     panel->icon[i] = gtk_image_new();
     panel->verdict[i] = sb_style_label("", "sb-verdict", 0);
-    gtk_label_set_width_chars(GTK_LABEL(panel->verdict[i]), 4);
-    gtk_grid_attach(GTK_GRID(grid), name, 0, i + 1, 1, 1);
+    gtk_label_set_width_chars(GTK_LABEL(panel->verdict[i]), 5);
+    gtk_grid_attach(GTK_GRID(grid), panel->name[i], 0, i + 1, 1, 1);
     gtk_grid_attach(GTK_GRID(grid), panel->value[i], 1, i + 1, 1, 1);
     gtk_grid_attach(GTK_GRID(grid), panel->bar[i], 2, i + 1, 1, 1);
     gtk_grid_attach(GTK_GRID(grid), panel->icon[i], 3, i + 1, 1, 1);

@@ -253,10 +253,11 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr, SbSectionHandles *handles) 
     }
   }
   for (int i = 0; i < handles->count && (handles->inside || shown != NONE); i++) {
-    const Handle *handle = &handles->handle[i];
-    sb_canvas_dot(c, handle->at.x, handle->at.y, RADIUS, accent());
+    // On whole pixels, so that each looks the same.
+    const SbPoint at = {round(handles->handle[i].at.x), round(handles->handle[i].at.y)};
+    sb_canvas_dot(c, at.x, at.y, RADIUS, accent());
     if (i != shown) {
-      sb_canvas_dot(c, handle->at.x, handle->at.y, RADIUS - 1.6, sb_canvas_role(c, SB_ROLE_PANEL));
+      sb_canvas_dot(c, at.x, at.y, RADIUS - 1.6, sb_canvas_role(c, SB_ROLE_PANEL));
     }
   }
   if (shown != NONE) {
@@ -379,6 +380,11 @@ gboolean sb_section_handles_release(SbSectionHandles *handles) {
   }
   gtk_widget_queue_draw(handles->layer);
   return TRUE;
+}
+
+void sb_section_handles_enter(SbSectionHandles *handles) {
+  handles->inside = TRUE;
+  gtk_widget_queue_draw(handles->layer);
 }
 
 void sb_section_handles_leave(SbSectionHandles *handles) {

@@ -26,6 +26,7 @@ void sb_section_handles_follow(SbSectionHandles *handles, const SbSection *secti
 gboolean sb_section_handles_press(SbSectionHandles *handles, double x, double y);
 gboolean sb_section_handles_motion(SbSectionHandles *handles, double x, double y, guint state);
 gboolean sb_section_handles_release(SbSectionHandles *handles);
+void sb_section_handles_enter(SbSectionHandles *handles);
 void sb_section_handles_leave(SbSectionHandles *handles);
 
 // Arrows move the chosen size by 0.01 mm (Shift: 0.001 mm), Escape takes a drag back or lets go, a

@@ -443,6 +443,12 @@ static gboolean on_release(GtkWidget *widget, GdkEventButton *event, View *view)
   return GDK_EVENT_STOP;
 }
 
+// A new layout under a pointer at rest leaves one widget for another without any motion.
+static gboolean on_enter(GtkWidget *widget, GdkEventCrossing *event, View *view) {
+  sb_section_handles_enter(view->handles);
+  return GDK_EVENT_PROPAGATE;
+}
+
 static gboolean on_leave(GtkWidget *widget, GdkEventCrossing *event, View *view) {
   sb_section_handles_leave(view->handles);
   return GDK_EVENT_PROPAGATE;
@@ -645,9 +651,11 @@ void sb_section_view_add_start(GtkWidget *widget, GtkWidget *start) {
 
 static void take_pointer(GtkWidget *widget, GCallback scrolled, View *view) {
   gtk_widget_add_events(widget, GDK_BUTTON_PRESS_MASK | GDK_BUTTON_RELEASE_MASK |
-                                    GDK_POINTER_MOTION_MASK | GDK_LEAVE_NOTIFY_MASK |
-                                    GDK_SCROLL_MASK | GDK_SMOOTH_SCROLL_MASK);
+                                    GDK_POINTER_MOTION_MASK | GDK_ENTER_NOTIFY_MASK |
+                                    GDK_LEAVE_NOTIFY_MASK | GDK_SCROLL_MASK |
+                                    GDK_SMOOTH_SCROLL_MASK);
   g_signal_connect(widget, "button-release-event", G_CALLBACK(on_release), view);
+  g_signal_connect(widget, "enter-notify-event", G_CALLBACK(on_enter), view);
   g_signal_connect(widget, "leave-notify-event", G_CALLBACK(on_leave), view);
   g_signal_connect(widget, "scroll-event", scrolled, view);
   g_signal_connect(widget, "button-press-event", G_CALLBACK(on_press), view);
