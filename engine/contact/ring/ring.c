@@ -319,6 +319,22 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
   return status;
 }
 
+// Says of a way to a load that has ended at a surface that creases that there is no smooth state
+// beyond. `crease` of the states at which it ended.
+static SbStatus tell_crease(const SbRing *ring, const SbRingLoad *target, double crease,
+                            SbStatus status, SbReport *report) {
+  if (status != SB_ERROR_NOT_CONVERGED || is_circle(ring) || target->bore_slides != 0 ||
+      crease <= SB_RING_CREASE) {
+    return status;
+  }
+  const SbReport reason = report != NULL ? *report : (SbReport){0};
+  return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile",
+                           "the %s section's surface creases where it is pressed to %.2f of its "
+                           "length (rubber's does from %.2f on): %.120s",
+                           sb_seal_profile_name(ring->body.profile.kind), 1.0 / sqrt(crease),
+                           1.0 / sqrt(SB_RING_CREASE), reason.text);
+}
+
 // Where floor and walls do not rub, so that a state hangs on none before, an easy path to it comes
 // first: it takes a part of the steps. A ring that barely resists rolling can stumble over single
 // nodes of a mesh, and a corner that closes turns large elements over: finer ones are tried.
@@ -327,6 +343,7 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
   const bool slides = target->bore_slides != 0 && target->friction_bore > 0.0;
   const bool smooth = target->friction_floor == 0.0 && target->friction_wall == 0.0;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
+  double crease = 1.0;
   const size_t tries = sizeof FINER / sizeof FINER[0] - (is_circle(ring) ? 1 : 0);
   for (size_t i = slides && smooth ? 0 : 1; i < tries && status == SB_ERROR_NOT_CONVERGED; i++) {
     ring->easy = i == 0;
@@ -343,8 +360,11 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
     if (status == SB_OK) {
       status = check_apart(ring, report);
     }
+    if (status == SB_ERROR_NOT_CONVERGED && ring->contact != NULL) {
+      crease = fmax(crease, sb_ring_crease(ring->contact));
+    }
   }
-  return status;
+  return tell_crease(ring, target, crease, status, report);
 }
 
 void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *load) {

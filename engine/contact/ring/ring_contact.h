@@ -125,6 +125,14 @@ bool sb_ring_crosses_itself(const SbRingContact *contact);
 // Returns how deep a node is behind the other side at most.
 double sb_ring_fold_apply(SbRingContact *contact);
 
+// How much more the free surface is stretched across than along, at most, (lambda_1^2 lambda_3)^-1
+// with the stretches along the section's outline and around the ring. Rubber that is pressed along
+// its surface creases from SB_RING_CREASE on: Hong, Zhao and Suo, Appl. Phys. Lett. 95, 111901
+// (2009), flat and neo-Hookean; in the plane at a stretch of 0.65, so measured (Cai and others,
+// Soft Matter 8, 1301, 2012). Ripples of every length grow from 3.4 on (Biot).
+#define SB_RING_CREASE 2.4
+double sb_ring_crease(const SbRingContact *contact);
+
 // Adds the fluid to residual and tangent; renews `closed`, `wet`, `weight`, `share`, `pressed`,
 // `fluid`.
 void sb_ring_contact_load_fluid(SbRingContact *contact);

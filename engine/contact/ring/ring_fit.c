@@ -129,6 +129,13 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
     sb_ring_destroy(ring);
     return status;
   }
+  const double crease = sb_ring_crease(ring->contact);
+  if (crease > SB_RING_CREASE) {
+    sb_warn(warnings, "surface-creases", "seal.profile",
+            "the free surface is pressed to %.2f of its length somewhere, where rubber creases "
+            "(from %.2f on): the ring is solved with a smooth one",
+            1.0 / sqrt(crease), 1.0 / sqrt(SB_RING_CREASE));
+  }
   if (out != NULL) {
     *out = ring;
   } else {

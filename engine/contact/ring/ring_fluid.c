@@ -34,7 +34,7 @@ static int crest(const SbRingContact *contact, SbRingSurface surface, double ang
 // fluid fills as long as one crest holds the higher pressure: the first crest above it on the way
 // from the bore (to the bore: from the floor) over the flank of the higher pressure.
 static int first_crest(const SbRingContact *contact, SbRingSurface surface, double angle) {
-  static const double FALLS = 0.8; // to this share of a crest it has been passed
+  static const double FALLS = 0.8; // to this share of a crest, or to the fluid's, it is passed
   const SbRingLoad *now = &contact->is.now;
   const double high = fmax(now->pressure_left, now->pressure_right);
   if (!contact->lobes || now->pressure_left == now->pressure_right) {
@@ -52,7 +52,7 @@ static int first_crest(const SbRingContact *contact, SbRingSurface surface, doub
     if (pressure > most) {
       most = pressure;
       best = i;
-    } else if (best >= 0 && pressure < FALLS * most) {
+    } else if (best >= 0 && pressure < fmax(high, FALLS * most)) {
       break;
     }
   }

@@ -7,9 +7,10 @@
 //
 //   g = n . (x - a) < 0, s = t . (x - a)/L, force -k w g [n, -(1 - s) n, -s n] on (x, a, b),
 //
-// with the consistent tangent (Wriggers, Computational Contact Mechanics, section 9.2). What is
-// left behind is the pressure over the stiffness, 0.1 % of the section's height for one shear
-// modulus. Leaves out fluid between the sides and friction.
+// with the consistent tangent (Wriggers, Computational Contact Mechanics, section 9.2). Behind a
+// corner between two pieces that lean apart, as those of a hollow do, it is the nearest point: the
+// force is -k w (x - a) on the node. What is left behind is the pressure over the stiffness, 0.1 %
+// of the section's height for one shear modulus. Leaves out fluid between the sides and friction.
 #include "engine/contact/ring/ring_contact.h"
 
 #include <math.h>
@@ -25,7 +26,7 @@ static const double HOLLOW = 1e-3, BEHIND = 0.12, FACES = 0.2;
 
 // Nodes beside a hollow that may come into it, at either end, and those along the boundary from a
 // node that are its own side.
-enum { BESIDE = 6, OWN = 2 };
+enum { BESIDE = 6, OWN = 1 };
 
 // Twice the area of a triangle, counter-clockwise.
 static double turn(const double a[2], const double b[2], const double c[2]) {
@@ -109,7 +110,7 @@ void sb_ring_hollows(int *hollow, const SbRingMesh *mesh) {
   }
 }
 
-// A node behind a piece.
+// A node behind a piece, or behind the corner `from`, where `to` is the same.
 typedef struct {
   int node, from, to; // of the mesh
   double gap, along, length, n[2], t[2];
@@ -121,7 +122,31 @@ static int apart(int a, int b, int count) {
   return way < count - way ? way : count - way;
 }
 
-// The piece that node i is behind, nearest to it; false if there is none.
+// A straight piece of the boundary from node k on: its ends, direction, outward normal.
+typedef struct {
+  double a[2], b[2], length, t[2], n[2];
+} Piece;
+
+static Piece piece_at(const SbRingContact *contact, int k) {
+  Piece p;
+  sb_ring_contact_place(contact, k, p.a);
+  sb_ring_contact_place(contact, k + 1, p.b);
+  p.length = hypot(p.b[0] - p.a[0], p.b[1] - p.a[1]);
+  p.t[0] = (p.b[0] - p.a[0]) / p.length;
+  p.t[1] = (p.b[1] - p.a[1]) / p.length;
+  p.n[0] = p.t[1];
+  p.n[1] = -p.t[0];
+  return p;
+}
+
+// How far x is outside of a piece, and along it as a share of its length.
+static double outside_of(const Piece *p, const double x[2], double *along) {
+  const double d[2] = {x[0] - p->a[0], x[1] - p->a[1]};
+  *along = (p->t[0] * d[0] + p->t[1] * d[1]) / p->length;
+  return p->n[0] * d[0] + p->n[1] * d[1];
+}
+
+// The piece or corner that node i is behind, nearest to it; false if there is none.
 static bool find(Fold *out, const SbRingContact *contact, int i) {
   const SbRingFem *fem = contact->fem;
   const int n = contact->count, *hollow = fem->hollow;
@@ -139,24 +164,29 @@ static bool find(Fold *out, const SbRingContact *contact, int i) {
         apart(next, i, n) <= OWN) {
       continue;
     }
-    double a[2], b[2];
-    sb_ring_contact_place(contact, k, a);
-    sb_ring_contact_place(contact, next, b);
-    const double length = hypot(b[0] - a[0], b[1] - a[1]);
-    const double t[2] = {(b[0] - a[0]) / length, (b[1] - a[1]) / length};
-    const double normal[2] = {t[1], -t[0]};
-    const double gap = normal[0] * (x[0] - a[0]) + normal[1] * (x[1] - a[1]);
-    const double along = (t[0] * (x[0] - a[0]) + t[1] * (x[1] - a[1])) / length;
+    const Piece p = piece_at(contact, k);
+    double along;
+    double gap = outside_of(&p, x, &along);
+    int to = next;
+    if (along < 0.0 && gap < 0.0) {
+      double past;
+      const Piece before = piece_at(contact, k - 1);
+      if (outside_of(&before, x, &past) < 0.0 && past > 1.0) {
+        to = k;
+        along = 0.0;
+        gap = -hypot(x[0] - p.a[0], x[1] - p.a[1]);
+      }
+    }
     if (gap < 0.0 && gap > -BEHIND && along >= 0.0 && along <= 1.0 &&
-        normal[0] * face[0] + normal[1] * face[1] < -FACES && (!found || gap > out->gap)) {
+        p.n[0] * face[0] + p.n[1] * face[1] < -FACES && (!found || gap > out->gap)) {
       *out = (Fold){.node = fem->mesh->loop[i],
                     .from = fem->mesh->loop[k],
-                    .to = fem->mesh->loop[next],
+                    .to = fem->mesh->loop[to],
                     .gap = gap,
                     .along = along,
-                    .length = length,
-                    .n = {normal[0], normal[1]},
-                    .t = {t[0], t[1]}};
+                    .length = p.length,
+                    .n = {p.n[0], p.n[1]},
+                    .t = {p.t[0], p.t[1]}};
       found = true;
     }
   }
@@ -170,6 +200,20 @@ static double free_area(const SbRingContact *contact, int i) {
   const double *b = free_place(mesh, sb_ring_wrap(contact, i + 1));
   const double length = 0.5 * (hypot(x[0] - a[0], x[1] - a[1]) + hypot(b[0] - x[0], b[1] - x[1]));
   return length * (contact->fem->around != 0.0 ? contact->fem->around * x[0] : 1.0);
+}
+
+static void press_corner(SbRingFem *fem, const Fold *fold, double stiffness) {
+  const int node[2] = {fold->node, fold->from};
+  for (int i = 0; i < 2; i++) {
+    const double way = fem->mesh->x[2 * node[0] + i] + fem->u[2 * node[0] + i] -
+                       fem->mesh->x[2 * node[1] + i] - fem->u[2 * node[1] + i];
+    for (int a = 0; a < 2; a++) {
+      fem->residual[2 * node[a] + i] += (a == 0 ? stiffness : -stiffness) * way;
+      for (int b = 0; b < 2; b++) {
+        sb_ring_fem_add(fem, node[a], i, node[b], i, a == b ? stiffness : -stiffness);
+      }
+    }
+  }
 }
 
 static void press(SbRingFem *fem, const Fold *fold, double stiffness) {
@@ -197,10 +241,48 @@ double sb_ring_fold_apply(SbRingContact *contact) {
   for (int i = 0; i < contact->count; i++) {
     Fold fold;
     if (contact->fem->hollow[i] != 0 && find(&fold, contact, i)) {
-      press(contact->fem, &fold, STIFFNESS * free_area(contact, i));
+      (fold.from == fold.to ? press_corner : press)(contact->fem, &fold,
+                                                    STIFFNESS * free_area(contact, i));
       deepest = fmax(deepest, -fold.gap);
-      contact->folds = 31 * contact->folds + (unsigned)(fold.node * contact->count + fold.from) + 1;
+      contact->folds =
+          31 * contact->folds + (unsigned)(fold.node * contact->count + fold.from + fold.to) + 1;
     }
   }
   return deepest;
+}
+
+// The same between two places of the section and where they were, `at` and `was` between them.
+static double across_over_along(const SbRingContact *contact, const double way[2],
+                                const double was[2], double at, double from) {
+  const double along = hypot(way[0], way[1]) / hypot(was[0], was[1]);
+  return 1.0 / (along * along * (contact->fem->around != 0.0 ? at / from : 1.0));
+}
+
+double sb_ring_crease(const SbRingContact *contact) {
+  static const double GAUSS = 0.57735026918962576;
+  double most = 1.0;
+  for (int i = 0; i < contact->count; i++) {
+    double x[3][2], way[2], was[2];
+    const double *rest[3];
+    bool held = false;
+    for (int k = 0; k < 3; k++) {
+      sb_ring_contact_place(contact, i - 1 + k, x[k]);
+      rest[k] = free_place(contact->fem->mesh, sb_ring_wrap(contact, i - 1 + k));
+    }
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      held = held || sb_ring_touch(contact, i, s)->held;
+    }
+    // From the middle of one side to that of the next, across which the surface may be kinked; the
+    // slopes of a quadratic side at its Gauss points.
+    for (int side = -1; side <= 1 && !held; side += i % 2 == 0 ? 3 : 2) {
+      const double bend = i % 2 == 0 ? 0.0 : side * GAUSS;
+      for (int k = 0; k < 2; k++) {
+        way[k] = 0.5 * (x[2][k] - x[0][k]) + bend * (x[0][k] + x[2][k] - 2.0 * x[1][k]);
+        was[k] =
+            0.5 * (rest[2][k] - rest[0][k]) + bend * (rest[0][k] + rest[2][k] - 2.0 * rest[1][k]);
+      }
+      most = fmax(most, across_over_along(contact, way, was, x[1][0], rest[1][0]));
+    }
+  }
+  return most;
 }
