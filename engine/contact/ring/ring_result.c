@@ -118,23 +118,41 @@ int sb_ring_profile(const SbRing *ring, double *x, double *pressure, int capacit
   return SB_RING_PROFILE;
 }
 
+// Whether a surface holds a node of a side.
+static bool holds_some(const SbRing *ring, SbRingSurface surface, int side) {
+  bool some = false;
+  for (int i = 0; i < 3; i++) {
+    some = some ||
+           sb_ring_touch(ring->contact, sb_ring_wrap(ring->contact, 2 * side + i), surface)->held;
+  }
+  return some;
+}
+
 // Normal force that the fluid still carries in the balance on sides that are only partly within
-// the contact; that part belongs to the closed contact.
-static double end_share(const SbRing *ring, const SbRingPatch *patch) {
-  double low = fmin(patch->place[0], patch->place[1]),
-         high = fmax(patch->place[0], patch->place[1]);
-  double turn = ring->body.plane_strain ? 1.0 : ring->fem->around, sum = 0.0;
-  for (int side = (patch->first - 2) / 2; side <= patch->last / 2; side++) {
-    if (ring->contact->closed[sb_ring_wrap(ring->contact, 2 * side) / 2]) {
-      continue;
+// the contact; that part belongs to the closed contact. Counted from either end inwards to the
+// first closed side, or to a hollow between lobes, whose fluid is no part of the contact.
+static double end_share(const SbRing *ring, SbRingSurface surface, const SbRingPatch *patch) {
+  const SbRingContact *contact = ring->contact;
+  const double low = fmin(patch->place[0], patch->place[1]);
+  const double high = fmax(patch->place[0], patch->place[1]);
+  const double turn = ring->body.plane_strain ? 1.0 : ring->fem->around;
+  double sum = 0.0;
+  for (int end = 0; end < 2; end++) {
+    const int way = end == 0 ? 1 : -1;
+    for (int side = end == 0 ? (patch->first - 2) / 2 : patch->last / 2;
+         (4 * side + 2 > patch->first + patch->last) == (end == 1); side += way) {
+      const bool within = 2 * side >= patch->first && 2 * side + 2 <= patch->last;
+      if (contact->closed[sb_ring_wrap(contact, 2 * side) / 2] ||
+          (within && !holds_some(ring, surface, side))) {
+        break;
+      }
+      double a[2], b[2];
+      sb_ring_contact_place(contact, 2 * side, a);
+      sb_ring_contact_place(contact, 2 * side + 2, b);
+      const double overlap = fmin(high, fmax(a[1], b[1])) - fmax(low, fmin(a[1], b[1]));
+      const double radius = ring->body.plane_strain ? 1.0 : 0.5 * (a[0] + b[0]);
+      sum += fmax(0.0, overlap) * patch->end_pressure[end] * radius * turn;
     }
-    double a[2], b[2];
-    sb_ring_contact_place(ring->contact, 2 * side, a);
-    sb_ring_contact_place(ring->contact, 2 * side + 2, b);
-    double overlap = fmin(high, fmax(a[1], b[1])) - fmax(low, fmin(a[1], b[1]));
-    int end = 4 * side + 2 > patch->first + patch->last ? 1 : 0;
-    double radius = ring->body.plane_strain ? 1.0 : 0.5 * (a[0] + b[0]);
-    sum += fmax(0.0, overlap) * patch->end_pressure[end] * radius * turn;
   }
   return sum;
 }
@@ -185,7 +203,8 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
           smooth[s].peak = fmax(smooth[s].peak, sb_ring_node_pressure(ring, i, (SbRingSurface)s));
         }
       }
-      force[s][0] += (s == SB_RING_BORE ? -1.0 : 1.0) * end_share(ring, &patch[s]);
+      force[s][0] +=
+          (s == SB_RING_BORE ? -1.0 : 1.0) * end_share(ring, (SbRingSurface)s, &patch[s]);
     }
   }
   out->bore_force = 0.0 - force[SB_RING_BORE][0] * f; // not -0
