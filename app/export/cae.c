@@ -280,7 +280,7 @@ typedef struct {
   int first, first_element;
 } Rigid;
 
-enum { PIECES = 8 };
+enum { PIECES = 64 }; // short beside the contact: the forces on their nodes are its pressures
 
 static void put_rigid_nodes(GString *out, const Rigid *rigid) {
   for (int i = 0; i <= PIECES; i++) {
@@ -314,6 +314,150 @@ static void put_move(GString *out, const Rigid *rigid, bool moved) {
                          rigid->name, across, across);
   put(out, ", ", moved ? rigid->move : 0.0);
   g_string_append_c(out, '\n');
+}
+
+// Its contact's stiffness [MPa/mm] and, in N/mm for each MPa of modulus and mm of radius, that of
+// the springs below, of the wedge.
+static const double STIFFNESS = 1e4, SPRING = 0.0009;
+
+// Beyond this squeeze, and under fluid, CalculiX finds no way from the free ring: its contact
+// chatters, and its iteration takes the fluid's force as if it did not turn with the faces.
+static const double FOLLOWED = 0.205;
+
+// The found balance, as a start: where nodes stand [mm] in the free ring's frame, those of a
+// contact as deep in it as its pressure makes them.
+typedef struct {
+  double (*move)[2]; // [nodes] radial, axial
+  int first, first_element;
+} Start;
+
+static Start start_of(const Mesh *mesh, double drift, double wall, int first, int first_element) {
+  const double mm = 1e3, near = 1e-6; // of a surface [mm]
+  const double at[2] = {mm * mesh->load.bore_radius, mm * mesh->load.floor_radius};
+  Start start = {g_malloc_n((size_t)mesh->nodes, sizeof *start.move), first, first_element};
+  for (int i = 0; i < mesh->nodes; i++) {
+    const double deep = 1e-6 * mesh->fields.contact[i] / STIFFNESS;
+    const double r = mm * mesh->fields.place[2 * i + 1], z = mm * mesh->fields.place[2 * i];
+    start.move[i][0] = mm * mesh->fields.displacement[2 * i + 1];
+    start.move[i][1] = mm * mesh->fields.displacement[2 * i] - drift;
+    if (fabs(r - at[0]) < near) {
+      start.move[i][0] += deep;
+    } else if (fabs(r - at[1]) < near) {
+      start.move[i][0] -= deep;
+    } else if (fabs(z - wall) < near) {
+      start.move[i][1] += wall > 0.0 ? deep : -deep;
+    }
+  }
+  return start;
+}
+
+// The boundary's nodes hang on weak springs whose other ends stand where the nodes were found.
+static void put_springs(GString *out, const Mesh *mesh, const Start *start, double drift) {
+  const int count = 2 * mesh->sides;
+  double radius = 0.0;
+  g_string_append(out, "*NODE, NSET=NHANG\n");
+  for (int i = 0; i < count; i++) {
+    const int node = mesh->section.loop[i];
+    radius += 1e3 * mesh->fields.place[2 * node + 1] / count;
+    g_string_append_printf(out, "%d", start->first + i);
+    put(out, ", ", 1e3 * free_place(mesh, node, 1));
+    put(out, ", ", 1e3 * free_place(mesh, node, 0) + drift);
+    g_string_append(out, ", 0\n");
+  }
+  for (int k = 0; k < 2; k++) {
+    g_string_append_printf(out, "*ELEMENT, TYPE=SPRING2, ELSET=HANG%d\n", k + 1);
+    for (int i = 0; i < count; i++) {
+      g_string_append_printf(out, "%d, %d, %d\n", start->first_element + k * count + i,
+                             mesh->section.loop[i] + 1, start->first + i);
+    }
+    g_string_append_printf(out, "*SPRING, ELSET=HANG%d\n%d, %d\n", k + 1, k + 1, k + 1);
+    put(out, "", SPRING * 1e-6 * mesh->body.modulus * radius);
+    g_string_append_c(out, '\n');
+  }
+}
+
+static void put_place(GString *out, int node, const double move[2]) {
+  for (int k = 0; k < 2; k++) {
+    g_string_append_printf(out, "%d, %d, %d", node, k + 1, k + 1);
+    put(out, ", ", move[k]);
+    g_string_append_c(out, '\n');
+  }
+}
+
+// The springs' far ends where the nodes were found, or free.
+static void put_hung(GString *out, const Mesh *mesh, const Start *start, bool hung) {
+  g_string_append(out, "NHANG, 3, 3, 0\n");
+  for (int i = 0; i < 2 * mesh->sides && hung; i++) {
+    put_place(out, start->first + i, start->move[mesh->section.loop[i]]);
+  }
+}
+
+static void put_fluid(GString *out, const Mesh *mesh, const Face *face) {
+  g_string_append(out, "*DLOAD\n");
+  for (int i = 0; i < mesh->sides; i++) {
+    const unsigned char at = mesh->section.side[i];
+    const double p = at == SB_RING_SIDE_LEFT    ? mesh->load.pressure_left
+                     : at == SB_RING_SIDE_RIGHT ? mesh->load.pressure_right
+                                                : 0.0;
+    if (p != 0.0) {
+      g_string_append_printf(out, "%d, P%d", face[i].element, face[i].face);
+      put(out, ", ", 1e-6 * p);
+      g_string_append_c(out, '\n');
+    }
+  }
+}
+
+// The reactions at the end of a step; of the bore each node's.
+static void put_prints(GString *out, const Rigid rigid[], int count, bool hung) {
+  for (int k = 0; k < count; k++) {
+    g_string_append_printf(out, "*NODE PRINT, NSET=N%s, TOTALS=%s, FREQUENCY=1000\nRF\n",
+                           rigid[k].name, k == 1 ? "YES" : "ONLY");
+  }
+  if (hung) {
+    g_string_append(out, "*NODE PRINT, NSET=NHANG, TOTALS=ONLY, FREQUENCY=1000\nRF\n");
+  }
+  g_string_append(out, "*END STEP\n");
+}
+
+// Onto the floor; the bore to its place; and once more there, since faces in contact are those that
+// faced each other as the increment began.
+static void put_path(GString *out, const Rigid rigid[], int count, int middle) {
+  for (int step = 0; step <= count; step++) {
+    g_string_append_printf(out, "*STEP, NLGEOM, INC=500\n*STATIC\n%s\n*BOUNDARY, OP=NEW\n",
+                           step < count ? "0.1, 1, 1e-6, 0.25" : "1, 1, 1e-6, 1");
+    for (int k = 0; k < count; k++) {
+      put_move(out, &rigid[k], step >= k);
+    }
+    g_string_append_printf(out, "%d, 2, 2, 0\n", middle);
+    put_prints(out, rigid, count, false);
+  }
+}
+
+// All where it was found, at once; let go but for the springs; without fluid from these as well.
+static void put_balance(GString *out, const Mesh *mesh, const Rigid rigid[], int count, int middle,
+                        const Start *start, const Face *face, bool pressed) {
+  for (int step = 0; step < (pressed ? 2 : 3); step++) {
+    g_string_append_printf(out, "*STEP, NLGEOM, INC=500\n*STATIC%s\n*BOUNDARY, OP=NEW\n",
+                           step == 0 ? ", DIRECT\n1, 1" : "\n1, 1, 1e-6, 1");
+    for (int k = 0; k < count; k++) {
+      put_move(out, &rigid[k], true);
+    }
+    for (int i = 0; i < mesh->nodes && step == 0; i++) {
+      if (i + 1 != middle) { // something must be free
+        put_place(out, i + 1, start->move[i]);
+      }
+    }
+    if (step > 0 && !pressed) {
+      g_string_append_printf(out, "%d, 2, 2", middle);
+      put(out, ", ", start->move[middle - 1][1]);
+      g_string_append_c(out, '\n');
+    }
+    put_hung(out, mesh, start, step < 2);
+    if (pressed) {
+      put_fluid(out, mesh, face);
+    }
+    put_prints(out, rigid, count, true);
+  }
 }
 
 static void write_inp(GString *out, const Mesh *mesh) {
@@ -385,6 +529,13 @@ static void write_inp(GString *out, const Mesh *mesh) {
   for (int k = 0; k < count; k++) {
     put_rigid_nodes(out, &rigid[k]);
   }
+  const double squeeze = 1.0 - mesh->result.thickness / (1e-3 * (high[1] - low[1]));
+  const bool started = pressed || squeeze > FOLLOWED;
+  Start start = {0};
+  if (started) {
+    start = start_of(mesh, drift, wall, rigid[count - 1].first + 2 * (PIECES + 1),
+                     rigid[count - 1].first_element + PIECES);
+  }
   g_string_append(out, "*ELEMENT, TYPE=CAX6, ELSET=RUBBER\n");
   for (int i = 0; i < 6 * mesh->elements; i++) {
     if (i % 6 == 0) {
@@ -427,44 +578,24 @@ static void write_inp(GString *out, const Mesh *mesh) {
   for (int k = 0; k < count; k++) {
     g_string_append_printf(out, "*SOLID SECTION, ELSET=%s, MATERIAL=RIGID\n", rigid[k].name);
   }
+  if (started) {
+    put_springs(out, mesh, &start, drift);
+  }
   g_string_append(out, "*SURFACE INTERACTION, NAME=SMOOTH\n"
-                       "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1e4, 0.0025, 0.01\n");
+                       "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n");
+  put(out, "", STIFFNESS);
+  g_string_append(out, ", 0.0025, 0.01\n");
   for (int k = 0; k < count; k++) {
     g_string_append_printf(out,
                            "*CONTACT PAIR, INTERACTION=SMOOTH, TYPE=SURFACE TO SURFACE\nS%s, "
                            "M%s\n",
                            rigid[k].name, rigid[k].name);
   }
-  // Onto the floor; the bore to its place; the wall to its place, with the fluid on the faces that
-  // it was found to wet; let go.
-  for (int step = 0; step < (count == 3 ? 4 : 2); step++) {
-    g_string_append(out,
-                    "*STEP, NLGEOM, INC=500\n*STATIC\n0.1, 1, 1e-6, 0.25\n*BOUNDARY, OP=NEW\n");
-    for (int k = 0; k < count; k++) {
-      put_move(out, &rigid[k], step >= k);
-    }
-    if (step < 3) {
-      g_string_append_printf(out, "%d, 2, 2, 0\n", middle);
-    }
-    if (step >= 2) {
-      g_string_append(out, "*DLOAD\n");
-      for (int i = 0; i < mesh->sides; i++) {
-        const unsigned char at = mesh->section.side[i];
-        const double p = at == SB_RING_SIDE_LEFT    ? load->pressure_left
-                         : at == SB_RING_SIDE_RIGHT ? load->pressure_right
-                                                    : 0.0;
-        if (p != 0.0) {
-          g_string_append_printf(out, "%d, P%d", face[i].element, face[i].face);
-          put(out, ", ", 1e-6 * p);
-          g_string_append_c(out, '\n');
-        }
-      }
-    }
-    for (int k = 0; k < count; k++) {
-      g_string_append_printf(out, "*NODE PRINT, NSET=N%s, TOTALS=ONLY, FREQUENCY=1000\nRF\n",
-                             rigid[k].name);
-    }
-    g_string_append(out, "*END STEP\n");
+  if (started) {
+    put_balance(out, mesh, rigid, count, middle, &start, face, pressed);
+    g_free(start.move);
+  } else {
+    put_path(out, rigid, count, middle);
   }
   g_free(face);
 }

@@ -7,7 +7,10 @@
 // corners lie on the deformed ring (.stl) or the free one (.free.stl). CalculiX: the free mesh,
 // rubber, groove and bore as rigid rings that move to their places, the fluid on the faces that we
 // found wetted; millimetres, newtons, megapascals. It turns a section into a wedge of two degrees:
-// forces are those of the 180th part of the ring. Rings without friction only.
+// forces are those of the 180th part of the ring. Squeezed by a fifth at most and dry it goes from
+// the free ring to its place; else it starts at the balance that we found, which CalculiX then
+// seeks by itself: dry with nothing that holds the ring, under fluid with weak springs from the
+// boundary to where we found it, whose force it prints. Rings without friction only.
 #pragma once
 
 #include "app/base/error.h"

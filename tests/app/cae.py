@@ -39,7 +39,7 @@ def same_ring(folder):
     assert abs(min(place[1::3]) - 1.64e-3) < 1e-9 and abs(max(place[1::3]) - 3e-3) < 1e-9
     with open(os.path.join(folder, 'a.inp')) as file:
         text = file.read()
-    assert re.search(rf'^{count}, ', text, re.M) and text.count('*STEP') == 2
+    assert re.search(rf'^{count}, ', text, re.M) and text.count('*STEP') == 3
     assert text.count('\n*DLOAD') == 0
     # The free section is 1.61 mm high.
     node = [line.split(', ') for line in text.split('*NODE, NSET=ALL\n')[1].split('\n')[:count]]
@@ -55,9 +55,23 @@ def pressed_ring(folder):
     assert done.returncode == 0, done.stderr
     with open(os.path.join(folder, 'p.inp')) as file:
         text = file.read()
-    assert text.count('*STEP') == 4 and text.count('*CONTACT PAIR') == 3
+    assert text.count('*STEP') == 2 and text.count('*CONTACT PAIR') == 3
     faces = re.findall(r'^\d+, P[123], 0\.55$', text, re.M)
     assert len(faces) > 20 and len(faces) % 2 == 0  # twice the same, in two steps
+    # It starts where it was found, every node but one held, and the springs' far ends stay there.
+    nodes = text.split('*NODE, NSET=ALL\n')[1].split('*ELEMENT, TYPE=CAX4')[0]
+    hung = text.split('*NODE, NSET=NHANG\n')[1].split('*ELEMENT')[0].count('\n')
+    rubber = len({n for line in nodes.split('ELSET=RUBBER\n')[1].split('\n')
+                  for n in line.split(', ')[1:]})
+    start, held = text.split('*STEP')[1:]
+    assert len(re.findall(r'^\d+, 1, 1, ', start, re.M)) == rubber - 1 + hung
+    assert len(re.findall(r'^\d+, 1, 1, ', held, re.M)) == hung > 100
+    # Dry, squeezed by more than a fifth: springs as well, and in the end without them.
+    done = fit(folder, '--model', 'ring', '--set', 'seal.section_diameter=1.8mm', '--export', 'q.inp')
+    assert done.returncode == 0, done.stderr
+    with open(os.path.join(folder, 'q.inp')) as file:
+        steps = file.read().split('*STEP')[1:]
+    assert [len(re.findall(r'^\d+, 1, 1, ', step, re.M)) > 100 for step in steps] == [True, True, False]
 
 
 def bodies(folder):
