@@ -33,7 +33,7 @@ CASES = [(None, 0.155, 0, True), (None, 0.155, 0.55, False),
          (D, 0.10, 0, False), (D, 0.15, 0, True), (D, 0.20, 0, False), (D, 0.25, 0, False),
          (D, 0.15, 0.55, True),
          (X, 0.10, 0, False), (X, 0.15, 0, False), (X, 0.20, 0, False), (X, 0.15, 0.1, False),
-         (X, 0.15, 0.2, True), (X, 0.15, 0.3, False)]
+         (X, 0.15, 0.2, True), (X, 0.15, 0.3, False), (X, 0.15, 0.5, False)]
 LOAD_DRY, LOAD_WET, PRESSURE = 5e-3, 1.5e-2, 2e-2  # limits
 HUNG = 2e-3  # the springs' force over the load, each way
 FASTER = 50
