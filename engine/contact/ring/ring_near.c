@@ -205,7 +205,7 @@ static void take_law(SbRing *ring, SbRingShear shear, const void *law) {
 
 // From a load to another one, at once or in parts, the least ones `least`. SB_RING_BEFORE is where
 // it was laid.
-static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *to, double least,
+static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *to,
                         SbReport *report) {
   SbRingLoad start = *from;
   start.floor_radius = to->floor_radius; // where it lies
@@ -220,7 +220,7 @@ static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *
   sb_ring_save(ring->contact, SB_RING_BEFORE);
   SbStatus status = SB_OK;
   double done = 0.0, share = 1.0;
-  while (done < 1.0 && share >= least) {
+  while (done < 1.0 && share >= PART_LEAST) {
     const double next = fmin(1.0, done + share);
     SbRingLoad load = next < 1.0 ? sb_ring_load_between(&start, to, next) : *to;
     if (law && next < 1.0) {
@@ -410,7 +410,7 @@ static SbStatus near_guided(SbRing **out, SbRing **kept, SbRingGuide *guide, con
     return status;
   }
   const SbRingLoad target = way->contact->is.now;
-  status = go_near(way, &guide->coarse->contact->is.now, &target, PART_LEAST, report);
+  status = go_near(way, &guide->coarse->contact->is.now, &target, report);
   const double size = sb_ring_fit_size(body, load, options->tolerance);
   if (status == SB_OK && size > COARSE * guide->ring->fitted_size &&
       sb_ring_refit(way, size, NULL) == SB_OK) {
@@ -440,7 +440,7 @@ static SbStatus near_alike(SbRing **out, const SbRing *ring, const SbRingBody *b
     return status;
   }
   const SbRingLoad target = other->contact->is.now;
-  status = go_near(other, &ring->contact->is.now, &target, PART_LEAST, report);
+  status = go_near(other, &ring->contact->is.now, &target, report);
   if (status != SB_OK) {
     sb_ring_destroy(other);
     return status;
