@@ -363,7 +363,7 @@ static void random_slice(void) {
   random_rings(1, 4);
   random_rings(183, 1); // fluid above the contact's pressure behind a lip that holds it
   random_rings(235, 1);
-  random_rings(43, 1); // creases
+  random_rings(378, 1); // creases
 }
 
 // COUNT FIRST: so many random rings from a number on, else all tests.

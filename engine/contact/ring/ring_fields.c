@@ -140,6 +140,14 @@ static void move_vertex(const SbRing *ring, const SbRingSection *out, int vertex
   }
 }
 
+// A hollow between lobes that the fluid of the higher pressure has reached.
+static bool is_wetted_hollow(const SbRing *ring, SbRingSurface surface, int side) {
+  const SbRingLoad *now = &ring->contact->is.now;
+  return !sb_ring_holds_some(ring, surface, side) && now->pressure_left != now->pressure_right &&
+         sb_ring_contact_on_right(ring->contact, side) ==
+             (now->pressure_right > now->pressure_left);
+}
+
 // Closes the sides of a surface's contact, whose ends lie where its pressure, not its last held
 // node, says: they come to stand on vertices.
 static void close_contact(const SbRing *ring, const SbRingSection *out, SbRingSurface surface) {
@@ -157,7 +165,10 @@ static void close_contact(const SbRing *ring, const SbRingSection *out, SbRingSu
   }
   vertex[1] = vertex[1] > vertex[0] ? vertex[1] : vertex[0] + 2;
   for (int i = vertex[0]; i < vertex[1]; i += 2) {
-    out->side[sb_ring_wrap(contact, i) / 2] = SB_RING_SIDE_CLOSED;
+    const int side = sb_ring_wrap(contact, i) / 2;
+    if (!is_wetted_hollow(ring, surface, side)) {
+      out->side[side] = SB_RING_SIDE_CLOSED;
+    }
   }
   for (int e = 0; e < 2; e++) {
     const int node = ring->mesh->loop[sb_ring_wrap(contact, vertex[e])];

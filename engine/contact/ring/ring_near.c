@@ -203,7 +203,7 @@ static void take_law(SbRing *ring, SbRingShear shear, const void *law) {
   }
 }
 
-// From a load to another one, at once or in parts, the least ones `least`. SB_RING_BEFORE is where
+// From a load to another one, at once or in parts, PART_LEAST at least. SB_RING_BEFORE is where
 // it was laid.
 static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *to,
                         SbReport *report) {

@@ -81,6 +81,9 @@ SB_CHECKED bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingP
 // Contact pressure at a loop node (element solver's units), from the excess over the fluid's.
 double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface);
 
+// Whether a surface holds a node of a side of the boundary.
+bool sb_ring_holds_some(const SbRing *ring, SbRingSurface surface, int side);
+
 // Recovers the pressure of the contact that sb_ring_patch has found, a smooth curve with the load
 // of the nodal forces, and replaces the places of its ends by the recovered ones. The curve (edges,
 // ambient pressures, coefficients and peak, element solver's units) runs over the place along the
