@@ -48,6 +48,7 @@ void sb_document_free(SbDocument *document) {
     g_free(document->file[i].name);
     g_free(document->file[i].path);
   }
+  g_free(document->saved_section);
   sb_named_rubber_release(document->base_rubber);
   sb_named_rubber_release(document->own_rubber);
   sb_named_rubber_release(document->saved_rubber);
@@ -341,6 +342,7 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   }
   document->saved = document->own;
   document->saved_rubber = sb_named_rubber_hold(document->own_rubber);
+  document->saved_section = g_strdup(sb_document_own_section(document));
   sb_document_refresh_title(document);
   document->name = g_strdup(name);
   if (issues->len == before) {

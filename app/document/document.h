@@ -195,16 +195,16 @@ SB_CHECKED bool sb_document_set_rubber(SbDocument *document, const char *name, G
 bool sb_document_gives_rubber(const SbDocument *document);
 
 // The file that draws the seals' section, as the document names it; NULL: none. And one that was
-// read from `path` (seal_file.h), which the document then names; it counts where seal.profile =
-// file.
+// read from `path` (seal_file.h), which the document then names: an undoable edit, one step with
+// seal.profile = file.
 const char *sb_document_section(const SbDocument *document);
 void sb_document_set_section(SbDocument *document, const char *path, const SbSealDrawing *section,
                              double height);
 char **sb_document_rubbers(const SbDocument *document);
 
-// Undo and redo; each returns the parameter that changed, SB_DOCUMENT_RUBBER, SB_DOCUMENT_MEASURED,
-// or -1 if there was nothing to do.
-enum { SB_DOCUMENT_RUBBER = SB_PARAM_COUNT, SB_DOCUMENT_MEASURED };
+// Undo and redo; each returns the parameter that changed, one of these, or -1 if there was nothing
+// to do.
+enum { SB_DOCUMENT_RUBBER = SB_PARAM_COUNT, SB_DOCUMENT_MEASURED, SB_DOCUMENT_SECTION };
 int sb_document_undo(SbDocument *document);
 int sb_document_redo(SbDocument *document);
 // What undo (or redo) would change next: the parameter or one of these, with the value in

@@ -41,6 +41,10 @@ static void apply(SbDocument *document, const Edit *edit, int side) {
     put_data(document, edit->measured[side]);
     return;
   }
+  if (edit->id == SB_DOCUMENT_SECTION) {
+    sb_document_put_section(document, edit->section[side]);
+    return;
+  }
   document->own.given[edit->id] = edit->given[side];
   document->own.value[edit->id] = edit->value[side];
   document->serial++;
@@ -76,8 +80,10 @@ void sb_document_clear_edit(gpointer data) {
   Edit *edit = data;
   sb_named_rubber_release(edit->rubber[0]);
   sb_named_rubber_release(edit->rubber[1]);
-  sb_data_free(edit->measured[0]);
-  sb_data_free(edit->measured[1]);
+  for (int side = 0; side < 2; side++) {
+    sb_data_free(edit->measured[side]);
+    sb_named_section_free(edit->section[side]);
+  }
 }
 
 // Keeps an edit that does not merge, takes its pointers over and makes it.
@@ -113,6 +119,15 @@ void sb_document_edit_rubber(SbDocument *document, SbNamedRubber *rubber) {
   }
   record(document, (Edit){.id = SB_DOCUMENT_RUBBER,
                           .rubber = {sb_named_rubber_hold(document->own_rubber), rubber}});
+}
+
+void sb_document_edit_section(SbDocument *document, SbNamedSection *section) {
+  const guint before = document->done;
+  edit_key(document, SB_P_SEAL_PROFILE, true, SB_SEAL_PROFILE_FILE, false);
+  const bool joined = document->done > before;
+  record(document, (Edit){.id = SB_DOCUMENT_SECTION,
+                          .joined = joined,
+                          .section = {sb_document_section_now(document), section}});
 }
 
 // Adds the allowed range to a message.
@@ -243,7 +258,8 @@ bool sb_document_differs(const SbDocument *document, SbParamId id) {
 
 bool sb_document_is_modified(const SbDocument *document) {
   if (document->pins_changed || document->remarks_changed || sb_document_data_differs(document) ||
-      !sb_named_rubber_same(document->own_rubber, document->saved_rubber)) {
+      !sb_named_rubber_same(document->own_rubber, document->saved_rubber) ||
+      g_strcmp0(sb_document_own_section(document), document->saved_section) != 0) {
     return true;
   }
   for (int i = 0; i < SB_PARAM_COUNT; i++) {

@@ -56,15 +56,49 @@ static void put_data(SbDocument *document, SbModelData *data) {
   document->serial++;
 }
 
+static SbNamedSection *section_new(const SbNamedFile *file, const SbSealDrawing *drawing,
+                                   double height) {
+  SbNamedSection *section = g_new0(SbNamedSection, 1);
+  section->file = (SbNamedFile){g_strdup(file->name), g_strdup(file->path), file->in_valve};
+  section->drawing = *drawing;
+  section->height = height;
+  return section;
+}
+
+SbNamedSection *sb_document_section_now(const SbDocument *document) {
+  static const SbSealDrawing none;
+  return section_new(&document->file[SB_FILE_SECTION],
+                     document->data != NULL ? &document->data->profile : &none,
+                     document->section_height);
+}
+
+void sb_named_section_free(SbNamedSection *section) {
+  if (section != NULL) {
+    g_free(section->file.name);
+    g_free(section->file.path);
+    g_free(section);
+  }
+}
+
+void sb_document_put_section(SbDocument *document, const SbNamedSection *section) {
+  SbModelData *data = sb_document_data_with(document, sb_document_rubber_in_force(document));
+  data->profile = section->drawing;
+  document->section_height = section->height;
+  name_file(document, SB_FILE_SECTION, section->file.name, g_strdup(section->file.path),
+            section->file.in_valve);
+  put_data(document, data);
+}
+
+const char *sb_document_own_section(const SbDocument *document) {
+  const SbNamedFile *file = &document->file[SB_FILE_SECTION];
+  return file->in_valve ? NULL : file->path;
+}
+
 void sb_document_set_section(SbDocument *document, const char *path, const SbSealDrawing *section,
                              double height) {
-  SbModelData *data = sb_document_data_with(document, sb_document_rubber_in_force(document));
-  data->profile = *section;
-  document->section_height = height;
-  char *whole = g_canonicalize_filename(path, NULL);
-  g_autofree char *name = g_strdup(whole);
-  name_file(document, SB_FILE_SECTION, name, whole, false);
-  put_data(document, data);
+  g_autofree char *whole = g_canonicalize_filename(path, NULL);
+  const SbNamedFile file = {whole, whole, false};
+  sb_document_edit_section(document, section_new(&file, section, height));
 }
 
 bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name,

@@ -25,6 +25,13 @@ typedef struct {
   bool in_valve;     // the scene's valve gives it, not the document itself
 } SbNamedFile;
 
+// A drawn section, for the edits that change it.
+typedef struct {
+  SbNamedFile file; // name NULL: none
+  SbSealDrawing drawing;
+  double height; // as its file draws it [m]
+} SbNamedSection;
+
 // The one that names a rubber (rubber_sheet.h).
 #define SB_RUBBER_KEY "rubber.name"
 
@@ -35,25 +42,27 @@ typedef struct {
 } SbNamedRubber;
 
 typedef struct {
-  int id;        // of a parameter, SB_DOCUMENT_RUBBER or SB_DOCUMENT_MEASURED
+  int id;        // of a parameter, or SB_DOCUMENT_RUBBER and on
   bool joined;   // one step with the edit before
   bool given[2]; // before, after
   double value[2];
-  SbNamedRubber *rubber[2]; // held; NULL: none of its own
-  SbData *measured[2];      // owned; NULL: none
+  SbNamedRubber *rubber[2];   // held; NULL: none of its own
+  SbData *measured[2];        // owned; NULL: none
+  SbNamedSection *section[2]; // owned
 } Edit;
 
 struct SbDocument {
   SbDocumentKind kind;
-  char *path;                                             // NULL before the first save
-  char *name;                                             // stands for it in messages then
-  char *title;                                            //
-  char *valve_path;                                       // scenes: path to open, else NULL
-  char *valve_name;                                       // scenes: as the file has it
-  SbNamedFile file[SB_FILE_COUNT];                        //
-  double section_height;                                  // as its file draws it [m]
-  GPtrArray *measured;                                    // of SbData, its own [data] groups
-  SbData *saved_measured;                                 // the first of them in its file, or NULL
+  char *path;                      // NULL before the first save
+  char *name;                      // stands for it in messages then
+  char *title;                     //
+  char *valve_path;                // scenes: path to open, else NULL
+  char *valve_name;                // scenes: as the file has it
+  SbNamedFile file[SB_FILE_COUNT]; //
+  double section_height;           // as its file draws it [m]
+  char *saved_section;             // path of its own one in its file, or NULL
+  GPtrArray *measured;             // of SbData, its own [data] groups
+  SbData *saved_measured;          // the first of them in its file, or NULL
   SbNamedRubber *base_rubber, *own_rubber, *saved_rubber; // as the params; NULL: none
   SbModelData *data;                  // what files brought, and rubber, for its models; NULL: none
   char *text;                         // of the file as last read or written
@@ -83,6 +92,16 @@ int sb_document_find_file(const char *key);
 bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name,
                            const char *directory, bool in_valve, const char *shown, int line,
                            GPtrArray *issues);
+
+// A copy of the drawn section in force, to be freed; puts a copy of one in force; the path of the
+// document's own one, NULL: none.
+SbNamedSection *sb_document_section_now(const SbDocument *document);
+void sb_document_put_section(SbDocument *document, const SbNamedSection *section);
+void sb_named_section_free(SbNamedSection *section);
+const char *sb_document_own_section(const SbDocument *document);
+
+// Makes `section` (taken over) the document's, as one step with seal.profile = file.
+void sb_document_edit_section(SbDocument *document, SbNamedSection *section);
 
 // Notes a drawn section that is not as high as the seals.
 void sb_document_note_section(SbDocument *document);

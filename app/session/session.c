@@ -231,7 +231,7 @@ gboolean sb_session_set_rubber(SbSession *session, const char *name, GPtrArray *
 void sb_session_set_section(SbSession *session, const char *path, const SbSealDrawing *section,
                             double height) {
   sb_document_set_section(session->document, path, section, height);
-  sb_session_edit(session, SB_P_SEAL_PROFILE, "file");
+  forget_rejected(session, SB_P_SEAL_PROFILE);
   changed(session);
 }
 

@@ -197,6 +197,37 @@ static void test_document(void) {
   g_autofree char *was = sb_document_sha256(own);
   g_assert_cmpstr(like, ==, was);
 
+  // One step back is the section before, one more choice the section after; what was chosen is to
+  // be saved, what was taken back is not.
+  g_assert_false(sb_document_is_modified(own));
+  g_autofree char *another = g_build_filename(folder, "another.txt", NULL);
+  sb_document_set_section(own, another, &chosen, height);
+  g_assert_true(sb_document_is_modified(own));
+  g_assert_cmpint(sb_document_undo(own), ==, SB_DOCUMENT_SECTION);
+  g_assert_false(sb_document_is_modified(own));
+  g_autofree char *before = sb_document_sha256(own);
+  g_assert_cmpstr(before, ==, was);
+  g_assert_cmpstr(sb_document_section(own), ==, wider);
+  g_assert_cmpint(sb_document_redo(own), ==, SB_DOCUMENT_SECTION);
+  g_assert_cmpstr(sb_document_section(own), ==, another);
+
+  // From a named profile it is one step with the profile; saved and taken back it leaves the file.
+  g_autofree char *plain_path =
+      write_file("plain.valve", "[sealbench]\nformat = 1\nkind = valve\n[seal]\n");
+  g_autoptr(SbDocument) plain = load(plain_path, 0);
+  sb_document_set_section(plain, wider, &chosen, height);
+  g_assert_cmpfloat(sb_document_value(plain, SB_P_SEAL_PROFILE), ==, SB_SEAL_PROFILE_FILE);
+  g_assert_true(sb_document_save(plain, plain_path, NULL));
+  g_assert_false(sb_document_is_modified(plain));
+  (void)sb_document_undo(plain);
+  g_assert_null(sb_document_section(plain));
+  g_assert_cmpfloat(sb_document_value(plain, SB_P_SEAL_PROFILE), ==, SB_SEAL_PROFILE_CIRCLE);
+  g_assert_false(sb_document_can_undo(plain));
+  g_assert_true(sb_document_is_modified(plain));
+  g_assert_true(sb_document_save(plain, plain_path, NULL));
+  g_autoptr(SbDocument) bare_again = load(plain_path, 0);
+  g_assert_null(sb_document_section(bare_again));
+
   // Without a file, and with one that is none.
   g_autofree char *bare =
       write_file("bare.valve", "[sealbench]\nformat = 1\nkind = valve\n[seal]\nprofile = file\n");

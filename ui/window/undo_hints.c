@@ -23,6 +23,9 @@ char *sb_undo_hints_text(const SbDocument *document, bool redo) {
   if (id == SB_DOCUMENT_MEASURED) {
     return g_strdup(_("Measured data"));
   }
+  if (id == SB_DOCUMENT_SECTION) {
+    return g_strdup(_("Drawn section"));
+  }
   const SbParam *param = sb_param((SbParamId)id);
   g_autofree char *before = sb_param_format((SbParamId)id, value[0]);
   g_autofree char *after = sb_param_format((SbParamId)id, value[1]);
