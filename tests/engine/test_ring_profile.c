@@ -175,6 +175,29 @@ static void hollow(void) {
   }
 }
 
+// A lip that the fluid nearly lifts, dragged to both sides: what its friction lacks is told.
+static void lip(void) {
+  const SbRingBody body = body_of(SB_SEAL_PROFILE_LIP, 1.2e-3, 0.1e-3);
+  for (int side = -1; side <= 1; side += 2) {
+    SbRingLoad load = groove(0.3e6);
+    load.friction_bore = 0.1;
+    load.friction_floor = 0.3;
+    load.friction_wall = 0.1;
+    load.bore_slides = side;
+    load.rests_on_wall = true;
+    SbRingResult result;
+    SbWarnings warnings = {0};
+    SbReport report = {0};
+    SbStatus status = sb_ring_fit(NULL, &result, &body, &load, NULL, &warnings, &report);
+    g_test_message("lip: load %.5f N, drag %.5f N, error %.2g%s", result.bore_force,
+                   result.bore_drag, result.error.load, report.text);
+    g_assert_cmpint(status, ==, SB_OK);
+    g_assert_cmpint(result.state, ==, SB_RING_SLIDES);
+    g_assert_cmpfloat(fabs(side * result.bore_drag / (0.1 * result.bore_force) - 1), <,
+                      fmax(0.004, 1.2 * result.error.load));
+  }
+}
+
 // Errors that are told hold against a mesh of six times the accuracy.
 static void errors(void) {
   for (int i = 0; i < 5; i++) {
@@ -381,6 +404,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/ring-profile/circle", circle);
   g_test_add_func("/ring-profile/reference", reference);
   g_test_add_func("/ring-profile/hollow", hollow);
+  g_test_add_func("/ring-profile/lip", lip);
   g_test_add_func("/ring-profile/errors", errors);
   g_test_add_func("/ring-profile/blocks", blocks);
   g_test_add_func("/ring-profile/folds", folds);

@@ -22,6 +22,9 @@ static const double SIZE_LEAST = 0.008, SIZE_MOST = 0.05;
 // (measured), and where it rolls over a chamfer (5 % in one of 30).
 static const double UNFITTED = 0.03, UNFITTED_CHAMFER = 0.06;
 
+// Share of the bore's friction that may be missing without being told.
+static const double LACK = 0.01;
+
 // Of a section whose surface creases or nearly does, per unit of size: how deep it does hangs on
 // the elements there (X squeezed by 20 and 25 %: 0.4 and 1.1 % at 0.05).
 static const double CREASED = 0.25, NEAR_CREASE = 0.85;
@@ -131,6 +134,12 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
     }
     if (crease > NEAR_CREASE * SB_RING_CREASE) {
       result->error.load = fmax(result->error.load, CREASED * size);
+    }
+    // Of a lip that the fluid nearly lifts: little beside an end of a contact, much along a flat
+    // one.
+    const double lack = status == SB_OK ? sb_ring_friction_lack(ring) : 0.0;
+    if (lack > LACK) {
+      result->error.load = fmax(result->error.load, lack);
     }
     // What single nodes lack of Coulomb's law.
     result->error.load = fmax(result->error.load, result->friction_excess / result->bore_force);

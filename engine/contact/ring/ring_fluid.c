@@ -30,6 +30,29 @@ static int crest(const SbRingContact *contact, SbRingSurface surface, double ang
   return best >= 0 ? best : nearest;
 }
 
+// The same for a bore that slides: not at the crest, which on a long flat contact is now here, now
+// there, and friction with it, but by the end of the first part that holds the higher pressure. -1
+// where none does.
+static int first_part(const SbRingContact *contact, int start, int way, double high) {
+  enum { INTO = 1 }; // vertices of the part before
+  int inside = 0, at = -1;
+  double most = 0.0;
+  for (int k = 0; k < contact->count; k += 2) {
+    const int i = sb_ring_wrap(contact, start + way * k);
+    const SbRingTouch *touch = sb_ring_touch(contact, i, SB_RING_BORE);
+    if (touch->held) {
+      at = inside++ <= INTO ? i : at;
+      most = fmax(most, touch->force / fmax(contact->weight[i], 1e-30));
+    } else if (most > high) {
+      break;
+    } else {
+      inside = 0;
+      most = 0.0;
+    }
+  }
+  return most > high ? at : -1;
+}
+
 // The same where a contact may have several crests, that is hollows which nothing but the other
 // fluid fills as long as one crest holds the higher pressure: the first crest above it on the way
 // from the bore (to the bore: from the floor) over the flank of the higher pressure.
@@ -43,8 +66,12 @@ static int first_crest(const SbRingContact *contact, SbRingSurface surface, doub
   const bool left = now->pressure_left > now->pressure_right;
   const int way = (surface == SB_RING_BORE) == left ? 1 : -1;
   const int start = surface == SB_RING_BORE ? 0 : crest(contact, SB_RING_BORE, 0.0);
-  int best = -1;
+  const bool slides = surface == SB_RING_BORE && now->bore_slides != 0;
+  int best = slides && contact->fem->around >= 0.0 ? first_part(contact, start, way, high) : -1;
   double most = high;
+  if (best >= 0) {
+    return best;
+  }
   for (int k = 0; k < contact->count; k += 2) {
     const int i = sb_ring_wrap(contact, start + way * k);
     const SbRingTouch *touch = sb_ring_touch(contact, i, surface);

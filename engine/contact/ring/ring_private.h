@@ -81,6 +81,10 @@ SB_CHECKED bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingP
 // Contact pressure at a loop node (element solver's units), from the excess over the fluid's.
 double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface);
 
+// What the bore's friction lacks of its law, as a share, since it sets in gradually as the contact
+// exceeds the fluid's pressure beside it (ring_contact.c).
+double sb_ring_friction_lack(const SbRing *ring);
+
 // Whether a surface holds a node of a side of the boundary.
 bool sb_ring_holds_some(const SbRing *ring, SbRingSurface surface, int side);
 

@@ -156,6 +156,22 @@ static double end_share(const SbRing *ring, SbRingSurface surface, const SbRingP
   return sum;
 }
 
+double sb_ring_friction_lack(const SbRing *ring) {
+  const SbRingContact *contact = ring->contact;
+  double whole = 0.0, lack = 0.0;
+  for (int i = 0; i < contact->count && contact->is.now.bore_slides != 0; i++) {
+    if (sb_ring_touch(contact, i, SB_RING_BORE)->held) {
+      const SbRingFrame frame = sb_ring_frame_at(contact, i, SB_RING_BORE);
+      const double normal = sb_ring_touch(contact, i, SB_RING_BORE)->force;
+      const double all = sb_ring_grip(contact, i, SB_RING_BORE, normal, 0.0).force;
+      const double fluid = sb_ring_fluid_at(contact, i, frame.n);
+      whole += all;
+      lack += all - sb_ring_grip(contact, i, SB_RING_BORE, normal, fluid).force;
+    }
+  }
+  return whole > 0.0 ? lack / whole : 0.0;
+}
+
 void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   const SbRingContact *contact = ring->contact;
   *out = (SbRingResult){.turn = contact->is.turn,
