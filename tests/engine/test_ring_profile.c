@@ -175,11 +175,12 @@ static void hollow(void) {
   }
 }
 
-// A lip that the fluid nearly lifts, dragged to both sides: what its friction lacks is told.
+// A lip that the fluid nearly lifts, dragged to both sides: what its friction lacks is told, but
+// for the fluid at the contact's ends, which counts into the load (1 %) and does not rub.
 static void lip(void) {
   const SbRingBody body = body_of(SB_SEAL_PROFILE_LIP, 1.2e-3, 0.1e-3);
   for (int side = -1; side <= 1; side += 2) {
-    SbRingLoad load = groove(0.3e6);
+    SbRingLoad load = groove(0.55e6);
     load.friction_bore = 0.1;
     load.friction_floor = 0.3;
     load.friction_wall = 0.1;
@@ -194,7 +195,8 @@ static void lip(void) {
     g_assert_cmpint(status, ==, SB_OK);
     g_assert_cmpint(result.state, ==, SB_RING_SLIDES);
     g_assert_cmpfloat(fabs(side * result.bore_drag / (0.1 * result.bore_force) - 1), <,
-                      fmax(0.004, 1.2 * result.error.load));
+                      0.01 + result.error.load);
+    g_assert_true(side > 0 || result.error.load > 0.02);
   }
 }
 
