@@ -22,8 +22,9 @@ static const double OUTGROWN = 0.1;
 // How deep a section may lie in itself, in its heights, by the stiffness that presses it apart.
 static const double FOLDED = 0.02;
 
-// Largest change of the friction by another mesh at a held turn.
-static const double SAME_STATE = 0.05;
+// Largest change of the friction by another mesh at a held turn: of its share, and of its
+// coefficient where that is small.
+static const double SAME_STATE = 0.05, SAME_COEFFICIENT = 0.005;
 
 static SbStatus check_body(const SbRingBody *body, SbReport *report) {
   return SB_CHECK(
@@ -335,9 +336,10 @@ static SbStatus tell_crease(const SbRing *ring, const SbRingLoad *target, double
                            1.0 / sqrt(SB_RING_CREASE), reason.text);
 }
 
-// Where floor and walls do not rub, so that a state hangs on none before, an easy path to it comes
-// first: it takes a part of the steps. A ring that barely resists rolling can stumble over single
-// nodes of a mesh, and a corner that closes turns large elements over: finer ones are tried.
+// An easy path comes first: it takes a part of the steps. Where floor and walls rub it leads to
+// states that hang on it by some tenths of a percent, and only under fluid is it easier; its limit
+// is not theirs. A ring that barely resists rolling can stumble over single nodes of a mesh, and a
+// corner that closes turns large elements over: finer ones are tried.
 static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *report) {
   static const double FINER[] = {1.0, 1.0, 0.8, 0.6, 0.4};
   const bool slides = target->bore_slides != 0 && target->friction_bore > 0.0;
@@ -345,9 +347,12 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   double crease = 1.0;
   const size_t tries = sizeof FINER / sizeof FINER[0] - (is_circle(ring) ? 1 : 0);
-  for (size_t i = slides && smooth ? 0 : 1; i < tries && status == SB_ERROR_NOT_CONVERGED; i++) {
+  const bool fluid = target->pressure_left != target->pressure_right;
+  const bool easy = slides && (smooth || fluid) && !ring->options.whole_law;
+  for (size_t i = easy ? 0 : 1; i < tries && status == SB_ERROR_NOT_CONVERGED; i++) {
     ring->easy = i == 0;
-    ring->onset = SB_RING_EASY;
+    ring->soft = i == 0 && !smooth;
+    ring->onset = ring->soft ? SB_RING_SOFT : SB_RING_EASY;
     SbRingMeshPlan plan = first_plan(ring, target, FINER[i] * ring->options.element_size);
     drop(ring);
     ring->arc.free = false;
@@ -356,6 +361,9 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
     status = build(ring, &plan, report);
     if (status == SB_OK) {
       status = assemble_ring(ring, target, report);
+    }
+    if (status == SB_OK && ring->soft && ring->state != SB_RING_SLIDES) {
+      status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "an easy path with friction has a limit");
     }
     if (status == SB_OK) {
       status = check_apart(ring, report);
@@ -502,8 +510,10 @@ static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch 
   contact->fixed = contact->carried = contact->stuck = false;
   contact->slid = 0.0;
   // Where the turn is held its coefficient is the mesh's; one far off is another state's.
-  const double share = contact->is.now.friction_bore / ring->contact->is.now.friction_bore;
-  if (fresh->arc.free && status == SB_OK && !(fabs(share - 1.0) < SAME_STATE)) {
+  const double was = ring->contact->is.now.friction_bore;
+  const double change = fabs(contact->is.now.friction_bore - was);
+  if (fresh->arc.free && status == SB_OK &&
+      !(change < fmax(SAME_STATE * was, SAME_COEFFICIENT / fresh->arc.unit))) {
     status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the finer mesh slides in another state");
   }
   return status;
@@ -543,9 +553,10 @@ SbStatus sb_ring_remesh(SbRing *fresh, const SbRing *ring, double element_size, 
       double wide = s == SB_RING_BORE ? arc / WIDE : 1.0;
       double size = element_size * fmin(1.0, fmax(NARROW_LEAST, wide));
       // Friction on the last node includes that of the fluid beside it: short elements there, less
-      // so along a path, which stumbles over them.
+      // so along a path, which stumbles over them, and none along an easy one.
       bool slides = s == SB_RING_BORE && ring->contact->is.now.bore_slides != 0;
-      double share = edge > 0.0 ? edge : !slides ? 0.3 : ring->arc.free ? 0.15 : 0.07;
+      double path = ring->easy ? 1.0 : 0.15;
+      double share = edge > 0.0 ? edge : !slides ? 0.3 : ring->arc.free ? path : 0.07;
       plan_patch(&plan, &patch[s], size, share * size);
     }
   }

@@ -80,8 +80,9 @@ void sb_ring_hold_turn(SbRing *ring) {
 
 // A mesh fitted to the present contact, at the same turn: near a maximum it may have no state at
 // the same coefficient. The present one is kept where that fails.
-static SbStatus fit_mesh(SbRing *ring, double size, SbReport *report) {
+static SbStatus fit_mesh(SbRing *ring, double size, double unit, SbReport *report) {
   sb_ring_hold_turn(ring);
+  ring->arc.unit = unit;
   SbStatus status = sb_ring_refit(ring, size, report);
   return status == SB_ERROR_NOT_CONVERGED ? SB_OK : status;
 }
@@ -104,20 +105,31 @@ static SbStatus end_at_limit(SbRing *ring, SbRingState state, double share, doub
   return SB_OK;
 }
 
-// The next state of the path, at most the one at the wanted coefficient.
+// The state at the wanted coefficient, at once from the present one.
+static SbStatus state_at(SbRing *ring, double aim, SbReport *report) {
+  ring->arc.free = false;
+  sb_ring_save(ring->contact, SB_RING_START);
+  ring->contact->is.now.friction_bore = aim;
+  return sb_ring_attempt(ring, SB_RING_DIRECT, report);
+}
+
+// The next state of the path, at most the one at the wanted coefficient: that one where the step
+// would pass it, and only where there is none so the step.
 static SbStatus next_state(SbRing *ring, const double direction[2], double length, double unit,
                            double aim, SbReport *report) {
   SbRingContactState *is = &ring->contact->is;
-  ring->arc = (SbRingArc){
-      true, {direction[0], direction[1]}, {is->turn, unit * is->now.friction_bore}, length, unit};
+  const double base[2] = {is->turn, unit * is->now.friction_bore};
+  if (base[1] + length * direction[1] > unit * aim && state_at(ring, aim, report) == SB_OK) {
+    return SB_OK;
+  }
+  ring->arc = (SbRingArc){true, {direction[0], direction[1]}, {base[0], base[1]}, length, unit};
   sb_ring_save(ring->contact, SB_RING_START);
   SbStatus status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
-  ring->arc.free = false;
   if (status == SB_OK && is->now.friction_bore > aim) {
     sb_ring_restore(ring->contact, SB_RING_START);
-    is->now.friction_bore = aim;
-    status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
+    status = state_at(ring, aim, report);
   }
+  ring->arc.free = false;
   return status;
 }
 
@@ -153,7 +165,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
       return sb_fail(report, SB_ERROR_NOT_CONVERGED, "an easy path ends after many steps");
     }
     const bool spent = ring->count.iterations - first >= ITERATIONS_MOST;
-    bool refit = fabs(is->turn - fitted) > (ring->easy ? EASY_TURN : REFIT_TURN);
+    bool refit = fabs(is->turn - fitted) > (ring->easy && !ring->soft ? EASY_TURN : REFIT_TURN);
     if (status == SB_OK && spent && is->now.friction_bore < aim) {
       status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the path takes more than %d iterations",
                        ITERATIONS_MOST);
@@ -203,8 +215,10 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
                : used > SLOW ? fmax(ARC_LEAST, 0.7 * length)
                              : length;
     }
+    // The last state gets its mesh once it is settled.
+    refit = refit && is->now.friction_bore < aim;
     if (refit && (status == SB_OK || status == SB_ERROR_NOT_CONVERGED)) {
-      status = fit_mesh(ring, (1.0 - FINER * meshes) * ring->options.element_size, report);
+      status = fit_mesh(ring, (1.0 - FINER * meshes) * ring->options.element_size, unit, report);
       fitted = ring->contact->is.turn;
     }
     if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {

@@ -18,6 +18,10 @@ enum { REFINEMENTS = 3 };
 static const double SIZE = 0.03, RATIO = 0.6, SHARE = 0.6;
 static const double SIZE_LEAST = 0.008, SIZE_MOST = 0.05;
 
+// From this tolerance on the largest elements are larger: loads and widths 0.5 % from those of a
+// tolerance of 1e-3, films 1.5 % (ring-cycle).
+static const double COARSE = 0.01, SIZE_COARSE = 0.07;
+
 // Of a dragged ring's load on the mesh of its path, whose elements are not the contact's
 // (measured), and where it rolls over a chamfer (5 % in one of 30).
 static const double UNFITTED = 0.03, UNFITTED_CHAMFER = 0.06;
@@ -61,7 +65,23 @@ static void estimate(SbRingResult *fine, const SbRingResult *coarse, double size
 
 double sb_ring_fit_size(const SbRingBody *body, const SbRingLoad *load, double tolerance) {
   const double size = SIZE * fmin(sqrt(tolerance / 1e-3), tolerance / load_floor(body, load));
-  return fmin(SIZE_MOST, fmax(SIZE_LEAST, size));
+  return fmin(tolerance < COARSE ? SIZE_MOST : SIZE_COARSE, fmax(SIZE_LEAST, size));
+}
+
+// The state of an easy path may be far from the one that is fitted: by another path where there is
+// one, fitted to its contacts too.
+static SbStatus by_whole_law(SbRing **ring, double size, const SbRingOptions *options,
+                             SbReport *report) {
+  SbRingOptions whole = *options;
+  SbRing *other;
+  whole.whole_law = true;
+  SbStatus status = sb_ring_create(&other, &(*ring)->body, &(*ring)->load, &whole, report);
+  if (status == SB_OK) {
+    sb_ring_destroy(*ring);
+    *ring = other;
+    status = sb_ring_refit(other, size, report);
+  }
+  return status;
 }
 
 SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
@@ -93,6 +113,9 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
     return status;
   }
   status = sb_ring_refit(ring, size / RATIO, report);
+  if (status == SB_ERROR_NOT_CONVERGED && ring->soft) {
+    status = by_whole_law(&ring, size / RATIO, &first, report);
+  }
   const double off = load->wall_chamfer > 0.0 ? UNFITTED_CHAMFER : UNFITTED;
   const double unfitted = status != SB_OK && load->bore_slides != 0 ? off : 0.0;
   SbRingResult coarse;

@@ -53,6 +53,7 @@ struct SbRing {
   SbRingArc arc;
   bool passing; // single nodes may have no state: they are held against a small pull
   bool easy;    // a path of softer friction under fluid and of fewer meshes
+  bool soft;    // laid by such a path beside friction on floor and walls
   double onset; // of that friction, over the usual one
   SbRingBest best;
   SbRingState state;        // how the last step ended: rolls or jams, else slides
@@ -204,8 +205,10 @@ SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report)
 // last one known, and what it changes by a displacement du; NULL: none. Its mean axial place.
 double sb_ring_turn(const SbRingContact *contact, const double *du, double *change, double *place);
 
-// How much more softly than usual friction under fluid sets in along an easy path.
+// How much more softly than usual friction under fluid sets in along an easy path, and along one
+// beside friction on floor and walls.
 #define SB_RING_EASY 7.0
+#define SB_RING_SOFT 3.5
 
 // Follows steady sliding from a state without friction on the bore to a share `aim` of its law, or
 // beyond the greatest one that the ring bears: then it rolls or jams, which `state` and
