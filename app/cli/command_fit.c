@@ -12,7 +12,11 @@
 static void print_table(const SbFit *fit, const char *seal, bool dragged) {
   printf("%s seal by %s\n", seal, sb_fit_model_name(fit->model));
   sb_cli_rows(sb_fit_rows, fit);
-  if (fit->model == SB_FIT_RING) {
+  const bool found = sb_results_fit_found(fit);
+  if (found) {
+    sb_cli_rows(sb_fit_contact_rows, fit);
+  }
+  if (found && fit->model == SB_FIT_RING) {
     sb_cli_rows(sb_fit_ring_rows, fit);
     char text[96];
     snprintf(text, sizeof text, "%zu unknowns, %zu load steps (%zu halved), %zu Newton iterations",
@@ -24,10 +28,12 @@ static void print_table(const SbFit *fit, const char *seal, bool dragged) {
       sb_cli_line("State", sb_ring_state_name(fit->ring.state));
     }
   }
-  sb_cli_rows(sb_fit_error_rows, fit);
+  if (found) {
+    sb_cli_rows(sb_fit_error_rows, fit);
+  }
   sb_cli_figure("Time", fit->solver.wall_s, "s", "ms");
   if (!fit->solver.converged) {
-    sb_cli_line("Converged", "NO");
+    sb_cli_line("Converged", found ? "NO" : "NO, no such state was found");
   }
   sb_cli_warnings(&fit->warnings);
 }

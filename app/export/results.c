@@ -35,7 +35,7 @@ static void put_value(SbJson *json, const char *key, int index, double value) {
 static void put_section(SbJson *json, const SbSummary *summary, const char *path) {
   const SbContacts *of = &summary->contact[strstr(path, ".inner.") != NULL ? SB_INNER : SB_OUTER];
   const SbContact *contact = strstr(path, ".return.") != NULL ? &of->back : &of->in_stroke;
-  sb_json_string(json, "state", contact->known ? sb_section_name(contact->section) : NULL);
+  sb_json_string(json, "state", contact->known ? sb_ring_state_name(contact->section) : NULL);
 }
 
 // The catalogue's figures whose paths begin with `scope`, as objects; inside the scope's own

@@ -36,15 +36,15 @@ typedef struct {
 // estimates; of SbFit: what was found, with the ring model, error estimates. Each ends with a key
 // of NULL.
 extern const SbResultRow sb_film_rows[], sb_film_contact_rows[], sb_film_rough_rows[],
-    sb_film_error_rows[], sb_fit_rows[], sb_fit_ring_rows[], sb_fit_drag_rows[],
-    sb_fit_error_rows[];
-
-// "slides", "rolls", "jams" or "no-contact"; static.
-const char *sb_ring_state_name(SbRingState state);
+    sb_film_error_rows[], sb_fit_rows[], sb_fit_contact_rows[], sb_fit_ring_rows[],
+    sb_fit_drag_rows[], sb_fit_error_rows[];
 
 // All of these return a text owned by the caller. Numbers that do not exist are null.
 char *sb_results_run(const SbRun *run, const SbResultsInfo *info);
 char *sb_results_film(const SbFilm *film, const SbResultsHistory *history); // NULL: none
+// Whether the solver has a contact, perhaps above its tolerance; else there is none to tell of.
+bool sb_results_fit_found(const SbFit *fit);
+
 // With the figures of a dragged ring; the greatest drag if that was looked for.
 char *sb_results_fit(const SbFit *fit, const SbFitProblem *problem, bool limit, const char *seal,
                      const SbGlandReadout *gland, const SbRubberState *storage);

@@ -51,6 +51,9 @@ const SbResultRow sb_fit_rows[] = {
      offsetof(SbFit, section_diameter_fitted)},
     {"interference_m", "Interference", "m", "mm", offsetof(SbFit, interference)},
     {"gland_fill", "Gland fill", "1", "%", offsetof(SbFit, gland_fill)},
+    {0}};
+
+const SbResultRow sb_fit_contact_rows[] = {
     {"circumference_m", "Circumference of the load", "m", "mm", offsetof(SbFit, circumference)},
     {"contact_width_m", "Contact width", "m", "mm", offsetof(SbFit, contact_width)},
     {"contact_left_m", NULL, "", "", offsetof(SbFit, contact_left)},
@@ -196,30 +199,43 @@ static void put_storage(SbJson *json, const SbRubberState *storage) {
   sb_json_object_end(json);
 }
 
-const char *sb_ring_state_name(SbRingState state) {
-  static const char *const names[] = {"slides", "rolls", "jams", "no-contact"};
-  return names[state];
-}
-
-// What a dragged ring has beside, and why its greatest drag is null.
+// What a dragged ring has beside.
 static void put_drag(SbJson *json, const SbFit *fit, bool limit) {
   const bool found = fit->solver.converged;
   sb_json_rows(json, sb_fit_drag_rows, fit, found);
   sb_json_string(json, "state", found ? sb_ring_state_name(fit->ring.state) : NULL);
   sb_json_number(json, "drag_limit", limit && found ? fit->ring.drag_limit : NAN);
-  sb_json_object(json, "reasons");
-  for (const SbResultRow *row = sb_fit_drag_rows; row->key != NULL && !found; row++) {
+}
+
+static void put_reasons(SbJson *json, const SbResultRow *row) {
+  for (; row->key != NULL; row++) {
     sb_json_string(json, row->key, "the solver found no such state");
   }
+}
+
+// Why figures are null: of a contact that was not found, of what a dragged ring has beside.
+static void put_fit_reasons(SbJson *json, const SbFit *fit, bool found, bool dragged, bool limit) {
+  if (found && !dragged) {
+    return;
+  }
+  sb_json_object(json, "reasons");
   if (!found) {
+    put_reasons(json, sb_fit_contact_rows);
+  }
+  if (dragged && !fit->solver.converged) {
+    put_reasons(json, sb_fit_drag_rows);
     sb_json_string(json, "state", "the solver found no such state");
     sb_json_string(json, "drag_limit", "the solver found no such state");
-  } else if (!limit) {
+  } else if (dragged && !limit) {
     sb_json_string(json, "drag_limit", "not asked for by --drag limit or --drag -limit");
-  } else if (isnan(fit->ring.drag_limit)) {
+  } else if (dragged && isnan(fit->ring.drag_limit)) {
     sb_json_string(json, "drag_limit", "the ring slides at every friction up to 2");
   }
   sb_json_object_end(json);
+}
+
+bool sb_results_fit_found(const SbFit *fit) {
+  return fit->solver.converged || fit->load > 0;
 }
 
 char *sb_results_fit(const SbFit *fit, const SbFitProblem *problem, bool limit, const char *seal,
@@ -231,10 +247,13 @@ char *sb_results_fit(const SbFit *fit, const SbFitProblem *problem, bool limit, 
   sb_json_string(&json, "variant", sb_fit_variant_name(fit->model, fit->variant));
   sb_json_string(&json, "seal", seal);
   sb_json_number(&json, "pressure_Pa", problem->pressure);
+  const bool found = sb_results_fit_found(fit);
   sb_json_rows(&json, sb_fit_rows, fit, true);
+  sb_json_rows(&json, sb_fit_contact_rows, fit, found);
   if (problem->dragged) {
     put_drag(&json, fit, limit);
   }
+  put_fit_reasons(&json, fit, found, problem->dragged, limit);
   sb_json_bool(&json, "touches", fit->touches);
   sb_json_bool(&json, "valid", fit->valid);
   sb_json_warnings(&json, &fit->warnings);
@@ -243,13 +262,13 @@ char *sb_results_fit(const SbFit *fit, const SbFitProblem *problem, bool limit, 
   sb_json_count(&json, "unknowns", fit->solver.unknowns);
   sb_json_count(&json, "newton_iterations", fit->solver.newton_iterations);
   sb_json_object(&json, "error_estimate");
-  sb_json_rows(&json, sb_fit_error_rows, fit, true);
+  sb_json_rows(&json, sb_fit_error_rows, fit, found);
   sb_json_object_end(&json);
   sb_json_number(&json, "wall_s", fit->solver.wall_s);
   sb_json_object_end(&json);
   if (fit->model == SB_FIT_RING) {
     sb_json_object(&json, "ring");
-    sb_json_rows(&json, sb_fit_ring_rows, fit, true);
+    sb_json_rows(&json, sb_fit_ring_rows, fit, found);
     sb_json_count(&json, "load_steps", fit->ring.load_steps);
     sb_json_count(&json, "rejected_steps", fit->ring.rejected_steps);
     sb_json_object_end(&json);

@@ -181,9 +181,13 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
     status = sb_ring_fit(&ring, &result, &body, &load, &cold, &out->warnings, report);
     if (status == SB_ERROR_NOT_CONVERGED && in->dragged && !large) {
       // Single nodes end a path, and others make another mesh's.
+      SbReport own = {0};
       large = true;
       cold.element_size = PATH_SIZE;
-      status = sb_ring_fit(&ring, &result, &body, &load, &cold, &out->warnings, report);
+      status = sb_ring_fit(&ring, &result, &body, &load, &cold, &out->warnings, &own);
+      if (status != SB_ERROR_NOT_CONVERGED && report != NULL) {
+        *report = own; // else what ended the path that was wanted is told
+      }
     }
   }
   if (status != SB_OK) {

@@ -1,4 +1,5 @@
 // The program from outside: exit codes, messages, JSON keys, locales, what is written where.
+#include "app/export/results.h"
 #include "tests/app/cli_fixture.h"
 #include "tests/sanitized.h"
 
@@ -258,6 +259,28 @@ static void test_json_drag_limit(void) {
   cli_clear(&result);
 }
 
+// Of a state that was not found there are no figures, but reasons.
+static void test_json_not_found(void) {
+  static const char *const none[] = {"load_N", "pressure_peak_Pa", "contact_width_m", "drag_N",
+                                     "state"};
+  const SbFit fit = {.model = SB_FIT_RING, .squeeze = 0.15};
+  const SbFitProblem problem = {.model = SB_FIT_RING, .dragged = true};
+  const SbRubberState storage = {0};
+  char *text = sb_results_fit(&fit, &problem, false, "outer", NULL, &storage);
+  JsonNode *root = cli_parse(text);
+  g_assert_cmpfloat(cli_number(root, "squeeze"), ==, 0.15);
+  for (size_t i = 0; i < G_N_ELEMENTS(none); i++) {
+    g_autofree char *reason = g_strdup_printf("reasons.%s", none[i]);
+    g_assert_true(json_node_is_null(cli_at(root, none[i])));
+    g_assert_cmpstr(json_node_get_string(cli_at(root, reason)), ==,
+                    "the solver found no such state");
+  }
+  g_assert_true(json_node_is_null(cli_at(root, "solver.error_estimate.load")));
+  g_assert_true(json_node_is_null(cli_at(root, "ring.floor_load_N")));
+  json_node_unref(root);
+  g_free(text);
+}
+
 static void test_json_small(void) {
   CliResult result = CLI("asperity", "--lambda", "-3", "--json", "-");
   JsonNode *root = cli_parse(result.out);
@@ -469,6 +492,7 @@ int main(int argc, char **argv) {
   }
   g_test_add_func("/cli/json/fit", test_json_fit);
   g_test_add_func("/cli/json/drag-limit", test_json_drag_limit);
+  g_test_add_func("/cli/json/not-found", test_json_not_found);
   g_test_add_func("/cli/json/small", test_json_small);
   g_test_add_func("/cli/utf8-options", test_utf8_options);
   g_test_add_func("/cli/results-and-locale", test_results_and_locale);

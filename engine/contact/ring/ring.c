@@ -341,6 +341,7 @@ static SbStatus tell_crease(const SbRing *ring, const SbRingLoad *target, double
 // is not theirs. A ring that barely resists rolling can stumble over single nodes of a mesh, and a
 // corner that closes turns large elements over: finer ones are tried.
 static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *report) {
+  enum { ITERATIONS_ALL = 5000 }; // after which no other path is begun
   static const double FINER[] = {1.0, 1.0, 0.8, 0.6, 0.4};
   const bool slides = target->bore_slides != 0 && target->friction_bore > 0.0;
   const bool smooth = target->friction_floor == 0.0 && target->friction_wall == 0.0;
@@ -349,7 +350,11 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
   const size_t tries = sizeof FINER / sizeof FINER[0] - (is_circle(ring) ? 1 : 0);
   const bool fluid = target->pressure_left != target->pressure_right;
   const bool easy = slides && (smooth || fluid) && !ring->options.whole_law;
-  for (size_t i = easy ? 0 : 1; i < tries && status == SB_ERROR_NOT_CONVERGED; i++) {
+  const int before = ring->count.iterations;
+  SbReport own = {0}, told = {0}; // of a try; of the first by the whole law, which is told
+  for (size_t i = easy ? 0 : 1; i < tries && status == SB_ERROR_NOT_CONVERGED &&
+                                ring->count.iterations - before < ITERATIONS_ALL;
+       i++) {
     ring->easy = i == 0;
     ring->soft = i == 0 && !smooth;
     ring->onset = ring->soft ? SB_RING_SOFT : SB_RING_EASY;
@@ -358,19 +363,23 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
     ring->arc.free = false;
     ring->state = SB_RING_SLIDES;
     ring->share_limit = ring->drag_limit = 0.0;
-    status = build(ring, &plan, report);
+    status = build(ring, &plan, &own);
     if (status == SB_OK) {
-      status = assemble_ring(ring, target, report);
+      status = assemble_ring(ring, target, &own);
     }
     if (status == SB_OK && ring->soft && ring->state != SB_RING_SLIDES) {
-      status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "an easy path with friction has a limit");
+      status = sb_fail(&own, SB_ERROR_NOT_CONVERGED, "an easy path with friction has a limit");
     }
     if (status == SB_OK) {
-      status = check_apart(ring, report);
+      status = check_apart(ring, &own);
     }
     if (status == SB_ERROR_NOT_CONVERGED && ring->contact != NULL) {
       crease = fmax(crease, sb_ring_crease(ring->contact));
     }
+    told = i <= 1 || status != SB_ERROR_NOT_CONVERGED ? own : told;
+  }
+  if (report != NULL) {
+    *report = told;
   }
   return tell_crease(ring, target, crease, status, report);
 }
@@ -489,6 +498,7 @@ static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch 
   contact->is.now = ring->contact->is.now;
   contact->is.turn = ring->contact->is.turn;
   sb_ring_fem_save(fresh->fem, SB_RING_START);
+  contact->excess = ring->contact->excess;
   for (int i = 0; i < contact->count; i++) {
     for (int s = 0; s < SB_RING_SURFACES; s++) {
       bool held = false;

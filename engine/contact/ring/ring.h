@@ -90,6 +90,8 @@ typedef enum {
   SB_RING_NO_CONTACT, // does not touch the bore
 } SbRingState;
 
+const char *sb_ring_state_name(SbRingState state); // "slides", "no-contact" ..., static
+
 typedef struct {
   SbRingState state;
   double turn;   // of the section since it was free, rad; > 0 as the bore's motion to +x drives it

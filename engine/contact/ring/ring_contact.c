@@ -58,6 +58,7 @@ SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *r
   contact->fem = fem;
   contact->count = (int)n;
   contact->force_scale = contact->onset = 1.0;
+  contact->excess = INFINITY;
   contact->is.touch = calloc(3 * n * SB_RING_SURFACES, sizeof(SbRingTouch)); // and the saved ones
   contact->closed = calloc(n, sizeof(bool));
   contact->share = calloc(8 * n, sizeof(double)); // and what follows it
@@ -127,8 +128,9 @@ SbRingGrip sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surfa
     grip.by_area = (grip.force - grip.by_normal * normal) / area;
   }
   if (surface == SB_RING_BORE && now->bore_slides != 0 && fluid > 0.0) {
-    const bool high = fluid > WET_MOST * area;
-    const double over = contact->onset * WET * (high ? WET_MOST * area : fluid);
+    const double most = fmin(WET_MOST, contact->excess);
+    const bool high = fluid > most * area;
+    const double over = contact->onset * WET * (high ? most * area : fluid);
     const double share = fmax(0.0, (normal - fluid) / over);
     if (share < 1.0) {
       const double part = share * share * (3.0 - 2.0 * share);
@@ -140,6 +142,16 @@ SbRingGrip sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surfa
     }
   }
   return grip;
+}
+
+double sb_ring_contact_excess(const SbRingContact *contact) {
+  const SbRingLoad *now = &contact->is.now;
+  double most = 0.0;
+  for (int i = 0; i < contact->count; i += 2) {
+    const SbRingTouch *touch = sb_ring_touch(contact, i, SB_RING_BORE);
+    most = fmax(most, touch->held ? touch->force / fmax(contact->weight[i], 1e-30) : 0.0);
+  }
+  return most - fmax(now->pressure_left, now->pressure_right);
 }
 
 // The most that friction bears at a node under its present normal force.
@@ -463,6 +475,8 @@ double sb_ring_contact_limit(const SbRingContact *contact) {
 
 void sb_ring_contact_begin(SbRingContact *contact) {
   contact->unsteady = -1;
+  const double excess = sb_ring_contact_excess(contact);
+  contact->excess = contact->lobes && excess > 0.0 ? excess : contact->excess;
   for (int i = 0; i < SB_RING_SURFACES * contact->count; i++) {
     contact->is.touch[i].flips = contact->is.touch[i].catches = 0;
     contact->is.touch[i].smooth = false;

@@ -172,6 +172,11 @@ double sb_ring_friction_lack(const SbRing *ring) {
   return whole > 0.0 ? lack / whole : 0.0;
 }
 
+const char *sb_ring_state_name(SbRingState state) {
+  static const char *const names[] = {"slides", "rolls", "jams", "no-contact"};
+  return names[state];
+}
+
 void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   const SbRingContact *contact = ring->contact;
   *out = (SbRingResult){.turn = contact->is.turn,

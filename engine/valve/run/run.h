@@ -63,9 +63,6 @@ typedef struct {
   double edge_pressure[SB_SEAL_EDGE_POINTS];
 } SbSealState;
 
-// What sliding makes of a seal's contact: "slides", "rolls", "jams", "no-contact"; borrowed.
-const char *sb_section_name(SbRingState section);
-
 // A seal in a steady stroke, by one member for each SB_CONTACT_FIGURE.
 typedef struct {
 #define SB_CONTACT_FIGURE(path, member, ...) double member;

@@ -146,11 +146,6 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
   }
 }
 
-const char *sb_section_name(SbRingState section) {
-  static const char *const names[] = {"slides", "rolls", "jams", "no-contact"};
-  return names[section];
-}
-
 // A state as it stands in the figures of its stroke.
 static void fill_contact(SbContact *out, const SbSealState *state, double speed) {
   bool touches = state->load > 0;
