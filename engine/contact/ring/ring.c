@@ -229,14 +229,15 @@ static SbStatus check_apart(const SbRing *ring, SbReport *report) {
   return SB_OK;
 }
 
-SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report) {
+SbStatus sb_ring_build_on_mesh(SbRing *ring, const SbRing *like, SbReport *report) {
   const SbRingBody *body = &ring->body;
   double mu = ring->stress;
   double bulk = body->modulus / (3.0 * (1.0 - 2.0 * body->poisson_ratio));
   SbRingMaterial material = {
       .c1 = 0.5 * (1.0 - body->mooney_share), .c2 = 0.5 * body->mooney_share, .bulk = bulk / mu};
   const double around = body->plane_strain ? 0.0 : body->inward ? -2.0 * M_PI : 2.0 * M_PI;
-  SbStatus status = sb_ring_fem_create(&ring->fem, ring->mesh, material, around, report);
+  SbStatus status = sb_ring_fem_create(&ring->fem, ring->mesh, material, around,
+                                       like != NULL ? like->fem : NULL, report);
   if (status == SB_OK) {
     status = sb_ring_contact_create(&ring->contact, ring->fem, report);
   }
@@ -250,7 +251,7 @@ SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report) {
 
 static SbStatus build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report) {
   SbStatus status = sb_ring_mesh_create(&ring->mesh, plan, report);
-  return status == SB_OK ? sb_ring_build_on_mesh(ring, report) : status;
+  return status == SB_OK ? sb_ring_build_on_mesh(ring, NULL, report) : status;
 }
 
 static void drop(SbRing *ring) {
@@ -772,7 +773,7 @@ SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbRep
     return status;
   }
   status = sb_ring_mesh_mirror(&other->mesh, ring->mesh, report);
-  status = status == SB_OK ? sb_ring_build_on_mesh(other, report) : status;
+  status = status == SB_OK ? sb_ring_build_on_mesh(other, NULL, report) : status;
   if (status != SB_OK) {
     sb_ring_destroy(other);
     *out = NULL;

@@ -111,7 +111,7 @@ static bool point_geometry(const SbRingFem *fem, int element, double l1, double 
 }
 
 SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMaterial material,
-                            double around, SbReport *report) {
+                            double around, const SbRingFem *like, SbReport *report) {
   *out = NULL;
   SbRingFem *fem = calloc(1, sizeof *fem);
   if (fem == NULL) {
@@ -125,9 +125,12 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->u = calloc(4 * state + 11 * n, sizeof(double)); // and what follows it
   fem->condition = calloc(n, sizeof(SbRingCondition));
   fem->work_int = calloc(n, sizeof(int));
-  fem->gauss = malloc(sizeof(double) * POINT_SIZE * SB_RING_FEM_POINTS * m);
+  const size_t points = sizeof(double) * POINT_SIZE * SB_RING_FEM_POINTS * m;
+  const bool same = like != NULL && like->around == around &&
+                    memcmp(like->mesh->x, mesh->x, sizeof(double) * 2 * n) == 0;
+  fem->points = same ? sb_ring_shared_take(like->points) : sb_ring_shared_create(points);
   fem->condensed = calloc(INNER * RIGHT * m, sizeof(double));
-  if (fem->u == NULL || fem->condition == NULL || fem->work_int == NULL || fem->gauss == NULL ||
+  if (fem->u == NULL || fem->condition == NULL || fem->work_int == NULL || fem->points == NULL ||
       fem->condensed == NULL) {
     sb_ring_fem_destroy(fem);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's elements");
@@ -142,10 +145,15 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->mass = fem->residual + 6 * n;
   fem->du_path = fem->residual + 7 * n;
   fem->left = fem->residual + 9 * n;
-  for (int e = 0; e < mesh->elements; e++) {
+  double *gauss = fem->points->data;
+  fem->gauss = gauss;
+  if (same) {
+    memcpy(fem->mass, like->mass, sizeof(double) * n);
+  }
+  for (int e = 0; e < mesh->elements && !same; e++) {
     for (int q = 0; q < SB_RING_FEM_POINTS; q++) {
       if (!point_geometry(fem, e, POINT[q][0], POINT[q][1], POINT[q][2],
-                          &fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q)])) {
+                          &gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q)])) {
         sb_ring_fem_destroy(fem);
         return sb_fail(report, SB_ERROR_RANGE, "the ring's mesh crosses the axis or is inverted");
       }
@@ -155,7 +163,7 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
       }
     }
   }
-  SbStatus status = sb_ring_sparse_create(fem, report);
+  SbStatus status = sb_ring_sparse_create(fem, like, report);
   if (status != SB_OK) {
     sb_ring_fem_destroy(fem);
     return status;
@@ -164,14 +172,33 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   return sb_succeed(report);
 }
 
+SbRingShared *sb_ring_shared_create(size_t size) {
+  SbRingShared *shared = malloc(sizeof *shared + size);
+  if (shared != NULL) {
+    atomic_init(&shared->users, 1);
+  }
+  return shared;
+}
+
+SbRingShared *sb_ring_shared_take(SbRingShared *shared) {
+  atomic_fetch_add(&shared->users, 1);
+  return shared;
+}
+
+void sb_ring_shared_leave(SbRingShared *shared) {
+  if (shared != NULL && atomic_fetch_sub(&shared->users, 1) == 1) {
+    free(shared);
+  }
+}
+
 void sb_ring_fem_destroy(SbRingFem *fem) {
   if (fem == NULL) {
     return;
   }
   sb_ring_factor_destroy(fem->factor);
-  void *owned[] = {fem->u,         fem->condition, fem->work_int, fem->gauss,
-                   fem->condensed, fem->row_start, fem->column,   fem->value,
-                   fem->raw,       fem->scatter,   fem->diagonal, fem->hollow};
+  sb_ring_shared_leave(fem->points);
+  sb_ring_shared_leave(fem->pattern);
+  void *owned[] = {fem->u, fem->condition, fem->work_int, fem->condensed, fem->value, fem->raw};
   for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
     free(owned[i]);
   }
@@ -271,10 +298,11 @@ typedef struct {
   double compressed[3][3], r_pressure[3]; // the pressure's own equations, upper half
 } System;
 
-// Tangent of the displacements from the stress' derivatives at a point.
-SB_QUAD_INLINE void add_stiffness(System *s, const double a[5][5], const SbQuad *g) {
+// Tangent of the displacements from the stress' derivatives at a point, by the shapes of the quads
+// from `from` on.
+SB_QUAD_INLINE void add_stiffness(System *s, const double a[5][5], const SbQuad *g, int from) {
   SbQuad v[5][QUADS]; // of the stress by each shape's radial and axial displacement
-  for (int m = 0; m < QUADS; m++) {
+  for (int m = from; m < QUADS; m++) {
     const SbQuad *dr = &g[m / 2], *dz = &g[2 + m / 2], *hoop = &g[4 + m / 2];
     const int low = 2 * (m % 2), high = low + 1;
     const SbQuad r = {(*dr)[low], (*dr)[low], (*dr)[high], (*dr)[high]};
@@ -289,15 +317,16 @@ SB_QUAD_INLINE void add_stiffness(System *s, const double a[5][5], const SbQuad 
   const double *at = (const double *)g;
   for (int c = 0; c < SHAPES; c++) {
     const double r = at[c], z = at[ROOM + c], hoop = at[2 * ROOM + c];
-    for (int m = c / 2; m < QUADS; m++) {
+    for (int m = from > c / 2 ? from : c / 2; m < QUADS; m++) {
       s->quad[2 * c][m] += v[0][m] * r + v[1][m] * z + v[4][m] * hoop;
       s->quad[2 * c + 1][m] += v[2][m] * r + v[3][m] * z;
     }
   }
 }
 
-// False if the element is turned inside out.
-SB_QUAD_INLINE bool element_system(SbRingFem *fem, int e, System *s) {
+// False if the element is turned inside out. Of its tangent without that of the nodes by each
+// other, where only the balance is wanted.
+SB_QUAD_INLINE bool element_system(SbRingFem *fem, int e, System *s, bool balance) {
   double local[2 * SHAPES];
   gather(fem, e, local);
   const double *pressure = &fem->inner[INNER * e + 2];
@@ -337,7 +366,7 @@ SB_QUAD_INLINE bool element_system(SbRingFem *fem, int e, System *s) {
     for (int m = 0; m < 6; m++) {
       g[m] = *(const SbQuadAt *)&point[4 * m];
     }
-    add_stiffness(s, (const double(*)[5])a, g);
+    add_stiffness(s, (const double(*)[5])a, g, balance ? NODES / 2 : 0);
     for (int m = 0; m < 2; m++) {
       const SbQuad dr = g[m], dz = g[2 + m], hoop = g[4 + m];
       s->force[0][m] += weight * (stress[0] * dr + stress[1] * dz + stress[4] * hoop);
@@ -361,7 +390,7 @@ SB_QUAD_INLINE bool element_system(SbRingFem *fem, int e, System *s) {
 }
 
 // Eliminates bubble and pressure; keeps what they respond with. `x` [INNER][RIGHT].
-SB_QUAD_INLINE void condense(SbRingFem *fem, System *s, double *x) {
+SB_QUAD_INLINE void condense(SbRingFem *fem, System *s, double *x, bool balance) {
   enum { BUBBLE = NODES };
   double inner[INNER][INNER];
   union {
@@ -404,7 +433,7 @@ SB_QUAD_INLINE void condense(SbRingFem *fem, System *s, double *x) {
     for (int m = 0; m < INNER; m++) {
       const double factor = right.at[m][i];
       s->r[i % 2][i / 2] -= factor * solved.at[m][OUTER];
-      for (int n = i / 4; n < OUTER / 4; n++) {
+      for (int n = i / 4; n < OUTER / 4 && !balance; n++) {
         s->quad[i][n] -= factor * solved.quad[m][n];
       }
     }
@@ -412,12 +441,12 @@ SB_QUAD_INLINE void condense(SbRingFem *fem, System *s, double *x) {
 }
 
 // Adds an element to the balance, both halves of its symmetric tangent.
-SB_QUAD_INLINE void scatter_element(SbRingFem *fem, int e, const System *s) {
+SB_QUAD_INLINE void scatter_element(SbRingFem *fem, int e, const System *s, bool balance) {
   const int *tri = &fem->mesh->tri[6 * e], *scatter = &fem->scatter[36 * e];
   for (int a = 0; a < NODES; a++) {
     fem->residual[2 * tri[a]] += s->r[0][a];
     fem->residual[2 * tri[a] + 1] += s->r[1][a];
-    for (int b = a; b < NODES; b++) {
+    for (int b = a; b < NODES && !balance; b++) {
       const double *top = &s->k[2 * a][2 * b], *low = &s->k[2 * a + 1][2 * b];
       const SbQuad block = {top[0], top[1], b > a ? low[0] : top[1], low[1]};
       *(SbQuadAt *)&fem->value[SB_RING_BLOCK * scatter[6 * a + b]] += block;
@@ -429,29 +458,31 @@ SB_QUAD_INLINE void scatter_element(SbRingFem *fem, int e, const System *s) {
   }
 }
 
-SB_QUAD_INLINE bool add_all(SbRingFem *fem) {
+SB_QUAD_INLINE bool add_all(SbRingFem *fem, bool balance) {
   for (int e = 0; e < fem->mesh->elements; e++) {
     System s;
-    if (!element_system(fem, e, &s)) {
+    if (!element_system(fem, e, &s, balance)) {
       return false;
     }
-    condense(fem, &s, &fem->condensed[INNER * RIGHT * e]);
-    scatter_element(fem, e, &s);
+    condense(fem, &s, &fem->condensed[INNER * RIGHT * e], balance);
+    scatter_element(fem, e, &s, balance);
   }
   return true;
 }
 
 SB_QUAD_WIDE static bool add_elements_wide(SbRingFem *fem) {
-  return add_all(fem);
+  return fem->balance_only ? add_all(fem, true) : add_all(fem, false);
 }
 
 static bool add_elements(SbRingFem *fem) {
-  return add_all(fem);
+  return fem->balance_only ? add_all(fem, true) : add_all(fem, false);
 }
 
 bool sb_ring_fem_assemble(SbRingFem *fem) {
   const SbRingMesh *mesh = fem->mesh;
-  memset(fem->value, 0, sizeof(double) * SB_RING_BLOCK * (size_t)fem->row_start[mesh->nodes]);
+  if (!fem->balance_only) {
+    memset(fem->value, 0, sizeof(double) * SB_RING_BLOCK * (size_t)fem->row_start[mesh->nodes]);
+  }
   memset(fem->residual, 0, sizeof(double) * 2 * (size_t)mesh->nodes);
   fem->residual_inner = fem->volume = 0.0;
   fem->det_min = INFINITY;
@@ -462,12 +493,12 @@ bool sb_ring_fem_assemble(SbRingFem *fem) {
   for (int i = 0; i < mesh->nodes && stiffness > 0.0; i++) {
     double drift = fem->u[2 * i + 1] - fem->saved[1][2 * i + 1] - fem->axial_rest;
     fem->residual[2 * i + 1] += fem->axial_spring * drift;
-    fem->value[SB_RING_BLOCK * fem->diagonal[i] + 3] += stiffness;
+    sb_ring_fem_add(fem, i, 1, i, 1, stiffness);
   }
   for (int i = 0; i < 2 * mesh->nodes && fem->viscosity > 0.0; i++) {
     double resistance = fem->viscosity * fem->mass[i / 2];
     fem->residual[i] += resistance * (fem->u[i] - fem->saved[1][i]);
-    fem->value[SB_RING_BLOCK * fem->diagonal[i / 2] + 3 * (i % 2)] += resistance;
+    sb_ring_fem_add(fem, i / 2, i % 2, i / 2, i % 2, resistance);
   }
   return true;
 }

@@ -290,7 +290,7 @@ SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
       other->fitted_end[k] += sb_ring_shift_angle(shift, ring->fitted_end[k]);
     }
   }
-  status = status == SB_OK ? sb_ring_build_on_mesh(other, report) : status;
+  status = status == SB_OK ? sb_ring_build_on_mesh(other, ring, report) : status;
   if (status != SB_OK) {
     sb_ring_destroy(other);
     return status;

@@ -114,9 +114,9 @@ SbStatus sb_ring_check(const SbRingBody *body, const SbRingLoad *load, SbReport 
 void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *load);
 
 // A ring beside another of the same body, owned, without a mesh yet; elements and contact on its
-// mesh once it has one. SB_ERROR_MEMORY.
+// mesh once it has one, of the same elements as that of `like`, or NULL. SB_ERROR_MEMORY.
 SbStatus sb_ring_beside(SbRing **out, const SbRing *ring, SbReport *report);
-SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report);
+SbStatus sb_ring_build_on_mesh(SbRing *ring, const SbRing *like, SbReport *report);
 
 // Whether the bore contact's ends have left the short elements that its mesh has for them: moved by
 // more than `most` of the size of the others.

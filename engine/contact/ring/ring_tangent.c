@@ -212,6 +212,7 @@ static SbStatus linear(SbRing **out, SbRingTangent *tangent, const SbRingBody *b
   if (status != SB_OK) {
     return status;
   }
+  other->fem->balance_only = true;
   // Its nodes have the base's neighbours; without memory the order is sought anew.
   other->fem->factor = sb_ring_factor_like(base->factor);
   memcpy(other->contact->is.crest, ring->contact->is.crest, sizeof ring->contact->is.crest);
@@ -231,6 +232,7 @@ static SbStatus linear(SbRing **out, SbRingTangent *tangent, const SbRingBody *b
   memcpy(other->held, tangent->base->held, sizeof other->held);
   other->first_order = true;
   move(other, base);
+  other->fem->balance_only = false;
   const SbRingLoad target = sb_ring_load_in(load, other->length, other->stress);
   other->fault = fmax(0.0, sb_ring_contact_fault(other->contact) - tangent->base->fault) +
                  sb_ring_travel_fault(ring, &target);
