@@ -1,7 +1,8 @@
 // The ring object: checks its input, makes it dimensionless, fits it into the groove and steps it.
 //
-// How it finds its first states: ring_place.c. Equations and validity: ring_fem.c, ring_contact.c,
-// ring_newton.c. Leaves out twist, buckling out of the section's plane, adhesion.
+// How it finds its first states: ring_place.c; its other meshes: ring_remesh.c. Equations and
+// validity: ring_fem.c, ring_contact.c, ring_newton.c. Leaves out twist, buckling out of the
+// section's plane, adhesion.
 #include "engine/base/check.h"
 #include "engine/contact/ring/ring_private.h"
 
@@ -11,20 +12,12 @@
 
 static const double SIZE_DEFAULT = 0.05, SQUEEZE_MOST = 0.6, STRETCH_MOST = 0.6, CRIMP_MOST = 0.5;
 
-// Arc of a bore contact, in section diameters, below which its elements shrink with it, and the
-// least share of their size that is left.
-static const double WIDE = 0.3, NARROW_LEAST = 0.12;
-
 // How far the contact's ends may move, over the elements' size, before a sliding ring's mesh is
 // fitted anew: their short elements end there.
 static const double OUTGROWN = 0.1;
 
 // How deep a section may lie in itself, in its heights, by the stiffness that presses it apart.
 static const double FOLDED = 0.02;
-
-// Largest change of the friction by another mesh at a held turn: of its share, and of its
-// coefficient where that is small.
-static const double SAME_STATE = 0.05, SAME_COEFFICIENT = 0.005;
 
 static SbStatus check_body(const SbRingBody *body, SbReport *report) {
   return SB_CHECK(
@@ -132,7 +125,7 @@ static double contact_angle(double squeeze) {
   return asin(fmin(0.93, 1.15 * sqrt(fmax(0.0, squeeze)) + 0.04));
 }
 
-static bool is_circle(const SbRing *ring) {
+bool sb_ring_is_circle(const SbRing *ring) {
   return ring->body.profile.kind == SB_SEAL_PROFILE_CIRCLE;
 }
 
@@ -154,10 +147,10 @@ static SbRingZone zone_within(const SbRingOutline *outline, double depth, bool a
   return zone;
 }
 
-static SbRingMeshPlan empty_plan(const SbRing *ring, double size_max, double size) {
+SbRingMeshPlan sb_ring_empty_plan(const SbRing *ring, double size_max, double size) {
   return (SbRingMeshPlan){.centre = ring->centre,
                           .radius = 0.5,
-                          .outline = is_circle(ring) ? NULL : &ring->outline,
+                          .outline = sb_ring_is_circle(ring) ? NULL : &ring->outline,
                           .size_max = size_max,
                           .growth = 0.5,
                           .layers = (int)fmax(4.0, floor(0.5 + 1.76 * log2(0.5 / size)))};
@@ -165,12 +158,12 @@ static SbRingMeshPlan empty_plan(const SbRing *ring, double size_max, double siz
 
 // First mesh: fine where bore, floor and, under pressure, the low-pressure flank will touch.
 static SbRingMeshPlan first_plan(const SbRing *ring, const SbRingLoad *s, double size) {
-  SbRingMeshPlan plan = empty_plan(ring, 0.16, size);
+  SbRingMeshPlan plan = sb_ring_empty_plan(ring, 0.16, size);
   const double squeeze = 1.0 - (s->bore_radius - s->floor_radius);
   double angle = contact_angle(squeeze);
   SbRingZone touching[2] = {{-angle, angle, size}, {M_PI - angle, M_PI + angle, size}};
   for (int k = 0; k < 2; k++) {
-    if (!is_circle(ring)) {
+    if (!sb_ring_is_circle(ring)) {
       const double sunk = isfinite(squeeze) ? fmax(0.0, squeeze) : 0.0;
       touching[k] = zone_within(&ring->outline, 0.03 + 0.5 * sunk, k == 1);
       touching[k].size = size;
@@ -207,9 +200,9 @@ static bool turned_over(const SbRing *ring) {
 
 // What presses a section apart where it touches itself is that of its hollows alone (ring_fold.c),
 // and bears no more than some shear moduli.
-static SbStatus check_apart(const SbRing *ring, SbReport *report) {
+SbStatus sb_ring_check_apart(const SbRing *ring, SbReport *report) {
   const char *name = sb_seal_profile_name(ring->body.profile.kind);
-  if (!is_circle(ring) && turned_over(ring)) {
+  if (!sb_ring_is_circle(ring) && turned_over(ring)) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "an element of the %s section is turned over",
                    name);
   }
@@ -219,7 +212,7 @@ static SbStatus check_apart(const SbRing *ring, SbReport *report) {
                              "%.2g of its height",
                              name, ring->contact->folded);
   }
-  if (!is_circle(ring) && sb_ring_crosses_itself(ring->contact)) {
+  if (!sb_ring_is_circle(ring) && sb_ring_crosses_itself(ring->contact)) {
     // Where elements are large beside a corner's rounding that may be theirs: finer ones are tried.
     return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "seal.profile",
                              "the %s section folds onto itself beside its hollows: contact with "
@@ -243,18 +236,18 @@ SbStatus sb_ring_build_on_mesh(SbRing *ring, const SbRing *like, SbReport *repor
   }
   if (status == SB_OK) {
     ring->contact->stress = ring->stress;
-    ring->contact->lobes = !is_circle(ring);
+    ring->contact->lobes = !sb_ring_is_circle(ring);
     ring->contact->force_scale = body->plane_strain ? 1.0 : around * ring->centre;
   }
   return status;
 }
 
-static SbStatus build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report) {
+SbStatus sb_ring_build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report) {
   SbStatus status = sb_ring_mesh_create(&ring->mesh, plan, report);
   return status == SB_OK ? sb_ring_build_on_mesh(ring, NULL, report) : status;
 }
 
-static void drop(SbRing *ring) {
+void sb_ring_drop(SbRing *ring) {
   sb_ring_contact_destroy(ring->contact);
   sb_ring_fem_destroy(ring->fem);
   sb_ring_mesh_destroy(ring->mesh);
@@ -271,10 +264,10 @@ void sb_ring_end_best(SbRing *ring, bool take) {
   bool here = ring->best.here;
   ring->best = other.best = (SbRingBest){0};
   if (take && !here) {
-    drop(ring);
+    sb_ring_drop(ring);
     *ring = other;
   } else {
-    drop(&other);
+    sb_ring_drop(&other);
   }
   if (take) {
     sb_ring_restore(ring->contact, SB_RING_BEFORE);
@@ -325,7 +318,7 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
 // beyond. `crease` of the states at which it ended.
 static SbStatus tell_crease(const SbRing *ring, const SbRingLoad *target, double crease,
                             SbStatus status, SbReport *report) {
-  if (status != SB_ERROR_NOT_CONVERGED || is_circle(ring) || target->bore_slides != 0 ||
+  if (status != SB_ERROR_NOT_CONVERGED || sb_ring_is_circle(ring) || target->bore_slides != 0 ||
       crease <= SB_RING_CREASE) {
     return status;
   }
@@ -348,7 +341,7 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
   const bool smooth = target->friction_floor == 0.0 && target->friction_wall == 0.0;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   double crease = 1.0;
-  const size_t tries = sizeof FINER / sizeof FINER[0] - (is_circle(ring) ? 1 : 0);
+  const size_t tries = sizeof FINER / sizeof FINER[0] - (sb_ring_is_circle(ring) ? 1 : 0);
   const bool fluid = target->pressure_left != target->pressure_right;
   const bool easy = slides && (smooth || fluid) && !ring->options.whole_law;
   const int before = ring->count.iterations;
@@ -360,11 +353,11 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
     ring->soft = i == 0 && !smooth;
     ring->onset = ring->soft ? SB_RING_SOFT : SB_RING_EASY;
     SbRingMeshPlan plan = first_plan(ring, target, FINER[i] * ring->options.element_size);
-    drop(ring);
+    sb_ring_drop(ring);
     ring->arc.free = false;
     ring->state = SB_RING_SLIDES;
     ring->share_limit = ring->drag_limit = 0.0;
-    status = build(ring, &plan, &own);
+    status = sb_ring_build(ring, &plan, &own);
     if (status == SB_OK) {
       status = assemble_ring(ring, target, &own);
     }
@@ -372,7 +365,7 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
       status = sb_fail(&own, SB_ERROR_NOT_CONVERGED, "an easy path with friction has a limit");
     }
     if (status == SB_OK) {
-      status = check_apart(ring, &own);
+      status = sb_ring_check_apart(ring, &own);
     }
     if (status == SB_ERROR_NOT_CONVERGED && ring->contact != NULL) {
       crease = fmax(crease, sb_ring_crease(ring->contact));
@@ -428,7 +421,7 @@ SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *
 
 void sb_ring_destroy(SbRing *ring) {
   if (ring != NULL) {
-    drop(ring);
+    sb_ring_drop(ring);
     free(ring->recovery);
     free(ring);
   }
@@ -460,184 +453,6 @@ const SbRingLoad *sb_ring_load(const SbRing *ring) {
   return &ring->load;
 }
 
-// Zones of fine elements under one contact, finer still at its ends, where vertices are put.
-static void plan_patch(SbRingMeshPlan *plan, const SbRingPatch *patch, double size, double edge) {
-  plan->zone[plan->zone_count++] = (SbRingZone){patch->angle[0], patch->angle[1], size};
-  for (int k = 0; k < 2; k++) {
-    double angle = patch->angle[k];
-    plan->zone[plan->zone_count++] = (SbRingZone){angle, angle, edge};
-    // Vertices are named within -pi .. pi.
-    angle -= angle > M_PI ? 2.0 * M_PI : 0.0;
-    plan->vertex[plan->vertex_count++] = angle;
-  }
-}
-
-// Slip states of a mesh's held nodes: those of the nearest nodes of another.
-static void carry_slip(SbRingContact *to, const SbRingContact *from) {
-  for (int i = 0; i < to->count; i++) {
-    for (int s = 0; s < SB_RING_SURFACES; s++) {
-      double nearest = INFINITY;
-      for (int k = 0; k < from->count && sb_ring_touch(to, i, s)->held; k++) {
-        const double away =
-            fabs(remainder(to->fem->mesh->angle[i] - from->fem->mesh->angle[k], 2.0 * M_PI));
-        if (sb_ring_touch(from, k, s)->held && away < nearest) {
-          nearest = away;
-          sb_ring_touch(to, i, s)->slip = sb_ring_touch(from, k, s)->slip;
-        }
-      }
-    }
-  }
-}
-
-// Solves on a mesh from the state on another, whose contacts are `patch`: same setting and, by
-// material angle, the same held nodes; `fixed`: with their slip states, fixed until the balance is
-// near, else sticking at first.
-static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch *patch,
-                           const bool *touches, bool fixed, SbReport *report) {
-  SbRingContact *contact = fresh->contact;
-  sb_ring_fem_transfer(fresh->fem, ring->fem);
-  contact->is.now = ring->contact->is.now;
-  contact->is.turn = ring->contact->is.turn;
-  sb_ring_fem_save(fresh->fem, SB_RING_START);
-  contact->excess = ring->contact->excess;
-  for (int i = 0; i < contact->count; i++) {
-    for (int s = 0; s < SB_RING_SURFACES; s++) {
-      bool held = false;
-      for (int turn = 0; turn < 2 && touches[s]; turn++) {
-        double angle = fresh->mesh->angle[i] + 2.0 * M_PI * turn;
-        held = held || (angle > patch[s].angle[0] - 1e-9 && angle < patch[s].angle[1] + 1e-9);
-      }
-      *sb_ring_touch(contact, i, s) = (SbRingTouch){.held = held};
-    }
-  }
-  contact->fixed = contact->carried = fixed;
-  if (fixed) {
-    carry_slip(contact, ring->contact);
-  }
-  // The transfer moves nodes about by less than this: it turns no slip round.
-  static const double SLID = 1e-3;
-  contact->slid = SLID;
-  SbStatus status = sb_ring_newton(fresh, SB_RING_FOLLOW, report);
-  contact->fixed = contact->carried = contact->stuck = false;
-  contact->slid = 0.0;
-  // Where the turn is held its coefficient is the mesh's; one far off is another state's.
-  const double was = ring->contact->is.now.friction_bore;
-  const double change = fabs(contact->is.now.friction_bore - was);
-  if (fresh->arc.free && status == SB_OK &&
-      !(change < fmax(SAME_STATE * was, SAME_COEFFICIENT / fresh->arc.unit))) {
-    status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the finer mesh slides in another state");
-  }
-  return status;
-}
-
-// The same by way of the state of the same turn: near the greatest drag the turn hangs on the mesh
-// at a held friction.
-static SbStatus carry_turn(SbRing *fresh, const SbRing *ring, const SbRingPatch *patch,
-                           const bool *touches, SbReport *report) {
-  SbRingContact *contact = fresh->contact;
-  const double share = ring->contact->is.now.friction_bore;
-  contact->is.turn = ring->contact->is.turn;
-  sb_ring_hold_turn(fresh);
-  SbStatus status = carry_over(fresh, ring, patch, touches, true, report);
-  fresh->arc.free = false;
-  if (status == SB_OK) {
-    sb_ring_save(contact, SB_RING_START);
-    contact->is.now.friction_bore = share;
-    status = sb_ring_attempt(fresh, SB_RING_DIRECT, report);
-  }
-  return status;
-}
-
-SbStatus sb_ring_remesh(SbRing *fresh, const SbRing *ring, double element_size, double edge,
-                        SbReport *report) {
-  SbRingMeshPlan plan = empty_plan(ring, fmin(0.16, 3.2 * element_size), element_size);
-  SbRingPatch patch[SB_RING_SURFACES];
-  bool touches[SB_RING_SURFACES];
-  fresh->mesh = NULL;
-  fresh->fem = NULL;
-  fresh->contact = NULL;
-  for (int s = 0; s < SB_RING_SURFACES; s++) {
-    touches[s] = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
-    if (touches[s]) {
-      // A narrow bore contact has as many elements as one of WIDE: its load is what is wanted.
-      const double arc = sb_ring_mesh_arc(ring->mesh, patch[s].angle[0], patch[s].angle[1]);
-      double wide = s == SB_RING_BORE ? arc / WIDE : 1.0;
-      double size = element_size * fmin(1.0, fmax(NARROW_LEAST, wide));
-      // Friction on the last node includes that of the fluid beside it: short elements there, less
-      // so along a path, which stumbles over them, and none along an easy one.
-      bool slides = s == SB_RING_BORE && ring->contact->is.now.bore_slides != 0;
-      double path = ring->easy ? 1.0 : 0.15;
-      double share = edge > 0.0 ? edge : !slides ? 0.3 : ring->arc.free ? path : 0.07;
-      plan_patch(&plan, &patch[s], size, share * size);
-    }
-  }
-  SbStatus status = build(fresh, &plan, report);
-  if (status != SB_OK) {
-    drop(fresh);
-    return status;
-  }
-  SbRingContact *contact = fresh->contact;
-  const bool rubs = sb_ring_rubs(&ring->contact->is.now);
-  status = carry_over(fresh, ring, patch, touches, rubs && !fresh->arc.free, report);
-  if (status == SB_ERROR_NOT_CONVERGED && rubs) {
-    status = carry_over(fresh, ring, patch, touches, fresh->arc.free, report);
-    if (status == SB_ERROR_NOT_CONVERGED && !fresh->arc.free && contact->is.now.bore_slides != 0) {
-      status = carry_turn(fresh, ring, patch, touches, report);
-    }
-  } else if (status == SB_ERROR_NOT_CONVERGED) {
-    // Too far from the transferred state: follow the whole path again on the new mesh.
-    SbRingLoad setting = ring->contact->is.now;
-    status = sb_ring_fit_and_press(fresh, &setting, report);
-  }
-  if (status == SB_OK) {
-    status = check_apart(fresh, report);
-  }
-  if (status != SB_OK) {
-    drop(fresh);
-    return status;
-  }
-  if (fresh->arc.free) {
-    const double share = contact->is.now.friction_bore / ring->contact->is.now.friction_bore;
-    fresh->share_limit *= share;
-    fresh->drag_limit *= share;
-  }
-  fresh->fitted_size = element_size;
-  for (int k = 0; k < 2; k++) {
-    fresh->fitted_end[k] = touches[SB_RING_BORE] ? patch[SB_RING_BORE].angle[k] : NAN;
-  }
-  return SB_OK;
-}
-
-static SbStatus refit(SbRing *ring, double element_size, SbReport *report) {
-  SbRing fresh = *ring;
-  SbStatus status = sb_ring_remesh(&fresh, ring, element_size, 0.0, report);
-  if (status != SB_OK) {
-    ring->count = fresh.count;
-    return status;
-  }
-  if (ring->best.here) {
-    sb_ring_end_best(ring, false); // an older one
-    fresh.best = (SbRingBest){false, ring->mesh, ring->fem, ring->contact};
-  } else {
-    drop(ring);
-  }
-  *ring = fresh;
-  return sb_succeed(report);
-}
-
-SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
-  // A sliding ring that stumbles over single nodes of one mesh is taken over to another.
-  static const double FINER[] = {1.0, 0.93, 0.87};
-  SbStatus status = refit(ring, element_size, report);
-  for (int i = 1; i < 3 && status == SB_ERROR_NOT_CONVERGED; i++) {
-    if (ring->contact->is.now.bore_slides == 0) {
-      break;
-    }
-    status = refit(ring, FINER[i] * element_size, report);
-  }
-  return status;
-}
-
 // To steady sliding that is near; where single nodes of the mesh stand in the way, on others. The
 // ring's state stays where none helps, perhaps on another mesh.
 static SbStatus slide_at_once(SbRing *ring, const SbRingLoad *target, SbReport *report) {
@@ -645,7 +460,7 @@ static SbStatus slide_at_once(SbRing *ring, const SbRingLoad *target, SbReport *
   const double size = ring->fitted_size;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   for (int i = 0; i < (size > 0.0 ? 3 : 1) && status == SB_ERROR_NOT_CONVERGED; i++) {
-    status = i > 0 ? refit(ring, FINER[i] * size, report) : SB_OK;
+    status = i > 0 ? sb_ring_refit_once(ring, FINER[i] * size, report) : SB_OK;
     if (status == SB_OK) {
       sb_ring_save(ring->contact, SB_RING_START);
       ring->contact->is.now = *target;
@@ -675,10 +490,10 @@ static SbStatus slide_on(SbRing *ring, const SbRingLoad *target, SbReport *repor
     fresh.count.rejected++;
     status = lay_ring(&fresh, target, report);
     if (status == SB_OK) {
-      drop(ring);
+      sb_ring_drop(ring);
       *ring = fresh;
     } else {
-      drop(&fresh);
+      sb_ring_drop(&fresh);
       sb_ring_contact_settle(ring->contact);
     }
     moved = status == SB_OK && ring->fitted_size > 0.0;
@@ -707,7 +522,7 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
     status = sb_ring_press(ring, &target, report);
   }
   if (status == SB_OK) {
-    status = check_apart(ring, report);
+    status = sb_ring_check_apart(ring, report);
   }
   ring->load = status == SB_OK ? *load
                                : sb_ring_load_in(&ring->contact->is.now, 1.0 / ring->length,

@@ -102,9 +102,22 @@ bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
 enum { SB_RING_PROFILE = 321 };
 double sb_ring_profile_place(const SbDryContact *pressure, int i);
 
+// Whether the section is a circle, whose nodes go round its middle.
+bool sb_ring_is_circle(const SbRing *ring);
+
+// A mesh without zones yet; mesh, elements and contact by a plan; the end of these, which the ring
+// is then without.
+SbRingMeshPlan sb_ring_empty_plan(const SbRing *ring, double size_max, double size);
+SbStatus sb_ring_build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report);
+void sb_ring_drop(SbRing *ring);
+
+// Fails for a state whose section lies in itself or has elements that are turned over.
+SbStatus sb_ring_check_apart(const SbRing *ring, SbReport *report);
+
 // Replaces the mesh by one fitted to the present contacts and solves on it; the state before is
 // kept if that fails.
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
+SbStatus sb_ring_refit_once(SbRing *ring, double element_size, SbReport *report); // of one size
 
 // Whether a body and its load are within what is solved; else SB_ERROR_RANGE or
 // SB_ERROR_INFEASIBLE with the parameter.
