@@ -126,7 +126,7 @@ static bool keeps_path(const SbFitProblem *in) {
 // in 0.4 of the time. It then lies otherwise than after the path on small ones: of 150 random
 // rings, half of them rubbing on floor and walls, 98 in 100 by less than ENOUGH in load and width,
 // the worst by 1.6 % in load.
-static const double ENOUGH = 0.01, PATH_SIZE = 0.07;
+static const double ENOUGH = 0.01;
 
 // A ring that nothing drags has no path and is then laid anew sooner than beside another one, whose
 // mesh is finer.
@@ -177,13 +177,13 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   bool large = takes_large(in);
   if (status == SB_ERROR_NOT_CONVERGED && !tangent) {
     SbRingOptions cold = options;
-    cold.element_size = large ? PATH_SIZE : 0.0;
+    cold.element_size = large ? SB_RING_LARGE : 0.0;
     status = sb_ring_fit(&ring, &result, &body, &load, &cold, &out->warnings, report);
     if (status == SB_ERROR_NOT_CONVERGED && in->dragged && !large) {
       // Single nodes end a path, and others make another mesh's.
       SbReport own = {0};
       large = true;
-      cold.element_size = PATH_SIZE;
+      cold.element_size = SB_RING_LARGE;
       status = sb_ring_fit(&ring, &result, &body, &load, &cold, &out->warnings, &own);
       if (status != SB_ERROR_NOT_CONVERGED && report != NULL) {
         *report = own; // else what ended the path that was wanted is told

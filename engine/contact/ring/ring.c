@@ -335,7 +335,7 @@ static SbStatus tell_crease(const SbRing *ring, const SbRingLoad *target, double
 // is not theirs. A ring that barely resists rolling can stumble over single nodes of a mesh, and a
 // corner that closes turns large elements over: finer ones are tried.
 static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *report) {
-  enum { ITERATIONS_ALL = 5000 }; // after which no other path is begun
+  enum { ITERATIONS_ALL = 5000 }; // after which no other path is begun but of a circle
   static const double FINER[] = {1.0, 1.0, 0.8, 0.6, 0.4};
   const bool slides = target->bore_slides != 0 && target->friction_bore > 0.0;
   const bool smooth = target->friction_floor == 0.0 && target->friction_wall == 0.0;
@@ -346,8 +346,9 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
   const bool easy = slides && (smooth || fluid) && !ring->options.whole_law;
   const int before = ring->count.iterations;
   SbReport own = {0}, told = {0}; // of a try; of the first by the whole law, which is told
-  for (size_t i = easy ? 0 : 1; i < tries && status == SB_ERROR_NOT_CONVERGED &&
-                                ring->count.iterations - before < ITERATIONS_ALL;
+  for (size_t i = easy ? 0 : 1;
+       i < tries && status == SB_ERROR_NOT_CONVERGED &&
+       (sb_ring_is_circle(ring) || ring->count.iterations - before < ITERATIONS_ALL);
        i++) {
     ring->easy = i == 0;
     ring->soft = i == 0 && !smooth;

@@ -69,6 +69,9 @@ typedef struct {
     .land_right = HUGE_VAL, .chamfer_angle = 0.5, .edge_length = 5e-5                              \
   }
 
+// Elements of a ring that is wanted to 1 % only, over the section diameter.
+#define SB_RING_LARGE 0.07
+
 // How finely and how long. Zero fields take the defaults in brackets.
 typedef struct {
   double element_size;      // side of the contact's elements over section diameter [0.05]

@@ -215,8 +215,8 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
                : used > SLOW ? fmax(ARC_LEAST, 0.7 * length)
                              : length;
     }
-    // The last state gets its mesh once it is settled.
-    refit = refit && is->now.friction_bore < aim;
+    // The last state of a quick path gets its mesh once it is settled.
+    refit = refit && !(sb_ring_is_quick(ring) && is->now.friction_bore >= aim);
     if (refit && (status == SB_OK || status == SB_ERROR_NOT_CONVERGED)) {
       status = fit_mesh(ring, (1.0 - FINER * meshes) * ring->options.element_size, unit, report);
       fitted = ring->contact->is.turn;

@@ -20,7 +20,7 @@ static const double SIZE_LEAST = 0.008, SIZE_MOST = 0.05;
 
 // From this tolerance on the largest elements are larger: loads and widths 0.5 % from those of a
 // tolerance of 1e-3, films 1.5 % (ring-cycle).
-static const double COARSE = 0.01, SIZE_COARSE = 0.07;
+static const double COARSE = 0.01;
 
 // Of a dragged ring's load on the mesh of its path, whose elements are not the contact's
 // (measured), and where it rolls over a chamfer (5 % in one of 30).
@@ -65,7 +65,7 @@ static void estimate(SbRingResult *fine, const SbRingResult *coarse, double size
 
 double sb_ring_fit_size(const SbRingBody *body, const SbRingLoad *load, double tolerance) {
   const double size = SIZE * fmin(sqrt(tolerance / 1e-3), tolerance / load_floor(body, load));
-  return fmin(tolerance < COARSE ? SIZE_MOST : SIZE_COARSE, fmax(SIZE_LEAST, size));
+  return fmin(tolerance < COARSE ? SIZE_MOST : SB_RING_LARGE, fmax(SIZE_LEAST, size));
 }
 
 // The state of an easy path may be far from the one that is fitted: by another path where there is
