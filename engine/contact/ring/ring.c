@@ -330,10 +330,11 @@ static SbStatus tell_crease(const SbRing *ring, const SbRingLoad *target, double
                            1.0 / sqrt(SB_RING_CREASE), reason.text);
 }
 
-// An easy path comes first: it takes a part of the steps. Where floor and walls rub it leads to
-// states that hang on it by some tenths of a percent, and only under fluid is it easier; its limit
-// is not theirs. A ring that barely resists rolling can stumble over single nodes of a mesh, and a
-// corner that closes turns large elements over: finer ones are tried.
+// An easy path comes first where floor and walls do not rub, so that a state hangs on none before:
+// it takes a part of the steps. Where they rub it leads to states that hang on it by some tenths of
+// a percent, and only under fluid is it easier: it is for quick ones, and its limit is not theirs.
+// A ring that barely resists rolling can stumble over single nodes of a mesh, and a corner that
+// closes turns large elements over: finer ones are tried.
 static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *report) {
   enum { ITERATIONS_ALL = 5000 }; // after which no other path is begun but of a circle
   static const double FINER[] = {1.0, 1.0, 0.8, 0.6, 0.4};
@@ -343,7 +344,8 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
   double crease = 1.0;
   const size_t tries = sizeof FINER / sizeof FINER[0] - (sb_ring_is_circle(ring) ? 1 : 0);
   const bool fluid = target->pressure_left != target->pressure_right;
-  const bool easy = slides && (smooth || fluid) && !ring->options.whole_law;
+  const bool easy =
+      slides && !ring->options.whole_law && (smooth || (fluid && sb_ring_is_quick(ring)));
   const int before = ring->count.iterations;
   SbReport own = {0}, told = {0}; // of a try; of the first by the whole law, which is told
   for (size_t i = easy ? 0 : 1;

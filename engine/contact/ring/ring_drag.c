@@ -113,13 +113,14 @@ static SbStatus state_at(SbRing *ring, double aim, SbReport *report) {
   return sb_ring_attempt(ring, SB_RING_DIRECT, report);
 }
 
-// The next state of the path, at most the one at the wanted coefficient: that one where the step
-// would pass it, and only where there is none so the step.
+// The next state of the path, at most the one at the wanted coefficient: of a quick path that one
+// where the step would pass it, and only where there is none so the step.
 static SbStatus next_state(SbRing *ring, const double direction[2], double length, double unit,
                            double aim, SbReport *report) {
   SbRingContactState *is = &ring->contact->is;
   const double base[2] = {is->turn, unit * is->now.friction_bore};
-  if (base[1] + length * direction[1] > unit * aim && state_at(ring, aim, report) == SB_OK) {
+  if (sb_ring_is_quick(ring) && base[1] + length * direction[1] > unit * aim &&
+      state_at(ring, aim, report) == SB_OK) {
     return SB_OK;
   }
   ring->arc = (SbRingArc){true, {direction[0], direction[1]}, {base[0], base[1]}, length, unit};

@@ -218,10 +218,10 @@ SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report)
 // last one known, and what it changes by a displacement du; NULL: none. Its mean axial place.
 double sb_ring_turn(const SbRingContact *contact, const double *du, double *change, double *place);
 
-// Whether a path is to be quick rather than to go as far as it can: an easy one, which another may
-// follow, and that of a ring of large elements.
+// Whether a path is to be quick rather than to go as far as it can: that of a ring of large
+// elements.
 static inline bool sb_ring_is_quick(const SbRing *ring) {
-  return ring->easy || ring->options.element_size >= SB_RING_LARGE;
+  return ring->options.element_size >= SB_RING_LARGE;
 }
 
 // How much more softly than usual friction under fluid sets in along an easy path, and along one
