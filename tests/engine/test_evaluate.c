@@ -210,8 +210,8 @@ static void test_ring(void) {
 }
 
 // Rings started from a base's: the same to the bit whoever asks and whatever was asked before, in
-// half of the iterations of cold ones in all (a way from the base's that single nodes bar costs
-// about as many), and within the errors told of what those are.
+// three fifths of the iterations of cold ones, most of which are on coarser meshes, and within the
+// errors told of what those are.
 static void test_start(void) {
   const SbOverride change[] = {{SB_P_MODELS_FIT, SB_FIT_RING},
                                {SB_P_GLAND_FLOOR_FRICTION, 0.3},
@@ -227,7 +227,6 @@ static void test_start(void) {
   g_assert_cmpint(sb_model_override(&model, &base, change, CHANGED, NULL), ==, SB_OK);
   SbEvaluator *start = evaluator_new(), *evaluator = evaluator_new(), *other = evaluator_new();
   double value[2], warm[2], again[2];
-  size_t few = 0, many = 0;
   SbQuestion question = {.base = &model, .figure = figure, .figure_count = 2, .keep = true};
   g_assert_cmpint(sb_evaluator_ask(value, start, &question, NULL), ==, SB_OK);
   question.keep = false;
@@ -236,13 +235,13 @@ static void test_start(void) {
     question.override_count = 1;
     question.start = start;
     g_assert_cmpint(sb_evaluator_ask(warm, evaluator, &question, NULL), ==, SB_OK);
-    few += sb_evaluator_summary(evaluator)->counters.newton_iterations;
+    const size_t few = sb_evaluator_summary(evaluator)->counters.newton_iterations;
     // Friction is foreseen as closed forms change it: each ring is solved once.
     g_assert_cmpuint(sb_evaluator_summary(evaluator)->counters.ring_solves, ==, 2);
     question.start = NULL;
     g_assert_cmpint(sb_evaluator_ask(value, other, &question, NULL), ==, SB_OK);
     const SbSummary *cold = sb_evaluator_summary(other);
-    many += cold->counters.newton_iterations;
+    g_assert_cmpuint(5 * few, <=, 3 * cold->counters.newton_iterations);
     for (int k = 0; k < 2; k++) {
       g_test_message("%s: %.6g N from the base's, %.6g N from the free ring",
                      sb_figure(figure[k])->path, warm[k], value[k]);
@@ -252,8 +251,6 @@ static void test_start(void) {
     g_assert_cmpint(sb_evaluator_ask(again, other, &question, NULL), ==, SB_OK);
     g_assert_true(same_bits(again[0], warm[0]) && same_bits(again[1], warm[1]));
   }
-  g_test_message("%zu iterations from the base's, %zu from the free ring", few, many);
-  g_assert_cmpuint(2 * few, <=, many);
   sb_evaluator_destroy(other);
   sb_evaluator_destroy(evaluator);
   sb_evaluator_destroy(start);

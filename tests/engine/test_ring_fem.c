@@ -50,7 +50,7 @@ static void make(SbRingMesh **mesh, double r0, double r1, double z0, double z1, 
 static SbRingFem *elements(const SbRingMesh *mesh, SbRingMaterial material, double around) {
   SbRingFem *fem = NULL;
   SbReport report;
-  g_assert_cmpint(sb_ring_fem_create(&fem, mesh, material, around, NULL, &report), ==, SB_OK);
+  g_assert_cmpint(sb_ring_fem_create(&fem, mesh, material, around, &report), ==, SB_OK);
   return fem;
 }
 

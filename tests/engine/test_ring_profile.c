@@ -196,7 +196,7 @@ static void lip(void) {
     g_assert_cmpint(status, ==, SB_OK);
     g_assert_cmpint(result.state, ==, SB_RING_SLIDES);
     g_assert_cmpfloat(fabs(side * result.bore_drag / (0.1 * result.bore_force) - 1), <, 0.01);
-    g_assert_cmpfloat(result.error.load, <, 0.02);
+    g_assert_cmpfloat(result.error.load, <, 0.01); // no lack is told
   }
 }
 

@@ -222,15 +222,14 @@ SbStatus sb_ring_check_apart(const SbRing *ring, SbReport *report) {
   return SB_OK;
 }
 
-SbStatus sb_ring_build_on_mesh(SbRing *ring, const SbRing *like, SbReport *report) {
+SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report) {
   const SbRingBody *body = &ring->body;
   double mu = ring->stress;
   double bulk = body->modulus / (3.0 * (1.0 - 2.0 * body->poisson_ratio));
   SbRingMaterial material = {
       .c1 = 0.5 * (1.0 - body->mooney_share), .c2 = 0.5 * body->mooney_share, .bulk = bulk / mu};
   const double around = body->plane_strain ? 0.0 : body->inward ? -2.0 * M_PI : 2.0 * M_PI;
-  SbStatus status = sb_ring_fem_create(&ring->fem, ring->mesh, material, around,
-                                       like != NULL ? like->fem : NULL, report);
+  SbStatus status = sb_ring_fem_create(&ring->fem, ring->mesh, material, around, report);
   if (status == SB_OK) {
     status = sb_ring_contact_create(&ring->contact, ring->fem, report);
   }
@@ -244,7 +243,7 @@ SbStatus sb_ring_build_on_mesh(SbRing *ring, const SbRing *like, SbReport *repor
 
 SbStatus sb_ring_build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report) {
   SbStatus status = sb_ring_mesh_create(&ring->mesh, plan, report);
-  return status == SB_OK ? sb_ring_build_on_mesh(ring, NULL, report) : status;
+  return status == SB_OK ? sb_ring_build_on_mesh(ring, report) : status;
 }
 
 void sb_ring_drop(SbRing *ring) {
@@ -344,8 +343,7 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
   double crease = 1.0;
   const size_t tries = sizeof FINER / sizeof FINER[0] - (sb_ring_is_circle(ring) ? 1 : 0);
   const bool fluid = target->pressure_left != target->pressure_right;
-  const bool easy =
-      slides && !ring->options.whole_law && (smooth || (fluid && sb_ring_is_quick(ring)));
+  const bool easy = slides && (smooth || (fluid && ring->options.quick));
   const int before = ring->count.iterations;
   SbReport own = {0}, told = {0}; // of a try; of the first by the whole law, which is told
   for (size_t i = easy ? 0 : 1;
@@ -591,7 +589,7 @@ SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbRep
     return status;
   }
   status = sb_ring_mesh_mirror(&other->mesh, ring->mesh, report);
-  status = status == SB_OK ? sb_ring_build_on_mesh(other, NULL, report) : status;
+  status = status == SB_OK ? sb_ring_build_on_mesh(other, report) : status;
   if (status != SB_OK) {
     sb_ring_destroy(other);
     *out = NULL;
@@ -616,6 +614,7 @@ SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbRep
     to->crest[k] = sb_ring_wrap(ring->contact, -from->crest[k]);
     other->fitted_end[k] = -ring->fitted_end[1 - k];
   }
+  to->excess = from->excess;
   other->load = sb_ring_load_mirrored(&ring->load);
   other->load.law = law;
   sb_ring_contact_settle(other->contact);

@@ -77,7 +77,7 @@ typedef struct {
   double element_size;      // side of the contact's elements over section diameter [0.05]
   bool fit_mesh;            // after the first solution, remesh with nodes at the contact edges
   bool drawn;               // to be drawn only: the forces balance to 1e-7 of their scale
-  bool whole_law;           // a dragged ring follows no easier path at first
+  bool quick;               // a dragged ring's path, rather than as far as it can go
   bool alone;               // without pressure unless the ring touches the bore by itself
   double tolerance;         // of sb_ring_fit, relative on the load, 1e-5 .. 0.1 [1e-3]
   double wanted;            // estimate of that error above which it warns [tolerance]

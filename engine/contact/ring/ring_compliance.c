@@ -16,7 +16,6 @@
 #include "engine/numeric/legendre.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 // Tangent of the present contact pressure as a follower load that is fixed in space, as a film's
@@ -128,15 +127,12 @@ static bool find_side(const SbRing *ring, const SbRingPatch *patch, double z, in
   return false;
 }
 
-// Waves' loads or answers, [2 nodes] each; as many as are solved four at a time.
-enum { ROWS = (WAVES + SB_RING_FOUR - 1) / SB_RING_FOUR * SB_RING_FOUR };
-
-// Loads the window, from one side of the surface to another, with the inward pressures sqrt(1 -
-// z^2) U_l(z), per length of the bore's circumference so that the answers stay symmetric.
-static void load_waves(const SbRing *ring, int from, int to, double middle, double half,
-                       double *const rhs[ROWS]) {
-  const SbRingFem *fem = ring->fem;
+// Loads the window, from one side of the surface to another, with the inward pressure sqrt(1 - z^2)
+// U_l(z), per length of the bore's circumference so that the answer stays symmetric.
+static void load_wave(SbRing *ring, int from, int to, double middle, double half, int l) {
+  SbRingFem *fem = ring->fem;
   double turn = fem->around != 0.0 ? fem->around * ring->contact->is.now.bore_radius : 1.0;
+  memset(fem->rhs, 0, sizeof(double) * 2 * (size_t)fem->mesh->nodes);
   for (int side = from; side <= to; side++) {
     Side s;
     side_of(ring, side, &s);
@@ -148,39 +144,28 @@ static void load_waves(const SbRing *ring, int from, int to, double middle, doub
       double z = middle - half * cos(theta);
       double n[3], d[3];
       sb_ring_side_at(s.z, z, n, d);
-      const double share = 0.5 * (b - a) * SB_RING_W4[q] * half * sin(theta);
-      for (int l = 0; l < WAVES; l++) {
-        // U_l(-cos theta) sin(theta) = sin((l + 1)(pi - theta)).
-        double force = share * sin((l + 1) * (M_PI - theta)) * turn;
-        for (int k = 0; k < 3; k++) {
-          rhs[l][2 * fem->mesh->loop[sb_ring_wrap(ring->contact, 2 * side + k)]] -= n[k] * force;
-        }
+      // U_l(-cos theta) sin(theta) = sin((l + 1)(pi - theta)).
+      double pressure = sin((l + 1) * (M_PI - theta));
+      double force = 0.5 * (b - a) * SB_RING_W4[q] * half * sin(theta) * pressure * turn;
+      for (int k = 0; k < 3; k++) {
+        fem->rhs[2 * fem->mesh->loop[sb_ring_wrap(ring->contact, 2 * side + k)]] -= n[k] * force;
       }
     }
   }
 }
 
-// Inward displacements of the surface at fixed axial places, and its slope dr/dz there.
-static void read_waves(const SbRing *ring, const SbRingPatch *patch, double middle, double half,
-                       double *const du[ROWS], double value[WAVES][SB_COMPLIANCE_MODES],
-                       double *slope) {
+// Inward displacement of the surface at fixed axial places, and its slope dr/dz there.
+static void read_wave(const SbRing *ring, const SbRingPatch *patch, double middle, double half,
+                      double *value, double *slope) {
   for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {
     double z = middle - half * cos(M_PI * (i + 0.5) / SB_COMPLIANCE_MODES), n[3], d[3];
     int side;
     Side s;
-    const bool found = find_side(ring, patch, z, &side, &s);
-    slope[i] = 0.0;
-    if (found) {
+    value[i] = slope[i] = 0.0;
+    if (find_side(ring, patch, z, &side, &s)) {
       sb_ring_side_at(s.z, z, n, d);
       slope[i] = sb_ring_side_sum(d, s.r) / sb_ring_side_sum(d, s.z);
-    }
-    for (int l = 0; l < WAVES; l++) {
-      for (int a = 0; a < 3 && found; a++) {
-        const int node = ring->fem->mesh->loop[sb_ring_wrap(ring->contact, 2 * side + a)];
-        s.dr[a] = du[l][2 * node];
-        s.dz[a] = du[l][2 * node + 1];
-      }
-      value[l][i] = found ? slope[i] * sb_ring_side_sum(n, s.dz) - sb_ring_side_sum(n, s.dr) : 0.0;
+      value[i] = slope[i] * sb_ring_side_sum(n, s.dz) - sb_ring_side_sum(n, s.dr);
     }
   }
 }
@@ -265,32 +250,6 @@ static SbStatus dry_gap(const SbRing *ring, SbRingPatch *patch, SbSurfaceComplia
   return sb_fail(report, SB_ERROR_NOT_CONVERGED, "no smooth gap gives the ring's contact pressure");
 }
 
-// What all waves move the surface by.
-static SbStatus answer_waves(SbRing *ring, const SbRingPatch *patch, int from, int to,
-                             double middle, double half, double answer[WAVES][SB_COMPLIANCE_MODES],
-                             double slope[SB_COMPLIANCE_MODES], SbReport *report) {
-  SbRingFem *fem = ring->fem;
-  const size_t n = 2 * (size_t)fem->mesh->nodes;
-  double *room = calloc(2 * ROWS * n, sizeof *room), *rhs[ROWS], *du[ROWS];
-  if (room == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a ring's surface");
-  }
-  for (int k = 0; k < ROWS; k++) {
-    rhs[k] = room + (size_t)k * n;
-    du[k] = room + (size_t)(ROWS + k) * n;
-  }
-  load_waves(ring, from, to, middle, half, rhs);
-  SbStatus status = SB_OK;
-  for (int first = 0; first < ROWS && status == SB_OK; first += SB_RING_FOUR) {
-    status = sb_ring_fem_apply_four(fem, rhs + first, du + first, report);
-  }
-  if (status == SB_OK) {
-    read_waves(ring, patch, middle, half, du, answer, slope);
-  }
-  free(room);
-  return status;
-}
-
 // The surface over a window of one reach.
 static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
                              SbSurfaceCompliance *out, SbReport *report) {
@@ -308,10 +267,10 @@ static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
   double answer[WAVES][SB_COMPLIANCE_MODES], slope[SB_COMPLIANCE_MODES];
   double unit = ring->length / ring->stress; // of displacement per pressure
   double length = half * ring->length, up = 0.0, down = 0.0;
-  if (status == SB_OK) {
-    status = answer_waves(ring, &patch, from, to, middle, half, answer, slope, report);
-  }
   for (int l = 0; l < WAVES && status == SB_OK; l++) {
+    load_wave(ring, from, to, middle, half, l);
+    status = sb_ring_fem_apply_factor(ring->fem, report);
+    read_wave(ring, &patch, middle, half, answer[l], slope);
     double plane[SB_COMPLIANCE_MODES];
     half_plane(length, l, plane);
     for (int i = 0; i < SB_COMPLIANCE_MODES; i++) {

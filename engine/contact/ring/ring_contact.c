@@ -38,10 +38,11 @@ static const double PULL = 1e-3;
 // Under fluid a node at the end of a contact would bear friction of the fluid's pressure at once
 // when it is caught, and could have no state: held it is pulled, let go it comes back. Its friction
 // sets in smoothly over the first excess of its pressure over the fluid's, by this share of that,
-// or of WET_MOST shear moduli if those are less. The drag then is the law's integral over the
-// recovered pressure to 0.3 % (tests/engine); on a path, whose states lead to others only, to some
-// percent. On an easy path it sets in more softly, so that hardly a node is without a state: too
-// softly to tell a limit.
+// or of WET_MOST shear moduli if those are less; of a section with several crests, of what its
+// whole contact exceeds the fluid by, if that is less: a flat lip may nowhere exceed it by more.
+// The drag then is the law's integral over the recovered pressure to 0.3 % (tests/engine); on a
+// path, whose states lead to others only, to some percent. On an easy path it sets in more softly,
+// so that hardly a node is without a state: too softly to tell a limit.
 static const double WET = 0.15, WET_MOST = 0.7;
 
 // Neighbours at the end of a contact can come and go in turn for ever: a node that was caught or
@@ -58,7 +59,7 @@ SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *r
   contact->fem = fem;
   contact->count = (int)n;
   contact->force_scale = contact->onset = 1.0;
-  contact->excess = INFINITY;
+  contact->is.excess = INFINITY;
   contact->is.touch = calloc(3 * n * SB_RING_SURFACES, sizeof(SbRingTouch)); // and the saved ones
   contact->closed = calloc(n, sizeof(bool));
   contact->share = calloc(8 * n, sizeof(double)); // and what follows it
@@ -128,7 +129,7 @@ SbRingGrip sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surfa
     grip.by_area = (grip.force - grip.by_normal * normal) / area;
   }
   if (surface == SB_RING_BORE && now->bore_slides != 0 && fluid > 0.0) {
-    const double most = fmin(WET_MOST, contact->excess);
+    const double most = fmin(WET_MOST, contact->is.excess);
     const bool high = fluid > most * area;
     const double over = contact->onset * WET * (high ? most * area : fluid);
     const double share = fmax(0.0, (normal - fluid) / over);
@@ -142,16 +143,6 @@ SbRingGrip sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surfa
     }
   }
   return grip;
-}
-
-double sb_ring_contact_excess(const SbRingContact *contact) {
-  const SbRingLoad *now = &contact->is.now;
-  double most = 0.0;
-  for (int i = 0; i < contact->count; i += 2) {
-    const SbRingTouch *touch = sb_ring_touch(contact, i, SB_RING_BORE);
-    most = fmax(most, touch->held ? touch->force / fmax(contact->weight[i], 1e-30) : 0.0);
-  }
-  return most - fmax(now->pressure_left, now->pressure_right);
 }
 
 // The most that friction bears at a node under its present normal force.
@@ -473,10 +464,25 @@ double sb_ring_contact_limit(const SbRingContact *contact) {
   return step;
 }
 
+// Takes the bore's excess over the fluid from the last state on this mesh, if it has one.
+static void renew_excess(SbRingContact *contact) {
+  const SbRingLoad *now = &contact->is.now;
+  double most = 0.0;
+  for (int i = 0; i < contact->count; i += 2) {
+    const SbRingTouch *touch = sb_ring_touch(contact, i, SB_RING_BORE);
+    if (touch->held && contact->weight[i] > 0.0) {
+      most = fmax(most, touch->force / contact->weight[i]);
+    }
+  }
+  const double excess = most - fmax(now->pressure_left, now->pressure_right);
+  contact->is.excess = excess > 0.0 ? excess : contact->is.excess;
+}
+
 void sb_ring_contact_begin(SbRingContact *contact) {
   contact->unsteady = -1;
-  const double excess = sb_ring_contact_excess(contact);
-  contact->excess = contact->lobes && excess > 0.0 ? excess : contact->excess;
+  if (contact->lobes) {
+    renew_excess(contact);
+  }
   for (int i = 0; i < SB_RING_SURFACES * contact->count; i++) {
     contact->is.touch[i].flips = contact->is.touch[i].catches = 0;
     contact->is.touch[i].smooth = false;

@@ -44,6 +44,8 @@ typedef struct {
   SbRingLoad now;     // where the surfaces stand and what acts, once per load step
   double turn;        // of the section since it was free, from +r towards +z, unwrapped, rad
   int crest[2];       // boundary nodes of bore and floor between which the fluids change sides
+  double excess;      // of the bore's greatest pressure over the fluid, in shear moduli, where the
+                      // last solve of a lobed section began; else infinite
   SbRingTouch *touch; // [count][SB_RING_SURFACES]
 } SbRingContactState;
 
@@ -68,7 +70,6 @@ typedef struct {
   bool stuck;         // that is, every held node stays at its place
   bool passed;        // nodes that come and go stay held against a small pull
   double onset;       // of friction under fluid, over the usual one
-  double excess;      // of a lobed section's contact when a solve began; else infinite
   double slid;        // how far sliding nodes may go back before they stick: what they came
   double slip_excess; // departure from Coulomb's law at nodes that could not settle
   double force_scale; // for tolerances
@@ -155,9 +156,6 @@ void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressur
 
 // What the share of a side's node `a` of its area changes with the places of its nodes.
 void sb_ring_side_area_slope(const SbRingContact *contact, int side, int a, double slope[3][2]);
-
-// The greatest pressure of the bore's contact above the higher fluid's, in shear moduli.
-double sb_ring_contact_excess(const SbRingContact *contact);
 
 // Friction force of the whole law of a surface at a boundary node (of Coulomb's with a coefficient
 // of 1) under a normal force, of which the fluid has a part, and what it changes with both and with

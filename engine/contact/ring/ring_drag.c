@@ -119,7 +119,7 @@ static SbStatus next_state(SbRing *ring, const double direction[2], double lengt
                            double aim, SbReport *report) {
   SbRingContactState *is = &ring->contact->is;
   const double base[2] = {is->turn, unit * is->now.friction_bore};
-  if (sb_ring_is_quick(ring) && base[1] + length * direction[1] > unit * aim &&
+  if (ring->options.quick && base[1] + length * direction[1] > unit * aim &&
       state_at(ring, aim, report) == SB_OK) {
     return SB_OK;
   }
@@ -217,7 +217,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
                              : length;
     }
     // The last state of a quick path gets its mesh once it is settled.
-    refit = refit && !(sb_ring_is_quick(ring) && is->now.friction_bore >= aim);
+    refit = refit && !(ring->options.quick && is->now.friction_bore >= aim);
     if (refit && (status == SB_OK || status == SB_ERROR_NOT_CONVERGED)) {
       status = fit_mesh(ring, (1.0 - FINER * meshes) * ring->options.element_size, unit, report);
       fitted = ring->contact->is.turn;

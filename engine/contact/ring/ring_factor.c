@@ -26,7 +26,7 @@ struct SbRingFactor {
   double *lower, *upper;  // [BLOCK start[nodes]]
   double *inverse;        // [BLOCK nodes] of the pivots
   double *below, *beside; // [BLOCK nodes] the column and the row in work
-  double *work;           // [8 nodes]
+  double *work;           // [2 nodes]
 };
 
 void sb_ring_factor_destroy(SbRingFactor *factor) {
@@ -166,7 +166,7 @@ SbRingFactor *sb_ring_factor_like(const SbRingFactor *factor) {
 // Room for the numbers.
 static bool make_room(SbRingFactor *f) {
   const size_t n = (size_t)f->nodes, filled = (size_t)f->start[n];
-  f->lower = malloc(sizeof(double) * (BLOCK * (2 * filled + 3 * n) + 2 * SB_RING_FOUR * n));
+  f->lower = malloc(sizeof(double) * (BLOCK * (2 * filled + 3 * n) + 2 * n));
   if (f->lower == NULL) {
     return false;
   }
@@ -299,58 +299,5 @@ void sb_ring_factor_solve(SbRingFactor *f, double *x, const double *b) {
   for (int i = 0; i < n; i++) {
     x[2 * f->order[i]] = y[2 * i];
     x[2 * f->order[i] + 1] = y[2 * i + 1];
-  }
-}
-
-// The same operations for each of the four as for one.
-SB_QUAD_INLINE void solve_four(const SbRingFactor *f, SbQuadAt *y) {
-  for (int j = 0; j < f->nodes; j++) {
-    const SbQuad y0 = y[2 * j], y1 = y[2 * j + 1];
-    for (int k = f->start[j]; k < f->start[j + 1]; k++) {
-      const double *l = &f->lower[BLOCK * k];
-      y[2 * f->row[k]] -= l[0] * y0 + l[1] * y1;
-      y[2 * f->row[k] + 1] -= l[2] * y0 + l[3] * y1;
-    }
-  }
-  for (int j = f->nodes - 1; j >= 0; j--) {
-    SbQuad y0 = y[2 * j], y1 = y[2 * j + 1];
-    for (int k = f->start[j]; k < f->start[j + 1]; k++) {
-      const double *u = &f->upper[BLOCK * k];
-      const SbQuadAt *z = &y[2 * f->row[k]];
-      y0 -= u[0] * z[0] + u[1] * z[1];
-      y1 -= u[2] * z[0] + u[3] * z[1];
-    }
-    const double *inverse = &f->inverse[BLOCK * j];
-    y[2 * j] = inverse[0] * y0 + inverse[1] * y1;
-    y[2 * j + 1] = inverse[2] * y0 + inverse[3] * y1;
-  }
-}
-
-SB_QUAD_WIDE static void solve_four_wide(const SbRingFactor *f, SbQuadAt *y) {
-  solve_four(f, y);
-}
-
-static void solve_four_any(const SbRingFactor *f, SbQuadAt *y) {
-  solve_four(f, y);
-}
-
-void sb_ring_factor_solve_four(SbRingFactor *f, double *const x[SB_RING_FOUR]) {
-  double *y = f->work;
-  for (int i = 0; i < 2 * f->nodes; i++) {
-    const int from = 2 * f->order[i / 2] + i % 2;
-    for (int k = 0; k < SB_RING_FOUR; k++) {
-      y[SB_RING_FOUR * i + k] = x[k][from];
-    }
-  }
-  if (sb_quad_wide()) {
-    solve_four_wide(f, (SbQuadAt *)y);
-  } else {
-    solve_four_any(f, (SbQuadAt *)y);
-  }
-  for (int i = 0; i < 2 * f->nodes; i++) {
-    const int to = 2 * f->order[i / 2] + i % 2;
-    for (int k = 0; k < SB_RING_FOUR; k++) {
-      x[k][to] = y[SB_RING_FOUR * i + k];
-    }
   }
 }

@@ -31,7 +31,3 @@ SB_CHECKED bool sb_ring_factor_compute(SbRingFactor *factor, const double *value
 
 // x[2 nodes] = A^-1 b; x may be b. Allocates nothing.
 void sb_ring_factor_solve(SbRingFactor *factor, double *x, const double *b);
-
-// The same for four at once, each x[k] in the place of its b: to the bit, in half of the time.
-enum { SB_RING_FOUR = 4 };
-void sb_ring_factor_solve_four(SbRingFactor *factor, double *const x[SB_RING_FOUR]);

@@ -111,7 +111,7 @@ static bool point_geometry(const SbRingFem *fem, int element, double l1, double 
 }
 
 SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMaterial material,
-                            double around, const SbRingFem *like, SbReport *report) {
+                            double around, SbReport *report) {
   *out = NULL;
   SbRingFem *fem = calloc(1, sizeof *fem);
   if (fem == NULL) {
@@ -125,12 +125,9 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->u = calloc(4 * state + 11 * n, sizeof(double)); // and what follows it
   fem->condition = calloc(n, sizeof(SbRingCondition));
   fem->work_int = calloc(n, sizeof(int));
-  const size_t points = sizeof(double) * POINT_SIZE * SB_RING_FEM_POINTS * m;
-  const bool same = like != NULL && like->around == around &&
-                    memcmp(like->mesh->x, mesh->x, sizeof(double) * 2 * n) == 0;
-  fem->points = same ? sb_ring_shared_take(like->points) : sb_ring_shared_create(points);
+  fem->gauss = malloc(sizeof(double) * POINT_SIZE * SB_RING_FEM_POINTS * m);
   fem->condensed = calloc(INNER * RIGHT * m, sizeof(double));
-  if (fem->u == NULL || fem->condition == NULL || fem->work_int == NULL || fem->points == NULL ||
+  if (fem->u == NULL || fem->condition == NULL || fem->work_int == NULL || fem->gauss == NULL ||
       fem->condensed == NULL) {
     sb_ring_fem_destroy(fem);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's elements");
@@ -145,15 +142,10 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   fem->mass = fem->residual + 6 * n;
   fem->du_path = fem->residual + 7 * n;
   fem->left = fem->residual + 9 * n;
-  double *gauss = fem->points->data;
-  fem->gauss = gauss;
-  if (same) {
-    memcpy(fem->mass, like->mass, sizeof(double) * n);
-  }
-  for (int e = 0; e < mesh->elements && !same; e++) {
+  for (int e = 0; e < mesh->elements; e++) {
     for (int q = 0; q < SB_RING_FEM_POINTS; q++) {
       if (!point_geometry(fem, e, POINT[q][0], POINT[q][1], POINT[q][2],
-                          &gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q)])) {
+                          &fem->gauss[POINT_SIZE * (SB_RING_FEM_POINTS * e + q)])) {
         sb_ring_fem_destroy(fem);
         return sb_fail(report, SB_ERROR_RANGE, "the ring's mesh crosses the axis or is inverted");
       }
@@ -163,7 +155,7 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
       }
     }
   }
-  SbStatus status = sb_ring_sparse_create(fem, like, report);
+  SbStatus status = sb_ring_sparse_create(fem, report);
   if (status != SB_OK) {
     sb_ring_fem_destroy(fem);
     return status;
@@ -172,33 +164,14 @@ SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMater
   return sb_succeed(report);
 }
 
-SbRingShared *sb_ring_shared_create(size_t size) {
-  SbRingShared *shared = malloc(sizeof *shared + size);
-  if (shared != NULL) {
-    atomic_init(&shared->users, 1);
-  }
-  return shared;
-}
-
-SbRingShared *sb_ring_shared_take(SbRingShared *shared) {
-  atomic_fetch_add(&shared->users, 1);
-  return shared;
-}
-
-void sb_ring_shared_leave(SbRingShared *shared) {
-  if (shared != NULL && atomic_fetch_sub(&shared->users, 1) == 1) {
-    free(shared);
-  }
-}
-
 void sb_ring_fem_destroy(SbRingFem *fem) {
   if (fem == NULL) {
     return;
   }
   sb_ring_factor_destroy(fem->factor);
-  sb_ring_shared_leave(fem->points);
-  sb_ring_shared_leave(fem->pattern);
-  void *owned[] = {fem->u, fem->condition, fem->work_int, fem->condensed, fem->value, fem->raw};
+  void *owned[] = {fem->u,         fem->condition, fem->work_int, fem->gauss,
+                   fem->condensed, fem->row_start, fem->column,   fem->value,
+                   fem->raw,       fem->scatter,   fem->diagonal, fem->hollow};
   for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
     free(owned[i]);
   }
@@ -324,8 +297,7 @@ SB_QUAD_INLINE void add_stiffness(System *s, const double a[5][5], const SbQuad 
   }
 }
 
-// False if the element is turned inside out. Of its tangent without that of the nodes by each
-// other, where only the balance is wanted.
+// False if the element is turned inside out. `balance`: of its tangent only what the bubble enters.
 SB_QUAD_INLINE bool element_system(SbRingFem *fem, int e, System *s, bool balance) {
   double local[2 * SHAPES];
   gather(fem, e, local);
@@ -480,9 +452,7 @@ static bool add_elements(SbRingFem *fem) {
 
 bool sb_ring_fem_assemble(SbRingFem *fem) {
   const SbRingMesh *mesh = fem->mesh;
-  if (!fem->balance_only) {
-    memset(fem->value, 0, sizeof(double) * SB_RING_BLOCK * (size_t)fem->row_start[mesh->nodes]);
-  }
+  memset(fem->value, 0, sizeof(double) * SB_RING_BLOCK * (size_t)fem->row_start[mesh->nodes]);
   memset(fem->residual, 0, sizeof(double) * 2 * (size_t)mesh->nodes);
   fem->residual_inner = fem->volume = 0.0;
   fem->det_min = INFINITY;
@@ -493,12 +463,12 @@ bool sb_ring_fem_assemble(SbRingFem *fem) {
   for (int i = 0; i < mesh->nodes && stiffness > 0.0; i++) {
     double drift = fem->u[2 * i + 1] - fem->saved[1][2 * i + 1] - fem->axial_rest;
     fem->residual[2 * i + 1] += fem->axial_spring * drift;
-    sb_ring_fem_add(fem, i, 1, i, 1, stiffness);
+    fem->value[SB_RING_BLOCK * fem->diagonal[i] + 3] += stiffness;
   }
   for (int i = 0; i < 2 * mesh->nodes && fem->viscosity > 0.0; i++) {
     double resistance = fem->viscosity * fem->mass[i / 2];
     fem->residual[i] += resistance * (fem->u[i] - fem->saved[1][i]);
-    sb_ring_fem_add(fem, i / 2, i % 2, i / 2, i % 2, resistance);
+    fem->value[SB_RING_BLOCK * fem->diagonal[i / 2] + 3 * (i % 2)] += resistance;
   }
   return true;
 }

@@ -9,7 +9,6 @@
 #include "engine/contact/ring/ring_factor.h"
 #include "engine/contact/ring/ring_mesh.h"
 
-#include <stdatomic.h>
 #include <stdbool.h>
 
 enum { SB_RING_FEM_POINTS = 7, SB_RING_INNER = 5 };
@@ -26,12 +25,6 @@ typedef struct {
 // length along x, r or z by `axis` (a curved surface): dn/dx = curve t, dt/dx = -curve n. `drive`
 // changes with the places of the nodes `beside`.
 enum { SB_RING_BESIDE = 5 };
-
-// What several states on meshes of the same elements have in common: an array with its users.
-typedef struct {
-  atomic_int users;
-  double data[];
-} SbRingShared;
 typedef struct {
   int count;
   double direction[2][2];
@@ -66,19 +59,15 @@ struct SbRingFem {
   double det_min;        // least det F at the last assembly
   double volume;         // deformed, at the last assembly; the area in the plane
 
-  bool balance_only; // what is assembled has no tangent: nothing can be solved with it
+  bool balance_only; // what is assembled has no tangent of the nodes: nothing is solved with it
 
-  // Private: quadrature data, condensation, sparse rows, factor. Rows and, at the same places,
-  // quadrature data are one for all states on meshes of the same elements.
-  SbRingShared *points, *pattern;
-  const double *gauss;
-  double *condensed;
-  const int *row_start, *column, *scatter, *diagonal;
+  // Private: quadrature data, condensation, sparse rows, factor.
+  double *gauss, *condensed;
+  int *row_start, *column, *scatter, *diagonal;
   double *value, *raw, *rhs, *left;
   SbRingFactor *factor;
   int *work_int; // [nodes] scratch
-  const int
-      *hollow; // [loop_count] number of the hollow that a boundary node lies in or by; 0: none
+  int *hollow;   // [loop_count] number of the hollow that a boundary node lies in or by; 0: none
 };
 
 // Deformed place (r, z) of a node.
@@ -87,10 +76,9 @@ static inline void sb_ring_fem_place(const SbRingFem *fem, int node, double x[2]
   x[1] = fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1];
 }
 
-// Owned, free with sb_ring_fem_destroy; keeps `mesh` borrowed. The state is zero. `like` has a mesh
-// of the same elements, perhaps at other places, which saves finding out what they share; or NULL.
+// Owned, free with sb_ring_fem_destroy; keeps `mesh` borrowed. The state is zero.
 SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMaterial material,
-                            double around, const SbRingFem *like, SbReport *report);
+                            double around, SbReport *report);
 void sb_ring_fem_destroy(SbRingFem *fem);
 
 // For create only: numbers the hollows of the free section, [loop_count]; 0 where a node lies in
@@ -98,12 +86,7 @@ void sb_ring_fem_destroy(SbRingFem *fem);
 void sb_ring_hollows(int *hollow, const SbRingMesh *mesh);
 
 // For create only: the sparse pattern and room for its factors.
-SbStatus sb_ring_sparse_create(SbRingFem *fem, const SbRingFem *like, SbReport *report);
-
-// Room for an array of `size` bytes with one user, NULL without memory; one more and one less user.
-SbRingShared *sb_ring_shared_create(size_t size);
-SbRingShared *sb_ring_shared_take(SbRingShared *shared);
-void sb_ring_shared_leave(SbRingShared *shared); // takes NULL
+SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report);
 
 // Residual and condensed tangent of the elements at the current state (external terms are added by
 // the caller afterwards). False if some point is turned inside out (det F <= 0).
@@ -119,10 +102,6 @@ SbStatus sb_ring_fem_solve(SbRingFem *fem, SbReport *report);
 // and gaps) and factorises; solves du for the present rhs. SB_ERROR_NOT_CONVERGED if singular.
 SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report);
 SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, SbReport *report);
-
-// The same for four right-hand sides at once, [2 nodes] each, with the bits of each by itself.
-SbStatus sb_ring_fem_apply_four(SbRingFem *fem, double *const rhs[SB_RING_FOUR],
-                                double *const du[SB_RING_FOUR], SbReport *report);
 
 // The force R + K du that a conditioned node receives after the step, by the linear model.
 void sb_ring_fem_reaction(const SbRingFem *fem, int node, double force[2]);

@@ -70,12 +70,11 @@ double sb_ring_fit_size(const SbRingBody *body, const SbRingLoad *load, double t
 
 // The state of an easy path may be far from the one that is fitted: by another path where there is
 // one, fitted to its contacts too.
-static SbStatus by_whole_law(SbRing **ring, double size, const SbRingOptions *options,
-                             SbReport *report) {
-  SbRingOptions whole = *options;
+static SbStatus slowly(SbRing **ring, double size, const SbRingOptions *options, SbReport *report) {
+  SbRingOptions slow = *options;
   SbRing *other;
-  whole.whole_law = true;
-  SbStatus status = sb_ring_create(&other, &(*ring)->body, &(*ring)->load, &whole, report);
+  slow.quick = false;
+  SbStatus status = sb_ring_create(&other, &(*ring)->body, &(*ring)->load, &slow, report);
   if (status == SB_OK) {
     sb_ring_destroy(*ring);
     *ring = other;
@@ -114,7 +113,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   }
   status = sb_ring_refit(ring, size / RATIO, report);
   if (status == SB_ERROR_NOT_CONVERGED && ring->soft) {
-    status = by_whole_law(&ring, size / RATIO, &first, report);
+    status = slowly(&ring, size / RATIO, &first, report);
   }
   const double off = load->wall_chamfer > 0.0 ? UNFITTED_CHAMFER : UNFITTED;
   const double unfitted = status != SB_OK && load->bore_slides != 0 ? off : 0.0;

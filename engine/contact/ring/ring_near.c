@@ -135,6 +135,7 @@ static void lay_alike(SbRing *to, const SbRing *from, const SbRingLoad *target,
          sizeof *is->touch * SB_RING_SURFACES * (size_t)to->contact->count);
   is->turn = from->contact->is.turn;
   memcpy(is->crest, from->contact->is.crest, sizeof is->crest);
+  is->excess = from->contact->is.excess;
 }
 
 // Shifts a copy of a ring's mesh.
@@ -290,7 +291,7 @@ SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
       other->fitted_end[k] += sb_ring_shift_angle(shift, ring->fitted_end[k]);
     }
   }
-  status = status == SB_OK ? sb_ring_build_on_mesh(other, ring, report) : status;
+  status = status == SB_OK ? sb_ring_build_on_mesh(other, report) : status;
   if (status != SB_OK) {
     sb_ring_destroy(other);
     return status;

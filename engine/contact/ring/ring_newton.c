@@ -46,8 +46,8 @@ enum { REPEATS_MAX = 6 };
 // With a steady contact the residual falls at every iteration but where a node's friction sets in
 // or its law bends: there it can go round between two or three values for ever, and after so many
 // iterations that do not bring it to this share of the least since the contact is steady, it does.
-// Half a step may lead out of it where the residual is not rounding: more often than not, so that
-// only what is quick takes it.
+// Half a step leads out of it more often than not where the residual is not rounding; some rings
+// lose their path by it, so that only quick ones take it.
 static const double FALLS = 0.5, BENDS = 1e-7;
 enum { ROUND_MAX = 4 };
 
@@ -236,7 +236,7 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
     double length = largest(fem->du, 2 * fem->mesh->nodes);
     step = length > CORRECTION_MAX ? CORRECTION_MAX / length : 1.0;
     step = fmin(step, sb_ring_contact_limit(contact));
-    step *= sb_ring_is_quick(ring) && rounds > 0 && residual > BENDS ? 0.5 : 1.0;
+    step *= ring->options.quick && rounds > 0 && residual > BENDS ? 0.5 : 1.0;
     sb_ring_fem_save(fem, 0);
     sb_ring_fem_advance(fem, step);
     contact->is.now.friction_bore = friction + step * change;

@@ -127,9 +127,9 @@ SbStatus sb_ring_check(const SbRingBody *body, const SbRingLoad *load, SbReport 
 void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *load);
 
 // A ring beside another of the same body, owned, without a mesh yet; elements and contact on its
-// mesh once it has one, of the same elements as that of `like`, or NULL. SB_ERROR_MEMORY.
+// mesh once it has one. SB_ERROR_MEMORY.
 SbStatus sb_ring_beside(SbRing **out, const SbRing *ring, SbReport *report);
-SbStatus sb_ring_build_on_mesh(SbRing *ring, const SbRing *like, SbReport *report);
+SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report);
 
 // Whether the bore contact's ends have left the short elements that its mesh has for them: moved by
 // more than `most` of the size of the others.
@@ -217,12 +217,6 @@ SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report)
 // The turn of the section since it was free, that of all which look the same that is nearest to the
 // last one known, and what it changes by a displacement du; NULL: none. Its mean axial place.
 double sb_ring_turn(const SbRingContact *contact, const double *du, double *change, double *place);
-
-// Whether a path is to be quick rather than to go as far as it can: that of a ring of large
-// elements.
-static inline bool sb_ring_is_quick(const SbRing *ring) {
-  return ring->options.element_size >= SB_RING_LARGE;
-}
 
 // How much more softly than usual friction under fluid sets in along an easy path, and along one
 // beside friction on floor and walls.

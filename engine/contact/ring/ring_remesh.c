@@ -55,7 +55,7 @@ static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch 
   contact->is.now = ring->contact->is.now;
   contact->is.turn = ring->contact->is.turn;
   sb_ring_fem_save(fresh->fem, SB_RING_START);
-  contact->excess = ring->contact->excess;
+  contact->is.excess = ring->contact->is.excess;
   for (int i = 0; i < contact->count; i++) {
     for (int s = 0; s < SB_RING_SURFACES; s++) {
       bool held = false;
@@ -80,8 +80,8 @@ static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch 
   const double was = ring->contact->is.now.friction_bore;
   const double change = fabs(contact->is.now.friction_bore - was);
   if (fresh->arc.free && status == SB_OK &&
-      !(change < fmax(SAME_STATE * was,
-                      sb_ring_is_quick(ring) ? SAME_COEFFICIENT / fresh->arc.unit : 0.0))) {
+      !(change <
+        fmax(SAME_STATE * was, ring->options.quick ? SAME_COEFFICIENT / fresh->arc.unit : 0.0))) {
     status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the finer mesh slides in another state");
   }
   return status;
@@ -123,7 +123,7 @@ SbStatus sb_ring_remesh(SbRing *fresh, const SbRing *ring, double element_size, 
       // Friction on the last node includes that of the fluid beside it: short elements there, less
       // so along a path, which stumbles over them, and none along an easy one.
       bool slides = s == SB_RING_BORE && ring->contact->is.now.bore_slides != 0;
-      double path = ring->easy && sb_ring_is_quick(ring) ? 1.0 : 0.15;
+      double path = ring->easy && ring->options.quick ? 1.0 : 0.15;
       double share = edge > 0.0 ? edge : !slides ? 0.3 : ring->arc.free ? path : 0.07;
       plan_patch(&plan, &patch[s], size, share * size);
     }

@@ -16,47 +16,36 @@ static const double RESIDUAL_MOST = 1e-11;
 enum { REFINEMENTS = 3 };
 
 // Node neighbours, where each element's blocks go, where the diagonal blocks are.
-// Where a pattern's arrays are in what is shared.
-static void point_to(SbRingFem *fem, int *at) {
-  const size_t nodes = (size_t)fem->mesh->nodes, loop = (size_t)fem->mesh->loop_count;
-  fem->row_start = at;
-  fem->diagonal = at + nodes + 1;
-  fem->hollow = at + 2 * nodes + 1;
-  fem->scatter = at + 2 * nodes + 1 + loop + 1;
-  fem->column = fem->scatter + 36 * (size_t)fem->mesh->elements;
-}
-
-static SbStatus find_pattern(SbRingFem *fem, SbReport *report) {
+SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
   const SbRingMesh *mesh = fem->mesh;
   size_t nodes = (size_t)mesh->nodes, corners = 6 * (size_t)mesh->elements;
-  size_t loop = (size_t)mesh->loop_count;
-  // The elements' corners at each node, as lists; of a row's neighbours, which row last had each
-  // and where.
-  int *hollow = malloc(sizeof(int) * (loop + 1 + corners + 4 * nodes));
-  if (hollow == NULL) {
+  fem->hollow = malloc(sizeof(int) * ((size_t)mesh->loop_count + 1));
+  if (fem->hollow == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
   }
-  int *next = hollow + loop + 1, *first = next + corners, *seen = first + nodes;
-  int *place = seen + nodes, at = 0;
-  int *by = place + nodes; // its place on the boundary, -1: inside
-  sb_ring_hollows(hollow, mesh);
+  sb_ring_hollows(fem->hollow, mesh);
   // Room for rows in which each element has its own blocks, though neighbours share theirs; and
   // for those of nodes in one hollow, which may touch.
   size_t most = 6 * corners;
   for (int i = 0; i < mesh->loop_count; i++) {
-    for (int k = 0; k < mesh->loop_count && hollow[i] != 0; k++) {
-      most += hollow[k] == hollow[i] ? 1 : 0;
+    for (int k = 0; k < mesh->loop_count && fem->hollow[i] != 0; k++) {
+      most += fem->hollow[k] == fem->hollow[i] ? 1 : 0;
     }
   }
-  fem->pattern = sb_ring_shared_create(sizeof(int) * (2 * nodes + 2 + loop + 6 * corners + most));
-  if (fem->pattern == NULL) {
-    free(hollow);
+  fem->row_start = malloc(sizeof(int) * (nodes + 1));
+  fem->scatter = malloc(sizeof(int) * most);
+  fem->diagonal = malloc(sizeof(int) * nodes);
+  fem->column = malloc(sizeof(int) * most);
+  // The elements' corners at each node, as lists; of a row's neighbours, which row last had each
+  // and where.
+  int *next = malloc(sizeof(int) * (corners + 4 * nodes));
+  int *first = next + corners, *seen = first + nodes, *place = seen + nodes, at = 0;
+  int *by = place + nodes; // its place on the boundary, -1: inside
+  if (fem->row_start == NULL || fem->scatter == NULL || fem->diagonal == NULL ||
+      fem->column == NULL || next == NULL) {
+    free(next);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
   }
-  int *row_start = (int *)fem->pattern->data, *diagonal = row_start + nodes + 1;
-  int *scatter = diagonal + nodes + loop + 1, *column = scatter + 6 * corners;
-  point_to(fem, row_start);
-  memcpy(diagonal + nodes, hollow, sizeof(int) * (loop + 1));
   memset(first, -1, sizeof(int) * 2 * nodes);
   memset(by, -1, sizeof(int) * nodes);
   for (int i = 0; i < mesh->loop_count; i++) {
@@ -67,52 +56,39 @@ static SbStatus find_pattern(SbRingFem *fem, SbReport *report) {
     first[mesh->tri[i]] = i;
   }
   for (int i = 0; i < mesh->nodes; i++) {
-    row_start[i] = at;
+    fem->row_start[i] = at;
     for (int c = first[i]; c >= 0; c = next[c]) {
       for (int b = 0; b < 6; b++) {
         int other = mesh->tri[c / 6 * 6 + b];
         if (seen[other] != i) {
           seen[other] = i;
           place[other] = at;
-          column[at++] = other;
+          fem->column[at++] = other;
         }
-        scatter[6 * c + b] = place[other];
+        fem->scatter[6 * c + b] = place[other];
       }
     }
-    for (int k = 0; by[i] >= 0 && hollow[by[i]] != 0 && k < mesh->loop_count; k++) {
+    for (int k = 0; by[i] >= 0 && fem->hollow[by[i]] != 0 && k < mesh->loop_count; k++) {
       const int other = mesh->loop[k];
-      if (hollow[k] == hollow[by[i]] && seen[other] != i) {
+      if (fem->hollow[k] == fem->hollow[by[i]] && seen[other] != i) {
         seen[other] = i;
-        column[at++] = other;
+        fem->column[at++] = other;
       }
     }
-    diagonal[i] = place[i];
+    fem->diagonal[i] = place[i];
   }
-  row_start[nodes] = at;
-  free(hollow);
-  return SB_OK;
-}
-
-SbStatus sb_ring_sparse_create(SbRingFem *fem, const SbRingFem *like, SbReport *report) {
-  SbStatus status = SB_OK;
-  if (like != NULL) {
-    fem->pattern = sb_ring_shared_take(like->pattern);
-    point_to(fem, (int *)fem->pattern->data);
-  } else {
-    status = find_pattern(fem, report);
-  }
-  if (status != SB_OK) {
-    return status;
-  }
-  // Cleared where it is assembled.
-  fem->value = malloc(sizeof(double) * SB_RING_BLOCK * (size_t)fem->row_start[fem->mesh->nodes]);
-  return fem->value != NULL ? SB_OK
-                            : sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
+  fem->row_start[nodes] = at;
+  free(next);
+  fem->value = malloc(sizeof(double) * SB_RING_BLOCK * (size_t)at); // cleared where it is assembled
+  fem->raw = calloc(SB_RING_BLOCK * (size_t)at, sizeof(double));
+  return fem->value != NULL && fem->raw != NULL
+             ? SB_OK
+             : sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
 }
 
 static void add(SbRingFem *fem, int row, int column, int entry, double k) {
   // Short rows: a linear search is quicker than a map and only boundary terms come here.
-  for (int at = fem->row_start[row]; at < fem->row_start[row + 1] && !fem->balance_only; at++) {
+  for (int at = fem->row_start[row]; at < fem->row_start[row + 1]; at++) {
     if (fem->column[at] == column) {
       fem->value[SB_RING_BLOCK * at + entry] += k;
       return;
@@ -171,10 +147,7 @@ SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report) {
   if (fem->factor == NULL) { // many a state beside another is never factorised
     fem->factor = sb_ring_factor_create(nodes, fem->row_start, fem->column);
   }
-  if (fem->raw == NULL) {
-    fem->raw = calloc(SB_RING_BLOCK * (size_t)fem->row_start[nodes], sizeof(double));
-  }
-  if (fem->factor == NULL || fem->raw == NULL) {
+  if (fem->factor == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
   }
   for (int i = 0; i < 2 * nodes; i++) {
@@ -216,9 +189,9 @@ static double leaves(const SbRingFem *fem, double *left) {
   return scale > 0.0 ? most / scale : 0.0;
 }
 
-// Adds to du what it leaves of rhs.
-static SbStatus refine(SbRingFem *fem, SbReport *report) {
+SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, SbReport *report) {
   double *left = fem->left;
+  sb_ring_factor_solve(fem->factor, fem->du, fem->rhs);
   double size = leaves(fem, left);
   for (int i = 0; i < REFINEMENTS && size > RESIDUAL_MOST && isfinite(size); i++) {
     sb_ring_factor_solve(fem->factor, left, left);
@@ -230,28 +203,6 @@ static SbStatus refine(SbRingFem *fem, SbReport *report) {
   return size <= RESIDUAL_MOST
              ? SB_OK
              : sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's stiffness is singular");
-}
-
-SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, SbReport *report) {
-  sb_ring_factor_solve(fem->factor, fem->du, fem->rhs);
-  return refine(fem, report);
-}
-
-SbStatus sb_ring_fem_apply_four(SbRingFem *fem, double *const rhs[SB_RING_FOUR],
-                                double *const du[SB_RING_FOUR], SbReport *report) {
-  const size_t size = sizeof(double) * 2 * (size_t)fem->mesh->nodes;
-  SbStatus status = SB_OK;
-  for (int k = 0; k < SB_RING_FOUR; k++) {
-    memcpy(du[k], rhs[k], size);
-  }
-  sb_ring_factor_solve_four(fem->factor, du);
-  for (int k = 0; k < SB_RING_FOUR && status == SB_OK; k++) {
-    memcpy(fem->rhs, rhs[k], size);
-    memcpy(fem->du, du[k], size);
-    status = refine(fem, report);
-    memcpy(du[k], fem->du, size);
-  }
-  return status;
 }
 
 SbStatus sb_ring_fem_solve(SbRingFem *fem, SbReport *report) {

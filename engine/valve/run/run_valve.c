@@ -436,8 +436,9 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const SbSealState *state = &cycle->state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
     double level = state->rest_area + state->rest_load;
-    const bool limited = state->section != SB_RING_SLIDES && state->section != SB_RING_NO_CONTACT;
-    double ratio = limited ? state->friction_static / level : model->static_ratio;
+    double ratio = state->section == SB_RING_ROLLS || state->section == SB_RING_JAMS
+                       ? state->friction_static / level
+                       : model->static_ratio;
     out->contact[seal] = sb_model_contact(model, level > 0 ? fmax(ratio, 1) : 1, out->mass);
     for (int chamber = 0; model->contact_ageing && chamber < SB_CYCLE_CHAMBERS; chamber++) {
       SbStatus status = set_rest(run, seal, (SbChamber)chamber, report);
