@@ -47,8 +47,8 @@ void sb_document_free(SbDocument *document) {
   for (int i = 0; i < SB_FILE_COUNT; i++) {
     g_free(document->file[i].name);
     g_free(document->file[i].path);
+    g_free(document->saved_drawing[i]);
   }
-  g_free(document->saved_section);
   sb_named_rubber_release(document->base_rubber);
   sb_named_rubber_release(document->own_rubber);
   sb_named_rubber_release(document->saved_rubber);
@@ -332,7 +332,7 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   }
   sb_shapes_settle(document->shapes, name, document->notes);
   read_files(document, entries, name, directory, false, issues);
-  sb_document_note_section(document);
+  sb_document_note_drawings(document);
   document->measured = sb_data_read(entries, directory, name, issues);
   sb_document_data_saved(document);
   sb_document_remarks_read(document, name, issues);
@@ -342,7 +342,7 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   }
   document->saved = document->own;
   document->saved_rubber = sb_named_rubber_hold(document->own_rubber);
-  document->saved_section = g_strdup(sb_document_own_section(document));
+  sb_document_drawings_saved(document);
   sb_document_refresh_title(document);
   document->name = g_strdup(name);
   if (issues->len == before) {
@@ -565,6 +565,26 @@ static void sum_section(GChecksum *sum, const SbSealDrawing *section) {
   }
 }
 
+static void sum_line(GChecksum *sum, const SbGrooveLine *line) {
+  for (int i = -1; i < line->count; i++) {
+    const SbGrooveBend first = {line->offset, line->slope, 0};
+    const SbGrooveBend *bend = i < 0 ? &first : &line->bend[i];
+    char digits[3][SB_NUMBER_SIZE];
+    sb_number_format(digits[0], bend->at);
+    sb_number_format(digits[1], bend->turn);
+    sb_number_format(digits[2], bend->length);
+    g_autofree char *text = g_strdup_printf("%s,%s,%s\n", digits[0], digits[1], digits[2]);
+    g_checksum_update(sum, (const guchar *)text, -1);
+  }
+}
+
+static void sum_groove(GChecksum *sum, const SbGrooveDrawing *groove) {
+  for (int i = 0; i < 2 && groove->count > 0; i++) {
+    sum_line(sum, &groove->floor[i]);
+    sum_line(sum, &groove->wall[i]);
+  }
+}
+
 char *sb_document_sha256(const SbDocument *document) {
   SbParams params = sb_document_params(document);
   GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
@@ -579,6 +599,7 @@ char *sb_document_sha256(const SbDocument *document) {
     sum_series(sum, &document->data->measured);
     sum_series(sum, &document->data->shelf);
     sum_section(sum, &document->data->profile);
+    sum_groove(sum, &document->data->groove);
   }
   char *hex = g_strdup(g_checksum_get_string(sum));
   g_checksum_free(sum);

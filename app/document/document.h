@@ -200,11 +200,21 @@ bool sb_document_gives_rubber(const SbDocument *document);
 const char *sb_document_section(const SbDocument *document);
 void sb_document_set_section(SbDocument *document, const char *path, const SbSealDrawing *section,
                              double height);
+
+// The same of the groove's outline; path NULL: none.
+const char *sb_document_groove(const SbDocument *document);
+void sb_document_set_groove(SbDocument *document, const char *path, const SbGrooveDrawing *groove);
+
 char **sb_document_rubbers(const SbDocument *document);
 
 // Undo and redo; each returns the parameter that changed, one of these, or -1 if there was nothing
 // to do.
-enum { SB_DOCUMENT_RUBBER = SB_PARAM_COUNT, SB_DOCUMENT_MEASURED, SB_DOCUMENT_SECTION };
+enum {
+  SB_DOCUMENT_RUBBER = SB_PARAM_COUNT,
+  SB_DOCUMENT_MEASURED,
+  SB_DOCUMENT_SECTION,
+  SB_DOCUMENT_GROOVE
+};
 int sb_document_undo(SbDocument *document);
 int sb_document_redo(SbDocument *document);
 // What undo (or redo) would change next: the parameter or one of these, with the value in

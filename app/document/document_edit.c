@@ -41,8 +41,8 @@ static void apply(SbDocument *document, const Edit *edit, int side) {
     put_data(document, edit->measured[side]);
     return;
   }
-  if (edit->id == SB_DOCUMENT_SECTION) {
-    sb_document_put_section(document, edit->section[side]);
+  if (edit->id == SB_DOCUMENT_SECTION || edit->id == SB_DOCUMENT_GROOVE) {
+    sb_document_put_drawing(document, edit->drawing[side]);
     return;
   }
   document->own.given[edit->id] = edit->given[side];
@@ -82,7 +82,7 @@ void sb_document_clear_edit(gpointer data) {
   sb_named_rubber_release(edit->rubber[1]);
   for (int side = 0; side < 2; side++) {
     sb_data_free(edit->measured[side]);
-    sb_named_section_free(edit->section[side]);
+    sb_named_drawing_free(edit->drawing[side]);
   }
 }
 
@@ -121,13 +121,16 @@ void sb_document_edit_rubber(SbDocument *document, SbNamedRubber *rubber) {
                           .rubber = {sb_named_rubber_hold(document->own_rubber), rubber}});
 }
 
-void sb_document_edit_section(SbDocument *document, SbNamedSection *section) {
+void sb_document_edit_drawing(SbDocument *document, SbNamedDrawing *drawing) {
   const guint before = document->done;
-  edit_key(document, SB_P_SEAL_PROFILE, true, SB_SEAL_PROFILE_FILE, false);
+  const bool section = drawing->key == SB_FILE_SECTION;
+  if (section) {
+    edit_key(document, SB_P_SEAL_PROFILE, true, SB_SEAL_PROFILE_FILE, false);
+  }
   const bool joined = document->done > before;
-  record(document, (Edit){.id = SB_DOCUMENT_SECTION,
+  record(document, (Edit){.id = section ? SB_DOCUMENT_SECTION : SB_DOCUMENT_GROOVE,
                           .joined = joined,
-                          .section = {sb_document_section_now(document), section}});
+                          .drawing = {sb_document_drawing_now(document, drawing->key), drawing}});
 }
 
 // Adds the allowed range to a message.
@@ -259,7 +262,7 @@ bool sb_document_differs(const SbDocument *document, SbParamId id) {
 bool sb_document_is_modified(const SbDocument *document) {
   if (document->pins_changed || document->remarks_changed || sb_document_data_differs(document) ||
       !sb_named_rubber_same(document->own_rubber, document->saved_rubber) ||
-      g_strcmp0(sb_document_own_section(document), document->saved_section) != 0) {
+      sb_document_drawings_differ(document)) {
     return true;
   }
   for (int i = 0; i < SB_PARAM_COUNT; i++) {

@@ -9,7 +9,8 @@
 
 const char *const sb_document_file_key[SB_FILE_COUNT] = {[SB_FILE_DRIVE] = "drive.file",
                                                          [SB_FILE_SHELF] = "shelf.file",
-                                                         [SB_FILE_SECTION] = "seal.profile_file"};
+                                                         [SB_FILE_SECTION] = "seal.profile_file",
+                                                         [SB_FILE_GROOVE] = "gland.profile_file"};
 
 int sb_document_find_file(const char *key) {
   for (int i = 0; i < SB_FILE_COUNT; i++) {
@@ -20,7 +21,7 @@ int sb_document_find_file(const char *key) {
   return -1;
 }
 
-void sb_document_note_section(SbDocument *document) {
+void sb_document_note_drawings(SbDocument *document) {
   static const SbParamId section[] = {SB_P_SEAL_OUTER_SECTION_DIAMETER,
                                       SB_P_SEAL_INNER_SECTION_DIAMETER};
   const double height = document->section_height;
@@ -34,10 +35,24 @@ void sb_document_note_section(SbDocument *document) {
                                       sb_param(section[i])->key, 1e3 * is));
     }
   }
+  if (document->data != NULL && document->data->groove.count > 0) {
+    const double drawn = document->data->groove.width;
+    const double is = sb_document_value(document, SB_P_GLAND_AXIAL_WIDTH);
+    if (fabs(drawn - is) > 1e-3 * is) {
+      g_ptr_array_add(document->notes,
+                      g_strdup_printf("gland.profile_file: the walls of %s stand %.4g mm apart; "
+                                      "gland.axial_width = %.4g mm is in force, to which they move",
+                                      document->file[SB_FILE_GROOVE].name, 1e3 * drawn, 1e3 * is));
+    }
+  }
 }
 
 const char *sb_document_section(const SbDocument *document) {
   return document->file[SB_FILE_SECTION].name;
+}
+
+const char *sb_document_groove(const SbDocument *document) {
+  return document->file[SB_FILE_GROOVE].name;
 }
 
 // Names a file; takes `path`.
@@ -56,49 +71,83 @@ static void put_data(SbDocument *document, SbModelData *data) {
   document->serial++;
 }
 
-static SbNamedSection *section_new(const SbNamedFile *file, const SbSealDrawing *drawing,
-                                   double height) {
-  SbNamedSection *section = g_new0(SbNamedSection, 1);
-  section->file = (SbNamedFile){g_strdup(file->name), g_strdup(file->path), file->in_valve};
-  section->drawing = *drawing;
-  section->height = height;
-  return section;
+static SbNamedDrawing *drawing_new(SbFileKey key, const SbNamedFile *file) {
+  SbNamedDrawing *drawing = g_new0(SbNamedDrawing, 1);
+  drawing->key = key;
+  drawing->file = (SbNamedFile){g_strdup(file->name), g_strdup(file->path), file->in_valve};
+  return drawing;
 }
 
-SbNamedSection *sb_document_section_now(const SbDocument *document) {
-  static const SbSealDrawing none;
-  return section_new(&document->file[SB_FILE_SECTION],
-                     document->data != NULL ? &document->data->profile : &none,
-                     document->section_height);
+SbNamedDrawing *sb_document_drawing_now(const SbDocument *document, SbFileKey key) {
+  SbNamedDrawing *drawing = drawing_new(key, &document->file[key]);
+  if (document->data != NULL) {
+    drawing->section = document->data->profile;
+    drawing->groove = document->data->groove;
+  }
+  drawing->height = document->section_height;
+  return drawing;
 }
 
-void sb_named_section_free(SbNamedSection *section) {
-  if (section != NULL) {
-    g_free(section->file.name);
-    g_free(section->file.path);
-    g_free(section);
+void sb_named_drawing_free(SbNamedDrawing *drawing) {
+  if (drawing != NULL) {
+    g_free(drawing->file.name);
+    g_free(drawing->file.path);
+    g_free(drawing);
   }
 }
 
-void sb_document_put_section(SbDocument *document, const SbNamedSection *section) {
+void sb_document_put_drawing(SbDocument *document, const SbNamedDrawing *drawing) {
   SbModelData *data = sb_document_data_with(document, sb_document_rubber_in_force(document));
-  data->profile = section->drawing;
-  document->section_height = section->height;
-  name_file(document, SB_FILE_SECTION, section->file.name, g_strdup(section->file.path),
-            section->file.in_valve);
+  if (drawing->key == SB_FILE_SECTION) {
+    data->profile = drawing->section;
+    document->section_height = drawing->height;
+  } else {
+    data->groove = drawing->groove;
+  }
+  name_file(document, drawing->key, drawing->file.name, g_strdup(drawing->file.path),
+            drawing->file.in_valve);
   put_data(document, data);
 }
 
-const char *sb_document_own_section(const SbDocument *document) {
-  const SbNamedFile *file = &document->file[SB_FILE_SECTION];
+const char *sb_document_own_drawing(const SbDocument *document, SbFileKey key) {
+  const SbNamedFile *file = &document->file[key];
   return file->in_valve ? NULL : file->path;
+}
+
+void sb_document_drawings_saved(SbDocument *document) {
+  for (SbFileKey key = SB_FILE_SECTION; key < SB_FILE_COUNT; key++) {
+    g_free(document->saved_drawing[key]);
+    document->saved_drawing[key] = g_strdup(sb_document_own_drawing(document, key));
+  }
+}
+
+bool sb_document_drawings_differ(const SbDocument *document) {
+  for (SbFileKey key = SB_FILE_SECTION; key < SB_FILE_COUNT; key++) {
+    if (g_strcmp0(sb_document_own_drawing(document, key), document->saved_drawing[key]) != 0) {
+      return true;
+    }
+  }
+  return false;
 }
 
 void sb_document_set_section(SbDocument *document, const char *path, const SbSealDrawing *section,
                              double height) {
   g_autofree char *whole = g_canonicalize_filename(path, NULL);
   const SbNamedFile file = {whole, whole, false};
-  sb_document_edit_section(document, section_new(&file, section, height));
+  SbNamedDrawing *drawing = drawing_new(SB_FILE_SECTION, &file);
+  drawing->section = *section;
+  drawing->height = height;
+  sb_document_edit_drawing(document, drawing);
+}
+
+void sb_document_set_groove(SbDocument *document, const char *path, const SbGrooveDrawing *groove) {
+  g_autofree char *whole = path != NULL ? g_canonicalize_filename(path, NULL) : NULL;
+  const SbNamedFile file = {whole, whole, false};
+  SbNamedDrawing *drawing = drawing_new(SB_FILE_GROOVE, &file);
+  if (path != NULL) {
+    drawing->groove = *groove;
+  }
+  sb_document_edit_drawing(document, drawing);
 }
 
 bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name,
@@ -119,7 +168,9 @@ bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name
     break;
   default: {
     GError *error = NULL;
-    good = sb_seal_file_read(&data->profile, &document->section_height, path, &error);
+    good = key == SB_FILE_GROOVE
+               ? sb_groove_file_read(&data->groove, path, &error)
+               : sb_seal_file_read(&data->profile, &document->section_height, path, &error);
     if (!good) {
       sb_issues_add(issues, shown, line, sb_document_file_key[key], NULL, "%s", error->message);
       g_error_free(error);

@@ -13,8 +13,15 @@
 #define SB_CASES_GROUP  "cases"
 #define SB_PINS_GROUP   "pins"
 
-// Keys that name a file and no value: a measured series, a shelf's temperatures, a seal's section.
-typedef enum { SB_FILE_DRIVE, SB_FILE_SHELF, SB_FILE_SECTION, SB_FILE_COUNT } SbFileKey;
+// Keys that name a file and no value: a measured series, a shelf's temperatures, a seal's section, a
+// groove's outline. The last ones, from SB_FILE_SECTION on, are drawings, which edits change.
+typedef enum {
+  SB_FILE_DRIVE,
+  SB_FILE_SHELF,
+  SB_FILE_SECTION,
+  SB_FILE_GROOVE,
+  SB_FILE_COUNT
+} SbFileKey;
 
 // "drive.file"...
 extern const char *const sb_document_file_key[SB_FILE_COUNT];
@@ -25,12 +32,14 @@ typedef struct {
   bool in_valve;     // the scene's valve gives it, not the document itself
 } SbNamedFile;
 
-// A drawn section, for the edits that change it.
+// A drawing, for the edits that change it: of a section with its height [m], or of a groove.
 typedef struct {
+  SbFileKey key;
   SbNamedFile file; // name NULL: none
-  SbSealDrawing drawing;
-  double height; // as its file draws it [m]
-} SbNamedSection;
+  SbSealDrawing section;
+  double height;
+  SbGrooveDrawing groove;
+} SbNamedDrawing;
 
 // The one that names a rubber (rubber_sheet.h).
 #define SB_RUBBER_KEY "rubber.name"
@@ -48,7 +57,7 @@ typedef struct {
   double value[2];
   SbNamedRubber *rubber[2];   // held; NULL: none of its own
   SbData *measured[2];        // owned; NULL: none
-  SbNamedSection *section[2]; // owned
+  SbNamedDrawing *drawing[2]; // owned
 } Edit;
 
 struct SbDocument {
@@ -60,7 +69,7 @@ struct SbDocument {
   char *valve_name;                // scenes: as the file has it
   SbNamedFile file[SB_FILE_COUNT]; //
   double section_height;           // as its file draws it [m]
-  char *saved_section;             // path of its own one in its file, or NULL
+  char *saved_drawing[SB_FILE_COUNT]; // paths of its own ones in its file, or NULL
   GPtrArray *measured;             // of SbData, its own [data] groups
   SbData *saved_measured;          // the first of them in its file, or NULL
   SbNamedRubber *base_rubber, *own_rubber, *saved_rubber; // as the params; NULL: none
@@ -93,18 +102,22 @@ bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name
                            const char *directory, bool in_valve, const char *shown, int line,
                            GPtrArray *issues);
 
-// A copy of the drawn section in force, to be freed; puts a copy of one in force; the path of the
-// document's own one, NULL: none.
-SbNamedSection *sb_document_section_now(const SbDocument *document);
-void sb_document_put_section(SbDocument *document, const SbNamedSection *section);
-void sb_named_section_free(SbNamedSection *section);
-const char *sb_document_own_section(const SbDocument *document);
+// A copy of a drawing in force, to be freed; puts a copy of one in force; the path of the document's
+// own one, NULL: none.
+SbNamedDrawing *sb_document_drawing_now(const SbDocument *document, SbFileKey key);
+void sb_document_put_drawing(SbDocument *document, const SbNamedDrawing *drawing);
+void sb_named_drawing_free(SbNamedDrawing *drawing);
+const char *sb_document_own_drawing(const SbDocument *document, SbFileKey key);
 
-// Makes `section` (taken over) the document's, as one step with seal.profile = file.
-void sb_document_edit_section(SbDocument *document, SbNamedSection *section);
+// Makes `drawing` (taken over) the document's; a section as one step with seal.profile = file.
+void sb_document_edit_drawing(SbDocument *document, SbNamedDrawing *drawing);
 
-// Notes a drawn section that is not as high as the seals.
-void sb_document_note_section(SbDocument *document);
+// Keeps which drawings its file has.
+void sb_document_drawings_saved(SbDocument *document);
+bool sb_document_drawings_differ(const SbDocument *document);
+
+// Notes a drawn section that is not as high as the seals, and a drawn groove of another width.
+void sb_document_note_drawings(SbDocument *document);
 
 // Sets the title anew from the text or the path.
 void sb_document_refresh_title(SbDocument *document);

@@ -51,6 +51,7 @@ SbModelData *sb_document_data_with(const SbDocument *document, const SbNamedRubb
     data->measured = document->data->measured;
     data->shelf = document->data->shelf;
     data->profile = document->data->profile;
+    data->groove = document->data->groove;
     data->outlines = document->data->outlines;
   }
   data->rubber = rubber != NULL ? rubber->sheet : (SbRubberSheet){0};

@@ -142,8 +142,8 @@ char *sb_document_to_text(const SbDocument *document, const char *path) {
   }
   for (int i = 0; i < SB_FILE_COUNT; i++) {
     char *name = moved_file(document, i, path);
-    const bool taken_back = i == SB_FILE_SECTION && document->saved_section != NULL &&
-                            sb_document_own_section(document) == NULL;
+    const bool taken_back =
+        document->saved_drawing[i] != NULL && sb_document_own_drawing(document, i) == NULL;
     if (name != NULL || taken_back) {
       SbChange change = {.value = name};
       split_key(sb_document_file_key[i], (char **)&change.group, (char **)&change.name);
@@ -326,8 +326,7 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
   }
   sb_named_rubber_release(document->saved_rubber);
   document->saved_rubber = sb_named_rubber_hold(document->own_rubber);
-  g_free(document->saved_section);
-  document->saved_section = g_strdup(sb_document_own_section(document));
+  sb_document_drawings_saved(document);
   document->mergeable = false;
   sb_document_refresh_title(document);
   return true;

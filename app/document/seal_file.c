@@ -1,4 +1,4 @@
-// Sections of seals from files; see the header.
+// Sections of seals and outlines of grooves from files; see the header.
 #include "app/document/seal_file.h"
 
 #include "app/base/error.h"
@@ -35,11 +35,17 @@ static void drop_comments(char *text) {
   }
 }
 
-// Whether a layer's name says that a seal's section is on it.
-static bool is_section(const char *name) {
-  static const char *const names[] = {"seal", "section", "free"};
-  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
-    if (g_ascii_strcasecmp(name, names[i]) == 0) {
+// What is looked for: the layers that may be called so, the first of them in messages.
+typedef struct {
+  const char *what, *layer[3];
+} Wanted;
+
+static const Wanted SECTION = {"a section", {"seal", "section", "free"}};
+static const Wanted GROOVE = {"a groove", {"groove", "gland"}};
+
+static bool is_wanted(const char *name, const Wanted *wanted) {
+  for (size_t i = 0; i < G_N_ELEMENTS(wanted->layer) && wanted->layer[i] != NULL; i++) {
+    if (g_ascii_strcasecmp(name, wanted->layer[i]) == 0) {
       return true;
     }
   }
@@ -47,7 +53,7 @@ static bool is_section(const char *name) {
 }
 
 // The closed outline of a drawing that has one, or one that is called so; NULL with an error.
-static GArray *from_drawing(const char *path, GError **error) {
+static GArray *from_drawing(const char *path, const Wanted *wanted, GError **error) {
   const SbCadChoices choices = {.section = true};
   g_autoptr(SbCad) cad = sb_cad_read(path, &choices, error);
   const SbCadBody *found = NULL;
@@ -58,16 +64,18 @@ static GArray *from_drawing(const char *path, GError **error) {
   for (guint i = 0; i < cad->bodies->len; i++) {
     const SbCadBody *body = cad->bodies->pdata[i];
     if (body->profile->len > 0 && body->closed) {
-      found = called == 0 || is_section(body->name) ? body : found;
-      called += is_section(body->name) ? 1 : 0;
+      found = called == 0 || is_wanted(body->name, wanted) ? body : found;
+      called += is_wanted(body->name, wanted) ? 1 : 0;
       count++;
     }
   }
   if (count != 1 && called != 1) {
-    fault(error, path,
-          count == 0 ? "holds no closed outline of a section"
-                     : "holds %u closed outlines, not one of them alone on a layer \"seal\"",
-          count);
+    if (count == 0) {
+      fault(error, path, "holds no closed outline of %s", wanted->what);
+    } else {
+      fault(error, path, "holds %u closed outlines, not one of them alone on a layer \"%s\"", count,
+            wanted->layer[0]);
+    }
     return NULL;
   }
   GArray *points = g_array_new(FALSE, FALSE, sizeof(SbProfilePoint));
@@ -76,7 +84,7 @@ static GArray *from_drawing(const char *path, GError **error) {
 }
 
 // Its points [m]; NULL with an error.
-static GArray *read_points(const char *path, GError **error) {
+static GArray *read_points(const char *path, const Wanted *wanted, bool *closed, GError **error) {
   const size_t bytes_max = (size_t)256 << 20; // as sb_cad_read()
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autofree char *shown = sb_printable(path, strlen(path));
@@ -92,17 +100,14 @@ static GArray *read_points(const char *path, GError **error) {
   const char *word = text + strspn(text, " \t\r\n");
   if (!g_ascii_isalpha(*word) || g_str_has_prefix(word, "ISO-10303") ||
       g_str_has_prefix(word, "solid") || g_str_has_prefix(word, "AutoCAD")) {
-    return from_drawing(path, error);
+    *closed = true;
+    return from_drawing(path, wanted, error);
   }
-  bool closed;
   GError *own = NULL;
-  GArray *points = sb_profile_parse(text, &closed, &own);
+  GArray *points = sb_profile_parse(text, closed, &own);
   if (points == NULL) {
     fault(error, path, "%s (as in \"" SB_PROFILE_FORM "\")", own->message);
     g_error_free(own);
-  } else if (!closed) {
-    fault(error, path, "does not close: a section repeats its first point");
-    g_clear_pointer(&points, g_array_unref);
   }
   return points;
 }
@@ -216,8 +221,13 @@ static GArray *join(const GArray *points, double near) {
 
 bool sb_seal_file_read(SbSealDrawing *out, double *height, const char *path, GError **error) {
   out->count = 0;
-  g_autoptr(GArray) points = read_points(path, error);
+  bool closed;
+  g_autoptr(GArray) points = read_points(path, &SECTION, &closed, error);
   if (points == NULL) {
+    return false;
+  }
+  if (!closed) {
+    fault(error, path, "does not close: a section repeats its first point");
     return false;
   }
   sb_profile_turn(points, true);
@@ -265,5 +275,62 @@ bool sb_seal_file_read(SbSealDrawing *out, double *height, const char *path, GEr
   }
   out->count = n;
   *height = h;
+  return true;
+}
+
+// Opens a closed outline at its mouth: the straight piece along the axis that lies outermost.
+static bool open_mouth(GArray *points) {
+  const SbProfilePoint *p = (const SbProfilePoint *)(void *)points->data;
+  const guint n = points->len;
+  guint mouth = n;
+  for (guint i = 0; i < n; i++) {
+    const SbProfilePoint *q = &p[(i + 1) % n];
+    if (p[i].bulge == 0 && fabs(q->r - p[i].r) < 1e-3 * fabs(q->x - p[i].x) &&
+        (mouth == n || p[i].r > p[mouth].r)) {
+      mouth = i;
+    }
+  }
+  for (guint i = 0; mouth < n && i < n; i++) {
+    if (p[i].r > fmax(p[mouth].r, p[(mouth + 1) % n].r) + 1e-9) {
+      return false;
+    }
+  }
+  if (mouth == n) {
+    return false;
+  }
+  g_autoptr(GArray) row = g_array_new(FALSE, FALSE, sizeof *p);
+  for (guint i = 1; i <= n; i++) {
+    g_array_append_val(row, p[(mouth + i) % n]);
+  }
+  memcpy(points->data, row->data, n * sizeof *p);
+  return true;
+}
+
+bool sb_groove_file_read(SbGrooveDrawing *out, const char *path, GError **error) {
+  *out = (SbGrooveDrawing){0};
+  bool closed;
+  g_autoptr(GArray) points = read_points(path, &GROOVE, &closed, error);
+  if (points == NULL) {
+    return false;
+  }
+  if (closed && !open_mouth(points)) {
+    fault(error, path, "is closed without a straight mouth along the axis on the outside");
+    return false;
+  }
+  if (points->len > SB_SEAL_POINTS_MAX) {
+    fault(error, path, "has %u points, more than %d", points->len, SB_SEAL_POINTS_MAX);
+    return false;
+  }
+  SbSealPoint point[SB_SEAL_POINTS_MAX];
+  for (guint i = 0; i < points->len; i++) {
+    const SbProfilePoint *p = &g_array_index(points, SbProfilePoint, i);
+    point[i] = (SbSealPoint){p->r, p->x, p->bulge};
+  }
+  SbReport report = {0};
+  if (sb_groove_draw(out, point, (int)points->len, &report) != SB_OK) {
+    *out = (SbGrooveDrawing){0};
+    fault(error, path, "%s", report.text);
+    return false;
+  }
   return true;
 }

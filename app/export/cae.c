@@ -254,7 +254,7 @@ bool sb_cae_check(const char *path, const SbFitProblem *problem, GError **error)
                 "%s: a ring with friction is not written for CalculiX: it hangs on its path", path);
   } else if (KIND[kind].write == sb_cae_write_calculix &&
              (problem->wall_draft > 0 || problem->groove_corner > 0 ||
-              problem->groove_chamfer > 0)) {
+              problem->groove_chamfer > 0 || problem->groove != NULL)) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "%s: only grooves with upright walls and sharp edges are written for CalculiX",
                 path);

@@ -120,6 +120,17 @@ static void make_housing(SbValveOutline *valve, const SbModel *model, double top
 static void add_groove(SbValveSolid *solid, const SbValveOutline *valve, int seal,
                        const SbModel *model) {
   enum { ARC = 8 };
+  const SbGrooveDrawing *drawn = sb_model_groove(model);
+  if (drawn != NULL) {
+    const double width = valve->groove_right[seal] - valve->groove_left[seal];
+    const double middle = (valve->groove_right[seal] + valve->groove_left[seal]) / 2;
+    double at[SB_GROOVE_POINTS][2];
+    const int points = sb_groove_outline(at, drawn, width, valve->land - valve->floor);
+    for (int i = 0; i < points; i++) {
+      sb_valve_add(solid, middle + at[i][0], valve->floor + at[i][1]);
+    }
+    return;
+  }
   const double draft = tan(sb_model_value(model, SB_P_GLAND_DRAFT));
   const double corner = sb_model_value(model, SB_P_GLAND_CORNER_RADIUS);
   const double chamfer = sb_model_value(model, SB_P_GLAND_EDGE_CHAMFER);

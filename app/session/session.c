@@ -235,6 +235,11 @@ void sb_session_set_section(SbSession *session, const char *path, const SbSealDr
   changed(session);
 }
 
+void sb_session_set_groove(SbSession *session, const char *path, const SbGrooveDrawing *groove) {
+  sb_document_set_groove(session->document, path, groove);
+  changed(session);
+}
+
 static int changed_by(SbSession *session, int id) {
   const bool parameter = id >= 0 && id < SB_PARAM_COUNT;
   if (parameter) {

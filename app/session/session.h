@@ -97,6 +97,9 @@ gboolean sb_session_set_rubber(SbSession *session, const char *name, GPtrArray *
 void sb_session_set_section(SbSession *session, const char *path, const SbSealDrawing *section,
                             double height);
 
+// Takes a groove's outline that was read from a file; path NULL: none.
+void sb_session_set_groove(SbSession *session, const char *path, const SbGrooveDrawing *groove);
+
 // The value of the valve, the parent or the catalogue again; clears the field's error.
 void sb_session_unset(SbSession *session, SbParamId id);
 

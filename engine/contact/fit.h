@@ -72,6 +72,7 @@ typedef struct {
   double gland_width;      // axial, at the floor [m]
   double wall_draft, groove_corner, groove_chamfer; // of the ring alone: SbRingLoad's [rad, m, m]
   double land_diameter;                             // of the stem beside the groove [m]
+  const SbGrooveDrawing *groove; // drawn, instead of those; borrowed; NULL: there is none
   double pressure;  // pressure difference [Pa]; positive on the left (x < 0)
   double tolerance; // relative, wanted of load, peak and width; 0: 1e-3
   // Of the ring alone: a flat gasket, clamped between plates `gland_width` apart that rub with

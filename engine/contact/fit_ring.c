@@ -45,6 +45,11 @@ void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem 
     load->floor_corner = in->groove_corner;
     load->wall_chamfer = in->groove_chamfer;
     load->wall_top = 0.5 * in->land_diameter;
+    load->groove = in->groove;
+  }
+  if (load->groove != NULL) { // its floor may lead the ring to the other wall
+    load->wall_left = -0.5 * in->gland_width;
+    load->wall_right = 0.5 * in->gland_width;
   }
   if (in->dragged) {
     load->wall_left = -0.5 * in->gland_width;

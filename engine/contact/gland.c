@@ -20,7 +20,11 @@ static const struct {
 };
 enum { SIZES = sizeof SIZE / sizeof SIZE[0], CORNERS = 1 << SIZES };
 
-double sb_groove_area(double radial_space, double axial_width, double draft, double corner_radius) {
+double sb_groove_area(double radial_space, double axial_width, double draft, double corner_radius,
+                      const SbGrooveDrawing *groove) {
+  if (groove != NULL) {
+    return sb_groove_drawn_area(groove, axial_width, radial_space);
+  }
   return radial_space * (axial_width + tan(draft) * radial_space) -
          (2.0 - 0.5 * M_PI) * corner_radius * corner_radius;
 }
@@ -41,7 +45,7 @@ static void evaluate(double *q, const SbGland *s) {
   q[SB_GLAND_SQUEEZE_FITTED] = q[SB_GLAND_INTERFERENCE] / q[SB_GLAND_SECTION_FITTED];
   double area, centroid;
   sb_seal_profile_area(&area, &centroid, &s->profile, d);
-  const double groove = sb_groove_area(g, s->axial_width, s->draft, s->corner_radius);
+  const double groove = sb_groove_area(g, s->axial_width, s->draft, s->corner_radius, s->groove);
   q[SB_GLAND_FILL] = area * d * d * (id + d + 2.0 * centroid * d) / (groove * (bore - g));
   q[SB_GLAND_FILL_SWOLLEN] = q[SB_GLAND_FILL] * (1.0 + s->volume_swell);
   const double growth = cbrt(1.0 + s->volume_swell);

@@ -17,7 +17,7 @@
 #pragma once
 
 #include "engine/base/status.h"
-#include "engine/contact/ring/ring_profile.h"
+#include "engine/contact/ring/ring_drawn_groove.h"
 
 // enumerator, name, unit, customary low, high (of the value; a value below 0 or above 1e3 is no
 // limit), source
@@ -50,8 +50,9 @@ typedef enum {
 } SbGlandQuantity;
 
 // Area of a groove's section up to the bore [m2]: walls lean apart by the draft [rad], corners at
-// the floor are rounded.
-double sb_groove_area(double radial_space, double axial_width, double draft, double corner_radius);
+// the floor are rounded; or as it is drawn (NULL: it is not).
+double sb_groove_area(double radial_space, double axial_width, double draft, double corner_radius,
+                      const SbGrooveDrawing *groove);
 
 // Sizes with half-widths of their tolerance bands [m].
 typedef struct {
@@ -61,6 +62,7 @@ typedef struct {
   double radial_space, radial_space_tolerance;
   double axial_width, axial_width_tolerance; // at the floor
   double draft, corner_radius;               // of walls [rad], of the corners at the floor [m]
+  const SbGrooveDrawing *groove;             // instead of those, borrowed; NULL: it is not drawn
   double bore_diameter, bore_diameter_tolerance;
   double land_diameter, land_diameter_tolerance; // of the stem beside the groove
   double poisson_ratio;                          // [-]

@@ -147,6 +147,10 @@ SbSealProfile sb_model_profile(const SbModel *model, int seal) {
   return profile_of(model, ring->section_diameter / ring->stored.section_diameter);
 }
 
+const SbGrooveDrawing *sb_model_groove(const SbModel *model) {
+  return model->data != NULL && model->data->groove.count > 0 ? &model->data->groove : NULL;
+}
+
 // Works out a seal from its `stored` ring, its Poisson's ratio and the gland.
 static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   SbSealModel *seal = &model->seal[index];
@@ -191,7 +195,8 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   }
   sb_seal_profile_area(&area, &centroid, &profile, d);
   const double groove =
-      sb_groove_area(g, model->axial_width, model->groove_draft, model->groove_corner);
+      sb_groove_area(g, model->axial_width, model->groove_draft, model->groove_corner,
+                     sb_model_groove(model));
   seal->gland_fill = area * d * d / groove * (mean_free + 2 * centroid * d) / mean_fitted;
 
   // Beyond 60 % no model here means anything; the fit models warn long before.
@@ -234,6 +239,18 @@ static void check_sizes(const SbModel *model, SbProblems *problems) {
     } else if (model->groove_chamfer > depth - model->groove_corner) {
       sb_model_refuse(problems, "gland.edge_chamfer", 0, depth - model->groove_corner,
                       "the edges' chamfers leave no walls in a groove %.4g mm deep", 1e3 * depth);
+    }
+  }
+}
+
+// A drawn groove has its own walls and corners.
+static void check_groove(const SbModel *model, SbProblems *problems) {
+  static const SbParamId others[] = {SB_P_GLAND_DRAFT, SB_P_GLAND_CORNER_RADIUS,
+                                     SB_P_GLAND_EDGE_CHAMFER};
+  for (size_t i = 0; sb_model_groove(model) != NULL && i < sizeof others / sizeof *others; i++) {
+    if (sb_params_get(&model->params, others[i]) > 0) {
+      sb_model_refuse(problems, sb_param(others[i])->key, 0, 0,
+                      "is of grooves that are not drawn (gland.profile_file)");
     }
   }
 }
@@ -453,6 +470,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, const SbModelDat
     sb_gasket_check(model, found);
   } else {
     check_sizes(model, found);
+    check_groove(model, found);
   }
   check_combinations(model, found);
   compile_rig(model, found);
@@ -767,6 +785,7 @@ void sb_model_gland(SbGland *out, const SbModel *model, int seal) {
       .axial_width = model->axial_width,
       .draft = model->groove_draft,
       .corner_radius = model->groove_corner,
+      .groove = sb_model_groove(model),
       .axial_width_tolerance = model->axial_width_tolerance,
       .bore_diameter = sb_model_value(model, SB_P_BORE_DIAMETER),
       .bore_diameter_tolerance = model->bore_diameter_tolerance,

@@ -23,6 +23,7 @@ void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, dou
       .groove_corner = model->groove_corner,
       .groove_chamfer = model->groove_chamfer,
       .land_diameter = model->stem_diameter,
+      .groove = sb_model_groove(model),
       .floor_friction = model->floor_friction,
       .wall_friction = model->wall_friction,
       .start_at_wall = model->start_at_wall,

@@ -210,6 +210,7 @@ typedef struct {
   SbModelSeries measured; // count 0: none
   SbModelSeries shelf;    // temperatures [K] over time, of shelf.file; count 0: none
   SbSealDrawing profile;  // of seal.profile_file; count 0: none
+  SbGrooveDrawing groove; // of gland.profile_file; count 0: none
   SbValveOutlines outlines;
   SbRubberSheet rubber; // of the parameters that it comes with, which borrow it
 } SbModelData;
@@ -281,6 +282,9 @@ void sb_model_remarks(const SbModel *model, SbProblems *out);
 
 // Adds what the model has to say about its validity: the storage of the rings, the fluid.
 void sb_model_warn(const SbModel *model, SbWarnings *warnings);
+
+// The drawn groove, borrowed with the model's data; NULL: it is not drawn.
+const SbGrooveDrawing *sb_model_groove(const SbModel *model);
 
 // The free section's profile, as large as the seal is in use.
 SbSealProfile sb_model_profile(const SbModel *model, int seal);

@@ -126,6 +126,53 @@ static void test_refused(void) {
   }
 }
 
+static void read_groove(SbGrooveDrawing *out, const char *text) {
+  g_autofree char *path = write_file("groove.txt", text);
+  GError *error = NULL;
+  if (!sb_groove_file_read(out, path, &error)) {
+    g_error("%s", error->message);
+  }
+}
+
+// A groove's outline goes either way, may be closed by its mouth, and lies anywhere; what is none is
+// refused by name.
+static void test_groove(void) {
+  static const char *const same[] = {
+      "mm -1.2,1.3 -1,0 1,0 1.1,1.3", "# a groove\nmm 6.1,4.3 6,3\n4,3 3.8,4.3",
+      "m -1.2e-3,1.3e-3 -1e-3,0 1e-3,0 1.1e-3,1.3e-3 -1.2e-3,1.3e-3",
+      "mm 1,0 1.1,1.3 -1.2,1.3 -1,0 1,0"};
+  SbGrooveDrawing wanted;
+  read_groove(&wanted, same[0]);
+  g_assert_cmpfloat_with_epsilon(wanted.width, 2e-3, 1e-12);
+  g_assert_cmpfloat_with_epsilon(wanted.depth, 1.3e-3, 1e-12);
+  for (size_t i = 1; i < G_N_ELEMENTS(same); i++) {
+    SbGrooveDrawing is;
+    read_groove(&is, same[i]);
+    g_assert_cmpfloat_with_epsilon(is.width, wanted.width, 1e-12);
+    g_assert_cmpfloat_with_epsilon(is.depth, wanted.depth, 1e-12);
+    for (int k = 0; k < 2; k++) {
+      g_assert_cmpfloat_with_epsilon(is.wall[k].slope, wanted.wall[k].slope, 1e-9);
+      g_assert_cmpfloat_with_epsilon(is.wall[k].offset, wanted.wall[k].offset, 1e-12);
+    }
+  }
+  static const char *const bad[] = {"mm -1,1 -1,0 1,0",
+                                    "mm 0,0 1,0 1,1,0.5 0,1 0,0",
+                                    "mm 0,2 0.5,3 1,2 1,0 0,0 0,2",
+                                    "mm 0,0",
+                                    "stone 0,1 0,0 1,0 1,1",
+                                    ""};
+  for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
+    g_autofree char *path = write_file("bad.txt", bad[i]);
+    SbGrooveDrawing out;
+    GError *error = NULL;
+    g_assert_false(sb_groove_file_read(&out, path, &error));
+    g_test_message("%s", error->message);
+    g_assert_cmpint(out.count, ==, 0);
+    g_assert_nonnull(strstr(error->message, "bad.txt"));
+    g_error_free(error);
+  }
+}
+
 static SbDocument *load(const char *path, guint problems) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   SbDocument *document = sb_document_load(path, issues);
@@ -228,6 +275,37 @@ static void test_document(void) {
   g_autoptr(SbDocument) bare_again = load(plain_path, 0);
   g_assert_null(sb_document_section(bare_again));
 
+  // A groove likewise: its walls stand as far apart as the valve says, which is told; it refuses the
+  // sizes of grooves that are not drawn.
+  g_autofree char *groove_path = write_file("groove.txt", "mm -1.2,1.3 -1.1,0 1.1,0 1.2,1.3");
+  g_autofree char *grooved_path =
+      write_file("grooved.valve", "[sealbench]\nformat = 1\nkind = valve\n[gland]\nprofile_file = "
+                                  "groove.txt\n");
+  g_autoptr(SbDocument) grooved = load(grooved_path, 0);
+  g_assert_cmpuint(sb_document_notes(grooved)->len, ==, 1);
+  g_assert_nonnull(strstr(sb_document_notes(grooved)->pdata[0], "stand 2.2 mm apart"));
+  g_autoptr(SbModel) with_groove = NULL;
+  g_assert_true(sb_document_compile(grooved, &with_groove, issues));
+  g_assert_cmpint(sb_model_groove(with_groove)->count, ==, 4);
+  g_autofree char *drawn_hash = sb_document_sha256(grooved);
+  sb_document_set_groove(grooved, NULL, NULL);
+  g_assert_null(sb_document_groove(grooved));
+  g_autofree char *flat_hash = sb_document_sha256(grooved);
+  g_assert_cmpstr(flat_hash, !=, drawn_hash);
+  g_assert_true(sb_document_is_modified(grooved));
+  g_autofree char *without = sb_document_to_text(grooved, grooved_path);
+  g_assert_null(strstr(without, "profile_file"));
+  g_assert_cmpint(sb_document_undo(grooved), ==, SB_DOCUMENT_GROOVE);
+  g_autofree char *undone = sb_document_sha256(grooved);
+  g_assert_cmpstr(undone, ==, drawn_hash);
+  g_assert_false(sb_document_is_modified(grooved));
+  g_assert_true(sb_document_set_option(grooved, "gland.draft=5deg", issues));
+  g_clear_pointer(&with_groove, sb_model_destroy);
+  const guint before_draft = issues->len;
+  g_assert_false(sb_document_compile(grooved, &with_groove, issues));
+  const SbIssue *draft = issues->pdata[before_draft];
+  g_assert_cmpstr(draft->key, ==, "gland.draft");
+
   // Without a file, and with one that is none.
   g_autofree char *bare =
       write_file("bare.valve", "[sealbench]\nformat = 1\nkind = valve\n[seal]\nprofile = file\n");
@@ -242,6 +320,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/seal-file/alike", test_alike);
   g_test_add_func("/seal-file/sides", test_sides);
   g_test_add_func("/seal-file/refused", test_refused);
+  g_test_add_func("/seal-file/groove", test_groove);
   g_test_add_func("/seal-file/document", test_document);
   return g_test_run();
 }

@@ -9,7 +9,7 @@
 #include "ui/params/actions.h"
 #include "ui/params/param_row.h"
 #include "ui/params/rubber_row.h"
-#include "ui/params/section_row.h"
+#include "ui/params/drawing_row.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -32,7 +32,7 @@ struct _SbParamPanel {
   GtkWidget *filters[SB_PARAM_FILTER_ALL + 1];
   SbParamFilter filter;
   GtkWidget *row[SB_PARAM_COUNT];
-  GtkWidget *rubber, *section; // the rows that are of no parameter
+  GtkWidget *rubber, *section, *groove; // the rows that are of no parameter
   int group_of[SB_PARAM_COUNT];
   GArray *groups;    // of Group
   int kind;          // of the valve whose main ones are listed
@@ -106,6 +106,15 @@ static gboolean is_section_listed(SbParamPanel *panel, const SbParams *params, c
                            : is_listed(panel, params, needle, SB_P_SEAL_PROFILE);
 }
 
+static gboolean is_groove_listed(SbParamPanel *panel, const SbParams *params, const char *needle) {
+  const SbDocument *document = sb_session_document(panel->session);
+  return needle[0] != '\0' ? strstr("gland.profile_file", needle) != NULL ||
+                                 strstr(C_("search", "groove drawn file dxf step"), needle) != NULL
+                           : is_listed(panel, params, needle, SB_P_GLAND_CORNER_RADIUS) ||
+                                 (panel->filter == SB_PARAM_FILTER_CHANGED &&
+                                  sb_document_groove(document) != NULL);
+}
+
 // Shows the rows that are listed and unfolds their groups; with all of them as it was before.
 static void list(SbParamPanel *panel) {
   g_autofree char *needle = g_utf8_casefold(gtk_entry_get_text(GTK_ENTRY(panel->search)), -1);
@@ -137,6 +146,11 @@ static void list(SbParamPanel *panel) {
     if (group->box == gtk_widget_get_parent(panel->section)) {
       const gboolean listed = is_section_listed(panel, &params, needle);
       gtk_widget_set_visible(panel->section, listed);
+      in_group += listed;
+    }
+    if (group->box == gtk_widget_get_parent(panel->groove)) {
+      const gboolean listed = is_groove_listed(panel, &params, needle);
+      gtk_widget_set_visible(panel->groove, listed);
       in_group += listed;
     }
     found += in_group;
@@ -201,7 +215,8 @@ static void refresh(SbParamPanel *panel) {
     sb_param_row_refresh(SB_PARAM_ROW(panel->row[id]));
   }
   sb_rubber_row_refresh(panel->rubber);
-  sb_section_row_refresh(panel->section);
+  sb_drawing_row_refresh(panel->section);
+  sb_drawing_row_refresh(panel->groove);
   if (panel->effects != NULL) {
     show_effects(panel); // of former values from now on
   }
@@ -338,10 +353,11 @@ GtkWidget *sb_param_panel_new(SbSession *session) {
     panel->row[id] = sb_param_row_new(session, (SbParamId)id, fields);
     gtk_box_pack_start(GTK_BOX(group_at(panel, panel->group_of[id])->box), panel->row[id], FALSE,
                        FALSE, 0);
-    if (id == SB_P_SEAL_PROFILE) {
-      panel->section = sb_section_row_new(session);
-      gtk_box_pack_start(GTK_BOX(group_at(panel, panel->group_of[id])->box), panel->section, FALSE,
-                         FALSE, 0);
+    if (id == SB_P_SEAL_PROFILE || id == SB_P_GLAND_EDGE_CHAMFER) {
+      const bool groove = id != SB_P_SEAL_PROFILE;
+      GtkWidget *row = sb_drawing_row_new(session, groove ? SB_DRAWING_GROOVE : SB_DRAWING_SECTION);
+      *(groove ? &panel->groove : &panel->section) = row;
+      gtk_box_pack_start(GTK_BOX(group_at(panel, panel->group_of[id])->box), row, FALSE, FALSE, 0);
     }
   }
   g_signal_connect_object(session, "params-changed", G_CALLBACK(refresh), panel, G_CONNECT_SWAPPED);

@@ -102,10 +102,13 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
     const double centroid = 0.5 * body->inner_diameter + (0.5 + outline->centroid) * d;
     area *= 2.0 * centroid / (load->floor_radius + load->bore_radius);
   }
-  if (!land && isfinite(width) && area > 0.985 * width * space) {
+  const double room = load->groove != NULL && isfinite(width)
+                          ? sb_groove_drawn_area(load->groove, width, space)
+                          : width * space;
+  if (!land && isfinite(width) && area > 0.985 * room) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
                              "the groove is overfilled: the section needs %.3g mm2 of %.3g mm2",
-                             1e6 * area, 1e6 * width * space);
+                             1e6 * area, 1e6 * room);
   }
   return SB_OK;
 }
@@ -235,7 +238,7 @@ SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report) {
   }
   if (status == SB_OK) {
     ring->contact->stress = ring->stress;
-    ring->contact->lobes = !sb_ring_is_circle(ring);
+    ring->contact->lobes = !sb_ring_is_circle(ring) || ring->load.groove != NULL;
     ring->contact->force_scale = body->plane_strain ? 1.0 : around * ring->centre;
   }
   return status;
@@ -582,6 +585,9 @@ SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbRep
   *out = NULL;
   if (sb_ring_outline_has_sides(&ring->outline)) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the section's mirror image is another one");
+  }
+  if (ring->load.groove != NULL) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the groove may have another mirror image");
   }
   SbStatus status = sb_ring_beside(&other, ring, report);
   *out = other;

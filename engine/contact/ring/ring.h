@@ -15,6 +15,7 @@
 
 #include "engine/base/status.h"
 #include "engine/contact/compliance.h"
+#include "engine/contact/ring/ring_drawn_groove.h"
 #include "engine/contact/ring/ring_profile.h"
 
 #include <math.h>
@@ -46,6 +47,8 @@ typedef struct {
   double wall_draft;                // rad, by which the walls lean apart from the floor outwards
   double floor_corner;              // m, radius of the corners between floor and walls
   double wall_chamfer, wall_top;    // m, 45 degrees off the walls' edges at this radius
+  const SbGrooveDrawing *groove;    // instead of draft, corner and chamfer; NULL: as these; borrowed
+  double groove_unit, groove_share; // m, of its lengths; of its departures from a flat groove, 1
   double land_left, land_right;     // axial ends of the bore's land, m; +-INFINITY: none
   double chamfer_angle;             // rad, beyond an end of the land the bore opens so
   double edge_length;               // m, axial length over which the chamfer sets in
@@ -66,7 +69,7 @@ typedef struct {
 #define SB_RING_LOAD_INIT                                                                          \
   {                                                                                                \
     .wall_left = -HUGE_VAL, .wall_right = HUGE_VAL, .land_left = -HUGE_VAL,                        \
-    .land_right = HUGE_VAL, .chamfer_angle = 0.5, .edge_length = 5e-5                              \
+    .land_right = HUGE_VAL, .chamfer_angle = 0.5, .edge_length = 5e-5, .groove_unit = 1.0, .groove_share = 1.0                              \
   }
 
 // Elements of a ring that is wanted to 1 % only, over the section diameter.
@@ -147,7 +150,8 @@ void sb_ring_destroy(SbRing *ring);
 SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report);
 
 // The present state of a ring in a groove without fluid, mirrored in the section's plane x = 0: the
-// ring that slides the other way. Owned; `law` is the data of its friction.
+// ring that slides the other way. Owned; `law` is the data of its friction. SB_ERROR_NOT_CONVERGED
+// where the section's mirror image is another one, or the groove is drawn.
 SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbReport *report);
 
 // A coarse copy of a ring that slides or rests, by way of which states near it are found; may be

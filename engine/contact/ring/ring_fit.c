@@ -115,7 +115,8 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   if (status == SB_ERROR_NOT_CONVERGED && ring->soft) {
     status = slowly(&ring, size / RATIO, &first, report);
   }
-  const double off = load->wall_chamfer > 0.0 ? UNFITTED_CHAMFER : UNFITTED;
+  const bool edges = load->wall_chamfer > 0.0 || load->groove != NULL;
+  const double off = edges ? UNFITTED_CHAMFER : UNFITTED;
   const double unfitted = status != SB_OK && load->bore_slides != 0 ? off : 0.0;
   SbRingResult coarse;
   sb_ring_result(ring, result);

@@ -9,27 +9,10 @@
 // normal hold. Beside a wall with draft it is that of an upright one. Leaves out any give of the
 // surfaces.
 #include "engine/contact/ring/ring_contact.h"
+#include "engine/contact/ring/ring_drawn_groove.h"
 
 #include <math.h>
 #include <stddef.h>
-
-// Height above zero whose slope rises smoothly from 0 to 1 over a length (twice differentiable, so
-// that Newton does not stumble where the chamfer sets in).
-static double ramp(double x, double length, double *slope, double *curvature) {
-  if (x <= 0.0) {
-    *slope = *curvature = 0.0;
-    return 0.0;
-  }
-  if (x < length) {
-    double t = x / length;
-    *slope = t * t * (3.0 - 2.0 * t);
-    *curvature = 6.0 * t * (1.0 - t) / length;
-    return length * t * t * t * (1.0 - 0.5 * t);
-  }
-  *slope = 1.0;
-  *curvature = 0.0;
-  return x - 0.5 * length;
-}
 
 // The slope to which a rounded corner rises from the floor, tan 60 degrees, and where, in radii.
 static const double CORNER_SLOPE = 1.7320508075688772, CORNER_END = 0.8660254037844386;
@@ -51,9 +34,23 @@ static double bend(double x, double radius, double *slope, double *curvature) {
   return 0.5 * radius + CORNER_SLOPE * (x - end);
 }
 
-// A wall's place over the radius, from that at the floor, > 0 into the wall.
-static double wall_recess(const SbRingLoad *load, double r, double *slope, double *curvature) {
+// A line of a drawn groove at a place, in the load's unit of length.
+static double drawn(const SbRingLoad *load, const SbGrooveLine *line, double at, double *slope,
+                    double *curvature) {
+  const double height = sb_groove_line(line, at / load->groove_unit, slope, curvature);
+  *slope *= load->groove_share;
+  *curvature *= load->groove_share / load->groove_unit;
+  return load->groove_share * load->groove_unit * height;
+}
+
+// A wall's place over the radius, from that at the floor, > 0 into the wall; 1 is the right one.
+static double wall_recess(const SbRingLoad *load, int wall, double r, double *slope,
+                          double *curvature) {
   double recess = 0.0, s, c;
+  if (load->groove != NULL) {
+    const SbGrooveLine *line = &load->groove->wall[wall];
+    return drawn(load, line, r - load->floor_radius, slope, curvature);
+  }
   *slope = *curvature = 0.0;
   if (load->wall_draft != 0.0) {
     *slope = tan(load->wall_draft);
@@ -61,16 +58,25 @@ static double wall_recess(const SbRingLoad *load, double r, double *slope, doubl
   }
   if (load->wall_chamfer > 0.0) {
     const double rounded = load->wall_chamfer;
-    recess += ramp(r - (load->wall_top - load->wall_chamfer - 0.5 * rounded), rounded, &s, &c);
+    recess += sb_groove_ramp(r - (load->wall_top - load->wall_chamfer - 0.5 * rounded), rounded, &s, &c);
     *slope += s;
     *curvature += c;
   }
   return recess;
 }
 
-// What the floor's rounded corners rise above it.
+// What the floor's rounded corners, or its drawn shape, rise above it.
 static double floor_rise(const SbRingLoad *load, double z, double *slope, double *curvature) {
   *slope = *curvature = 0.0;
+  if (load->groove != NULL) {
+    double s[2], c[2];
+    const SbGrooveLine *line = load->groove->floor;
+    const double rise = drawn(load, &line[1], z - load->wall_right, &s[1], &c[1]) +
+                        drawn(load, &line[0], load->wall_left - z, &s[0], &c[0]);
+    *slope = s[1] - s[0];
+    *curvature = c[1] + c[0];
+    return rise;
+  }
   if (!(load->floor_corner > 0.0)) {
     return 0.0;
   }
@@ -99,7 +105,8 @@ SbRingFrame sb_ring_frame(const SbRingLoad *load, SbRingSurface surface, const d
     const double way = surface == SB_RING_WALL_RIGHT ? 1.0 : -1.0;
     const double wall = surface == SB_RING_WALL_RIGHT ? load->wall_right : -load->wall_left;
     double slope, curvature;
-    const double gap = wall - way * x[1] + wall_recess(load, x[0], &slope, &curvature);
+    const int right = surface == SB_RING_WALL_RIGHT;
+    const double gap = wall - way * x[1] + wall_recess(load, right, x[0], &slope, &curvature);
     const double length = sqrt(1.0 + slope * slope);
     return (SbRingFrame){.n = {slope / length, -way / length},
                          .t = {1.0 / length, way * slope / length},
@@ -107,8 +114,8 @@ SbRingFrame sb_ring_frame(const SbRingLoad *load, SbRingSurface surface, const d
                          .curvature = curvature / (length * length)};
   }
   double s1, c1, s2, c2;
-  double opening = ramp(x[1] - load->land_right, load->edge_length, &s1, &c1) +
-                   ramp(load->land_left - x[1], load->edge_length, &s2, &c2);
+  double opening = sb_groove_ramp(x[1] - load->land_right, load->edge_length, &s1, &c1) +
+                   sb_groove_ramp(load->land_left - x[1], load->edge_length, &s2, &c2);
   double chamfer = opening > 0.0 ? tan(load->chamfer_angle) : 0.0;
   double slope = chamfer * (s1 - s2), length = sqrt(1.0 + slope * slope);
   return (SbRingFrame){.n = {-1.0 / length, slope / length},
@@ -185,6 +192,8 @@ static const struct {
     {offsetof(SbRingLoad, floor_corner), 1, 0, 0},
     {offsetof(SbRingLoad, wall_chamfer), 1, 0, 0},
     {offsetof(SbRingLoad, wall_top), 1, 0, 0},
+    {offsetof(SbRingLoad, groove_unit), 1, 0, 0},
+    {offsetof(SbRingLoad, groove_share), 0, 0, 0},
     {offsetof(SbRingLoad, land_left), 1, 0, -1},
     {offsetof(SbRingLoad, land_right), 1, 0, 1},
     {offsetof(SbRingLoad, chamfer_angle), 0, 0, 0},

@@ -161,7 +161,8 @@ static bool is_near(const SbRingLoad *a, const SbRingLoad *b) {
   const double space = (a->bore_radius - a->floor_radius) - (b->bore_radius - b->floor_radius);
   const double times = b->bore_slides != 0 ? 1.0 : FAR;
   const double most = fmax(PRESSURE * fabs(before), before != 0.0 ? PRESSURE_LEAST : 0.0);
-  return fabs(after - before) <= times * most && fabs(space) <= times * SPACE;
+  return a->groove == b->groove && fabs(after - before) <= times * most &&
+         fabs(space) <= times * SPACE;
 }
 
 // Solves at a load, where need be with single nodes held.

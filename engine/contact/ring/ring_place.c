@@ -279,6 +279,13 @@ SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport 
       status = sb_ring_advance(ring, &dry, SB_RING_FOLLOW, report);
     }
   }
+  if (status == SB_ERROR_NOT_CONVERGED && dry.groove != NULL) {
+    // A drawn groove takes its shape with the ring in it.
+    SbRingLoad flat = dry;
+    flat.groove_share = 0.0;
+    status = start(ring, &flat, &flat, 0.4, report);
+    status = status == SB_OK ? sb_ring_advance(ring, &dry, SB_RING_FOLLOW, report) : status;
+  }
   if (status != SB_OK) {
     return status;
   }

@@ -1,0 +1,300 @@
+// Drawn grooves: an outline divided into floor and walls, each a line with bends; see the header.
+//
+// One side is worked out at a time, from the floor's lowest place to the right edge; the left one in
+// the mirrored outline. Lines go on straight beyond their ends, into the stem, so that a concave
+// corner needs no more; where floor and wall met at one normal, a place would be held twice.
+#include "engine/contact/ring/ring_drawn_groove.h"
+
+#include <math.h>
+#include <string.h>
+
+// Directions [rad]: of arcs' chords; of the floor at most, and of a wall's lean; of a wall over the
+// floor's last piece at least.
+static const double CHORD = 7.5 * M_PI / 180, APART = 12 * M_PI / 180;
+static const double STEEP = 70 * M_PI / 180 + 1e-9, LEAN = M_PI / 3 + 1e-9;
+
+// What the surfaces may miss a point by, of the lesser of width and depth.
+static const double MISSED = 0.02;
+
+enum { POINTS = 512 };
+
+typedef struct {
+  double z, r;
+  bool round; // inside an arc
+} Point;
+
+typedef struct {
+  Point at[POINTS];
+  int count;
+} Row;
+
+double sb_groove_ramp(double x, double length, double *slope, double *curvature) {
+  if (x <= 0.0) {
+    *slope = *curvature = 0.0;
+    return 0.0;
+  }
+  if (x < length) {
+    double t = x / length;
+    *slope = t * t * (3.0 - 2.0 * t);
+    *curvature = 6.0 * t * (1.0 - t) / length;
+    return length * t * t * t * (1.0 - 0.5 * t);
+  }
+  *slope = 1.0;
+  *curvature = 0.0;
+  return x - 0.5 * length;
+}
+
+double sb_groove_line(const SbGrooveLine *line, double at, double *slope, double *curvature) {
+  double value = line->offset + (line->slope != 0.0 ? line->slope * at : 0.0);
+  *slope = line->slope;
+  *curvature = 0.0;
+  for (int i = 0; i < line->count; i++) {
+    const SbGrooveBend *bend = &line->bend[i];
+    double s, c;
+    value += bend->turn * sb_groove_ramp(at - bend->at + 0.5 * bend->length, bend->length, &s, &c);
+    *slope += bend->turn * s;
+    *curvature += bend->turn * c;
+  }
+  return value;
+}
+
+static bool add(Row *row, double z, double r, bool round) {
+  if (row->count == POINTS) {
+    return false;
+  }
+  row->at[row->count++] = (Point){z, r, round};
+  return true;
+}
+
+// Divides the arcs. The last point's bulge bends nothing.
+static bool divide(Row *row, const SbSealPoint *points, int count) {
+  row->count = 0;
+  for (int i = 0; i < count; i++) {
+    const SbSealPoint *p = &points[i], *q = &points[i + 1];
+    if (!add(row, p->z, p->r, false)) {
+      return false;
+    }
+    if (i + 1 == count || p->bulge == 0.0) {
+      continue;
+    }
+    const double sweep = 4.0 * atan(p->bulge), off = (1.0 - p->bulge * p->bulge) / (4.0 * p->bulge);
+    const double dz = q->z - p->z, dr = q->r - p->r;
+    const double centre[2] = {0.5 * (p->z + q->z) - off * dr, 0.5 * (p->r + q->r) + off * dz};
+    const double from[2] = {p->z - centre[0], p->r - centre[1]};
+    const int parts = (int)ceil(fabs(sweep) / CHORD);
+    for (int k = 1; k < parts; k++) {
+      const double turn = sweep * k / parts;
+      if (!add(row, centre[0] + cos(turn) * from[0] - sin(turn) * from[1],
+               centre[1] + sin(turn) * from[0] + cos(turn) * from[1], true)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+static void turn_round(Row *row) {
+  for (int i = 0; i < row->count / 2; i++) {
+    const Point other = row->at[i];
+    row->at[i] = row->at[row->count - 1 - i];
+    row->at[row->count - 1 - i] = other;
+  }
+}
+
+static void mirror(Row *row) {
+  turn_round(row);
+  for (int i = 0; i < row->count; i++) {
+    row->at[i].z = -row->at[i].z;
+  }
+}
+
+// Direction of a row's piece from the axis, 0 towards the right, a quarter turn outwards.
+static double direction(const Row *row, int piece) {
+  const Point *p = &row->at[piece], *q = &row->at[piece + 1];
+  return atan2(q->r - p->r, q->z - p->z);
+}
+
+// Bends a line at a point of a row between two slopes; lengths are those of the pieces beside it,
+// infinite where there is none.
+static bool bend(SbGrooveLine *line, double at, double turn, bool round, double before,
+                 double after, double rounding) {
+  if (fabs(turn) < 1e-12) {
+    return true;
+  }
+  if (line->count == SB_GROOVE_BENDS_MAX) {
+    return false;
+  }
+  const double shorter = fmin(before, after);
+  const double length = round ? 0.5 * (fmin(before, after) + after) : fmin(rounding, shorter);
+  line->bend[line->count++] = (SbGrooveBend){at, turn, length};
+  return true;
+}
+
+static SbStatus fail(SbReport *report, const Point *at, const char *what) {
+  return sb_fail(report, SB_ERROR_INPUT, "the groove %s at %.4g, %.4g mm (axial, radial)", what,
+                 1e3 * at->z, 1e3 * at->r);
+}
+
+// The right side of a row that rises from `lowest` on; *wall: where its wall stands nearest.
+static SbStatus side(SbGrooveLine *floor, SbGrooveLine *wall, double *nearest, const Row *row,
+                     int lowest, SbReport *report) {
+  const double base = row->at[lowest].r;
+  const double rounding = SB_GROOVE_ROUNDING * (row->at[row->count - 1].r - base);
+  double slope = 0.0, before = INFINITY;
+  int i = lowest;
+  for (; i + 1 < row->count && fabs(direction(row, i)) <= STEEP; i++) {
+    const Point *p = &row->at[i], *q = &row->at[i + 1];
+    const double next = (q->r - p->r) / (q->z - p->z);
+    if (!bend(floor, p->z, next - slope, p->round, before, q->z - p->z, rounding)) {
+      return fail(report, p, "has too many bends in its floor");
+    }
+    slope = next;
+    before = q->z - p->z;
+  }
+  const double steep = fmax(STEEP, atan(slope) + APART);
+  while (i + 1 < row->count && direction(row, i) < steep && direction(row, i) > 0.0) {
+    i++;
+  }
+  // Not with the rest of the corner's arc, if more follows.
+  int straight = i;
+  while (straight + 1 < row->count && row->at[straight].round) {
+    straight++;
+  }
+  i = straight + 1 < row->count ? straight : i;
+  int end = row->count - 1;
+  while (end > i && fabs(direction(row, end - 1) - M_PI / 2) > LEAN) {
+    end--;
+  }
+  if (end <= i) {
+    return fail(report, &row->at[row->count - 1], "has no wall steeper than 70 degrees that ends");
+  }
+  *nearest = INFINITY;
+  for (int k = i; k < end; k++) {
+    const Point *p = &row->at[k], *q = &row->at[k + 1];
+    if (fabs(direction(row, k) - M_PI / 2) > LEAN) {
+      return fail(report, p, "has a wall that leans by more than 60 degrees");
+    }
+    const double next = (q->z - p->z) / (q->r - p->r);
+    if (k == i) {
+      wall->slope = next;
+      wall->offset = p->z - next * (p->r - base);
+    } else if (!bend(wall, p->r - base, next - slope, p->round, before, q->r - p->r, rounding)) {
+      return fail(report, p, "has too many bends in its wall");
+    }
+    slope = next;
+    before = q->r - p->r;
+    *nearest = fmin(*nearest, fmin(p->z, q->z));
+  }
+  wall->offset -= *nearest;
+  for (int k = 0; k < floor->count; k++) {
+    floor->bend[k].at -= *nearest;
+  }
+  return SB_OK;
+}
+
+// How far a place (z, r) lies off the nearest surface, in the ring's room > 0; the floor lies at
+// `base` and the walls where the drawing has them.
+static double off(const SbGrooveDrawing *groove, const double wall[2], double base, const Point *p) {
+  double least = INFINITY, rise = base - p->r, s[2] = {0.0}, slope, curvature;
+  for (int k = 0; k < 2; k++) {
+    const double way = k == 1 ? 1.0 : -1.0;
+    const double recess = sb_groove_line(&groove->wall[k], p->r - base, &slope, &curvature);
+    const double gap = way * (wall[k] - p->z) + recess;
+    least = fmin(least, gap / sqrt(1.0 + slope * slope));
+    rise += sb_groove_line(&groove->floor[k], way * (p->z - wall[k]), &s[k], &curvature);
+  }
+  return fmin(least, -rise / sqrt(1.0 + (s[1] - s[0]) * (s[1] - s[0])));
+}
+
+static int lowest_of(const Row *row) {
+  int lowest = 0;
+  for (int i = 1; i < row->count; i++) {
+    lowest = row->at[i].r < row->at[lowest].r ? i : lowest;
+  }
+  return lowest;
+}
+
+SbStatus sb_groove_draw(SbGrooveDrawing *out, const SbSealPoint *points, int count,
+                        SbReport *report) {
+  Row row;
+  *out = (SbGrooveDrawing){0};
+  if (count < 3 || !divide(&row, points, count)) {
+    return sb_fail(report, SB_ERROR_INPUT,
+                   "the groove has %d points: at least 3, and no more than %d of its arcs' chords",
+                   count, POINTS);
+  }
+  if (row.at[0].z > row.at[row.count - 1].z) {
+    turn_round(&row);
+  }
+  // Joints of an arc and a line are of both; a joint's flag goes with its point.
+  const int lowest = lowest_of(&row);
+  double wall[2];
+  SbStatus status = side(&out->floor[1], &out->wall[1], &wall[1], &row, lowest, report);
+  if (status == SB_OK) {
+    mirror(&row);
+    status = side(&out->floor[0], &out->wall[0], &wall[0], &row, row.count - 1 - lowest, report);
+    mirror(&row);
+    wall[0] = -wall[0];
+  }
+  if (status != SB_OK) {
+    return status;
+  }
+  const double base = row.at[lowest].r;
+  out->width = wall[1] - wall[0];
+  out->depth = fmin(row.at[0].r, row.at[row.count - 1].r) - base;
+  if (!(out->width > 0.0) || !(out->depth > 0.0)) {
+    return fail(report, &row.at[lowest], "has no room above its floor");
+  }
+  for (int i = 0; i < row.count; i++) {
+    const Point *p = &row.at[i];
+    const double missed = off(out, wall, base, p);
+    if (fabs(missed) > MISSED * fmin(out->width, out->depth) && p->r - base < 0.9 * out->depth) {
+      return fail(report, p, "has no floor and walls that follow its outline");
+    }
+  }
+  out->count = count;
+  return SB_OK;
+}
+
+int sb_groove_outline(double out[SB_GROOVE_POINTS][2], const SbGrooveDrawing *groove, double width,
+                      double height) {
+  enum { HALF = SB_GROOVE_POINTS / 2, WALL = HALF / 2 };
+  double s, c;
+  for (int k = 0; k < 2; k++) {
+    // From the edge down to where the floor is met, by bisection, then along the floor.
+    const SbGrooveLine *wall = &groove->wall[k], *floor = &groove->floor[k];
+    double low = 0.0, high = height;
+    for (int i = 0; i < 50; i++) {
+      const double r = 0.5 * (low + high);
+      const double under = sb_groove_line(floor, sb_groove_line(wall, r, &s, &c), &s, &c) > r;
+      *(under ? &low : &high) = r;
+    }
+    const double reach = 0.5 * width + sb_groove_line(wall, high, &s, &c);
+    for (int i = 0; i < HALF; i++) {
+      double x[2];
+      if (i < WALL) {
+        x[1] = height + (high - height) * i / (WALL - 1);
+        x[0] = 0.5 * width + sb_groove_line(wall, x[1], &s, &c);
+      } else {
+        x[0] = reach * (HALF - 1 - i) / (HALF - WALL);
+        x[1] = sb_groove_line(floor, x[0] - 0.5 * width, &s, &c) +
+               sb_groove_line(&groove->floor[1 - k], -x[0] - 0.5 * width, &s, &c);
+      }
+      double *const to = out[k == 1 ? i : SB_GROOVE_POINTS - 1 - i];
+      to[0] = k == 1 ? x[0] : -x[0];
+      to[1] = x[1];
+    }
+  }
+  return SB_GROOVE_POINTS;
+}
+
+double sb_groove_drawn_area(const SbGrooveDrawing *groove, double width, double height) {
+  double at[SB_GROOVE_POINTS][2], twice = 0.0;
+  const double drawn = fmin(height, groove->depth);
+  const int count = sb_groove_outline(at, groove, width, drawn);
+  for (int i = 0; i < count; i++) {
+    const double *p = at[i], *q = at[(i + 1) % count];
+    twice += p[0] * q[1] - q[0] * p[1];
+  }
+  return 0.5 * fabs(twice) + (height - drawn) * (at[0][0] - at[count - 1][0]);
+}
