@@ -13,8 +13,8 @@
 #define SB_CASES_GROUP  "cases"
 #define SB_PINS_GROUP   "pins"
 
-// Keys that name a file and no value: a measured series, a shelf's temperatures, a seal's section, a
-// groove's outline. The last ones, from SB_FILE_SECTION on, are drawings, which edits change.
+// Keys that name a file and no value: a measured series, a shelf's temperatures, a seal's section,
+// a groove's outline. The last ones, from SB_FILE_SECTION on, are drawings, which edits change.
 typedef enum {
   SB_FILE_DRIVE,
   SB_FILE_SHELF,
@@ -62,16 +62,16 @@ typedef struct {
 
 struct SbDocument {
   SbDocumentKind kind;
-  char *path;                      // NULL before the first save
-  char *name;                      // stands for it in messages then
-  char *title;                     //
-  char *valve_path;                // scenes: path to open, else NULL
-  char *valve_name;                // scenes: as the file has it
-  SbNamedFile file[SB_FILE_COUNT]; //
-  double section_height;           // as its file draws it [m]
+  char *path;                         // NULL before the first save
+  char *name;                         // stands for it in messages then
+  char *title;                        //
+  char *valve_path;                   // scenes: path to open, else NULL
+  char *valve_name;                   // scenes: as the file has it
+  SbNamedFile file[SB_FILE_COUNT];    //
+  double section_height;              // as its file draws it [m]
   char *saved_drawing[SB_FILE_COUNT]; // paths of its own ones in its file, or NULL
-  GPtrArray *measured;             // of SbData, its own [data] groups
-  SbData *saved_measured;          // the first of them in its file, or NULL
+  GPtrArray *measured;                // of SbData, its own [data] groups
+  SbData *saved_measured;             // the first of them in its file, or NULL
   SbNamedRubber *base_rubber, *own_rubber, *saved_rubber; // as the params; NULL: none
   SbModelData *data;                  // what files brought, and rubber, for its models; NULL: none
   char *text;                         // of the file as last read or written
@@ -102,8 +102,8 @@ bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name
                            const char *directory, bool in_valve, const char *shown, int line,
                            GPtrArray *issues);
 
-// A copy of a drawing in force, to be freed; puts a copy of one in force; the path of the document's
-// own one, NULL: none.
+// A copy of a drawing in force, to be freed; puts a copy of one in force; the path of the
+// document's own one, NULL: none.
 SbNamedDrawing *sb_document_drawing_now(const SbDocument *document, SbFileKey key);
 void sb_document_put_drawing(SbDocument *document, const SbNamedDrawing *drawing);
 void sb_named_drawing_free(SbNamedDrawing *drawing);

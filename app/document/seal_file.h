@@ -1,6 +1,6 @@
-// The section of a seal from a file, for seal.profile = file, and the outline of a groove: a text of
-// points as a part's profile has them (app/cad/profile.h, # begins a comment), a DXF with one closed
-// outline, or a STEP of the ring. x is axial, pointing out of the canister.
+// The section of a seal from a file, for seal.profile = file, and the outline of a groove: a text
+// of points as a part's profile has them (app/cad/profile.h, # begins a comment), a DXF with one
+// closed outline, or a STEP of the ring. x is axial, pointing out of the canister.
 #pragma once
 
 #include "engine/contact/ring/ring_drawn_groove.h"
@@ -12,8 +12,8 @@
 // SB_SEAL_POINTS_MAX pieces, a section more than 5 times as wide as high or the other way.
 bool sb_seal_file_read(SbSealDrawing *out, double *height, const char *path, GError **error);
 
-// Reads a groove (gland.profile_file): its outline from one edge to the other, or closed by its mouth
-// (in a DXF on a layer "groove" if there are others). False with an error that names the file, *out
-// without points: no such outline, more than SB_SEAL_POINTS_MAX points, none that sb_groove_draw()
-// takes.
+// Reads a groove (gland.profile_file): its outline from one edge to the other, or closed by its
+// mouth (in a DXF on a layer "groove" if there are others). False with an error that names the
+// file, *out without points: no such outline, more than SB_SEAL_POINTS_MAX points, none that
+// sb_groove_draw() takes.
 bool sb_groove_file_read(SbGrooveDrawing *out, const char *path, GError **error);

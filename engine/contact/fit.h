@@ -73,8 +73,8 @@ typedef struct {
   double wall_draft, groove_corner, groove_chamfer; // of the ring alone: SbRingLoad's [rad, m, m]
   double land_diameter;                             // of the stem beside the groove [m]
   const SbGrooveDrawing *groove; // drawn, instead of those; borrowed; NULL: there is none
-  double pressure;  // pressure difference [Pa]; positive on the left (x < 0)
-  double tolerance; // relative, wanted of load, peak and width; 0: 1e-3
+  double pressure;               // pressure difference [Pa]; positive on the left (x < 0)
+  double tolerance;              // relative, wanted of load, peak and width; 0: 1e-3
   // Of the ring alone: a flat gasket, clamped between plates `gland_width` apart that rub with
   // wall_friction, on a stem of bore_diameter in its free bore of inner_diameter; its section's
   // axial height is its thickness, section_diameter its radial extent. radial_space is then unused.

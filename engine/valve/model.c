@@ -194,9 +194,8 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
     sb_model_refuse(problems, report.parameter, NAN, NAN, "%s", report.text);
   }
   sb_seal_profile_area(&area, &centroid, &profile, d);
-  const double groove =
-      sb_groove_area(g, model->axial_width, model->groove_draft, model->groove_corner,
-                     sb_model_groove(model));
+  const double groove = sb_groove_area(g, model->axial_width, model->groove_draft,
+                                       model->groove_corner, sb_model_groove(model));
   seal->gland_fill = area * d * d / groove * (mean_free + 2 * centroid * d) / mean_fitted;
 
   // Beyond 60 % no model here means anything; the fit models warn long before.

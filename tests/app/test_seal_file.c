@@ -134,13 +134,13 @@ static void read_groove(SbGrooveDrawing *out, const char *text) {
   }
 }
 
-// A groove's outline goes either way, may be closed by its mouth, and lies anywhere; what is none is
-// refused by name.
+// A groove's outline goes either way, may be closed by its mouth, and lies anywhere; what is none
+// is refused by name.
 static void test_groove(void) {
-  static const char *const same[] = {
-      "mm -1.2,1.3 -1,0 1,0 1.1,1.3", "# a groove\nmm 6.1,4.3 6,3\n4,3 3.8,4.3",
-      "m -1.2e-3,1.3e-3 -1e-3,0 1e-3,0 1.1e-3,1.3e-3 -1.2e-3,1.3e-3",
-      "mm 1,0 1.1,1.3 -1.2,1.3 -1,0 1,0"};
+  static const char *const same[] = {"mm -1.2,1.3 -1,0 1,0 1.1,1.3",
+                                     "# a groove\nmm 6.1,4.3 6,3\n4,3 3.8,4.3",
+                                     "m -1.2e-3,1.3e-3 -1e-3,0 1e-3,0 1.1e-3,1.3e-3 -1.2e-3,1.3e-3",
+                                     "mm 1,0 1.1,1.3 -1.2,1.3 -1,0 1,0"};
   SbGrooveDrawing wanted;
   read_groove(&wanted, same[0]);
   g_assert_cmpfloat_with_epsilon(wanted.width, 2e-3, 1e-12);
@@ -155,12 +155,9 @@ static void test_groove(void) {
       g_assert_cmpfloat_with_epsilon(is.wall[k].offset, wanted.wall[k].offset, 1e-12);
     }
   }
-  static const char *const bad[] = {"mm -1,1 -1,0 1,0",
-                                    "mm 0,0 1,0 1,1,0.5 0,1 0,0",
-                                    "mm 0,2 0.5,3 1,2 1,0 0,0 0,2",
-                                    "mm 0,0",
-                                    "stone 0,1 0,0 1,0 1,1",
-                                    ""};
+  static const char *const bad[] = {
+      "mm -1,1 -1,0 1,0", "mm 0,0 1,0 1,1,0.5 0,1 0,0", "mm 0,2 0.5,3 1,2 1,0 0,0 0,2",
+      "mm 0,0",           "stone 0,1 0,0 1,0 1,1",      ""};
   for (size_t i = 0; i < G_N_ELEMENTS(bad); i++) {
     g_autofree char *path = write_file("bad.txt", bad[i]);
     SbGrooveDrawing out;
@@ -275,9 +272,9 @@ static void test_document(void) {
   g_autoptr(SbDocument) bare_again = load(plain_path, 0);
   g_assert_null(sb_document_section(bare_again));
 
-  // A groove likewise: its walls stand as far apart as the valve says, which is told; it refuses the
-  // sizes of grooves that are not drawn.
-  g_autofree char *groove_path = write_file("groove.txt", "mm -1.2,1.3 -1.1,0 1.1,0 1.2,1.3");
+  // A groove likewise: its walls stand as far apart as the valve says, which is told; it refuses
+  // the sizes of grooves that are not drawn.
+  g_free(write_file("groove.txt", "mm -1.2,1.3 -1.1,0 1.1,0 1.2,1.3"));
   g_autofree char *grooved_path =
       write_file("grooved.valve", "[sealbench]\nformat = 1\nkind = valve\n[gland]\nprofile_file = "
                                   "groove.txt\n");

@@ -8,6 +8,10 @@ beside ours. Under fluid, and squeezed more, it starts where sealbench found the
 balance there; dry nothing else holds the ring then, under fluid weak springs do, whose force is told
 and counts. A development check: skipped where ccx is absent.
 
+T and lip have their default sizes. CalculiX's elements bend too stiffly: on the usual mesh a lip's load
+is 0.5 % above ours, hence finer ones. A T squeezed by a fifth creases, and it rolls in more fluid than
+here. Springs hang on every node of the boundary, so that under fluid the T has a coarser mesh.
+
 Usage: compare_ccx.py SEALBENCH VALVE [--all]
 """
 
@@ -26,14 +30,20 @@ RECTANGLE, D, X = (
     ('rectangle', ['seal.axial_height=1.2 mm', 'seal.corner_radius=0.2 mm']),
     ('d', ['seal.axial_height=1.6 mm', 'seal.corner_radius=0.15 mm']),
     ('x', ['seal.corner_radius=0.32 mm', 'seal.valley_depth=0.15 mm']))
-# Section (None: the valve's own), squeeze, fluid's pressure [MPa], whether it runs without --all.
+T, LIP = ('t', []), ('lip', [])
+# Section (None: the valve's own), squeeze, fluid's pressure [MPa], whether it runs without --all, and
+# our tolerance where it is not the usual one.
 CASES = [(None, 0.155, 0, True), (None, 0.155, 0.55, False),
          (RECTANGLE, 0.10, 0, False), (RECTANGLE, 0.15, 0, False), (RECTANGLE, 0.20, 0, False),
          (RECTANGLE, 0.25, 0, True), (RECTANGLE, 0.15, 0.55, True),
          (D, 0.10, 0, False), (D, 0.15, 0, True), (D, 0.20, 0, False), (D, 0.25, 0, False),
          (D, 0.15, 0.55, True),
          (X, 0.10, 0, False), (X, 0.15, 0, False), (X, 0.20, 0, False), (X, 0.15, 0.1, False),
-         (X, 0.15, 0.2, True), (X, 0.15, 0.3, False), (X, 0.15, 0.5, False)]
+         (X, 0.15, 0.2, True), (X, 0.15, 0.3, False), (X, 0.15, 0.5, False),
+         (T, 0.05, 0, False, 5e-4), (T, 0.10, 0, False, 5e-4), (T, 0.15, 0, False, 5e-4),
+         (T, 0.10, 0.03, True, 2e-3),
+         (LIP, 0.10, 0, False, 3e-4), (LIP, 0.15, 0, False, 3e-4), (LIP, 0.18, 0, False, 3e-4),
+         (LIP, 0.225, 0, False, 2e-4), (LIP, 0.225, 0.55, True)]
 LOAD_DRY, LOAD_WET, PRESSURE = 5e-3, 1.5e-2, 2e-2  # limits
 HUNG = 2e-3  # the springs' force over the load, each way
 FASTER = 50
@@ -74,6 +84,14 @@ class Calculix:
         self.place = {}  # axial [mm]
         for number, z in re.findall(r'^(\d+), \S+, (\S+), 0$', text.split('*ELEMENT')[0], re.M):
             self.place[int(number)] = float(z)
+        self.shift = 0 if self.started else self.apart(folder, text)
+
+    def apart(self, folder, text):
+        """How far right of theirs our ring lies [mm]: from the free ring they keep a node's axial place."""
+        held = int(re.search(r'^(\d+), 2, 2, 0$', text, re.M)[1])
+        with open(os.path.join(folder, 'ring.vtu')) as file:
+            places = re.findall(r'^(\S+) \S+ 0$', file.read().split('</Points>')[0], re.M)
+        return 1e3 * float(places[held - 1]) - self.place[held]
 
 
 def over_hat(fit, centre, half):
@@ -91,7 +109,7 @@ def over_hat(fit, centre, half):
 
 def pressures(fit, theirs, radius):
     """Theirs and ours over the nodes of the bore's ring that the contact presses."""
-    rows = sorted((theirs.place[n], -f) for n, f in theirs.node.items() if f < -1e-6)
+    rows = sorted((theirs.place[n] + theirs.shift, -f) for n, f in theirs.node.items() if f < -1e-6)
     step = rows[1][0] - rows[0][0]
     return [(z, f / (2 * math.pi * radius * step), over_hat(fit, z, step)) for z, f in rows]
 
@@ -106,10 +124,12 @@ class Results:
         print(f'{"ok" if good else "not ok"} {cls.count} {text}', flush=True)
 
 
-def compare(sealbench, valve, section, squeeze, fluid):
+def compare(sealbench, valve, section, squeeze, fluid, tolerance=1e-3):
     with tempfile.TemporaryDirectory() as folder:
         command = [sealbench, 'fit', valve, '--seal', 'outer', '--model', 'ring', '--pressure',
-                   f'{fluid} MPa', '--export', os.path.join(folder, 'ring.inp'), '--json', '-']
+                   f'{fluid} MPa', '--tolerance', str(tolerance), '--json', '-']
+        for ending in ('inp', 'vtu'):
+            command += ['--export', os.path.join(folder, 'ring.' + ending)]
         fit = json.loads(subprocess.run(command + settings(section, squeeze), check=True,
                                         stdout=subprocess.PIPE).stdout)
         theirs = Calculix(folder)
@@ -129,10 +149,12 @@ def compare(sealbench, valve, section, squeeze, fluid):
         Results.tell(theirs.seconds > FASTER * ours,
                      f'{name}: {theirs.seconds / ours:.0f} times faster, {FASTER} at least')
     rows = pressures(fit, theirs, 3.0)
-    if shape in ('circle', 'd'):
+    if shape in ('circle', 'd', 'lip'):
         there, here = (max(row[k] for row in rows) for k in (1, 2))
         what = 'peaks'
-    elif shape == 'rectangle':
+    elif shape in ('rectangle', 't'):
+        # Their peaks stand at the ends of the flat, where the curvature jumps: no mesh here resolves them
+        # (a T's are up to 4 % apart, on a mesh of 12134 unknowns 0.2 %).
         middle = 0.5e3 * (fit['contact_left_m'] + fit['contact_right_m'])
         near = sorted(rows, key=lambda row: abs(row[0] - middle))[:3]
         there, here = (sum(row[k] for row in near) / len(near) for k in (1, 2))
@@ -149,9 +171,9 @@ def main():
     if shutil.which('ccx') is None:
         print('1..0 # SKIP CalculiX (package calculix-ccx) is not installed')
         return 0
-    for section, squeeze, fluid, quick in CASES:
+    for section, squeeze, fluid, quick, *tolerance in CASES:
         if quick or '--all' in sys.argv[3:]:
-            compare(sys.argv[1], sys.argv[2], section, squeeze, fluid)
+            compare(sys.argv[1], sys.argv[2], section, squeeze, fluid, *tolerance)
     print(f'1..{Results.count}')
     return 1 if Results.failed else 0
 

@@ -7,9 +7,9 @@
 #include "app/session/effect_watch.h"
 #include "app/session/param_list.h"
 #include "ui/params/actions.h"
+#include "ui/params/drawing_row.h"
 #include "ui/params/param_row.h"
 #include "ui/params/rubber_row.h"
-#include "ui/params/drawing_row.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>

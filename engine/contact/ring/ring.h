@@ -47,7 +47,7 @@ typedef struct {
   double wall_draft;                // rad, by which the walls lean apart from the floor outwards
   double floor_corner;              // m, radius of the corners between floor and walls
   double wall_chamfer, wall_top;    // m, 45 degrees off the walls' edges at this radius
-  const SbGrooveDrawing *groove;    // instead of draft, corner and chamfer; NULL: as these; borrowed
+  const SbGrooveDrawing *groove; // instead of draft, corner and chamfer; NULL: as these; borrowed
   double groove_unit, groove_share; // m, of its lengths; of its departures from a flat groove, 1
   double land_left, land_right;     // axial ends of the bore's land, m; +-INFINITY: none
   double chamfer_angle;             // rad, beyond an end of the land the bore opens so
@@ -69,7 +69,8 @@ typedef struct {
 #define SB_RING_LOAD_INIT                                                                          \
   {                                                                                                \
     .wall_left = -HUGE_VAL, .wall_right = HUGE_VAL, .land_left = -HUGE_VAL,                        \
-    .land_right = HUGE_VAL, .chamfer_angle = 0.5, .edge_length = 5e-5, .groove_unit = 1.0, .groove_share = 1.0                              \
+    .land_right = HUGE_VAL, .chamfer_angle = 0.5, .edge_length = 5e-5, .groove_unit = 1.0,         \
+    .groove_share = 1.0                                                                            \
   }
 
 // Elements of a ring that is wanted to 1 % only, over the section diameter.

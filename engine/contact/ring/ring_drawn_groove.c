@@ -1,7 +1,7 @@
 // Drawn grooves: an outline divided into floor and walls, each a line with bends; see the header.
 //
-// One side is worked out at a time, from the floor's lowest place to the right edge; the left one in
-// the mirrored outline. Lines go on straight beyond their ends, into the stem, so that a concave
+// One side is worked out at a time, from the floor's lowest place to the right edge; the left one
+// in the mirrored outline. Lines go on straight beyond their ends, into the stem, so that a concave
 // corner needs no more; where floor and wall met at one normal, a place would be held twice.
 #include "engine/contact/ring/ring_drawn_groove.h"
 
@@ -194,7 +194,8 @@ static SbStatus side(SbGrooveLine *floor, SbGrooveLine *wall, double *nearest, c
 
 // How far a place (z, r) lies off the nearest surface, in the ring's room > 0; the floor lies at
 // `base` and the walls where the drawing has them.
-static double off(const SbGrooveDrawing *groove, const double wall[2], double base, const Point *p) {
+static double off(const SbGrooveDrawing *groove, const double wall[2], double base,
+                  const Point *p) {
   double least = INFINITY, rise = base - p->r, s[2] = {0.0}, slope, curvature;
   for (int k = 0; k < 2; k++) {
     const double way = k == 1 ? 1.0 : -1.0;

@@ -28,19 +28,19 @@ typedef struct {
 } SbGrooveDrawing;
 
 // Makes a groove of its outline from one edge to the other: `count` points (z axial, r radial from
-// any axis, in m), bulges counter-clockwise in (z, r). The floor is what leans by 70 degrees at most
-// about its lowest place, walls are what is steeper and, above that, leans by 60 at most; what is
-// flatter still at the edges is left out. Arcs are divided by 7.5 degrees (0.2 % of their radius),
-// corners rounded over SB_GROOVE_ROUNDING of the depth or the shorter piece beside them. A round
-// transition from floor to wall is straight beyond 70 degrees at most (3 % of its radius). SB_ERROR_INPUT
-// where there is no such floor or wall, or where these surfaces miss a point by more than 2 % of
-// width or depth.
+// any axis, in m), bulges counter-clockwise in (z, r). The floor is what leans by 70 degrees at
+// most about its lowest place, walls are what is steeper and, above that, leans by 60 at most; what
+// is flatter still at the edges is left out. Arcs are divided by 7.5 degrees (0.2 % of their
+// radius), corners rounded over SB_GROOVE_ROUNDING of the depth or the shorter piece beside them. A
+// round transition from floor to wall is straight beyond 70 degrees at most (3 % of its radius).
+// SB_ERROR_INPUT where there is no such floor or wall, or where these surfaces miss a point by more
+// than 2 % of width or depth.
 #define SB_GROOVE_ROUNDING 0.04
 SbStatus sb_groove_draw(SbGrooveDrawing *out, const SbSealPoint *points, int count,
                         SbReport *report);
 
-// Height above zero whose slope rises from 0 to 1 over a length (twice differentiable, so that Newton
-// does not stumble where it sets in): half the length less than `x` beyond it.
+// Height above zero whose slope rises from 0 to 1 over a length (twice differentiable, so that
+// Newton does not stumble where it sets in): half the length less than `x` beyond it.
 double sb_groove_ramp(double x, double length, double *slope, double *curvature);
 
 // Height, slope and curvature at a place [m].

@@ -58,7 +58,8 @@ static double wall_recess(const SbRingLoad *load, int wall, double r, double *sl
   }
   if (load->wall_chamfer > 0.0) {
     const double rounded = load->wall_chamfer;
-    recess += sb_groove_ramp(r - (load->wall_top - load->wall_chamfer - 0.5 * rounded), rounded, &s, &c);
+    recess +=
+        sb_groove_ramp(r - (load->wall_top - load->wall_chamfer - 0.5 * rounded), rounded, &s, &c);
     *slope += s;
     *curvature += c;
   }

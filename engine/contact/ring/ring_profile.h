@@ -87,6 +87,12 @@ SbStatus sb_ring_outline_of_profile(SbRingOutline *out, const SbSealProfile *pro
 void sb_seal_profile_area(double *area, double *centroid, const SbSealProfile *profile,
                           double height);
 
+// Whether parts of the section may bend: their stiffness hangs on the elements everywhere.
+static inline bool sb_ring_bends(const SbSealProfile *profile) {
+  return profile->kind == SB_SEAL_PROFILE_T || profile->kind == SB_SEAL_PROFILE_LIP ||
+         profile->kind == SB_SEAL_PROFILE_FILE;
+}
+
 // Whether its mirror image in z = 0 is another one, by more than 1e-6.
 bool sb_ring_outline_has_sides(const SbRingOutline *outline);
 
