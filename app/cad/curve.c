@@ -1,5 +1,6 @@
 // Curves as straight pieces and arcs. Also compiled into sealbench-cad.
 #include "app/cad/cad_private.h"
+#include "engine/numeric/arc.h"
 
 #include <math.h>
 
@@ -32,11 +33,9 @@ static double off(const SbCadPiece *piece, const double at[2]) {
   if (piece->bulge == 0) {
     return fabs(left);
   }
-  // The centre lies on the chord's bisector, on the left for an arc that turns left by less than
-  // half a turn.
-  const double b = piece->bulge, centre = chord * (1 - b * b) / (4 * b);
-  const double radius = chord * (1 + b * b) / (4 * fabs(b));
-  return fabs(hypot(along - chord / 2, left - centre) - radius);
+  const double from[2] = {0, 0}, to[2] = {chord, 0};
+  const SbArc arc = sb_arc_of(from, to, piece->bulge);
+  return fabs(hypot(along - arc.centre[0], left - arc.centre[1]) - arc.radius);
 }
 
 static bool divide(GArray *pieces, SbCadCurve at, const void *curve, double t0, double t1,

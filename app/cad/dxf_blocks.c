@@ -1,6 +1,7 @@
 #include "app/cad/dxf_blocks.h"
 
 #include "app/base/error.h"
+#include "engine/numeric/arc.h"
 
 #include <math.h>
 #include <string.h>
@@ -163,14 +164,14 @@ static void map(const Affine *way, double x, double y, double xy[2]) {
 // An arc under a map that need not keep circles.
 typedef struct {
   Affine way;
-  double centre[2], radius, start, turn;
-} Arc;
+  SbArc arc;
+} PlacedArc;
 
 static void arc_at(const void *curve, double t, double xy[2]) {
-  const Arc *arc = curve;
-  const double angle = arc->start + t * arc->turn;
-  map(&arc->way, arc->centre[0] + arc->radius * cos(angle),
-      arc->centre[1] + arc->radius * sin(angle), xy);
+  const PlacedArc *placed = curve;
+  double at[2];
+  sb_arc_place(&placed->arc, t, at);
+  map(&placed->way, at[0], at[1], xy);
 }
 
 // A piece placed. False where an arc becomes no curve within the tolerance, or it lies too far.
@@ -192,13 +193,8 @@ static bool place_piece(GArray *out, const SbCadPiece *piece, const Affine *way,
     g_array_append_val(out, placed);
     return true;
   }
-  const double dx = piece->x1 - piece->x0, dy = piece->y1 - piece->y0, b = piece->bulge;
-  const double side = (1 - b * b) / (4 * b); // of the centre, left of the chord, in its lengths
-  Arc arc = {.way = *way,
-             .centre = {piece->x0 + dx / 2 - side * dy, piece->y0 + dy / 2 + side * dx},
-             .turn = 4 * atan(b)};
-  arc.radius = hypot(piece->x0 - arc.centre[0], piece->y0 - arc.centre[1]);
-  arc.start = atan2(piece->y0 - arc.centre[1], piece->x0 - arc.centre[0]);
+  const double begin[2] = {piece->x0, piece->y0}, end[2] = {piece->x1, piece->y1};
+  const PlacedArc arc = {.way = *way, .arc = sb_arc_of(begin, end, piece->bulge)};
   return sb_cad_curve(out, arc_at, &arc, 2, tolerance);
 }
 

@@ -1,5 +1,6 @@
 // Pieces joined to outlines, and outlines made half-sections about the line y = 0.
 #include "app/cad/cad_private.h"
+#include "engine/numeric/arc.h"
 
 #include <math.h>
 
@@ -60,14 +61,9 @@ static void turn(GArray *chain) {
   }
 }
 
-// Centre and radius of an arc; and the angle at which it starts.
-static void circle_of(const SbCadPiece *piece, double centre[2], double *radius, double *start) {
-  const double dx = piece->x1 - piece->x0, dy = piece->y1 - piece->y0, b = piece->bulge;
-  const double c = (1 - b * b) / (4 * b);
-  centre[0] = (piece->x0 + piece->x1) / 2 - dy * c;
-  centre[1] = (piece->y0 + piece->y1) / 2 + dx * c;
-  *radius = hypot(dx, dy) * (1 + b * b) / (4 * fabs(b));
-  *start = atan2(piece->y0 - centre[1], piece->x0 - centre[0]);
+static SbArc circle_of(const SbCadPiece *piece) {
+  const double from[2] = {piece->x0, piece->y0}, to[2] = {piece->x1, piece->y1};
+  return sb_arc_of(from, to, piece->bulge);
 }
 
 // Appends the parts of `piece` above the axis; ends on it have y = 0 exactly.
@@ -76,20 +72,21 @@ static void clip(GArray *out, SbCadPiece piece, double gap) {
   piece.y1 = fabs(piece.y1) <= gap ? 0 : piece.y1;
   double at[4] = {0, 1, 1, 1}; // where the piece is cut, as parts of its length
   int cuts = 1;
-  double centre[2] = {0}, radius = 0, start = 0;
-  const double angle = 4 * atan(piece.bulge);
+  SbArc arc = {0};
   if (piece.bulge == 0) {
     if (piece.y0 * piece.y1 < 0) {
       at[cuts++] = piece.y0 / (piece.y0 - piece.y1);
     }
   } else {
-    circle_of(&piece, centre, &radius, &start);
-    const double half = radius > fabs(centre[1]) ? acos(-centre[1] / radius) : NAN;
+    arc = circle_of(&piece);
+    const double height = arc.centre[1];
+    const double half = arc.radius > fabs(height) ? acos(-height / arc.radius) : NAN;
     // Angles of the axis on the circle: sin = -centre / radius.
     for (int side = -1; side <= 1 && !isnan(half); side += 2) {
       const double phi = M_PI / 2 + side * half;
-      double part = fmod((phi - start) / angle, 2 * M_PI / fabs(angle));
-      part += part < 0 ? 2 * M_PI / fabs(angle) : 0;
+      const double once = 2 * M_PI / fabs(arc.sweep);
+      double part = fmod((phi - arc.start) / arc.sweep, once);
+      part += part < 0 ? once : 0;
       if (part > 1e-9 && part < 1 - 1e-9) {
         at[cuts++] = part;
       }
@@ -109,12 +106,15 @@ static void clip(GArray *out, SbCadPiece piece, double gap) {
       high = piece.y0 + middle * (piece.y1 - piece.y0);
       x1 = i < cuts ? piece.x0 + part * (piece.x1 - piece.x0) : x1;
     } else {
-      high = centre[1] + radius * sin(start + middle * angle);
-      x1 = i < cuts ? centre[0] + radius * cos(start + part * angle) : x1;
+      double place[2];
+      sb_arc_place(&arc, middle, place);
+      high = place[1];
+      sb_arc_place(&arc, part, place);
+      x1 = i < cuts ? place[0] : x1;
     }
     y1 = i < cuts ? 0 : y1;
     if (high > gap) {
-      const SbCadPiece kept = {x, y, x1, y1, tan(angle * (part - at[i - 1]) / 4)};
+      const SbCadPiece kept = {x, y, x1, y1, tan(arc.sweep * (part - at[i - 1]) / 4)};
       g_array_append_val(out, kept);
     }
     x = x1;
@@ -141,14 +141,12 @@ static bool joined(SbCadPiece *last, const SbCadPiece *next) {
       return false;
     }
   } else if (last->bulge * next->bulge > 0) {
-    double centre[2][2], radius[2], start;
-    circle_of(last, centre[0], &radius[0], &start);
-    circle_of(next, centre[1], &radius[1], &start);
+    const SbArc a = circle_of(last), b = circle_of(next);
     // Through the three ends, which are better known than either piece's curvature.
     both = sb_cad_arc((const double[2]){last->x0, last->y0}, (const double[2]){next->x0, next->y0},
                       (const double[2]){next->x1, next->y1});
-    if (hypot(centre[0][0] - centre[1][0], centre[0][1] - centre[1][1]) > same ||
-        fabs(radius[0] - radius[1]) > same || !(fabs(both.bulge) < 1) ||
+    if (hypot(a.centre[0] - b.centre[0], a.centre[1] - b.centre[1]) > same ||
+        fabs(a.radius - b.radius) > same || !(fabs(both.bulge) < 1) ||
         both.bulge * last->bulge < 0) {
       return false;
     }

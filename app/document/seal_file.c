@@ -5,6 +5,7 @@
 #include "app/base/reader.h"
 #include "app/cad/cad.h"
 #include "app/cad/profile.h"
+#include "engine/numeric/arc.h"
 
 #include <math.h>
 #include <string.h>
@@ -120,20 +121,17 @@ static void extend(double low[2], double high[2], const SbProfilePoint *p,
     low[k] = fmin(low[k], from[k]);
     high[k] = fmax(high[k], from[k]);
   }
-  const double b = p->bulge, dx = q->x - p->x, dr = q->r - p->r;
-  if (b == 0) {
+  if (p->bulge == 0) {
     return;
   }
-  const double off = (1 - b * b) / (4 * b);
-  const double centre[2] = {(p->x + q->x) / 2 - off * dr, (p->r + q->r) / 2 + off * dx};
-  const double radius = hypot(dx, dr) * (1 + b * b) / (4 * fabs(b)), sweep = 4 * atan(b);
-  const double start = atan2(p->r - centre[1], p->x - centre[0]);
+  const double to[2] = {q->x, q->r};
+  const SbArc arc = sb_arc_of(from, to, p->bulge);
   for (int quarter = 0; quarter < 4; quarter++) {
-    double way = fmod((quarter * M_PI / 2 - start) * copysign(1, sweep), 2 * M_PI);
+    double way = fmod((quarter * M_PI / 2 - arc.start) * copysign(1, arc.sweep), 2 * M_PI);
     way += way < 0 ? 2 * M_PI : 0;
-    if (way < fabs(sweep)) {
+    if (way < fabs(arc.sweep)) {
       const int k = quarter % 2;
-      const double at = centre[k] + (quarter < 2 ? radius : -radius);
+      const double at = arc.centre[k] + (quarter < 2 ? arc.radius : -arc.radius);
       low[k] = fmin(low[k], at);
       high[k] = fmax(high[k], at);
     }

@@ -1,5 +1,6 @@
 // Revolved profiles. See solid.h and outline.h; meshes are in solid_mesh.c.
 #include "engine/mechanism/outline.h"
+#include "engine/numeric/arc.h"
 #include "engine/numeric/legendre.h"
 
 #include <float.h>
@@ -28,14 +29,13 @@ static void piece_at(Piece *s, const SbProfile *p, size_t i, double origin) {
   *s = (Piece){.x0 = a->x - origin, .r0 = a->r, .x1 = b->x - origin, .r1 = b->r};
   s->arc = a->bulge != 0.0;
   if (s->arc) {
-    double dx = s->x1 - s->x0, dr = s->r1 - s->r0, t = a->bulge;
-    // Centre to the left of the chord for a left turn below a half circle.
-    double off = (1.0 - t * t) / (4.0 * t);
-    s->cx = 0.5 * (s->x0 + s->x1) - off * dr;
-    s->cr = 0.5 * (s->r0 + s->r1) + off * dx;
-    s->radius = hypot(dx, dr) * (1.0 + t * t) / (4.0 * fabs(t));
-    s->from = atan2(s->r0 - s->cr, s->x0 - s->cx);
-    s->sweep = 4.0 * atan(t);
+    const double from[2] = {s->x0, s->r0}, to[2] = {s->x1, s->r1};
+    const SbArc arc = sb_arc_of(from, to, a->bulge);
+    s->cx = arc.centre[0];
+    s->cr = arc.centre[1];
+    s->radius = arc.radius;
+    s->from = arc.start;
+    s->sweep = arc.sweep;
   }
 }
 

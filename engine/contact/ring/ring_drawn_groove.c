@@ -4,6 +4,7 @@
 // in the mirrored outline. Lines go on straight beyond their ends, into the stem, so that a concave
 // corner needs no more; where floor and wall met at one normal, a place would be held twice.
 #include "engine/contact/ring/ring_drawn_groove.h"
+#include "engine/numeric/arc.h"
 
 #include <math.h>
 #include <string.h>
@@ -77,15 +78,12 @@ static bool divide(Row *row, const SbSealPoint *points, int count) {
     if (i + 1 == count || p->bulge == 0.0) {
       continue;
     }
-    const double sweep = 4.0 * atan(p->bulge), off = (1.0 - p->bulge * p->bulge) / (4.0 * p->bulge);
-    const double dz = q->z - p->z, dr = q->r - p->r;
-    const double centre[2] = {0.5 * (p->z + q->z) - off * dr, 0.5 * (p->r + q->r) + off * dz};
-    const double from[2] = {p->z - centre[0], p->r - centre[1]};
-    const int parts = (int)ceil(fabs(sweep) / CHORD);
+    const SbArc arc = sb_arc_of((double[]){p->z, p->r}, (double[]){q->z, q->r}, p->bulge);
+    const int parts = (int)ceil(fabs(arc.sweep) / CHORD);
     for (int k = 1; k < parts; k++) {
-      const double turn = sweep * k / parts;
-      if (!add(row, centre[0] + cos(turn) * from[0] - sin(turn) * from[1],
-               centre[1] + sin(turn) * from[0] + cos(turn) * from[1], true)) {
+      double x[2];
+      sb_arc_place(&arc, (double)k / parts, x);
+      if (!add(row, x[0], x[1], true)) {
         return false;
       }
     }

@@ -5,6 +5,7 @@
 // both. Of a drawn one, corners between straight sides are rounded. Geometry only; see the header.
 #include "engine/contact/ring/ring_profile.h"
 #include "engine/base/check.h"
+#include "engine/numeric/arc.h"
 
 #include <math.h>
 #include <string.h>
@@ -98,15 +99,14 @@ static bool round_corners(SbRingOutline *out, const Corner *corner, int count) {
 // A piece of a drawn outline; radius > 0 of an arc.
 static SbRingOutlinePart piece_of(const SbSealPoint *from, const SbSealPoint *to) {
   SbRingOutlinePart part = {.from = {from->r, from->z}, .to = {to->r, to->z}};
-  const double d[2] = {to->r - from->r, to->z - from->z}, b = from->bulge;
-  part.length = hypot(d[0], d[1]);
-  if (fabs(b) > 1e-9) {
-    const double off = (1.0 - b * b) / (4.0 * b);
-    part.radius = part.length * (1.0 + b * b) / (4.0 * fabs(b));
-    part.centre[0] = 0.5 * (from->r + to->r) - off * d[1];
-    part.centre[1] = 0.5 * (from->z + to->z) + off * d[0];
-    part.angle = atan2(from->z - part.centre[1], from->r - part.centre[0]);
-    part.sweep = 4.0 * atan(b);
+  part.length = hypot(to->r - from->r, to->z - from->z);
+  if (fabs(from->bulge) > 1e-9) {
+    const SbArc arc = sb_arc_of(part.from, part.to, from->bulge);
+    part.radius = arc.radius;
+    part.centre[0] = arc.centre[0];
+    part.centre[1] = arc.centre[1];
+    part.angle = arc.start;
+    part.sweep = arc.sweep;
   }
   return part;
 }
