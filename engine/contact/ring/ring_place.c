@@ -279,11 +279,15 @@ SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport 
       status = sb_ring_advance(ring, &dry, SB_RING_FOLLOW, report);
     }
   }
-  if (status == SB_ERROR_NOT_CONVERGED && dry.groove != NULL) {
-    // A drawn groove takes its shape with the ring in it.
-    SbRingLoad flat = dry;
+  // A drawn groove takes its shape with the ring in it, squeezed or not yet.
+  for (int i = 0; i < 3 && status == SB_ERROR_NOT_CONVERGED && dry.groove != NULL; i++) {
+    SbRingLoad wide = dry;
+    wide.bore_radius =
+        i > 0 ? fmax(dry.bore_radius, dry.floor_radius + SPACE[i - 1]) : wide.bore_radius;
+    SbRingLoad flat = wide;
     flat.groove_share = 0.0;
     status = start(ring, &flat, &flat, 0.4, report);
+    status = status == SB_OK ? sb_ring_advance(ring, &wide, SB_RING_FOLLOW, report) : status;
     status = status == SB_OK ? sb_ring_advance(ring, &dry, SB_RING_FOLLOW, report) : status;
   }
   if (status != SB_OK) {
