@@ -284,6 +284,9 @@ static void test_document(void) {
   g_autoptr(SbModel) with_groove = NULL;
   g_assert_true(sb_document_compile(grooved, &with_groove, issues));
   g_assert_cmpint(sb_model_groove(with_groove)->count, ==, 4);
+  SbWarnings warnings = {0};
+  sb_model_warn(with_groove, &warnings);
+  g_assert_cmpstr(warnings.item[0].code, ==, "groove-unused");
   g_autofree char *drawn_hash = sb_document_sha256(grooved);
   sb_document_set_groove(grooved, NULL, NULL);
   g_assert_null(sb_document_groove(grooved));
