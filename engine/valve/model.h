@@ -54,6 +54,9 @@ struct SbModel {
 void SB_PRINTF(5, 6) sb_model_refuse(SbProblems *problems, const char *key, double min, double max,
                                      const char *format, ...);
 
+// Adds what makes no sense of the values alone: sizes, profiles, grooves, combinations, the fluid.
+void sb_model_check(const SbModel *model, SbProblems *problems);
+
 // Compiles parameters into *out, which borrows `data`, without limits. Otherwise as
 // sb_model_create(), *out as it was.
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, const SbModelData *data,

@@ -1,0 +1,239 @@
+// What a model refuses before anything is worked out, what it remarks, and what it has to say about
+// its validity.
+#include "engine/valve/gasket.h"
+
+#include "engine/fluid/fluid.h"
+
+#include <math.h>
+
+// The stem must fit into the bore and the groove must leave a core.
+static void check_sizes(const SbModel *model, SbProblems *problems) {
+  double stem = model->stem_diameter;
+  double floor = model->bore_diameter - 2 * model->radial_space;
+  if (stem > model->bore_diameter) {
+    sb_model_refuse(problems, "bore.diameter", stem, NAN,
+                    "the bore is smaller than the stem (stem.pressure_diameter %.4g mm)",
+                    stem * 1e3);
+  }
+  if (floor <= 0) {
+    sb_model_refuse(problems, "gland.radial_space", NAN, model->bore_diameter / 2,
+                    "the groove leaves no stem: twice the radial space exceeds the bore diameter");
+  } else if (stem <= floor) {
+    sb_model_refuse(
+        problems, "stem.pressure_diameter", floor, model->bore_diameter,
+        "the stem's land lies below the floor of its groove (%.4g mm): nothing holds the ring",
+        floor * 1e3);
+  } else {
+    const double depth = (stem - floor) / 2, corner = fmin(model->axial_width, depth) / 2;
+    if (model->groove_corner > corner) {
+      sb_model_refuse(problems, "gland.corner_radius", 0, corner,
+                      "the groove's corners meet: it is %.4g mm wide and %.4g mm deep",
+                      1e3 * model->axial_width, 1e3 * depth);
+    } else if (model->groove_chamfer > depth - model->groove_corner) {
+      sb_model_refuse(problems, "gland.edge_chamfer", 0, depth - model->groove_corner,
+                      "the edges' chamfers leave no walls in a groove %.4g mm deep", 1e3 * depth);
+    }
+  }
+}
+
+// A drawn groove has its own walls and corners.
+static void check_groove(const SbModel *model, SbProblems *problems) {
+  static const SbParamId others[] = {SB_P_GLAND_DRAFT, SB_P_GLAND_CORNER_RADIUS,
+                                     SB_P_GLAND_EDGE_CHAMFER};
+  for (size_t i = 0; sb_model_groove(model) != NULL && i < sizeof others / sizeof *others; i++) {
+    if (sb_params_get(&model->params, others[i]) > 0) {
+      sb_model_refuse(problems, sb_param(others[i])->key, 0, 0,
+                      "is of grooves that are not drawn (gland.profile_file)");
+    }
+  }
+}
+
+// Combinations that no model has, and ranges that do not rise.
+static void check_combinations(const SbModel *model, SbProblems *problems) {
+  // Each stands behind its range's least in the catalogue.
+  static const SbParamId largest[] = {SB_P_STUDY_SQUEEZE_MAX, SB_P_STUDY_SPEED_MAX,
+                                      SB_P_STUDY_LOAD_MAX, SB_P_STUDY_TIME_MAX,
+                                      SB_P_STUDY_TEMPERATURE_MAX};
+  // The quasi-static balance is not silently asked for what only the motion with inertia can do:
+  // it knows their least values.
+  static const SbParamId inertial[] = {SB_P_DRIVE_KIND, SB_P_DRIVE_CYCLES,
+                                       SB_P_FRICTION_STRIBECK_SPEED,
+                                       SB_P_FRICTION_TANGENTIAL_STIFFNESS};
+  static const char needs_inertia[] =
+      "needs models.motion = dynamic; the quasi-static cycle knows only the machine";
+  const bool balance = model->motion == SB_MODEL_MOTION_QUASI_STATIC;
+  const bool lives = model->life_actuations > 1;
+  for (size_t i = 0; i < sizeof largest / sizeof largest[0]; i++) {
+    double least = sb_params_get(&model->params, largest[i] - 1);
+    if (!(sb_params_get(&model->params, largest[i]) > least)) {
+      sb_model_refuse(problems, sb_param(largest[i])->key, least, NAN,
+                      "the range of the study does not rise");
+    }
+  }
+  for (size_t i = 0; balance && i < sizeof inertial / sizeof inertial[0]; i++) {
+    const SbParam *param = sb_param(inertial[i]);
+    if (sb_params_get(&model->params, inertial[i]) > param->min) {
+      sb_model_refuse(problems, param->key, NAN, NAN, "%s", needs_inertia);
+    }
+  }
+  if (balance && model->pressure_map == SB_MAP_PORTS) {
+    sb_model_refuse(problems, "canister.pressure_map", NAN, NAN, "%s", needs_inertia);
+  }
+  if (!balance && model->stribeck_speed > 0 && model->tangential_stiffness > 0 &&
+      !(model->damping_ratio > 0)) {
+    sb_model_refuse(
+        problems, "drive.damping_ratio", 1e-3, 2,
+        "must be above 0 where friction that depends on speed (friction.stribeck_speed) acts "
+        "through an elastic seal (friction.tangential_stiffness)");
+  }
+  if (lives && (model->motion == SB_MODEL_MOTION_RIG || model->motion == SB_MODEL_MOTION_BODIES)) {
+    sb_model_refuse(problems, "life.actuations", NAN, 1,
+                    "needs models.motion = quasi-static or dynamic");
+  }
+  if (model->life_shown > model->life_actuations) {
+    sb_model_refuse(problems, "life.shown", 0, model->life_actuations,
+                    "is beyond the life's last actuation (life.actuations %d)",
+                    model->life_actuations);
+  }
+  if (model->fit_variant < 0) {
+    char variant[40];
+    sb_model_choice_name(model, SB_P_MODELS_FIT_VARIANT, variant, sizeof variant);
+    sb_model_refuse(problems, "models.fit_variant", NAN, NAN, "models.fit = %s has no variant %s",
+                    sb_fit_model_name(model->fit), variant);
+  }
+  if (model->work_of_adhesion > 0 && model->surface != SB_ROUGH_GREENWOOD_TRIPP) {
+    sb_model_refuse(problems, "models.adhesion", NAN, NAN,
+                    "asperities: tips that stick are those of models.surface = greenwood-tripp");
+  }
+}
+
+// What only a round section has.
+static void check_profile(const SbModel *model, SbProblems *problems) {
+  const bool gasket = model->kind == SB_VALVE_GASKET;
+  const char *key = gasket ? "valve.kind" : "seal.profile";
+  const char *name = gasket ? "gasket" : sb_seal_profile_name(model->profile);
+  if (model->profile == SB_SEAL_PROFILE_CIRCLE) {
+    return;
+  }
+  if (model->fit != SB_FIT_RING) {
+    sb_model_refuse(problems, "models.fit", NAN, NAN,
+                    "%s knows round sections only: %s = %s needs the ring",
+                    sb_fit_model_name(model->fit), key, name);
+  }
+  if (model->film != SB_FILM_REYNOLDS) {
+    sb_model_refuse(problems, "models.film", NAN, NAN,
+                    "%s is a closed form for a round section: %s = %s needs reynolds",
+                    sb_film_model_name(model->film), key, name);
+  }
+  if (model->motion == SB_MODEL_MOTION_RIG) {
+    sb_model_refuse(problems, "models.motion", NAN, NAN,
+                    "the rig's contacts are those of round sections, not of %s = %s", key, name);
+  }
+}
+
+// A named fluid has figures at the canister's temperature, and takes the ethanol.
+static void check_fluid(const SbModel *model, SbProblems *problems) {
+  const SbFluid *fluid = &sb_fluids[model->fluid];
+  SbFluidState state;
+  SbReport report = {0};
+  if (model->fluid == 0 && model->ethanol > 0) {
+    sb_model_refuse(problems, "fluid.ethanol", NAN, 0, "needs a propellant by name (fluid.name)");
+  } else if (model->fluid > 0) {
+    const SbStatus status =
+        sb_fluid_state(&state, NULL, fluid, model->temperature, model->ethanol, &report);
+    if (status == SB_ERROR_INPUT) {
+      sb_model_refuse(problems, "fluid.ethanol", NAN, 0, "%s", report.text);
+    } else if (status != SB_OK) {
+      sb_model_refuse(problems, "canister.temperature", fluid->temperature_min,
+                      fluid->temperature_max, "%s", report.text);
+    }
+  }
+}
+
+void sb_model_check(const SbModel *model, SbProblems *problems) {
+  check_fluid(model, problems);
+  check_profile(model, problems);
+  if (model->kind == SB_VALVE_GASKET) {
+    sb_gasket_check(model, problems);
+  } else {
+    check_sizes(model, problems);
+    check_groove(model, problems);
+  }
+  check_combinations(model, problems);
+}
+
+// Before, one temperature stood for storage and use.
+static bool stored_only(const SbModel *model) {
+  return model->params.given[SB_P_STORAGE_TEMPERATURE] &&
+         !model->params.given[SB_P_CANISTER_TEMPERATURE];
+}
+
+static const char stored_only_text[] = "storage.temperature is that of storage alone: the valve is "
+                                       "used at canister.temperature, which "
+                                       "is not given";
+
+void sb_model_remarks(const SbModel *model, SbProblems *out) {
+  out->count = 0;
+  if (stored_only(model)) {
+    sb_model_refuse(out, "storage.temperature", NAN, NAN, "%s", stored_only_text);
+  }
+  // Where the vent lies between the contacts, their widths left out (run_valve.c has them).
+  double hole = model->shape.vent_diameter;
+  double nearest = model->land_edge - model->stroke - hole / 2;
+  double furthest = model->land_edge + model->shape.seal_spacing + hole / 2;
+  if (model->kind == SB_VALVE_GASKET) {
+    const double opens = sb_gasket_port_opens(model);
+    if (opens >= model->stroke) {
+      sb_model_refuse(
+          out, "stem.port_travel", NAN, model->stroke + model->port_diameter / 2,
+          "the side port does not reach the chamber before the stop: no dose leaves it");
+    } else if (opens <= model->land_edge) {
+      sb_model_refuse(out, "stem.port_travel", model->land_edge + model->port_diameter / 2, NAN,
+                      "the side port reaches the chamber before the chamber gasket has closed: the "
+                      "canister empties through it");
+    }
+    return;
+  }
+  if (model->pressure_map == SB_MAP_PORTS && hole > 0 &&
+      (model->shape.vent_position <= nearest || model->shape.vent_position >= furthest)) {
+    sb_model_refuse(
+        out, "bore.vent_position", fmax(nearest, 0), furthest,
+        "the dose chamber never reaches the vent between rest and stop: it does not empty");
+  }
+}
+
+void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
+  for (int i = 0; i < SB_SEAL_COUNT; i++) {
+    SbRubberState ignored;
+    // Its constants were checked when the model was compiled: only the warnings are of interest.
+    (void)sb_rubber_state(&ignored, &model->rubber, &model->seal[i].stored, warnings, NULL);
+  }
+  if (stored_only(model)) {
+    sb_warn(warnings, "storage-only", "storage.temperature", "%s", stored_only_text);
+  }
+  if (sb_model_groove(model) != NULL && model->fit != SB_FIT_RING) {
+    sb_warn(warnings, "groove-unused", "gland.profile_file",
+            "only solved rings (models.fit = ring) meet the walls of a drawn groove: %s takes its "
+            "depth alone",
+            sb_fit_model_name(model->fit));
+  }
+  SbParamDefault swell;
+  sb_params_default(&swell, &model->params, SB_P_RUBBER_SWELL_MASS);
+  if (model->params.rubber != NULL && model->storage_time > 0 && swell.from == NULL &&
+      !model->params.given[SB_P_RUBBER_SWELL_MASS]) {
+    sb_warn(warnings, "swell-unknown", "rubber.swell_mass",
+            "%s has no figure of its swell in this fluid: none is taken",
+            model->params.rubber->name);
+  }
+  SbFluidState state;
+  if (model->fluid > 0) {
+    (void)sb_fluid_state(&state, warnings, &sb_fluids[model->fluid], model->temperature,
+                         model->ethanol, NULL);
+  }
+  if (model->canister_pressure < 0) {
+    sb_warn(warnings, "pressure-below-ambient", "canister.pressure",
+            "the canister is %.4g kPa below ambient: nothing is delivered, and what leaks in or "
+            "flows through ports is air, taken with the liquid's density and viscosity",
+            -1e-3 * model->canister_pressure);
+  }
+}
