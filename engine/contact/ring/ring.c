@@ -460,11 +460,10 @@ const SbRingLoad *sb_ring_load(const SbRing *ring) {
 // To steady sliding that is near; where single nodes of the mesh stand in the way, on others. The
 // ring's state stays where none helps, perhaps on another mesh.
 static SbStatus slide_at_once(SbRing *ring, const SbRingLoad *target, SbReport *report) {
-  static const double FINER[] = {1.0, 0.93, 0.87};
   const double size = ring->fitted_size;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
-  for (int i = 0; i < (size > 0.0 ? 3 : 1) && status == SB_ERROR_NOT_CONVERGED; i++) {
-    status = i > 0 ? sb_ring_refit_once(ring, FINER[i] * size, report) : SB_OK;
+  for (int i = 0; i < (size > 0.0 ? SB_RING_TRIES : 1) && status == SB_ERROR_NOT_CONVERGED; i++) {
+    status = i > 0 ? sb_ring_refit_once(ring, sb_ring_try[i] * size, report) : SB_OK;
     if (status == SB_OK) {
       sb_ring_save(ring->contact, SB_RING_START);
       ring->contact->is.now = *target;

@@ -119,6 +119,11 @@ SbStatus sb_ring_check_apart(const SbRing *ring, SbReport *report);
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
 SbStatus sb_ring_refit_once(SbRing *ring, double element_size, SbReport *report); // of one size
 
+// A sliding ring that stumbles over single nodes of one mesh is taken over to others, of these
+// shares of the size, in turn.
+enum { SB_RING_TRIES = 3 };
+extern const double sb_ring_try[SB_RING_TRIES];
+
 // Whether a body and its load are within what is solved; else SB_ERROR_RANGE or
 // SB_ERROR_INFEASIBLE with the parameter.
 SbStatus sb_ring_check(const SbRingBody *body, const SbRingLoad *load, SbReport *report);

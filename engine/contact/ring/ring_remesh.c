@@ -190,15 +190,15 @@ SbStatus sb_ring_refit_once(SbRing *ring, double element_size, SbReport *report)
   return sb_succeed(report);
 }
 
+const double sb_ring_try[SB_RING_TRIES] = {1.0, 0.93, 0.87};
+
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
-  // A sliding ring that stumbles over single nodes of one mesh is taken over to another.
-  static const double FINER[] = {1.0, 0.93, 0.87};
   SbStatus status = sb_ring_refit_once(ring, element_size, report);
-  for (int i = 1; i < 3 && status == SB_ERROR_NOT_CONVERGED; i++) {
+  for (int i = 1; i < SB_RING_TRIES && status == SB_ERROR_NOT_CONVERGED; i++) {
     if (ring->contact->is.now.bore_slides == 0) {
       break;
     }
-    status = sb_ring_refit_once(ring, FINER[i] * element_size, report);
+    status = sb_ring_refit_once(ring, sb_ring_try[i] * element_size, report);
   }
   return status;
 }
