@@ -86,6 +86,24 @@ def undo_and_redo(folder):
         wait("the rubber's again", lambda: glass() == "-54 °C")
 
 
+def drawn_groove_is_taken_back(folder):
+    path = scene(folder)
+    with open(os.path.join(folder, "scenes", "groove.txt"), "w") as file:
+        file.write("mm -1.1,1.3 -1,0 1,0 1.1,1.3")
+    with open(path, "a") as file:
+        file.write("\n[gland]\nprofile_file = groove.txt\n")
+    with App(path) as app:
+        wait("the first run", app.run_done)
+        app.find("text", "Search parameters").queryEditableText().setTextContents("groove")
+        wait("what it is drawn by", lambda: app.find("push button", "Drawn groove").description == "groove.txt")
+        app.press("push button", "No drawn groove")
+        wait("none", lambda: not app.has("push button", "No drawn groove"))
+        wait("what undo does", lambda: app.find("push button", "Undo").description == "Drawn groove")
+        app.press("push button", "Undo")
+        wait("the groove again", lambda: app.has("push button", "No drawn groove"))
+        wait("the run", app.run_done)
+
+
 def saved_values_come_back(folder):
     path = scene(folder)
     with App(path) as app:
@@ -291,7 +309,7 @@ def effects_stand_beside_the_main_parameters(folder):
 if __name__ == "__main__":
     main(edit_with_a_unit_changes_the_breakaway_force, bad_values_stay_in_their_field,
          values_that_do_not_go_together_are_told_at_their_field,
-         a_file_whose_values_do_not_go_together_opens, undo_and_redo,
+         a_file_whose_values_do_not_go_together_opens, undo_and_redo, drawn_groove_is_taken_back,
          saved_values_come_back, one_run_is_shown_and_values_keep_their_digits,
          unsaved_changes_survive_a_crash, closing_asks_about_changes,
          broken_files_are_told_in_one_dialog, search_finds_parameters,

@@ -19,6 +19,10 @@ typedef struct {
   SbGrooveDrawing groove;
 } Drawing;
 
+static const char *title_of(SbDrawingKind kind) {
+  return kind == SB_DRAWING_SECTION ? _("Drawn section") : _("Drawn groove");
+}
+
 static void free_row(Row *row) {
   g_object_unref(row->session);
   g_free(row);
@@ -114,6 +118,7 @@ void sb_drawing_row_refresh(GtkWidget *widget) {
                                                      : sb_document_groove(document);
   g_autofree char *shown = name != NULL ? g_path_get_basename(name) : g_strdup(_("Choose…"));
   gtk_button_set_label(GTK_BUTTON(row->button), shown);
+  sb_style_name(row->button, title_of(row->kind), shown);
   if (row->none != NULL) {
     gtk_widget_set_visible(row->none, name != NULL);
   }
@@ -136,22 +141,14 @@ GtkWidget *sb_drawing_row_new(SbSession *session, SbDrawingKind kind) {
   row->session = g_object_ref(session);
   row->kind = kind;
   row->button = gtk_button_new_with_label("");
-  GtkWidget *box =
+  const char *tip =
       kind == SB_DRAWING_SECTION
-          ? sb_own_row_new(_("Drawn section"),
-                           _("Takes the section of both seals from points, a DXF or a STEP of the "
-                             "ring, scaled "
-                             "to their section diameter (seal.profile_file)"),
-                           row->button)
-          : sb_own_row_new(
-                _("Drawn groove"),
-                _("Takes floor and walls of both grooves from points, a DXF or a STEP of "
-                  "their outline, the walls as far apart as the axial width says "
-                  "(gland.profile_file)"),
-                with_none(row));
-  if (row->none != NULL) {
-    sb_style_name(row->button, _("Drawn groove"), NULL);
-  }
+          ? _("Takes the section of both seals from points, a DXF or a STEP of the ring, scaled to "
+              "their section diameter (seal.profile_file)")
+          : _("Takes floor and walls of both grooves from points, a DXF or a STEP of their "
+              "outline, the walls as far apart as the axial width says (gland.profile_file)");
+  GtkWidget *chooser = kind == SB_DRAWING_SECTION ? row->button : with_none(row);
+  GtkWidget *box = sb_own_row_new(title_of(kind), tip, chooser);
   g_object_set_data_full(G_OBJECT(box), "row", row, (GDestroyNotify)free_row);
   g_signal_connect(row->button, "clicked", G_CALLBACK(on_choose), box);
   if (row->none != NULL) {
