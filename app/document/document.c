@@ -579,7 +579,13 @@ static void sum_line(GChecksum *sum, const SbGrooveLine *line) {
 }
 
 static void sum_groove(GChecksum *sum, const SbGrooveDrawing *groove) {
-  for (int i = 0; i < 2 && groove->count > 0; i++) {
+  if (groove->count == 0) {
+    return;
+  }
+  // The depth by a line of its own.
+  const SbGrooveLine depth = {.offset = groove->width, .slope = groove->depth};
+  sum_line(sum, &depth);
+  for (int i = 0; i < 2; i++) {
     sum_line(sum, &groove->floor[i]);
     sum_line(sum, &groove->wall[i]);
   }

@@ -201,8 +201,10 @@ const char *sb_document_section(const SbDocument *document);
 void sb_document_set_section(SbDocument *document, const char *path, const SbSealDrawing *section,
                              double height);
 
-// The same of the groove's outline; path NULL: none.
+// The same of the groove's outline; path NULL: none, which a scene whose valve draws one cannot
+// say.
 const char *sb_document_groove(const SbDocument *document);
+bool sb_document_may_drop_groove(const SbDocument *document);
 void sb_document_set_groove(SbDocument *document, const char *path, const SbGrooveDrawing *groove);
 
 char **sb_document_rubbers(const SbDocument *document);

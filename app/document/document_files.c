@@ -55,6 +55,10 @@ const char *sb_document_groove(const SbDocument *document) {
   return document->file[SB_FILE_GROOVE].name;
 }
 
+bool sb_document_may_drop_groove(const SbDocument *document) {
+  return document->file[SB_FILE_GROOVE].name != NULL && !document->valve_draws;
+}
+
 // Names a file; takes `path`.
 static void name_file(SbDocument *document, SbFileKey key, const char *name, char *path,
                       bool in_valve) {
@@ -182,6 +186,7 @@ bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name
     sb_model_data_release(data);
     return false;
   }
+  document->valve_draws = document->valve_draws || (key == SB_FILE_GROOVE && in_valve);
   put_data(document, data);
   return true;
 }

@@ -69,6 +69,7 @@ struct SbDocument {
   char *valve_name;                   // scenes: as the file has it
   SbNamedFile file[SB_FILE_COUNT];    //
   double section_height;              // as its file draws it [m]
+  bool valve_draws;                   // its valve names a groove, which a scene cannot do without
   char *saved_drawing[SB_FILE_COUNT]; // paths of its own ones in its file, or NULL
   GPtrArray *measured;                // of SbData, its own [data] groups
   SbData *saved_measured;             // the first of them in its file, or NULL

@@ -82,6 +82,14 @@ static char *moved_file(const SbDocument *document, int key, const char *path) {
   if (file->in_valve || file->path == NULL) {
     return NULL;
   }
+  // An edit taken back brings a name from before the document was saved elsewhere.
+  g_autofree char *folder = document->path != NULL ? g_path_get_dirname(document->path) : NULL;
+  g_autofree char *named = g_canonicalize_filename(file->name, folder);
+  g_autofree char *whole = g_canonicalize_filename(file->path, NULL);
+  if (strcmp(named, whole) != 0 && !g_path_is_absolute(file->name)) {
+    g_autofree char *to = path != NULL ? g_path_get_dirname(path) : NULL;
+    return to != NULL ? relative_path(whole, to) : g_strdup(whole);
+  }
   char *moved = moved_name(document, file->path, file->name, path);
   return moved != NULL || stands(document, sb_document_file_key[key], file->name)
              ? moved

@@ -150,7 +150,7 @@ SbDisplayedRun *sb_session_pinned_answer(SbSession *session, const SbParams *par
   for (size_t i = 0; i < session->pins->len; i++) {
     SbDisplayedRun *run = pin_at(session, i)->run;
     if (run != NULL && run->chart.state == SB_CHART_DONE &&
-        sb_session_same_values(&run->params, params)) {
+        sb_session_run_is_of(run, params, sb_session_drawings(session))) {
       return run;
     }
   }
@@ -231,7 +231,7 @@ static void compute_next(SbSession *session) {
     const SbParams *params = sb_document_pin_params(session->document, i);
     if (session->shown != NULL && session->shown->grade == SB_GRADE_WHOLE &&
         session->shown->chart.state == SB_CHART_DONE &&
-        sb_session_same_values(&session->shown->params, params)) {
+        sb_session_run_is_of(session->shown, params, sb_session_drawings(session))) {
       pin->run = sb_displayed_run_ref(session->shown);
       continue;
     }

@@ -36,9 +36,10 @@ struct _SbSession {
   // as it is worth it, else the run before.
   SbRunner *runner; // owned
   SbSessionInbox *inbox;
-  unsigned ticket;  // of the request under way; 0 if none is
-  SbParams asked;   // its values
-  SbRunGrade grade; // its
+  unsigned ticket;         // of the request under way; 0 if none is
+  SbParams asked;          // its values
+  uint64_t asked_drawings; // and what files draw
+  SbRunGrade grade;        // its
   SbDisplayedRun *fresh, *shown, *earlier;
   SbSessionState state;
   char *failure;
@@ -114,6 +115,11 @@ SbDisplayedRun *sb_session_pinned_answer(SbSession *session, const SbParams *par
 
 // Whether all values are equal.
 bool sb_session_same_values(const SbParams *a, const SbParams *b);
+
+// Of the present model, sb_model_drawings(); 0: there is none. And whether a run is of these values
+// and drawings.
+uint64_t sb_session_drawings(const SbSession *session);
+bool sb_session_run_is_of(const SbDisplayedRun *run, const SbParams *params, uint64_t drawings);
 
 // Forgets runs and the playhead (another document).
 void sb_session_clear_runs(SbSession *session);

@@ -59,10 +59,31 @@ bool sb_session_same_values(const SbParams *a, const SbParams *b) {
   return true;
 }
 
-// Whether a run is complete and of these values.
-static bool answers(const SbDisplayedRun *run, const SbParams *params) {
-  return run != NULL && run->chart.state == SB_CHART_DONE &&
+uint64_t sb_session_drawings(const SbSession *session) {
+  return session->model != NULL ? sb_model_drawings(session->model) : 0;
+}
+
+bool sb_session_run_is_of(const SbDisplayedRun *run, const SbParams *params, uint64_t drawings) {
+  return sb_model_drawings(sb_run_model(run->run)) == drawings &&
          sb_session_same_values(&run->params, params);
+}
+
+// Whether a run is complete and of these values and drawings.
+static bool answers(const SbDisplayedRun *run, const SbParams *params, uint64_t drawings) {
+  return run != NULL && run->chart.state == SB_CHART_DONE &&
+         sb_session_run_is_of(run, params, drawings);
+}
+
+// Whether what is asked is what the document says.
+static bool is_current(const SbSession *session) {
+  const SbParams present = sb_document_params(session->document);
+  return session->model != NULL && session->asked_drawings == sb_session_drawings(session) &&
+         sb_session_same_values(&session->asked, &present);
+}
+
+static void ask(SbSession *session) {
+  session->asked = sb_document_params(session->document);
+  session->asked_drawings = sb_session_drawings(session);
 }
 
 // Grades -----------------------------------------------------------------------------------------
@@ -115,7 +136,7 @@ static void submit(SbSession *session, SbRunGrade grade) {
     grade = SB_GRADE_WHOLE;
   }
   sb_session_hold(&session->fresh, NULL);
-  session->asked = sb_document_params(session->document);
+  ask(session);
   session->grade = grade;
   session->started = g_get_monotonic_time();
   session->state = SB_SESSION_RUNNING;
@@ -131,12 +152,13 @@ static void submit(SbSession *session, SbRunGrade grade) {
 }
 
 static SbRunGrade first_grade(SbSession *session) {
-  if (!session->heavy || answers(session->shown, &session->asked)) {
+  if (!session->heavy || answers(session->shown, &session->asked, session->asked_drawings)) {
     return SB_GRADE_WHOLE; // asked for again
   }
-  return session->base != NULL    ? SB_GRADE_NEAR
-         : session->shown == NULL ? SB_GRADE_CLOSED
-                                  : SB_GRADE_COARSE;
+  // Rings of another drawing are no neighbours.
+  const bool near = session->base != NULL &&
+                    sb_model_drawings(sb_run_model(session->base->run)) == session->asked_drawings;
+  return near ? SB_GRADE_NEAR : session->shown == NULL ? SB_GRADE_CLOSED : SB_GRADE_COARSE;
 }
 
 static gboolean on_idle_long(gpointer data) {
@@ -241,8 +263,7 @@ static SbSessionState ended_state(const SbSession *session) {
 static void finish(SbSession *session) {
   SbDisplayedRun *fresh = session->fresh;
   SbStatus status = sb_run_handle_status(fresh->handle);
-  SbParams present = sb_document_params(session->document);
-  const bool current = session->model != NULL && sb_session_same_values(&session->asked, &present);
+  const bool current = is_current(session);
   session->ticket = 0;
   if (fresh->grade != SB_GRADE_WHOLE && status != SB_OK && status != SB_ERROR_CANCELLED &&
       current) {
@@ -257,7 +278,8 @@ static void finish(SbSession *session) {
   }
   size_t count = 0;
   sb_run_frames(fresh->run, &count);
-  if (count > 0 && !(status == SB_ERROR_CANCELLED && answers(session->shown, &session->asked))) {
+  if (count > 0 && !(status == SB_ERROR_CANCELLED &&
+                     answers(session->shown, &session->asked, session->asked_drawings))) {
     gboolean watched = session->shown == fresh;
     display_fresh(session);
     // A short run is read at once; a long one goes on being read by the ticks.
@@ -359,7 +381,7 @@ static void start_now(SbSession *session) {
   }
   sb_session_hold(&session->earlier, NULL);
   g_clear_pointer(&session->failure, g_free);
-  session->asked = sb_document_params(session->document);
+  ask(session);
   submit(session, first_grade(session));
   sb_session_run_changed(session);
 }
@@ -419,11 +441,12 @@ void sb_session_values_changed(SbSession *session) {
   if (session->ticket == 0) {
     session->state = ended_state(session);
   }
-  if (session->ticket == 0 || !sb_session_same_values(&params, &session->asked)) {
+  if (session->ticket == 0 || !is_current(session)) {
+    const uint64_t drawings = sb_session_drawings(session);
     g_autofree char *hash = sb_document_sha256(session->document);
-    SbDisplayedRun *known = session->model == NULL             ? NULL
-                            : answers(session->shown, &params) ? session->shown
-                            : answers(session->earlier, &params)
+    SbDisplayedRun *known = session->model == NULL                       ? NULL
+                            : answers(session->shown, &params, drawings) ? session->shown
+                            : answers(session->earlier, &params, drawings)
                                 ? session->earlier
                                 : sb_session_pinned_answer(session, &params);
     known =

@@ -158,7 +158,11 @@ gboolean sb_session_is_stale(SbSession *session, int *id, double *value) {
     return FALSE;
   }
   SbParams params = sb_document_params(session->document);
-  int found = 0;
+  const uint64_t drawn = sb_model_drawings(sb_run_model(session->shown->run));
+  int found = session->model != NULL && drawn != sb_session_drawings(session) ? 1 : 0;
+  if (found > 0 && id != NULL) {
+    *id = -1;
+  }
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     double old = sb_params_get(&session->shown->params, (SbParamId)i);
     gboolean differs = sb_params_get(&params, (SbParamId)i) != old;

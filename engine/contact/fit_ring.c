@@ -68,7 +68,7 @@ void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem 
 static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
                         const SbRingResult *result) {
   const double width = result->axial_right - result->axial_left;
-  if (width > in->gland_width && !in->dragged && !in->gasket) {
+  if (width > in->gland_width && !in->dragged && !in->gasket && in->groove == NULL) {
     sb_warn(&out->warnings, "ring-groove-full", "gland.axial_width",
             "the fitted section is %.3g mm wide in a groove of %.3g mm: its other wall is left out",
             1e3 * width, 1e3 * in->gland_width);

@@ -148,7 +148,43 @@ SbSealProfile sb_model_profile(const SbModel *model, int seal) {
 }
 
 const SbGrooveDrawing *sb_model_groove(const SbModel *model) {
-  return model->data != NULL && model->data->groove.count > 0 ? &model->data->groove : NULL;
+  const bool drawn = model->data != NULL && model->data->groove.count > 0;
+  return drawn && model->kind != SB_VALVE_GASKET ? &model->data->groove : NULL;
+}
+
+// FNV-1a.
+static uint64_t mix(uint64_t sum, const double *numbers, int count) {
+  const unsigned char *byte = (const unsigned char *)numbers;
+  for (size_t i = 0; i < sizeof *numbers * (size_t)count; i++) {
+    sum = (sum ^ byte[i]) * 0x100000001b3U;
+  }
+  return sum;
+}
+
+static uint64_t mix_line(uint64_t sum, const SbGrooveLine *line) {
+  sum = mix(sum, (const double[]){line->offset, line->slope, line->count}, 3);
+  for (int i = 0; i < line->count; i++) {
+    const SbGrooveBend *bend = &line->bend[i];
+    sum = mix(sum, (const double[]){bend->at, bend->turn, bend->length}, 3);
+  }
+  return sum;
+}
+
+uint64_t sb_model_drawings(const SbModel *model) {
+  uint64_t sum = 0xcbf29ce484222325U;
+  const SbSealDrawing *section = model->data != NULL ? &model->data->profile : NULL;
+  const SbGrooveDrawing *groove = sb_model_groove(model);
+  for (int i = 0; section != NULL && i < section->count; i++) {
+    const SbSealPoint *p = &section->point[i];
+    sum = mix(sum, (const double[]){p->r, p->z, p->bulge}, 3);
+  }
+  if (groove != NULL) {
+    sum = mix(sum, (const double[]){groove->width, groove->depth}, 2);
+    for (int k = 0; k < 2; k++) {
+      sum = mix_line(mix_line(sum, &groove->floor[k]), &groove->wall[k]);
+    }
+  }
+  return sum;
 }
 
 // Works out a seal from its `stored` ring, its Poisson's ratio and the gland.

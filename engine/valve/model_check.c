@@ -211,11 +211,12 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
   if (stored_only(model)) {
     sb_warn(warnings, "storage-only", "storage.temperature", "%s", stored_only_text);
   }
-  if (sb_model_groove(model) != NULL && model->fit != SB_FIT_RING) {
+  const bool gasket = model->kind == SB_VALVE_GASKET;
+  if (model->data != NULL && model->data->groove.count > 0 &&
+      (gasket || model->fit != SB_FIT_RING)) {
     sb_warn(warnings, "groove-unused", "gland.profile_file",
-            "only solved rings (models.fit = ring) meet the walls of a drawn groove: %s takes its "
-            "depth alone",
-            sb_fit_model_name(model->fit));
+            "only solved rings (models.fit = ring) meet the walls of a drawn groove: %s",
+            gasket ? "a gasket's valve has none" : "closed forms take gland.radial_space alone");
   }
   SbParamDefault swell;
   sb_params_default(&swell, &model->params, SB_P_RUBBER_SWELL_MASS);

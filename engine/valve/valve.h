@@ -14,6 +14,7 @@
 
 #include <stdatomic.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct SbModel SbModel;
 
@@ -285,6 +286,9 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings);
 
 // The drawn groove, borrowed with the model's data; NULL: it is not drawn.
 const SbGrooveDrawing *sb_model_groove(const SbModel *model);
+
+// A number of what files draw of it, section and grooves: another one where they differ.
+uint64_t sb_model_drawings(const SbModel *model);
 
 // The free section's profile, as large as the seal is in use.
 SbSealProfile sb_model_profile(const SbModel *model, int seal);

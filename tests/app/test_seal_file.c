@@ -299,6 +299,27 @@ static void test_document(void) {
   g_autofree char *undone = sb_document_sha256(grooved);
   g_assert_cmpstr(undone, ==, drawn_hash);
   g_assert_false(sb_document_is_modified(grooved));
+  // Taken back after it was saved elsewhere, it is found from there.
+  g_autofree char *wide_path = write_file("wide.txt", "mm -1.3,1.3 -1.2,0 1.2,0 1.3,1.3");
+  SbGrooveDrawing wide;
+  g_assert_true(sb_groove_file_read(&wide, wide_path, NULL));
+  g_autoptr(SbDocument) away = load(grooved_path, 0);
+  g_autofree char *away_path = g_build_filename(other, "away.valve", NULL);
+  sb_document_set_groove(away, wide_path, &wide);
+  g_assert_true(sb_document_save(away, away_path, NULL));
+  g_assert_cmpint(sb_document_undo(away), ==, SB_DOCUMENT_GROOVE);
+  g_assert_true(sb_document_is_modified(away));
+  g_assert_true(sb_document_save(away, away_path, NULL));
+  g_autoptr(SbDocument) back = load(away_path, 0);
+  g_autofree char *back_hash = sb_document_sha256(back);
+  g_assert_cmpstr(back_hash, ==, drawn_hash);
+  // A scene cannot do without its valve's.
+  g_autofree char *scene_path =
+      write_file("grooved.scene", "[sealbench]\nformat = 1\nkind = scene\nvalve = grooved.valve\n");
+  g_autoptr(SbDocument) of_valve = load(scene_path, 0);
+  g_assert_nonnull(sb_document_groove(of_valve));
+  g_assert_false(sb_document_may_drop_groove(of_valve));
+  g_assert_true(sb_document_may_drop_groove(back));
   g_assert_true(sb_document_set_option(grooved, "gland.draft=5deg", issues));
   g_clear_pointer(&with_groove, sb_model_destroy);
   const guint before_draft = issues->len;

@@ -179,6 +179,17 @@ static void drawings(void) {
   g_assert_cmpfloat_with_epsilon(sb_groove_drawn_area(&leans, leans.width, 1.36e-3),
                                  area + 1e-4 * mouth, 1e-3 * area);
 
+  // A point twice is one; a floor ends at the wall, however that leans.
+  const SbSealPoint twice[] = {{1, -1, 0}, {0, -1, 0}, {0, 1, 0}, {0, 1, 0}, {1, 1, 0}};
+  const SbSealPoint steep[] = {{1, -2.75, 0}, {0.25, -2, 0}, {0.2, -2, 0}, {0, -1.907, 0},
+                               {0, 1.907, 0}, {0.2, 2, 0},   {0.25, 2, 0}, {1, 2.75, 0}};
+  SbGrooveDrawing drawing;
+  g_assert_cmpint(sb_groove_draw(&drawing, twice, 5, NULL), ==, SB_OK);
+  g_assert_cmpfloat_with_epsilon(sb_groove_drawn_area(&drawing, 2, 1), 2, 1e-6);
+  g_assert_cmpint(sb_groove_draw(&drawing, steep, 8, NULL), ==, SB_OK);
+  const double trapezoid = 0.2 * (1.907 + 2) + 0.05 * 4 + 0.75 * (2 + 2.75);
+  g_assert_cmpfloat_with_epsilon(sb_groove_drawn_area(&drawing, 4, 1), trapezoid, 0.02 * trapezoid);
+
   static const struct {
     SbSealPoint point[8];
     int count;
@@ -200,6 +211,7 @@ static void drawings(void) {
       {{{1, -1, 0}, {0, -1, 0}, {0.6, 0.5, 0}, {0, 0.6, 0}, {0.1, 0.7, 0}, {1, 0.2, 0}}, 6, ""},
       {{{1, -1, 0}, {0, -1, 0}, {0, NAN, 0}, {1, 1, 0}}, 4, ""},
       {{{1, 0, 1e9}, {0, 0, 1e9}, {1, 0, 0}}, 3, ""},
+      {{{1, -1, 0}, {0, -1, 0}, {0, 1, 1e200}, {1, 1, 0}}, 4, "none"},
   };
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     SbGrooveDrawing none;

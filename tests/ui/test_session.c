@@ -246,6 +246,35 @@ static void test_pins(void) {
   g_rmdir(folder);
 }
 
+// A drawing is no value, and solved for like one: what is shown is of it, also after undo.
+static void test_drawn_groove(void) {
+  static const SbSealPoint point[] = {
+      {1.3e-3, -1.2e-3, 0}, {0, -1e-3, 0}, {0, 1e-3, 0}, {1.3e-3, 1.2e-3, 0}};
+  SbGrooveDrawing groove;
+  g_assert_cmpint(sb_groove_draw(&groove, point, 4, NULL), ==, SB_OK);
+  g_autoptr(SbSession) session = sb_session_new();
+  sb_session_start(session);
+  settle(session);
+  const double flat = sb_model_seal(sb_run_model(sb_session_run(session)), SB_OUTER)->gland_fill;
+  sb_session_set_groove(session, "/groove.txt", &groove);
+  g_assert_true(sb_session_is_stale(session, NULL, NULL));
+  settle(session);
+  g_assert_false(sb_session_is_stale(session, NULL, NULL));
+  const SbModel *shown = sb_run_model(sb_session_run(session));
+  g_assert_nonnull(sb_model_groove(shown));
+  g_assert_cmpfloat(sb_model_seal(shown, SB_OUTER)->gland_fill, <, 0.98 * flat);
+  sb_session_undo(session);
+  settle(session);
+  g_assert_null(sb_model_groove(sb_run_model(sb_session_run(session))));
+  // Taken back while the run goes on.
+  sb_session_redo(session);
+  turn(session, 2);
+  sb_session_undo(session);
+  settle(session);
+  g_assert_null(sb_model_groove(sb_run_model(sb_session_run(session))));
+  g_assert_false(sb_session_is_stale(session, NULL, NULL));
+}
+
 // A pinned run stays with its document only.
 static void test_another_document_forgets(void) {
   g_autoptr(SbSession) session = sb_session_new();
@@ -295,6 +324,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/session/cancelled-before-the-first-frame",
                   test_cancelled_before_the_first_frame);
   g_test_add_func("/session/pins", test_pins);
+  g_test_add_func("/session/drawn-groove", test_drawn_groove);
   g_test_add_func("/session/another-document-forgets", test_another_document_forgets);
   g_test_add_func("/session/edit-before-the-first-frame", test_edit_before_the_first_frame);
   g_test_add_func("/session/gone-while-running", test_gone_while_running);

@@ -120,7 +120,7 @@ void sb_drawing_row_refresh(GtkWidget *widget) {
   gtk_button_set_label(GTK_BUTTON(row->button), shown);
   sb_style_name(row->button, title_of(row->kind), shown);
   if (row->none != NULL) {
-    gtk_widget_set_visible(row->none, name != NULL);
+    gtk_widget_set_visible(row->none, sb_document_may_drop_groove(document));
   }
 }
 

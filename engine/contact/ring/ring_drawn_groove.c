@@ -59,7 +59,11 @@ double sb_groove_line(const SbGrooveLine *line, double at, double *slope, double
   return value;
 }
 
+// But for a point that is the last one.
 static bool add(Row *row, double z, double r, bool round) {
+  if (row->count > 0 && row->at[row->count - 1].z == z && row->at[row->count - 1].r == r) {
+    return true;
+  }
   if (row->count == POINTS) {
     return false;
   }
@@ -133,9 +137,24 @@ static SbStatus fail(SbReport *report, const Point *at, const char *what) {
                  1e3 * at->z, 1e3 * at->r);
 }
 
-// The right side of a row that rises from `lowest` on; *wall: where its wall stands nearest.
-static SbStatus side(SbGrooveLine *floor, SbGrooveLine *wall, double *nearest, const Row *row,
-                     int lowest, SbReport *report) {
+// Behind the wall, which leans by less than it, the floor rises no more.
+static bool end_floor(SbGrooveLine *floor, const Point *last, double rise, const Point *foot,
+                      double lean, double rounding) {
+  if (!(rise > 0.0)) {
+    return true;
+  }
+  const double met = (foot->z + lean * (last->r - rise * last->z - foot->r)) / (1.0 - lean * rise);
+  if (floor->count == SB_GROOVE_BENDS_MAX || !isfinite(met)) {
+    return false;
+  }
+  floor->bend[floor->count++] = (SbGrooveBend){met + rounding, -rise, rounding};
+  return true;
+}
+
+// The right side of a row that rises from `lowest` on; *nearest: where its wall stands nearest;
+// *top: the point where it ends.
+static SbStatus side(SbGrooveLine *floor, SbGrooveLine *wall, double *nearest, int *top,
+                     const Row *row, int lowest, SbReport *report) {
   const double base = row->at[lowest].r;
   const double rounding = SB_GROOVE_ROUNDING * (row->at[row->count - 1].r - base);
   double slope = 0.0, before = INFINITY;
@@ -149,16 +168,19 @@ static SbStatus side(SbGrooveLine *floor, SbGrooveLine *wall, double *nearest, c
     slope = next;
     before = q->z - p->z;
   }
-  const double steep = fmax(STEEP, atan(slope) + APART);
+  const Point last = row->at[i];
+  const double rise = slope, steep = fmax(STEEP, atan(slope) + APART);
   while (i + 1 < row->count && direction(row, i) < steep && direction(row, i) > 0.0) {
     i++;
   }
-  // Not with the rest of the corner's arc, if more follows.
+  // Not with the rest of the corner's arc, if something as steep follows.
   int straight = i;
   while (straight + 1 < row->count && row->at[straight].round) {
     straight++;
   }
-  i = straight + 1 < row->count ? straight : i;
+  const bool goes_on = straight + 1 < row->count && straight > 0 &&
+                       direction(row, straight) > direction(row, straight - 1) - CHORD;
+  i = goes_on ? straight : i;
   int end = row->count - 1;
   while (end > i && fabs(direction(row, end - 1) - M_PI / 2) > LEAN) {
     end--;
@@ -174,6 +196,9 @@ static SbStatus side(SbGrooveLine *floor, SbGrooveLine *wall, double *nearest, c
     }
     const double next = (q->z - p->z) / (q->r - p->r);
     if (k == i) {
+      if (!end_floor(floor, &last, rise, p, next, rounding)) {
+        return fail(report, p, "has no corner between floor and wall");
+      }
       wall->slope = next;
       wall->offset = p->z - next * (p->r - base);
     } else if (!bend(wall, p->r - base, next - slope, p->round, before, q->r - p->r, rounding)) {
@@ -183,6 +208,7 @@ static SbStatus side(SbGrooveLine *floor, SbGrooveLine *wall, double *nearest, c
     before = q->r - p->r;
     *nearest = fmin(*nearest, fmin(p->z, q->z));
   }
+  *top = end;
   wall->offset -= *nearest;
   for (int k = 0; k < floor->count; k++) {
     floor->bend[k].at -= *nearest;
@@ -222,18 +248,27 @@ SbStatus sb_groove_draw(SbGrooveDrawing *out, const SbSealPoint *points, int cou
                    "the groove has %d points: at least 3, and no more than %d of its arcs' chords",
                    count, POINTS);
   }
+  for (int i = 0; i < row.count; i++) {
+    const Point *p = &row.at[i];
+    if (!isfinite(p->z) || !isfinite(p->r)) {
+      return fail(report, p, "has a point that is none");
+    }
+  }
   if (row.at[0].z > row.at[row.count - 1].z) {
     turn_round(&row);
   }
   // Joints of an arc and a line are of both; a joint's flag goes with its point.
   const int lowest = lowest_of(&row);
   double wall[2];
-  SbStatus status = side(&out->floor[1], &out->wall[1], &wall[1], &row, lowest, report);
+  int top[2] = {0, 0};
+  SbStatus status = side(&out->floor[1], &out->wall[1], &wall[1], &top[1], &row, lowest, report);
   if (status == SB_OK) {
     mirror(&row);
-    status = side(&out->floor[0], &out->wall[0], &wall[0], &row, row.count - 1 - lowest, report);
+    status = side(&out->floor[0], &out->wall[0], &wall[0], &top[0], &row, row.count - 1 - lowest,
+                  report);
     mirror(&row);
     wall[0] = -wall[0];
+    top[0] = row.count - 1 - top[0];
   }
   if (status != SB_OK) {
     return status;
@@ -244,11 +279,13 @@ SbStatus sb_groove_draw(SbGrooveDrawing *out, const SbSealPoint *points, int cou
   if (!(out->width > 0.0) || !(out->depth > 0.0)) {
     return fail(report, &row.at[lowest], "has no room above its floor");
   }
-  for (int i = 0; i < row.count; i++) {
-    const Point *p = &row.at[i];
-    const double missed = off(out, wall, base, p);
-    if (fabs(missed) > MISSED * fmin(out->width, out->depth) && p->r - base < 0.9 * out->depth) {
-      return fail(report, p, "has no floor and walls that follow its outline");
+  // At its points and between them.
+  for (int i = 2 * top[0]; i <= 2 * top[1]; i++) {
+    const Point *a = &row.at[i / 2], *b = &row.at[(i + 1) / 2];
+    const Point p = {0.5 * (a->z + b->z), 0.5 * (a->r + b->r), false};
+    const double missed = off(out, wall, base, &p);
+    if (!(fabs(missed) <= MISSED * fmin(out->width, out->depth))) {
+      return fail(report, &p, "has no floor and walls that follow its outline");
     }
   }
   out->count = count;
