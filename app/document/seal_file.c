@@ -276,29 +276,30 @@ bool sb_seal_file_read(SbSealDrawing *out, double *height, const char *path, GEr
   return true;
 }
 
-// Opens a closed outline at its mouth: the straight piece along the axis that lies outermost.
-static bool open_mouth(GArray *points) {
+// Takes the opening of a closed outline away: the straight piece along the axis that lies
+// outermost.
+static bool take_opening(GArray *points) {
   const SbProfilePoint *p = (const SbProfilePoint *)(void *)points->data;
   const guint n = points->len;
-  guint mouth = n;
+  guint opening = n;
   for (guint i = 0; i < n; i++) {
     const SbProfilePoint *q = &p[(i + 1) % n];
     if (p[i].bulge == 0 && fabs(q->r - p[i].r) < 1e-3 * fabs(q->x - p[i].x) &&
-        (mouth == n || p[i].r > p[mouth].r)) {
-      mouth = i;
+        (opening == n || p[i].r > p[opening].r)) {
+      opening = i;
     }
   }
-  for (guint i = 0; mouth < n && i < n; i++) {
-    if (p[i].r > fmax(p[mouth].r, p[(mouth + 1) % n].r) + 1e-9) {
+  for (guint i = 0; opening < n && i < n; i++) {
+    if (p[i].r > fmax(p[opening].r, p[(opening + 1) % n].r) + 1e-9) {
       return false;
     }
   }
-  if (mouth == n) {
+  if (opening == n) {
     return false;
   }
   g_autoptr(GArray) row = g_array_new(FALSE, FALSE, sizeof *p);
   for (guint i = 1; i <= n; i++) {
-    g_array_append_val(row, p[(mouth + i) % n]);
+    g_array_append_val(row, p[(opening + i) % n]);
   }
   memcpy(points->data, row->data, n * sizeof *p);
   return true;
@@ -311,8 +312,8 @@ bool sb_groove_file_read(SbGrooveDrawing *out, const char *path, GError **error)
   if (points == NULL) {
     return false;
   }
-  if (closed && !open_mouth(points)) {
-    fault(error, path, "is closed without a straight mouth along the axis on the outside");
+  if (closed && !take_opening(points)) {
+    fault(error, path, "is closed without a straight opening along the axis on the outside");
     return false;
   }
   if (points->len > SB_SEAL_POINTS_MAX) {

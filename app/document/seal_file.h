@@ -13,7 +13,7 @@
 bool sb_seal_file_read(SbSealDrawing *out, double *height, const char *path, GError **error);
 
 // Reads a groove (gland.profile_file): its outline from one edge to the other, or closed by its
-// mouth (in a DXF on a layer "groove" if there are others). False with an error that names the
+// opening (in a DXF on a layer "groove" if there are others). False with an error that names the
 // file, *out without points: no such outline, more than SB_SEAL_POINTS_MAX points, none that
 // sb_groove_draw() takes.
 bool sb_groove_file_read(SbGrooveDrawing *out, const char *path, GError **error);

@@ -172,12 +172,12 @@ static void drawings(void) {
                       2 * corner * corner * (tan(M_PI / 4 - draft / 2) - (M_PI / 4 - draft / 2));
   g_assert_cmpfloat_with_epsilon(sb_groove_drawn_area(&leans, leans.width, 1.26e-3), area,
                                  1e-3 * area);
-  // Further apart by what they are moved, and above the drawing as wide as its mouth.
+  // Further apart by what they are moved, and above the drawing as wide as its opening.
   const double wide = sb_groove_drawn_area(&leans, leans.width + 1e-4, 1.26e-3);
   g_assert_cmpfloat_with_epsilon(wide, area + 1.26e-7, 1e-3 * area);
-  const double mouth = out[0][0] - out[count - 1][0];
+  const double opening = out[0][0] - out[count - 1][0];
   g_assert_cmpfloat_with_epsilon(sb_groove_drawn_area(&leans, leans.width, 1.36e-3),
-                                 area + 1e-4 * mouth, 1e-3 * area);
+                                 area + 1e-4 * opening, 1e-3 * area);
 
   // A point twice is one; a floor ends at the wall, however that leans.
   const SbSealPoint twice[] = {{1, -1, 0}, {0, -1, 0}, {0, 1, 0}, {0, 1, 0}, {1, 1, 0}};

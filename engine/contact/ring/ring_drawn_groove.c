@@ -7,7 +7,6 @@
 #include "engine/numeric/arc.h"
 
 #include <math.h>
-#include <string.h>
 
 // Directions [rad]: of arcs' chords; of the floor at most, and of a wall's lean; of a wall over the
 // floor's last piece at least.
@@ -70,6 +69,9 @@ static bool add(Row *row, double z, double r, bool round) {
   row->at[row->count++] = (Point){z, r, round};
   return true;
 }
+
+// The greatest bulge: an arc that is a circle but for 0.2 degrees.
+static const double BULGE_MOST = 1e3;
 
 // Divides the arcs. The last point's bulge bends nothing.
 static bool divide(Row *row, const SbSealPoint *points, int count) {
@@ -243,16 +245,16 @@ SbStatus sb_groove_draw(SbGrooveDrawing *out, const SbSealPoint *points, int cou
                         SbReport *report) {
   Row row;
   *out = (SbGrooveDrawing){0};
+  for (int i = 0; i < count; i++) {
+    const SbSealPoint *p = &points[i];
+    if (!isfinite(p->z) || !isfinite(p->r) || !(fabs(p->bulge) < BULGE_MOST)) {
+      return fail(report, &(Point){p->z, p->r, false}, "has a point or an arc that is none");
+    }
+  }
   if (count < 3 || !divide(&row, points, count)) {
     return sb_fail(report, SB_ERROR_INPUT,
                    "the groove has %d points: at least 3, and no more than %d of its arcs' chords",
                    count, POINTS);
-  }
-  for (int i = 0; i < row.count; i++) {
-    const Point *p = &row.at[i];
-    if (!isfinite(p->z) || !isfinite(p->r)) {
-      return fail(report, p, "has a point that is none");
-    }
   }
   if (row.at[0].z > row.at[row.count - 1].z) {
     turn_round(&row);

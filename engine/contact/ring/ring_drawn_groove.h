@@ -52,5 +52,5 @@ enum { SB_GROOVE_POINTS = 160 };
 int sb_groove_outline(double out[SB_GROOVE_POINTS][2], const SbGrooveDrawing *groove, double width,
                       double height);
 
-// Area of that outline below the height [m2], above the drawing as wide as its mouth.
+// Area of that outline below the height [m2], above the drawing as wide as its opening.
 double sb_groove_drawn_area(const SbGrooveDrawing *groove, double width, double height);
