@@ -8,6 +8,7 @@
 #include "app/document/picture.h"
 #include "app/document/series.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -553,44 +554,6 @@ static void sum_series(GChecksum *sum, const SbModelSeries *series) {
   }
 }
 
-static void sum_section(GChecksum *sum, const SbSealDrawing *section) {
-  for (int i = 0; i < section->count; i++) {
-    const SbSealPoint *p = &section->point[i];
-    char digits[3][SB_NUMBER_SIZE];
-    sb_number_format(digits[0], p->r);
-    sb_number_format(digits[1], p->z);
-    sb_number_format(digits[2], p->bulge);
-    g_autofree char *line = g_strdup_printf("%s,%s,%s\n", digits[0], digits[1], digits[2]);
-    g_checksum_update(sum, (const guchar *)line, -1);
-  }
-}
-
-static void sum_line(GChecksum *sum, const SbGrooveLine *line) {
-  for (int i = -1; i < line->count; i++) {
-    const SbGrooveBend first = {line->offset, line->slope, 0};
-    const SbGrooveBend *bend = i < 0 ? &first : &line->bend[i];
-    char digits[3][SB_NUMBER_SIZE];
-    sb_number_format(digits[0], bend->at);
-    sb_number_format(digits[1], bend->turn);
-    sb_number_format(digits[2], bend->length);
-    g_autofree char *text = g_strdup_printf("%s,%s,%s\n", digits[0], digits[1], digits[2]);
-    g_checksum_update(sum, (const guchar *)text, -1);
-  }
-}
-
-static void sum_groove(GChecksum *sum, const SbGrooveDrawing *groove) {
-  if (groove->count == 0) {
-    return;
-  }
-  // The depth by a line of its own.
-  const SbGrooveLine depth = {.offset = groove->width, .slope = groove->depth};
-  sum_line(sum, &depth);
-  for (int i = 0; i < 2; i++) {
-    sum_line(sum, &groove->floor[i]);
-    sum_line(sum, &groove->wall[i]);
-  }
-}
-
 char *sb_document_sha256(const SbDocument *document) {
   SbParams params = sb_document_params(document);
   GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
@@ -604,8 +567,9 @@ char *sb_document_sha256(const SbDocument *document) {
   if (document->data != NULL) {
     sum_series(sum, &document->data->measured);
     sum_series(sum, &document->data->shelf);
-    sum_section(sum, &document->data->profile);
-    sum_groove(sum, &document->data->groove);
+    const uint64_t drawings = sb_model_data_drawings(document->data);
+    g_autofree char *line = g_strdup_printf("drawn=%016" PRIx64 "\n", drawings);
+    g_checksum_update(sum, (const guchar *)line, drawings != 0 ? -1 : 0);
   }
   char *hex = g_strdup(g_checksum_get_string(sum));
   g_checksum_free(sum);

@@ -152,41 +152,6 @@ const SbGrooveDrawing *sb_model_groove(const SbModel *model) {
   return drawn && model->kind != SB_VALVE_GASKET ? &model->data->groove : NULL;
 }
 
-// FNV-1a.
-static uint64_t mix(uint64_t sum, const double *numbers, int count) {
-  const unsigned char *byte = (const unsigned char *)numbers;
-  for (size_t i = 0; i < sizeof *numbers * (size_t)count; i++) {
-    sum = (sum ^ byte[i]) * 0x100000001b3U;
-  }
-  return sum;
-}
-
-static uint64_t mix_line(uint64_t sum, const SbGrooveLine *line) {
-  sum = mix(sum, (const double[]){line->offset, line->slope, line->count}, 3);
-  for (int i = 0; i < line->count; i++) {
-    const SbGrooveBend *bend = &line->bend[i];
-    sum = mix(sum, (const double[]){bend->at, bend->turn, bend->length}, 3);
-  }
-  return sum;
-}
-
-uint64_t sb_model_drawings(const SbModel *model) {
-  uint64_t sum = 0xcbf29ce484222325U;
-  const SbSealDrawing *section = model->data != NULL ? &model->data->profile : NULL;
-  const SbGrooveDrawing *groove = sb_model_groove(model);
-  for (int i = 0; section != NULL && i < section->count; i++) {
-    const SbSealPoint *p = &section->point[i];
-    sum = mix(sum, (const double[]){p->r, p->z, p->bulge}, 3);
-  }
-  if (groove != NULL) {
-    sum = mix(sum, (const double[]){groove->width, groove->depth}, 2);
-    for (int k = 0; k < 2; k++) {
-      sum = mix_line(mix_line(sum, &groove->floor[k]), &groove->wall[k]);
-    }
-  }
-  return sum;
-}
-
 // Works out a seal from its `stored` ring, its Poisson's ratio and the gland.
 static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   SbSealModel *seal = &model->seal[index];
@@ -448,32 +413,12 @@ SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *
   return status == SB_OK ? sb_succeed(report) : sb_fail(report, status, "no memory for a model");
 }
 
-SbStatus sb_model_data_create(SbModelData **out) {
-  *out = calloc(1, sizeof **out);
-  if (*out == NULL) {
-    return SB_ERROR_MEMORY;
-  }
-  atomic_init(&(*out)->holders, 1);
-  return SB_OK;
-}
-
-// The count alone changes behind the const.
-static atomic_uint *holders(const SbModelData *data) {
-  return &((SbModelData *)data)->holders;
-}
-
-void sb_model_data_release(const SbModelData *data) {
-  if (data != NULL && atomic_fetch_sub_explicit(holders(data), 1, memory_order_acq_rel) == 1) {
-    free((SbModelData *)data);
-  }
-}
-
 // Hands a model that was made over, holding its data, or none.
 static SbStatus hand_over(SbModel **out, SbModel *model, SbStatus status) {
   if (status != SB_OK) {
     free(model);
   } else if (model->data != NULL) {
-    atomic_fetch_add_explicit(holders(model->data), 1, memory_order_relaxed);
+    sb_model_data_hold(model->data);
   }
   *out = status == SB_OK ? model : NULL;
   return status;

@@ -54,6 +54,9 @@ struct SbModel {
 void SB_PRINTF(5, 6) sb_model_refuse(SbProblems *problems, const char *key, double min, double max,
                                      const char *format, ...);
 
+// Holds data once more, for sb_model_data_release().
+void sb_model_data_hold(const SbModelData *data);
+
 // Adds what makes no sense of the values alone: sizes, profiles, grooves, combinations, the fluid.
 void sb_model_check(const SbModel *model, SbProblems *problems);
 

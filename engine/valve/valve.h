@@ -222,6 +222,10 @@ SbStatus sb_model_data_create(SbModelData **out);
 // Lets go of it; with the last holder it goes. From any thread; takes NULL.
 void sb_model_data_release(const SbModelData *data);
 
+// A number of what files draw, section and groove: another one where they differ (FNV-1a). 0: there
+// is neither.
+uint64_t sb_model_data_drawings(const SbModelData *data);
+
 // Compiles parameters. On SB_OK *out is owned by the caller and holds `data` (NULL: no
 // measured series, drawn section or outlines); it has `limits` (NULL: none). Otherwise *out is
 // NULL: SB_ERROR_MEMORY, or SB_ERROR_INPUT, and `problems` (may be NULL) lists every combination
@@ -287,7 +291,7 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings);
 // The drawn groove, borrowed with the model's data; NULL: it is not drawn.
 const SbGrooveDrawing *sb_model_groove(const SbModel *model);
 
-// A number of what files draw of it, section and grooves: another one where they differ.
+// sb_model_data_drawings() of its data; 0: it has none.
 uint64_t sb_model_drawings(const SbModel *model);
 
 // The free section's profile, as large as the seal is in use.
