@@ -27,33 +27,26 @@ void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem 
   *load = (SbRingLoad)SB_RING_LOAD_INIT;
   load->bore_radius = (in->gasket ? -0.5 : 0.5) * in->bore_diameter;
   load->floor_radius = in->gasket ? -INFINITY : load->bore_radius - in->radial_space;
-  if (in->gasket) {
-    load->wall_left = -0.5 * in->gland_width;
+  load->pressure_left = fmax(0.0, in->pressure);
+  load->pressure_right = fmax(0.0, -in->pressure);
+  // A drawn floor may lead the ring to the other wall.
+  const bool both = in->gasket || in->dragged || in->groove != NULL;
+  if (both || in->pressure > 0.0) {
     load->wall_right = 0.5 * in->gland_width;
-    load->friction_wall = in->wall_friction;
-    load->pressure_left = fmax(0.0, in->pressure);
-    load->pressure_right = fmax(0.0, -in->pressure);
-  } else if (in->pressure > 0.0) {
-    load->pressure_left = in->pressure;
-    load->wall_right = 0.5 * in->gland_width;
-  } else if (in->pressure < 0.0) {
-    load->pressure_right = -in->pressure;
+  }
+  if (both || in->pressure < 0.0) {
     load->wall_left = -0.5 * in->gland_width;
   }
-  if (!in->gasket) {
+  if (in->gasket) {
+    load->friction_wall = in->wall_friction;
+  } else {
     load->wall_draft = in->wall_draft;
     load->floor_corner = in->groove_corner;
     load->wall_chamfer = in->groove_chamfer;
     load->wall_top = 0.5 * in->land_diameter;
     load->groove = in->groove;
   }
-  if (load->groove != NULL) { // its floor may lead the ring to the other wall
-    load->wall_left = -0.5 * in->gland_width;
-    load->wall_right = 0.5 * in->gland_width;
-  }
   if (in->dragged) {
-    load->wall_left = -0.5 * in->gland_width;
-    load->wall_right = 0.5 * in->gland_width;
     load->bore_slides = drag_direction(in);
     load->friction_bore = fabs(in->drag);
     load->shear = in->shear;

@@ -127,6 +127,12 @@ static void list(SbParamPanel *panel) {
       group->unfolded = gtk_expander_get_expanded(GTK_EXPANDER(group->expander));
     }
   }
+  const struct {
+    GtkWidget *row;
+    gboolean listed;
+  } own[] = {{panel->rubber, is_rubber_listed(panel, needle)},
+             {panel->section, is_section_listed(panel, &params, needle)},
+             {panel->groove, is_groove_listed(panel, &params, needle)}};
   int found = 0;
   for (guint g = 0; g < panel->groups->len; g++) {
     Group *group = group_at(panel, (int)g);
@@ -138,20 +144,11 @@ static void list(SbParamPanel *panel) {
         in_group += listed;
       }
     }
-    if (group->box == gtk_widget_get_parent(panel->rubber)) {
-      const gboolean listed = is_rubber_listed(panel, needle);
-      gtk_widget_set_visible(panel->rubber, listed);
-      in_group += listed;
-    }
-    if (group->box == gtk_widget_get_parent(panel->section)) {
-      const gboolean listed = is_section_listed(panel, &params, needle);
-      gtk_widget_set_visible(panel->section, listed);
-      in_group += listed;
-    }
-    if (group->box == gtk_widget_get_parent(panel->groove)) {
-      const gboolean listed = is_groove_listed(panel, &params, needle);
-      gtk_widget_set_visible(panel->groove, listed);
-      in_group += listed;
+    for (size_t i = 0; i < G_N_ELEMENTS(own); i++) {
+      if (group->box == gtk_widget_get_parent(own[i].row)) {
+        gtk_widget_set_visible(own[i].row, own[i].listed);
+        in_group += own[i].listed;
+      }
     }
     found += in_group;
     gtk_widget_set_visible(group->expander, in_group > 0);
