@@ -134,7 +134,7 @@ static void read_groove(SbGrooveDrawing *out, const char *text) {
   }
 }
 
-// A groove's outline goes either way, may be closed by its mouth, and lies anywhere; what is none
+// A groove's outline goes either way, may be closed by its opening, and lies anywhere; what is none
 // is refused by name.
 static void test_groove(void) {
   static const char *const same[] = {"mm -1.2,1.3 -1,0 1,0 1.1,1.3",
@@ -155,6 +155,20 @@ static void test_groove(void) {
       g_assert_cmpfloat_with_epsilon(is.wall[k].offset, wanted.wall[k].offset, 1e-12);
     }
   }
+  // A DXF has it closed, on a layer of that name beside a part.
+  static const char layer[] = "0\nLWPOLYLINE\n8\n%s\n90\n4\n70\n1\n%s";
+  g_autofree char *outline = g_strdup_printf(
+      layer, "groove", "10\n-1.2\n20\n9.3\n10\n-1\n20\n8\n10\n1\n20\n8\n10\n1.1\n20\n9.3\n");
+  g_autofree char *part =
+      g_strdup_printf(layer, "stem", "10\n0\n20\n1\n10\n5\n20\n1\n10\n5\n20\n2\n10\n0\n20\n2\n");
+  g_autofree char *dxf = g_strconcat("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\n"
+                                     "SECTION\n2\nENTITIES\n",
+                                     outline, part, "0\nENDSEC\n0\nEOF\n", NULL);
+  g_autofree char *dxf_path = write_file("groove.dxf", dxf);
+  SbGrooveDrawing of_dxf;
+  g_assert_true(sb_groove_file_read(&of_dxf, dxf_path, NULL));
+  g_assert_cmpfloat_with_epsilon(of_dxf.width, wanted.width, 1e-9);
+  g_assert_cmpfloat_with_epsilon(of_dxf.wall[0].slope, wanted.wall[0].slope, 1e-6);
   static const char *const bad[] = {
       "mm -1,1 -1,0 1,0", "mm 0,0 1,0 1,1,0.5 0,1 0,0", "mm 0,2 0.5,3 1,2 1,0 0,0 0,2",
       "mm 0,0",           "stone 0,1 0,0 1,0 1,1",      ""};
