@@ -173,7 +173,8 @@ static void poke(void) {
 }
 
 static void one_action(void) {
-  static const char *const pages[] = {"valve", "valve", "valve", "propellants"};
+  static const char *const pages[] = {"valve",     "valve",       "valve", "design",
+                                      "calibrate", "propellants", "thesis"};
   SbSession *session = sb_window_session(SB_WINDOW(window));
   switch (g_rand_int_range(dice, 0, 20)) {
   case 0:

@@ -3,7 +3,9 @@
 // points to are the sanitizers' to find; this finds what something still points to.)
 #include "app/export/export_job.h"
 #include "ui/window/application.h"
+#include "ui/window/design_page.h"
 #include "ui/window/import_dialog.h"
+#include "ui/window/toast.h"
 #include "ui/window/window.h"
 
 #include <glib/gstdio.h>
@@ -86,9 +88,9 @@ static void find_named(GtkWidget *widget, gpointer data) {
   }
 }
 
-static GtkWidget *named(GtkDialog *dialog, const char *name) {
+static GtkWidget *named(gpointer inside, const char *name) {
   gpointer wanted[2] = {(gpointer)(gintptr)name, NULL};
-  find_named(GTK_WIDGET(dialog), wanted);
+  find_named(GTK_WIDGET(inside), wanted);
   g_assert_nonnull(wanted[1]);
   return wanted[1];
 }
@@ -216,6 +218,36 @@ static void test_import(void) {
   gtk_widget_destroy(parent);
 }
 
+// A point that was picked on a map is none once another document has taken the map away.
+static void test_design_point_goes_with_its_map(void) {
+  g_autoptr(SbSession) session = sb_session_new();
+  g_autofree char *scene =
+      g_strdup_printf("%s/scenes/thesis-cycle.scene", g_getenv("SEALBENCH_ASSETS"));
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_assert_true(sb_session_open(session, scene, issues));
+  GtkWidget *window = gtk_window_new(GTK_WINDOW_TOPLEVEL);
+  gtk_container_add(GTK_CONTAINER(window), sb_design_page_new(session));
+  sb_toast_attach(GTK_WINDOW(window));
+  gtk_widget_show_all(window);
+  GtkWidget *map = named(window, "Map of the design"), *keep = named(window, "Keep design");
+  g_assert_false(gtk_widget_get_sensitive(keep));
+  GdkEventKey up = {.type = GDK_KEY_PRESS, .keyval = GDK_KEY_Up};
+  for (int i = 0; i < 500 && !gtk_widget_get_sensitive(keep); i++) {
+    gboolean taken;
+    turn(20);
+    g_signal_emit_by_name(map, "key-press-event", &up, &taken);
+  }
+  g_assert_true(gtk_widget_get_sensitive(keep));
+  gtk_button_clicked(GTK_BUTTON(keep));
+  g_assert_cmpuint(sb_session_pin_count(session), ==, 1);
+  sb_session_reset(session);
+  g_assert_false(gtk_widget_get_sensitive(keep));
+  gtk_button_clicked(GTK_BUTTON(keep));
+  gtk_button_clicked(GTK_BUTTON(named(window, "Open design")));
+  g_assert_false(sb_session_is_modified(session));
+  gtk_widget_destroy(window);
+}
+
 int main(int argc, char **argv) {
   g_autofree char *folder = g_dir_make_tmp("sealbench-windows-XXXXXX", NULL);
   g_setenv("XDG_CONFIG_HOME", folder, TRUE);
@@ -227,6 +259,7 @@ int main(int argc, char **argv) {
   // Services of a desktop may be missing; only a critical message is a defect.
   g_log_set_always_fatal(G_LOG_LEVEL_CRITICAL | G_LOG_FATAL_MASK);
   g_test_add_func("/windows/import", test_import);
+  g_test_add_func("/windows/design-point", test_design_point_goes_with_its_map);
   g_test_add_func("/windows/closed-windows-are-gone", test_closed_windows_are_gone);
   return g_test_run();
 }

@@ -181,8 +181,9 @@ static void refresh(Page *page) {
   gtk_label_set_text(GTK_LABEL(page->told), told);
   gtk_widget_set_tooltip_text(page->told, told);
   const gboolean best = answer != NULL && answer->place[SB_DESIGN_BEST].known;
-  gtk_widget_set_sensitive(page->open, page->look.picked);
-  gtk_widget_set_sensitive(page->pin, page->look.picked);
+  const gboolean picks = answer != NULL && page->look.picked;
+  gtk_widget_set_sensitive(page->open, picks);
+  gtk_widget_set_sensitive(page->pin, picks);
   gtk_widget_set_sensitive(page->use_best, best);
   g_autofree char *text =
       answer != NULL ? sb_design_text(answer) : g_strdup(_("Nothing is computed yet."));
@@ -373,6 +374,7 @@ static void follow(Page *page) {
     }
     end_job(page);
     g_clear_pointer(&page->answer, sb_design_answer_free);
+    page->look.picked = FALSE;
     show_ranges(page);
   }
   if (gtk_widget_get_mapped(page->box) && sb_session_model(page->session) != NULL &&
@@ -535,28 +537,27 @@ static void pick(Page *page, double across, double up) {
   refresh(page);
 }
 
-static void overrides(Page *page, SbOverride out[2]) {
+// The picked point's two values; FALSE: none is picked.
+static gboolean overrides(Page *page, SbOverride out[2]) {
   const SbDesignAnswer *answer = look_at(page);
-  for (int axis = 0; axis < 2; axis++) {
+  const gboolean picked = answer != NULL && page->look.picked;
+  for (int axis = 0; picked && axis < 2; axis++) {
     out[axis] = (SbOverride){answer->map.axis[axis], page->look.pick[axis]};
   }
   look_away(page);
+  return picked;
 }
 
 static void on_open(Page *page) {
   SbOverride override[2];
-  if (page->look.picked) {
-    overrides(page, override);
-    if (!sb_session_edit_values(page->session, override, 2)) {
-      say(page, _("A value is out of range."));
-    }
+  if (overrides(page, override) && !sb_session_edit_values(page->session, override, 2)) {
+    say(page, _("A value is out of range."));
   }
 }
 
 static void on_pin(Page *page) {
   SbOverride override[2];
-  if (page->look.picked) {
-    overrides(page, override);
+  if (overrides(page, override)) {
     const gboolean kept = sb_session_pin_values(page->session, override, 2);
     sb_toast_show(GTK_WINDOW(gtk_widget_get_toplevel(page->box)),
                   kept ? _("The design is kept: its run is computed, and stands on the page Valve.")
