@@ -163,11 +163,6 @@ void sb_ehl_rough_guess(SbEhlSolution *solution) {
   state->shift = c->layers.middle;
 }
 
-static bool same_surface(const SbRoughSurface *a, const SbRoughSurface *b) {
-  return a->model == b->model && a->product == b->product && a->sigma == b->sigma &&
-         a->sigma_over_beta == b->sigma_over_beta && a->modulus == b->modulus && a->work == b->work;
-}
-
 SbStatus sb_ehl_rough_law(const SbRoughLaw **law, SbFilmSolver *solver,
                           const SbFilmProblem *problem, SbReport *report) {
   const SbRoughSurface surface = {.model = problem->surface,
@@ -177,10 +172,10 @@ SbStatus sb_ehl_rough_law(const SbRoughLaw **law, SbFilmSolver *solver,
                                   .modulus = problem->modulus,
                                   .work = problem->work_of_adhesion};
   *law = &solver->law;
-  if (solver->law_ready && same_surface(&solver->law.surface, &surface)) {
+  if (solver->law_ready && sb_rough_same_surface(&solver->law.surface, &surface)) {
     return SB_OK;
   }
-  SbStatus status = sb_rough_law_init(&solver->law, &surface, report);
+  SbStatus status = sb_rough_law_like(&solver->law, &surface, problem->law, report);
   solver->law_ready = status == SB_OK;
   return status;
 }

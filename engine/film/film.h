@@ -90,6 +90,9 @@ typedef struct {
                            // In place of van der Waals' pull; closes the film as that does
   double shear_strength;   // tau_0 [Pa] of the real contact
   double load_coefficient; // m on the asperities' load
+  // A law whose tables serve if the surface has its heights (sb_rough_law_like()), to save making
+  // them; NULL: none. Borrowed during the call.
+  const SbRoughLaw *law;
 
   // Surface of a fitted body in place of the half-plane and the parabola, for the reynolds model
   // and its dry contact; the others ignore it. NULL for none; borrowed during the call. Radius and

@@ -36,7 +36,7 @@ static double share_under(const Contact *c, double film) {
 // The squeeze of the state's film, if it has one, and how real contact follows it. `law` is room
 // for that of asperities that share the load.
 static SbStatus squeeze_out(Contact *c, SbRoughLaw *law, int seal, const SbSealState *state,
-                            SbReport *report) {
+                            const SbRoughLaw *known, SbReport *report) {
   const SbModel *model = c->model;
   const double width = state->contact_right - state->contact_left;
   const double pressure = state->load_net / width;
@@ -47,7 +47,7 @@ static SbStatus squeeze_out(Contact *c, SbRoughLaw *law, int seal, const SbSealS
   const double roughness = film / (state->lambda * model->sigma); // run in, over the model's
   c->surface = sb_model_surface(model, seal, roughness);
   if (law != NULL) {
-    SbStatus status = sb_rough_law_init(law, &c->surface, report);
+    SbStatus status = sb_rough_law_like(law, &c->surface, known, report);
     if (status != SB_OK) {
       return status;
     }
@@ -79,7 +79,7 @@ static double aged_friction(double dwell, const void *context) {
 }
 
 SbStatus sb_breakaway_law(SbDwellLaw *out, double *squeeze_time, const SbModel *model, int seal,
-                          const SbSealState *state, SbReport *report) {
+                          const SbSealState *state, const SbRoughLaw *known, SbReport *report) {
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   const double dry = state->rest_area + state->rest_load;
   const double kinetic = sb_sliding_friction(state);
@@ -95,7 +95,7 @@ SbStatus sb_breakaway_law(SbDwellLaw *out, double *squeeze_time, const SbModel *
   if (coupled && law == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the rough contact");
   }
-  SbStatus status = squeeze_out(&contact, law, seal, state, report);
+  SbStatus status = squeeze_out(&contact, law, seal, state, known, report);
   *squeeze_time = contact.squeeze_time;
   if (status == SB_OK && model->contact_ageing && kinetic > 0) {
     const double ageing = model->ageing_time;

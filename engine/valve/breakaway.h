@@ -30,6 +30,7 @@
 #include "engine/valve/run/run.h"
 
 // The law of a solved state of a seal [N], NaN where what it needs was not computed, and the rest
-// in which half of the sliding film that goes has gone [s], NaN without a film.
+// in which half of the sliding film that goes has gone [s], NaN without a film. `known`: a law of
+// the seal's surface, as in sb_rough_law_like().
 SbStatus sb_breakaway_law(SbDwellLaw *out, double *squeeze_time, const SbModel *model, int seal,
-                          const SbSealState *state, SbReport *report);
+                          const SbSealState *state, const SbRoughLaw *known, SbReport *report);

@@ -297,7 +297,7 @@ static SbStatus slip_platen(double *out, const Planner *p, int direction, double
   double kinetic[SB_SEAL_COUNT], sliding[SB_SEAL_COUNT], X = p->X, squeeze_time;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const SbSealState *state = &p->cycle->state[seal][p->chamber][p->direction];
-    SbStatus status = sb_breakaway_law(&law[seal], &squeeze_time, model, seal, state, report);
+    SbStatus status = sb_breakaway_law(&law[seal], &squeeze_time, model, seal, state, NULL, report);
     if (status != SB_OK) {
       return status;
     }

@@ -112,8 +112,8 @@ bool sb_sliding_usable(SbStatus status) {
 // Break-away after the rest before the first stroke.
 static SbStatus set_static(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   SbDwellLaw law;
-  SbStatus status =
-      sb_breakaway_law(&law, &out->squeeze_out_time, task->model, task->seal, out, report);
+  SbStatus status = sb_breakaway_law(&law, &out->squeeze_out_time, task->model, task->seal, out,
+                                     sb_sliding_rough_law(task), report);
   out->friction_static = status == SB_OK ? sb_dwell_at(&law, task->model->rest) : NAN;
   return status;
 }

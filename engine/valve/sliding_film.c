@@ -332,7 +332,24 @@ SbStatus sb_sliding_solve_film(const SbSlidingTask *task, SbSealState *out, SbRe
   return status;
 }
 
-static void add_asperities(SbFilmProblem *problem, const SbModel *model) {
+const SbRoughLaw *sb_sliding_rough_law(const SbSlidingTask *task) {
+  const SbModel *model = task->model;
+  SbSlidingMemory *memory = task->memory;
+  const SbRoughSurface surface = sb_model_surface(model, task->seal, 1);
+  if (model->asperities != SB_MODEL_ASPERITIES_COUPLED || surface.model == SB_ROUGH_NONE ||
+      surface.work > 0) { // tips that stick have their own
+    return NULL;
+  }
+  SbRoughLaw *law = &memory->law;
+  if (law->count > 0 && sb_rough_same_surface(&law->surface, &surface)) {
+    return law;
+  }
+  const SbRoughLaw *known = law->count == 0 && memory->from != NULL ? &memory->from->law : law;
+  return sb_rough_law_like(law, &surface, known, NULL) == SB_OK ? law : NULL;
+}
+
+static void add_asperities(SbFilmProblem *problem, const SbSlidingTask *task) {
+  const SbModel *model = task->model;
   problem->surface = model->surface;
   problem->gt_product = model->gt_product;
   problem->sigma = model->sigma;
@@ -341,6 +358,7 @@ static void add_asperities(SbFilmProblem *problem, const SbModel *model) {
   problem->work_of_adhesion = model->work_of_adhesion;
   problem->shear_strength = model->shear_strength;
   problem->load_coefficient = model->load_coefficient;
+  problem->law = sb_sliding_rough_law(task);
 }
 
 // The film with asperities in it: on the fitted body, or on the half-plane where that cannot be.
@@ -349,7 +367,7 @@ SbStatus sb_sliding_solve_rough(const SbSlidingTask *task, SbSlidingSolved *out,
   const SbModel *model = task->model;
   SbFilmProblem problem;
   sb_sliding_film_problem(&problem, model, task->seal, task->pressure, load_net, speed);
-  add_asperities(&problem, model);
+  add_asperities(&problem, task);
   if (speed != 0) {
     problem.inlet_film = task->supply.limited ? task->supply.layer : 0;
     option_warnings(task, &problem);
@@ -372,7 +390,7 @@ void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSl
   const bool solved = out->model == SB_FILM_REYNOLDS;
   out->inlet_film = task->supply.limited && solved ? task->supply.layer : 0;
   if (coupled) {
-    add_asperities(out, model);
+    add_asperities(out, task);
   }
   if (body != NULL) {
     lay_on(out, body);

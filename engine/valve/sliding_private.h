@@ -99,6 +99,7 @@ struct SbSlidingMemory {
   SbSlidingBody body;        // of the last film on one
   SbFilmSolver *solver;      // NULL until a film is solved: laws need none
   SbFilmSolver *rest_solver; // that of `rest`, which leaves a sliding film's solution alone
+  SbRoughLaw law;            // of the surface, once a film or a rest has asked for it
   SbSlidingBase base;        // what `solver` solved last from nothing
   bool near;                 // films next to that one may be solved beside it
   bool rest_waits;           // a sliding state is not asked what it is at rest
@@ -112,6 +113,10 @@ void sb_sliding_keep(SbSlidingMemory *memory, int way);
 
 // Whether friction drags this seal's section: the ring's, while it slides.
 bool sb_sliding_drags(const SbSlidingTask *task);
+
+// The law of a task's surface with coupled asperities, made once for all of a seal's films and
+// rests; borrowed, NULL where there is none.
+const SbRoughLaw *sb_sliding_rough_law(const SbSlidingTask *task);
 
 // A solver that stopped above the tolerance has the figures of its last solution, with their error.
 bool sb_sliding_usable(SbStatus status);

@@ -48,6 +48,36 @@ static void test_laws(void) {
   }
 }
 
+// The tables of another modulus are the same to the bit; those of other heights, or of tips that
+// stick, serve nobody.
+static void test_like(void) {
+  for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
+    SbRoughSurface surface = {(SbRoughModel)model, 0.1289, 1e-6, 0.1, 6.5725e6, 0};
+    SbRoughLaw known, anew, like;
+    g_assert_cmpint(sb_rough_law_init(&known, &surface, NULL), ==, SB_OK);
+    for (int k = 0; k < 3; k++) {
+      surface.modulus = k == 0 ? 3.1e6 : surface.modulus;
+      surface.sigma = k == 1 ? 2e-6 : surface.sigma;
+      surface.product = k == 2 ? 0.05 : surface.product;
+      g_assert_cmpint(sb_rough_law_init(&anew, &surface, NULL), ==, SB_OK);
+      g_assert_cmpint(sb_rough_law_like(&like, &surface, &known, NULL), ==, SB_OK);
+      g_assert_cmpmem(&like, sizeof like, &anew, sizeof anew);
+      g_assert_true(sb_rough_same_surface(&like.surface, &surface));
+    }
+    g_assert_cmpint(sb_rough_law_like(&like, &surface, NULL, NULL), ==, SB_OK);
+    g_assert_cmpmem(&like, sizeof like, &anew, sizeof anew);
+    surface.modulus = 0;
+    g_assert_cmpint(sb_rough_law_like(&like, &surface, &anew, NULL), ==, SB_ERROR_RANGE);
+  }
+  SbRoughSurface sticks = {SB_ROUGH_GREENWOOD_TRIPP, 0.1289, 1e-6, 0.1, 6.5725e6, 0.05};
+  SbRoughLaw known, anew, like;
+  g_assert_cmpint(sb_rough_law_init(&known, &sticks, NULL), ==, SB_OK);
+  sticks.modulus = 3.1e6;
+  g_assert_cmpint(sb_rough_law_init(&anew, &sticks, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_rough_law_like(&like, &sticks, &known, NULL), ==, SB_OK);
+  g_assert_cmpmem(&like, sizeof like, &anew, sizeof anew);
+}
+
 // Pull at a point of the law: its slope against differences, nil where no gap is open, and the
 // cut-off on the open gap.
 static void test_pull(void) {
@@ -221,6 +251,7 @@ static void test_sticking_law(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/rough-law/tables", test_laws);
+  g_test_add_func("/rough-law/like", test_like);
   g_test_add_func("/rough-law/pull", test_pull);
   g_test_add_func("/rough-law/tip", test_tip);
   g_test_add_func("/rough-law/fuller-tabor", test_fuller_tabor);

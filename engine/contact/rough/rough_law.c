@@ -160,6 +160,28 @@ SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbRep
              : sb_fail(report, SB_ERROR_INPUT, "this surface has no asperities");
 }
 
+static bool same_heights(const SbRoughSurface *a, const SbRoughSurface *b) {
+  return a->model == b->model && a->product == b->product && a->sigma == b->sigma &&
+         a->sigma_over_beta == b->sigma_over_beta;
+}
+
+bool sb_rough_same_surface(const SbRoughSurface *a, const SbRoughSurface *b) {
+  return same_heights(a, b) && a->modulus == b->modulus && a->work == b->work;
+}
+
+SbStatus sb_rough_law_like(SbRoughLaw *law, const SbRoughSurface *surface, const SbRoughLaw *known,
+                           SbReport *report) {
+  const bool serves = known != NULL && known->count > 0 && !(known->surface.work > 0) &&
+                      surface->work == 0 && surface->modulus > 0 &&
+                      same_heights(&known->surface, surface);
+  if (!serves) {
+    return sb_rough_law_init(law, surface, report);
+  }
+  memmove(law, known, sizeof *law);
+  law->surface.modulus = surface->modulus;
+  return sb_succeed(report);
+}
+
 void sb_rough_law_at(SbRoughPoint *out, const SbRoughLaw *law, double t) {
   double f = (t - law->begin) / law->step;
   double v[SB_ROUGH_QUANTITIES], by[SB_ROUGH_QUANTITIES];

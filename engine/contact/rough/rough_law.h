@@ -74,6 +74,13 @@ typedef struct {
 // that could stick.
 SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbReport *report);
 
+bool sb_rough_same_surface(const SbRoughSurface *a, const SbRoughSurface *b);
+
+// The same from a law, which may be *law, whose tables serve: heights are the same and no tip
+// sticks, so that tables over the modulus do not know it; else, or without one (NULL), anew.
+SbStatus sb_rough_law_like(SbRoughLaw *law, const SbRoughSurface *surface, const SbRoughLaw *known,
+                           SbReport *report);
+
 // The law at parameter t.
 void sb_rough_law_at(SbRoughPoint *out, const SbRoughLaw *law, double t);
 

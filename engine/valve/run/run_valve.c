@@ -393,7 +393,7 @@ static SbStatus set_rest(SbRun *run, int seal, SbChamber chamber, SbReport *repo
   const double level = state->rest_area + state->rest_load;
   SbDwellLaw *law = &run->rest[seal][chamber];
   double squeeze_time;
-  SbStatus status = sb_breakaway_law(law, &squeeze_time, run->model, seal, state, report);
+  SbStatus status = sb_breakaway_law(law, &squeeze_time, run->model, seal, state, NULL, report);
   for (size_t i = 0; i < law->count; i++) {
     SbDwellPiece *piece = &law->piece[i];
     const SbDwellPiece *next = piece + 1;
