@@ -159,6 +159,7 @@ gboolean sb_session_save(SbSession *session, const char *path, GError **error) {
   if (!sb_document_save(session->document, target, error)) {
     return FALSE;
   }
+  sb_session_refresh_chart(session); // the title may be the file's name
   sb_session_emit(session, SB_SIGNAL_PARAMS);
   return TRUE;
 }

@@ -38,7 +38,10 @@ static gboolean send_away(gpointer data) {
     gtk_dialog_response(GTK_DIALOG(asks), GTK_RESPONSE_CANCEL);
     return G_SOURCE_CONTINUE;
   }
-  g_autoptr(GList) tops = gtk_window_list_toplevels();
+  g_autolist(GtkWidget) tops = gtk_window_list_toplevels();
+  for (GList *one = tops; one != NULL; one = one->next) {
+    g_object_ref(one->data); // closing one may end another
+  }
   for (GList *one = tops; one != NULL; one = one->next) {
     if (one->data == window || !gtk_widget_get_visible(one->data)) {
       continue;

@@ -209,6 +209,7 @@ static void test_pins(void) {
   g_assert_true(sb_session_is_modified(session));
   g_assert_true(sb_session_save(session, path, NULL));
   g_assert_false(sb_session_is_modified(session));
+  g_assert_true(chart->title == sb_document_title(sb_session_document(session))); // the file's name
   g_autoptr(SbSession) again = sb_session_new();
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_assert_true(sb_session_open(again, path, issues));
