@@ -7,6 +7,7 @@
 #include "engine/numeric/arc.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 // Directions [rad]: of arcs' chords; of the floor at most, and of a wall's lean; of a wall over the
 // floor's last piece at least.
@@ -241,9 +242,47 @@ static int lowest_of(const Row *row) {
   return lowest;
 }
 
+// Floors and walls of a divided outline, which is turned round and back.
+static SbStatus draw_row(SbGrooveDrawing *out, Row *row, SbReport *report) {
+  if (row->at[0].z > row->at[row->count - 1].z) {
+    turn_round(row);
+  }
+  // Joints of an arc and a line are of both; a joint's flag goes with its point.
+  const int lowest = lowest_of(row);
+  double wall[2];
+  int top[2] = {0, 0};
+  SbStatus status = side(&out->floor[1], &out->wall[1], &wall[1], &top[1], row, lowest, report);
+  if (status == SB_OK) {
+    mirror(row);
+    status = side(&out->floor[0], &out->wall[0], &wall[0], &top[0], row, row->count - 1 - lowest,
+                  report);
+    mirror(row);
+    wall[0] = -wall[0];
+    top[0] = row->count - 1 - top[0];
+  }
+  if (status != SB_OK) {
+    return status;
+  }
+  const double base = row->at[lowest].r;
+  out->width = wall[1] - wall[0];
+  out->depth = fmin(row->at[0].r, row->at[row->count - 1].r) - base;
+  if (!(out->width > 0.0) || !(out->depth > 0.0)) {
+    return fail(report, &row->at[lowest], "has no room above its floor");
+  }
+  // At its points and between them.
+  for (int i = 2 * top[0]; i <= 2 * top[1]; i++) {
+    const Point *a = &row->at[i / 2], *b = &row->at[(i + 1) / 2];
+    const Point p = {0.5 * (a->z + b->z), 0.5 * (a->r + b->r), false};
+    const double missed = off(out, wall, base, &p);
+    if (!(fabs(missed) <= MISSED * fmin(out->width, out->depth))) {
+      return fail(report, &p, "has no floor and walls that follow its outline");
+    }
+  }
+  return SB_OK;
+}
+
 SbStatus sb_groove_draw(SbGrooveDrawing *out, const SbSealPoint *points, int count,
                         SbReport *report) {
-  Row row;
   *out = (SbGrooveDrawing){0};
   for (int i = 0; i < count; i++) {
     const SbSealPoint *p = &points[i];
@@ -251,47 +290,20 @@ SbStatus sb_groove_draw(SbGrooveDrawing *out, const SbSealPoint *points, int cou
       return fail(report, &(Point){p->z, p->r, false}, "has a point or an arc that is none");
     }
   }
-  if (count < 3 || !divide(&row, points, count)) {
+  Row *row = malloc(sizeof *row);
+  if (row == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a groove's outline");
+  }
+  if (count < 3 || !divide(row, points, count)) {
+    free(row);
     return sb_fail(report, SB_ERROR_INPUT,
                    "the groove has %d points: at least 3, and no more than %d of its arcs' chords",
                    count, POINTS);
   }
-  if (row.at[0].z > row.at[row.count - 1].z) {
-    turn_round(&row);
-  }
-  // Joints of an arc and a line are of both; a joint's flag goes with its point.
-  const int lowest = lowest_of(&row);
-  double wall[2];
-  int top[2] = {0, 0};
-  SbStatus status = side(&out->floor[1], &out->wall[1], &wall[1], &top[1], &row, lowest, report);
-  if (status == SB_OK) {
-    mirror(&row);
-    status = side(&out->floor[0], &out->wall[0], &wall[0], &top[0], &row, row.count - 1 - lowest,
-                  report);
-    mirror(&row);
-    wall[0] = -wall[0];
-    top[0] = row.count - 1 - top[0];
-  }
-  if (status != SB_OK) {
-    return status;
-  }
-  const double base = row.at[lowest].r;
-  out->width = wall[1] - wall[0];
-  out->depth = fmin(row.at[0].r, row.at[row.count - 1].r) - base;
-  if (!(out->width > 0.0) || !(out->depth > 0.0)) {
-    return fail(report, &row.at[lowest], "has no room above its floor");
-  }
-  // At its points and between them.
-  for (int i = 2 * top[0]; i <= 2 * top[1]; i++) {
-    const Point *a = &row.at[i / 2], *b = &row.at[(i + 1) / 2];
-    const Point p = {0.5 * (a->z + b->z), 0.5 * (a->r + b->r), false};
-    const double missed = off(out, wall, base, &p);
-    if (!(fabs(missed) <= MISSED * fmin(out->width, out->depth))) {
-      return fail(report, &p, "has no floor and walls that follow its outline");
-    }
-  }
-  out->count = count;
-  return SB_OK;
+  SbStatus status = draw_row(out, row, report);
+  out->count = status == SB_OK ? count : 0;
+  free(row);
+  return status;
 }
 
 int sb_groove_outline(double out[SB_GROOVE_POINTS][2], const SbGrooveDrawing *groove, double width,
