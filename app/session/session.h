@@ -227,6 +227,10 @@ gboolean sb_session_is_stale(SbSession *session, int *id, double *value);
 // True while the pictures are of former values and no run is about to replace them: views then show
 // them paler. The text names that run, "run with modulus 2.5 MPa" (g_free), and is NULL otherwise.
 gboolean sb_session_shows_former(SbSession *session);
+
+// True while they are and a run of the present values is computed: what is new in a picture but the
+// prediction can wait for it, which needs the processors.
+gboolean sb_session_awaits(SbSession *session);
 char *sb_session_former_text(SbSession *session);
 
 // The same as a sentence for pictures: "stale: this run is with modulus 2.5 MPa"; NULL if the shown

@@ -186,6 +186,10 @@ gboolean sb_session_shows_former(SbSession *session) {
   return session->former;
 }
 
+gboolean sb_session_awaits(SbSession *session) {
+  return session->former && session->state == SB_SESSION_RUNNING;
+}
+
 char *sb_session_former_text(SbSession *session) {
   int id = -1;
   double value = 0;

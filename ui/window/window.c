@@ -1,4 +1,4 @@
-// One window: puts the parts together, turns the session's state into the header, the strip and the
+// One window: puts the parts together, turns the session's state into the header and the
 // sensitivity of actions, and asks before changes are lost.
 #include "ui/window/window.h"
 #include "ui/window/autosave_offer.h"
@@ -19,6 +19,7 @@
 #include "ui/window/export_dialog.h"
 #include "ui/window/header_room.h"
 #include "ui/window/import_dialog.h"
+#include "ui/window/message_strip.h"
 #include "ui/window/model_switch.h"
 #include "ui/window/paned_layout.h"
 #include "ui/window/preferences.h"
@@ -44,14 +45,11 @@ struct _SbWindow {
   GtkWidget *run_state_icon, *run_state_label, *run_progress;
   GtkWidget *undo_button, *redo_button, *valve_page, *columns, *views, *left_column, *centre_column,
       *right_column, *bottom;
-  GtkWidget *strip_revealer, *strip, *strip_icon, *strip_label, *strip_button;
   GtkWidget *panel; // SbParamPanel
   GtkWidget *section;
   SbWindowFiles *files;
   SbAutosave *autosave;
   guint tick;
-  int strip_id;       // parameter that the strip's button mends, or -1
-  double strip_value; // and the value it sets [SI]
 };
 
 G_DEFINE_TYPE(SbWindow, sb_window, GTK_TYPE_APPLICATION_WINDOW)
@@ -74,7 +72,7 @@ static void ensure_tick(SbWindow *window) {
   }
 }
 
-// State to header and strip ----------------------------------------------------------------------
+// State to header --------------------------------------------------------------------------------
 
 static void set_enabled(SbWindow *window, const char *name, gboolean enabled) {
   GAction *action = g_action_map_lookup_action(G_ACTION_MAP(window), name);
@@ -92,102 +90,6 @@ static void refresh_titles(SbWindow *window) {
   gtk_window_set_title(GTK_WINDOW(window), title);
   gtk_label_set_text(GTK_LABEL(window->document_title), sb_document_title(document));
   gtk_label_set_text(GTK_LABEL(window->document_file), subtitle);
-}
-
-static void set_strip(SbWindow *window, const char *kind, const char *text, const char *button) {
-  gtk_revealer_set_reveal_child(GTK_REVEALER(window->strip_revealer), text != NULL);
-  gtk_widget_set_visible(window->strip_revealer, text != NULL);
-  if (text == NULL) {
-    return;
-  }
-  GtkStyleContext *style = gtk_widget_get_style_context(window->strip);
-  gtk_style_context_remove_class(style, "warn");
-  gtk_style_context_remove_class(style, "error");
-  gtk_style_context_add_class(style, kind);
-  gtk_image_set_from_icon_name(GTK_IMAGE(window->strip_icon),
-                               strcmp(kind, "error") == 0 ? "dialog-error-symbolic"
-                                                          : "dialog-warning-symbolic",
-                               GTK_ICON_SIZE_MENU);
-  gtk_label_set_text(GTK_LABEL(window->strip_label), text);
-  gtk_widget_set_visible(window->strip_button, button != NULL);
-  if (button != NULL) {
-    gtk_button_set_label(GTK_BUTTON(window->strip_button), button);
-  }
-}
-
-// What the displayed run found of the valve that nobody may miss, in full sentences; NULL if
-// nothing.
-static char *findings_text(const SbSummary *summary) {
-  g_autoptr(GString) text = g_string_new(NULL);
-  for (size_t i = 0; summary != NULL && i < summary->warnings.count; i++) {
-    const SbWarning *warning = &summary->warnings.item[i];
-    if (sb_warning_is_serious(warning->code)) {
-      gsize start = text->len + (text->len > 0 ? 1 : 0);
-      g_string_append_printf(text, "%s%s.", text->len > 0 ? " " : "", warning->text);
-      text->str[start] = g_ascii_toupper(text->str[start]);
-    }
-  }
-  return text->len > 0 ? g_string_free(g_steal_pointer(&text), FALSE) : NULL;
-}
-
-// What is wrong with the values or the run and the one button that mends it, or else what the run
-// found.
-static void refresh_strip(SbWindow *window) {
-  SbSession *session = window->session;
-  const char *failure = sb_session_failure(session);
-  const SbRun *run = sb_session_run(session);
-  int wrong = sb_session_first_error(session);
-  int differs = -1;
-  double value = 0;
-  g_autofree char *former = sb_session_former_text(session);
-  window->strip_id = -1;
-  if (wrong >= 0) {
-    const SbParam *param = sb_param((SbParamId)wrong);
-    double old = sb_document_value(sb_session_document(session), (SbParamId)wrong);
-    if (sb_session_is_stale(session, &differs, &value) && differs == wrong) {
-      old = value;
-    }
-    g_autofree char *shown = sb_param_format((SbParamId)wrong, old);
-    g_autofree char *label = sb_translation_inside(param->label);
-    const char *what = sb_session_rejected(session, (SbParamId)wrong) == NULL
-                           ? _("does not go with the other values")
-                       : strstr(sb_session_error(session, (SbParamId)wrong), "out of range") != NULL
-                           ? _("is out of range")
-                           : _("cannot be read");
-    g_autofree char *text =
-        g_strdup_printf(run != NULL ? _("%s %s. Pictures show the last good run, %s %s.")
-                                    : _("%s %s. Nothing has run yet; %s %s would do."),
-                        sb_translation(param->label), what, label, shown);
-    g_autofree char *button = g_strdup_printf(_("Set %s"), shown);
-    window->strip_id = wrong;
-    window->strip_value = old;
-    set_strip(window, "warn", text, button);
-  } else if (failure != NULL) {
-    g_autofree char *text = former != NULL
-                                ? g_strdup_printf(_("%s Pictures show the %s."), failure, former)
-                                : g_strdup(failure);
-    set_strip(window, "error", text, _("Run again"));
-  } else if (sb_session_state(session) == SB_SESSION_PARTIAL && former == NULL) {
-    size_t count = 0;
-    const SbFrame *frames = sb_session_frames(session, &count);
-    g_autofree char *text =
-        g_strdup_printf(_("Cancelled after %.1f s of the cycle: the pictures are partial."),
-                        count > 0 ? frames[count - 1].time : 0);
-    set_strip(window, "warn", text, _("Run again"));
-  } else if (former != NULL) {
-    gboolean running = sb_session_state(session) == SB_SESSION_RUNNING;
-    g_autofree char *text =
-        g_strdup_printf(!running ? _("Values have changed. Pictures show the %s.")
-                        : sb_session_chart(session)->predicted != NULL
-                            ? _("Until the new run is solved the pictures show the %s; dashed "
-                                "curves and pale figures are predicted.")
-                            : _("Until the first new frame the pictures show the %s."),
-                        former);
-    set_strip(window, "warn", text, running ? NULL : _("Run"));
-  } else {
-    g_autofree char *findings = findings_text(sb_session_summary(session));
-    set_strip(window, "warn", findings, NULL);
-  }
 }
 
 // Of a run in grades what is done beside the shown one.
@@ -265,7 +167,6 @@ static void refresh_run_state(SbWindow *window) {
 static void refresh(SbWindow *window) {
   const SbDocument *document = sb_session_document(window->session);
   refresh_titles(window);
-  refresh_strip(window);
   refresh_run_state(window);
   set_enabled(window, "undo", sb_document_can_undo(document));
   set_enabled(window, "redo", sb_document_can_redo(document));
@@ -439,16 +340,6 @@ static void on_close(GSimpleAction *action, GVariant *parameter, gpointer data) 
   gtk_window_close(GTK_WINDOW(data));
 }
 
-static void on_strip_button(GtkButton *button, SbWindow *window) {
-  if (window->strip_id >= 0) {
-    int id = window->strip_id;
-    sb_session_clear_error(window->session, (SbParamId)id);
-    sb_session_edit_value(window->session, (SbParamId)id, window->strip_value);
-  } else {
-    sb_session_start(window->session);
-  }
-}
-
 // A handle on the section was taken: its row is shown, or takes what is typed.
 static void on_chosen(void *data, SbParamId id, const char *typed) {
   SbWindow *window = data;
@@ -568,16 +459,10 @@ static void sb_window_class_init(SbWindowClass *class) {
   CHILD(centre_column);
   CHILD(right_column);
   CHILD(bottom);
-  CHILD(strip_revealer);
-  CHILD(strip);
-  CHILD(strip_icon);
-  CHILD(strip_label);
-  CHILD(strip_button);
 #undef CHILD
 }
 
 static void sb_window_init(SbWindow *window) {
-  window->strip_id = -1;
   window->session = sb_session_new();
   gtk_widget_init_template(GTK_WIDGET(window));
   static const GActionEntry entries[] = {
@@ -660,6 +545,8 @@ static void sb_window_init(SbWindow *window) {
                      FALSE, 0);
   gtk_box_pack_start(GTK_BOX(window->left_column), sb_gland_panel_new(window->session), FALSE,
                      FALSE, 0);
+  gtk_box_pack_start(GTK_BOX(window->centre_column), sb_message_strip_new(window->session), FALSE,
+                     FALSE, 0);
   window->section = sb_section_view_new(window->session);
   sb_section_view_listen(window->section, on_chosen, window);
   gtk_box_pack_start(GTK_BOX(window->centre_column), window->section, TRUE, TRUE, 0);
@@ -690,7 +577,6 @@ static void sb_window_init(SbWindow *window) {
   window->autosave = sb_autosave_new(window->session);
   sb_autosave_offer(window->session, window->autosave, GTK_WINDOW(window));
 
-  g_signal_connect(window->strip_button, "clicked", G_CALLBACK(on_strip_button), window);
   g_signal_connect(window, "key-press-event", G_CALLBACK(on_key), NULL);
   g_signal_connect(window, "delete-event", G_CALLBACK(on_delete), NULL);
   g_signal_connect_object(window->session, "params-changed", G_CALLBACK(refresh), window,
