@@ -207,6 +207,8 @@ static void test_order(void) {
   g_assert_true(sb_session_run(session) == before);
   g_assert_true(sb_session_shows_former(session));
   g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_RUNNING);
+  g_assert_true(sb_session_awaits(session));
+  g_assert_cmpuint(session->ticket, !=, 0); // a single edit's run has begun
   g_assert_nonnull(sb_session_chart(session)->predicted);
   const SbChartCurve *curve = &sb_session_chart(session)->predicted->loop;
   const SbTrace *trace = sb_session_chart(session)->run.trace;
@@ -239,6 +241,7 @@ static void test_order(void) {
   g_assert_cmpfloat(latency.predicted, >, 0);
   g_assert_cmpfloat(latency.shown, >, latency.predicted);
   g_assert_false(sb_session_shows_former(session));
+  g_assert_false(sb_session_awaits(session));
   g_assert_false(sb_session_may_keep(session));
   g_assert_null(sb_session_handle(session));
   g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_RUNNING);

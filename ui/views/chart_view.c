@@ -546,16 +546,32 @@ static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) 
 
 // Life -------------------------------------------------------------------------------------------
 
-static void on_change(View *view) {
+static void show_change(View *view, gboolean later) {
   gtk_widget_set_visible(view->area, applies(view));
   sb_style_former(view->area,
                   sb_session_shows_former(view->session) && shown_prediction(view) == NULL);
-  sb_draw_cache_change(view->cache,
-                       sb_session_wants_ticks(view->session) ? kinds[view->kind].interval : 0);
+  if (later) {
+    sb_draw_cache_change_later(view->cache, SB_DRAW_LATER);
+  } else {
+    sb_draw_cache_change(view->cache,
+                         sb_session_wants_ticks(view->session) ? kinds[view->kind].interval : 0);
+  }
   // Screen readers need no more than a few sentences a second.
   if (view->describe == 0) {
     view->describe = g_timeout_add(200, describe, view);
   }
+}
+
+static void on_change(View *view) {
+  show_change(view, FALSE);
+}
+
+static void on_run(View *view) {
+  show_change(view, sb_session_awaits(view->session));
+}
+
+static void on_params(View *view) {
+  show_change(view, sb_session_awaits(view->session) && shown_prediction(view) == NULL);
 }
 
 static void on_destroy(GtkWidget *widget, View *view) {
@@ -590,10 +606,10 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   g_signal_connect(view->area, "key-press-event", G_CALLBACK(on_key), view);
   g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
   g_signal_connect(view->area, "destroy", G_CALLBACK(on_destroy), view);
-  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_change), view);
-  g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_change), view);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_run), view);
+  g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_run), view);
   g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(on_change), view);
-  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_change), view);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_params), view);
   describe(view);
   gtk_widget_set_visible(view->area, applies(view));
   return view->area;

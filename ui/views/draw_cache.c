@@ -11,8 +11,8 @@ struct SbDrawCache {
   cairo_surface_t *surface;
   int width, height, scale;
   gboolean changed;
-  gint64 drawn; // [us]
-  guint timer;
+  gint64 drawn, when; // when it was, and when the timer has it drawn [us]
+  guint timer;        // 0: none
 };
 
 static void make(SbDrawCache *cache, int width, int height, int scale) {
@@ -37,7 +37,8 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, SbDrawCache *cache) {
   int width = gtk_widget_get_allocated_width(widget);
   int height = gtk_widget_get_allocated_height(widget);
   int scale = gtk_widget_get_scale_factor(widget);
-  if (cache->changed || width != cache->width || height != cache->height || scale != cache->scale) {
+  const gboolean due = cache->changed && cache->timer == 0;
+  if (due || width != cache->width || height != cache->height || scale != cache->scale) {
     make(cache, width, height, scale);
   }
   cairo_set_source_surface(cr, cache->surface, 0, 0);
@@ -62,19 +63,36 @@ static void cancel_timer(SbDrawCache *cache) {
   }
 }
 
+// Draws at a time, or before if that was the case already.
+static void draw_at(SbDrawCache *cache, gint64 when) {
+  if (cache->timer != 0 && cache->when <= when) {
+    return;
+  }
+  cancel_timer(cache);
+  cache->when = when;
+  cache->timer =
+      g_timeout_add((guint)MAX((when - g_get_monotonic_time()) / 1000, 1), on_timer, cache);
+}
+
 void sb_draw_cache_change(SbDrawCache *cache, int interval) {
+  const gint64 when = cache->drawn + 1000 * (gint64)interval;
   cache->changed = TRUE;
-  gint64 wait = interval - (g_get_monotonic_time() - cache->drawn) / 1000;
-  if (wait <= 0) {
+  if (when > g_get_monotonic_time()) {
+    draw_at(cache, when);
+  } else {
     cancel_timer(cache);
     gtk_widget_queue_draw(cache->area);
-  } else if (cache->timer == 0) {
-    cache->timer = g_timeout_add((guint)wait, on_timer, cache);
   }
+}
+
+void sb_draw_cache_change_later(SbDrawCache *cache, int ms) {
+  cache->changed = TRUE;
+  draw_at(cache, g_get_monotonic_time() + 1000 * (gint64)ms);
 }
 
 // Another theme: the colours are not the picture's own.
 static void on_style(SbDrawCache *cache) {
+  cancel_timer(cache);
   cache->changed = TRUE;
 }
 

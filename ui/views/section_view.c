@@ -267,11 +267,15 @@ static void redraw(View *view) {
   sb_draw_cache_change(view->cache, sb_session_wants_ticks(view->session) ? INTERVAL : 0);
 }
 
-static void on_change(View *view) {
-  redraw(view);
+static void describe_soon(View *view) {
   if (view->describe == 0) {
     view->describe = g_timeout_add(200, describe, view);
   }
+}
+
+static void on_change(View *view) {
+  redraw(view);
+  describe_soon(view);
 }
 
 // What the scene says about field and insets, when it says something new; after that the toolbar is
@@ -320,7 +324,12 @@ static void show_state(View *view) {
   gtk_widget_set_visible(view->mesh, solved);
   // What those two need the heading gives, so that the toolbar is not cut.
   gtk_widget_set_visible(view->heading, rig || !solved);
-  on_change(view);
+  if (sb_session_awaits(view->session)) {
+    sb_draw_cache_change_later(view->cache, SB_DRAW_LATER);
+    describe_soon(view);
+  } else {
+    on_change(view);
+  }
 }
 
 static void on_run_changed(View *view) {

@@ -194,7 +194,11 @@ static void on_frames(View *view) {
   size_t count = 0;
   sb_session_frames(view->session, &count);
   gtk_widget_set_sensitive(view->play, count > 1);
-  on_playhead(view);
+  if (sb_session_awaits(view->session)) {
+    sb_draw_cache_change_later(view->cache, SB_DRAW_LATER);
+  } else {
+    on_playhead(view);
+  }
 }
 
 static GtkWidget *make_controls(View *view) {
