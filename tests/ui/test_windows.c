@@ -5,6 +5,7 @@
 #include "ui/window/application.h"
 #include "ui/window/design_page.h"
 #include "ui/window/import_dialog.h"
+#include "ui/window/message_strip.h"
 #include "ui/window/toast.h"
 #include "ui/window/window.h"
 
@@ -248,6 +249,34 @@ static void test_design_point_goes_with_its_map(void) {
   gtk_widget_destroy(window);
 }
 
+// What a run under way will replace is not told at once; what nothing replaces is.
+static void test_message_strip(void) {
+  g_autoptr(SbSession) session = sb_session_new();
+  g_autofree char *scene =
+      g_strdup_printf("%s/scenes/ring-cycle.scene", g_getenv("SEALBENCH_ASSETS"));
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_assert_true(sb_session_open(session, scene, issues));
+  GtkWidget *window = gtk_window_new(GTK_WINDOW_TOPLEVEL), *strip = sb_message_strip_new(session);
+  gtk_container_add(GTK_CONTAINER(window), strip);
+  gtk_widget_show(window);
+  for (int i = 0; i < 3000 && sb_session_state(session) != SB_SESSION_DONE; i++) {
+    turn(10);
+    sb_session_tick(session, g_get_monotonic_time());
+  }
+  const gboolean before = gtk_widget_get_visible(strip);
+  sb_session_edit(session, SB_P_GLAND_RADIAL_SPACE, "1.364 mm");
+  g_assert_true(sb_session_awaits(session));
+  g_assert_true(gtk_widget_get_visible(strip) == before);
+  sb_session_set_auto_run(session, FALSE);
+  sb_session_stop(session);
+  sb_session_edit(session, SB_P_GLAND_RADIAL_SPACE, "1.368 mm");
+  g_assert_false(sb_session_awaits(session));
+  g_assert_true(gtk_widget_get_visible(strip));
+  sb_session_edit(session, SB_P_GLAND_RADIAL_SPACE, "none");
+  g_assert_true(gtk_widget_get_visible(strip));
+  gtk_widget_destroy(window);
+}
+
 int main(int argc, char **argv) {
   g_autofree char *folder = g_dir_make_tmp("sealbench-windows-XXXXXX", NULL);
   g_setenv("XDG_CONFIG_HOME", folder, TRUE);
@@ -260,6 +289,7 @@ int main(int argc, char **argv) {
   g_log_set_always_fatal(G_LOG_LEVEL_CRITICAL | G_LOG_FATAL_MASK);
   g_test_add_func("/windows/import", test_import);
   g_test_add_func("/windows/design-point", test_design_point_goes_with_its_map);
+  g_test_add_func("/windows/message-strip", test_message_strip);
   g_test_add_func("/windows/closed-windows-are-gone", test_closed_windows_are_gone);
   return g_test_run();
 }
