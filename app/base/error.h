@@ -12,3 +12,7 @@ typedef enum {
 } SbAppError;
 #define SB_APP_ERROR (sb_app_error_quark())
 GQuark sb_app_error_quark(void);
+
+// Sets SB_APP_ERROR_INPUT with words of a file that nobody vouches for, made printable
+// (sb_printable()).
+void sb_app_error_input(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);

@@ -103,8 +103,7 @@ static bool value_number(const Reader *reader, double *out, GError **error) {
   if (sb_number_parse(out, reader->value) && fabs(*out) < most) {
     return true;
   }
-  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "line %d: '%.20s' is no number here",
-              reader->line, reader->value);
+  sb_app_error_input(error, "line %d: '%.20s' is no number here", reader->line, reader->value);
   return false;
 }
 

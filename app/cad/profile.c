@@ -6,15 +6,6 @@
 
 #include <math.h>
 
-static void fault(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
-static void fault(GError **error, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  g_autofree char *text = g_strdup_vprintf(format, arguments);
-  va_end(arguments);
-  g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, text);
-}
-
 static bool read_point(SbProfilePoint *out, const char *word, double scale) {
   g_auto(GStrv) numbers = g_strsplit(word, ",", -1);
   const guint parts = g_strv_length(numbers);
@@ -38,18 +29,18 @@ GArray *sb_profile_parse(const char *text, bool *closed, GError **error) {
     if (scale == 0) {
       g_autofree char *one = g_strdup_printf("1 %s", *word);
       if (!sb_quantity_parse(&scale, one, "m", "mm", NULL) || scale <= 0) {
-        fault(error, "starts with the unit of its points, not '%.20s'", *word);
+        sb_app_error_input(error, "starts with the unit of its points, not '%.20s'", *word);
         return NULL;
       }
       continue;
     }
     SbProfilePoint point;
     if (points->len == SB_PROFILE_MAX) {
-      fault(error, "has more than %d points", SB_PROFILE_MAX);
+      sb_app_error_input(error, "has more than %d points", SB_PROFILE_MAX);
       return NULL;
     }
     if (!read_point(&point, *word, scale)) {
-      fault(error, "point %u is not x,r or x,r,bulge", points->len + 1);
+      sb_app_error_input(error, "point %u is not x,r or x,r,bulge", points->len + 1);
       return NULL;
     }
     g_array_append_val(points, point);
@@ -59,7 +50,7 @@ GArray *sb_profile_parse(const char *text, bool *closed, GError **error) {
   *closed = count > 1 && point[0].x == point[count - 1].x && point[0].r == point[count - 1].r;
   g_array_set_size(points, count - (*closed ? 1 : 0));
   if (points->len < 2) {
-    fault(error, "has %u points, not two or more", points->len);
+    sb_app_error_input(error, "has %u points, not two or more", points->len);
     return NULL;
   }
   return g_steal_pointer(&points);

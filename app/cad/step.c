@@ -149,7 +149,7 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
     const char *line = *each;
     double n[10];
     if (g_str_has_prefix(line, "error ")) {
-      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s", line + 6);
+      sb_app_error_input(error, "%s", line + 6);
       return false;
     }
     const bool end = strcmp(line, "end") == 0;

@@ -189,8 +189,7 @@ static void skip_line(Text *t) {
 static gboolean expect(Text *t, const char *wanted, const char *name, GError **error) {
   char word[64];
   if (next_word(t, word, sizeof word) == 0 || g_ascii_strcasecmp(word, wanted) != 0) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s:%d: '%s' expected, not '%s'", name,
-                t->line, wanted, word);
+    sb_app_error_input(error, "%s:%d: '%s' expected, not '%s'", name, t->line, wanted, word);
     return FALSE;
   }
   return TRUE;
@@ -201,9 +200,8 @@ static gboolean numbers(Text *t, double *out, const char *name, GError **error) 
     char word[SB_NUMBER_LENGTH_MAX + 1];
     gsize length = next_word(t, word, sizeof word);
     if (length >= sizeof word || !sb_number_parse(&out[k], word)) {
-      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                  "%s:%d: a number expected, not '%.40s'%s", name, t->line, word,
-                  length >= sizeof word ? "... (too long)" : "");
+      sb_app_error_input(error, "%s:%d: a number expected, not '%.40s'%s", name, t->line, word,
+                         length >= sizeof word ? "... (too long)" : "");
       return FALSE;
     }
   }
@@ -251,8 +249,7 @@ static gboolean read_text(Builder *b, const char *data, gsize length, const char
         return FALSE;
       }
     } else {
-      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s:%d: '%s' is not part of STL", name,
-                  t.line, word);
+      sb_app_error_input(error, "%s:%d: '%s' is not part of STL", name, t.line, word);
       return FALSE;
     }
   }
@@ -276,8 +273,7 @@ gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *un
     return FALSE;
   }
   if (!(scale > 0.0)) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: '%s' is no unit of length", name,
-                unit);
+    sb_app_error_input(error, "%s: '%s' is no unit of length", name, unit);
     return FALSE;
   }
   // Binary files may start with "solid" too: their length tells.

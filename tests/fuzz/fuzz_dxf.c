@@ -14,7 +14,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   GError *error = NULL;
   SbCad *cad = sb_cad_parse_dxf((const char *)data, size, "fuzz", &choices, &error);
   if (cad == NULL) {
-    g_assert_true(error->domain == SB_APP_ERROR);
+    g_assert_true(error->domain == SB_APP_ERROR && g_utf8_validate(error->message, -1, NULL));
     g_error_free(error);
     return 0;
   }
