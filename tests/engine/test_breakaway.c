@@ -108,7 +108,8 @@ static void test_limits(void) {
     const SbSealState *state = &sb_run_summary(run)->seal[SB_OUTER];
     SbDwellLaw law;
     double squeeze;
-    g_assert_cmpint(sb_breakaway_law(&law, &squeeze, &model, SB_OUTER, state, NULL, NULL), ==, SB_OK);
+    g_assert_cmpint(sb_breakaway_law(&law, &squeeze, &model, SB_OUTER, state, NULL, NULL), ==,
+                    SB_OK);
     assert_close(squeeze, state->squeeze_out_time, 1e-12);
     double kinetic = sb_sliding_friction(state);
     double dry = state->boundary_area;
