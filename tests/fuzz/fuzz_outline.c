@@ -12,20 +12,21 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
+static char *path; // of the one file that every input is written to
+
 static void remove_file(void) {
-  g_autofree char *path =
-      g_strdup_printf("%s/sealbench-outline-%ld", g_get_tmp_dir(), (long)getpid());
   g_remove(path);
+  g_free(path);
 }
 
-static void write_file(const char *path, const uint8_t *data, size_t size) {
+static void write_file(const uint8_t *data, size_t size) {
   FILE *file = fopen(path, "wb");
   g_assert_nonnull(file);
   g_assert_cmpuint(fwrite(data, 1, size, file), ==, size);
   fclose(file);
 }
 
-static void check_complaint(GError *error, const char *path) {
+static void check_complaint(GError *error) {
   g_assert_true(error != NULL && error->domain == SB_APP_ERROR);
   g_assert_true(g_utf8_validate(error->message, -1, NULL) && strchr(error->message, '\n') == NULL);
   g_assert_true(g_str_has_prefix(error->message, path));
@@ -33,7 +34,6 @@ static void check_complaint(GError *error, const char *path) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-  static char *path;
   if (path == NULL) {
     path = g_strdup_printf("%s/sealbench-outline-%ld", g_get_tmp_dir(), (long)getpid());
     atexit(remove_file);
@@ -41,7 +41,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   if (size == 0 || g_strstr_len((const char *)data, (gssize)size, "ISO-10303") != NULL) {
     return 0;
   }
-  write_file(path, data, size);
+  write_file(data, size);
   static SbSealProfile profile;
   static SbRingOutline outline;
   GError *error = NULL;
@@ -52,7 +52,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     (void)sb_ring_outline_of_profile(&outline, &profile, height, NULL); // may refuse, and say so
   } else {
     g_assert_cmpint(profile.drawn.count, ==, 0);
-    check_complaint(error, path);
+    check_complaint(error);
     error = NULL;
   }
   SbGrooveDrawing groove;
@@ -67,7 +67,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     }
   } else {
     g_assert_cmpint(groove.count, ==, 0);
-    check_complaint(error, path);
+    check_complaint(error);
   }
   return 0;
 }
