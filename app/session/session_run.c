@@ -259,12 +259,15 @@ static SbSessionState ended_state(const SbSession *session) {
 
 // Takes over what a request has ended with. A run that ends without a frame, failed or cancelled,
 // leaves the displayed one as it is, and so does one that is cancelled while an earlier grade of it
-// is shown.
+// is shown, and one of former values that ends while that of newer ones waits to begin.
 static void finish(SbSession *session) {
   SbDisplayedRun *fresh = session->fresh;
   SbStatus status = sb_run_handle_status(fresh->handle);
   const bool current = is_current(session);
   session->ticket = 0;
+  if (!current && session->debounce != 0 && session->shown != NULL && session->shown != fresh) {
+    return;
+  }
   if (fresh->grade != SB_GRADE_WHOLE && status != SB_OK && status != SB_ERROR_CANCELLED &&
       current) {
     submit(session, SB_GRADE_WHOLE);

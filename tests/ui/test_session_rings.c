@@ -499,8 +499,8 @@ static void test_predicted(void) {
   check_kink(session);
 }
 
-// Edits in a row: only the last one's runs are shown. Stopped before the whole run, the near one
-// stays, and Run asks for the whole one.
+// Edits in a row: only the last one's runs are shown, though the first one's has ended. Stopped
+// before the whole run, the near one stays, and Run asks for the whole one.
 static void test_cancel(void) {
   g_autoptr(SbSession) session = session_with_rings();
   sb_session_start(session);
@@ -514,6 +514,7 @@ static void test_cancel(void) {
       turn(session);
       g_assert_true(sb_session_run(session) == before);
     }
+    g_usleep(i == 0 ? 300000 : 0); // the run ends, and nobody has looked
   }
   while (sb_session_run(session) == before) {
     turn(session);
