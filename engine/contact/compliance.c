@@ -36,6 +36,32 @@ void sb_compliance_modes(const SbSurfaceCompliance *c, double x, double *value, 
   }
 }
 
+void sb_compliance_modes_together(const SbSurfaceCompliance *c, const double *places,
+                                  double (*value)[SB_COMPLIANCE_TOGETHER],
+                                  double (*slope)[SB_COMPLIANCE_TOGETHER]) {
+  enum { N = SB_COMPLIANCE_TOGETHER };
+  const double half = 0.5 * (c->right - c->left), middle = 0.5 * (c->left + c->right);
+  double t[N], factor[N], u[N], before[N];
+  for (int i = 0; i < N; i++) {
+    const double z = (places[i] - middle) / half;
+    t[i] = fmin(fmax(z, -1.0), 1.0);
+    factor[i] = fabs(z - t[i]) < 1e-12 ? 1.0 / half : 0.0;
+    value[0][i] = 1.0;
+    slope[0][i] = 0.0;
+    u[i] = 1.0; // U_{k-1}
+    before[i] = 0.0;
+  }
+  for (int k = 1; k < c->modes; k++) {
+    for (int i = 0; i < N; i++) {
+      value[k][i] = k == 1 ? t[i] : 2.0 * t[i] * value[k - 1][i] - value[k - 2][i];
+      slope[k][i] = factor[i] * k * u[i];
+      const double next = 2.0 * t[i] * u[i] - before[i];
+      before[i] = u[i];
+      u[i] = next;
+    }
+  }
+}
+
 void sb_compliance_integrals(const SbSurfaceCompliance *c, double from, double to, double *out) {
   const double half = 0.5 * (c->right - c->left), middle = 0.5 * (c->left + c->right);
   double before[SB_COMPLIANCE_MODES];

@@ -58,6 +58,12 @@ double sb_compliance_smooth(const SbSurfaceCompliance *c, double x, const double
 // `slope` may be NULL.
 void sb_compliance_modes(const SbSurfaceCompliance *c, double x, double *value, double *slope);
 
+// The same at SB_COMPLIANCE_TOGETHER places side by side, T_k at places[i] in value[k][i].
+enum { SB_COMPLIANCE_TOGETHER = 8 };
+void sb_compliance_modes_together(const SbSurfaceCompliance *c, const double *places,
+                                  double (*value)[SB_COMPLIANCE_TOGETHER],
+                                  double (*slope)[SB_COMPLIANCE_TOGETHER]);
+
 // Integrals of T_k(z(x)) dx over [from, to], clipped to the window, for k < modes [m].
 void sb_compliance_integrals(const SbSurfaceCompliance *c, double from, double to, double *out);
 

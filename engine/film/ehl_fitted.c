@@ -10,6 +10,7 @@
 
 #include "engine/numeric/legendre.h"
 
+#include <assert.h>
 #include <cblas.h>
 #include <math.h>
 #include <string.h>
@@ -78,32 +79,50 @@ static void add_element(double *state, double *state_slope, const SbEhlSolution 
   const double from = fmax((fmin(ends[0], ends[1]) - e->m) / e->h, -1.0);
   const double to = fmin((fmax(ends[0], ends[1]) - e->m) / e->h, 1.0);
   const bool cut = e->map == SB_EHL_AFFINE && (from > -1.0 || to < 1.0);
-  for (int q = 0; q < SB_EHL_QUAD && !(cut && to <= from); q++) {
-    const double at = e->fine_x[q];
-    double X = e->side != 0 ? e->A + e->side * e->B / (at * at) : at;
-    double weight[SB_EHL_DEGREE_MAX + 1];
-    memcpy(weight, e->fine_wb[q], sizeof weight);
-    if (cut) {
-      const SbEhlTable *t = e->table;
-      const double r = 0.5 * (from + to) + 0.5 * (to - from) * s->mesh.tables->fine[q];
-      X = e->m + e->h * r;
-      sb_barycentric_basis(weight, r, t->node, t->bary, e->degree + 1);
-      cblas_dscal(e->degree + 1, 0.5 * (to - from) * e->h * s->mesh.tables->fine_weight[q], weight,
-                  1);
-    }
-    double value[MODES];
-    double slope[MODES];
-    sb_compliance_modes(c, unit * (X + shift), value, slope);
-    double pressure = -e->far_pressure * weight[sb_ehl_touching(e)];
-    for (int j = 0; j <= e->degree; j++) {
-      pressure += weight[j] * s->state.nodal[e->first_dof + j];
-    }
-    for (int k = 0; k < c->modes; k++) {
-      for (int j = 0; j <= e->degree && !s->solver->base.in_use; j++) {
-        s->solver->fitted.moment[k][e->first_dof + j] += weight[j] * value[k];
+  if (cut && to <= from) {
+    return;
+  }
+  enum { N = SB_COMPLIANCE_TOGETHER };
+  const int count = e->degree + 1;
+  static_assert(SB_EHL_QUAD % N == 0, "the fine rule's points in rows");
+  for (int first = 0; first < SB_EHL_QUAD; first += N) {
+    double weight[N][SB_EHL_DEGREE_MAX + 1], place[N], pressure[N];
+    double value[MODES][N], slope[MODES][N];
+    for (int i = 0; i < N; i++) {
+      const int q = first + i;
+      const double at = e->fine_x[q];
+      double X = e->side != 0 ? e->A + e->side * e->B / (at * at) : at;
+      memcpy(weight[i], e->fine_wb[q], sizeof weight[i]);
+      if (cut) {
+        const SbEhlTable *t = e->table;
+        const double r = 0.5 * (from + to) + 0.5 * (to - from) * s->mesh.tables->fine[q];
+        X = e->m + e->h * r;
+        sb_barycentric_basis(weight[i], r, t->node, t->bary, count);
+        cblas_dscal(count, 0.5 * (to - from) * e->h * s->mesh.tables->fine_weight[q], weight[i], 1);
       }
-      state[k] += pressure * value[k];
-      state_slope[k] += pressure * slope[k] * unit;
+      place[i] = unit * (X + shift);
+      pressure[i] = -e->far_pressure * weight[i][sb_ehl_touching(e)];
+      for (int j = 0; j < count; j++) {
+        pressure[i] += weight[i][j] * s->state.nodal[e->first_dof + j];
+      }
+    }
+    sb_compliance_modes_together(c, place, value, slope);
+    for (int k = 0; k < c->modes; k++) {
+      for (int i = 0; i < N; i++) {
+        state[k] += pressure[i] * value[k][i];
+        state_slope[k] += pressure[i] * slope[k][i] * unit;
+      }
+    }
+    for (int k = 0; k < c->modes && !s->solver->base.in_use; k++) {
+      double sum[SB_EHL_DEGREE_MAX + 1] = {0.0};
+      double *moment = &s->solver->fitted.moment[k][e->first_dof];
+      memcpy(sum, moment, sizeof *sum * (size_t)count);
+      for (int i = 0; i < N; i++) {
+        for (int j = 0; j < count; j++) {
+          sum[j] += weight[i][j] * value[k][i];
+        }
+      }
+      memcpy(moment, sum, sizeof *sum * (size_t)count);
     }
   }
 }
@@ -171,17 +190,25 @@ void sb_ehl_fitted(const SbEhlSolution *s) {
               state_slope, 1, 0.0, of_slope + 1, 1);
 
   const double tilt = sb_film_window_tilt(body, mesh->inlet_pressure, mesh->outlet_pressure);
+  double place[SB_COMPLIANCE_TOGETHER] = {0.0};
+  double values[MODES][SB_COMPLIANCE_TOGETHER], slopes[MODES][SB_COMPLIANCE_TOGETHER];
   for (int i = 0; i < mesh->targets; i++) {
+    const int own = i % SB_COMPLIANCE_TOGETHER;
+    for (int k = 0; own == 0 && k < SB_COMPLIANCE_TOGETHER && i + k < mesh->targets; k++) {
+      place[k] = unit * (mesh->x[i + k] + shift);
+    }
+    if (own == 0) {
+      sb_compliance_modes_together(c, place, values, slopes);
+    }
+    const double x = place[own];
     double *value = solver->fitted.value[i];
-    double derivative[MODES];
-    const double x = unit * (mesh->x[i] + shift);
-    sb_compliance_modes(c, x, value, derivative);
     double gap_slope;
     double sum = sb_compliance_gap(c, x, &gap_slope) / body->film;
     double sum_slope = gap_slope / body->film * unit;
     for (int k = 0; k < modes; k++) {
+      value[k] = values[k][own];
       sum += value[k] * of_state[k];
-      sum_slope += derivative[k] * unit * of_state[k] + value[k] * of_slope[k];
+      sum_slope += slopes[k][own] * unit * of_state[k] + value[k] * of_slope[k];
     }
     solver->gaps[i] = s->state.H0 + sum + mesh->gap_known[i] + tilt * mesh->x[i];
     solver->by_shift[i] = sum_slope;
