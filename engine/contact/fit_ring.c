@@ -126,6 +126,11 @@ static bool keeps_path(const SbFitProblem *in) {
 // most 0.4 % in load (tried once, no test).
 static const double ENOUGH = 0.01;
 
+// Where such a ring is led there from another one's state its load was up to 4.4 % from that of a
+// ring laid anew (120 random edits of two scenes; tried once, no test), most where it is pulled
+// back under fluid.
+static const double LED = 0.03;
+
 // A ring that nothing drags has no path and is then laid anew sooner than beside another one, whose
 // mesh is finer.
 static bool takes_large(const SbFitProblem *in) {
@@ -168,7 +173,8 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   }
   if (status == SB_OK) {
     sb_ring_result(ring, &result);
-    result.error.load = in->start->error_load;
+    const double led = path && !tangent && takes_large(in) ? LED : 0.0;
+    result.error.load = fmax(in->start->error_load, led);
     result.error.peak = in->start->error_peak;
     result.error.width = in->start->error_width;
   }
