@@ -194,6 +194,13 @@ static void refresh(Page *page) {
   redraw(page);
 }
 
+// Not of a page that nobody looks at: an edit has other things to do.
+static void refresh_seen(Page *page) {
+  if (gtk_widget_get_mapped(page->box)) {
+    refresh(page);
+  }
+}
+
 static GtkWidget *make_ranges(Page *page);
 
 // Whether bounds and axes are named for the parameters of the question.
@@ -381,7 +388,7 @@ static void follow(Page *page) {
       page->job == NULL && page->later == 0) {
     page->later = g_timeout_add(50, on_later, page);
   }
-  refresh(page);
+  refresh_seen(page);
 }
 
 // Actions -----------------------------------------------------------------------------------------
@@ -917,7 +924,7 @@ GtkWidget *sb_design_page_new(SbSession *session) {
   g_signal_connect(page->box, "destroy", G_CALLBACK(on_destroy), page);
   g_signal_connect_swapped(page->box, "map", G_CALLBACK(follow), page);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(follow), page);
-  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), page);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh_seen), page);
   show_ranges(page);
   refresh(page);
   return page->box;
