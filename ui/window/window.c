@@ -50,6 +50,7 @@ struct _SbWindow {
   SbWindowFiles *files;
   SbAutosave *autosave;
   guint tick;
+  gint64 run_from; // when the run of the header began, microseconds; 0: none
 };
 
 G_DEFINE_TYPE(SbWindow, sb_window, GTK_TYPE_APPLICATION_WINDOW)
@@ -108,6 +109,9 @@ static void refresh_run_state(SbWindow *window) {
   SbSessionState state = sb_session_state(session);
   int errors = sb_session_error_count(session);
   gboolean running = state == SB_SESSION_RUNNING;
+  if (!running || window->run_from == 0) {
+    window->run_from = running ? g_get_monotonic_time() : 0;
+  }
   g_autofree char *text = NULL;
   const char *style = NULL;
   const char *icon = NULL;
@@ -177,9 +181,12 @@ static void refresh(SbWindow *window) {
   ensure_tick(window);
 }
 
-// While frames come only the progress changes.
+// While frames come only the progress changes; of a run that is done in a moment not even that,
+// which takes time from it.
 static void on_frames(SbWindow *window) {
-  if (sb_session_state(window->session) == SB_SESSION_RUNNING) {
+  static const gint64 MOMENT = G_USEC_PER_SEC / 4;
+  if (sb_session_state(window->session) == SB_SESSION_RUNNING &&
+      g_get_monotonic_time() - window->run_from > MOMENT) {
     double progress = sb_session_progress(window->session);
     g_autofree char *text = running_text(window->session);
     if (strcmp(gtk_label_get_text(GTK_LABEL(window->run_state_label)), text) != 0) {
