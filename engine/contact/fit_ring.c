@@ -152,10 +152,13 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   const double wanted = in->tolerance > 0.0 ? in->tolerance : 1e-3;
   // A film hangs on the root of the pressure at the contact's ends, which scatters with the mesh
   // about ten times as much as the load does. A dragged ring's load is known to its friction only,
-  // and its finest meshes stumble: a third. No finer than a third of what its path leaves, where it
-  // leaves something: loads and films 0.5 % from those of a mesh of half the size (measured).
+  // and its finest meshes stumble: a third. So is one at rest in a valve whose rings rub and are
+  // wanted to no more than ENOUGH: no film slides over it. No finer than a third of what its path
+  // leaves, where it leaves something: loads and films 0.5 % from those of a mesh of half the size
+  // (measured).
   const bool path = keeps_path(in);
-  const double finer = !in->surface_wanted ? 1.0 : in->dragged ? 0.35 : 0.1;
+  const bool third = in->dragged || (wanted >= ENOUGH && in->floor_friction > 0.0);
+  const double finer = !in->surface_wanted ? 1.0 : third ? 0.35 : 0.1;
   const double aim = path ? fmax(wanted, PATH_LOAD / 3.0) : finer * wanted;
   const SbRingOptions options = {.tolerance = fmin(0.1, fmax(1e-5, aim)),
                                  .wanted = path ? fmax(wanted, PATH_LOAD) : wanted,
