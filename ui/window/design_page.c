@@ -3,7 +3,6 @@
 #include "ui/window/design_page.h"
 
 #include "app/base/translation.h"
-#include "app/document/typed.h"
 #include "app/export/design_map.h"
 #include "app/session/design_job.h"
 #include "app/session/kept_store.h"
@@ -11,6 +10,7 @@
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
 #include "ui/window/design_limits.h"
+#include "ui/window/design_ranges.h"
 #include "ui/window/toast.h"
 #include "ui/window/verdict_strip.h"
 
@@ -25,14 +25,9 @@ typedef enum { AREA_MAP, AREA_TORNADO, AREA_SCATTER, AREAS } Area;
 typedef struct {
   SbSession *session; // owned reference
   SbDesignAsk ask;
-  GtkWidget *box, *axis[2], *lines[SB_DESIGN_LINES], *goal, *models, *parameters, *robust,
-      *area[AREAS], *limits, *side, *side_button, *progress, *pause, *stop, *map_again, *find,
-      *message;
+  GtkWidget *box, *axis[2], *lines[SB_DESIGN_LINES], *goal, *models, *ranges, *area[AREAS], *limits,
+      *side, *side_button, *progress, *pause, *stop, *map_again, *find, *message;
   GtkWidget *picked, *told, *open, *pin, *use_best;
-  GtkWidget *popover; // of the bounds
-  GtkWidget *free[SB_DESIGN_RANGES], *end[SB_DESIGN_RANGES][2];
-  SbParamId named[SB_DESIGN_RANGES]; // whose bounds these are, as many as
-  size_t named_count;
   int kind; // of the valve
   SbDrawCache *cache[AREAS];
   SbDesignJob *job;
@@ -201,53 +196,17 @@ static void refresh_seen(Page *page) {
   }
 }
 
-static GtkWidget *make_ranges(Page *page);
-
-// Whether bounds and axes are named for the parameters of the question.
-static gboolean are_named(const Page *page) {
-  gboolean same = page->named_count == page->ask.count;
-  for (size_t i = 0; same && i < page->ask.count; i++) {
-    same = page->named[i] == page->ask.range[i].id;
-  }
-  return same;
-}
-
-// Makes the bounds' fields anew, and the axes' names.
-static void name_ranges(Page *page) {
-  GtkWidget *before = gtk_bin_get_child(GTK_BIN(page->popover));
-  if (before != NULL) {
-    gtk_widget_destroy(before);
-  }
-  GtkWidget *ranges = make_ranges(page);
-  gtk_container_add(GTK_CONTAINER(page->popover), ranges);
-  gtk_widget_show_all(ranges);
-  page->named_count = page->ask.count;
-  for (size_t i = 0; i < page->ask.count; i++) {
-    page->named[i] = page->ask.range[i].id;
-  }
-  for (int axis = 0; axis < 2 && page->axis[axis] != NULL; axis++) {
-    GtkComboBoxText *combo = GTK_COMBO_BOX_TEXT(page->axis[axis]);
-    gtk_combo_box_text_remove_all(combo);
-    for (size_t i = 0; i < page->ask.count; i++) {
-      gtk_combo_box_text_append_text(combo, sb_translation(sb_param(page->named[i])->label));
-    }
-  }
-}
-
 static void show_ranges(Page *page) {
   page->refreshing = TRUE;
-  if (!are_named(page)) {
-    name_ranges(page);
-  }
-  for (size_t i = 0; i < page->ask.count; i++) {
-    const SbDesignRange *range = &page->ask.range[i];
-    gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(page->free[i]), range->free);
-    for (int end = 0; end < 2; end++) {
-      g_autofree char *text = sb_param_format(range->id, end == 0 ? range->low : range->high);
-      gtk_entry_set_text(GTK_ENTRY(page->end[i][end]), text);
-    }
-  }
+  const gboolean others = sb_design_ranges_show(page->ranges, &page->ask);
   for (int axis = 0; axis < 2; axis++) {
+    GtkComboBoxText *combo = GTK_COMBO_BOX_TEXT(page->axis[axis]);
+    if (others) {
+      gtk_combo_box_text_remove_all(combo);
+    }
+    for (size_t i = 0; i < page->ask.count && others; i++) {
+      gtk_combo_box_text_append_text(combo, sb_translation(sb_param(page->ask.range[i].id)->label));
+    }
     gtk_combo_box_set_active(GTK_COMBO_BOX(page->axis[axis]), (int)page->ask.axis[axis]);
   }
   for (size_t i = 0; i < page->goal_count; i++) {
@@ -256,7 +215,6 @@ static void show_ranges(Page *page) {
     }
   }
   gtk_combo_box_set_active(GTK_COMBO_BOX(page->models), page->ask.closed ? 0 : 1);
-  gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(page->robust), page->ask.robust);
   page->refreshing = FALSE;
 }
 
@@ -442,52 +400,23 @@ static void on_models(GtkComboBox *combo, Page *page) {
   }
 }
 
-static void on_free(GtkToggleButton *button, Page *page) {
-  if (page->refreshing) {
-    return;
-  }
-  for (size_t i = 0; i < page->ask.count; i++) {
-    page->ask.range[i].free = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(page->free[i]));
-  }
+static void on_freed(void *data, size_t index, gboolean free) {
+  Page *page = data;
+  page->ask.range[index].free = free;
   asked(page);
 }
 
-static void on_robust(GtkToggleButton *button, Page *page) {
-  page->ask.robust = gtk_toggle_button_get_active(button);
+static void on_bounded(void *data, size_t index, double low, double high) {
+  Page *page = data;
+  page->ask.range[index].low = low;
+  page->ask.range[index].high = high;
+  show_ranges(page);
+  asked(page);
 }
 
-static void on_end(GtkEntry *entry, Page *page) {
-  for (size_t i = 0; i < page->ask.count && !page->refreshing; i++) {
-    SbDesignRange *range = &page->ask.range[i];
-    double end[2];
-    gboolean good = TRUE;
-    if (page->end[i][0] != GTK_WIDGET(entry) && page->end[i][1] != GTK_WIDGET(entry)) {
-      continue;
-    }
-    for (int k = 0; k < 2; k++) {
-      const char *typed = gtk_entry_get_text(GTK_ENTRY(page->end[i][k]));
-      const double value = k == 0 ? range->low : range->high;
-      g_autofree char *text = sb_typed_text(range->id, value, typed);
-      good = sb_param_parse(&end[k], range->id, text, NULL) && good;
-    }
-    GtkStyleContext *style = gtk_widget_get_style_context(GTK_WIDGET(entry));
-    if (!good || !(end[0] < end[1])) {
-      gtk_style_context_add_class(style, GTK_STYLE_CLASS_ERROR);
-      return;
-    }
-    gtk_style_context_remove_class(style, GTK_STYLE_CLASS_ERROR);
-    if (end[0] != range->low || end[1] != range->high) {
-      range->low = end[0];
-      range->high = end[1];
-      show_ranges(page);
-      asked(page);
-    }
-  }
-}
-
-static gboolean on_focus_out(GtkWidget *widget, GdkEventFocus *event, Page *page) {
-  on_end(GTK_ENTRY(widget), page);
-  return GDK_EVENT_PROPAGATE;
+static void on_robust(void *data, gboolean robust) {
+  Page *page = data;
+  page->ask.robust = robust;
 }
 
 static void on_lines(GtkToggleButton *button, Page *page) {
@@ -780,38 +709,6 @@ static void add_picked(Page *page, GtkBox *to) {
   gtk_box_pack_start(to, bar, FALSE, FALSE, 0);
 }
 
-// Every parameter with its bounds; those ticked are moved by the search.
-static GtkWidget *make_ranges(Page *page) {
-  GtkWidget *grid = gtk_grid_new();
-  sb_style_class(grid, "sb-row");
-  gtk_grid_set_column_spacing(GTK_GRID(grid), 8);
-  gtk_grid_set_row_spacing(GTK_GRID(grid), 4);
-  gtk_container_set_border_width(GTK_CONTAINER(grid), 10);
-  for (size_t i = 0; i < page->ask.count; i++) {
-    const char *label = sb_translation(sb_param(page->ask.range[i].id)->label);
-    page->free[i] = gtk_check_button_new_with_label(label);
-    g_autofree char *vary = g_strdup_printf(_("Vary %s"), label);
-    sb_style_name(page->free[i], vary, NULL);
-    g_signal_connect(page->free[i], "toggled", G_CALLBACK(on_free), page);
-    gtk_grid_attach(GTK_GRID(grid), page->free[i], 0, (int)i, 1, 1);
-    for (int end = 0; end < 2; end++) {
-      page->end[i][end] = gtk_entry_new();
-      gtk_entry_set_width_chars(GTK_ENTRY(page->end[i][end]), 9);
-      gtk_entry_set_alignment(GTK_ENTRY(page->end[i][end]), 1);
-      g_autofree char *name = g_strdup_printf(end == 0 ? _("%s from") : _("%s to"), label);
-      sb_style_name(page->end[i][end], name, NULL);
-      g_signal_connect(page->end[i][end], "activate", G_CALLBACK(on_end), page);
-      g_signal_connect(page->end[i][end], "focus-out-event", G_CALLBACK(on_focus_out), page);
-      gtk_grid_attach(GTK_GRID(grid), page->end[i][end], 1 + end, (int)i, 1, 1);
-    }
-  }
-  page->robust =
-      gtk_check_button_new_with_label(_("Hold all limits with 99.9 % over the tolerances"));
-  g_signal_connect(page->robust, "toggled", G_CALLBACK(on_robust), page);
-  gtk_grid_attach(GTK_GRID(grid), page->robust, 0, (int)page->ask.count, 3, 1);
-  return grid;
-}
-
 static void add_question(Page *page, GtkBox *to) {
   GtkBox *bar = GTK_BOX(gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8));
   gtk_box_pack_start(bar, sb_style_label(_("Goal"), "sb-heading", 0), FALSE, FALSE, 0);
@@ -837,13 +734,9 @@ static void add_question(Page *page, GtkBox *to) {
                                 _("What the search makes least or greatest"));
   gtk_widget_set_hexpand(page->goal, TRUE);
   g_signal_connect(page->goal, "changed", G_CALLBACK(on_goal), page);
-  page->parameters = gtk_menu_button_new();
-  page->popover = gtk_popover_new(page->parameters);
-  gtk_menu_button_set_popover(GTK_MENU_BUTTON(page->parameters), page->popover);
-  gtk_container_add(GTK_CONTAINER(page->parameters), gtk_label_new(_("Bounds")));
-  gtk_widget_set_tooltip_text(page->parameters,
-                              _("Which parameters the search moves, and between what"));
-  gtk_box_pack_start(bar, page->parameters, FALSE, FALSE, 0);
+  const SbDesignRangesHooks hooks = {on_freed, on_bounded, on_robust, page};
+  page->ranges = sb_design_ranges_new(&hooks);
+  gtk_box_pack_start(bar, page->ranges, FALSE, FALSE, 0);
   static const char *const models[] = {N_("Closed forms"), N_("The valve's own")};
   page->models = sb_toolbar_combo(bar, models, 2, _("Models of the map"),
                                   _("Closed forms of the thesis: milliseconds a valve; or the "
