@@ -232,6 +232,13 @@ static void test_design_point_goes_with_its_map(void) {
   gtk_widget_show_all(window);
   GtkWidget *map = named(window, "Map of the design"), *keep = named(window, "Keep design");
   g_assert_false(gtk_widget_get_sensitive(keep));
+  // What a button's tooltip explains is not under it.
+  GtkWidget *bounds = named(window, "Bounds");
+  g_assert_true(gtk_widget_get_has_tooltip(bounds));
+  gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(bounds), TRUE);
+  g_assert_false(gtk_widget_get_has_tooltip(bounds));
+  gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(bounds), FALSE);
+  g_assert_true(gtk_widget_get_has_tooltip(bounds));
   GdkEventKey up = {.type = GDK_KEY_PRESS, .keyval = GDK_KEY_Up};
   for (int i = 0; i < 500 && !gtk_widget_get_sensitive(keep); i++) {
     gboolean taken;

@@ -388,7 +388,7 @@ GtkWidget *sb_notes_button_new(SbSession *session) {
   notes->subject = -1;
   notes->subjects = g_array_new(FALSE, FALSE, sizeof(Subject));
   g_array_set_clear_func(notes->subjects, subject_clear);
-  notes->button = gtk_menu_button_new();
+  notes->button = sb_style_menu_button();
   g_object_set_data_full(G_OBJECT(notes->button), "notes", notes, notes_free);
   gtk_container_add(GTK_CONTAINER(notes->button),
                     gtk_image_new_from_icon_name("document-edit-symbolic", GTK_ICON_SIZE_BUTTON));

@@ -233,7 +233,7 @@ GtkWidget *sb_pin_bar_new(SbSession *session) {
   g_object_set_data_full(G_OBJECT(bar->box), "bar", bar, bar_free);
   bar->chips = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
   gtk_box_pack_start(GTK_BOX(bar->box), bar->chips, FALSE, FALSE, 0);
-  bar->kept = gtk_menu_button_new();
+  bar->kept = sb_style_menu_button();
   bar->kept_label = gtk_label_new("");
   gtk_container_add(GTK_CONTAINER(bar->kept), bar->kept_label);
   sb_style_name(bar->kept, _("Kept designs"), NULL);

@@ -68,6 +68,12 @@ void sb_style_name(GtkWidget *widget, const char *name, const char *description)
   }
 }
 
+GtkWidget *sb_style_menu_button(void) {
+  GtkWidget *button = gtk_menu_button_new();
+  g_object_bind_property(button, "active", button, "has-tooltip", G_BINDING_INVERT_BOOLEAN);
+  return button;
+}
+
 void sb_style_former(GtkWidget *picture, gboolean former) {
   gtk_widget_set_opacity(picture, former ? SB_OPACITY_EARLIER : 1);
 }

@@ -16,6 +16,9 @@ gboolean sb_style_is_dark(void);
 // Gives `widget` an accessible name; `description` may be NULL.
 void sb_style_name(GtkWidget *widget, const char *name, const char *description);
 
+// A menu button whose tooltip does not lie over its popover.
+GtkWidget *sb_style_menu_button(void);
+
 // Shows a picture of former values paler than one of the present values.
 void sb_style_former(GtkWidget *picture, gboolean former);
 

@@ -257,7 +257,7 @@ static void page_free(gpointer data) {
 }
 
 static GtkWidget *menu_button(GtkBox *bar, const char *label, GtkWidget *content) {
-  GtkWidget *button = gtk_menu_button_new();
+  GtkWidget *button = sb_style_menu_button();
   GtkWidget *popover = gtk_popover_new(button);
   gtk_container_set_border_width(GTK_CONTAINER(content), 10);
   gtk_container_add(GTK_CONTAINER(popover), content);

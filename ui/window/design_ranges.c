@@ -125,7 +125,7 @@ gboolean sb_design_ranges_show(GtkWidget *button, const SbDesignAsk *ask) {
 GtkWidget *sb_design_ranges_new(const SbDesignRangesHooks *hooks) {
   Ranges *ranges = g_new0(Ranges, 1);
   ranges->hooks = *hooks;
-  ranges->button = gtk_menu_button_new();
+  ranges->button = sb_style_menu_button();
   g_object_set_data_full(G_OBJECT(ranges->button), "ranges", ranges, g_free);
   ranges->popover = gtk_popover_new(ranges->button);
   gtk_menu_button_set_popover(GTK_MENU_BUTTON(ranges->button), ranges->popover);

@@ -242,7 +242,7 @@ GtkWidget *sb_status_bar_new(SbSession *session) {
   bar->run = add_pair(box, C_("status", "Run"), C_("status", "Run"));
   bar->error = add_pair(box, _("Error estimate"), _("Error estimate"));
 
-  bar->warnings = gtk_menu_button_new();
+  bar->warnings = sb_style_menu_button();
   bar->count = gtk_label_new("");
   gtk_container_add(GTK_CONTAINER(bar->warnings), bar->count);
   GtkWidget *popover = gtk_popover_new(bar->warnings);

@@ -116,7 +116,7 @@ static GtkWidget *add_label(GtkWidget *box, const char *text, const char *name) 
 }
 
 static GtkWidget *make_button(Strip *strip, int kind) {
-  GtkWidget *button = strip->button[kind] = gtk_menu_button_new();
+  GtkWidget *button = strip->button[kind] = sb_style_menu_button();
   g_object_set_data(G_OBJECT(button), "kind", GINT_TO_POINTER(kind));
   GtkWidget *inside = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 7);
   strip->sign[kind] = add_label(inside, "", "sb-sign");
