@@ -5,9 +5,10 @@
 // without short ends, and shows the way: its displacement and how its contacts are displaced. The
 // fitted mesh is shifted along with the contacts (ring_ends.c), displaced alike, and solved, with
 // its contact fixed until the balance is near. Where that fails the solved ring's own mesh goes, in
-// parts, and where that fails too the coarse ring is taken over to a fitted mesh. What is solved
-// last is the same balance as of any ring: the way enters by friction on floor and walls alone,
-// which sees the motion from the solved ring to the new one as monotonic.
+// parts, and where that fails too the coarse ring is taken over to a fitted mesh. Where no more
+// than larger elements is wanted the coarse copy takes the ring's place, or a coarser one. What is
+// solved last is the same balance as of any ring: the way enters by friction on floor and walls
+// alone, which sees the motion from the solved ring to the new one as monotonic.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
