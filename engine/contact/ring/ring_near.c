@@ -416,6 +416,16 @@ static bool takes_larger(const SbRing *ring, const SbRingBody *body, const SbRin
          sb_ring_fit_size(body, load, options->tolerance) > LARGER * ring->fitted_size;
 }
 
+// Fits the mesh anew to the contact: at once on one of three meshes, else as any ring's.
+static SbStatus fit_larger(SbRing *way, const SbRingBody *body, const SbRingLoad *load,
+                           const SbRingOptions *options, SbReport *report) {
+  const double size = sb_ring_fit_size(body, load, options->tolerance);
+  way->at_once = true;
+  SbStatus status = sb_ring_refit(way, size, report);
+  way->at_once = false;
+  return status == SB_ERROR_NOT_CONVERGED ? sb_ring_refit(way, size, report) : status;
+}
+
 // By way of another coarse copy, which takes the ring's place.
 static SbStatus near_coarser(SbRing **out, const SbRing *ring, const SbRingBody *body,
                              const SbRingLoad *load, const SbRingOptions *options,
@@ -436,7 +446,7 @@ static SbStatus near_coarser(SbRing **out, const SbRing *ring, const SbRingBody 
     status = go_near(way, &copy->contact->is.now, &target, PART_LARGER, report);
   }
   if (status == SB_OK) {
-    status = sb_ring_refit_once(way, sb_ring_fit_size(body, load, options->tolerance), report);
+    status = fit_larger(way, body, load, options, report);
   }
   sb_ring_destroy(copy);
   if (status != SB_OK) {
@@ -467,8 +477,7 @@ static SbStatus near_guided(SbRing **out, SbRing **kept, SbRingGuide *guide, con
   const bool larger = takes_larger(guide->ring, body, load, options);
   status = go_near(way, &guide->coarse->contact->is.now, &target, larger ? PART_LARGER : PART_LEAST,
                    report);
-  if (status == SB_OK && larger &&
-      sb_ring_refit(way, sb_ring_fit_size(body, load, options->tolerance), NULL) == SB_OK) {
+  if (status == SB_OK && larger && fit_larger(way, body, load, options, NULL) == SB_OK) {
     *out = way;
     return sb_succeed(report);
   }

@@ -51,6 +51,7 @@ struct SbRing {
   SbRingContact *contact;
   SbRingCount count;
   SbRingArc arc;
+  bool at_once; // a dragged ring's other mesh takes its state with its slip or not at all
   bool passing; // single nodes may have no state: they are held against a small pull
   bool easy;    // a path of softer friction under fluid and of fewer meshes
   bool soft;    // laid by such a path beside friction on floor and walls

@@ -144,12 +144,12 @@ SbStatus sb_ring_remesh(SbRing *fresh, const SbRing *ring, double element_size, 
   SbRingContact *contact = fresh->contact;
   const bool rubs = sb_ring_rubs(&ring->contact->is.now);
   status = carry_over(fresh, ring, patch, touches, rubs && !fresh->arc.free, report);
-  if (status == SB_ERROR_NOT_CONVERGED && rubs) {
+  if (status == SB_ERROR_NOT_CONVERGED && rubs && !ring->at_once) {
     status = carry_over(fresh, ring, patch, touches, fresh->arc.free, report);
     if (status == SB_ERROR_NOT_CONVERGED && !fresh->arc.free && contact->is.now.bore_slides != 0) {
       status = carry_turn(fresh, ring, patch, touches, report);
     }
-  } else if (status == SB_ERROR_NOT_CONVERGED) {
+  } else if (status == SB_ERROR_NOT_CONVERGED && !rubs) {
     // Too far from the transferred state: follow the whole path again on the new mesh.
     SbRingLoad setting = ring->contact->is.now;
     status = sb_ring_fit_and_press(fresh, &setting, report);
