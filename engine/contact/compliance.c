@@ -14,52 +14,45 @@ double sb_compliance_half_plane(const SbSurfaceCompliance *c) {
   return 4.0 / (M_PI * c->modulus);
 }
 
-void sb_compliance_modes(const SbSurfaceCompliance *c, double x, double *value, double *slope) {
-  const double half = 0.5 * (c->right - c->left);
-  const double z = (x - 0.5 * (c->left + c->right)) / half;
-  const double t = fmin(fmax(z, -1.0), 1.0);
-  const double factor = fabs(z - t) < 1e-12 ? 1.0 / half : 0.0;
-  value[0] = 1.0;
-  double u = 1.0; // U_{k-1}
-  double u_before = 0.0;
-  if (slope != NULL) {
-    slope[0] = 0.0;
-  }
-  for (int k = 1; k < c->modes; k++) {
-    value[k] = k == 1 ? t : 2.0 * t * value[k - 1] - value[k - 2];
-    if (slope != NULL) {
-      slope[k] = factor * k * u;
-    }
-    const double next = 2.0 * t * u - u_before;
-    u_before = u;
-    u = next;
-  }
-}
-
-void sb_compliance_modes_together(const SbSurfaceCompliance *c, const double *places,
-                                  double (*value)[SB_COMPLIANCE_TOGETHER],
-                                  double (*slope)[SB_COMPLIANCE_TOGETHER]) {
-  enum { N = SB_COMPLIANCE_TOGETHER };
+// At n places side by side, T_k at x[i] in value[k n + i]: a constant n is a loop without branches.
+static inline void find_modes(const SbSurfaceCompliance *c, int n, const double *x, double *value,
+                              double *slope) {
   const double half = 0.5 * (c->right - c->left), middle = 0.5 * (c->left + c->right);
-  double t[N], factor[N], u[N], before[N];
-  for (int i = 0; i < N; i++) {
-    const double z = (places[i] - middle) / half;
+  double t[SB_COMPLIANCE_TOGETHER], factor[SB_COMPLIANCE_TOGETHER], u[SB_COMPLIANCE_TOGETHER],
+      before[SB_COMPLIANCE_TOGETHER];
+  for (int i = 0; i < n; i++) {
+    const double z = (x[i] - middle) / half;
     t[i] = fmin(fmax(z, -1.0), 1.0);
     factor[i] = fabs(z - t[i]) < 1e-12 ? 1.0 / half : 0.0;
-    value[0][i] = 1.0;
-    slope[0][i] = 0.0;
+    value[i] = 1.0;
     u[i] = 1.0; // U_{k-1}
     before[i] = 0.0;
+    if (slope != NULL) {
+      slope[i] = 0.0;
+    }
   }
   for (int k = 1; k < c->modes; k++) {
-    for (int i = 0; i < N; i++) {
-      value[k][i] = k == 1 ? t[i] : 2.0 * t[i] * value[k - 1][i] - value[k - 2][i];
-      slope[k][i] = factor[i] * k * u[i];
+    double *now = value + k * n;
+    for (int i = 0; i < n; i++) {
+      now[i] = k == 1 ? t[i] : 2.0 * t[i] * now[i - n] - now[i - 2 * n];
+    }
+    for (int i = 0; i < n && slope != NULL; i++) {
+      slope[k * n + i] = factor[i] * k * u[i];
       const double next = 2.0 * t[i] * u[i] - before[i];
       before[i] = u[i];
       u[i] = next;
     }
   }
+}
+
+void sb_compliance_modes(const SbSurfaceCompliance *c, double x, double *value, double *slope) {
+  find_modes(c, 1, &x, value, slope);
+}
+
+void sb_compliance_modes_together(const SbSurfaceCompliance *c, const double *x,
+                                  double (*value)[SB_COMPLIANCE_TOGETHER],
+                                  double (*slope)[SB_COMPLIANCE_TOGETHER]) {
+  find_modes(c, SB_COMPLIANCE_TOGETHER, x, value[0], slope[0]);
 }
 
 void sb_compliance_integrals(const SbSurfaceCompliance *c, double from, double to, double *out) {

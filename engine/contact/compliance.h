@@ -58,9 +58,9 @@ double sb_compliance_smooth(const SbSurfaceCompliance *c, double x, const double
 // `slope` may be NULL.
 void sb_compliance_modes(const SbSurfaceCompliance *c, double x, double *value, double *slope);
 
-// The same at SB_COMPLIANCE_TOGETHER places side by side, T_k at places[i] in value[k][i].
+// The same at SB_COMPLIANCE_TOGETHER places, T_k at x[i] in value[k][i]: to the bit, and quicker.
 enum { SB_COMPLIANCE_TOGETHER = 8 };
-void sb_compliance_modes_together(const SbSurfaceCompliance *c, const double *places,
+void sb_compliance_modes_together(const SbSurfaceCompliance *c, const double *x,
                                   double (*value)[SB_COMPLIANCE_TOGETHER],
                                   double (*slope)[SB_COMPLIANCE_TOGETHER]);
 
