@@ -7,6 +7,7 @@
 // test-ui-monkey [SEED [ACTIONS [LOG]]]
 #include "app/run/process.h"
 #include "app/session/autosave.h"
+#include "tests/ui/widgets.h"
 #include "ui/window/window.h"
 
 #include <glib/gstdio.h>
@@ -263,11 +264,7 @@ int main(int argc, char **argv) {
   g_setenv("GTK_RECENT_FILES_ENABLED", "0", TRUE);
   g_log_set_always_fatal(G_LOG_LEVEL_CRITICAL | G_LOG_LEVEL_ERROR);
   dice = g_rand_new_with_seed(seed);
-  g_autoptr(SbApplication) application = sb_application_new();
-  g_application_set_flags(G_APPLICATION(application),
-                          G_APPLICATION_NON_UNIQUE | G_APPLICATION_HANDLES_OPEN);
-  g_assert_true(g_application_register(G_APPLICATION(application), NULL, NULL));
-  g_application_hold(G_APPLICATION(application));
+  g_autoptr(SbApplication) application = start_application();
   window = sb_window_new(application);
   g_signal_connect(window, "delete-event", G_CALLBACK(on_delete), NULL);
   g_autofree char *scene = copy_scene(folder);

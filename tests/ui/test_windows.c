@@ -2,6 +2,7 @@
 // behind: no window outlives its closing, and the memory in use stops growing. (Leaks that nothing
 // points to are the sanitizers' to find; this finds what something still points to.)
 #include "app/export/export_job.h"
+#include "tests/ui/widgets.h"
 #include "ui/window/application.h"
 #include "ui/window/design_page.h"
 #include "ui/window/import_dialog.h"
@@ -46,12 +47,7 @@ static void open_and_close(SbApplication *application, const char *scene, int sh
 }
 
 static void test_closed_windows_are_gone(void) {
-  g_autoptr(SbApplication) application = sb_application_new();
-  g_application_set_flags(G_APPLICATION(application),
-                          G_APPLICATION_NON_UNIQUE | G_APPLICATION_HANDLES_OPEN);
-  g_autoptr(GError) error = NULL;
-  g_assert_true(g_application_register(G_APPLICATION(application), NULL, &error));
-  g_application_hold(G_APPLICATION(application));
+  g_autoptr(SbApplication) application = start_application();
   size_t in_use[ROUNDS];
   for (int round = 0; round < ROUNDS; round++) {
     for (guint i = 0; i < G_N_ELEMENTS(scenes); i++) {
@@ -77,23 +73,6 @@ static GtkDialog *open_dialog(void) {
     }
   }
   return NULL;
-}
-
-static void find_named(GtkWidget *widget, gpointer data) {
-  gpointer *wanted = data; // name, found
-  const char *name = atk_object_get_name(gtk_widget_get_accessible(widget));
-  if (g_strcmp0(name, wanted[0]) == 0 && !GTK_IS_LABEL(widget)) {
-    wanted[1] = widget;
-  } else if (GTK_IS_CONTAINER(widget)) {
-    gtk_container_forall(GTK_CONTAINER(widget), find_named, data);
-  }
-}
-
-static GtkWidget *named(gpointer inside, const char *name) {
-  gpointer wanted[2] = {(gpointer)(gintptr)name, NULL};
-  find_named(GTK_WIDGET(inside), wanted);
-  g_assert_nonnull(wanted[1]);
-  return wanted[1];
 }
 
 // Waits until the dialog may import, or may not.
@@ -148,7 +127,8 @@ static void test_import(void) {
   sb_import_measured(GTK_WINDOW(parent), session, loop);
   GtkDialog *dialog = open_dialog();
   wait_for(dialog, TRUE);
-  GtkWidget *separator = named(dialog, "Separator"), *cycle = named(dialog, "Cycle");
+  GtkWidget *separator = named(dialog, "Separator", GTK_TYPE_WIDGET),
+            *cycle = named(dialog, "Cycle", GTK_TYPE_WIDGET);
   g_autofree char *found = g_strdup(gtk_combo_box_get_active_id(GTK_COMBO_BOX(separator)));
   g_assert_nonnull(found);
   gtk_entry_set_text(GTK_ENTRY(cycle), "9");
@@ -191,8 +171,8 @@ static void test_import(void) {
   dialog = open_dialog();
   turn(300);
   wait_for(dialog, FALSE);
-  gtk_entry_set_text(GTK_ENTRY(named(dialog, "Unit of heights")), "nm");
-  gtk_entry_set_text(GTK_ENTRY(named(dialog, "Distance of points")), "1 um");
+  gtk_entry_set_text(GTK_ENTRY(named(dialog, "Unit of heights", GTK_TYPE_WIDGET)), "nm");
+  gtk_entry_set_text(GTK_ENTRY(named(dialog, "Distance of points", GTK_TYPE_WIDGET)), "1 um");
   wait_for(dialog, TRUE);
   const double before = sb_document_value(document, SB_P_SURFACE_GT_PRODUCT);
   gtk_dialog_response(dialog, GTK_RESPONSE_ACCEPT);
@@ -206,13 +186,13 @@ static void test_import(void) {
   dialog = open_dialog();
   turn(300);
   wait_for(dialog, FALSE);
-  gtk_entry_set_text(GTK_ENTRY(named(dialog, "Stem centre: body")), "stem");
+  gtk_entry_set_text(GTK_ENTRY(named(dialog, "Stem centre: body", GTK_TYPE_WIDGET)), "stem");
   wait_for(dialog, TRUE);
   const char *told = atk_object_get_description(
-      gtk_widget_get_accessible(named(dialog, "Half-sections of the bodies")));
+      gtk_widget_get_accessible(named(dialog, "Half-sections of the bodies", GTK_TYPE_WIDGET)));
   g_assert_nonnull(strstr(told, "1 stem: 62.83 mm³\n"));
   g_assert_nonnull(strstr(told, "stem.pressure_diameter: 5.794 mm → 4 mm\n"));
-  gtk_entry_set_text(GTK_ENTRY(named(dialog, "Stem centre: body")), "2");
+  gtk_entry_set_text(GTK_ENTRY(named(dialog, "Stem centre: body", GTK_TYPE_WIDGET)), "2");
   turn(500);
   wait_for(dialog, FALSE);
   gtk_dialog_response(dialog, GTK_RESPONSE_CANCEL);
@@ -230,10 +210,11 @@ static void test_design_point_goes_with_its_map(void) {
   gtk_container_add(GTK_CONTAINER(window), sb_design_page_new(session));
   sb_toast_attach(GTK_WINDOW(window));
   gtk_widget_show_all(window);
-  GtkWidget *map = named(window, "Map of the design"), *keep = named(window, "Keep design");
+  GtkWidget *map = named(window, "Map of the design", GTK_TYPE_WIDGET),
+            *keep = named(window, "Keep design", GTK_TYPE_WIDGET);
   g_assert_false(gtk_widget_get_sensitive(keep));
   // What a button's tooltip explains is not under it.
-  GtkWidget *bounds = named(window, "Bounds");
+  GtkWidget *bounds = named(window, "Bounds", GTK_TYPE_WIDGET);
   g_assert_true(gtk_widget_get_has_tooltip(bounds));
   gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(bounds), TRUE);
   g_assert_false(gtk_widget_get_has_tooltip(bounds));
@@ -251,7 +232,7 @@ static void test_design_point_goes_with_its_map(void) {
   sb_session_reset(session);
   g_assert_false(gtk_widget_get_sensitive(keep));
   gtk_button_clicked(GTK_BUTTON(keep));
-  gtk_button_clicked(GTK_BUTTON(named(window, "Open design")));
+  gtk_button_clicked(GTK_BUTTON(named(window, "Open design", GTK_TYPE_WIDGET)));
   g_assert_false(sb_session_is_modified(session));
   gtk_widget_destroy(window);
 }

@@ -9,7 +9,7 @@
 
 typedef struct {
   SbDesignRangesHooks hooks;
-  GtkWidget *button, *popover, *free[SB_DESIGN_RANGES], *end[SB_DESIGN_RANGES][2], *robust;
+  GtkWidget *popover, *free[SB_DESIGN_RANGES], *end[SB_DESIGN_RANGES][2], *robust;
   SbDesignRange range[SB_DESIGN_RANGES]; // as shown
   size_t count;
   gboolean refreshing;
@@ -125,12 +125,11 @@ gboolean sb_design_ranges_show(GtkWidget *button, const SbDesignAsk *ask) {
 GtkWidget *sb_design_ranges_new(const SbDesignRangesHooks *hooks) {
   Ranges *ranges = g_new0(Ranges, 1);
   ranges->hooks = *hooks;
-  ranges->button = sb_style_menu_button();
-  g_object_set_data_full(G_OBJECT(ranges->button), "ranges", ranges, g_free);
-  ranges->popover = gtk_popover_new(ranges->button);
-  gtk_menu_button_set_popover(GTK_MENU_BUTTON(ranges->button), ranges->popover);
-  gtk_container_add(GTK_CONTAINER(ranges->button), gtk_label_new(_("Bounds")));
-  gtk_widget_set_tooltip_text(ranges->button,
-                              _("Which parameters the search moves, and between what"));
-  return ranges->button;
+  GtkWidget *button = sb_style_menu_button();
+  g_object_set_data_full(G_OBJECT(button), "ranges", ranges, g_free);
+  ranges->popover = gtk_popover_new(button);
+  gtk_menu_button_set_popover(GTK_MENU_BUTTON(button), ranges->popover);
+  gtk_container_add(GTK_CONTAINER(button), gtk_label_new(_("Bounds")));
+  gtk_widget_set_tooltip_text(button, _("Which parameters the search moves, and between what"));
+  return button;
 }

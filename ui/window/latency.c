@@ -80,14 +80,30 @@ static double quantile(const Histogram *histogram, double share) {
   return (double)histogram->longest / 1000.0;
 }
 
+void sb_latency_measured(SbLatency *out) {
+  *out = (SbLatency){
+      .samples = all.samples,
+      .p50 = quantile(&all, 0.50),
+      .p99 = quantile(&all, 0.99),
+      .max = (double)all.longest / 1000.0,
+      .own_p99 = quantile(&own, 0.99),
+      .own_max = (double)own.longest / 1000.0,
+  };
+}
+
 gboolean sb_latency_write(const char *path, GError **error) {
+  SbLatency of;
+  sb_latency_measured(&of);
   const struct {
     const char *key;
     double value;
   } figures[] = {
-      {"samples", (double)all.samples},     {"p50_ms", quantile(&all, 0.50)},
-      {"p99_ms", quantile(&all, 0.99)},     {"max_ms", (double)all.longest / 1000.0},
-      {"own_p99_ms", quantile(&own, 0.99)}, {"own_max_ms", (double)own.longest / 1000.0},
+      {"samples", (double)of.samples},
+      {"p50_ms", of.p50},
+      {"p99_ms", of.p99},
+      {"max_ms", of.max},
+      {"own_p99_ms", of.own_p99},
+      {"own_max_ms", of.own_max},
   };
   g_autoptr(GString) text = g_string_new("{ ");
   for (guint i = 0; i < G_N_ELEMENTS(figures); i++) {
