@@ -77,6 +77,16 @@ def lost_rooms(source):
     return [room for room in rooms if not os.path.exists(f'{source}/{room}')]
 
 
+def sources_of_the_loop(source):
+    """Places in ui/ that add a source to the main loop but by views/later.c, whose calls end with their
+    widget. latency.c watches the loop itself, as long as the program runs."""
+    allowed = ('ui/views/later.c', 'ui/window/latency.c')
+    return [os.path.relpath(path, source) for path in sorted(glob.glob(f'{source}/ui/**/*.c', recursive=True))
+            if os.path.relpath(path, source) not in allowed and
+            re.search(r'\b(g_idle_add|g_timeout_add|g_source_attach|gdk_threads_add|g_unix_fd_add|g_child_watch_add)',
+                      open(path, encoding='utf-8').read())]
+
+
 def visible(path):
     """What a shared library lets others see, but for the linker's own marks."""
     out = subprocess.run(['nm', '-D', '--defined-only', path], capture_output=True, text=True, check=True)
@@ -103,6 +113,7 @@ checks = [
      [name for name in needed if not re.match(LIBRARY_MAY_NEED, name)]),
     ('no file outside engine/valve sees what a model is made of', readers_of_the_model(source)),
     ('the help of parameters names places that are there', lost_rooms(source)),
+    ('no call of the main loop in ui outlives its widget', sources_of_the_loop(source)),
     ('sealbench is not linked with GTK', re.findall(r'lib(?:gtk|gdk)-\S+', libraries)),
 ]
 print(f'1..{len(checks)}')

@@ -3,10 +3,12 @@
 // points to are the sanitizers' to find; this finds what something still points to.)
 #include "app/export/export_job.h"
 #include "tests/ui/widgets.h"
+#include "ui/views/later.h"
 #include "ui/window/application.h"
 #include "ui/window/design_page.h"
 #include "ui/window/import_dialog.h"
 #include "ui/window/message_strip.h"
+#include "ui/window/propellants_page.h"
 #include "ui/window/toast.h"
 #include "ui/window/window.h"
 
@@ -263,6 +265,82 @@ static void test_message_strip(void) {
   gtk_widget_destroy(window);
 }
 
+static void count(gpointer data) {
+  (*(int *)data)++;
+}
+
+typedef struct {
+  SbLater later;
+  GtkWidget *owner;
+  int calls;
+} Again;
+
+static void call_again(gpointer data) {
+  Again *again = data;
+  g_assert_false(sb_later_is_due(&again->later));
+  if (++again->calls < 3) {
+    sb_later_ensure(&again->later, again->owner, 0, call_again, again);
+  }
+}
+
+// A call runs once, can schedule the next one, is replaced or cancelled, and never runs after its
+// owner was destroyed, although a reference keeps the owner's memory.
+static void test_later(void) {
+  g_autoptr(GtkWidget) owner = g_object_ref_sink(gtk_label_new(NULL));
+  SbLater later = {0}, repeated = {0};
+  int once = 0, often = 0;
+  sb_later_set(&later, owner, 1, count, &once);
+  sb_later_set(&later, owner, 0, count, &once);
+  sb_later_ensure(&later, owner, 0, count, &once);
+  g_assert_true(sb_later_is_due(&later));
+  sb_later_repeat(&repeated, owner, 1, count, &often);
+  while (often < 3) {
+    turn(1);
+  }
+  g_assert_cmpint(once, ==, 1);
+  g_assert_false(sb_later_is_due(&later));
+  sb_later_set(&later, owner, 0, count, &once);
+  sb_later_cancel(&later);
+  sb_later_cancel(&later);
+  Again again = {.owner = owner};
+  sb_later_set(&again.later, owner, 0, call_again, &again);
+  while (again.calls < 3) {
+    turn(1);
+  }
+  sb_later_set(&later, owner, 0, count, &once);
+  often = 0;
+  gtk_widget_destroy(owner);
+  g_assert_false(sb_later_is_due(&later) || sb_later_is_due(&repeated));
+  turn(20);
+  g_assert_cmpint(once, ==, 1);
+  g_assert_cmpint(often, ==, 0);
+}
+
+// Pages that are destroyed while a change of their width waits to be shown leave no call behind. (A
+// critical message of GTK ends this program.)
+static void test_page_ends_with_its_calls(void) {
+  GtkWidget *(*const make[])(SbSession *) = {sb_design_page_new, sb_propellants_page_new};
+  g_autofree char *scene =
+      g_strdup_printf("%s/scenes/quick-look.scene", g_getenv("SEALBENCH_ASSETS"));
+  for (guint i = 0; i < G_N_ELEMENTS(make); i++) {
+    g_autoptr(SbSession) session = sb_session_new();
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_assert_true(sb_session_open(session, scene, issues));
+    GtkWidget *window = gtk_window_new(GTK_WINDOW_TOPLEVEL);
+    g_autoptr(GtkWidget) page = g_object_ref_sink(make[i](session));
+    gtk_container_add(GTK_CONTAINER(window), page);
+    sb_toast_attach(GTK_WINDOW(window));
+    gtk_widget_show_all(window);
+    turn(50);
+    static const int widths[] = {1900, 320, 1900, 320};
+    for (guint k = 0; k < G_N_ELEMENTS(widths); k++) {
+      gtk_widget_size_allocate(page, &(GtkAllocation){0, 0, widths[k], 900});
+    }
+    gtk_widget_destroy(window);
+    turn(100);
+  }
+}
+
 int main(int argc, char **argv) {
   g_autofree char *folder = g_dir_make_tmp("sealbench-windows-XXXXXX", NULL);
   g_setenv("XDG_CONFIG_HOME", folder, TRUE);
@@ -273,6 +351,8 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   // Services of a desktop may be missing; only a critical message is a defect.
   g_log_set_always_fatal(G_LOG_LEVEL_CRITICAL | G_LOG_FATAL_MASK);
+  g_test_add_func("/windows/later", test_later);
+  g_test_add_func("/windows/page-ends-with-its-calls", test_page_ends_with_its_calls);
   g_test_add_func("/windows/import", test_import);
   g_test_add_func("/windows/design-point", test_design_point_goes_with_its_map);
   g_test_add_func("/windows/message-strip", test_message_strip);

@@ -3,6 +3,7 @@
 
 #include "app/document/seal_file.h"
 #include "ui/params/own_row.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -11,6 +12,7 @@ typedef struct {
   SbSession *session; // owned reference
   SbDrawingKind kind;
   GtkWidget *button, *none;
+  SbLater later; // the file chooser
 } Row;
 
 typedef struct {
@@ -74,8 +76,8 @@ static void read_file(GtkWidget *widget, const char *path) {
   g_task_run_in_thread(task, row->kind == SB_DRAWING_SECTION ? read_section : read_groove);
 }
 
-static gboolean choose(gpointer data) {
-  GtkWidget *widget = data;
+static void choose(gpointer data) {
+  g_autoptr(GtkWidget) widget = g_object_ref(data); // the dialog runs a main loop
   const Row *row = g_object_get_data(G_OBJECT(widget), "row");
   GtkWindow *window = GTK_WINDOW(gtk_widget_get_toplevel(widget));
   const char *title =
@@ -86,12 +88,12 @@ static gboolean choose(gpointer data) {
     g_autofree char *path = gtk_file_chooser_get_filename(GTK_FILE_CHOOSER(chooser));
     read_file(widget, path);
   }
-  return G_SOURCE_REMOVE;
 }
 
 // When the button's own event is over: the dialog has a loop of its own.
 static void on_choose(GtkWidget *button, GtkWidget *widget) {
-  g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, choose, g_object_ref(widget), g_object_unref);
+  Row *row = g_object_get_data(G_OBJECT(widget), "row");
+  sb_later_ensure(&row->later, widget, 0, choose, widget);
 }
 
 // A file that is dropped on the row.

@@ -10,6 +10,7 @@
 #include "ui/params/drawing_row.h"
 #include "ui/params/param_row.h"
 #include "ui/params/rubber_row.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -32,6 +33,7 @@ struct _SbParamPanel {
   GtkWidget *filters[SB_PARAM_FILTER_ALL + 1];
   SbParamFilter filter;
   GtkWidget *row[SB_PARAM_COUNT];
+  SbLater scroll, marked[SB_PARAM_COUNT];
   GtkWidget *rubber, *section, *groove; // the rows that are of no parameter
   int group_of[SB_PARAM_COUNT];
   GArray *groups;    // of Group
@@ -286,7 +288,7 @@ static void on_stop_search(GtkSearchEntry *entry, SbParamPanel *panel) {
   gtk_widget_child_focus(panel->list, GTK_DIR_TAB_FORWARD);
 }
 
-static gboolean on_map_scroll(gpointer data) {
+static void on_map_scroll(gpointer data) {
   GtkWidget *row = data;
   GtkWidget *scroller = gtk_widget_get_ancestor(row, GTK_TYPE_SCROLLED_WINDOW);
   GtkWidget *list = gtk_bin_get_child(GTK_BIN(gtk_bin_get_child(GTK_BIN(scroller))));
@@ -296,8 +298,6 @@ static gboolean on_map_scroll(gpointer data) {
     GtkAdjustment *adjustment = gtk_scrolled_window_get_vadjustment(GTK_SCROLLED_WINDOW(scroller));
     gtk_adjustment_clamp_page(adjustment, y - 40, y + gtk_widget_get_allocated_height(row) + 40);
   }
-  g_object_unref(row);
-  return G_SOURCE_REMOVE;
 }
 
 // Unfolds what a row is in and scrolls to it.
@@ -310,7 +310,7 @@ static void bring_up(SbParamPanel *panel, SbParamId id) {
   sb_param_panel_set_filter(panel, panel->filter); // a search's change is told later
   Group *group = group_at(panel, panel->group_of[id]);
   gtk_expander_set_expanded(GTK_EXPANDER(group->expander), TRUE);
-  g_idle_add(on_map_scroll, g_object_ref(panel->row[id]));
+  sb_later_set(&panel->scroll, panel, 0, on_map_scroll, panel->row[id]);
 }
 
 void sb_param_panel_reveal(SbParamPanel *panel, SbParamId id) {
@@ -318,16 +318,14 @@ void sb_param_panel_reveal(SbParamPanel *panel, SbParamId id) {
   sb_param_row_focus(SB_PARAM_ROW(panel->row[id]));
 }
 
-static gboolean on_marked_long(gpointer data) {
+static void on_marked_long(gpointer data) {
   gtk_style_context_remove_class(gtk_widget_get_style_context(data), "sb-marked");
-  g_object_unref(data);
-  return G_SOURCE_REMOVE;
 }
 
 void sb_param_panel_show(SbParamPanel *panel, SbParamId id) {
   bring_up(panel, id);
   sb_style_class(panel->row[id], "sb-marked");
-  g_timeout_add(MARKED_MS, on_marked_long, g_object_ref(panel->row[id]));
+  sb_later_set(&panel->marked[id], panel->row[id], MARKED_MS, on_marked_long, panel->row[id]);
 }
 
 void sb_param_panel_search(SbParamPanel *panel) {

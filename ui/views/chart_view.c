@@ -18,6 +18,7 @@
 #include "engine/valve/figures.h"
 #include "ui/views/canvas_area.h"
 #include "ui/views/draw_cache.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -28,7 +29,7 @@ typedef struct {
   SbChartViewKind kind;
   GtkWidget *area;
   SbDrawCache *cache;
-  guint describe;          // source that renews the description, 0 if none is due
+  SbLater describe;        // renews the description
   double cursor;           // displacement under the pointer [m]; NaN: none
   double point_x, point_y; // of the pointer over a contact's panel [px]; NaN: none
   SbChartZoom zoom;
@@ -271,7 +272,7 @@ static const SbChartPredicted *shown_prediction(const View *view) {
   return draws && !sb_chart_is_rig(&data->run) ? data->predicted : NULL;
 }
 
-static gboolean describe(gpointer data) {
+static void describe(gpointer data) {
   View *view = data;
   g_autoptr(GString) text = g_string_new(NULL);
   const SbChartRun *run = &sb_session_chart(view->session)->run;
@@ -323,8 +324,6 @@ static gboolean describe(gpointer data) {
     }
   }
   sb_style_name(view->area, name, text->str);
-  view->describe = 0;
-  return G_SOURCE_REMOVE;
 }
 
 char *sb_chart_view_table(SbSession *session) {
@@ -380,9 +379,7 @@ static void zoom_at(View *view, double factor, double x, double y) {
                                                   factor, x, y);
   view->zoom = zoom;
   sb_draw_cache_change(view->cache, 0);
-  if (view->describe == 0) {
-    view->describe = g_timeout_add(200, describe, view);
-  }
+  sb_later_ensure(&view->describe, view->area, 200, describe, view);
 }
 
 static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, View *view) {
@@ -478,9 +475,7 @@ static void set_cursor(View *view, double cursor, double x, double y) {
   if (moved || (cursor != view->cursor && !(isnan(cursor) && isnan(view->cursor)))) {
     view->cursor = cursor;
     gtk_widget_queue_draw(view->area);
-    if (view->describe == 0) {
-      view->describe = g_timeout_add(200, describe, view);
-    }
+    sb_later_ensure(&view->describe, view->area, 200, describe, view);
   }
 }
 
@@ -557,9 +552,7 @@ static void show_change(View *view, gboolean later) {
                          sb_session_wants_ticks(view->session) ? kinds[view->kind].interval : 0);
   }
   // Screen readers need no more than a few sentences a second.
-  if (view->describe == 0) {
-    view->describe = g_timeout_add(200, describe, view);
-  }
+  sb_later_ensure(&view->describe, view->area, 200, describe, view);
 }
 
 static void on_change(View *view) {
@@ -576,10 +569,6 @@ static void on_params(View *view) {
 
 static void on_destroy(GtkWidget *widget, View *view) {
   g_signal_handlers_disconnect_by_data(view->session, view);
-  if (view->describe != 0) {
-    g_source_remove(view->describe);
-    view->describe = 0;
-  }
 }
 
 GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {

@@ -4,6 +4,8 @@
 // spreads the work of several pictures over the frames while something moves.
 #include "ui/views/draw_cache.h"
 
+#include "ui/views/later.h"
+
 struct SbDrawCache {
   GtkWidget *area;
   SbDrawCacheDraw draw;
@@ -12,7 +14,7 @@ struct SbDrawCache {
   int width, height, scale;
   gboolean changed;
   gint64 drawn, when; // when it was, and when the timer has it drawn [us]
-  guint timer;        // 0: none
+  SbLater timer;
 };
 
 static void make(SbDrawCache *cache, int width, int height, int scale) {
@@ -37,7 +39,7 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, SbDrawCache *cache) {
   int width = gtk_widget_get_allocated_width(widget);
   int height = gtk_widget_get_allocated_height(widget);
   int scale = gtk_widget_get_scale_factor(widget);
-  const gboolean due = cache->changed && cache->timer == 0;
+  const gboolean due = cache->changed && !sb_later_is_due(&cache->timer);
   if (due || width != cache->width || height != cache->height || scale != cache->scale) {
     make(cache, width, height, scale);
   }
@@ -49,29 +51,19 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, SbDrawCache *cache) {
   return GDK_EVENT_PROPAGATE;
 }
 
-static gboolean on_timer(gpointer data) {
+static void on_timer(gpointer data) {
   SbDrawCache *cache = data;
-  cache->timer = 0;
   gtk_widget_queue_draw(cache->area);
-  return G_SOURCE_REMOVE;
-}
-
-static void cancel_timer(SbDrawCache *cache) {
-  if (cache->timer != 0) {
-    g_source_remove(cache->timer);
-    cache->timer = 0;
-  }
 }
 
 // Draws at a time, or before if that was the case already.
 static void draw_at(SbDrawCache *cache, gint64 when) {
-  if (cache->timer != 0 && cache->when <= when) {
+  if (sb_later_is_due(&cache->timer) && cache->when <= when) {
     return;
   }
-  cancel_timer(cache);
   cache->when = when;
-  cache->timer =
-      g_timeout_add((guint)MAX((when - g_get_monotonic_time()) / 1000, 1), on_timer, cache);
+  sb_later_set(&cache->timer, cache->area, (guint)MAX((when - g_get_monotonic_time()) / 1000, 1),
+               on_timer, cache);
 }
 
 void sb_draw_cache_change(SbDrawCache *cache, int interval) {
@@ -80,7 +72,7 @@ void sb_draw_cache_change(SbDrawCache *cache, int interval) {
   if (when > g_get_monotonic_time()) {
     draw_at(cache, when);
   } else {
-    cancel_timer(cache);
+    sb_later_cancel(&cache->timer);
     gtk_widget_queue_draw(cache->area);
   }
 }
@@ -92,12 +84,11 @@ void sb_draw_cache_change_later(SbDrawCache *cache, int ms) {
 
 // Another theme: the colours are not the picture's own.
 static void on_style(SbDrawCache *cache) {
-  cancel_timer(cache);
+  sb_later_cancel(&cache->timer);
   cache->changed = TRUE;
 }
 
 static void on_destroy(GtkWidget *widget, SbDrawCache *cache) {
-  cancel_timer(cache);
   g_clear_pointer(&cache->surface, cairo_surface_destroy);
   cache->width = -1;
 }

@@ -3,6 +3,7 @@
 // is being served.
 #include "ui/views/notes_button.h"
 
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -25,8 +26,8 @@ typedef struct {
   GArray *subjects; // of Subject, in the order of the list
   int subject;      // shown, -1: none
   char *shown;      // what the lists show
-  guint later;      // source that makes them anew, 0 if none is due
-  guint take;       // source that takes what was typed, 0 if nothing was
+  SbLater later;    // refresh()
+  SbLater take;     // stores the typed text; due while some is not stored
   gboolean filling; // the text is being put there by us
 } Notes;
 
@@ -57,11 +58,10 @@ static void tell(Notes *notes, const char *problem) {
 // Puts what was typed where it belongs.
 static void take(Notes *notes) {
   Subject *subject = subject_now(notes);
-  if (notes->take == 0 || subject == NULL) {
+  if (!sb_later_is_due(&notes->take) || subject == NULL) {
     return;
   }
-  g_source_remove(notes->take);
-  notes->take = 0;
+  sb_later_cancel(&notes->take);
   g_autofree char *text = typed(notes);
   g_autoptr(GError) error = NULL;
   // A design that others are told apart from by its values gets them as its name now.
@@ -76,17 +76,13 @@ static void take(Notes *notes) {
   tell(notes, problem);
 }
 
-static gboolean on_take(gpointer data) {
+static void on_take(gpointer data) {
   take(data);
-  return G_SOURCE_REMOVE;
 }
 
 static void on_typed(GtkTextBuffer *buffer, Notes *notes) {
   if (!notes->filling) {
-    if (notes->take != 0) {
-      g_source_remove(notes->take);
-    }
-    notes->take = g_timeout_add(TAKE_MS, on_take, notes);
+    sb_later_set(&notes->take, notes->button, TAKE_MS, on_take, notes);
   }
 }
 
@@ -275,9 +271,8 @@ static void destroy(GtkWidget *widget, gpointer data) {
   gtk_widget_destroy(widget);
 }
 
-static gboolean refresh(gpointer data) {
+static void refresh(gpointer data) {
   Notes *notes = data;
-  notes->later = 0;
   const SbDocument *document = sb_session_document(notes->session);
   char *text = shown_text(notes->session);
   if (g_strcmp0(text, notes->shown) != 0) {
@@ -297,16 +292,13 @@ static gboolean refresh(gpointer data) {
   const Subject *subject = subject_now(notes);
   const char *now = sb_document_remark(document, SB_REMARK_NOTE, subject->name);
   g_autofree char *here = typed(notes);
-  if (notes->take == 0 && strcmp(here, now != NULL ? now : "") != 0) {
+  if (!sb_later_is_due(&notes->take) && strcmp(here, now != NULL ? now : "") != 0) {
     fill_text(notes);
   }
-  return G_SOURCE_REMOVE;
 }
 
 static void on_change(Notes *notes) {
-  if (notes->later == 0) {
-    notes->later = g_idle_add(refresh, notes);
-  }
+  sb_later_ensure(&notes->later, notes->button, 0, refresh, notes);
 }
 
 // Life --------------------------------------------------------------------------------------------
@@ -320,13 +312,6 @@ static void notes_free(gpointer data) {
 
 static void on_destroy(GtkWidget *widget, Notes *notes) {
   g_signal_handlers_disconnect_by_data(notes->session, notes);
-  guint *sources[] = {&notes->later, &notes->take};
-  for (guint i = 0; i < G_N_ELEMENTS(sources); i++) {
-    if (*sources[i] != 0) {
-      g_source_remove(*sources[i]);
-      *sources[i] = 0;
-    }
-  }
 }
 
 static GtkWidget *scrolled(GtkWidget *child, int width, int least, int most) {

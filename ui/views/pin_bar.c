@@ -4,6 +4,7 @@
 
 #include "app/base/canvas.h"
 #include "app/base/format.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -13,8 +14,8 @@ enum { CHIP_CHARS = 11, NAME_CHARS = 26, SAMPLE = 22 };
 typedef struct {
   SbSession *session;
   GtkWidget *box, *chips, *kept, *kept_label, *list;
-  char *shown; // what the lists show
-  guint later; // source that makes them anew, 0 if none is due
+  char *shown;   // what the lists show
+  SbLater later; // refresh()
 } Bar;
 
 static size_t index_of(GtkWidget *widget) {
@@ -176,13 +177,12 @@ static char *shown_text(SbSession *session) {
   return g_string_free(text, FALSE);
 }
 
-static gboolean refresh(gpointer data) {
+static void refresh(gpointer data) {
   Bar *bar = data;
-  bar->later = 0;
   char *text = shown_text(bar->session);
   if (g_strcmp0(text, bar->shown) == 0) {
     g_free(text);
-    return G_SOURCE_REMOVE;
+    return;
   }
   g_free(bar->shown);
   bar->shown = text;
@@ -203,13 +203,10 @@ static gboolean refresh(gpointer data) {
   if (count == 0) {
     gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(bar->kept), FALSE);
   }
-  return G_SOURCE_REMOVE;
 }
 
 static void on_change(Bar *bar) {
-  if (bar->later == 0) {
-    bar->later = g_idle_add(refresh, bar);
-  }
+  sb_later_ensure(&bar->later, bar->box, 0, refresh, bar);
 }
 
 static void bar_free(gpointer data) {
@@ -220,10 +217,6 @@ static void bar_free(gpointer data) {
 
 static void on_destroy(GtkWidget *widget, Bar *bar) {
   g_signal_handlers_disconnect_by_data(bar->session, bar);
-  if (bar->later != 0) {
-    g_source_remove(bar->later);
-    bar->later = 0;
-  }
 }
 
 GtkWidget *sb_pin_bar_new(SbSession *session) {

@@ -12,6 +12,7 @@
 #include "ui/views/canvas_area.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/force_balance.h"
+#include "ui/views/later.h"
 #include "ui/views/section_gl.h"
 #include "ui/views/section_handles.h"
 #include "ui/views/style.h"
@@ -37,7 +38,7 @@ typedef struct {
       *heading;
   GtkWidget *cutaway, *rest, *no_field, *bar, *zooms;
   int zooms_width; // of the zoom buttons, with their gap
-  guint fit;       // source that fits the toolbar to a new width, 0 if none is due
+  SbLater fit;     // fits the toolbar to a new width
   SbSectionSource *source;
   SbDrawList list;
   SbText *text;
@@ -51,7 +52,7 @@ typedef struct {
   cairo_surface_t *read;  // GL's picture
   SbDrawCache *cache;
   SbSectionHandles *handles;
-  guint describe; // source that renews the description, 0 if none is due
+  SbLater describe; // renews the description
 } View;
 
 // By GL ------------------------------------------------------------------------------------------
@@ -241,7 +242,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   }
 }
 
-static gboolean describe(gpointer data) {
+static void describe(gpointer data) {
   View *view = data;
   g_autofree char *where = sb_session_where(view->session);
   double azimuth, elevation;
@@ -259,8 +260,6 @@ static gboolean describe(gpointer data) {
   g_autofree char *of = former != NULL ? g_strdup_printf(_(" Of the %s."), former) : NULL;
   g_autofree char *text = g_strconcat(at, ".", of, NULL);
   sb_style_name(view->area, _("Section"), text);
-  view->describe = 0;
-  return G_SOURCE_REMOVE;
 }
 
 static void redraw(View *view) {
@@ -268,9 +267,7 @@ static void redraw(View *view) {
 }
 
 static void describe_soon(View *view) {
-  if (view->describe == 0) {
-    view->describe = g_timeout_add(200, describe, view);
-  }
+  sb_later_ensure(&view->describe, view->box, 200, describe, view);
 }
 
 static void on_change(View *view) {
@@ -486,14 +483,6 @@ static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) 
 
 static void on_destroy(GtkWidget *widget, View *view) {
   g_signal_handlers_disconnect_by_data(view->session, view);
-  if (view->describe != 0) {
-    g_source_remove(view->describe);
-    view->describe = 0;
-  }
-  if (view->fit != 0) {
-    g_source_remove(view->fit);
-    view->fit = 0;
-  }
 }
 
 static void view_free(gpointer data) {
@@ -535,9 +524,8 @@ static void on_cutaway(View *view) {
 }
 
 // The zoom buttons, which wheel and keys do as well, give way where the toolbar has no room.
-static gboolean on_fit(gpointer data) {
+static void on_fit(gpointer data) {
   View *view = data;
-  view->fit = 0;
   const gboolean shown = gtk_widget_get_visible(view->zooms);
   const int room = gtk_widget_get_allocated_width(gtk_widget_get_parent(view->bar));
   int least = 0;
@@ -550,14 +538,11 @@ static gboolean on_fit(gpointer data) {
   if (fits != shown) {
     gtk_widget_set_visible(view->zooms, fits);
   }
-  return G_SOURCE_REMOVE;
 }
 
 // Not inside an allocation, where nothing may come or go.
 static void on_toolbar_allocate(View *view) {
-  if (view->fit == 0) {
-    view->fit = g_idle_add(on_fit, view);
-  }
+  sb_later_ensure(&view->fit, view->box, 0, on_fit, view);
 }
 
 static GtkWidget *make_toolbar(View *view) {

@@ -7,6 +7,7 @@
 #include "app/chart/timeline.h"
 #include "ui/views/canvas_area.h"
 #include "ui/views/draw_cache.h"
+#include "ui/views/later.h"
 #include "ui/views/notes_button.h"
 #include "ui/views/pin_bar.h"
 #include "ui/views/style.h"
@@ -21,7 +22,7 @@ typedef struct {
   SbDrawCache *cache;
   gboolean playing; // as the button shows
   gboolean scrubs;  // the button holds the playhead
-  guint describe;   // source that renews the description, 0 if none is due
+  SbLater describe; // renews the description
   double cycle;     // duration that the speed texts were made for [s]
 } View;
 
@@ -170,21 +171,17 @@ static void show_playing(View *view, gboolean playing) {
   view->playing = playing;
 }
 
-static gboolean describe(gpointer data) {
+static void describe(gpointer data) {
   View *view = data;
   g_autofree char *where = sb_session_where(view->session);
   sb_style_name(view->area, _("Timeline"), where[0] != '\0' ? where : _("No run yet"));
-  view->describe = 0;
-  return G_SOURCE_REMOVE;
 }
 
 static void on_playhead(View *view) {
   if (sb_session_is_playing(view->session) != view->playing) {
     show_playing(view, !view->playing);
   }
-  if (view->describe == 0) {
-    view->describe = g_timeout_add(200, describe, view);
-  }
+  sb_later_ensure(&view->describe, view->area, 200, describe, view);
   sb_draw_cache_change(view->cache, sb_session_wants_ticks(view->session) ? INTERVAL : 0);
 }
 
@@ -246,10 +243,6 @@ static GtkWidget *make_controls(View *view) {
 }
 
 static void on_destroy(GtkWidget *widget, View *view) {
-  if (view->describe != 0) {
-    g_source_remove(view->describe);
-    view->describe = 0;
-  }
   g_signal_handlers_disconnect_by_data(view->session, view);
 }
 

@@ -1,6 +1,8 @@
 // Offering unsaved changes that another process left behind. See autosave_offer.h.
 #include "ui/window/autosave_offer.h"
 
+#include "ui/views/later.h"
+
 #include <glib/gi18n.h>
 #include <glib/gstdio.h>
 
@@ -8,7 +10,7 @@ typedef struct {
   SbSession *session;
   SbAutosave *autosave;
   GtkWindow *window;
-  guint source; // of the question, 0: it was asked
+  SbLater source; // the question
 } Offer;
 
 static void show_message(GtkWindow *window, const char *title, const GPtrArray *issues) {
@@ -61,25 +63,16 @@ static gboolean offer_file(Offer *offer, const char *file) {
   return FALSE;
 }
 
-static gboolean offer_now(gpointer data) {
+static void offer_now(gpointer data) {
   Offer *offer = data;
-  offer->source = 0;
   if (sb_session_is_modified(offer->session)) {
-    return G_SOURCE_REMOVE; // what is edited already is not replaced
+    return; // what is edited already is not replaced
   }
   char *file = NULL;
   gboolean more = TRUE;
   while (more && (file = sb_autosave_find()) != NULL) {
     more = offer_file(offer, file);
     g_free(file);
-  }
-  return G_SOURCE_REMOVE;
-}
-
-static void cancel(Offer *offer) {
-  if (offer->source != 0) {
-    g_source_remove(offer->source);
-    offer->source = 0;
   }
 }
 
@@ -88,8 +81,8 @@ void sb_autosave_offer(SbSession *session, SbAutosave *autosave, GtkWindow *wind
   if (!offered) {
     offered = TRUE;
     Offer *offer = g_new0(Offer, 1);
-    *offer = (Offer){session, autosave, window, g_timeout_add(300, offer_now, offer)};
+    *offer = (Offer){session, autosave, window, {0}};
     g_object_set_data_full(G_OBJECT(window), "autosave-offer", offer, g_free);
-    g_signal_connect_swapped(window, "destroy", G_CALLBACK(cancel), offer);
+    sb_later_set(&offer->source, window, 300, offer_now, offer);
   }
 }

@@ -6,6 +6,7 @@
 #include "app/base/translation.h"
 #include "app/export/calibrate_results.h"
 #include "ui/views/draw_cache.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 #include "ui/window/calibrate_job.h"
 #include "ui/window/import_dialog.h"
@@ -34,7 +35,7 @@ typedef struct {
   GtkWidget *recognised;
   SbDrawCache *cache;
   SbCalibrateJob *job;
-  guint poll;     // source, 0 if none
+  SbLater poll;
   SbData *fitted; // what the last fit was asked of
   gboolean known; // there is a calibration
   SbCalibration found;
@@ -154,15 +155,14 @@ static SbStudyFile *make_study(Page *page) {
 }
 
 static void end_job(Page *page) {
-  g_clear_handle_id(&page->poll, g_source_remove);
+  sb_later_cancel(&page->poll);
   g_clear_pointer(&page->job, sb_calibrate_job_free);
 }
 
-static gboolean on_poll(gpointer data) {
+static void on_poll(gpointer data) {
   Page *page = data;
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress),
                                 sb_calibrate_job_progress(page->job));
-  return G_SOURCE_CONTINUE;
 }
 
 static void forget(Page *page) {
@@ -203,7 +203,7 @@ static void fit(Page *page) {
     say(page, "");
     gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), 0);
     page->job = sb_calibrate_job_start(study, on_done, page);
-    page->poll = g_timeout_add(50, on_poll, page);
+    sb_later_repeat(&page->poll, page->box, 50, on_poll, page);
   }
   refresh(page);
 }

@@ -7,6 +7,7 @@
 #include "app/session/design_job.h"
 #include "app/session/kept_store.h"
 #include "ui/views/draw_cache.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
 #include "ui/window/design_limits.h"
@@ -37,7 +38,7 @@ typedef struct {
   int chosen; // figure of the bars
   int goals[GOALS_MAX];
   size_t goal_count;
-  guint poll, later;
+  SbLater poll, later, room;
   char *hash;                 // of the values that the answer is of
   const SbDocument *document; // whose question it is; compared only
   gboolean narrow, refreshing;
@@ -221,11 +222,11 @@ static void show_ranges(Page *page) {
 // The question ------------------------------------------------------------------------------------
 
 static void end_job(Page *page) {
-  g_clear_handle_id(&page->poll, g_source_remove);
+  sb_later_cancel(&page->poll);
   g_clear_pointer(&page->job, sb_design_job_free);
 }
 
-static gboolean on_poll(gpointer data) {
+static void on_poll(gpointer data) {
   Page *page = data;
   static const char *const parts[] = {N_("Computing the map"), N_("Searching for the best"),
                                       N_("Tolerances"), N_("Drawing valves")};
@@ -242,7 +243,6 @@ static gboolean on_poll(gpointer data) {
     page->shown_part = part;
     refresh(page);
   }
-  return G_SOURCE_CONTINUE;
 }
 
 // What a search found, in a sentence.
@@ -298,7 +298,7 @@ static void compute(Page *page, gboolean search) {
   page->refreshing = FALSE;
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), 0);
   page->job = sb_design_job_start(study, &page->ask, page->store, search, on_done, page);
-  page->poll = g_timeout_add(POLL_MS, on_poll, page);
+  sb_later_repeat(&page->poll, page->box, POLL_MS, on_poll, page);
   refresh(page);
 }
 
@@ -313,13 +313,11 @@ static void asked(Page *page) {
   }
 }
 
-static gboolean on_later(gpointer data) {
+static void on_later(gpointer data) {
   Page *page = data;
-  page->later = 0;
   if (page->answer == NULL || is_former(page)) {
     asked(page);
   }
-  return G_SOURCE_REMOVE;
 }
 
 // Another document has its own question; other values another map.
@@ -343,8 +341,8 @@ static void follow(Page *page) {
     show_ranges(page);
   }
   if (gtk_widget_get_mapped(page->box) && sb_session_model(page->session) != NULL &&
-      page->job == NULL && page->later == 0) {
-    page->later = g_timeout_add(50, on_later, page);
+      page->job == NULL) {
+    sb_later_ensure(&page->later, page->box, 50, on_later, page);
   }
   refresh_seen(page);
 }
@@ -580,12 +578,11 @@ static void on_side(GtkToggleButton *button, Page *page) {
   gtk_widget_set_visible(page->side, gtk_toggle_button_get_active(button));
 }
 
-static gboolean on_room(gpointer data) {
-  Page *page = g_object_get_data(data, "page");
+static void on_room(gpointer data) {
+  Page *page = data;
   gtk_widget_set_visible(page->side_button, page->narrow);
   gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(page->side_button), !page->narrow);
   gtk_widget_set_visible(page->side, !page->narrow);
-  return G_SOURCE_REMOVE;
 }
 
 // Where there is no room for both, limits and scatter come on request.
@@ -593,7 +590,7 @@ static void on_allocate(GtkWidget *widget, GdkRectangle *allocation, Page *page)
   const gboolean narrow = allocation->width < NARROW;
   if (narrow != page->narrow) {
     page->narrow = narrow;
-    g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, on_room, g_object_ref(page->box), g_object_unref);
+    sb_later_ensure(&page->room, page->box, 0, on_room, page);
   }
 }
 
@@ -774,7 +771,6 @@ static GtkWidget *make_side(Page *page) {
 
 static void on_destroy(GtkWidget *widget, Page *page) {
   end_job(page);
-  g_clear_handle_id(&page->later, g_source_remove);
   if (page->session != NULL) {
     g_signal_handlers_disconnect_by_data(page->session, page);
     g_clear_object(&page->session);

@@ -6,6 +6,7 @@
 #include "app/base/translation.h"
 #include "app/export/export_job.h"
 #include "app/export/render.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 #include "ui/window/preferences.h"
 
@@ -22,8 +23,8 @@ typedef struct {
   GtkWidget *path, *choose, *result, *progress;
   GtkWidget *cancel, *export;
   SbExportJob *job;
-  guint poll;
-  guint later;     // source of what the user asked for, 0 if none is due
+  SbLater poll;
+  SbLater later;   // what the user requested
   gboolean sizing; // the preset writes the numbers, not the user
 } Dialog;
 
@@ -162,9 +163,8 @@ static void on_pace(GtkComboBox *combo, Dialog *dialog) {
   show_rows(dialog);
 }
 
-static gboolean choose(gpointer data) {
+static void choose(gpointer data) {
   Dialog *dialog = data;
-  dialog->later = 0;
   GtkFileChooserNative *chooser =
       gtk_file_chooser_native_new(_("Export to"), GTK_WINDOW(dialog->dialog),
                                   GTK_FILE_CHOOSER_ACTION_SAVE, _("_Choose"), _("_Cancel"));
@@ -178,14 +178,11 @@ static gboolean choose(gpointer data) {
     follow_format(dialog);
   }
   g_object_unref(chooser);
-  return G_SOURCE_REMOVE;
 }
 
 // Questions run a loop of their own, which must not start inside a call from a screen reader.
-static void later(Dialog *dialog, GSourceFunc function) {
-  if (dialog->later == 0) {
-    dialog->later = g_idle_add(function, dialog);
-  }
+static void later(Dialog *dialog, void (*call)(gpointer data)) {
+  sb_later_ensure(&dialog->later, dialog->dialog, 0, call, dialog);
 }
 
 static void on_choose(GtkButton *button, Dialog *dialog) {
@@ -210,7 +207,7 @@ static void set_busy(Dialog *dialog, gboolean busy) {
   gtk_button_set_label(GTK_BUTTON(dialog->cancel), busy ? _("Cancel") : _("Close"));
 }
 
-static gboolean on_poll(gpointer data) {
+static void on_poll(gpointer data) {
   Dialog *dialog = data;
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(dialog->progress),
                                 sb_export_job_progress(dialog->job));
@@ -218,20 +215,12 @@ static gboolean on_poll(gpointer data) {
   g_autofree char *text = left >= 0 ? g_strdup_printf(_("%.0f s left"), left) : g_strdup("");
   gtk_progress_bar_set_text(GTK_PROGRESS_BAR(dialog->progress), text);
   gtk_progress_bar_set_show_text(GTK_PROGRESS_BAR(dialog->progress), left >= 0);
-  return G_SOURCE_CONTINUE;
-}
-
-static void stop_polling(Dialog *dialog) {
-  if (dialog->poll != 0) {
-    g_source_remove(dialog->poll);
-    dialog->poll = 0;
-  }
 }
 
 static void on_done(void *data) {
   Dialog *dialog = data;
   gboolean good = FALSE;
-  stop_polling(dialog);
+  sb_later_cancel(&dialog->poll);
   set_status(dialog, sb_export_job_result(dialog->job, &good), good ? "sb-pass" : "sb-error");
   if (!good) {
     gtk_style_context_remove_class(gtk_widget_get_style_context(dialog->result), "sb-pass");
@@ -296,15 +285,14 @@ static SbSectionStyle style_of(Dialog *dialog) {
       .field_max = 1e6 * gtk_spin_button_get_value(GTK_SPIN_BUTTON(dialog->field_max))};
 }
 
-static gboolean start(gpointer data) {
+static void start(gpointer data) {
   Dialog *dialog = data;
-  dialog->later = 0;
   follow_format(dialog);
   const char *path = gtk_entry_get_text(GTK_ENTRY(dialog->path));
   SbRunHandle *handle = sb_session_handle(dialog->session);
   if (handle == NULL) {
     set_status(dialog, _("The run has not ended yet."), "sb-error");
-    return G_SOURCE_REMOVE;
+    return;
   }
   g_autofree char *first = first_file(dialog, path);
   if (!g_path_is_absolute(path) || !sb_export_may_replace(GTK_WINDOW(dialog->dialog), first)) {
@@ -312,7 +300,7 @@ static gboolean start(gpointer data) {
     if (!g_path_is_absolute(path)) {
       set_status(dialog, _("The file needs its folder: an absolute path."), "sb-error");
     }
-    return G_SOURCE_REMOVE;
+    return;
   }
   const SbRun *run = sb_run_handle_run(handle);
   if (has_fields(dialog) && view_of(dialog)->section &&
@@ -321,7 +309,7 @@ static gboolean start(gpointer data) {
     sb_run_handle_unref(handle);
     set_status(dialog, _("This run has no permeation: set Field (output.field) to permeation."),
                "sb-error");
-    return G_SOURCE_REMOVE;
+    return;
   }
   g_autofree char *folder = g_path_get_dirname(path);
   sb_preferences_set_string("export-folder", folder);
@@ -353,8 +341,7 @@ static gboolean start(gpointer data) {
   gtk_style_context_remove_class(gtk_widget_get_style_context(dialog->result), "sb-pass");
   set_busy(dialog, TRUE);
   dialog->job = sb_export_job_start(handle, &request, on_done, dialog);
-  dialog->poll = g_timeout_add(50, on_poll, dialog);
-  return G_SOURCE_REMOVE;
+  sb_later_repeat(&dialog->poll, dialog->dialog, 50, on_poll, dialog);
 }
 
 static void on_response(GtkDialog *widget, int response, Dialog *dialog) {
@@ -368,10 +355,6 @@ static void on_response(GtkDialog *widget, int response, Dialog *dialog) {
 }
 
 static void on_destroy(GtkWidget *widget, Dialog *dialog) {
-  stop_polling(dialog);
-  if (dialog->later != 0) {
-    g_source_remove(dialog->later);
-  }
   g_clear_pointer(&dialog->job, sb_export_job_free);
   g_object_unref(dialog->session);
   g_free(dialog);

@@ -1,6 +1,7 @@
 // Words go below a width, the document's name below another.
 #include "ui/window/header_room.h"
 
+#include "ui/views/later.h"
 #include "ui/window/model_switch.h"
 
 enum { WHOLE = 1440, NAMED = 1200, TABS = 440 };
@@ -8,8 +9,8 @@ enum { WHOLE = 1440, NAMED = 1200, TABS = 440 };
 typedef struct {
   GtkWidget *window;
   SbHeaderParts parts;
-  int level;   // how much of it is there
-  guint later; // source that fits it to a new width, 0 if none is due
+  int level;     // how much of it is there
+  SbLater later; // fits it to a new width
 } Room;
 
 static int level_of(int width) {
@@ -28,26 +29,20 @@ static void fit(Room *room, int width) {
   sb_model_switch_set_short(room->parts.model_switch, level < 2);
 }
 
-static gboolean on_later(gpointer data) {
+static void on_later(gpointer data) {
   Room *room = data;
-  room->later = 0;
   fit(room, gtk_widget_get_allocated_width(room->window));
-  return G_SOURCE_REMOVE;
 }
 
 // Not inside an allocation, where nothing may come or go.
 static void on_allocate(GtkWidget *widget, GdkRectangle *allocation, Room *room) {
-  if (level_of(allocation->width) != room->level && room->later == 0) {
-    room->later = g_idle_add(on_later, room);
+  if (level_of(allocation->width) != room->level) {
+    sb_later_ensure(&room->later, room->window, 0, on_later, room);
   }
 }
 
 static void on_destroy(GtkWidget *widget, Room *room) {
   g_signal_handlers_disconnect_by_data(widget, room);
-  if (room->later != 0) {
-    g_source_remove(room->later);
-    room->later = 0;
-  }
 }
 
 void sb_header_room_attach(GtkWidget *window, const SbHeaderParts *parts, int width) {

@@ -8,6 +8,7 @@
 #include "app/export/surface.h"
 #include "app/session/measure_job.h"
 #include "ui/views/draw_cache.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 #include "ui/window/drawing_job.h"
 #include "ui/window/scan_job.h"
@@ -45,7 +46,7 @@ struct Dialog {
   char *path;
   gboolean said[ROWS]; // by the user or the document, not found
   gboolean filling;    // the program writes the choices
-  guint later;         // source: reads soon
+  SbLater later;       // reads the file
   SbMeasureJob *measuring;
   SbMeasured *measured;
   SbComparison *comparison;
@@ -127,11 +128,9 @@ static void on_read(void *data) {
   sb_draw_cache_change(dialog->cache, 0);
 }
 
-static gboolean on_later(gpointer data) {
+static void on_later(gpointer data) {
   Dialog *dialog = data;
-  dialog->later = 0;
   read_file(dialog);
-  return G_SOURCE_REMOVE;
 }
 
 static void on_choice(GtkWidget *widget, Dialog *dialog) {
@@ -145,8 +144,7 @@ static void on_choice(GtkWidget *widget, Dialog *dialog) {
     }
   }
   enum { TYPING = 300 };
-  g_clear_handle_id(&dialog->later, g_source_remove);
-  dialog->later = g_timeout_add(TYPING, on_later, dialog);
+  sb_later_set(&dialog->later, dialog->dialog, TYPING, on_later, dialog);
 }
 
 static void on_as_found(GtkWidget *button, Dialog *dialog) {
@@ -467,7 +465,6 @@ static void on_response(GtkDialog *widget, int response, Dialog *dialog) {
 }
 
 static void on_destroy(GtkWidget *widget, Dialog *dialog) {
-  g_clear_handle_id(&dialog->later, g_source_remove);
   sb_measure_job_free(dialog->measuring);
   forget_measured(dialog);
   sb_scan_job_free(dialog->scanning);

@@ -2,6 +2,7 @@
 #include "ui/window/message_strip.h"
 
 #include "app/base/translation.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -16,7 +17,7 @@ typedef struct {
   GtkWidget *revealer, *box, *icon, *label, *button;
   int id;                 // parameter that the button mends, or -1
   double value;           // and the value it sets [SI]
-  guint soon;             // source; 0: nobody waits
+  SbLater soon;           // shows a former run's strip
   gboolean waited, finds; // long enough; what the run found is told
 } Strip;
 
@@ -59,19 +60,14 @@ static char *findings_text(const SbSummary *summary) {
 
 static void refresh(Strip *strip);
 
-static gboolean on_soon(gpointer data) {
+static void on_soon(gpointer data) {
   Strip *strip = data;
-  strip->soon = 0;
   strip->waited = TRUE;
   refresh(strip);
-  return G_SOURCE_REMOVE;
 }
 
 static void stop_waiting(Strip *strip) {
-  if (strip->soon != 0) {
-    g_source_remove(strip->soon);
-    strip->soon = 0;
-  }
+  sb_later_cancel(&strip->soon);
   strip->waited = FALSE;
 }
 
@@ -124,7 +120,7 @@ static void refresh(Strip *strip) {
                         count > 0 ? frames[count - 1].time : 0);
     show(strip, "warn", text, _("Run again"));
   } else if (former != NULL && awaits && !strip->waited) {
-    strip->soon = strip->soon != 0 ? strip->soon : g_timeout_add(SOON, on_soon, strip);
+    sb_later_ensure(&strip->soon, strip->revealer, SOON, on_soon, strip);
     if (!strip->finds) {
       show(strip, NULL, NULL, NULL);
     }
@@ -157,7 +153,6 @@ static void on_button(GtkButton *button, Strip *strip) {
 
 static void on_destroy(GtkWidget *widget, Strip *strip) {
   g_signal_handlers_disconnect_by_data(strip->session, strip);
-  stop_waiting(strip);
 }
 
 GtkWidget *sb_message_strip_new(SbSession *session) {

@@ -1,5 +1,6 @@
 // Places of the borders between the window's columns (paned_layout.h).
 #include "ui/window/paned_layout.h"
+#include "ui/views/later.h"
 #include "ui/window/preferences.h"
 
 // Widths of the look in its window of 1600 px, and the least that still reads well.
@@ -19,7 +20,7 @@ typedef struct {
   GtkPaned *columns, *views;
   GtkWidget *charts; // toggle of the right column
   int width;         // of the window that the borders were placed for
-  guint later;       // source that shows or hides the right column, 0 if none is due
+  SbLater later;     // shows or hides the right column
 } PanedLayout;
 
 static int scaled(int width, int look, int least, int most) {
@@ -27,23 +28,13 @@ static int scaled(int width, int look, int least, int most) {
 }
 
 // Not inside an allocation: the column leaves or joins the layout.
-static gboolean on_later(gpointer data) {
+static void on_later(gpointer data) {
   PanedLayout *layout = data;
-  layout->later = 0;
   gboolean narrow = layout->width < THREE_COLUMNS;
   if (gtk_widget_get_visible(layout->charts) != narrow) {
     gtk_widget_set_visible(layout->charts, narrow);
     gtk_widget_set_visible(gtk_paned_get_child2(layout->views), !narrow);
   }
-  return G_SOURCE_REMOVE;
-}
-
-static void layout_free(gpointer data) {
-  PanedLayout *layout = data;
-  if (layout->later != 0) {
-    g_source_remove(layout->later);
-  }
-  g_free(layout);
 }
 
 // A new width: the widths that a hand has given, or the look's share of this window.
@@ -52,9 +43,7 @@ static void on_allocate(GtkPaned *paned, GdkRectangle *allocation, PanedLayout *
     return;
   }
   layout->width = allocation->width;
-  if (layout->later == 0) {
-    layout->later = g_idle_add(on_later, layout);
-  }
+  sb_later_ensure(&layout->later, layout->columns, 0, on_later, layout);
   int left = sb_preferences_int("left-column", 0);
   int right = sb_preferences_int("right-column", 0);
   if (left < LEAST_LEFT || left > allocation->width / 2) {
@@ -80,7 +69,7 @@ void sb_paned_layout_attach(GtkPaned *columns, GtkPaned *views, GtkWidget *chart
   self->columns = columns;
   self->views = views;
   self->charts = charts;
-  g_object_set_data_full(G_OBJECT(columns), "columns", self, layout_free);
+  g_object_set_data_full(G_OBJECT(columns), "columns", self, g_free);
   g_object_bind_property(gtk_paned_get_child2(views), "visible", charts, "active",
                          G_BINDING_BIDIRECTIONAL | G_BINDING_SYNC_CREATE);
   gtk_widget_set_size_request(gtk_paned_get_child1(columns), LEAST_LEFT, -1);

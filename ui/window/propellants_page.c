@@ -8,6 +8,7 @@
 #include "app/session/study_job.h"
 #include "engine/fluid/fluid.h"
 #include "ui/views/draw_cache.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
 
@@ -23,10 +24,10 @@ typedef struct {
   GtkWidget *temperature, *chart, *progress, *stop, *message;
   SbDrawCache *cache;
   SbStudyJob *job;
-  guint poll, later; // sources, 0 if none
-  SbModel *asked;    // what the job computes
-  SbStudy *study;    // shown; NULL until the first is done
-  SbModel *model;    // it belongs to this
+  SbLater poll, later, room;
+  SbModel *asked; // what the job computes
+  SbStudy *study; // shown; NULL until the first is done
+  SbModel *model; // it belongs to this
   SbPropellantsLook look;
   double own; // the valve's temperature that the cursor follows [K]
 } Page;
@@ -116,14 +117,13 @@ static void say(Page *page, const char *text) {
 
 // The study --------------------------------------------------------------------------------------
 
-static gboolean on_poll(gpointer data) {
+static void on_poll(gpointer data) {
   Page *page = data;
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), sb_study_job_progress(page->job));
-  return G_SOURCE_CONTINUE;
 }
 
 static void end_job(Page *page) {
-  g_clear_handle_id(&page->poll, g_source_remove);
+  sb_later_cancel(&page->poll);
   g_clear_pointer(&page->job, sb_study_job_free);
 }
 
@@ -143,10 +143,9 @@ static void on_done(void *data) {
   refresh(page);
 }
 
-static gboolean compute(gpointer data) {
+static void compute(gpointer data) {
   Page *page = data;
   const SbModel *model = sb_session_model(page->session);
-  page->later = 0;
   end_job(page);
   if (model != NULL && !(page->study != NULL && !is_former(page))) {
     sb_model_destroy(page->asked);
@@ -155,11 +154,10 @@ static gboolean compute(gpointer data) {
       say(page, "");
       gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), 0);
       page->job = sb_study_job_start(SB_STUDY_PROPELLANTS, model, on_done, page);
-      page->poll = g_timeout_add(50, on_poll, page);
+      sb_later_repeat(&page->poll, page->box, 50, on_poll, page);
     }
   }
   refresh(page);
-  return G_SOURCE_REMOVE;
 }
 
 // Values have changed, or the page has come into view.
@@ -173,8 +171,8 @@ static void follow(Page *page) {
     return;
   }
   const gboolean asked = page->job != NULL && same_study(page->asked, model);
-  if (!asked && page->later == 0 && (page->study == NULL || is_former(page))) {
-    page->later = g_timeout_add(DELAY, compute, page);
+  if (!asked && (page->study == NULL || is_former(page))) {
+    sb_later_ensure(&page->later, page->box, DELAY, compute, page);
   } else if (page->job != NULL && !asked) {
     end_job(page);
   }
@@ -285,17 +283,15 @@ static gboolean on_position(GtkOverlay *overlay, GtkWidget *child, GdkRectangle 
 }
 
 // Not inside an allocation: what is shown depends on the room.
-static gboolean on_room(gpointer data) {
-  Page *page = g_object_get_data(data, "page");
-  refresh(page);
-  return G_SOURCE_REMOVE;
+static void on_room(gpointer data) {
+  refresh(data);
 }
 
 static void on_allocate(GtkWidget *overlay, GdkRectangle *allocation, Page *page) {
   SbPropellantsLayout layout;
   layout_of(page, &layout);
   if (layout.small != gtk_widget_get_visible(page->chart)) {
-    g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, on_room, g_object_ref(page->box), g_object_unref);
+    sb_later_ensure(&page->room, page->box, 0, on_room, page);
   }
 }
 
@@ -303,7 +299,6 @@ static void on_allocate(GtkWidget *overlay, GdkRectangle *allocation, Page *page
 
 static void on_destroy(GtkWidget *widget, Page *page) {
   end_job(page);
-  g_clear_handle_id(&page->later, g_source_remove);
   if (page->session != NULL) {
     g_signal_handlers_disconnect_by_data(page->session, page);
     g_clear_object(&page->session);

@@ -3,6 +3,7 @@
 #include "ui/window/status_bar.h"
 
 #include "app/base/format.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -11,7 +12,7 @@
 typedef struct {
   SbSession *session;
   GtkWidget *where, *models, *run, *error, *warnings, *list, *count;
-  guint later; // source that renews the texts, 0 if none is due
+  SbLater later; // renews the texts
 } Bar;
 
 static void set_text(GtkWidget *label, const char *text) {
@@ -169,19 +170,17 @@ static void refresh_frames(Bar *bar) {
   refresh_where(bar);
 }
 
-static gboolean on_later(gpointer data) {
+static void on_later(gpointer data) {
   Bar *bar = data;
-  bar->later = 0;
   refresh_frames(bar);
-  return G_SOURCE_REMOVE;
 }
 
 // A new text lays the bar out again: ten times a second is enough while something moves.
 static void refresh_soon(Bar *bar) {
   if (!sb_session_wants_ticks(bar->session)) {
     refresh_frames(bar);
-  } else if (bar->later == 0) {
-    bar->later = g_timeout_add(100, on_later, bar);
+  } else {
+    sb_later_ensure(&bar->later, bar->where, 100, on_later, bar);
   }
 }
 
@@ -218,10 +217,6 @@ static GtkWidget *add_pair(GtkBox *box, const char *key, const char *name) {
 }
 
 static void on_destroy(GtkWidget *widget, Bar *bar) {
-  if (bar->later != 0) {
-    g_source_remove(bar->later);
-    bar->later = 0;
-  }
   g_signal_handlers_disconnect_by_data(bar->session, bar);
 }
 

@@ -9,6 +9,7 @@
 #include "app/export/studies.h"
 #include "app/session/study_job.h"
 #include "ui/views/draw_cache.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 #include "ui/window/export_dialog.h"
 #include "ui/window/preferences.h"
@@ -20,7 +21,7 @@ typedef struct {
   GtkWidget *window, *kind, *again, *stop, *progress, *message, *area, *path, *export, *copy, *help;
   SbDrawCache *cache;
   SbStudyJob *job;
-  guint poll, later; // sources, 0 if none
+  SbLater poll, later;
   SbStudyKind asked; // what the job computes
   SbModel *asked_model;
   char *asked_hash, *asked_scene;
@@ -121,18 +122,14 @@ static void judge(Studies *studies) {
 
 // The job ----------------------------------------------------------------------------------------
 
-static gboolean on_poll(gpointer data) {
+static void on_poll(gpointer data) {
   Studies *studies = data;
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(studies->progress),
                                 sb_study_job_progress(studies->job));
-  return G_SOURCE_CONTINUE;
 }
 
 static void end_job(Studies *studies) {
-  if (studies->poll != 0) {
-    g_source_remove(studies->poll);
-    studies->poll = 0;
-  }
+  sb_later_cancel(&studies->poll);
   g_clear_pointer(&studies->job, sb_study_job_free);
 }
 
@@ -189,7 +186,7 @@ static void compute(Studies *studies) {
   set_status(studies, text, NULL);
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(studies->progress), 0);
   studies->job = sb_study_job_start(studies->asked, model, on_done, studies);
-  studies->poll = g_timeout_add(50, on_poll, studies);
+  sb_later_repeat(&studies->poll, studies->window, 50, on_poll, studies);
   refresh(studies);
 }
 
@@ -224,19 +221,18 @@ static void on_copy(GtkButton *button, Studies *studies) {
   gtk_clipboard_set_text(gtk_clipboard_get(GDK_SELECTION_CLIPBOARD), text, -1);
 }
 
-static gboolean export_page(gpointer data) {
+static void export_page(gpointer data) {
   Studies *studies = data;
-  studies->later = 0;
   const char *path = gtk_entry_get_text(GTK_ENTRY(studies->path));
   if (studies->study == NULL || studies->job != NULL) {
-    return G_SOURCE_REMOVE;
+    return;
   }
   if (!g_path_is_absolute(path)) {
     set_status(studies, _("The file needs its folder: an absolute path."), "sb-error");
-    return G_SOURCE_REMOVE;
+    return;
   }
   if (!sb_export_may_replace(GTK_WINDOW(studies->window), path)) {
-    return G_SOURCE_REMOVE;
+    return;
   }
   g_autofree char *folder = g_path_get_dirname(path);
   sb_preferences_set_string("export-folder", folder);
@@ -251,23 +247,17 @@ static gboolean export_page(gpointer data) {
     text = g_strdup_printf(_("Nothing was written: %s."), error->message);
     set_status(studies, text, "sb-error");
   }
-  return G_SOURCE_REMOVE;
 }
 
 // The question runs a loop of its own, which must not start inside a call from a screen reader.
 static void on_export(GtkButton *button, Studies *studies) {
-  if (studies->later == 0) {
-    studies->later = g_idle_add(export_page, studies);
-  }
+  sb_later_ensure(&studies->later, studies->window, 0, export_page, studies);
 }
 
 // Life -------------------------------------------------------------------------------------------
 
 static void on_destroy(GtkWidget *widget, Studies *studies) {
   end_job(studies);
-  if (studies->later != 0) {
-    g_source_remove(studies->later);
-  }
   g_signal_handlers_disconnect_by_data(studies->session, studies);
   g_object_unref(studies->session);
   g_free(studies->asked_hash);

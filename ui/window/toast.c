@@ -1,19 +1,20 @@
 // See toast.h. The pointer over the line holds it.
 #include "ui/window/toast.h"
 
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
 
 enum {
-  SECONDS = 5,
+  SHOWN_MS = 5000,
   ABOVE = 172,    // over timeline and status [px]
   WIDE_CHARS = 72 // then the text is cut in its middle
 };
 
 typedef struct {
   GtkWidget *revealer, *label, *button;
-  guint timer; // 0: it stays, or is hidden
+  SbLater timer; // hides it
   gboolean stays;
 } Toast;
 
@@ -21,35 +22,26 @@ static Toast *toast_of(GtkWindow *window) {
   return g_object_get_data(G_OBJECT(window), "toast");
 }
 
-static void stop(Toast *toast) {
-  if (toast->timer != 0) {
-    g_source_remove(toast->timer);
-    toast->timer = 0;
-  }
-}
-
 static void hide(Toast *toast) {
-  stop(toast);
+  sb_later_cancel(&toast->timer);
   gtk_revealer_set_reveal_child(GTK_REVEALER(toast->revealer), FALSE);
   gtk_widget_hide(toast->revealer);
 }
 
-static gboolean on_timer(gpointer data) {
+static void on_timer(gpointer data) {
   Toast *toast = data;
-  toast->timer = 0;
   hide(toast);
-  return G_SOURCE_REMOVE;
 }
 
 static void wait(Toast *toast) {
-  stop(toast);
+  sb_later_cancel(&toast->timer);
   if (!toast->stays && gtk_widget_get_visible(toast->revealer)) {
-    toast->timer = g_timeout_add_seconds(SECONDS, on_timer, toast);
+    sb_later_set(&toast->timer, toast->revealer, SHOWN_MS, on_timer, toast);
   }
 }
 
 static gboolean on_enter(GtkWidget *widget, GdkEventCrossing *event, Toast *toast) {
-  stop(toast);
+  sb_later_cancel(&toast->timer);
   return GDK_EVENT_PROPAGATE;
 }
 
@@ -58,10 +50,6 @@ static gboolean on_leave(GtkWidget *widget, GdkEventCrossing *event, Toast *toas
     wait(toast);
   }
   return GDK_EVENT_PROPAGATE;
-}
-
-static void on_destroy(GtkWidget *widget, Toast *toast) {
-  stop(toast);
 }
 
 void sb_toast_attach(GtkWindow *window) {
@@ -95,7 +83,6 @@ void sb_toast_attach(GtkWindow *window) {
   gtk_overlay_add_overlay(GTK_OVERLAY(overlay), toast->revealer);
   gtk_container_add(GTK_CONTAINER(window), overlay);
   gtk_widget_show(overlay);
-  g_signal_connect(toast->revealer, "destroy", G_CALLBACK(on_destroy), toast);
 }
 
 void sb_toast_show(GtkWindow *window, const char *text, const char *button, const char *action,

@@ -5,6 +5,7 @@
 #include "ui/window/verdict_strip.h"
 
 #include "app/session/verdict_text.h"
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -21,7 +22,7 @@ typedef struct {
       *figure[SB_VERDICT_COUNT], *why[SB_VERDICT_COUNT];
   bool fails[SB_VERDICT_COUNT];
   int level, width;
-  guint later; // source that fits it to a width, 0 if none is due
+  SbLater later; // fits it to a width
 } Strip;
 
 static void fit(Strip *strip, int level) {
@@ -33,9 +34,8 @@ static void fit(Strip *strip, int level) {
 }
 
 // The richest that fits the width.
-static gboolean on_later(gpointer data) {
+static void on_later(gpointer data) {
   Strip *strip = data;
-  strip->later = 0;
   for (int level = ALL; level < LEVELS; level++) {
     fit(strip, level);
     int natural = 0;
@@ -44,12 +44,11 @@ static gboolean on_later(gpointer data) {
       break;
     }
   }
-  return G_SOURCE_REMOVE;
 }
 
 static void refit(Strip *strip) {
-  if (strip->later == 0 && strip->width > 0) {
-    strip->later = g_idle_add(on_later, strip);
+  if (strip->width > 0) {
+    sb_later_ensure(&strip->later, strip->box, 0, on_later, strip);
   }
 }
 
@@ -136,10 +135,6 @@ static GtkWidget *make_button(Strip *strip, int kind) {
 
 static void on_destroy(GtkWidget *widget, Strip *strip) {
   g_signal_handlers_disconnect_by_data(strip->session, strip);
-  if (strip->later != 0) {
-    g_source_remove(strip->later);
-  }
-  strip->later = 0;
   strip->width = 0; // nothing more is fitted
 }
 

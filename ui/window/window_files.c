@@ -4,6 +4,7 @@
 // loses nothing.
 #include "ui/window/window_files.h"
 
+#include "ui/views/later.h"
 #include "ui/views/style.h"
 #include "ui/window/preferences.h"
 #include "ui/window/toast.h"
@@ -16,7 +17,9 @@
 struct SbWindowFiles {
   GtkWindow *window;  // borrowed: owns this
   SbSession *session; // borrowed
-  guint later;        // source of what the user asked for, 0 if none is due
+  SbLater later;      // a dialog that the user requested
+  SbLater drop;       // opens `dropped`
+  GFile *dropped;     // owned; NULL: no file was dropped
 };
 
 static gboolean save(SbWindowFiles *files, gboolean as);
@@ -206,38 +209,28 @@ static gboolean save(SbWindowFiles *files, gboolean as) {
 
 // Dialogs run a loop of their own, which must not start inside a call from a screen reader; so each
 // wish is granted from the main loop.
-static void later(SbWindowFiles *files, GSourceFunc function) {
-  if (files->later == 0) {
-    files->later = g_idle_add(function, files);
-  }
+static void later(SbWindowFiles *files, void (*call)(gpointer data)) {
+  sb_later_ensure(&files->later, files->window, 0, call, files);
 }
 
-static gboolean open_now(gpointer data) {
+static void open_now(gpointer data) {
   SbWindowFiles *files = data;
-  files->later = 0;
   ask_open(files);
-  return G_SOURCE_REMOVE;
 }
 
-static gboolean new_now(gpointer data) {
+static void new_now(gpointer data) {
   SbWindowFiles *files = data;
-  files->later = 0;
   make_new(files);
-  return G_SOURCE_REMOVE;
 }
 
-static gboolean save_now(gpointer data) {
+static void save_now(gpointer data) {
   SbWindowFiles *files = data;
-  files->later = 0;
   save(files, FALSE);
-  return G_SOURCE_REMOVE;
 }
 
-static gboolean save_as_now(gpointer data) {
+static void save_as_now(gpointer data) {
   SbWindowFiles *files = data;
-  files->later = 0;
   save(files, TRUE);
-  return G_SOURCE_REMOVE;
 }
 
 void sb_window_files_open_dialog(SbWindowFiles *files) {
@@ -380,15 +373,10 @@ static GtkWidget *recent_menu(SbWindowFiles *files) {
   return menu;
 }
 
-static gboolean open_later(gpointer data) {
-  GObject *window = data;
-  g_autoptr(GFile) file = g_object_steal_data(window, "sb-dropped");
-  SbWindowFiles *files = g_object_get_data(window, "sb-files");
-  if (file != NULL && files != NULL) {
-    sb_window_files_open(files, file);
-  }
-  g_object_unref(window);
-  return G_SOURCE_REMOVE;
+static void open_dropped(gpointer data) {
+  SbWindowFiles *files = data;
+  g_autoptr(GFile) file = g_steal_pointer(&files->dropped);
+  sb_window_files_open(files, file);
 }
 
 // A file dropped on the window. The question about unsaved changes must not run inside the drop.
@@ -398,9 +386,9 @@ static void on_drop(GtkWidget *widget, GdkDragContext *context, int x, int y,
   gboolean good = uris != NULL && uris[0] != NULL;
   gtk_drag_finish(context, good, FALSE, time);
   if (good) {
-    g_object_set_data_full(G_OBJECT(widget), "sb-dropped", g_file_new_for_uri(uris[0]),
-                           g_object_unref);
-    g_idle_add(open_later, g_object_ref(widget));
+    g_clear_object(&files->dropped);
+    files->dropped = g_file_new_for_uri(uris[0]);
+    sb_later_set(&files->drop, files->window, 0, open_dropped, files);
   }
 }
 
@@ -413,17 +401,15 @@ SbWindowFiles *sb_window_files_new_for(GtkWindow *window, SbSession *session,
   gtk_drag_dest_set(GTK_WIDGET(window), GTK_DEST_DEFAULT_ALL, NULL, 0, GDK_ACTION_COPY);
   gtk_drag_dest_add_uri_targets(GTK_WIDGET(window));
   g_signal_connect(window, "drag-data-received", G_CALLBACK(on_drop), files);
-  g_object_set_data(G_OBJECT(window), "sb-files", files);
   return files;
 }
 
 void sb_window_files_free(SbWindowFiles *files) {
   if (files != NULL) {
-    g_object_set_data(G_OBJECT(files->window), "sb-files", NULL);
     g_signal_handlers_disconnect_by_data(files->window, files);
-    if (files->later != 0) {
-      g_source_remove(files->later);
-    }
+    sb_later_cancel(&files->later);
+    sb_later_cancel(&files->drop);
+    g_clear_object(&files->dropped);
     g_free(files);
   }
 }
