@@ -65,7 +65,7 @@ typedef enum {
   SB_SCENE_ERROR_IO = 7 // a file cannot be read
 } SbSceneStatus;
 
-// Version of the library that is loaded, "0.1.0".
+// Version of the library that is loaded, "0.2.0".
 const char *sb_library_version(void);
 
 // ---- Catalogues ----

@@ -10,8 +10,7 @@
 
 static char *to_json(const SbBenchCase *cases, size_t count) {
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   sb_json_array(&json, "cases");
   for (size_t i = 0; i < count; i++) {
     const SbBenchCase *row = &cases[i];

@@ -118,8 +118,7 @@ static void print_bodies(const SbCad *cad, const int *chosen) {
 
 static char *to_json(const SbCad *cad, const int *chosen) {
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   sb_json_string(&json, "format", cad->format);
   sb_json_string(&json, "unit", cad->unit);
   sb_json_string(&json, "axis", cad->axis);

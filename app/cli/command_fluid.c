@@ -37,8 +37,7 @@ static char *state_json(const SbFluid *fluid, const SbFluidState *state, double 
                 {"uncertainty_by", true, put_by},
                 {"reasons", false, put_reason}};
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   sb_json_string(&json, "fluid", fluid->name);
   sb_json_number(&json, "temperature_K", state->temperature);
   if (ethanol > 0) {

@@ -276,8 +276,7 @@ int sb_command_plan(int argc, char **argv) {
 
 static char *asperity_json(const SbGtIntegrals *integrals) {
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   sb_json_number(&json, "lambda", integrals->lambda);
   sb_json_number(&json, "F2", integrals->F2);
   sb_json_number(&json, "F5_2", integrals->F5_2);

@@ -44,8 +44,7 @@ static void put_curve(SbJson *json, const SbCalibratedCurve *curve) {
 
 char *sb_calibration_json(const SbCalibration *of, const SbStudyFile *study) {
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   sb_json_string(&json, "study", study->title);
   sb_json_bool(&json, "converged", of->converged);
   sb_json_count(&json, "samples", of->samples);
@@ -186,9 +185,9 @@ void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *of,
   g_autofree char *foot =
       g_strdup_printf("Sampled %zu points, one chain%s.  Fit of %zu parameters to %zu points, %zu "
                       "runs.  chi\xc2\xb2 "
-                      "per degree of freedom %.2f.  Sealbench %s",
+                      "per degree of freedom %.2f.  Sealbench %s, engine %.12s",
                       of->samples, of->tangent ? " on the tangent at the fit" : "", of->parameters,
-                      of->points, of->evaluations, of->chi2, sb_version());
+                      of->points, of->evaluations, of->chi2, sb_version(), sb_engine_identity()->source);
   const SbCalibrationView view = {.title = study->title,
                                   .subtitle = sb_document_title(study->scene),
                                   .sentence = of->sentence,

@@ -65,8 +65,7 @@ static void put_robust(SbJson *json, const SbStudyFile *study, const SbDesign *d
 
 char *sb_design_json(const SbStudyFile *study, const SbDesign *design) {
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   sb_json_string(&json, "study", study->title);
   sb_json_string(&json, "version", sb_version());
   sb_json_bool(&json, "converged", design->converged);

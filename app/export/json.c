@@ -3,6 +3,8 @@
 
 #include "app/base/number.h"
 
+#include "engine/base/version.h"
+
 #include <math.h>
 
 void sb_json_init(SbJson *json) {
@@ -132,6 +134,22 @@ void sb_json_numbers(SbJson *json, const char *key, const double *values, size_t
     number(json, values[i]);
   }
   g_string_append_c(json->text, ']');
+}
+
+void sb_json_document(SbJson *json) {
+  sb_json_init(json);
+  sb_json_object(json, NULL);
+  sb_json_engine(json);
+}
+
+void sb_json_engine(SbJson *json) {
+  const SbEngineIdentity *engine = sb_engine_identity();
+  sb_json_object(json, "engine");
+  sb_json_string(json, "version", engine->version);
+  sb_json_string(json, "source", engine->source);
+  sb_json_string(json, "commit", engine->commit);
+  sb_json_string(json, "options", engine->options);
+  sb_json_object_end(json);
 }
 
 void sb_json_warnings(SbJson *json, const SbWarnings *warnings) {

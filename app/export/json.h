@@ -15,6 +15,15 @@ typedef struct {
 
 void sb_json_init(SbJson *json);
 
+// Begins a document that is an object, opens it and writes its member "engine". Replaces
+// sb_json_init() and sb_json_object(); every JSON document of a file or of standard output begins
+// with it.
+void sb_json_document(SbJson *json);
+
+// Writes the member "engine", the identity of the program (engine/base/version.h), into the open
+// object: for objects that are elements of an array of documents.
+void sb_json_engine(SbJson *json);
+
 // The finished text with a final line end; owned by the caller. The writer is empty afterwards.
 char *sb_json_finish(SbJson *json);
 

@@ -95,8 +95,7 @@ void sb_json_comparison(SbJson *json, const char *key, const SbComparison *compa
 char *sb_results_compare(size_t runs, const char *const *name, double *const *figure,
                          SbComparison *const *comparison) {
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   sb_json_array(&json, "runs");
   for (size_t i = 0; i < runs; i++) {
     sb_json_object(&json, NULL);

@@ -3,6 +3,7 @@
 // centre. Every write is checked, the last ones too: a full disk shows first in either.
 #include "app/export/movie_encoder.h"
 
+#include "app/base/identity.h"
 #include "app/export/colour.h"
 
 #include <dlfcn.h>
@@ -209,6 +210,9 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
     if (options->title != NULL) {
       av.av_dict_set(&encoder->format->metadata, "title", options->title, 0);
     }
+    // libavformat writes its own name as the encoder.
+    g_autofree char *identity = sb_identity_text();
+    av.av_dict_set(&encoder->format->metadata, "description", identity, 0);
     AVDictionary *set = NULL;
     av.av_dict_set(&set, "movflags", "+faststart", 0);
     code = av.avformat_write_header(encoder->format, &set);

@@ -1,7 +1,7 @@
 // PDF by cairo into memory, so that the file is written in one go.
 #include "app/export/pdf.h"
 
-#include "engine/base/version.h"
+#include "app/base/identity.h"
 
 #include <cairo-pdf.h>
 
@@ -26,7 +26,7 @@ void sb_pdf_begin(SbPdf *out, double width, double height, const SbPdfTexts *tex
   out->bytes = g_byte_array_new();
   out->surface = cairo_pdf_surface_create_for_stream(append_bytes, out->bytes,
                                                      width * SB_PDF_POINTS, height * SB_PDF_POINTS);
-  g_autofree char *creator = g_strdup_printf("Sealbench %s", sb_version());
+  g_autofree char *creator = sb_identity_text();
   g_autofree char *date = sb_pdf_date("%Y-%m-%dT%H:%M:%SZ");
   cairo_pdf_surface_set_metadata(out->surface, CAIRO_PDF_METADATA_CREATE_DATE, date);
   cairo_pdf_surface_set_metadata(out->surface, CAIRO_PDF_METADATA_CREATOR, creator);

@@ -335,8 +335,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   const SbSummary *summary = sb_run_summary(run);
   const SbModel *model = sb_run_model(run);
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   sb_json_string(&json, "scene", info->scene);
   sb_json_string(&json, "version", sb_version());
   sb_json_string(&json, "parameters_sha256", info->sha256);
@@ -397,8 +396,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
 
 char *sb_results_plan(const SbPlan *plan, const char *scene) {
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   if (scene != NULL) {
     sb_json_string(&json, "scene", scene);
   }

@@ -127,8 +127,7 @@ char *sb_results_film(const SbFilm *film, const SbResultsHistory *history) {
   // A solver that found nothing has no figures; what describes the problem stays.
   const bool none = !film->solver.converged && film->film_central == 0;
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   sb_json_string(&json, "model", sb_film_model_name(film->model));
   sb_json_rows(&json, sb_film_rows, film, !none);
   sb_json_rows(&json, sb_film_contact_rows, film, true);
@@ -241,8 +240,7 @@ bool sb_results_fit_found(const SbFit *fit) {
 char *sb_results_fit(const SbFit *fit, const SbFitProblem *problem, bool limit, const char *seal,
                      const SbGlandReadout *gland, const SbRubberState *storage) {
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   sb_json_string(&json, "model", sb_fit_model_name(fit->model));
   sb_json_string(&json, "variant", sb_fit_variant_name(fit->model, fit->variant));
   sb_json_string(&json, "seal", seal);

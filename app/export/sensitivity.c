@@ -33,8 +33,7 @@ static void write_cells(SbJson *json, const SbGradient *gradient, bool reasons) 
 
 char *sb_sensitivity_json(const SbGradient *gradient) {
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   sb_json_object(&json, "figures");
   for (size_t f = 0; f < sb_gradient_figures(gradient); f++) {
     sb_json_number(&json, sb_figure(sb_gradient_figure(gradient, f))->path,

@@ -5,6 +5,7 @@
 // 1/96 inch on paper. Leaves out transparency and colour profiles (sRGB is meant, and said in PNG).
 #include "app/export/still.h"
 
+#include "app/base/identity.h"
 #include "app/base/output.h"
 #include "app/document/picture.h"
 #include "app/export/pdf.h"
@@ -148,7 +149,7 @@ static bool put_png(FILE *stream, const SbStill *still, GError **error) {
   }
   if (good) {
     cairo_surface_flush(surface);
-    char *software = g_strdup_printf("Sealbench %s", sb_version());
+    char *software = sb_identity_text();
     png_byte *row = g_malloc(3 * (size_t)width);
     good = encode_png(stream, surface, still, scale, software, row, error);
     g_free(row);
@@ -168,6 +169,7 @@ static cairo_status_t append_bytes(void *closure, const unsigned char *data, uns
 
 // The texts as elements that any reader of SVG skips and we can find.
 static char *svg_metadata(const SbStill *still) {
+  const SbEngineIdentity *engine = sb_engine_identity();
   GString *out = g_string_new("\n");
   char *title = g_markup_escape_text(still->title ? still->title : "Sealbench", -1);
   char *comment = g_markup_escape_text(still->comment ? still->comment : "", -1);
@@ -176,8 +178,9 @@ static char *svg_metadata(const SbStill *still) {
   g_string_append_printf(out, "<title>%s</title>\n<desc>%s</desc>\n", title, comment);
   g_string_append_printf(out,
                          "<metadata><sealbench xmlns=\"urn:sealbench\" version=\"%s\" "
-                         "hash=\"%s\">%s</sealbench></metadata>",
-                         sb_version(), hash, scene);
+                         "engine=\"%s\" commit=\"%s\" hash=\"%s\">%s</sealbench></metadata>",
+                         engine->version, engine->source,
+                         engine->commit != NULL ? engine->commit : "", hash, scene);
   g_free(hash);
   g_free(scene);
   g_free(comment);

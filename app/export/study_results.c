@@ -381,8 +381,7 @@ static void put_failures(SbJson *json, const SbAnswers *answers) {
 char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const SbAnswers *answers,
                     const char *cpus, SbReport *report) {
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   sb_json_string(&json, "study", study->title);
   sb_json_string(&json, "version", sb_version());
   sb_json_string(&json, "method", sb_study_method_name(study->method));

@@ -292,8 +292,7 @@ char *sb_surface_json(const SbSurface *surface) {
   const char *reason = NULL;
   g_auto(GStrv) settings = sb_surface_settings(&reason, surface);
   SbJson json;
-  sb_json_init(&json);
-  sb_json_object(&json, NULL);
+  sb_json_document(&json);
   put_origin(&json, surface);
   sb_json_rows(&json, sb_surface_heights, &figures->figures, true);
   sb_json_rows(&json, summits, &figures->figures.neighbours, true);

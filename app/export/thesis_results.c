@@ -1,5 +1,6 @@
 #include "app/export/thesis_results.h"
 
+#include "app/base/identity.h"
 #include "app/base/unit.h"
 #include "app/chart/study.h"
 #include "app/export/still.h"
@@ -248,6 +249,7 @@ static void put_json_row(SbJson *json, const SbThesisRow *row) {
 
 void sb_json_thesis(SbJson *json, const SbThesisItem *item) {
   sb_json_object(json, NULL);
+  sb_json_engine(json);
   sb_json_string(json, "item", item->name);
   sb_json_string(json, "title", item->title);
   sb_json_string(json, "source", item->source);
@@ -348,6 +350,7 @@ static void put_counts(FILE *stream, const SbThesisItem *item) {
 }
 
 void sb_html_thesis_begin(FILE *stream, SbThesisItem *const *items, size_t count) {
+  g_autofree char *identity = sb_identity_text();
   fprintf(
       stream,
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>The thesis, "
@@ -355,7 +358,7 @@ void sb_html_thesis_begin(FILE *stream, SbThesisItem *const *items, size_t count
       "regenerated</h1>\n"
       "<p>D. Grimble, <i>Ultra-thin film tribology of elastomeric seals in pressurised metered "
       "dose inhalers</i>, Loughborough University, 2009: its tables and figures in their order, "
-      "computed by Sealbench %s.</p>\n"
+      "computed by %s.</p>\n"
       "<ul><li><b>Difference</b>: ours by the thesis' model less printed; a row <b>agrees</b> "
       "where "
       "that is within the printed digits.</li>\n"
@@ -366,7 +369,7 @@ void sb_html_thesis_begin(FILE *stream, SbThesisItem *const *items, size_t count
       "<li><b>To the consistent</b>: in grey, what lies between the thesis' model and the "
       "consistent set (<code>models.set</code>).</li></ul>\n"
       "<nav><table><tr><th>Table or figure</th><th>rows</th></tr>\n",
-      style, sb_version());
+      style, identity);
   for (size_t i = 0; i < count; i++) {
     fprintf(stream, "<tr%s><td><a href=\"#%s\">", items[i]->fails > 0 ? " class=\"fails\"" : "",
             items[i]->name);

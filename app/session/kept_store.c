@@ -1,7 +1,8 @@
 #include "app/session/kept_store.h"
 
 #include "app/base/error.h"
-#include "app/session/source_hash.h"
+
+#include "engine/base/version.h"
 
 #include <glib/gstdio.h>
 #include <sys/stat.h>
@@ -10,7 +11,7 @@ static const goffset LARGEST = 200000000;
 
 // An engine has its own: versions under development answer differently under the same number.
 static char *file_name(void) {
-  return g_strdup_printf("answers-%.16s.store", SB_SOURCE_HASH);
+  return g_strdup_printf("answers-%.16s.store", sb_engine_identity()->source);
 }
 
 static void remove_others(const char *folder, const char *name) {

@@ -2,7 +2,6 @@
 #include "app/session/stored_run.h"
 
 #include "app/base/output.h"
-#include "app/session/source_hash.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +19,7 @@ SbPlanWishes sb_stored_run_wishes(void) {
 // session waits for it: GLib's MD5 takes a fifth of the time of its SHA-256.
 static char *head_new(const char *hash, const void *bytes, size_t size) {
   g_autofree char *sum = g_compute_checksum_for_data(G_CHECKSUM_MD5, bytes, size);
-  return g_strdup_printf("%s\nengine %s\nvalues %s\nchecksum %s\n", TITLE, SB_SOURCE_HASH, hash,
+  return g_strdup_printf("%s\nengine %s\nvalues %s\nchecksum %s\n", TITLE, sb_engine_identity()->source, hash,
                          sum);
 }
 
@@ -60,7 +59,7 @@ static SbRunHandle *read_one(char **date, const char *path, const char *hash,
   const size_t length = text != NULL ? g_mapped_file_get_length(file) : 0;
   const char *gap = text != NULL ? g_strstr_len(text, (gssize)MIN(length, HEAD_MAX), "\n\n") : NULL;
   g_autofree char *engine =
-      g_strdup_printf("%s\nengine %s\nvalues %s\n", TITLE, SB_SOURCE_HASH, hash);
+      g_strdup_printf("%s\nengine %s\nvalues %s\n", TITLE, sb_engine_identity()->source, hash);
   // What most files fail by comes before the sum over all of the bytes.
   if (gap == NULL || strlen(engine) > length || memcmp(text, engine, strlen(engine)) != 0) {
     return NULL;

@@ -93,10 +93,10 @@ SbStatus sb_answer(double *value, char **reason, SbEvaluator *evaluator, const S
   return status;
 }
 
-// SHA-256 of what an answer depends on: the program, the base, the parameters' names and values,
+// SHA-256 of what an answer depends on: the engine, the base, the parameters' names and values,
 // the figures' names.
 static void common_key(GChecksum *sum, const SbQuestions *asked) {
-  g_checksum_update(sum, (const guchar *)sb_version(), -1);
+  g_checksum_update(sum, (const guchar *)sb_engine_identity()->source, -1);
   g_checksum_update(sum, (const guchar *)"\n", 1);
   g_checksum_update(sum, (const guchar *)asked->base_sha256, -1);
   for (size_t k = 0; k < asked->parameters; k++) {

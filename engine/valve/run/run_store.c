@@ -1,6 +1,6 @@
 // A finished run as bytes and back, for a program that shows it without computing it: its frames,
 // profiles, shapes, actuations and summary, as they lie in memory. The bytes serve the build that
-// wrote them: who keeps them sees to that (sb_source_hash(), app/session/stored_run.h), and to
+// wrote them: who keeps them sees to that (sb_engine_identity(), app/session/stored_run.h), and to
 // their being whole. What is read is still checked, so that no index leads out of an array. Left
 // out is what other runs start from: a run that was read computes nothing.
 #include "engine/valve/figures.h"
