@@ -48,24 +48,34 @@ void sb_issues_add(GPtrArray *issues, const char *file, int line, const char *ke
   g_ptr_array_add(issues, issue);
 }
 
+const char *sb_issue_key(const SbIssue *issue, int *group_length) {
+  *group_length = 0;
+  if (issue->key == NULL) {
+    return NULL;
+  }
+  // Names in these groups have dots of their own.
+  static const char *const groups[] = {"limits.", "cases.", "vary.", "tolerances.", "correlation."};
+  bool named = false;
+  for (size_t i = 0; i < G_N_ELEMENTS(groups); i++) {
+    named |= g_str_has_prefix(issue->key, groups[i]);
+  }
+  const char *dot = named ? strchr(issue->key, '.') : strrchr(issue->key, '.');
+  *group_length = dot != NULL ? (int)(dot - issue->key) : 0;
+  return dot != NULL ? dot + 1 : issue->key;
+}
+
 char *sb_issue_line(const SbIssue *issue) {
   GString *line = g_string_new(NULL);
   if (issue->file != NULL) {
     g_string_append_printf(line, "%s: ", issue->file);
   }
   if (issue->key != NULL) {
-    // Names in these have dots of their own.
-    static const char *const groups[] = {"limits.", "cases.", "vary.", "tolerances.",
-                                         "correlation."};
-    bool named = false;
-    for (size_t i = 0; i < G_N_ELEMENTS(groups); i++) {
-      named |= g_str_has_prefix(issue->key, groups[i]);
-    }
-    const char *dot = named ? strchr(issue->key, '.') : strrchr(issue->key, '.');
-    if (dot != NULL) {
-      g_string_append_printf(line, "[%.*s] %s: ", (int)(dot - issue->key), issue->key, dot + 1);
+    int group = 0;
+    const char *name = sb_issue_key(issue, &group);
+    if (group > 0) {
+      g_string_append_printf(line, "[%.*s] %s: ", group, issue->key, name);
     } else {
-      g_string_append_printf(line, "%s: ", issue->key);
+      g_string_append_printf(line, "%s: ", name);
     }
   } else if (issue->file != NULL && issue->line > 0) {
     g_string_append_printf(line, "line %d: ", issue->line);

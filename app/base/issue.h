@@ -20,6 +20,10 @@ enum { SB_ISSUES_MAX = 100 };
 void sb_issues_add(GPtrArray *issues, const char *file, int line, const char *key,
                    const char *allowed, const char *format, ...) G_GNUC_PRINTF(6, 7);
 
+// Splits an issue's key: returns the name behind its group, borrowed, and the length of the group,
+// which the key begins with; 0: the key has no group. NULL without a key.
+const char *sb_issue_key(const SbIssue *issue, int *group_length);
+
 // "piston.valve: [gland] radial_space: 9 m is out of range (allowed 0.1 to 20 mm)". Owned by the
 // caller.
 char *sb_issue_line(const SbIssue *issue);

@@ -286,44 +286,67 @@ bool sb_cli_quantity(double *out, const char *option, const char *text, bool req
   return good;
 }
 
-// ", do you mean NAME?" of a file that is not there: the most alike of those beside it and, for a
-// name alone, of those that ship. Owned by the caller.
-static char *file_hint(const char *path) {
+void sb_cli_add_file_hint(const char *path, unsigned kinds, GPtrArray *issues) {
+  if (issues->len != 1 || strcmp(path, "-") == 0 || g_file_test(path, G_FILE_TEST_EXISTS)) {
+    return;
+  }
   g_autofree char *folder = g_path_get_dirname(path);
   g_autofree char *name = g_path_get_basename(path);
+  g_autofree char *bare = g_strdup(name);
+  char *dot = strrchr(bare, '.');
+  if (dot != NULL) {
+    *dot = '\0';
+  }
+  SbIssue *issue = issues->pdata[0];
+  g_autofree char *text = issue->text;
+  g_autofree char *shipped =
+      strchr(path, G_DIR_SEPARATOR) == NULL ? sb_shipped_find(bare, kinds) : NULL;
+  if (shipped != NULL) {
+    issue->text =
+        g_strdup_printf("%s; the shipped file is named without its ending: %s", text, bare);
+    return;
+  }
   SbNearest nearest = sb_nearest(name);
-  GDir *dir = g_dir_open(folder, 0, NULL);
+  g_autoptr(GDir) dir = g_dir_open(folder, 0, NULL);
   for (const char *each; dir != NULL && (each = g_dir_read_name(dir)) != NULL;) {
-    if (g_str_has_suffix(each, ".scene") || g_str_has_suffix(each, ".valve")) {
+    if (sb_shipped_has_ending(each, kinds)) {
       sb_nearest_try(&nearest, g_intern_string(each));
     }
   }
-  if (dir != NULL) {
-    g_dir_close(dir);
+  for (int kind = 0; strchr(path, G_DIR_SEPARATOR) == NULL && kind < SB_SHIPPED_KINDS; kind++) {
+    g_autoptr(GPtrArray) files = sb_shipped_files((SbShippedKind)kind);
+    for (guint i = 0; (kinds >> kind & 1) != 0 && i < files->len; i++) {
+      g_autofree char *each = sb_shipped_name(files->pdata[i], (SbShippedKind)kind);
+      sb_nearest_try(&nearest, g_intern_string(each));
+    }
   }
-  g_autoptr(GPtrArray) shipped = sb_shipped_scenes();
-  for (guint i = 0; strchr(path, G_DIR_SEPARATOR) == NULL && i < shipped->len; i++) {
-    g_autofree char *base = g_path_get_basename(shipped->pdata[i]);
-    sb_nearest_try(&nearest, g_intern_string(base));
-    base[strlen(base) - strlen(".scene")] = '\0';
-    sb_nearest_try(&nearest, g_intern_string(base));
+  g_autofree char *hint = sb_nearest_hint(&nearest);
+  issue->text = g_strconcat(text, hint, NULL);
+}
+
+SbStudyFile *sb_cli_open_study(const char *path, char **settings) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autofree char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_STUDY);
+  SbStudyFile *study = sb_study_file_load(file, settings, issues);
+  if (study == NULL) {
+    sb_cli_add_file_hint(path, SB_SHIPPED_FOR_STUDY, issues);
   }
-  return sb_nearest_hint(&nearest);
+  sb_cli_issues(issues);
+  return study;
+}
+
+char *sb_cli_full_path(const char *operand, unsigned kinds) {
+  g_autofree char *file = sb_shipped_resolve(operand, kinds);
+  return strcmp(file, "-") == 0 ? g_strdup(file) : g_canonicalize_filename(file, NULL);
 }
 
 SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
   GPtrArray *issues = sb_issues_new();
-  // A name that is no file here may be one that ships: "thesis-cycle".
-  bool there = strcmp(path, "-") == 0 || g_file_test(path, G_FILE_TEST_EXISTS);
-  char *shipped = there ? NULL : sb_shipped_find(path);
-  SbDocument *document = sb_document_load(shipped != NULL ? shipped : path, issues);
-  if (!there && shipped == NULL && issues->len == 1) {
-    SbIssue *issue = issues->pdata[0];
-    g_autofree char *hint = file_hint(path);
-    g_autofree char *text = issue->text;
-    issue->text = g_strconcat(text, hint, NULL);
+  g_autofree char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN);
+  SbDocument *document = sb_document_load(file, issues);
+  if (document == NULL) {
+    sb_cli_add_file_hint(path, SB_SHIPPED_FOR_RUN, issues);
   }
-  g_free(shipped);
   for (char **setting = settings; document != NULL && setting != NULL && *setting != NULL;
        setting++) {
     sb_document_set_option(document, *setting, issues);

@@ -84,9 +84,22 @@ void sb_cli_note(const char *format, ...) G_GNUC_PRINTF(1, 2);
 // every problem and returns NULL if there is any. It and *model are owned by the caller.
 SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings);
 
+// Opens a study or a shipped study ("-": standard input) with KEY=VALUE settings for its scene;
+// prints every problem and returns NULL if there is any. Owned by the caller (sb_study_file_free).
+SbStudyFile *sb_cli_open_study(const char *path, char **settings);
+
+// Appends a hint to the only issue of an operand that could not be opened: the most similar name
+// among the shipped files of these kinds (shipped.h) and the files in the operand's folder.
+void sb_cli_add_file_hint(const char *path, unsigned kinds, GPtrArray *issues);
+
+// Full path of the file that an operand names (sb_shipped_resolve()), for results; "-" (standard
+// input) stays. Owned by the caller (g_free).
+char *sb_cli_full_path(const char *operand, unsigned kinds);
+
 // One operand of a command that takes several.
 typedef struct {
   const char *path;     // as given
+  char *full;           // full path of the file that it names; "-" for standard input
   char *name;           // of its folder below -o
   char *folder;         // for its results: that of -o, of several files one in it; NULL without -o
   SbDocument *document; // NULL: has a problem, which was told
@@ -176,8 +189,9 @@ int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model);
 #define SB_CLI_MEASURED_HELP "Force over displacement from a test machine, any table of numbers"
 SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *path);
 
-// Reads all groups of data, and prints what was recognised or is wrong; an exit code.
-int sb_cli_check_data(const SbDocument *document);
+// Reads all groups of data and adds their problems to `issues`; prints what was recognised if
+// `print` is set and unless --quiet is given.
+void sb_cli_check_data(const SbDocument *document, bool print, GPtrArray *issues);
 
 // Prints what was recognised, the stages and the differences.
 void sb_cli_comparison(const SbComparison *comparison);

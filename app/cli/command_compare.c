@@ -16,8 +16,9 @@ typedef struct {
 typedef struct {
   size_t count;
   char **name;
-  double **figure; // [SB_FIGURE_COUNT] each
-  SbRun **run;     // for the chart; NULL: none is drawn
+  const char **scene; // full path of each run's file, borrowed
+  double **figure;    // [SB_FIGURE_COUNT] each
+  SbRun **run;        // for the chart; NULL: none is drawn
   SbMeasured **measured;
   SbComparison **comparison; // NULL: nothing measured
 } Runs;
@@ -56,6 +57,7 @@ static int run_model(Runs *runs, const SbCliFile *file, const SbModel *model, co
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     const size_t at = runs->count++;
     runs->name[at] = g_strdup(name);
+    runs->scene[at] = file->full;
     runs->figure[at] = g_new(double, SB_FIGURE_COUNT);
     for (int f = 0; f < SB_FIGURE_COUNT; f++) {
       runs->figure[at][f] = sb_figure_value(sb_run_summary(run), f);
@@ -145,6 +147,7 @@ int sb_command_compare(int argc, char **argv) {
       }
     }
     Runs runs = {.name = g_new0(char *, room + 1),
+                 .scene = g_new0(const char *, room),
                  .figure = g_new0(double *, room),
                  .run = g_new0(SbRun *, room),
                  .measured = g_new0(SbMeasured *, room),
@@ -157,7 +160,7 @@ int sb_command_compare(int argc, char **argv) {
     }
     if (runs.count > 0 && options.json != NULL) {
       g_autofree char *json = sb_results_compare(runs.count, (const char *const *)runs.name,
-                                                 runs.figure, runs.comparison);
+                                                 runs.scene, runs.figure, runs.comparison);
       sb_cli_files_done(&files, sb_cli_emit(json, options.json));
     } else if (runs.count > 0 && !sb_cli_quiet()) {
       print_figures(&runs);
@@ -178,6 +181,7 @@ int sb_command_compare(int argc, char **argv) {
       sb_measured_free(runs.measured[i]);
     }
     g_strfreev(runs.name);
+    g_free(runs.scene);
     g_free(runs.figure);
     g_free(runs.run);
     g_free(runs.measured);

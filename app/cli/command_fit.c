@@ -3,6 +3,7 @@
 #include "app/cli/cli.h"
 #include "app/cli/plots.h"
 #include "app/cli/timing.h"
+#include "app/document/shipped.h"
 #include "app/export/cae.h"
 #include "app/export/results.h"
 
@@ -259,8 +260,9 @@ int sb_command_fit(int argc, char **argv) {
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int written = SB_EXIT_DONE;
     if (target != NULL) {
+      g_autofree char *file = sb_cli_full_path(argv[1], SB_SHIPPED_FOR_RUN);
       char *json = sb_results_fit(fit, &problem, limit, seal, in_gland,
-                                  &sb_model_seal(model, index)->storage);
+                                  &sb_model_seal(model, index)->storage, file);
       written = sb_cli_emit(json, target);
       g_free(json);
     } else if (!sb_cli_quiet()) {

@@ -2,6 +2,7 @@
 #include "app/cli/cli.h"
 
 #include "app/base/output.h"
+#include "app/document/shipped.h"
 #include "app/export/report.h"
 
 #include <string.h>
@@ -148,9 +149,7 @@ static int answered(void *data, const SbCliAnswers *of) {
 }
 
 static int report_study(const char *path, const Options *options) {
-  g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_autoptr(SbStudyFile) study = sb_study_file_load(path, options->settings, issues);
-  sb_cli_issues(issues);
+  g_autoptr(SbStudyFile) study = sb_cli_open_study(path, options->settings);
   if (study == NULL) {
     return SB_EXIT_INPUT;
   }
@@ -191,8 +190,10 @@ int sb_command_report(int argc, char **argv) {
     } else if (strcmp(options.output, "-") != 0 && !sb_output_ends_in(options.output, ".pdf")) {
       code = sb_cli_fail("-o: %s: the ending must be .pdf", options.output);
     } else {
-      code = sb_output_ends_in(argv[1], ".study") ? report_study(argv[1], &options)
-                                                  : report_scene(argv[1], &options);
+      g_autofree char *file =
+          sb_shipped_resolve(argv[1], SB_SHIPPED_FOR_RUN | SB_SHIPPED_FOR_STUDY);
+      code = sb_output_ends_in(file, ".study") ? report_study(argv[1], &options)
+                                               : report_scene(argv[1], &options);
     }
   }
   g_free(options.output);

@@ -260,7 +260,7 @@ static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *opt
     g_autoptr(SbComparison) comparison =
         measured != NULL && sb_loop_take(&loop, run) ? sb_comparison_create(measured, &loop) : NULL;
     sb_loop_clear(&loop);
-    SbResultsInfo info = {.scene = file->path,
+    SbResultsInfo info = {.scene = file->full,
                           .sha256 = sha256,
                           .partial = code == SB_EXIT_INTERRUPTED,
                           .verdict = verdict,

@@ -170,7 +170,7 @@ static int differentiate(SbCliFiles *files, const SbCliFile *file, const Options
   }
   sb_progress_end(&progress);
   if (gradient != NULL && options->json != NULL) {
-    g_ptr_array_add(files->json, sb_sensitivity_json(gradient));
+    g_ptr_array_add(files->json, sb_sensitivity_json(gradient, file->full));
   } else if (gradient != NULL && !sb_cli_quiet()) {
     sb_cli_files_head(files);
     print_table(gradient, file, options->figures != NULL);

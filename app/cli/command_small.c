@@ -1,5 +1,7 @@
-// sealbench check, list, plan, asperity and open.
+// sealbench list, plan, asperity and open.
 #include "app/cli/cli.h"
+#include "app/document/rubber_sheet.h"
+#include "app/document/shipped.h"
 #include "app/export/json.h"
 #include "app/export/render.h"
 #include "app/export/results.h"
@@ -13,51 +15,6 @@
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
-
-// Values in force that neither the file nor the catalogue gives, but another parameter.
-static void print_derived(const SbDocument *document) {
-  SbParams params = sb_document_params(document);
-  for (int i = 0; i < SB_PARAM_COUNT; i++) {
-    SbParamDefault derived;
-    sb_params_default(&derived, &params, (SbParamId)i);
-    if (!params.given[i] && derived.from != NULL && sb_param((SbParamId)i)->parent < 0) {
-      g_autofree char *value = sb_document_text(document, (SbParamId)i);
-      g_autofree char *giver = derived.name != NULL
-                                   ? g_strdup(derived.name)
-                                   : sb_document_text(document, (SbParamId)derived.giver);
-      printf("%s = %s (%s = %s; %s: %s)\n", sb_param((SbParamId)i)->key, value, derived.from, giver,
-             derived.tag, derived.source);
-    }
-  }
-}
-
-int sb_command_check(int argc, char **argv) {
-  SbCliFiles files = {.code = SB_EXIT_INPUT};
-  if (sb_cli_parse(&argc, &argv, NULL, 1, SB_CLI_FILES_MAX, NULL) &&
-      sb_cli_files_open(&files, argc, argv, NULL, NULL)) {
-    for (const SbCliFile *file; (file = sb_cli_files_next(&files)) != NULL;) {
-      const char *kind = sb_document_kind(file->document) != SB_DOCUMENT_SCENE ? "valve"
-                         : sb_document_is_project(file->document)              ? "project"
-                                                                               : "scene";
-      g_autofree char *shown = sb_printable(file->path, strlen(file->path));
-      g_autoptr(GPtrArray) remarks = sb_issues_new();
-      sb_document_remarks(file->document, file->model, remarks);
-      for (guint i = 0; i < remarks->len; i++) {
-        g_autofree char *line = sb_issue_line(remarks->pdata[i]);
-        g_autofree char *printable = sb_printable(line, strlen(line));
-        printf("warning: %s\n", printable);
-      }
-      const int data = sb_cli_check_data(file->document);
-      sb_cli_files_done(&files, data);
-      if (!sb_cli_quiet() && data == SB_EXIT_DONE) {
-        print_derived(file->document);
-        printf("%s: a %s without %s\n", shown, kind, remarks->len > 0 ? "errors" : "problems");
-      }
-    }
-  }
-  sb_cli_files_close(&files);
-  return files.code;
-}
 
 // ---- list ----
 
@@ -166,6 +123,53 @@ static void list_fluids(void) {
   }
 }
 
+// ---- Files that ship, and the user's own rubbers ----
+
+// Calls `put` with the name, title and full path of each file of a kind, in order.
+static void each_file(SbShippedKind kind,
+                      void (*put)(void *data, const char *name, const char *title,
+                                  const char *path),
+                      void *data) {
+  g_autoptr(GPtrArray) paths = sb_shipped_files(kind);
+  if (kind == SB_SHIPPED_RUBBERS) {
+    // Names of rubbers can also be files in the user's folder.
+    g_auto(GStrv) names = sb_rubber_sheet_names(NULL);
+    g_ptr_array_set_size(paths, 0);
+    for (char **name = names; *name != NULL; name++) {
+      g_ptr_array_add(paths, sb_rubber_sheet_find(*name, NULL));
+    }
+  }
+  for (guint i = 0; i < paths->len; i++) {
+    g_autofree char *path = g_canonicalize_filename(paths->pdata[i], NULL);
+    g_autofree char *name = sb_shipped_name(path, kind);
+    g_autofree char *title = sb_shipped_title(path);
+    put(data, name, title, path);
+  }
+}
+
+static void print_file(void *data, const char *name, const char *title, const char *path) {
+  g_autofree char *shown = sb_printable(title, strlen(title));
+  printf("%-20s %s\n", name, shown);
+}
+
+static void put_file(void *data, const char *name, const char *title, const char *path) {
+  SbJson *json = data;
+  sb_json_object(json, NULL);
+  sb_json_string(json, "name", name);
+  sb_json_string(json, "title", title);
+  sb_json_string(json, "file", path);
+  sb_json_object_end(json);
+}
+
+static char *files_json(SbShippedKind kind) {
+  SbJson json;
+  sb_json_init(&json);
+  sb_json_array(&json, NULL);
+  each_file(kind, put_file, &json);
+  sb_json_array_end(&json);
+  return sb_json_finish(&json);
+}
+
 int sb_command_list(int argc, char **argv) {
   char *target = NULL;
   const GOptionEntry entries[] = {
@@ -188,17 +192,25 @@ int sb_command_list(int argc, char **argv) {
                {"views", views_json, list_views},
                {"fluids", sb_results_fluids, list_fluids}};
   size_t at = 0;
+  int kind = 0;
   while (at < G_N_ELEMENTS(lists) && strcmp(what, lists[at].name) != 0) {
     at++;
   }
-  if (at == G_N_ELEMENTS(lists)) {
-    sb_cli_unknown("there is no list", what, "params|figures|models|views|fluids", NULL);
+  while (kind < SB_SHIPPED_KINDS && strcmp(what, sb_shipped_kind_name((SbShippedKind)kind)) != 0) {
+    kind++;
+  }
+  const bool files = kind < SB_SHIPPED_KINDS;
+  if (at == G_N_ELEMENTS(lists) && !files) {
+    sb_cli_unknown("there is no list", what,
+                   "params|figures|models|views|fluids|scenes|studies|valves|rubbers", NULL);
     goto done;
   }
   code = SB_EXIT_DONE;
   if (target != NULL) {
-    g_autofree char *json = lists[at].json();
+    g_autofree char *json = files ? files_json((SbShippedKind)kind) : lists[at].json();
     code = sb_cli_emit(json, target);
+  } else if (files) {
+    each_file((SbShippedKind)kind, print_file, NULL);
   } else {
     lists[at].print();
   }
@@ -258,7 +270,7 @@ int sb_command_plan(int argc, char **argv) {
       sb_plan_make(&plan, file->model);
       sb_cases_plan(&plan, file->document);
       if (target != NULL) {
-        g_ptr_array_add(files.json, sb_results_plan(&plan, files.count > 1 ? file->path : NULL));
+        g_ptr_array_add(files.json, sb_results_plan(&plan, file->full));
       } else if (!sb_cli_quiet()) {
         sb_cli_files_head(&files);
         print_plan(&plan);

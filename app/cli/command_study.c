@@ -351,9 +351,7 @@ int sb_command_study(int argc, char **argv) {
   int code = SB_EXIT_INPUT;
   if (sb_cli_parse(&argc, &argv, entries, 1, 1, NULL) &&
       (code = read_options(&options)) == SB_EXIT_DONE) {
-    g_autoptr(GPtrArray) issues = sb_issues_new();
-    g_autoptr(SbStudyFile) study = sb_study_file_load(argv[1], options.settings, issues);
-    sb_cli_issues(issues);
+    g_autoptr(SbStudyFile) study = sb_cli_open_study(argv[1], options.settings);
     code = study == NULL           ? SB_EXIT_INPUT
            : options.slurm != NULL ? emit_slurm(&options, study)
                                    : study_file(&options, study);

@@ -3,6 +3,7 @@
 #include "app/cli/cli.h"
 
 #include "app/base/output.h"
+#include "app/document/shipped.h"
 
 #include <string.h>
 
@@ -51,6 +52,7 @@ bool sb_cli_files_open(SbCliFiles *files, int argc, char **argv, char **settings
   files->json = g_ptr_array_new_with_free_func(g_free);
   for (int i = 0; i < files->count; i++) {
     files->file[i].path = argv[i + 1];
+    files->file[i].full = sb_cli_full_path(argv[i + 1], SB_SHIPPED_FOR_RUN);
     files->file[i].name = folder_name(argv[i + 1]);
     if (folder != NULL) {
       files->file[i].folder =
@@ -77,6 +79,7 @@ void sb_cli_files_close(SbCliFiles *files) {
     SbCliFile *file = &files->file[i];
     sb_document_free(file->document);
     sb_model_destroy(file->model);
+    g_free(file->full);
     g_free(file->name);
     g_free(file->folder);
   }

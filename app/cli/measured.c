@@ -39,17 +39,14 @@ static void print_recognised(const SbMeasured *measured) {
   }
 }
 
-int sb_cli_check_data(const SbDocument *document) {
-  g_autoptr(GPtrArray) issues = sb_issues_new();
+void sb_cli_check_data(const SbDocument *document, bool print, GPtrArray *issues) {
   for (size_t i = 0; i < sb_document_data_count(document); i++) {
     g_autoptr(SbMeasured) measured =
         sb_measured_load(sb_document_data(document, i), drive_speed(document), issues);
-    if (measured != NULL && !sb_cli_quiet()) {
+    if (measured != NULL && print && !sb_cli_quiet()) {
       print_recognised(measured);
     }
   }
-  sb_cli_issues(issues);
-  return issues->len > 0 ? SB_EXIT_INPUT : SB_EXIT_DONE;
 }
 
 static char *force_text(double force, bool known) {

@@ -23,7 +23,7 @@ void sb_cli_study_clear(SbCliStudyOptions *options) {
 int sb_cli_study_run(const SbCliStudyOptions *options, const char *path,
                      const SbCliStudyWork *work) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_autoptr(SbStudyFile) study = sb_study_file_load(path, options->settings, issues);
+  g_autoptr(SbStudyFile) study = sb_cli_open_study(path, options->settings);
   const bool asks = study != NULL && work->asks(study, path, issues);
   sb_cli_issues(issues);
   if (!asks) {

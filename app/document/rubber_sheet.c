@@ -160,11 +160,24 @@ static void read_entries(SbRubberSheet *out, const GPtrArray *entries, const cha
   }
 }
 
+bool sb_rubber_sheet_parse(SbRubberSheet *out, const char *text, size_t length, const char *shown,
+                           GPtrArray *issues) {
+  const guint before = issues->len;
+  *out = (SbRubberSheet){0};
+  g_autoptr(GPtrArray) entries = sb_reader_scan(text, length, shown, issues);
+  read_entries(out, entries, shown, issues);
+  return issues->len == before;
+}
+
+char *sb_rubber_sheet_find(const char *name, const char *directory) {
+  g_autoptr(GPtrArray) places = folders(directory);
+  return find(name, directory, places);
+}
+
 char *sb_rubber_sheet_read(SbRubberSheet *out, const char *name, const char *directory,
                            const char *shown, int line, GPtrArray *issues) {
   const guint before = issues->len;
-  g_autoptr(GPtrArray) places = folders(directory);
-  g_autofree char *path = find(name, directory, places);
+  g_autofree char *path = sb_rubber_sheet_find(name, directory);
   *out = (SbRubberSheet){0};
   if (path == NULL) {
     g_auto(GStrv) list = sb_rubber_sheet_names(directory);
@@ -175,8 +188,7 @@ char *sb_rubber_sheet_read(SbRubberSheet *out, const char *name, const char *dir
   size_t length = 0;
   g_autofree char *text = sb_reader_load(&length, path, path, SB_RUBBER_BYTES_MAX, issues);
   if (text != NULL) {
-    g_autoptr(GPtrArray) entries = sb_reader_scan(text, length, path, issues);
-    read_entries(out, entries, path, issues);
+    (void)sb_rubber_sheet_parse(out, text, length, path, issues);
     g_autofree char *base = g_path_get_basename(path);
     const size_t ending = g_str_has_suffix(base, ENDING) ? strlen(ENDING) : 0;
     g_strlcpy(out->name, base, MIN(sizeof out->name, strlen(base) - ending + 1));

@@ -18,12 +18,22 @@
 
 #include "engine/valve/params.h"
 
+#include <stdbool.h>
+
 enum { SB_RUBBER_BYTES_MAX = 1 << 16 };
 
 // Reads the rubber `name`, or the file of a name with a folder or the ending; `shown` and `line`
 // say where it is named. The path, owned by the caller; NULL with at least one issue.
 char *sb_rubber_sheet_read(SbRubberSheet *out, const char *name, const char *directory,
                            const char *shown, int line, GPtrArray *issues);
+
+// Reads a rubber from memory; `shown` names it in issues. False with at least one issue.
+bool sb_rubber_sheet_parse(SbRubberSheet *out, const char *text, size_t length, const char *shown,
+                           GPtrArray *issues);
+
+// Path of the rubber `name` as sb_rubber_sheet_read() finds it; NULL if there is none. Owned by the
+// caller (g_free).
+char *sb_rubber_sheet_find(const char *name, const char *directory);
 
 // Names of those that are found from `directory` (NULL: of no file), sorted. By the caller
 // (g_strfreev).

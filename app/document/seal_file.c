@@ -2,7 +2,9 @@
 #include "app/document/seal_file.h"
 
 #include "app/base/error.h"
+#include "app/base/output.h"
 #include "app/base/reader.h"
+#include "app/base/unit.h"
 #include "app/cad/cad.h"
 #include "app/cad/profile.h"
 #include "engine/numeric/arc.h"
@@ -53,28 +55,76 @@ static bool is_wanted(const char *name, const Wanted *wanted) {
   return false;
 }
 
-// The closed outline of a drawing that has one, or one that is called so; NULL with an error.
-static GArray *from_drawing(const char *path, const Wanted *wanted, GError **error) {
+// A file's text, which is read once, and where the file is.
+typedef struct {
+  const char *path;
+  char *text;
+  size_t length;
+} Source;
+
+// First word of a text behind its comments, "" if there is none. Borrowed.
+static const char *first_word(const char *text) {
+  const char *at = text;
+  for (;;) {
+    at += strspn(at, " \t\r\n");
+    if (*at != '#') {
+      return at;
+    }
+    at += strcspn(at, "\n");
+  }
+}
+
+// A drawing and not a text of points, which begins with their unit.
+static bool is_drawing(const Source *source) {
+  const char *word = first_word(source->text);
+  return !g_ascii_isalpha(*word) || g_str_has_prefix(word, "ISO-10303") ||
+         g_str_has_prefix(word, "solid") || g_str_has_prefix(word, "AutoCAD");
+}
+
+static SbCad *read_drawing(const Source *source, GError **error) {
   const SbCadChoices choices = {.section = true};
-  g_autoptr(SbCad) cad = sb_cad_read(path, &choices, error);
+  // Only a DXF can be read from memory; other drawings are read by a program of their own.
+  return g_ascii_isdigit(*first_word(source->text))
+             ? sb_cad_parse_dxf(source->text, source->length, source->path, &choices, error)
+             : sb_cad_read(source->path, &choices, error);
+}
+
+// Number of closed outlines of a drawing on a layer with one of the wanted names; *found: the one
+// to take, where there is only one.
+static guint count_wanted(const SbCad *cad, const Wanted *wanted, const SbCadBody **found) {
+  guint called = 0;
+  for (guint i = 0; i < cad->bodies->len; i++) {
+    const SbCadBody *body = cad->bodies->pdata[i];
+    if (body->profile->len > 0 && body->closed && is_wanted(body->name, wanted)) {
+      *found = called == 0 ? body : *found;
+      called++;
+    }
+  }
+  return called;
+}
+
+// The closed outline of a drawing that has one, or one that is called so; NULL with an error.
+static GArray *from_drawing(const Source *source, const Wanted *wanted, GError **error) {
+  g_autoptr(SbCad) cad = read_drawing(source, error);
   const SbCadBody *found = NULL;
-  guint count = 0, called = 0;
+  guint count = 0;
   if (cad == NULL) {
     return NULL;
   }
   for (guint i = 0; i < cad->bodies->len; i++) {
     const SbCadBody *body = cad->bodies->pdata[i];
     if (body->profile->len > 0 && body->closed) {
-      found = called == 0 || is_wanted(body->name, wanted) ? body : found;
-      called += is_wanted(body->name, wanted) ? 1 : 0;
+      found = body;
       count++;
     }
   }
+  const guint called = count_wanted(cad, wanted, &found);
   if (count != 1 && called != 1) {
     if (count == 0) {
-      fault(error, path, "holds no closed outline of %s", wanted->what);
+      fault(error, source->path, "holds no closed outline of %s", wanted->what);
     } else {
-      fault(error, path, "holds %u closed outlines, not one of them alone on a layer \"%s\"", count,
+      fault(error, source->path,
+            "holds %u closed outlines, not one of them alone on a layer \"%s\"", count,
             wanted->layer[0]);
     }
     return NULL;
@@ -84,30 +134,32 @@ static GArray *from_drawing(const char *path, const Wanted *wanted, GError **err
   return points;
 }
 
-// Its points [m]; NULL with an error.
-static GArray *read_points(const char *path, const Wanted *wanted, bool *closed, GError **error) {
+static bool load(Source *out, const char *path, GError **error) {
   const size_t bytes_max = (size_t)256 << 20; // as sb_cad_read()
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autofree char *shown = sb_printable(path, strlen(path));
-  size_t length = 0;
-  g_autofree char *text = sb_reader_load(&length, path, shown, bytes_max, issues);
-  if (text == NULL) {
+  *out = (Source){.path = path};
+  out->text = sb_reader_load(&out->length, path, shown, bytes_max, issues);
+  if (out->text == NULL) {
     const SbIssue *issue = issues->pdata[0];
     fault(error, path, "%s", issue->text);
-    return NULL;
   }
-  // Points begin with their unit, a DXF with a number, a STEP with its name.
-  drop_comments(text);
-  const char *word = text + strspn(text, " \t\r\n");
-  if (!g_ascii_isalpha(*word) || g_str_has_prefix(word, "ISO-10303") ||
-      g_str_has_prefix(word, "solid") || g_str_has_prefix(word, "AutoCAD")) {
+  return out->text != NULL;
+}
+
+// Its points [m]; NULL with an error.
+static GArray *read_points(const Source *source, const Wanted *wanted, bool *closed,
+                           GError **error) {
+  if (is_drawing(source)) {
     *closed = true;
-    return from_drawing(path, wanted, error);
+    return from_drawing(source, wanted, error);
   }
   GError *own = NULL;
+  g_autofree char *text = g_strdup(source->text);
+  drop_comments(text);
   GArray *points = sb_profile_parse(text, closed, &own);
   if (points == NULL) {
-    fault(error, path, "%s (as in \"" SB_PROFILE_FORM "\")", own->message);
+    fault(error, source->path, "%s (as in \"" SB_PROFILE_FORM "\")", own->message);
     g_error_free(own);
   }
   return points;
@@ -217,10 +269,11 @@ static GArray *join(const GArray *points, double near) {
   return out;
 }
 
-bool sb_seal_file_read(SbSealDrawing *out, double *height, const char *path, GError **error) {
+static bool read_section(SbSealDrawing *out, double *height, const Source *source, GError **error) {
+  const char *path = source->path;
   out->count = 0;
   bool closed;
-  g_autoptr(GArray) points = read_points(path, &SECTION, &closed, error);
+  g_autoptr(GArray) points = read_points(source, &SECTION, &closed, error);
   if (points == NULL) {
     return false;
   }
@@ -276,6 +329,14 @@ bool sb_seal_file_read(SbSealDrawing *out, double *height, const char *path, GEr
   return true;
 }
 
+bool sb_seal_file_read(SbSealDrawing *out, double *height, const char *path, GError **error) {
+  out->count = 0;
+  Source source;
+  const bool good = load(&source, path, error) && read_section(out, height, &source, error);
+  g_free(source.text);
+  return good;
+}
+
 // Takes the opening of a closed outline away: the straight piece along the axis that lies
 // outermost.
 static bool take_opening(GArray *points) {
@@ -305,10 +366,11 @@ static bool take_opening(GArray *points) {
   return true;
 }
 
-bool sb_groove_file_read(SbGrooveDrawing *out, const char *path, GError **error) {
+static bool read_groove(SbGrooveDrawing *out, const Source *source, GError **error) {
+  const char *path = source->path;
   *out = (SbGrooveDrawing){0};
   bool closed;
-  g_autoptr(GArray) points = read_points(path, &GROOVE, &closed, error);
+  g_autoptr(GArray) points = read_points(source, &GROOVE, &closed, error);
   if (points == NULL) {
     return false;
   }
@@ -332,4 +394,76 @@ bool sb_groove_file_read(SbGrooveDrawing *out, const char *path, GError **error)
     return false;
   }
   return true;
+}
+
+bool sb_groove_file_read(SbGrooveDrawing *out, const char *path, GError **error) {
+  *out = (SbGrooveDrawing){0};
+  Source source;
+  const bool good = load(&source, path, error) && read_groove(out, &source, error);
+  g_free(source.text);
+  return good;
+}
+
+// ---- Checking ----
+
+// Whether a text begins with the unit of its points.
+static bool begins_with_length(const char *text) {
+  const char *word = first_word(text);
+  g_autofree char *one = g_strdup_printf("1 %.*s", (int)strcspn(word, " \t\r\n"), word);
+  double scale = 0;
+  return g_ascii_isalpha(*word) && sb_quantity_parse(&scale, one, "m", "mm", NULL);
+}
+
+bool sb_seal_file_is_drawing(const char *text, const char *path) {
+  static const char *const endings[] = {".dxf", ".step", ".stp", ".stl"};
+  for (size_t i = 0; i < G_N_ELEMENTS(endings); i++) {
+    if (sb_output_ends_in(path, endings[i])) {
+      return true;
+    }
+  }
+  const char *word = first_word(text);
+  // The first group of a DXF: code 0 or, of a comment, 999.
+  const size_t digits = strspn(word, "0123456789");
+  const bool dxf = (digits == 1 && *word == '0') || g_str_has_prefix(word, "999");
+  const char *after = word + digits + strspn(word + digits, " \t\r");
+  return (dxf && *after == '\n') || g_str_has_prefix(word, "ISO-10303") ||
+         g_str_has_prefix(word, "AutoCAD") || begins_with_length(text);
+}
+
+bool sb_seal_file_check(bool *groove, const char *text, size_t length, const char *path,
+                        GError **error) {
+  const Source source = {path, (char *)text, length};
+  SbSealDrawing section;
+  SbGrooveDrawing drawn;
+  double height;
+  GError *own = NULL, *other = NULL;
+  if (is_drawing(&source)) {
+    g_autoptr(SbCad) cad = read_drawing(&source, error);
+    const SbCadBody *found = NULL;
+    if (cad == NULL) {
+      return false;
+    }
+    *groove = count_wanted(cad, &GROOVE, &found) > 0 && count_wanted(cad, &SECTION, &found) == 0;
+    return *groove ? read_groove(&drawn, &source, error)
+                   : read_section(&section, &height, &source, error);
+  }
+  bool closed = true;
+  g_autoptr(GArray) points = read_points(&source, &SECTION, &closed, error);
+  if (points == NULL) {
+    return false;
+  }
+  *groove = !closed;
+  if (!closed) {
+    return read_groove(&drawn, &source, error);
+  }
+  // A closed text of points may be a groove with its opening.
+  if (!read_section(&section, &height, &source, &own) && read_groove(&drawn, &source, &other)) {
+    *groove = true;
+    g_clear_error(&own);
+  }
+  g_clear_error(&other);
+  if (own != NULL) {
+    g_propagate_error(error, own);
+  }
+  return own == NULL;
 }

@@ -17,3 +17,13 @@ bool sb_seal_file_read(SbSealDrawing *out, double *height, const char *path, GEr
 // file, *out without points: no such outline, more than SB_SEAL_POINTS_MAX points, none that
 // sb_groove_draw() takes.
 bool sb_groove_file_read(SbGrooveDrawing *out, const char *path, GError **error);
+
+// Whether a file's text is a section or a groove: a DXF, STEP or STL, or points behind their unit.
+bool sb_seal_file_is_drawing(const char *text, const char *path);
+
+// Checks a section or groove that was read from `path`; *groove: which of them it is. A drawing is
+// a groove if an outline of it is on a layer "groove" or "gland" and none on a section's layer; a
+// text of points is one if it is open, or if it can only be read as one. False with an error that
+// names the file.
+bool sb_seal_file_check(bool *groove, const char *text, size_t length, const char *path,
+                        GError **error);

@@ -1,8 +1,8 @@
 // What ships with the program; see the header.
 #include "app/document/shipped.h"
 
-#include <stdbool.h>
 #include <string.h>
+#include <sys/stat.h>
 
 // The first of the places, from where the program lies, that has `name`; its whole path or its
 // folder.
@@ -38,21 +38,56 @@ char *sb_shipped_thesis(void) {
   return find(places, "valve.scene", false);
 }
 
-char *sb_shipped_find(const char *name) {
+typedef struct {
+  const char *folder, *ending;
+} Kind;
+
+static const Kind kinds[SB_SHIPPED_KINDS] = {[SB_SHIPPED_SCENES] = {"scenes", ".scene"},
+                                             [SB_SHIPPED_VALVES] = {"valves", ".valve"},
+                                             [SB_SHIPPED_STUDIES] = {"studies", ".study"},
+                                             [SB_SHIPPED_RUBBERS] = {"rubbers", ".rubber"}};
+
+const char *sb_shipped_kind_name(SbShippedKind kind) {
+  return kinds[kind].folder;
+}
+
+// Folder of a kind's files; NULL if there is none. Owned by the caller.
+static char *kind_folder(SbShippedKind kind) {
   g_autofree char *folder = sb_shipped_folder();
-  if (folder == NULL || *name == '\0' || strchr(name, G_DIR_SEPARATOR) != NULL) {
+  return folder != NULL ? g_build_filename(folder, kinds[kind].folder, NULL) : NULL;
+}
+
+char *sb_shipped_find(const char *name, unsigned wanted) {
+  if (*name == '\0' || strchr(name, G_DIR_SEPARATOR) != NULL) {
     return NULL;
   }
-  static const char *const kinds[][2] = {{"scenes", ".scene"}, {"valves", ".valve"}};
-  for (size_t i = 0; i < G_N_ELEMENTS(kinds); i++) {
-    g_autofree char *whole =
-        g_str_has_suffix(name, kinds[i][1]) ? g_strdup(name) : g_strconcat(name, kinds[i][1], NULL);
-    g_autofree char *path = g_build_filename(folder, kinds[i][0], whole, NULL);
-    if (g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
+  for (int i = 0; i < SB_SHIPPED_KINDS; i++) {
+    g_autofree char *folder = (wanted >> i & 1) != 0 ? kind_folder((SbShippedKind)i) : NULL;
+    g_autofree char *file = g_strconcat(name, kinds[i].ending, NULL);
+    g_autofree char *path = folder != NULL ? g_build_filename(folder, file, NULL) : NULL;
+    if (path != NULL && g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
       return g_steal_pointer(&path);
     }
   }
   return NULL;
+}
+
+bool sb_shipped_has_ending(const char *name, unsigned wanted) {
+  for (int i = 0; i < SB_SHIPPED_KINDS; i++) {
+    if ((wanted >> i & 1) != 0 && g_str_has_suffix(name, kinds[i].ending)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+char *sb_shipped_resolve(const char *operand, unsigned wanted) {
+  // A link that leads nowhere is the user's own file too: its error is reported.
+  struct stat info;
+  const bool own = strcmp(operand, "-") == 0 ||
+                   (lstat(operand, &info) == 0 && !g_file_test(operand, G_FILE_TEST_IS_DIR));
+  char *shipped = own ? NULL : sb_shipped_find(operand, wanted);
+  return shipped != NULL ? shipped : g_strdup(operand);
 }
 
 char *sb_shipped_runs(void) {
@@ -64,16 +99,28 @@ static int by_name(const void *a, const void *b) {
   return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-GPtrArray *sb_shipped_scenes(void) {
+GPtrArray *sb_shipped_files(SbShippedKind kind) {
   GPtrArray *out = g_ptr_array_new_with_free_func(g_free);
-  g_autofree char *folder = sb_shipped_folder();
-  g_autofree char *scenes = folder != NULL ? g_build_filename(folder, "scenes", NULL) : NULL;
-  g_autoptr(GDir) dir = scenes != NULL ? g_dir_open(scenes, 0, NULL) : NULL;
+  g_autofree char *folder = kind_folder(kind);
+  g_autoptr(GDir) dir = folder != NULL ? g_dir_open(folder, 0, NULL) : NULL;
   for (const char *name; dir != NULL && (name = g_dir_read_name(dir)) != NULL;) {
-    if (g_str_has_suffix(name, ".scene")) {
-      g_ptr_array_add(out, g_build_filename(scenes, name, NULL));
+    if (g_str_has_suffix(name, kinds[kind].ending)) {
+      g_ptr_array_add(out, g_build_filename(folder, name, NULL));
     }
   }
   g_ptr_array_sort(out, by_name);
   return out;
+}
+
+char *sb_shipped_name(const char *path, SbShippedKind kind) {
+  char *name = g_path_get_basename(path);
+  name[strlen(name) - strlen(kinds[kind].ending)] = '\0';
+  return name;
+}
+
+char *sb_shipped_title(const char *path) {
+  g_autoptr(GKeyFile) keys = g_key_file_new();
+  g_key_file_load_from_file(keys, path, G_KEY_FILE_NONE, NULL);
+  char *title = g_key_file_get_string(keys, "sealbench", "title", NULL);
+  return title != NULL ? title : g_path_get_basename(path);
 }

@@ -1,18 +1,59 @@
-// The valves and scenes that ship with the program, found from where the program lies: installed
-// (../share/sealbench) or in its build folder (the sources' assets). Nothing is compiled in, so an
+// The files that ship with the program, found relative to the program: installed
+// (../share/sealbench) or in its build folder (the sources' assets). No path is compiled in, so an
 // installation may be moved.
 #pragma once
 
 #include <glib.h>
+#include <stdbool.h>
 
-// Folder that holds valves/, scenes/ and series/; NULL if there is none. Owned by the caller.
+// Kinds of files that ship, in the order in which a name is looked up.
+typedef enum {
+  SB_SHIPPED_SCENES,
+  SB_SHIPPED_VALVES,
+  SB_SHIPPED_STUDIES,
+  SB_SHIPPED_RUBBERS,
+  SB_SHIPPED_KINDS
+} SbShippedKind;
+
+// Sets of kinds, bits 1 << SbShippedKind: what a run, a study or `sealbench check` may name.
+enum {
+  SB_SHIPPED_FOR_RUN = 1 << SB_SHIPPED_SCENES | 1 << SB_SHIPPED_VALVES,
+  SB_SHIPPED_FOR_STUDY = 1 << SB_SHIPPED_STUDIES,
+  SB_SHIPPED_ANY = (1 << SB_SHIPPED_KINDS) - 1
+};
+
+// Name of a kind in the plural and of its folder ("scenes"). Static.
+const char *sb_shipped_kind_name(SbShippedKind kind);
+
+// Folder that holds scenes/, valves/, studies/, rubbers/ and series/; NULL if there is none. Owned
+// by the caller (g_free).
 char *sb_shipped_folder(void);
 
-// Path of what ships as `name`, with or without its ending ("thesis-cycle", "piston.valve"); NULL
-// if nothing does, or if `name` holds a folder. Owned by the caller.
-char *sb_shipped_find(const char *name);
+// Path of the shipped file of one of the `wanted` kinds that has this name without ending
+// ("thesis-cycle"); NULL if there is none. Owned by the caller (g_free).
+char *sb_shipped_find(const char *name, unsigned wanted);
 
-// Path of the study file NAME.study that ships; NULL if there is none. Owned by the caller.
+// Whether a file name has the ending of one of these kinds.
+bool sb_shipped_has_ending(const char *name, unsigned wanted);
+
+// Path that an operand of a command names: a file that exists under `operand`, or "-", is used as
+// it is. Otherwise the shipped file of that name, without ending, is used. If there is neither, the
+// result is a copy of `operand`, which cannot be opened. Owned by the caller (g_free).
+char *sb_shipped_resolve(const char *operand, unsigned wanted);
+
+// Paths of all files of a kind that ship, sorted by name. Owned by the caller (g_ptr_array_unref);
+// never NULL.
+GPtrArray *sb_shipped_files(SbShippedKind kind);
+
+// Title of a key file ([sealbench] title), else its name. Owned by the caller (g_free).
+char *sb_shipped_title(const char *path);
+
+// Name by which a path of sb_shipped_files() is given to a command: without folder and ending.
+// Owned by the caller (g_free).
+char *sb_shipped_name(const char *path, SbShippedKind kind);
+
+// Path of the study file NAME.study that ships; NULL if there is none. Unlike sb_shipped_find() it
+// also works in the programs of the tests. Owned by the caller (g_free).
 char *sb_shipped_study(const char *name);
 
 // Folder of the thesis' tables and figures (app/study/thesis_item.h); NULL if there is none. Owned
@@ -22,6 +63,3 @@ char *sb_shipped_thesis(void);
 // Folder of runs that were solved when the program was built (app/session/stored_run.h); NULL if
 // there is none. Owned by the caller.
 char *sb_shipped_runs(void);
-
-// Paths of all scenes that ship, sorted by name. Owned by the caller; never NULL.
-GPtrArray *sb_shipped_scenes(void);

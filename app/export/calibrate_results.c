@@ -5,6 +5,7 @@
 #include "app/export/json.h"
 #include "app/export/measured_results.h"
 #include "app/export/still.h"
+#include "app/export/study_results.h"
 
 #include "engine/base/version.h"
 
@@ -45,7 +46,7 @@ static void put_curve(SbJson *json, const SbCalibratedCurve *curve) {
 char *sb_calibration_json(const SbCalibration *of, const SbStudyFile *study) {
   SbJson json;
   sb_json_document(&json);
-  sb_json_string(&json, "study", study->title);
+  sb_json_study_files(&json, study);
   sb_json_bool(&json, "converged", of->converged);
   sb_json_count(&json, "samples", of->samples);
   sb_json_number(&json, "residual_rms_N", of->rms);

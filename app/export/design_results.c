@@ -2,6 +2,7 @@
 #include "app/export/design_results.h"
 
 #include "app/export/json.h"
+#include "app/export/study_results.h"
 
 #include <math.h>
 
@@ -66,7 +67,7 @@ static void put_robust(SbJson *json, const SbStudyFile *study, const SbDesign *d
 char *sb_design_json(const SbStudyFile *study, const SbDesign *design) {
   SbJson json;
   sb_json_document(&json);
-  sb_json_string(&json, "study", study->title);
+  sb_json_study_files(&json, study);
   sb_json_string(&json, "version", sb_version());
   sb_json_bool(&json, "converged", design->converged);
   sb_json_bool(&json, "feasible", design->feasible);

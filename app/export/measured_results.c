@@ -92,14 +92,15 @@ void sb_json_comparison(SbJson *json, const char *key, const SbComparison *compa
   sb_json_object_end(json);
 }
 
-char *sb_results_compare(size_t runs, const char *const *name, double *const *figure,
-                         SbComparison *const *comparison) {
+char *sb_results_compare(size_t runs, const char *const *name, const char *const *scene,
+                         double *const *figure, SbComparison *const *comparison) {
   SbJson json;
   sb_json_document(&json);
   sb_json_array(&json, "runs");
   for (size_t i = 0; i < runs; i++) {
     sb_json_object(&json, NULL);
     sb_json_string(&json, "name", name[i]);
+    sb_json_string(&json, "scene", scene[i]);
     sb_json_object(&json, "figures");
     for (int f = 0; f < SB_FIGURE_COUNT; f++) {
       sb_json_number(&json, sb_figure(f)->path, figure[i][f]);

@@ -10,7 +10,7 @@ void sb_json_comparison(SbJson *json, const char *key, const SbComparison *compa
 // The object "stages" of it alone.
 void sb_json_measured_stages(SbJson *json, const SbComparison *comparison);
 
-// Runs side by side; `figure` is [runs][SB_FIGURE_COUNT], the first measured one's `comparison` may
-// be NULL. Owned by the caller.
-char *sb_results_compare(size_t runs, const char *const *name, double *const *figure,
-                         SbComparison *const *comparison);
+// Runs side by side; `scene` is [runs] full paths of their files ("-": standard input), `figure` is
+// [runs][SB_FIGURE_COUNT], the first measured one's `comparison` may be NULL. Owned by the caller.
+char *sb_results_compare(size_t runs, const char *const *name, const char *const *scene,
+                         double *const *figure, SbComparison *const *comparison);

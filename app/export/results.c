@@ -397,9 +397,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
 char *sb_results_plan(const SbPlan *plan, const char *scene) {
   SbJson json;
   sb_json_document(&json);
-  if (scene != NULL) {
-    sb_json_string(&json, "scene", scene);
-  }
+  sb_json_string(&json, "scene", scene);
   sb_json_array(&json, "fields");
   for (size_t i = 0; i < plan->field_count; i++) {
     const SbPlanItem *item = &plan->field[i];

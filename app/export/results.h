@@ -15,7 +15,7 @@
 
 // What a run's document needs beyond the run.
 typedef struct {
-  const char *scene;      // path or title
+  const char *scene;      // full path of the file, "-" for standard input; or a title
   const char *sha256;     // of the parameters
   bool partial;           // interrupted
   const SbStudy *studies; // `study_count` of them, what output.studies asked for
@@ -45,10 +45,11 @@ char *sb_results_film(const SbFilm *film, const SbResultsHistory *history); // N
 // Whether the solver has a contact, perhaps above its tolerance; else there is none to tell of.
 bool sb_results_fit_found(const SbFit *fit);
 
-// With the figures of a dragged ring; the greatest drag if that was looked for.
+// With the figures of a dragged ring; the greatest drag if that was looked for. `file` is the full
+// path of the valve or scene, "-" for standard input.
 char *sb_results_fit(const SbFit *fit, const SbFitProblem *problem, bool limit, const char *seal,
-                     const SbGlandReadout *gland, const SbRubberState *storage);
-char *sb_results_plan(const SbPlan *plan, const char *scene); // NULL: not named
+                     const SbGlandReadout *gland, const SbRubberState *storage, const char *file);
+char *sb_results_plan(const SbPlan *plan, const char *scene); // full path
 char *sb_results_params(void);
 char *sb_results_figures(void);
 char *sb_results_models(void);

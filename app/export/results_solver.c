@@ -238,9 +238,10 @@ bool sb_results_fit_found(const SbFit *fit) {
 }
 
 char *sb_results_fit(const SbFit *fit, const SbFitProblem *problem, bool limit, const char *seal,
-                     const SbGlandReadout *gland, const SbRubberState *storage) {
+                     const SbGlandReadout *gland, const SbRubberState *storage, const char *file) {
   SbJson json;
   sb_json_document(&json);
+  sb_json_string(&json, "file", file);
   sb_json_string(&json, "model", sb_fit_model_name(fit->model));
   sb_json_string(&json, "variant", sb_fit_variant_name(fit->model, fit->variant));
   sb_json_string(&json, "seal", seal);

@@ -31,9 +31,10 @@ static void write_cells(SbJson *json, const SbGradient *gradient, bool reasons) 
   sb_json_object_end(json);
 }
 
-char *sb_sensitivity_json(const SbGradient *gradient) {
+char *sb_sensitivity_json(const SbGradient *gradient, const char *scene) {
   SbJson json;
   sb_json_document(&json);
+  sb_json_string(&json, "scene", scene);
   sb_json_object(&json, "figures");
   for (size_t f = 0; f < sb_gradient_figures(gradient); f++) {
     sb_json_number(&json, sb_figure(sb_gradient_figure(gradient, f))->path,

@@ -3,5 +3,6 @@
 
 #include "engine/valve/gradient.h"
 
-// The contract's JSON of a scene. Owned by the caller.
-char *sb_sensitivity_json(const SbGradient *gradient);
+// The contract's JSON of a scene; `scene` is the full path of its file, "-" for standard input.
+// Owned by the caller (g_free).
+char *sb_sensitivity_json(const SbGradient *gradient, const char *scene);

@@ -378,11 +378,22 @@ static void put_failures(SbJson *json, const SbAnswers *answers) {
   sb_json_array_end(json);
 }
 
+static void put_path(SbJson *json, const char *key, const char *path) {
+  g_autofree char *full = path != NULL ? g_canonicalize_filename(path, NULL) : g_strdup("-");
+  sb_json_string(json, key, full);
+}
+
+void sb_json_study_files(SbJson *json, const SbStudyFile *study) {
+  sb_json_string(json, "study", study->title);
+  put_path(json, "file", study->path);
+  put_path(json, "scene", study->scene != NULL ? sb_document_path(study->scene) : NULL);
+}
+
 char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const SbAnswers *answers,
                     const char *cpus, SbReport *report) {
   SbJson json;
   sb_json_document(&json);
-  sb_json_string(&json, "study", study->title);
+  sb_json_study_files(&json, study);
   sb_json_string(&json, "version", sb_version());
   sb_json_string(&json, "method", sb_study_method_name(study->method));
   sb_json_count(&json, "seed", study->seed);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/document/study_file.h"
+#include "app/export/json.h"
 #include "app/study/shares.h"
 
 #include <stdio.h>
@@ -27,6 +28,10 @@ void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
 // of propellant (0) or water (1); owned by the caller, NULL: nothing, or the samples have their
 // own.
 char *sb_study_typical(const SbStudyFile *study, int which);
+
+// Puts the title "study" and the full paths "file" of the study and "scene" of its scene; "-" is
+// standard input.
+void sb_json_study_files(SbJson *json, const SbStudyFile *study);
 
 // The contract's JSON. Owned by the caller; NULL without memory.
 char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const SbAnswers *answers,

@@ -236,12 +236,10 @@ static void translate(void) {
 
 static bool open_file(SbBench *bench, const char *path, GError **error) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  const bool there = path != NULL && g_file_test(path, G_FILE_TEST_EXISTS);
-  g_autofree char *shipped = there ? NULL : sb_shipped_find(path != NULL ? path : "piston");
-  if (path == NULL && shipped == NULL) {
-    return true; // an empty valve
-  }
-  if (sb_session_open(bench->session, shipped != NULL ? shipped : path, issues)) {
+  g_autofree char *file = path != NULL ? sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN)
+                                       : sb_shipped_find("piston", SB_SHIPPED_FOR_RUN);
+  // Without an operand and without shipped files the session stays an empty valve.
+  if (file == NULL || sb_session_open(bench->session, file, issues)) {
     return true;
   }
   g_autofree char *line = issues->len > 0 ? sb_issue_line(issues->pdata[0]) : g_strdup(path);

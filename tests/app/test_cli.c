@@ -266,7 +266,7 @@ static void test_json_not_found(void) {
   const SbFit fit = {.model = SB_FIT_RING, .squeeze = 0.15};
   const SbFitProblem problem = {.model = SB_FIT_RING, .dragged = true};
   const SbRubberState storage = {0};
-  char *text = sb_results_fit(&fit, &problem, false, "outer", NULL, &storage);
+  char *text = sb_results_fit(&fit, &problem, false, "outer", NULL, &storage, "-");
   JsonNode *root = cli_parse(text);
   g_assert_cmpfloat(cli_number(root, "squeeze"), ==, 0.15);
   for (size_t i = 0; i < G_N_ELEMENTS(none); i++) {

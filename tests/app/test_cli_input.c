@@ -114,7 +114,9 @@ static void test_standard_input(void) {
   CliResult result = WITH(cli.scene, "plan", "-", "--json", "-");
   CliResult same = CLI("plan", cli.scene, "--json", "-");
   g_assert_cmpstr(result.err, ==, "");
-  g_assert_cmpstr(result.out, ==, same.out);
+  // The documents differ in the file's name only.
+  g_assert_nonnull(strstr(result.out, "\"scene\": \"-\""));
+  g_assert_cmpstr(strstr(result.out, "\"fields\""), ==, strstr(same.out, "\"fields\""));
   cli_clear(&result);
   cli_clear(&same);
   result = WITH(cli.valve, "check", "-", cli.scene);

@@ -258,21 +258,13 @@ static void on_example(GtkMenuItem *item, SbWindowFiles *files) {
   sb_window_files_open(files, file);
 }
 
-// The title of a file, or its name.
-static char *title_of(const char *path) {
-  g_autoptr(GKeyFile) keys = g_key_file_new();
-  g_key_file_load_from_file(keys, path, G_KEY_FILE_NONE, NULL);
-  char *title = g_key_file_get_string(keys, "sealbench", "title", NULL);
-  return title != NULL ? title : g_path_get_basename(path);
-}
-
 // The scenes that ship, by their titles.
 static GtkWidget *examples_item(SbWindowFiles *files) {
   GtkWidget *item = gtk_menu_item_new_with_mnemonic(_("E_xamples")), *menu = gtk_menu_new();
-  g_autoptr(GPtrArray) scenes = sb_shipped_scenes();
+  g_autoptr(GPtrArray) scenes = sb_shipped_files(SB_SHIPPED_SCENES);
   for (guint i = 0; i < scenes->len; i++) {
     const char *path = g_ptr_array_index(scenes, i);
-    g_autofree char *title = title_of(path);
+    g_autofree char *title = sb_shipped_title(path);
     g_autofree char *name = g_path_get_basename(path);
     GtkWidget *each = gtk_menu_item_new_with_label(title);
     gtk_widget_set_tooltip_text(each, name);
@@ -305,7 +297,7 @@ static void add_files(GtkWidget *box, SbWindowFiles *files, const char *heading,
   gtk_grid_set_column_homogeneous(GTK_GRID(grid), TRUE);
   for (guint i = 0; i < paths->len; i++) {
     const char *path = g_ptr_array_index(paths, i);
-    g_autofree char *title = title_of(path);
+    g_autofree char *title = sb_shipped_title(path);
     GtkWidget *button = gtk_button_new_with_label(title);
     GtkWidget *label = gtk_bin_get_child(GTK_BIN(button));
     gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
@@ -342,7 +334,7 @@ static GPtrArray *recent_paths(void) {
 GtkWidget *sb_window_files_start(SbWindowFiles *files) {
   GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
   gtk_widget_set_margin_top(box, 16);
-  g_autoptr(GPtrArray) recent = recent_paths(), scenes = sb_shipped_scenes();
+  g_autoptr(GPtrArray) recent = recent_paths(), scenes = sb_shipped_files(SB_SHIPPED_SCENES);
   add_files(box, files, _("Recent files"), recent);
   add_files(box, files, _("Examples"), scenes);
   // Above the section; in a low window it scrolls.
