@@ -39,37 +39,60 @@ double sb_hertz_width_of_approach(double approach, double stiffness) {
              : 1.0;
 }
 
+double sb_interference_on_floor(const SbFitProblem *in) {
+  const double nu = in->poisson_ratio, d = in->section_diameter;
+  const double mean = in->bore_diameter - in->radial_space;
+  const double stretch = mean / (in->inner_diameter + d) - 1.0;
+  const double shrunk = d * (1.0 - nu * stretch);
+  if (!(stretch > 0.0) || !(shrunk > 0.0)) {
+    return shrunk - in->radial_space; // it does not press on the floor
+  }
+  const double area = 0.25 * M_PI * d * d * (1.0 - 2.0 * nu * stretch);
+  const double load = in->modulus * stretch * fmax(area, 0.0) / (0.5 * mean);
+  const double disc = in->modulus / (1.0 - nu * nu), radius = 0.5 * shrunk;
+  const double half = sb_hertz_half_width(load, radius, 2.0 * disc);
+  const double approach =
+      half > 0.0 ? load / (M_PI * disc) * (2.0 * log(4.0 * radius / half) - 1.0) : 0.0;
+  return shrunk - approach - in->radial_space;
+}
+
 // ---- contact models
 
-// What a model adds to what all have in common: full width [m] and load per length [N/m].
+// The round section that a model squeezes: its diameter d [m] and squeeze (d - g)/d.
+typedef struct {
+  double diameter, squeeze;
+} Section;
+
+// Full width of the contact [m] and load per length [N/m] by one model.
 typedef struct {
   double width, load;
 } Contact;
 
-static void check_squeeze(SbFit *out, const char *code, double low, double high, const char *of) {
-  if (out->squeeze < low || out->squeeze > high) {
+static void check_squeeze(SbFit *out, const Section *section, const char *code, double low,
+                          double high, const char *of) {
+  if (section->squeeze < low || section->squeeze > high) {
     sb_warn(&out->warnings, code, "seal.section_diameter",
-            "squeeze %.3g %% is outside %.3g to %.3g %%, the range of %s", 100.0 * out->squeeze,
+            "squeeze %.3g %% is outside %.3g to %.3g %%, the range of %s", 100.0 * section->squeeze,
             100.0 * low, 100.0 * high, of);
   }
 }
 
-static Contact karaszkiewicz(SbFit *out, const SbFitProblem *in) {
-  check_squeeze(out, "karaszkiewicz-squeeze", 0.07, 0.25, "Karaszkiewicz's formulae");
-  const double p = fabs(in->pressure), s = out->squeeze, nu = in->poisson_ratio;
+static Contact karaszkiewicz(SbFit *out, const SbFitProblem *in, const Section *section) {
+  check_squeeze(out, section, "karaszkiewicz-squeeze", 0.07, 0.25, "Karaszkiewicz's formulae");
+  const double p = fabs(in->pressure), s = section->squeeze, nu = in->poisson_ratio;
   const double unloaded = 2.0 * s + 0.13;
   const double growth = 0.39 / (1.0 - s) - 0.5 * unloaded;
-  const double width = in->section_diameter * (unloaded - growth * expm1(-4.6 * p / in->modulus));
+  const double width = section->diameter * (unloaded - growth * expm1(-4.6 * p / in->modulus));
   return (Contact){width, width * (M_PI / 6.0 * unloaded * in->modulus + nu / (1.0 - nu) * p)};
 }
 
-static Contact hertz(SbFit *out, const SbFitProblem *in) {
+static Contact hertz(SbFit *out, const SbFitProblem *in, const Section *section) {
   static const double WIDTH_MOST = 0.3; // of b/R: there the parabola is off the circle by 4 %
-  const double nu = in->poisson_ratio, radius = 0.5 * in->section_diameter;
+  const double nu = in->poisson_ratio, radius = 0.5 * section->diameter;
   const double modulus =
       sb_reduced_modulus(in->modulus, nu, in->housing_modulus, in->housing_poisson);
-  const double t =
-      sb_hertz_width_of_approach(2.0 * out->squeeze, 4.0 * in->modulus / (1.0 - nu * nu) / modulus);
+  const double t = sb_hertz_width_of_approach(2.0 * section->squeeze,
+                                              4.0 * in->modulus / (1.0 - nu * nu) / modulus);
   if (t > WIDTH_MOST) {
     sb_warn(&out->warnings, "hertz-width", "gland.radial_space",
             "contact half-width is %.2g of the radius: Hertz theory wants it small (below %g)", t,
@@ -79,28 +102,30 @@ static Contact hertz(SbFit *out, const SbFitProblem *in) {
 }
 
 // Width and load of F/(pi d D E), by Lindley's 2.9.
-static Contact of_load_factor(SbFit *out, const SbFitProblem *in, double factor) {
+static Contact of_load_factor(SbFit *out, const SbFitProblem *in, const Section *section,
+                              double factor) {
   if (in->poisson_ratio < 0.45) {
     sb_warn(&out->warnings, "incompressible-assumed", "seal.poisson_ratio",
             "the formula is for incompressible rubber, not Poisson's ratio %.3g",
             in->poisson_ratio);
   }
-  const double d = in->section_diameter;
+  const double d = section->diameter;
   return (Contact){d * sqrt(6.0 / M_PI * factor), factor * d * in->modulus};
 }
 
-static Contact lindley(SbFit *out, const SbFitProblem *in) {
+static Contact lindley(SbFit *out, const SbFitProblem *in, const Section *section) {
   const bool initial = in->variant == SB_LINDLEY_INITIAL;
-  const double s = out->squeeze;
-  check_squeeze(out, "lindley-squeeze", 0.0, initial ? 0.15 : 0.25, "Lindley's formula");
-  Contact c = of_load_factor(out, in, 1.25 * s * sqrt(s) + (initial ? 0.0 : 50.0 * pow(s, 6.0)));
-  c.width = in->variant == SB_LINDLEY_SIMPLE_WIDTH ? 2.4 * s * in->section_diameter
-            : in->variant == SB_LINDLEY_KURAN      ? 2.5 * s * in->section_diameter
+  const double s = section->squeeze;
+  check_squeeze(out, section, "lindley-squeeze", 0.0, initial ? 0.15 : 0.25, "Lindley's formula");
+  Contact c =
+      of_load_factor(out, in, section, 1.25 * s * sqrt(s) + (initial ? 0.0 : 50.0 * pow(s, 6.0)));
+  c.width = in->variant == SB_LINDLEY_SIMPLE_WIDTH ? 2.4 * s * section->diameter
+            : in->variant == SB_LINDLEY_KURAN      ? 2.5 * s * section->diameter
                                                    : c.width;
   return c;
 }
 
-static Contact green_english(SbFit *out, const SbFitProblem *in) {
+static Contact green_english(SbFit *out, const SbFitProblem *in, const Section *section) {
   static const struct {
     double a, b, c, n, s_max;
   } rows[SB_GREEN_ENGLISH_COUNT] = {
@@ -112,16 +137,16 @@ static Contact green_english(SbFit *out, const SbFitProblem *in) {
       [SB_GREEN_ENGLISH_RADIAL_RESTRAINED] = {1.7673, 1.38755, 948.475, 5.32269, 0.10},
       [SB_GREEN_ENGLISH_PLANE_RESTRAINED] = {1.55365, 1.38072, 530.577, 5.13163, 0.10},
   };
-  const double s = out->squeeze;
+  const double s = section->squeeze;
   const double s_max = rows[in->variant].s_max;
-  check_squeeze(out, "green-english-squeeze", 0.0, s_max, "this row of Green and English");
-  return of_load_factor(out, in,
+  check_squeeze(out, section, "green-english-squeeze", 0.0, s_max, "this row of Green and English");
+  return of_load_factor(out, in, section,
                         rows[in->variant].a * pow(s, rows[in->variant].b) +
                             rows[in->variant].c * pow(s, rows[in->variant].n));
 }
 
 SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report) {
-  static Contact (*const model[])(SbFit *, const SbFitProblem *) = {
+  static Contact (*const model[])(SbFit *, const SbFitProblem *, const Section *) = {
       [SB_FIT_KARASZKIEWICZ] = karaszkiewicz,
       [SB_FIT_HERTZ] = hertz,
       [SB_FIT_LINDLEY] = lindley,
@@ -131,16 +156,18 @@ SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report) {
   // Closed forms hold to rounding and have no unknowns.
   out->solver.converged = true;
   sb_fit_errors(out, 16.0 * DBL_EPSILON, 16.0 * DBL_EPSILON, 16.0 * DBL_EPSILON);
-  if (!(out->squeeze > 0.0)) {
+  const double diameter = in->fitted_section ? out->section_diameter_fitted : in->section_diameter;
+  const Section section = {diameter, (diameter - in->radial_space) / diameter};
+  if (!(diameter > in->radial_space)) {
     sb_warn(&out->warnings, "no-contact", "seal.section_diameter",
-            "the ring does not touch the bore (squeeze %.3g %%): load 0", 100.0 * out->squeeze);
+            "the ring does not touch the bore (squeeze %.3g %%): load 0", 100.0 * section.squeeze);
     return sb_succeed(report);
   }
-  const Contact c = model[in->model](out, in);
-  if (c.width >= in->section_diameter && in->model == SB_FIT_HERTZ) {
+  const Contact c = model[in->model](out, in, &section);
+  if (c.width >= diameter && in->model == SB_FIT_HERTZ) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.radial_space",
                              "a squeeze of %.3g %% makes Hertz's contact wider than the disc",
-                             100.0 * out->squeeze);
+                             100.0 * section.squeeze);
   }
   if (in->pressure != 0.0 && in->model != SB_FIT_KARASZKIEWICZ) {
     sb_warn(&out->warnings, "pressure-ignored", "canister.pressure",

@@ -25,9 +25,12 @@
 //   b = sqrt(8 w R/(pi E')),  approach = (2 w/(pi E_d)) [2 ln(4 R/b) - 1],  E_d = E/(1 - nu^2)
 //   with b the half-width; valid while b is small against R, 8 % low in load at s = 0.155.
 //
-// The pressure is Hertz's ellipse of width and load. All leave out stretch on the stem, groove
-// walls and sliding, all but the first the fluid's pressure.
+// The pressure is Hertz's ellipse of width and load. d and s are those of the free section, or of
+// the section after stretch (SbFitProblem.fitted_section). All leave out groove walls and sliding,
+// all but the first the fluid's pressure.
 #pragma once
+
+#include "engine/contact/fit.h"
 
 typedef enum {
   SB_LINDLEY_EXTENDED,
@@ -61,3 +64,12 @@ double sb_hertz_half_width(double load_per_length, double radius, double reduced
 // Half-width over radius of Hertz's disc between flats that approach by `approach` > 0 over the
 // radius, `stiffness` being 4 E_d/E'; 1 where the contact would be as wide as the disc or wider.
 double sb_hertz_width_of_approach(double approach, double stiffness);
+
+// Interference [m], diametral, of a stretched round ring with the bore: its section shrinks, and
+// the hoop tension flattens it on the groove floor.
+//   d (1 - nu e) - delta - g,  e = (D - g)/(ID + d) - 1
+//   delta = w/(pi E_d) [2 ln(4 R/b) - 1],  w = E e A/((D - g)/2),  A = (pi/4) d^2 (1 - 2 nu e)
+// delta is half of Hertz's approach above, on a rigid floor, b and R those of the shrunk section.
+// Negative: the ring does not reach the bore. An estimate for e below some 0.25: solved rings of
+// the thesis' section lose contact at an interference of -0.02 mm to 0 by this formula (test).
+double sb_interference_on_floor(const SbFitProblem *problem);

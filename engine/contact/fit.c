@@ -161,6 +161,24 @@ void sb_fit_errors(SbFit *out, double load, double peak, double width) {
   out->solver.error_estimate.contact_width = width;
 }
 
+// Closed forms and discs know the stretch on the groove floor as a shrunk section at most; the ring
+// solves it. Without contact there is no figure to warn of.
+static void judge_stretch(SbFit *out, const SbFitProblem *in) {
+  const double unstretched = in->section_diameter - in->radial_space;
+  const double moved = in->section_diameter - out->section_diameter_fitted;
+  if (in->model == SB_FIT_RING || in->gasket || !out->touches ||
+      !(fabs(moved) > SB_FIT_STRETCH_MAX * fabs(unstretched))) {
+    return;
+  }
+  const bool disc = in->model == SB_FIT_DISC || in->model == SB_FIT_DISC_THESIS;
+  sb_warn(&out->warnings, "stretch-interference", "seal.inner_diameter",
+          "stretch moves the interference from %.3g to %.3g mm (%+.3g %%): %s %s",
+          1e3 * unstretched, 1e3 * out->interference, -100.0 * moved / fabs(unstretched),
+          sb_fit_model_name(in->model),
+          disc || in->fitted_section ? "takes a section that shrinks and stays round"
+                                     : "ignores it (models.section = fitted does not)");
+}
+
 // Any warning but that of a ring that does not touch means that a model is outside its range.
 static void judge_validity(SbFit *out) {
   out->valid = true;
@@ -180,6 +198,7 @@ SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report)
   }
   fill_sizes(out, problem);
   status = models[problem->model].solve(out, problem, report);
+  judge_stretch(out, problem);
   judge_validity(out);
   out->valid = out->valid && status == SB_OK;
   out->solver.wall_s = sb_clock_seconds() - start;

@@ -10,6 +10,8 @@
 // Of a gasket squeeze is its crimp, stretch_inner that of its bore and interference the stem's
 // diameter less the bore's; what only a ring on a floor has is NaN.
 //   gland_fill free ring volume / gland volume = (pi/4) d^2 (ID + d)/(g (D - g) gland width).
+// Every model but the ring warns ("stretch-interference") where stretch moves the interference by
+// more than SB_FIT_STRETCH_MAX of its unstretched value d - g.
 // Load is the integral of the contact pressure over the closed contact (the fluid's share
 // included); load = load_per_length x circumference, and circumference is pi (ID + d) for the
 // closed forms, pi (D - g) for the discs, pi D for the ring. Frictionless; pressure acts from x <
@@ -73,8 +75,11 @@ typedef struct {
   double wall_draft, groove_corner, groove_chamfer; // of the ring alone: SbRingLoad's [rad, m, m]
   double land_diameter;                             // of the stem beside the groove [m]
   const SbGrooveDrawing *groove; // drawn, instead of those; borrowed; NULL: there is none
-  double pressure;               // pressure difference [Pa]; positive on the left (x < 0)
-  double tolerance;              // relative, wanted of load, peak and width; 0: 1e-3
+  // Of closed forms alone: they squeeze the section after stretch, section_diameter_fitted, not the
+  // free one. The discs always do.
+  bool fitted_section;
+  double pressure;  // pressure difference [Pa]; positive on the left (x < 0)
+  double tolerance; // relative, wanted of load, peak and width; 0: 1e-3
   // Of the ring alone: a flat gasket, clamped between plates `gland_width` apart that rub with
   // wall_friction, on a stem of bore_diameter in its free bore of inner_diameter; its section's
   // axial height is its thickness, section_diameter its radial extent. radial_space is then unused.
@@ -169,6 +174,10 @@ typedef struct {
 
 // Largest friction of a drag.
 #define SB_FIT_DRAG_MAX 2.0
+
+// Change of the interference by stretch, relative, that closed forms and discs leave without a
+// warning.
+#define SB_FIT_STRETCH_MAX 0.03
 
 // Solves the problem. SB_ERROR_RANGE or SB_ERROR_INPUT with the catalogue key
 // (seal.section_diameter, gland.radial_space, bore.diameter ...) for input that is not physical;

@@ -320,6 +320,7 @@ static void guess(SbSlidingLaw *law, const SbSlidingTask *task, SbSlidingFitment
   *law = (SbSlidingLaw){0};
   sb_model_fit_problem(&fit, task->model, task->seal, task->pressure.left - task->pressure.right);
   fit.model = SB_FIT_KARASZKIEWICZ;
+  fit.fitted_section = false; // the formula's own range
   sb_sliding_clear(&state);
   if (sb_fit_solve(&on->fit, &fit, NULL) != SB_OK || !on->fit.touches) {
     return;

@@ -9,6 +9,7 @@ void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, dou
       .model = model->fit,
       .profile = sb_model_profile(model, seal),
       .variant = model->fit_variant,
+      .fitted_section = model->fitted_section,
       .section_diameter = ring->section_diameter,
       .inner_diameter = ring->inner_diameter,
       .modulus = ring->modulus,

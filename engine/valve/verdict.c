@@ -7,6 +7,7 @@
 // return, which need none.
 #include "engine/valve/figures.h"
 
+#include "engine/contact/closed_forms.h"
 #include "engine/valve/model.h"
 
 #include <math.h>
@@ -66,6 +67,18 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
     snprintf(out.reason, sizeof out.reason,
              "the %s seal's peak pressure of %.4g MPa is not above the fluid's %.4g MPa",
              sb_seal_name(seal), 1e-6 * of->pressure_peak, 1e-6 * out.limit);
+  }
+  // A model that does not solve the stretch cannot say that a ring seals which by the estimate does
+  // not reach the bore.
+  SbFitProblem problem;
+  sb_model_fit_problem(&problem, model, seal, 0);
+  const double left = sb_interference_on_floor(&problem);
+  if (out.ok == SB_ANSWER_YES && model->fit != SB_FIT_RING && !(left > 0)) {
+    out.ok = SB_ANSWER_UNKNOWN;
+    snprintf(out.reason, sizeof out.reason,
+             "uncertain: stretched onto its groove floor the %s ring stays an estimated %.2g mm "
+             "short of the bore, which models.fit = %s cannot judge (ring can)",
+             sb_seal_name(seal), -1e3 * left, sb_fit_model_name(model->fit));
   }
   // A section that jams holds the stem; one that rolls seals, and is told.
   const SbContacts *contact = &summary->contact[seal];

@@ -38,9 +38,70 @@ static void test_karaszkiewicz_tables(void) {
     assert_close(fit.contact_width, 1e-3 * row[i].width_mm, 1e-4);
     assert_close(fit.load, row[i].load, 1e-4);
     assert_close(fit.pressure_peak, row[i].peak, 1e-6);
-    g_assert_true(fit.valid && fit.touches && fit.solver.converged);
-    g_assert_cmpuint(fit.warnings.count, ==, 0);
+    g_assert_true(!fit.valid && fit.touches && fit.solver.converged);
+    g_assert_cmpuint(fit.warnings.count, ==, 1);
+    g_assert_true(warned(&fit.warnings, "stretch-interference"));
   }
+}
+
+// Each closed form on the fitted section is that form on an unstretched ring of this section. With
+// an inner diameter of 2.4 mm the solved ring carries 0.847 N (docs/verification.md): the free
+// section gives six times this load, the fitted one less than three times.
+static void test_fitted_section(void) {
+  for (int m = SB_FIT_KARASZKIEWICZ; m <= SB_FIT_GREEN_ENGLISH; m++) {
+    SbFitProblem in = thesis((SbFitModel)m);
+    in.inner_diameter = 2.4e-3;
+    SbFit free, fitted, round;
+    g_assert_cmpint(sb_fit_solve(&free, &in, NULL), ==, SB_OK);
+    in.fitted_section = true;
+    g_assert_cmpint(sb_fit_solve(&fitted, &in, NULL), ==, SB_OK);
+    in.fitted_section = false;
+    in.section_diameter = fitted.section_diameter_fitted;
+    in.inner_diameter = in.bore_diameter - in.radial_space - in.section_diameter;
+    g_assert_cmpint(sb_fit_solve(&round, &in, NULL), ==, SB_OK);
+    g_assert_cmpfloat(free.load, >, 4 * 0.847);
+    g_assert_cmpfloat(fitted.load, <, 3 * 0.847);
+    assert_close(fitted.load_per_length, round.load_per_length, 1e-12);
+    assert_close(fitted.contact_width, round.contact_width, 1e-12);
+    g_assert_true(warned(&free.warnings, "stretch-interference"));
+    g_assert_true(warned(&fitted.warnings, "stretch-interference"));
+    g_assert_false(warned(&round.warnings, "stretch-interference"));
+  }
+}
+
+// The warning begins at 3 % of the unstretched interference, for stretch and for compression alike;
+// the ring solves its stretch.
+static void test_stretch_warning(void) {
+  const double limit = 0.03 * 0.25e-3; // of d - g
+  for (int sign = -1; sign <= 1; sign += 2) {
+    for (int beyond = 0; beyond < 2; beyond++) {
+      SbFitProblem in = thesis(SB_FIT_KARASZKIEWICZ);
+      const double moved = sign * limit * (beyond ? 1.01 : 0.99);
+      const double stretch = moved / (in.poisson_ratio * in.section_diameter);
+      in.inner_diameter =
+          (in.bore_diameter - in.radial_space) / (1 + stretch) - in.section_diameter;
+      SbFit fit;
+      g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+      g_assert_cmpint(warned(&fit.warnings, "stretch-interference"), ==, beyond);
+      in.model = SB_FIT_DISC;
+      g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
+      g_assert_cmpint(warned(&fit.warnings, "stretch-interference"), ==, beyond);
+    }
+  }
+}
+
+// The estimate of when a stretched ring leaves the bore, against solved rings: those of the thesis'
+// section do between inner diameters of 2.26 and 2.28 mm (sealbench fit --model ring), where the
+// estimate is within the 0.02 mm that the header states; the thesis' own ring is far from it.
+static void test_interference_on_floor(void) {
+  SbFitProblem in = thesis(SB_FIT_KARASZKIEWICZ);
+  g_assert_cmpfloat(sb_interference_on_floor(&in), >, 0.15e-3);
+  in.inner_diameter = 2.27e-3;
+  const double left = sb_interference_on_floor(&in);
+  g_assert_cmpfloat(left, <, 0);
+  g_assert_cmpfloat(left, >, -0.025e-3);
+  in.inner_diameter = in.bore_diameter - in.radial_space - in.section_diameter; // no stretch
+  assert_close(sb_interference_on_floor(&in), 0.25e-3, 1e-12);
 }
 
 // The profile carries the load and reaches the peak: trapezium rule in the angle of its points.
@@ -227,6 +288,7 @@ static void test_warnings(void) {
     in.pressure = 1e6 * row[i].p_mpa;
     in.variant = row[i].variant;
     in.poisson_ratio = row[i].poisson > 0.0 ? row[i].poisson : in.poisson_ratio;
+    in.inner_diameter = in.bore_diameter - in.radial_space - in.section_diameter; // no stretch
     SbFit fit;
     g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
     g_assert_cmpint(fit.valid, ==, row[i].code == NULL);
@@ -332,6 +394,9 @@ int main(int argc, char **argv) {
   g_test_add_func("/elastic/karaszkiewicz/tables", test_karaszkiewicz_tables);
   g_test_add_func("/elastic/fit/profile", test_profile);
   g_test_add_func("/elastic/fit/sizes", test_sizes);
+  g_test_add_func("/elastic/fit/fitted-section", test_fitted_section);
+  g_test_add_func("/elastic/fit/stretch-warning", test_stretch_warning);
+  g_test_add_func("/elastic/fit/interference-on-floor", test_interference_on_floor);
   g_test_add_func("/elastic/hertz", test_hertz);
   g_test_add_func("/elastic/lindley", test_lindley);
   g_test_add_func("/elastic/green-english", test_green_english);

@@ -124,6 +124,7 @@ static void test_sets(void) {
     double thesis, consistent;
   } rows[] = {
       {SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ, SB_FIT_RING},
+      {SB_P_MODELS_SECTION, 0, 1},
       {SB_P_MODELS_FILM, SB_FILM_THESIS, SB_FILM_REYNOLDS},
       {SB_P_MODELS_SURFACE, 0, 1},
       {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_BESIDE, SB_MODEL_ASPERITIES_COUPLED},
