@@ -8,7 +8,8 @@ typedef enum {
   SB_APP_ERROR_INPUT,
   SB_APP_ERROR_IO,
   SB_APP_ERROR_CANCELLED,
-  SB_APP_ERROR_NOT_CONVERGED
+  SB_APP_ERROR_NOT_CONVERGED,
+  SB_APP_ERROR_CHANGED // another program has changed the file
 } SbAppError;
 #define SB_APP_ERROR (sb_app_error_quark())
 GQuark sb_app_error_quark(void);

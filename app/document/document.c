@@ -55,6 +55,8 @@ void sb_document_free(SbDocument *document) {
   sb_named_rubber_release(document->saved_rubber);
   sb_model_data_release(document->data);
   g_free(document->text);
+  sb_file_stamp_finish(&document->disk);
+  sb_file_stamp_finish(&document->valve_disk);
   g_ptr_array_unref(document->entries);
   g_array_unref(document->edits);
   g_ptr_array_unref(document->notes);
@@ -264,6 +266,7 @@ static void read_valve(SbDocument *document, const char *directory, const char *
     }
     return;
   }
+  sb_file_stamp_set(&document->valve_disk, document->valve_path, text, length);
   GPtrArray *entries = sb_reader_scan(text, length, document->valve_path, issues);
   SbDocumentKind kind = SB_DOCUMENT_VALVE;
   if (issues->len == before && read_meta(&kind, entries, document->valve_path, issues) &&
@@ -389,6 +392,7 @@ SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
                                  : sb_document_parse(text, length, name, directory, issues);
   if (document != NULL && !picture && !stream) {
     document->path = g_strdup(path);
+    sb_file_stamp_set(&document->disk, path, text, length);
     sb_document_refresh_title(document);
   }
   g_free(directory);

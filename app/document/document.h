@@ -215,7 +215,8 @@ enum {
   SB_DOCUMENT_RUBBER = SB_PARAM_COUNT,
   SB_DOCUMENT_MEASURED,
   SB_DOCUMENT_SECTION,
-  SB_DOCUMENT_GROOVE
+  SB_DOCUMENT_GROOVE,
+  SB_DOCUMENT_WHOLE // everything, document_disk.h
 };
 int sb_document_undo(SbDocument *document);
 int sb_document_redo(SbDocument *document);

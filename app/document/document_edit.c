@@ -1,5 +1,6 @@
 // Edits of a document: values set by text, by number and by --set, and the list of edits that undo
 // and redo walk along. Only the document's own layer changes; what lies below stays.
+#include "app/document/document_disk.h"
 #include "app/document/document_private.h"
 
 #include <string.h>
@@ -32,6 +33,10 @@ void sb_document_data_saved(SbDocument *document) {
 
 // Puts one side of an edit in force.
 static void apply(SbDocument *document, const Edit *edit, int side) {
+  if (edit->id == SB_DOCUMENT_WHOLE) {
+    sb_document_exchange(document, edit->whole);
+    return;
+  }
   if (edit->id == SB_DOCUMENT_RUBBER) {
     sb_document_put_rubber(document, &document->own_rubber,
                            sb_named_rubber_hold(edit->rubber[side]));
@@ -80,6 +85,7 @@ void sb_document_clear_edit(gpointer data) {
   Edit *edit = data;
   sb_named_rubber_release(edit->rubber[0]);
   sb_named_rubber_release(edit->rubber[1]);
+  sb_document_free(edit->whole);
   for (int side = 0; side < 2; side++) {
     sb_data_free(edit->measured[side]);
     sb_named_drawing_free(edit->drawing[side]);
@@ -93,6 +99,10 @@ static void record(SbDocument *document, Edit edit) {
   document->done++;
   document->mergeable = false;
   apply(document, &edit, 1);
+}
+
+void sb_document_become(SbDocument *document, SbDocument *other) {
+  record(document, (Edit){.id = SB_DOCUMENT_WHOLE, .whole = other});
 }
 
 void sb_document_put_data(SbDocument *document, SbData *data) {

@@ -8,6 +8,8 @@
 #include "app/document/document.h"
 #include "engine/valve/sealbench.h"
 
+#include <sys/stat.h>
+
 #define SB_META_GROUP   "sealbench"
 #define SB_LIMITS_GROUP "limits"
 #define SB_CASES_GROUP  "cases"
@@ -50,6 +52,16 @@ typedef struct {
   SbRubberSheet sheet;
 } SbNamedRubber;
 
+// A file as it was when it was last read or written (document_disk.c). All zero: there was none.
+typedef struct {
+  char *sha256; // of its bytes
+  bool seen;    // the rest is known
+  dev_t device;
+  ino_t inode;
+  off_t size;
+  struct timespec time; // of the last change
+} SbFileStamp;
+
 typedef struct {
   int id;        // of a parameter, or SB_DOCUMENT_RUBBER and on
   bool joined;   // one step with the edit before
@@ -58,6 +70,7 @@ typedef struct {
   SbNamedRubber *rubber[2];   // held; NULL: none of its own
   SbData *measured[2];        // owned; NULL: none
   SbNamedDrawing *drawing[2]; // owned
+  SbDocument *whole;          // owned: what takes the place of the document's content, and back
 } Edit;
 
 struct SbDocument {
@@ -76,6 +89,7 @@ struct SbDocument {
   SbNamedRubber *base_rubber, *own_rubber, *saved_rubber; // as the params; NULL: none
   SbModelData *data;                  // what files brought, and rubber, for its models; NULL: none
   char *text;                         // of the file as last read or written
+  SbFileStamp disk, valve_disk;       // its file, and that of its valve
   GPtrArray *entries;                 // of that text
   SbParams base;                      // what the valve gives (scenes)
   SbParams own;                       // what the document gives
@@ -93,6 +107,14 @@ struct SbDocument {
   bool mergeable;                     // the last edit may swallow the next one of its key
   unsigned serial;
 };
+
+// Notes that the bytes of `path` are `text`; call it right after they were read or written. Frees
+// what a stamp holds.
+void sb_file_stamp_set(SbFileStamp *stamp, const char *path, const char *text, size_t length);
+void sb_file_stamp_finish(SbFileStamp *stamp);
+
+// Swaps everything but the edits of two documents.
+void sb_document_exchange(SbDocument *a, SbDocument *b);
 
 // The key's index, or -1.
 int sb_document_find_file(const char *key);

@@ -310,6 +310,7 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
   }
   g_free(document->text);
   document->text = text;
+  sb_file_stamp_set(&document->disk, path, text, strlen(text));
   GPtrArray *none = sb_issues_new();
   g_ptr_array_unref(document->entries);
   document->entries = sb_reader_scan(text, strlen(text), path, none);

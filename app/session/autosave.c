@@ -1,5 +1,6 @@
 // Keeping unsaved changes. See autosave.h. A file's first line is a comment with the path of the
-// document (nothing for one without a name), the rest is its text with the changes. It is locked
+// document (nothing for one without a name), the second one the length of that file's text when it
+// was read; then come that text and the document's text with the changes. It is locked
 // while the process that wrote it lives, wherever that runs.
 #include "app/session/autosave.h"
 
@@ -42,7 +43,9 @@ void sb_autosave_write(SbAutosave *autosave) {
   const char *path = sb_document_path(document);
   g_autofree char *whole = path != NULL ? g_canonicalize_filename(path, NULL) : g_strdup("");
   g_autofree char *text = sb_document_to_text(document, NULL);
-  g_autofree char *content = g_strdup_printf("# %s\n%s", whole, text);
+  const char *base = path != NULL ? sb_document_file_text(document) : "";
+  g_autofree char *content =
+      g_strdup_printf("# %s\n# base %zu\n%s%s", whole, strlen(base), base, text);
   g_autofree char *in = g_path_get_dirname(autosave->path);
   // Where this is not possible (no home, full disk) the work goes on without a net.
   g_mkdir_with_parents(in, 0700);
@@ -85,16 +88,42 @@ char *sb_autosave_find(void) {
   return NULL;
 }
 
-char *sb_autosave_read(char **path, const char *file) {
+gboolean sb_autosave_read(SbUnsaved *out, const char *file) {
+  static const char base[] = "# base ";
   g_autofree char *content = NULL;
   char *end = NULL;
+  *out = (SbUnsaved){0};
   if (!g_file_get_contents(file, &content, NULL, NULL) || !g_str_has_prefix(content, "# ") ||
       (end = strchr(content, '\n')) == NULL) {
-    return NULL;
+    return FALSE;
   }
-  *end = '\0';
-  *path = content[2] != '\0' ? g_strdup(content + 2) : NULL;
-  return g_strdup(end + 1);
+  *end++ = '\0';
+  out->path = content[2] != '\0' ? g_strdup(content + 2) : NULL;
+  if (g_str_has_prefix(end, base)) { // version 0.1 wrote none
+    char *text = NULL;
+    const guint64 length = g_ascii_strtoull(end + strlen(base), &text, 10);
+    if (*text != '\n' || length > strlen(text + 1)) {
+      sb_unsaved_clear(out);
+      return FALSE;
+    }
+    out->base = length > 0 ? g_strndup(text + 1, length) : NULL;
+    end = text + 1 + length;
+  }
+  out->text = g_strdup(end);
+  return TRUE;
+}
+
+void sb_unsaved_clear(SbUnsaved *unsaved) {
+  g_free(unsaved->path);
+  g_free(unsaved->base);
+  g_free(unsaved->text);
+  *unsaved = (SbUnsaved){0};
+}
+
+gboolean sb_unsaved_is_outdated(const SbUnsaved *unsaved) {
+  g_autofree char *now = NULL;
+  return unsaved->path != NULL && unsaved->base != NULL &&
+         (!g_file_get_contents(unsaved->path, &now, NULL, NULL) || strcmp(now, unsaved->base) != 0);
 }
 
 SbAutosave *sb_autosave_new(SbSession *session) {

@@ -23,6 +23,17 @@ void sb_autosave_free(SbAutosave *autosave);
 // A file that a process which no longer runs has left behind, or NULL. Owned by the caller.
 char *sb_autosave_find(void);
 
-// The document's text in such a file, and the path of the document (NULL: it had none), both owned
-// by the caller; NULL where it is no such file.
-char *sb_autosave_read(char **path, const char *file);
+// What such a file holds. Release with sb_unsaved_clear().
+typedef struct {
+  char *path; // of the document; NULL: it was never saved
+  char *base; // text of that file when the document was read; NULL: none, or not known
+  char *text; // of the document with its unsaved changes
+} SbUnsaved;
+
+// FALSE, and nothing in *out, where `file` cannot be read or is not such a file.
+gboolean sb_autosave_read(SbUnsaved *out, const char *file);
+void sb_unsaved_clear(SbUnsaved *unsaved);
+G_DEFINE_AUTO_CLEANUP_CLEAR_FUNC(SbUnsaved, sb_unsaved_clear)
+
+// Returns whether the document's file is not `base` any more: another program has changed it since.
+gboolean sb_unsaved_is_outdated(const SbUnsaved *unsaved);

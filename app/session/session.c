@@ -90,9 +90,10 @@ const SbDocument *sb_session_document(SbSession *session) {
   return session->document;
 }
 
-static void replace_document(SbSession *session, SbDocument *document) {
+void sb_session_replace_document(SbSession *session, SbDocument *document) {
   sb_document_free(session->document);
   session->document = document;
+  session->disk = SB_DISK_SAME;
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     forget_rejected(session, id);
   }
@@ -107,65 +108,12 @@ gboolean sb_session_open(SbSession *session, const char *path, GPtrArray *issues
   if (document == NULL) {
     return FALSE;
   }
-  replace_document(session, document);
-  return TRUE;
-}
-
-gboolean sb_session_restore(SbSession *session, const char *path, const char *text,
-                            GPtrArray *issues) {
-  g_autoptr(SbDocument) document =
-      path != NULL ? sb_document_load(path, issues) : sb_document_new();
-  g_autofree char *folder = path != NULL ? g_path_get_dirname(path) : NULL;
-  g_autoptr(SbDocument) changed_one = NULL;
-  if (document != NULL) {
-    const char *name = path != NULL ? path : _("the unsaved changes");
-    changed_one = sb_document_parse(text, strlen(text), name, folder, issues);
-  }
-  if (changed_one == NULL) {
-    return FALSE;
-  }
-  const char *rubber =
-      sb_document_gives_rubber(changed_one) ? sb_document_rubber(changed_one) : NULL;
-  if (!sb_document_set_rubber(document, rubber, issues)) {
-    return FALSE;
-  }
-  for (int i = 0; i < SB_PARAM_COUNT; i++) {
-    SbParamId id = (SbParamId)i;
-    double value = sb_document_value(changed_one, id);
-    bool given = sb_document_gives(document, id);
-    if (sb_document_gives(changed_one, id)) {
-      if (!given || sb_document_value(document, id) != value) {
-        // A value of one document is one of the other's.
-        g_warn_if_fail(sb_document_set_value(document, id, value, false, NULL));
-      }
-    } else if (given) {
-      sb_document_unset(document, id);
-    }
-  }
-  const bool measured = sb_document_data_count(changed_one) > 0;
-  const SbData *now = measured ? sb_document_data(changed_one, 0) : NULL;
-  if (!sb_data_same(now,
-                    sb_document_data_count(document) > 0 ? sb_document_data(document, 0) : NULL)) {
-    sb_document_put_data(document, measured ? sb_data_copy(now) : NULL);
-  }
-  sb_document_take_pins(document, changed_one);
-  sb_document_take_remarks(document, changed_one);
-  replace_document(session, g_steal_pointer(&document));
-  return TRUE;
-}
-
-gboolean sb_session_save(SbSession *session, const char *path, GError **error) {
-  const char *target = path != NULL ? path : sb_document_path(session->document);
-  if (!sb_document_save(session->document, target, error)) {
-    return FALSE;
-  }
-  sb_session_refresh_chart(session); // the title may be the file's name
-  sb_session_emit(session, SB_SIGNAL_PARAMS);
+  sb_session_replace_document(session, document);
   return TRUE;
 }
 
 void sb_session_reset(SbSession *session) {
-  replace_document(session, sb_document_new());
+  sb_session_replace_document(session, sb_document_new());
 }
 
 void sb_session_set_camera(SbSession *session, double azimuth, double elevation) {
@@ -246,7 +194,9 @@ static int changed_by(SbSession *session, int id) {
   if (parameter) {
     forget_rejected(session, id);
   }
-  if (id == SB_DOCUMENT_MEASURED) {
+  if (id == SB_DOCUMENT_WHOLE) {
+    sb_session_whole_changed(session);
+  } else if (id == SB_DOCUMENT_MEASURED) {
     sb_session_read_measured(session);
     sb_session_run_changed(session);
     sb_session_emit(session, SB_SIGNAL_PARAMS);

@@ -11,7 +11,7 @@
 
 #include "app/chart/data.h"
 #include "app/data/measured.h"
-#include "app/document/document.h"
+#include "app/document/document_disk.h"
 #include "app/run/runner.h"
 #include "app/session/displayed_run.h"
 #include "engine/valve/sealbench.h"
@@ -42,14 +42,36 @@ const SbDocument *sb_session_document(SbSession *session);
 // SbIssue) says why; issues of a file that opened all the same are added as well.
 gboolean sb_session_open(SbSession *session, const char *path, GPtrArray *issues);
 
-// Opens `path` (NULL: an empty valve) and makes the changes that `text`, the same document with
-// changes, has against it: they are to be saved and can be undone. False with issues if either
-// cannot be read; the session stays as it is.
-gboolean sb_session_restore(SbSession *session, const char *path, const char *text,
-                            GPtrArray *issues);
+// Restores unsaved changes of an earlier process: opens `path` (NULL: an untitled valve) and makes
+// the changes that lead from `base`, the text of that file at the time, to `text`. `base` NULL: the
+// document becomes `text`. The changes are to be saved and can be undone. Where the file has
+// changed since and both changed one key, the restored value is used and a line is added to
+// `conflicts` (of char *; may be NULL). FALSE with issues if a text cannot be read; the session
+// stays as it is.
+gboolean sb_session_restore(SbSession *session, const char *path, const char *base,
+                            const char *text, GPtrArray *conflicts, GPtrArray *issues);
 
-// Writes the document to `path` (NULL: where it came from).
+// Writes the document to `path` (NULL: where it came from). SB_APP_ERROR_CHANGED, and nothing is
+// written, where that is the document's own file and another program has changed it since it was
+// read or saved: the user decides (sb_session_reload() and on). SB_APP_ERROR_IO.
 gboolean sb_session_save(SbSession *session, const char *path, GError **error);
+
+// The document's file on disk (app/document/document_disk.h): as the last check found it; checks it
+// now and emits "params-changed" where the state is another than before.
+SbDiskState sb_session_disk_state(SbSession *session);
+SbDiskState sb_session_check_disk(SbSession *session);
+
+// What the user can do about a file that another program changed. Each but the last is one step
+// that can be undone. FALSE: nothing has changed here, and issues or the error say why.
+//   reload:    the document becomes what the file says
+//   merge:     the same with the unsaved changes made in it, key by key; conflicts as above
+//   keep both: writes this version to a new file next to it, with which the document goes on; the
+//              file keeps the other version
+//   save over: writes this version over the other one
+gboolean sb_session_reload(SbSession *session, GPtrArray *issues);
+gboolean sb_session_merge(SbSession *session, GPtrArray *conflicts, GPtrArray *issues);
+gboolean sb_session_keep_both(SbSession *session, GError **error);
+gboolean sb_session_save_over(SbSession *session, GError **error);
 
 // A fresh untitled valve.
 void sb_session_reset(SbSession *session);

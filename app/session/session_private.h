@@ -27,6 +27,7 @@ struct _SbSession {
 
   // The document and what is wrong with its fields.
   SbDocument *document; // owned
+  SbDiskState disk;     // as sb_session_check_disk() last found it
   char *rejected[SB_PARAM_COUNT];
   char *error[SB_PARAM_COUNT];
   int last_edited; // parameter, or -1
@@ -89,6 +90,12 @@ struct _SbSession {
   SbChartMarker *markers; // owned: the document's bookmarks, for the chart
   char *hash;
 };
+
+// Takes another document (taken over) in the place of the present one, whose history ends.
+void sb_session_replace_document(SbSession *session, SbDocument *document);
+
+// All of the document is another, by a step that can be undone.
+void sb_session_whole_changed(SbSession *session);
 
 void sb_session_emit(SbSession *session, SbSessionSignal signal);
 

@@ -24,6 +24,11 @@ static void say_issues(SbBench *bench, const GPtrArray *issues) {
   }
 }
 
+static void open_popup(SbBench *bench, SbPopup popup) {
+  bench->popup = popup;
+  bench->popup_scroll = 0;
+}
+
 static bool save(SbBench *bench, const char *path) {
   g_autoptr(GError) error = NULL;
   const SbDocument *document = sb_session_document(bench->session);
@@ -32,6 +37,10 @@ static bool save(SbBench *bench, const char *path) {
     return false;
   }
   if (!sb_session_save(bench->session, path, &error)) {
+    if (error->code == SB_APP_ERROR_CHANGED) {
+      open_popup(bench, SB_POPUP_DISK);
+      return false;
+    }
     sb_bench_say(bench, true, "%s", error->message);
     return false;
   }
@@ -129,11 +138,75 @@ static void type_key(SbBench *bench, const SbKey *key) {
 
 // Over the page ----------------------------------------------------------------------------------
 
-static void restore(SbBench *bench) {
-  g_autofree char *path = NULL;
-  g_autofree char *text = sb_autosave_read(&path, bench->orphan);
+// What a merge could not decide by itself.
+static void say_conflicts(SbBench *bench, const GPtrArray *conflicts) {
+  if (conflicts->len > 0) {
+    sb_bench_say(bench, false, _("both versions changed %u values, yours are in force: %s"),
+                 conflicts->len, (char *)conflicts->pdata[0]);
+  }
+}
+
+// Reload, merge, keep both or overwrite, by the key's letter; others do nothing.
+static void resolve_disk(SbBench *bench, uint32_t key) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  if (text != NULL && sb_session_restore(bench->session, path, text, issues)) {
+  g_autoptr(GPtrArray) conflicts = g_ptr_array_new_with_free_func(g_free);
+  g_autoptr(GError) error = NULL;
+  bench->popup = SB_POPUP_NONE;
+  gboolean good = TRUE;
+  switch (key) {
+  case 'r':
+    good = sb_session_reload(bench->session, issues);
+    break;
+  case 'm':
+    good = sb_session_merge(bench->session, conflicts, issues);
+    break;
+  case 'b':
+    good = sb_session_keep_both(bench->session, &error);
+    break;
+  case 'o':
+    good = sb_session_save_over(bench->session, &error);
+    break;
+  default:
+    break;
+  }
+  bench->disk = sb_session_disk_state(bench->session);
+  if (error != NULL) {
+    sb_bench_say(bench, true, "%s", error->message);
+  } else if (!good) {
+    say_issues(bench, issues);
+  } else {
+    sb_bench_say(bench, false, _("the document is %s"),
+                 sb_document_path(sb_session_document(bench->session)));
+    say_conflicts(bench, conflicts);
+  }
+  sb_bench_list(bench);
+}
+
+// Asks about a file that another program has changed, once a change. A look costs a system call,
+// and is taken when a key is pressed after a pause.
+static void look_at_disk(SbBench *bench) {
+  enum { PAUSE = G_USEC_PER_SEC };
+  const gint64 now = g_get_monotonic_time();
+  if (now - bench->looked < PAUSE || bench->popup != SB_POPUP_NONE ||
+      bench->input != SB_INPUT_NONE) {
+    return;
+  }
+  bench->looked = now;
+  const SbDiskState state = sb_session_check_disk(bench->session);
+  if (state != bench->disk && (state == SB_DISK_CHANGED || state == SB_DISK_VALVE_CHANGED)) {
+    open_popup(bench, SB_POPUP_DISK);
+  }
+  bench->disk = state;
+}
+
+static void restore(SbBench *bench) {
+  g_auto(SbUnsaved) unsaved = {0};
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(GPtrArray) conflicts = g_ptr_array_new_with_free_func(g_free);
+  if (sb_autosave_read(&unsaved, bench->orphan) &&
+      sb_session_restore(bench->session, unsaved.path, unsaved.base, unsaved.text, conflicts,
+                         issues)) {
+    say_conflicts(bench, conflicts);
     // Another file is kept before the old one goes.
     sb_autosave_write(bench->autosave);
     g_unlink(bench->orphan);
@@ -158,6 +231,8 @@ static void popup_key(SbBench *bench, const SbKey *key) {
     } else {
       g_unlink(bench->orphan);
     }
+  } else if (popup == SB_POPUP_DISK && character != 0 && strchr("rmbo", (int)character) != NULL) {
+    resolve_disk(bench, character);
   } else if (popup == SB_POPUP_VERDICT && character >= '1' && character < '1' + SB_VERDICT_COUNT) {
     sb_verdict_show(bench->session, (int)(character - '1'));
   } else if (key->kind == SB_KEY_UP || key->kind == SB_KEY_WHEEL_UP) {
@@ -169,11 +244,6 @@ static void popup_key(SbBench *bench, const SbKey *key) {
   } else if (key->kind == SB_KEY_ESCAPE || key->kind == SB_KEY_ENTER || popup < SB_POPUP_QUIT) {
     bench->popup = SB_POPUP_NONE;
   }
-}
-
-static void open_popup(SbBench *bench, SbPopup popup) {
-  bench->popup = popup;
-  bench->popup_scroll = 0;
 }
 
 // Pages ------------------------------------------------------------------------------------------
@@ -471,6 +541,7 @@ void sb_bench_key(SbBench *bench, const SbKey *key) {
   if (bench->input == SB_INPUT_NONE) {
     g_clear_pointer(&bench->message, g_free);
   }
+  look_at_disk(bench);
   if (bench->popup != SB_POPUP_NONE) {
     popup_key(bench, key);
   } else if (bench->input != SB_INPUT_NONE) {

@@ -324,6 +324,14 @@ static char *popup_text(SbBench *bench, const char **title) {
     g_string_assign(text, _("Sealbench ended before they were saved.\n\ny  restore\nd  discard\n"
                             "Esc  later"));
     break;
+  case SB_POPUP_DISK:
+    *title = _("Another program has changed the file");
+    g_string_assign(text, _("r  reload: show the file, undo your changes\n"
+                            "m  merge the file's changes and yours, value by value\n"
+                            "b  keep both: your version becomes a new file next to it\n"
+                            "o  overwrite the file with your version\n"
+                            "Esc  decide later\n\nu takes back a reload or a merge."));
+    break;
   default:
     *title = "";
   }

@@ -39,7 +39,8 @@ typedef enum {
   SB_POPUP_VERDICT,
   SB_POPUP_WARNINGS,
   SB_POPUP_QUIT,
-  SB_POPUP_RESTORE
+  SB_POPUP_RESTORE,
+  SB_POPUP_DISK // another program has changed the file
 } SbPopup;
 
 enum { SB_HEADING_ROW = -1, SB_PLAY_S = 10 }; // the latter: one cycle
@@ -65,7 +66,9 @@ typedef struct {
   int popup_scroll;
   char *message; // of the last action; NULL: none
   bool message_fails;
-  char *orphan; // unsaved changes of another process, that are asked about
+  gint64 looked;    // at the file on disk [us]
+  SbDiskState disk; // as the user was last asked about it
+  char *orphan;     // unsaved changes of another process, that are asked about
 
   // The list.
   SbListKind list;

@@ -229,10 +229,10 @@ static void check_kept(void) {
   g_assert_true((name != NULL) == sb_session_is_modified(session));
   if (name != NULL) {
     g_autofree char *file = g_build_filename(in, name, NULL);
-    g_autofree char *path = NULL;
-    g_autofree char *kept = sb_autosave_read(&path, file);
+    g_auto(SbUnsaved) kept = {0};
+    g_assert_true(sb_autosave_read(&kept, file));
     g_autofree char *text = sb_document_to_text(sb_session_document(session), NULL);
-    g_assert_cmpstr(kept, ==, text);
+    g_assert_cmpstr(kept.text, ==, text);
   }
 }
 

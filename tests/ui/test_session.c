@@ -1,6 +1,7 @@
 // A session under a fast hand: values change while runs go, some of them out of range or not going
 // together, runs are stopped, the playhead moves, undo and redo walk back and forth. In the end the
 // shown run is that of the values in force. Needs no display.
+#include "app/session/autosave.h"
 #include "app/session/session.h"
 
 #include <glib/gstdio.h>
@@ -318,8 +319,207 @@ static void test_gone_while_running(void) {
   }
 }
 
+// Files of a test in a folder of their own.
+typedef struct {
+  char *folder, *valve, *scene;
+} Files;
+
+static const char scene_text[] = "# mine\n[sealbench]\nformat = 1\nkind = scene\nvalve = a.valve\n"
+                                 "\n[drive]\nspeed = 20 mm/min\n\n[seal]\nmodulus = 3 MPa\n";
+
+static void put(const char *path, const char *text) {
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+}
+
+static Files files_new(void) {
+  Files files = {.folder = g_dir_make_tmp("sealbench-disk-XXXXXX", NULL)};
+  files.valve = g_build_filename(files.folder, "a.valve", NULL);
+  files.scene = g_build_filename(files.folder, "a.scene", NULL);
+  put(files.valve, "[sealbench]\nformat = 1\nkind = valve\n\n[canister]\npressure = 0.5 MPa\n");
+  put(files.scene, scene_text);
+  return files;
+}
+
+static void files_finish(Files *files) {
+  g_autoptr(GDir) dir = g_dir_open(files->folder, 0, NULL);
+  const char *name;
+  while ((name = g_dir_read_name(dir)) != NULL) {
+    g_autofree char *path = g_build_filename(files->folder, name, NULL);
+    g_unlink(path);
+  }
+  g_rmdir(files->folder);
+  g_free(files->folder);
+  g_free(files->valve);
+  g_free(files->scene);
+}
+
+static char *contents(const char *path) {
+  char *text = NULL;
+  g_assert_true(g_file_get_contents(path, &text, NULL, NULL));
+  return text;
+}
+
+static double value(SbSession *session, SbParamId id) {
+  return sb_document_value(sb_session_document(session), id);
+}
+
+static const char theirs[] =
+    "# mine\n[sealbench]\nformat = 1\nkind = scene\nvalve = a.valve\n\n# theirs\n[drive]\n"
+    "speed = 30 mm/min\n\n[seal]\nmodulus = 4 MPa\n\n[gland]\nradial_space = 1.37 mm\n";
+
+// Opens the file, edits modulus and frames, lets another program write the file.
+static SbSession *conflict(const Files *files) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  put(files->scene, scene_text);
+  SbSession *session = sb_session_new();
+  sb_session_set_auto_run(session, FALSE);
+  g_assert_true(sb_session_open(session, files->scene, issues));
+  g_assert_cmpint(sb_session_check_disk(session), ==, SB_DISK_SAME);
+  sb_session_edit(session, SB_P_SEAL_MODULUS, "3.5 MPa");
+  sb_session_edit(session, SB_P_OUTPUT_FRAMES, "77");
+  put(files->scene, theirs);
+  return session;
+}
+
+// The version that was edited, with the file as it was read below it.
+static void assert_mine(SbSession *session) {
+  g_assert_cmpfloat_with_epsilon(value(session, SB_P_SEAL_MODULUS), 3.5e6, 1);
+  g_assert_cmpfloat_with_epsilon(value(session, SB_P_DRIVE_SPEED), 20e-3 / 60, 1e-9);
+  g_assert_cmpfloat(value(session, SB_P_OUTPUT_FRAMES), ==, 77);
+  g_assert_false(sb_document_gives(sb_session_document(session), SB_P_GLAND_RADIAL_SPACE));
+  g_assert_true(sb_session_is_modified(session));
+}
+
+// Saving never replaces what another program wrote, unless the user says so.
+static void test_save_refuses_a_changed_file(void) {
+  Files files = files_new();
+  g_autoptr(SbSession) session = conflict(&files);
+  g_autoptr(GError) error = NULL;
+  g_assert_false(sb_session_save(session, NULL, &error));
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_CHANGED);
+  g_autofree char *there = contents(files.scene);
+  g_assert_cmpstr(there, ==, theirs);
+  g_assert_cmpint(sb_session_disk_state(session), ==, SB_DISK_CHANGED);
+  assert_mine(session);
+  g_assert_true(sb_session_save_over(session, NULL));
+  g_assert_cmpint(sb_session_check_disk(session), ==, SB_DISK_SAME);
+  g_assert_true(sb_session_save(session, NULL, NULL));
+  // Another time, the same bytes: nothing has changed.
+  g_autofree char *mine = contents(files.scene);
+  put(files.scene, mine);
+  g_assert_cmpint(sb_session_check_disk(session), ==, SB_DISK_SAME);
+  g_assert_true(sb_session_save(session, NULL, NULL));
+  g_unlink(files.scene);
+  g_assert_cmpint(sb_session_check_disk(session), ==, SB_DISK_GONE);
+  g_assert_true(sb_session_save(session, NULL, NULL));
+  put(files.valve, "[sealbench]\nformat = 1\nkind = valve\n");
+  g_assert_cmpint(sb_session_check_disk(session), ==, SB_DISK_VALVE_CHANGED);
+  files_finish(&files);
+}
+
+// Reloading shows the file, merging makes the user's changes in it, and both are one step back.
+static void test_reload_and_merge(void) {
+  Files files = files_new();
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  for (int merge = 0; merge < 2; merge++) {
+    g_autoptr(SbSession) session = conflict(&files);
+    g_autoptr(GPtrArray) conflicts = g_ptr_array_new_with_free_func(g_free);
+    g_assert_true(sb_session_put_remark(session, SB_REMARK_NOTE, "valve", "mine", NULL));
+    g_assert_true(merge ? sb_session_merge(session, conflicts, issues)
+                        : sb_session_reload(session, issues));
+    g_assert_cmpint(sb_session_disk_state(session), ==, SB_DISK_SAME);
+    g_assert_cmpfloat_with_epsilon(value(session, SB_P_DRIVE_SPEED), 30e-3 / 60, 1e-9);
+    g_assert_cmpfloat_with_epsilon(value(session, SB_P_GLAND_RADIAL_SPACE), 1.37e-3, 1e-12);
+    g_assert_cmpfloat_with_epsilon(value(session, SB_P_SEAL_MODULUS), merge ? 3.5e6 : 4e6, 1);
+    g_assert_cmpint(sb_session_is_modified(session), ==, merge);
+    g_assert_cmpuint(conflicts->len, ==, merge);
+    if (merge) {
+      g_assert_cmpstr(conflicts->pdata[0], ==, "seal.modulus: 3.5 MPa (in the file: 4 MPa)");
+    }
+    const SbDocument *document = sb_session_document(session);
+    g_assert_cmpuint(sb_document_remark_count(document, SB_REMARK_NOTE), ==, merge);
+    for (int again = 0; again < 2; again++) {
+      g_assert_cmpint(sb_session_undo(session), ==, -1); // of no parameter
+      assert_mine(session);
+      g_assert_cmpuint(sb_document_remark_count(document, SB_REMARK_NOTE), ==, 1);
+      g_assert_cmpint(sb_session_disk_state(session), ==, SB_DISK_CHANGED);
+      sb_session_redo(session);
+      g_assert_cmpfloat_with_epsilon(value(session, SB_P_DRIVE_SPEED), 30e-3 / 60, 1e-9);
+    }
+    if (merge) {
+      g_assert_true(sb_session_save(session, NULL, NULL));
+      g_autofree char *text = contents(files.scene);
+      g_assert_nonnull(strstr(text, "# theirs\n[drive]\nspeed = 30 mm/min"));
+      g_assert_nonnull(strstr(text, "modulus = 3.5 MPa"));
+      g_assert_nonnull(strstr(text, "frames = 77"));
+      g_assert_nonnull(strstr(text, "radial_space = 1.37 mm"));
+    }
+    // Edits from before it can still be taken back.
+    sb_session_undo(session);
+    sb_session_undo(session);
+    g_assert_cmpfloat(value(session, SB_P_OUTPUT_FRAMES), !=, 77);
+  }
+  g_assert_cmpuint(issues->len, ==, 0);
+  files_finish(&files);
+}
+
+static void test_keep_both(void) {
+  Files files = files_new();
+  g_autoptr(SbSession) session = conflict(&files);
+  g_assert_true(sb_session_keep_both(session, NULL));
+  const SbDocument *document = sb_session_document(session);
+  g_assert_true(g_str_has_suffix(sb_document_path(document), "/a (2).scene"));
+  g_autofree char *there = contents(files.scene);
+  g_assert_cmpstr(there, ==, theirs);
+  g_autofree char *copy = contents(sb_document_path(document));
+  g_assert_nonnull(strstr(copy, "modulus = 3.5 MPa"));
+  g_assert_false(sb_session_is_modified(session));
+  g_assert_cmpint(sb_session_check_disk(session), ==, SB_DISK_SAME);
+  sb_session_undo(session);
+  assert_mine(session);
+  g_assert_cmpstr(sb_document_path(sb_session_document(session)), ==, files.scene);
+  g_assert_true(sb_session_keep_both(session, NULL));
+  g_assert_true(g_str_has_suffix(sb_document_path(sb_session_document(session)), "/a (3).scene"));
+  files_finish(&files);
+}
+
+// Unsaved changes are restored into what the file says by then.
+static void test_restore_into_a_changed_file(void) {
+  Files files = files_new();
+  SbSession *before = conflict(&files);
+  SbAutosave *autosave = sb_autosave_new(before);
+  sb_autosave_write(autosave);
+  g_autofree char *in = g_build_filename(g_get_user_data_dir(), "sealbench", "unsaved", NULL);
+  g_autoptr(GDir) dir = g_dir_open(in, 0, NULL);
+  g_autofree char *file = g_build_filename(in, g_dir_read_name(dir), NULL);
+  g_auto(SbUnsaved) unsaved = {0};
+  g_assert_true(sb_autosave_read(&unsaved, file));
+  g_assert_cmpstr(unsaved.path, ==, files.scene);
+  g_assert_cmpstr(unsaved.base, ==, scene_text);
+  g_assert_true(sb_unsaved_is_outdated(&unsaved));
+  sb_autosave_free(autosave);
+  g_object_unref(before);
+  g_autoptr(SbSession) session = sb_session_new();
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(GPtrArray) conflicts = g_ptr_array_new_with_free_func(g_free);
+  g_assert_true(
+      sb_session_restore(session, unsaved.path, unsaved.base, unsaved.text, conflicts, issues));
+  g_assert_cmpuint(conflicts->len, ==, 1);
+  g_assert_cmpfloat_with_epsilon(value(session, SB_P_SEAL_MODULUS), 3.5e6, 1);
+  g_assert_cmpfloat_with_epsilon(value(session, SB_P_DRIVE_SPEED), 30e-3 / 60, 1e-9);
+  g_assert_cmpfloat(value(session, SB_P_OUTPUT_FRAMES), ==, 77);
+  files_finish(&files);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
+  // Unsaved changes of these tests are not the user's.
+  g_autofree char *home = g_dir_make_tmp("sealbench-session-XXXXXX", NULL);
+  g_setenv("XDG_DATA_HOME", home, TRUE);
+  g_test_add_func("/session/save-refuses-a-changed-file", test_save_refuses_a_changed_file);
+  g_test_add_func("/session/reload-and-merge", test_reload_and_merge);
+  g_test_add_func("/session/keep-both", test_keep_both);
+  g_test_add_func("/session/restore-into-a-changed-file", test_restore_into_a_changed_file);
   g_test_add_func("/session/fast-edits", test_fast_edits);
   g_test_add_func("/session/playhead-keeps-its-place", test_playhead_keeps_its_place);
   g_test_add_func("/session/cancelled-before-the-first-frame",
@@ -329,5 +529,11 @@ int main(int argc, char **argv) {
   g_test_add_func("/session/another-document-forgets", test_another_document_forgets);
   g_test_add_func("/session/edit-before-the-first-frame", test_edit_before_the_first_frame);
   g_test_add_func("/session/gone-while-running", test_gone_while_running);
-  return g_test_run();
+  const int failed = g_test_run();
+  g_autofree char *sealbench = g_build_filename(home, "sealbench", NULL);
+  g_autofree char *unsaved = g_build_filename(sealbench, "unsaved", NULL);
+  g_rmdir(unsaved);
+  g_rmdir(sealbench);
+  g_rmdir(home);
+  return failed;
 }

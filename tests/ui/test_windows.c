@@ -14,6 +14,7 @@
 
 #include <glib/gstdio.h>
 #include <malloc.h>
+#include <unistd.h>
 
 enum { ROUNDS = 8, WARM_UP = 3 };
 
@@ -341,6 +342,51 @@ static void test_page_ends_with_its_calls(void) {
   }
 }
 
+static guint window_count(SbApplication *application) {
+  guint count = 0;
+  for (GList *item = gtk_application_get_windows(GTK_APPLICATION(application)); item != NULL;
+       item = item->next) {
+    count += SB_IS_WINDOW(item->data);
+  }
+  return count;
+}
+
+// A file that has a window is raised by a second start, by whatever path it names the file. The
+// window offers what to do once another program has written the file.
+static void test_a_file_has_one_window(void) {
+  g_autoptr(SbApplication) application = start_application();
+  g_autofree char *folder = g_dir_make_tmp("sealbench-window-XXXXXX", NULL);
+  g_autofree char *path = g_build_filename(folder, "a.valve", NULL);
+  g_autofree char *other = g_build_filename(folder, "b.valve", NULL);
+  static const char text[] = "[sealbench]\nformat = 1\nkind = valve\n";
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+  g_assert_cmpint(symlink(path, other), ==, 0);
+  const char *const paths[] = {path, path, other};
+  for (guint i = 0; i < G_N_ELEMENTS(paths); i++) {
+    g_autoptr(GFile) file = g_file_new_for_path(paths[i]);
+    g_application_open(G_APPLICATION(application), &file, 1, "");
+    turn(50);
+    g_assert_cmpuint(window_count(application), ==, 1);
+  }
+  GtkWidget *window = gtk_application_get_windows(GTK_APPLICATION(application))->data;
+  SbSession *session = sb_window_session(SB_WINDOW(window));
+  g_autofree char *changed = g_strconcat(text, "[gland]\nradial_space = 1.37 mm\n", NULL);
+  g_assert_true(g_file_set_contents(path, changed, -1, NULL));
+  g_assert_cmpint(sb_session_check_disk(session), ==, SB_DISK_CHANGED);
+  GtkWidget *choose = named(window, "Choose…", GTK_TYPE_BUTTON);
+  g_assert_true(gtk_widget_get_visible(choose));
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_assert_true(sb_session_reload(session, issues));
+  g_assert_cmpstr(gtk_button_get_label(GTK_BUTTON(choose)), ==, "Choose…");
+  g_assert_cmpint(sb_session_disk_state(session), ==, SB_DISK_SAME);
+  gtk_widget_destroy(window);
+  turn(50);
+  g_application_release(G_APPLICATION(application));
+  g_unlink(other);
+  g_unlink(path);
+  g_rmdir(folder);
+}
+
 int main(int argc, char **argv) {
   g_autofree char *folder = g_dir_make_tmp("sealbench-windows-XXXXXX", NULL);
   g_setenv("XDG_CONFIG_HOME", folder, TRUE);
@@ -353,6 +399,7 @@ int main(int argc, char **argv) {
   g_log_set_always_fatal(G_LOG_LEVEL_CRITICAL | G_LOG_FATAL_MASK);
   g_test_add_func("/windows/later", test_later);
   g_test_add_func("/windows/page-ends-with-its-calls", test_page_ends_with_its_calls);
+  g_test_add_func("/windows/a-file-has-one-window", test_a_file_has_one_window);
   g_test_add_func("/windows/import", test_import);
   g_test_add_func("/windows/design-point", test_design_point_goes_with_its_map);
   g_test_add_func("/windows/message-strip", test_message_strip);

@@ -10,6 +10,7 @@
 #include "ui/window/window.h"
 
 #include <glib/gi18n.h>
+#include <stdlib.h>
 
 struct _SbApplication {
   GtkApplication parent_instance;
@@ -114,6 +115,23 @@ static SbWindow *fresh_window(SbApplication *application) {
   return SB_WINDOW(sb_window_new(application));
 }
 
+// Returns the window whose document is that file, by whatever path; NULL: none.
+static SbWindow *window_of(SbApplication *application, GFile *file) {
+  g_autofree char *wanted = g_file_get_path(file);
+  g_autofree char *real = wanted != NULL ? realpath(wanted, NULL) : NULL;
+  for (GList *item = gtk_application_get_windows(GTK_APPLICATION(application));
+       item != NULL && real != NULL; item = item->next) {
+    const char *path = SB_IS_WINDOW(item->data)
+                           ? sb_document_path(sb_session_document(sb_window_session(item->data)))
+                           : NULL;
+    g_autofree char *own = path != NULL ? realpath(path, NULL) : NULL;
+    if (g_strcmp0(own, real) == 0) {
+      return item->data;
+    }
+  }
+  return NULL;
+}
+
 static void activate(GApplication *application) {
   GtkWindow *window = gtk_application_get_active_window(GTK_APPLICATION(application));
   if (window == NULL) {
@@ -124,8 +142,12 @@ static void activate(GApplication *application) {
 
 static void open_files(GApplication *application, GFile **files, int count, const char *hint) {
   for (int i = 0; i < count; i++) {
-    SbWindow *window = fresh_window(SB_APPLICATION(application));
-    sb_window_open(window, files[i]);
+    // A file that has a window is raised, not opened twice.
+    SbWindow *window = window_of(SB_APPLICATION(application), files[i]);
+    if (window == NULL) {
+      window = fresh_window(SB_APPLICATION(application));
+      sb_window_open(window, files[i]);
+    }
     gtk_window_present(GTK_WINDOW(window));
   }
 }

@@ -15,6 +15,7 @@ enum { SOON = 500 };
 typedef struct {
   SbSession *session;
   GtkWidget *revealer, *box, *icon, *label, *button;
+  const char *action;     // that the button starts; NULL: it does what follows
   int id;                 // parameter that the button mends, or -1
   double value;           // and the value it sets [SI]
   SbLater soon;           // shows a former run's strip
@@ -71,6 +72,26 @@ static void stop_waiting(Strip *strip) {
   strip->waited = FALSE;
 }
 
+// The document's file, or its valve's, is not what it was when it was read. FALSE: it is.
+static gboolean show_disk(Strip *strip) {
+  const SbDiskState state = sb_session_disk_state(strip->session);
+  strip->action = NULL;
+  if (state == SB_DISK_SAME) {
+    return FALSE;
+  }
+  g_autofree char *name =
+      g_filename_display_basename(sb_document_path(sb_session_document(strip->session)));
+  g_autofree char *text = g_strdup_printf(
+      state == SB_DISK_CHANGED ? _("%s was changed by another program since it was opened here.")
+      : state == SB_DISK_VALVE_CHANGED
+          ? _("The valve's file of %s was changed by another program since it was opened here.")
+          : _("%s is no longer in its folder. Saving writes it again."),
+      name);
+  strip->action = state != SB_DISK_GONE ? "file-changed" : NULL;
+  show(strip, "warn", text, strip->action != NULL ? _("Choose…") : NULL);
+  return TRUE;
+}
+
 // What is wrong with the values or the run and the one button that mends it, or else what the run
 // found.
 static void refresh(Strip *strip) {
@@ -85,6 +106,9 @@ static void refresh(Strip *strip) {
   const gboolean awaits = wrong < 0 && failure == NULL && sb_session_awaits(session);
   if (!awaits) {
     stop_waiting(strip);
+  }
+  if (show_disk(strip)) {
+    return;
   }
   if (wrong >= 0) {
     const SbParam *param = sb_param((SbParamId)wrong);
@@ -142,7 +166,10 @@ static void refresh(Strip *strip) {
 }
 
 static void on_button(GtkButton *button, Strip *strip) {
-  if (strip->id >= 0) {
+  if (strip->action != NULL) {
+    GtkWidget *window = gtk_widget_get_toplevel(strip->box);
+    g_action_group_activate_action(G_ACTION_GROUP(window), strip->action, NULL);
+  } else if (strip->id >= 0) {
     int id = strip->id;
     sb_session_clear_error(strip->session, (SbParamId)id);
     sb_session_edit_value(strip->session, (SbParamId)id, strip->value);

@@ -29,6 +29,9 @@ char *sb_undo_hints_text(const SbDocument *document, bool redo) {
   if (id == SB_DOCUMENT_GROOVE) {
     return g_strdup(_("Drawn groove"));
   }
+  if (id == SB_DOCUMENT_WHOLE) {
+    return g_strdup(_("Another version of the file"));
+  }
   const SbParam *param = sb_param((SbParamId)id);
   g_autofree char *before = sb_param_format((SbParamId)id, value[0]);
   g_autofree char *after = sb_param_format((SbParamId)id, value[1]);

@@ -272,6 +272,17 @@ static void on_save(GSimpleAction *action, GVariant *parameter, gpointer data) {
   sb_window_files_save(SB_WINDOW(data)->files, FALSE);
 }
 
+static void on_file_changed(GSimpleAction *action, GVariant *parameter, gpointer data) {
+  sb_window_files_resolve(SB_WINDOW(data)->files);
+}
+
+// The window has the focus again: another program may have written the file.
+static void on_active(SbWindow *window) {
+  if (gtk_window_is_active(GTK_WINDOW(window))) {
+    (void)sb_session_check_disk(window->session);
+  }
+}
+
 static void on_save_as(GSimpleAction *action, GVariant *parameter, gpointer data) {
   sb_window_files_save(SB_WINDOW(data)->files, TRUE);
 }
@@ -477,6 +488,7 @@ static void sb_window_init(SbWindow *window) {
       {.name = "new", .activate = on_new},
       {.name = "save", .activate = on_save},
       {.name = "save-as", .activate = on_save_as},
+      {.name = "file-changed", .activate = on_file_changed},
       {.name = "undo", .activate = on_undo},
       {.name = "redo", .activate = on_redo},
       {.name = "search", .activate = on_search},
@@ -582,6 +594,7 @@ static void sb_window_init(SbWindow *window) {
                                           GTK_MENU_BUTTON(window->recent_button));
   sb_section_view_add_start(window->section, sb_window_files_start(window->files));
   window->autosave = sb_autosave_new(window->session);
+  g_signal_connect(window, "notify::is-active", G_CALLBACK(on_active), NULL);
   sb_autosave_offer(window->session, window->autosave, GTK_WINDOW(window));
 
   g_signal_connect(window, "key-press-event", G_CALLBACK(on_key), NULL);

@@ -80,6 +80,83 @@ static void load(SbWindowFiles *files, GFile *file) {
   }
 }
 
+// What a merge could not decide by itself.
+static void show_conflicts(SbWindowFiles *files, const GPtrArray *conflicts) {
+  if (conflicts->len > 0) {
+    GString *text = g_string_new(NULL);
+    for (guint i = 0; i < conflicts->len && i < LINES_MAX; i++) {
+      g_string_append_printf(text, "%s%s", i > 0 ? "\n" : "", (char *)conflicts->pdata[i]);
+    }
+    show_message(files, GTK_MESSAGE_INFO,
+                 _("Both versions changed these values; yours are in force."), text->str);
+    g_string_free(text, TRUE);
+  }
+}
+
+enum { RELOAD = 1, MERGE, KEEP_BOTH, SAVE_OVER };
+
+// Asks what becomes of a file that another program changed. Saving can also replace it.
+static int ask_disk(SbWindowFiles *files, gboolean saving) {
+  const SbDocument *document = sb_session_document(files->session);
+  const gboolean own = sb_session_disk_state(files->session) == SB_DISK_CHANGED;
+  g_autofree char *name = g_filename_display_basename(own ? sb_document_path(document)
+                                                          : sb_document_valve_path(document));
+  GtkWidget *dialog = gtk_message_dialog_new(
+      files->window, GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT, GTK_MESSAGE_QUESTION,
+      GTK_BUTTONS_NONE, _("“%s” was changed by another program"), name);
+  gtk_message_dialog_format_secondary_text(
+      GTK_MESSAGE_DIALOG(dialog),
+      _("Reload: this window shows the file; your unsaved changes are undone.\n"
+        "Merge: the file's changes and yours, value by value.\n"
+        "Keep both: your version becomes a new file next to it.\n\n"
+        "Each of them can be undone."));
+  gtk_dialog_add_button(GTK_DIALOG(dialog), _("_Cancel"), GTK_RESPONSE_CANCEL);
+  if (saving) {
+    gtk_dialog_add_button(GTK_DIALOG(dialog), _("_Replace the File"), SAVE_OVER);
+  }
+  if (own) {
+    gtk_dialog_add_button(GTK_DIALOG(dialog), _("_Keep Both"), KEEP_BOTH);
+  }
+  gtk_dialog_add_button(GTK_DIALOG(dialog), _("Re_load"), RELOAD);
+  gtk_dialog_add_button(GTK_DIALOG(dialog), _("_Merge"), MERGE);
+  gtk_dialog_set_default_response(GTK_DIALOG(dialog), MERGE);
+  const int answer = gtk_dialog_run(GTK_DIALOG(dialog));
+  gtk_widget_destroy(dialog);
+  return answer;
+}
+
+// Resolves it as the user wishes. TRUE: the document is saved as a file now.
+static gboolean resolve_disk(SbWindowFiles *files, gboolean saving) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(GPtrArray) conflicts = g_ptr_array_new_with_free_func(g_free);
+  g_autoptr(GError) error = NULL;
+  gboolean good = TRUE, saved = FALSE;
+  switch (ask_disk(files, saving)) {
+  case RELOAD:
+    saved = good = sb_session_reload(files->session, issues);
+    break;
+  case MERGE:
+    good = sb_session_merge(files->session, conflicts, issues);
+    saved = good && saving && sb_session_save(files->session, NULL, &error);
+    good = error == NULL && good;
+    break;
+  case KEEP_BOTH:
+    saved = good = sb_session_keep_both(files->session, &error);
+    break;
+  case SAVE_OVER:
+    saved = good = sb_session_save_over(files->session, &error);
+    break;
+  default:
+    break;
+  }
+  if (!good) {
+    g_autofree char *text = error != NULL ? g_strdup(error->message) : lines_of(issues);
+    show_message(files, GTK_MESSAGE_ERROR, _("Nothing was changed."), text);
+  }
+  show_conflicts(files, conflicts);
+  return saved;
+}
+
 // Asks to save, discard or stay. True: go on.
 gboolean sb_window_files_may_discard(SbWindowFiles *files) {
   if (!sb_session_is_modified(files->session)) {
@@ -191,6 +268,9 @@ static gboolean save(SbWindowFiles *files, gboolean as) {
   }
   g_autoptr(GError) error = NULL;
   if (!sb_session_save(files->session, name, &error)) {
+    if (error->code == SB_APP_ERROR_CHANGED) {
+      return resolve_disk(files, TRUE);
+    }
     show_message(files, GTK_MESSAGE_ERROR, _("The file was not saved."), error->message);
     return FALSE;
   }
@@ -231,6 +311,14 @@ static void save_now(gpointer data) {
 static void save_as_now(gpointer data) {
   SbWindowFiles *files = data;
   save(files, TRUE);
+}
+
+static void resolve_now(gpointer data) {
+  (void)resolve_disk(data, FALSE);
+}
+
+void sb_window_files_resolve(SbWindowFiles *files) {
+  later(files, resolve_now);
 }
 
 void sb_window_files_open_dialog(SbWindowFiles *files) {

@@ -23,6 +23,9 @@ void sb_window_files_new(SbWindowFiles *files);
 // Saves; asks for a name if there is none or if `as`.
 void sb_window_files_save(SbWindowFiles *files, gboolean as);
 
+// Asks what becomes of the document's file, which another program has changed.
+void sb_window_files_resolve(SbWindowFiles *files);
+
 // True if nothing would be lost, or the user saved or said that it may be.
 gboolean sb_window_files_may_discard(SbWindowFiles *files);
 
