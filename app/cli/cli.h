@@ -208,6 +208,7 @@ int sb_command_render(int argc, char **argv);
 int sb_command_bench(int argc, char **argv);
 int sb_command_study(int argc, char **argv);
 int sb_command_merge(int argc, char **argv);
+int sb_command_store(int argc, char **argv);
 int sb_command_calibrate(int argc, char **argv);
 int sb_command_compare(int argc, char **argv);
 int sb_command_design(int argc, char **argv);
@@ -226,8 +227,9 @@ int sb_command_tui(int argc, char **argv);
 void sb_cli_set_pool(const SbAnswerPool *pool);
 bool sb_cli_answers_elsewhere(void);
 
-// The store's file: given, or NAME.store beside the study; NULL for a study from standard input.
-// Owned by the caller.
+// The store's file: `given`, or NAME.store next to the study file; in the current folder if the
+// study belongs to the installed program or its folder cannot be written. NULL for a study from
+// standard input. Owned by the caller.
 char *sb_cli_store_path(const char *given, const SbStudyFile *study);
 
 typedef struct {
@@ -243,6 +245,7 @@ typedef struct {
   const SbStudyDrawn *drawn;
   const SbAnswers *answers;
   const char *cpus;
+  const char *store; // path, NULL: in memory
 } SbCliAnswers;
 typedef int (*SbCliAnswered)(void *data, const SbCliAnswers *of);
 

@@ -8,6 +8,7 @@
 #include "engine/numeric/statistics.h"
 #include "engine/valve/shelf.h"
 
+#include <glib/gstdio.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,6 +59,10 @@ static int read_options(Options *options) {
 
 // A store that is there is added to; it must not be what the study is read from.
 static int check_targets(const Options *options, const char *store) {
+  GError *error = NULL;
+  if (store != NULL && !sb_store_check_name(store, &error)) {
+    return sb_cli_error(error);
+  }
   if (store != NULL && !g_file_test(store, G_FILE_TEST_EXISTS)) {
     const int code = sb_cli_check_outputs(NULL, NULL, store);
     if (code != SB_EXIT_DONE) {
@@ -143,6 +148,18 @@ static SbStatus print_limits(const SbStudyFile *study, const SbStudyDrawn *drawn
     }
   }
   return status;
+}
+
+// A line below the table: which validity codes, and how many samples carry them.
+static void print_warnings(const SbAnswers *answers) {
+  size_t count = 0;
+  g_autofree SbCodeCount *codes = sb_study_warnings(&count, answers);
+  for (size_t i = 0; i < count; i++) {
+    printf("%s%s in %zu", i > 0 ? ", " : "  warnings of validity: ", codes[i].code, codes[i].count);
+  }
+  if (count > 0) {
+    printf(" of %zu samples\n", answers->samples);
+  }
 }
 
 static SbStatus print_leakage(const SbStudyFile *study, const SbAnswers *answers,
@@ -240,22 +257,24 @@ static void plot(const SbStudyFile *study, const SbAnswers *answers) {
   }
 }
 
-static int write_outputs(const Options *options, const SbStudyFile *study, const double *value,
-                         const SbStudyDrawn *drawn, const SbAnswers *answers, const char *cpus) {
+static int write_outputs(const Options *options, const SbCliAnswers *of) {
+  const SbStudyFile *study = of->study;
+  const SbStudyDrawn *drawn = of->drawn;
+  const SbAnswers *answers = of->answers;
   GError *error = NULL;
   if (options->csv != NULL) {
     SbOutput out = {0};
     if (!sb_output_begin(&out, options->csv, &error)) {
       return sb_cli_error(error);
     }
-    sb_study_csv(out.stream, study, value, answers);
+    sb_study_csv(out.stream, study, of->value, answers);
     if (!sb_output_commit(&out, &error)) {
       return sb_cli_error(error);
     }
   }
   if (options->json != NULL) {
     SbReport report = {0};
-    g_autofree char *json = sb_study_json(study, drawn, answers, cpus, &report);
+    g_autofree char *json = sb_study_json(study, drawn, answers, of->cpus, &report);
     return json != NULL ? sb_cli_emit(json, options->json) : sb_cli_status(report.status, &report);
   }
   const bool streamed = options->csv != NULL && strcmp(options->csv, "-") == 0;
@@ -263,6 +282,10 @@ static int write_outputs(const Options *options, const SbStudyFile *study, const
     return SB_EXIT_DONE;
   }
   const int code = print_table(study, drawn, answers);
+  print_warnings(answers);
+  if (of->store != NULL) {
+    printf("  answers in %s (-o STORE chooses another file)\n", of->store);
+  }
   if (sb_cli_plots(&options->plots)) {
     plot(study, answers);
   }
@@ -314,7 +337,7 @@ static int emit_slurm(const Options *options, const SbStudyFile *study) {
 }
 
 static int answered(void *data, const SbCliAnswers *of) {
-  return write_outputs(data, of->study, of->value, of->drawn, of->answers, of->cpus);
+  return write_outputs(data, of);
 }
 
 static int study_file(const Options *options, const SbStudyFile *study) {
@@ -334,7 +357,9 @@ int sb_command_study(int argc, char **argv) {
   Options options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.store,
-       "Store of the answers, added to if it is there; default NAME.store beside the study",
+       "Store of the answers, added to if it exists; default NAME.store next to the study file, or "
+       "in "
+       "the current folder for a study of the installed program",
        "STORE"},
       {"jobs", 0, 0, G_OPTION_ARG_FILENAME, &options.jobs, SB_CLI_JOBS_HELP, "N"},
       {"shard", 0, 0, G_OPTION_ARG_FILENAME, &options.shard,
@@ -376,6 +401,7 @@ int sb_command_merge(int argc, char **argv) {
     }
   }
   GError *error = NULL;
+  const bool existed = g_file_test(argv[1], G_FILE_TEST_EXISTS);
   SbStore *store = sb_store_open(argv[1], &error);
   bool good = store != NULL;
   for (int i = 2; good && i < argc; i++) {
@@ -385,7 +411,10 @@ int sb_command_merge(int argc, char **argv) {
     printf("%s: %" G_GUINT64_FORMAT " answers\n", argv[1], sb_store_count(store));
   }
   if (!good) {
-    (void)sb_store_close(store, NULL);
+    sb_store_discard(store);
+    if (!existed) {
+      g_unlink(argv[1]);
+    }
     return sb_cli_error(error);
   }
   return sb_store_close(store, &error) ? SB_EXIT_DONE : sb_cli_error(error);

@@ -2,10 +2,13 @@
 // with progress and interrupts.
 #include "app/cli/cli.h"
 
+#include "app/document/shipped.h"
 #include "app/export/study_results.h"
 
+#include <glib/gstdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 _Static_assert((int)SB_VARY_MAX <= (int)SB_QUESTION_PARAMETERS, "a question takes all that varies");
 
@@ -19,14 +22,50 @@ bool sb_cli_answers_elsewhere(void) {
   return answer_pool != NULL && answer_pool->serve != NULL;
 }
 
+// Whether the store of a study goes to the folder of the study: not to that of the installed
+// program, and not where nothing can be written.
+static bool is_beside(const char *path) {
+  g_autofree char *folder = g_path_get_dirname(path), *shipped = sb_shipped_folder();
+  g_autofree char *full = realpath(folder, NULL);
+  g_autofree char *of_program = shipped != NULL ? realpath(shipped, NULL) : NULL;
+  const bool installed = full != NULL && of_program != NULL && g_str_has_prefix(full, of_program) &&
+                         strchr("/", full[strlen(of_program)]) != NULL;
+  return !installed && g_access(folder, W_OK) == 0;
+}
+
 char *sb_cli_store_path(const char *given, const SbStudyFile *study) {
   if (given != NULL || study->path == NULL) {
     return g_strdup(given);
   }
-  const char *dot = strrchr(study->path, '.');
-  const bool ending = dot != NULL && strcmp(dot, ".study") == 0;
-  return g_strdup_printf("%.*s.store", ending ? (int)(dot - study->path) : (int)strlen(study->path),
-                         study->path);
+  g_autofree char *base = g_path_get_basename(study->path);
+  const char *path = is_beside(study->path) ? study->path : base;
+  const bool ending = g_str_has_suffix(path, ".study");
+  return g_strdup_printf("%.*s.store", (int)strlen(path) - (ending ? 6 : 0), path);
+}
+
+// Opens the store; what is damaged is reported, saved where it can be, and computed again.
+static SbStore *open_store(const char *path, GError **error) {
+  SbStore *store = sb_store_open(path, error);
+  SbStoreHealth health = {0};
+  if (store != NULL && path != NULL) {
+    sb_store_health(&health, store);
+  }
+  if (health.damaged > 0 || health.structure != NULL) {
+    if (health.damaged > 0) {
+      (void)sb_cli_fail("%s: %" G_GUINT64_FORMAT " of %" G_GUINT64_FORMAT
+                        " rows are damaged and will be computed again: %s",
+                        path, health.damaged, health.rows, health.first);
+    }
+    if (health.structure != NULL) {
+      (void)sb_cli_fail("%s; what is missing will be computed again", health.structure);
+    }
+    if (!sb_store_repair(store, error)) {
+      sb_store_discard(store);
+      store = NULL;
+    }
+  }
+  sb_store_health_release(&health);
+  return store;
 }
 
 static void on_progress(void *data, size_t done, size_t of) {
@@ -113,7 +152,7 @@ static int solve(const SbStudyFile *study, const SbCliAsk *ask, SbStore *store, 
   }
   if (good || code == SB_EXIT_INTERRUPTED) {
     g_autofree char *cpus = sb_store_cpus(store);
-    const SbCliAnswers of = {study, value, drawn, &answers, cpus};
+    const SbCliAnswers of = {study, value, drawn, &answers, cpus, ask->store};
     const int written = answered(data, &of);
     const int judged = judge(&answers);
     code = MAX(code, MAX(written, judged));
@@ -161,7 +200,7 @@ int sb_cli_answer(const SbStudyFile *study, const SbCliAsk *ask, SbCliAnswered a
   if (code != SB_EXIT_DONE) {
     return code;
   }
-  SbStore *store = sb_store_open(sb_cli_answers_elsewhere() ? NULL : ask->store, &error);
+  SbStore *store = open_store(sb_cli_answers_elsewhere() ? NULL : ask->store, &error);
   if (store == NULL || !set_list(store, study, &error)) {
     code = sb_cli_error(error);
   } else {

@@ -15,11 +15,17 @@ static void put(FILE *stream, double value) {
   fprintf(stream, ",%s", isnan(value) ? "" : sb_number_format(digits, value));
 }
 
-static void put_text(FILE *stream, const char *text) {
+void sb_csv_text(FILE *stream, const char *text) {
   g_auto(GStrv) parts = g_strsplit(text != NULL ? text : "", "\"", -1);
   g_autofree char *doubled = g_strjoinv("\"\"", parts);
-  const char *quote = strpbrk(doubled, ",\"\n") != NULL ? "\"" : "";
-  fprintf(stream, ",%s%s%s", quote, doubled, quote);
+  const char *quote = strpbrk(doubled, ",;\"\r\n\t") != NULL ? "\"" : "";
+  const bool formula = text != NULL && text[0] != '\0' && strchr("=+-@\t\r", text[0]) != NULL;
+  fprintf(stream, "%s%s%s%s", quote, formula ? "'" : "", doubled, quote);
+}
+
+static void put_text(FILE *stream, const char *text) {
+  fputc(',', stream);
+  sb_csv_text(stream, text);
 }
 
 void sb_csv_figures(FILE *stream, const SbRun *run) {

@@ -6,6 +6,10 @@
 
 #include <stdio.h>
 
+// Writes a text as a cell: in quotes where it has a separator, a quote or a line end, and with an
+// apostrophe in front where a spreadsheet would compute it as a formula. NULL: empty.
+void sb_csv_text(FILE *stream, const char *text);
+
 // One row per frame: time, displacement, velocity, force, ...
 void sb_csv_cycle(FILE *stream, const SbRun *run);
 

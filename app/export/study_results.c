@@ -1,6 +1,7 @@
 // Tables of a study; see the header.
 #include "app/export/study_results.h"
 
+#include "app/export/csv.h"
 #include "app/export/json.h"
 
 #include "engine/numeric/statistics.h"
@@ -98,12 +99,14 @@ void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
   fputs("sample", stream);
   for (size_t k = 0; k < n; k++) {
     const SbVary *vary = &g_array_index(study->vary, SbVary, k);
-    fprintf(stream, ",%s [%s]", sb_vary_name(vary), sb_vary_si(vary));
+    g_autofree char *name = g_strdup_printf("%s [%s]", sb_vary_name(vary), sb_vary_si(vary));
+    fputc(',', stream);
+    sb_csv_text(stream, name);
   }
   for (guint k = 0; k < study->figures->len; k++) {
     fprintf(stream, ",%s", sb_figure(g_array_index(study->figures, int, k))->path);
   }
-  fputs(",status\n", stream);
+  fputs(",status,warnings\n", stream);
   for (size_t i = 0; i < answers->samples && ferror(stream) == 0; i++) {
     fprintf(stream, "%zu", i + 1);
     for (size_t k = 0; k < n; k++) {
@@ -114,7 +117,9 @@ void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
       const double figure = answers->value[i * answers->figures + k];
       fprintf(stream, ",%s", isnan(figure) ? "" : sb_number_format(digits, figure));
     }
-    fprintf(stream, ",%s\n", sb_study_status_name(answers->status[i]));
+    const char *codes = g_hash_table_lookup(answers->warnings, GSIZE_TO_POINTER(i));
+    fprintf(stream, ",%s,%s\n", sb_study_status_name(answers->status[i]),
+            codes != NULL ? codes : "");
   }
 }
 
@@ -359,6 +364,43 @@ static void put_typical(SbJson *json, const SbStudyFile *study) {
 }
 
 // Why samples failed, the first hundred of them.
+static int by_code(const void *a, const void *b) {
+  return strcmp(((const SbCodeCount *)a)->code, ((const SbCodeCount *)b)->code);
+}
+
+SbCodeCount *sb_study_warnings(size_t *count, const SbAnswers *answers) {
+  GArray *codes = g_array_new(FALSE, FALSE, sizeof(SbCodeCount));
+  for (size_t i = 0; i < answers->samples; i++) {
+    const char *of = g_hash_table_lookup(answers->warnings, GSIZE_TO_POINTER(i));
+    g_auto(GStrv) parts = g_strsplit(of != NULL ? of : "", ";", -1);
+    for (char **code = parts; *code != NULL; code++) {
+      guint at = 0;
+      while (at < codes->len && strcmp(g_array_index(codes, SbCodeCount, at).code, *code) != 0) {
+        at++;
+      }
+      if (at == codes->len) {
+        SbCodeCount fresh = {0};
+        g_strlcpy(fresh.code, *code, sizeof fresh.code);
+        g_array_append_val(codes, fresh);
+      }
+      g_array_index(codes, SbCodeCount, at).count++;
+    }
+  }
+  g_array_sort(codes, by_code);
+  *count = codes->len;
+  return (SbCodeCount *)(void *)g_array_free(codes, FALSE);
+}
+
+static void put_warnings(SbJson *json, const SbAnswers *answers) {
+  size_t count = 0;
+  g_autofree SbCodeCount *codes = sb_study_warnings(&count, answers);
+  sb_json_object(json, "warnings");
+  for (size_t i = 0; i < count; i++) {
+    sb_json_count(json, codes[i].code, codes[i].count);
+  }
+  sb_json_object_end(json);
+}
+
 static void put_failures(SbJson *json, const SbAnswers *answers) {
   enum { MOST = 100 };
   sb_json_array(json, "failures");
@@ -413,6 +455,7 @@ char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const S
     status = put_leakage(&json, study, answers, report);
   }
   put_typical(&json, study);
+  put_warnings(&json, answers);
   put_failures(&json, answers);
   sb_json_object_end(&json);
   char *text = sb_json_finish(&json);

@@ -19,8 +19,19 @@ size_t sb_study_failed(const SbAnswers *answers);
 // "ok", "not-converged", "infeasible", "refused", "not-computed"; borrowed.
 const char *sb_study_status_name(uint8_t status);
 
-// A row a sample: number from 1, parameters, figures (empty: none), status. The bytes hang on the
-// answers alone; errors show in the stream.
+// Samples with a warning of validity.
+typedef struct {
+  char code[48];
+  size_t count;
+} SbCodeCount;
+
+// Returns how many samples carry each code of validity, *count of them, sorted by code. Owned by
+// the caller: g_free().
+SbCodeCount *sb_study_warnings(size_t *count, const SbAnswers *answers);
+
+// A row for each sample: number from 1, parameters, figures (empty: none), status, codes of
+// validity
+// (";" between). The bytes depend on the answers alone; errors show in the stream.
 void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
                   const SbAnswers *answers);
 

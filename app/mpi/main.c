@@ -21,7 +21,8 @@
 #include <unistd.h>
 
 enum { TAG_READY, TAG_ANSWER, TAG_SAMPLE, TAG_STOP };
-enum { REASON = 256, STATUS = 1, BLOCK = 64 };
+// REASON and WARNINGS: bytes of an answer's texts, one behind the other.
+enum { REASON = 256, WARNINGS = 2560, STATUS = 1, BLOCK = 64 };
 
 static int processes, stopped; // stopped: how many were told
 static bool served;            // another process than the first has asked for samples
@@ -47,17 +48,19 @@ static bool poll(SbAnswerSink *sink, bool *goes_on, MPI_Status *status) {
   }
 }
 
-// An answer: the sample's number, its status, its figures, why it failed.
+// An answer: the sample's number, its status, its figures; why it failed, its warnings.
 static void take_answer(SbAnswerSink *sink, const SbQuestions *asked, int source) {
   const int size = (int)(2 + asked->figures);
   double *message = g_new(double, (size_t)size);
-  char reason[REASON];
+  char text[REASON + WARNINGS];
   MPI_Recv(message, size, MPI_DOUBLE, source, TAG_ANSWER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-  MPI_Recv(reason, REASON, MPI_CHAR, source, TAG_ANSWER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  MPI_Recv(text, sizeof text, MPI_CHAR, source, TAG_ANSWER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
   const size_t sample = (size_t)message[0];
-  const SbStatus status = (SbStatus)(int)message[STATUS];
+  const SbStoredAnswer answer = {.status = (SbStatus)(int)message[STATUS],
+                                 .reason = text[0] != '\0' ? g_strdup(text) : NULL,
+                                 .warnings = text[REASON] != '\0' ? g_strdup(text + REASON) : NULL};
   memcpy(sb_answer_place(sink, sample), message + 2, asked->figures * sizeof *message);
-  sb_answer_take(sink, sample, status, reason[0] != '\0' ? g_strdup(reason) : NULL);
+  sb_answer_take(sink, sample, answer);
   g_free(message);
 }
 
@@ -96,18 +99,20 @@ static void hand_out(SbAnswerSink *sink, const SbQuestions *asked, const uint32_
 
 static void answer(const SbQuestions *asked, SbEvaluator *evaluator, const SbEvaluator *start,
                    double *message, uint32_t sample) {
-  char *reason = NULL, text[REASON] = "";
-  const SbStatus outcome =
-      sb_answer(message + 2, &reason, evaluator, asked, start, sample, NULL, NULL);
+  char text[REASON + WARNINGS] = "";
+  SbStoredAnswer out = {.value = message + 2};
+  const SbStatus outcome = sb_answer(&out, evaluator, asked, start, sample, NULL, NULL);
   if (outcome == SB_ERROR_MEMORY) {
     MPI_Abort(MPI_COMM_WORLD, SB_EXIT_IO);
   }
-  g_strlcpy(text, reason != NULL ? reason : "", sizeof text);
+  g_strlcpy(text, out.reason != NULL ? out.reason : "", REASON);
+  g_strlcpy(text + REASON, out.warnings != NULL ? out.warnings : "", WARNINGS);
   message[0] = sample;
   message[STATUS] = (double)outcome;
   MPI_Send(message, (int)(2 + asked->figures), MPI_DOUBLE, 0, TAG_ANSWER, MPI_COMM_WORLD);
-  MPI_Send(text, REASON, MPI_CHAR, 0, TAG_ANSWER, MPI_COMM_WORLD);
-  g_free(reason);
+  MPI_Send(text, sizeof text, MPI_CHAR, 0, TAG_ANSWER, MPI_COMM_WORLD);
+  g_free(out.reason);
+  g_free(out.warnings);
 }
 
 static void serve(const SbQuestions *asked) {

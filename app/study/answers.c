@@ -59,7 +59,23 @@ static bool has_override(const SbQuestions *asked, size_t k, double value) {
   return (int)asked->parameter[k] >= 0 && !isnan(value);
 }
 
-SbStatus sb_answer(double *value, char **reason, SbEvaluator *evaluator, const SbQuestions *asked,
+// The codes of the warnings of an answer, each once, in their order; NULL without any.
+static char *codes_of(const SbSummary *summary) {
+  GString *text = g_string_new(NULL);
+  for (size_t i = 0; summary != NULL && i < summary->warnings.count; i++) {
+    const char *code = summary->warnings.item[i].code;
+    bool seen = false;
+    for (size_t k = 0; k < i; k++) {
+      seen = seen || strcmp(summary->warnings.item[k].code, code) == 0;
+    }
+    if (!seen) {
+      g_string_append_printf(text, "%s%s", text->len > 0 ? ";" : "", code);
+    }
+  }
+  return g_string_free(text, text->len == 0);
+}
+
+SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestions *asked,
                    const SbEvaluator *start, size_t sample, bool (*cancelled)(void *data),
                    void *data) {
   SbOverride override[SB_QUESTION_PARAMETERS];
@@ -79,16 +95,18 @@ SbStatus sb_answer(double *value, char **reason, SbEvaluator *evaluator, const S
                                .cancelled = cancelled,
                                .data = data};
   SbReport report = {0};
-  const SbStatus status = sb_evaluator_ask(value, evaluator, &question, &report);
+  const SbStatus status = sb_evaluator_ask(out->value, evaluator, &question, &report);
   if (asked->seen != NULL) { // each its own sample
     asked->seen(asked->data, sample, status, &report, evaluator);
   }
-  *reason = NULL;
+  out->status = status;
+  out->reason = NULL;
+  out->warnings = codes_of(sb_evaluator_summary(evaluator));
   if (status != SB_OK) {
     const bool unnamed =
         report.parameter[0] != '\0' && strstr(report.text, report.parameter) == NULL;
-    *reason = unnamed ? g_strdup_printf("%s: %s", report.parameter, report.text)
-                      : g_strdup(report.text[0] != '\0' ? report.text : sb_status_text(status));
+    out->reason = unnamed ? g_strdup_printf("%s: %s", report.parameter, report.text)
+                          : g_strdup(report.text[0] != '\0' ? report.text : sb_status_text(status));
   }
   return status;
 }
@@ -132,16 +150,24 @@ double *sb_answer_place(SbAnswerSink *sink, size_t sample) {
   return sink->out->value + sample * sink->asked->figures;
 }
 
-void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStatus status, char *reason) {
+// Takes over the answer's strings.
+static void set_answer(SbAnswers *out, size_t sample, const SbStoredAnswer *answer) {
+  out->status[sample] = (uint8_t)answer->status;
+  if (answer->reason != NULL) {
+    g_hash_table_insert(out->reason, GSIZE_TO_POINTER(sample), answer->reason);
+  }
+  if (answer->warnings != NULL) {
+    g_hash_table_insert(out->warnings, GSIZE_TO_POINTER(sample), answer->warnings);
+  }
+}
+
+void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStoredAnswer answer) {
   const SbQuestions *asked = sink->asked;
   guint8 key[SB_STORE_KEY];
-  const SbStoredAnswer answer = {status, reason, sb_answer_place(sink, sample)};
   sample_key(key, sink->common, asked, sample);
-  sink->out->status[sample] = (uint8_t)status;
+  answer.value = sb_answer_place(sink, sample);
+  set_answer(sink->out, sample, &answer);
   sink->taken++;
-  if (reason != NULL) {
-    g_hash_table_insert(sink->out->reason, GSIZE_TO_POINTER(sample), reason);
-  }
   if (!sink->failed && asked->store != NULL) {
     const double *parameter = asked->value + sample * asked->parameters;
     sink->failed = !sb_store_put(asked->store, key, parameter, &answer, sink->error);
@@ -175,8 +201,7 @@ typedef struct {
   // Under the lock:
   struct {
     uint32_t sample;
-    SbStatus status;
-    char *reason;
+    SbStoredAnswer answer;
   } * done; // [count] in the order in which they were answered
   size_t finished;
   int running;
@@ -187,22 +212,21 @@ static bool is_stopped(void *data) {
 }
 
 static void answer_one(Threads *pool, SbEvaluator *evaluator, uint32_t sample) {
-  char *reason = NULL;
-  double *value = sb_answer_place(pool->sink, sample);
+  SbStoredAnswer answer = {.value = sb_answer_place(pool->sink, sample)};
   const SbStatus status =
-      sb_answer(value, &reason, evaluator, pool->asked, pool->start, sample, is_stopped, pool);
+      sb_answer(&answer, evaluator, pool->asked, pool->start, sample, is_stopped, pool);
   if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     atomic_store(&pool->stop, true);
     for (size_t i = 0; i < pool->asked->figures; i++) {
-      value[i] = NAN;
+      answer.value[i] = NAN;
     }
-    g_free(reason);
+    g_free(answer.reason);
+    g_free(answer.warnings);
     return;
   }
   pthread_mutex_lock(&pool->lock);
   pool->done[pool->finished].sample = sample;
-  pool->done[pool->finished].status = status;
-  pool->done[pool->finished++].reason = reason;
+  pool->done[pool->finished++].answer = answer;
   pthread_cond_signal(&pool->ready);
   pthread_mutex_unlock(&pool->lock);
 }
@@ -239,8 +263,7 @@ static void collect(Threads *pool) {
     const size_t to = pool->finished;
     pthread_mutex_unlock(&pool->lock);
     for (; taken < to; taken++) {
-      sb_answer_take(pool->sink, pool->done[taken].sample, pool->done[taken].status,
-                     pool->done[taken].reason);
+      sb_answer_take(pool->sink, pool->done[taken].sample, pool->done[taken].answer);
     }
     if (!sb_answer_goes_on(pool->sink)) {
       atomic_store(&pool->stop, true);
@@ -315,10 +338,7 @@ static void look_up(SbAnswerSink *sink, uint32_t *todo) {
     SbStoredAnswer answer = {.value = sb_answer_place(sink, i)};
     sample_key(key, sink->common, asked, i);
     if (asked->store != NULL && sb_store_get(asked->store, key, &answer)) {
-      sink->out->status[i] = (uint8_t)answer.status;
-      if (answer.reason != NULL) {
-        g_hash_table_insert(sink->out->reason, GSIZE_TO_POINTER(i), answer.reason);
-      }
+      set_answer(sink->out, i, &answer);
     } else if (is_ours(asked, i) && (sink->same == NULL || is_first(sink, key, i))) {
       todo[sink->todo++] = (uint32_t)i;
     }
@@ -330,16 +350,16 @@ static void repeat(SbAnswerSink *sink) {
   SbAnswers *out = sink->out;
   for (size_t i = 0; i < out->samples; i++) {
     const size_t from = sink->same[i];
-    const char *reason = g_hash_table_lookup(out->reason, GSIZE_TO_POINTER(from));
     if (from == i) {
       continue;
     }
-    out->status[i] = out->status[from];
+    const SbStoredAnswer answer = {
+        .status = out->status[from],
+        .reason = g_strdup(g_hash_table_lookup(out->reason, GSIZE_TO_POINTER(from))),
+        .warnings = g_strdup(g_hash_table_lookup(out->warnings, GSIZE_TO_POINTER(from)))};
+    set_answer(out, i, &answer);
     memcpy(sb_answer_place(sink, i), sb_answer_place(sink, from),
            out->figures * sizeof *out->value);
-    if (reason != NULL) {
-      g_hash_table_insert(out->reason, GSIZE_TO_POINTER(i), g_strdup(reason));
-    }
   }
 }
 
@@ -347,6 +367,9 @@ static bool compute(SbAnswerSink *sink, const uint32_t *todo) {
   const SbQuestions *asked = sink->asked;
   const double start = now();
   sink->committed = start;
+  if (asked->store != NULL && !sb_store_open_for_writing(asked->store, sink->error)) {
+    return false;
+  }
   (asked->pool != NULL ? asked->pool->compute : compute_on_threads)(sink, asked, todo, sink->todo);
   sink->out->computed = sink->taken;
   sink->out->seconds = now() - start;
@@ -364,6 +387,7 @@ static bool compute(SbAnswerSink *sink, const uint32_t *todo) {
 bool sb_answers_get(SbAnswers *out, const SbQuestions *asked, GError **error) {
   *out = (SbAnswers){.samples = asked->samples, .figures = asked->figures};
   out->reason = g_hash_table_new_full(NULL, NULL, NULL, g_free);
+  out->warnings = g_hash_table_new_full(NULL, NULL, NULL, g_free);
   out->status = malloc(asked->samples + 1);
   out->value = malloc((asked->samples * asked->figures + 1) * sizeof *out->value);
   uint32_t *todo = malloc((asked->samples + 1) * sizeof *todo);
@@ -403,6 +427,7 @@ void sb_answers_release(SbAnswers *answers) {
   free(answers->value);
   if (answers->reason != NULL) {
     g_hash_table_unref(answers->reason);
+    g_hash_table_unref(answers->warnings);
   }
   *answers = (SbAnswers){0};
 }

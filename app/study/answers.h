@@ -45,20 +45,21 @@ enum { SB_ANSWER_MISSING = 255 }; // not computed: of another shard, or cancelle
 
 typedef struct {
   size_t samples, figures;
-  uint8_t *status;    // [samples], SbStatus or SB_ANSWER_MISSING
-  double *value;      // [samples][figures], NaN: none
-  GHashTable *reason; // sample -> char *, of those that failed
-  size_t computed;    // of this call
-  double seconds;     // it took for them
+  uint8_t *status;      // [samples], SbStatus or SB_ANSWER_MISSING
+  double *value;        // [samples][figures], NaN: none
+  GHashTable *reason;   // sample -> char *, of those that failed
+  GHashTable *warnings; // sample -> char *, codes of validity separated by ";", of those with any
+  size_t computed;      // of this call
+  double seconds;       // it took for them
 } SbAnswers;
 
 // The base's answer, from whose rings the samples' start; NULL where it has none that are solved.
 // Owned; the same in every process.
 SbEvaluator *sb_answer_start(const SbQuestions *asked);
 
-// Answers one sample into value[figures]; *reason is owned by the caller, NULL where nothing
-// failed.
-SbStatus sb_answer(double *value, char **reason, SbEvaluator *evaluator, const SbQuestions *asked,
+// Answers one sample into out->value[figures], which the caller has set, and fills the other
+// members; the strings are owned by the caller.
+SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestions *asked,
                    const SbEvaluator *start, size_t sample, bool (*cancelled)(void *data),
                    void *data);
 
@@ -68,8 +69,9 @@ typedef struct SbAnswerSink SbAnswerSink;
 // Place of a sample's figures [figures].
 double *sb_answer_place(SbAnswerSink *sink, size_t sample);
 
-// Takes the answer to a sample, whose figures lie in their place; `reason` is given over.
-void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStatus status, char *reason);
+// Takes the answer to a sample, whose figures are in their place. Takes over its strings; its
+// `value` is not used.
+void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStoredAnswer answer);
 
 // Whether to go on: no failure of the store, nobody cancelled. Tells the progress.
 bool sb_answer_goes_on(SbAnswerSink *sink);

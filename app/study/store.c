@@ -1,28 +1,16 @@
-// The tables: `list` (parameters and figures by name), `answer` (a question's key, its list, the
-// values of both as doubles of the machine's own order, which is little-endian on all that this
-// program runs on), `origin` (version and CPU of each writer).
-#include "app/study/store.h"
+// The tables: `list` (parameters and figures by name, engine), `answer` (key of a question, its
+// list, status, reason, warnings, values of parameters and figures as doubles in the machine's
+// order, which is little-endian wherever this program runs, checksum), `origin` (each writer).
+#include "app/study/store_private.h"
 
-#include "app/base/error.h"
-
-#include "engine/valve/sealbench.h"
+#include "engine/base/version.h"
 
 #include <math.h>
-#include <sqlite3.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
 
-enum { APPLICATION = 0x53624e63, FORMAT = 1 };
-
-struct SbStore {
-  sqlite3 *file;
-  sqlite3_stmt *get, *put;
-  char *path;
-  gint64 list; // of the answers
-  size_t parameters, figures;
-  bool open_transaction;
-};
+enum { APPLICATION = 0x53624e63 };
 
 // Type of CPU, as the kernel names it.
 static char *cpu_name(void) {
@@ -38,22 +26,26 @@ static char *cpu_name(void) {
   return g_strdup(uname(&name) == 0 ? name.machine : "unknown");
 }
 
-static bool fail(SbStore *store, SbAppError code, GError **error) {
+bool sb_store_fail(SbStore *store, SbAppError code, GError **error) {
   const int result = sqlite3_errcode(store->file);
   if (result == SQLITE_BUSY || result == SQLITE_LOCKED) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s is in use by another process",
                 store->path);
   } else if (result == SQLITE_NOTADB || result == SQLITE_CORRUPT) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s is no store, or damaged", store->path);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "%s is not a store, or is damaged; sealbench store check names the damage",
+                store->path);
+  } else if (result == SQLITE_READONLY) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s cannot be written", store->path);
   } else {
     g_set_error(error, SB_APP_ERROR, code, "%s: %s", store->path, sqlite3_errmsg(store->file));
   }
   return false;
 }
 
-static bool run(SbStore *store, const char *statement, GError **error) {
+bool sb_store_run(SbStore *store, const char *statement, GError **error) {
   return sqlite3_exec(store->file, statement, NULL, NULL, NULL) == SQLITE_OK ||
-         fail(store, SB_APP_ERROR_IO, error);
+         sb_store_fail(store, SB_APP_ERROR_IO, error);
 }
 
 // A number that a statement yields.
@@ -68,78 +60,301 @@ static gint64 number(SbStore *store, const char *statement) {
   return value;
 }
 
+// ---- Checksums ----
+
+// The length comes first, -1 for a text that is NULL.
+static void add_bytes(GChecksum *sum, const void *bytes, int size) {
+  const gint64 length = size;
+  g_checksum_update(sum, (const guchar *)&length, sizeof length);
+  if (size > 0) {
+    g_checksum_update(sum, bytes, size);
+  }
+}
+
+static void add_text(GChecksum *sum, const char *text) {
+  add_bytes(sum, text, text != NULL ? (int)strlen(text) : -1);
+}
+
+// Against damage, not against intent: MD5 is fast.
+void sb_store_sum(guint8 out[SB_STORE_SUM], const SbStoreRecord *record) {
+  GChecksum *sum = g_checksum_new(G_CHECKSUM_MD5);
+  gsize size = SB_STORE_SUM;
+  add_bytes(sum, record->key, record->key_size);
+  g_checksum_update(sum, (const guchar *)&record->list, sizeof record->list);
+  g_checksum_update(sum, (const guchar *)&record->status, sizeof record->status);
+  add_text(sum, record->reason);
+  add_text(sum, record->warnings);
+  add_bytes(sum, record->parameters, record->parameters_size);
+  add_bytes(sum, record->figures, record->figures_size);
+  g_checksum_get_digest(sum, out, &size);
+  g_checksum_free(sum);
+}
+
+bool sb_store_is_sound(const SbStoreRecord *record) {
+  guint8 sum[SB_STORE_SUM];
+  sb_store_sum(sum, record);
+  return record->sum != NULL && record->sum_size == SB_STORE_SUM &&
+         memcmp(sum, record->sum, SB_STORE_SUM) == 0;
+}
+
+void sb_store_record(SbStoreRecord *out, sqlite3_stmt *row) {
+  // The bytes are counted behind the conversion that the pointer may need.
+  *out = (SbStoreRecord){.key = sqlite3_column_blob(row, 0),
+                         .key_size = sqlite3_column_bytes(row, 0),
+                         .list = sqlite3_column_int64(row, 1),
+                         .status = sqlite3_column_int64(row, 2),
+                         .reason = (const char *)sqlite3_column_text(row, 3),
+                         .warnings = (const char *)sqlite3_column_text(row, 4)};
+  out->parameters = sqlite3_column_blob(row, 5);
+  out->parameters_size = sqlite3_column_bytes(row, 5);
+  out->figures = sqlite3_column_blob(row, 6);
+  out->figures_size = sqlite3_column_bytes(row, 6);
+  out->sum = sqlite3_column_blob(row, 7);
+  out->sum_size = sqlite3_column_bytes(row, 7);
+}
+
+// ---- Opening ----
+
 // Opens the file with what keeps a hostile one from harm.
 static bool open_file(SbStore *store, int flags, GError **error) {
   if (sqlite3_open_v2(store->path, &store->file, flags, NULL) != SQLITE_OK) {
-    return fail(store, SB_APP_ERROR_IO, error);
+    return sb_store_fail(store, SB_APP_ERROR_IO, error);
   }
   sqlite3_db_config(store->file, SQLITE_DBCONFIG_DEFENSIVE, 1, NULL);
   sqlite3_db_config(store->file, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, NULL);
   sqlite3_db_config(store->file, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, NULL);
   sqlite3_db_config(store->file, SQLITE_DBCONFIG_ENABLE_VIEW, 0, NULL);
   sqlite3_limit(store->file, SQLITE_LIMIT_LENGTH, 1 << 24);
-  return true;
+  return sb_store_run(store, "PRAGMA cell_size_check = ON", error);
 }
 
-// Whether it is a store of this format; with `make` an empty file becomes one.
-static bool check_format(SbStore *store, bool make, GError **error) {
+static bool make_tables(SbStore *store, GError **error) {
+  g_autofree char *statement = g_strdup_printf(
+      "PRAGMA application_id = %d; PRAGMA user_version = %d;"
+      "CREATE TABLE list (id INTEGER PRIMARY KEY, parameters TEXT NOT NULL, figures TEXT NOT "
+      "NULL, engine TEXT NOT NULL);"
+      "CREATE TABLE answer (key BLOB PRIMARY KEY, list INTEGER NOT NULL, status INTEGER NOT "
+      "NULL, reason TEXT, warnings TEXT, parameters BLOB NOT NULL, figures BLOB NOT NULL, sum "
+      "BLOB NOT NULL) WITHOUT ROWID;"
+      "CREATE TABLE origin (source TEXT, version TEXT, commit_of TEXT, cpu TEXT, "
+      "PRIMARY KEY (source, cpu))",
+      APPLICATION, SB_STORE_FORMAT);
+  return sb_store_run(store, statement, error);
+}
+
+// Whether the file is a store of this format, or of the oldest one; *empty (not NULL): whether it
+// is a file without anything, which is accepted then.
+static bool check_format(SbStore *store, bool *empty, int oldest, GError **error) {
   const gint64 application = number(store, "PRAGMA application_id");
-  const gint64 tables = number(store, "SELECT count(*) FROM sqlite_master");
+  const gint64 tables = application < 0 ? -1 : number(store, "SELECT count(*) FROM sqlite_master");
   if (application < 0 || tables < 0) {
-    return fail(store, SB_APP_ERROR_IO, error);
+    return sb_store_fail(store, SB_APP_ERROR_IO, error);
   }
-  if (make && tables == 0 && application == 0) {
-    g_autofree char *tables_made = g_strdup_printf(
-        "PRAGMA application_id = %d; PRAGMA user_version = %d;"
-        "CREATE TABLE list (id INTEGER PRIMARY KEY, parameters TEXT NOT NULL, figures TEXT NOT "
-        "NULL);"
-        "CREATE TABLE answer (key BLOB PRIMARY KEY, list INTEGER NOT NULL, status INTEGER NOT "
-        "NULL, reason TEXT, parameters BLOB NOT NULL, figures BLOB NOT NULL) WITHOUT ROWID;"
-        "CREATE TABLE origin (version TEXT, cpu TEXT, PRIMARY KEY (version, cpu))",
-        APPLICATION, FORMAT);
-    return run(store, tables_made, error);
+  if (empty != NULL && tables == 0 && application == 0) {
+    *empty = true;
+    store->format = SB_STORE_FORMAT;
+    return true;
   }
-  if (application != APPLICATION || number(store, "PRAGMA user_version") != FORMAT) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s is no store of this version",
+  store->format = (int)number(store, "PRAGMA user_version");
+  if (application != APPLICATION || store->format < 1 || store->format > SB_STORE_FORMAT) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s is not a store of this version",
+                store->path);
+    return false;
+  }
+  if (store->format < oldest) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "%s is a store of Sealbench 0.1, whose rows carry no checksums and belong to "
+                "another engine: choose another file with -o; sealbench store export reads it",
                 store->path);
     return false;
   }
   return true;
 }
 
-static bool begin(SbStore *store, GError **error) {
-  store->open_transaction = store->open_transaction || run(store, "BEGIN IMMEDIATE", error);
-  return store->open_transaction;
-}
-
 static bool prepare(SbStore *store, GError **error) {
-  static const char get[] = "SELECT status, reason, figures FROM answer WHERE key = ? AND list = ?";
-  static const char put[] = "INSERT OR REPLACE INTO answer VALUES (?, ?, ?, ?, ?, ?)";
+  static const char get[] = "SELECT key, list, status, reason, warnings, parameters, figures, sum "
+                            "FROM answer WHERE key = ? AND list = ?";
+  static const char put[] = "INSERT OR REPLACE INTO answer VALUES (?, ?, ?, ?, ?, ?, ?, ?)";
   return (sqlite3_prepare_v2(store->file, get, -1, &store->get, NULL) == SQLITE_OK &&
-          sqlite3_prepare_v2(store->file, put, -1, &store->put, NULL) == SQLITE_OK) ||
-         fail(store, SB_APP_ERROR_INPUT, error);
+          (!store->writable ||
+           sqlite3_prepare_v2(store->file, put, -1, &store->put, NULL) == SQLITE_OK)) ||
+         sb_store_fail(store, SB_APP_ERROR_INPUT, error);
 }
 
-static void destroy(SbStore *store) {
+static void close_file(SbStore *store) {
   sqlite3_finalize(store->get);
   sqlite3_finalize(store->put);
   sqlite3_close(store->file);
+  store->get = store->put = NULL;
+  store->file = NULL;
+  store->writable = store->open_transaction = false;
+}
+
+static void destroy(SbStore *store) {
+  close_file(store);
   g_free(store->path);
+  g_free(store->parameter_names);
+  g_free(store->figures_of);
   g_free(store);
 }
 
+// One process writes. What the kernel has is safe from a process that dies, so nothing is synced
+// but at the end of a transaction.
+static bool open_writable(SbStore *store, GError **error) {
+  bool empty = false;
+  close_file(store);
+  store->writable = true;
+  store->open_transaction =
+      open_file(store, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, error) &&
+      sb_store_run(store, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = DELETE", error) &&
+      sb_store_run(store, "BEGIN IMMEDIATE", error);
+  return store->open_transaction && check_format(store, &empty, SB_STORE_FORMAT, error) &&
+         (!empty || make_tables(store, error)) && prepare(store, error);
+}
+
+// False without an error where only opening for writing can help: an empty file, or one that a
+// process left in the middle of a transaction, which SQLite reverts.
+static bool open_readable(SbStore *store, int flags, int oldest, GError **error) {
+  bool empty = false;
+  g_autoptr(GError) found = NULL;
+  close_file(store);
+  if (open_file(store, flags, &found) && check_format(store, &empty, oldest, &found) && !empty &&
+      (store->format < SB_STORE_FORMAT || prepare(store, &found))) {
+    return true;
+  }
+  const int result = sqlite3_errcode(store->file);
+  if (!empty && result != SQLITE_READONLY && result != SQLITE_CANTOPEN && found != NULL) {
+    g_propagate_error(error, g_steal_pointer(&found));
+  }
+  return false;
+}
+
+bool sb_store_check_name(const char *path, GError **error) {
+  static const char *const names[] = {"", "-", ":memory:"};
+  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+    if (strcmp(path, names[i]) == 0) {
+      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                  "\"%s\" cannot be a store: a store is a file, write for example -o NAME.store",
+                  path);
+      return false;
+    }
+  }
+  return true;
+}
+
 SbStore *sb_store_open(const char *path, GError **error) {
+  if (path != NULL && !sb_store_check_name(path, error)) {
+    return NULL;
+  }
   SbStore *store = g_new0(SbStore, 1);
   store->path = g_strdup(path != NULL ? path : ":memory:");
-  // One process writes; what the kernel has is safe from a process that dies, so nothing is synced
-  // but at the end of a transaction.
-  if (open_file(store, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, error) &&
-      run(store, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = DELETE", error) &&
-      begin(store, error) && check_format(store, true, error) && prepare(store, error)) {
+  GError *found = NULL;
+  if ((path != NULL && g_file_test(path, G_FILE_TEST_EXISTS) &&
+       open_readable(store, SQLITE_OPEN_READONLY, SB_STORE_FORMAT, &found)) ||
+      (found == NULL && open_writable(store, &found))) {
     return store;
   }
+  g_propagate_error(error, found);
   destroy(store);
   return NULL;
+}
+
+SbStore *sb_store_open_rows(const char *path, GError **error) {
+  if (!sb_store_check_name(path, error)) {
+    return NULL;
+  }
+  SbStore *store = g_new0(SbStore, 1);
+  store->path = g_strdup(path);
+  GError *found = NULL;
+  if (open_readable(store, SQLITE_OPEN_READONLY, 1, &found) ||
+      (found == NULL && open_readable(store, SQLITE_OPEN_READWRITE, 1, &found))) {
+    return store;
+  }
+  if (found == NULL) {
+    g_set_error(&found, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s is empty, or cannot be read", path);
+  }
+  g_propagate_error(error, found);
+  destroy(store);
+  return NULL;
+}
+
+int sb_store_format(const SbStore *store) {
+  return store->format;
+}
+
+// ---- Lists ----
+
+gint64 sb_store_list_number(const char *parameters, const char *figures, const char *engine) {
+  GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
+  add_text(sum, parameters);
+  add_text(sum, figures);
+  add_text(sum, engine);
+  g_autofree char *hex = g_strndup(g_checksum_get_string(sum), 15);
+  g_checksum_free(sum);
+  return (gint64)g_ascii_strtoull(hex, NULL, 16);
+}
+
+static bool write_list(SbStore *store, GError **error) {
+  const SbEngineIdentity *engine = sb_engine_identity();
+  g_autofree char *cpu = cpu_name();
+  sqlite3_stmt *list = NULL, *origin = NULL;
+  const bool good =
+      (sqlite3_prepare_v2(store->file, "INSERT OR REPLACE INTO list VALUES (?, ?, ?, ?)", -1, &list,
+                          NULL) == SQLITE_OK &&
+       sqlite3_bind_int64(list, 1, store->list) == SQLITE_OK &&
+       sqlite3_bind_text(list, 2, store->parameter_names, -1, SQLITE_STATIC) == SQLITE_OK &&
+       sqlite3_bind_text(list, 3, store->figures_of, -1, SQLITE_STATIC) == SQLITE_OK &&
+       sqlite3_bind_text(list, 4, engine->source, -1, SQLITE_STATIC) == SQLITE_OK &&
+       sqlite3_step(list) == SQLITE_DONE &&
+       sqlite3_prepare_v2(store->file, "INSERT OR REPLACE INTO origin VALUES (?, ?, ?, ?)", -1,
+                          &origin, NULL) == SQLITE_OK &&
+       sqlite3_bind_text(origin, 1, engine->source, -1, SQLITE_STATIC) == SQLITE_OK &&
+       sqlite3_bind_text(origin, 2, engine->version, -1, SQLITE_STATIC) == SQLITE_OK &&
+       sqlite3_bind_text(origin, 3, engine->commit, -1, SQLITE_STATIC) == SQLITE_OK &&
+       sqlite3_bind_text(origin, 4, cpu, -1, SQLITE_STATIC) == SQLITE_OK &&
+       sqlite3_step(origin) == SQLITE_DONE) ||
+      sb_store_fail(store, SB_APP_ERROR_IO, error);
+  sqlite3_finalize(list);
+  sqlite3_finalize(origin);
+  return good;
+}
+
+bool sb_store_set_list(SbStore *store, const char *const *parameters, const char *const *figures,
+                       GError **error) {
+  g_free(store->parameter_names);
+  g_free(store->figures_of);
+  store->parameter_names = g_strjoinv("\n", (char **)parameters);
+  store->figures_of = g_strjoinv("\n", (char **)figures);
+  store->list =
+      sb_store_list_number(store->parameter_names, store->figures_of, sb_engine_identity()->source);
+  store->parameters = g_strv_length((char **)parameters);
+  store->figures = g_strv_length((char **)figures);
+  // A store that is only read receives the list when it is written.
+  return !store->writable || (sb_store_begin(store, error) && write_list(store, error));
+}
+
+// ---- Changes ----
+
+bool sb_store_open_for_writing(SbStore *store, GError **error) {
+  return store->writable || (open_writable(store, error) &&
+                             (store->parameter_names == NULL || write_list(store, error)));
+}
+
+bool sb_store_lock(SbStore *store, GError **error) {
+  return open_writable(store, error);
+}
+
+bool sb_store_reopen(SbStore *store, GError **error) {
+  return open_readable(store, SQLITE_OPEN_READONLY, SB_STORE_FORMAT, error);
+}
+
+bool sb_store_begin(SbStore *store, GError **error) {
+  if (!sb_store_open_for_writing(store, error)) {
+    return false;
+  }
+  store->open_transaction =
+      store->open_transaction || sb_store_run(store, "BEGIN IMMEDIATE", error);
+  return store->open_transaction;
 }
 
 bool sb_store_commit(SbStore *store, GError **error) {
@@ -147,7 +362,7 @@ bool sb_store_commit(SbStore *store, GError **error) {
     return true;
   }
   store->open_transaction = false;
-  return run(store, "COMMIT", error);
+  return sb_store_run(store, "COMMIT", error);
 }
 
 bool sb_store_close(SbStore *store, GError **error) {
@@ -159,82 +374,77 @@ bool sb_store_close(SbStore *store, GError **error) {
   return good;
 }
 
-// A list's number: the beginning of its hash, so that stores agree on it.
-static gint64 list_number(const char *parameters, const char *figures) {
-  GChecksum *sum = g_checksum_new(G_CHECKSUM_SHA256);
-  g_checksum_update(sum, (const guchar *)parameters, -1);
-  g_checksum_update(sum, (const guchar *)"|", 1);
-  g_checksum_update(sum, (const guchar *)figures, -1);
-  g_autofree char *hex = g_strndup(g_checksum_get_string(sum), 15);
-  g_checksum_free(sum);
-  return (gint64)g_ascii_strtoull(hex, NULL, 16);
-}
-
-bool sb_store_set_list(SbStore *store, const char *const *parameters, const char *const *figures,
-                       GError **error) {
-  g_autofree char *names = g_strjoinv(",", (char **)parameters);
-  g_autofree char *paths = g_strjoinv(",", (char **)figures);
-  g_autofree char *cpu = cpu_name();
-  store->list = list_number(names, paths);
-  store->parameters = g_strv_length((char **)parameters);
-  store->figures = g_strv_length((char **)figures);
-  sqlite3_stmt *list = NULL, *origin = NULL;
-  bool good = begin(store, error) &&
-              ((sqlite3_prepare_v2(store->file, "INSERT OR IGNORE INTO list VALUES (?, ?, ?)", -1,
-                                   &list, NULL) == SQLITE_OK &&
-                sqlite3_bind_int64(list, 1, store->list) == SQLITE_OK &&
-                sqlite3_bind_text(list, 2, names, -1, SQLITE_STATIC) == SQLITE_OK &&
-                sqlite3_bind_text(list, 3, paths, -1, SQLITE_STATIC) == SQLITE_OK &&
-                sqlite3_step(list) == SQLITE_DONE &&
-                sqlite3_prepare_v2(store->file, "INSERT OR IGNORE INTO origin VALUES (?, ?)", -1,
-                                   &origin, NULL) == SQLITE_OK &&
-                sqlite3_bind_text(origin, 1, sb_version(), -1, SQLITE_STATIC) == SQLITE_OK &&
-                sqlite3_bind_text(origin, 2, cpu, -1, SQLITE_STATIC) == SQLITE_OK &&
-                sqlite3_step(origin) == SQLITE_DONE) ||
-               fail(store, SB_APP_ERROR_IO, error));
-  sqlite3_finalize(list);
-  sqlite3_finalize(origin);
-  return good;
+void sb_store_discard(SbStore *store) {
+  if (store != NULL) {
+    if (store->open_transaction) {
+      (void)sb_store_run(store, "ROLLBACK", NULL);
+    }
+    destroy(store);
+  }
 }
 
 bool sb_store_get(SbStore *store, const guint8 key[SB_STORE_KEY], SbStoredAnswer *out) {
-  const size_t bytes = store->figures * sizeof(double);
+  SbStoreRecord record = {0};
   sqlite3_reset(store->get);
   bool found = sqlite3_bind_blob(store->get, 1, key, SB_STORE_KEY, SQLITE_STATIC) == SQLITE_OK &&
                sqlite3_bind_int64(store->get, 2, store->list) == SQLITE_OK &&
                sqlite3_step(store->get) == SQLITE_ROW;
-  const void *value = found ? sqlite3_column_blob(store->get, 2) : NULL;
-  const int status = found ? sqlite3_column_int(store->get, 0) : -1;
-  // A row of another length, or of a status that there is not, is as good as none.
-  found = value != NULL && (size_t)sqlite3_column_bytes(store->get, 2) == bytes && status >= 0 &&
-          status <= SB_ERROR_IO;
   if (found) {
-    memcpy(out->value, value, bytes);
-    out->status = (SbStatus)status;
-    out->reason = g_strdup((const char *)sqlite3_column_text(store->get, 1));
+    sb_store_record(&record, store->get);
+    found = sb_store_is_sound(&record) && record.status >= 0 && record.status <= SB_ERROR_IO &&
+            (size_t)record.figures_size == store->figures * sizeof(double);
+  }
+  if (found) {
+    memcpy(out->value, record.figures, (size_t)record.figures_size);
+    out->status = (SbStatus)record.status;
+    out->reason = g_strdup(record.reason);
+    out->warnings = g_strdup(record.warnings);
   }
   sqlite3_reset(store->get);
   return found;
 }
 
-bool sb_store_put(SbStore *store, const guint8 key[SB_STORE_KEY], const double *parameter,
-                  const SbStoredAnswer *answer, GError **error) {
+bool sb_store_put_record(SbStore *store, const SbStoreRecord *record, GError **error) {
   sqlite3_stmt *put = store->put;
-  const size_t size = sizeof(double);
   sqlite3_reset(put);
-  const bool good = begin(store, error) &&
-                    ((sqlite3_bind_blob(put, 1, key, SB_STORE_KEY, SQLITE_STATIC) == SQLITE_OK &&
-                      sqlite3_bind_int64(put, 2, store->list) == SQLITE_OK &&
-                      sqlite3_bind_int(put, 3, (int)answer->status) == SQLITE_OK &&
-                      sqlite3_bind_text(put, 4, answer->reason, -1, SQLITE_STATIC) == SQLITE_OK &&
-                      sqlite3_bind_blob(put, 5, parameter, (int)(store->parameters * size),
-                                        SQLITE_STATIC) == SQLITE_OK &&
-                      sqlite3_bind_blob(put, 6, answer->value, (int)(store->figures * size),
-                                        SQLITE_STATIC) == SQLITE_OK &&
-                      sqlite3_step(put) == SQLITE_DONE) ||
-                     fail(store, SB_APP_ERROR_IO, error));
+  const bool good =
+      (sqlite3_bind_blob(put, 1, record->key, record->key_size, SQLITE_STATIC) == SQLITE_OK &&
+       sqlite3_bind_int64(put, 2, record->list) == SQLITE_OK &&
+       sqlite3_bind_int64(put, 3, record->status) == SQLITE_OK &&
+       sqlite3_bind_text(put, 4, record->reason, -1, SQLITE_STATIC) == SQLITE_OK &&
+       sqlite3_bind_text(put, 5, record->warnings, -1, SQLITE_STATIC) == SQLITE_OK &&
+       sqlite3_bind_blob(put, 6, record->parameters, record->parameters_size, SQLITE_STATIC) ==
+           SQLITE_OK &&
+       sqlite3_bind_blob(put, 7, record->figures, record->figures_size, SQLITE_STATIC) ==
+           SQLITE_OK &&
+       sqlite3_bind_blob(put, 8, record->sum, record->sum_size, SQLITE_STATIC) == SQLITE_OK &&
+       sqlite3_step(put) == SQLITE_DONE) ||
+      sb_store_fail(store, SB_APP_ERROR_IO, error);
   sqlite3_reset(put);
   return good;
+}
+
+bool sb_store_put(SbStore *store, const guint8 key[SB_STORE_KEY], const double *parameter,
+                  const SbStoredAnswer *answer, GError **error) {
+  guint8 sum[SB_STORE_SUM];
+  if (!sb_store_begin(store, error)) {
+    return false;
+  }
+  SbStoreRecord record = {.key = key,
+                          .key_size = SB_STORE_KEY,
+                          .list = store->list,
+                          .status = answer->status,
+                          .reason = answer->reason,
+                          .warnings = answer->warnings,
+                          // SQLite stores NULL for a pointer that is NULL.
+                          .parameters = store->parameters > 0 ? (const void *)parameter : "",
+                          .parameters_size = (int)(store->parameters * sizeof(double)),
+                          .figures = store->figures > 0 ? (const void *)answer->value : "",
+                          .figures_size = (int)(store->figures * sizeof(double)),
+                          .sum = sum,
+                          .sum_size = SB_STORE_SUM};
+  sb_store_sum(sum, &record);
+  return sb_store_put_record(store, &record, error);
 }
 
 guint64 sb_store_count(SbStore *store) {
@@ -253,40 +463,4 @@ char *sb_store_cpus(SbStore *store) {
   }
   sqlite3_finalize(query);
   return g_string_free(text, FALSE);
-}
-
-bool sb_store_merge(SbStore *store, const char *from, GError **error) {
-  // The other one is opened on its own first: whether it is a store, and nothing is made of it.
-  SbStore other = {.path = (char *)from};
-  bool good = open_file(&other, SQLITE_OPEN_READWRITE, error) && check_format(&other, false, error);
-  sqlite3_close(other.file);
-  if (!good || !sb_store_commit(store, error)) {
-    return false;
-  }
-  sqlite3_stmt *attach = NULL;
-  good = (sqlite3_prepare_v2(store->file, "ATTACH ? AS other", -1, &attach, NULL) == SQLITE_OK &&
-          sqlite3_bind_text(attach, 1, from, -1, SQLITE_STATIC) == SQLITE_OK &&
-          sqlite3_step(attach) == SQLITE_DONE) ||
-         fail(store, SB_APP_ERROR_IO, error);
-  sqlite3_finalize(attach);
-  if (!good) {
-    return false;
-  }
-  // Of two answers to one question the lesser stays, so that the order does not matter: on one type
-  // of CPU they are equal.
-  good = begin(store, error) &&
-         run(store,
-             "INSERT OR IGNORE INTO list SELECT * FROM other.list;"
-             "INSERT OR IGNORE INTO origin SELECT * FROM other.origin;"
-             "INSERT INTO answer SELECT * FROM other.answer WHERE true ON CONFLICT (key) DO UPDATE "
-             "SET list = excluded.list, status = excluded.status, reason = excluded.reason, "
-             "parameters = excluded.parameters, figures = excluded.figures "
-             "WHERE (excluded.status, excluded.figures) < (status, figures)",
-             error) &&
-         sb_store_commit(store, error);
-  if (store->open_transaction) {
-    store->open_transaction = false;
-    (void)run(store, "ROLLBACK", NULL);
-  }
-  return run(store, "DETACH other", good ? error : NULL) && good;
 }

@@ -1,5 +1,6 @@
 // Answers and their store: the same from any number of threads, in shards, after an interruption,
 // from a store that was joined; what is no store is refused.
+#define _GNU_SOURCE // memmem
 #include "app/study/answers.h"
 
 #include "app/base/error.h"
@@ -209,29 +210,194 @@ static void test_shards(void) {
   close_store(fresh);
 }
 
-// Stores that disagree are joined to the same whatever the order.
+// Two answers to one question are reported with the figure that differs; nothing is merged.
 static void test_disagree(void) {
-  guint8 key[SB_STORE_KEY] = {7};
+  guint8 key[SB_STORE_KEY] = {7}, own[SB_STORE_KEY] = {8};
   const double at = 1, low[] = {1, 2, 3}, high[] = {1, 2, 4};
   char *paths[] = {in_folder("a.store"), in_folder("b.store")};
   for (int i = 0; i < 2; i++) {
     SbStore *store = open_store(paths[i]);
     const SbStoredAnswer answer = {.value = (double *)(i == 0 ? low : high)};
+    g_assert_true(sb_store_put(store, own, &at, &answer, NULL) || i > 0);
+    own[1] = 1;
     g_assert_true(sb_store_put(store, key, &at, &answer, NULL));
     close_store(store);
   }
-  double got[2][FIGURES];
   for (int k = 0; k < 2; k++) {
+    g_autoptr(GError) error = NULL;
     SbStore *all = open_store(NULL);
-    g_assert_true(sb_store_merge(all, paths[k], NULL) && sb_store_merge(all, paths[1 - k], NULL));
-    SbStoredAnswer answer = {.value = got[k]};
-    g_assert_true(sb_store_get(all, key, &answer));
-    close_store(all);
+    // The same answer twice is no difference.
+    g_assert_true(sb_store_merge(all, paths[k], NULL) && sb_store_merge(all, paths[k], NULL));
+    g_assert_true(sb_store_commit(all, NULL));
+    g_assert_cmpuint(sb_store_count(all), ==, 2);
+    g_assert_false(sb_store_merge(all, paths[1 - k], &error));
+    g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+    g_assert_nonnull(strstr(error->message, paths[1 - k]));
+    g_assert_nonnull(strstr(error->message, k == 0 ? "c is 3 and 4" : "c is 4 and 3"));
+    sb_store_discard(all);
   }
-  g_assert_cmpmem(got[0], sizeof got[0], got[1], sizeof got[1]);
   for (int i = 0; i < 2; i++) {
     g_unlink(paths[i]);
     g_free(paths[i]);
+  }
+}
+
+typedef struct {
+  const SbAnswers *truth;
+  int sound, damaged;
+  char *name;
+} Seen;
+
+// A row that is not named as damaged is the truth, to the bit.
+static bool see(void *data, const SbStoreRow *row) {
+  Seen *seen = data;
+  if (row->damage != NULL) {
+    seen->damaged++;
+    g_free(seen->name);
+    seen->name = sb_store_row_name(row);
+    return true;
+  }
+  int at = 0;
+  seen->sound++;
+  g_assert_cmpuint(row->parameters, ==, 1);
+  while (at < SAMPLES && value[at] != row->parameter[0]) {
+    at++;
+  }
+  g_assert_cmpint(at, <, SAMPLES);
+  g_assert_cmpmem(row->figure, FIGURES * sizeof(double), seen->truth->value + at * FIGURES,
+                  FIGURES * sizeof(double));
+  g_assert_cmpint(row->status, ==, seen->truth->status[at]);
+  return true;
+}
+
+static Seen see_all(SbStore *store, const SbAnswers *truth, GError **error) {
+  Seen seen = {.truth = truth};
+  (void)sb_store_visit(store, see, &seen, error);
+  return seen;
+}
+
+static void write_bytes(const char *path, const char *bytes, gsize length) {
+  g_assert_true(g_file_set_contents(path, bytes, (gssize)length, NULL));
+}
+
+// A store of all samples as bytes, and their answers.
+static char *make_store(gsize *length, SbAnswers *truth, const char *path) {
+  SbStore *store = open_store(path);
+  SbQuestions asked = questions(store, 2);
+  char *bytes = NULL;
+  g_assert_true(sb_answers_get(truth, &asked, NULL));
+  close_store(store);
+  g_assert_true(g_file_get_contents(path, &bytes, length, NULL));
+  return bytes;
+}
+
+// One bit of a figure: the row is named and computed again, the others are not.
+static void test_flipped_figure(void) {
+  g_autofree char *path = in_folder("flipped.store");
+  gsize length = 0;
+  SbAnswers truth, again;
+  g_autofree char *bytes = make_store(&length, &truth, path);
+  char *of = memmem(bytes, length, &truth.value[5 * FIGURES], sizeof(double));
+  g_assert_nonnull(of);
+  of[0] ^= 1;
+  write_bytes(path, bytes, length);
+  SbStore *store = open_store(path);
+  Seen seen = see_all(store, &truth, NULL);
+  g_assert_cmpint(seen.damaged, ==, 1);
+  g_assert_cmpint(seen.sound, ==, SAMPLES - 1);
+  g_autofree char *where = g_strdup_printf("gland.radial_space = %.9g)", value[5]);
+  g_assert_nonnull(strstr(seen.name, where));
+  g_free(seen.name);
+  SbQuestions asked = questions(store, 1);
+  g_assert_true(sb_answers_get(&again, &asked, NULL));
+  g_assert_cmpuint(again.computed, ==, 1);
+  same(&truth, &again);
+  seen = see_all(store, &truth, NULL);
+  g_assert_cmpint(seen.damaged, ==, 0);
+  sb_answers_release(&again);
+  sb_answers_release(&truth);
+  close_store(store);
+  g_unlink(path);
+}
+
+// Bits all over the file: it is refused, or no row lies, and what a study does not find sound it
+// computes again. Repaired, it has sound rows alone.
+static void test_damage(void) {
+  enum { FLIPS = 80 };
+  g_autofree char *path = in_folder("damaged.store");
+  gsize length = 0;
+  SbAnswers truth, again;
+  g_autofree char *bytes = make_store(&length, &truth, path);
+  int refused = 0, found = 0;
+  for (gsize k = 0; k < FLIPS; k++) {
+    const gsize at = 100 + k * (length - 101) / FLIPS;
+    bytes[at] = (char)(bytes[at] ^ (1 << (k % 8)));
+    write_bytes(path, bytes, length);
+    bytes[at] = (char)(bytes[at] ^ (1 << (k % 8)));
+    g_autoptr(GError) error = NULL, structure = NULL;
+    SbStore *store = sb_store_open(path, &error);
+    if (store == NULL) {
+      g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+      refused++;
+      continue;
+    }
+    Seen seen = see_all(store, &truth, &structure);
+    g_free(seen.name);
+    if (seen.damaged > 0 || structure != NULL || seen.sound < SAMPLES) {
+      found++;
+      g_assert_true(sb_store_repair(store, &error));
+      g_assert_no_error(error);
+      seen = see_all(store, &truth, &error);
+      g_assert_no_error(error);
+      g_assert_cmpint(seen.damaged, ==, 0);
+    }
+    static const char *const parameters[] = {"gland.radial_space", NULL};
+    static const char *const figures[] = {"a", "b", "c", NULL};
+    g_assert_true(sb_store_set_list(store, parameters, figures, NULL));
+    SbQuestions asked = questions(store, 1);
+    g_assert_true(sb_answers_get(&again, &asked, &error));
+    g_assert_no_error(error);
+    same(&truth, &again);
+    sb_answers_release(&again);
+    close_store(store);
+  }
+  g_test_message("%d refused, %d found damaged", refused, found);
+  g_assert_cmpint(found, >, FLIPS / 10);
+  sb_answers_release(&truth);
+  g_unlink(path);
+}
+
+// Two readers of a finished store at the same time, neither of which changes it.
+static void test_finished(void) {
+  g_autofree char *path = in_folder("finished.store");
+  gsize length = 0, after = 0;
+  SbAnswers truth, again;
+  g_autofree char *bytes = make_store(&length, &truth, path), *now = NULL;
+  SbStore *one = open_store(path), *two = open_store(path);
+  for (int i = 0; i < 2; i++) {
+    SbQuestions asked = questions(i == 0 ? one : two, 1);
+    g_assert_true(sb_answers_get(&again, &asked, NULL));
+    g_assert_cmpuint(again.computed, ==, 0);
+    same(&truth, &again);
+    // Validity is stored with the figures.
+    g_assert_cmpstr(g_hash_table_lookup(again.warnings, GSIZE_TO_POINTER(0)), ==,
+                    g_hash_table_lookup(truth.warnings, GSIZE_TO_POINTER(0)));
+    sb_answers_release(&again);
+  }
+  close_store(one);
+  close_store(two);
+  g_assert_true(g_file_get_contents(path, &now, &after, NULL));
+  g_assert_cmpmem(bytes, length, now, after);
+  sb_answers_release(&truth);
+  g_unlink(path);
+}
+
+static void test_names(void) {
+  static const char *const names[] = {"", "-", ":memory:"};
+  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+    g_autoptr(GError) error = NULL;
+    g_assert_null(sb_store_open(names[i], &error));
+    g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
   }
 }
 
@@ -249,7 +415,7 @@ static void test_no_store(void) {
   SbQuestions asked = questions(store, 1);
   g_assert_true(sb_answers_get(&answers, &asked, NULL));
   sb_answers_release(&answers);
-  // It is one process' alone.
+  // While it is written it is one process' alone.
   g_assert_null(sb_store_open(path, &error));
   g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_IO);
   g_assert_nonnull(strstr(error->message, "is in use by another process"));
@@ -291,6 +457,10 @@ int main(int argc, char **argv) {
   g_test_add_func("/answers/resume", test_resume);
   g_test_add_func("/answers/shards", test_shards);
   g_test_add_func("/answers/disagree", test_disagree);
+  g_test_add_func("/answers/flipped-figure", test_flipped_figure);
+  g_test_add_func("/answers/damage", test_damage);
+  g_test_add_func("/answers/finished", test_finished);
+  g_test_add_func("/answers/names", test_names);
   g_test_add_func("/answers/no-store", test_no_store);
   const int failed = g_test_run();
   sb_model_destroy(base);

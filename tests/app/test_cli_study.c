@@ -91,7 +91,7 @@ static void test_killed(void) {
   g_autofree char *expected = csv_of(study, whole);
   g_assert_true(g_str_has_prefix(expected, "sample,seal.section_diameter [m],gland.radial_space "
                                            "[m],cycle.force_return_min_N,seals.outer.load_N,"
-                                           "status\n1,"));
+                                           "status,warnings\n1,"));
   int killed = 0;
   for (int i = 0; i < 10; i++) {
     const char *const arguments[] = {cli.program, "study", study,    CLOSED, "-o",
@@ -151,7 +151,7 @@ static void test_told(void) {
   cli_clear(&result);
   result = CLI("merge", store, study);
   g_assert_cmpint(result.code, ==, 1);
-  g_assert_nonnull(strstr(result.err, "is no store, or damaged"));
+  g_assert_nonnull(strstr(result.err, "is not a store, or is damaged"));
   cli_clear(&result);
   g_unlink(store);
   g_unlink(study);
