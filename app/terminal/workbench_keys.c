@@ -285,10 +285,12 @@ static void edit_value(SbBench *bench) {
 }
 
 static void undo(SbBench *bench, bool redo) {
+  const SbDocument *document = sb_session_document(bench->session);
+  const bool possible = redo ? sb_document_can_redo(document) : sb_document_can_undo(document);
   const int id = redo ? sb_session_redo(bench->session) : sb_session_undo(bench->session);
-  if (id >= 0 && id < SB_PARAM_COUNT) {
+  if (id >= 0) {
     sb_bench_select(bench, id);
-  } else if (id < 0) {
+  } else if (!possible) {
     sb_bench_say(bench, false, redo ? _("nothing to redo") : _("nothing to undo"));
   }
 }

@@ -407,8 +407,44 @@ def test_random(count=250, seed=20):
         same(terminal.stty(), terminal.modes, 'stty')
 
 
+def test_changed_file():
+    """Another program writes the document's file while a value is edited here: saving does not
+    replace it, both versions are merged, and one key takes that back."""
+    with Terminal() as terminal:
+        path = f'{terminal.folder}/piston.valve'
+        terminal.start('piston.valve')
+        terminal.see(r'│ C +\d')
+        terminal.keys('Enter')
+        terminal.see('Section diameter')
+        terminal.keys('C-u', '1.6', 'Enter')
+        terminal.see(r'Section diameter +1.6 mm')
+        with open(path, encoding='utf-8') as file:
+            text = file.read()
+        theirs = re.sub(r'(?m)^radial_space = .*', 'radial_space = 1.37 mm', text)
+        assert theirs != text
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(theirs)
+        terminal.keys('s')
+        terminal.see('Another program has changed the file')
+        with open(path, encoding='utf-8') as file:
+            same(file.read(), theirs, 'the file of the other program')
+        terminal.keys('m')
+        terminal.see(r'Radial space +1.37 mm')
+        terminal.see(r'Section diameter +1.6 mm')
+        terminal.keys('u')
+        terminal.see(r'Radial space +1.36 mm')
+        terminal.keys('s')
+        terminal.see('Another program has changed the file')
+        terminal.keys('o')
+        terminal.see('the document is')
+        with open(path, encoding='utf-8') as file:
+            assert 'radial_space = 1.36 mm' in file.read()
+        terminal.keys('q')
+        terminal.see(r'(?m)^left 0')
+
+
 def main():
-    tests = [test_session, test_export, test_plain, test_signals, test_plots, test_times,
+    tests = [test_session, test_changed_file, test_export, test_plain, test_signals, test_plots, test_times,
              test_random]
     arguments = ()
     if '--keys' in sys.argv:
