@@ -1,7 +1,7 @@
-// Value formatting. Digits come from the value's magnitude after rounding (9.96 N is "10.0 N", not
-// "10 N" beside "9.9 N"), and are cut so that one unit of the last digit is not smaller than the
-// error estimate. Locale is never asked. Leaves out exponents: quantities here stay within six
-// orders of magnitude of their unit, and what does not is written with fixed decimals.
+// Value formatting. Digits come from the value's magnitude after rounding (9.996 N is "10.0 N") and
+// from the error estimate: sb_format_decimals() holds the rounding rule of the whole program. The
+// locale is never read. Leaves out exponents: quantities here stay within six orders of magnitude
+// of their unit; other values are written with fixed decimals.
 #include "app/base/format.h"
 
 #include <glib.h>
@@ -26,11 +26,15 @@ int sb_format_decimals(double shown, int digits, double relative_error) {
   if (round(size / unit) * unit >= pow(10, exponent + 1) * (1 - 1e-12)) {
     decimals--;
   }
-  // One unit of the last digit must not be smaller than the error.
   if (relative_error > 0 && isfinite(relative_error)) {
-    int supported = (int)floor(-log10(relative_error * size) + 1e-9);
-    // ... but a first digit always stands: an error above 100 % is not a reason to print zero.
-    decimals = MAX(MIN(decimals, supported), -exponent);
+    // An error of 0.3 that is stored as 0.29999999 has the first digit 3.
+    double error = relative_error * size * (1 + 1e-9);
+    int place = -(int)floor(log10(error));
+    if (error * pow(10, place) < 3) {
+      place++;
+    }
+    // The first digit is always written: an error above 100 % does not make a value zero.
+    decimals = MAX(MIN(decimals, place), -exponent);
   }
   return decimals;
 }
@@ -111,6 +115,10 @@ static Unit choose_unit(SbQuantity quantity, double value) {
   }
 }
 
+const char *sb_quantity_unit(SbQuantity quantity, double value) {
+  return choose_unit(quantity, value).unit;
+}
+
 SbQuantity sb_quantity_of_unit(const char *unit) {
   for (int quantity = 0; quantity < SB_QUANTITY_COUNT; quantity++) {
     if (strcmp(choose_unit((SbQuantity)quantity, 0).unit, unit) == 0) {
@@ -135,10 +143,8 @@ void sb_format(SbFormatted *out, SbQuantity quantity, double value, double relat
   if (quantity == SB_QUANTITY_FORCE && fabs(shown) < 5e-4) {
     shown = 0;
   }
-  int digits = quantity == SB_QUANTITY_FORCE && fabs(shown) < 9.95 ? 2 : 3;
-  // What rounds to 10 N is written as 10 N would be.
-  bool ten = quantity == SB_QUANTITY_FORCE && fabs(shown) >= 9.95 && fabs(shown) < 10;
-  int decimals = sb_format_decimals(ten ? 10 : shown, digits, relative_error);
+  int digits = relative_error > 0 ? 4 : 3;
+  int decimals = sb_format_decimals(shown, digits, relative_error);
   write_number(out->number, sizeof out->number, shown, decimals);
 }
 
@@ -151,11 +157,6 @@ char *sb_format_text(char *out, SbQuantity quantity, double value, double relati
     g_strlcat(out, parts.unit, SB_FORMAT_MAX);
   }
   return out;
-}
-
-char *sb_format_figure(char *out, const SbSummary *summary, int index) {
-  return sb_format_text(out, sb_quantity_of_unit(sb_figure(index)->shown),
-                        sb_figure_value(summary, index), sb_figure_error(summary, index));
 }
 
 char *sb_format_given(char *out, SbQuantity quantity, double value) {

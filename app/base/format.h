@@ -1,16 +1,15 @@
 // Numbers as a person reads them: magnitude, digits, unit; the same in every locale.
 //
-// Three significant digits (two for forces below 10 N), never more than the relative error
-// supports, true minus, thin space in thousands, the unit always, zero as "0".
+// Three significant digits, or as many as the error estimate supports up to four (the rounding rule
+// is that of sb_format_decimals()); true minus, thin space in thousands, always the unit, zero as
+// "0". Figures of a run have a module of their own, figure_text.h.
 #pragma once
-
-#include "engine/valve/figures.h"
 
 #include <stddef.h>
 
 typedef enum {
   SB_QUANTITY_NUMBER,   // no unit
-  SB_QUANTITY_FORCE,    // N, two digits below 10
+  SB_QUANTITY_FORCE,    // N
   SB_QUANTITY_LENGTH,   // mm
   SB_QUANTITY_FILM,     // nm or um
   SB_QUANTITY_PRESSURE, // MPa
@@ -25,6 +24,9 @@ typedef enum {
 // The quantity that people read in `unit` ("nm": SB_QUANTITY_FILM); SB_QUANTITY_NUMBER for what is
 // none of these.
 SbQuantity sb_quantity_of_unit(const char *unit);
+
+// Unit in which people read `value` [SI] of a quantity: "nm" or "µm" by its size. Borrowed.
+const char *sb_quantity_unit(SbQuantity quantity, double value);
 
 enum { SB_FORMAT_MAX = 48 };
 
@@ -41,10 +43,6 @@ void sb_format(SbFormatted *out, SbQuantity quantity, double value, double relat
 // "27.4 N" into `out` (of SB_FORMAT_MAX bytes), which is returned. No break inside.
 char *sb_format_text(char *out, SbQuantity quantity, double value, double relative_error);
 
-// A figure of a run (engine/valve/figures.h) in the unit that people read, with no more digits than
-// its error estimate supports.
-char *sb_format_figure(char *out, const SbSummary *summary, int index);
-
 // As sb_format_text() for a given value rather than a computed one: no trailing zeros.
 char *sb_format_given(char *out, SbQuantity quantity, double value);
 
@@ -55,8 +53,11 @@ char *sb_format_fixed(char *out, double value, int decimals);
 // A plain number with `digits` significant digits.
 char *sb_format_digits(char *out, double value, int digits);
 
-// Decimals that a value displayed as `shown` deserves: `digits` significant ones, fewer where
-// `relative_error` says that the last of them mean nothing. 0 or more.
+// Returns the number of decimals with which a value displayed as `shown` is printed: the rounding
+// rule of the whole program. P is the decimal place of the first significant digit of the error, or
+// the next finer place if that digit is 1 or 2. The value is rounded at P, or at its `digits`-th
+// significant digit if that place is coarser (25.826 +- 0.775 is 25.8, 6.686 +- 0.201 is 6.69).
+// `relative_error` 0 or NaN: no error, `digits` alone decides. Negative: tens, hundreds, ...
 int sb_format_decimals(double shown, int digits, double relative_error);
 
 // Mark of a logarithmic length axis [m]: "1 nm", "100 nm", "10 um".

@@ -426,27 +426,6 @@ bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error)
   return true;
 }
 
-char *sb_figure_format(int index, double value, double error) {
-  const SbFigure *figure = sb_figure(index);
-  if (!isfinite(value)) {
-    return g_strdup("-");
-  }
-  if (figure->digits == 0) {
-    return g_strdup(value > 0 ? "yes" : "no");
-  }
-  double shown = sb_quantity_to_shown(value, figure->si, figure->shown);
-  int unsupported = sb_format_decimals(shown, figure->digits, 0) -
-                    sb_format_decimals(shown, figure->digits, error);
-  char digits[SB_NUMBER_SIZE];
-  sb_number_round(digits, shown, MAX(figure->digits - MAX(unsupported, 0), 1));
-  return g_strconcat(digits, *figure->shown != '\0' ? " " : "", figure->shown, NULL);
-}
-
-char *sb_figure_label(int index) {
-  const SbFigure *figure = sb_figure(index);
-  return g_strconcat(figure->label, *figure->where != '\0' ? ", " : "", figure->where, NULL);
-}
-
 // An end of a range. Where a round number of SI is none in the unit that people read (3.2e9 s are
 // 37037.03703703704 days), three digits of it, rounded into the range.
 static char *range_end(const SbParam *param, double value, bool lower) {
@@ -490,12 +469,4 @@ char *sb_param_range(SbParamId id) {
   g_free(end[0]);
   g_free(end[1]);
   return range;
-}
-
-char *sb_limit_format(int figure, double low, double high) {
-  g_autofree char *first = sb_figure_format(figure, isfinite(low) ? low : high, NAN);
-  g_autofree char *second = sb_figure_format(figure, high, NAN);
-  return isfinite(low) && isfinite(high)
-             ? g_strdup_printf("%s .. %s", first, second)
-             : g_strdup_printf("%s %s", isfinite(low) ? ">=" : "<=", first);
 }

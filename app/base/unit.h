@@ -40,16 +40,6 @@ double sb_quantity_step(double value, const char *si, const char *shown, int pow
 // or a whole number. Owned by the caller.
 char *sb_param_format(SbParamId id, double value);
 
-// The same of a figure (figures.h): rounded for a table, to what its error estimate (NaN: none)
-// supports; "yes" or "no"; "-" where it is not a number. Owned by the caller.
-char *sb_figure_format(int index, double value, double error);
-
-// A limit on a figure, an open end infinite: ">= 2 N", "8 % .. 25 %". Owned by the caller.
-char *sb_limit_format(int figure, double low, double high);
-
-// Its label with what tells it from others: "Load, outer seal". Owned by the caller.
-char *sb_figure_label(int index);
-
 // Text of a catalogue value, checked for kind, unit and range. On failure the sentence does not
 // repeat the key or the range.
 SB_CHECKED bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error);

@@ -1,9 +1,10 @@
-// See compare.h. All figures of a row have the unit and the decimals that the live one deserves, so
-// that a difference is that of the numbers shown. Which figures: the forces of the loop, then what
-// decides on a valve, then the sizes it follows from.
+// See compare.h. All values of a row have the unit of the live one and the decimals that the error
+// of the differences supports (figure_text.h), so that a difference is that of the numbers shown.
+// Which figures: the forces of the loop, then what decides on a valve, then the sizes it follows
+// from.
 #include "app/chart/compare.h"
 
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/base/unit.h"
 #include "app/chart/hysteresis.h"
 
@@ -51,10 +52,16 @@ static const SbChartRun *run_of(const SbChartData *data, size_t column) {
   return column == 0 ? &data->run : data->pin[column - 1].run;
 }
 
-static void set_decimals(Row *row, double error) {
-  const double live = fabs(row->value[0]);
-  const int digits = (row->force && live < 10) || live < 0.1 ? 2 : 3;
-  row->decimals = isfinite(row->value[0]) ? sb_format_decimals(row->value[0], digits, error) : 1;
+// One figure of all columns; `error` relative, of the column's own run.
+static void set_decimals(Row *row, const SbChartData *data, int figure,
+                         const SbFigureCompared *design) {
+  row->decimals = isfinite(design[0].value)
+                      ? sb_figure_compared_decimals(figure, design, 1 + data->pin_count)
+                      : 1;
+}
+
+static uint64_t methods_of(const SbChartRun *run) {
+  return run->model != NULL ? sb_model_methods(run->model) : 0;
 }
 
 static void playhead_row(Row *row, const SbChartData *data, int way) {
@@ -64,14 +71,16 @@ static void playhead_row(Row *row, const SbChartData *data, int way) {
   *row = (Row){.unit = "N", .force = true, .measured = NAN};
   g_snprintf(row->label, sizeof row->label, way == 0 ? _("at %s mm, in") : _("at %s mm, back"),
              sb_format_fixed(number, 1e3 * at, 2));
+  SbFigureCompared design[COLUMNS];
   for (size_t i = 0; i <= data->pin_count; i++) {
     double force[2] = {NAN, NAN};
     const SbChartRun *run = run_of(data, i);
     sb_hysteresis_forces(force, run, at);
     row->value[i] = force[way];
     row->stuck[i] = way == 1 && isnan(force[1]) && run->summary != NULL && !run->summary->returns;
+    design[i] = (SbFigureCompared){force[way], sb_chart_error_force(run), methods_of(run)};
   }
-  set_decimals(row, sb_chart_error_force(&data->run));
+  set_decimals(row, data, sb_figure_find("cycle.stages.C.force_N"), design);
 }
 
 static void figure_row(Row *row, const SbChartData *data, size_t k) {
@@ -79,18 +88,23 @@ static void figure_row(Row *row, const SbChartData *data, size_t k) {
   const SbFigure *figure = sb_figure(index);
   *row = (Row){.force = strcmp(figure->si, "N") == 0, .measured = NAN};
   g_strlcpy(row->label, _(figures[k].label), sizeof row->label);
-  g_strlcpy(row->unit, figure->shown, sizeof row->unit);
+  SbFigureCompared design[COLUMNS];
   for (size_t i = 0; i <= data->pin_count; i++) {
-    const SbSummary *summary = run_of(data, i)->summary;
-    const double value = summary != NULL ? sb_figure_value(summary, index) : NAN;
-    row->value[i] = sb_quantity_to_shown(value, figure->si, figure->shown);
+    const SbChartRun *run = run_of(data, i);
+    const SbSummary *summary = run->summary;
+    design[i] = (SbFigureCompared){summary != NULL ? sb_figure_value(summary, index) : NAN,
+                                   summary != NULL ? sb_figure_error(summary, index) : NAN,
+                                   methods_of(run)};
+  }
+  g_strlcpy(row->unit, sb_figure_compared_unit(index, design[0].value), sizeof row->unit);
+  for (size_t i = 0; i <= data->pin_count; i++) {
+    row->value[i] = sb_quantity_to_shown(design[i].value, figure->si, row->unit);
   }
   if (data->measured != NULL && figures[k].stage >= 0) {
     const SbMeasuredStage *stage = &data->measured->measured->stage[figures[k].stage];
     row->measured = stage->found ? stage->force : NAN;
   }
-  const SbSummary *live = data->run.summary;
-  set_decimals(row, live != NULL ? sb_figure_error(live, index) : NAN);
+  set_decimals(row, data, index, design);
 }
 
 static void make(Row *row, const SbChartData *data, size_t index) {

@@ -1,7 +1,7 @@
 // Small questions that several views ask of their data. Computes nothing of its own.
 #include "app/chart/data.h"
 
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>
@@ -166,6 +166,15 @@ void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace,
 
 static double known(double error) {
   return isfinite(error) && error > 0 ? error : 0;
+}
+
+char *sb_chart_stage_force(char *out, const SbChartRun *run, SbStage stage, double force) {
+  char path[64];
+  g_snprintf(path, sizeof path, "cycle.stages.%s.force_N", sb_stage_name(stage));
+  const int figure = sb_figure_find(path);
+  const bool known = run->summary != NULL && isfinite(sb_figure_value(run->summary, figure));
+  return known ? sb_format_figure(out, run->summary, figure)
+               : sb_figure_text(out, figure, force, NAN);
 }
 
 double sb_chart_error_force(const SbChartRun *run) {

@@ -148,6 +148,10 @@ SbChartState sb_chart_state_of(const SbSummary *summary);
 // once the run has ended.
 void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace, SbChartState state);
 
+// The force of a stage's mark as text, into `out` of SB_FORMAT_MAX bytes, which is returned: once
+// the run has ended, the figure "cycle.stages.X.force_N" as every other surface prints it.
+char *sb_chart_stage_force(char *out, const SbChartRun *run, SbStage stage, double force);
+
 // Relative error to quote for forces and films: the run's estimate, or 0 when unknown.
 double sb_chart_error_force(const SbChartRun *run);
 double sb_chart_error_film(const SbChartRun *run);

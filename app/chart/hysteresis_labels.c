@@ -1,7 +1,7 @@
 // Labels of the hysteresis chart: *now*, the stages' letters with their forces, what the lines are.
 // Figures are the frames' and, for loss and least return, the summary's, so they appear only after
 // the run's end. Order is importance: the collision rule serves *now* first.
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/chart/hysteresis_private.h"
 
 #include <glib.h>
@@ -67,7 +67,7 @@ void sb_hysteresis_marks(SbHysteresisView *v) {
       continue;
     }
     char value[SB_FORMAT_MAX] = "";
-    sb_format_text(value, SB_QUANTITY_FORCE, mark[s].force, sb_chart_error_force(run));
+    sb_chart_stage_force(value, run, (SbStage)s, mark[s].force);
     // F stands on the line that E has just labelled; A is the origin.
     bool again = s == SB_STAGE_F && strcmp(value, shown) == 0;
     g_strlcpy(shown, value, sizeof shown);
@@ -212,7 +212,7 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
   double reference = run->model ? sb_model_pressure_force(run->model) : 0;
   if (reference > 0) {
     double y = sb_axis_at(&v->at.y, reference);
-    sb_format_text(value, SB_QUANTITY_FORCE, reference, 0);
+    sb_figure_text(value, sb_figure_find("cycle.pressure_force_N"), reference, 0);
     g_snprintf(text, sizeof text, _("pressure force %s"), value);
     double zero = sb_axis_at(&v->at.x, 0), end = sb_axis_at(&v->at.x, v->at.x.hi);
     double stroke = run->model

@@ -5,7 +5,7 @@
 // exist and are said in words. Leaves out what the solver left out: asperities' share of the
 // pressure is drawn only if the profile has one.
 #include "app/chart/profiles.h"
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/base/label.h"
 #include "app/chart/axis.h"
 #include "app/chart/contact_curve.h"
@@ -148,19 +148,14 @@ static bool small_label(Small *s, const char *text, const SbTextStyle *style, co
   return true;
 }
 
-// A figure that stands beside its like at the other seal: both get the decimals that both deserve.
-static void shared_format(char *out, const Small *s, double value, double other, double scale,
-                          const char *unit) {
-  double error = sb_chart_error_load(&s->data->run);
-  int decimals = sb_format_decimals(value * scale, 3, error);
-  if (other > 0) {
-    decimals = MIN(decimals, sb_format_decimals(other * scale, 3, error));
-  }
-  // ... but never none at all.
-  decimals = MAX(decimals, sb_format_decimals(value * scale, 1, 0));
-  char number[SB_FORMAT_MAX];
-  sb_format_fixed(number, value * scale, decimals);
-  g_snprintf(out, SB_FORMAT_MAX, "%s\xc2\xa0%s", number, unit);
+// A figure of the seal at this instant, with the unit, the digits and the error of the figure
+// `name` of the run.
+static void seal_figure(char *out, const Small *s, const char *name, double value) {
+  char path[64];
+  g_snprintf(path, sizeof path, "seals.%s.%s", sb_seal_name(s->index), name);
+  const int figure = sb_figure_find(path);
+  const SbSummary *summary = s->data->run.summary;
+  sb_figure_text(out, figure, value, summary != NULL ? sb_figure_error(summary, figure) : NAN);
 }
 
 // The asperities' share of the pressure: a dashed line under the curve, named once.
@@ -388,14 +383,11 @@ static void pressure_chart(Small *s) {
   g_free(p);
 
   // Peak, width, fluid.
-  const SbFrame *frame = sb_chart_frame(s->data);
-  const SbSealFrame *other = &frame->seal[s->index == SB_OUTER ? SB_INNER : SB_OUTER];
-  other = sb_contact_touches(other) ? other : NULL;
   char value[SB_FORMAT_MAX], text[96];
   if (peak > 0) {
     double x = sb_axis_at(&s->x, peak_x * 1e3), y = sb_axis_at(&s->y, peak * 1e-6);
     sb_canvas_dot(c, x, y, 2.6, s->color);
-    shared_format(value, s, peak, other ? other->pressure_peak : 0, 1e-6, "MPa");
+    seal_figure(value, s, "pressure_peak_Pa", peak);
     g_snprintf(text, sizeof text, _("peak %s"), value);
     SbTextStyle style = {SB_TYPE_LABEL, 600, s->color, 1};
     small_label(s, text, &style,
@@ -408,7 +400,7 @@ static void pressure_chart(Small *s) {
   // The width is the frame's contact, whatever the curve's feet.
   double wide = seal->contact_right - seal->contact_left;
   double middle = sb_axis_at(&s->x, 0.5e3 * (seal->contact_left + seal->contact_right));
-  shared_format(value, s, wide, other ? other->contact_right - other->contact_left : 0, 1e3, "mm");
+  seal_figure(value, s, "contact_width_m", wide);
   SbTextStyle strong = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
   double width = sb_canvas_text_width(c, value, &strong) + 8;
   double room = sb_axis_at(&s->x, wide * 1e3) - sb_axis_at(&s->x, 0);
@@ -528,11 +520,10 @@ static void film_chart(Small *s) {
     g_free(p);
 
     // Central and least film above the flat.
-    double error = sb_chart_error_film(&s->data->run);
     double x = sb_axis_at(&s->x, 0.5e3 * (seal->contact_left + seal->contact_right));
     double y = sb_axis_at(&s->y, seal->film_central);
-    sb_format_text(value, SB_QUANTITY_FILM, seal->film_central, error);
-    sb_format_text(least, SB_QUANTITY_FILM, seal->film_min, error);
+    seal_figure(value, s, "film_central_m", seal->film_central);
+    seal_figure(least, s, "film_min_m", seal->film_min);
     bool uniform = seal->film_min >= 0.995 * seal->film_central;
     SbTextStyle style = {SB_TYPE_LABEL, 600, s->color, 1};
     g_snprintf(text, sizeof text, uniform ? _("%s, uniform") : _("%s, least %s"), value, least);

@@ -1,4 +1,5 @@
 // sealbench compare: runs of scenes side by side, and a measured loop beside them.
+#include "app/base/figure_text.h"
 #include "app/cli/cli.h"
 #include "app/cli/plots.h"
 #include "app/export/measured_results.h"
@@ -16,9 +17,10 @@ typedef struct {
 typedef struct {
   size_t count;
   char **name;
-  const char **scene; // full path of each run's file, borrowed
-  double **figure;    // [SB_FIGURE_COUNT] each
-  SbRun **run;        // for the chart; NULL: none is drawn
+  const char **scene;       // full path of each run's file, borrowed
+  double **figure, **error; // [SB_FIGURE_COUNT] each
+  uint64_t *methods;        // sb_model_methods() of each
+  SbRun **run;              // for the chart; NULL: none is drawn
   SbMeasured **measured;
   SbComparison **comparison; // NULL: nothing measured
 } Runs;
@@ -59,8 +61,11 @@ static int run_model(Runs *runs, const SbCliFile *file, const SbModel *model, co
     runs->name[at] = g_strdup(name);
     runs->scene[at] = file->full;
     runs->figure[at] = g_new(double, SB_FIGURE_COUNT);
+    runs->error[at] = g_new(double, SB_FIGURE_COUNT);
+    runs->methods[at] = sb_model_methods(model);
     for (int f = 0; f < SB_FIGURE_COUNT; f++) {
       runs->figure[at][f] = sb_figure_value(sb_run_summary(run), f);
+      runs->error[at][f] = sb_figure_error(sb_run_summary(run), f);
     }
     SbLoop loop = {0};
     if (measured != NULL && sb_loop_take(&loop, run)) {
@@ -98,7 +103,28 @@ static int run_file(Runs *runs, const SbCliFile *file, const Options *options) {
   return issues->len > 0 ? MAX(code, SB_EXIT_INPUT) : code;
 }
 
-// The short table's figures of all runs, and what each differs by from the first.
+// Prints a figure of all runs, and the difference of each from the first, with the decimals that
+// the error of the differences supports.
+static void print_figure(const Runs *runs, int f) {
+  g_autofree SbFigureCompared *design = g_new(SbFigureCompared, runs->count);
+  for (size_t i = 0; i < runs->count; i++) {
+    design[i] = (SbFigureCompared){runs->figure[i][f], runs->error[i][f], runs->methods[i]};
+  }
+  g_autofree char *label = sb_figure_label(f);
+  printf("  %-36s", label);
+  for (size_t i = 0; i < runs->count; i++) {
+    char value[SB_FORMAT_MAX], change[SB_FORMAT_MAX];
+    const char *unit = sb_figure_compared(value, change, f, design, runs->count, i);
+    g_autofree char *all = *change == '\0'
+                               ? g_strdup_printf("%s%s%s", value, *unit != '\0' ? " " : "", unit)
+                               : g_strdup_printf("%s%s%s (%s%s%s)", value, *unit != '\0' ? " " : "",
+                                                 unit, change, *unit != '\0' ? " " : "", unit);
+    printf("  %-*s", i == 0 ? 12 : 24, all);
+  }
+  putchar('\n');
+}
+
+// The figures of the short table that a run knows.
 static void print_figures(const Runs *runs) {
   for (size_t i = 0; i < runs->count; i++) {
     printf("%zu: %s\n", i + 1, runs->name[i]);
@@ -112,18 +138,7 @@ static void print_figures(const Runs *runs) {
     if (!figure->brief || !known) {
       continue;
     }
-    g_autofree char *label = sb_figure_label(f);
-    printf("  %-36s", label);
-    for (size_t i = 0; i < runs->count; i++) {
-      const double value = runs->figure[i][f], less = value - runs->figure[0][f];
-      g_autofree char *text = sb_figure_format(f, value, NAN);
-      g_autofree char *by = sb_figure_format(f, fabs(less), NAN);
-      g_autofree char *all = i == 0 || isnan(less) || figure->digits == 0
-                                 ? g_strdup(text)
-                                 : g_strdup_printf("%s (%s%s)", text, less < 0 ? "-" : "+", by);
-      printf("  %-*s", i == 0 ? 12 : 24, all);
-    }
-    putchar('\n');
+    print_figure(runs, f);
   }
 }
 
@@ -149,6 +164,8 @@ int sb_command_compare(int argc, char **argv) {
     Runs runs = {.name = g_new0(char *, room + 1),
                  .scene = g_new0(const char *, room),
                  .figure = g_new0(double *, room),
+                 .error = g_new0(double *, room),
+                 .methods = g_new0(uint64_t, room),
                  .run = g_new0(SbRun *, room),
                  .measured = g_new0(SbMeasured *, room),
                  .comparison = g_new0(SbComparison *, room)};
@@ -176,6 +193,7 @@ int sb_command_compare(int argc, char **argv) {
     }
     for (size_t i = 0; i < runs.count; i++) {
       g_free(runs.figure[i]);
+      g_free(runs.error[i]);
       sb_run_destroy(runs.run[i]);
       sb_comparison_free(runs.comparison[i]);
       sb_measured_free(runs.measured[i]);
@@ -183,6 +201,8 @@ int sb_command_compare(int argc, char **argv) {
     g_strfreev(runs.name);
     g_free(runs.scene);
     g_free(runs.figure);
+    g_free(runs.error);
+    g_free(runs.methods);
     g_free(runs.run);
     g_free(runs.measured);
     g_free(runs.comparison);

@@ -1,6 +1,7 @@
 // sealbench design: the best valve within bounds and limits.
 #include "app/cli/cli.h"
 
+#include "app/base/figure_text.h"
 #include "app/base/output.h"
 #include "app/export/design_results.h"
 

@@ -1,4 +1,5 @@
 // sealbench run: a scene's cycle to a table, JSON or a folder of results.
+#include "app/base/figure_text.h"
 #include "app/cli/cli.h"
 #include "app/cli/plots.h"
 #include "app/export/results_files.h"
@@ -48,8 +49,19 @@ static void print_seal(const SbSummary *summary, int seal) {
   sb_cli_line("Leak path", sb_leak_state_name(summary->seal[seal].leak_state));
 }
 
+// The figure that decides a question, with its limit; owned by the caller.
+static char *deciding_text(const SbSummary *summary, const SbVerdict *verdict) {
+  if (isnan(verdict->value) || isnan(verdict->limit)) {
+    return g_strdup("");
+  }
+  const double error = sb_figure_error(summary, verdict->figure);
+  g_autofree char *value = sb_figure_format(verdict->figure, verdict->value, error);
+  g_autofree char *limit = sb_figure_given(verdict->figure, verdict->limit);
+  return g_strdup_printf(", %s against %s", value, limit);
+}
+
 // The questions that have an answer.
-static void print_verdict(const SbCaseVerdict *verdicts) {
+static void print_verdict(const SbSummary *summary, const SbCaseVerdict *verdicts) {
   printf("Verdict\n");
   for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
     const SbVerdict *verdict = &verdicts[kind].of;
@@ -57,8 +69,9 @@ static void print_verdict(const SbCaseVerdict *verdicts) {
     if (verdict->figure >= 0) {
       static const char *const answers[] = {"-", "NO", "yes"};
       bool because = verdict->reason[0] != '\0';
+      g_autofree char *deciding = deciding_text(summary, verdict);
       g_autofree char *text = g_strdup_printf(
-          "%s%s%s%s%s%s", answers[verdict->ok], because ? " (" : "", verdict->reason,
+          "%s%s%s%s%s%s%s", answers[verdict->ok], deciding, because ? " (" : "", verdict->reason,
           because ? ")" : "", name != NULL ? ", case " : "", name != NULL ? name : "");
       sb_cli_line(sb_verdict_name((SbVerdictKind)kind), text);
     }
@@ -104,7 +117,7 @@ static void print_table(const SbDocument *document, const SbRun *run,
   }
   print_seal(summary, SB_OUTER);
   print_seal(summary, SB_INNER);
-  print_verdict(verdict);
+  print_verdict(summary, verdict);
   print_solver(summary);
 }
 

@@ -1,4 +1,5 @@
 // sealbench list, plan, asperity and open.
+#include "app/base/figure_text.h"
 #include "app/cli/cli.h"
 #include "app/document/rubber_sheet.h"
 #include "app/document/shipped.h"

@@ -2,6 +2,7 @@
 #include "app/cli/cli.h"
 #include "app/cli/plots.h"
 
+#include "app/base/figure_text.h"
 #include "app/base/output.h"
 #include "app/export/study_results.h"
 

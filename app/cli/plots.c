@@ -1,6 +1,7 @@
 // Charts below tables. See plots.h. By the same code as the workbench in a terminal.
 #include "app/cli/plots.h"
 
+#include "app/base/figure_text.h"
 #include "app/cli/cli.h"
 #include "app/terminal/charts.h"
 

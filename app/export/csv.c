@@ -1,6 +1,7 @@
 // Frames and profiles as text tables.
 #include "app/export/csv.h"
 
+#include "app/base/figure_text.h"
 #include "app/base/unit.h"
 
 #include "engine/valve/sealbench.h"

@@ -1,7 +1,7 @@
 // The map of a design question. See design_map.h.
 #include "app/export/design_map.h"
 
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/base/label.h"
 #include "app/base/translation.h"
 #include "app/base/unit.h"
@@ -13,12 +13,8 @@
 #include <string.h>
 
 char *sb_design_value_text(int figure, double value) {
-  const SbFigure *of = sb_figure(figure);
-  const SbQuantity quantity = sb_quantity_of_unit(of->shown);
   char text[SB_FORMAT_MAX];
-  return isnan(value)                     ? g_strdup("–")
-         : quantity != SB_QUANTITY_NUMBER ? g_strdup(sb_format_text(text, quantity, value, 0))
-                                          : sb_figure_format(figure, value, NAN);
+  return g_strdup(sb_figure_text(text, figure, value, NAN));
 }
 
 // Values between points ---------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 // The JSON documents of `list`: the two catalogues, parameters and figures, and the models.
 #include "app/export/results.h"
 
+#include "app/base/figure_text.h"
 #include "app/base/unit.h"
 #include "app/export/json.h"
 

@@ -3,7 +3,7 @@
 // on.
 #include "app/export/report.h"
 
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/life.h"
@@ -72,13 +72,15 @@ char *sb_report_error(const SbSummary *summary, int index) {
                       : g_strdup_printf("%s\xc2\xa0%%", sb_format_digits(digits, 100 * error, 2));
 }
 
-char *sb_report_margin(int figure, double value, double low, double high) {
+char *sb_report_margin(int figure, double value, double error, double low, double high) {
   const double below = value - low, above = high - value;
   const double margin = fmin(below, above), limit = below < above ? low : high;
   if (!isfinite(margin) || sb_figure(figure)->digits == 0) {
     return g_strdup("");
   }
-  g_autofree char *size = sb_figure_format(figure, fabs(margin), NAN);
+  // The limit is exact: the margin has the absolute error of the value.
+  g_autofree char *size =
+      sb_figure_format(figure, fabs(margin), margin != 0 ? fabs(error * value / margin) : 0);
   g_autofree char *share =
       limit != 0 ? g_strdup_printf(" (%.0f\xc2\xa0%%)", 100 * fabs(margin / limit)) : g_strdup("");
   return g_strdup_printf("%s%s%s", margin < 0 ? "\xe2\x88\x92" : "", size, share);
@@ -107,18 +109,17 @@ static void draw_verdict(SbReportPages *pages, const Scene *scene) {
     g_autofree char *name = capital(sb_verdict_name((SbVerdictKind)kind));
     const bool known = of->figure >= 0, limited = known && isfinite(of->limit);
     g_autofree char *label = known ? sb_figure_label(of->figure) : g_strdup("");
-    // Value and limit have columns of their own.
-    const char *reason =
-        known && g_str_has_prefix(of->reason, sb_figure(of->figure)->path) ? "" : of->reason;
+    const char *reason = of->reason;
     g_autofree char *why = !known && *reason == '\0'   ? g_strdup("no limit is set")
                            : !known || *reason == '\0' ? g_strdup(known ? label : reason)
                                                        : g_strdup_printf("%s: %s", label, reason);
-    g_autofree char *value = known ? sb_figure_format(of->figure, of->value, NAN) : g_strdup("");
-    g_autofree char *limit = limited ? sb_figure_format(of->figure, of->limit, NAN) : g_strdup("");
+    const double error = known ? sb_figure_error(scene->summary, of->figure) : NAN;
+    g_autofree char *value = known ? sb_figure_format(of->figure, of->value, error) : g_strdup("");
+    g_autofree char *limit = limited ? sb_figure_given(of->figure, of->limit) : g_strdup("");
     // On which side of the limit a value should be, the answer tells.
     const bool above = (of->value >= of->limit) == (of->ok != SB_ANSWER_NO);
     g_autofree char *margin =
-        limited ? sb_report_margin(of->figure, of->value, above ? of->limit : -INFINITY,
+        limited ? sb_report_margin(of->figure, of->value, error, above ? of->limit : -INFINITY,
                                    above ? INFINITY : of->limit)
                 : g_strdup("");
     static const char *const answers[] = {DASH, "NO", "yes"};
@@ -141,7 +142,9 @@ static void draw_limits(SbReportPages *pages, const Scene *scene) {
     g_autofree char *label = sb_figure_label(limit->figure);
     g_autofree char *text = sb_limit_format(limit->figure, limit->low, limit->high);
     g_autofree char *shown = sb_report_value(scene->summary, limit->figure);
-    g_autofree char *margin = sb_report_margin(limit->figure, value, limit->low, limit->high);
+    g_autofree char *margin =
+        sb_report_margin(limit->figure, value, sb_figure_error(scene->summary, limit->figure),
+                         limit->low, limit->high);
     const bool beyond = value < limit->low || value > limit->high;
     const char *const cell[] = {label, text, shown, margin};
     sb_report_row(pages, &table, cell,

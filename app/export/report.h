@@ -54,7 +54,7 @@ char *sb_report_error(const SbSummary *summary, int index);
 
 // How far a value lies within a limit, "1.4 N (5 %)"; negative beyond it. "" where either is none.
 // Owned by the caller.
-char *sb_report_margin(int figure, double value, double low, double high);
+char *sb_report_margin(int figure, double value, double error, double low, double high);
 
 // The parameters in force with their tolerances and where they come from, the models, the sources
 // that these name, and the defaults of the rest (report_inputs.c).

@@ -2,7 +2,7 @@
 // figure, what each figure hangs on, curves of a grid; then the scene's inputs.
 #include "app/export/report.h"
 
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/base/number.h"
 #include "app/chart/samples.h"
 #include "app/chart/study.h"

@@ -110,7 +110,7 @@ char *sb_session_where(SbSession *session) {
   }
   char displacement[SB_FORMAT_MAX], force[SB_FORMAT_MAX], name[SB_FORMAT_MAX];
   sb_format_text(displacement, SB_QUANTITY_LENGTH, frame->displacement, 0);
-  sb_format_text(force, SB_QUANTITY_FORCE, frame->force, 0);
+  sb_format_text(force, SB_QUANTITY_FORCE, frame->force, sb_chart_error_force(&session->chart.run));
   sb_chart_cycle_name(name, &session->chart.run, cycle);
   g_autofree char *where = g_strdup_printf(_("stage %s, %s, %s"), stage, displacement, force);
   return name[0] != '\0' ? g_strdup_printf("%s, %s", where, name) : g_steal_pointer(&where);

@@ -1,9 +1,8 @@
 // The verdict in words. See verdict_text.h.
 #include "app/session/verdict_text.h"
 
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/base/translation.h"
-#include "app/base/unit.h"
 #include "engine/valve/figures.h"
 
 #include <glib/gi18n.h>
@@ -42,9 +41,10 @@ const char *sb_verdict_answer(SbAnswer answer) {
                                   : C_("verdict", "not known");
 }
 
-// A value of a figure in the unit that people read.
-static char *shown_value(int figure, double value) {
-  return sb_figure_format(figure, value, NAN);
+// The value of the verdict with the digits that its figure has on every surface.
+static char *shown_value(const SbSummary *summary, int figure, double value) {
+  char text[SB_FORMAT_MAX];
+  return g_strdup(sb_figure_text(text, figure, value, sb_figure_error(summary, figure)));
 }
 
 char *sb_verdict_figure_text(const SbSummary *summary, int kind, const SbVerdict *verdict) {
@@ -57,17 +57,11 @@ char *sb_verdict_figure_text(const SbSummary *summary, int kind, const SbVerdict
   if (isnan(value)) {
     return g_strdup(kind == SB_VERDICT_LEAK ? "" : _("not known"));
   }
-  char shown[SB_FORMAT_MAX];
-  // The short form knows the units of lengths, forces and their like, not that of a loss a year.
-  const char *unit = sb_figure(figure)->shown;
-  const bool brief = *unit == '\0' || sb_quantity_of_unit(unit) != SB_QUANTITY_NUMBER;
-  g_autofree char *own = brief && value == sb_figure_value(summary, figure)
-                             ? g_strdup(sb_format_figure(shown, summary, figure))
-                             : shown_value(figure, value);
+  g_autofree char *own = shown_value(summary, figure, value);
   if (isnan(verdict->limit) || verdict->figure < 0) {
     return g_steal_pointer(&own);
   }
-  g_autofree char *limit = shown_value(figure, verdict->limit);
+  g_autofree char *limit = sb_figure_given(figure, verdict->limit);
   if (summary->shelf.typical && g_str_has_prefix(sb_figure(figure)->path, "shelf.")) {
     return g_strdup_printf(_("%s (typical rubber) of %s"), own, limit);
   }
@@ -82,10 +76,11 @@ char *sb_verdict_why(const SbSummary *summary, int kind, const SbVerdict *verdic
       verdict->figure >= 0 ? verdict->figure : sb_figure_find(questions[kind].figure);
   const double value = verdict->figure >= 0 ? verdict->value : sb_figure_value(summary, figure);
   g_autofree char *label = sb_figure_label(figure);
-  g_autofree char *shown = isnan(value) ? g_strdup(_("not known")) : shown_value(figure, value);
+  g_autofree char *shown =
+      isnan(value) ? g_strdup(_("not known")) : shown_value(summary, figure, value);
   g_string_append_printf(text, "\n%s: %s.", sb_translation(label), shown);
   if (verdict->figure >= 0 && !isnan(verdict->limit)) {
-    g_autofree char *limit = shown_value(figure, verdict->limit);
+    g_autofree char *limit = sb_figure_given(figure, verdict->limit);
     g_string_append_printf(text, _("\nLimit: %s."), limit);
   }
   if (verdict->reason[0] != '\0') {

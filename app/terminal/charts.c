@@ -2,7 +2,7 @@
 // stands between the same axes in every front end.
 #include "app/terminal/charts.h"
 
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/base/unit.h"
 #include "app/chart/hysteresis.h"
 
@@ -90,7 +90,7 @@ static void draw_stages(SbPlot *plot, SbCellRect within, const SbCellTheme *them
       continue;
     }
     char force[SB_FORMAT_MAX], text[2 * SB_FORMAT_MAX];
-    sb_format_text(force, SB_QUANTITY_FORCE, at->force, sb_chart_error_force(run));
+    sb_chart_stage_force(force, run, order[i], at->force);
     sb_chart_drop_unit(force);
     g_snprintf(text, sizeof text, "%s %s", sb_stage_name(order[i]), force);
     sb_plot_label(plot->cells, within, column, row, text, pen_of(theme, SB_ROLE_INK, SB_CELL_BOLD));
@@ -212,7 +212,7 @@ void sb_chart_loop(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
       sb_plot_cell(&plot, layout.x.lo + 0.06 * (layout.x.hi - layout.x.lo), pressure, &column,
                    &row)) {
     char force[SB_FORMAT_MAX], text[2 * SB_FORMAT_MAX];
-    sb_format_text(force, SB_QUANTITY_FORCE, pressure, 0);
+    sb_figure_text(force, sb_figure_find("cycle.pressure_force_N"), pressure, 0);
     g_snprintf(text, sizeof text, "pressure %s", force);
     sb_plot_label(cells, within, column, row, text, pen_of(theme, SB_ROLE_FLUID, 0));
   }

@@ -1,7 +1,7 @@
 // The page of the valve: header, verdict, loop, figures, section, timeline, status.
 #include "app/terminal/workbench_private.h"
 
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/session/verdict_text.h"
 
@@ -148,25 +148,46 @@ static const struct {
     {"D", "cycle.stages.D.force_N"},
     {"E", "cycle.stages.E.force_N"},
     {N_("least return"), "cycle.force_return_min_N"},
-    {N_("loss / mJ"), "cycle.energy_loss_J"},
-    {N_("leak / pl"), "cycle.leakage_per_cycle_m3"},
+    {N_("loss"), "cycle.energy_loss_J"},
+    {N_("leak"), "cycle.leakage_per_cycle_m3"},
 };
 
-// A figure's number without its unit; a dash where it has none.
-static void figure_number(char *out, const SbSummary *summary, const char *path) {
-  const int figure = sb_figure_find(path);
-  if (summary == NULL || isnan(sb_figure_value(summary, figure))) {
-    g_strlcpy(out, "–", SB_FORMAT_MAX);
-    return;
+// One row: the live figure, then those of the pins, all with the unit of the live one and the
+// decimals that the error of the differences supports.
+static void compare_row(SbBench *bench, int x, int y, const char *label, int figure,
+                        const SbSummary *live, SbPen own) {
+  enum { LABEL = 13, EACH = 8, LIVE = 7 };
+  SbCells *cells = &bench->cells;
+  const SbChartData *data = sb_session_chart(bench->session);
+  SbFigureCompared design[1 + SB_CHART_PINS];
+  const size_t count = 1 + data->pin_count;
+  for (size_t i = 0; i < count; i++) {
+    const SbChartRun *run = i == 0 ? &data->run : data->pin[i - 1].run;
+    const SbSummary *summary = i == 0 ? live : run->summary;
+    design[i] = (SbFigureCompared){summary != NULL ? sb_figure_value(summary, figure) : NAN,
+                                   summary != NULL ? sb_figure_error(summary, figure) : NAN,
+                                   run->model != NULL ? sb_model_methods(run->model) : 0};
   }
-  sb_format_figure(out, summary, figure);
-  sb_chart_drop_unit(out);
+  const char *unit = sb_figure_compared_unit(figure, design[0].value);
+  g_autofree char *head =
+      strcmp(unit, "N") == 0 ? g_strdup(label) : g_strdup_printf("%s / %s", label, unit);
+  sb_cells_text(cells, x, y, LABEL, head, sb_bench_pen(bench, SB_ROLE_SECOND, 0));
+  for (size_t i = 0; i < count; i++) {
+    char number[SB_FORMAT_MAX], change[SB_FORMAT_MAX];
+    (void)sb_figure_compared(number, change, figure, design, count, i);
+    const int right = x + LABEL + LIVE + ((int)i - 1) * EACH;
+    sb_cells_text_right(cells, i == 0 ? x + LABEL : right, y, i == 0 ? LIVE : EACH,
+                        isnan(design[i].value) ? "–" : number,
+                        i == 0 ? own
+                               : sb_bench_pen(bench, sb_chart_pin_role(data->pin[i - 1].look), 0));
+  }
 }
 
 static void draw_bar(SbBench *bench, SbCellRect rect, int y, const char *name, double value,
                      double scale, SbRole role) {
   char number[SB_FORMAT_MAX];
-  sb_format_text(number, SB_QUANTITY_FORCE, value, 0);
+  sb_format_text(number, SB_QUANTITY_FORCE, value,
+                 sb_chart_error_force(&sb_session_chart(bench->session)->run));
   const int at = rect.x + 15;
   sb_cells_text(&bench->cells, rect.x, y, 15, name, sb_bench_pen(bench, SB_ROLE_SECOND, 0));
   sb_cells_text_right(&bench->cells, at, y, 7, number, sb_bench_pen(bench, role, SB_CELL_BOLD));
@@ -235,7 +256,6 @@ static void draw_table(SbBench *bench, SbCellRect rect) {
   SbCells *cells = &bench->cells;
   const SbChartData *data = sb_session_chart(bench->session);
   const SbPen bold = sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD);
-  const SbPen plain = sb_bench_pen(bench, SB_ROLE_SECOND, 0);
   const int live = rect.x + 13, each = 8;
   sb_cells_text(cells, rect.x, rect.y, 12, _("Compare"), bold);
   const SbSummary *predicted = sb_session_predicted(bench->session);
@@ -253,15 +273,8 @@ static void draw_table(SbBench *bench, SbCellRect rect) {
   }
   int y = rect.y + 2;
   for (size_t i = 0; i < G_N_ELEMENTS(compared) && y < rect.y + rect.height; i++, y++) {
-    char number[SB_FORMAT_MAX];
-    sb_cells_text(cells, rect.x, y, 13, _(compared[i].label), plain);
-    figure_number(number, summary, compared[i].figure);
-    sb_cells_text_right(cells, live, y, 7, number, own);
-    for (size_t k = 0; k < data->pin_count; k++) {
-      figure_number(number, data->pin[k].run->summary, compared[i].figure);
-      sb_cells_text_right(cells, live + 7 + (int)k * each, y, each, number,
-                          sb_bench_pen(bench, sb_chart_pin_role(data->pin[k].look), 0));
-    }
+    compare_row(bench, rect.x, y, _(compared[i].label), sb_figure_find(compared[i].figure), summary,
+                own);
   }
   draw_now(bench, (SbCellRect){rect.x, y + 1, rect.width, rect.y + rect.height - y - 1});
 }

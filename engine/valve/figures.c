@@ -74,6 +74,18 @@ double sb_figure_error(const SbSummary *summary, int index) {
   return *figures[index].estimate != '\0' ? sb_figure_value(summary, sb_figure_find(path)) : NAN;
 }
 
+double sb_figure_difference_error(double a, double error_a, double b, double error_b,
+                                  bool same_methods) {
+  if (isnan(error_a) || isnan(error_b)) {
+    return NAN;
+  }
+  if (!same_methods) {
+    return error_a * fabs(a) + error_b * fabs(b);
+  }
+  const double remainder = fabs(error_a > error_b ? a : b);
+  return fmin(error_a, error_b) * fabs(b - a) + fabs(error_a - error_b) * remainder;
+}
+
 const char *sb_better_name(SbBetter better) {
   static const char *const names[] = {"none", "less", "more"};
   return names[better];

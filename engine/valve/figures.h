@@ -37,6 +37,15 @@ const char *sb_figure_reason(const SbSummary *summary, int index);
 // Estimate of its relative error; NaN: there is none.
 double sb_figure_error(const SbSummary *summary, int index);
 
+// Returns the absolute error of b - a, one figure of two designs with the relative errors
+// `error_a` and `error_b`; NaN if one of them is not known. Runs of the same methods share the
+// smaller of the two relative errors, which is proportional to the value and therefore acts on the
+// difference only; the remainder acts on the full value of the run that has it:
+//   min(e_a, e_b) |b - a| + |e_a - e_b| |v|, v the value with the larger error.
+// Runs of other methods share nothing: e_a |a| + e_b |b|.
+double sb_figure_difference_error(double a, double error_a, double b, double error_b,
+                                  bool same_methods);
+
 // "none", "less", "more"; borrowed.
 const char *sb_better_name(SbBetter better);
 

@@ -469,6 +469,16 @@ int sb_model_number(const SbModel *model, SbParamId id) {
   return (int)sb_params_get(&model->params, id);
 }
 
+uint64_t sb_model_methods(const SbModel *model) {
+  enum { CHOICES = 16 }; // more than any of these parameters has
+  uint64_t out = (uint64_t)sb_model_number(model, SB_P_VALVE_KIND);
+  out = out * CHOICES + (uint64_t)sb_model_number(model, SB_P_SEAL_PROFILE);
+  for (int id = SB_P_MODELS_FIT; id <= SB_P_MODELS_MOTION; id++) {
+    out = out * CHOICES + (uint64_t)sb_model_number(model, (SbParamId)id);
+  }
+  return out;
+}
+
 bool sb_model_default(SbParamDefault *out, const SbModel *model, SbParamId id) {
   sb_params_default(out, &model->params, id);
   return !model->params.given[id] && out->from != NULL;

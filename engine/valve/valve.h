@@ -256,6 +256,11 @@ int sb_model_number(const SbModel *model, SbParamId id);
 // or the catalogue's.
 bool sb_model_default(SbParamDefault *out, const SbModel *model, SbParamId id);
 
+// Returns a number that is equal for two models of the same numerical methods and only for those:
+// kind of valve and section, models.* from the fit to the motion. Errors of discretisation of two
+// such runs have the same sign and about the same relative size.
+uint64_t sb_model_methods(const SbModel *model);
+
 // Name of a choice that it was compiled from, into `name` of `size` bytes.
 void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t size);
 

@@ -64,9 +64,8 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
     snprintf(out.reason, sizeof out.reason, "%s", sb_figure_reason(summary, figure));
   } else if (!(of->pressure_peak > out.limit)) {
     out.ok = SB_ANSWER_NO;
-    snprintf(out.reason, sizeof out.reason,
-             "the %s seal's peak pressure of %.4g MPa is not above the fluid's %.4g MPa",
-             sb_seal_name(seal), 1e-6 * of->pressure_peak, 1e-6 * out.limit);
+    snprintf(out.reason, sizeof out.reason, "the %s seal's peak pressure is not above the fluid's",
+             sb_seal_name(seal));
   }
   // A model that does not solve the stretch cannot say that a ring seals which by the estimate does
   // not reach the bore.
@@ -110,8 +109,9 @@ static SbVerdict judge_limit(const SbSummary *summary, const SbLimit *limit) {
   } else if (value < limit->low || value > limit->high) {
     out.ok = SB_ANSWER_NO;
     out.limit = value < limit->low ? limit->low : limit->high;
-    snprintf(out.reason, sizeof out.reason, "%s = %.5g is %s its limit %.5g (SI)", figure->path,
-             value, value < limit->low ? "below" : "above", out.limit);
+    // Value and limit are fields of their own: each surface prints them in one format.
+    snprintf(out.reason, sizeof out.reason, "%s is %s its limit", figure->path,
+             value < limit->low ? "below" : "above");
   }
   return out;
 }

@@ -1,10 +1,12 @@
 // Ticks and value formatting against tables, and against hostile ranges.
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/chart/axis.h"
 
 #include <glib.h>
 #include <locale.h>
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 static void test_tick_table(void) {
   static const struct {
@@ -107,27 +109,29 @@ static void check_formats(void) {
     const char *text;
   } rows[] = {
       {SB_QUANTITY_FORCE, 27.4321, 0, "27.4" SPACE "N"},
-      {SB_QUANTITY_FORCE, 8.04, 0, "8.0" SPACE "N"},
-      {SB_QUANTITY_FORCE, 1.63, 0, "1.6" SPACE "N"},
-      {SB_QUANTITY_FORCE, 9.96, 0, "10.0" SPACE "N"},
-      {SB_QUANTITY_FORCE, 9.94, 0, "9.9" SPACE "N"},
-      {SB_QUANTITY_FORCE, 0.0496, 0, "0.050" SPACE "N"},
-      {SB_QUANTITY_FORCE, -2.24, 0, MINUS "2.2" SPACE "N"},
+      {SB_QUANTITY_FORCE, 8.04, 0, "8.04" SPACE "N"},
+      {SB_QUANTITY_FORCE, 9.996, 0, "10.0" SPACE "N"},
+      {SB_QUANTITY_FORCE, 9.94, 0, "9.94" SPACE "N"},
+      {SB_QUANTITY_FORCE, 0.0496, 0, "0.0496" SPACE "N"},
+      {SB_QUANTITY_FORCE, -2.24, 0, MINUS "2.24" SPACE "N"},
       {SB_QUANTITY_FORCE, 0, 0, "0" SPACE "N"},
       {SB_QUANTITY_FORCE, -1e-9, 0, "0" SPACE "N"},
       {SB_QUANTITY_FORCE, 99.96, 0, "100" SPACE "N"},
       {SB_QUANTITY_FORCE, 27412, 0, "27" THIN "400" SPACE "N"},
       {SB_QUANTITY_FORCE, 2741, 0, "2740" SPACE "N"},
-      {SB_QUANTITY_FORCE, 27.4321, 0.01, "27" SPACE "N"},
+      {SB_QUANTITY_FORCE, 25.826, 0.03, "25.8" SPACE "N"},
+      {SB_QUANTITY_FORCE, 6.686, 0.03, "6.69" SPACE "N"},
+      {SB_QUANTITY_FORCE, 27.4321, 0.01, "27.43" SPACE "N"},
       {SB_QUANTITY_FORCE, 27.4321, 3, "30" SPACE "N"},
       {SB_QUANTITY_FORCE, NAN, 0, "\xe2\x80\x93" SPACE "N"},
       {SB_QUANTITY_LENGTH, 2.154e-3, 0, "2.15" SPACE "mm"},
-      {SB_QUANTITY_LENGTH, 0.742e-3, 0.004, "0.74" SPACE "mm"},
-      {SB_QUANTITY_FILM, 0.8214e-9, 3e-3, "0.82" SPACE "nm"},
+      {SB_QUANTITY_LENGTH, 0.742e-3, 0.004, "0.7420" SPACE "mm"},
+      {SB_QUANTITY_LENGTH, 0.742e-3, 0.005, "0.742" SPACE "mm"},
+      {SB_QUANTITY_FILM, 0.8214e-9, 4e-2, "0.82" SPACE "nm"},
       {SB_QUANTITY_FILM, 0.8214e-9, 0, "0.821" SPACE "nm"},
       {SB_QUANTITY_FILM, 1.5e-6, 0, "1.50" SPACE "µm"},
       {SB_QUANTITY_FILM, 999.7e-9, 0, "1.00" SPACE "µm"},
-      {SB_QUANTITY_PRESSURE, 1.1849e6, 6e-4, "1.18" SPACE "MPa"},
+      {SB_QUANTITY_PRESSURE, 1.1849e6, 6e-4, "1.185" SPACE "MPa"},
       {SB_QUANTITY_PRESSURE, 0.55e6, 0, "0.550" SPACE "MPa"},
       {SB_QUANTITY_ENERGY, 0.1384, 0, "138" SPACE "mJ"},
       {SB_QUANTITY_TIME, 7.268, 0, "7.27" SPACE "s"},
@@ -168,19 +172,105 @@ static void test_formats(void) {
   }
 }
 
-// Whatever the value, one unit of its last digit is not below the error.
-static void test_digits_supported(void) {
+// The place at which the rule rounds, from the decimal digits of the error as printf writes them.
+static int place_of_error(double error) {
+  char text[32];
+  g_ascii_formatd(text, sizeof text, "%.8e", error);
+  const int exponent = atoi(strchr(text, 'e') + 1);
+  return text[0] < '3' ? 1 - exponent : -exponent;
+}
+
+// For any value and error: rounded at P, more coarsely only where the digits of the table end,
+// never to nothing.
+static void test_rounding_rule(void) {
   GRand *rand = g_rand_new_with_seed(11);
   for (int i = 0; i < 20000; i++) {
-    double value = g_rand_double_range(rand, 1, 10) * pow(10, g_rand_int_range(rand, -3, 4));
-    double error = pow(10, g_rand_double_range(rand, -6, -0.01));
-    int decimals = sb_format_decimals(value, 3, error);
-    int exponent = (int)floor(log10(value));
-    if (decimals > -exponent) {
-      g_assert_cmpfloat(pow(10, -decimals), >=, error * value * (1 - 1e-6));
-    }
+    double value = g_rand_double_range(rand, 1, 9.98) * pow(10, g_rand_int_range(rand, -3, 4));
+    double error = pow(10, g_rand_double_range(rand, -6, 0.5));
+    int digits = g_rand_int_range(rand, 3, 6);
+    int decimals = sb_format_decimals(value, digits, error);
+    int exponent = (int)floor(log10(value)), place = place_of_error(error * value);
+    int expected = MAX(MIN(place, digits - 1 - exponent), -exponent);
+    // A value that carries into a new digit has one decimal less.
+    g_assert_cmpint(decimals, <=, expected);
+    g_assert_cmpint(decimals, >=, value > 9.9 * pow(10, exponent) ? expected - 1 : expected);
   }
   g_rand_free(rand);
+}
+
+// A figure is the same number in plain text and typeset; its limit has all its digits; zeros at the
+// end stand where the error supports them.
+static void test_figures(void) {
+  static const struct {
+    const char *path, *plain, *typeset;
+    double value, error;
+  } rows[] = {
+      {"cycle.force_breakaway_N", "25.8 N", "25.8" SPACE "N", 25.826, 0.03},
+      {"cycle.force_return_min_N", "6.69 N", "6.69" SPACE "N", 6.686, 0.03},
+      {"cycle.force_return_min_N", "-2.24 N", MINUS "2.24" SPACE "N", -2.241, 0.02},
+      {"cycle.force_peak_N", "35 N", "35" SPACE "N", 35, 0},
+      {"cycle.force_peak_N", "35.0 N", "35.0" SPACE "N", 35, 0.03},
+      {"cycle.force_peak_N", "25.83 N", "25.83" SPACE "N", 25.826, NAN},
+      {"cycle.force_peak_N", "27410 N", "27" THIN "410" SPACE "N", 27412, NAN},
+      {"cycle.force_peak_N", "30 N", "30" SPACE "N", 27.4, 3},
+      {"cycle.force_peak_N", "0 N", "0" SPACE "N", 1e-15, 0.03},
+      {"seals.outer.film_min_m", "1.500 µm", "1.500" SPACE "µm", 1.5e-6, 1e-3},
+      {"seals.outer.film_min_m", "0.82 nm", "0.82" SPACE "nm", 0.8214e-9, 4e-2},
+      {"cycle.leakage_per_cycle_m3", "19 pl", "19" SPACE "pl", 19e-15, NAN},
+      {"cycle.energy_closure", "1.1e-15",
+       "1.1\xc2\xb7"
+       "10\xe2\x81\xbb\xc2\xb9\xe2\x81\xb5",
+       1.1e-15, NAN},
+      {"cycle.returns", "yes", "yes", 1, NAN},
+      {"shelf.temperature_K", "20.0 °C", "20.0" SPACE "°C", 293.15, 2e-3},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+    const int figure = sb_figure_find(rows[i].path);
+    char text[SB_FORMAT_MAX];
+    g_autofree char *plain = sb_figure_format(figure, rows[i].value, rows[i].error);
+    g_assert_cmpstr(plain, ==, rows[i].plain);
+    g_assert_cmpstr(sb_figure_text(text, figure, rows[i].value, rows[i].error), ==,
+                    rows[i].typeset);
+  }
+  g_autofree char *limit = sb_figure_given(sb_figure_find("cycle.force_peak_N"), 34.9995);
+  g_assert_cmpstr(limit, ==, "34.9995 N");
+}
+
+// A value that fails its limit by more than its error is never printed as the limit itself.
+static void test_beyond_limit(void) {
+  const int figure = sb_figure_find("cycle.force_breakaway_N");
+  GRand *rand = g_rand_new_with_seed(5);
+  for (int i = 0; i < 5000; i++) {
+    const double limit = g_rand_double_range(rand, 1, 99);
+    const double error = pow(10, g_rand_double_range(rand, -3, -0.5));
+    const double value = limit / (1 - error * g_rand_double_range(rand, 1.02, 2));
+    g_autofree char *plain = sb_figure_format(figure, value, error);
+    g_assert_cmpfloat(g_ascii_strtod(plain, NULL), >, limit);
+  }
+  g_rand_free(rand);
+}
+
+// Two designs with the same methods: their difference is known better than their values.
+static void test_compared(void) {
+  const int figure = sb_figure_find("cycle.force_breakaway_N");
+  const SbFigureCompared same[] = {{25.826, 0.03, 7}, {23.984, 0.03, 7}};
+  const SbFigureCompared other[] = {{25.826, 0.03, 7}, {23.984, 0.03, 8}};
+  const SbFigureCompared exact[] = {{35, 0, 7}, {30, 0, 7}};
+  const SbFigureCompared lacking[] = {{25.826, 0.03, 7}, {NAN, NAN, 7}};
+  static const struct {
+    const char *first, *second, *change;
+  } texts[] = {
+      {"25.83", "23.98", "-1.84"}, {"25.8", "24.0", "-1.8"}, {"35", "30", "-5"}, {"25.8", "-", ""}};
+  const SbFigureCompared *const designs[] = {same, other, exact, lacking};
+  for (size_t i = 0; i < G_N_ELEMENTS(designs); i++) {
+    char value[SB_FORMAT_MAX], change[SB_FORMAT_MAX];
+    g_assert_cmpstr(sb_figure_compared(value, change, figure, designs[i], 2, 0), ==, "N");
+    g_assert_cmpstr(value, ==, texts[i].first);
+    g_assert_cmpstr(change, ==, "");
+    sb_figure_compared(value, change, figure, designs[i], 2, 1);
+    g_assert_cmpstr(value, ==, texts[i].second);
+    g_assert_cmpstr(change, ==, texts[i].change);
+  }
 }
 
 int main(int argc, char **argv) {
@@ -189,6 +279,9 @@ int main(int argc, char **argv) {
   g_test_add_func("/axis/three-to-eight", test_ticks_always_three_to_eight);
   g_test_add_func("/axis/logarithmic", test_log);
   g_test_add_func("/format/table", test_formats);
-  g_test_add_func("/format/digits-supported", test_digits_supported);
+  g_test_add_func("/format/rounding-rule", test_rounding_rule);
+  g_test_add_func("/format/figures", test_figures);
+  g_test_add_func("/format/beyond-limit", test_beyond_limit);
+  g_test_add_func("/format/compared", test_compared);
   return g_test_run();
 }

@@ -305,7 +305,7 @@ static void test_swap(void) {
   // No line breaks between a number and its unit.
   g_auto(GStrv) parts = g_strsplit(text, "\u00a0", -1);
   g_autofree char *plain = g_strjoinv(" ", parts);
-  g_assert_nonnull(strstr(plain, "HFA-134a: does not return, \u22120.10 N at 20 \u00b0C; from "
+  g_assert_nonnull(strstr(plain, "HFA-134a: does not return, \u22120.103 N at 20 \u00b0C; from "
                                  "20 \u00b0C, 3 N from 28 \u00b0C."));
   look.temperature = 243.15;
   look.hidden = 1 << 2;

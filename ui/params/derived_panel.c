@@ -10,7 +10,7 @@
 // µl are those of thesis section 1.7.
 #include "ui/params/derived_panel.h"
 
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/base/theme.h"
 #include "app/base/translation.h"
 #include "app/session/verdict_text.h"
@@ -139,7 +139,7 @@ static void show(Panel *panel, int index, double value, const char *why) {
     g_strlcpy(text, _("not known"), sizeof text);
   }
   if (!isnan(value)) {
-    sb_format_text(text, sb_quantity_of_unit(sb_figure(panel->figure[index])->shown), value, 0);
+    sb_figure_text(text, panel->figure[index], value, 0);
     SbBand band = band_of(panel, index, value);
     gboolean good = band == SB_BAND_WITHIN;
     word = good ? _("pass") : band == SB_BAND_BELOW ? _(item->low) : _(item->high);

@@ -6,7 +6,7 @@
 // can be copied as a table.
 #include "ui/views/chart_view.h"
 
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/chart/compare.h"
 #include "app/chart/hysteresis.h"
@@ -188,7 +188,7 @@ static void describe_loop(SbSession *session, GString *text) {
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
     if (marks[i].reached) {
       g_string_append_printf(text, _("%s %s at %s, "), sb_stage_name((SbStage)i),
-                             sb_format_text(a, SB_QUANTITY_FORCE, marks[i].force, 0),
+                             sb_chart_stage_force(a, &data->run, (SbStage)i, marks[i].force),
                              sb_format_text(b, SB_QUANTITY_LENGTH, marks[i].displacement, 0));
     }
   }
@@ -237,13 +237,14 @@ static void describe_life(SbSession *session, GString *text) {
   }
   char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
   const SbLifeActuation *first = &run->life[0], *last = &run->life[run->life_count - 1];
+  const double error = sb_chart_error_force(run);
   g_string_append_printf(text, _("%zu actuations: break-away %s at first and %s at last, "),
                          run->life_count,
-                         sb_format_text(a, SB_QUANTITY_FORCE, first->force_breakaway, 0),
-                         sb_format_text(b, SB_QUANTITY_FORCE, last->force_breakaway, 0));
+                         sb_format_text(a, SB_QUANTITY_FORCE, first->force_breakaway, error),
+                         sb_format_text(b, SB_QUANTITY_FORCE, last->force_breakaway, error));
   g_string_append_printf(text, _("least return force %s and %s."),
-                         sb_format_text(a, SB_QUANTITY_FORCE, first->force_return, 0),
-                         sb_format_text(b, SB_QUANTITY_FORCE, last->force_return, 0));
+                         sb_format_text(a, SB_QUANTITY_FORCE, first->force_return, error),
+                         sb_format_text(b, SB_QUANTITY_FORCE, last->force_return, error));
 }
 
 static void describe_shelf(SbSession *session, GString *text) {
@@ -257,8 +258,13 @@ static void describe_shelf(SbSession *session, GString *text) {
     g_string_append(text, sb_figure_reason(summary, sb_figure_find("shelf.loss_kg_per_year")));
     return;
   }
-  g_string_append_printf(text, _("Loss of %.4g mg a year, %.0f doses left. "),
-                         1e6 * shelf->loss_per_year, shelf->doses_left);
+  SbFormatted loss, doses;
+  const int loss_figure = sb_figure_find("shelf.loss_kg_per_year");
+  const int doses_figure = sb_figure_find("shelf.doses_left");
+  sb_figure_parts(&loss, loss_figure, shelf->loss_per_year, sb_figure_error(summary, loss_figure));
+  sb_figure_parts(&doses, doses_figure, shelf->doses_left, sb_figure_error(summary, doses_figure));
+  g_string_append_printf(text, _("Loss of %s mg a year, %s doses left. "), loss.number,
+                         doses.number);
   if (shelf->typical) {
     g_string_append(text, _("It rests on typical figures of the rubber."));
   }

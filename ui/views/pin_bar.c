@@ -3,7 +3,7 @@
 #include "ui/views/pin_bar.h"
 
 #include "app/base/canvas.h"
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "ui/views/later.h"
 #include "ui/views/style.h"
 

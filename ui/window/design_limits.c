@@ -2,7 +2,7 @@
 // else their texts are.
 #include "ui/window/design_limits.h"
 
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/base/unit.h"
 #include "ui/views/style.h"
@@ -249,14 +249,11 @@ static void set_end(GtkWidget *entry, int figure, double value) {
 }
 
 static void set_value(GtkWidget *label, const SbLimit *limit, double value) {
-  // The unit stands in its own column.
-  const SbFigure *of = sb_figure(limit->figure);
+  // The unit of the figure has a column of its own.
   SbFormatted parts;
-  sb_format(&parts, sb_quantity_of_unit(of->shown), value, 0);
-  g_autofree char *text = isnan(value) ? g_strdup("–")
-                          : strcmp(parts.unit, of->shown) == 0
-                              ? g_strdup(parts.number)
-                              : sb_design_value_text(limit->figure, value);
+  sb_figure_parts(&parts, limit->figure, value, NAN);
+  const bool own = strcmp(parts.unit, sb_figure(limit->figure)->shown) == 0;
+  g_autofree char *text = own ? g_strdup(parts.number) : sb_design_value_text(limit->figure, value);
   gtk_label_set_text(GTK_LABEL(label), text);
   GtkStyleContext *style = gtk_widget_get_style_context(label);
   if (value < limit->low || value > limit->high) {

@@ -2,6 +2,7 @@
 // design_job.h, pictures are those of app/chart/design.h.
 #include "ui/window/design_page.h"
 
+#include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/export/design_map.h"
 #include "app/session/design_job.h"
@@ -136,7 +137,8 @@ static char *told_text(Page *page, const SbDesignAnswer *answer) {
     g_autofree char *label = sb_translation_inside(sb_figure(figure)->label);
     g_autofree char *here =
         sb_design_value_text(figure, answer->place[SB_DESIGN_PRESENT].figure[i]);
-    g_autofree char *there = sb_design_value_text(figure, sb_figure_value(summary, figure));
+    char there[SB_FORMAT_MAX];
+    sb_format_figure(there, summary, figure);
     g_string_append_printf(text, "%s %s %s, %s", i > 0 ? ";" : "", label, here, there);
   }
   return g_string_free(text, FALSE);
