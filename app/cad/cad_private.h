@@ -3,6 +3,9 @@
 
 #include "app/cad/cad.h"
 
+// Processor time that sealbench-cad may use for one file [s].
+enum { SB_CAD_SECONDS_MAX = 60 };
+
 // A straight piece or an arc in the drawing's plane [m]; bulge as in SbProfilePoint.
 typedef struct {
   double x0, y0, x1, y1, bulge;

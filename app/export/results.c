@@ -296,6 +296,7 @@ static void put_run_solver(SbJson *json, const SbSummary *summary) {
   sb_json_count(json, "frames", summary->frames);
   sb_json_count(json, "steps", summary->steps);
   sb_json_count(json, "rejected_steps", summary->rejected_steps);
+  sb_json_count(json, "work", summary->work);
   sb_json_count(json, "newton_iterations", summary->counters.newton_iterations);
   sb_json_number(json, "wall_s", summary->wall_s);
   put_figures(json, summary, "solver.");

@@ -393,6 +393,10 @@ SbStatus sb_dynamics_advance(SbDynamics *s, double time, SbReport *report) {
   s->asked = time;
   for (;;) {
     if (!s->ready) {
+      if (s->model->poll != NULL && s->model->poll(s->model->poll_data)) {
+        s->now = s->t;
+        return sb_fail(report, SB_ERROR_CANCELLED, "cancelled");
+      }
       sb_drive_piece(&s->piece, &s->drive, &s->model->drive, s->t);
       if (s->wall[SB_DYNAMICS_PLATEN].on && sb_motion_finger_gone(s)) {
         wall_event(s, SB_DYNAMICS_PLATEN);

@@ -98,6 +98,9 @@ typedef struct {
   void (*extra_rate)(double *rate, double x, double v, size_t region, const double *extra,
                      void *user);
   double extra_start, extra_scale; // in the unit of that state; scale > 0: its size
+  // Polled once a segment; true ends the motion there with SB_ERROR_CANCELLED. NULL: never.
+  bool (*poll)(void *data);
+  void *poll_data;
   // The mass that the stroke sees at (x, v) [kg], asked for at the start of every segment; NULL:
   // always `mass`.
   SbStatus (*mass_at)(double *mass, double x, double v, void *user, SbReport *report);

@@ -256,12 +256,37 @@ static void test_broken(void) {
   g_error_free(error);
 }
 
+// A kernel that reaches its limit of processor time is named so, whatever the clock says.
+static void test_limit(void) {
+  g_autofree char *program = g_build_filename(folder, "helper", NULL);
+  g_autofree char *path = g_build_filename(folder, "broken.step", NULL);
+  static const char script[] = "#!/bin/sh\nulimit -S -t 1\nwhile :; do :; done\n";
+  g_autofree char *given = g_strdup(g_getenv("SEALBENCH_CAD"));
+  g_assert_true(g_file_set_contents(program, script, -1, NULL));
+  g_assert_cmpint(g_chmod(program, 0700), ==, 0);
+  g_assert_true(g_file_set_contents(path, "ISO-10303-21;\n", -1, NULL));
+  g_setenv("SEALBENCH_CAD", program, TRUE);
+  const SbCadChoices none = {0};
+  GError *error = NULL;
+  g_assert_null(sb_cad_read(path, &none, &error));
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+  g_assert_nonnull(strstr(error->message, "processor time"));
+  g_error_free(error);
+  if (given != NULL) {
+    g_setenv("SEALBENCH_CAD", given, TRUE);
+  } else {
+    g_unsetenv("SEALBENCH_CAD");
+  }
+  g_remove(program);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   folder = g_dir_make_tmp("sealbench-cad-XXXXXX", NULL);
   g_test_add_func("/cad-step/stem", test_stem);
   g_test_add_func("/cad-step/port", test_port);
   g_test_add_func("/cad-step/broken", test_broken);
+  g_test_add_func("/cad-step/limit", test_limit);
   const int code = g_test_run();
   static const char *const files[] = {"stem.step", "port.stp", "whole.step", "broken.step"};
   for (size_t i = 0; i < G_N_ELEMENTS(files); i++) {

@@ -27,6 +27,9 @@ static size_t frames_at_most(const SbModel *model, const SbPlan *plan) {
 SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, SbReport *report) {
   SbRun *run = calloc(1, sizeof *run);
   SbStatus status = run != NULL ? SB_OK : sb_fail(report, SB_ERROR_MEMORY, "no memory for a run");
+  if (run != NULL) {
+    run->work = &run->own_work;
+  }
   for (int i = 0; i < SB_SEAL_COUNT && status == SB_OK; i++) {
     status = sb_sliding_memory_create(&run->memory[i], report);
   }
@@ -341,6 +344,11 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
   return status;
 }
 
+void sb_run_begin_work(SbRun *run, const SbRunHooks *hooks) {
+  run->own_work = (SbWork){
+      .limit = (size_t)run->model->work_limit, .cancelled = hooks->cancelled, .data = hooks->data};
+}
+
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbRunHooks none = {0};
   double start = sb_clock_seconds();
@@ -353,10 +361,20 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   run->hold = false;
   sb_run_publish(run, 0);
   run->before_frames = run->after_frames = 0;
+  sb_run_begin_work(run, hooks);
   SbReport local = {0};
   report = report != NULL ? report : &local;
   SbStatus status = run->model->motion == SB_MODEL_MOTION_RIG ? sb_run_rig(run, hooks, report)
                                                               : execute_valve(run, hooks, report);
+  if (status == SB_OK && run->work->spent) {
+    // What it could not compute has been left out.
+    status = sb_work_status(run->work, SB_ERROR_CANCELLED, report);
+    sb_warn(&summary->warnings, "work-limit", report->parameter, "%s", report->text);
+  }
+  for (int i = 0; i < SB_SEAL_COUNT; i++) { // whoever uses the states next has no budget
+    sb_sliding_memory_poll(run->memory[i], hooks->cancelled, hooks->data);
+  }
+  summary->work = run->work->done;
   sb_run_give_reasons(run, status, report);
   sb_verdict_fill(summary, run->model);
   summary->frames = run->count;

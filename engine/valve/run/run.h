@@ -180,7 +180,8 @@ typedef struct {
   SbVerdict verdict[SB_VERDICT_COUNT];
   bool converged;
   size_t frames, steps, rejected_steps;
-  double wall_s;                    // elapsed time of the computation [s]
+  size_t work;   // solver steps counted against output.work_limit, in all actuations of a life
+  double wall_s; // elapsed time of the computation [s]
   double ring_fault[SB_SEAL_COUNT]; // of a predicted run's rings: forces that violate their active
                                     // sets, over the bore's [1]
   double ring_order;  // most polynomials of a ring's recovered pressure for each node [1]

@@ -14,6 +14,7 @@ typedef struct {
   int slot;
   SbSlidingTask task;
   SbSlidingMemory *memory; // owned, from its beginning until it is taken
+  SbWork work;             // what solving it takes, of its seal's budget
   Progress progress;
 } Ring;
 
@@ -49,9 +50,9 @@ void sb_run_ahead_destroy(SbRunAhead *ahead) {
   }
 }
 
-void sb_run_ahead_add(SbRunAhead *ahead, const SbSlidingTask *task, int slot) {
+void sb_run_ahead_add(SbRunAhead *ahead, const SbSlidingTask *task, int slot, const SbWork *work) {
   if (ahead->count < RINGS_MAX) {
-    ahead->ring[ahead->count++] = (Ring){.slot = slot, .task = *task};
+    ahead->ring[ahead->count++] = (Ring){.slot = slot, .task = *task, .work = *work};
   }
 }
 
@@ -79,7 +80,9 @@ void sb_run_ahead_work(SbRunAhead *ahead, bool (*cancelled)(void *), void *data)
       task.memory = memory;
       task.counts = &counters;
       task.warnings = NULL;
-      sb_sliding_memory_poll(memory, cancelled, data);
+      ring->work.cancelled = cancelled;
+      ring->work.data = data;
+      sb_sliding_memory_poll(memory, sb_work_step, &ring->work);
       sb_sliding_solve_ahead(&task, ring->task.memory);
     }
     pthread_mutex_lock(&ahead->lock);
@@ -90,8 +93,8 @@ void sb_run_ahead_work(SbRunAhead *ahead, bool (*cancelled)(void *), void *data)
   }
 }
 
-SbSlidingMemory *sb_run_ahead_take(SbRunAhead *ahead, int slot, bool (*cancelled)(void *),
-                                   void *data) {
+SbSlidingMemory *sb_run_ahead_take(SbRunAhead *ahead, int slot, SbWork *work,
+                                   bool (*cancelled)(void *), void *data) {
   static const long ASK_NS = 10000000;
   SbSlidingMemory *memory = NULL;
   pthread_mutex_lock(&ahead->lock);
@@ -114,6 +117,11 @@ SbSlidingMemory *sb_run_ahead_take(SbRunAhead *ahead, int slot, bool (*cancelled
     memory = ring->memory;
     ring->memory = NULL;
     ring->progress = TAKEN;
+    sb_work_add(work, &ring->work);
+    if (work->spent) { // the seal would not have solved it
+      sb_sliding_memory_destroy(memory);
+      memory = NULL;
+    }
   }
   pthread_mutex_unlock(&ahead->lock);
   return memory;

@@ -6,6 +6,7 @@
 // what is in work. Results do not depend on who solved what.
 #pragma once
 
+#include "engine/valve/run/run_work.h"
 #include "engine/valve/sliding.h"
 
 typedef struct SbRunAhead SbRunAhead;
@@ -14,14 +15,15 @@ typedef struct SbRunAhead SbRunAhead;
 SbRunAhead *sb_run_ahead_create(void);
 void sb_run_ahead_destroy(SbRunAhead *ahead);
 
-// Adds the ring of a task, in the order in which its seal comes to it; `slot` names it. Before any
-// thread works.
-void sb_run_ahead_add(SbRunAhead *ahead, const SbSlidingTask *task, int slot);
+// Adds the ring of a task, in the order in which its seal comes to it; `slot` names it, `work` is
+// the budget that solving it may use. Before any thread works.
+void sb_run_ahead_add(SbRunAhead *ahead, const SbSlidingTask *task, int slot, const SbWork *work);
 
 // Solves rings that nobody has begun, until there are none or `cancelled` says so.
 void sb_run_ahead_work(SbRunAhead *ahead, bool (*cancelled)(void *), void *data);
 
 // What was solved for a slot, owned by the caller from now on, after waiting for what is in work;
-// NULL: nothing was begun, and nobody will. `cancelled` is asked while it waits.
-SbSlidingMemory *sb_run_ahead_take(SbRunAhead *ahead, int slot, bool (*cancelled)(void *),
-                                   void *data);
+// NULL: nothing was begun, and nobody will. What it took is added to `work`. `cancelled` is asked
+// while it waits.
+SbSlidingMemory *sb_run_ahead_take(SbRunAhead *ahead, int slot, SbWork *work,
+                                   bool (*cancelled)(void *), void *data);

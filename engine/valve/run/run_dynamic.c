@@ -217,6 +217,8 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double toleranc
     warnings->count = told;
     warnings->dropped = dropped;
   }
+  r->model.poll = sb_work_step;
+  r->model.poll_data = run->work;
   r->model.tolerance = tolerance > 0 ? tolerance : r->model.tolerance;
   status = status == SB_OK ? sb_dynamics_init(&r->motion, &r->model, report) : status;
   if (status != SB_OK) {
@@ -255,11 +257,15 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double toleranc
     r->report = status == SB_OK ? report : NULL; // the first failure is told
     add_frame(r, false);
     status = status != SB_OK ? status : r->status;
+    if (status != SB_OK) {
+      break;
+    }
     if (frames ? sb_run_poll(run, hooks, r->count, (double)next / (double)total, report)
                : sb_run_cancelled(hooks, report)) {
       status = SB_ERROR_CANCELLED;
     }
   }
+  status = sb_work_status(run->work, status, report);
   r->force_peak = fmax(r->force_peak, r->motion.force_peak);
   SbDynamicsSample end;
   sb_dynamics_sample(&r->motion, &end, &r->energy);

@@ -83,8 +83,8 @@ static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *h
     const bool right = (way == SB_CYCLE_IN) == (sb_model_way(run->model) > 0);
     problem.inlet_film[right ? 0 : 1] = supply.limited ? supply.layer : 0;
   }
-  problem.film.cancelled = hooks->cancelled;
-  problem.film.cancelled_data = hooks->data;
+  problem.film.cancelled = sb_work_step;
+  problem.film.cancelled_data = run->work;
 
   // A front in the middle of the contact is smeared over a few hundredths of it; finer costs more
   // than a drawing gains.
@@ -206,7 +206,8 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
       continue;
     }
     SbReport own = {0}, whole = {0};
-    const SbStatus status = replay(&history, count, hooks, &own);
+    const SbStatus replayed = replay(&history, count, hooks, &own);
+    const SbStatus status = sb_work_status(run->work, replayed, &own);
     end_stretch(&history);
     if (isinf(history.error)) {
       sb_reason(summary, figure, "%s seal: the film of half the resolution did not converge",

@@ -57,7 +57,9 @@ static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const 
   if (status == SB_OK) {
     const SbRunHooks quiet = {.cancelled = hooks->cancelled, .data = hooks->data};
     SbReport own = {0};
+    sb_run_begin_work(one, &quiet);
     status = sb_run_move(one, &quiet, &own);
+    run->work->done += one->work->done;
     if (status != SB_OK) {
       return sb_fail_parameter(report, status, own.parameter, "actuation %ld: %.230s", n + 1,
                                own.text);
@@ -152,6 +154,7 @@ static SbStatus solve_one(Solved *s, long n, bool shown, SbReport *report) {
   if (status == SB_OK) {
     const SbRunHooks quiet = {.cancelled = s->hooks->cancelled, .data = s->hooks->data};
     status = sb_run_execute(s->one, &quiet, &own);
+    run->work->done += s->one->work->done;
   }
   const SbSummary *summary = &s->one->summary;
   if (status == SB_OK && s->one->lacks.status != SB_OK) { // no contact, no motion

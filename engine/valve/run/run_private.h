@@ -6,6 +6,7 @@
 #include "engine/valve/cycle.h"
 #include "engine/valve/model.h"
 #include "engine/valve/run/run.h"
+#include "engine/valve/run/run_work.h"
 #include "engine/valve/speed_states.h"
 
 enum {
@@ -92,6 +93,9 @@ struct SbRun {
   // Kept from one model to the next; what follows is one execution's.
   SbSlidingMemory *memory[SB_SEAL_COUNT];
   bool predicted; // rings are another run's to first order
+  // The budget of this execution: own_work, or that of the run for which this one finds a speed.
+  // Each further actuation of a life has one of its own.
+  SbWork *work, own_work;
   SbFrame *frames;
   size_t room; // of the array
   // Kept where the next model's seals have the same states; speeds NULL where nobody has asked.
@@ -126,6 +130,9 @@ struct SbRun {
   bool hold;             // they wait for their films' history before they are published
   atomic_size_t published;
 };
+
+// Begins a budget of the model's work_limit steps (run.c).
+void sb_run_begin_work(SbRun *run, const SbRunHooks *hooks);
 
 // Solves every steady sliding state the cycle can need, and the profiles if the plan wants them, at
 // the speed of the machine or, where something else drives the stem, at the stem's own at the

@@ -86,6 +86,8 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   if (status != SB_OK) {
     return status;
   }
+  model.poll = sb_work_step;
+  model.poll_data = run->work;
   sb_dynamics_listen(&motion, note_slip, &slip);
   size_t samples = sb_rig_samples(rig), count = 0, peak;
   while (count < samples && status == SB_OK) {
@@ -110,6 +112,7 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
       status = sb_run_cancelled(hooks, report) ? SB_ERROR_CANCELLED : SB_OK;
     }
   }
+  status = sb_work_status(run->work, status, report);
   sb_dynamics_sample(&motion, NULL, &energy);
   mark_stages(run, &slip, count);
   if (status == SB_OK) {

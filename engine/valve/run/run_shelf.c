@@ -108,7 +108,8 @@ SbStatus sb_run_shelf(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbShelfRest rest;
   SbShelfRates rates;
   SbReport own = {0};
-  SbStatus status = sb_shelf_rest(&rest, model, seal, hooks->cancelled, hooks->data, &own);
+  SbStatus status = sb_shelf_rest(&rest, model, seal, sb_work_step, run->work, &own);
+  status = sb_work_status(run->work, status, &own);
   if (status == SB_OK) {
     sb_shelf_rates(&rates, model, &rest);
     fill(&summary->shelf, model, seal, &rest, &rates);
@@ -119,8 +120,8 @@ SbStatus sb_run_shelf(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
               "ring) lets some 10 to 30 %% more through");
     }
     if (run->plan.shelf == SB_SHELF_OVER_TIME && rest.touches) {
-      status = sb_shelf_history(&summary->shelf, model, seal, &rest, hooks->cancelled, hooks->data,
-                                &own);
+      status = sb_shelf_history(&summary->shelf, model, seal, &rest, sb_work_step, run->work, &own);
+      status = sb_work_status(run->work, status, &own);
       static const char *const sums[] = {"shelf.loss_kg", "shelf.moisture_kg", "shelf.mass_left_kg",
                                          "shelf.doses_left"};
       for (int i = 0; status != SB_OK && i < 4; i++) {

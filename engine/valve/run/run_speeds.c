@@ -270,8 +270,9 @@ SbStatus sb_run_close_speeds(SbRun *run, SbReport *report) {
           fmax(run->friction_error, table->friction_error * sb_sliding_friction(&table->base));
     }
   }
-  return status == SB_OK
-             ? SB_OK
+  status = sb_work_status(run->work, status, report);
+  return status == SB_OK || status == SB_ERROR_NOT_CONVERGED
+             ? status
              : sb_fail(report, status, "%s",
                        status == SB_ERROR_CANCELLED ? "cancelled"
                                                     : "no memory for states over the speed");

@@ -44,6 +44,7 @@ typedef struct {
   SbRun *run;
   const SbRunHooks *hooks; // NULL on a thread of its own, which asks nobody
   atomic_bool *stop;       // somebody asked to stop
+  SbWork work;             // the seal's part of the run's
   SbRunAhead *ahead;       // rings of both seals; NULL: none
   int seal;
   SbStatus status; // the worst, with the first report of it
@@ -259,7 +260,7 @@ static bool cancelled(void *data) {
 // found is not drawn.
 static SbStatus keep_shapes(const Task *of, const SbRing *ring, SbReport *report) {
   Lane *lane = of->lane;
-  const SbRingOptions options = {.poll = cancelled, .poll_data = lane};
+  const SbRingOptions options = {.poll = sb_work_step, .poll_data = &lane->work};
   const bool in = of->chamber == (int)SB_CHAMBER_AT_REST && of->motion == SB_CYCLE_IN;
   const bool out = of->chamber == (int)SB_CHAMBER_CLOSED && of->motion == SB_CYCLE_OUT;
   int index = of->chamber * SB_RUN_MOTIONS + of->motion;
@@ -270,6 +271,7 @@ static SbStatus keep_shapes(const Task *of, const SbRing *ring, SbReport *report
   }
   SbReport own = {0}; // `report` may hold why the state did not converge
   status = sb_run_solve_edge(of->run, of->motion, ring, &lane->counters, &options, &own);
+  status = sb_work_status(&lane->work, status, &own);
   if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     *report = own;
   }
@@ -371,11 +373,12 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
   const SbSlidingTask task = sliding_task(of);
   SbSlidingMemory *ahead = NULL;
   if (lane->ahead != NULL) {
-    ahead = sb_run_ahead_take(lane->ahead, slot_of(of), cancelled, lane);
+    ahead = sb_run_ahead_take(lane->ahead, slot_of(of), &lane->work, cancelled, lane);
   }
   sb_sliding_memory_ahead(memory, ahead);
   SbStatus status =
       fitment ? sb_sliding_fitment(state, &task, report) : sb_sliding_solve(state, &task, report);
+  status = sb_work_status(&lane->work, status, report);
   sb_sliding_memory_ahead(memory, NULL);
   sb_sliding_memory_destroy(ahead);
   if (status == SB_ERROR_NOT_CONVERGED) {
@@ -518,7 +521,7 @@ static void add_ahead(SbRunAhead *ahead, Lane *lane) {
     }
     if (run->plan.seal[lane->seal] == SB_DEPTH_WHOLE && !alike && state_needed(&task)) {
       const SbSlidingTask sliding = sliding_task(&task);
-      sb_run_ahead_add(ahead, &sliding, slot_of(&task));
+      sb_run_ahead_add(ahead, &sliding, slot_of(&task), &lane->work);
     }
   }
 }
@@ -616,7 +619,10 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     lane[seal].stop = &stop;
     lane[seal].seal = seal;
     lane[seal].error_film = NAN;
-    sb_sliding_memory_poll(run->memory[seal], cancelled, &lane[seal]);
+    lane[seal].work = sb_work_part(run->work, SB_SEAL_COUNT);
+    lane[seal].work.cancelled = cancelled;
+    lane[seal].work.data = &lane[seal];
+    sb_sliding_memory_poll(run->memory[seal], sb_work_step, &lane[seal].work);
     // At least what the figures are taken from is unknown until it is solved.
     sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN]);
     sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_CLOSED][SB_CYCLE_OUT]);
@@ -634,7 +640,8 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   const Lane *worst = &lane[0];
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     join(run, &lane[seal]);
-    sb_sliding_memory_poll(run->memory[seal], hooks->cancelled, hooks->data);
+    sb_work_add(run->work, &lane[seal].work);
+    sb_sliding_memory_poll(run->memory[seal], sb_work_step, run->work);
     bool worse = worst->status == SB_OK || (fatal(lane[seal].status) && !fatal(worst->status));
     worst = worse ? &lane[seal] : worst;
   }
@@ -658,6 +665,7 @@ static SbStatus proxy_speed(SbRun *run, const SbRunHooks *hooks, SbReport *repor
   if (status != SB_OK) {
     return status;
   }
+  proxy->work = run->work;
   SbPlan *plan = &proxy->plan;
   plan->ring = plan->section_fields = plan->profiles = plan->film_history = false;
   status = sb_run_solve_states(proxy, hooks, report);

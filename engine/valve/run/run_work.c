@@ -1,0 +1,28 @@
+#include "engine/valve/run/run_work.h"
+
+bool sb_work_step(void *data) {
+  SbWork *work = data;
+  if (work->done >= work->limit) {
+    work->spent = true;
+  }
+  work->done += work->spent ? 0 : 1;
+  return work->spent || (work->cancelled != NULL && work->cancelled(work->data));
+}
+
+SbWork sb_work_part(const SbWork *work, size_t parts) {
+  const size_t left = work->limit > work->done ? work->limit - work->done : 0;
+  return (SbWork){.limit = left / parts, .spent = work->spent};
+}
+
+void sb_work_add(SbWork *work, const SbWork *part) {
+  const size_t left = work->limit > work->done ? work->limit - work->done : 0;
+  work->spent = work->spent || part->spent || part->done > left;
+  work->done += part->done < left ? part->done : left;
+}
+
+SbStatus sb_work_status(const SbWork *work, SbStatus status, SbReport *report) {
+  return status == SB_ERROR_CANCELLED && work->spent
+             ? sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "output.work_limit",
+                                 "the run has used up its work limit (output.work_limit)")
+             : status;
+}
