@@ -62,6 +62,13 @@ static void print_table(const SbStudyFile *study, const SbDesign *design) {
         100 * design->holds, 100 * design->interval[0], 100 * design->interval[1],
         100 * design->by_form);
   }
+  g_autofree char *bounds = sb_design_bounds(design, study), *codes = sb_design_codes(design);
+  if (bounds != NULL) {
+    printf("  on a bound of the search: %s; wider bounds may have a better design\n", bounds);
+  }
+  if (codes != NULL) {
+    printf("  warnings of validity: %s\n", codes);
+  }
   printf("  %zu of %zu starts end within all limits, %zu evaluations", design->starts_feasible,
          design->starts, design->evaluations);
   if (design->feasible) {

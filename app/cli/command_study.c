@@ -218,7 +218,7 @@ static int print_table(const SbStudyFile *study, const SbStudyDrawn *drawn,
       // Columns of characters, which units such as µl have fewer of than bytes.
       printf(" %*s%s", MAX(12 - (int)g_utf8_strlen(text, -1), 0), "", text);
     }
-    putchar('\n');
+    puts(of.count > 1 && !of.varies ? "  does not vary" : "");
   }
   if (with > shown) {
     printf("  and %zu more figures: --csv, --json, or figures = in [study]\n", with - shown);

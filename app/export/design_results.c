@@ -53,6 +53,16 @@ static void put_active(SbJson *json, const SbStudyFile *study, const SbDesign *d
   sb_json_array_end(json);
 }
 
+static void put_bounds(SbJson *json, const SbStudyFile *study, const SbDesign *design) {
+  sb_json_array(json, "bounds_active");
+  for (guint k = 0; k < study->vary->len; k++) {
+    if (design->bound_active[k] != 0) {
+      sb_json_string(json, NULL, sb_param(g_array_index(study->vary, SbVary, k).id)->key);
+    }
+  }
+  sb_json_array_end(json);
+}
+
 static void put_robust(SbJson *json, const SbStudyFile *study, const SbDesign *design) {
   sb_json_object(json, "robust");
   sb_json_number(json, "target", study->design.robust);
@@ -83,6 +93,9 @@ char *sb_design_json(const SbStudyFile *study, const SbDesign *design) {
   }
   sb_json_object_end(&json);
   put_active(&json, study, design);
+  put_bounds(&json, study, design);
+  static const SbWarnings none = {0};
+  sb_json_warnings(&json, design->warnings != NULL ? design->warnings : &none);
   sb_json_object(&json, "margins");
   for (size_t i = 0; i < study->limits.count; i++) {
     sb_json_number(&json, sb_figure(study->limits.item[i].figure)->path,

@@ -147,7 +147,8 @@ static void draw_statistics(SbReportPages *pages, Study *study) {
                             of.quantile[2], of.quantile[3], of.max};
     char *cell[8] = {sb_figure_label(figure)};
     for (size_t i = 0; i < G_N_ELEMENTS(value); i++) {
-      cell[i + 1] = shown(figure, value[i]);
+      cell[i + 1] = i == 1 && of.count > 1 && !of.varies ? g_strdup("does not vary")
+                                                         : shown(figure, value[i]);
     }
     sb_report_row(pages, &table, (const char *const *)cell, SB_REPORT_PLAIN);
     for (size_t i = 0; i < G_N_ELEMENTS(cell); i++) {

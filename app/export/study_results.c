@@ -141,6 +141,7 @@ static SbStatus put_figures(SbJson *json, const SbStudyFile *study, const SbAnsw
         sb_samples_summary(&of, answers->value + k, answers->samples, answers->figures, report);
     sb_json_object(json, sb_figure(g_array_index(study->figures, int, k))->path);
     sb_json_count(json, "samples", of.count);
+    sb_json_bool(json, "varies", of.varies);
     sb_json_number(json, "mean", of.mean);
     sb_json_number(json, "standard_deviation", of.deviation);
     sb_json_number(json, "min", of.min);

@@ -422,6 +422,11 @@ static void judge(SbDesign *out, const View *view) {
   free(row);
 }
 
+static void take_warnings(SbDesign *out, const SbSummary *summary) {
+  g_free(out->warnings);
+  out->warnings = summary != NULL ? g_memdup2(&summary->warnings, sizeof summary->warnings) : NULL;
+}
+
 SbStatus sb_design_take_optimum(SbDesign *out, const Problem *problem, const Start *best,
                                 SbReport *report) {
   const SbStudyFile *study = problem->study;
@@ -451,6 +456,7 @@ SbStatus sb_design_take_optimum(SbDesign *out, const Problem *problem, const Sta
                                  .cancelled = problem->cancelled,
                                  .data = problem->data};
     status = sb_slopes(out->figure, NULL, evaluator, &asked, out->value, report);
+    take_warnings(out, sb_evaluator_summary(evaluator));
   }
   sb_evaluator_destroy(evaluator);
   free(view.slope);
@@ -548,7 +554,44 @@ SbStatus sb_design_search(SbDesign *out, const SbStudyFile *study, int jobs,
 void sb_design_release(SbDesign *design) {
   free(design->value);
   free(design->figure);
+  g_free(design->warnings);
   *design = (SbDesign){0};
+}
+
+static void add_word(GString *text, const char *format, ...) G_GNUC_PRINTF(2, 3);
+
+static void add_word(GString *text, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_string_append(text, text->len > 0 ? ", " : "");
+  g_string_append_vprintf(text, format, arguments);
+  va_end(arguments);
+}
+
+char *sb_design_bounds(const SbDesign *design, const SbStudyFile *study) {
+  GString *text = g_string_new(NULL);
+  for (guint k = 0; k < study->vary->len; k++) {
+    if (design->bound_active[k] != 0) {
+      add_word(text, "%s (%s)", sb_param(g_array_index(study->vary, SbVary, k).id)->key,
+               design->bound_active[k] < 0 ? "lower" : "upper");
+    }
+  }
+  return g_string_free(text, text->len == 0);
+}
+
+char *sb_design_codes(const SbDesign *design) {
+  GString *text = g_string_new(NULL);
+  for (size_t i = 0; design->warnings != NULL && i < design->warnings->count; i++) {
+    const char *code = design->warnings->item[i].code;
+    size_t before = 0;
+    while (strcmp(design->warnings->item[before].code, code) != 0) {
+      before++;
+    }
+    if (before == i) {
+      add_word(text, "%s", code);
+    }
+  }
+  return g_string_free(text, text->len == 0);
 }
 
 double sb_design_margin(const SbDesign *design, const SbStudyFile *study, size_t limit) {

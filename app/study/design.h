@@ -16,8 +16,9 @@
 
 typedef struct {
   bool found, feasible, converged;
-  double *value;     // [vary], SI
-  double *figure;    // [study's figures]
+  double *value;        // [vary], SI
+  double *figure;       // [study's figures]
+  SbWarnings *warnings; // of validity, of the design's figures; NULL without a design
   double optimality; // least |gradient of the objective + multipliers x those of what is active|,
                      // of the objective's own; multipliers at least 0
   bool limit_active[2 * SB_LIMITS_MAX]; // lower side, upper side of each limit
@@ -26,7 +27,7 @@ typedef struct {
   double breach; // as of a start
   size_t starts, starts_feasible;
   // Over the tolerances, where there are any and limits.
-  bool checked, met;         // met: what was asked for lies in the interval or below it
+  bool checked, met;         // met: `holds` is at least the probability that was requested
   double by_form;            // probability that all limits hold, by FORM
   double holds, interval[2]; // by samples
   size_t samples;
@@ -37,6 +38,14 @@ typedef struct {
 SbStatus sb_design_search(SbDesign *out, const SbStudyFile *study, int jobs,
                           bool (*cancelled)(void *data), void *data, SbReport *report);
 void sb_design_release(SbDesign *design);
+
+// The variables that are at an end of their bounds, "gland.radial_space (upper), ..."; NULL without
+// any. Owned by the caller: g_free().
+char *sb_design_bounds(const SbDesign *design, const SbStudyFile *study);
+
+// The codes of the warnings, each once, ", " between; NULL without any. Owned by the caller:
+// g_free().
+char *sb_design_codes(const SbDesign *design);
 
 // How far a figure is within its limit, negative beyond it; NaN: no value.
 double sb_design_margin(const SbDesign *design, const SbStudyFile *study, size_t limit);

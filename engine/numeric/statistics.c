@@ -22,6 +22,19 @@ static double quantile(const double *sorted, size_t count, double share) {
   return i + 1 < count ? sorted[i] + (at - below) * (sorted[i + 1] - sorted[i]) : sorted[count - 1];
 }
 
+bool sb_samples_vary(const double *value, size_t count, size_t stride) {
+  const double rounding = 1e-12;
+  double least = INFINITY, most = -INFINITY;
+  for (size_t i = 0; i < count; i++) {
+    const double v = value[i * stride];
+    if (!isnan(v)) {
+      least = fmin(least, v);
+      most = fmax(most, v);
+    }
+  }
+  return most - least > rounding * fmax(fabs(least), fabs(most));
+}
+
 SbStatus sb_samples_summary(SbSummaryOfSamples *out, const double *value, size_t count,
                             size_t stride, SbReport *report) {
   *out = (SbSummaryOfSamples){.mean = NAN, .deviation = NAN, .min = NAN, .max = NAN};
@@ -51,9 +64,12 @@ SbStatus sb_samples_summary(SbSummaryOfSamples *out, const double *value, size_t
     for (size_t i = 0; i < n; i++) {
       squares += (sorted[i] - out->mean) * (sorted[i] - out->mean);
     }
-    out->deviation = n > 1 ? sqrt(squares / (double)(n - 1)) : NAN;
     out->min = sorted[0];
     out->max = sorted[n - 1];
+    out->varies = sb_samples_vary(sorted, n, 1);
+    // The sums round, too.
+    out->mean = out->varies ? fmin(fmax(out->mean, out->min), out->max) : sorted[n / 2];
+    out->deviation = n < 2 ? NAN : out->varies ? sqrt(squares / (double)(n - 1)) : 0;
     for (int q = 0; q < SB_QUANTILES; q++) {
       out->quantile[q] = quantile(sorted, n, sb_quantile_shares[q]);
     }
@@ -106,7 +122,11 @@ SbStatus sb_sobol_indices(SbIndex *first, SbIndex *total, const double *value, s
       row[count++] = i;
     }
   }
-  for (size_t k = 0; k < dimensions; k++) {
+  const bool varies = sb_samples_vary(value, base * (dimensions + 2), 1);
+  for (size_t k = 0; k < dimensions && count > 1 && !varies; k++) {
+    first[k] = total[k] = (SbIndex){0, 0, 0};
+  }
+  for (size_t k = 0; k < dimensions && (count < 2 || varies); k++) {
     const double *AB = value + (k + 2) * base;
     double here[2] = {NAN, NAN};
     if (count > 1) {
@@ -140,13 +160,14 @@ SbStatus sb_sobol_indices(SbIndex *first, SbIndex *total, const double *value, s
 void sb_morris_effects(SbElementaryEffects *out, const double *value, const double *point,
                        size_t samples, size_t dimensions) {
   memset(out, 0, dimensions * sizeof *out);
+  const bool varies = sb_samples_vary(value, samples, 1);
   // Welford's running mean and sum of squares, the latter in `deviation` until the end.
   for (size_t i = 0; i + 1 < samples; i++) {
     if ((i + 1) % (dimensions + 1) == 0) {
       continue; // the last of its trajectory
     }
     const double *from = point + i * dimensions, *to = from + dimensions;
-    const double change = value[i + 1] - value[i];
+    const double change = (value[i + 1] - value[i]) * (varies ? 1 : 0);
     for (size_t k = 0; k < dimensions && isfinite(change); k++) {
       if (to[k] != from[k]) {
         SbElementaryEffects *of = &out[k];

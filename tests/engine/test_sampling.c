@@ -108,12 +108,23 @@ static void test_ishigami(void) {
     g_assert_true(total[k].low <= all[k] && all[k] <= total[k].high);
     g_assert_cmpfloat(total[k].high - total[k].low, <, 0.1);
   }
-  // A constant has no variance to share.
+  // A constant has no variance to share, not even that of its rounding.
   for (int i = 0; i < ROWS; i++) {
-    value[i] = 3;
+    value[i] = i % 3 == 0 ? 28.698835679546786 : 28.69883567954679;
   }
   g_assert_cmpint(sb_sobol_indices(first, total, value, BASE, D, 1, NULL), ==, SB_OK);
-  g_assert_true(isnan(first[0].value) && isnan(total[2].high));
+  for (int k = 0; k < D; k++) {
+    g_assert_cmpfloat(first[k].value, ==, 0);
+    g_assert_cmpfloat(first[k].low, ==, 0);
+    g_assert_cmpfloat(total[k].value, ==, 0);
+    g_assert_cmpfloat(total[k].high, ==, 0);
+  }
+  // One part in 1e9 is a variation.
+  for (int i = 0; i < ROWS; i++) {
+    value[i] = 28.7 * (1 + 1e-9 * point[i * D]);
+  }
+  g_assert_cmpint(sb_sobol_indices(first, total, value, BASE, D, 1, NULL), ==, SB_OK);
+  g_assert_cmpfloat(fabs(total[0].value - 1), <, 0.02);
 }
 
 // Every trajectory moves each coordinate once; the effects of a plane are its slopes.
@@ -141,6 +152,12 @@ static void test_morris(void) {
   assert_close(effect[1].magnitude, 5.0, 1e-12);
   g_assert_cmpfloat(effect[0].deviation, <, 1e-12);
   g_assert_cmpfloat(effect[2].deviation, >, 0.1);
+  for (int i = 0; i < ROWS; i++) {
+    value[i] = i % 2 == 0 ? 1 : nextafter(1, 2);
+  }
+  sb_morris_effects(effect, value, point, ROWS, D);
+  g_assert_cmpfloat(effect[0].magnitude, ==, 0);
+  g_assert_cmpfloat(effect[3].deviation, ==, 0);
 }
 
 static void test_summary(void) {
@@ -156,6 +173,22 @@ static void test_summary(void) {
   for (int q = 0; q < SB_QUANTILES; q++) {
     assert_close(of.quantile[q], sb_quantile_shares[q] * (N - 1), 1e-12);
   }
+  g_assert_true(of.varies);
+  // Constants: their sum rounds, their mean does not leave them, and they have no deviation.
+  static double constant[300];
+  for (int i = 0; i < 300; i++) {
+    constant[i] = 34.999999999999964;
+  }
+  for (int bit = 0; bit < 2; bit++) {
+    g_assert_cmpint(sb_samples_summary(&of, constant, 300, 1, NULL), ==, SB_OK);
+    g_assert_false(of.varies);
+    g_assert_cmpfloat(of.deviation, ==, 0);
+    g_assert_true(of.min <= of.mean && of.mean <= of.max);
+    constant[7] = nextafter(constant[7], 40);
+  }
+  constant[7] = 35 * (1 + 1e-9);
+  g_assert_cmpint(sb_samples_summary(&of, constant, 300, 1, NULL), ==, SB_OK);
+  g_assert_true(of.varies && of.deviation > 0);
   value[4] = NAN;
   g_assert_cmpint(sb_samples_summary(&of, value, N, 1, NULL), ==, SB_OK);
   g_assert_cmpint((int)of.count, ==, N - 1);

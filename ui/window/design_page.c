@@ -262,6 +262,27 @@ static char *found_text(const SbDesignAnswer *answer) {
                                found->starts_feasible, found->starts, found->evaluations);
 }
 
+// The same, and what marks the best design: bounds that it is on, and its warnings of validity.
+static char *marked_text(const SbDesignAnswer *answer) {
+  const SbDesign *found = &answer->found;
+  GString *text = g_string_new(NULL);
+  g_autofree char *sentence = found_text(answer);
+  g_string_append(text, sentence);
+  if (answer->searched && found->found) {
+    g_autofree char *bounds = sb_design_bounds(found, answer->study);
+    g_autofree char *codes = sb_design_codes(found);
+    if (bounds != NULL) {
+      g_string_append_c(text, ' ');
+      g_string_append_printf(text, _("On a bound of the search: %s."), bounds);
+    }
+    if (codes != NULL) {
+      g_string_append_c(text, ' ');
+      g_string_append_printf(text, _("Warnings of validity: %s."), codes);
+    }
+  }
+  return g_string_free(text, FALSE);
+}
+
 static void on_done(void *data) {
   Page *page = data;
   g_autofree char *why = NULL;
@@ -270,7 +291,7 @@ static void on_done(void *data) {
   sb_design_answer_free(page->answer);
   page->answer = answer;
   g_autofree char *text =
-      why == NULL    ? found_text(answer)
+      why == NULL    ? marked_text(answer)
       : *why == '\0' ? g_strdup_printf(_("Cancelled: %zu of %zu points of the map are there."),
                                        answer->map.done, answer->map.n * answer->map.n)
                      : g_strdup_printf(_("Not finished: %s."), why);
