@@ -44,15 +44,17 @@ static void print_gland(const SbGlandReadout *gland) {
   printf("Gland against customary bands\n");
   for (int i = 0; i < SB_GLAND_COUNT; i++) {
     const SbGlandReadout *r = &gland[i];
-    if (r->band == SB_BAND_NONE) {
+    if (r->band == SB_BAND_NONE && r->why[0] == '\0') {
       continue;
     }
+    const bool judged = r->band != SB_BAND_NONE;
     const bool length = strcmp(r->unit, "m") == 0;
     const double scale = length ? 1e3 : 1e2;
-    char *text = g_strdup_printf("%.4g %s (worst %.4g to %.4g, RSS %.4g to %.4g): %s; %s",
-                                 scale * r->nominal, length ? "mm" : "%", scale * r->worst_low,
-                                 scale * r->worst_high, scale * r->rss_low, scale * r->rss_high,
-                                 sb_band_text(r->band), r->source);
+    char *text =
+        g_strdup_printf("%.4g %s (worst %.4g to %.4g, RSS %.4g to %.4g): %s; %s",
+                        scale * r->nominal, length ? "mm" : "%", scale * r->worst_low,
+                        scale * r->worst_high, scale * r->rss_low, scale * r->rss_high,
+                        judged ? sb_band_text(r->band) : "not judged", judged ? r->source : r->why);
     sb_cli_line(r->name, text);
     g_free(text);
   }

@@ -187,6 +187,7 @@ static void put_gland(SbJson *json, const SbGlandReadout *gland) {
     sb_json_string(json, "band_worst",
                    r->band == SB_BAND_NONE ? NULL : sb_band_text(r->band_worst));
     sb_json_string(json, "source", r->source[0] == '\0' ? NULL : r->source);
+    sb_json_string(json, "reason", r->why[0] == '\0' ? NULL : r->why);
     sb_json_object_end(json);
   }
   sb_json_array_end(json);

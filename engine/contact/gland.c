@@ -20,6 +20,59 @@ static const struct {
 };
 enum { SIZES = sizeof SIZE / sizeof SIZE[0], CORNERS = 1 << SIZES };
 
+// Both tables are in inches; bands in mm are rounded to 0.01 mm.
+#define BANDS(chart, kind, mm, low, high, gap_low, gap_high)                                       \
+  {                                                                                                \
+    0.01 * (low), 0.01 * (high), 1e-3 * (gap_low), 1e-3 * (gap_high),                              \
+        "Parker ORD 5700, chart " chart ", " kind ", " #mm " mm section: " #low " to " #high " %", \
+        "Parker ORD 5700, chart " chart ", " kind ", " #mm                                         \
+        " mm section: diametral clearance " #gap_low " to " #gap_high " mm"                        \
+  }
+#define ROW(mm, moving_low, moving_high, static_low, static_high, gap_low, gap_high)               \
+  {                                                                                                \
+    1e-3 * (mm), {                                                                                 \
+      [SB_GLAND_RECIPROCATING] =                                                                   \
+          BANDS("5-2", "reciprocating", mm, moving_low, moving_high, gap_low, gap_high),           \
+      [SB_GLAND_STATIC] = BANDS("4-2", "static", mm, static_low, static_high, gap_low, gap_high)   \
+    }                                                                                              \
+  }
+
+const SbGlandRow *sb_gland_row(double section_diameter) {
+  static const double NEAR = 0.125; // of the row's section
+  static const SbGlandRow rows[] = {
+      ROW(1.78, 15, 25, 22, 32, 0.05, 0.13), ROW(2.62, 10, 17, 17, 24, 0.05, 0.13),
+      ROW(3.53, 9, 16, 16, 23, 0.08, 0.15),  ROW(5.33, 8, 14, 15, 21, 0.08, 0.15),
+      ROW(6.99, 11, 16, 15, 20, 0.10, 0.18),
+  };
+  for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    if (fabs(section_diameter - rows[i].section) <= NEAR * rows[i].section) {
+      return &rows[i];
+    }
+  }
+  return NULL;
+}
+
+static void set_band(SbGlandReadout *out, double low, double high, const char *source) {
+  out->band_low = low;
+  out->band_high = high;
+  out->source = source;
+}
+
+// Fills the bands that depend on the section, or states why there are none.
+static void take_row(SbGlandReadout out[SB_GLAND_COUNT], const SbGland *gland) {
+  const bool round = gland->profile.kind == SB_SEAL_PROFILE_CIRCLE;
+  const SbGlandRow *row = round ? sb_gland_row(gland->section_diameter) : NULL;
+  if (row == NULL) {
+    out[SB_GLAND_SQUEEZE].why = out[SB_GLAND_EXTRUSION_GAP].why =
+        round ? "the gland tables of Parker ORD 5700 have no section within an eighth of this one"
+              : "the gland tables of Parker ORD 5700 are those of round sections";
+    return;
+  }
+  const SbGlandBands *of = &row->use[gland->use];
+  set_band(&out[SB_GLAND_SQUEEZE], of->squeeze_low, of->squeeze_high, of->squeeze_source);
+  set_band(&out[SB_GLAND_EXTRUSION_GAP], of->gap_low, of->gap_high, of->gap_source);
+}
+
 double sb_groove_area(double radial_space, double axial_width, double draft, double corner_radius,
                       const SbGrooveDrawing *groove) {
   if (groove != NULL) {
@@ -87,6 +140,7 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
   [code] = {.name = text,                                                                          \
             .unit = of_unit,                                                                       \
             .source = of_band,                                                                     \
+            .why = "",                                                                             \
             .band_low = (low) < 0.0 ? -INFINITY : (low),                                           \
             .band_high = (high) > 1e3 ? INFINITY : (high)},
       SB_GLAND_LIST(ENTRY)
@@ -118,6 +172,7 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
     out[k] = list[k];
     out[k].nominal = out[k].worst_low = out[k].worst_high = value[k];
   }
+  take_row(out, gland);
   for (int corner = 0; corner < CORNERS; corner++) {
     evaluate_moved(value, gland, corner, ~corner);
     for (int k = 0; k < SB_GLAND_COUNT; k++) {

@@ -3,9 +3,10 @@
 // Stretch, squeeze, fill and extrusion gap from sizes alone, also for the ring as swollen; each
 // with its worst case over all corners of the tolerances, its root-sum-square range (linearised,
 // independent tolerances) and a customary band. The bands are habits for hydraulic and pneumatic
-// O-rings, not limits of physics: Parker O-Ring Handbook ORD 5700, for the smallest section (1.78
-// mm) of the reciprocating chart. The thesis' valve stretches its ring by 15.5 % on the stem
-// against the customary 5 %.
+// O-rings, not limits of physics: Parker O-Ring Handbook ORD 5700. Those of squeeze and clearance
+// are rows of its gland tables for standard sections, reciprocating (chart 5-2) or static (chart
+// 4-2). A row holds for round sections within an eighth of its own; for others the table gives no
+// judgement. The thesis' valve stretches its ring by 15.5 % on the stem against the customary 5 %.
 //
 //   stretch_inner (D - 2 g)/ID - 1      stretch_mean (D - g)/(ID + d) - 1
 //   squeeze (d - g)/d                   section_fitted d (1 - nu stretch_mean)
@@ -20,13 +21,12 @@
 #include "engine/contact/ring/ring_drawn_groove.h"
 
 // enumerator, name, unit, customary low, high (of the value; a value below 0 or above 1e3 is no
-// limit), source
+// limit), source of the band ("": no band, or the one of the row for the section)
 #define SB_GLAND_LIST(X)                                                                           \
   X(SB_GLAND_STRETCH_INNER, "stretch_inner", "1", 0.0, 0.05,                                       \
     "Parker ORD 5700, section 5.10: stretch on the groove floor up to 5 %")                        \
   X(SB_GLAND_STRETCH_MEAN, "stretch_mean", "1", -1.0, 1e9, "")                                     \
-  X(SB_GLAND_SQUEEZE, "squeeze", "1", 0.15, 0.25,                                                  \
-    "Parker ORD 5700, chart 5-2, reciprocating, 1.78 mm section: 15 to 25 %")                      \
+  X(SB_GLAND_SQUEEZE, "squeeze", "1", -1.0, 1e9, "")                                               \
   X(SB_GLAND_SQUEEZE_FITTED, "squeeze_fitted", "1", -1.0, 1e9, "")                                 \
   X(SB_GLAND_SECTION_FITTED, "section_diameter_fitted", "m", -1.0, 1e9, "")                        \
   X(SB_GLAND_INTERFERENCE, "interference", "m", 0.2e-3, 1e9,                                       \
@@ -39,8 +39,7 @@
     "Parker ORD 5700, section 5.9: at most 30 %")                                                  \
   X(SB_GLAND_SWELL, "volume_swell", "1", -1.0, 0.20,                                               \
     "Parker ORD 5700, section 5.16.4: above 20 % is excessive for a moving seal")                  \
-  X(SB_GLAND_EXTRUSION_GAP, "extrusion_gap", "m", 0.05e-3, 0.13e-3,                                \
-    "Parker ORD 5700, chart 5-2: diametral clearance 0.05 to 0.13 mm")
+  X(SB_GLAND_EXTRUSION_GAP, "extrusion_gap", "m", -1.0, 1e9, "")
 
 typedef enum {
 #define SB_GLAND_ENUM(code, text, unit, low, high, source) code,
@@ -54,8 +53,26 @@ typedef enum {
 double sb_groove_area(double radial_space, double axial_width, double draft, double corner_radius,
                       const SbGrooveDrawing *groove);
 
+typedef enum { SB_GLAND_RECIPROCATING, SB_GLAND_STATIC, SB_GLAND_USE_COUNT } SbGlandUse;
+
+// Customary bands of a standard section in one use: squeeze [1] and diametral clearance [m].
+typedef struct {
+  double squeeze_low, squeeze_high, gap_low, gap_high;
+  const char *squeeze_source, *gap_source;
+} SbGlandBands;
+
+// A row of the standard gland tables.
+typedef struct {
+  double section; // nominal section diameter [m]
+  SbGlandBands use[SB_GLAND_USE_COUNT];
+} SbGlandRow;
+
+// Returns the row for a section diameter [m]; NULL: the tables have no section within an eighth.
+const SbGlandRow *sb_gland_row(double section_diameter);
+
 // Sizes with half-widths of their tolerance bands [m].
 typedef struct {
+  SbGlandUse use;        // whose bands judge squeeze and clearance; 0: reciprocating
   SbSealProfile profile; // of the section; of others than the circle section_diameter is its height
   double section_diameter, section_diameter_tolerance;
   double inner_diameter, inner_diameter_tolerance;
@@ -82,6 +99,7 @@ typedef struct {
   const char *name;   // as in the list, borrowed
   const char *unit;   // "1" or "m"
   const char *source; // of the band, "" without
+  const char *why;    // why a quantity that customarily has a band has none here; "" otherwise
   double nominal;
   double worst_low, worst_high; // over all corners of the tolerances
   double rss_low, rss_high;     // nominal -+ root of the sum of squares

@@ -65,6 +65,12 @@ static void test_fit(void) {
     json_node_unref(root);
     cli_clear(&table);
   }
+  // A section that no gland table has is not judged by another one's row.
+  CliResult table = CLI("fit", cli.valve, "--seal", "outer", "--model", "lindley", "--set",
+                        "seal.section_diameter=1.46mm");
+  g_assert_cmpint(table.code, ==, 0);
+  g_assert_nonnull(strstr(table.out, ": not judged; the gland tables of Parker ORD 5700"));
+  cli_clear(&table);
   static const struct {
     const char *option, *value, *says;
   } bad[] = {

@@ -52,39 +52,47 @@ typedef struct {
   SbSummary model;             // figures that follow from the model alone
   double shown[ITEMS];         // NAN: not known
   double lo[ITEMS], hi[ITEMS]; // bands in force
+  bool judged[ITEMS];          // there is a band
 } Panel;
 
-// A gland's band does not depend on its sizes: any gland tells it.
-static void set_bands(Panel *panel) {
-  const SbGland any = {.section_diameter = 1,
-                       .inner_diameter = 2,
-                       .radial_space = 0.9,
-                       .axial_width = 1.5,
-                       .bore_diameter = 4,
-                       .land_diameter = 3.9};
+// Bands in force: the item's own, or that of the outer seal's gland, which depends on its section.
+static void set_bands(Panel *panel, const SbModel *model) {
+  SbGland gland;
   SbGlandReadout readout[SB_GLAND_COUNT];
-  if (sb_gland_readouts(readout, &any, NULL) != SB_OK) {
-    g_assert_not_reached();
+  bool known = model != NULL && !sb_model_is_rig(model) && !sb_model_is_gasket(model);
+  if (known) {
+    sb_model_gland(&gland, model, SB_OUTER);
+    known = sb_gland_readouts(readout, &gland, NULL) == SB_OK;
   }
   for (int i = 0; i < ITEMS; i++) {
     const Item *item = &items[i];
-    bool own = item->gland == NO_GLAND;
-    panel->lo[i] = own ? item->lo : readout[item->gland].band_low;
-    panel->hi[i] = own ? item->hi : readout[item->gland].band_high;
-    const char *help = sb_translation(sb_figure(panel->figure[i])->help);
-    const char *more = own ? _(item->note) : readout[item->gland].source;
-    panel->tip[i] = g_strdup_printf("%s. %s", help, more);
+    const SbGlandReadout *of = item->gland != NO_GLAND && known ? &readout[item->gland] : NULL;
+    const char *more = item->gland == NO_GLAND ? _(item->note)
+                       : of == NULL            ? ""
+                       : of->source[0] != '\0' ? of->source
+                                               : of->why;
+    panel->judged[i] = item->gland == NO_GLAND || (of != NULL && of->band != SB_BAND_NONE);
+    panel->lo[i] = of != NULL ? of->band_low : item->lo;
+    panel->hi[i] = of != NULL ? of->band_high : item->hi;
+    g_free(panel->tip[i]);
+    panel->tip[i] =
+        g_strdup_printf("%s. %s", sb_translation(sb_figure(panel->figure[i])->help), more);
     gtk_widget_set_tooltip_text(panel->bar[i], panel->tip[i]);
     gtk_widget_set_tooltip_text(panel->name[i], panel->tip[i]);
   }
 }
 
 static SbBand band_of(const Panel *panel, int index, double value) {
-  return sb_band_of(value, panel->lo[index], panel->hi[index]);
+  return panel->judged[index] ? sb_band_of(value, panel->lo[index], panel->hi[index])
+                              : SB_BAND_NONE;
 }
 
 static SbColor verdict_color(const SbTheme *theme, const Panel *panel, int index, double value) {
-  return theme->role[band_of(panel, index, value) == SB_BAND_WITHIN ? SB_ROLE_PASS : SB_ROLE_WARN];
+  static const SbRole roles[] = {[SB_BAND_NONE] = SB_ROLE_INK,
+                                 [SB_BAND_BELOW] = SB_ROLE_WARN,
+                                 [SB_BAND_WITHIN] = SB_ROLE_PASS,
+                                 [SB_BAND_ABOVE] = SB_ROLE_WARN};
+  return theme->role[roles[band_of(panel, index, value)]];
 }
 
 static gboolean on_draw(GtkWidget *widget, cairo_t *cr, Panel *panel) {
@@ -101,11 +109,12 @@ static gboolean on_draw(GtkWidget *widget, cairo_t *cr, Panel *panel) {
   cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
   cairo_rectangle(cr, 0, y, width, 6);
   cairo_fill(cr);
+  const double wide = panel->judged[index] ? 1 : 0;
   double from = (fmax(panel->lo[index], item->axis_lo) - item->axis_lo) * scale;
   double to = (fmin(panel->hi[index], item->axis_hi) - item->axis_lo) * scale;
   SbColor band = theme->role[SB_ROLE_PASS];
   cairo_set_source_rgba(cr, band.r, band.g, band.b, 0.55);
-  cairo_rectangle(cr, from, y, to - from, 6);
+  cairo_rectangle(cr, from, y, wide * (to - from), 6);
   cairo_fill(cr);
   double value = panel->shown[index];
   if (!isnan(value)) {
@@ -140,7 +149,9 @@ static void show(Panel *panel, int index, double value, const char *why) {
   }
   if (!isnan(value)) {
     sb_figure_text(text, panel->figure[index], value, 0);
-    SbBand band = band_of(panel, index, value);
+  }
+  const SbBand band = isnan(value) ? SB_BAND_NONE : band_of(panel, index, value);
+  if (band != SB_BAND_NONE) {
     gboolean good = band == SB_BAND_WITHIN;
     word = good ? _("pass") : band == SB_BAND_BELOW ? _(item->low) : _(item->high);
     gtk_style_context_add_class(style, good ? "sb-pass" : "sb-warn");
@@ -167,6 +178,7 @@ static void refresh(Panel *panel) {
   const SbSummary *summary = sb_verdict_summary(panel->session);
   g_autofree char *former = predicted != NULL ? g_strdup(_("predicted, being solved"))
                                               : sb_session_former_text(panel->session);
+  set_bands(panel, model);
   // A plate on its rings has no glands, return or doses.
   gtk_widget_set_visible(panel->grid, !sb_model_is_rig(model));
   for (int i = 0; i < ITEMS; i++) {
@@ -253,7 +265,6 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
   g_signal_connect(grid, "destroy", G_CALLBACK(on_destroy), panel);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), panel);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), panel);
-  set_bands(panel);
   gtk_widget_show_all(grid);
   refresh(panel);
   return grid;

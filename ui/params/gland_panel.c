@@ -78,8 +78,13 @@ static char *tip_text(SbQuantity format, SbGlandReadout readout[SB_SEAL_COUNT]) 
                            seal == SB_OUTER ? _("Outer seal") : _("Inner seal"), low, high, rss_low,
                            rss_high);
   }
-  if (readout[SB_OUTER].source[0] != '\0') {
-    g_string_append_printf(text, "\n%s", readout[SB_OUTER].source);
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    const SbGlandReadout *r = &readout[seal];
+    const char *note = r->source[0] != '\0' ? r->source : r->why;
+    const bool same = seal > 0 && r->source == readout[0].source && r->why == readout[0].why;
+    if (note[0] != '\0' && !same) {
+      g_string_append_printf(text, "\n%s", note);
+    }
   }
   return g_string_free(text, FALSE);
 }
@@ -97,10 +102,14 @@ static void show_row(Panel *panel, int row, SbGlandReadout readout[SB_SEAL_COUNT
   SbQuantity format = rows[row].format;
   GtkWidget **cell = panel->cell[row];
   g_autofree char *tip = tip_text(format, readout);
-  g_autofree char *band = band_text(format, &readout[SB_OUTER]);
+  // Sections of another row have another band: the tooltip has both.
+  const bool one_band = readout[SB_OUTER].source == readout[SB_INNER].source;
+  g_autofree char *band = one_band ? band_text(format, &readout[SB_OUTER]) : g_strdup("");
   g_autofree char *value[SB_SEAL_COUNT] = {NULL, NULL};
   const char *word = "";
-  gboolean banded = readout[SB_OUTER].band != SB_BAND_NONE;
+  gboolean banded =
+      readout[SB_OUTER].band != SB_BAND_NONE && readout[SB_INNER].band != SB_BAND_NONE;
+  gboolean by_section = readout[SB_OUTER].why[0] != '\0' || readout[SB_INNER].why[0] != '\0';
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     value[seal] = number(format, readout[seal].nominal);
     gtk_label_set_text(GTK_LABEL(cell[1 + seal]), value[seal]);
@@ -116,9 +125,12 @@ static void show_row(Panel *panel, int row, SbGlandReadout readout[SB_SEAL_COUNT
       word = _("tight");
     }
   }
-  const char *verdict = !banded ? "" : word[0] != '\0' ? word : _("within");
+  const char *verdict = word[0] != '\0' ? word
+                        : banded        ? _("within")
+                        : by_section    ? _("not judged")
+                                        : "";
   gtk_label_set_text(GTK_LABEL(cell[3]), verdict);
-  set_class(cell[3], !banded ? NULL : word[0] != '\0' ? "sb-warn" : "sb-pass");
+  set_class(cell[3], !banded && word[0] == '\0' ? NULL : word[0] != '\0' ? "sb-warn" : "sb-pass");
   g_autofree char *name = band[0] != '\0'
                               ? g_strdup_printf("%s\n<small>%s</small>", _(rows[row].name), band)
                               : g_strdup(_(rows[row].name));
