@@ -39,7 +39,7 @@
 #include <stddef.h>
 
 #define SB_LIBRARY_VERSION_MAJOR 0
-#define SB_LIBRARY_VERSION_MINOR 1
+#define SB_LIBRARY_VERSION_MINOR 2
 #define SB_LIBRARY_VERSION_MICRO 0
 // Whether the header is of at least this version.
 #define SB_LIBRARY_AT_LEAST(major, minor, micro)                                                   \
