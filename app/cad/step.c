@@ -82,8 +82,8 @@ static char *run_helper(const char *path, double angle, GError **error) {
   g_autofree char *program = helper_path();
   if (program == NULL) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "STEP files need sealbench-cad, which is not installed (built without gmsh): "
-                "save a DXF of the section instead");
+                "STEP files need sealbench-cad, which this build lacks: run tools/setup step and "
+                "then ./run where the sources are, or save a DXF of the section instead");
     return NULL;
   }
   char number[SB_NUMBER_SIZE];

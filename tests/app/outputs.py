@@ -431,6 +431,20 @@ def stopped_twice():
     expect(os.listdir(where), [])
 
 
+@test
+def step_without_its_reader():
+    """A build without sealbench-cad refuses a STEP file and names the command that adds it."""
+    alone = path("alone", "deep")
+    os.makedirs(alone)
+    shutil.copy(program, alone)
+    with open(path("a.step"), "w", encoding="utf-8") as file:
+        file.write("ISO-10303-21;\n")
+    refused = subprocess.run([os.path.join(alone, "sealbench"), "cad", path("a.step")],
+                             capture_output=True, text=True)
+    done(refused, 1)
+    assert "tools/setup step" in refused.stderr and refused.stderr.count("\n") == 1, refused.stderr
+
+
 print(f"1..{len(tests)}")
 failed = False
 for number, function in enumerate(tests, 1):
