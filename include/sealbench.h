@@ -95,9 +95,10 @@ const SbFigureInfo *sb_list_quantities(size_t *count);
 // ---- Scenes ----
 
 // Opens a valve or scene file (and a scene's valve). *out is a scene even after an error, for its
-// message, and must be closed; NULL only after SB_SCENE_ERROR_MEMORY. After an error it has the
-// catalogue's defaults. _INPUT: the file says something wrong (every issue: sb_scene_issue());
-// _IO: it cannot be read.
+// message, and must be closed; NULL only after SB_SCENE_ERROR_MEMORY. After an error of the file,
+// runs and evaluations fail with that error: nothing is computed from defaults in place of what the
+// file should give. _INPUT: the file says something wrong (every issue: sb_scene_issue()); _IO: it
+// cannot be read.
 SbSceneStatus sb_scene_open(SbScene **out, const char *path);
 
 // The same from `length` bytes of a file's text; `folder` is where other files are looked for

@@ -48,6 +48,10 @@ void sb_issues_add(GPtrArray *issues, const char *file, int line, const char *ke
   g_ptr_array_add(issues, issue);
 }
 
+void sb_issues_add_copy(GPtrArray *issues, const SbIssue *issue) {
+  sb_issues_add(issues, issue->file, issue->line, issue->key, issue->allowed, "%s", issue->text);
+}
+
 const char *sb_issue_key(const SbIssue *issue, int *group_length) {
   *group_length = 0;
   if (issue->key == NULL) {

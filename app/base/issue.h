@@ -20,6 +20,9 @@ enum { SB_ISSUES_MAX = 100 };
 void sb_issues_add(GPtrArray *issues, const char *file, int line, const char *key,
                    const char *allowed, const char *format, ...) G_GNUC_PRINTF(6, 7);
 
+// Adds a copy of an issue.
+void sb_issues_add_copy(GPtrArray *issues, const SbIssue *issue);
+
 // Splits an issue's key: returns the name behind its group, borrowed, and the length of the group,
 // which the key begins with; 0: the key has no group. NULL without a key.
 const char *sb_issue_key(const SbIssue *issue, int *group_length);

@@ -1,5 +1,6 @@
 // sealbench tui: the workbench in a terminal.
 #include "app/cli/cli.h"
+#include "app/document/shipped.h"
 #include "app/terminal/workbench.h"
 
 #include <string.h>
@@ -40,12 +41,20 @@ int sb_command_tui(int argc, char **argv) {
       (color == NULL || choose(&chosen_colors, "--colors", color, colors, G_N_ELEMENTS(colors))) &&
       (picture == NULL ||
        choose(&chosen_pictures, "--pictures", picture, pictures, G_N_ELEMENTS(pictures)))) {
-    const SbWorkbenchOptions options = {.path = argc > 1 ? argv[1] : NULL,
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    const char *path = argc > 1 ? argv[1] : NULL;
+    const SbWorkbenchOptions options = {.path = path,
+                                        .issues = issues,
                                         .screen = {.colors = (SbColors)chosen_colors,
                                                    .pictures = (SbPictures)chosen_pictures,
                                                    .ascii = ascii || sb_cells_ascii_environment()}};
     GError *error = NULL;
-    code = sb_workbench_run(&options, &error) ? SB_EXIT_DONE : sb_cli_error(error);
+    const bool good = sb_workbench_run(&options, &error);
+    if (issues->len > 0 && path != NULL) {
+      sb_cli_add_file_hint(path, SB_SHIPPED_FOR_RUN, issues);
+    }
+    sb_cli_issues(issues);
+    code = good ? SB_EXIT_DONE : error != NULL ? sb_cli_error(error) : SB_EXIT_INPUT;
   }
   g_free(color);
   g_free(picture);

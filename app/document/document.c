@@ -24,6 +24,7 @@ SbDocument *sb_document_new(void) {
   document->edits = g_array_new(FALSE, FALSE, sizeof(Edit));
   g_array_set_clear_func(document->edits, sb_document_clear_edit);
   document->notes = g_ptr_array_new_with_free_func(g_free);
+  document->faults = sb_issues_new();
   document->cases = sb_document_cases_new();
   document->pins = sb_document_pins_new();
   sb_document_remarks_init(document);
@@ -60,6 +61,7 @@ void sb_document_free(SbDocument *document) {
   g_ptr_array_unref(document->entries);
   g_array_unref(document->edits);
   g_ptr_array_unref(document->notes);
+  g_ptr_array_unref(document->faults);
   g_ptr_array_unref(document->cases);
   g_ptr_array_unref(document->pins);
   sb_document_remarks_clear(document);
@@ -349,12 +351,15 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   sb_document_drawings_saved(document);
   sb_document_refresh_title(document);
   document->name = g_strdup(name);
+  sb_document_add_faults(document, issues, before);
   if (issues->len == before) {
     g_autoptr(SbModel) model = NULL;
     if (sb_document_compile(document, &model, issues)) {
       (void)sb_document_check_cases(document, issues);
     }
+    const guint compiled = issues->len;
     sb_document_read_pins(document, entries, name, issues);
+    sb_document_add_faults(document, issues, compiled);
   }
   return document;
 }
@@ -529,6 +534,10 @@ static void add_problems(const SbDocument *document, const SbParams *params,
 }
 
 bool sb_document_compile(const SbDocument *document, SbModel **out, GPtrArray *issues) {
+  *out = NULL;
+  if (sb_document_faults(document, issues)) {
+    return false;
+  }
   SbParams params = sb_document_params(document);
   SbProblems problems;
   const char *shown = document->path != NULL ? document->path : document->name;

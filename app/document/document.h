@@ -23,8 +23,17 @@ enum { SB_DOCUMENT_FORMAT = 1, SB_DOCUMENT_BYTES_MAX = 1 << 20 };
 // An empty valve: all defaults, no file. Owned by the caller.
 SbDocument *sb_document_new(void);
 
+// An empty valve in place of a file that could not be read: it does not compile, for these issues
+// (at least one). Owned by the caller (sb_document_free).
+SbDocument *sb_document_new_refused(const GPtrArray *issues);
+
+// Whether the files of a document have errors that no edit has corrected; adds them to `issues`
+// (NULL: not wanted). Such a document does not compile.
+bool sb_document_faults(const SbDocument *document, GPtrArray *issues);
+
 // Reads a valve or scene file (and a scene's valve). Every problem found is added to `issues`; a
-// key with a problem keeps its default. NULL if nothing could be made of it; then `issues` has at
+// key with a problem keeps its default, and the document does not compile until the problem is
+// corrected (sb_document_faults()). NULL if nothing could be made of it; then `issues` has at
 // least one. With an empty `issues` afterwards the document is sound: its model compiles. Refuses
 // what is not a regular file, larger than SB_DOCUMENT_BYTES_MAX, not UTF-8, or binary, without
 // reading it. "-" is standard input: the document then has no path and looks for other files in the
@@ -79,7 +88,7 @@ double sb_document_value(const SbDocument *document, SbParamId id);
 char *sb_document_text(const SbDocument *document, SbParamId id);
 
 // Compiles the values in force; *out is owned by the caller. False with at least one issue (file,
-// key, range) and *out = NULL if they do not go together.
+// key, range) and *out = NULL if they contradict each other or if the files have errors.
 bool sb_document_compile(const SbDocument *document, SbModel **out, GPtrArray *issues);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbModel, sb_model_destroy)
 

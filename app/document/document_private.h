@@ -102,6 +102,7 @@ struct SbDocument {
   bool remarks_changed;               // in the same way
   SbShapes *shapes;                   // of the parts
   GPtrArray *notes;                   // of char *, what shapes say against given values
+  GPtrArray *faults;                  // of SbIssue: errors of the files, see document_faults.c
   GArray *edits;                      // Edit
   guint done;                         // edits before this one are in force
   bool mergeable;                     // the last edit may swallow the next one of its key
@@ -115,6 +116,12 @@ void sb_file_stamp_finish(SbFileStamp *stamp);
 
 // Swaps everything but the edits of two documents.
 void sb_document_exchange(SbDocument *a, SbDocument *b);
+
+// Records the issues from `first` on as faults of the document's files.
+void sb_document_add_faults(SbDocument *document, const GPtrArray *issues, guint first);
+
+// Forgets faults that edits have corrected; to be called when they are saved.
+void sb_document_faults_saved(SbDocument *document);
 
 // The key's index, or -1.
 int sb_document_find_file(const char *key);

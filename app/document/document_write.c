@@ -326,6 +326,7 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
   char *kept = g_strdup(path);
   g_free(document->path);
   document->path = kept;
+  sb_document_faults_saved(document);
   document->saved = document->own;
   if (document->own_rubber != NULL) {
     g_autofree char *folder = g_path_get_dirname(path);

@@ -183,9 +183,8 @@ static SbSceneStatus take(SbScene **out, SbDocument *document, GPtrArray *issues
     g_ptr_array_add(scene->lines, sb_issue_line(issues->pdata[i]));
   }
   bool good = document != NULL && issues->len == 0;
-  if (!good) {
-    sb_document_free(document);
-    document = sb_document_new();
+  if (document == NULL) {
+    document = sb_document_new_refused(issues);
   }
   scene->document = document;
   if (sb_evaluator_create(&scene->evaluator, NULL) != SB_OK) {

@@ -42,6 +42,10 @@ const SbDocument *sb_session_document(SbSession *session);
 // SbIssue) says why; issues of a file that opened all the same are added as well.
 gboolean sb_session_open(SbSession *session, const char *path, GPtrArray *issues);
 
+// Whether the files of the document have errors: nothing is computed from them, and
+// sb_session_failure() names the errors.
+gboolean sb_session_is_faulty(const SbSession *session);
+
 // Restores unsaved changes of an earlier process: opens `path` (NULL: an untitled valve) and makes
 // the changes that lead from `base`, the text of that file at the time, to `text`. `base` NULL: the
 // document becomes `text`. The changes are to be saved and can be undone. Where the file has

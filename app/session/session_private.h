@@ -44,6 +44,7 @@ struct _SbSession {
   SbDisplayedRun *fresh, *shown, *earlier;
   SbSessionState state;
   char *failure;
+  gboolean faulty; // it is of the document's files, which have errors
   gboolean auto_run;
   guint debounce;  // source of the delayed start
   guint later;     // source of the whole run after a near one

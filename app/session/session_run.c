@@ -451,7 +451,26 @@ static SbDisplayedRun *stored_run(SbSession *session, const SbParams *params, co
   return run;
 }
 
+// Errors of the document's files are the failure of its run, until they are corrected.
+static void take_faults(SbSession *session) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  const bool faulty = sb_document_faults(session->document, issues);
+  if (faulty || session->faulty) {
+    g_clear_pointer(&session->failure, g_free);
+  }
+  session->faulty = faulty;
+  if (faulty) {
+    g_autoptr(GString) text = g_string_new(_("Nothing is computed: the file has errors."));
+    for (guint i = 0; i < issues->len; i++) {
+      g_autofree char *line = sb_issue_line(issues->pdata[i]);
+      g_string_append_printf(text, "%s%s", i == 0 ? " " : "; ", line);
+    }
+    session->failure = g_strconcat(text->str, ".", NULL);
+  }
+}
+
 void sb_session_values_changed(SbSession *session) {
+  take_faults(session);
   SbParams params = sb_document_params(session->document);
   cancel_source(&session->debounce);
   cancel_source(&session->later);

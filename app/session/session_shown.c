@@ -153,6 +153,10 @@ const char *sb_session_failure(SbSession *session) {
   return session->failure;
 }
 
+gboolean sb_session_is_faulty(const SbSession *session) {
+  return session->faulty;
+}
+
 gboolean sb_session_is_stale(SbSession *session, int *id, double *value) {
   if (session->shown == NULL) {
     return FALSE;

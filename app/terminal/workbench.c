@@ -234,17 +234,13 @@ static void translate(void) {
   sb_translation_begin();
 }
 
-static bool open_file(SbBench *bench, const char *path, GError **error) {
-  g_autoptr(GPtrArray) issues = sb_issues_new();
+static bool open_file(SbBench *bench, const SbWorkbenchOptions *options) {
+  const char *path = options->path;
   g_autofree char *file = path != NULL ? sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN)
                                        : sb_shipped_find("piston", SB_SHIPPED_FOR_RUN);
   // Without an operand and without shipped files the session stays an empty valve.
-  if (file == NULL || sb_session_open(bench->session, file, issues)) {
-    return true;
-  }
-  g_autofree char *line = issues->len > 0 ? sb_issue_line(issues->pdata[0]) : g_strdup(path);
-  g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, line);
-  return false;
+  return file == NULL || (sb_session_open(bench->session, file, options->issues) &&
+                          !sb_session_is_faulty(bench->session));
 }
 
 static void finish(SbBench *bench) {
@@ -297,7 +293,7 @@ bool sb_workbench_run(const SbWorkbenchOptions *options, GError **error) {
   sb_session_set_play_duration(bench.session, SB_PLAY_S);
   sb_session_set_loops(bench.session, TRUE);
   const SbScreenClient client = {.key = on_key, .draw = on_screen, .end = on_end, .data = &bench};
-  const bool good = open_file(&bench, options->path, error) &&
+  const bool good = open_file(&bench, options) &&
                     (bench.screen = sb_screen_open(&options->screen, &client, error)) != NULL;
   if (good) {
     if (sb_screen_colors(bench.screen) == SB_COLORS_NONE) {

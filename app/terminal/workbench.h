@@ -6,8 +6,9 @@
 typedef struct {
   const char *path; // valve or scene; NULL: the one that ships
   SbScreenWishes screen;
+  GPtrArray *issues; // of SbIssue: receives the errors of the file; borrowed
 } SbWorkbenchOptions;
 
-// Runs until the user leaves it, or the terminal goes. SB_APP_ERROR_INPUT (the file),
-// SB_APP_ERROR_IO (no terminal; this build has no workbench).
+// Runs until the user leaves it, or the terminal goes. On failure either the file has errors, which
+// are added to `issues`, or *error is SB_APP_ERROR_IO (no terminal; this build has no workbench).
 bool sb_workbench_run(const SbWorkbenchOptions *options, GError **error);

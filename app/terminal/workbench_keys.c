@@ -68,9 +68,8 @@ static void commit(SbBench *bench) {
     sb_bench_export(bench, text);
     break;
   case SB_INPUT_OPEN:
-    if (!sb_session_open(bench->session, text, issues)) {
-      say_issues(bench, issues);
-    }
+    (void)sb_session_open(bench->session, text, issues);
+    say_issues(bench, issues);
     sb_bench_list(bench);
     break;
   default:

@@ -202,6 +202,38 @@ static void test_check_issues(void) {
   remove_file("bad.study");
 }
 
+// ---- Files with errors ----
+
+// No command computes from a scene with errors or without its valve; each error is printed.
+static void test_faulty(void) {
+  write_file("no-valve.scene", "[sealbench]\nformat = 1\nkind = scene\nvalve = missing.valve\n");
+  write_file("bad.valve",
+             "[sealbench]\nformat = 1\nkind = valve\n[seal]\nsection_diameter = 1 N\n");
+  write_file("bad.scene", "[sealbench]\nformat = 1\nkind = scene\nvalve = bad.valve\n");
+  write_file("of-bad.study", "[sealbench]\nformat = 1\nkind = study\nscene = bad.scene\n[vary]\n"
+                             "gland.radial_space = uniform 1.3 mm .. 1.4 mm, 3\n[study]\n"
+                             "method = grid\n");
+  static const char *const commands[][6] = {{"run"},         {"plan"},
+                                            {"sensitivity"}, {"compare"},
+                                            {"check"},       {"render", "-o", "x.png"},
+                                            {"tui"},         {"report", "-o", "x.pdf"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(commands); i++) {
+    const char *const *c = commands[i];
+    IN_SAYS(1, "missing.valve: No such file", c[0], "no-valve.scene", c[1] != NULL ? c[1] : "-q",
+            c[2] != NULL ? c[2] : "-q");
+    IN_SAYS(1, "bad.valve: [seal] section_diameter: \"N\" is a unit of another kind", c[0],
+            "bad.scene", c[1] != NULL ? c[1] : "-q", c[2] != NULL ? c[2] : "-q");
+  }
+  IN_SAYS(1, "section_diameter", "study", "of-bad.study");
+  g_autofree char *picture = path_of("x.png"), *pages = path_of("x.pdf");
+  g_assert_false(g_file_test(picture, G_FILE_TEST_EXISTS));
+  g_assert_false(g_file_test(pages, G_FILE_TEST_EXISTS));
+  remove_file("no-valve.scene");
+  remove_file("bad.valve");
+  remove_file("bad.scene");
+  remove_file("of-bad.study");
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -210,6 +242,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-files/lists", test_lists);
   g_test_add_func("/cli-files/check-kinds", test_check_kinds);
   g_test_add_func("/cli-files/check-issues", test_check_issues);
+  g_test_add_func("/cli-files/faulty", test_faulty);
   int result = g_test_run();
   cli_tear_down();
   return result;

@@ -96,6 +96,18 @@ static void test_parameters(void) {
   sb_scene_close(scene);
 }
 
+// A scene whose file has errors computes nothing from defaults: the message names the error.
+static void refuses_to_compute(SbScene *scene, const char *error) {
+  static const char *const figures[] = {"seals.outer.load_N"};
+  double value = 0;
+  g_assert_cmpint(sb_scene_run(scene), ==, SB_SCENE_ERROR_INPUT);
+  g_assert_nonnull(strstr(sb_scene_message(scene), error));
+  g_assert_cmpuint(sb_scene_frame_count(scene), ==, 0);
+  g_assert_cmpint(sb_scene_evaluate(scene, NULL, NULL, 0, figures, 1, &value), ==,
+                  SB_SCENE_ERROR_INPUT);
+  g_assert_true(isnan(value));
+}
+
 static void test_files(void) {
   static const char bad[] = "[sealbench]\nformat = 1\nkind = valve\n[gland]\nradial_spac = 1 mm\n"
                             "axial_width = 9 m\n";
@@ -105,11 +117,16 @@ static void test_files(void) {
   g_assert_nonnull(strstr(sb_scene_issue(scene, 1), "0.2 to 50 mm"));
   g_assert_null(sb_scene_issue(scene, 2));
   g_assert_cmpstr(sb_scene_message(scene), ==, sb_scene_issue(scene, 0));
-  // A scene all the same, of defaults.
-  g_assert_cmpint(sb_scene_run(scene), ==, SB_SCENE_OK);
+  refuses_to_compute(scene, "radial_spac");
   sb_scene_close(scene);
   g_assert_cmpint(sb_scene_open(&scene, "/nowhere.scene"), ==, SB_SCENE_ERROR_IO);
   g_assert_nonnull(strstr(sb_scene_message(scene), "/nowhere.scene"));
+  refuses_to_compute(scene, "/nowhere.scene");
+  sb_scene_close(scene);
+  static const char no_valve[] = "[sealbench]\nformat = 1\nkind = scene\nvalve = missing.valve\n";
+  g_assert_cmpint(sb_scene_parse(&scene, no_valve, strlen(no_valve), SB_ASSETS), ==,
+                  SB_SCENE_ERROR_INPUT);
+  refuses_to_compute(scene, "missing.valve");
   sb_scene_close(scene);
   static const char good[] = "[sealbench]\nformat = 1\nkind = scene\ntitle = Ours\n"
                              "valve = valves/piston.valve\n[drive]\nspeed = 10 mm/s\n";

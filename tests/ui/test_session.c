@@ -511,6 +511,67 @@ static void test_restore_into_a_changed_file(void) {
   files_finish(&files);
 }
 
+static char *write_scene(const char *folder, const char *text) {
+  char *path = g_build_filename(folder, "bad.scene", NULL);
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+  return path;
+}
+
+// Nothing is computed and nothing of an earlier run is shown; the failure names the error.
+static void fails_with(SbSession *session, const char *error) {
+  turn(session, 300);
+  sb_session_start(session);
+  turn(session, 50);
+  g_assert_true(sb_session_is_faulty(session));
+  g_assert_null(sb_session_model(session));
+  g_assert_null(sb_session_run(session));
+  g_assert_null(sb_session_summary(session));
+  g_assert_cmpint(sb_session_state(session), ==, SB_SESSION_FAILED);
+  if (strstr(sb_session_failure(session), error) == NULL) {
+    g_error("%s", sb_session_failure(session));
+  }
+}
+
+// Errors of a file are errors of the run: a missing valve, an unknown key, a value that cannot be
+// read. The last is corrected by an edit, also after the file was saved.
+static void test_faulty_files(void) {
+  g_autoptr(SbSession) session = sb_session_new();
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autofree char *folder = g_dir_make_tmp("sealbench-test-XXXXXX", NULL);
+  const char *assets = g_getenv("SEALBENCH_ASSETS");
+  g_autofree char *good = g_build_filename(assets, "scenes", "quick-look.scene", NULL);
+  g_assert_true(sb_session_open(session, good, issues));
+  settle(session);
+  g_autofree char *path =
+      write_scene(folder, "[sealbench]\nformat = 1\nkind = scene\nvalve = missing.valve\n");
+  g_assert_true(sb_session_open(session, path, issues));
+  fails_with(session, "missing.valve");
+  sb_session_edit(session, SB_P_GLAND_RADIAL_SPACE, "1.35 mm"); // does not bring the valve
+  fails_with(session, "missing.valve");
+  g_autofree char *text =
+      g_strdup_printf("[sealbench]\nformat = 1\nkind = scene\nvalve = %s/valves/piston.valve\n"
+                      "[seal]\nsection_diameter = 1.6 N\nfoo = 3\n",
+                      assets);
+  g_free(write_scene(folder, text));
+  g_assert_true(sb_session_open(session, path, issues));
+  fails_with(session, "foo: unknown key");
+  *strstr(text, "foo") = '#';
+  g_free(write_scene(folder, text));
+  g_assert_true(sb_session_open(session, path, issues));
+  fails_with(session, "section_diameter");
+  sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, "1.6 mm");
+  g_assert_false(sb_session_is_faulty(session));
+  settle(session);
+  sb_session_undo(session);
+  g_assert_true(sb_session_is_faulty(session));
+  sb_session_redo(session);
+  g_assert_true(sb_session_save(session, NULL, NULL));
+  g_assert_false(sb_session_is_faulty(session));
+  settle(session);
+  g_remove(path);
+  g_rmdir(folder);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   // Unsaved changes of these tests are not the user's.
@@ -529,6 +590,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/session/another-document-forgets", test_another_document_forgets);
   g_test_add_func("/session/edit-before-the-first-frame", test_edit_before_the_first_frame);
   g_test_add_func("/session/gone-while-running", test_gone_while_running);
+  g_test_add_func("/session/faulty-files", test_faulty_files);
   const int failed = g_test_run();
   g_autofree char *sealbench = g_build_filename(home, "sealbench", NULL);
   g_autofree char *unsaved = g_build_filename(sealbench, "unsaved", NULL);

@@ -110,7 +110,9 @@ static void refresh(Strip *strip) {
   if (show_disk(strip)) {
     return;
   }
-  if (wrong >= 0) {
+  if (sb_session_is_faulty(session)) {
+    show(strip, "error", failure, NULL);
+  } else if (wrong >= 0) {
     const SbParam *param = sb_param((SbParamId)wrong);
     double old = sb_document_value(sb_session_document(session), (SbParamId)wrong);
     if (sb_session_is_stale(session, &differs, &value) && differs == wrong) {

@@ -117,6 +117,10 @@ static void refresh_run_state(SbWindow *window) {
   const char *icon = NULL;
   if (running) {
     text = running_text(session);
+  } else if (sb_session_is_faulty(session)) {
+    text = g_strdup(_("The file has errors"));
+    style = "sb-error";
+    icon = "dialog-error-symbolic";
   } else if (errors > 0) {
     text = g_strdup_printf(
         sb_session_run(session) != NULL

@@ -66,7 +66,7 @@ static void load(SbWindowFiles *files, GFile *file) {
   gboolean opened = sb_session_open(files->session, path, issues);
   if (issues->len > 0) {
     g_autofree char *title =
-        g_strdup_printf(opened ? _("%s has problems. Values with a problem keep their defaults.")
+        g_strdup_printf(opened ? _("%s has errors. Nothing is computed until they are corrected.")
                                : _("%s cannot be opened."),
                         shown);
     g_autofree char *text = lines_of(issues);
