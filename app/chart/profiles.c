@@ -387,7 +387,7 @@ static void pressure_chart(Small *s) {
   if (peak > 0) {
     double x = sb_axis_at(&s->x, peak_x * 1e3), y = sb_axis_at(&s->y, peak * 1e-6);
     sb_canvas_dot(c, x, y, 2.6, s->color);
-    seal_figure(value, s, "pressure_peak_Pa", peak);
+    seal_figure(value, s, "pressure_peak_Pa", seal->pressure_peak);
     g_snprintf(text, sizeof text, _("peak %s"), value);
     SbTextStyle style = {SB_TYPE_LABEL, 600, s->color, 1};
     small_label(s, text, &style,
@@ -599,7 +599,7 @@ static const char *curve_model(const SbChartData *data, const SbFrame *frame, bo
       const SbContactProfile *kept =
           data->run.profile ? data->run.profile(data->run.source, frame->seal[i].profile) : NULL;
       any = true;
-      model = kept && kept->count > 1 ? kept->model : NULL;
+      model = kept && kept->count > 1 ? (film ? kept->film_model : kept->model) : NULL;
     }
   }
   return any ? (model ? model : _("schematic, shape of Hertz")) : NULL;

@@ -145,7 +145,8 @@ void sb_csv_life(FILE *stream, const SbRun *run) {
 }
 
 void sb_csv_profiles(FILE *stream, const SbRun *run) {
-  fputs("frame,seal,x [m],pressure [Pa],film [m],asperity_pressure [Pa]\n", stream);
+  fputs("frame,seal,x [m],pressure [Pa],film [m],asperity_pressure [Pa],film_pressure [Pa]\n",
+        stream);
   size_t count = 0;
   const SbFrame *frames = sb_run_frames(run, &count);
   uint32_t shown[SB_SEAL_COUNT] = {UINT32_MAX, UINT32_MAX};
@@ -163,6 +164,7 @@ void sb_csv_profiles(FILE *stream, const SbRun *run) {
         put(stream, profile->pressure[k]);
         put(stream, profile->film[k]);
         put(stream, profile->asperity_pressure[k]);
+        put(stream, profile->film_pressure != NULL ? profile->film_pressure[k] : NAN);
         fputc('\n', stream);
       }
     }

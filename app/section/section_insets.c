@@ -7,6 +7,8 @@
 #include "app/chart/data.h"
 #include "app/section/section_private.h"
 
+#include "app/base/figure_text.h"
+
 #include <glib.h>
 #include <glib/gi18n.h>
 #include <math.h>
@@ -185,7 +187,8 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
   left_px = inset_x(inset, frame->contact_left);
   right_px = inset_x(inset, frame->contact_right);
   if (contact) {
-    double peak_x = (left_px + right_px) / 2, peak_pressure = frame->pressure_peak;
+    double peak_x = (left_px + right_px) / 2;
+    const double peak_pressure = frame->pressure_peak;
     if (profile != NULL) {
       double best = 0;
       for (size_t i = 0; i < profile->count; i++) {
@@ -194,16 +197,13 @@ static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
           peak_x = inset_x(inset, profile->x[i]);
         }
       }
-      // The number is that of the curve under it, as in the chart of profiles: a solved film's peak
-      // is not the dry fitment's.
-      if (best > 0 && frame->land_fraction > 0.999F) {
-        peak_pressure = best;
-      }
     }
+    const int figure = sb_figure_find(seal == SB_OUTER ? "seals.outer.pressure_peak_Pa"
+                                                       : "seals.inner.pressure_peak_Pa");
     SbSectionLabel peak = {13, 700, SB_MIDDLE, palette->seal[seal], body};
     sb_section_label(section, CLAMP(peak_x, rect->x + 50, rect->x + rect->width - 50),
                      bore - up * peak_pressure * px + (gasket ? 18 : -9), &peak,
-                     sb_section_megapascal(value, peak_pressure));
+                     sb_figure_text(value, figure, peak_pressure, NAN));
     double y = bore + up * 17;
     SbColor line = palette->ink;
     snprintf(text, sizeof text, _("contact %s"),
@@ -243,6 +243,9 @@ static double nice_above(double v) {
 
 // Share of the contact's load that asperities carry, or a negative number.
 static double asperity_share(const SbContactProfile *profile, const SbSealFrame *frame) {
+  // Asperities carry a part of the pressure that the film's own solution has.
+  const double *pressure =
+      profile->film_pressure != NULL ? profile->film_pressure : profile->pressure;
   double carried = 0, total = 0;
   for (size_t i = 1; i < profile->count; i++) {
     double x = (profile->x[i] + profile->x[i - 1]) / 2;
@@ -251,7 +254,7 @@ static double asperity_share(const SbContactProfile *profile, const SbSealFrame 
     }
     double dx = profile->x[i] - profile->x[i - 1];
     carried += dx * (profile->asperity_pressure[i] + profile->asperity_pressure[i - 1]) / 2;
-    total += dx * (profile->pressure[i] + profile->pressure[i - 1]) / 2;
+    total += dx * (pressure[i] + pressure[i - 1]) / 2;
   }
   return total > 0 ? carried / total : -1;
 }

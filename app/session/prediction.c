@@ -160,7 +160,8 @@ static void make_profile(SbPrediction *prediction, int seal, uint32_t index) {
                             .film = arrays.film,
                             .asperity_pressure =
                                 base->asperity_pressure != NULL ? arrays.asperity : NULL,
-                            .model = base->model};
+                            .model = base->model,
+                            .film_model = base->film_model};
 }
 
 void sb_prediction_show(SbPrediction *prediction, size_t frame) {

@@ -80,11 +80,16 @@ typedef struct {
 typedef struct {
   size_t count;
   const double *x;
-  const double
-      *pressure;      // total contact pressure, the fluid's outside it, above the lower side [Pa]
-  const double *film; // [m]
+  // Contact pressure of the fitment, the fluid's outside the contact, above the lower side [Pa].
+  // Its maximum in the contact is the state's `pressure_peak`.
+  const double *pressure;
+  const double *film;              // [m]
   const double *asperity_pressure; // what asperities bear at this film [Pa]
-  const char *model;               // the model that made it ("hertz shape of karaszkiewicz", ...)
+  const char *model;               // of the pressure ("karaszkiewicz", "ring", ...)
+  // Pressure that the film's own solution has: it differs from the contact's where the film is
+  // solved on a half-plane. NULL: no film was solved. [Pa]
+  const double *film_pressure;
+  const char *film_model; // of the film and of its pressure
 } SbContactProfile;
 
 // Fields on a solved ring, for drawing.

@@ -31,7 +31,8 @@ static void make_profile(Synthetic *run, int seal) {
                                           .pressure = run->pressure[seal],
                                           .film = run->film[seal],
                                           .asperity_pressure = NULL,
-                                          .model = "synthetic"};
+                                          .model = "synthetic",
+                                          .film_model = "synthetic"};
 }
 
 static void seal_frame(SbFrame *f, int seal, bool slides, double friction) {

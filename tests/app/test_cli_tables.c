@@ -362,10 +362,53 @@ static void test_thesis(void) {
   }
 }
 
+// Column `name` of a row of a table with its heading; NAN: the cell is empty.
+static double cell_of(char **rows, size_t row, const char *name) {
+  g_auto(GStrv) heads = g_strsplit(rows[0], ",", -1);
+  g_auto(GStrv) cells = g_strsplit(rows[row], ",", -1);
+  for (size_t i = 0; heads[i] != NULL; i++) {
+    if (strcmp(heads[i], name) == 0) {
+      return *cells[i] != '\0' ? g_ascii_strtod(cells[i], NULL) : NAN;
+    }
+  }
+  g_error("no column %s", name);
+}
+
+// A state of contact has one peak pressure: that of the JSON and the table is the maximum of the
+// profile to rounding. The film that is solved on a half-plane has a pressure of its own.
+static void test_peak(void) {
+  g_autofree char *out = g_build_filename(cli.folder, "peak", NULL);
+  g_autofree char *scene = scene_named("thesis-cycle.scene");
+  CliResult table = CLI("run", scene, "-o", out);
+  g_assert_cmpint(table.code, ==, 0);
+  g_autofree char *text = cli_contents(out, "results.json");
+  JsonNode *root = cli_parse(text);
+  const double reported = cli_number(root, "seals.outer.pressure_peak_Pa");
+  g_auto(GStrv) rows = rows_of(out, "profiles.csv");
+  double frame = NAN, peak = 0, film = 0;
+  for (size_t i = 1; rows[i] != NULL; i++) {
+    const bool sliding = !isnan(cell_of(rows, i, "film_pressure [Pa]"));
+    if (strstr(rows[i], ",outer,") == NULL || !sliding) {
+      continue;
+    }
+    frame = isnan(frame) ? cell_of(rows, i, "frame") : frame;
+    if (cell_of(rows, i, "frame") == frame) {
+      peak = fmax(peak, cell_of(rows, i, "pressure [Pa]"));
+      film = fmax(film, cell_of(rows, i, "film_pressure [Pa]"));
+    }
+  }
+  g_assert_cmpfloat_with_epsilon(peak / reported, 1, 1e-12);
+  g_assert_cmpfloat(film, <, 0.95 * reported);
+  g_assert_nonnull(strstr(table.out, "Peak pressure                        1.407 MPa"));
+  json_node_unref(root);
+  cli_clear(&table);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
   g_test_add_func("/cli-tables/fit", test_fit);
+  g_test_add_func("/cli-tables/peak", test_peak);
   g_test_add_func("/cli-tables/rig", test_rig);
   g_test_add_func("/cli-tables/life", test_life);
   g_test_add_func("/cli-tables/bodies", test_bodies);

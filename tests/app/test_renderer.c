@@ -50,8 +50,9 @@ static void set_seal(Scene *scene, int i, double half, double peak, double left,
     scene->film[i][j] = film * (fabs(t) < 1 ? 1 : 1 + 4e5 * (fabs(t) - 1));
     scene->asperities[i][j] = 0.9 * scene->pressure[i][j];
   }
-  scene->profile[i] = (SbContactProfile){SAMPLES,        scene->x[i],          scene->pressure[i],
-                                         scene->film[i], scene->asperities[i], "by hand"};
+  scene->profile[i] = (SbContactProfile){
+      SAMPLES,   scene->x[i], scene->pressure[i], scene->film[i], scene->asperities[i],
+      "by hand", NULL,        "by hand"};
 }
 
 static void make_scene(Scene *scene, double displacement, double half) {

@@ -163,6 +163,13 @@ uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int m
 // and the stem's displacement s [m].
 uint32_t sb_run_shape_over_edge(const SbRun *run, int way, double s);
 
+// Rows of `count` numbers each, one after the other, in which a profile is stored.
+enum { SB_PROFILE_ROWS = 5 };
+
+// Returns the view of such rows: x, pressure, film, asperity pressure, film pressure (not a number
+// where no film was solved). `model` is borrowed.
+SbContactProfile sb_run_profile_view(const double *rows, size_t count, const char *model);
+
 // Index of a profile, of a seal's states of contact in chamber and motion.
 uint32_t sb_run_profile_slot(int seal, int chamber, int motion);
 

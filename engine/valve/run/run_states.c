@@ -64,6 +64,21 @@ typedef struct {
   SbSealState *state;
 } Task;
 
+SbContactProfile sb_run_profile_view(const double *rows, size_t count, const char *model) {
+  const double *film_pressure = rows + 4 * count;
+  const bool solved = count > 0 && isfinite(film_pressure[0]);
+  return (SbContactProfile){
+      .count = count,
+      .x = rows,
+      .pressure = rows + count,
+      .film = rows + 2 * count,
+      .asperity_pressure = rows + 3 * count,
+      .model = model,
+      .film_pressure = solved ? film_pressure : NULL,
+      .film_model = solved ? "reynolds" : model,
+  };
+}
+
 // Contact pressure of the fitment at x, by straight lines; the fluid's outside the contact.
 static double fit_pressure(const SbFit *fit, double x, double left, double right) {
   size_t n = fit->profile_count;
@@ -97,10 +112,27 @@ static void asperity_pressure(const SbModel *model, int seal, const double *film
   }
 }
 
-// Pressure and film over one contact, from what the seal's memory has just solved. With a solved
-// film it is the solver's own profile, on the fitted body where the fitment gives one; with a
-// closed form it is the fitment's pressure, the central film held uniform (the law knows no shape)
-// and the dry gap outside.
+// Contact pressure of the fitment at the points x. Between them the fitment's peak may fall: the
+// curve is stretched, by less than 1e-3 for 100 points in the contact, so that its maximum is the
+// peak that every other surface reports. The fluid's pressure acts where the fitment's is below it.
+static void contact_pressure(double *out, const SbFit *fit, const double *x, size_t n, double left,
+                             double right) {
+  const double middle = (fit->contact_left + fit->contact_right) / 2;
+  double largest = 0;
+  for (size_t i = 0; i < n; i++) {
+    out[i] = fit_pressure(fit, x[i], left, right);
+    largest = fmax(largest, out[i]);
+  }
+  const double factor = largest > fmax(left, right) ? fit->pressure_peak / largest : 1;
+  for (size_t i = 0; i < n; i++) {
+    out[i] = fmax(factor * out[i], x[i] < middle ? left : right);
+  }
+}
+
+// Pressure and film over one contact, from what the seal's memory has just solved. The pressure is
+// the fitment's. A solved film is the solver's own, on the fitted body where the fitment gives one,
+// and has a pressure of its own; of a closed form the central film is uniform in the contact (the
+// law has no shape), with the dry gap outside.
 static SbStatus make_profile(const Task *task, SbReport *report) {
   SbRun *run = task->run;
   const int seal = task->seal;
@@ -119,11 +151,12 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   // No film on the fitted body: the half-plane's is scaled from its contact to the fitted one.
   const bool scaled = solved && own_pressure && !state->film_fitted;
   size_t capacity = solved ? film->points : (size_t)PROFILE_POINTS, n = 0;
-  double *x = calloc(4 * capacity, sizeof *x);
+  double *x = calloc(SB_PROFILE_ROWS * capacity, sizeof *x);
   if (x == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a profile");
   }
   double *p = x + capacity, *h = x + 2 * capacity, *asperities = x + 3 * capacity;
+  double *film_pressure = x + 4 * capacity;
   const double low = fmin(pressure.left, pressure.right);
   const double left = pressure.left - low, right = pressure.right - low;
   const double middle = (fit->contact_left + fit->contact_right) / 2, a = fit->contact_width / 2;
@@ -131,10 +164,13 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
     const double stretch = a / film->hertz_half_width;
     for (n = 0; n < film->points; n++) {
       x[n] = scaled ? middle + stretch * film->x[n] : film->x[n];
-      // The fluid stands at an edge where the fitment's own pressure is below it.
-      p[n] = scaled ? fmax(fit_pressure(fit, x[n], left, right), x[n] < middle ? left : right)
-                    : film->pressure[n] - low;
+      film_pressure[n] = film->pressure[n] - low;
       h[n] = film->film[n];
+    }
+    if (fitted) {
+      contact_pressure(p, fit, x, n, left, right);
+    } else {
+      memcpy(p, film_pressure, n * sizeof *p);
     }
   } else if (fitted) {
     double scale = a * a / run->model->seal[seal].radius, edge = run->model->profile_corner_radius;
@@ -142,16 +178,20 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
       double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
       for (size_t k = 0; i == 0 && k < fit->profile_count; k++) {
         x[n] = fit->profile_x[k];
-        p[n] = fmax(fit->profile_p[k], x[n] < middle ? left : right);
         h[n++] = state->film_central;
       }
       if (i != 0) {
         x[n] = middle + copysign(xi * a, i);
-        p[n] = i < 0 ? left : right;
         h[n++] = state->film_central +
                  (gasket ? pow((xi - 1) * a, 2) / (2 * edge) : scale * sb_film_dry_gap(xi));
       }
     }
+  }
+  if (!solved && fitted) {
+    contact_pressure(p, fit, x, n, left, right);
+  }
+  for (size_t i = 0; !solved && i < n; i++) {
+    film_pressure[i] = NAN;
   }
   if (solved && coupled) {
     memcpy(asperities, film->asperity_pressure, n * sizeof *asperities);
@@ -170,14 +210,11 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   }
   free(profile->data);
   profile->data = x;
-  profile->view = (SbContactProfile){
-      .count = n,
-      .x = x,
-      .pressure = p,
-      .film = h,
-      .asperity_pressure = asperities,
-      .model = solved && !scaled ? "reynolds" : sb_fit_model_name(run->model->fit),
-  };
+  // The rows are `capacity` apart; a view has them next to each other.
+  for (size_t row = 1; row < SB_PROFILE_ROWS && n < capacity; row++) {
+    memmove(x + row * n, x + row * capacity, n * sizeof *x);
+  }
+  profile->view = sb_run_profile_view(x, n, sb_fit_model_name(run->model->fit));
   task->lane->counters.profile_evaluations++;
   return SB_OK;
 }
@@ -313,22 +350,14 @@ static SbStatus take_alike(const Task *of, int from, SbReport *report) {
     const SbContactProfile *view = &profile->view;
     SbRunProfile *own = &run->profile[sb_run_profile_slot(of->seal, of->chamber, of->motion)];
     const size_t n = view->count;
-    double *x = malloc(4 * n * sizeof *x + 1);
+    double *x = malloc(SB_PROFILE_ROWS * n * sizeof *x + 1);
     if (x == NULL) {
       return sb_fail(report, SB_ERROR_MEMORY, "no memory for a profile");
     }
-    const double *const row[] = {view->x, view->pressure, view->film, view->asperity_pressure};
-    for (size_t i = 0; i < 4; i++) {
-      memcpy(x + i * n, row[i], n * sizeof *x);
-    }
+    memcpy(x, profile->data, SB_PROFILE_ROWS * n * sizeof *x);
     free(own->data);
     own->data = x;
-    own->view = (SbContactProfile){.count = n,
-                                   .x = x,
-                                   .pressure = x + n,
-                                   .film = x + 2 * n,
-                                   .asperity_pressure = x + 3 * n,
-                                   .model = view->model};
+    own->view = sb_run_profile_view(x, n, view->model);
     of->lane->counters.profile_evaluations++;
   }
   return SB_OK;

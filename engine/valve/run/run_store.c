@@ -52,10 +52,8 @@ static void put_profile(Writer *writer, const SbContactProfile *view) {
     char model[MODEL_NAME] = "";
     sb_text(model, sizeof model, "%s", view->model);
     put(writer, model, sizeof model);
-    const double *const row[] = {view->x, view->pressure, view->film, view->asperity_pressure};
-    for (int i = 0; i < 4; i++) {
-      put(writer, row[i], n * sizeof *row[i]);
-    }
+    // The rows are next to each other (sb_run_profile_view()).
+    put(writer, view->x, SB_PROFILE_ROWS * n * sizeof *view->x);
   }
 }
 
@@ -146,26 +144,21 @@ static void *room_for(Reader *reader, size_t size) {
 }
 
 static void take_profile(SbRunProfile *profile, Reader *reader) {
-  const size_t n = take_count(reader, 4 * sizeof(double));
+  const size_t n = take_count(reader, SB_PROFILE_ROWS * sizeof(double));
   if (n == 0) {
     return;
   }
   char model[MODEL_NAME];
   take(model, reader, sizeof model);
-  profile->data = room_for(reader, 4 * n * sizeof(double) + sizeof model);
-  if (!take(profile->data, reader, 4 * n * sizeof(double))) {
+  profile->data = room_for(reader, SB_PROFILE_ROWS * n * sizeof(double) + sizeof model);
+  if (!take(profile->data, reader, SB_PROFILE_ROWS * n * sizeof(double))) {
     return;
   }
   // Its model's name lies behind the numbers.
-  char *name = (char *)(profile->data + 4 * n);
+  char *name = (char *)(profile->data + SB_PROFILE_ROWS * n);
   model[MODEL_NAME - 1] = '\0';
   memcpy(name, model, sizeof model);
-  profile->view = (SbContactProfile){.count = n,
-                                     .x = profile->data,
-                                     .pressure = profile->data + n,
-                                     .film = profile->data + 2 * n,
-                                     .asperity_pressure = profile->data + 3 * n,
-                                     .model = name};
+  profile->view = sb_run_profile_view(profile->data, n, name);
 }
 
 static void take_shape(SbRunShape *shape, Reader *reader) {
