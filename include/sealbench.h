@@ -68,6 +68,10 @@ typedef enum {
 // Version of the library that is loaded, "0.2.0".
 const char *sb_library_version(void);
 
+// SHA-256 of the sources of its engine and of what compiled them, 64 hexadecimal digits: libraries and
+// programs of the same hash compute the same figures.
+const char *sb_library_source(void);
+
 // ---- Catalogues ----
 
 typedef struct {
@@ -161,6 +165,9 @@ const char *sb_scene_reason(const SbScene *scene, const char *path);
 // Warning `index` of the last run: a sentence; NULL beyond the last.
 const char *sb_scene_warning(const SbScene *scene, size_t index);
 
+// Code of that warning, stable between versions ("karaszkiewicz-squeeze"); NULL beyond the last.
+const char *sb_scene_warning_code(const SbScene *scene, size_t index);
+
 // Frames of the last run.
 size_t sb_scene_frame_count(const SbScene *scene);
 
@@ -194,6 +201,11 @@ SbSceneStatus sb_scene_profile(SbScene *scene, size_t frame, const char *seal, S
 SbSceneStatus sb_scene_evaluate(SbScene *scene, const char *const *keys, const double *values,
                                 size_t count, const char *const *figures, size_t figure_count,
                                 double *out);
+
+// Warning `index` of the last evaluation, of the models that its figures needed: a sentence, and its
+// code. NULL beyond the last, and after an evaluation that failed. Borrowed until the next evaluation.
+const char *sb_scene_evaluation_warning(const SbScene *scene, size_t index);
+const char *sb_scene_evaluation_warning_code(const SbScene *scene, size_t index);
 
 // Why a figure that the last evaluation was asked for is NaN; NULL where it has a value, or for an
 // unknown path.

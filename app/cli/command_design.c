@@ -4,6 +4,7 @@
 #include "app/base/figure_text.h"
 #include "app/base/output.h"
 #include "app/export/design_results.h"
+#include "app/export/study_results.h"
 
 #include <math.h>
 
@@ -56,11 +57,11 @@ static void print_table(const SbStudyFile *study, const SbDesign *design) {
   print_parameters(study, design);
   print_figures(study, design);
   if (design->checked) {
-    printf(
-        "  over the tolerances all limits hold with %.6g %% (95 %%: %.6g to %.6g %%; by FORM %.6g "
-        "%%)\n",
-        100 * design->holds, 100 * design->interval[0], 100 * design->interval[1],
-        100 * design->by_form);
+    printf("  over the tolerances all limits hold with %.6g %% (" SB_INTERVAL_COVERS
+           ", 95 %%: %.6g to %.6g %%; by FORM %.6g "
+           "%%)\n",
+           100 * design->holds, 100 * design->interval[0], 100 * design->interval[1],
+           100 * design->by_form);
   }
   g_autofree char *bounds = sb_design_bounds(design, study), *codes = sb_design_codes(design);
   if (bounds != NULL) {

@@ -83,6 +83,9 @@ static void print_share(const SbStudyFile *study, const SbLimitShare *share) {
   const bool reliability = study->method == SB_METHOD_RELIABILITY;
   if (share->of == 0) {
     puts(" no sample has it");
+  } else if (share->certain && (reliability || study->method == SB_METHOD_MONTE_CARLO)) {
+    printf(" %s (" SB_INTERVAL_COVERS ", 95 %%: at least %.3g %s)\n", share->reason,
+           (reliability ? 1e6 : 100) * share->interval[0], reliability ? "ppm" : "%");
   } else if (reliability && isnan(share->probability)) {
     puts(" not all samples are there");
   } else if (reliability || study->method == SB_METHOD_MONTE_CARLO) {
@@ -91,8 +94,8 @@ static void print_share(const SbStudyFile *study, const SbLimitShare *share) {
     }
     const double unit = reliability ? 1e6 : 100;
     const char *name = reliability ? "ppm" : "%";
-    printf(" %.3g %s (95 %%: %.3g to %.3g %s)", unit * share->probability, name,
-           unit * share->interval[0], unit * share->interval[1], name);
+    printf(" %.3g %s (" SB_INTERVAL_COVERS ", 95 %%: %.3g to %.3g %s)", unit * share->probability,
+           name, unit * share->interval[0], unit * share->interval[1], name);
     if (reliability && isfinite(share->beta)) {
       printf(", beta %.3f", share->beta);
     }
@@ -111,7 +114,7 @@ static void print_modes(const SbStudyFile *study, const SbReliability *reliabili
       continue;
     }
     if (mode->found.end != SB_SEARCH_FOUND) {
-      printf("      sampled without a point of failure: %s\n", sb_search_text(mode->found.end));
+      printf("      sampled without a point of failure: %s\n", sb_failure_text(&mode->found));
       continue;
     }
     printf("      most probable (FORM: beta %.3f) at", mode->found.beta);
@@ -170,7 +173,8 @@ static SbStatus print_leakage(const SbStudyFile *study, const SbAnswers *answers
   if (status == SB_OK && isnan(odds.probability)) {
     printf("  %s: no sample has a loss on the shelf\n", study->leakage.edition);
   } else if (status == SB_OK) {
-    printf("  %s: %zu of %zu simulated tests pass, %.3g %% (95 %%: %.3g to %.3g %%), %zu in the "
+    printf("  %s: %zu of %zu simulated tests pass, %.3g %% (" SB_INTERVAL_COVERS
+           ", 95 %%: %.3g to %.3g %%), %zu in the "
            "second stage\n",
            study->leakage.edition, odds.passed, odds.tests, 100 * odds.probability,
            100 * odds.interval[0], 100 * odds.interval[1], odds.second);
@@ -300,9 +304,25 @@ static char *shard_path(const char *store, const char *index, size_t count) {
                          index, count);
 }
 
+// Refuses what would end a line of the script: behind it, a comment's text would be a command.
+static int check_scripted(const char *what, const char *text) {
+  for (const char *c = text; *c != '\0'; c++) {
+    if (g_ascii_iscntrl(*c)) {
+      return sb_cli_fail("--emit-slurm: the %s \"%s\" has a control character; a job script takes "
+                         "names without any",
+                         what, text);
+    }
+  }
+  return SB_EXIT_DONE;
+}
+
 // The job script of an array of shards, each with a store of its own, on one thread each.
 static int emit_slurm(const Options *options, const SbStudyFile *study) {
   g_autofree char *store = sb_cli_store_path(options->store, study);
+  GError *unusable = NULL;
+  if (store != NULL && !sb_store_check_name(store, &unusable)) {
+    return sb_cli_error(unusable);
+  }
   if (study->path == NULL || store == NULL || options->shard_count == 0) {
     return sb_cli_fail("--emit-slurm: takes a study's file, and --shard 1/N for how many jobs");
   }
@@ -314,6 +334,16 @@ static int emit_slurm(const Options *options, const SbStudyFile *study) {
   g_autofree char *run = g_shell_quote(program != NULL ? program : "sealbench");
   g_autofree char *of = g_shell_quote(file);
   g_autofree char *into = g_shell_quote(whole);
+  int code = check_scripted("program", run);
+  code = code == SB_EXIT_DONE ? check_scripted("study", file) : code;
+  code = code == SB_EXIT_DONE ? check_scripted("store", whole) : code;
+  for (char **setting = options->settings;
+       code == SB_EXIT_DONE && setting != NULL && *setting != NULL; setting++) {
+    code = check_scripted("setting", *setting);
+  }
+  if (code != SB_EXIT_DONE) {
+    return code;
+  }
   if (strpbrk(whole, "\"$`\\") != NULL) {
     return sb_cli_fail("-o: %s has characters that a shell takes for its own", whole);
   }

@@ -68,6 +68,7 @@ static void put_robust(SbJson *json, const SbStudyFile *study, const SbDesign *d
   sb_json_number(json, "target", study->design.robust);
   sb_json_number(json, "probability", design->holds);
   sb_json_numbers(json, "interval_95", design->interval, 2);
+  sb_json_string(json, "interval_covers", SB_INTERVAL_COVERS);
   sb_json_number(json, "probability_by_form", design->by_form);
   sb_json_count(json, "samples", design->samples);
   sb_json_bool(json, "met", design->met);

@@ -82,15 +82,19 @@ static char *probability_text(const Study *study, const SbLimitShare *share) {
   sb_format_digits(low, unit * share->interval[0], 3);
   sb_format_digits(high, unit * share->interval[1], 3);
   const char *name = rare ? "ppm" : "%";
+  if (share->certain) {
+    return g_strdup_printf("every valve fails (at least %s\xc2\xa0%s)", low, name);
+  }
   return g_strdup_printf("%s\xc2\xa0%s (%s to %s)", p, name, low, high);
 }
 
 static void draw_limits(SbReportPages *pages, Study *study) {
-  static const SbReportColumn columns[] = {{"Limit on", 4, SB_REPORT_WORDS},
-                                           {"Limit", 1.6, SB_REPORT_NUMBER},
-                                           {"Beyond", 1.6, SB_REPORT_NUMBER},
-                                           {"Probability (95 %)", 3, SB_REPORT_NUMBER},
-                                           {"\xce\xb2", 0.8, SB_REPORT_NUMBER}};
+  static const SbReportColumn columns[] = {
+      {"Limit on", 4, SB_REPORT_WORDS},
+      {"Limit", 1.6, SB_REPORT_NUMBER},
+      {"Beyond", 1.6, SB_REPORT_NUMBER},
+      {"Probability (95 % of sampling alone)", 3, SB_REPORT_NUMBER},
+      {"\xce\xb2", 0.8, SB_REPORT_NUMBER}};
   SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
   const SbStudyFile *file = study->study;
   const bool independent =

@@ -167,7 +167,7 @@ static void put_mode(SbJson *json, const SbStudyFile *study, const SbFailureMode
   sb_json_object(json, NULL);
   sb_json_string(json, "relation", mode->upper ? "<=" : ">=");
   sb_json_bool(json, "found", found);
-  sb_json_string(json, "reason", found ? NULL : sb_search_text(mode->found.end));
+  sb_json_string(json, "reason", found ? NULL : sb_failure_text(&mode->found));
   sb_json_number(json, "beta", mode->found.beta);
   sb_json_number(json, "probability", sb_normal_share(-mode->found.beta));
   sb_json_count(json, "evaluations", mode->found.evaluations);
@@ -203,6 +203,7 @@ static SbStatus put_share(SbJson *json, const SbStudyFile *study, const SbStudyD
                                                                           : NAN);
   put_interval(json, "interval_95", independent ? share.interval[0] : NAN,
                independent ? share.interval[1] : NAN);
+  sb_json_string(json, "interval_covers", independent ? SB_INTERVAL_COVERS : NULL);
   sb_json_number(json, "beta", independent ? share.beta : NAN);
   if (independent && share.reason[0] != '\0') {
     sb_json_string(json, "reason", share.reason);
@@ -315,6 +316,7 @@ static SbStatus put_leakage(SbJson *json, const SbStudyFile *study, const SbAnsw
   sb_json_count(json, "second_stage", odds.second);
   sb_json_number(json, "probability_to_pass", odds.probability);
   put_interval(json, "interval_95", odds.interval[0], odds.interval[1]);
+  sb_json_string(json, "interval_covers", SB_INTERVAL_COVERS);
   sb_json_string(json, "cans", odds.dealt ? "each another sample" : "drawn from the samples");
   if (isnan(odds.probability)) {
     sb_json_string(json, "reason", "no sample has a loss on the shelf");

@@ -19,6 +19,10 @@ size_t sb_study_failed(const SbAnswers *answers);
 // "ok", "not-converged", "infeasible", "refused", "not-computed"; borrowed.
 const char *sb_study_status_name(uint8_t status);
 
+// What intervals of probabilities from samples cover: neither the models' errors nor those of the
+// distributions.
+#define SB_INTERVAL_COVERS "sampling alone"
+
 // Samples with a warning of validity.
 typedef struct {
   char code[48];

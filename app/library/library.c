@@ -113,6 +113,10 @@ const char *sb_library_version(void) {
   return sb_version();
 }
 
+const char *sb_library_source(void) {
+  return sb_engine_identity()->source;
+}
+
 const SbParameterInfo *sb_list_parameters(size_t *count) {
   ensure_set_up();
   *count = SB_PARAM_COUNT;
@@ -386,9 +390,18 @@ const char *sb_scene_reason(const SbScene *scene, const char *path) {
                             : "there has been no run yet";
 }
 
+static const SbWarning *warning_of(const SbSummary *summary, size_t index) {
+  return summary != NULL && index < summary->warnings.count ? &summary->warnings.item[index] : NULL;
+}
+
 const char *sb_scene_warning(const SbScene *scene, size_t index) {
-  const SbWarnings *warnings = scene->run != NULL ? &sb_run_summary(scene->run)->warnings : NULL;
-  return warnings != NULL && index < warnings->count ? warnings->item[index].text : NULL;
+  const SbWarning *of = warning_of(scene->run != NULL ? sb_run_summary(scene->run) : NULL, index);
+  return of != NULL ? of->text : NULL;
+}
+
+const char *sb_scene_warning_code(const SbScene *scene, size_t index) {
+  const SbWarning *of = warning_of(scene->run != NULL ? sb_run_summary(scene->run) : NULL, index);
+  return of != NULL ? of->code : NULL;
 }
 
 size_t sb_scene_frame_count(const SbScene *scene) {
@@ -476,6 +489,16 @@ SbSceneStatus sb_scene_evaluate(SbScene *scene, const char *const *keys, const d
                                .cancelled = is_cancelled,
                                .data = scene};
   return report(scene, sb_evaluator_ask(out, scene->evaluator, &question, &why), &why);
+}
+
+const char *sb_scene_evaluation_warning(const SbScene *scene, size_t index) {
+  const SbWarning *of = warning_of(sb_evaluator_summary(scene->evaluator), index);
+  return of != NULL ? of->text : NULL;
+}
+
+const char *sb_scene_evaluation_warning_code(const SbScene *scene, size_t index) {
+  const SbWarning *of = warning_of(sb_evaluator_summary(scene->evaluator), index);
+  return of != NULL ? of->code : NULL;
 }
 
 const char *sb_scene_evaluation_reason(const SbScene *scene, const char *path) {

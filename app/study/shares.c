@@ -45,7 +45,7 @@ static void tell_nothing(SbLimitShare *out, const SbStudyDrawn *drawn, size_t li
   for (size_t i = 0; drawn->reliability != NULL && i < drawn->reliability->count; i++) {
     const SbFailureMode *mode = &drawn->reliability->mode[i];
     if (mode->limit == limit && mode->found.end != SB_SEARCH_FOUND) {
-      said = sb_search_text(mode->found.end);
+      said = sb_failure_text(&mode->found);
     }
   }
   sb_text(out->reason, sizeof out->reason, "none of %zu samples is beyond it%s%s", out->of,
@@ -80,7 +80,11 @@ SbStatus sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study,
       out->probability = share.probability;
       memcpy(out->interval, share.interval, sizeof out->interval);
     }
-    if (out->probability > 0 && out->probability < 1) {
+    out->certain = out->probability >= 1 && out->beyond == out->of;
+    if (out->certain) {
+      sb_text(out->reason, sizeof out->reason,
+              "every valve fails: all of %zu samples are beyond the limit", out->of);
+    } else if (out->probability > 0 && out->probability < 1) {
       out->beta = -sb_normal_quantile(out->probability);
     } else if (out->probability == 0) {
       tell_nothing(out, drawn, limit);

@@ -10,12 +10,14 @@ typedef struct {
   const SbReliability *reliability; // NULL: of another method
 } SbStudyDrawn;
 
-// Probability of values beyond a limit, among valves: samples that are none are left out, those of
-// which a solver did not converge widen the interval. NaN where samples about failures are missing.
+// Probability of values beyond a limit, among valves, with an interval that covers the sampling
+// alone: samples that are none are left out, those of which a solver did not converge widen the
+// interval. NaN where samples about failures are missing.
 typedef struct {
   size_t beyond, of;
   double probability, interval[2], beta; // beta: normal quantile of the probability
-  char reason[160];                      // why it is 0, or nothing
+  bool certain;                          // every sample with an answer is beyond the limit
+  char reason[200];                      // why it is 0 or certain, or nothing
 } SbLimitShare;
 
 // `limit` of the study, or one past them: any of them. SB_ERROR_MEMORY.

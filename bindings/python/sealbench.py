@@ -143,7 +143,10 @@ for _name, _result, _arguments in (
         ("sb_scene_run", ctypes.c_int, [_scene]),
         ("sb_scene_figure", ctypes.c_int, [_scene, _Text, _pointer(_Double)]),
         ("sb_scene_reason", _Text, [_scene, _Text]),
+        ("sb_library_source", _Text, []),
         ("sb_scene_warning", _Text, [_scene, _size]),
+        ("sb_scene_warning_code", _Text, [_scene, _size]),
+        ("sb_scene_evaluation_warning_code", _Text, [_scene, _size]),
         ("sb_scene_frame_count", _size, [_scene]),
         ("sb_scene_frames", ctypes.c_int, [_scene, _Text, _pointer(_Double)]),
         ("sb_scene_profile", ctypes.c_int, [_scene, _size, _Text, _pointer(_Profile)]),
@@ -171,6 +174,7 @@ def _listed(function: Any) -> Iterable[Any]:
 
 
 VERSION: str = _text(_lib.sb_library_version())
+SOURCE: str = _text(_lib.sb_library_source())  # hash of the engine's sources
 PARAMETERS: dict[str, Parameter] = {
     _text(row.key): Parameter(
         _text(row.key), _text(row.symbol), _text(row.unit), _text(row.shown),
@@ -316,6 +320,19 @@ class Scene:
             found.append(_text(text))
         return found
 
+    @property
+    def warning_codes(self) -> list[str]:
+        """Codes of the warnings of the last run, in their order, each once."""
+        return self._codes(_lib.sb_scene_warning_code)
+
+    def _codes(self, code_at: Any) -> list[str]:
+        found: dict[str, None] = {}
+        index = 0
+        while (code := code_at(self._use(), index)) is not None:
+            found[_text(code)] = None
+            index += 1
+        return list(found)
+
     def __len__(self) -> int:
         """Frames of the last run."""
         return int(_lib.sb_scene_frame_count(self._use()))
@@ -345,9 +362,11 @@ class Scene:
     # ---- Evaluation ----
 
     def evaluate(self, figures: Sequence[str], overrides: Mapping[str, float] | None = None,
-                 reasons: dict[str, str] | None = None) -> dict[str, float]:
+                 reasons: dict[str, str] | None = None,
+                 warnings: list[str] | None = None) -> dict[str, float]:
         """Figures with parameters replaced (SI), to the bit those of a run; computes no more than they
-        need and leaves the scene and its last run as they are. `reasons` takes why a figure is NaN."""
+        need and leaves the scene and its last run as they are. `reasons` takes why a figure is NaN, `warnings`
+        the codes of validity of the models that the figures needed."""
         given = dict(overrides or {})
         keys = (_Text * max(len(given), 1))(*(key.encode() for key in given))
         values = (_Double * max(len(given), 1))(*given.values())
@@ -358,4 +377,6 @@ class Scene:
             for path, value in zip(figures, out):
                 if math.isnan(value):
                     reasons[path] = _text(_lib.sb_scene_evaluation_reason(self._use(), path.encode()))
+        if warnings is not None:
+            warnings.extend(self._codes(_lib.sb_scene_evaluation_warning_code))
         return dict(zip(figures, out))

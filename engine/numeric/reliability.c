@@ -26,6 +26,21 @@ const char *sb_search_text(SbSearchEnd end) {
   return "";
 }
 
+const char *sb_failure_text(const SbFailurePoint *found) {
+  if (!(found->value < 0)) {
+    return sb_search_text(found->end);
+  }
+  switch (found->end) {
+  case SB_SEARCH_FLAT:
+    return "the median fails, and nothing that varies changes the figure";
+  case SB_SEARCH_FAR:
+    return "the median fails, and no valve that holds the limit was found within 8 standard "
+           "deviations";
+  default:
+    return sb_search_text(found->end);
+  }
+}
+
 // ---- The search ----
 
 typedef struct {
@@ -234,11 +249,14 @@ void sb_weighted_share(SbWeightedShare *out, const double *weight, const uint8_t
   if (weight == NULL) {
     out->probability = (double)out->failed / (double)out->known;
     sb_probability_interval(out->interval, out->failed, out->known);
-  } else if (out->failed == 0) {
+  } else if (out->failed == 0 || out->failed == out->known) {
     // As if every trial were a plain one with the greatest weight.
-    out->probability = 0;
-    sb_probability_interval(out->interval, 0, out->known);
-    out->interval[1] = fmin(PLAIN * out->interval[1], 1);
+    double none[2];
+    sb_probability_interval(none, 0, out->known);
+    const double most = fmin(PLAIN * none[1], 1);
+    out->probability = out->failed > 0 ? 1 : 0;
+    out->interval[0] = out->failed > 0 ? 1 - most : 0;
+    out->interval[1] = out->failed > 0 ? 1 : most;
   } else {
     for (size_t i = 0; i < samples; i++) {
       const double off = (trial[i] == SB_TRIAL_FAILS ? weight[i] : 0) - failed;
@@ -251,4 +269,7 @@ void sb_weighted_share(SbWeightedShare *out, const double *weight, const uint8_t
   }
   const double drawn = share[SB_TRIAL_FAILS] + share[SB_TRIAL_HOLDS] + share[SB_TRIAL_UNKNOWN];
   out->interval[1] = fmin(out->interval[1] + share[SB_TRIAL_UNKNOWN] / drawn, 1);
+  if (out->failed == out->known) {
+    out->interval[0] = fmax(out->interval[0] - share[SB_TRIAL_UNKNOWN] / drawn, 0);
+  }
 }

@@ -45,6 +45,11 @@ typedef struct {
   size_t evaluations; // of the limit state
 } SbFailurePoint;
 
+// What a search ended with, as a part of a sentence: unlike sb_search_text() it distinguishes
+// limits that are never reached because they hold everywhere from those that fail everywhere.
+// Static.
+const char *sb_failure_text(const SbFailurePoint *found);
+
 // Searches from the median: u[dimensions] becomes the failure point, or where the search ended.
 // The tolerance is that of u, relative from 1 on.
 SbStatus sb_failure_point(SbFailurePoint *out, double *u, size_t dimensions, SbLimitState state,
@@ -62,9 +67,9 @@ double sb_importance_weight(const double *u, size_t dimensions, const double *ce
 // LEFT_OUT is none of those that the probability is of; UNKNOWN is one of them without an answer.
 typedef enum { SB_TRIAL_HOLDS, SB_TRIAL_FAILS, SB_TRIAL_UNKNOWN, SB_TRIAL_LEFT_OUT } SbTrial;
 
-// Probability of failure among trials that have an answer, with its interval of 95 %, which those
-// without one widen: of the logarithm by the central limit theorem; of plain trials Clopper and
-// Pearson's.
+// Probability of failure among trials that have an answer, with its interval of 95 %, which covers
+// the sampling alone (neither models nor distributions) and which trials without an answer widen:
+// of the logarithm by the central limit theorem; of plain trials Clopper and Pearson's.
 typedef struct {
   size_t failed, known;
   double probability, interval[2];

@@ -187,6 +187,64 @@ static void test_header(void) {
   g_unlink(study);
 }
 
+// A name with a line end would put a command into the script; all names of the script are refused
+// so.
+static void test_slurm(void) {
+  g_autofree char *study = write_study(), *script = path_of("job.sh");
+  g_autofree char *named = path_of("x\necho pwned #.study"), *store = path_of("y\ntouch z #.store");
+  g_autofree char *text = cli_contents(cli.folder, "x.study");
+  g_assert_true(g_file_set_contents(named, text, -1, NULL));
+  CliResult result = CLI("study", named, "--shard", "1/3", "--emit-slurm", script);
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "control character"));
+  cli_clear(&result);
+  result = CLI("study", study, "--shard", "1/3", "--emit-slurm", script, "-o", store);
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "control character"));
+  cli_clear(&result);
+  g_assert_false(g_file_test(script, G_FILE_TEST_EXISTS));
+  result = CLI("study", study, "--shard", "1/3", "--emit-slurm", script);
+  g_assert_cmpint(result.code, ==, 0);
+  g_assert_true(g_file_test(script, G_FILE_TEST_EXISTS));
+  cli_clear(&result);
+  g_unlink(script);
+  g_unlink(named);
+  g_unlink(study);
+}
+
+// Limits that every valve misses: "every valve fails", and what the interval covers.
+static void test_certain(void) {
+  g_autofree char *folder = g_path_get_dirname(cli.scene), *study = path_of("x.study");
+  g_autofree char *text = g_strdup_printf(
+      "[sealbench]\nformat = 1\nkind = study\nscene = %s/quick-look.scene\n\n[vary]\n"
+      "gland.radial_space = normal 1.36 mm, 0.005 mm\n\n[study]\nmethod = reliability\n"
+      "samples = 200\n\n[limits]\nseals.outer.squeeze = <= 1 %%\nseals.inner.squeeze = >= 14.5 "
+      "%%\n",
+      folder);
+  g_assert_true(g_file_set_contents(study, text, -1, NULL));
+  CliResult result = CLI("study", study);
+  g_assert_cmpint(result.code, ==, 0);
+  g_assert_nonnull(strstr(result.out, "every valve fails: all of 200 samples are beyond the limit "
+                                      "(sampling alone, 95 %: at least "));
+  g_assert_null(strstr(result.out, "is not reached"));
+  g_assert_nonnull(strstr(result.out, "ppm (sampling alone, 95 %: "));
+  cli_clear(&result);
+  result = CLI("study", study, "--json", "-");
+  g_autoptr(JsonNode) root = cli_parse(result.out);
+  g_assert_cmpfloat(cli_number(root, "limits.0.probability_of_failure"), ==, 1);
+  g_assert_cmpfloat(cli_number(root, "limits.0.interval_95.1"), ==, 1);
+  g_assert_cmpfloat(cli_number(root, "limits.0.interval_95.0"), >, 0.9);
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "limits.1.interval_covers")), ==,
+                  "sampling alone");
+  g_assert_nonnull(
+      strstr(json_node_get_string(cli_at(root, "limits.0.reason")), "every valve fails"));
+  g_assert_nonnull(strstr(json_node_get_string(cli_at(root, "limits.0.failure_points.0.reason")),
+                          "the median fails"));
+  cli_clear(&result);
+  remove_named("x.store");
+  g_unlink(study);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -195,6 +253,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-store/refused", test_refused);
   g_test_add_func("/cli-store/installed", test_installed);
   g_test_add_func("/cli-store/header", test_header);
+  g_test_add_func("/cli-store/slurm", test_slurm);
+  g_test_add_func("/cli-store/certain", test_certain);
   const int failed = g_test_run();
   cli_tear_down();
   return failed;

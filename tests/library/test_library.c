@@ -5,6 +5,7 @@
 #include <glib.h>
 #include <locale.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 static SbScene *open_scene(const char *name) {
@@ -180,6 +181,8 @@ static void test_run(void) {
                   (sb_scene_reason(scene, list[i].key) != NULL));
   }
   g_assert_nonnull(sb_scene_warning(scene, 0));
+  g_assert_nonnull(sb_scene_warning_code(scene, 0));
+  g_assert_null(sb_scene_warning_code(scene, 1000));
   g_assert_null(sb_scene_warning(scene, 1000));
   // Changed and run again, the old results are gone.
   double before = figure(scene, "seals.outer.load_N");
@@ -210,6 +213,17 @@ static void test_evaluate(void) {
   g_assert_cmpint(sb_scene_run(scene), ==, SB_SCENE_OK);
   g_assert_cmpfloat(figure(scene, paths[0]), ==, out[0]);
   g_assert_cmpfloat(figure(scene, paths[1]), ==, out[1]);
+  // The codes of validity of an evaluation are its own.
+  static const char *const space[] = {"gland.radial_space"};
+  const double open = 1.6e-3;
+  g_assert_cmpint(sb_scene_evaluate(scene, space, &open, 1, paths, 1, out), ==, SB_SCENE_OK);
+  bool outside = false;
+  const char *code;
+  for (size_t i = 0; (code = sb_scene_evaluation_warning_code(scene, i)) != NULL; i++) {
+    outside |= strcmp(code, "karaszkiewicz-squeeze") == 0;
+    g_assert_nonnull(sb_scene_evaluation_warning(scene, i));
+  }
+  g_assert_true(outside);
   // Refused by key and range; by an unknown key, an unknown figure.
   const double far = 1;
   g_assert_cmpint(sb_scene_evaluate(scene, keys, &far, 1, paths, 3, out), ==, SB_SCENE_ERROR_RANGE);

@@ -77,6 +77,14 @@ reasons: typing.Dict[str, str] = {}
 values = scene.evaluate(paths, {}, reasons)
 check('evaluate says what the run says', all(values[p] == scene.figure(p) for p in paths[:2]))
 check('its reasons', list(reasons) == [film], reasons)
+codes: typing.List[str] = []
+scene.evaluate(paths[:1], {'gland.radial_space': 1.6e-3}, warnings=codes)
+check('codes of validity of an evaluation', 'karaszkiewicz-squeeze' in codes and len(set(codes)) == len(codes), codes)
+codes = []
+scene.evaluate(paths[:1], warnings=codes)
+check('and only its own', 'karaszkiewicz-squeeze' not in codes, codes)
+check('codes of a run', len(scene.warning_codes) > 0 and 'karaszkiewicz-squeeze' not in scene.warning_codes)
+check('identity', len(sealbench.SOURCE) == 64 and sealbench.VERSION == '0.2.0')
 more = scene.evaluate(paths[:1], {'seal.outer.section_diameter': 1.63e-3})
 check('an override', more[paths[0]] > values[paths[0]] and scene['seal.outer.section_diameter'] == 1.61e-3)
 status, key, text = failure(lambda: scene.evaluate(paths, {'bore.diameter': 5e-3}))
