@@ -31,7 +31,7 @@ static const struct {
                {"C", "cycle.stages.C.force_N", SB_STAGE_C},
                {"D", "cycle.stages.D.force_N", SB_STAGE_D},
                {"E", "cycle.stages.E.force_N", SB_STAGE_E},
-               {N_("least return"), "cycle.force_return_min_N", -1},
+               {N_("return margin"), "cycle.force_return_margin_N", -1},
                {N_("loss per cycle"), "cycle.energy_loss_J", -1},
                {N_("leak per cycle"), "cycle.leakage_per_cycle_m3", -1},
                {N_("outer peak"), "seals.outer.pressure_peak_Pa", -1},

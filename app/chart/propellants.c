@@ -387,7 +387,7 @@ static void draw_begins(const Chart *chart) {
 
 static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbStudy *study,
                        const SbModel *model, const SbPropellantsLook *look, int panel) {
-  static const char *const titles[] = {N_("Pressure force"), N_("Break-away"), N_("Least return")};
+  static const char *const titles[] = {N_("Pressure force"), N_("Break-away"), N_("Return margin")};
   char number[SB_FORMAT_MAX];
   const SbRect card = layout->chart[panel];
   sb_canvas_panel(c, card);

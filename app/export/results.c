@@ -244,6 +244,10 @@ static void put_life(SbJson *json, const SbRun *run) {
 static void put_reasons(SbJson *json, const SbRun *run) {
   const SbSummary *summary = sb_run_summary(run);
   sb_json_object(json, "reasons");
+  if (summary->outcome == SB_OUTCOME_UNKNOWN) {
+    sb_json_string(json, "cycle.outcome",
+                   sb_figure_reason(summary, sb_figure_find("cycle.returns")));
+  }
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     const char *reason = sb_figure_reason(summary, i);
     const char *path = sb_figure(i)->path;
@@ -354,6 +358,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   sb_json_object_end(&json);
   put_follows(&json, model);
   sb_json_object(&json, "cycle");
+  sb_json_string(&json, "outcome", sb_outcome_name(summary->outcome));
   put_figures(&json, summary, "cycle.");
   put_verdict(&json, info->verdict);
   sb_json_object_end(&json);

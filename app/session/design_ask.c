@@ -12,7 +12,7 @@ static const struct {
   const char *figure;
   double low, high;
 } usual[] = {{"cycle.force_breakaway_N", -INFINITY, 30},
-             {"cycle.force_return_min_N", 2, INFINITY},
+             {"cycle.force_return_margin_N", 2, INFINITY},
              {"seals.outer.squeeze", 0.08, 0.25},
              {"seals.outer.gland_fill", -INFINITY, 0.85}};
 

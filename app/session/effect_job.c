@@ -10,7 +10,7 @@
 
 static const struct {
   const char *path, *name;
-} goals[SB_EFFECT_GOALS] = {{"cycle.force_return_min_N", N_("least return")},
+} goals[SB_EFFECT_GOALS] = {{"cycle.force_return_margin_N", N_("return margin")},
                             {"cycle.force_breakaway_N", N_("break-away")},
                             {"cycle.energy_loss_J", N_("loss")},
                             {"cycle.leakage_per_cycle_m3", N_("leak")},

@@ -17,8 +17,9 @@ static const struct {
   double share; // of the way to the next event
 } questions[SB_VERDICT_COUNT] = {
     [SB_VERDICT_SEALS] = {NC_("verdict", "Seals"), "seals.outer.pressure_peak_Pa", SB_STAGE_B, 0.5},
-    [SB_VERDICT_PRESSES] = {NC_("verdict", "Presses"), "cycle.force_peak_N", SB_STAGE_B, 0},
-    [SB_VERDICT_RETURNS] = {NC_("verdict", "Returns"), "cycle.force_return_min_N", SB_STAGE_F, 0.5},
+    [SB_VERDICT_PRESSES] = {NC_("verdict", "Presses"), "cycle.force_press_N", SB_STAGE_B, 0},
+    [SB_VERDICT_RETURNS] = {NC_("verdict", "Returns"), "cycle.force_return_margin_N", SB_STAGE_F,
+                            0.5},
     [SB_VERDICT_DOSES] = {NC_("verdict", "Doses"), "dose.metered_volume_m3", SB_STAGE_C, 0.5},
     [SB_VERDICT_LEAK] = {NC_("verdict", "Leak"), "seals.outer.leakage_static_m3_per_s", SB_STAGE_B,
                          0.5},

@@ -147,7 +147,7 @@ static const struct {
     {"C", "cycle.stages.C.force_N"},
     {"D", "cycle.stages.D.force_N"},
     {"E", "cycle.stages.E.force_N"},
-    {N_("least return"), "cycle.force_return_min_N"},
+    {N_("return margin"), "cycle.force_return_margin_N"},
     {N_("loss"), "cycle.energy_loss_J"},
     {N_("leak"), "cycle.leakage_per_cycle_m3"},
 };

@@ -78,10 +78,16 @@ static double aged_friction(double dwell, const void *context) {
   return fmax(area * aged + load, c->kinetic);
 }
 
+// The law of a fixed ratio, which needs no film.
+static SbDwellLaw law_of_ratio(const SbModel *model, const SbSealState *state) {
+  const double dry = state->rest_area + state->rest_load;
+  return (SbDwellLaw){1,
+                      {{0, model->dwell_time, model->static_ratio * dry, model->dwell_gain * dry}}};
+}
+
 SbStatus sb_breakaway_law(SbDwellLaw *out, double *squeeze_time, const SbModel *model, int seal,
                           const SbSealState *state, const SbRoughLaw *known, SbReport *report) {
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  const double dry = state->rest_area + state->rest_load;
   const double kinetic = sb_sliding_friction(state);
   Contact contact = {
       .model = model,
@@ -104,9 +110,28 @@ SbStatus sb_breakaway_law(SbDwellLaw *out, double *squeeze_time, const SbModel *
   } else if (model->contact_ageing) {
     *out = (SbDwellLaw){1, {{0, model->ageing_time, kinetic, 0}}};
   } else {
-    *out = (SbDwellLaw){
-        1, {{0, model->dwell_time, model->static_ratio * dry, model->dwell_gain * dry}}};
+    *out = law_of_ratio(model, state);
   }
   free(law);
+  return status;
+}
+
+SbStatus sb_breakaway_after(double *out, const SbModel *model, int seal, const SbSealState *state,
+                            double dwell, SbReport *report) {
+  double squeeze_time;
+  SbDwellLaw law = law_of_ratio(model, state);
+  SbStatus status = SB_OK;
+  if (!state->touches) {
+    *out = 0;
+    return SB_OK;
+  }
+  if (state->section == SB_RING_ROLLS || state->section == SB_RING_JAMS) {
+    *out = state->friction_static;
+    return SB_OK;
+  }
+  if (model->contact_ageing) {
+    status = sb_breakaway_law(&law, &squeeze_time, model, seal, state, NULL, report);
+  }
+  *out = sb_dwell_at(&law, dwell);
   return status;
 }

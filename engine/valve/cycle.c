@@ -92,6 +92,33 @@ static double static_limit(const SbCycle *cycle, SbChamber chamber, int directio
          sb_cycle_static_friction(cycle, SB_INNER, chamber, direction, s);
 }
 
+SbStatus sb_cycle_rest(SbCycle *cycle, double dwell, SbReport *report) {
+  for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS; i++) {
+    const int seal = i / SB_CYCLE_CHAMBERS, chamber = i % SB_CYCLE_CHAMBERS;
+    SbStatus status = sb_breakaway_after(&cycle->hold[seal][chamber], cycle->model, seal,
+                                         &cycle->state[seal][chamber][SB_CYCLE_OUT], dwell, report);
+    if (status != SB_OK) {
+      return status;
+    }
+  }
+  return SB_OK;
+}
+
+double sb_cycle_reserve(const SbCycle *cycle, SbChamber chamber, double s) {
+  double friction = 0;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    const SbSealState *state = &cycle->state[seal][chamber][SB_CYCLE_OUT];
+    const SbLandShare on = sb_cycle_land_share(cycle, seal, chamber, SB_CYCLE_OUT, s);
+    const double dry = state->rest_area + state->rest_load;
+    // The dry contact's parts have the shares of the contact's width and load.
+    const double part =
+        dry > 0 ? (state->rest_area * on.width + state->rest_load * on.load) / dry : 0;
+    friction += fmax(part * cycle->hold[seal][chamber],
+                     sb_cycle_seal_friction(cycle, seal, chamber, SB_CYCLE_OUT, s));
+  }
+  return sb_model_push(cycle->model, s) - friction;
+}
+
 // A platen's position and where in the cycle it stands.
 typedef struct {
   const SbCycle *cycle;
@@ -137,6 +164,12 @@ static double rate_at(double s, const void *context) {
 
 double sb_cycle_force(const SbCycle *cycle, double X, double s) {
   return fmax(cycle->model->stiffness * (X - s), 0);
+}
+
+// The same margin at s for the place's chamber.
+static double reserve_at(double s, const void *context) {
+  const Place *p = context;
+  return sb_cycle_reserve(p->cycle, p->chamber, s);
 }
 
 // Force on a stem at s beyond the balance, in the direction of sliding. The platen only pushes: a
@@ -359,6 +392,13 @@ static void jump(Planner *p, const Place *place, double end) {
   emit(p, SB_CYCLE_JUMP, p->X, target, -1);
 }
 
+// Whether static friction holds the stem where it is on the return. The place where it does so
+// first is known to rounding only.
+static bool is_held(const Planner *p) {
+  return sb_cycle_reserve(p->cycle, p->chamber, p->s) <=
+         1e-9 * fabs(sb_model_push(p->cycle->model, p->s));
+}
+
 // Slides from the present point in the present direction until the stem sticks, stops, or (on the
 // way out) is left by the platen. Forces balance at entry unless a jump is due.
 static void slide(Planner *p) {
@@ -373,8 +413,15 @@ static void slide(Planner *p) {
                    8 * 2.3e-16 * k * (p->X + p->s);
     double end = piece_end(p);
 
-    if (excess < -noise || (out && balance < 0)) {
+    if (excess < -noise || (out && is_held(p))) {
       return; // resistance has risen above the force: the stem sticks
+    }
+    if (out && reserve_at(end, &place) < 0) {
+      // Static friction overtakes the push inside this piece: the stem comes to rest there.
+      end = sb_bisect(reserve_at, &place, p->s, end);
+      if (end == p->s) {
+        return;
+      }
     }
     if (excess > noise) {
       jump(p, &place, end);
@@ -390,12 +437,6 @@ static void slide(Planner *p) {
     } else if (unstable_end) {
       turn = p->s;
     }
-    if (out && balance_at(turn, &place) < 0) {
-      // Friction overtakes the pressure inside this piece: the platen leaves where they are equal.
-      turn = sb_bisect(balance_at, &place, p->s, turn);
-      emit(p, SB_CYCLE_SLIP, turn, turn, -1);
-      return;
-    }
     if (turn == p->s) {
       // At the very edge of stability: step over the hump by the smallest jump.
       p->s = nextafter(p->s, end);
@@ -406,40 +447,69 @@ static void slide(Planner *p) {
   }
 }
 
-double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, bool rested) {
-  const SbModel *model = cycle->model;
-  double least = balance_at(s, &(Place){cycle, chamber, SB_CYCLE_OUT, 0});
-  if (rested) {
-    least = fmin(least, sb_model_push(model, s) - static_limit(cycle, chamber, SB_CYCLE_OUT, s));
-  }
-  if (is_gasket(cycle)) {
-    // Both spring and friction fall on the way: the least lies where the shoulder leaves.
-    enum { PLACES = 16 };
-    chamber = chamber == SB_CHAMBER_OPEN ? SB_CHAMBER_AT_REST : chamber;
-    const double begin = sb_cycle_edge_begin(cycle, chamber, SB_CYCLE_OUT);
-    const double width = sb_cycle_edge_end(cycle, chamber, SB_CYCLE_OUT) - begin;
-    for (int i = 0; i <= PLACES; i++) {
-      const double at = fmin(s, begin + width * i / PLACES);
-      least =
-          at >= 0 ? fmin(least, balance_at(at, &(Place){cycle, chamber, SB_CYCLE_OUT, 0})) : least;
-    }
-    return fmin(least, balance_at(0, &(Place){cycle, SB_CHAMBER_OPEN, SB_CYCLE_OUT, 0}));
-  }
-  if (chamber == SB_CHAMBER_OPEN) {
-    chamber = SB_CHAMBER_CLOSED;
-  }
-  // Friction only grows on the way back to the land, so the ends of each state hold the least.
-  return fmin(least, balance_at(0, &(Place){cycle, chamber, SB_CYCLE_OUT, 0}));
+// Places of the return path at which a margin can have its minimum: friction changes
+// monotonically between the ends of the path and of the land's edge under the contact, for a gasket
+// valve's return spring and friction together it is sampled.
+enum { EDGE_PLACES = 64 };
+
+// The chamber at s on the return, with one state of the closed chamber. That of a piston valve is
+// open above the land's edge, that of a gasket valve below it.
+static SbChamber chamber_at(const SbCycle *cycle, SbChamber closed, double s) {
+  const bool touches = inner_touches(cycle, closed, SB_CYCLE_OUT);
+  const bool above = is_gasket(cycle) ? s >= sb_cycle_edge_begin(cycle, closed, SB_CYCLE_OUT)
+                                      : s < sb_cycle_edge_end(cycle, closed, SB_CYCLE_OUT);
+  return touches && above ? closed : SB_CHAMBER_OPEN;
 }
 
-SbChamber sb_cycle_chamber_at_stop(const SbModel *model) {
-  return model->kind == SB_VALVE_GASKET ? SB_CHAMBER_CLOSED : SB_CHAMBER_OPEN;
+// Minimum of `margin` over the return path from `top`, with one state of the closed chamber.
+static double least_over(const SbCycle *cycle, SbFunction margin, SbChamber closed, double top) {
+  const bool touches = inner_touches(cycle, closed, SB_CYCLE_OUT);
+  const double begin = touches ? sb_cycle_edge_begin(cycle, closed, SB_CYCLE_OUT) : 0;
+  const double end = touches ? sb_cycle_edge_end(cycle, closed, SB_CYCLE_OUT) : 0;
+  const double ends[] = {0, top, fmin(top, end)};
+  double least = INFINITY;
+  for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+    const double s = fmax(ends[i], 0);
+    least = fmin(least, margin(s, &(Place){cycle, chamber_at(cycle, closed, s), SB_CYCLE_OUT, 0}));
+  }
+  for (int i = 0; touches && i <= EDGE_PLACES; i++) {
+    const double s = fmin(top, begin + (end - begin) * i / EDGE_PLACES);
+    least = s >= 0 ? fmin(least, margin(s, &(Place){cycle, closed, SB_CYCLE_OUT, 0})) : least;
+  }
+  return least;
+}
+
+// The state of the closed chamber after a stroke to `top`: a gasket valve's chamber is full until
+// the port has passed the stem gasket.
+static SbChamber closed_after(const SbCycle *cycle, double top) {
+  const bool full = is_gasket(cycle) && top < sb_gasket_port_opens(cycle->model);
+  return full ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
+}
+
+static double least_of(const SbCycle *cycle, SbFunction margin, double top) {
+  const double least = least_over(cycle, margin, closed_after(cycle, top), top);
+  // Ports leave the chamber of a piston valve between its filled and its vented state.
+  return cycle->model->pressure_map == SB_MAP_PORTS && !is_gasket(cycle)
+             ? fmin(least, least_over(cycle, margin, SB_CHAMBER_AT_REST, top))
+             : least;
+}
+
+double sb_cycle_first_reserve(const SbCycle *cycle, double top) {
+  return sb_cycle_reserve(cycle, chamber_at(cycle, closed_after(cycle, top), top), top);
+}
+
+double sb_cycle_sliding_margin(const SbCycle *cycle, double top) {
+  return least_of(cycle, balance_at, top);
+}
+
+double sb_cycle_return_margin(const SbCycle *cycle, double top) {
+  return least_of(cycle, reserve_at, top);
 }
 
 SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   const SbModel *model = cycle->model;
   cycle->count = 0;
-  double k = model->stiffness, dwell = 0;
+  double k = model->stiffness, dwell = 0, stopped = 0;
   Planner p = {.cycle = cycle, .platen = 1, .direction = SB_CYCLE_IN, .stage = SB_STAGE_A};
 
   // A chamber whose inner seal does not touch is always open, that of a gasket valve at rest.
@@ -468,6 +538,7 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
     }
     if (p.s >= model->stroke) {
       dwell = fmax(p.s + model->reversal_force / k - p.X, 0) / model->speed;
+      stopped = p.X;
       emit(&p, SB_CYCLE_STICK, fmax(p.s + model->reversal_force / k, p.X), p.s, -1);
       break;
     }
@@ -476,24 +547,28 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   }
   cycle->platen_top = p.X;
 
-  // Return: the platen goes back to X = 0; the stem follows while pressure beats friction.
+  cycle->stem_top = p.s;
+
+  // Return: the platen goes back to X = 0; the stem follows while the push beats static friction.
+  // The rest at the stop ends where the push alone holds the stem against the platen's force.
   p.platen = -1;
-  double s_return = p.s;
-  SbChamber chamber_return = p.chamber;
+  const double pushed = balance_at(p.s, &(Place){cycle, p.chamber, SB_CYCLE_OUT, 0});
+  cycle->dwell = (p.X - stopped + fmax(p.X - p.s - fmax(pushed, 0) / k, 0)) / model->speed;
+  SbStatus rest = sb_cycle_rest(cycle, cycle->dwell, report);
+  if (rest != SB_OK) {
+    return rest;
+  }
   while (!p.full && p.X > 0) {
-    double limit = balance_at(p.s, &(Place){cycle, p.chamber, SB_CYCLE_OUT, 0});
+    const double limit = balance_at(p.s, &(Place){cycle, p.chamber, SB_CYCLE_OUT, 0});
     double X_slip = p.s + limit / k;
     if (model->contact_ageing) {
       SbStatus status = slip_platen(&X_slip, &p, SB_CYCLE_OUT, dwell, report);
       if (status != SB_OK) {
         return status;
       }
-      limit = k * (X_slip - p.s);
       dwell = 0;
     }
-    // Where friction has caught up with the pressure the root is known to rounding only.
-    bool stalled = limit <= 1e-9 * fabs(sb_model_push(model, p.s));
-    if (p.s <= 0 || stalled || X_slip <= 0) {
+    if (p.s <= 0 || is_held(&p) || X_slip <= 0) {
       emit(&p, SB_CYCLE_STICK, 0, p.s, -1);
       break;
     }
@@ -502,11 +577,7 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
     p.direction = SB_CYCLE_OUT;
     slide(&p);
   }
-
-  cycle->returns = p.s == 0;
-  cycle->force_return_min = s_return > 0
-                                ? sb_cycle_least_return(cycle, s_return, chamber_return, false)
-                                : sb_model_push(model, 0);
+  cycle->stem_end = p.s;
   if (p.full) {
     return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "drive.stiffness",
                              "the cycle does not end within %d events", SB_CYCLE_SEGMENTS_MAX);

@@ -12,7 +12,12 @@
 // in-stroke; the width-bound part of its friction falls linearly, the load-bound part as an
 // elliptic pressure integrates. Stuck means no motion until the limit is passed: the static
 // friction after the rest before A, the kinetic one where the stem stops on the way, for without
-// dwell the contact keeps its film (the thesis sees the peak on the first motion only). Where the
+// dwell the contact keeps its film (the thesis sees the peak on the first motion only).
+//
+// On the return the stem sticks for good at the first place where the static friction after the
+// dwell at the end stop reaches F_p: a motion this slow can rest at every place, and a stem that
+// rests there is not released. The force on the platen while the stem slides back remains
+// F_p - f with kinetic friction, which the thesis measures. Where the
 // resistance falls faster than the spring relaxes the stem jumps to the next balance at constant X,
 // and the energy set free is counted as lost in the seal. End stop and rest stop are rigid.
 //
@@ -51,10 +56,13 @@ typedef struct {
   SbSealState state[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_RUN_MOTIONS];
   size_t count;
   SbCycleSegment segment[SB_CYCLE_SEGMENTS_MAX];
-  double platen_top;       // X at reversal [m]
-  bool returns;            // the stem comes to rest at s = 0 by canister pressure alone
-  double force_return_min; // least F_p - f on the way from E to A, whether the stem gets there or
-                           // not [N]
+  // Static friction on the return of a full contact, after the dwell at the end stop [N];
+  // sb_cycle_rest() sets it.
+  double hold[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS];
+  double platen_top; // X at reversal [m]
+  double stem_top;   // largest displacement of the stem [m]
+  double stem_end;   // displacement of the stem at the end of the cycle [m]
+  double dwell;      // time between the end of the in-stroke and the first reverse slip [s]
 } SbCycle;
 
 // Plans the segments for `model` and `state` (filled by the caller for every entry that can be
@@ -99,12 +107,23 @@ double sb_cycle_static_friction(const SbCycle *cycle, int seal, SbChamber chambe
 double sb_cycle_edge_begin(const SbCycle *cycle, SbChamber chamber, int direction);
 double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction);
 
-// Least F_p - f over the way back from displacement s, whatever moves the stem; `rested`: against
-// the static friction at s.
-double sb_cycle_least_return(const SbCycle *cycle, double s, SbChamber chamber, bool rested);
+// Sets `hold` for a dwell [s]. The states of both seals must be solved. SB_ERROR_MEMORY.
+SbStatus sb_cycle_rest(SbCycle *cycle, double dwell, SbReport *report);
 
-// The chamber's state at the end stop, in which the stem turns.
-SbChamber sb_cycle_chamber_at_stop(const SbModel *model);
+// Returns what the push exceeds the friction by that a stem at rest at s must overcome to slide
+// back [N]: the static friction of sb_cycle_rest(), or the kinetic one where that is larger.
+double sb_cycle_reserve(const SbCycle *cycle, SbChamber chamber, double s);
+
+// Returns the same at the begin of the return, from displacement `top` [N].
+double sb_cycle_first_reserve(const SbCycle *cycle, double top);
+
+// Returns the minimum of F_p - f with kinetic friction over the return path from displacement `top`
+// to 0 [N], whatever moves the stem.
+double sb_cycle_sliding_margin(const SbCycle *cycle, double top);
+
+// Returns the minimum of sb_cycle_reserve() over the same path [N]: the return margin of every
+// motion. Both chamber states count where ports decide on the chamber's pressure.
+double sb_cycle_return_margin(const SbCycle *cycle, double top);
 
 // Energy of the whole cycle, every term by its own quadrature; fills all fields but kinetic (0).
 void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out);

@@ -169,6 +169,11 @@ const char *sb_leak_state_name(SbLeakState state) {
   return names[state];
 }
 
+const char *sb_outcome_name(SbOutcome outcome) {
+  static const char *const names[] = {NULL, "never-moved", "stuck", "returned", "held"};
+  return names[outcome];
+}
+
 const char *sb_stage_name(SbStage stage) {
   static const char *const names[SB_STAGE_COUNT] = {"A", "B", "C", "D", "E", "F"};
   return (unsigned)stage < SB_STAGE_COUNT ? names[stage] : "?";

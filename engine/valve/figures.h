@@ -63,6 +63,9 @@ void sb_reason(SbSummary *summary, const char *pattern, const char *format, ...)
 void sb_seal_reason(SbSummary *summary, int seal, const char *name, const char *format, ...)
     SB_PRINTF(4, 5);
 
+// "never-moved", "stuck", "returned" or "held"; NULL for SB_OUTCOME_UNKNOWN. Static.
+const char *sb_outcome_name(SbOutcome outcome);
+
 // "seals", "presses", ...; borrowed.
 const char *sb_verdict_name(SbVerdictKind kind);
 

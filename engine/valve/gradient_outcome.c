@@ -19,7 +19,7 @@ void sb_gradient_outcome(SbGradientOutcome *out, const SbSummary *summary) {
     out->seal[i].in = summary->contact[i].in_stroke.section;
     out->seal[i].out = summary->contact[i].back.section;
   }
-  out->returns = summary != NULL && summary->returns;
+  out->end = summary != NULL ? summary->outcome : SB_OUTCOME_UNKNOWN;
 }
 
 bool sb_gradient_differ(char *text, size_t size, const SbGradientOutcome *a,
@@ -33,8 +33,8 @@ bool sb_gradient_differ(char *text, size_t size, const SbGradientOutcome *a,
       return true;
     }
   }
-  if (a->returns != b->returns) {
-    sb_text(text, size, "the stem returns on one side only");
+  if (a->end != b->end) {
+    sb_text(text, size, "the stem's motion has another outcome on each side");
     return true;
   }
   for (int i = 0; i < SB_SEAL_COUNT; i++) {

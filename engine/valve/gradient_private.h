@@ -25,7 +25,8 @@ unsigned char sb_gradient_text(SbGradient *gradient, const char *text);
 
 // What happened, beside the figures: of it a step keeps all, or the reason of a jump is told.
 typedef struct {
-  bool known, stage[SB_STAGE_COUNT], returns;
+  bool known, stage[SB_STAGE_COUNT];
+  SbOutcome end;
   struct {
     bool touches, opened, film_fitted;
     SbLeakState leak;

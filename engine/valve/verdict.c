@@ -36,13 +36,19 @@ static double margin(const SbVerdict *of) {
   return isnan(distance) ? INFINITY : distance;
 }
 
+// Whether the same figure without a limit is worse in *next.
+static bool lesser(const SbVerdict *worst, const SbVerdict *next) {
+  const bool alone = isnan(worst->limit) && isnan(next->limit) && worst->figure == next->figure;
+  return alone && sb_figure(next->figure)->better == SB_BETTER_MORE && next->value < worst->value;
+}
+
 bool sb_verdict_take_worse(SbVerdict *worst, const SbVerdict *next) {
   static const int badness[] = {[SB_ANSWER_YES] = 0, [SB_ANSWER_UNKNOWN] = 1, [SB_ANSWER_NO] = 2};
   int more = badness[next->ok] - badness[worst->ok];
   bool worse = worst->figure < 0 || more > 0;
   if (!worse && more == 0) {
     worse = (next->ok == SB_ANSWER_YES && margin(next) < margin(worst)) ||
-            (next->ok == SB_ANSWER_NO && margin(next) > margin(worst));
+            (next->ok == SB_ANSWER_NO && margin(next) > margin(worst)) || lesser(worst, next);
   }
   if (worse) {
     *worst = *next;
@@ -116,8 +122,40 @@ static SbVerdict judge_limit(const SbSummary *summary, const SbLimit *limit) {
   return out;
 }
 
+// Whether the stem returns: by its outcome and by the return margin, the figure that decides.
+static SbVerdict judge_return(const SbSummary *summary) {
+  const int figure = sb_figure_find("cycle.force_return_margin_N");
+  const double value = summary->force_return_margin;
+  SbVerdict out = {SB_ANSWER_UNKNOWN, figure, value, NAN, ""};
+  switch (summary->outcome) {
+  case SB_OUTCOME_UNKNOWN:
+  case SB_OUTCOME_NEVER_MOVED:
+    snprintf(out.reason, sizeof out.reason, "%s",
+             sb_figure_reason(summary, sb_figure_find("cycle.returns")));
+    break;
+  case SB_OUTCOME_HELD:
+    snprintf(out.reason, sizeof out.reason,
+             "the drive holds the stem until its motion ends: there is no return to judge");
+    break;
+  case SB_OUTCOME_STUCK:
+    out.ok = SB_ANSWER_NO;
+    snprintf(out.reason, sizeof out.reason, "the stem is stuck at %.4g mm",
+             1e3 * summary->stuck_at);
+    break;
+  case SB_OUTCOME_RETURNED:
+    out.ok = value >= 0 ? SB_ANSWER_YES : SB_ANSWER_NO;
+    snprintf(out.reason, sizeof out.reason, "%s",
+             value >= 0 ? ""
+                        : "where the stem rests on its return, static friction exceeds the force "
+                          "that pushes it back");
+    break;
+  }
+  return out;
+}
+
 void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
   SbVerdict *verdict = summary->verdict;
+  const int margin_figure = sb_figure_find("cycle.force_return_margin_N");
   for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
     verdict[kind] = (SbVerdict){SB_ANSWER_UNKNOWN, -1, NAN, NAN, "no limit is set"};
   }
@@ -134,17 +172,13 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
       }
     }
   }
-  int least = sb_figure_find("cycle.force_return_min_N");
-  SbVerdict returns = {SB_ANSWER_UNKNOWN, least, summary->force_return_min, NAN, ""};
-  if (isnan(summary->returned)) {
-    snprintf(returns.reason, sizeof returns.reason, "%s",
-             sb_figure_reason(summary, sb_figure_find("cycle.returns")));
-  } else {
-    returns.ok = summary->returned > 0 ? SB_ANSWER_YES : SB_ANSWER_NO;
-    snprintf(returns.reason, sizeof returns.reason, "%s",
-             summary->returned > 0 ? "" : "the stem does not come to rest by itself");
+  verdict[SB_VERDICT_RETURNS] = judge_return(summary);
+  if (summary->outcome == SB_OUTCOME_NEVER_MOVED) {
+    const int press = sb_figure_find("cycle.force_press_N");
+    verdict[SB_VERDICT_PRESSES] = (SbVerdict){SB_ANSWER_NO, press, NAN, NAN, ""};
+    snprintf(verdict[SB_VERDICT_PRESSES].reason, sizeof verdict->reason, "%s",
+             sb_figure_reason(summary, press));
   }
-  verdict[SB_VERDICT_RETURNS] = returns;
   if (summary->dose_mass == 0 && model->canister_pressure > 0) {
     verdict[SB_VERDICT_DOSES] =
         (SbVerdict){SB_ANSWER_NO, sb_figure_find("cycle.dose_mass_kg"), 0, NAN,
@@ -158,9 +192,15 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
     const SbLimit *limit = &model->limits.item[i];
     SbVerdictKind kind = sb_figure(limit->figure)->verdict;
     SbVerdict of = judge_limit(summary, limit);
-    if (kind == SB_VERDICT_RETURNS && verdict[kind].ok == SB_ANSWER_YES &&
-        isnan(verdict[kind].limit)) {
-      verdict[kind].figure = -1; // the limit's figure stands in its place
+    if (kind == SB_VERDICT_RETURNS && verdict[kind].ok == SB_ANSWER_YES) {
+      // The return margin decides. A limit on it takes the place of the bare margin, one on another
+      // figure judges that figure and shows only where it does not hold.
+      if (limit->figure != margin_figure && of.ok == SB_ANSWER_YES) {
+        continue;
+      }
+      if (isnan(verdict[kind].limit)) {
+        verdict[kind].figure = -1;
+      }
     }
     sb_verdict_take_worse(&verdict[kind], &of);
   }

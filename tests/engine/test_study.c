@@ -324,10 +324,15 @@ static void test_tolerance(void) {
   NEAR(cell(study, load, "by ID, outer"), (14.847 - 14.714) / 2, 2e-2);
   g_assert_cmpfloat(cell(study, load, "by d, inner"), ==, 0);
   NEAR(cell(study, force, "by stem"), 0.55e6 * M_PI / 2 * 5.794e-3 * 0.02e-3, 1e-6);
-  g_assert_cmpfloat(cell(study, "least return force", "by g"), >, 0);
+  g_assert_cmpfloat(cell(study, "return margin", "by g"), >, 0);
   NEAR(cell(study, "dose", "nominal"), model.supply.volume * model.density, 1e-12);
   g_assert_cmpfloat(cell(study, "dose", "by bore"), >, 0);
   for (size_t r = 0; r < study->row_count; r++) {
+    if (isnan(study->row[r].value[4])) {
+      // Valves of the band that do not return have no dose.
+      g_assert_cmpstr(study->row[r].name, ==, "dose");
+      continue;
+    }
     const double *v = study->row[r].value;
     double squares = 0, sum = 0;
     for (int i = 5; i < 12; i++) {
@@ -474,7 +479,7 @@ static void test_rings(void) {
   const SbOverride here[] = {{SB_P_FLUID_NAME, 3}, {SB_P_CANISTER_TEMPERATURE, 293.15}};
   SbEvaluator *evaluator;
   const int figure[] = {sb_figure_find("cycle.force_breakaway_N"),
-                        sb_figure_find("cycle.force_return_min_N")};
+                        sb_figure_find("cycle.force_return_margin_N")};
   double value[2];
   const SbQuestion question = {
       .base = &model, .override = here, .override_count = 2, .figure = figure, .figure_count = 2};
@@ -485,7 +490,7 @@ static void test_rings(void) {
                     "C";
   const double within = 0.01 * fmax(told, 0.1);
   NEAR(cell(study, row, "break-away") - force, value[0] - force, within);
-  NEAR(force - cell(study, row, "least return"), force - value[1], within);
+  NEAR(force - cell(study, row, "return margin"), force - value[1], within);
   sb_evaluator_destroy(evaluator);
   g_free(study);
 }
@@ -496,11 +501,11 @@ static void test_side_by_side(void) {
   SbModel model = thesis_model(1e-3);
   SbStudy *study = make(SB_STUDY_PROPELLANTS, &model), *again = make(SB_STUDY_PROPELLANTS, &model);
   g_assert_cmpmem(study, sizeof *study, again, sizeof *again);
-  const double *x = series(study, "least return force", "HFA-134a")->x;
+  const double *x = series(study, "return margin", "HFA-134a")->x;
   g_assert_cmpfloat(fabs(x[0] - 253.15), <, 1e-9);
   SbEvaluator *evaluator;
   g_assert_cmpint(sb_evaluator_create(&evaluator, NULL), ==, SB_OK);
-  const int figure = sb_figure_find("cycle.force_return_min_N");
+  const int figure = sb_figure_find("cycle.force_return_margin_N");
   for (int i = 0; i < 29; i += 7) {
     const SbOverride here[] = {{SB_P_FLUID_NAME, 1}, {SB_P_CANISTER_TEMPERATURE, x[i]}};
     const SbQuestion question = {.base = &model,
@@ -510,7 +515,7 @@ static void test_side_by_side(void) {
                                  .figure_count = 1};
     double value;
     g_assert_cmpint(sb_evaluator_ask(&value, evaluator, &question, NULL), ==, SB_OK);
-    g_assert_cmpfloat(series(study, "least return force", "HFA-134a")->y[i], ==, value);
+    g_assert_cmpfloat(series(study, "return margin", "HFA-134a")->y[i], ==, value);
   }
   sb_evaluator_destroy(evaluator);
   Watch watch = {.stop_after = 20, .rises = true};

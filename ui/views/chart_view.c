@@ -194,7 +194,7 @@ static void describe_loop(SbSession *session, GString *text) {
   }
   const SbSummary *summary = data->run.summary;
   if (summary != NULL) {
-    static const char *const paths[] = {"cycle.force_breakaway_N", "cycle.force_return_min_N",
+    static const char *const paths[] = {"cycle.force_breakaway_N", "cycle.force_return_margin_N",
                                         "cycle.energy_loss_J", NULL};
     append_figures(text, summary, paths);
   }

@@ -352,7 +352,7 @@ static void follow(Page *page) {
     page->document = document;
     page->kind = kind;
     sb_design_ask_init(&page->ask, document);
-    page->chosen = sb_figure_find("cycle.force_return_min_N");
+    page->chosen = sb_figure_find("cycle.force_return_margin_N");
     const SbModel *model = sb_session_model(page->session);
     if (kind == SB_VALVE_GASKET ||
         (model != NULL && sb_model_number(model, SB_P_SEAL_PROFILE) != 0)) {

@@ -323,7 +323,7 @@ static void add_toolbar(Page *page) {
     gtk_box_pack_start(GTK_BOX(bar), page->show[k], FALSE, FALSE, 0);
     g_signal_connect(page->show[k], "toggled", G_CALLBACK(on_show), page);
   }
-  static const char *const charts[] = {N_("Pressure force"), N_("Break-away"), N_("Least return")};
+  static const char *const charts[] = {N_("Pressure force"), N_("Break-away"), N_("Return margin")};
   page->chart = sb_toolbar_combo(GTK_BOX(bar), charts, SB_PROPELLANTS_CHARTS, _("Chart"),
                                  _("Which of the three charts is shown"));
   gtk_combo_box_set_active(GTK_COMBO_BOX(page->chart), SB_PROPELLANTS_RETURN);

@@ -208,8 +208,10 @@ bool sb_run_poll(SbRun *run, const SbRunHooks *hooks, size_t count, double fract
 static void clear_motion(SbRun *run, const char *why) {
   SbSummary *summary = &run->summary; // stages that were reached stand
   summary->force_peak = summary->force_return_min = summary->leakage_per_cycle = NAN;
+  summary->force_return_margin = summary->force_press = summary->stuck_at = NAN;
   summary->duration = summary->error_force = summary->error_energy = NAN;
   summary->energy = (SbEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+  summary->outcome = SB_OUTCOME_UNKNOWN;
   summary->returns = false;
   summary->returned = NAN;
   sb_reason(summary, "cycle.*", "%s", why);
@@ -227,7 +229,6 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbReport own = {0};
   SbStatus status =
       run->plan.inertia ? sb_run_dynamic(run, hooks, &own) : sb_run_quasi_static(run, hooks, &own);
-  summary->returned = summary->returns;
   if (status == SB_OK && summary->energy.closure > SB_RUN_CLOSURE) {
     status = sb_fail(&own, SB_ERROR_NOT_CONVERGED, "the energies' balance is open by %.2g",
                      summary->energy.closure);
@@ -272,29 +273,48 @@ static void weigh_users(SbSummary *summary, const SbModel *model) {
   }
 }
 
-// What the whole motion says of the valve beside its own figures.
+// Warnings of an outcome other than that of a stem which returns with a margin.
+static void warn_of_outcome(SbSummary *summary) {
+  const double margin = summary->force_return_margin;
+  switch (summary->outcome) {
+  case SB_OUTCOME_NEVER_MOVED:
+    sb_warn(&summary->warnings, "no-slip", "friction.static_ratio",
+            "the stem never slips: the drive's %.3g N are not enough", summary->force_peak);
+    break;
+  case SB_OUTCOME_STUCK:
+    sb_warn(&summary->warnings, "no-return", "surface.gt_product",
+            "the stem does not return: it is stuck at %.3g mm, return margin %.3g N",
+            1e3 * summary->stuck_at, margin);
+    break;
+  case SB_OUTCOME_RETURNED:
+    if (margin < 0) {
+      sb_warn(&summary->warnings, "static-hold", "friction.static_ratio",
+              "the stem returns without a rest on its way; where it rests, static friction can "
+              "exceed the pressure force by %.3g N",
+              -margin);
+    }
+    break;
+  case SB_OUTCOME_HELD:
+  case SB_OUTCOME_UNKNOWN:
+    break;
+  }
+}
+
+// Figures of all actuations, and what users can do, from the figures of the motion.
 static void conclude(SbRun *run, bool moved) {
   SbSummary *summary = &run->summary;
-  const SbDriveChoice drive = run->model->drive;
-  summary->leakage_carried = run->model->actuations * summary->seal[SB_OUTER].leakage_per_stroke;
+  const bool again =
+      summary->outcome != SB_OUTCOME_NEVER_MOVED && summary->outcome != SB_OUTCOME_STUCK;
+  if (again) {
+    summary->leakage_carried = run->model->actuations * summary->seal[SB_OUTER].leakage_per_stroke;
+  }
   summary->leakage_net = run->model->actuations * summary->leakage_per_cycle;
   if (summary->stage[SB_STAGE_B].reached) {
     summary->force_breakaway = summary->stage[SB_STAGE_B].force;
   }
   if (moved) {
     weigh_users(summary, run->model);
-  }
-  // At rest because nothing moved it.
-  bool stays = !summary->stage[SB_STAGE_B].reached && !summary->stage[SB_STAGE_D].reached &&
-               drive != SB_MODEL_DRIVE_FREE_RETURN && drive != SB_MODEL_DRIVE_SINUSOID;
-  if (moved && stays) {
-    sb_warn(&summary->warnings, "no-slip", "friction.static_ratio",
-            "the stem never slips: the drive's %.3g N are not enough", summary->force_peak);
-  }
-  // A ramp is held to the end: nothing lets the stem go.
-  if (summary->returned == 0 && drive != SB_MODEL_DRIVE_RAMP) {
-    sb_warn(&summary->warnings, "no-return", "surface.gt_product",
-            "the stem does not return: least return force %.3g N", summary->force_return_min);
+    warn_of_outcome(summary);
   }
 }
 

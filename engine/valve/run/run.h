@@ -148,6 +148,15 @@ typedef struct {
   unsigned char of[SB_FIGURE_COUNT];
 } SbReasons;
 
+// How the motion of the stem ends.
+typedef enum {
+  SB_OUTCOME_UNKNOWN,     // no motion was computed, it failed, or the stem still moves at its end
+  SB_OUTCOME_NEVER_MOVED, // the drive does not overcome the static friction
+  SB_OUTCOME_STUCK,       // at rest away from its rest stop, without a push of the drive
+  SB_OUTCOME_RETURNED,    // at rest on its rest stop, released by the drive
+  SB_OUTCOME_HELD         // the drive still pushes the stem, or is bonded to it
+} SbOutcome;
+
 typedef enum { SB_ANSWER_UNKNOWN, SB_ANSWER_NO, SB_ANSWER_YES } SbAnswer;
 
 // One question of the verdict: the answer, and the figure that decides it.
@@ -164,7 +173,8 @@ typedef struct {
 #define SB_FIGURE(path, member, ...) double member;
 #include "engine/valve/figures.def"
   SbStatus status;
-  bool returns; // as `returned`; false where that is not known
+  SbOutcome outcome;
+  bool returns; // the outcome is SB_OUTCOME_RETURNED
   SbStageMark stage[SB_STAGE_COUNT];
   SbSealState seal[SB_SEAL_COUNT];
   SbContacts contact[SB_SEAL_COUNT];

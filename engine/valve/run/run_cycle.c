@@ -100,30 +100,26 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   SbStatus frames = emit_frames(run, hooks, status == SB_OK ? report : NULL);
   status = status != SB_OK ? status : frames;
   sb_cycle_energy(cycle, &summary->energy);
-  summary->returns = cycle->returns;
-  summary->force_return_min = cycle->force_return_min;
-  // Here the stem keeps its film where it stops (cycle.h). Held at the stop for longer it would
-  // not.
-  if (summary->returns && summary->stage[SB_STAGE_D].reached) {
-    double held = sb_cycle_least_return(cycle, run->model->stroke,
-                                        sb_cycle_chamber_at_stop(run->model), true);
-    if (held < 0) {
-      sb_warn(&summary->warnings, "static-hold", "friction.static_ratio",
-              "the stem returns because it keeps its film at the stop; after a rest there static "
-              "friction would exceed the pressure force by %.3g N (models.motion = dynamic)",
-              -held);
-    }
-  }
   // Film dragged out under the outer seal on the way in, less what comes back (thesis equation
   // 5.21).
   const double carries = sb_model_way(run->model); // the way that leaves a layer outside
   sb_bore_start(&run->bore, carries * cycle->segment[0].stem0);
+  double press = 0;
   summary->force_peak = 0;
   for (const SbCycleSegment *at = cycle->segment; at < cycle->segment + cycle->count; at++) {
     sb_bore_move(&run->bore, carries * at->stem0, carries * at->stem1,
                  sb_run_layer(run, SB_OUTER, at->chamber, at->direction, run->speed));
-    summary->force_peak = fmax(summary->force_peak, sb_cycle_force(cycle, at->platen1, at->stem1));
+    const double force = sb_cycle_force(cycle, at->platen1, at->stem1);
+    summary->force_peak = fmax(summary->force_peak, force);
+    press = at->stage < SB_STAGE_D ? fmax(press, force) : press;
   }
+  const SbRunEnd end = {.top = cycle->stem_top,
+                        .position = cycle->stem_end,
+                        .dwell = cycle->dwell,
+                        .press = press,
+                        .sliding_least = INFINITY};
+  SbStatus ended = sb_run_conclude_motion(run, &end, status == SB_OK ? report : NULL);
+  status = status != SB_OK ? status : ended;
   sb_run_leakage(summary, run->model, &run->bore, summary->returns);
   summary->steps = cycle->count;
   SbStatus speeds = sb_run_close_speeds(run, status == SB_OK ? report : NULL);

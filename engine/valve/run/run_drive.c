@@ -20,8 +20,7 @@ static double platen_top(const SbCycle *cycle) {
 // force, and half as long again.
 static double free_return_time(const SbRun *run) {
   const SbModel *model = run->model;
-  double least =
-      sb_cycle_least_return(&run->cycle, model->stroke, sb_cycle_chamber_at_stop(model), true);
+  double least = sb_cycle_sliding_margin(&run->cycle, model->stroke);
   double force = fmax(least, 1e-3 * (fabs(model->pressure_force) + 1e-3));
   return 1.5 * sqrt(2 * model->stroke * model->moving_mass / force);
 }

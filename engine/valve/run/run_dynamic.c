@@ -43,6 +43,9 @@ typedef struct {
   bool stopped;                     // the stem touches the end stop
   double force_peak;                // [N]
   double return_least;              // least force that pushed the stem out while it slid back [N]
+  double press;                     // force_peak when the stem meets the stop [N]
+  double top;                       // largest displacement [m]
+  double rested;                    // time at which the in-stroke came to rest [s]
   double leak_from, leak_since;     // place [m] and time [s] up to which it is known
   double leak_last, leak_last_time; // where the stem was last seen
   double home;                // time at which the stem is back on its rest stop [s], 0: not yet
@@ -87,6 +90,7 @@ static SbFrame *add_frame(Recorder *r, bool event) {
   at.pressure = sb_valve_chamber_pressure(&r->valve, sample->extra);
   leak(r, sample->time, sample->position, at.pressure, event);
   r->force_peak = fmax(r->force_peak, sample->drive_force);
+  r->top = fmax(r->top, sample->position);
   if (!r->frames || r->count == run->capacity) {
     return NULL;
   }
@@ -140,6 +144,7 @@ static void valve_event(const SbMotionEvent *event, void *user) {
     note_return(r, &sample);
   }
   r->force_peak = fmax(r->force_peak, event->drive_force);
+  r->top = fmax(r->top, event->position);
   switch (event->kind) {
   case SB_MOTION_SLIP:
     r->slips = true;
@@ -173,10 +178,19 @@ static void valve_event(const SbMotionEvent *event, void *user) {
   case SB_MOTION_TOUCH_STOP:
     if (event->index == SB_END_STOP) {
       r->stopped = true;
+      r->rested = event->time;
+      if (!r->mark[SB_STAGE_D].reached) {
+        r->press = fmax(r->force_peak, r->motion.force_peak);
+      }
       mark(r, SB_STAGE_D, event);
     } else if (r->mark[SB_STAGE_E].reached) {
       leak(r, sample.time, sample.position, sb_valve_chamber_pressure(valve, sample.extra), true);
       r->home = r->home == 0 ? event->time : r->home;
+    }
+    break;
+  case SB_MOTION_STICK:
+    if (r->direction == SB_CYCLE_IN && !r->mark[SB_STAGE_D].reached) {
+      r->rested = event->time;
     }
     break;
   case SB_MOTION_LEAVE_STOP:
@@ -410,6 +424,37 @@ static SbStatus follow(Recorder *r, double *tolerance, SbRun *run, const SbRunHo
   return status;
 }
 
+// The motion's outcome and the figures that follow from it.
+static SbStatus conclude_motion(Recorder *r, SbReport *report) {
+  SbRun *run = r->run;
+  const SbModel *model = run->model;
+  const double start = r->model.start_position;
+  SbDynamicsSample last;
+  sb_dynamics_sample(&r->motion, &last, NULL);
+  const double leaves =
+      r->mark[SB_STAGE_E].reached ? r->mark[SB_STAGE_E].time : fmax(r->valve.times.turn, r->rested);
+  SbRunEnd end = {.start = start,
+                  .top = fmax(r->top, start),
+                  .position = last.position,
+                  .speed = last.speed,
+                  .force = last.drive_force,
+                  .bonded = r->model.drive_bonded,
+                  .dwell = start > 0 ? model->rest : fmax(leaves - r->rested, 0),
+                  .press = r->press,
+                  // A fast return's viscous friction takes more than that at the films' speed.
+                  .sliding_least = r->return_least};
+  if (model->stribeck_speed > 0) {
+    // Slow sliding has nearly the friction of rest.
+    SbStatus status = sb_cycle_rest(&run->cycle, 0, report);
+    if (status != SB_OK) {
+      return status;
+    }
+    end.sliding_least =
+        fmin(end.sliding_least, sb_cycle_return_margin(&run->cycle, fmin(end.top, model->stroke)));
+  }
+  return sb_run_conclude_motion(run, &end, report);
+}
+
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbModel *model = run->model;
   SbSummary *summary = &run->summary;
@@ -420,20 +465,14 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   if (r.count == 0) {
     return status;
   }
-  double least =
-      sb_cycle_least_return(&run->cycle, model->stroke, sb_cycle_chamber_at_stop(model), true);
-  if (model->stribeck_speed > 0) {
-    // Slow sliding rubs nearly as rest does, on both seals.
-    least = fmin(least, sb_cycle_least_return(&run->cycle, 0, SB_CHAMBER_CLOSED, true));
-  }
-  // What a fast return's viscous friction takes, beyond that at the films' speed.
-  summary->force_return_min = fmin(least, r.return_least);
   const SbDynamicsCounters counters = r.motion.counters;
   const SbFrame *last = &run->frames[r.count - 1];
   summary->duration = last->time;
   summary->force_peak = r.force_peak;
-  summary->returns = status == SB_OK && fabs(last->displacement) < 1e-6 * model->stroke;
-  bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * model->stroke;
+  if (status == SB_OK) {
+    status = conclude_motion(&r, report);
+  }
+  const bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * model->stroke;
   sb_run_leakage(summary, model, &run->bore, back);
   sb_run_fill_motion(summary, &r.energy, &counters);
   summary->energy.closure = closure_of(&r);

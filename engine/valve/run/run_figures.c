@@ -223,9 +223,10 @@ static double permeation(const SbModel *model) {
 
 double sb_run_dose(const SbRun *run, double metered) {
   const double filled = sb_run_filled_share(&run->summary, run->model);
-  return run->model->canister_pressure > 0
-             ? fmax(metered * (isnan(filled) ? 1 : filled) - kept(run), 0)
-             : 0; // nothing drives out what is not above ambient
+  if (!(run->model->canister_pressure > 0)) {
+    return 0; // nothing drives out what is not above ambient
+  }
+  return sb_run_delivers(run) ? fmax(metered * (isnan(filled) ? 1 : filled) - kept(run), 0) : NAN;
 }
 
 void sb_run_summarise_seals(SbRun *run) {
@@ -277,6 +278,10 @@ void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore
   // Films alike on both ways leave nothing but rounding.
   const double net = bore->out - bore->back;
   summary->leakage_per_cycle = fabs(net) <= 1e-12 * bore->out ? 0 : circumference * net;
+  if (summary->outcome == SB_OUTCOME_NEVER_MOVED) {
+    summary->leakage_per_cycle = NAN;
+    return; // sb_run_give_reasons() has the reason
+  }
   if (!back) {
     summary->leakage_per_cycle = NAN;
     sb_reason(summary, "cycle.leakage_per_cycle_m3",
@@ -311,6 +316,32 @@ static void give(SbSummary *summary, int seal, const Reason *reasons, size_t cou
   }
 }
 
+// Why the figures of parts of the cycle are missing that did not happen.
+static void give_reasons_of_outcome(SbRun *run) {
+  SbSummary *summary = &run->summary;
+  const bool never = summary->outcome == SB_OUTCOME_NEVER_MOVED;
+  const char *missing = NULL; // the first stage that a dose needs
+  for (int stage = SB_STAGE_C; stage <= SB_STAGE_F && missing == NULL; stage++) {
+    const bool needed = run->model->kind == SB_VALVE_GASKET
+                            ? stage == SB_STAGE_D
+                            : stage == SB_STAGE_C || stage == SB_STAGE_F;
+    missing = needed && !summary->stage[stage].reached ? sb_stage_name((SbStage)stage) : NULL;
+  }
+  if (never) {
+    sb_reason(summary, "cycle.leakage_*", "the stem never moved");
+    sb_reason(summary, "cycle.dose_mass_kg", "the stem never moved");
+  } else if (summary->outcome == SB_OUTCOME_STUCK) {
+    const double at = 1e3 * summary->stuck_at;
+    sb_reason(summary, "cycle.leakage_carried_all_actuations_m3",
+              "the stem is stuck at %.4g mm: there is no second actuation", at);
+    sb_reason(summary, "cycle.dose_mass_kg", "the stem is stuck at %.4g mm before the chamber %s",
+              at, missing != NULL ? "is filled and empties" : "has emptied");
+  }
+  if (summary->outcome != SB_OUTCOME_UNKNOWN && missing != NULL) {
+    sb_reason(summary, "cycle.dose_mass_kg", "the cycle does not reach stage %s: no dose", missing);
+  }
+}
+
 void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   SbSummary *summary = &run->summary;
   const SbModel *model = run->model;
@@ -318,6 +349,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   const bool rig = model->motion == SB_MODEL_MOTION_RIG, well = status == SB_OK;
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   const bool closed = !coupled && model->film != SB_FILM_REYNOLDS;
+  give_reasons_of_outcome(run);
   if (life->failure > 0) {
     sb_reason(summary, "life.*", "the life ends at actuation %ld: its stem does not return",
               life->failure);

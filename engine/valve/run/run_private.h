@@ -185,6 +185,27 @@ int sb_run_first_alike(const SbRun *run, int seal, int chamber);
 // frames and the stages it reached; the report says where it ended (run.c).
 SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
+// What a motion leaves behind for its outcome; forces in N, places in m.
+typedef struct {
+  double start, top;    // displacement of the stem: at first, largest
+  double position;      // at the end
+  double speed;         // at the end [m/s]
+  double force;         // of the drive at the end
+  bool bonded;          // the drive is bonded to the stem
+  double dwell;         // rest between the end of the in-stroke and the first reverse slip [s]
+  double press;         // largest force of the drive before the stop
+  double sliding_least; // minimum of pressure force less friction of the slide back at its own
+                        // speeds; INFINITY: the steady states' friction alone counts
+} SbRunEnd;
+
+// Sets the outcome, the return's figures and the press force, with reasons for those that are null.
+// The stages and the peak force must be known. SB_ERROR_MEMORY (run_outcome.c).
+SbStatus sb_run_conclude_motion(SbRun *run, const SbRunEnd *end, SbReport *report);
+
+// Whether the actuation delivers a dose: the stages in which the chamber fills and empties have
+// happened (run_outcome.c).
+bool sb_run_delivers(const SbRun *run);
+
 // Frames, stages, energy and leakage of the quasi-static cycle (run_cycle.c) and of the motion with
 // inertia (run_dynamic.c).
 SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *report);
@@ -222,7 +243,8 @@ void sb_bore_start(SbBore *bore, double s);
 void sb_bore_move(SbBore *bore, double from, double to, double layer);
 
 // The leak of the motion of which these volumes are left; none, with the reason, where the stem
-// does not come back to where it began (run_figures.c).
+// does not move, or does not come `back` to where it began. The outcome must be known
+// (run_figures.c).
 void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore, bool back);
 
 // Gives the figures that are missing by the choice of models or by what happened their reasons
@@ -239,7 +261,7 @@ SbStatus sb_run_shelf(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 double sb_run_filled_share(const SbSummary *summary, const SbModel *model);
 
 // What of a metered mass [kg] the last motion delivers: less what there is no time to fill, and
-// what the emptied chamber keeps.
+// what the emptied chamber keeps. NaN where sb_run_delivers() is false.
 double sb_run_dose(const SbRun *run, double metered);
 
 // Stem positions between which the dose chamber is open to the vent; false: nowhere in the stroke.

@@ -1,5 +1,5 @@
-// What another propellant and the temperature make of the valve: pressure force, break-away, least
-// return force and dose of each propellant over the canister's temperature, where the stem begins
+// What another propellant and the temperature make of the valve: pressure force, break-away,
+// return margin and dose of each propellant over the canister's temperature, where the stem begins
 // to come back, and what of the change from 20 degC each of four ways makes alone: the vapour
 // pressure; the liquid's viscosity and density, which the film has; the rubber's modulus; the
 // expansion of ring, radial space and bore.
@@ -10,8 +10,8 @@
 // propellant, and what evaporation cools.
 //
 // Solved rings, of which a cycle takes seconds, are solved at some pressures alone (study.rings).
-// At each, what is not the pressure's force in break-away and return, the friction, is compared
-// with that of closed forms. A ring's load over E d^2 depends on its squeeze, its friction
+// At each, what is not the pressure's force in break-away and return margin, the friction, is
+// compared with that of closed forms. A ring's load over E d^2 depends on its squeeze, its friction
 // coefficients and p/E: the ratio is interpolated over p/E (monotone cubic, Steffen 1990), and the
 // closed forms carry what temperature and propellant do besides. Six places are closest where the
 // friction of a return changes most, a p/E below 0.15. The error told is the largest that leaving
@@ -134,7 +134,7 @@ static void derive(double *value, SbStudyWork *work, int line, double x) {
   value[STRAIN] = value[FORCE] / (M_PI / 4 * across * across) / value[MODULUS];
 }
 
-// Ratios of friction over p/E: of the break-away, of the least return.
+// Ratios of friction over p/E: of the break-away, of the return margin.
 enum { WAYS = 2 };
 typedef struct {
   size_t count;
@@ -284,7 +284,7 @@ static void correct_all(SbStudyWork *work, const Ratios ratios[FLUIDS + 1]) {
 static SbEvaluator *find_starts(SbStudyWork *work) {
   enum { STARTS = 6, OF = 1 }; // HFA-134a
   const int figure[] = {sb_figure_find("cycle.force_breakaway_N"),
-                        sb_figure_find("cycle.force_return_min_N")};
+                        sb_figure_find("cycle.force_return_margin_N")};
   double value[2];
   SbEvaluator *start = NULL;
   work->status = sb_evaluator_create(&start, work->report);
@@ -372,7 +372,7 @@ static void ask_all(SbStudyWork *work, int points, const double table[TABLE]) {
   }
 }
 
-// Where a propellant's least return force rises through zero; NaN: nowhere in the range.
+// Where a propellant's return margin rises through zero; NaN: nowhere in the range.
 static double begins(SbStudyWork *work, int fluid, int points) {
   for (int i = 1; i < points; i++) {
     const double x0 = sb_study_place(work, i - 1, points), x1 = sb_study_place(work, i, points);
@@ -397,7 +397,7 @@ static void make(SbStudyWork *work) {
   const bool cheap = is_closed(model) || interpolates(model);
   const int points = cheap && !model->study.rings_solved ? POINTS : CYCLES;
   static const char *const limited[FIGURES] = {NULL, "cycle.force_breakaway_N",
-                                               "cycle.force_return_min_N", "cycle.dose_mass_kg"};
+                                               "cycle.force_return_margin_N", "cycle.dose_mass_kg"};
   for (size_t i = 0; i < model->limits.count; i++) {
     const SbLimit *limit = &model->limits.item[i];
     for (int p = BREAKAWAY; p < FIGURES; p++) {
@@ -435,7 +435,7 @@ static void make(SbStudyWork *work) {
     }
   }
   sb_study_note(out, "The stem comes back from, in °C: %s.", starts);
-  sb_study_note(out, "\"by\": change of the least return force from 20 °C, all else as there.");
+  sb_study_note(out, "\"by\": change of the return margin from 20 °C, all else as there.");
   sb_study_mark(work, model->temperature, "this scene");
   if (out->models[0] == '\0') {
     sb_text(out->models, sizeof out->models, "fit %s, film %s, a cycle at each temperature",
@@ -447,10 +447,10 @@ enum { ANSWERS = FLUIDS * (POINTS + TABLE * PARTS) };
 
 const SbStudyDesign sb_study_propellants = {
     .x = "canister temperature [°C]",
-    .panel = {"pressure force [N]", "break-away force [N]", "least return force [N]", "dose [mg]"},
+    .panel = {"pressure force [N]", "break-away force [N]", "return margin [N]", "dose [mg]"},
     .range = offsetof(SbStudyRange, temperature_min),
     .row_heading = "propellant",
-    .column = {"pressure force [N]", "break-away [N]", "least return [N]", "dose [mg]",
+    .column = {"pressure force [N]", "break-away [N]", "return margin [N]", "dose [mg]",
                "change [N]", "by pressure [N]", "by film [N]", "by rubber [N]", "by expansion [N]"},
     .validity = "saturated propellant; the range of its figures, -40 to 80 °C, and above the "
                 "rubber's glass transition",

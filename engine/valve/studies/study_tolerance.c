@@ -87,7 +87,7 @@ static void make(SbStudyWork *work) {
   put_row(work, "load of the outer seal", LOAD_OUTER);
   put_row(work, "load of the inner seal", LOAD_INNER);
   put_row(work, "break-away force", BREAKAWAY);
-  put_row(work, "least return force", RETURN);
+  put_row(work, "return margin", RETURN);
   put_row(work, "dose", DOSE);
   SbStudyRow *dose = &out->row[out->row_count - 1];
   sb_text(dose->si, sizeof dose->si, "kg");
@@ -104,7 +104,7 @@ enum { CYCLES = 2 * STEPS * SIZES + 1 + 2 * FIGURES };
 
 const SbStudyDesign sb_study_tolerance = {
     .x = "place in the size's tolerance band",
-    .panel = {"load of the outer seal [N]", "break-away force [N]", "least return force [N]"},
+    .panel = {"load of the outer seal [N]", "break-away force [N]", "return margin [N]"},
     .row_heading = "figure",
     .column = {"nominal [N]", "worst case, least [N]", "worst case, most [N]",
                "root sum square, least [N]", "root sum square, most [N]", "by d, outer [N]",

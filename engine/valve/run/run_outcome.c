@@ -1,0 +1,109 @@
+// The outcome of a motion, one for every kind of motion, and the figures of the return that follow
+// from it. It is computed from states: what the stem did and where it is when the motion ends.
+//
+//   never-moved  no contact has slid and the stem has not reached the end stop
+//   returned     the stem rests on its rest stop, and the drive has released it
+//   held         the drive is bonded to the stem or still pushes it when the motion ends
+//   stuck        the stem rests elsewhere without a push of the drive
+//
+// The outcome is unknown where the motion failed, or where the stem still moves when its motion
+// ends. The return margin has one definition in all motions (sb_cycle_return_margin()): it depends
+// on the seals' states, on the largest displacement and on the dwell there, not on speeds.
+#include "engine/valve/figures.h"
+#include "engine/valve/run/run_private.h"
+
+#include <math.h>
+
+// A stem slower than this is at rest [m/s].
+static const double rest_speed = 1e-6;
+
+static SbOutcome outcome_of(const SbSummary *summary, const SbModel *model, const SbRunEnd *end) {
+  const bool slid = summary->stage[SB_STAGE_B].reached || summary->stage[SB_STAGE_D].reached;
+  if (!slid && end->start == 0 && !end->bonded) {
+    return SB_OUTCOME_NEVER_MOVED;
+  }
+  if (end->bonded || end->force > 1e-6 * fmax(summary->force_peak, 0)) {
+    return SB_OUTCOME_HELD;
+  }
+  if (fabs(end->position) < 1e-6 * model->stroke) {
+    return SB_OUTCOME_RETURNED;
+  }
+  return fabs(end->speed) < rest_speed ? SB_OUTCOME_STUCK : SB_OUTCOME_UNKNOWN;
+}
+
+// Reasons of what the outcome leaves out.
+static void give_reasons(SbSummary *summary, const SbRunEnd *end) {
+  switch (summary->outcome) {
+  case SB_OUTCOME_NEVER_MOVED: {
+    static const char *const none[] = {"cycle.returns", "cycle.force_return_*",
+                                       "cycle.force_press_N", "cycle.stuck_at_m"};
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++) {
+      sb_reason(summary, none[i], "the stem never moved: the drive's %.4g N are not enough",
+                summary->force_peak);
+    }
+    break;
+  }
+  case SB_OUTCOME_STUCK:
+    sb_reason(summary, "cycle.force_return_min_N",
+              "the stem is stuck at %.4g mm and never slides back", 1e3 * end->position);
+    break;
+  case SB_OUTCOME_UNKNOWN:
+    sb_reason(summary, "cycle.returns", "the stem still moves, at %.4g mm, when its motion ends",
+              1e3 * end->position);
+    break;
+  case SB_OUTCOME_RETURNED:
+  case SB_OUTCOME_HELD:
+    break;
+  }
+  sb_reason(summary, "cycle.stuck_at_m", "the stem is not stuck: its outcome is %s",
+            summary->outcome == SB_OUTCOME_UNKNOWN ? "not known"
+                                                   : sb_outcome_name(summary->outcome));
+  sb_reason(summary, "cycle.force_press_N",
+            "the stem does not reach its stop: the force that this takes is not known");
+}
+
+SbStatus sb_run_conclude_motion(SbRun *run, const SbRunEnd *end, SbReport *report) {
+  SbSummary *summary = &run->summary;
+  summary->outcome = outcome_of(summary, run->model, end);
+  const bool stuck = summary->outcome == SB_OUTCOME_STUCK;
+  summary->returns = summary->outcome == SB_OUTCOME_RETURNED;
+  summary->returned = summary->outcome == SB_OUTCOME_UNKNOWN ? NAN : summary->returns;
+  summary->stuck_at = stuck ? end->position : NAN;
+  summary->force_press = summary->stage[SB_STAGE_D].reached ? end->press : NAN;
+  summary->force_return_min = summary->force_return_margin = NAN;
+  if (summary->outcome == SB_OUTCOME_NEVER_MOVED) {
+    summary->returned = NAN;
+    give_reasons(summary, end);
+    return SB_OK;
+  }
+  SbStatus status = sb_cycle_rest(&run->cycle, end->dwell, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  const double top = fmin(end->top, run->model->stroke); // the stop yields a little
+  summary->force_return_margin = sb_cycle_return_margin(&run->cycle, top);
+  // A stem that static friction holds at the stop only follows the stop's own deflection.
+  if (!stuck || sb_cycle_first_reserve(&run->cycle, top) > 0) {
+    summary->force_return_min = fmin(sb_cycle_sliding_margin(&run->cycle, top), end->sliding_least);
+  }
+  if (stuck && summary->force_return_margin > 0) {
+    // The contact has aged for longer where the stem is than it had at the stop: the friction there
+    // balances the push.
+    summary->force_return_margin = 0;
+  }
+  give_reasons(summary, end);
+  return SB_OK;
+}
+
+bool sb_run_delivers(const SbRun *run) {
+  const SbSummary *summary = &run->summary;
+  const SbModel *model = run->model;
+  if (model->kind == SB_VALVE_GASKET) {
+    return summary->stage[SB_STAGE_D].reached || summary->outcome == SB_OUTCOME_RETURNED ||
+           summary->outcome == SB_OUTCOME_HELD;
+  }
+  // The chamber is filled from C to F and emptied behind F, where ports do not say when.
+  const bool stuck = summary->outcome == SB_OUTCOME_STUCK;
+  return summary->stage[SB_STAGE_C].reached && summary->stage[SB_STAGE_F].reached &&
+         (!stuck || model->pressure_map == SB_MAP_PORTS);
+}
