@@ -54,7 +54,7 @@ static void test_worst(void) {
        {"seal.section_diameter=1.63 mm", "gland.radial_space=1.34 mm"}},
       {"returns",
        "rough",
-       "cycle.force_return_min_N",
+       "cycle.force_return_margin_N",
        {"surface.gt_product=+10%", "output.frames=400"}},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(worst); i++) {
