@@ -4,7 +4,7 @@
 // lock and the C locale surround every call to it. Scales of unit pairs are remembered.
 #include "app/base/unit.h"
 
-#include "app/base/format.h"
+#include "app/base/hardness.h"
 #include "app/base/issue.h"
 #include "app/base/nearest.h"
 #include "engine/valve/figures.h"
@@ -402,6 +402,15 @@ bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error)
       *out = index;
     }
     return good;
+  }
+  GError *hardness = NULL;
+  if (sb_hardness_applies(id) && sb_hardness_parse(&value, text, &hardness)) {
+    *out = value;
+    return true;
+  }
+  if (hardness != NULL) {
+    g_propagate_error(error, hardness);
+    return false;
   }
   if (!sb_quantity_parse(&value, text, param->si, param->unit, error)) {
     return false;

@@ -193,6 +193,9 @@ SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *p
 // `print` is set and unless --quiet is given.
 void sb_cli_check_data(const SbDocument *document, bool print, GPtrArray *issues);
 
+// Prints what was recognised in a measured table, a line each.
+void sb_cli_recognised(const SbMeasured *measured);
+
 // Prints what was recognised, the stages and the differences.
 void sb_cli_comparison(const SbComparison *comparison);
 

@@ -1,5 +1,5 @@
-// sealbench check: every problem of valves, scenes, projects, studies, rubbers, sections and
-// grooves, as lines or as JSON.
+// sealbench check: every problem of valves, scenes, projects, studies, rubbers, sections, grooves
+// and measured tables, as lines or as JSON.
 #include "app/base/output.h"
 #include "app/base/reader.h"
 #include "app/cli/cli.h"
@@ -29,6 +29,8 @@ typedef struct {
   SbDocument *document;          // of a valve, scene or project; of a study its scene, borrowed
   SbModel *model;
   SbStudyFile *study;
+  SbMeasured *measured; // of a table of measurements
+  char **settings;      // of --set, borrowed; NULL: none
 } Check;
 
 // ---- Kinds ----
@@ -40,11 +42,17 @@ static void check_document(Check *check) {
   if (check->document == NULL) {
     return;
   }
+  for (char **setting = check->settings; setting != NULL && *setting != NULL; setting++) {
+    (void)sb_document_set_option(check->document, *setting, errors);
+  }
   check->kind = sb_document_kind(check->document) != SB_DOCUMENT_SCENE ? "valve"
                 : sb_document_is_project(check->document)              ? "project"
                                                                        : "scene";
   if (errors->len == 0 && sb_document_compile(check->document, &check->model, errors)) {
     sb_document_remarks(check->document, check->model, check->issues[SEVERITY_WARNING]);
+    if (check->settings != NULL) {
+      (void)sb_document_check_cases(check->document, errors);
+    }
   }
   for (guint i = 0; i < sb_document_notes(check->document)->len; i++) {
     sb_issues_add(check->issues[SEVERITY_NOTE], NULL, 0, NULL, NULL, "%s",
@@ -55,7 +63,33 @@ static void check_document(Check *check) {
 static void check_study(Check *check) {
   check->kind = "study";
   check->study = sb_study_file_parse(check->text, check->length, check->shown, check->directory,
-                                     NULL, NULL, check->issues[SEVERITY_ERROR]);
+                                     check->settings, NULL, check->issues[SEVERITY_ERROR]);
+}
+
+// A table of numbers without any group: a measured loop.
+static void check_measured(Check *check) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  SbData *data = sb_data_of_file(check->shown);
+  SbParams params;
+  sb_params_init(&params);
+  const double speed = sb_measured_speed(sb_params_get(&params, SB_P_DRIVE_KIND),
+                                         sb_params_get(&params, SB_P_DRIVE_SPEED));
+  check->measured = sb_measured_parse(data, speed, check->text, check->length, issues);
+  sb_data_free(data);
+  if (check->measured == NULL) {
+    const SbIssue *first = issues->len > 0 ? issues->pdata[0] : NULL;
+    sb_issues_add(check->issues[SEVERITY_ERROR], check->shown, first != NULL ? first->line : 0,
+                  NULL, first != NULL ? first->allowed : NULL,
+                  "has no group such as [sealbench], and is not a table of measurements: %s",
+                  first != NULL ? first->text : "it cannot be read");
+    return;
+  }
+  check->kind = "measured table";
+  if (check->measured->dropped > 0) {
+    sb_issues_add(check->issues[SEVERITY_WARNING], check->shown, 0, NULL, NULL,
+                  "%zu rows with an empty or unreadable cell are left out",
+                  check->measured->dropped);
+  }
 }
 
 static void check_rubber(Check *check) {
@@ -95,11 +129,14 @@ static bool take_picture(Check *check) {
 }
 
 // The value of [sealbench] kind; NULL: the text is not a key file with one. Owned by the caller.
-static char *kind_of_text(const Check *check) {
+// *grouped: whether it has any group of a key file.
+static char *kind_of_text(bool *grouped, const Check *check) {
+  *grouped = g_strstr_len(check->text, (gssize)check->length, "[sealbench]") != NULL;
   g_autoptr(GPtrArray) ignored = sb_issues_new();
   g_autoptr(GPtrArray) entries = sb_reader_scan(check->text, check->length, "", ignored);
   for (guint i = 0; i < entries->len; i++) {
     const SbEntry *entry = entries->pdata[i];
+    *grouped = *grouped || entry->group != NULL;
     if (entry->name != NULL && strcmp(entry->group, "sealbench") == 0 &&
         strcmp(entry->name, "kind") == 0) {
       return g_strdup(entry->value);
@@ -114,15 +151,23 @@ static void check_text(Check *check) {
   if (picture && !take_picture(check)) {
     return;
   }
-  g_autofree char *kind = kind_of_text(check);
+  bool grouped = false;
+  g_autofree char *kind = kind_of_text(&grouped, check);
   if (g_strcmp0(kind, "study") == 0) {
     check_study(check);
   } else if (g_strcmp0(kind, "rubber") == 0) {
     check_rubber(check);
   } else if (kind == NULL && sb_seal_file_is_drawing(check->text, check->path)) {
     check_drawing(check);
+  } else if (!grouped) {
+    check_measured(check);
   } else {
     check_document(check);
+  }
+  if (check->settings != NULL && check->document == NULL && check->study == NULL &&
+      check->issues[SEVERITY_ERROR]->len == 0) {
+    sb_issues_add(check->issues[SEVERITY_ERROR], check->shown, 0, NULL, NULL,
+                  "is a %s: --set changes valves, scenes, projects and studies", check->kind);
   }
 }
 
@@ -151,9 +196,12 @@ static void find_lines(Check *check) {
 
 static bool load(Check *check) {
   const bool stream = strcmp(check->path, "-") == 0;
-  // Drawings and pictures may be larger than key files.
-  const bool large =
-      sb_seal_file_is_drawing("", check->path) || sb_output_ends_in(check->path, ".png");
+  // Drawings, pictures and tables may be larger than key files.
+  static const char *const endings[] = {".png", ".csv", ".tsv", ".txt", ".dat"};
+  bool large = sb_seal_file_is_drawing("", check->path);
+  for (size_t i = 0; i < G_N_ELEMENTS(endings); i++) {
+    large = large || sb_output_ends_in(check->path, endings[i]);
+  }
   const size_t most = large ? (size_t)256 << 20 : SB_DOCUMENT_BYTES_MAX;
   check->shown = stream ? "standard input" : check->path;
   check->directory = stream ? NULL : g_path_get_dirname(check->path);
@@ -171,6 +219,7 @@ static void clear(Check *check) {
   sb_document_free(check->document);
   sb_model_destroy(check->model);
   sb_study_file_free(check->study);
+  sb_measured_free(check->measured);
   g_free(check->directory);
   g_free(check->text);
 }
@@ -259,14 +308,17 @@ static void print_check(const Check *check, const char *operand) {
     if (check->document != NULL) {
       print_derived(check->document);
     }
+    if (check->measured != NULL) {
+      sb_cli_recognised(check->measured);
+    }
     printf("%s: a %s without %s\n", shown, check->kind, warnings->len > 0 ? "errors" : "problems");
   }
 }
 
 // Checks one operand; an exit code. `json` NULL: lines are printed.
-static int check_operand(SbJson *json, const char *operand) {
+static int check_operand(SbJson *json, const char *operand, char **settings) {
   g_autofree char *path = sb_shipped_resolve(operand, SB_SHIPPED_ANY);
-  Check check = {.path = path};
+  Check check = {.path = path, .settings = settings};
   for (int k = 0; k < SEVERITIES; k++) {
     check.issues[k] = sb_issues_new();
   }
@@ -293,7 +345,9 @@ static int check_operand(SbJson *json, const char *operand) {
 
 int sb_command_check(int argc, char **argv) {
   g_autofree char *target = NULL;
+  g_auto(GStrv) settings = NULL;
   const GOptionEntry entries[] = {
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "All problems as JSON, to a file or -",
        "FILE|-"},
       {0},
@@ -314,7 +368,7 @@ int sb_command_check(int argc, char **argv) {
     sb_json_array(&json, "files");
   }
   for (int i = 1; i < argc && !sb_cli_interrupted(NULL); i++) {
-    const int checked = check_operand(target != NULL ? &json : NULL, argv[i]);
+    const int checked = check_operand(target != NULL ? &json : NULL, argv[i], settings);
     code = MAX(code, checked);
   }
   if (target != NULL) {

@@ -30,7 +30,7 @@ SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *p
   return measured;
 }
 
-static void print_recognised(const SbMeasured *measured) {
+void sb_cli_recognised(const SbMeasured *measured) {
   printf("Measured: %s\n", measured->name);
   g_autofree char *text = sb_measured_text(measured);
   g_auto(GStrv) lines = g_strsplit(g_strchomp(text), "\n", -1);
@@ -44,7 +44,7 @@ void sb_cli_check_data(const SbDocument *document, bool print, GPtrArray *issues
     g_autoptr(SbMeasured) measured =
         sb_measured_load(sb_document_data(document, i), drive_speed(document), issues);
     if (measured != NULL && print && !sb_cli_quiet()) {
-      print_recognised(measured);
+      sb_cli_recognised(measured);
     }
   }
 }
@@ -57,7 +57,7 @@ static char *force_text(double force, bool known) {
 
 void sb_cli_comparison(const SbComparison *comparison) {
   const SbMeasured *m = comparison->measured;
-  print_recognised(m);
+  sb_cli_recognised(m);
   printf("  %-10s%12s%12s%12s\n", "", "measured", "model", "difference");
   for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {
     const SbMeasuredStage *stage = &m->stage[s];

@@ -176,6 +176,8 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
         g_error_free(error);
       } else if (sb_params_set(params, (SbParamId)id, value, &report) != SB_OK) {
         sb_issues_add(issues, shown, entry->line, key, NULL, "%s", report.text);
+      } else if (sb_hardness_applies((SbParamId)id)) {
+        sb_document_note_hardness(document, key, entry->value);
       }
     }
     g_free(key);
@@ -299,6 +301,13 @@ void sb_document_refresh_title(SbDocument *document) {
 }
 
 // Adds the note on a value in force that is not what a shape under it makes.
+void sb_document_note_hardness(SbDocument *document, const char *key, const char *text) {
+  g_autofree char *note = sb_hardness_note(text);
+  if (note != NULL) {
+    g_ptr_array_add(document->notes, g_strdup_printf("%s: %s", key, note));
+  }
+}
+
 void sb_document_note_override(SbDocument *document, SbParamId id, const char *shown) {
   char *note = sb_document_shape_note(document, id);
   if (note != NULL) {

@@ -246,6 +246,9 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
   } else {
     good = sb_document_set_value(document, (SbParamId)id, value, false, NULL);
     sb_document_note_override(document, (SbParamId)id, "--set");
+    if (good && sb_hardness_applies((SbParamId)id)) {
+      sb_document_note_hardness(document, key, equal + 1);
+    }
   }
   g_free(key);
   return good;

@@ -4,6 +4,7 @@
 
 #include "app/document/document_parts.h"
 
+#include "app/base/hardness.h"
 #include "app/base/writer.h"
 #include "app/document/document.h"
 #include "engine/valve/sealbench.h"
@@ -236,4 +237,7 @@ char *sb_document_rubber_name_at(const SbDocument *document, const char *directo
 
 // Adds to the notes that a value in force is not what a shape makes it; `shown` names who says so.
 // Nothing where they agree.
+// Adds a note to the document that states the modulus and the relation if `text`, the value of
+// `key`, is a hardness.
+void sb_document_note_hardness(SbDocument *document, const char *key, const char *text);
 void sb_document_note_override(SbDocument *document, SbParamId id, const char *shown);

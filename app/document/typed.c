@@ -111,19 +111,6 @@ static char *with_unit(double number, const char *unit) {
   return g_strconcat(digits, *unit != '\0' ? " " : "", unit, NULL);
 }
 
-// "Shore A", in its usual spellings.
-static bool is_shore_a(const char *unit) {
-  g_autofree char *lower = g_ascii_strdown(unit, -1);
-  g_auto(GStrv) words = g_strsplit_set(lower, " \t", -1);
-  g_autofree char *joined = g_strjoinv("", words);
-  return strcmp(joined, "shorea") == 0 || strcmp(joined, "sha") == 0 ||
-         strcmp(joined, "shore") == 0;
-}
-
-static bool is_modulus_of_a_ring(const SbParam *param) {
-  return g_str_has_prefix(param->key, "seal.") && g_str_has_suffix(param->key, ".modulus");
-}
-
 char *sb_typed_text(SbParamId id, double value, const char *typed) {
   const SbParam *param = sb_param(id);
   g_autofree char *text = g_strstrip(g_strdup(typed));
@@ -146,9 +133,6 @@ char *sb_typed_text(SbParamId id, double value, const char *typed) {
   }
   if (!worked) {
     return g_strdup(typed);
-  }
-  if (is_modulus_of_a_ring(param) && is_shore_a(rest) && number >= 20 && number <= 80) {
-    return with_unit(0.0981 * (56 + 7.62336 * number) / (0.137505 * (254 - 2.54 * number)), "MPa");
   }
   // A unit is a word of its own; anything else is a mistake in what was to be worked out.
   if (*rest != '\0' && !g_ascii_isalpha(*rest) && (*rest & 0x80) == 0 && *rest != '%') {

@@ -1,8 +1,7 @@
 // What people type into a field of a parameter, as the text that files have: a bare number is of
-// the unit beside the field, a decimal comma is a point, "+5 %" changes the value in force, "1.7/2
-// + 0.1 mm" is worked out, and a rubber's modulus may be told by its hardness ("60 Shore A", 20 to
-// 80, by the relation of Gent, Rubber Chem. Technol. 31 (1958) 896). Files and the command line
-// know none of this.
+// the unit beside the field, a decimal comma is a point, "+5 %" changes the value in force, and
+// "1.7/2 + 0.1 mm" is worked out. Units are those of files and of the command line
+// (sb_param_parse()), "60 Shore A" and "60 IRHD" included.
 #pragma once
 
 #include "engine/valve/params.h"

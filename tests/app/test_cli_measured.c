@@ -296,11 +296,67 @@ static void test_project(void) {
   g_unlink(path);
 }
 
+// `check` reads a table of measurements by itself, prints what it recognises and few lines about a
+// file that is none.
+static void test_check(void) {
+  g_autofree char *plain = g_build_filename(folder, "plain.csv", NULL);
+  g_autoptr(GString) rows = g_string_new("Time (s),Displacement (mm),Force (N)\n");
+  for (int i = 0; i <= 400; i++) {
+    const double x = i <= 200 ? 0.033 * i : 0.033 * (400 - i);
+    const double force = x == 0 ? 0 : i <= 200 ? fmin(27, 270 * x) : 5;
+    char cell[3][G_ASCII_DTOSTR_BUF_SIZE];
+    g_string_append_printf(rows, "%s,%s,%s\n", g_ascii_formatd(cell[0], 30, "%.2f", 0.1 * i),
+                           g_ascii_formatd(cell[1], 30, "%.4f", x),
+                           g_ascii_formatd(cell[2], 30, "%.4f", force));
+  }
+  write_text(plain, rows->str);
+  CliResult result = CLI("check", plain);
+  g_assert_cmpint(result.code, ==, 0);
+  g_assert_cmpstr(result.err, ==, "");
+  g_assert_nonnull(strstr(result.out, "separator"));
+  g_assert_nonnull(strstr(result.out, "plain.csv: a measured table without problems\n"));
+  cli_clear(&result);
+  result = CLI("check", plain, "--json", "-");
+  JsonNode *root = cli_parse(result.out);
+  JsonArray *files = json_object_get_array_member(json_node_get_object(root), "files");
+  JsonObject *file = json_array_get_object_element(files, 0);
+  g_assert_cmpstr(json_object_get_string_member(file, "kind"), ==, "measured table");
+  json_node_unref(root);
+  cli_clear(&result);
+  g_autofree char *none = g_build_filename(folder, "none.csv", NULL);
+  g_autoptr(GString) text = g_string_new(NULL);
+  for (int i = 0; i < 500; i++) {
+    g_string_append_printf(text, "word %d\n", i);
+  }
+  write_text(none, text->str);
+  result = CLI("check", none);
+  g_assert_cmpint(result.code, ==, 1);
+  g_auto(GStrv) lines = g_strsplit(result.err, "\n", -1);
+  g_assert_cmpint(g_strv_length(lines), <=, 3);
+  g_assert_nonnull(strstr(result.err, "is not a table of measurements"));
+  cli_clear(&result);
+  // --set counts for the check as for a run, and is refused where nothing can be set.
+  result = CLI("check", quick, "--set", "seal.section_diameter=99 mm");
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "--set: [seal] section_diameter: 99 mm is out of range"));
+  cli_clear(&result);
+  result = CLI("check", quick, "--set", "seal.modulus=60 Shore A");
+  g_assert_cmpint(result.code, ==, 0);
+  g_assert_nonnull(strstr(result.err, "60 Shore A is a modulus of 3.61 MPa"));
+  cli_clear(&result);
+  result = CLI("check", plain, "--set", "seal.modulus=60 Shore A");
+  g_assert_cmpint(result.code, ==, 1);
+  cli_clear(&result);
+  g_unlink(plain);
+  g_unlink(none);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
   set_up();
   g_test_add_func("/cli-measured/same", test_same);
+  g_test_add_func("/cli-measured/check", test_check);
   g_test_add_func("/cli-measured/differences", test_differences);
   g_test_add_func("/cli-measured/shown", test_shown);
   g_test_add_func("/cli-measured/refused", test_refused);

@@ -1,4 +1,5 @@
 // Text to SI and back: exact, in every unit of the catalogue, and every wrong text has its message.
+#include "app/base/hardness.h"
 #include "app/base/unit.h"
 #include "app/document/typed.h"
 
@@ -320,6 +321,33 @@ static void test_typed(void) {
     g_assert_true(sb_param_parse(&modulus, SB_P_SEAL_MODULUS, meant, NULL));
     g_assert_cmpfloat(fabs(modulus - 3.60507e6), <, 10);
   }
+  // Files and --set accept the same units of hardness.
+  static const struct {
+    const char *text;
+    double modulus; // NAN: refused
+  } hardness[] = {
+      {"60 Shore A", 3.60507e6},
+      {"60ShA", 3.60507e6},
+      // ISO 48: the middle of the curve, and one width (0.7 decades) above and below it.
+      {"50 IRHD", 2.31206e6},
+      {"84.134474606854 irhd", 2.31206e6 * 5.011872},
+      {"85.1 IRHD", NAN},
+      {"19 Shore A", NAN},
+      {"60 Shore D", NAN},
+  };
+  for (gsize i = 0; i < G_N_ELEMENTS(hardness); i++) {
+    double modulus = NAN;
+    g_autoptr(GError) error = NULL;
+    const bool read = sb_param_parse(&modulus, SB_P_SEAL_OUTER_MODULUS, hardness[i].text, &error);
+    g_assert_true(read == !isnan(hardness[i].modulus) && read == (error == NULL));
+    g_assert_true(!read || fabs(modulus / hardness[i].modulus - 1) < 3e-6);
+    // Only a seal's rubber has a hardness.
+    g_assert_false(sb_param_parse(&modulus, SB_P_HOUSING_MODULUS, hardness[i].text, NULL));
+  }
+  g_autofree char *note = sb_hardness_note("60 Shore A");
+  g_assert_nonnull(strstr(note, "60 Shore A is a modulus of 3.61 MPa"));
+  g_assert_nonnull(strstr(note, "changes it by 12 %"));
+  g_assert_null(sb_hardness_note("3.6 MPa"));
   // Brackets without end, and a long line, end too.
   g_autofree char *deep = g_strnfill(150, '('), *same = sb_typed_text(SB_P_SEAL_MODULUS, 1, deep);
   g_assert_cmpstr(same, ==, deep);
