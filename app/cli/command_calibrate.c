@@ -61,6 +61,10 @@ static void print_table(const SbStudyFile *study, const SbCalibration *of) {
     printf("  posterior of the tangent at the fit; %d solved loops differ from it by %.3g N\n",
            SB_CALIBRATION_CHECKS, of->check_rms);
   }
+  g_autofree char *codes = sb_warning_codes(of->warnings, ", ");
+  if (codes != NULL) {
+    printf("  warnings of validity: %s\n", codes);
+  }
   printf("  %s\n", of->sentence);
 }
 

@@ -63,7 +63,8 @@ static void print_table(const SbStudyFile *study, const SbDesign *design) {
            100 * design->holds, 100 * design->interval[0], 100 * design->interval[1],
            100 * design->by_form);
   }
-  g_autofree char *bounds = sb_design_bounds(design, study), *codes = sb_design_codes(design);
+  g_autofree char *bounds = sb_design_bounds(design, study),
+                  *codes = sb_warning_codes(design->warnings, ", ");
   if (bounds != NULL) {
     printf("  on a bound of the search: %s; wider bounds may have a better design\n", bounds);
   }

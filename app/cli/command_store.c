@@ -18,12 +18,15 @@ typedef struct {
 typedef struct {
   SbJson *json; // of the array of damaged rows; NULL: lines for people
   const char *path;
-  guint64 rows, damaged, other; // other: of another engine
+  guint64 rows, damaged;
+  guint64 other;   // of another engine
+  guint64 unnamed; // whose list of names is damaged
 } Check;
 
 static bool see_row(void *data, const SbStoreRow *row) {
   Check *check = data;
   check->rows++;
+  check->unnamed += row->damage == NULL && row->list == NULL;
   check->other += row->list != NULL && strcmp(row->list->engine, sb_engine_identity()->source) != 0;
   if (row->damage != NULL) {
     g_autofree char *name = sb_store_row_name(row);
@@ -63,7 +66,7 @@ static int check_store(const Options *options, const char *path, SbStore *store)
     sb_json_array(&json, "damaged_rows");
   }
   const bool readable = sb_store_visit(store, see_row, &check, &structure);
-  const bool sound = readable && check.damaged == 0 && format >= 2;
+  const bool sound = readable && check.damaged == 0 && check.unnamed == 0 && format >= 2;
   if (!readable) {
     (void)sb_cli_fail("%s", structure->message);
   }
@@ -72,6 +75,11 @@ static int check_store(const Options *options, const char *path, SbStore *store)
                       "%" G_GUINT64_FORMAT " rows can be verified; sealbench store export writes "
                       "what can be read",
                       path, check.rows);
+  } else if (check.unnamed > 0) {
+    (void)sb_cli_fail(
+        "%s: the names of parameters and figures of %" G_GUINT64_FORMAT
+        " sound rows are damaged; the study that computed them writes the names again",
+        path, check.unnamed);
   } else if (!sound) {
     (void)sb_cli_fail("%s: sealbench store recover %s -o NEW.store saves the sound rows", path,
                       path);
@@ -82,6 +90,7 @@ static int check_store(const Options *options, const char *path, SbStore *store)
     sb_json_string(&json, "structure", structure != NULL ? structure->message : NULL);
     sb_json_count(&json, "rows", check.rows);
     sb_json_count(&json, "damaged", check.damaged);
+    sb_json_count(&json, "unnamed", check.unnamed);
     sb_json_count(&json, "other_engine", check.other);
     sb_json_bool(&json, "sound", sound);
     sb_json_object_end(&json);
@@ -278,6 +287,11 @@ static int export_store(const Options *options, const char *path, SbStore *store
   if (health.damaged > 0) {
     (void)sb_cli_fail("%s: %" G_GUINT64_FORMAT " damaged rows are left out; the first: %s", path,
                       health.damaged, health.first);
+  }
+  if (health.unnamed > 0) {
+    (void)sb_cli_fail("%s: %" G_GUINT64_FORMAT " rows are left out, whose names of parameters and "
+                      "figures are damaged",
+                      path, health.unnamed);
   }
   if (sb_store_format(store) < 2) {
     (void)sb_cli_fail("%s: is a store of Sealbench 0.1: its rows carry no checksums and are not "

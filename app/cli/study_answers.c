@@ -43,8 +43,23 @@ char *sb_cli_store_path(const char *given, const SbStudyFile *study) {
   return g_strdup_printf("%.*s.store", (int)strlen(path) - (ending ? 6 : 0), path);
 }
 
+static bool set_list(SbStore *store, const SbStudyFile *study, GError **error) {
+  g_autoptr(GPtrArray) parameters = g_ptr_array_new(), figures = g_ptr_array_new();
+  for (guint i = 0; i < study->vary->len; i++) {
+    const SbVary *vary = &g_array_index(study->vary, SbVary, i);
+    g_ptr_array_add(parameters, (gpointer)sb_vary_name(vary));
+  }
+  for (guint i = 0; i < study->figures->len; i++) {
+    g_ptr_array_add(figures, (gpointer)sb_figure(g_array_index(study->figures, int, i))->path);
+  }
+  g_ptr_array_add(parameters, NULL);
+  g_ptr_array_add(figures, NULL);
+  return sb_store_set_list(store, (const char *const *)parameters->pdata,
+                           (const char *const *)figures->pdata, error);
+}
+
 // Opens the store; what is damaged is reported, saved where it can be, and computed again.
-static SbStore *open_store(const char *path, GError **error) {
+static SbStore *open_store(const char *path, const SbStudyFile *study, GError **error) {
   SbStore *store = sb_store_open(path, error);
   SbStoreHealth health = {0};
   if (store != NULL && path != NULL) {
@@ -64,27 +79,18 @@ static SbStore *open_store(const char *path, GError **error) {
       store = NULL;
     }
   }
+  // Names that are damaged are written again with the list.
+  if (store != NULL && (!set_list(store, study, error) ||
+                        (health.unnamed > 0 && !sb_store_open_for_writing(store, error)))) {
+    sb_store_discard(store);
+    store = NULL;
+  }
   sb_store_health_release(&health);
   return store;
 }
 
 static void on_progress(void *data, size_t done, size_t of) {
   sb_progress_update(data, of > 0 ? (double)done / (double)of : 1);
-}
-
-static bool set_list(SbStore *store, const SbStudyFile *study, GError **error) {
-  g_autoptr(GPtrArray) parameters = g_ptr_array_new(), figures = g_ptr_array_new();
-  for (guint i = 0; i < study->vary->len; i++) {
-    const SbVary *vary = &g_array_index(study->vary, SbVary, i);
-    g_ptr_array_add(parameters, (gpointer)sb_vary_name(vary));
-  }
-  for (guint i = 0; i < study->figures->len; i++) {
-    g_ptr_array_add(figures, (gpointer)sb_figure(g_array_index(study->figures, int, i))->path);
-  }
-  g_ptr_array_add(parameters, NULL);
-  g_ptr_array_add(figures, NULL);
-  return sb_store_set_list(store, (const char *const *)parameters->pdata,
-                           (const char *const *)figures->pdata, error);
 }
 
 // Exit code of samples that failed: of a solver 2; a design that cannot be is an answer.
@@ -200,8 +206,8 @@ int sb_cli_answer(const SbStudyFile *study, const SbCliAsk *ask, SbCliAnswered a
   if (code != SB_EXIT_DONE) {
     return code;
   }
-  SbStore *store = open_store(sb_cli_answers_elsewhere() ? NULL : ask->store, &error);
-  if (store == NULL || !set_list(store, study, &error)) {
+  SbStore *store = open_store(sb_cli_answers_elsewhere() ? NULL : ask->store, study, &error);
+  if (store == NULL) {
     code = sb_cli_error(error);
   } else {
     const SbStudyDrawn drawn = {unit, study->method == SB_METHOD_RELIABILITY ? &reliability : NULL};

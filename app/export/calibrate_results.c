@@ -43,6 +43,24 @@ static void put_curve(SbJson *json, const SbCalibratedCurve *curve) {
   sb_json_object_end(json);
 }
 
+// Parameters that the fit moved to an end of their bounds: within a thousandth of their range.
+static void put_bounds(SbJson *json, const SbCalibration *of) {
+  const double near = 1e-3;
+  sb_json_array(json, "bounds_active");
+  for (size_t j = 0; j < of->parameters; j++) {
+    const SbCalibrated *parameter = &of->parameter[j];
+    const SbDistribution *bounds = &parameter->distribution;
+    const bool bounded =
+        bounds->kind == SB_DISTRIBUTION_UNIFORM || bounds->kind == SB_DISTRIBUTION_LOGUNIFORM;
+    const double low = sb_distribution_quantile(bounds, near);
+    const double high = sb_distribution_quantile(bounds, 1 - near);
+    if (bounded && (parameter->estimate < low || parameter->estimate > high)) {
+      sb_json_string(json, NULL, parameter->name);
+    }
+  }
+  sb_json_array_end(json);
+}
+
 char *sb_calibration_json(const SbCalibration *of, const SbStudyFile *study) {
   SbJson json;
   sb_json_document(&json);
@@ -56,6 +74,9 @@ char *sb_calibration_json(const SbCalibration *of, const SbStudyFile *study) {
     put_parameter(&json, of, j);
   }
   sb_json_object_end(&json);
+  put_bounds(&json, of);
+  static const SbWarnings none = {0};
+  sb_json_warnings(&json, of->warnings != NULL ? of->warnings : &none);
   sb_json_object(&json, "correlation");
   sb_json_array(&json, "keys");
   for (size_t j = 0; j < of->parameters; j++) {
@@ -183,12 +204,12 @@ void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *of,
                                   .comparison = curve->after,
                                   .before_rms = curve->before_rms};
   }
-  g_autofree char *foot =
-      g_strdup_printf("Sampled %zu points, one chain%s.  Fit of %zu parameters to %zu points, %zu "
-                      "runs.  chi\xc2\xb2 "
-                      "per degree of freedom %.2f.  Sealbench %s, engine %.12s",
-                      of->samples, of->tangent ? " on the tangent at the fit" : "", of->parameters,
-                      of->points, of->evaluations, of->chi2, sb_version(), sb_engine_identity()->source);
+  g_autofree char *foot = g_strdup_printf(
+      "Sampled %zu points, one chain%s.  Fit of %zu parameters to %zu points, %zu "
+      "runs.  chi\xc2\xb2 "
+      "per degree of freedom %.2f.  Sealbench %s, engine %.12s",
+      of->samples, of->tangent ? " on the tangent at the fit" : "", of->parameters, of->points,
+      of->evaluations, of->chi2, sb_version(), sb_engine_identity()->source);
   const SbCalibrationView view = {.title = study->title,
                                   .subtitle = sb_document_title(study->scene),
                                   .sentence = of->sentence,

@@ -161,6 +161,22 @@ static void draw_statistics(SbReportPages *pages, Study *study) {
   }
 }
 
+// Which samples are outside the validity of their models.
+static void draw_warnings(SbReportPages *pages, const Study *study) {
+  size_t count = 0;
+  g_autofree SbCodeCount *codes = sb_study_warnings(&count, study->answers);
+  GString *text = g_string_new("Warnings of validity: ");
+  for (size_t i = 0; i < count; i++) {
+    g_string_append_printf(text, "%s%s in %zu", i > 0 ? ", " : "", codes[i].code, codes[i].count);
+  }
+  g_string_append_printf(text, " of %zu samples.", study->answers->samples);
+  if (count > 0) {
+    sb_report_skip(pages, 6);
+    sb_report_text(pages, text->str, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+  }
+  g_string_free(text, TRUE);
+}
+
 static char *vary_value(const SbVary *vary, double value) {
   char digits[SB_NUMBER_SIZE];
   return vary->id == SB_VARY_VARIABLE ? g_strdup(sb_number_round(digits, value, 6))
@@ -575,6 +591,7 @@ static void draw_pages(SbReportPages *pages, const void *of) {
   if (is_drawn(study)) {
     draw_statistics(pages, study);
   }
+  draw_warnings(pages, study);
   draw_varied(pages, study);
   if (is_drawn(study) && file->method != SB_METHOD_GRID) {
     draw_histograms(pages, study);

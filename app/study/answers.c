@@ -59,17 +59,15 @@ static bool has_override(const SbQuestions *asked, size_t k, double value) {
   return (int)asked->parameter[k] >= 0 && !isnan(value);
 }
 
-// The codes of the warnings of an answer, each once, in their order; NULL without any.
-static char *codes_of(const SbSummary *summary) {
+char *sb_warning_codes(const SbWarnings *warnings, const char *separator) {
   GString *text = g_string_new(NULL);
-  for (size_t i = 0; summary != NULL && i < summary->warnings.count; i++) {
-    const char *code = summary->warnings.item[i].code;
-    bool seen = false;
-    for (size_t k = 0; k < i; k++) {
-      seen = seen || strcmp(summary->warnings.item[k].code, code) == 0;
+  for (size_t i = 0; warnings != NULL && i < warnings->count; i++) {
+    size_t first = 0;
+    while (strcmp(warnings->item[first].code, warnings->item[i].code) != 0) {
+      first++;
     }
-    if (!seen) {
-      g_string_append_printf(text, "%s%s", text->len > 0 ? ";" : "", code);
+    if (first == i) {
+      g_string_append_printf(text, "%s%s", text->len > 0 ? separator : "", warnings->item[i].code);
     }
   }
   return g_string_free(text, text->len == 0);
@@ -101,7 +99,8 @@ SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestion
   }
   out->status = status;
   out->reason = NULL;
-  out->warnings = codes_of(sb_evaluator_summary(evaluator));
+  const SbSummary *summary = sb_evaluator_summary(evaluator);
+  out->warnings = summary != NULL ? sb_warning_codes(&summary->warnings, ";") : NULL;
   if (status != SB_OK) {
     const bool unnamed =
         report.parameter[0] != '\0' && strstr(report.text, report.parameter) == NULL;

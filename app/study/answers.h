@@ -57,6 +57,10 @@ typedef struct {
 // Owned; the same in every process.
 SbEvaluator *sb_answer_start(const SbQuestions *asked);
 
+// The codes of warnings, each once, in their order; NULL without any. Owned by the caller:
+// g_free().
+char *sb_warning_codes(const SbWarnings *warnings, const char *separator);
+
 // Answers one sample into out->value[figures], which the caller has set, and fills the other
 // members; the strings are owned by the caller.
 SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestions *asked,

@@ -453,6 +453,10 @@ static bool compare_curves(SbCalibration *out, Work *work, const SbInference *fo
     if (!run_at(work, curve, &curve->beside, NULL, to->value, to->values)) {
       return false;
     }
+    if (out->warnings == NULL) {
+      out->warnings = g_new0(SbWarnings, 1);
+    }
+    sb_warnings_merge(out->warnings, &sb_run_summary(curve->beside)->warnings);
     to->offset =
         curve->zero != SIZE_MAX ? found->z[curve->zero] * curve->measured->no_load_deviation : 0;
     to->noise = found->sigma[c];
@@ -629,5 +633,6 @@ void sb_calibration_release(SbCalibration *out) {
   g_free(out->correlation);
   g_free(out->sample);
   g_free(out->sentence);
+  g_free(out->warnings);
   *out = (SbCalibration){0};
 }

@@ -69,6 +69,7 @@ typedef struct {
   double chi2;      // mean square over the noise between neighbouring rows, per degree of freedom
   double check_rms; // of a tangent's curves from solved ones at samples [N]; NaN: not asked
   char *sentence;   // what these data cannot tell
+  SbWarnings *warnings; // of validity, of the runs at the fit; NULL without any run
 } SbCalibration;
 
 // Fits and samples; *out is to be released in any case. False with issues: of the files, or of

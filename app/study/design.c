@@ -558,37 +558,13 @@ void sb_design_release(SbDesign *design) {
   *design = (SbDesign){0};
 }
 
-static void add_word(GString *text, const char *format, ...) G_GNUC_PRINTF(2, 3);
-
-static void add_word(GString *text, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  g_string_append(text, text->len > 0 ? ", " : "");
-  g_string_append_vprintf(text, format, arguments);
-  va_end(arguments);
-}
-
 char *sb_design_bounds(const SbDesign *design, const SbStudyFile *study) {
   GString *text = g_string_new(NULL);
   for (guint k = 0; k < study->vary->len; k++) {
     if (design->bound_active[k] != 0) {
-      add_word(text, "%s (%s)", sb_param(g_array_index(study->vary, SbVary, k).id)->key,
-               design->bound_active[k] < 0 ? "lower" : "upper");
-    }
-  }
-  return g_string_free(text, text->len == 0);
-}
-
-char *sb_design_codes(const SbDesign *design) {
-  GString *text = g_string_new(NULL);
-  for (size_t i = 0; design->warnings != NULL && i < design->warnings->count; i++) {
-    const char *code = design->warnings->item[i].code;
-    size_t before = 0;
-    while (strcmp(design->warnings->item[before].code, code) != 0) {
-      before++;
-    }
-    if (before == i) {
-      add_word(text, "%s", code);
+      g_string_append_printf(text, "%s%s (%s)", text->len > 0 ? ", " : "",
+                             sb_param(g_array_index(study->vary, SbVary, k).id)->key,
+                             design->bound_active[k] < 0 ? "lower" : "upper");
     }
   }
   return g_string_free(text, text->len == 0);

@@ -43,9 +43,5 @@ void sb_design_release(SbDesign *design);
 // any. Owned by the caller: g_free().
 char *sb_design_bounds(const SbDesign *design, const SbStudyFile *study);
 
-// The codes of the warnings, each once, ", " between; NULL without any. Owned by the caller:
-// g_free().
-char *sb_design_codes(const SbDesign *design);
-
 // How far a figure is within its limit, negative beyond it; NaN: no value.
 double sb_design_margin(const SbDesign *design, const SbStudyFile *study, size_t limit);

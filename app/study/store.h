@@ -102,6 +102,7 @@ char *sb_store_row_name(const SbStoreRow *row);
 // What is wrong with a store.
 typedef struct {
   guint64 rows, damaged; // `rows` that can be read
+  guint64 unnamed;       // sound rows whose list of names is damaged
   char *first;           // name of the first damaged row and its damage, NULL without any
   char *structure;       // damage that keeps further rows from being read; NULL: none
 } SbStoreHealth;

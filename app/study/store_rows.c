@@ -160,6 +160,7 @@ char *sb_store_row_name(const SbStoreRow *row) {
 static bool see_health(void *data, const SbStoreRow *row) {
   SbStoreHealth *health = data;
   health->rows++;
+  health->unnamed += row->damage == NULL && row->list == NULL;
   if (row->damage != NULL) {
     health->damaged++;
     if (health->first == NULL) {

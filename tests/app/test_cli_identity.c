@@ -114,15 +114,22 @@ static void test_json(void) {
   g_unlink(store);
 }
 
-// PNG, SVG and PDF name the engine and the commit.
+// PNG, SVG, PDF and MP4 name the engine and the commit.
 static void test_pictures(void) {
-  static const char *const names[] = {"a.png", "a.svg", "a.pdf"};
+  static const char *const names[] = {"a.png", "a.svg", "a.pdf", "a.mp4"};
+  CliResult features = CLI("--version");
+  const size_t count = strstr(features.out, "MP4") != NULL ? 4 : 3;
+  cli_clear(&features);
   const SbEngineIdentity *engine = sb_engine_identity();
   g_autofree char *folder = g_path_get_dirname(cli.scene);
   g_autofree char *quick = g_build_filename(folder, "quick-look.scene", NULL);
-  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+  for (size_t i = 0; i < count; i++) {
     g_autofree char *path = path_of(names[i]);
-    CliResult result = CLI("render", quick, "-o", path, "--view", "hysteresis", "-q");
+    const char *const arguments[] = {
+        "render", quick,        "-o", path,
+        "--view", "hysteresis", "-q", i == 3 ? "--duration=0.1s" : NULL,
+        NULL};
+    CliResult result = cli_run(arguments, NULL, NULL);
     g_assert_cmpint(result.code, ==, 0);
     char *bytes = NULL;
     gsize size = 0;

@@ -204,7 +204,8 @@ static void test_calibrate(void) {
   JsonNode *root = cli_parse(result.out);
   cli_has_keys(root, "converged samples residual_rms_N chi2_reduced parameters correlation.keys "
                      "correlation.matrix.3 stages.B.measured_N stages.F.model_N cannot_tell "
-                     "curves.0.measured.recognised posterior.model");
+                     "curves.0.measured.recognised posterior.model engine.source warnings.0.code "
+                     "bounds_active");
   static const Made made[] = {{"friction.load_coefficient", 0.174},
                               {"friction.static_ratio", 1.14},
                               {"bore.land_edge", 3.42e-3},

@@ -125,6 +125,31 @@ static void test_damage(void) {
   g_unlink(study);
 }
 
+// Names of figures that are damaged: reported by check, and written again by the study.
+static void test_names(void) {
+  g_autofree char *study = write_study(), *store = path_of("x.store");
+  g_autofree char *expected = csv_of(study, 0, NULL);
+  char *bytes = NULL;
+  gsize length = 0;
+  g_assert_true(g_file_get_contents(store, &bytes, &length, NULL));
+  char *at = memmem(bytes, length, "seals.outer.load_N", 18);
+  g_assert_nonnull(at);
+  at[6] ^= 1;
+  g_assert_true(g_file_set_contents(store, bytes, (gssize)length, NULL));
+  CliResult result = CLI("store", "check", store);
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "of 3 sound rows are damaged"));
+  cli_clear(&result);
+  g_autofree char *again = csv_of(study, 0, NULL);
+  g_assert_cmpstr(again, ==, expected);
+  result = CLI("store", "check", store, "-q");
+  g_assert_cmpint(result.code, ==, 0);
+  cli_clear(&result);
+  g_free(bytes);
+  g_unlink(store);
+  g_unlink(study);
+}
+
 static void test_refused(void) {
   g_autofree char *study = write_study(), *store = path_of("x.store");
   static const char *const names[] = {":memory:", "-"};
@@ -250,6 +275,7 @@ int main(int argc, char **argv) {
   cli_set_up();
   g_test_add_func("/cli-store/warnings", test_warnings);
   g_test_add_func("/cli-store/damage", test_damage);
+  g_test_add_func("/cli-store/names", test_names);
   g_test_add_func("/cli-store/refused", test_refused);
   g_test_add_func("/cli-store/installed", test_installed);
   g_test_add_func("/cli-store/header", test_header);

@@ -31,7 +31,11 @@ static void on_quit(GSimpleAction *action, GVariant *parameter, gpointer data) {
 
 static void on_about(GSimpleAction *action, GVariant *parameter, gpointer data) {
   GtkWindow *parent = gtk_application_get_active_window(data);
-  gtk_show_about_dialog(parent, "program-name", "Sealbench", "version", sb_version(), "comments",
+  const SbEngineIdentity *engine = sb_engine_identity();
+  g_autofree char *version = g_strdup_printf("%s (engine %.12s%s%.12s)", engine->version,
+                                             engine->source, engine->commit != NULL ? ", " : "",
+                                             engine->commit != NULL ? engine->commit : "");
+  gtk_show_about_dialog(parent, "program-name", "Sealbench", "version", version, "comments",
                         _("Workbench for the seals of inhaler valves: fitment, film, friction, "
                           "leakage and motion."),
                         "license-type", GTK_LICENSE_GPL_3_0, "logo-icon-name",

@@ -270,7 +270,7 @@ static char *marked_text(const SbDesignAnswer *answer) {
   g_string_append(text, sentence);
   if (answer->searched && found->found) {
     g_autofree char *bounds = sb_design_bounds(found, answer->study);
-    g_autofree char *codes = sb_design_codes(found);
+    g_autofree char *codes = sb_warning_codes(found->warnings, ", ");
     if (bounds != NULL) {
       g_string_append_c(text, ' ');
       g_string_append_printf(text, _("On a bound of the search: %s."), bounds);
