@@ -50,6 +50,7 @@ static void start(SbBench *bench, const char *path, const char *name, const SbRe
     return;
   }
   const SbDocument *document = sb_session_document(bench->session);
+  const char *from = sb_document_path(document); // results state the full path
   const SbFrame *frame = sb_session_frame(bench->session);
   char time[G_ASCII_DTOSTR_BUF_SIZE];
   g_ascii_dtostr(time, sizeof time, frame != NULL ? frame->time : 0);
@@ -70,7 +71,7 @@ static void start(SbBench *bench, const char *path, const char *name, const SbRe
                       : NULL,
       .stale = sb_session_stale_text(bench->session),
       .drive_speed = sb_session_drive_speed(bench->session),
-      .file = g_strdup(sb_document_path(document)),
+      .file = from != NULL ? g_canonicalize_filename(from, NULL) : NULL,
       .document =
           sb_session_is_modified(bench->session) ? sb_document_to_text(document, NULL) : NULL,
   };

@@ -105,8 +105,9 @@ def computed(*settings):
     for setting in settings:
         command += ['--set', setting]
     cycle = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)['cycle']
-    return {'C': f"{cycle['stages']['C']['force_N']:.1f}",
-            'B break-away': f"{cycle['force_breakaway_N']:.1f}"}
+    # Four digits, as the figures of a closed form have.
+    return {'C': f"{cycle['stages']['C']['force_N']:#.4g}",
+            'B break-away': f"{cycle['force_breakaway_N']:#.4g}"}
 
 
 def row(screen, label):
