@@ -3,26 +3,40 @@
 
 #include "app/export/json.h"
 
-// One object a figure, with a member a parameter: its derivative, or why there is none.
-static void write_cells(SbJson *json, const SbGradient *gradient, bool reasons) {
-  sb_json_object(json, reasons ? "reasons" : "gradients");
+typedef enum { GRADIENTS, ERRORS, REASONS } Block;
+
+static void write_cell(SbJson *json, const SbGradient *gradient, Block block, size_t f, size_t p) {
+  const char *key = sb_param(sb_gradient_parameter(gradient, p))->key;
+  if (block == REASONS) {
+    sb_json_string(json, key, sb_gradient_reason(gradient, f, p));
+  } else {
+    sb_json_number(json, key,
+                   block == ERRORS ? sb_gradient_error(gradient, f, p)
+                                   : sb_gradient_slope(gradient, f, p));
+  }
+}
+
+// Writes one object for each figure with one member for each parameter: the derivative, its
+// absolute error, or the reason where there is no derivative. Figures without reasons are left out
+// of the reasons.
+static void write_cells(SbJson *json, const SbGradient *gradient, Block block) {
+  static const char *const names[] = {"gradients", "errors", "reasons"};
+  sb_json_object(json, names[block]);
   for (size_t f = 0; f < sb_gradient_figures(gradient); f++) {
-    bool begun = !reasons;
+    const char *path = sb_figure(sb_gradient_figure(gradient, f))->path;
+    bool begun = block != REASONS;
     if (begun) {
-      sb_json_object(json, sb_figure(sb_gradient_figure(gradient, f))->path);
+      sb_json_object(json, path);
     }
     for (size_t p = 0; p < sb_gradient_parameters(gradient); p++) {
-      const char *key = sb_param(sb_gradient_parameter(gradient, p))->key;
-      const char *reason = sb_gradient_reason(gradient, f, p);
-      if (!reasons) {
-        sb_json_number(json, key, sb_gradient_slope(gradient, f, p));
-      } else if (reason != NULL) {
-        if (!begun) {
-          sb_json_object(json, sb_figure(sb_gradient_figure(gradient, f))->path);
-          begun = true;
-        }
-        sb_json_string(json, key, reason);
+      if (block == REASONS && sb_gradient_reason(gradient, f, p) == NULL) {
+        continue;
       }
+      if (!begun) {
+        sb_json_object(json, path);
+        begun = true;
+      }
+      write_cell(json, gradient, block, f, p);
     }
     if (begun) {
       sb_json_object_end(json);
@@ -41,8 +55,9 @@ char *sb_sensitivity_json(const SbGradient *gradient, const char *scene) {
                    sb_gradient_value(gradient, f));
   }
   sb_json_object_end(&json);
-  write_cells(&json, gradient, false);
-  write_cells(&json, gradient, true);
+  write_cells(&json, gradient, GRADIENTS);
+  write_cells(&json, gradient, ERRORS);
+  write_cells(&json, gradient, REASONS);
   sb_json_object_end(&json);
   return sb_json_finish(&json);
 }

@@ -15,64 +15,41 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Points of a level: above and below its base at whole and half steps; where only one side is there
-// (h has its sign) h, h/2, h/4 in their places.
 enum { PLUS, MINUS, PLUS_HALF, MINUS_HALF, POINTS };
 enum { HALF = MINUS, QUARTER = PLUS_HALF };
+_Static_assert((int)POINTS == (int)SB_GRADIENT_POINTS, "other points");
+enum {
+  FIRST = SB_GRADIENT_FIRST,
+  SMALLEST = SB_GRADIENT_SMALLEST,
+  LARGE = SB_GRADIENT_LARGE,
+  RINGS = SB_GRADIENT_RINGS,
+  LEVELS = SB_GRADIENT_LEVELS
+};
 
-// Steps: the first, two smaller ones for what is not smooth, a larger one for what rounding hides.
-// Those of rings beside the base's, whose mesh shows in the figures' curvature soon: one, and a
-// larger one for what the films' rounding hides.
-enum { FIRST, SMALL, SMALLEST, LARGE, RINGS, RINGS_LARGE, LEVELS };
-// Of the parameter's scale.
+typedef SbGradientLevel Level;
+typedef SbGradientWork Work;
+
+// Steps as parts of the parameter's scale.
 static const double parts[LEVELS] = {1e-3, 6e-5, 4e-6, 1.6e-2, 8e-6, 1.3e-4};
 
-typedef struct {
-  bool asked, one_sided;
-  bool pair; // no half steps were asked: the outer ones are enough
-  double h;  // [SI]; one-sided: of the side's sign
-  // Of each seal's rings' active sets over the step, the mean of both sides, last the larger
-  // [1/SI].
-  double fault[SB_SEAL_COUNT + 1];
-} Level;
-
-typedef struct {
-  SbGradient *out;
-  SbEvaluator *evaluator; // keeps the base's contacts, or those to first order
-  SbEvaluator *other;     // answers where they are others, owned
-  SbQuestion question;    // with one more override than asked, that of the parameter
-  SbOverride *override;
-  double *own_value;  // of the figures by `evaluator` [figures]
-  double *base_value; // of the figures while this parameter is moved [figures]
-  double *size;       // of what each figure is the sum of, to which rounding goes [figures]
-  double *value;      // [LEVELS][POINTS][figures]
-  Level level[LEVELS];
-  bool *open; // figures whose derivative is still sought [figures]
-  SbGradientOutcome outcome;
-  double *ring_value;           // of the figures with the base's rings to first order [figures]
-  const SbEvaluator *own_start; // of `evaluator`; NULL: it has solved its own
-  SbEvaluator *start;           // beside whose rings all others are, owned; NULL: there are none
-  bool rings;                   // this parameter enters rings
-  bool refused;                 // the last question, by the parameters alone
-  double fault[SB_SEAL_COUNT];  // of the last answer's rings
-  SbGradientContacts contacts, moved, up; // of the base's rings to first order, of the last
-                                          // answer's, at a step up
-  double tolerance;                       // that films are solved to
-  double order;                   // of the rings' recovered pressures (SbSummary.ring_order)
-  char changed[SB_GRADIENT_TEXT]; // what another outcome at a smallest step was, or empty
-  SbReport report;                // of the last question that was refused or failed
-} Work;
-
-static double *value_of(const Work *work, int level, int point) {
+double *sb_gradient_values(const Work *work, int level, int point) {
   return work->value + (size_t)(level * POINTS + point) * work->out->figures;
 }
 
-static bool ends(SbStatus status) {
+static double *value_of(const Work *work, int level, int point) {
+  return sb_gradient_values(work, level, point);
+}
+
+bool sb_gradient_ends(SbStatus status) {
   return status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY;
 }
 
+static bool ends(SbStatus status) {
+  return sb_gradient_ends(status);
+}
+
 // Figures with the parameter at x; NaN where there are none.
-static SbStatus ask(Work *work, double *value, double x, bool tell) {
+SbStatus sb_gradient_ask(Work *work, double *value, double x, bool tell) {
   work->override[work->question.override_count - 1].value = x;
   SbReport report;
   const bool own = sb_evaluator_has_solved(work->evaluator, &work->question);
@@ -99,6 +76,10 @@ static SbStatus ask(Work *work, double *value, double x, bool tell) {
   return status;
 }
 
+static SbStatus ask(Work *work, double *value, double x, bool tell) {
+  return sb_gradient_ask(work, value, x, tell);
+}
+
 // ---- One figure
 
 typedef enum { SMOOTH, ROUGH, MISSING } Kind;
@@ -116,6 +97,10 @@ typedef struct {
 // contacts' ends are found to that.
 static const double ROUNDING = 4e-14, RINGS_ROUNDING = 1e-10;
 
+// Change of a figure, relative to its size, below which a slope is rounding: twice ROUNDING over
+// the first step.
+static const double NIL = 8e-11;
+
 // Share of a slope by which those towards both sides may differ for the outer pair of points to be
 // enough: what that leaves out is of the order of this share's square. Or what they differ by is
 // this part of the figure where the parameter changes by itself.
@@ -124,22 +109,6 @@ static const double PAIR = 3e-2, LITTLE = 3e-3;
 // By how much more than the forces that violate a ring's active set its figures change once that
 // is renewed (measured: 1.3 in the middle, more than 3 only where it is below 2e-3 of the slope).
 static const double RESPONSE = 3;
-
-// What slopes of rings scatter by between meshes: this part of what load, width and peak of the
-// contacts change by, relative, of a load; of a film, which hangs on the pressure at the contact's
-// end; and of all else (measured on solved rings 1 to 4 % to either side: 0.06, 0.06, 0.12 at
-// most). A film on a contact with few nodes for each polynomial of its pressure scatters more
-// (measured: 0.72 with 7, none with 12).
-static const double SCATTER_LOAD = 0.08, SCATTER_FILM = 0.13, SCATTER = 0.13;
-static const double SCATTER_ROUGH = 0.8, ORDER_MOST = 0.1, MANY = 16;
-// And where contacts hardly move, rings of two meshes some per cent of a parameter apart differ, as
-// part of a figure for a change by the parameter itself (measured: 2.7e-3 at most), and films by
-// what they are solved to, so many times the tolerance (measured: 56 at most).
-static const double FLOOR = 4e-3, FLOOR_FILM = 80;
-
-// A slope that is less than its error is none, unless both are small: what the figure changes by as
-// the parameter does by itself is known to this part of it.
-static const double KNOWN = 1;
 
 static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
   const Level *level = &work->level[at];
@@ -380,80 +349,29 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
   }
 }
 
-// Whether a figure is of a film by its line in the table of figures: what a solved film is told to
-// be out by, or what leaks.
-static bool is_of_film(const SbFigure *row) {
-  const bool shelf = row->needs == SB_DEPTH_SIZES;
-  return (row->verdict == SB_VERDICT_LEAK && !shelf) || strcmp(row->estimate, "film") == 0;
-}
-
-// Share of what a seal's contact changes by that slopes of a figure scatter by.
-static double scatter_of(const SbFigure *row, double order) {
-  if (strcmp(row->estimate, "load") == 0) {
-    return SCATTER_LOAD;
-  }
-  return !is_of_film(row) ? SCATTER : order > ORDER_MOST ? SCATTER_ROUGH : SCATTER_FILM;
-}
-
-// Whether a seal's contact, which was to stay, did, for all that it moves otherwise: where the
-// base's films have not converged nothing but the whole state is to be had.
-static bool stayed(const Work *work, int seal) {
-  const size_t size = sizeof work->up.size[seal];
-  return memcmp(work->moved.size[seal], work->up.size[seal], size) != 0 ||
-         memcmp(work->up.size[seal], work->contacts.size[seal], size) == 0;
-}
-
-// Adds to the errors what a ring's slopes scatter between meshes, by what its contacts change.
-static SbStatus add_scatter(Work *work, size_t parameter, double x, double scale) {
-  SbGradient *out = work->out;
-  double h = 0, moved[SB_SEAL_COUNT] = {0}, most = 0;
-  int level = RINGS;
-  for (; level < LEVELS && h == 0; level += h == 0) {
-    h = work->level[level].asked ? work->level[level].h : 0;
-  }
-  if (h == 0) {
-    return SB_OK;
-  }
-  const double *value = value_of(work, level, PLUS);
-  for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    for (int way = 0; way < SB_GRADIENT_WAYS; way++) {
-      double sum = 0;
-      for (int k = 0; k < SB_GRADIENT_SIZES; k++) {
-        const double by =
-            fabs(work->up.size[i][way][k] / work->contacts.size[i][way][k] - 1) / fabs(h);
-        sum += isfinite(by) ? by : 0;
-      }
-      moved[i] = fmax(moved[i], sum);
-    }
-    most = fmax(most, moved[i]);
-  }
-  double *held = value_of(work, FIRST, 0);
-  work->question.rings = SB_RINGS_STAY;
-  SbStatus status = ask(work, held, x + h, false);
-  work->question.rings = SB_RINGS_FOLLOW;
-  const bool stay[SB_SEAL_COUNT + 1] = {stayed(work, 0), stayed(work, 1),
-                                        stayed(work, 0) && stayed(work, 1)};
-  for (size_t i = 0; i < out->figures; i++) {
-    const size_t cell = i * out->parameters + parameter;
-    const SbFigure *row = sb_figure(out->figure[i]);
-    const double by = row->seal < SB_SEAL_COUNT ? moved[row->seal] : most;
-    const double share = scatter_of(row, work->order) * by / (1 + by * scale / MANY) +
-                         (FLOOR + (is_of_film(row) ? FLOOR_FILM * work->tolerance : 0)) / scale;
-    // What does not hang on the rings scatters with none.
-    const bool hangs = stay[row->seal] ? value[i] != held[i] : out->slope[cell] != 0;
-    out->error[cell] += hangs ? share * work->size[i] : 0;
-    const double error = out->error[cell];
-    if (error > fabs(out->slope[cell]) && error * scale > KNOWN * work->size[i]) {
-      refuse(work, parameter, i, "not known: what the rings' meshes leave open is more than it is");
-    }
-  }
-  return status;
-}
-
 // Whether a parameter enters rings.
 static bool enters_rings(Work *work, double x, double scale) {
   work->override[work->question.override_count - 1].value = x + parts[RINGS] * scale;
   return work->start != NULL && !sb_evaluator_has_solved(work->evaluator, &work->question);
+}
+
+// The acceptance test of every slope, which all users of slopes share: a slope that is smaller than
+// its error is not known. It is 0 where the figure changes by less than the rounding of what it is
+// the sum of, NIL, as the parameter changes by its own value.
+static void accept(Work *work, size_t parameter, double scale) {
+  SbGradient *out = work->out;
+  for (size_t i = 0; i < out->figures; i++) {
+    const size_t cell = i * out->parameters + parameter;
+    const double slope = fabs(out->slope[cell]);
+    if (!(slope < out->error[cell])) {
+      continue;
+    }
+    if (slope * scale <= NIL * work->size[i]) {
+      set(work, parameter, i, 0, 0);
+    } else {
+      refuse(work, parameter, i, SB_GRADIENT_UNCERTAIN);
+    }
+  }
 }
 
 // Features of a groove that it may do without: where it does, rings have no slope by them that is
@@ -508,8 +426,9 @@ static SbStatus differentiate(Work *work, size_t parameter) {
       settle(work, parameter, i);
     }
   }
-  SbStatus scatter = work->rings ? add_scatter(work, parameter, x, scale) : SB_OK;
-  return ends(scatter) ? scatter : SB_OK;
+  SbStatus status = work->rings ? sb_gradient_check_rings(work, parameter, x, scale) : SB_OK;
+  accept(work, parameter, scale);
+  return ends(status) ? status : SB_OK;
 }
 
 // ---- All
@@ -522,8 +441,9 @@ static SbStatus set_up(Work *work, const SbQuestion *question) {
   work->size = calloc(n + 1, sizeof *work->size);
   work->value = calloc((n + 1) * LEVELS * POINTS, sizeof *work->value);
   work->open = calloc(n + 1, sizeof *work->open);
+  work->follows = calloc(n + 1, sizeof *work->follows);
   if (work->override == NULL || work->base_value == NULL || work->own_value == NULL ||
-      work->size == NULL || work->value == NULL || work->open == NULL) {
+      work->size == NULL || work->value == NULL || work->open == NULL || work->follows == NULL) {
     return SB_ERROR_MEMORY;
   }
   work->ring_value = work->own_value + n;
@@ -539,7 +459,8 @@ static SbStatus set_up(Work *work, const SbQuestion *question) {
   return SB_OK;
 }
 
-// Solves the base's rings, for all others to be beside.
+// Solves the base's rings, from which all others are found to first order, unless the question
+// brings them.
 static SbStatus find_start(Work *work, const SbQuestion *question, SbReport *report) {
   SbQuestion base = *question;
   SbModel *model;
@@ -550,9 +471,18 @@ static SbStatus find_start(Work *work, const SbQuestion *question, SbReport *rep
   if (status != SB_OK || !rings) {
     return status;
   }
-  status = sb_evaluator_create(&work->start, report);
+  if (question->start != NULL) {
+    work->start = question->start;
+    for (size_t i = 0; i < question->figure_count; i++) {
+      work->out->value[i] = sb_figure_value(sb_evaluator_summary(work->start), question->figure[i]);
+    }
+    return SB_OK;
+  }
+  status = sb_evaluator_create(&work->own_rings, report);
+  work->start = work->own_rings;
   base.keep = true;
-  return status == SB_OK ? sb_evaluator_ask(work->out->value, work->start, &base, report) : status;
+  return status == SB_OK ? sb_evaluator_ask(work->out->value, work->own_rings, &base, report)
+                         : status;
 }
 
 // The base's own answer, what it is with its rings to first order, and the parameters' values
@@ -632,10 +562,11 @@ SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQu
   free(work.size);
   free(work.value);
   free(work.open);
+  free(work.follows);
   // The caller's evaluator must not stand on what ends here.
   sb_evaluator_forget(evaluator);
   sb_evaluator_destroy(work.other);
-  sb_evaluator_destroy(work.start);
+  sb_evaluator_destroy(work.own_rings);
   if (well) {
     *out = work.out;
   } else {

@@ -7,32 +7,30 @@
 // changed, and the rounding that the step magnifies.
 //
 // Solved rings are the base's to first order in all that is changed (SbQuestion.tangent): two
-// back-substitutions each with the active set held, on a mesh that follows the contacts
-// (ring_ends.c), films beside the base's on their meshes (ehl_beside.c), both kept as slopes to the
-// few numbers that they are given, so that parameters share them (sliding_beside.c); friction and
-// motion computed after them as ever, in steps of 8e-6 of the parameter. What is differentiated so
-// is the figure that the run reports along the active set of its base: contact and slip, the wetted
-// faces, the order of the curve that recovers the pressure. Those are kinks of the discrete
-// contact, one at each node, not of the figure, so they give no reason for having no derivative.
-// What they do to it is told in the error: three times the forces that violate the base's set
-// beside it, over the step (ring_contact.h), in smooth grooves 0, with friction on floor and walls
-// usually per cents: there the nodes that slide in the base stick as soon as a change leads them
-// back. Nodes that stick keep their place on floor and walls; a ring that pressure or gland.start
-// laid on its wall goes with it, and where friction dragged it there the error has what the floor's
-// friction could change by on a longer way. Differences of solved rings 2 % to
-// either side, each on a mesh of its own, are 1 to 3 % away where the base's pressure is a smooth
-// curve, and more where a strong drag folds it up at one end, films first: the error has a share of
-// what load, width and peak change by, a small one of loads, three quarters for films. A slope that
-// is less than such an error is not told. A ring that rolls or jams at the base has no tangent, and
-// its figures no derivative by what enters it. Parameters that do not enter the contacts
-// (sb_evaluator_has_solved()) ask none again, whatever the models.
+// back-substitutions each with the active set fixed, on a mesh that follows the contacts
+// (ring_ends.c), films linearised about the base's on their meshes (ehl_beside.c). Both are stored
+// as slopes to the few numbers that they are given, so that parameters share them
+// (sliding_beside.c); friction and motion are computed after them as in a run, in steps of 8e-6 of
+// the parameter. The fixed set is contact and slip, the wetted faces, the places where the ring
+// sticks to floor and walls, and the order of the curve that recovers the pressure. The error has
+// three times the forces that violate the base's set in the perturbed state, over the step
+// (ring_contact.h), and the scatter of slopes between meshes (gradient_rings.c). A full solve at
+// another value of each such parameter then measures what the fixed set leaves out: a slope that
+// disagrees with it is replaced by the difference of the full solves, with that one's error
+// (gradient_rings.c; sb_gradient_is_solved()). The ring's friction on floor and walls depends on
+// its history: there the difference from the slope to first order is tens of per cent. A ring that
+// rolls or jams at the base has no tangent, and its figures have no derivative by what enters it.
+// Parameters that do not enter the contacts (sb_evaluator_has_solved()) solve no ring, whatever the
+// models.
 //
-// A figure that has the same bits on both sides does not depend on the parameter: its derivative is
-// an exact 0, of error 0. It has none (NaN, with a reason) where the figure itself has no value,
-// where the differences from both sides disagree at the smallest step as well (a kink), where they
-// grow as the step shrinks (a jump: an event, a stage or an outcome appears or goes), and where no
-// step has values on either side, and where a ring's slope is less than its error. A yes or no that
-// jumps nowhere has the derivative 0.
+// One acceptance test holds for every slope, and whoever uses slopes uses it: a slope that is
+// smaller than its error is not known (reason "uncertain"). A figure that has the same bits on both
+// sides does not depend on the parameter: its derivative is an exact 0, of error 0, and so is that
+// of a figure which changes by no more than the rounding of what it is the sum of. It has none
+// (NaN, with a reason) where the figure itself has no value, where the differences from both sides
+// disagree at the smallest step as well (a kink), where they grow as the step shrinks (a jump: an
+// event, a stage or an outcome appears or goes), and where no step has values on either side. A yes
+// or no that jumps nowhere has the derivative 0.
 //
 // A parameter is moved as an override moves it: what follows from it (a seal's own size from that
 // of both, a fluid's properties from its temperature) moves with it; one that a choice or another
@@ -47,7 +45,9 @@ typedef struct SbGradient SbGradient;
 
 // Derivatives of the question's figures by `count` parameters, all real. On SB_OK *out is owned by
 // the caller; it copies what it needs of the question. Each thread needs an evaluator of its own,
-// which is left without a last question. SB_ERROR_INPUT: a parameter is not real; else as
+// which is left without a last question. `start` of the question, borrowed: an evaluator that has
+// answered the same question with `keep`, whose rings are then the base's; NULL: they are solved.
+// SB_ERROR_INPUT: a parameter is not real; else as
 // sb_evaluator_ask(), SB_ERROR_NOT_CONVERGED with *out, whose figures have values, others NaN; *out
 // is NULL otherwise. Progress: `done` of `count` parameters, on this thread; may be NULL.
 typedef void (*SbGradientProgress)(void *data, size_t done, size_t count);
@@ -75,6 +75,9 @@ double sb_gradient_error(const SbGradient *gradient, size_t figure, size_t param
 
 // Why a figure has no derivative by a parameter; NULL where it has one. Borrowed.
 const char *sb_gradient_reason(const SbGradient *gradient, size_t figure, size_t parameter);
+
+// Whether the derivative is a difference of full solves (gradient_rings.c).
+bool sb_gradient_is_solved(const SbGradient *gradient, size_t figure, size_t parameter);
 
 // Figures with other values of some of its parameters, the last of a parameter counts, by their
 // tangents: value[figure] in SI, first order in every change, microseconds. NaN where the figure

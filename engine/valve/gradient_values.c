@@ -13,6 +13,7 @@ void sb_gradient_destroy(SbGradient *gradient) {
     free(gradient->slope);
     free(gradient->error);
     free(gradient->why);
+    free(gradient->solved);
     free(gradient);
   }
 }
@@ -52,6 +53,10 @@ double sb_gradient_error(const SbGradient *gradient, size_t figure, size_t param
 const char *sb_gradient_reason(const SbGradient *gradient, size_t figure, size_t parameter) {
   const unsigned char number = gradient->why[figure * gradient->parameters + parameter];
   return number > 0 ? gradient->text[number - 1] : NULL;
+}
+
+bool sb_gradient_is_solved(const SbGradient *gradient, size_t figure, size_t parameter) {
+  return gradient->solved[figure * gradient->parameters + parameter];
 }
 
 bool sb_gradient_wants(SbParamId id) {
@@ -112,8 +117,9 @@ SbGradient *sb_gradient_make(const SbQuestion *question, const SbParamId *parame
   out->slope = calloc(cells + 1, sizeof *out->slope);
   out->error = calloc(cells + 1, sizeof *out->error);
   out->why = calloc(cells + 1, sizeof *out->why);
+  out->solved = calloc(cells + 1, sizeof *out->solved);
   if (out->figure == NULL || out->parameter == NULL || out->at == NULL || out->value == NULL ||
-      out->slope == NULL || out->error == NULL || out->why == NULL) {
+      out->slope == NULL || out->error == NULL || out->why == NULL || out->solved == NULL) {
     sb_gradient_destroy(out);
     return NULL;
   }

@@ -248,13 +248,19 @@ static void test_sensitivity(void) {
   g_autoptr(JsonNode) root = cli_parse(result.out);
   const JsonNode *first = cli_at(root, "0");
   g_assert_cmpuint(json_array_get_length(json_node_get_array(root)), ==, 2);
-  cli_has_keys((JsonNode *)first, "figures gradients reasons");
+  cli_has_keys((JsonNode *)first, "figures gradients errors reasons");
   JsonObject *object = json_node_get_object((JsonNode *)first);
   JsonObject *gradients = json_object_get_object_member(object, "gradients");
   JsonObject *by = json_object_get_object_member(gradients, "cycle.force_breakaway_N");
   g_assert_cmpfloat(json_object_get_double_member(by, "gland.radial_space"), <, -1e4);
   g_assert_cmpfloat(json_object_get_double_member(by, "bore.entry_length"), ==, 0);
   g_assert_true(json_object_get_null_member(by, "fluid.ethanol"));
+  JsonObject *errors = json_object_get_object_member(object, "errors");
+  JsonObject *of = json_object_get_object_member(errors, "cycle.force_breakaway_N");
+  g_assert_cmpfloat(json_object_get_double_member(of, "gland.radial_space"), >, 0);
+  g_assert_cmpfloat(json_object_get_double_member(of, "gland.radial_space"), <, 1);
+  g_assert_cmpfloat(json_object_get_double_member(of, "bore.entry_length"), ==, 0);
+  g_assert_true(json_object_get_null_member(of, "fluid.ethanol"));
   JsonObject *reasons = json_object_get_object_member(object, "reasons");
   g_assert_nonnull(strstr(
       json_object_get_string_member(

@@ -225,6 +225,32 @@ static void test_zeros(void) {
   clear(&valve);
 }
 
+// Energy that a cycle leaves stored is rounding where the cycle ends where it began: its slopes are
+// exactly 0, by parameters that move all of its terms as well. No slope is smaller than its error.
+static void test_noise(void) {
+  static const SbParamId parameter[] = {SB_P_SEAL_MODULUS, SB_P_SEAL_INNER_DIAMETER,
+                                        SB_P_FLUID_VISCOSITY, SB_P_DRIVE_STIFFNESS,
+                                        SB_P_GLAND_RADIAL_SPACE};
+  enum { PARAMETERS = G_N_ELEMENTS(parameter) };
+  Valve valve;
+  set_up(&valve, NULL, 0);
+  valve.figure[0] = sb_figure_find("cycle.energy.stored_J");
+  valve.figure[1] = sb_figure_find("cycle.energy_closure");
+  SbGradient *gradient = gradient_of(&valve, parameter, PARAMETERS);
+  for (size_t k = 0; k < PARAMETERS; k++) {
+    g_assert_cmpfloat(sb_gradient_slope(gradient, 0, k), ==, 0);
+    g_assert_cmpfloat(sb_gradient_error(gradient, 0, k), ==, 0);
+    for (size_t i = 0; i < FIGURES; i++) {
+      const double slope = sb_gradient_slope(gradient, i, k);
+      const double error = sb_gradient_error(gradient, i, k);
+      g_assert_true((isnan(slope) && isnan(error)) || error <= fabs(slope));
+      g_assert_true(isnan(slope) == (sb_gradient_reason(gradient, i, k) != NULL));
+    }
+  }
+  sb_gradient_destroy(gradient);
+  clear(&valve);
+}
+
 // At the speed at which the chamber just fills its share bends: no derivative, and why; one beside
 // it. A parameter that the models do not take has none either.
 static void test_kink(void) {
@@ -486,8 +512,11 @@ static void hold_rings(const SbOverride *change, size_t changes) {
       g_assert_cmpmem(&value[i], sizeof value[i], &(double){sb_gradient_value(gradient, i)},
                       sizeof value[i]);
       if (sb_gradient_reason(gradient, i, k) != NULL) {
-        g_assert_nonnull(strstr(sb_gradient_reason(gradient, i, k), "not known"));
+        g_assert_cmpstr(sb_gradient_reason(gradient, i, k), ==, "uncertain");
         continue;
+      }
+      if (sb_gradient_is_solved(gradient, i, k)) {
+        continue; // of rings with their own history, not of these, which start from the base's
       }
       g_test_message("%s by %s: %.6g, error %.2g; solved %.6g", paths[i],
                      sb_param(parameter[k])->key, slope, error, solved);
@@ -550,7 +579,8 @@ static void hold_slopes(Count *count, const Valve *valve, const SbGradient *grad
     const double least = OWN * fabs(sb_gradient_value(gradient, i) / x);
     const double rounding = ROUNDING * unit + (fabs(solved) < ROUNDING * unit ? least : 0);
     const bool sets = same[sb_figure(valve->figure[i])->seal];
-    if (!isfinite(is) || (is == 0 && solved == 0)) {
+    // What is a difference of full solves is not the tangent.
+    if (!isfinite(is) || (is == 0 && solved == 0) || sb_gradient_is_solved(gradient, i, k)) {
       continue;
     }
     const bool well = off <= (sets ? CLOSE * fabs(solved) + rounding
@@ -564,12 +594,13 @@ static void hold_slopes(Count *count, const Valve *valve, const SbGradient *grad
   }
 }
 
-// The same against whole runs, each on meshes of its own, whose figures scatter about smooth curves
-// by up to 0.25 % (ring_near.c): so far apart that what a contact changes by is many times that. A
-// slope of zero leaves that scatter alone; hold_slopes() holds it on the base's meshes.
+// The same against full runs, each from its own cold start, whose figures scatter about smooth
+// curves by up to 0.36 % but for films (gradient_rings.c): so far apart that what a contact changes
+// by is many times that. A slope of zero leaves that scatter alone; hold_slopes() holds it on the
+// base's meshes.
 static void hold_runs(Count *count, const Valve *valve, const SbGradient *gradient, size_t k,
-                      const double *value, const SbEvaluator *start, double tolerance) {
-  static const double LEAST = 2e-2, MOST = 0.3, MOVES = 0.03, SCATTER = 2.5e-3;
+                      const double *value, double tolerance) {
+  static const double LEAST = 2e-2, MOST = 0.3, MOVES = 0.03, SCATTER = 3.6e-3;
   const double x = sb_gradient_at(gradient, k);
   const SbParamId id = sb_gradient_parameter(gradient, k);
   double moves = 0, up[FIGURES], down[FIGURES];
@@ -578,7 +609,7 @@ static void hold_runs(Count *count, const Valve *valve, const SbGradient *gradie
     moves = fmax(moves, isfinite(by) ? by : 0);
   }
   const double H = fmin(MOST, fmax(LEAST, MOVES / moves)), h = H * fabs(x);
-  if (!solved_at(up, valve, start, id, x + h) || !solved_at(down, valve, start, id, x - h)) {
+  if (!run_at(up, valve, id, x + h) || !run_at(down, valve, id, x - h)) {
     return;
   }
   for (size_t i = 0; i < FIGURES; i++) {
@@ -625,12 +656,12 @@ static size_t compare_rings(const Valve *valve, const SbParamId *parameter, size
       g_assert_true(isfinite(is) == (why == NULL));
       count.compared++;
       count.none += why != NULL;
-      count.unknown += why != NULL && strstr(why, "not known") != NULL;
+      count.unknown += g_strcmp0(why, "uncertain") == 0;
       count.moved += why == NULL && is != 0;
       moves = moves || is != 0;
     }
     if (!again) {
-      hold_runs(&count, valve, gradient, k, value, start, tolerance);
+      hold_runs(&count, valve, gradient, k, value, tolerance);
     }
     if (!again && (moves || whole)) {
       hold_slopes(&count, valve, gradient, k, beside, start);
@@ -693,6 +724,102 @@ static void test_ring_draws(void) {
   g_assert_true(held > 0 || !g_test_slow());
 }
 
+// Slope of the logarithm of a figure by that of a parameter, fitted to full runs, and its
+// deviation.
+typedef struct {
+  double slope, deviation;
+} Fit;
+
+static void fit_runs(Fit *fit, const Valve *valve, SbParamId id, double x, double low,
+                     double high) {
+  enum { RUNS = 5 };
+  double value[RUNS][FIGURES], at[RUNS], mean = 0, square = 0;
+  for (size_t r = 0; r < RUNS; r++) {
+    const double part = 1 + low + (high - low) * (double)r / (RUNS - 1);
+    g_assert_true(run_at(value[r], valve, id, part * x));
+    at[r] = log(part);
+    mean += at[r] / RUNS;
+  }
+  for (size_t r = 0; r < RUNS; r++) {
+    square += (at[r] - mean) * (at[r] - mean);
+  }
+  for (size_t i = 0; i < FIGURES; i++) {
+    double level = 0, slope = 0, rest = 0;
+    for (size_t r = 0; r < RUNS; r++) {
+      level += log(fabs(value[r][i])) / RUNS;
+      slope += (at[r] - mean) * log(fabs(value[r][i])) / square;
+    }
+    for (size_t r = 0; r < RUNS; r++) {
+      rest += pow(log(fabs(value[r][i])) - level - slope * (at[r] - mean), 2);
+    }
+    fit[i] = (Fit){slope, sqrt(rest / (RUNS - 2) / square)};
+  }
+}
+
+// Slopes through rings whose friction on floor and walls has a history, against fits over full
+// runs: a slope is withheld, or within its error of the fit, which is known to two of its
+// deviations. The ranges are those of the fits that found the slopes to first order outside their
+// errors (inner load by modulus 0.37 for 0.60). Loads are known: their slopes are large next to
+// what runs scatter.
+static void test_fits(void) {
+  static const SbOverride change[] = {{SB_P_MODELS_SET, SB_MODEL_SET_CONSISTENT}};
+  static const char *const needs[FIGURES] = {"seals.inner.load_N",
+                                             "seals.outer.load_N",
+                                             "seals.inner.friction_boundary_N",
+                                             "seals.outer.friction_boundary_N",
+                                             "seals.outer.contact.in_stroke.real_area_share",
+                                             "seals.outer.film_min_m",
+                                             "cycle.force_breakaway_N",
+                                             "seals.inner.contact_width_m",
+                                             "seals.inner.pressure_peak_Pa",
+                                             "cycle.energy_loss_J"};
+  static const struct {
+    SbParamId id;
+    double low, high;
+  } parameter[] = {{SB_P_SEAL_MODULUS, -0.03, 0.03},
+                   {SB_P_FRICTION_SHEAR_STRENGTH, -0.2, 0.02},
+                   {SB_P_SEAL_INNER_DIAMETER, -0.03, 0.03},
+                   {SB_P_GLAND_RADIAL_SPACE, -0.02, 0.02}};
+  const size_t count = whole ? G_N_ELEMENTS(parameter) : 2;
+  SbParamId id[G_N_ELEMENTS(parameter)];
+  Valve valve;
+  if (!g_test_slow()) {
+    return;
+  }
+  set_up(&valve, change, G_N_ELEMENTS(change));
+  for (size_t i = 0; i < FIGURES; i++) {
+    valve.figure[i] = sb_figure_find(needs[i]);
+    g_assert_cmpint(valve.figure[i], >=, 0);
+  }
+  for (size_t k = 0; k < count; k++) {
+    id[k] = parameter[k].id;
+  }
+  SbGradient *gradient = gradient_of(&valve, id, count);
+  for (size_t k = 0; k < count; k++) {
+    Fit fit[FIGURES];
+    const double x = sb_gradient_at(gradient, k);
+    fit_runs(fit, &valve, id[k], x, parameter[k].low, parameter[k].high);
+    for (size_t i = 0; i < FIGURES; i++) {
+      const double unit = sb_gradient_value(gradient, i) / x;
+      const double is = sb_gradient_slope(gradient, i, k) / unit;
+      const double error = sb_gradient_error(gradient, i, k) / fabs(unit);
+      const char *why = sb_gradient_reason(gradient, i, k);
+      g_test_message("%s by %s: %.3f +- %.3f, full runs %.3f +- %.3f %s", needs[i],
+                     sb_param(id[k])->key, is, error, fit[i].slope, fit[i].deviation,
+                     why != NULL ? why : "");
+      if (why != NULL) {
+        g_assert_cmpstr(why, ==, "uncertain");
+        g_assert_cmpuint(i, >=, 2); // the loads
+        continue;
+      }
+      g_assert_cmpfloat(error, <=, fabs(is));
+      g_assert_cmpfloat(fabs(is - fit[i].slope), <=, error + 2 * fit[i].deviation);
+    }
+  }
+  sb_gradient_destroy(gradient);
+  clear(&valve);
+}
+
 // A ring that rolls has no tangent: no derivative by what enters it, and why; what the sizes alone
 // tell has one.
 static void test_rolls(void) {
@@ -728,6 +855,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/gradient/closed-forms", test_closed_forms);
   g_test_add_func("/gradient/disc", test_disc);
   g_test_add_func("/gradient/zeros", test_zeros);
+  g_test_add_func("/gradient/noise", test_noise);
   g_test_add_func("/gradient/kink", test_kink);
   g_test_add_func("/gradient/predict", test_predict);
   g_test_add_func("/gradient/refused", test_refused);
@@ -736,6 +864,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/gradient/films", test_films);
   g_test_add_func("/gradient/rings", test_rings);
   g_test_add_func("/gradient/ring-draws", test_ring_draws);
+  g_test_add_func("/gradient/fits", test_fits);
   g_test_add_func("/gradient/rolls", test_rolls);
   return g_test_run();
 }
