@@ -52,6 +52,7 @@ void sb_displayed_run_unref(SbDisplayedRun *shown) {
   g_free(shown->date);
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     sb_tangent_free(shown->tangent[id]);
+    sb_gradient_destroy(shown->gradient[id]);
   }
   sb_displayed_run_unref(shown->level);
   GThread *thread = sb_run_capacity(shown->run) > LARGE

@@ -5,6 +5,7 @@
 
 #include "app/chart/data.h"
 #include "app/run/runner.h"
+#include "engine/valve/gradient.h"
 
 #include <glib.h>
 
@@ -34,6 +35,10 @@ struct SbDisplayedRun {
   // at all; the run of no change that they are found with, owned.
   SbTangent *tangent[SB_PARAM_COUNT];
   bool sought[SB_PARAM_COUNT];
+  // Derivatives of all its figures by one parameter each, with the engine's acceptance test; NULL:
+  // not known so far. Owned. Whether they were computed.
+  SbGradient *gradient[SB_PARAM_COUNT];
+  bool differentiated[SB_PARAM_COUNT];
   SbDisplayedRun *level;
 };
 

@@ -10,8 +10,10 @@
 static const double REACH = 0.1;
 
 typedef struct {
-  const SbTangent *tangent; // of the base
-  double by;                // [SI]
+  int id;                     // of the parameter
+  const SbTangent *tangent;   // of the base
+  const SbGradient *gradient; // of the base's figures by the parameter alone; NULL: not known
+  double by;                  // [SI]
 } Change;
 
 struct SbPrediction {
@@ -63,7 +65,8 @@ static bool find_changes(SbPrediction *prediction, const SbDisplayedRun *base,
     if (base->tangent[id] == NULL || !(fabs(by) <= REACH * fabs(from))) {
       return false;
     }
-    prediction->change[prediction->changes++] = (Change){base->tangent[id], by};
+    prediction->change[prediction->changes++] =
+        (Change){id, base->tangent[id], base->gradient[id], by};
   }
   return prediction->changes > 0;
 }
@@ -86,18 +89,29 @@ static void make_loop(SbPrediction *prediction) {
   prediction->chart.loop = (SbChartCurve){count, displacement, force};
 }
 
+// Adds what a figure changes by; it has no value where one of the slopes is not accepted.
+static void add_figure(SbSummary *summary, const Change *change, int f) {
+  double *value = (double *)(void *)((char *)summary + sb_figure(f)->offset);
+  const SbGradient *gradient = change->gradient;
+  const char *key = sb_param((SbParamId)change->id)->key;
+  if (isnan(*value)) {
+    return; // the base has none, or a change before this one
+  }
+  *value += gradient != NULL ? change->by * sb_gradient_slope(gradient, (size_t)f, 0) : NAN;
+  if (isnan(*value)) {
+    summary->reasons.of[f] = 0; // of the base, which has the figure
+    const char *why = gradient != NULL ? sb_gradient_reason(gradient, (size_t)f, 0) : NULL;
+    sb_reason(summary, sb_figure(f)->path, "not predicted: its slope by %s is not known (%s)", key,
+              why != NULL ? why : "not computed yet");
+  }
+}
+
 static void make_figures(SbPrediction *prediction, const SbModel *model) {
   SbSummary *summary = &prediction->summary;
   *summary = *sb_run_summary(prediction->base->run);
   for (int f = 0; f < SB_FIGURE_COUNT; f++) {
-    double *value = (double *)(void *)((char *)summary + sb_figure(f)->offset);
     for (size_t k = 0; k < prediction->changes; k++) {
-      const Change *change = &prediction->change[k];
-      *value += change->by * sb_tangent_figure(change->tangent, f);
-      const char *why = sb_tangent_reason(change->tangent, f);
-      if (why != NULL) {
-        sb_reason(summary, sb_figure(f)->path, "%s", why);
-      }
+      add_figure(summary, &prediction->change[k], f);
     }
   }
   sb_figures_of_model(summary, model);

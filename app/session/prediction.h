@@ -3,11 +3,13 @@
 //
 //   s(p) = s_0 + sum_i (p_i - p_i0) ds/dp_i
 //
+// Figures have the derivatives of `sealbench sensitivity` (gradient.h), with their acceptance test.
 // Microseconds for each parameter; nothing is solved. Not predicted is anything where a changed
 // value has no slopes (it is no real number, or they are not there yet), or lies further from the
-// base than a tenth of itself; a figure without a slope is NaN and tells why. What follows from the
-// sizes alone is computed at the new values, and so is the verdict, from the predicted figures.
-// Blind to what happens between: slips, nodes of the contact and events that come and go.
+// base than a tenth of itself; a figure without an accepted slope is NaN with the reason. What
+// follows from the sizes alone is computed at the new values, and so is the verdict, from the
+// predicted figures. Blind to what happens between: slips, nodes of the contact and events that
+// come and go.
 #pragma once
 
 #include "app/session/tangent.h"

@@ -9,6 +9,7 @@
 #include "app/session/prediction.h"
 #include "app/session/run_cache.h"
 #include "app/session/session.h"
+#include "app/session/slope_job.h"
 #include "app/session/tangent.h"
 
 typedef enum {
@@ -63,6 +64,7 @@ struct _SbSession {
   SbParams slope_params;    // its values
   SbDisplayedRun *slope_up; // that to the one side, while the other is under way; NULL: none
   bool slope_down;          // the other side is what is under way
+  SbSlopeJob *slope_job;    // derivatives of the base's figures, owned; NULL: none so far
   int slope_first;          // parameter that is edited: the first whose slopes are found; -1: none
 
   // Kept designs, one a pin of the document.

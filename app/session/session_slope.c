@@ -3,7 +3,8 @@
 // background, on a thread of its own: first those of the parameter that is edited and of what
 // differs from the base, at any time but while a single edit is solved; then, while no other run is
 // wanted and nothing plays, those of all main parameters. Each takes two runs whose rings are the
-// base's to first order.
+// base's to first order. Figures have the engine's derivatives (slope_job.h), which follow in the
+// same order while no run is wanted: they take full solves.
 #include "app/session/session_private.h"
 
 #include <math.h>
@@ -44,6 +45,7 @@ static void cancel(SbSession *session) {
 
 void sb_session_drop_base(SbSession *session) {
   cancel(session);
+  g_clear_pointer(&session->slope_job, sb_slope_job_free);
   session->predicted = FALSE; // it is of that base
   session->chart.predicted = NULL;
   sb_session_hold(&session->base, NULL);
@@ -69,6 +71,11 @@ static bool is_soon_there(const SbSession *session) {
   return session->lone && session->edited != 0 && (near || session->debounce != 0);
 }
 
+static bool is_idle(const SbSession *session) {
+  return session->ticket == 0 && session->debounce == 0 && session->later == 0 &&
+         !session->playhead.playing;
+}
+
 // The parameter whose slopes are to be found now; SB_SLOPE_NONE: none.
 static int next_wanted(SbSession *session) {
   if (session->base == NULL || is_soon_there(session)) {
@@ -84,8 +91,7 @@ static int next_wanted(SbSession *session) {
     }
   }
   const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
-  const bool idle = session->ticket == 0 && session->debounce == 0 && session->later == 0 &&
-                    !session->playhead.playing;
+  const bool idle = is_idle(session);
   for (int id = 0; idle && id < SB_PARAM_COUNT; id++) {
     if (sb_param_is_main((SbParamId)id, kind) && is_wanted(session, id)) {
       return id;
@@ -174,7 +180,56 @@ static void take(SbSession *session, SbDisplayedRun *run) {
   }
 }
 
-void sb_session_find_slopes(SbSession *session) {
+// ---- Derivatives of the figures
+
+static bool is_to_differentiate(const SbSession *session, int id) {
+  return session->base->tangent[id] != NULL && !session->base->differentiated[id];
+}
+
+// The parameter by which the base's figures are to be differentiated next; SB_SLOPE_NONE: none.
+static int next_to_differentiate(const SbSession *session) {
+  if (session->base == NULL || !is_idle(session)) {
+    return SB_SLOPE_NONE;
+  }
+  if (session->slope_first >= 0 && is_to_differentiate(session, session->slope_first)) {
+    return session->slope_first;
+  }
+  int id = 0;
+  while (id < SB_PARAM_COUNT && !is_to_differentiate(session, id)) {
+    id++;
+  }
+  return id < SB_PARAM_COUNT ? id : SB_SLOPE_NONE;
+}
+
+static void differentiate(SbSession *session);
+
+static void on_differentiated(void *data) {
+  SbSession *session = data;
+  SbParamId id;
+  SbGradient *gradient = sb_slope_job_take(session->slope_job, &id);
+  session->base->gradient[id] = gradient;
+  session->base->differentiated[id] = true;
+  const SbParams params = sb_document_params(session->document);
+  if (session->predicted && sb_prediction_differs(&session->base->params, &params, (int)id)) {
+    sb_session_predict(session);
+    sb_session_emit(session, SB_SIGNAL_FRAMES);
+  }
+  differentiate(session);
+}
+
+static void differentiate(SbSession *session) {
+  const int id = next_to_differentiate(session);
+  if (id == SB_SLOPE_NONE ||
+      (session->slope_job != NULL && sb_slope_job_is_busy(session->slope_job))) {
+    return;
+  }
+  if (session->slope_job == NULL) {
+    session->slope_job = sb_slope_job_new(sb_run_model(session->base->run));
+  }
+  sb_slope_job_start(session->slope_job, (SbParamId)id, on_differentiated, session);
+}
+
+static void find_tangents(SbSession *session) {
   for (;;) {
     const int wanted = next_wanted(session);
     const bool other = session->slope_id != wanted && session->slope_id != SB_SLOPE_LEVEL;
@@ -192,6 +247,11 @@ void sb_session_find_slopes(SbSession *session) {
     session->slope_id = id;
     take(session, NULL);
   }
+}
+
+void sb_session_find_slopes(SbSession *session) {
+  find_tangents(session);
+  differentiate(session);
 }
 
 void sb_session_prepare(SbSession *session, SbParamId id) {

@@ -1,14 +1,8 @@
-// Differences of runs, frame by frame and figure by figure. See the header.
+// Differences of runs, frame by frame. See the header.
 #include "app/session/tangent.h"
-
-#include "engine/valve/figures.h"
 
 #include <math.h>
 #include <string.h>
-
-// Slopes to both sides that differ by more than this share are none; but for what the solvers leave
-// in a value, relative.
-static const double BENT = 1.0 / 3, ROUNDING = 1e-9;
 
 // Frames of a run that are worth their slopes: 3 MB a parameter.
 enum { FRAMES_MOST = 20000 };
@@ -32,14 +26,10 @@ typedef struct {
   float *slope; // [ARRAYS][count], owned; NULL: none
 } Profile;
 
-typedef enum { KNOWN, NOT_SOLVED, ONE_SIDE, KINK } Why;
-
 struct SbTangent {
   size_t frames, profiles;
   float *frame;     // [frames][FIELDS]
   Profile *profile; // [profiles]
-  double figure[SB_FIGURE_COUNT];
-  unsigned char why[SB_FIGURE_COUNT];
 };
 
 static void get_fields(double *out, const SbFrame *frame) {
@@ -163,25 +153,6 @@ static void take_profile(Profile *out, const SbDisplayedRun *base, uint32_t inde
   }
 }
 
-static void take_figure(SbTangent *out, int figure, const SbSummary *base, const double side[2],
-                        double level, double width, bool both) {
-  double slope = (side[0] - side[1]) / width;
-  Why why = KNOWN;
-  if (isnan(sb_figure_value(base, figure))) {
-    why = NOT_SOLVED;
-  } else if (isnan(slope) || isnan(level)) {
-    why = ONE_SIDE;
-  } else if (sb_figure(figure)->digits == 0) {
-    why = side[0] == side[1] && side[0] == level ? KNOWN : KINK;
-  } else if (both) {
-    const double most = fmax(fabs(side[0] - level), fabs(side[1] - level));
-    const double bend = fabs(side[0] - 2 * level + side[1]);
-    why = bend > BENT * most + ROUNDING * fabs(level) ? KINK : KNOWN;
-  }
-  out->figure[figure] = why == KNOWN ? slope : NAN;
-  out->why[figure] = (unsigned char)why;
-}
-
 SbTangent *sb_tangent_new(const SbDisplayedRun *base, const SbTangentRuns *runs, SbParamId id) {
   const SbDisplayedRun *const side[2] = {runs->up != NULL ? runs->up : runs->level,
                                          runs->down != NULL ? runs->down : runs->level};
@@ -229,14 +200,6 @@ SbTangent *sb_tangent_new(const SbDisplayedRun *base, const SbTangentRuns *runs,
       }
     }
   }
-
-  const SbSummary *summary[2] = {sb_run_summary(side[0]->run), sb_run_summary(side[1]->run)};
-  const SbSummary *level = sb_run_summary(runs->level->run);
-  for (int f = 0; f < SB_FIGURE_COUNT; f++) {
-    const double value[2] = {sb_figure_value(summary[0], f), sb_figure_value(summary[1], f)};
-    take_figure(out, f, sb_run_summary(base->run), value, sb_figure_value(level, f), width,
-                runs->up != NULL && runs->down != NULL);
-  }
   return out;
 }
 
@@ -249,18 +212,6 @@ void sb_tangent_free(SbTangent *tangent) {
     g_free(tangent->frame);
     g_free(tangent);
   }
-}
-
-double sb_tangent_figure(const SbTangent *tangent, int figure) {
-  return tangent->figure[figure];
-}
-
-const char *sb_tangent_reason(const SbTangent *tangent, int figure) {
-  static const char *const reasons[] = {
-      [ONE_SIDE] = "not predicted: known on one side of the last solved run only",
-      [KINK] = "not predicted: its slopes to both sides of the last solved run differ (a kink)"};
-  const Why why = tangent->why[figure];
-  return why == ONE_SIDE || why == KINK ? reasons[why] : NULL;
 }
 
 void sb_tangent_add_frame(SbFrame *out, const SbTangent *tangent, size_t frame, double by) {

@@ -1,5 +1,6 @@
-// Slopes of a solved run, the base, by one real parameter: of its frames, its contacts' profiles
-// and its figures, for predictions (prediction.h).
+// Slopes of a solved run, the base, by one real parameter: of its frames and its contacts'
+// profiles, for pictures of predictions (prediction.h). Slopes of figures are the engine's
+// (gradient.h).
 //
 //   ds/dp = (s(p0 + h) - s(p0 - h))/2h
 //
@@ -9,10 +10,8 @@
 // where the contact is in the same state, point by point; films by their logarithms. h is a
 // ten-thousandth of the value.
 //
-// A figure has none where it is known on one side only, or where the slopes to both sides differ by
-// more than a third (a kink); loop and profiles have the mean of both there. A yes or no that both
-// sides share has the slope 0. Nothing has one where events come or go between the sides, or where
-// frames are more than are worth keeping.
+// Loop and profiles have the mean of both sides at a kink. Nothing has a slope where events come or
+// go between the sides, or where frames are more than are worth storing.
 #pragma once
 
 #include "app/session/displayed_run.h"
@@ -29,10 +28,6 @@ typedef struct {
 // NULL where there is none. All runs are complete and only read. Owned by the caller.
 SbTangent *sb_tangent_new(const SbDisplayedRun *base, const SbTangentRuns *runs, SbParamId id);
 void sb_tangent_free(SbTangent *tangent); // takes NULL
-
-// Slope of a figure, per SI unit of the parameter; NaN: none, and then why (static, else NULL).
-double sb_tangent_figure(const SbTangent *tangent, int figure);
-const char *sb_tangent_reason(const SbTangent *tangent, int figure);
 
 // Adds the change of a frame of the base, `by` of the parameter [SI]. Displacement and force alone
 // for a loop.
