@@ -1,6 +1,7 @@
 // The swap page; propellants.h says what it shows. Between the temperatures of the study values lie
 // on straight lines, as the curves are drawn.
 #include "app/base/label.h"
+#include "app/base/translation.h"
 #include "app/chart/axis.h"
 #include "app/chart/propellants_private.h"
 #include "engine/fluid/fluid.h"
@@ -452,12 +453,24 @@ static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbS
 // ---------------------------------------------------------------------------------------------------
 // The whole
 
-static void draw_foot(SbCanvas *c, SbRect r, const SbStudy *study) {
+char *sb_propellants_modulus(const SbModel *model, double T) {
+  SbModulusChange modulus;
+  char number[SB_FORMAT_MAX], degrees[SB_FORMAT_MAX];
+  sb_model_modulus(&modulus, model, T);
+  const double change = 100 * (modulus.factor - 1);
+  return g_strdup_printf(_("%s%s %% at %s °C against 20 °C (%s)"), change > 0 ? "+" : "",
+                         sb_format_fixed(number, change, 1), sb_propellants_degrees(degrees, T),
+                         sb_translation(modulus.tag));
+}
+
+static void draw_foot(SbCanvas *c, SbRect r, const SbStudy *study, const SbModel *model, double T) {
   const SbTextStyle plain = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
   const SbTextStyle bold = sb_canvas_style(c, SB_TYPE_NOTE, 700, SB_ROLE_SECOND);
   const SbTextStyle warn = sb_canvas_style(c, SB_TYPE_NOTE, 700, SB_ROLE_WARN);
+  g_autofree char *modulus = sb_propellants_modulus(model, T);
   const char *const texts[][2] = {
       {_("Pressure"), _("saturated at the canister's temperature")},
+      {_("Modulus"), modulus},
       {_("Friction"), study->models},
       {_("Left out"), _("swell by another propellant, cooling as it boils")}};
   const double y = r.y + 20;
@@ -489,6 +502,6 @@ void sb_propellants_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
       sb_propellants_card(&canvas, &layout, study, model, look, k);
     }
   }
-  draw_foot(&canvas, layout.foot, study);
+  draw_foot(&canvas, layout.foot, study, model, look->temperature);
   sb_canvas_finish(&canvas);
 }

@@ -224,5 +224,7 @@ char *sb_propellants_text(const SbStudy *study, const SbModel *model,
       g_string_append_printf(out, "%s: %s; %s.\n", sb_propellants_name(k), answer, range);
     }
   }
+  g_autofree char *modulus = sb_propellants_modulus(model, look->temperature);
+  g_string_append_printf(out, "%s: %s.\n", _("Modulus"), modulus);
   return g_string_free(out, FALSE);
 }

@@ -32,6 +32,9 @@ SbRole sb_propellants_role(SbPropellantsAnswer answer);
 const char *sb_propellants_force(char *out, double force);
 const char *sb_propellants_degrees(char *out, double T);
 
+// The modulus at T [K] against that at 20 degC, and the tag of where this comes from (g_free).
+char *sb_propellants_modulus(const SbModel *model, double T);
+
 // A stretch of a propellant's line.
 void sb_propellants_sample(SbCanvas *c, int k, double x, double y, double width);
 

@@ -91,6 +91,7 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
       {"canister.temperature", "the temperature of use [K]", in->use_temperature, SB_ABOVE_ZERO},
       {"rubber.glass_temperature", "the glass temperature [K]", r->glass_temperature, 0.0,
        SB_SIZES_TEMPERATURE},
+      {"rubber.modulus_slope", "the slope of the modulus [1/K]", r->modulus_slope, -5e-3, 5e-3},
       {"rubber.network_rate", "the network's rate [1/s]", r->network_rate, 0.0, INFINITY},
       {"rubber.network_rate", "the reformed share", r->network_reform, 0.0, 1.0},
       {"rubber.swell_mass", "swell by mass", r->swell_mass, SB_NOT_NEGATIVE},
@@ -136,6 +137,21 @@ static double glassy(const SbRubber *r, double temperature) {
              ? GLASS /
                    (1.0 + pow(HELD / AT_GLASS * pow(10.0, 17.44 * above / (51.6 + above)), SHAPE))
              : 0.0;
+}
+
+// The rubber's own modulus at a temperature of use over that at 20 degC, without the glass
+// transition.
+static double rubbery(const SbRubber *r, double temperature) {
+  return r->entropic ? temperature / SB_SIZES_TEMPERATURE
+                     : 1.0 + r->modulus_slope * (temperature - SB_SIZES_TEMPERATURE);
+}
+
+double sb_rubber_stiffening(const SbRubber *r, double modulus, double temperature) {
+  if (!(r->glass_temperature > 0.0)) {
+    return rubbery(r, temperature);
+  }
+  return (modulus * rubbery(r, temperature) + glassy(r, temperature)) /
+         (modulus + glassy(r, SB_SIZES_TEMPERATURE));
 }
 
 static double arrhenius(double energy, double temperature, double reference) {
@@ -207,13 +223,15 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
 
   // Temperature of use.
   const double use = storage->use_temperature, warmer = use - SB_SIZES_TEMPERATURE;
-  const double entropy = r->entropic ? use / SB_SIZES_TEMPERATURE : 1.0, glass = glassy(r, use);
-  out->stiffening = entropy;
-  if (r->glass_temperature > 0.0) {
-    out->stiffening =
-        (storage->modulus * entropy + glass) / (storage->modulus + glassy(r, SB_SIZES_TEMPERATURE));
+  out->stiffening = sb_rubber_stiffening(r, storage->modulus, use);
+  if (!r->entropic && r->modulus_slope != 0.0 &&
+      (use < fmin(r->slope_from, SB_SIZES_TEMPERATURE) ||
+       use > fmax(r->slope_to, SB_SIZES_TEMPERATURE))) {
+    sb_warn(warnings, "modulus-extrapolated", "rubber.modulus_slope",
+            "%.4g °C is outside %.4g to %.4g °C, where the slope of the modulus was measured",
+            use - 273.15, r->slope_from - 273.15, r->slope_to - 273.15);
   }
-  if (glass > storage->modulus * entropy) {
+  if (glassy(r, use) > storage->modulus * rubbery(r, use)) {
     sb_warn(warnings, "glass-near", "canister.temperature",
             "%.3g K above its glass transition the rubber is %.2g times as stiff as at 20 °C: "
             "stiffness hangs on time there, and one modulus stands for all of it",

@@ -5,11 +5,13 @@
 //   Relaxation   E(t)/E_0 = 1 - sum g_i (1 - exp(-t/(a_T tau_i)))    Prony series, held strain
 //   Shift        log10 a_T = -C1 (T - T_r)/(C2 + T - T_r)             Williams, Landel, Ferry 1955
 //                ln a_T = (Q/R)(1/T - 1/T_r)                          Arrhenius
-//   Temperature  E ~ E_0 T/T_0 + E_g/(1 + (t/tau)^0.7), tau = 100 s a_T from the glass temperature
-//                by WLF's universal constants: entropy elasticity, and the glass transition as
-//                Cole and Cole's retardation, held for t = 10 s as in Gehman's test (ISO 1432),
-//                with E_g = 1 GPa; 0.7 lets a rubber of 2.5 MPa double its stiffness 20 K above T_g
-//                and grow it tenfold at 13 K, as Gehman curves of nitrile typically do. Sizes x (1
+//   Temperature  E ~ E_0 [1 + beta (T - T_0)] + E_g/(1 + (t/tau)^0.7), tau = 100 s a_T from the
+//                glass temperature by WLF's universal constants: a measured slope beta of filled
+//                rubber, or E_0 T/T_0, entropy elasticity, of unfilled gum (Treloar 1975); without
+//                either E_0 is constant. The glass transition as Cole and Cole's retardation, held
+//                for t = 10 s as in Gehman's test (ISO 1432), with E_g = 1 GPa; 0.7 lets a rubber
+//                of 2.5 MPa double its stiffness 20 K above T_g and grow it tenfold at 13 K, as
+//                Gehman curves of nitrile typically do. Sizes x (1
 //                + alpha (T - T_0)). Sizes and modulus are those at T_0 = 20 degC.
 //   Network      f = exp(-k t) of the original is left, k by Arrhenius (Tobolsky, two networks);
 //                the share beta of what broke forms anew, unstrained in the squeezed shape
@@ -50,9 +52,11 @@ typedef struct {
   double wlf_c1, wlf_c2;    // [-], [K]; "universal" 17.44, 51.6 K if T_r is the glass temperature
   double relaxation_energy; // Q [J/mol]
   // Temperature.
-  bool entropic;            // modulus proportional to T
-  double glass_temperature; // T_g [K], 0: none
-  double thermal_expansion; // alpha, linear [1/K]
+  bool entropic;               // modulus proportional to T, whatever modulus_slope is
+  double modulus_slope;        // beta, change of the modulus over that at T_0 [1/K]; 0: constant
+  double slope_from, slope_to; // temperatures of use between which beta was measured [K]
+  double glass_temperature;    // T_g [K], 0: none
+  double thermal_expansion;    // alpha, linear [1/K]
   // Network.
   double network_rate;   // k at T_r [1/s]
   double network_energy; // [J/mol]
@@ -94,6 +98,7 @@ typedef struct {
 
 // State after storage. SB_ERROR_RANGE for constants that make no sense (shares that sum to 1 or
 // more, a temperature at or below C2 under T_r, use below T_g, ...). Warnings:
+// "modulus-extrapolated" beyond the temperatures between which the modulus' slope was measured,
 // "relaxation-extrapolated" beyond ten times the longest relaxation time, "shift-range" more than
 // 100 K from T_r, "swell-large" above 50 % volume, "glass-near" where the glass transition has
 // doubled the modulus.
@@ -102,6 +107,10 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
 
 // M/M_inf of a round bar after the dimensionless time D t/R^2 >= 0; to 2e-7.
 double sb_rubber_uptake(double fourier);
+
+// Modulus at a temperature of use [K] divided by that at 20 degC, for a rubber whose modulus is
+// `modulus` [Pa] there. Takes no part in storage; below the glass transition it means nothing.
+double sb_rubber_stiffening(const SbRubber *rubber, double modulus, double temperature);
 
 // Set of the Prony elements alone, of the held strain, `recovery` after release from `hold` (both
 // in the same unit as `tau`): internal strains follow their own relaxation with zero stress.

@@ -630,9 +630,13 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
                         ? fmin(fmax(segment->stem0, fmin(X0, X1)), fmax(X0, X1))
                         : X1;
     double rubbed = fabs(integral(&rule, segment->stem0, segment->stem1, friction_at, &place));
+    // A stem that jumps ahead of the platen leaves it at s = X, where the force has a corner too.
+    const double leaves =
+        fmin(fmax(X0, fmin(segment->stem0, segment->stem1)), fmax(segment->stem0, segment->stem1));
     if (segment->mode == SB_CYCLE_JUMP) {
       out->seal += sign_of(place.direction) *
-                   integral(&rule, segment->stem0, segment->stem1, excess_force, &place);
+                   (integral(&rule, segment->stem0, leaves, excess_force, &place) +
+                    integral(&rule, leaves, segment->stem1, excess_force, &place));
     } else {
       out->external += integral(&rule, X0, corner, force_of_platen, &rule) +
                        integral(&rule, corner, X1, force_of_platen, &rule);
@@ -650,7 +654,9 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
     // F ds around the loop: in a jump the force falls along the spring's line, in sliding it is F_p
     // +- f.
     if (segment->mode == SB_CYCLE_JUMP) {
-      out->loop += (force0 + force1) / 2 * ds;
+      const double force = sb_cycle_force(cycle, X0, leaves);
+      out->loop += (force0 + force) / 2 * (leaves - segment->stem0) +
+                   (force + force1) / 2 * (segment->stem1 - leaves);
     } else {
       out->loop += model->pressure_force * ds + spring + rubbed;
     }

@@ -290,6 +290,20 @@ const SbValveOutlines *sb_model_outlines(const SbModel *model);
 // Geometry that is possible and hardly meant, with the key to change and the range that would do.
 void sb_model_remarks(const SbModel *model, SbProblems *out);
 
+// What the modulus does over the temperature of use: `factor` times that at 20 degC for the outer
+// seal at `temperature` [K], and where this comes from. `tag` is "given", "entropy elasticity", or
+// that of rubber.modulus_slope's default: "inferred", "typical" or "published". Strings are static
+// or the rubber's.
+typedef struct {
+  double factor;
+  const char *tag, *source;
+} SbModulusChange;
+void sb_model_modulus(SbModulusChange *out, const SbModel *model, double temperature);
+
+// Warns ("modulus-temperature") where the modulus at `temperature` is inferred to be that of 20
+// degC and measured slopes of filled rubbers would move it by more than some 3 %.
+void sb_model_warn_modulus(const SbModel *model, double temperature, SbWarnings *warnings);
+
 // Adds what the model has to say about its validity: the storage of the rings, the fluid.
 void sb_model_warn(const SbModel *model, SbWarnings *warnings);
 

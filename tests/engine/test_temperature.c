@@ -204,7 +204,7 @@ static void test_expansion(void) {
   assert_close(warm.radial_space, cold.radial_space * 1.0025, 1e-12);
   assert_close(warm.bore_diameter, cold.bore_diameter * 1.0025, 1e-12);
   assert_close(to->squeeze, 1 - 1.36 / 1.61 * 1.0025 / 1.005, 1e-12);
-  assert_close(to->modulus, 2.5e6 * (zero + 45) / (zero + 20), 1e-12);
+  g_assert_cmpfloat(to->modulus, ==, 2.5e6); // inferred: constant
   g_assert_cmpfloat(warm.stem_diameter, ==, cold.stem_diameter);
   g_assert_cmpfloat(warm.pressure_force, ==, cold.pressure_force);
   SbGland glands[2];
@@ -228,6 +228,36 @@ static void test_expansion(void) {
   }
 }
 
+// The modulus over the temperature: constant and tagged "inferred" without a measurement, with a
+// warning more than 20 K from 20 degC; by a slope that is given; by entropy elasticity on request.
+static void test_modulus(void) {
+  static const struct {
+    Setting setting;
+    double factor; // at 60 degC
+    const char *tag;
+  } rows[] = {{{-1, 0}, 1, "inferred"},
+              {{SB_P_RUBBER_MODULUS_SLOPE, -1.6e-3}, 1 - 40 * 1.6e-3, "given"},
+              {{SB_P_RUBBER_ENTROPIC, 1}, 333.15 / 293.15, "entropy elasticity"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+    static const double celsius[] = {-1, 0, 20, 40, 41, 60};
+    for (size_t k = 0; k < G_N_ELEMENTS(celsius); k++) {
+      const Setting settings[] = {rows[i].setting, {SB_P_CANISTER_TEMPERATURE, zero + celsius[k]}};
+      SbModel model;
+      SbWarnings warnings = {0};
+      SbModulusChange change;
+      compile(&model, settings, G_N_ELEMENTS(settings));
+      sb_model_warn(&model, &warnings);
+      const bool far = fabs(celsius[k] - 20) > 20;
+      g_assert_cmpint(warned(&warnings, "modulus-temperature"), ==, i == 0 && far);
+      sb_model_modulus(&change, &model, zero + 60);
+      g_assert_cmpfloat_with_epsilon(change.factor, rows[i].factor, 1e-12);
+      g_assert_cmpstr(change.tag, ==, rows[i].tag);
+      sb_model_modulus(&change, &model, model.temperature);
+      assert_close(model.seal[SB_OUTER].modulus, 2.5e6 * change.factor, 1e-12);
+    }
+  }
+}
+
 static const SbStudyRow *row_of(const SbStudy *study, const char *label, double celsius) {
   g_autofree char *name = g_strdup_printf("%s, %.0f °C", label, celsius);
   for (size_t i = 0; i < study->row_count; i++) {
@@ -245,7 +275,8 @@ static void test_parts(void) {
   enum { FORCE, BREAKAWAY, RETURN, DOSE, CHANGE, PRESSURE, FILM, RUBBER, EXPANSION };
   static const double celsius[] = {-10, 0, 20, 40, 50};
   SbModel model;
-  const Setting settings[] = {{SB_P_CANISTER_TEMPERATURE, zero + 3}}; // the scene's own is nothing
+  const Setting settings[] = {{SB_P_CANISTER_TEMPERATURE, zero + 3}, // the scene's own is nothing
+                              {SB_P_RUBBER_MODULUS_SLOPE, -1.6e-3}};
   compile(&model, settings, G_N_ELEMENTS(settings));
   SbStudy *study = g_new0(SbStudy, 1);
   g_assert_cmpint(sb_study_make(study, SB_STUDY_PROPELLANTS, &model, NULL, NULL), ==, SB_OK);
@@ -266,7 +297,7 @@ static void test_parts(void) {
       // A warmer canister pushes more; a stiffer rubber and a thicker ring have more friction.
       g_assert_cmpfloat(sign * value[PRESSURE], >, 0);
       g_assert_cmpfloat(fabs(value[FILM]), <, 1e-9);
-      g_assert_cmpfloat(sign * value[RUBBER], <, 0);
+      g_assert_cmpfloat(sign * value[RUBBER], >, 0);
       g_assert_cmpfloat(sign * value[EXPANSION], <, 0);
       const double sum = value[PRESSURE] + value[FILM] + value[RUBBER] + value[EXPANSION];
       assert_close(sum, value[CHANGE], 0.02);
@@ -380,6 +411,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/temperature/refused", test_refused);
   g_test_add_func("/temperature/below-ambient", test_below_ambient);
   g_test_add_func("/temperature/expansion", test_expansion);
+  g_test_add_func("/temperature/modulus", test_modulus);
   g_test_add_func("/temperature/parts", test_parts);
   g_test_add_func("/temperature/doses", test_doses);
   return g_test_run();

@@ -385,6 +385,18 @@ static double begins(SbStudyWork *work, int fluid, int points) {
   return NAN;
 }
 
+// Notes what the rubber's modulus does over the range, and where this comes from.
+static void note_modulus(SbStudyWork *work) {
+  SbModulusChange low, high;
+  sb_model_modulus(&low, work->scene, work->lo);
+  sb_model_modulus(&high, work->scene, work->hi);
+  sb_study_note(work->out,
+                "Modulus against 20 °C: %+.3g %% at %.0f °C, %+.3g %% at %.0f °C; %s: %s.",
+                100 * (low.factor - 1), work->lo - 273.15, 100 * (high.factor - 1),
+                work->hi - 273.15, low.tag, low.source);
+  sb_model_warn_modulus(work->scene, work->hi, &work->out->warnings);
+}
+
 static void make(SbStudyWork *work) {
   static const double table[TABLE] = {263.15, 273.15, 293.15, 313.15, 323.15};
   SbStudy *out = work->out;
@@ -436,6 +448,7 @@ static void make(SbStudyWork *work) {
   }
   sb_study_note(out, "The stem comes back from, in °C: %s.", starts);
   sb_study_note(out, "\"by\": change of the return margin from 20 °C, all else as there.");
+  note_modulus(work);
   sb_study_mark(work, model->temperature, "this scene");
   if (out->models[0] == '\0') {
     sb_text(out->models, sizeof out->models, "fit %s, film %s, a cycle at each temperature",
