@@ -17,17 +17,19 @@ import sys
 build, source, *layers = sys.argv[1:]
 # The installed header stands alone as C and as C++, with no flags at all.
 
-# How a layer is compiled: compiler, places of headers and definitions of any of its files.
+# How a layer is compiled: compiler, places of headers and definitions of the file that has most of
+# them: some files use fewer libraries than their layer.
 commands = {}
 with open(build + '/compile_commands.json', encoding='utf-8') as database:
     for entry in json.load(database):
         words = shlex.split(entry['command'])
         path = os.path.relpath(os.path.join(entry['directory'], entry['file']), source)
         layer = path.split(os.sep)[0]
-        if layer in layers and layer not in commands:
+        if layer in layers:
             first = next(i for i, word in enumerate(words) if word.startswith('-'))
-            commands[layer] = words[:first] + [
+            command = words[:first] + [
                 word for word in words if word.startswith(('-I', '-isystem', '-D', '-std', '-pthread'))]
+            commands[layer] = max(commands.get(layer, []), command, key=len)
             folder = entry['directory']
 
 
