@@ -92,14 +92,19 @@ char *sb_issue_line(const SbIssue *issue) {
 }
 
 char *sb_printable(const char *text, size_t length) {
-  enum { CHARACTERS_MAX = 300 };
+  // A message with the longest path fits. Of a longer text, which a hostile file may hold, the
+  // start and the end remain.
+  enum { BYTES_MAX = 8192, START_BYTES = 6000 };
   GString *out = g_string_new(NULL);
   const char *end = text + length;
-  int count = 0;
-  for (const char *c = text; c < end; count++) {
-    if (count == CHARACTERS_MAX) {
-      g_string_append(out, "...");
-      break;
+  for (const char *c = text; c < end;) {
+    if (length > BYTES_MAX && c - text >= START_BYTES) {
+      g_string_append(out, " … ");
+      c = end - (BYTES_MAX - START_BYTES);
+      while (c < end && ((guchar)*c & 0xc0) == 0x80) {
+        c++;
+      }
+      length = 0;
     }
     gunichar code = g_utf8_get_char_validated(c, end - c);
     if (code == (gunichar)-1 || code == (gunichar)-2 || code == 0) {

@@ -31,5 +31,6 @@ const char *sb_issue_key(const SbIssue *issue, int *group_length);
 // caller.
 char *sb_issue_line(const SbIssue *issue);
 
-// `text` with control characters and invalid UTF-8 replaced and long text cut. Owned by the caller.
+// `text` with control characters and invalid UTF-8 replaced; of a text of more than 8 KiB the start
+// and the end. Owned by the caller.
 char *sb_printable(const char *text, size_t length);

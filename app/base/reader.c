@@ -12,6 +12,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+static bool reads_pipes;
+
+void sb_reader_read_pipes(void) {
+  reads_pipes = true;
+}
+
+bool sb_reader_reads_pipes(void) {
+  return reads_pipes;
+}
+
 static void add_too_large(GPtrArray *issues, const char *shown, size_t bytes_max, double bytes) {
   const double mebibyte = 1 << 20;
   char *allowed = g_strdup_printf("at most %.0f MiB", (double)bytes_max / mebibyte);
@@ -26,11 +36,14 @@ static char *add_errno(GPtrArray *issues, const char *shown) {
 
 char *sb_reader_load_stream(size_t *length, int fd, const char *shown, size_t bytes_max,
                             GPtrArray *issues) {
-  struct stat info;
+  struct stat info = {0};
   bool file = fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
   size_t room = file && (guint64)info.st_size <= bytes_max ? (size_t)info.st_size + 2 : 4096;
   size_t count = 0;
   char *text = g_malloc(room);
+  // A named pipe without a writer would read as empty.
+  while (!file && S_ISFIFO(info.st_mode) && poll(&(struct pollfd){fd, POLLIN, 0}, 1, -1) < 0) {
+  }
   // One byte more than allowed shows that there is more.
   while (count <= bytes_max) {
     if (count + 1 == room) {
@@ -71,6 +84,8 @@ char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t
     add_errno(issues, shown);
   } else if (S_ISDIR(info.st_mode)) {
     sb_issues_add(issues, shown, 0, NULL, NULL, "is a folder, not a file");
+  } else if (reads_pipes && S_ISFIFO(info.st_mode)) {
+    text = sb_reader_load_stream(length, fd, shown, bytes_max, issues);
   } else if (!S_ISREG(info.st_mode)) {
     sb_issues_add(issues, shown, 0, NULL, NULL, "is not a regular file");
   } else if ((guint64)info.st_size > bytes_max) {
@@ -157,15 +172,15 @@ GPtrArray *sb_reader_scan(const char *text, size_t length, const char *shown, GP
       group = group_name(line);
       skip = group == NULL;
       if (skip) {
-        sb_issues_add(issues, shown, number, NULL, NULL, "\"%.60s\" is not a [group]", line);
+        sb_issues_add(issues, shown, number, NULL, NULL, "\"%s\" is not a [group]", line);
       } else if (!g_hash_table_add(seen, g_strdup_printf("[%s]", group))) {
-        sb_issues_add(issues, shown, number, NULL, NULL, "group [%.60s] appears twice", group);
+        sb_issues_add(issues, shown, number, NULL, NULL, "group [%s] appears twice", group);
       } else {
         add_entry(entries, group, NULL, NULL, number);
       }
     } else if (equal == NULL || equal == line) {
       sb_issues_add(issues, shown, number, NULL, NULL,
-                    "\"%.60s\" is not \"key = value\" (is the file cut off?)", line);
+                    "\"%s\" is not \"key = value\" (is the file cut off?)", line);
     } else if (skip) {
       // Already told.
     } else if (group == NULL) {

@@ -14,8 +14,14 @@ typedef struct {
   int line;    // from 1
 } SbEntry;
 
-// Reads a whole regular file of at most `bytes_max` bytes without ever blocking on something else.
-// NULL with one issue otherwise. Owned by the caller, with a terminating NUL beyond *length.
+// Lets this process read pipes where it reads files (`<(command)` of a shell): for programs that
+// read each file once and may wait for its writer. To be called at the start of the program.
+void sb_reader_read_pipes(void);
+bool sb_reader_reads_pipes(void);
+
+// Reads a complete regular file, or pipe where the process reads them, of at most `bytes_max` bytes
+// without ever blocking on something else. NULL with one issue otherwise. Owned by the caller, with
+// a terminating NUL beyond *length.
 char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t bytes_max,
                      GPtrArray *issues);
 

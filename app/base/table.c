@@ -4,6 +4,7 @@
 #include "app/base/table.h"
 
 #include "app/base/output.h"
+#include "app/base/reader.h"
 #include "app/base/table_private.h"
 
 #include <errno.h>
@@ -20,6 +21,8 @@ typedef struct {
   size_t head;       // of them from the start of the file, without a gap
   const char *wrong; // why the file cannot be read; NULL: it can
 } Sample;
+
+enum { PIPE_BYTES = 1 << 30 }; // largest table that is read from a pipe, into memory
 
 enum { SAMPLE_LINES = 3000, SAMPLE_BYTES = 1 << 18, SAMPLE_TAIL = 300, LINE_BYTES = 1 << 16 };
 
@@ -488,6 +491,11 @@ SbTable *sb_table_open(const char *path, const SbTableDialect *wish, GPtrArray *
   struct stat info;
   if (table->bytes.file < 0 || fstat(table->bytes.file, &info) != 0) {
     sb_issues_add(issues, path, 0, NULL, NULL, "%s", g_strerror(errno));
+  } else if (S_ISFIFO(info.st_mode) && sb_reader_reads_pipes()) {
+    size_t length = 0;
+    g_autofree char *text =
+        sb_reader_load_stream(&length, table->bytes.file, path, PIPE_BYTES, issues);
+    return text != NULL ? sb_table_parse(text, length, wish, path, issues) : NULL;
   } else if (!S_ISREG(info.st_mode)) {
     sb_issues_add(issues, path, 0, NULL, NULL, "is not a regular file");
   } else if (info.st_size == 0) {

@@ -68,14 +68,15 @@ void sb_table_rename(SbTable *table, size_t index, const char *name, const char 
 enum { SB_TABLE_ROWS_MAX = 50000000 };
 
 // Reads `count` columns of all rows: value[k][row] of column[k], clocks in seconds (from midnight
-// of the first day), NaN for an empty cell. The arrays are owned by the caller (g_free). Lines
-// between rows that are none are left out: how many, and the first one's number and text (owned by
-// the caller, NULL for none). False with one issue: no memory, too many rows, or days and months
+// of the first day), NaN for an empty cell. The arrays are owned by the caller (g_free). A row is
+// `damaged` if a cell of it cannot be read while others can, or if it holds a NUL. Other lines
+// between rows are `skipped`. Both are left out; the number and text of the first line that is left
+// out (owned by the caller, NULL for none). False with one issue: no memory, too many rows, or days and months
 // that read in two ways.
 typedef struct {
-  size_t rows, skipped;
-  int skipped_line;
-  char *skipped_text;
+  size_t rows, damaged, skipped;
+  int left_line;
+  char *left_text;
 } SbTableRows;
 bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const size_t *column,
                    size_t count, GPtrArray *issues);

@@ -60,27 +60,34 @@ bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const
     const size_t cells = sb_table_split(cell, text, length, table->dialect.separator);
     double row[SB_TABLE_COLUMNS_MAX];
     bool any = false, good = cells <= table->columns;
-    for (size_t k = 0; k < count && good; k++) {
+    size_t unreadable = 0;
+    for (size_t k = 0; k < count && cells <= table->columns; k++) {
       const size_t at = column[k];
       SbTableClock clock;
       row[k] = NAN;
       if (at >= cells || cell[at].length == 0) {
         continue;
       }
+      bool read;
       if (!table->column[at].clock) {
-        good = sb_table_number(&row[k], &cell[at], &table->dialect, NULL);
-      } else if ((good = sb_table_clock(&clock, &cell[at])) &&
+        read = sb_table_number(&row[k], &cell[at], &table->dialect, NULL);
+      } else if ((read = sb_table_clock(&clock, &cell[at])) && good &&
                  !add_days(&row[k], &days[k], &clock)) {
         wrong = "reads in two ways: the date goes on by a day or by a month, write it as "
                 "2026-02-03";
       }
-      any |= good;
+      any |= read;
+      good &= read;
+      unreadable += !read;
     }
     if (!good || !any) {
-      out->skipped += cells > 0;
-      if (out->skipped == 1 && out->skipped_text == NULL) {
-        out->skipped_line = lines.number;
-        out->skipped_text = sb_table_utf8(text, MIN(length, 60), table->dialect.encoding);
+      const bool damaged = !good && (memchr(text, '\0', length) != NULL ||
+                                     (cells == table->columns && any && unreadable == 1));
+      out->damaged += damaged;
+      out->skipped += cells > 0 && !damaged;
+      if (cells > 0 && out->left_text == NULL) {
+        out->left_line = lines.number;
+        out->left_text = sb_table_utf8(text, length, table->dialect.encoding);
       }
       continue;
     }
@@ -104,7 +111,7 @@ bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const
     for (size_t k = 0; k < count; k++) {
       g_clear_pointer(&value[k], g_free);
     }
-    g_clear_pointer(&out->skipped_text, g_free);
+    g_clear_pointer(&out->left_text, g_free);
   }
   sb_table_lines_clear(&lines);
   return wrong == NULL;

@@ -360,7 +360,7 @@ static bool fail_name(GError **error, const SbParam *param, const char *name) {
   SbNearest nearest = sb_nearest(name);
   sb_nearest_try_list(&nearest, param->choices);
   g_autofree char *hint = sb_nearest_hint(&nearest);
-  return fail(error, "\"%.60s\" is not one of the names%s", name, hint);
+  return fail(error, "\"%s\" is not one of the names%s", name, hint);
 }
 
 // Bit mask of a list "hysteresis;profiles".

@@ -103,7 +103,7 @@ static bool value_number(const Reader *reader, double *out, GError **error) {
   if (sb_number_parse(out, reader->value) && fabs(*out) < most) {
     return true;
   }
-  sb_app_error_input(error, "line %d: '%.20s' is no number here", reader->line, reader->value);
+  sb_app_error_input(error, "line %d: '%s' is no number here", reader->line, reader->value);
   return false;
 }
 

@@ -29,7 +29,7 @@ GArray *sb_profile_parse(const char *text, bool *closed, GError **error) {
     if (scale == 0) {
       g_autofree char *one = g_strdup_printf("1 %s", *word);
       if (!sb_quantity_parse(&scale, one, "m", "mm", NULL) || scale <= 0) {
-        sb_app_error_input(error, "starts with the unit of its points, not '%.20s'", *word);
+        sb_app_error_input(error, "starts with the unit of its points, not '%s'", *word);
         return NULL;
       }
       continue;

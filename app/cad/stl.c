@@ -200,7 +200,7 @@ static gboolean numbers(Text *t, double *out, const char *name, GError **error) 
     char word[SB_NUMBER_LENGTH_MAX + 1];
     gsize length = next_word(t, word, sizeof word);
     if (length >= sizeof word || !sb_number_parse(&out[k], word)) {
-      sb_app_error_input(error, "%s:%d: a number expected, not '%.40s'%s", name, t->line, word,
+      sb_app_error_input(error, "%s:%d: a number expected, not '%s'%s", name, t->line, word,
                          length >= sizeof word ? "... (too long)" : "");
       return FALSE;
     }

@@ -3,6 +3,7 @@
 
 #include "app/base/nearest.h"
 #include "app/base/output.h"
+#include "app/cli/wrap.h"
 #include "app/document/shipped.h"
 #include "app/export/json.h"
 #include "app/run/process.h"
@@ -48,7 +49,7 @@ void sb_cli_name_file(const char *path) {
 }
 
 static bool take_common(const char *progress) {
-  common.progress = isatty(STDERR_FILENO) != 0 && !common.quiet ? PROGRESS_BAR : PROGRESS_NONE;
+  common.progress = isatty(STDERR_FILENO) != 0 ? PROGRESS_BAR : PROGRESS_NONE;
   if (g_strcmp0(progress, "lines") == 0) {
     common.progress = PROGRESS_LINES;
   } else if (g_strcmp0(progress, "json") == 0) {
@@ -59,6 +60,32 @@ static bool take_common(const char *progress) {
   }
   sb_output_keep_existing(common.keep_existing);
   return true;
+}
+
+// Whether an option was given an empty value, which names no file and is no number: prints it.
+static bool has_empty_value(const GOptionEntry *entry) {
+  for (; entry != NULL && entry->long_name != NULL; entry++) {
+    bool empty = false;
+    if (entry->arg == G_OPTION_ARG_FILENAME) {
+      const char *value = *(char **)entry->arg_data;
+      empty = value != NULL && *value == '\0';
+    } else if (entry->arg == G_OPTION_ARG_FILENAME_ARRAY) {
+      for (char **value = *(char ***)entry->arg_data; value != NULL && *value != NULL; value++) {
+        empty |= **value == '\0';
+      }
+    }
+    if (empty && entry->short_name != 0) {
+      sb_cli_fail("-%c, --%s: is empty (a value is needed: %s)", entry->short_name,
+                  entry->long_name, entry->arg_description);
+    } else if (empty) {
+      sb_cli_fail("--%s: is empty (a value is needed: %s)", entry->long_name,
+                  entry->arg_description);
+    }
+    if (empty) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool sb_cli_quiet(void) {
@@ -87,7 +114,8 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
   g_option_context_add_main_entries(context, own, NULL);
   char *progress = NULL;
   const GOptionEntry every[] = {
-      {"quiet", 'q', 0, G_OPTION_ARG_NONE, &common.quiet, "No progress, no table", NULL},
+      {"quiet", 'q', 0, G_OPTION_ARG_NONE, &common.quiet,
+       "No progress, no table, no notes: errors alone", NULL},
       {"progress", 0, 0, G_OPTION_ARG_FILENAME, &progress,
        "Progress on standard error where it is no terminal", "lines|json"},
       {0},
@@ -134,7 +162,7 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
                 command->name, command->usage);
     good = false;
   }
-  good = good && take_common(progress);
+  good = good && !has_empty_value(entries) && !has_empty_value(every) && take_common(progress);
   g_free(progress);
   g_option_context_free(context);
   return good;
@@ -170,14 +198,16 @@ static void print_line(const char *text) {
     print_json(&json);
   } else {
     const char *file = common.file;
-    fprintf(stderr, "sealbench: %s%s%s\n", file != NULL ? file : "", file != NULL ? ": " : "",
-            printable);
+    g_autofree char *line = g_strdup_printf("sealbench: %s%s%s", file != NULL ? file : "",
+                                            file != NULL ? ": " : "", printable);
+    g_autofree char *wrapped = sb_wrap_line(line, sb_wrap_columns(STDERR_FILENO));
+    fprintf(stderr, "%s\n", wrapped);
   }
   g_free(printable);
 }
 
 void sb_cli_note(const char *format, ...) {
-  if (common.progress != PROGRESS_NONE) {
+  if (common.progress != PROGRESS_NONE && !common.quiet) {
     va_list arguments;
     va_start(arguments, format);
     g_autofree char *text = g_strdup_vprintf(format, arguments);
@@ -499,7 +529,7 @@ bool sb_cli_interrupted(void *unused) {
 // ---- Progress ----
 
 void sb_progress_start(SbProgress *progress, const char *what) {
-  *progress = (SbProgress){what, 0, g_get_monotonic_time()};
+  *progress = (SbProgress){what, 0, 0, g_get_monotonic_time()};
 }
 
 static void print_progress(const SbProgress *progress, double fraction, double elapsed) {
@@ -517,7 +547,42 @@ static void print_progress(const SbProgress *progress, double fraction, double e
   print_json(&json);
 }
 
+// One line that is narrower than the terminal, so that the next one replaces it: the bar and what
+// is done, without what has no room.
+static void print_bar(SbProgress *progress, int percent, double left_s) {
+  enum { CELLS_MAX = 40, CELLS_LEAST = 8 };
+  const int room = sb_wrap_columns(STDERR_FILENO) - 1;
+  g_autofree char *done = g_strdup_printf("%3d %%", percent);
+  g_autofree char *left = g_strdup_printf("%s  %.0f s left", done, left_s);
+  g_autofree char *what = g_strconcat(progress->what, left, NULL);
+  g_autofree char *file = g_strdup_printf("%s%s%s", common.file != NULL ? common.file : "",
+                                          common.file != NULL ? ": " : "", what);
+  const char *const texts[] = {file, what, left, done, ""};
+  size_t i = 0;
+  while (sb_wrap_width(texts[i]) > room) {
+    i++;
+  }
+  const int cells = MIN(CELLS_MAX, room - sb_wrap_width(texts[i]) - 3);
+  GString *line = g_string_new(NULL);
+  if (cells >= CELLS_LEAST) {
+    g_string_append_c(line, '[');
+    for (int k = 0; k < cells; k++) {
+      g_string_append_c(line, k < cells * percent / 100 ? '#' : '.');
+    }
+    g_string_append(line, "] ");
+  }
+  g_string_append(line, texts[i]);
+  const int width = sb_wrap_width(line->str);
+  // Blanks replace what is left of a longer line before.
+  fprintf(stderr, "\r%s%*s", line->str, MAX(MIN(progress->width, room) - width, 0), "");
+  progress->width = MAX(width, 0);
+  g_string_free(line, TRUE);
+}
+
 void sb_progress_update(SbProgress *progress, double fraction) {
+  if (common.quiet) {
+    return;
+  }
   fraction = CLAMP(fraction, 0, 1);
   int percent = (int)(100 * fraction);
   double elapsed = (double)(g_get_monotonic_time() - progress->start) / G_USEC_PER_SEC;
@@ -538,18 +603,11 @@ void sb_progress_update(SbProgress *progress, double fraction) {
     return;
   }
   progress->last = percent;
-  enum { WIDTH = 40 };
-  char cells[WIDTH + 1];
-  for (int i = 0; i < WIDTH; i++) {
-    cells[i] = i < WIDTH * percent / 100 ? '#' : '.';
-  }
-  cells[WIDTH] = '\0';
-  fprintf(stderr, "\r[%s] %s%s%s%3d %%  %.0f s left ", cells, file, colon, progress->what, percent,
-          elapsed * (100 - percent) / percent);
+  print_bar(progress, percent, elapsed * (100 - percent) / percent);
 }
 
 void sb_progress_end(SbProgress *progress) {
-  if (common.progress == PROGRESS_BAR && progress->last > 0) {
-    fprintf(stderr, "\r\033[K");
+  if (common.progress == PROGRESS_BAR && progress->width > 0) {
+    fprintf(stderr, "\r%*s\r", progress->width, "");
   }
 }

@@ -74,7 +74,7 @@ void sb_cli_issues(const GPtrArray *issues);
 bool sb_cli_quantity(double *out, const char *option, const char *text, bool required,
                      const char *si, const char *shown);
 
-// --quiet: no table, and no progress but what --progress asks for.
+// --quiet: no table, no notes and no progress, also with --progress.
 bool sb_cli_quiet(void);
 
 // "sealbench: ..." on standard error where progress is shown too.
@@ -172,6 +172,7 @@ bool sb_cli_interrupted(void *unused);
 typedef struct {
   const char *what; // "drawing ", in front of the percentage; may be empty
   int last;         // last percent (bar, JSON) or decile (lines) shown
+  int width;        // columns of the line that the bar printed last
   gint64 start;     // [us]
 } SbProgress;
 

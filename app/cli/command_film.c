@@ -71,7 +71,7 @@ static bool read_dry_pressure(const char *path, GArray *x, GArray *p) {
       g_array_append_val(x, value[0]);
       g_array_append_val(p, value[1]);
     } else if (x->len > 0 || !g_ascii_isalpha(lines[i][0])) {
-      sb_issues_add(issues, path, i + 1, NULL, NULL, "\"%.40s\" is not two numbers x [m], p [Pa]",
+      sb_issues_add(issues, path, i + 1, NULL, NULL, "\"%s\" is not two numbers x [m], p [Pa]",
                     lines[i]);
     }
   }

@@ -43,7 +43,7 @@ static int read_list(GArray *out, const char *option, const char *text, int (*fi
       }
       g_autofree char *hint = sb_nearest_hint(&nearest);
       g_autofree char *shown = sb_printable(*word, strlen(*word));
-      return sb_cli_fail("%s: there is no \"%.60s\"%s", option, shown, hint);
+      return sb_cli_fail("%s: there is no \"%s\"%s", option, shown, hint);
     }
     take(out, index);
   }

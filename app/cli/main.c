@@ -1,7 +1,9 @@
 // sealbench: the command line. Finds the command and hands over.
 #include "app/cli/cli.h"
+#include "app/cli/wrap.h"
 
 #include "app/base/output.h"
+#include "app/base/reader.h"
 #include "app/run/process.h"
 
 #include "sealbench_features.h"
@@ -14,9 +16,12 @@
 #include <nlopt.h>
 #include <pango/pango.h>
 #include <png.h>
+#include <poll.h>
 #include <sqlite3.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 // One item a line: the identity, what this build contains, and the libraries that are loaded.
 static void print_version(void) {
@@ -54,11 +59,21 @@ static void print_help(FILE *stream) {
         stream);
 }
 
+// Whether the reader of standard output has closed its end, as `head` does when it has enough.
+static bool reader_is_gone(void) {
+  struct stat info;
+  struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
+  return fstat(STDOUT_FILENO, &info) == 0 && (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode)) &&
+         poll(&out, 1, 0) > 0 && (out.revents & (POLLERR | POLLHUP)) != 0;
+}
+
 int main(int argc, char **argv) {
   sb_process_set_up();
-  // The workbench saves what it has opened.
+  // The workbench saves what it has opened, which must be a file.
   if (argc < 2 || strcmp(argv[1], "tui") != 0) {
     sb_output_protect_inputs();
+    sb_reader_read_pipes();
+    sb_wrap_standard_output();
   }
   int code = SB_EXIT_INPUT;
   const SbCommand *command = sb_commands();
@@ -83,8 +98,10 @@ int main(int argc, char **argv) {
   } else {
     code = command->main(argc - 1, argv + 1);
   }
+  fflush(stdout);
+  sb_wrap_end();
   // A full disk behind standard output shows here at the latest.
-  if ((fflush(stdout) != 0 || ferror(stdout) != 0) && code == SB_EXIT_DONE) {
+  if ((fflush(stdout) != 0 || ferror(stdout) != 0) && code == SB_EXIT_DONE && !reader_is_gone()) {
     sb_cli_fail("standard output: %s", g_strerror(errno));
     code = SB_EXIT_IO;
   }

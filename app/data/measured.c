@@ -56,7 +56,7 @@ static int word_of(const SbData *data, SbDataKey key, const char *words, GPtrArr
     }
   }
   g_autofree char *allowed = g_strjoinv(", ", list);
-  sb_data_complain(data, key, allowed, issues, "\"%.40s\" is not one of these", data->text[key]);
+  sb_data_complain(data, key, allowed, issues, "\"%s\" is not one of these", data->text[key]);
   return -1;
 }
 
@@ -128,7 +128,7 @@ static bool take_said(SbMeasured *m, SbTable *table, const SbData *data, GPtrArr
       }
       if (channel == SB_CHANNELS && strcmp(word, "-") != 0) {
         sb_data_complain(data, keys[k], "time, displacement, force, -", issues,
-                         "\"%.40s\" is no column that is read", word);
+                         "\"%s\" is no column that is read", word);
         return false;
       }
       if (channel < SB_CHANNELS) {
@@ -158,7 +158,7 @@ static bool find_column(SbMeasured *m, const SbTable *table, const SbData *data,
       }
       if (found >= 0 && channel != SB_CHANNEL_TIME) {
         sb_data_complain(data, SB_DATA_COLUMNS, NULL, issues,
-                         "column %d \"%.40s\" and column %zu \"%.40s\" may both be the %s: say "
+                         "column %d \"%s\" and column %zu \"%s\" may both be the %s: say "
                          "which, as in columns = displacement, force, -",
                          found + 1, sb_table_column(table, (size_t)found)->name, i + 1,
                          column->name, channels[channel].name);
@@ -183,7 +183,7 @@ static bool settle_speed(SbMeasured *m, const SbTable *table, const SbData *data
   if (said != NULL && (!sb_quantity_parse(&speed, said, "m/s", "mm/min", NULL) ||
                        !(speed > 0 && speed <= SPEED_MAX))) {
     sb_data_complain(data, SB_DATA_SPEED, "as in 20 mm/min, up to 10 m/s", issues,
-                     "\"%.40s\" is no speed of a machine", said);
+                     "\"%s\" is no speed of a machine", said);
     return false;
   }
   if (said != NULL && (column || m->column[SB_CHANNEL_TIME].index < 0)) {
@@ -229,7 +229,7 @@ static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, do
     if (at < 0) {
       GString *list = g_string_new(NULL);
       for (size_t i = 0; i < sb_table_columns(table) && i < 8; i++) {
-        g_string_append_printf(list, "%s\"%.30s\"", i > 0 ? ", " : "",
+        g_string_append_printf(list, "%s\"%s\"", i > 0 ? ", " : "",
                                sb_table_column(table, i)->name);
       }
       sb_data_complain(data, SB_DATA_COLUMNS, NULL, issues,
@@ -249,8 +249,8 @@ static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, do
     if (!column->clock && !unit_scale(&scale[c], column->unit, channels[c].si)) {
       const bool none = *column->unit == '\0';
       sb_data_complain(data, SB_DATA_UNITS, NULL, issues,
-                       "column %d \"%.40s\" (%s) has %s%.20s%s: say which, as in units = mm, N",
-                       at + 1, column->name, channels[c].name, none ? "no unit" : "the unit \"",
+                       "column %d \"%s\" (%s) has %s%s%s: say which, as in units = mm, N", at + 1,
+                       column->name, channels[c].name, none ? "no unit" : "the unit \"",
                        column->unit, none ? "" : "\", which is none of its kind");
       return false;
     }
@@ -404,8 +404,9 @@ static SbMeasured *read_table(SbTable *table, const SbData *data, double speed, 
   m->force = value[SB_CHANNEL_FORCE];
   m->count = rows.rows;
   m->skipped = rows.skipped;
-  m->skipped_line = rows.skipped_line;
-  m->skipped_text = rows.skipped_text;
+  const size_t damaged = rows.damaged;
+  m->skipped_line = rows.left_line;
+  m->skipped_text = rows.left_text;
   if (m->skipped > m->count) {
     sb_issues_add(issues, data->path, m->skipped_line, NULL, NULL,
                   "%zu lines are no rows of the table and %zu are, the first is \"%s\"", m->skipped,
@@ -415,6 +416,7 @@ static SbMeasured *read_table(SbTable *table, const SbData *data, double speed, 
   if (!settle_rows(m, data, value, scale, issues)) {
     return NULL;
   }
+  m->dropped += damaged;
   if (m->count < 8) {
     sb_issues_add(issues, data->path, 0, NULL, "at least 8 rows", "has too few rows for a loop");
     return NULL;
@@ -532,7 +534,8 @@ char *sb_measured_text(const SbMeasured *m) {
     g_string_append_printf(out, ", %zu behind the first cycle left out", m->behind);
   }
   if (m->dropped > 0) {
-    g_string_append_printf(out, ", %zu with an empty cell dropped", m->dropped);
+    g_string_append_printf(out, ", %zu with a cell that is empty or cannot be read dropped",
+                           m->dropped);
   }
   if (m->skipped > 0) {
     g_string_append_printf(out, ", %zu lines between them are no rows (line %d: \"%s\")",

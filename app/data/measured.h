@@ -67,7 +67,7 @@ typedef struct {
     SbHow how;
   } column[SB_CHANNELS];
   // Rows.
-  size_t count, dropped; // dropped: rows with an empty cell
+  size_t count, dropped; // dropped: rows with an empty or unreadable cell
   double *time;          // [s], NULL without
   double *displacement;  // of the stem [m]
   double *force;         // [N]

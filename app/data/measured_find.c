@@ -121,7 +121,7 @@ static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues)
     m->turned_displacement = strcmp(said, "displacement") == 0 || strcmp(said, "both") == 0;
     if (!m->turned_force && !m->turned_displacement && strcmp(said, "as-is") != 0) {
       sb_data_complain(data, SB_DATA_DIRECTION, "as-is, force, displacement, both", issues,
-                       "\"%.40s\" is not one of these", said);
+                       "\"%s\" is not one of these", said);
     }
   } else {
     double low, high;
@@ -171,7 +171,7 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     if (!sb_number_parse(&number, said) || number != floor(number) || number < 1 ||
         number > m->cycle->len) {
       g_autofree char *allowed = g_strdup_printf("all, or 1 to %u", m->cycle->len);
-      sb_data_complain(data, SB_DATA_CYCLE, allowed, issues, "\"%.40s\" is no cycle of it", said);
+      sb_data_complain(data, SB_DATA_CYCLE, allowed, issues, "\"%s\" is no cycle of it", said);
       return false;
     }
     m->first = m->last = (size_t)number - 1;
@@ -262,7 +262,7 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     m->zero = m->force_zero = SB_HOW_SAID;
     if (strcmp(zero, "as-is") != 0 && !read_pair(&m->at_rest, &m->no_load, zero)) {
       sb_data_complain(data, SB_DATA_ZERO, "as-is, or as in 0.31 mm, 0.2 N", issues,
-                       "\"%.40s\" is no such pair", zero);
+                       "\"%s\" is no such pair", zero);
       return false;
     }
   } else if (rise.level > 0) {
@@ -278,7 +278,7 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     if (strcmp(compliance, "none") != 0 &&
         (!sb_quantity_parse(&m->slope, compliance, "m/N", "mm/N", NULL) || m->slope < 0)) {
       sb_data_complain(data, SB_DATA_COMPLIANCE, "none, or as in 0.01 mm/N", issues,
-                       "\"%.40s\" is no compliance", compliance);
+                       "\"%s\" is no compliance", compliance);
       return false;
     }
   } else if (rise.level > m->no_load) {

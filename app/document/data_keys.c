@@ -93,7 +93,7 @@ GPtrArray *sb_data_read(const GPtrArray *entries, const char *directory, const c
       key++;
     }
     if (key == SB_DATA_KEY_COUNT) {
-      sb_issues_add(issues, shown, entry->line, NULL, NULL, "[%.60s] %.60s: unknown key",
+      sb_issues_add(issues, shown, entry->line, NULL, NULL, "[%s] %s: unknown key",
                     entry->group, entry->name);
     } else {
       g_free(data->text[key]);

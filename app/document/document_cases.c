@@ -69,7 +69,7 @@ static void put_setting(SbParams *params, bool *set, SbNamedRubber **rubber,
                         const char *setting, GPtrArray *issues) {
   const char *equal = strchr(setting, '=');
   if (equal == NULL || equal == setting) {
-    sb_issues_add(issues, one->shown, 0, path, "KEY=VALUE; KEY=VALUE", "\"%.60s\" is no KEY=VALUE",
+    sb_issues_add(issues, one->shown, 0, path, "KEY=VALUE; KEY=VALUE", "\"%s\" is no KEY=VALUE",
                   setting);
     return;
   }

@@ -217,7 +217,7 @@ bool sb_document_read_value(double *out, const SbDocument *document, SbParamId i
 bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray *issues) {
   const char *equal = strchr(option, '=');
   if (!g_utf8_validate(option, -1, NULL) || equal == NULL || equal == option) {
-    sb_issues_add(issues, "--set", 0, NULL, NULL, "\"%.60s\" is not KEY=VALUE", option);
+    sb_issues_add(issues, "--set", 0, NULL, NULL, "\"%s\" is not KEY=VALUE", option);
     return false;
   }
   char *key = g_strstrip(g_strndup(option, (size_t)(equal - option)));

@@ -33,7 +33,7 @@ static bool parse_limit(SbLimit *out, const char *text, const SbFigure *figure, 
     return parse_bound(&out->high, text + 2, figure, error);
   }
   if (dots == NULL) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "\"%.60s\" is no limit", text);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "\"%s\" is no limit", text);
     return false;
   }
   g_autofree char *first = g_strndup(text, (gsize)(dots - text));
@@ -42,7 +42,7 @@ static bool parse_limit(SbLimit *out, const char *text, const SbFigure *figure, 
     return false;
   }
   if (!(out->low < out->high)) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the range \"%.60s\" does not rise", text);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the range \"%s\" does not rise", text);
     return false;
   }
   return true;

@@ -384,7 +384,7 @@ static bool solve_mesh(SbSolid *solid, const Part *part, const char *file, const
           : strcmp(along->value, "z") == 0                ? 2
                                                           : -1;
   if (*axis < 0) {
-    complain(part, "axis", "x, y or z", "'%.20s' is no axis", along->value);
+    complain(part, "axis", "x, y or z", "'%s' is no axis", along->value);
     return false;
   }
   g_autofree char *path = g_path_is_absolute(file) || directory == NULL

@@ -93,7 +93,7 @@ static char *problem_of(SbRemarkKind kind, const char *name, const char *text) {
   g_autoptr(GError) error = NULL;
   if (*name == '\0' || strlen(name) > NAME_MAX_BYTES || strpbrk(name, "=[]\n") != NULL ||
       *name == '#' || g_ascii_isspace(*name) || g_ascii_isspace(name[strlen(name) - 1])) {
-    return g_strdup_printf("\"%.40s\" is no name (1 to %d bytes, none of = [ ])", name,
+    return g_strdup_printf("\"%s\" is no name (1 to %d bytes, none of = [ ])", name,
                            NAME_MAX_BYTES);
   }
   if (strlen(text) > TEXT_MAX_BYTES) {

@@ -21,7 +21,7 @@ typedef struct {
 } Reader;
 
 static bool fail(Reader *reader, const char *what) {
-  g_set_error(reader->error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s at \"%.30s\"", what, reader->at);
+  g_set_error(reader->error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s at \"%s\"", what, reader->at);
   return false;
 }
 

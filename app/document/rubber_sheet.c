@@ -154,7 +154,7 @@ static void read_entries(SbRubberSheet *out, const GPtrArray *entries, const cha
     }
     g_auto(GStrv) parts = g_strsplit(entry->name, ".", 2);
     if (g_strv_length(parts) != 2 || text_of(entries, parts[0], parts[1]) == NULL) {
-      sb_issues_add(issues, path, entry->line, "source", NULL, "%.60s is no figure of this file",
+      sb_issues_add(issues, path, entry->line, "source", NULL, "%s is no figure of this file",
                     entry->name);
     }
   }
@@ -182,7 +182,7 @@ char *sb_rubber_sheet_read(SbRubberSheet *out, const char *name, const char *dir
   if (path == NULL) {
     g_auto(GStrv) list = sb_rubber_sheet_names(directory);
     g_autofree char *names = g_strjoinv(", ", list);
-    sb_issues_add(issues, shown, line, "rubber.name", names, "there is no rubber \"%.40s\"", name);
+    sb_issues_add(issues, shown, line, "rubber.name", names, "there is no rubber \"%s\"", name);
     return NULL;
   }
   size_t length = 0;

@@ -52,7 +52,7 @@ static bool read_heading(Reader *r, const SbTable *table, size_t column) {
     sb_issues_add(r->issues, r->name, line, NULL, allowed, "column %zu has no heading", column + 1);
   } else if (si == NULL) {
     sb_issues_add(r->issues, r->name, line, NULL, allowed,
-                  "column %zu: \"%.40s\" is an unknown quantity", column + 1, heading->name);
+                  "column %zu: \"%s\" is an unknown quantity", column + 1, heading->name);
   } else if (r->temperature && column == 1) {
     // A point of a scale: what 0 and 1 of its unit are.
     g_autofree char *none = g_strdup_printf("0 %s", heading->unit);
@@ -60,14 +60,14 @@ static bool read_heading(Reader *r, const SbTable *table, size_t column) {
     if (!sb_quantity_parse(&r->offset, none, "K", "°C", NULL) ||
         !sb_quantity_parse(&unit, one, "K", "°C", NULL)) {
       sb_issues_add(r->issues, r->name, line, NULL, "K, degC",
-                    "column %zu: \"%.40s\" is no unit of %s", column + 1, heading->unit,
+                    "column %zu: \"%s\" is no unit of %s", column + 1, heading->unit,
                     heading->name);
       return false;
     }
     r->scale[column] = unit - r->offset;
   } else if (!(heading->clock && column == 0) &&
              !(sb_quantity_parse(&r->scale[column], one, si, si, NULL) && r->scale[column] > 0)) {
-    sb_issues_add(r->issues, r->name, line, NULL, si, "column %zu: \"%.40s\" is no unit of %s",
+    sb_issues_add(r->issues, r->name, line, NULL, si, "column %zu: \"%s\" is no unit of %s",
                   column + 1, heading->unit, heading->name);
     si = NULL;
   }
@@ -117,10 +117,10 @@ static bool read_rows(Reader *r, const SbTable *table) {
   if (!sb_table_read(&rows, value, table, column, COLUMNS, r->issues)) {
     return false;
   }
-  bool good = rows.skipped == 0;
+  bool good = rows.left_text == NULL;
   if (!good) {
-    sb_issues_add(r->issues, r->name, rows.skipped_line, NULL, "two numbers",
-                  "\"%s\" is no row of the series", rows.skipped_text);
+    sb_issues_add(r->issues, r->name, rows.left_line, NULL, "two numbers",
+                  "\"%s\" is no row of the series", rows.left_text);
   }
   for (size_t i = 0; i < rows.rows && good; i++) {
     good = take_row(r, i, value);
@@ -128,7 +128,7 @@ static bool read_rows(Reader *r, const SbTable *table) {
   for (int i = 0; i < COLUMNS; i++) {
     g_free(value[i]);
   }
-  g_free(rows.skipped_text);
+  g_free(rows.left_text);
   return good;
 }
 

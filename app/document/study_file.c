@@ -126,7 +126,7 @@ int sb_study_read_figure(const SbStudyReader *reader, const SbEntry *entry, cons
       sb_nearest_try(&nearest, sb_figure(i)->path);
     }
     g_autofree char *hint = sb_nearest_hint(&nearest);
-    g_autofree char *text = g_strdup_printf("there is no figure \"%.60s\"%s", path, hint);
+    g_autofree char *text = g_strdup_printf("there is no figure \"%s\"%s", path, hint);
     sb_study_complain(reader, entry, NULL, text);
   }
   return figure;
@@ -334,7 +334,7 @@ static void read_groups(SbStudyReader *reader) {
         bad = group;
         sb_issues_add(reader->issues, reader->shown, entry->line, NULL,
                       "vary, correlation, study, limits, design, tolerances, leakage_test, data",
-                      "unknown group [%.60s]", group);
+                      "unknown group [%s]", group);
       }
     } else if (strcmp(group, GROUP_VARY) == 0 || reader->grid > 0) {
       varies = true;

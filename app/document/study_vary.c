@@ -61,13 +61,13 @@ static bool read_range(double *low, double *high, const SbVary *vary, const char
   text += strspn(text, " \t");
   const char *dots = strstr(text, "..");
   if (dots == NULL) {
-    return fail(error, "\"%.60s\" is no range", text);
+    return fail(error, "\"%s\" is no range", text);
   }
   g_autofree char *first = g_strndup(text, (gsize)(dots - text));
   if (!read_value(low, vary, first, error) || !read_value(high, vary, dots + 2, error)) {
     return false;
   }
-  return *low < *high || fail(error, "the range \"%.60s\" does not rise", text);
+  return *low < *high || fail(error, "the range \"%s\" does not rise", text);
 }
 
 // "A .. B" or "A .. B, N".
@@ -79,7 +79,7 @@ static bool read_uniform(SbVary *vary, const char *text, GError **error) {
     g_autofree char *digits = g_strstrip(g_strdup(comma + 1));
     if (!sb_number_parse(&count, digits) || count != floor(count) || count < 2 ||
         count > SB_SAMPLES_MAX) {
-      return fail(error, "\"%.60s\" is no number of points (2 and more)", digits);
+      return fail(error, "\"%s\" is no number of points (2 and more)", digits);
     }
     of->count = (size_t)count;
   }
@@ -96,7 +96,7 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
   SbDistribution *of = &vary->distribution;
   const char *comma = strchr(text, ','), *within = strstr(text, " within ");
   if (comma == NULL || (within != NULL && within < comma)) {
-    return fail(error, "\"%.60s\" is no mean with a deviation", text);
+    return fail(error, "\"%s\" is no mean with a deviation", text);
   }
   g_autofree char *mean = g_strndup(text, (gsize)(comma - text));
   g_autofree char *deviation = g_strstrip(
@@ -108,7 +108,7 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
     return false;
   }
   if (!(of->b > 0)) {
-    return fail(error, "the deviation \"%.60s\" is not above 0", deviation);
+    return fail(error, "the deviation \"%s\" is not above 0", deviation);
   }
   of->low = -INFINITY;
   of->high = INFINITY;
@@ -157,7 +157,7 @@ static bool read_and(SbVary *vary, const char *text, const char *others,
   }
   const size_t count = of->count;
   if (count < 2 || count > SB_SAMPLES_MAX / 10) {
-    return fail(error, "\"%.60s\" has no number of points to add levels to", range);
+    return fail(error, "\"%s\" has no number of points to add levels to", range);
   }
   vary->levels = g_new(double, count + 1);
   for (size_t i = 0; i < count; i++) {
@@ -187,7 +187,7 @@ static bool read_distribution(SbVary *vary, const char *text, GError **error) {
       vary->distribution.kind = forms[i].kind;
       if (vary->offset && (kind != SB_PARAM_REAL || (forms[i].kind != SB_DISTRIBUTION_UNIFORM &&
                                                      forms[i].kind != SB_DISTRIBUTION_NORMAL))) {
-        return fail(error, "\"%.60s\" is no tolerance", text);
+        return fail(error, "\"%s\" is no tolerance", text);
       }
       if ((kind == SB_PARAM_CHOICE || kind == SB_PARAM_INT) &&
           forms[i].kind != SB_DISTRIBUTION_LEVELS) {
@@ -200,7 +200,7 @@ static bool read_distribution(SbVary *vary, const char *text, GError **error) {
                  : forms[i].read(vary, text + length, error);
     }
   }
-  return fail(error, "\"%.60s\" says no distribution", text);
+  return fail(error, "\"%s\" says no distribution", text);
 }
 
 void sb_study_read_vary(SbStudyReader *reader, const SbEntry *entry, GArray *list, bool offset) {

@@ -241,7 +241,7 @@ static void put_life(SbJson *json, const SbRun *run) {
 }
 
 // Why what is null above is so, by path; of blocks that are there.
-static void put_reasons(SbJson *json, const SbRun *run) {
+static void put_reasons(SbJson *json, const SbRun *run, const SbResultsInfo *info) {
   const SbSummary *summary = sb_run_summary(run);
   sb_json_object(json, "reasons");
   if (summary->outcome == SB_OUTCOME_UNKNOWN) {
@@ -277,6 +277,9 @@ static void put_reasons(SbJson *json, const SbRun *run) {
   }
   if (summary->life.done > 0) {
     sb_json_string(json, "life.by_actuation", "null where an actuation does not slip or return");
+  }
+  for (size_t i = 0; i < info->study_count; i++) {
+    sb_json_study_reasons(json, &info->studies[i], i);
   }
   sb_json_object_end(json);
 }
@@ -382,7 +385,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   sb_json_object_end(&json);
   put_shelf(&json, run);
   sb_json_warnings(&json, &summary->warnings);
-  put_reasons(&json, run);
+  put_reasons(&json, run, info);
   if (info->study_count > 0) {
     sb_json_array(&json, "studies");
     for (size_t i = 0; i < info->study_count; i++) {

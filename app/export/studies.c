@@ -261,7 +261,7 @@ static void put_table(SbJson *json, const SbStudy *study) {
     const SbStudyRow *row = &study->row[r];
     sb_json_object(json, NULL);
     sb_json_string(json, "name", row->name);
-    sb_json_string(json, "unit", row->si[0] != '\0' ? row->si : NULL);
+    sb_json_string(json, "unit", row->si); // empty: the columns have units
     sb_json_numbers(json, "values", row->value, study->column_count);
     sb_json_object_end(json);
   }
@@ -272,6 +272,52 @@ static void put_table(SbJson *json, const SbStudy *study) {
 void sb_json_study_curves(SbJson *json, const SbStudy *study) {
   put_axis(json, "x", &study->x);
   put_panels(json, study);
+}
+
+static bool has_gap(const double *value, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    if (!isfinite(value[i])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Why a study has no value at some points: the first gap that a model left, else `otherwise`.
+static const char *gap_reason(const SbStudy *study, const char *otherwise) {
+  for (size_t i = 0; i < study->warnings.count; i++) {
+    if (g_str_has_prefix(study->warnings.item[i].code, "study-gap-")) {
+      return study->warnings.item[i].text;
+    }
+  }
+  return otherwise;
+}
+
+void sb_json_study_reasons(SbJson *json, const SbStudy *study, size_t index) {
+  for (size_t p = 0; p < study->panel_count; p++) {
+    const SbStudyPanel *panel = &study->panel[p];
+    const char *otherwise =
+        panel->empty[0] != '\0' ? panel->empty : "the model has no value at these points";
+    for (size_t s = 0; s < panel->series_count; s++) {
+      if (has_gap(panel->series[s].y, panel->series[s].count)) {
+        g_autofree char *path =
+            g_strdup_printf("studies[%zu].panels[%zu].series[%zu].y", index, p, s);
+        sb_json_string(json, path, gap_reason(study, otherwise));
+      }
+    }
+  }
+  for (size_t r = 0; r < study->row_count; r++) {
+    if (has_gap(study->row[r].value, study->column_count)) {
+      g_autofree char *path = g_strdup_printf("studies[%zu].table.rows[%zu].values", index, r);
+      sb_json_string(json, path, gap_reason(study, "this row has no value in that column"));
+    }
+  }
+  for (size_t i = 0; i < study->warnings.count; i++) {
+    if (study->warnings.item[i].parameter[0] == '\0') {
+      g_autofree char *path = g_strdup_printf("studies[%zu].warnings[%zu].parameter", index, i);
+      sb_json_string(json, path, "the warning is not about one parameter");
+    }
+  }
 }
 
 void sb_json_study(SbJson *json, const SbStudy *study) {

@@ -42,5 +42,9 @@ void sb_csv_study_table(FILE *stream, const SbStudy *study);
 // An object with the whole study, for the key "studies".
 void sb_json_study(SbJson *json, const SbStudy *study);
 
+// Puts why values of study `index` in "studies" are null, by their paths, into the object
+// "reasons".
+void sb_json_study_reasons(SbJson *json, const SbStudy *study, size_t index);
+
 // Its abscissa and panels alone, the keys "x" and "panels" of the open object.
 void sb_json_study_curves(SbJson *json, const SbStudy *study);

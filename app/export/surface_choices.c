@@ -33,7 +33,7 @@ static bool choose_form(SbForm *form, const char *text, GError **error) {
     }
     g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", sb_form_name(i));
   }
-  return fail(error, "there is no \"%.40s\" (allowed %s)", text, names->str);
+  return fail(error, "there is no \"%s\" (allowed %s)", text, names->str);
 }
 
 bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *text,
@@ -60,8 +60,8 @@ bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *
       return false;
     }
     if (!(value > 0 && isfinite(value))) {
-      return numbers[i].unit ? fail(error, "\"%.40s\" is no unit of length", text)
-                             : fail(error, "\"%.40s\": a value above 0 is needed", text);
+      return numbers[i].unit ? fail(error, "\"%s\" is no unit of length", text)
+                             : fail(error, "\"%s\": a value above 0 is needed", text);
     }
     *numbers[i].value = value;
     return true;
@@ -72,12 +72,12 @@ bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *
   if (strcmp(name, "missing") == 0) {
     choices->heights.fill = strcmp(text, "fill") == 0;
     return choices->heights.fill || strcmp(text, "leave") == 0 ||
-           fail(error, "there is no \"%.40s\" (allowed leave, fill)", text);
+           fail(error, "there is no \"%s\" (allowed leave, fill)", text);
   }
   if (strcmp(name, "channel") == 0) {
     g_free(choices->channel);
     choices->scan.channel = choices->channel = g_strdup(text);
     return true;
   }
-  return fail(error, "\"%.40s\" is no choice of a scan", name);
+  return fail(error, "\"%s\" is no choice of a scan", name);
 }

@@ -245,11 +245,11 @@ static bool read_set(Curve *curve, GPtrArray *issues) {
     g_autoptr(GError) error = NULL;
     if (id < 0 || parts[1] == NULL || curve->sets == SB_VARY_MAX) {
       sb_data_complain(curve->data, SB_DATA_SET, "KEY=VALUE; KEY=VALUE", issues,
-                       "\"%.60s\" sets no parameter", *word);
+                       "\"%s\" sets no parameter", *word);
       return false;
     }
     if (!sb_param_parse(&value, (SbParamId)id, g_strstrip(parts[1]), &error)) {
-      sb_data_complain(curve->data, SB_DATA_SET, NULL, issues, "%.60s: %s", parts[0],
+      sb_data_complain(curve->data, SB_DATA_SET, NULL, issues, "%s: %s", parts[0],
                        error->message);
       return false;
     }
@@ -280,7 +280,7 @@ static bool read_actuation(Curve *curve, GPtrArray *issues) {
       !(first + (double)m->first <= most)) {
     g_autofree char *allowed = g_strdup_printf("1 to %.0f", most);
     sb_data_complain(curve->data, SB_DATA_ACTUATION, allowed, issues,
-                     "\"%.40s\" is no number of an actuation since new", text);
+                     "\"%s\" is no number of an actuation since new", text);
     return false;
   }
   if (m->first != m->last) {

@@ -177,7 +177,7 @@ bool sb_thesis_grid(SbThesisGrid **grid, const char **expression, SbThesisWork *
       return true;
     }
   }
-  sb_thesis_complain(work, group, key, "there is no grid [vary %.40s]", name);
+  sb_thesis_complain(work, group, key, "there is no grid [vary %s]", name);
   return false;
 }
 

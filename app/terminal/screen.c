@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <termios.h>
 #include <tickit.h>
 #include <unistd.h>
@@ -568,6 +570,36 @@ static bool make_pipe(void) {
   return g_unix_open_pipe(rescue.pipe, FD_CLOEXEC, NULL) &&
          g_unix_set_fd_nonblocking(rescue.pipe[0], TRUE, NULL) &&
          g_unix_set_fd_nonblocking(rescue.pipe[1], TRUE, NULL);
+}
+
+// Whether libtickit can drive a type of terminal. It aborts the process if the type's terminfo
+// lacks a sequence that it needs, so a child process tries.
+static bool can_drive(const char *type) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const struct rlimit none = {0, 0};
+    const int null = open("/dev/null", O_WRONLY);
+    setrlimit(RLIMIT_CORE, &none);
+    dup2(null, STDERR_FILENO);
+    (void)tickit_term_build(&(struct TickitTermBuilder){.termtype = type, .open = TICKIT_NO_OPEN});
+    _exit(0);
+  }
+  int status = 0;
+  while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return child < 0 || WIFEXITED(status);
+}
+
+bool sb_screen_is_possible(GError **error) {
+  const char *type = g_getenv("TERM");
+  if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO) || type == NULL || can_drive(type)) {
+    return true; // or sb_screen_open() says what is missing
+  }
+  sb_app_error_input(error,
+                     "a terminal of type \"%s\" (TERM) cannot show the workbench; use another "
+                     "one, such as xterm-256color, or `sealbench open` or `sealbench run`",
+                     type);
+  return false;
 }
 
 SbScreen *sb_screen_open(const SbScreenWishes *wishes, const SbScreenClient *client,

@@ -53,6 +53,10 @@ typedef struct {
   void *data;
 } SbScreenClient;
 
+// Whether the terminal's type (TERM) has what the workbench needs; SB_APP_ERROR_INPUT if not. Call
+// it before there are threads: a child process tries.
+bool sb_screen_is_possible(GError **error);
+
 // Takes over the terminal of standard input and output. SB_APP_ERROR_IO where there is none. One at
 // a time. Owned by the caller.
 SbScreen *sb_screen_open(const SbScreenWishes *wishes, const SbScreenClient *client,

@@ -277,6 +277,9 @@ static void finish(SbBench *bench) {
 }
 
 bool sb_workbench_run(const SbWorkbenchOptions *options, GError **error) {
+  if (!sb_screen_is_possible(error)) { // before there are threads
+    return false;
+  }
   translate();
   SbBench bench = {.session = sb_session_new(),
                    .loop = g_main_loop_new(NULL, FALSE),

@@ -10,5 +10,6 @@ typedef struct {
 } SbWorkbenchOptions;
 
 // Runs until the user leaves it, or the terminal goes. On failure either the file has errors, which
-// are added to `issues`, or *error is SB_APP_ERROR_IO (no terminal; this build has no workbench).
+// are added to `issues`, or *error is SB_APP_ERROR_IO (no terminal; this build has no workbench) or
+// SB_APP_ERROR_INPUT (a type of terminal that cannot show it).
 bool sb_workbench_run(const SbWorkbenchOptions *options, GError **error);

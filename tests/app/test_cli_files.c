@@ -1,9 +1,15 @@
 // Files that commands read and write: shipped files and paths, check of every kind, files with
 // errors, pipes.
+#define _GNU_SOURCE // posix_openpt, ptsname
 #include "tests/app/cli_fixture.h"
 
+#include <fcntl.h>
 #include <glib/gstdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 static CliResult in_folder(const char *const *arguments) {
   return cli_run_in(cli.folder, arguments, NULL, 0, NULL);
@@ -234,6 +240,258 @@ static void test_faulty(void) {
   remove_file("of-bad.study");
 }
 
+// ---- Pipes ----
+
+// Runs a line of a shell in the test's folder, "$SB" is the program.
+static CliResult shell(const char *line) {
+  const char *argv[] = {"bash", "-c", line, NULL};
+  char **environment = g_environ_setenv(g_get_environ(), "SB", cli.program, TRUE);
+  CliResult result = {0};
+  int status = 0;
+  GError *error = NULL;
+  g_spawn_sync(cli.folder, (char **)argv, environment, G_SPAWN_SEARCH_PATH, NULL, NULL, &result.out,
+               &result.err, &status, &error);
+  g_assert_no_error(error);
+  result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  g_strfreev(environment);
+  return result;
+}
+
+// A reader that stops early ends the program silently, whether it prints or writes a document.
+static void test_head(void) {
+  static const char *const lines[] = {
+      "$SB list params | head -n 1; exit ${PIPESTATUS[0]}",
+      "$SB list params --json - | head -n 1; exit ${PIPESTATUS[0]}",
+      "$SB run quick-look --json - | head -c 1; exit ${PIPESTATUS[0]}",
+      "$SB run quick-look -o out | true; exit ${PIPESTATUS[0]}"};
+  for (size_t i = 0; i < G_N_ELEMENTS(lines); i++) {
+    CliResult result = shell(lines[i]);
+    if (result.code != 0 || *result.err != '\0') {
+      g_error("%s: exit %d, \"%s\"", lines[i], result.code, result.err);
+    }
+    cli_clear(&result);
+  }
+  // Results in a folder are complete.
+  g_autofree char *out = path_of("out");
+  g_autofree char *json = cli_contents(out, "results.json");
+  json_node_unref(cli_parse(json));
+  cli_remove_results(out);
+}
+
+// Scenes, tables and other files are read from pipes, also slow ones and named ones.
+static void test_pipes(void) {
+  static const char *const lines[] = {
+      "$SB plan <(sleep 0.2; cat own.valve) --json -", "$SB check <(cat own.valve) --json -",
+      "mkfifo named; cat own.valve > named & $SB plan named --json -; rm named",
+      "$SB compare quick-look --measured <(cat nul.csv) --json -"};
+  g_autofree char *valve = NULL, *table = NULL;
+  g_assert_true(g_file_get_contents(cli.valve, &valve, NULL, NULL));
+  write_file("own.valve", valve);
+  const char *assets = g_getenv("SEALBENCH_ASSETS");
+  g_autofree char *bench = g_build_filename(assets, "series", "bench.csv", NULL);
+  g_assert_true(g_file_get_contents(bench, &table, NULL, NULL));
+  write_file("nul.csv", table);
+  for (size_t i = 0; i < G_N_ELEMENTS(lines); i++) {
+    CliResult result = shell(lines[i]);
+    if (result.code != 0 || *result.err != '\0') {
+      g_error("%s: exit %d, \"%s\"", lines[i], result.code, result.err);
+    }
+    json_node_unref(cli_parse(result.out));
+    cli_clear(&result);
+  }
+  remove_file("own.valve");
+  remove_file("nul.csv");
+}
+
+// ---- Terminals ----
+
+// Runs the program in a terminal of its own of this type and width; what it showed. Never NULL.
+static char *in_terminal(int *code, const char *type, int columns, const char *const *arguments) {
+  const int master = posix_openpt(O_RDWR | O_NOCTTY);
+  g_assert_cmpint(master, >=, 0);
+  g_assert_cmpint(grantpt(master), ==, 0);
+  g_assert_cmpint(unlockpt(master), ==, 0);
+  const char *name = ptsname(master);
+  const struct winsize size = {.ws_row = 24, .ws_col = (unsigned short)columns};
+  g_assert_cmpint(ioctl(master, TIOCSWINSZ, &size), ==, 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    setsid();
+    const int slave = open(name, O_RDWR);
+    for (int fd = 0; fd < 3; fd++) {
+      dup2(slave, fd);
+    }
+    g_setenv("TERM", type, TRUE);
+    g_unsetenv("COLORTERM");
+    execv(cli.program, (char *const *)arguments);
+    _exit(127);
+  }
+  GString *shown = g_string_new(NULL);
+  char bytes[4096];
+  for (ssize_t got; (got = read(master, bytes, sizeof bytes)) > 0;) {
+    g_string_append_len(shown, bytes, got);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  close(master);
+  *code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return g_string_free(shown, FALSE);
+}
+
+// Terminals that cannot show the workbench: one sentence and exit code 1.
+static void test_poor_terminals(void) {
+  static const char *const types[] = {"dumb", "vt100", "vt102", "sun", "cons25", "pcansi"};
+  const char *const arguments[] = {"sealbench", "tui", NULL};
+  for (size_t i = 0; i < G_N_ELEMENTS(types); i++) {
+    int code;
+    g_autofree char *shown = in_terminal(&code, types[i], 200, arguments);
+    if (strstr(shown, "no workbench") != NULL) {
+      g_test_skip("built without the workbench");
+      return;
+    }
+    if (code != 1 || !g_str_has_prefix(shown, "sealbench: a terminal of type \"") ||
+        strchr(shown, '\n') != shown + strlen(shown) - 1) {
+      g_error("%s: exit %d: %s", types[i], code, shown);
+    }
+  }
+}
+
+// Whatever the width, a progress bar stays on its line and no other line is wider than the
+// terminal.
+static void test_narrow_terminals(void) {
+  static const int widths[] = {10, 20, 30, 40, 71, 72, 100};
+  const char *const run[] = {"sealbench", "run",
+                             cli.scene,   "--no-plot",
+                             "--set",     "models.film=reynolds",
+                             "--set",     "output.frames=20000",
+                             NULL};
+  for (size_t i = 0; i < G_N_ELEMENTS(widths); i++) {
+    int code;
+    g_autofree char *shown = in_terminal(&code, "xterm", widths[i], run);
+    g_assert_cmpint(code, ==, 0);
+    // Lines end in a line feed, what a carriage return starts again is one line.
+    g_auto(GStrv) lines = g_strsplit_set(shown, "\r\n", -1);
+    for (char **line = lines; *line != NULL; line++) {
+      const bool one_word = strchr(g_strstrip(*line), ' ') == NULL;
+      if (g_utf8_strlen(*line, -1) > widths[i] && !one_word && widths[i] >= 20) {
+        g_error("%d columns: \"%s\"", widths[i], *line);
+      }
+      g_assert_true(strstr(*line, " %") == NULL || strstr(*line, "left") == NULL ||
+                    g_utf8_strlen(*line, -1) < widths[i]);
+    }
+  }
+}
+
+// ---- Options and messages ----
+
+// An empty value of an option is a usage error.
+static void test_empty_options(void) {
+  IN_SAYS(1, "-o, --output: is empty", "run", "quick-look", "-o", "");
+  IN_SAYS(1, "--json: is empty", "run", "quick-look", "--json", "");
+  IN_SAYS(1, "--set: is empty", "plan", "quick-look", "--set", "");
+  IN_SAYS(1, "-o, --output: is empty", "study", "gland", "-o", "");
+  IN_SAYS(1, "--progress: is empty", "plan", "quick-look", "--progress", "");
+}
+
+// -q prints no progress, whatever --progress asks for.
+static void test_quiet(void) {
+  static const char *const styles[] = {"lines", "json"};
+  for (size_t i = 0; i < G_N_ELEMENTS(styles); i++) {
+    CliResult result = IN("run", "quick-look", "-q", "--progress", styles[i]);
+    g_assert_cmpint(result.code, ==, 0);
+    g_assert_cmpstr(result.out, ==, "");
+    g_assert_cmpstr(result.err, ==, "");
+    cli_clear(&result);
+    result = IN("run", "quick-look", "--json", "/dev/null", "--progress", styles[i]);
+    g_assert_cmpstr(result.err, !=, "");
+    cli_clear(&result);
+  }
+}
+
+// The reason behind a long path or a long value is in the message.
+static void test_long_messages(void) {
+  g_autofree char *part = g_strnfill(200, 'x');
+  g_autofree char *path = g_strjoin("/", part, part, part, "missing.scene", NULL);
+  g_autofree char *expected =
+      g_strconcat("sealbench: ", path, ": No such file or directory\n", NULL);
+  CliResult result = IN("run", path);
+  g_assert_cmpstr(result.err, ==, expected);
+  cli_clear(&result);
+  g_autofree char *setting = g_strconcat("nonsense", part, part, NULL);
+  IN_SAYS(1, setting, "plan", "quick-look", "--set", setting);
+}
+
+// ---- Measured tables ----
+
+// A row with a NUL or an unreadable cell counts as dropped, a line of another kind as skipped.
+static void test_dropped_rows(void) {
+  g_autofree char *bench =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "series", "bench.csv", NULL);
+  g_autofree char *table = NULL;
+  gsize length = 0;
+  g_assert_true(g_file_get_contents(bench, &table, &length, NULL));
+  GString *text = g_string_new_len(table, (gssize)length);
+  // The 20th, 30th and 40th line from the end: a NUL in a number, a letter in one, a heading.
+  char *line = text->str + text->len;
+  for (int i = 1; i <= 41; i++) {
+    do {
+      line--;
+    } while (line[-1] != '\n');
+    if (i == 20 || i == 30) {
+      line[strcspn(line, "0123456789") + 1] = i == 20 ? '\0' : 'x';
+    }
+  }
+  g_string_insert(text, line - text->str, "second part\n");
+  g_autofree char *path = path_of("nul.csv");
+  g_assert_true(g_file_set_contents(path, text->str, (gssize)text->len, NULL));
+  g_string_free(text, TRUE);
+  CliResult result = IN("compare", "quick-look", "--measured", "nul.csv", "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *root = cli_parse(result.out);
+  g_assert_cmpfloat(cli_number(root, "measured.recognised.rows_dropped"), ==, 2);
+  g_assert_cmpfloat(cli_number(root, "measured.recognised.lines_skipped"), ==, 1);
+  json_node_unref(root);
+  cli_clear(&result);
+  remove_file("nul.csv");
+}
+
+// ---- Studies in the JSON of a run ----
+
+// Every array of numbers with a null in it has a reason by its path.
+static guint count_nulls(JsonNode *node, const char *path, JsonObject *reasons) {
+  guint count = 0;
+  if (JSON_NODE_HOLDS_NULL(node)) {
+    g_error("%s is null without a reason", path);
+  } else if (JSON_NODE_HOLDS_OBJECT(node)) {
+    JsonObjectIter iter;
+    const char *name;
+    JsonNode *inside;
+    json_object_iter_init(&iter, json_node_get_object(node));
+    while (json_object_iter_next(&iter, &name, &inside)) {
+      g_autofree char *at = g_strdup_printf("%s.%s", path, name);
+      const bool told = json_object_has_member(reasons, at);
+      count += told ? 1 : count_nulls(inside, at, reasons);
+    }
+  } else if (JSON_NODE_HOLDS_ARRAY(node)) {
+    JsonArray *array = json_node_get_array(node);
+    for (guint i = 0; i < json_array_get_length(array); i++) {
+      g_autofree char *at = g_strdup_printf("%s[%u]", path, i);
+      count += count_nulls(json_array_get_element(array, i), at, reasons);
+    }
+  }
+  return count;
+}
+
+static void test_study_reasons(void) {
+  CliResult result = IN("run", "leak-study", "--set", "output.frames=50", "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *root = cli_parse(result.out);
+  JsonObject *reasons = json_node_get_object(cli_at(root, "reasons"));
+  g_assert_cmpuint(count_nulls(cli_at(root, "studies"), "studies", reasons), >, 0);
+  json_node_unref(root);
+  cli_clear(&result);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -243,6 +501,15 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-files/check-kinds", test_check_kinds);
   g_test_add_func("/cli-files/check-issues", test_check_issues);
   g_test_add_func("/cli-files/faulty", test_faulty);
+  g_test_add_func("/cli-files/head", test_head);
+  g_test_add_func("/cli-files/pipes", test_pipes);
+  g_test_add_func("/cli-files/poor-terminals", test_poor_terminals);
+  g_test_add_func("/cli-files/narrow-terminals", test_narrow_terminals);
+  g_test_add_func("/cli-files/empty-options", test_empty_options);
+  g_test_add_func("/cli-files/quiet", test_quiet);
+  g_test_add_func("/cli-files/long-messages", test_long_messages);
+  g_test_add_func("/cli-files/dropped-rows", test_dropped_rows);
+  g_test_add_func("/cli-files/study-reasons", test_study_reasons);
   int result = g_test_run();
   cli_tear_down();
   return result;

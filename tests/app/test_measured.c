@@ -343,13 +343,13 @@ static void test_numbers(void) {
     g_assert_true(sb_table_read(&rows, &value, table, &first, 1, issues));
     if (isnan(cells[i].value)) {
       g_assert_cmpuint(rows.rows, ==, 5);
-      g_assert_cmpint(rows.skipped_line, ==, 7);
+      g_assert_cmpint(rows.left_line, ==, 7);
     } else {
       g_assert_cmpuint(rows.rows, ==, 6);
       g_assert_cmpfloat(value[5], ==, cells[i].value);
     }
     g_free(value);
-    g_free(rows.skipped_text);
+    g_free(rows.left_text);
     g_string_free(text, TRUE);
   }
 }
@@ -406,7 +406,7 @@ static void test_files(void) {
       }
       g_free(value[0]);
       g_free(value[1]);
-      g_free(rows.skipped_text);
+      g_free(rows.left_text);
     }
     g_assert_cmpint(truncate(path, (off_t)length / 3), ==, 0);
     SbTableRows rows;

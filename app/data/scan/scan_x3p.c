@@ -106,12 +106,12 @@ static guchar *member(zip_t *zip, const char *member_name, guint64 *size, guint6
   // A link may begin with the folder it is in.
   const char *path = g_str_has_prefix(member_name, "./") ? member_name + 2 : member_name;
   if (zip_stat(zip, path, 0, &about) != 0 || (about.valid & ZIP_STAT_SIZE) == 0) {
-    sb_scan_fail(error, bytes->name, "has no member \"%.60s\"", member_name);
+    sb_scan_fail(error, bytes->name, "has no member \"%s\"", member_name);
     return NULL;
   }
   if (about.size > most || about.size / 1100 > length) {
     sb_scan_fail(error, bytes->name,
-                 "\"%.60s\" is announced with %" G_GUINT64_FORMAT " bytes: too many", member_name,
+                 "\"%s\" is announced with %" G_GUINT64_FORMAT " bytes: too many", member_name,
                  (guint64)about.size);
     return NULL;
   }
@@ -125,7 +125,7 @@ static guchar *member(zip_t *zip, const char *member_name, guint64 *size, guint6
     zip_fclose(file);
   }
   if (!good) {
-    sb_scan_fail(error, bytes->name, "\"%.60s\" cannot be unpacked", member_name);
+    sb_scan_fail(error, bytes->name, "\"%s\" cannot be unpacked", member_name);
     g_clear_pointer(&out, g_free);
     return NULL;
   }
@@ -179,14 +179,14 @@ static gboolean read_points(SbScan *out, const Main *main, zip_t *zip, const SbS
     kind++;
   }
   if (kind == G_N_ELEMENTS(kinds)) {
-    return sb_scan_fail(error, name, "CZ has the data type \"%.20s\" (allowed I, L, F, D)", type);
+    return sb_scan_fail(error, name, "CZ has the data type \"%s\" (allowed I, L, F, D)", type);
   }
   if (!(columns >= 1 && rows >= 1 && columns * rows <= (double)SB_HEIGHTS_POINTS_MAX)) {
-    return sb_scan_fail(error, name, "has a matrix of \"%.20s\" x \"%.20s\" points",
+    return sb_scan_fail(error, name, "has a matrix of \"%s\" x \"%s\" points",
                         text_of(main, COLUMNS), text_of(main, ROWS));
   }
   if (number(main, LAYERS, 1) != 1) {
-    return sb_scan_fail(error, name, "has %.20s layers (allowed 1)", text_of(main, LAYERS));
+    return sb_scan_fail(error, name, "has %s layers (allowed 1)", text_of(main, LAYERS));
   }
   if (*text_of(main, DATA) == '\0') {
     return sb_scan_fail(error, name, "has its points in the XML or as a list, which is not read");
@@ -215,7 +215,7 @@ static gboolean read_points(SbScan *out, const Main *main, zip_t *zip, const SbS
   }
   const double step = number(main, Z_STEP, 1);
   if (!isfinite(step) || step == 0) {
-    return sb_scan_fail(error, name, "CZ has the increment \"%.20s\"", text_of(main, Z_STEP));
+    return sb_scan_fail(error, name, "CZ has the increment \"%s\"", text_of(main, Z_STEP));
   }
   if (!sb_scan_allocate(out, (guint64)columns, (guint64)rows, name, error)) {
     return FALSE;
@@ -262,7 +262,7 @@ gboolean sb_scan_parse_x3p(SbScan *out, SbScanBytes bytes, const SbScanChoices *
   gboolean good = read_main(&main, zip, &bytes, error);
   const char *feature = text_of(&main, FEATURE);
   if (good && strcmp(feature, "SUR") != 0 && strcmp(feature, "PRF") != 0) {
-    good = sb_scan_fail(error, bytes.name, "has the feature type \"%.20s\" (allowed SUR, PRF)",
+    good = sb_scan_fail(error, bytes.name, "has the feature type \"%s\" (allowed SUR, PRF)",
                         feature);
   }
   good =
