@@ -7,6 +7,7 @@
 //
 // STATUS is SbStatus, NULLS the number of figures that have neither a value nor a reason of their
 // own, TEXT the report's.
+#include "engine/valve/contradiction.h"
 #include "engine/valve/sealbench.h"
 
 #include <math.h>
@@ -87,8 +88,12 @@ int main(void) {
     if (status == SB_OK) {
       status = sb_run_execute(run, NULL, &report);
       const SbSummary *summary = sb_run_summary(run);
-      printf("done %d %.3g %d %.3f %s\n", (int)status, summary->energy.closure, nulls(summary),
-             summary->wall_s, report.text);
+      char wrong[256], text[300] = "";
+      if (sb_summary_contradiction(wrong, sizeof wrong, summary, model)) {
+        snprintf(text, sizeof text, "contradiction: %s; ", wrong);
+      }
+      printf("done %d %.3g %d %.3f %s%s\n", (int)status, summary->energy.closure, nulls(summary),
+             summary->wall_s, text, report.text);
     }
     fflush(stdout);
     sb_run_destroy(run);

@@ -1,5 +1,6 @@
 // Figures: each has a value or a reason, an open seal is told, and the verdict follows the limits.
 #include "engine/contact/fit.h"
+#include "engine/valve/contradiction.h"
 #include "engine/valve/run/run_private.h"
 #include "engine/valve/sealbench.h"
 #include "tests/engine/models.h"
@@ -482,6 +483,96 @@ static void test_worse(void) {
   }
 }
 
+// A run has no contradiction, and each kind of it is found in a summary that is wrong on purpose.
+static void test_contradictions(void) {
+  SbModel model;
+  char text[256];
+  compile(&model, NULL, 0);
+  limit(&model, "cycle.force_breakaway_N", -INFINITY, 40);
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  const SbSummary *good = sb_run_summary(run);
+  g_assert_false(sb_summary_contradiction(text, sizeof text, good, &model));
+  g_assert_cmpstr(text, ==, "");
+  SbSummary *bad = g_new(SbSummary, 1);
+  enum { RETURNS, STUCK, NEVER, VERDICT, VALUE, LIMIT, SHARE, PEAK, PRESS, ORDER, TWICE, KINDS };
+  for (int kind = 0; kind < KINDS; kind++) {
+    *bad = *good;
+    switch (kind) {
+    case RETURNS: // the fault of a hand that moves nothing
+      bad->outcome = SB_OUTCOME_NEVER_MOVED;
+      break;
+    case STUCK:
+      bad->stuck_at = 1e-3;
+      break;
+    case NEVER:
+      bad->outcome = SB_OUTCOME_NEVER_MOVED;
+      bad->returns = false;
+      bad->returned = NAN;
+      break;
+    case VERDICT:
+      bad->force_return_margin = bad->verdict[SB_VERDICT_RETURNS].value = -1;
+      break;
+    case VALUE:
+      bad->verdict[SB_VERDICT_PRESSES].value += 1;
+      break;
+    case LIMIT:
+      bad->stage[SB_STAGE_B].force = bad->force_breakaway = bad->force_press = bad->force_peak = 41;
+      bad->verdict[SB_VERDICT_PRESSES].value = 41;
+      break;
+    case SHARE:
+      bad->seal[SB_OUTER].rest_area_share = 1.01;
+      break;
+    case PEAK:
+      bad->stage[SB_STAGE_C].force = 1.01 * bad->force_peak;
+      break;
+    case PRESS:
+      bad->force_press = 0.99 * bad->force_breakaway;
+      break;
+    case ORDER:
+      bad->stage[SB_STAGE_D].time = 0.5 * bad->stage[SB_STAGE_C].time;
+      break;
+    default:
+      bad->contact[SB_OUTER].in_stroke.load *= 1.001;
+      break;
+    }
+    g_assert_true(sb_summary_contradiction(text, sizeof text, bad, &model));
+    g_assert_cmpstr(text, !=, "");
+    g_test_message("%d: %s", kind, text);
+  }
+  g_free(bad);
+  sb_run_destroy(run);
+}
+
+// A limit on another figure of the return judges that figure only: where it does not hold the
+// answer names it, where it holds the return margin decides.
+static void test_limits_of_return(void) {
+  static const struct {
+    const char *path;
+    double low, ratio; // of static friction
+    SbAnswer ok;
+    const char *figure;
+  } cases[] = {
+      {"cycle.force_return_min_N", 1, 1.1, SB_ANSWER_YES, "cycle.force_return_margin_N"},
+      {"cycle.force_return_min_N", 2, 1.1, SB_ANSWER_NO, "cycle.force_return_min_N"},
+      {"cycle.force_return_min_N", 1, 1.3, SB_ANSWER_NO, "cycle.force_return_margin_N"},
+      {"cycle.force_return_margin_N", 0.2, 1.1, SB_ANSWER_YES, "cycle.force_return_margin_N"},
+      {"cycle.force_return_margin_N", 1, 1.1, SB_ANSWER_NO, "cycle.force_return_margin_N"},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    const Setting ratio = {SB_P_FRICTION_STATIC_RATIO, cases[i].ratio};
+    SbModel model;
+    compile(&model, &ratio, 1);
+    limit(&model, cases[i].path, cases[i].low, INFINITY);
+    SbRun *run = run_of(&model, SB_OK, NULL);
+    const SbSummary *s = sb_run_summary(run);
+    const SbVerdict *of = &s->verdict[SB_VERDICT_RETURNS];
+    g_assert_cmpint(of->ok, ==, cases[i].ok);
+    g_assert_cmpstr(sb_figure(of->figure)->path, ==, cases[i].figure);
+    g_assert_cmpfloat(of->value, ==, sb_figure_value(s, of->figure));
+    sb_run_destroy(run);
+  }
+}
+
 // Impossible geometry is refused, and what is hardly meant is told.
 static void test_geometry(void) {
   SbParams params;
@@ -528,6 +619,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/figures/no-work", test_no_work);
   g_test_add_func("/figures/verdict", test_verdict);
   g_test_add_func("/figures/worse", test_worse);
+  g_test_add_func("/figures/contradictions", test_contradictions);
+  g_test_add_func("/figures/limits-of-return", test_limits_of_return);
   g_test_add_func("/figures/geometry", test_geometry);
   return g_test_run();
 }

@@ -7,9 +7,13 @@
 // read while this one writes.
 #include "engine/base/clock.h"
 #include "engine/numeric/sampling.h"
+#include "engine/valve/contradiction.h"
 #include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 
+#ifdef SB_ASSERT_RUNS
+#include <assert.h>
+#endif
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -369,6 +373,16 @@ void sb_run_begin_work(SbRun *run, const SbRunHooks *hooks) {
       .limit = (size_t)run->model->work_limit, .cancelled = hooks->cancelled, .data = hooks->data};
 }
 
+#ifdef SB_ASSERT_RUNS
+// Ends the program with a message if the run's figures contradict each other.
+static void assert_no_contradiction(const SbRun *run) {
+  char text[256];
+  if (sb_summary_contradiction(text, sizeof text, &run->summary, run->model)) {
+    __assert_fail(text, __FILE__, __LINE__, __func__);
+  }
+}
+#endif
+
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbRunHooks none = {0};
   double start = sb_clock_seconds();
@@ -404,6 +418,9 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   summary->status = status;
   summary->converged = status == SB_OK;
   summary->wall_s = sb_clock_seconds() - start;
+#ifdef SB_ASSERT_RUNS
+  assert_no_contradiction(run);
+#endif
   return status;
 }
 

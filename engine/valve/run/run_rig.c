@@ -123,6 +123,8 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
 
   if (summary->stage[SB_STAGE_B].reached) {
     summary->force_breakaway = summary->stage[SB_STAGE_B].force;
+    // The slip itself is between two samples.
+    summary->force_peak = fmax(summary->force_peak, summary->force_breakaway);
   }
   summary->duration = rig->duration;
   sb_run_fill_motion(summary, &energy, &motion.counters);
