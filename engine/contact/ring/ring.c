@@ -303,7 +303,7 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
       if (status == SB_OK && easy && ring->state == SB_RING_SLIDES) {
         status = slide_at_once(ring, &target, report);
       }
-      if (status == SB_OK && ring->state != SB_RING_SLIDES) {
+      if (status == SB_OK && ring->state != SB_RING_SLIDES && !ring->body.inward) {
         sb_ring_hold_turn(ring);
       }
       if (status == SB_OK && ring->options.fit_mesh) {

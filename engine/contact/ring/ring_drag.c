@@ -36,6 +36,12 @@ static const double FINER = 0.12;
 static const double FALL = 0.97, EASY_FALL = 0.985, FALL_TURN = 0.1, FLAT_TURN = 0.15, OVER = 3.0,
                     JAM = 10.0;
 
+// The drag over load from which on a gasket's path that ends has met its limit: its plates hold the
+// section, which does not turn, and where friction exceeds about half of the pressure the rubber
+// beside its edges folds and waves of detachment run through the contact (Schallamach 1971, Wear
+// 17:301), for which there is no steady state. A path that ends below is one that was not found.
+static const double DETACHES = 0.5, DETACHED_LEAST = 0.01;
+
 void sb_ring_rest_on_wall(SbRing *ring) {
   const SbRingContact *contact = ring->contact;
   const SbRingLoad *now = &contact->is.now;
@@ -172,8 +178,12 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
                        ITERATIONS_MOST);
     }
     if (status == SB_ERROR_NOT_CONVERGED) {
+      const bool detaches = ring->body.inward && limit > DETACHES;
       ring->count.rejected++;
       length *= 0.5;
+      if (detaches && (length < DETACHED_LEAST || spent)) {
+        return end_at_limit(ring, SB_RING_ROLLS, most, limit);
+      }
       if (length < ARC_LEAST || spent) {
         // What stops at single nodes of one mesh goes on with another.
         refit = ++meshes <= MESHES && !spent;
@@ -281,6 +291,20 @@ static SbStatus settle_limit(SbRing *ring, bool easy, SbReport *report) {
   return status;
 }
 
+// Solves the state of a gasket at the limit as strictly as any other, at its share: the turn, which
+// hardly changes along the path, tells nothing. The state of the path stays where that fails.
+static SbStatus settle_detached(SbRing *ring, SbReport *report) {
+  const SbRingState state = ring->state;
+  SbStatus status = settle_at(ring, ring->contact->is.now.friction_bore, report);
+  if (status == SB_ERROR_NOT_CONVERGED) {
+    sb_ring_contact_settle(ring->contact);
+    status = sb_succeed(report);
+  }
+  ring->arc.free = false;
+  ring->state = state;
+  return status;
+}
+
 SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
   SbStatus status = follow(ring, aim, report);
   ring->passing = false;
@@ -288,5 +312,8 @@ SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
   const bool easy = ring->easy;
   ring->easy = false;
   sb_ring_end_best(ring, limit);
+  if (limit && ring->body.inward) {
+    return settle_detached(ring, report);
+  }
   return limit ? settle_limit(ring, easy, report) : status;
 }

@@ -193,6 +193,7 @@ SbStatus sb_ring_refit_once(SbRing *ring, double element_size, SbReport *report)
 const double sb_ring_try[SB_RING_TRIES] = {1.0, 0.93, 0.87};
 
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
+  const SbRingState state = ring->state; // of the path, which attempts do not know
   SbStatus status = sb_ring_refit_once(ring, element_size, report);
   for (int i = 1; i < SB_RING_TRIES && status == SB_ERROR_NOT_CONVERGED; i++) {
     if (ring->contact->is.now.bore_slides == 0) {
@@ -200,5 +201,6 @@ SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report) {
     }
     status = sb_ring_refit_once(ring, sb_ring_try[i] * element_size, report);
   }
+  ring->state = state;
   return status;
 }
