@@ -24,6 +24,7 @@ SbDocument *sb_document_new(void) {
   document->edits = g_array_new(FALSE, FALSE, sizeof(Edit));
   g_array_set_clear_func(document->edits, sb_document_clear_edit);
   document->notes = g_ptr_array_new_with_free_func(g_free);
+  document->all_notes = g_ptr_array_new_with_free_func(g_free);
   document->faults = sb_issues_new();
   document->cases = sb_document_cases_new();
   document->pins = sb_document_pins_new();
@@ -61,6 +62,7 @@ void sb_document_free(SbDocument *document) {
   g_ptr_array_unref(document->entries);
   g_array_unref(document->edits);
   g_ptr_array_unref(document->notes);
+  g_ptr_array_unref(document->all_notes);
   g_ptr_array_unref(document->faults);
   g_ptr_array_unref(document->cases);
   g_ptr_array_unref(document->pins);
@@ -300,7 +302,30 @@ void sb_document_refresh_title(SbDocument *document) {
   }
 }
 
-// Adds the note on a value in force that is not what a shape under it makes.
+// Adds a note for each size that a drawing would change with `giver`, which the document changes
+// from the value of its valve's file, while the file's value of that size stays.
+static void note_kept(GPtrArray *notes, const SbDocument *document, SbParamId giver) {
+  const SbParams *own = &document->own, *base = &document->base;
+  if (!own->given[giver]) {
+    return;
+  }
+  const SbParams all = sb_document_params(document);
+  const int kind = (int)sb_params_get(&all, SB_P_VALVE_KIND);
+  const double before = sb_params_get(base, giver), now = sb_params_get(&all, giver);
+  for (int id = 0; id < SB_PARAM_COUNT && now != before; id++) {
+    if (sb_param_keeps((SbParamId)id, giver, kind) && base->given[id] && !own->given[id]) {
+      g_autofree char *value = sb_param_format((SbParamId)id, base->value[id]);
+      g_autofree char *first = sb_param_format(giver, before);
+      g_autofree char *second = sb_param_format(giver, now);
+      g_ptr_array_add(
+          notes, g_strdup_printf("%s stays at the %s of the valve's file while %s changes from "
+                                 "%s to %s; set it too if the drawing changes both",
+                                 sb_param((SbParamId)id)->key, value, sb_param(giver)->key, first,
+                                 second));
+    }
+  }
+}
+
 void sb_document_note_hardness(SbDocument *document, const char *key, const char *text) {
   g_autofree char *note = sb_hardness_note(text);
   if (note != NULL) {
@@ -308,6 +333,7 @@ void sb_document_note_hardness(SbDocument *document, const char *key, const char
   }
 }
 
+// Adds the note on a value in force that is not what a shape under it makes.
 void sb_document_note_override(SbDocument *document, SbParamId id, const char *shown) {
   char *note = sb_document_shape_note(document, id);
   if (note != NULL) {
@@ -425,7 +451,16 @@ const SbData *sb_document_data(const SbDocument *document, size_t index) {
 }
 
 const GPtrArray *sb_document_notes(const SbDocument *document) {
-  return document->notes;
+  // Those of sizes that stay depend on the values in force now.
+  GPtrArray *all = document->all_notes;
+  g_ptr_array_set_size(all, 0);
+  for (guint i = 0; i < document->notes->len; i++) {
+    g_ptr_array_add(all, g_strdup(document->notes->pdata[i]));
+  }
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    note_kept(all, document, (SbParamId)id);
+  }
+  return all;
 }
 
 const char *sb_document_shape_source(const SbDocument *document, SbParamId id) {

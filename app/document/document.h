@@ -61,8 +61,9 @@ const char *sb_document_path(const SbDocument *document);
 // Path of a scene's valve file, or NULL; borrowed.
 const char *sb_document_valve_path(const SbDocument *document);
 
-// Remarks that are no problems: where a part's shape says otherwise than a value in force.
-// Borrowed, of const char *.
+// Remarks that are no problems: where a part's shape makes another value than the one in force, what
+// modulus a hardness is, and which sizes stay while a drawing would change them with another.
+// Borrowed until the next call for this document, of const char *.
 const GPtrArray *sb_document_notes(const SbDocument *document);
 
 // The shape that a size follows from by the document's own file, as "the bore of [part.housing]":

@@ -103,6 +103,7 @@ struct SbDocument {
   bool remarks_changed;               // in the same way
   SbShapes *shapes;                   // of the parts
   GPtrArray *notes;                   // of char *, what shapes say against given values
+  GPtrArray *all_notes;               // these and those of sizes that stay: sb_document_notes()
   GPtrArray *faults;                  // of SbIssue: errors of the files, see document_faults.c
   GArray *edits;                      // Edit
   guint done;                         // edits before this one are in force
@@ -235,9 +236,10 @@ void sb_document_edit_rubber(SbDocument *document, SbNamedRubber *rubber);
 // What a document in `directory` must call its own rubber; NULL: it has none. Owned by the caller.
 char *sb_document_rubber_name_at(const SbDocument *document, const char *directory);
 
-// Adds to the notes that a value in force is not what a shape makes it; `shown` names who says so.
-// Nothing where they agree.
 // Adds a note to the document that states the modulus and the relation if `text`, the value of
 // `key`, is a hardness.
 void sb_document_note_hardness(SbDocument *document, const char *key, const char *text);
+
+// Adds to the notes that a value in force is not what a shape makes it; `shown` names who says so.
+// Nothing where they agree.
 void sb_document_note_override(SbDocument *document, SbParamId id, const char *shown);

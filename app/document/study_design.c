@@ -91,6 +91,31 @@ void sb_study_check_design(SbStudyReader *reader) {
   }
 }
 
+// A size that follows another one follows its design, not the scatter of its manufacture: it is
+// fixed at what the middle of the other one's tolerance makes of it.
+static void fix_kept(SbStudyFile *about, const SbStudyFile *study, const double *value) {
+  const SbParams params = sb_document_params(study->scene);
+  const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
+  const guint tolerances = about->vary->len;
+  for (guint k = 0; k < tolerances; k++) {
+    const SbParamId giver = g_array_index(about->vary, SbVary, k).id;
+    const int at = sb_study_vary_index(study, sb_param(giver)->key);
+    const double change = at >= 0 ? value[at] - sb_model_value(study->base, giver) : 0;
+    for (int id = 0; id < SB_PARAM_COUNT; id++) {
+      const char *key = sb_param((SbParamId)id)->key;
+      if (!sb_param_keeps((SbParamId)id, giver, kind) || params.given[id] ||
+          sb_study_vary_index(about, key) >= 0 || sb_study_vary_index(study, key) >= 0) {
+        continue;
+      }
+      SbVary vary = {.id = (SbParamId)id, .levels = g_new(double, 1)};
+      vary.levels[0] = sb_model_value(study->base, (SbParamId)id) + change;
+      vary.distribution =
+          (SbDistribution){.kind = SB_DISTRIBUTION_LEVELS, .level = vary.levels, .count = 1};
+      g_array_append_val(about->vary, vary);
+    }
+  }
+}
+
 SbStudyFile *sb_study_file_about(const SbStudyFile *study, const double *value, size_t samples) {
   SbStudyFile *about = g_new0(SbStudyFile, 1);
   *about = (SbStudyFile){.borrowed = true,
@@ -125,6 +150,7 @@ SbStudyFile *sb_study_file_about(const SbStudyFile *study, const double *value, 
     vary.offset = false;
     g_array_append_val(about->vary, vary);
   }
+  fix_kept(about, study, value);
   for (guint i = 0; i < study->vary->len; i++) {
     SbVary vary = {.id = g_array_index(study->vary, SbVary, i).id};
     if (sb_study_vary_index(about, sb_param(vary.id)->key) < 0) {

@@ -124,6 +124,54 @@ static bool from_choice(SbParamDefault *out, const SbParams *params, SbParamId i
   return false;
 }
 
+static const struct {
+  SbParamId id, giver;
+  int kind; // of the valve
+  double own, given;
+  const char *source;
+} keeps[] = {
+#define SB_KEEPS(id, giver, kind, own, given, source)                                              \
+  {SB_P_##id, SB_P_##giver, kind, own, given, source},
+#include "engine/valve/params.def"
+};
+enum { KEEPS = sizeof keeps / sizeof keeps[0] };
+
+// A size that differs from another one by what their defaults differ by. At the other's default it
+// is exactly its own.
+static bool from_size(SbParamDefault *out, const SbParams *params, SbParamId id) {
+  for (size_t i = 0; i < KEEPS; i++) {
+    if (keeps[i].id == id && (int)sb_params_get(params, SB_P_VALVE_KIND) == keeps[i].kind) {
+      *out = (SbParamDefault){.value = keeps[i].own +
+                                       (sb_params_get(params, keeps[i].giver) - keeps[i].given),
+                              .from = table[keeps[i].giver].key,
+                              .giver = (int)keeps[i].giver,
+                              .source = keeps[i].source,
+                              .tag = table[id].tag};
+      // To 1e-15 m: the difference of decimals is a decimal (6.2 less 0.206 mm is 5.994 mm).
+      out->value = round(out->value * 1e15) / 1e15;
+      out->value = fmin(fmax(out->value, table[id].min), table[id].max);
+      return true;
+    }
+  }
+  return false;
+}
+
+bool sb_param_keeps(SbParamId id, SbParamId giver, int kind) {
+  bool found = false;
+  for (size_t i = 0; i < KEEPS; i++) {
+    found = found || (keeps[i].id == id && keeps[i].giver == giver && keeps[i].kind == kind);
+  }
+  return found;
+}
+
+static bool is_kept(SbParamId id) {
+  size_t i = 0;
+  while (i < KEEPS && keeps[i].id != id) {
+    i++;
+  }
+  return i < KEEPS;
+}
+
 // What follows from a named fluid's saturated state.
 static const struct {
   SbParamId id;
@@ -197,7 +245,7 @@ static bool from_catalogue(SbParamDefault *out, const SbParams *params, SbParamI
 
 void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id) {
   static bool (*const sources[])(SbParamDefault *, const SbParams *, SbParamId) = {
-      from_parent, from_choice, from_fluid, from_rubber, from_catalogue};
+      from_parent, from_choice, from_size, from_fluid, from_rubber, from_catalogue};
   for (size_t i = 0; !sources[i](out, params, id); i++) {
   }
 }
@@ -205,7 +253,7 @@ void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id
 bool sb_param_follows(SbParamId id) {
   SbParamDefault derived;
   int choice;
-  return table[id].parent >= 0 || sb_params_brought(&derived, &choice, id, 0) ||
+  return table[id].parent >= 0 || sb_params_brought(&derived, &choice, id, 0) || is_kept(id) ||
          place_of_fluid(id) < OF_FLUID || sb_param_of_rubber(id);
 }
 

@@ -96,6 +96,10 @@ typedef struct {
 // a choice that brings defaults, a named fluid, a named rubber, the catalogue.
 void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id);
 
+// Whether `id` is a size that a drawing changes with the size `giver`, in a valve of a kind
+// (valve.kind): while nobody gives it, the difference of the two stays.
+bool sb_param_keeps(SbParamId id, SbParamId giver, int kind);
+
 // Whether a parameter may be a figure of a rubber.
 bool sb_param_of_rubber(SbParamId id);
 

@@ -143,8 +143,8 @@ static void test_refused(void) {
        "gland.radial_space: 9000 mm is out of range (allowed 0.1 to 20 mm)"},
       {"seal.modulus=3 MPa; gland.radial_space=3",
        "gland.radial_space: \"3\" has no unit, write for example \"3 mm\" (allowed 0.1 to 20 mm)"},
-      {"bore.diameter=5 mm", "bore.diameter: the bore is smaller than the stem "
-                             "(stem.pressure_diameter 5.794 mm) (allowed at least 5.794 mm)"},
+      {"stem.pressure_diameter=7 mm", "bore.diameter: the bore is smaller than the stem "
+                                      "(stem.pressure_diameter 7 mm) (allowed at least 7 mm)"},
       {"seal.modulus", "\"seal.modulus\" is no KEY=VALUE (allowed KEY=VALUE; KEY=VALUE)"},
       {"", "\"\" is no KEY=VALUE (allowed KEY=VALUE; KEY=VALUE)"},
       {"seal.modulus=3 MPa; seal.modulus=4 MPa", "seal.modulus: is given twice"},
@@ -180,11 +180,38 @@ static void test_refused(void) {
   cli_clear(&check);
 }
 
+// A size that a drawing changes with another one follows it, or a note states that it stays.
+static void test_kept(void) {
+  write_scene("[bore]\ndiameter = 6.2 mm\n");
+  CliResult run = CLI("run", path, "--json", "-");
+  JsonNode *root = cli_parse(run.out);
+  JsonObject *follows = json_node_get_object(cli_at(root, "follows"));
+  JsonObject *stem = json_object_get_object_member(follows, "stem.pressure_diameter");
+  g_assert_cmpfloat(json_object_get_double_member(stem, "value"), ==, 5.994e-3);
+  g_assert_cmpstr(json_object_get_string_member(stem, "from"), ==, "bore.diameter");
+  json_node_unref(root);
+  cli_clear(&run);
+  static const char *const commands[] = {"check", "run", "plan"};
+  for (size_t i = 0; i < G_N_ELEMENTS(commands); i++) {
+    g_autofree char *valve =
+        g_build_filename(g_getenv("SEALBENCH_ASSETS"), "scenes", "spring-return.scene", NULL);
+    CliResult stays = CLI(commands[i], valve, "--set", "bore.diameter=3.5 mm");
+    g_assert_nonnull(strstr(stays.err, "note: stem.pressure_diameter stays at the 3.2 mm of the "
+                                       "valve's file while bore.diameter changes"));
+    cli_clear(&stays);
+    stays = CLI(commands[i], valve, "--set", "bore.diameter=3.5 mm", "--set",
+                "bore.entry_diameter=4.2 mm", "--set", "stem.pressure_diameter=3.3 mm");
+    g_assert_null(strstr(stays.err, "stays at"));
+    cli_clear(&stays);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
   path = g_build_filename(cli.folder, "cases.scene", NULL);
   g_test_add_func("/cases/worst", test_worst);
+  g_test_add_func("/cases/kept", test_kept);
   g_test_add_func("/cases/shown", test_shown);
   g_test_add_func("/cases/failure", test_failure);
   g_test_add_func("/cases/refused", test_refused);

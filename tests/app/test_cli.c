@@ -90,7 +90,7 @@ static void test_bad_input(void) {
                   "MPa\" (allowed 0.1 to 10000 MPa)\n"
                   "sealbench: --set: [bore] x: unknown key\n");
   cli_clear(&result);
-  result = CLI("run", cli.scene, "-o", out, "--set", "bore.diameter=5 mm");
+  result = CLI("run", cli.scene, "-o", out, "--set", "stem.pressure_diameter=7 mm");
   g_assert_cmpint(result.code, ==, 1);
   g_assert_nonnull(strstr(result.err, "[bore] diameter: the bore is smaller than the stem"));
   cli_clear(&result);

@@ -137,7 +137,8 @@ static void test_standard_input(void) {
   g_assert_cmpint(result.code, ==, 1);
   g_assert_nonnull(strstr(result.err, "standard input: is not a valve or scene"));
   cli_clear(&result);
-  result = WITH(cli.scene, "plan", "-", "--set", "bore.diameter=5 mm");
+  result = WITH(cli.scene, "plan", "-", "--set", "bore.diameter=5 mm", "--set",
+                "stem.pressure_diameter=7 mm");
   g_assert_cmpint(result.code, ==, 1);
   g_assert_nonnull(strstr(result.err, "standard input: [bore] diameter"));
   cli_clear(&result);

@@ -48,9 +48,17 @@ static void remove_folder(char *folder) {
 }
 
 // The shipped valve gives every physical key that the thesis has or leaves to be inferred, with the
-// catalogue's default, exactly, and none that follows a set of models, a fluid or a rubber; sizes
-// are those of its kind of valve.
+// catalogue's default, exactly, and none that follows a set of models, a fluid, a rubber or another
+// size; sizes are those of its kind of valve.
 static bool follows(SbParamId id) {
+  for (int giver = 0; giver < SB_PARAM_COUNT; giver++) {
+    if (sb_param_keeps(id, (SbParamId)giver, SB_VALVE_PISTON)) {
+      return true;
+    }
+    if (sb_param_keeps(id, (SbParamId)giver, SB_VALVE_GASKET)) {
+      return false;
+    }
+  }
   SbParamDefault of;
   int choice, kinds = 0;
   bool others = false;

@@ -94,9 +94,9 @@ static void test_table(void) {
       // Scenes.
       {SCENE, "x.valve: [sealbench] valve: is missing: a scene names its valve's file"},
       // Combinations.
-      {VALVE "[bore]\ndiameter = 5 mm\n",
+      {VALVE "[stem]\npressure_diameter = 7 mm\n",
        "x.valve: [bore] diameter: the bore is smaller than the stem (stem.pressure_diameter "
-       "5.794 mm) (allowed at least 5.794 mm)"},
+       "7 mm) (allowed at least 7 mm)"},
       // Several at once, in the order of the file.
       {VALVE "[seal]\nmodulus = 1\nfoo = 2\n[gland]\nradial_space = -1 mm\n",
        "x.valve: [seal] modulus: \"1\" has no unit, write for example \"1 MPa\" (allowed 0.1 to "
@@ -217,7 +217,8 @@ static void test_files(void) {
   g_assert_nonnull(strstr(line, "[seal] modulus: \"mm\" is a unit of another kind"));
   g_free(line);
   // A combination is told where its value stands.
-  g_assert_true(g_file_set_contents(valve, VALVE "[bore]\ndiameter = 5 mm\n", -1, NULL));
+  g_assert_true(g_file_set_contents(
+      valve, VALVE "[bore]\ndiameter = 5 mm\n[stem]\npressure_diameter = 7 mm\n", -1, NULL));
   line = load_complaint(scene);
   g_assert_true(g_str_has_prefix(line, valve));
   g_free(line);

@@ -357,7 +357,7 @@ static void test_refused(void) {
       {{SB_P_GLAND_RADIAL_SPACE, 1}, SB_ERROR_RANGE, "gland.radial_space", "0.0001 to 0.02 (m)"},
       {{SB_P_SEAL_MODULUS, NAN}, SB_ERROR_INPUT, "seal.modulus", "seal.modulus: not a finite"},
       {{SB_P_OUTPUT_FRAMES, 10.5}, SB_ERROR_INPUT, "output.frames", "whole number"},
-      {{SB_P_BORE_DIAMETER, 5e-3}, SB_ERROR_INPUT, "bore.diameter", "at least 0.005794 m"},
+      {{SB_P_STEM_PRESSURE_DIAMETER, 7e-3}, SB_ERROR_INPUT, "bore.diameter", "at least 0.007 m"},
       {{SB_P_DRIVE_CYCLES, 2}, SB_ERROR_INPUT, "drive.cycles", "needs models.motion"},
       {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_MEASURED}, SB_ERROR_INPUT, "drive.kind", "series"},
   };

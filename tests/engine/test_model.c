@@ -185,12 +185,44 @@ static void test_problems(void) {
   SbParams params;
   sb_params_init(&params);
   SbReport report = {0};
-  g_assert_cmpint(sb_params_set(&params, SB_P_BORE_DIAMETER, 5e-3, &report), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_STEM_PRESSURE_DIAMETER, 7e-3, &report), ==, SB_OK);
   SbModel model;
   SbProblems problems;
   g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_ERROR_INPUT);
   g_assert_cmpuint(problems.count, ==, 1);
   g_assert_cmpstr(problems.item[0].key, ==, "bore.diameter");
+}
+
+// Sizes that a drawing changes together keep their difference until they are given.
+static void test_kept(void) {
+  static const struct {
+    SbValveKind kind;
+    SbParamId giver, id;
+    double given, kept;
+  } rows[] = {
+      {SB_VALVE_PISTON, SB_P_BORE_DIAMETER, SB_P_STEM_PRESSURE_DIAMETER, 6.0e-3, 5.794e-3},
+      {SB_VALVE_PISTON, SB_P_BORE_DIAMETER, SB_P_STEM_PRESSURE_DIAMETER, 6.2e-3, 5.994e-3},
+      {SB_VALVE_PISTON, SB_P_BORE_DIAMETER, SB_P_BORE_ENTRY_DIAMETER, 6.2e-3, 7.2e-3},
+      {SB_VALVE_GASKET, SB_P_STEM_PRESSURE_DIAMETER, SB_P_GASKET_BORE_DIAMETER, 2.8e-3, 2.65e-3},
+      {SB_VALVE_GASKET, SB_P_STEM_PRESSURE_DIAMETER, SB_P_GASKET_BORE_DIAMETER, 3.1e-3, 2.95e-3},
+      // The stem of a gasket valve does not slide in the chamber.
+      {SB_VALVE_GASKET, SB_P_BORE_DIAMETER, SB_P_STEM_PRESSURE_DIAMETER, 6.2e-3, 2.8e-3},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+    SbParams params;
+    SbParamDefault derived;
+    sb_params_init(&params);
+    g_assert_cmpint(sb_params_set(&params, SB_P_VALVE_KIND, rows[i].kind, NULL), ==, SB_OK);
+    g_assert_cmpint(sb_params_set(&params, rows[i].giver, rows[i].given, NULL), ==, SB_OK);
+    g_assert_cmpfloat(sb_params_get(&params, rows[i].id), ==, rows[i].kept);
+    sb_params_default(&derived, &params, rows[i].id);
+    g_assert_true(sb_param_follows(rows[i].id));
+    g_assert_true((derived.giver == (int)rows[i].giver) ==
+                  sb_param_keeps(rows[i].id, rows[i].giver, rows[i].kind));
+    // A value of its own stays.
+    g_assert_cmpint(sb_params_set(&params, rows[i].id, 4e-3, NULL), ==, SB_OK);
+    g_assert_cmpfloat(sb_params_get(&params, rows[i].id), ==, 4e-3);
+  }
 }
 
 static void test_pressure_maps(void) {
@@ -291,6 +323,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/model/sets", test_sets);
   g_test_add_func("/model/derived", test_derived);
   g_test_add_func("/model/problems", test_problems);
+  g_test_add_func("/model/kept", test_kept);
   g_test_add_func("/model/pressure-maps", test_pressure_maps);
   g_test_add_func("/model/storage", test_storage);
   g_test_add_func("/model/gland", test_gland);

@@ -82,6 +82,7 @@ static void test_hard(void) {
       // contact: it slows down to the speed of rest in steps of any size.
       {"creeps to rest beside a stop of 1e8 N/m",
        {{SB_P_BORE_DIAMETER, 6.57e-3},
+        {SB_P_STEM_PRESSURE_DIAMETER, 5.794e-3},
         {SB_P_GLAND_RADIAL_SPACE, 1.8556e-3},
         {SB_P_SEAL_SECTION_DIAMETER, 2.506e-3},
         {SB_P_DRIVE_STROKE, 9.036e-3},
@@ -109,6 +110,7 @@ static void test_hard(void) {
       // A thousand slips in groups, of which a coarse tolerance still closes the energies.
       {"groups of slips to a tolerance of 8e-7",
        {{SB_P_BORE_DIAMETER, 7.173e-3},
+        {SB_P_STEM_PRESSURE_DIAMETER, 5.794e-3},
         {SB_P_GLAND_RADIAL_SPACE, 1.094e-3},
         {SB_P_STEM_MASS, 12.22e-3},
         {SB_P_SEAL_OUTER_MODULUS, 1.73e6},

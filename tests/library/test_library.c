@@ -90,7 +90,7 @@ static void test_parameters(void) {
   g_assert_true(isnan(value));
   g_assert_null(sb_scene_get_text(scene, "gland.radius"));
   // Each in its range, and not together.
-  g_assert_cmpint(sb_scene_set_text(scene, "bore.diameter", "5 mm"), ==, SB_SCENE_OK);
+  g_assert_cmpint(sb_scene_set_text(scene, "stem.pressure_diameter", "7 mm"), ==, SB_SCENE_OK);
   g_assert_cmpint(sb_scene_run(scene), ==, SB_SCENE_ERROR_INPUT);
   g_assert_cmpstr(sb_scene_message_key(scene), ==, "bore.diameter");
   g_assert_cmpuint(sb_scene_frame_count(scene), ==, 0);

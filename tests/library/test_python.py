@@ -87,7 +87,7 @@ check('codes of a run', len(scene.warning_codes) > 0 and 'karaszkiewicz-squeeze'
 check('identity', len(sealbench.SOURCE) == 64 and sealbench.VERSION == '0.2.0')
 more = scene.evaluate(paths[:1], {'seal.outer.section_diameter': 1.63e-3})
 check('an override', more[paths[0]] > values[paths[0]] and scene['seal.outer.section_diameter'] == 1.61e-3)
-status, key, text = failure(lambda: scene.evaluate(paths, {'bore.diameter': 5e-3}))
+status, key, text = failure(lambda: scene.evaluate(paths, {'stem.pressure_diameter': 7e-3}))
 check('a refused override', (status, key) == ('input', 'bore.diameter') and 'at least' in text, text)
 
 told = []
