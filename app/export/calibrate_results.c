@@ -2,6 +2,7 @@
 #include "app/export/calibrate_results.h"
 
 #include "app/base/format.h"
+#include "app/export/csv.h"
 #include "app/export/json.h"
 #include "app/export/measured_results.h"
 #include "app/export/still.h"
@@ -113,7 +114,9 @@ char *sb_calibration_csv(const SbCalibration *of) {
   GString *out = g_string_new("sample");
   for (size_t j = 0; j < of->parameters; j++) {
     const char *si = sb_param(of->parameter[j].id)->si;
-    g_string_append_printf(out, ",%s [%s]", of->parameter[j].name, si);
+    g_autofree char *name = g_strdup_printf("%s [%s]", of->parameter[j].name, si);
+    g_autofree char *cell = sb_csv_cell(name);
+    g_string_append_printf(out, ",%s", cell);
   }
   g_string_append_c(out, '\n');
   for (size_t i = 0; i < of->samples; i++) {

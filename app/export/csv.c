@@ -16,12 +16,17 @@ static void put(FILE *stream, double value) {
   fprintf(stream, ",%s", isnan(value) ? "" : sb_number_format(digits, value));
 }
 
-void sb_csv_text(FILE *stream, const char *text) {
+char *sb_csv_cell(const char *text) {
   g_auto(GStrv) parts = g_strsplit(text != NULL ? text : "", "\"", -1);
   g_autofree char *doubled = g_strjoinv("\"\"", parts);
   const char *quote = strpbrk(doubled, ",;\"\r\n\t") != NULL ? "\"" : "";
   const bool formula = text != NULL && text[0] != '\0' && strchr("=+-@\t\r", text[0]) != NULL;
-  fprintf(stream, "%s%s%s%s", quote, formula ? "'" : "", doubled, quote);
+  return g_strdup_printf("%s%s%s%s", quote, formula ? "'" : "", doubled, quote);
+}
+
+void sb_csv_text(FILE *stream, const char *text) {
+  g_autofree char *cell = sb_csv_cell(text);
+  fputs(cell, stream);
 }
 
 static void put_text(FILE *stream, const char *text) {

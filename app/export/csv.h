@@ -6,8 +6,12 @@
 
 #include <stdio.h>
 
-// Writes a text as a cell: in quotes where it has a separator, a quote or a line end, and with an
-// apostrophe in front where a spreadsheet would compute it as a formula. NULL: empty.
+// Returns a text as a cell: in quotes where it has a separator, a quote or a line end, and with an
+// apostrophe in front where a spreadsheet would compute it as a formula. NULL: empty. Owned by the
+// caller: g_free().
+char *sb_csv_cell(const char *text);
+
+// Writes that cell.
 void sb_csv_text(FILE *stream, const char *text);
 
 // One row per frame: time, displacement, velocity, force, ...

@@ -38,6 +38,11 @@ SbStore *sb_kept_store_open(void) {
   g_mkdir_with_parents(folder, 0700);
   remove_others(folder, name);
   SbStore *store = sb_store_open(path, &error);
+  // Another window may have it.
+  if (store != NULL && !sb_store_open_for_writing(store, &error)) {
+    sb_store_discard(store);
+    store = NULL;
+  }
   if (store == NULL && g_error_matches(error, SB_APP_ERROR, SB_APP_ERROR_INPUT)) {
     g_unlink(path);
   }

@@ -212,7 +212,9 @@ static void test_reliability(void) {
   g_assert_cmpfloat(cli_number(root, "limits.2.probability_of_failure"), ==, 0);
   g_assert_cmpfloat(cli_number(root, "limits.2.interval_95.1"), >, 0);
   const char *reason = json_node_get_string(cli_at(root, "limits.2.reason"));
-  g_assert_nonnull(strstr(reason, "none of 2000 samples"));
+  // Valves that stick have no dose.
+  g_assert_true(g_str_has_prefix(reason, "none of "));
+  g_assert_nonnull(strstr(reason, " samples is beyond it"));
   // Of any limit no less than of the worst.
   g_assert_cmpfloat(cli_number(root, "any_limit.probability_of_failure"), >=,
                     cli_number(root, "limits.1.probability_of_failure"));
