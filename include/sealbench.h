@@ -68,8 +68,8 @@ typedef enum {
 // Version of the library that is loaded, "0.2.0".
 const char *sb_library_version(void);
 
-// SHA-256 of the sources of its engine and of what compiled them, 64 hexadecimal digits: libraries and
-// programs of the same hash compute the same figures.
+// SHA-256 of the sources of its engine and of what compiled them, 64 hexadecimal digits: libraries
+// and programs of the same hash compute the same figures.
 const char *sb_library_source(void);
 
 // ---- Catalogues ----
@@ -126,6 +126,10 @@ const char *sb_scene_issue(const SbScene *scene, size_t index);
 
 // Title of the scene.
 const char *sb_scene_title(const SbScene *scene);
+
+// Text of the scene's file with its changes: sb_scene_parse() with the same folder makes an equal
+// scene of it. Borrowed until the next call with this scene.
+const char *sb_scene_text(SbScene *scene);
 
 // ---- Parameters ----
 
@@ -202,8 +206,9 @@ SbSceneStatus sb_scene_evaluate(SbScene *scene, const char *const *keys, const d
                                 size_t count, const char *const *figures, size_t figure_count,
                                 double *out);
 
-// Warning `index` of the last evaluation, of the models that its figures needed: a sentence, and its
-// code. NULL beyond the last, and after an evaluation that failed. Borrowed until the next evaluation.
+// Warning `index` of the last evaluation, of the models that its figures needed: a sentence, and
+// its code. NULL beyond the last, and after an evaluation that failed. Borrowed until the next
+// evaluation.
 const char *sb_scene_evaluation_warning(const SbScene *scene, size_t index);
 const char *sb_scene_evaluation_warning_code(const SbScene *scene, size_t index);
 

@@ -7,6 +7,7 @@
 #include "engine/valve/sealbench.h"
 
 #include <gsl/gsl_errno.h>
+#include <locale.h>
 #include <math.h>
 #include <pthread.h>
 #include <stddef.h>
@@ -39,6 +40,7 @@ struct SbScene {
   void (*progress)(void *data, double fraction);
   int (*cancelled)(void *data);
   void *data;
+  locale_t caller; // locale of the thread that computes, for its callbacks
 };
 
 // ---- What one frame has ----
@@ -88,7 +90,21 @@ static SbFigureInfo figure_infos[SB_FIGURE_COUNT];
 static SbFigureInfo quantity_infos[G_N_ELEMENTS(quantities)];
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 
+// Texts and numbers are the same in every locale of the program: while a function of the library
+// runs, its thread has this one.
+static locale_t own_locale;
+
+static void restore_locale(locale_t *before) {
+  (void)uselocale(*before);
+}
+#define IN_OWN_LOCALE                                                                              \
+  __attribute__((cleanup(restore_locale), unused)) locale_t before_ = uselocale(own_locale)
+
 static void set_up(void) {
+  own_locale = newlocale(LC_ALL_MASK, "C.UTF-8", (locale_t)0);
+  if (own_locale == (locale_t)0) {
+    own_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
+  }
   // A special function outside its domain must not end the program; the engine checks results.
   gsl_set_error_handler_off();
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
@@ -206,6 +222,7 @@ static SbSceneStatus take(SbScene **out, SbDocument *document, GPtrArray *issues
 
 SbSceneStatus sb_scene_open(SbScene **out, const char *path) {
   ensure_set_up();
+  IN_OWN_LOCALE;
   GPtrArray *issues = sb_issues_new();
   SbDocument *document = sb_document_load(path, issues);
   bool readable = document != NULL || access(path, R_OK) == 0;
@@ -214,12 +231,14 @@ SbSceneStatus sb_scene_open(SbScene **out, const char *path) {
 
 SbSceneStatus sb_scene_parse(SbScene **out, const char *text, size_t length, const char *folder) {
   ensure_set_up();
+  IN_OWN_LOCALE;
   GPtrArray *issues = sb_issues_new();
   return take(out, sb_document_parse(text, length, "text", folder, issues), issues, true);
 }
 
 SbSceneStatus sb_scene_new(SbScene **out) {
   ensure_set_up();
+  IN_OWN_LOCALE;
   return take(out, sb_document_new(), sb_issues_new(), true);
 }
 
@@ -253,6 +272,13 @@ const char *sb_scene_title(const SbScene *scene) {
   return sb_document_title(scene->document);
 }
 
+const char *sb_scene_text(SbScene *scene) {
+  IN_OWN_LOCALE;
+  g_free(scene->text);
+  scene->text = sb_document_to_text(scene->document, NULL);
+  return scene->text;
+}
+
 // ---- Parameters ----
 
 // A change that the document refused.
@@ -263,6 +289,7 @@ static SbSceneStatus refused(SbScene *scene, const char *key, GError *error) {
 }
 
 SbSceneStatus sb_scene_set_text(SbScene *scene, const char *key, const char *text) {
+  IN_OWN_LOCALE;
   GError *error = NULL;
   int id = find_parameter(scene, key);
   if (id < 0) {
@@ -273,6 +300,7 @@ SbSceneStatus sb_scene_set_text(SbScene *scene, const char *key, const char *tex
 }
 
 SbSceneStatus sb_scene_set(SbScene *scene, const char *key, double value) {
+  IN_OWN_LOCALE;
   GError *error = NULL;
   int id = find_parameter(scene, key);
   if (id < 0) {
@@ -292,6 +320,7 @@ SbSceneStatus sb_scene_set(SbScene *scene, const char *key, double value) {
 }
 
 SbSceneStatus sb_scene_unset(SbScene *scene, const char *key) {
+  IN_OWN_LOCALE;
   int id = find_parameter(scene, key);
   if (id < 0) {
     return SB_SCENE_ERROR_INPUT;
@@ -301,12 +330,14 @@ SbSceneStatus sb_scene_unset(SbScene *scene, const char *key) {
 }
 
 SbSceneStatus sb_scene_get(SbScene *scene, const char *key, double *value) {
+  IN_OWN_LOCALE;
   int id = find_parameter(scene, key);
   *value = id < 0 ? NAN : sb_document_value(scene->document, (SbParamId)id);
   return id < 0 ? SB_SCENE_ERROR_INPUT : SB_SCENE_OK;
 }
 
 const char *sb_scene_get_text(SbScene *scene, const char *key) {
+  IN_OWN_LOCALE;
   int id = find_parameter(scene, key);
   g_free(scene->text);
   scene->text = id < 0 ? NULL : sb_document_text(scene->document, (SbParamId)id);
@@ -325,13 +356,21 @@ void sb_scene_callbacks(SbScene *scene, void (*progress)(void *data, double frac
 static void on_progress(void *data, double fraction, size_t frames) {
   const SbScene *scene = data;
   if (scene->progress != NULL) {
+    const locale_t own = uselocale(scene->caller);
     scene->progress(scene->data, fraction);
+    (void)uselocale(own);
   }
 }
 
 static bool is_cancelled(void *data) {
   const SbScene *scene = data;
-  return scene->cancelled != NULL && scene->cancelled(scene->data) != 0;
+  if (scene->cancelled == NULL) {
+    return false;
+  }
+  const locale_t own = uselocale(scene->caller);
+  const bool cancelled = scene->cancelled(scene->data) != 0;
+  (void)uselocale(own);
+  return cancelled;
 }
 
 // The values in force as a model.
@@ -346,6 +385,8 @@ static SbSceneStatus compile(SbScene *scene, SbModel **model) {
 }
 
 SbSceneStatus sb_scene_run(SbScene *scene) {
+  IN_OWN_LOCALE;
+  scene->caller = before_;
   g_autoptr(SbModel) model = NULL;
   SbPlan plan;
   SbReport why = {0};
@@ -368,6 +409,7 @@ SbSceneStatus sb_scene_run(SbScene *scene) {
 }
 
 SbSceneStatus sb_scene_figure(SbScene *scene, const char *path, double *value) {
+  IN_OWN_LOCALE;
   int index = find_figure(scene, path);
   const SbSummary *summary = scene->run != NULL ? sb_run_summary(scene->run) : NULL;
   *value = NAN;
@@ -413,6 +455,7 @@ size_t sb_scene_frame_count(const SbScene *scene) {
 }
 
 SbSceneStatus sb_scene_frames(SbScene *scene, const char *quantity, double *out) {
+  IN_OWN_LOCALE;
   size_t count = 0;
   const SbFrame *frames = scene->run != NULL ? sb_run_frames(scene->run, &count) : NULL;
   for (size_t q = 0; q < G_N_ELEMENTS(quantities); q++) {
@@ -430,6 +473,7 @@ SbSceneStatus sb_scene_frames(SbScene *scene, const char *quantity, double *out)
 
 SbSceneStatus sb_scene_profile(SbScene *scene, size_t frame, const char *seal,
                                SbSceneProfile *out) {
+  IN_OWN_LOCALE;
   size_t count = 0;
   const SbFrame *frames = scene->run != NULL ? sb_run_frames(scene->run, &count) : NULL;
   *out = (SbSceneProfile){0};
@@ -457,6 +501,8 @@ SbSceneStatus sb_scene_profile(SbScene *scene, size_t frame, const char *seal,
 SbSceneStatus sb_scene_evaluate(SbScene *scene, const char *const *keys, const double *values,
                                 size_t count, const char *const *figures, size_t figure_count,
                                 double *out) {
+  IN_OWN_LOCALE;
+  scene->caller = before_;
   g_autoptr(SbModel) model = NULL;
   SbReport why = {0};
   g_autofree SbOverride *overrides = g_new(SbOverride, count + 1);

@@ -11,8 +11,13 @@
 Parameters, figures and quantities go by the keys of the files and of the program's JSON; PARAMETERS,
 FIGURES and QUANTITIES describe them. Numbers are SI, texts carry units ("1.63 mm"). Arrays are
 numpy's float64 where numpy is installed, else array.array("d"); they are copies. A figure that was
-not computed is NaN, and reason() says why. A scene belongs to one thread at a time; different scenes
-may be used in different threads at once, and a run lets other threads go on.
+not computed is NaN, and reason() says why. Each scene has a lock: a call from another thread waits until
+the one before has ended. Different scenes are used in different threads at the same time, and a run lets
+other threads continue. A callback cannot use its own scene (RuntimeError).
+
+A scene is also a mapping of its parameters: `"gland.radial_space" in scene`, list(scene), dict(scene).
+copy.copy(), copy.deepcopy() and pickle make a new scene from the text of the old one, without its run;
+files that the text names are read again.
 
 The library is looked for by the name in the environment variable SEALBENCH_LIBRARY, beside this
 module's own installation, then where the system's loader looks.
@@ -20,11 +25,13 @@ module's own installation, then where the system's loader looks.
 from __future__ import annotations
 
 import array
+import contextlib
 import ctypes
 import glob
 import math
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import threading
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import TracebackType
 from typing import Any, NamedTuple, Union
 
@@ -134,6 +141,7 @@ for _name, _result, _arguments in (
         ("sb_scene_message_key", _Text, [_scene]),
         ("sb_scene_issue", _Text, [_scene, _size]),
         ("sb_scene_title", _Text, [_scene]),
+        ("sb_scene_text", _Text, [_scene]),
         ("sb_scene_set_text", ctypes.c_int, [_scene, _Text, _Text]),
         ("sb_scene_set", ctypes.c_int, [_scene, _Text, _Double]),
         ("sb_scene_unset", ctypes.c_int, [_scene, _Text]),
@@ -159,6 +167,23 @@ for _name, _result, _arguments in (
 
 def _text(value: bytes | None) -> str:
     return "" if value is None else value.decode()
+
+
+def _name(value: str) -> bytes:
+    """A text for the library, which reads it up to a NUL."""
+    if not isinstance(value, str):
+        raise TypeError(f"a str is needed, not {type(value).__name__}")
+    if "\0" in value:
+        raise Error(1, f"{value!r} holds a NUL", value.partition("\0")[0])
+    return value.encode()
+
+
+def _path(value: str | os.PathLike[str]) -> bytes:
+    """A path for the library."""
+    path = os.fsencode(value)
+    if b"\0" in path:
+        raise Error(1, f"the path {os.fsdecode(path)!r} holds a NUL")
+    return path
 
 
 def _copy(pointer: Any, count: int) -> Array:
@@ -194,15 +219,24 @@ class Scene:
                  folder: str | os.PathLike[str] | None = None) -> None:
         """Opens a file, or a file's text (other files are looked for in `folder`); without either
         the thesis' valve. Error with every issue of the file, a line each."""
-        self._scene: ctypes.c_void_p | None = _scene()
-        out = ctypes.byref(self._scene)
+        self._scene: ctypes.c_void_p | None = None
+        self._lock = threading.RLock()
+        self._inside = False  # a call of the library is under way
+        self._calls: tuple[Any, ...] = ()
+        self._raised: BaseException | None = None
+        # Where other files are looked for when the scene is copied.
+        self._folder = os.path.abspath(os.fspath(folder) if folder else ".")
+        found = _scene()
+        out = ctypes.byref(found)
         if text is not None:
             data = text.encode()
-            status = _lib.sb_scene_parse(out, data, len(data), os.fsencode(folder) if folder else None)
+            status = _lib.sb_scene_parse(out, data, len(data), _path(folder) if folder else None)
         elif path is not None:
-            status = _lib.sb_scene_open(out, os.fsencode(path))
+            self._folder = os.path.dirname(os.path.abspath(os.fspath(path)))
+            status = _lib.sb_scene_open(out, _path(path))
         else:
             status = _lib.sb_scene_new(out)
+        self._scene = found
         if status != 0:
             issues, key = [], ""
             while self._scene and (line := _lib.sb_scene_issue(self._scene, len(issues))) is not None:
@@ -211,14 +245,15 @@ class Scene:
                 key = _text(_lib.sb_scene_message_key(self._scene))
             self.close()
             raise Error(status, "\n".join(issues) or "no memory", key)
-        self._calls: tuple[Any, ...] = ()
-        self._raised: BaseException | None = None
 
     def close(self) -> None:
         """Frees the scene; it cannot be used afterwards."""
-        if self._scene is not None:
-            _lib.sb_scene_close(self._scene)
-            self._scene = None
+        with self._lock:
+            if self._inside:
+                raise RuntimeError("a callback cannot close its own scene")
+            if self._scene is not None:
+                _lib.sb_scene_close(self._scene)
+                self._scene = None
 
     def __enter__(self) -> Scene:
         return self
@@ -231,47 +266,88 @@ class Scene:
         if getattr(self, "_scene", None) is not None:
             self.close()
 
-    def _use(self) -> ctypes.c_void_p:
-        if self._scene is None:
-            raise ValueError("the scene is closed")
-        return self._scene
+    @contextlib.contextmanager
+    def _use(self) -> Iterator[ctypes.c_void_p]:
+        """The scene for calls of the library, which no other thread makes meanwhile."""
+        with self._lock:
+            if self._scene is None:
+                raise ValueError("the scene is closed")
+            if self._inside:
+                raise RuntimeError("a callback cannot use its own scene")
+            self._inside = True
+            try:
+                yield self._scene
+            finally:
+                self._inside = False
 
-    def _check(self, status: int) -> None:
+    def _check(self, scene: ctypes.c_void_p, status: int) -> None:
         raised, self._raised = self._raised, None
         if raised is not None:
             raise raised
         if status != 0:
-            raise Error(status, _text(_lib.sb_scene_message(self._use())),
-                        _text(_lib.sb_scene_message_key(self._use())))
+            raise Error(status, _text(_lib.sb_scene_message(scene)), _text(_lib.sb_scene_message_key(scene)))
 
     @property
     def title(self) -> str:
-        return _text(_lib.sb_scene_title(self._use()))
+        with self._use() as scene:
+            return _text(_lib.sb_scene_title(scene))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """copy.copy(), copy.deepcopy() and pickle: a scene of the same text, without its run."""
+        with self._use() as scene:
+            return _reopen, (type(self), _text(_lib.sb_scene_text(scene)), self._folder)
 
     # ---- Parameters ----
 
     def __getitem__(self, key: str) -> float:
         """Value in force, SI; the index of a choice."""
-        value = _Double()
-        self._check(_lib.sb_scene_get(self._use(), key.encode(), ctypes.byref(value)))
+        value, name = _Double(), _name(key)
+        with self._use() as scene:
+            self._check(scene, _lib.sb_scene_get(scene, name, ctypes.byref(value)))
         return value.value
 
     def __setitem__(self, key: str, value: Value) -> None:
         """Sets a parameter from a text with unit ("1.63 mm", "reynolds") or a number in SI."""
-        if isinstance(value, str):
-            self._check(_lib.sb_scene_set_text(self._use(), key.encode(), value.encode()))
-        else:
-            self._check(_lib.sb_scene_set(self._use(), key.encode(), value))
+        name = _name(key)
+        text = _name(value) if isinstance(value, str) else None
+        with self._use() as scene:
+            if text is not None:
+                self._check(scene, _lib.sb_scene_set_text(scene, name, text))
+            else:
+                self._check(scene, _lib.sb_scene_set(scene, name, value))
 
     def __delitem__(self, key: str) -> None:
         """Takes the scene's own value back: its valve's or the default is in force again."""
-        self._check(_lib.sb_scene_unset(self._use(), key.encode()))
+        name = _name(key)
+        with self._use() as scene:
+            self._check(scene, _lib.sb_scene_unset(scene, name))
+
+    def __contains__(self, key: object) -> bool:
+        return key in PARAMETERS
+
+    def __iter__(self) -> Iterator[str]:
+        """The keys of all parameters."""
+        return iter(PARAMETERS)
+
+    def keys(self) -> list[str]:
+        """The keys of all parameters."""
+        return list(PARAMETERS)
+
+    def values(self) -> list[float]:
+        """The values in force of all parameters, SI."""
+        return [self[key] for key in PARAMETERS]
+
+    def items(self) -> list[tuple[str, float]]:
+        """Keys and values in force of all parameters, SI."""
+        return [(key, self[key]) for key in PARAMETERS]
 
     def text(self, key: str) -> str:
         """Value in force as text with unit."""
-        value = _lib.sb_scene_get_text(self._use(), key.encode())
-        self._check(0 if value is not None else 1)
-        return _text(value)
+        name = _name(key)
+        with self._use() as scene:
+            value = _lib.sb_scene_get_text(scene, name)
+            self._check(scene, 0 if value is not None else 1)
+            return _text(value)
 
     # ---- A run ----
 
@@ -290,18 +366,21 @@ class Scene:
         asked = guarded(cancelled, True)
         on_progress = _OnProgress(guarded(progress, None))
         is_cancelled = _IsCancelled(lambda data: int(bool(self._raised is not None or asked(data))))
-        _lib.sb_scene_callbacks(self._use(), on_progress, is_cancelled, None)
+        with self._use() as scene:
+            _lib.sb_scene_callbacks(scene, on_progress, is_cancelled, None)
         self._calls = (on_progress, is_cancelled)  # as long as the library may call them
 
     def run(self) -> None:
         """Computes the scene's cycle. After Error "not-converged", "infeasible" or "cancelled" what was
         finished can be read."""
-        self._check(_lib.sb_scene_run(self._use()))
+        with self._use() as scene:
+            self._check(scene, _lib.sb_scene_run(scene))
 
     def figure(self, path: str) -> float:
         """A figure of the last run, SI; NaN: not computed, see reason()."""
-        value = _Double()
-        self._check(_lib.sb_scene_figure(self._use(), path.encode(), ctypes.byref(value)))
+        value, name = _Double(), _name(path)
+        with self._use() as scene:
+            self._check(scene, _lib.sb_scene_figure(scene, name, ctypes.byref(value)))
         return value.value
 
     def figures(self) -> dict[str, float]:
@@ -310,73 +389,89 @@ class Scene:
 
     def reason(self, path: str) -> str:
         """Why a figure of the last run is NaN; empty where it is a number."""
-        return _text(_lib.sb_scene_reason(self._use(), path.encode()))
+        name = _name(path)
+        with self._use() as scene:
+            return _text(_lib.sb_scene_reason(scene, name))
 
     @property
     def warnings(self) -> list[str]:
         """Warnings of the last run, a sentence each."""
         found: list[str] = []
-        while (text := _lib.sb_scene_warning(self._use(), len(found))) is not None:
-            found.append(_text(text))
+        with self._use() as scene:
+            while (text := _lib.sb_scene_warning(scene, len(found))) is not None:
+                found.append(_text(text))
         return found
 
     @property
     def warning_codes(self) -> list[str]:
         """Codes of the warnings of the last run, in their order, each once."""
-        return self._codes(_lib.sb_scene_warning_code)
+        with self._use() as scene:
+            return self._codes(scene, _lib.sb_scene_warning_code)
 
-    def _codes(self, code_at: Any) -> list[str]:
+    @staticmethod
+    def _codes(scene: ctypes.c_void_p, code_at: Any) -> list[str]:
         found: dict[str, None] = {}
         index = 0
-        while (code := code_at(self._use(), index)) is not None:
+        while (code := code_at(scene, index)) is not None:
             found[_text(code)] = None
             index += 1
         return list(found)
 
     def __len__(self) -> int:
         """Frames of the last run."""
-        return int(_lib.sb_scene_frame_count(self._use()))
+        with self._use() as scene:
+            return int(_lib.sb_scene_frame_count(scene))
 
     def __bool__(self) -> bool:
         return True
 
     def frames(self, *quantities: str) -> list[Array]:
         """An array over the frames of the last run for each quantity."""
-        count = len(self)
+        names = [_name(quantity) for quantity in quantities]
         out = []
-        for quantity in quantities:
-            values = (_Double * max(count, 1))()
-            self._check(_lib.sb_scene_frames(self._use(), quantity.encode(), values))
-            out.append(_copy(values, count))
+        with self._use() as scene:
+            count = int(_lib.sb_scene_frame_count(scene))
+            for name in names:
+                values = (_Double * max(count, 1))()
+                self._check(scene, _lib.sb_scene_frames(scene, name, values))
+                out.append(_copy(values, count))
         return out
 
     def profile(self, frame: int, seal: str = "outer") -> Profile:
         """Pressure and film over a seal's contact at a frame; empty arrays without contact."""
-        got = _Profile()
-        frame = frame + len(self) if frame < 0 else frame
-        self._check(_lib.sb_scene_profile(self._use(), frame, seal.encode(), ctypes.byref(got)))
-        return Profile(_copy(got.x, got.count), _copy(got.pressure, got.count),
-                       _copy(got.film, got.count), _copy(got.asperity_pressure, got.count),
-                       _text(got.model))
+        got, name = _Profile(), _name(seal)
+        with self._use() as scene:
+            frame = frame + int(_lib.sb_scene_frame_count(scene)) if frame < 0 else frame
+            self._check(scene, _lib.sb_scene_profile(scene, frame, name, ctypes.byref(got)))
+            return Profile(_copy(got.x, got.count), _copy(got.pressure, got.count),
+                           _copy(got.film, got.count), _copy(got.asperity_pressure, got.count),
+                           _text(got.model))
 
     # ---- Evaluation ----
 
-    def evaluate(self, figures: Sequence[str], overrides: Mapping[str, float] | None = None,
+    def evaluate(self, figures: str | Iterable[str], overrides: Mapping[str, float] | None = None,
                  reasons: dict[str, str] | None = None,
                  warnings: list[str] | None = None) -> dict[str, float]:
         """Figures with parameters replaced (SI), to the bit those of a run; computes no more than they
-        need and leaves the scene and its last run as they are. `reasons` takes why a figure is NaN, `warnings`
-        the codes of validity of the models that the figures needed."""
+        need and leaves the scene and its last run as they are. One figure may be given as a str.
+        `reasons` takes why a figure is NaN, `warnings` the codes of validity of the models that the
+        figures needed."""
         given = dict(overrides or {})
-        keys = (_Text * max(len(given), 1))(*(key.encode() for key in given))
+        wanted = [figures] if isinstance(figures, str) else list(figures)
+        keys = (_Text * max(len(given), 1))(*(_name(key) for key in given))
         values = (_Double * max(len(given), 1))(*given.values())
-        paths = (_Text * max(len(figures), 1))(*(path.encode() for path in figures))
-        out = (_Double * max(len(figures), 1))()
-        self._check(_lib.sb_scene_evaluate(self._use(), keys, values, len(given), paths, len(figures), out))
-        if reasons is not None:
-            for path, value in zip(figures, out):
-                if math.isnan(value):
-                    reasons[path] = _text(_lib.sb_scene_evaluation_reason(self._use(), path.encode()))
-        if warnings is not None:
-            warnings.extend(self._codes(_lib.sb_scene_evaluation_warning_code))
-        return dict(zip(figures, out))
+        paths = (_Text * max(len(wanted), 1))(*(_name(path) for path in wanted))
+        out = (_Double * max(len(wanted), 1))()
+        with self._use() as scene:
+            self._check(scene, _lib.sb_scene_evaluate(scene, keys, values, len(given), paths, len(wanted), out))
+            for path, value in zip(wanted, out):
+                if reasons is not None and math.isnan(value):
+                    reasons[path] = _text(_lib.sb_scene_evaluation_reason(scene, _name(path)))
+            if warnings is not None:
+                warnings.extend(self._codes(scene, _lib.sb_scene_evaluation_warning_code))
+        return dict(zip(wanted, out))
+
+
+def _reopen(kind: type[Scene], text: str, folder: str) -> Scene:
+    """A scene of the text of another one, whose files are looked for in the same folder."""
+    return kind(text=text, folder=folder)

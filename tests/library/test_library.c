@@ -279,12 +279,45 @@ static void test_callbacks(void) {
   sb_scene_close(scene);
 }
 
-// A decimal comma changes nothing.
+// Messages of some failures, a line each. Owned by the caller.
+static char *messages(void) {
+  SbScene *scene;
+  g_assert_cmpint(sb_scene_open(&scene, "/nowhere.scene"), ==, SB_SCENE_ERROR_IO);
+  g_autoptr(GString) text = g_string_new(sb_scene_message(scene));
+  sb_scene_close(scene);
+  scene = open_scene("scenes/quick-look.scene");
+  (void)sb_scene_set(scene, "gland.radial_space", 1.5);
+  g_string_append_printf(text, "\n%s", sb_scene_message(scene));
+  (void)sb_scene_set_text(scene, "gland.radial_space", "2,5 mm");
+  g_string_append_printf(text, "\n%s", sb_scene_message(scene));
+  (void)sb_scene_set_text(scene, "bore.diameter", "5.5 mm");
+  (void)sb_scene_run(scene);
+  g_string_append_printf(text, "\n%s", sb_scene_message(scene));
+  sb_scene_close(scene);
+  return g_string_free(g_steal_pointer(&text), FALSE);
+}
+
+static void note_decimal(void *data, double fraction) {
+  *(char *)data = localeconv()->decimal_point[0];
+}
+
+// A decimal comma changes nothing, and the texts are the same. Callbacks have the caller's locale.
 static void test_locale(void) {
+  g_autofree char *english = messages();
+  g_assert_nonnull(strstr(english, "No such file"));
   if (setlocale(LC_ALL, "de_DE.UTF-8") == NULL) {
     g_test_skip("no German locale");
     return;
   }
+  g_autofree char *german = messages();
+  g_assert_cmpstr(german, ==, english);
+  char decimal = 0;
+  SbScene *called = open_scene("scenes/quick-look.scene");
+  sb_scene_callbacks(called, note_decimal, NULL, &decimal);
+  g_assert_cmpint(sb_scene_run(called), ==, SB_SCENE_OK);
+  g_assert_cmpint(decimal, ==, ',');
+  g_assert_cmpint(localeconv()->decimal_point[0], ==, ',');
+  sb_scene_close(called);
   SbScene *scene = open_scene("scenes/quick-look.scene");
   double value;
   g_assert_cmpint(sb_scene_set_text(scene, "seal.modulus", "2.75 MPa"), ==, SB_SCENE_OK);

@@ -3,8 +3,10 @@
 
 test_python.py SOURCE, TAP on standard output.
 """
+import copy
 import math
 import os
+import pickle
 import sys
 import threading
 import typing
@@ -117,6 +119,76 @@ try:
     check('a closed scene', False)
 except ValueError:
     check('a closed scene', True)
+
+
+def copies():
+    """Copies have the text of the scene, its edits included, and are scenes of their own."""
+    with sealbench.Scene(SCENES + 'quick-look.scene') as own:
+        own['seal.section_diameter'] = '1.63 mm'
+        own.run()
+        for other in copy.copy(own), copy.deepcopy(own), pickle.loads(pickle.dumps(own)):
+            with other:
+                other['gland.radial_space'] = '1.35 mm'
+                other.run()
+                if (other['seal.section_diameter'] != 1.63e-3 or own['gland.radial_space'] != 1.36e-3
+                        or other.title != own.title):
+                    return False
+        with copy.copy(sealbench.Scene(text='[sealbench]\nformat = 1\nkind = scene\nvalve = piston.valve\n',
+                                       folder=SCENES + '../valves')) as other:
+            return other['gland.radial_space'] == 1.36e-3
+
+
+check('copies', copies())
+with sealbench.Scene(SCENES + 'quick-look.scene') as scene:
+    everything = dict(scene)
+    check('a mapping of parameters', list(scene) == list(sealbench.PARAMETERS) == list(everything)
+          and everything['gland.radial_space'] == 1.36e-3 and 'gland.radial_space' in scene
+          and 'gland' not in scene and 3 not in scene and dict(scene.items()) == everything)
+    check('one figure as a str', scene.evaluate('seals.outer.load_N')
+          == scene.evaluate(iter(['seals.outer.load_N'])))
+    for name, call in (('a key', lambda: scene['gland.radial_space\0x']),
+                       ('a value', lambda: scene.__setitem__('gland.radial_space', '1.36 mm\0x')),
+                       ('a figure', lambda: scene.evaluate('seals.outer.load_N\0x')),
+                       ('a quantity', lambda: scene.frames('time_s\0x')),
+                       ('a seal', lambda: scene.profile(0, 'outer\0x')),
+                       ('a path', lambda: sealbench.Scene(SCENES + 'quick-look.scene\0x'))):
+        status, _, text = failure(call)
+        check('a NUL in ' + name, status == 'input' and 'NUL' in text, text)
+    try:
+        scene[3]
+        check('a key that is no text', False)
+    except TypeError:
+        check('a key that is no text', True)
+
+
+def hammer(shared, errors):
+    try:
+        for i in range(15):
+            shared['gland.radial_space'] = 1.33e-3 + 1e-6 * i
+            shared.run()
+            shared.frames('time_s', 'force_N')
+            shared.figures()
+            shared.text('gland.radial_space')
+            shared.evaluate('seals.outer.load_N', {'seal.modulus': 2.5e6})
+    except Exception as error:  # pylint: disable=broad-except
+        errors.append(error)
+
+
+with sealbench.Scene(SCENES + 'quick-look.scene') as scene:
+    scene['output.frames'] = 100
+    wrong: list = []
+    threads = [threading.Thread(target=hammer, args=(scene, wrong)) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    check('one scene in four threads', not wrong, wrong)
+    scene.callbacks(lambda fraction: scene.run())
+    try:
+        scene.run()
+        check('a callback that uses its scene', False)
+    except RuntimeError:
+        check('a callback that uses its scene', True)
 
 
 def sweep(out, order):
