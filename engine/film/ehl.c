@@ -131,7 +131,8 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   out->friction_cavity = shear * r->cavity;
   out->friction_poiseuille = r->poiseuille * scale->film * scale->pressure;
   out->asperity_load = r->asperity_load * scale->half_width * scale->pressure;
-  out->asperity_share = out->asperity_load / problem->load;
+  // Where adhesion adds to the load asperities transmit more than the net load: all of it.
+  out->asperity_share = fmin(out->asperity_load / problem->load, 1);
   out->real_area = r->real_area * scale->half_width;
   out->real_area_share = r->central_share;
   out->film_ratio = c->rough.law != NULL ? out->film_central / problem->sigma : NAN;

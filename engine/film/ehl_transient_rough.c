@@ -56,7 +56,7 @@ void sb_transient_rub(SbFilmTransientResult *out, const SbFilmTransient *t) {
   out->friction_cavity = shear * cavity;
   out->friction_poiseuille = poiseuille * scale->film * scale->pressure;
   out->asperity_load = load * scale->half_width * scale->pressure;
-  out->asperity_share = out->asperity_load / film->load;
+  out->asperity_share = fmin(out->asperity_load / film->load, 1); // as in ehl.c
   out->real_area = area * scale->half_width;
   const double way = s->speed < 0.0 ? -1.0 : 1.0;
   out->friction_boundary =

@@ -329,7 +329,7 @@ def test_times():
         return len(re.findall('[\u2801-\u28ff]', text.decode('utf-8', 'replace'))) > 10
 
     def said(text):
-        return b'quit' in text and b'least return' in text
+        return b'quit' in text and b'return margin' in text
 
     with tempfile.TemporaryDirectory() as folder:
         starts, keys = [], []

@@ -29,7 +29,7 @@ def charts_say_what_they_show(folder):
     with App(scene(folder)) as app:
         wait("the first run", app.run_done)
         text = app.loop_text()
-        for word in ("B 28", "C 27", "break-away force", "return force", "energy of the loop", "now stage"):
+        for word in ("B 28", "C 27", "break-away force", "return margin", "energy of the loop", "now stage"):
             assert word in text, text
         app.key("Home")
         app.press("push button", "Next event")

@@ -296,12 +296,12 @@ def help_of_the_parameter_that_is_edited(folder):
 def effects_stand_beside_the_main_parameters(folder):
     with App(scene(folder)) as app:
         wait("the first run", app.run_done)
-        app.choose("Effects", "effect on least return")
+        app.choose("Effects", "effect on return margin")
 
         def told():
             return [node.description for node in app.all("drawing area", "Effect") if node.description]
 
-        wait("bars", lambda: any(re.match(r"least return [−-].* N per 0\.020 mm$", text) for text in told()))
+        wait("bars", lambda: any(re.match(r"return margin [−-].* N per 0\.020 mm$", text) for text in told()))
         app.choose("Effects", "no effects")
         wait("no bars", lambda: not told())
 

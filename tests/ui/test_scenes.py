@@ -38,7 +38,7 @@ def every_scene_runs(folder):
             if number > 0:
                 app.replace_window(path, number)
             text = shown(app, path)
-            for word in ("B ", "break-away force", "return force", "energy of the loop"):
+            for word in ("B ", "break-away force", "return margin", "energy of the loop"):
                 assert word in text, (path, text)
 
 
@@ -63,7 +63,7 @@ def a_small_window_leaves_room_for_the_section(folder):
     path = scene(folder).replace("thesis-cycle", "roughness-plus-30")
     with App(path, size=(1024, 700)) as app:
         # What nobody may miss stands in words.
-        wait("the finding", lambda: app.label(r"^The stem does not return: least return force"))
+        wait("the finding", lambda: app.label(r"^The stem does not return: it is stuck at"))
         app.find("toggle button", re.compile(r"^1 serious of \d+ warnings$"))
         # So does the verdict, in one line; a click shows why, and the instant it is of.
         for name in ("Seals: yes", "Presses: not known", "Returns: no", "Doses: not known",
@@ -71,15 +71,15 @@ def a_small_window_leaves_room_for_the_section(folder):
             at = app.find("toggle button", name).queryComponent().getExtents(pyatspi.DESKTOP_COORDS)
             assert at.width > 0 and at.x + at.width < 1024 + 64, (name, at)
         verdict = app.find("toggle button", "Returns: no")
-        assert "The stem does not come to rest by itself." in verdict.description
+        assert "The stem is stuck at" in verdict.description
         app.act(verdict, "click")
         wait("the return", lambda: re.match(r"stage [EF]–A", app.status()) or app.label(
-            r"The stem does not come to rest by itself"))
+            r"The stem is stuck at"))
 
         def closed():
             app.key("Escape")  # lost while the popover still opens
             time.sleep(0.3)
-            return not app.label(r"The stem does not come to rest by itself")
+            return not app.label(r"The stem is stuck at")
 
         wait("the reason closed", closed)
         # The charts have given way; nothing of the toolbar is cut.
@@ -101,8 +101,8 @@ def an_unknown_return_is_told_with_its_reason(folder):
         app.unfold("Drive")
         app.edit("Finger force", "5 N")
         wait("the finding", lambda: app.label(r"^The stem never slips"))
-        value = app.find("label", "Return force not known ")
-        assert "the cycle does not reach stage E" in value.description, value.description
+        value = app.find("label", "Return margin not known ")
+        assert "the stem never moved" in value.description, value.description
         app.find("toggle button", "Seals: yes")
 
 

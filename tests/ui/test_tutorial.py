@@ -58,7 +58,7 @@ def find_the_best(app, folder):
     wait("the best", lambda: "best found" in chart.description and app.has("push button", "Find best"))
     best = chart.description[chart.description.index("best found"):]
     returns, squeeze = (float(re.search(name + r" (-?[\d.]+)", best).group(1))
-                        for name in ("Return force", "Squeeze"))
+                        for name in ("Return margin", "Squeeze"))
     # Room for the tolerances: not at the limits.
     assert returns > 2 and squeeze > 10.5, best
     beyond = app.label(r"^(none of 2000|0\.[0-3] %)$")

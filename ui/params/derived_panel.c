@@ -195,15 +195,13 @@ static void refresh(Panel *panel) {
   if (model != NULL) {
     sb_figures_of_model(&panel->model, model);
   }
-  // The way back must have begun for a return force to be known.
-  gboolean back = summary != NULL && summary->stage[SB_STAGE_E].reached;
   for (int i = 0; i < ITEMS; i++) {
     int figure = panel->figure[i];
     double value = sb_figure_value(&panel->model, figure);
     const char *why = NULL;
     if (isnan(value) && summary != NULL) {
-      value = back ? sb_figure_value(summary, figure) : NAN;
-      why = sb_figure_reason(summary, back ? figure : sb_figure_find("cycle.stages.E.force_N"));
+      value = sb_figure_value(summary, figure);
+      why = sb_figure_reason(summary, figure);
     }
     show(panel, i, value, why);
   }
