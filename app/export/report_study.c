@@ -333,6 +333,9 @@ static double correlation(const Study *study, size_t figure, size_t parameter) {
   const SbAnswers *answers = study->answers;
   const size_t n = study->study->vary->len;
   double count = 0, sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0;
+  if (!sb_samples_vary(answers->value + figure, answers->samples, answers->figures)) {
+    return 0;
+  }
   for (int pass = 0; pass < 2; pass++) {
     const double mx = pass == 1 ? sx / count : 0, my = pass == 1 ? sy / count : 0;
     for (size_t i = 0; i < answers->samples; i++) {
