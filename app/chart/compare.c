@@ -77,7 +77,8 @@ static void playhead_row(Row *row, const SbChartData *data, int way) {
     const SbChartRun *run = run_of(data, i);
     sb_hysteresis_forces(force, run, at);
     row->value[i] = force[way];
-    row->stuck[i] = way == 1 && isnan(force[1]) && run->summary != NULL && !run->summary->returns;
+    row->stuck[i] = way == 1 && isnan(force[1]) && run->summary != NULL &&
+                    run->summary->outcome == SB_OUTCOME_STUCK;
     design[i] = (SbFigureCompared){force[way], sb_chart_error_force(run), methods_of(run)};
   }
   set_decimals(row, data, sb_figure_find("cycle.stages.C.force_N"), design);

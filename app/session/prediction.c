@@ -115,7 +115,13 @@ static void make_figures(SbPrediction *prediction, const SbModel *model) {
     }
   }
   sb_figures_of_model(summary, model);
-  summary->returns = summary->returned > 0;
+  if (summary->outcome == SB_OUTCOME_STUCK && summary->force_return_margin > 0) {
+    // The predicted stem slides past the place where that of the base is stuck.
+    summary->returned = NAN;
+    sb_reason(summary, "cycle.returns", "not predicted: the stem of the solved run is stuck");
+  }
+  summary->outcome = isnan(summary->returned) ? SB_OUTCOME_UNKNOWN : summary->outcome;
+  summary->returns = summary->outcome == SB_OUTCOME_RETURNED;
   sb_verdict_fill(summary, model);
 }
 

@@ -161,8 +161,10 @@ void synthetic_init(Synthetic *out, size_t frames, double scale) {
   s->converged = true;
   s->force_peak = top;
   s->force_breakaway = peak;
-  s->force_return_min = back_both;
+  s->force_press = peak;
+  s->force_return_min = s->force_return_margin = back_both;
   s->returns = back_both > 0;
+  s->outcome = s->returns ? SB_OUTCOME_RETURNED : SB_OUTCOME_STUCK;
   s->duration = t[8];
   memcpy(s->stage, sb_trace_marks(out->trace), sizeof s->stage);
   s->energy.loop = 0.138 * scale;
