@@ -3,10 +3,10 @@
 // to standard output:
 //
 //   refused TEXT                       it makes no sense: no valve
-//   done STATUS CLOSURE NULLS SECONDS TEXT
+//   done STATUS CLOSURE NULLS WORK SECONDS TEXT
 //
 // STATUS is SbStatus, NULLS the number of figures that have neither a value nor a reason of their
-// own, TEXT the report's.
+// own, WORK the solver steps of the run, TEXT the report's.
 #include "engine/valve/contradiction.h"
 #include "engine/valve/sealbench.h"
 
@@ -86,14 +86,16 @@ int main(void) {
     sb_plan_make(&plan, model);
     SbStatus status = sb_run_create(&run, model, &plan, &report);
     if (status == SB_OK) {
-      status = sb_run_execute(run, NULL, &report);
+      // One thread: the campaign runs several of these programs.
+      const SbRunHooks hooks = {.alone = true};
+      status = sb_run_execute(run, &hooks, &report);
       const SbSummary *summary = sb_run_summary(run);
       char wrong[256], text[300] = "";
       if (sb_summary_contradiction(wrong, sizeof wrong, summary, model)) {
         snprintf(text, sizeof text, "contradiction: %s; ", wrong);
       }
-      printf("done %d %.3g %d %.3f %s%s\n", (int)status, summary->energy.closure, nulls(summary),
-             summary->wall_s, text, report.text);
+      printf("done %d %.3g %d %zu %.3f %s%s\n", (int)status, summary->energy.closure,
+             nulls(summary), summary->work, summary->wall_s, text, report.text);
     }
     fflush(stdout);
     sb_run_destroy(run);

@@ -1,0 +1,97 @@
+"""Contradictions inside one JSON document of `sealbench run`: a null without a reason, a fraction
+outside 0 to 1, a stage's force above the peak, a verdict against its figure, an open balance of
+energies, a state of the solver that the exit code denies."""
+import math
+
+STAGES = 'ABCDEF'
+
+
+def values(node, path=''):
+    """Pairs of path and value of everything that is no object and no array."""
+    if isinstance(node, dict):
+        for key, value in node.items():
+            yield from values(value, f'{path}.{key}' if path else key)
+    elif isinstance(node, list):
+        for index, value in enumerate(node):
+            yield from values(value, f'{path}[{index}]')
+    else:
+        yield path, node
+
+
+def missing(results):
+    reasons = results['reasons']
+    for path, value in values({k: v for k, v in results.items() if k not in ('reasons', 'warnings')}):
+        explained = any(path == key or path.startswith((key + '.', key + '[')) for key in reasons)
+        if value is None and 'verdict' not in path and not explained:
+            yield f'null without a reason: {path}'
+        if isinstance(value, float) and not math.isfinite(value):
+            yield f'not finite: {path}'
+
+
+def energies(cycle):
+    energy = cycle.get('energy', {})
+    closure = cycle.get('energy_closure')
+    if closure is not None and abs(closure) > 1e-3:
+        yield f'energy_closure {closure}'
+    external = energy.get('external_J')
+    if external is not None:
+        terms = ('friction_J', 'stored_J', 'seal_J', 'kinetic_J', 'stop_J')
+        total = sum(energy.get(term) or 0 for term in terms)
+        if abs(external - total) > 1e-3 * max(abs(energy.get('external_max_J') or 0), 1e-30):
+            yield f'external work {external}, sum of the others {total}'
+
+
+def stages(cycle):
+    marks = [cycle['stages'][name] for name in STAGES]
+    times = [mark['time_s'] for mark in marks if mark['time_s'] is not None]
+    if any(later < sooner - 1e-12 for sooner, later in zip(times, times[1:])):
+        yield f'stages out of order: {times}'
+    peak = cycle['force_peak_N']
+    for name, mark in zip(STAGES, marks):
+        force = mark['force_N']
+        if peak is not None and force is not None and force > peak * (1 + 1e-6) + 1e-9:
+            yield f'force {force} at stage {name} above the peak {peak}'
+
+
+def verdict(cycle):
+    returns = cycle['verdict']['returns']
+    if returns['ok'] and returns.get('value') is not None and returns['value'] < 0:
+        yield f'"returns: yes" decided by {returns["value"]}'
+    outcome = cycle.get('outcome')
+    if outcome is not None and bool(cycle['returns']) != (outcome == 'returned'):
+        yield f'returns {cycle["returns"]}, outcome {outcome}'
+    if cycle['returns'] and cycle.get('dose_mass_kg') and cycle['stages']['C']['time_s'] is None:
+        yield 'a dose without stage C'
+    for name, judged in cycle['verdict'].items():
+        if judged['ok'] is None and not judged['reason']:
+            yield f'verdict {name} is null without a reason'
+
+
+def seals(results):
+    shares = ('real_area_share', 'asperity_load_share', 'leakage_static_real_area_share',
+              'friction_static_real_area_share')
+    for name, seal in results.get('seals', {}).items():
+        least, central = seal.get('film_min_m'), seal.get('film_central_m')
+        if least is not None and central is not None and least > central * 1.001:
+            yield f'{name}: least film above the central one'
+        for share in shares:
+            if seal.get(share) is not None and not -1e-9 <= seal[share] <= 1 + 1e-7:
+                yield f'{name}: {share} {seal[share]}'
+        peak, width, load = (seal.get(key) for key in
+                             ('pressure_peak_Pa', 'contact_width_m', 'load_N_per_m'))
+        if peak and width and load and peak * width < 0.99 * load:
+            yield f'{name}: load above peak times width'
+
+
+def solver(results, code):
+    state = results['solver']
+    if state['converged'] != (code == 0):
+        yield f'converged {state["converged"]}, exit code {code}'
+
+
+def contradictions(results, code):
+    """All of them, one text each; `code` is the exit code, 0 or 2."""
+    if results['models']['motion'] == 'rig':
+        return [*missing(results), *solver(results, code)]
+    return [*missing(results), *energies(results['cycle']), *stages(results['cycle']),
+            *verdict(results['cycle']), *seals(results), *solver(results, code)]
