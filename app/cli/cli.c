@@ -377,9 +377,8 @@ SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
   if (document == NULL) {
     sb_cli_add_file_hint(path, SB_SHIPPED_FOR_RUN, issues);
   }
-  for (char **setting = settings; document != NULL && setting != NULL && *setting != NULL;
-       setting++) {
-    sb_document_set_option(document, *setting, issues);
+  if (document != NULL) {
+    sb_document_set_options(document, settings, issues);
   }
   if (document != NULL && issues->len == 0) {
     // What --set changed may not go together with a case.

@@ -42,9 +42,7 @@ static void check_document(Check *check) {
   if (check->document == NULL) {
     return;
   }
-  for (char **setting = check->settings; setting != NULL && *setting != NULL; setting++) {
-    (void)sb_document_set_option(check->document, *setting, errors);
-  }
+  sb_document_set_options(check->document, check->settings, errors);
   check->kind = sb_document_kind(check->document) != SB_DOCUMENT_SCENE ? "valve"
                 : sb_document_is_project(check->document)              ? "project"
                                                                        : "scene";

@@ -185,6 +185,11 @@ void sb_document_end_merge(SbDocument *document);
 // Issues name the file "--set".
 bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray *issues);
 
+// Applies all settings (NULL-terminated; NULL: none), each as sb_document_set_option(). Where they
+// change the fluid, figures that stay as the document gives them are marked as those of its own
+// fluid (fluid.figures).
+void sb_document_set_options(SbDocument *document, char *const *settings, GPtrArray *issues);
+
 // Removes the document's own value: the valve's or the default is in force again. Undoable.
 void sb_document_unset(SbDocument *document, SbParamId id);
 

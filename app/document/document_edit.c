@@ -254,6 +254,21 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
   return good;
 }
 
+void sb_document_set_options(SbDocument *document, char *const *settings, GPtrArray *issues) {
+  const SbParams before = sb_document_params(document);
+  for (char *const *setting = settings; setting != NULL && *setting != NULL; setting++) {
+    (void)sb_document_set_option(document, *setting, issues);
+  }
+  const SbParams now = sb_document_params(document);
+  SbParams kept = now;
+  sb_params_keep_fluid(&kept, &before);
+  if (kept.given[SB_P_FLUID_FIGURES] && !now.given[SB_P_FLUID_FIGURES]) {
+    const bool good = sb_document_set_value(document, SB_P_FLUID_FIGURES,
+                                            kept.value[SB_P_FLUID_FIGURES], false, NULL);
+    g_assert(good);
+  }
+}
+
 void sb_document_unset(SbDocument *document, SbParamId id) {
   // A shape of the document itself gives what no key does, as it will when the file is read again.
   const SbShapeSize *shape =

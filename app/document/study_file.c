@@ -401,9 +401,7 @@ static void open_scene(SbStudyReader *reader, const char *name, char **settings,
   if (study->scene == NULL) {
     return;
   }
-  for (char **setting = settings; setting != NULL && *setting != NULL; setting++) {
-    (void)sb_document_set_option(study->scene, *setting, reader->issues);
-  }
+  sb_document_set_options(study->scene, settings, reader->issues);
   if (reader->issues->len == 0 && sb_document_compile(study->scene, &study->base, reader->issues)) {
     study->base_sha256 = hash_scene(study->scene);
     study->limits = study->scene->limits;

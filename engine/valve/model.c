@@ -400,6 +400,7 @@ SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *
       return sb_fail_parameter(report, status, own.parameter, "%s: %s", own.parameter, own.text);
     }
   }
+  sb_params_keep_fluid(&params, &base->params);
   if (sb_params_get(&params, SB_P_DRIVE_KIND) == SB_MODEL_DRIVE_MEASURED &&
       sb_model_measured(base) == NULL) {
     return sb_fail_parameter(report, SB_ERROR_INPUT, "drive.kind",

@@ -258,6 +258,19 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
             "%s has no figure of its swell in this fluid: none is taken",
             model->params.rubber->name);
   }
+  for (int i = 0; sb_params_of_fluid(i) >= 0; i++) {
+    const SbParamId id = (SbParamId)sb_params_of_fluid(i);
+    const int other = sb_params_other_fluid(&model->params, id);
+    const bool idle = (id == SB_P_RUBBER_SWELL_MASS && !(model->storage_time > 0)) ||
+                      (id == SB_P_HOUSING_PERMEABILITY && !(model->shelf.plastic_length > 0));
+    if (other >= 0 && !idle) {
+      sb_warn(
+          warnings, "fluid-property", sb_param(id)->key,
+          "%s is that of %s, not of the valve's %s (fluid.figures): losses and swell are those of "
+          "another fluid",
+          sb_param(id)->key, sb_fluids[other].label, sb_fluids[model->fluid].label);
+    }
+  }
   SbFluidState state;
   if (model->fluid > 0) {
     (void)sb_fluid_state(&state, warnings, &sb_fluids[model->fluid], model->temperature,

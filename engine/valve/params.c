@@ -219,12 +219,70 @@ bool sb_param_of_rubber(SbParamId id) {
          id == SB_P_SEAL_POISSON_RATIO || id == SB_P_SEAL_MOONEY_SHARE;
 }
 
+int sb_params_of_fluid(int index) {
+  static const SbParamId figures[] = {SB_P_RUBBER_SWELL_MASS, SB_P_RUBBER_PERMEABILITY,
+                                      SB_P_HOUSING_PERMEABILITY};
+  const int count = (int)(sizeof figures / sizeof figures[0]);
+  return index < count ? (int)figures[index] : -1;
+}
+
+// Fluid of which figures that depend on the fluid are taken from a rubber.
+static int figures_fluid(const SbParams *params) {
+  const int other = (int)sb_params_get(params, SB_P_FLUID_FIGURES);
+  return other > 0 ? other : (int)sb_params_get(params, SB_P_FLUID_NAME);
+}
+
+// The fluid of which a rubber has just this figure; -1: none, or it has one of `fluid`.
+static int fluid_of_value(const SbRubberSheet *rubber, SbParamId id, double value, int fluid) {
+  int found = -1;
+  for (size_t i = 0; rubber != NULL && i < rubber->count; i++) {
+    if (rubber->figure[i].id == id && rubber->figure[i].fluid == fluid) {
+      return -1;
+    }
+    const bool same = fabs(rubber->figure[i].value - value) <= 1e-9 * fabs(value);
+    found = rubber->figure[i].id == id && same ? rubber->figure[i].fluid : found;
+  }
+  return found;
+}
+
+int sb_params_other_fluid(const SbParams *params, SbParamId id) {
+  const int own = (int)sb_params_get(params, SB_P_FLUID_NAME), stated = figures_fluid(params);
+  int i = 0;
+  while (sb_params_of_fluid(i) >= 0 && sb_params_of_fluid(i) != (int)id) {
+    i++;
+  }
+  if (sb_params_of_fluid(i) < 0 || !(sb_params_get(params, id) > 0)) {
+    return -1;
+  }
+  if (stated != own) {
+    return stated;
+  }
+  return params->given[id] ? fluid_of_value(params->rubber, id, params->value[id], own) : -1;
+}
+
+void sb_params_keep_fluid(SbParams *params, const SbParams *base) {
+  const int from = (int)sb_params_get(base, SB_P_FLUID_NAME);
+  const bool stated = params->given[SB_P_FLUID_FIGURES] || base->given[SB_P_FLUID_FIGURES];
+  // A fluid without a name has no figures, and other fluids than propellants are no choices.
+  if (stated || from < 1 || from >= sb_param_choice_count(&table[SB_P_FLUID_FIGURES]) ||
+      from == (int)sb_params_get(params, SB_P_FLUID_NAME)) {
+    return;
+  }
+  for (int i = 0; sb_params_of_fluid(i) >= 0; i++) {
+    const int id = sb_params_of_fluid(i);
+    if (params->given[id] && base->given[id] && params->value[id] == base->value[id] &&
+        params->value[id] > 0) {
+      params->value[SB_P_FLUID_FIGURES] = from;
+      params->given[SB_P_FLUID_FIGURES] = true;
+    }
+  }
+}
+
 static bool from_rubber(SbParamDefault *out, const SbParams *params, SbParamId id) {
   const SbRubberSheet *rubber = params->rubber;
   for (size_t i = 0; rubber != NULL && i < rubber->count; i++) {
     const int fluid = rubber->figure[i].fluid;
-    if (rubber->figure[i].id == id &&
-        (fluid < 0 || fluid == (int)sb_params_get(params, SB_P_FLUID_NAME))) {
+    if (rubber->figure[i].id == id && (fluid < 0 || fluid == figures_fluid(params))) {
       *out = (SbParamDefault){.value = rubber->figure[i].value,
                               .from = "rubber.name",
                               .giver = -1,

@@ -100,6 +100,18 @@ void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id
 // (valve.kind): while nobody gives it, the difference of the two stays.
 bool sb_param_keeps(SbParamId id, SbParamId giver, int kind);
 
+// Fluid (choice of fluid.name) that the value in force of a figure that depends on the fluid holds
+// for, where this is another one than fluid.name: fluid.figures, or the one of which the named
+// rubber has the given value. -1: the parameter is no such figure, or holds for fluid.name.
+int sb_params_other_fluid(const SbParams *params, SbParamId id);
+
+// The figures that depend on the fluid, counted from 0; -1: no more of them.
+int sb_params_of_fluid(int index);
+
+// States by fluid.figures that given figures which `params` shares with `base` hold for the base's
+// fluid, where the two have different fluids and neither states another one.
+void sb_params_keep_fluid(SbParams *params, const SbParams *base);
+
 // Whether a parameter may be a figure of a rubber.
 bool sb_param_of_rubber(SbParamId id);
 

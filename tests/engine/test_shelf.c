@@ -216,6 +216,59 @@ static void test_not_asked(void) {
   sb_run_destroy(run);
 }
 
+// A figure of another fluid is used with a warning only: stated by fluid.figures, left as it was
+// when an override changes the propellant, or known from the rubber to be another one's.
+static void test_other_fluid(void) {
+  enum { OTHER_PROPELLANT = 2 }; // HFA-227ea
+  const double own = 47 * 3.35e-16;
+  SbRubberSheet sheet = {.name = "sheet", .count = 1};
+  sheet.figure[0].id = SB_P_RUBBER_PERMEABILITY;
+  sheet.figure[0].fluid = R134A;
+  sheet.figure[0].value = own;
+  static const struct {
+    double stated, given;
+    bool sheet, warns;
+    double used;                                     // over the sheet's
+  } rows[] = {{0, 0, true, false, 0},                // the rubber has none for this propellant
+              {R134A, 0, true, true, 1},             // stated to be another one's
+              {OTHER_PROPELLANT, 0, true, false, 0}, //
+              {0, 1, true, true, 1},                 // given, but the sheet has it for another one
+              {0, 2, true, false, 2},                // given
+              {0, 1, false, false, 1},               // given, nothing else is known
+              {R134A, 1, false, true, 1}};
+  for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+    SbParams params;
+    SbModel model;
+    SbWarnings warnings = {0};
+    sb_params_init(&params);
+    params.rubber = rows[i].sheet ? &sheet : NULL;
+    g_assert_cmpint(sb_params_set(&params, SB_P_FLUID_NAME, OTHER_PROPELLANT, NULL), ==, SB_OK);
+    if (rows[i].stated > 0) {
+      g_assert_cmpint(sb_params_set(&params, SB_P_FLUID_FIGURES, rows[i].stated, NULL), ==, SB_OK);
+    }
+    if (rows[i].given > 0) {
+      g_assert_cmpint(sb_params_set(&params, SB_P_RUBBER_PERMEABILITY, rows[i].given * own, NULL),
+                      ==, SB_OK);
+    }
+    g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
+    sb_model_warn(&model, &warnings);
+    g_assert_cmpint(warned(&warnings, "fluid-property"), ==, rows[i].warns);
+    g_assert_cmpfloat_with_epsilon(model.permeability / own, rows[i].used, 1e-12);
+  }
+  // An override of the propellant, alone and with its own figure.
+  const Setting base[] = {{SB_P_FLUID_NAME, R134A}, {SB_P_RUBBER_PERMEABILITY, own}};
+  const SbOverride swap[] = {{SB_P_FLUID_NAME, OTHER_PROPELLANT},
+                             {SB_P_RUBBER_PERMEABILITY, 2 * own}};
+  for (size_t count = 0; count <= 2; count++) {
+    SbModel model;
+    SbWarnings warnings = {0};
+    compile(&model, base, G_N_ELEMENTS(base));
+    g_assert_cmpint(sb_model_override(&model, &model, swap, count, NULL), ==, SB_OK);
+    sb_model_warn(&model, &warnings);
+    g_assert_cmpint(warned(&warnings, "fluid-property"), ==, count == 1);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/shelf/by-hand", test_by_hand);
@@ -225,5 +278,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/shelf/contact", test_contact);
   g_test_add_func("/shelf/history", test_history);
   g_test_add_func("/shelf/not-asked", test_not_asked);
+  g_test_add_func("/shelf/other-fluid", test_other_fluid);
   return g_test_run();
 }
