@@ -288,6 +288,41 @@ static void test_sensitivity(void) {
   }
 }
 
+// The outcome in the JSON, with reasons for what did not happen; the verdict follows from it.
+static void test_outcome(void) {
+  static const struct {
+    const char *set, *outcome;
+  } cases[] = {{"drive.peak_force=20 N", "never-moved"},
+               {"surface.gt_product=0.17", "stuck"},
+               {"friction.static_ratio=1.1", "returned"},
+               {"friction.static_ratio=1.3", "returned"}, // by its momentum: the margin is negative
+               {"drive.kind=ramp", "held"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    CliResult run = CLI("run", cli.scene, "--json", "-", "--quiet", "--set",
+                        "models.motion=dynamic", "--set", "drive.kind=hand", "--set", cases[i].set);
+    g_autoptr(JsonNode) root = cli_parse(run.out);
+    cli_clear(&run);
+    g_assert_cmpstr(json_node_get_string(cli_at(root, "cycle.outcome")), ==, cases[i].outcome);
+    JsonObject *cycle = json_node_get_object(cli_at(root, "cycle"));
+    JsonObject *reasons = json_node_get_object(cli_at(root, "reasons"));
+    static const char *const figures[] = {
+        "returns",       "stuck_at_m",   "force_return_margin_N",
+        "force_press_N", "dose_mass_kg", "leakage_carried_all_actuations_m3"};
+    for (size_t k = 0; k < G_N_ELEMENTS(figures); k++) {
+      g_autofree char *path = g_strconcat("cycle.", figures[k], NULL);
+      const bool null = JSON_NODE_HOLDS_NULL(json_object_get_member(cycle, figures[k]));
+      g_assert_true(json_object_has_member(reasons, path) == null);
+      // Of a stem that never moved nothing is known, of one that returned all but where it is
+      // stuck.
+      g_assert_true(i != 0 || null);
+      g_assert_true((i != 2 && i != 3) || null == (k == 1));
+    }
+    const bool yes = i == 2;
+    JsonNode *ok = cli_at(root, "cycle.verdict.returns.ok");
+    g_assert_true((!JSON_NODE_HOLDS_NULL(ok) && json_node_get_boolean(ok)) == yes);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -297,6 +332,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/list-figures", test_list);
   g_test_add_func("/cli/figures-table", test_table);
   g_test_add_func("/cli/sensitivity", test_sensitivity);
+  g_test_add_func("/cli/outcome", test_outcome);
   int result = g_test_run();
   cli_tear_down();
   return result;
