@@ -183,7 +183,7 @@ SbSceneStatus sb_scene_frames(SbScene *scene, const char *quantity, double *out)
 typedef struct {
   size_t count;
   const double *x;        // in the seal's frame [m]
-  const double *pressure; // total, above the lower of the two fluid pressures beside it [Pa]
+  const double *pressure; // of the contact, above the lower of the two fluid pressures [Pa]
   const double *film;     // [m]; 0 at rest
   const double *asperity_pressure; // borne by the asperities at this film [Pa]
   const char *model;               // that made it
