@@ -100,8 +100,8 @@ char *sb_results_figures(void) {
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     const SbFigure *figure = sb_figure(i);
     g_autofree char *label = sb_figure_label(i);
-    g_autofree char *estimate = *figure->estimate != '\0'
-                                    ? g_strconcat("solver.error_estimate.", figure->estimate, NULL)
+    g_autofree char *estimate = figure->error != SB_BY_RESIDUAL
+                                    ? g_strconcat("error_estimates.", figure->path, NULL)
                                     : NULL;
     sb_json_object(&json, NULL);
     sb_json_string(&json, "key", figure->path);

@@ -240,6 +240,25 @@ static void put_life(SbJson *json, const SbRun *run) {
   sb_json_object_end(json);
 }
 
+// Whether a block that holds the figure is in the document.
+static bool is_there(const SbRun *run, const char *path) {
+  return !(g_str_has_prefix(path, "life.") && sb_run_summary(run)->life.done == 0) &&
+         !(g_str_has_prefix(path, "rig.") && !sb_model_is_rig(sb_run_model(run)));
+}
+
+// Relative errors by path.
+static void put_errors(SbJson *json, const SbRun *run) {
+  const SbSummary *summary = sb_run_summary(run);
+  sb_json_object(json, "error_estimates");
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    if (is_there(run, sb_figure(i)->path)) {
+      const bool known = sb_figure_error_reason(summary, i) == NULL;
+      sb_json_number(json, sb_figure(i)->path, known ? sb_figure_error(summary, i) : NAN);
+    }
+  }
+  sb_json_object_end(json);
+}
+
 // Why what is null above is so, by path; of blocks that are there.
 static void put_reasons(SbJson *json, const SbRun *run, const SbResultsInfo *info) {
   const SbSummary *summary = sb_run_summary(run);
@@ -251,8 +270,12 @@ static void put_reasons(SbJson *json, const SbRun *run, const SbResultsInfo *inf
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     const char *reason = sb_figure_reason(summary, i);
     const char *path = sb_figure(i)->path;
-    if (reason == NULL || (g_str_has_prefix(path, "life.") && summary->life.done == 0) ||
-        (g_str_has_prefix(path, "rig.") && !sb_model_is_rig(sb_run_model(run)))) {
+    const char *error_reason = sb_figure_error_reason(summary, i);
+    if (error_reason != NULL && is_there(run, path)) {
+      g_autofree char *error_path = g_strconcat("error_estimates.", path, NULL);
+      sb_json_string(json, error_path, error_reason);
+    }
+    if (reason == NULL || !is_there(run, path)) {
       continue;
     }
     sb_json_string(json, path, reason);
@@ -384,6 +407,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   put_figures(&json, summary, "dose.");
   sb_json_object_end(&json);
   put_shelf(&json, run);
+  put_errors(&json, run);
   sb_json_warnings(&json, &summary->warnings);
   put_reasons(&json, run, info);
   if (info->study_count > 0) {

@@ -110,6 +110,19 @@ void sb_warn(SbWarnings *list, const char *code, const char *parameter, const ch
   }
 }
 
+void sb_warn_replace(SbWarnings *list, const char *code, const char *subject, const char *format,
+                     ...) {
+  for (size_t i = 0; i < list->count; i++) {
+    SbWarning *at = &list->item[i];
+    if (strcmp(at->code, code) == 0 && strcmp(at->subject, subject) == 0) {
+      va_list arguments;
+      va_start(arguments, format);
+      sb_text_v(at->text, sizeof at->text, format, arguments);
+      va_end(arguments);
+    }
+  }
+}
+
 bool sb_warning_is_serious(const char *code) {
   // A contact that the fluid opens is among them as "seal-open", in the states that need the seal.
   static const char *const serious[] = {

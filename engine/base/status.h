@@ -102,6 +102,10 @@ typedef struct {
 void sb_warn(SbWarnings *list, const char *code, const char *parameter, const char *format, ...)
     SB_PRINTF(4, 5);
 
+// Replaces the text of the warning with this code and subject; nothing where there is none.
+void sb_warn_replace(SbWarnings *list, const char *code, const char *subject, const char *format,
+                     ...) SB_PRINTF(4, 5);
+
 // What the warnings added from now on are about (NULL: nothing of which there are several); `list`
 // may be NULL.
 void sb_warn_about(SbWarnings *list, const char *subject);

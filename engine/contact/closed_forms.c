@@ -5,7 +5,6 @@
 #include "engine/contact/fit_models.h"
 #include "engine/numeric/root.h"
 
-#include <float.h>
 #include <math.h>
 
 // ---- line contact
@@ -155,7 +154,7 @@ SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report) {
   out->circumference = M_PI * (in->inner_diameter + in->section_diameter);
   // Closed forms hold to rounding and have no unknowns.
   out->solver.converged = true;
-  sb_fit_errors(out, 16.0 * DBL_EPSILON, 16.0 * DBL_EPSILON, 16.0 * DBL_EPSILON);
+  sb_fit_errors(out, 0.0, 0.0, 0.0);
   const double diameter = in->fitted_section ? out->section_diameter_fitted : in->section_diameter;
   const Section section = {diameter, (diameter - in->radial_space) / diameter};
   if (!(diameter > in->radial_space)) {

@@ -6,6 +6,7 @@
 #include "engine/valve/breakaway.h"
 #include "engine/valve/gasket.h"
 
+#include <float.h>
 #include <math.h>
 
 // ---------------------------------------------------------------------------------------------------
@@ -661,6 +662,8 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
       out->loop += model->pressure_force * ds + spring + rubbed;
     }
   }
+  // A spring that ends as it began stores nothing; the rest of its differences is rounding.
+  out->stored = fabs(out->stored) <= 16 * DBL_EPSILON * out->external_max ? 0 : out->stored;
   double sum = out->friction + out->stored + out->seal + out->kinetic + out->stop;
   out->closure = out->external_max > 0 ? fabs(out->external - sum) / out->external_max : 0;
 }

@@ -10,25 +10,33 @@
 #include <string.h>
 
 // From a row's unit on the columns are those of SbFigure.
-#define COLUMNS(si, shown, digits, better, estimate, needs, verdict, brief, label, help)           \
-  si, shown, digits, SB_BETTER_##better, estimate, SB_DEPTH_##needs, SB_VERDICT_##verdict, brief,  \
-      label, help
-#define CONTACT_COLUMNS(si, shown, digits, better, estimate, needs, ...)                           \
-  COLUMNS(si, shown, digits, better, estimate, WHOLE, __VA_ARGS__)
+#define COLUMNS(si, shown, digits, better, error, needs, verdict, brief, label, help)              \
+  si, shown, digits, SB_BETTER_##better, SB_BY_##error, SB_DEPTH_##needs, SB_VERDICT_##verdict,    \
+      brief, label, help
+#define CONTACT_COLUMNS(si, shown, digits, better, error, needs, ...)                              \
+  COLUMNS(si, shown, digits, better, error, WHOLE, __VA_ARGS__)
 #define SEAL(name, index, path, member, ...)                                                       \
-  {"seals." name "." path, offsetof(SbSummary, seal[index].member), name " seal", index,           \
+  {"seals." name "." path, offsetof(SbSummary, seal[index].member), name " seal", index, false,    \
    COLUMNS(__VA_ARGS__)},
 #define CONTACT_IN(name, index, path, member, ...)                                                 \
-  {"seals." name ".contact.in_stroke." path, offsetof(SbSummary, contact[index].in_stroke.member), \
-   name " seal, in-stroke", index, COLUMNS(__VA_ARGS__)},
+  {"seals." name ".contact.in_stroke." path,                                                       \
+   offsetof(SbSummary, contact[index].in_stroke.member),                                           \
+   name " seal, in-stroke",                                                                        \
+   index,                                                                                          \
+   false,                                                                                          \
+   COLUMNS(__VA_ARGS__)},
 #define CONTACT_OUT(name, index, path, member, ...)                                                \
-  {"seals." name ".contact.return." path, offsetof(SbSummary, contact[index].back.member),         \
-   name " seal, return", index, CONTACT_COLUMNS(__VA_ARGS__)},
+  {"seals." name ".contact.return." path,                                                          \
+   offsetof(SbSummary, contact[index].back.member),                                                \
+   name " seal, return",                                                                           \
+   index,                                                                                          \
+   true,                                                                                           \
+   CONTACT_COLUMNS(__VA_ARGS__)},
 static const SbFigure figures[SB_FIGURE_COUNT] = {
 #define SB_FIGURE(path, member, ...)                                                               \
-  {path, offsetof(SbSummary, member), "", SB_SEAL_COUNT, COLUMNS(__VA_ARGS__)},
+  {path, offsetof(SbSummary, member), "", SB_SEAL_COUNT, false, COLUMNS(__VA_ARGS__)},
 #define SB_FIGURE_AT(path, place, where, ...)                                                      \
-  {path, offsetof(SbSummary, place), where, SB_SEAL_COUNT, COLUMNS(__VA_ARGS__)},
+  {path, offsetof(SbSummary, place), where, SB_SEAL_COUNT, false, COLUMNS(__VA_ARGS__)},
 #include "engine/valve/figures.def"
 #define SB_SEAL_FIGURE(...)    SEAL("outer", SB_OUTER, __VA_ARGS__)
 #define SB_CONTACT_FIGURE(...) CONTACT_IN("outer", SB_OUTER, __VA_ARGS__)
@@ -68,10 +76,47 @@ const char *sb_figure_reason(const SbSummary *summary, int index) {
                                 : "this run computes nothing that gives it";
 }
 
+double sb_figure_error_absolute(const SbSummary *summary, int index) {
+  return isfinite(sb_figure_value(summary, index)) ? summary->error[index] : NAN;
+}
+
 double sb_figure_error(const SbSummary *summary, int index) {
-  char path[64];
-  snprintf(path, sizeof path, "solver.error_estimate.%s", figures[index].estimate);
-  return *figures[index].estimate != '\0' ? sb_figure_value(summary, sb_figure_find(path)) : NAN;
+  const double error = sb_figure_error_absolute(summary, index);
+  return error > 0 ? error / fabs(sb_figure_value(summary, index)) : error;
+}
+
+// Whether a figure is the difference of terms that may be far larger, or a place from an origin of
+// its own.
+static bool is_difference(const SbFigure *figure) {
+  static const char *const paths[] = {"cycle.force_return", "life.force_return", "cycle.energy",
+                                      "cycle.stages."};
+  const SbErrorSource by = figure->error;
+  bool one = by == SB_BY_NET_LEAK || by == SB_BY_LIFE_NET || by == SB_BY_EDGE;
+  for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+    one = one || strncmp(figure->path, paths[i], strlen(paths[i])) == 0;
+  }
+  return one;
+}
+
+const char *sb_figure_error_reason(const SbSummary *summary, int index) {
+  const double error = sb_figure_error(summary, index);
+  const SbFigure *figure = &figures[index];
+  if (!isfinite(sb_figure_value(summary, index))) {
+    return sb_figure_reason(summary, index);
+  }
+  if (figure->error == SB_BY_RESIDUAL) {
+    return "it is an error or a residual itself";
+  }
+  if (isnan(error)) {
+    return "an event or a coarser solution that would give the error is missing";
+  }
+  if (error > SB_ERROR_LARGE && figure->error == SB_BY_EDGE) {
+    return "uncertain: the place is nearer to the section's centre than its error allows to state";
+  }
+  if (error > 1 && is_difference(figure)) {
+    return "uncertain: the figure is a difference, and its error exceeds its magnitude";
+  }
+  return NULL;
 }
 
 double sb_figure_difference_error(double a, double error_a, double b, double error_b,
@@ -94,6 +139,7 @@ const char *sb_better_name(SbBetter better) {
 void sb_figures_clear(SbSummary *summary) {
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     *(double *)((char *)summary + figures[i].offset) = NAN;
+    summary->error[i] = NAN;
   }
   summary->reasons = (SbReasons){0};
 }

@@ -6,16 +6,64 @@
 
 typedef enum { SB_BETTER_NONE, SB_BETTER_LESS, SB_BETTER_MORE } SbBetter;
 
+// What the error of a figure follows from (run/run_errors.c). A difference
+// has no relative error to report where its error exceeds its magnitude.
+typedef enum {
+  SB_BY_INPUT,       // inputs and closed forms of them: 0
+  SB_BY_RESIDUAL,    // an error estimate or a residual: it has no error of its own
+  SB_BY_MOTION,      // the motion with other states, and with other steps
+  SB_BY_NET_LEAK,    // what the films carry out and back, a difference
+  SB_BY_LOAD,        // a seal's state from here to SB_BY_TURN: the fit
+  SB_BY_MEAN,        // net load over width
+  SB_BY_PEAK,        // largest pressure
+  SB_BY_WIDTH,       // contact width
+  SB_BY_EDGE,        // end of a contact, from the section's centre
+  SB_BY_FILM_LEAST,  // least film
+  SB_BY_FILM,        // central film, and what is in proportion to it
+  SB_BY_FILM_LAW,    // a power law of the load
+  SB_BY_FILM_SOLVED, // a film solved for comparison
+  SB_BY_AREA,        // real area while sliding
+  SB_BY_REST_AREA,   // real area at rest
+  SB_BY_SHARE,       // the asperities' share of the load
+  SB_BY_BOUNDARY,    // friction of the asperities
+  SB_BY_VISCOUS,     // friction of the film
+  SB_BY_FRICTION,    // both
+  SB_BY_STATIC,      // friction at stage B
+  SB_BY_COEFFICIENT, // friction over load
+  SB_BY_SQUEEZE_OUT, // time of the squeeze-out
+  SB_BY_LEAK,        // flow through the channels at rest
+  SB_BY_SLOPE,       // logarithmic derivative of that flow
+  SB_BY_SPEED,       // speed of sliding
+  SB_BY_TURN,        // turn of the section
+  SB_BY_FILLED,      // times of stages C and F
+  SB_BY_KEPT,        // time for which the vent is open
+  SB_BY_DOSE,        // both
+  SB_BY_PRIME,       // leak at rest of the outer seal
+  SB_BY_SAMPLES,     // the rig's sampling
+  SB_BY_LIFE_PEAK,   // actuations of a life: forces of the cycle's errors
+  SB_BY_LIFE_BREAKAWAY,
+  SB_BY_LIFE_RETURN,
+  SB_BY_LIFE_FILM, // and films
+  SB_BY_LIFE_NET,
+  SB_BY_PERMEATION,     // the solved ring's permeation
+  SB_BY_CHANNELS,       // flow along the contact at rest
+  SB_BY_LOSS,           // both
+  SB_BY_MASS_LEFT,      // what they leave
+  SB_BY_DOSES_LEFT,     // in whole doses
+  SB_BY_SHELF_PRESSURE, // mean pressure at rest
+} SbErrorSource;
+
 // One row of figures.def, a seal's for each seal; strings are static.
 typedef struct {
   const char *path;
   size_t offset;          // of its value in SbSummary
   const char *where;      // "outer seal", "stage B": what tells it from others of its label; or ""
   int seal;               // that it is of; SB_SEAL_COUNT: of none, or of the valve through one
+  bool back;              // it is of the seal's return, else of the in-stroke
   const char *si, *shown; // unit, and that which people read
   int digits;             // significant ones in tables; 0: a yes or no, 1 or 0
   SbBetter better;
-  const char *estimate;  // name of its error estimate below "solver.error_estimate."; "": none
+  SbErrorSource error;   // what its error follows from
   SbSealDepth needs;     // of its seal; of the outer one for a figure of no seal
   SbVerdictKind verdict; // what a limit on it decides
   bool brief;            // a short table lists it
@@ -34,7 +82,13 @@ double sb_figure_value(const SbSummary *summary, int index);
 // Why it was not computed; NULL for a number. Borrowed.
 const char *sb_figure_reason(const SbSummary *summary, int index);
 
-// Estimate of its relative error; NaN: there is none.
+// Above the first a reported error has a warning, above the second the run has not converged.
+#define SB_ERROR_LARGE   0.3
+#define SB_ERROR_USELESS 1.0
+
+// Estimate of its error: absolute in its SI unit, and relative to its magnitude (0 for an error of
+// 0, infinite for another error of the value 0). NaN: not known, or not computed.
+double sb_figure_error_absolute(const SbSummary *summary, int index);
 double sb_figure_error(const SbSummary *summary, int index);
 
 // Returns the absolute error of b - a, one figure of two designs with the relative errors
@@ -45,6 +99,10 @@ double sb_figure_error(const SbSummary *summary, int index);
 // Runs of other methods share nothing: e_a |a| + e_b |b|.
 double sb_figure_difference_error(double a, double error_a, double b, double error_b,
                                   bool same_methods);
+
+// Why it has no relative error to report; NULL where it has one. Static text, or the reason of the
+// figure that was not computed, borrowed.
+const char *sb_figure_error_reason(const SbSummary *summary, int index);
 
 // "none", "less", "more"; borrowed.
 const char *sb_better_name(SbBetter better);

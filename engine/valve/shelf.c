@@ -102,6 +102,11 @@ static void take_contact(SbShelfRest *out, const SbFit *fit, double difference) 
   out->touches = fit->touches && net > 0;
   out->width = fit->contact_width;
   out->contact_pressure = out->touches ? net / fit->contact_width : NAN;
+  // A difference over the width: the errors of its terms add up.
+  const double load = fit->load_per_length * fit->solver.error_estimate.load;
+  out->pressure_error = out->touches ? (load / net + (fit->load_per_length / net + 1) *
+                                                         fit->solver.error_estimate.contact_width)
+                                     : NAN;
 }
 
 SbStatus sb_shelf_rest(SbShelfRest *out, const SbModel *model, int seal, bool (*cancel)(void *),

@@ -58,6 +58,7 @@ typedef struct {
   double temperature, permeation, interface, plastic, loss_per_year, moisture_per_year, lag;
   double loss, moisture, mass_left, doses_left; // after shelf.time
   double error;                                 // of S_g, relative; NaN: closed form
+  double pressure_error;                        // of the seal's contact pressure, relative
   SbShelfSeal seal[SB_SEAL_COUNT];
   bool typical;  // rests on a figure that is usual of such rubbers
   size_t points; // of the history; 0: not computed

@@ -10,6 +10,7 @@ typedef struct {
   double lag;              // D times the time lag [m2]
   double error;            // of S_g, relative; NaN: closed form
   double contact_pressure; // of the rubber alone [Pa]
+  double pressure_error;   // of that, relative
   double width;            // of the contact [m]
   double modulus;          // E' [Pa]
 } SbShelfRest;

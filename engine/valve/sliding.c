@@ -164,6 +164,21 @@ static SbStatus solve_rest(const SbSlidingTask *task, const SbSealState *out, Sb
   return status;
 }
 
+void sb_sliding_static_error(SbSealState *out) {
+  const double area = out->rest_area * (out->rest_error + out->width_error);
+  const double level = out->rest_area + out->rest_load;
+  out->static_error =
+      level > 0 ? out->friction_static * (area + out->rest_load * out->load_error) / level : 0;
+}
+
+void sb_sliding_kinetic_errors(SbSealState *out, double borne) {
+  const double film = isnan(out->central_error) ? 0 : out->central_error;
+  out->boundary_error = out->boundary_area * (out->area_error + out->width_error) +
+                        out->boundary_load * (out->load_error + borne);
+  out->viscous_error = out->friction_viscous * (film + out->width_error);
+  out->friction_error = out->boundary_error + out->viscous_error;
+}
+
 // What that says of a state, and of its break-away.
 static SbStatus take_rest(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   const SbSlidingMemory *memory = task->memory;
@@ -177,7 +192,10 @@ static SbStatus take_rest(SbSealState *out, const SbSlidingTask *task, SbReport 
     strength_warning(task, out->rest_area_share);
   }
   SbStatus status = set_static(out, task, report);
-  out->static_error = rest->solver.error_contact * out->friction_static;
+  // Real area is in proportion to the mean pressure of the solid at most.
+  out->rest_error = rest->solver.error_contact + out->net_error + out->width_error;
+  sb_sliding_static_error(out);
+  out->static_error += rest->solver.error_contact * out->rest_load;
   return status;
 }
 
@@ -210,8 +228,10 @@ static SbStatus solve_coupled(const SbSlidingTask *task, SbSealState *out, SbRep
       return aged;
     }
   }
-  out->friction_error = film->solver.error_contact * (out->boundary_area + out->boundary_load) +
-                        out->central_error * out->friction_viscous;
+  const double contact = film->solver.error_contact;
+  out->share_error = contact + out->net_error + out->width_error;
+  out->area_error = contact + out->net_error + out->width_error;
+  sb_sliding_kinetic_errors(out, contact);
   return status != SB_OK ? status : at_rest;
 }
 
@@ -231,6 +251,12 @@ static SbStatus real_area(SbSealState *out, const SbSlidingTask *task, double ro
     double pressure = fmax(out->load_net, 0) / (out->contact_right - out->contact_left);
     out->real_area_share = out->rest_area_share =
         sb_persson_area_share(&spectrum, spectrum.q1, surface.modulus, pressure);
+    const double error = out->net_error + out->width_error;
+    if (error > 0) {
+      const double other =
+          sb_persson_area_share(&spectrum, spectrum.q1, surface.modulus, pressure * (1 + error));
+      out->area_error = out->rest_error = fabs(other / out->real_area_share - 1);
+    }
     strength_warning(task, out->real_area_share);
     return SB_OK;
   }
@@ -241,6 +267,10 @@ static SbStatus real_area(SbSealState *out, const SbSlidingTask *task, double ro
   out->rest_area_share = sb_rough_area_share(&surface, 0);
   // Without a film there is no real contact under it either.
   out->real_area_share = sb_rough_area_share(&surface, out->lambda);
+  if (out->central_error > 0) {
+    const double thinner = sb_rough_area_share(&surface, out->lambda * (1 - out->central_error));
+    out->area_error = fabs(thinner / out->real_area_share - 1);
+  }
   if (isnan(out->real_area_share) && !isnan(out->lambda)) {
     return sb_fail(report, SB_ERROR_RANGE, "no asperity contact of the %s seal at λ = %g",
                    sb_seal_name(task->seal), out->lambda);
@@ -274,15 +304,8 @@ static SbStatus rub(SbSealState *out, const SbSlidingTask *task, double roughnes
     double shear = model->viscosity * fabs(task->speed) / out->film_central;
     shear = shear > model->shear_strength ? model->shear_strength : shear;
     out->friction_viscous = shear * (1 - out->real_area_share) * area;
-    if (out->central_error > 0) {
-      const SbRoughSurface surface = sb_model_surface(model, task->seal, roughness);
-      double thinner = sb_rough_area_share(&surface, out->lambda * (1 - out->central_error));
-      bool persson = model->surface == SB_ROUGH_PERSSON;
-      out->friction_error =
-          out->central_error * out->friction_viscous +
-          (persson ? 0 : model->shear_strength * fabs(thinner - out->real_area_share) * area);
-    }
   }
+  sb_sliding_kinetic_errors(out, 0);
   return SB_OK;
 }
 
@@ -297,7 +320,9 @@ SbStatus sb_sliding_rough_contact(SbSealState *out, const SbSlidingTask *task, d
   out->rest_area = model->shear_strength * out->rest_area_share *
                    (out->contact_right - out->contact_left) * model->bore_circumference;
   out->rest_load = out->boundary_load;
-  return set_static(out, task, report);
+  status = set_static(out, task, report);
+  sb_sliding_static_error(out);
+  return status;
 }
 
 // Leaves of a law's kinetic friction what the section bears. What the pressure cannot shear is no
@@ -306,8 +331,12 @@ static void share_kinetic(SbSealState *out) {
   if (!isnan(out->borne_share)) {
     out->real_area_share *= out->area_cut * (out->section == SB_RING_SLIDES ? out->borne_share : 1);
     out->boundary_area *= out->area_cut * out->borne_share;
+    // Where the pressure limits the shear, near the contact's ends, the area goes with the width.
+    out->area_error += out->area_cut < 1 ? out->width_error : 0;
     out->boundary_load *= out->borne_share;
     out->friction_viscous *= out->borne_share;
+    out->boundary_error *= out->borne_share;
+    out->viscous_error *= out->borne_share;
     out->friction_error *= out->borne_share;
   }
 }
@@ -327,6 +356,7 @@ SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbRep
     return SB_OK;
   }
   out->rest_area_share *= out->area_cut;
+  out->rest_error += out->area_cut < 1 ? out->width_error : 0;
   out->rest_area *= out->area_cut; // the pressure limits it as well
   share_kinetic(out);
   if (out->section == SB_RING_SLIDES) {
@@ -335,6 +365,7 @@ SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbRep
   out->rest_area = out->boundary_area;
   out->rest_load = out->boundary_load;
   out->friction_static = sb_sliding_friction(out);
+  out->static_error = out->friction_error;
   return SB_OK;
 }
 
@@ -450,6 +481,7 @@ SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, dou
   if (state->touches && task->model->kind == SB_VALVE_GASKET) {
     status = sb_sliding_edge_contact(state, task, roughness, report);
     status = status == SB_OK ? set_static(state, task, report) : status;
+    sb_sliding_static_error(state);
   } else if (state->touches) {
     status = sb_sliding_rough_contact(state, task, roughness, report);
   }
@@ -492,6 +524,7 @@ SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *la
     sb_sliding_edge_film(out, task);
     SbStatus edges = sb_sliding_edge_contact(out, task, 1, first);
     edges = edges == SB_OK ? set_static(out, task, first) : edges;
+    sb_sliding_static_error(out);
     return edges != SB_OK ? edges : status;
   }
   if (task->model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0) {

@@ -40,6 +40,10 @@ typedef struct {
 void sb_sliding_law(SbSlidingLaw *out, const SbModel *model, const SbSealState *state);
 double sb_sliding_shear(double pressure, double *slope, const void *law);
 
+// A film is proportional to the load to the power of -0.3 at most (thesis eq. 7.5: -0.2893,
+// eq. 7.6: -0.21; asymptotic: -0.2).
+#define SB_FILM_LAW_LOAD_POWER 0.3
+
 // Kinetic friction of a whole contact [N].
 double sb_sliding_friction(const SbSealState *state);
 

@@ -251,6 +251,12 @@ static void take_contact(SbSealState *out, const SbSlidingTask *task, const SbFi
                      fit->model != SB_FIT_GREEN_ENGLISH;
   double fluid = fabs(pressure.left - pressure.right) * fit->contact_width / 2;
   out->load_net = fit->load_per_length - (holds_fluid ? fluid : 0);
+  out->load_error = fit->solver.error_estimate.load;
+  out->width_error = fit->solver.error_estimate.contact_width;
+  out->peak_error = fit->solver.error_estimate.pressure_peak;
+  // A difference: the errors of its terms add up.
+  out->net_error = (fit->load_per_length * out->load_error + fluid * out->width_error) /
+                   fmax(fabs(out->load_net), 1e-300);
   if (fit->model == SB_FIT_RING) {
     double way = task->speed < 0 ? -1 : 1;
     out->rotation = way * (pressure.left < pressure.right ? -1 : 1) * fit->ring.turn * 180 / M_PI;

@@ -138,7 +138,10 @@ void sb_sliding_edge_film(SbSealState *out, const SbSlidingTask *task) {
   out->film_central = film;
   out->film_min = least;
   out->layer = film / 2;
-  out->film_error = out->central_error = out->friction_error = NAN;
+  // The film goes with the power -1/2 of the rise at the edge, which depends on few nodes there:
+  // as a ring's film does (sb_sliding_read_film()), three times the error of the peak.
+  out->film_error = out->central_error =
+      film > 0 ? 0.5 * 3 * (out->peak_error + 0.5 * out->width_error) : NAN;
 }
 
 SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
@@ -165,6 +168,10 @@ SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, do
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   out->boundary_load = out->rest_load * (coupled && slides ? out->asperity_share : 1);
   out->friction_viscous = slides ? on.shear * around : 0;
+  // Real area and the asperities' load are in proportion to the pressure at most.
+  out->area_error = out->rest_error = out->net_error + out->width_error;
+  out->share_error = out->net_error;
+  sb_sliding_kinetic_errors(out, coupled && slides ? out->net_error : 0);
   if (out->lambda > 0.1) {
     sb_warn(task->warnings, "film-edge", "drive.speed",
             "%.3g nm of film under the %s gasket, a tenth of the roughness and more: it would "

@@ -174,6 +174,16 @@ bool sb_sliding_read_film(SbSealState *out, const SbSlidingSolved *solved, SbSta
 // A law's film carries half of itself along (thesis eq. 5.20), and no more than the supply.
 void sb_sliding_limit_law(SbSealState *out, const SbSlidingTask *task);
 
+// Error of a film by a closed form under a load with an error; NaN under an exact one.
+void sb_sliding_law_error(SbSealState *out);
+
+// Fills static_error: the dry contact's parts by the errors of real area, width and load.
+void sb_sliding_static_error(SbSealState *out);
+
+// Fills the errors of kinetic friction: of its parts by the errors of real area, width, load and
+// film. `borne`: relative error of the asperities' share of the load, 0 where they carry all of it.
+void sb_sliding_kinetic_errors(SbSealState *out, double borne);
+
 // A film.
 SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
                              const SbFilmProblem *problem, SbReport *report);

@@ -17,6 +17,10 @@ static double value_at(const SbSummary *summary, const char *path) {
   return sb_figure_value(summary, index);
 }
 
+static double error_at(const SbSummary *summary, const char *path) {
+  return sb_figure_error_absolute(summary, sb_figure_find(path));
+}
+
 static const char *reason_at(const SbSummary *summary, const char *path) {
   return sb_figure_reason(summary, sb_figure_find(path));
 }
@@ -45,20 +49,26 @@ static void test_paths(void) {
   g_assert_cmpfloat(value_at(summary, "seals.outer.load_N"), ==, 0);
   g_assert_cmpfloat(value_at(summary, "cycle.stages.C.force_N"), ==, 5);
   g_assert_cmpint(sb_figure_find("seals.outer"), ==, -1);
-  // Estimates are figures too; what has one refers to it.
-  summary->error_load = 1e-3;
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     const SbFigure *figure = sb_figure(i);
-    g_autofree char *estimate = g_strconcat("solver.error_estimate.", figure->estimate, NULL);
-    g_assert_true(*figure->estimate == '\0' || sb_figure_find(estimate) >= 0);
+    // What a user can limit has an error.
+    g_assert_true(figure->error != SB_BY_RESIDUAL || figure->verdict == SB_VERDICT_NONE);
     g_assert_true(figure->digits >= 0 && *figure->label != '\0' && *figure->help != '\0');
     // Path and unit agree: what has a unit says it in its key.
     const char *underscore = strrchr(figure->path, '_');
     g_assert_true(strcmp(figure->si, "1") == 0 || strstr(figure->path, "film_by_model") != NULL ||
                   underscore != NULL);
   }
-  g_assert_cmpfloat(sb_figure_error(summary, sb_figure_find("seals.outer.load_N")), ==, 1e-3);
-  g_assert_true(isnan(sb_figure_error(summary, sb_figure_find("cycle.duration_s"))));
+  // Relative to the magnitude; a difference below its error has none to report.
+  const int least = sb_figure_find("cycle.force_return_min_N");
+  summary->force_return_min = -0.5;
+  summary->error[least] = 0.1;
+  g_assert_cmpfloat(sb_figure_error(summary, least), ==, 0.2);
+  g_assert_null(sb_figure_error_reason(summary, least));
+  summary->error[least] = 0.6;
+  g_assert_cmpfloat(sb_figure_error(summary, least), ==, 1.2);
+  g_assert_true(g_str_has_prefix(sb_figure_error_reason(summary, least), "uncertain"));
+  g_assert_cmpfloat(sb_figure_error_absolute(summary, least), ==, 0.6);
   sb_figures_clear(summary);
   g_assert_true(isnan(summary->seal[SB_INNER].load) && isnan(summary->error_load));
   // The first reason stays, and only while there is no value.
@@ -603,6 +613,40 @@ static void test_geometry(void) {
   g_assert_cmpuint(problems.count, ==, 0);
 }
 
+// Every figure of a run has an error or a reason; inputs and closed forms have the error 0, a peak
+// that the drive's reversal sets too; a difference has the sum of its terms' errors.
+static void test_errors(void) {
+  SbModel model;
+  SbParams params;
+  sb_params_init(&params);
+  for (int disc = 0; disc < 2; disc++) {
+    g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT,
+                                  disc > 0 ? SB_FIT_DISC : SB_FIT_KARASZKIEWICZ, NULL),
+                    ==, SB_OK);
+    g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_TOLERANCE, 0.05, NULL), ==, SB_OK);
+    g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
+    SbPlan plan;
+    SbRun *run;
+    sb_plan_make(&plan, &model);
+    g_assert_cmpint(sb_run_create(&run, &model, &plan, NULL), ==, SB_OK);
+    g_assert_cmpint(sb_run_execute(run, NULL, NULL), ==, SB_OK);
+    const SbSummary *summary = sb_run_summary(run);
+    for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+      const double error = sb_figure_error(summary, i);
+      g_assert_true(sb_figure_error_reason(summary, i) != NULL || error >= 0);
+      g_assert_true(disc > 0 || !(sb_figure_value(summary, i) > 0) || error == 0 || isnan(error));
+    }
+    const double of_return = error_at(summary, "cycle.force_return_min_N");
+    const double terms = error_at(summary, "seals.outer.contact.return.friction_N") +
+                         error_at(summary, "seals.inner.contact.return.friction_N");
+    g_assert_cmpfloat(error_at(summary, "cycle.force_peak_N"), ==, 0);
+    g_assert_cmpfloat(error_at(summary, "cycle.pressure_force_N"), ==, 0);
+    g_assert_cmpfloat(fabs(of_return - terms), <=, 1e-6 * terms);
+    g_assert_true((terms > 0) == (disc > 0));
+    sb_run_destroy(run);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/figures/paths", test_paths);
@@ -622,5 +666,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/figures/contradictions", test_contradictions);
   g_test_add_func("/figures/limits-of-return", test_limits_of_return);
   g_test_add_func("/figures/geometry", test_geometry);
+  g_test_add_func("/figures/errors", test_errors);
   return g_test_run();
 }

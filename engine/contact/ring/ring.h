@@ -123,6 +123,7 @@ typedef struct {
   struct {
     double load, peak, width; // relative
   } error;                    // estimated by sb_ring_fit; 0 without it
+  bool missed;                // by sb_ring_fit: the error of the load stays above what is wanted
 } SbRingResult;
 
 // Fits the free ring into its groove: stretched over the floor, squeezed by the bore, then pressed
@@ -257,8 +258,7 @@ SbStatus sb_ring_surface(SbRing *ring, SbSurfaceCompliance *out, SbReport *repor
 // contact edges, and estimates the error of load, peak and width from the two; element_size is that
 // of a sliding ring's path, else unused. `out` may be NULL if only the figures are wanted.
 // Warnings: "no-contact" (loads are then 0; also for a ring under pressure that does not touch
-// without it: the fluid goes past it), "ring-tolerance" if the estimate stays above what is wanted,
-// "surface-creases" (sb_ring_crease in ring_contact.h).
+// without it: the fluid goes past it), "surface-creases" (sb_ring_crease in ring_contact.h).
 SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
                      const SbRingLoad *load, const SbRingOptions *options, SbWarnings *warnings,
                      SbReport *report);

@@ -231,6 +231,7 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     return SB_OK;
   }
   SbReport own = {0};
+  sb_run_begin_errors(run);
   SbStatus status =
       run->plan.inertia ? sb_run_dynamic(run, hooks, &own) : sb_run_quasi_static(run, hooks, &own);
   if (status == SB_OK && summary->energy.closure > SB_RUN_CLOSURE) {
@@ -267,7 +268,7 @@ static double weaker(double force, double mean, double deviation) {
   return isnan(force) ? NAN : sb_normal_share((force - mean) / deviation);
 }
 
-static void weigh_users(SbSummary *summary, const SbModel *model) {
+void sb_run_weigh_users(SbSummary *summary, const SbModel *model) {
   const double mean[] = {[SB_WOMEN] = model->women_strength, [SB_MEN] = model->men_strength};
   const double deviation[] = {[SB_WOMEN] = model->women_deviation, [SB_MEN] = model->men_deviation};
   for (int users = 0; users < SB_USERS; users++) {
@@ -317,7 +318,7 @@ static void conclude(SbRun *run, bool moved) {
     summary->force_breakaway = summary->stage[SB_STAGE_B].force;
   }
   if (moved) {
-    weigh_users(summary, run->model);
+    sb_run_weigh_users(summary, run->model);
     warn_of_outcome(summary);
   }
 }
@@ -410,6 +411,8 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   }
   summary->work = run->work->done;
   sb_run_give_reasons(run, status, report);
+  sb_run_fill_errors(run);
+  status = sb_run_judge_errors(run, status, report);
   sb_verdict_fill(summary, run->model);
   summary->frames = run->count;
   if (hooks->progress != NULL && status == SB_OK) {

@@ -43,17 +43,25 @@ typedef struct {
 #include "engine/valve/figures.def"
   SbLeakState leak_state;
   bool touches;
-  bool opened;       // by the fluid: the rubber does not press, or the film's ends differ too much
-  bool film_fitted;  // film_min and film_central are solved on the fitted body
-  double layer;      // that it leaves on the bore behind it: flow over speed [m]
-  double load_net;   // per length, above the ambient step: what the film carries [N/m]
-  double film_error; // of the solved film, relative [1]; NaN if closed form
-  double central_error;        // the same of film_central alone, on which friction hangs [1]
+  bool opened;      // by the fluid: the rubber does not press, or the film's ends differ too much
+  bool film_fitted; // film_min and film_central are solved on the fitted body
+  double layer;     // that it leaves on the bore behind it: flow over speed [m]
+  double load_net;  // per length, above the ambient step: what the film carries [N/m]
+  // Relative errors of the fit [1], 0 of a closed form: of the load, of load_net, of the contact's
+  // width and of its peak pressure.
+  double load_error, net_error, width_error, peak_error;
+  double film_error;           // of the least film, relative [1]; NaN: a closed form of exact loads
+  double central_error;        // of film_central alone, which friction depends on, relative [1]
+  double area_error;           // of the real area while sliding, relative [1]
+  double rest_error;           // of the real area at rest, relative [1]
+  double share_error;          // of the asperities' share of the load, relative [1]
   double boundary_area;        // tau_0 A_a, the part of F_b in proportion to the width [N]
   double boundary_load;        // m W, the part in proportion to the load [N]
   double rest_area, rest_load; // what these two become at rest, once the film has gone [N]
-  double friction_error;       // of kinetic friction by the solved film's error [N]
-  double static_error;         // the same of static friction [N]
+  double boundary_error;       // of boundary_area + boundary_load [N]
+  double viscous_error;        // of friction_viscous [N]
+  double friction_error;       // of kinetic friction, by its film and its fit [N]
+  double static_error;         // of static friction, by its fit and its dry contact [N]
   // Of a ring that friction drags, NaN without: what the pressure leaves of tau_0 A_a, what the
   // section bears of the whole friction, its turn [degrees], > 0 as friction turns it.
   double area_cut, borne_share, rotation;
@@ -192,6 +200,7 @@ typedef struct {
   size_t frames, steps, rejected_steps;
   size_t work;   // solver steps counted against output.work_limit, in all actuations of a life
   double wall_s; // elapsed time of the computation [s]
+  double error[SB_FIGURE_COUNT];    // of each figure, absolute in its SI unit; NaN: not known
   double ring_fault[SB_SEAL_COUNT]; // of a predicted run's rings: forces that violate their active
                                     // sets, over the bore's [1]
   double ring_order;  // most polynomials of a ring's recovered pressure for each node [1]

@@ -1,8 +1,11 @@
 // Frames and figures of the quasi-static cycle: evaluations of its segments, none of them a step in
 // time.
+#include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 // Time at platen position X of a segment: the platen moves at constant speed, up and back.
 static double time_of(const SbRun *run, const SbCycleSegment *segment, double X) {
@@ -93,24 +96,15 @@ static double error_work(const SbRun *run) {
   return peak > 0 ? SB_SEAL_COUNT * (run->friction_error + yields * run->static_error) / peak : 0;
 }
 
-SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
-  SbSummary *summary = &run->summary;
+// Energies, forces and outcome of the cycle; `out` has its stages.
+static SbStatus take_figures(SbSummary *out, SbRun *run, SbReport *report) {
   const SbCycle *cycle = &run->cycle;
-  SbStatus status = sb_cycle_build(&run->cycle, report);
-  SbStatus frames = emit_frames(run, hooks, status == SB_OK ? report : NULL);
-  status = status != SB_OK ? status : frames;
-  sb_cycle_energy(cycle, &summary->energy);
-  // Film dragged out under the outer seal on the way in, less what comes back (thesis equation
-  // 5.21).
-  const double carries = sb_model_way(run->model); // the way that leaves a layer outside
-  sb_bore_start(&run->bore, carries * cycle->segment[0].stem0);
   double press = 0;
-  summary->force_peak = 0;
+  sb_cycle_energy(cycle, &out->energy);
+  out->force_peak = 0;
   for (const SbCycleSegment *at = cycle->segment; at < cycle->segment + cycle->count; at++) {
-    sb_bore_move(&run->bore, carries * at->stem0, carries * at->stem1,
-                 sb_run_layer(run, SB_OUTER, at->chamber, at->direction, run->speed));
     const double force = sb_cycle_force(cycle, at->platen1, at->stem1);
-    summary->force_peak = fmax(summary->force_peak, force);
+    out->force_peak = fmax(out->force_peak, force);
     press = at->stage < SB_STAGE_D ? fmax(press, force) : press;
   }
   const SbRunEnd end = {.top = cycle->stem_top,
@@ -118,12 +112,80 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
                         .dwell = cycle->dwell,
                         .press = press,
                         .sliding_least = INFINITY};
-  SbStatus ended = sb_run_conclude_motion(run, &end, status == SB_OK ? report : NULL);
+  return sb_run_conclude_motion(out, run, &end, report);
+}
+
+// All figures of the cycle without frames.
+static SbStatus compute_figures(SbSummary *out, SbRun *run, SbReport *report) {
+  const SbCycle *cycle = &run->cycle;
+  memset(out->stage, 0, sizeof out->stage);
+  sb_figures_clear(out);
+  for (const SbCycleSegment *at = cycle->segment; at < cycle->segment + cycle->count; at++) {
+    SbStageMark *mark = at->event >= 0 ? &out->stage[at->event] : NULL;
+    if (mark != NULL && !mark->reached) {
+      const double force = sb_cycle_force(cycle, at->platen1, at->stem1);
+      *mark = (SbStageMark){true, time_of(run, at, at->platen1), at->stem1, force, 0};
+    }
+  }
+  out->duration = 2 * cycle->platen_top / run->model->speed;
+  out->force_breakaway = out->stage[SB_STAGE_B].reached ? out->stage[SB_STAGE_B].force : NAN;
+  SbStatus status = take_figures(out, run, report);
+  sb_run_weigh_users(out, run->model);
+  return status;
+}
+
+// What the errors of the states make of the cycle's figures: it is built once more with each of
+// them. Leaves the cycle as it was.
+static SbStatus find_errors(SbRun *run, SbReport *report) {
+  static bool (*const wrong[])(SbRun *) = {sb_run_worsen_friction, sb_run_widen_contact};
+  struct {
+    SbCycle cycle;
+    SbSummary right, other;
+  } *own = calloc(1, sizeof *own);
+  if (own == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the cycle's errors");
+  }
+  own->cycle = run->cycle;
+  SbStatus status = compute_figures(&own->right, run, report);
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong && status == SB_OK; i++) {
+    if (wrong[i](run)) {
+      if (sb_cycle_build(&run->cycle, NULL) == SB_OK &&
+          compute_figures(&own->other, run, NULL) == SB_OK) {
+        sb_run_add_errors(run, &own->right, &own->other, 1);
+      } else {
+        sb_run_lose_errors(run);
+      }
+    }
+    run->cycle = own->cycle;
+  }
+  free(own);
+  sb_run_leak_error(run);
+  return status;
+}
+
+SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+  SbSummary *summary = &run->summary;
+  const SbCycle *cycle = &run->cycle;
+  SbStatus status = sb_cycle_build(&run->cycle, report);
+  SbStatus frames = emit_frames(run, hooks, status == SB_OK ? report : NULL);
+  status = status != SB_OK ? status : frames;
+  // Film dragged out under the outer seal on the way in, less what comes back (thesis equation
+  // 5.21).
+  const double carries = sb_model_way(run->model); // the way that leaves a layer outside
+  sb_bore_start(&run->bore, carries * cycle->segment[0].stem0);
+  for (const SbCycleSegment *at = cycle->segment; at < cycle->segment + cycle->count; at++) {
+    sb_bore_move(&run->bore, carries * at->stem0, carries * at->stem1,
+                 sb_run_layer(run, SB_OUTER, at->chamber, at->direction, run->speed));
+  }
+  SbStatus ended = take_figures(summary, run, status == SB_OK ? report : NULL);
   status = status != SB_OK ? status : ended;
   sb_run_leakage(summary, run->model, &run->bore, summary->returns);
   summary->steps = cycle->count;
   SbStatus speeds = sb_run_close_speeds(run, status == SB_OK ? report : NULL);
   status = status != SB_OK ? status : speeds;
+  if (status == SB_OK && !run->follows) {
+    status = find_errors(run, report);
+  }
   summary->error_force = summary->error_load + sb_run_error_friction(run);
   summary->error_energy = fmax(summary->energy.closure, summary->error_load + error_work(run));
   return status;

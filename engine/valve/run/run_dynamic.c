@@ -16,6 +16,7 @@
 #include "engine/valve/figures.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 // Instants at which a motion without frames halts: for a cancel, no more.
@@ -51,7 +52,8 @@ typedef struct {
   double home;                // time at which the stem is back on its rest stop [s], 0: not yet
   double middle, middle_back; // speed at the middle of B-C and of F-A [m/s], 0: not yet
   bool slips;                 // some contact has slid
-  SbStatus status;            // of the frames' reactions
+  double net;      // what the film carried out less what it carried back, at the end [m2]
+  SbStatus status; // of the frames' reactions
   SbReport *report;
 } Recorder;
 
@@ -284,11 +286,124 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double toleranc
   SbDynamicsSample end;
   sb_dynamics_sample(&r->motion, &end, &r->energy);
   leak(r, end.time, end.position, sb_valve_chamber_pressure(&r->valve, end.extra), true);
+  r->net = run->bore.out - run->bore.back;
   return status;
 }
 
 static double relative(double a, double b, double scale) {
   return scale > 0 ? fabs(a - b) / scale : 0;
+}
+
+// Sets a motion's outcome and the figures that follow from it; `out` has its stages.
+static SbStatus conclude_motion(SbSummary *out, const Recorder *r, SbReport *report) {
+  SbRun *run = r->run;
+  const SbModel *model = run->model;
+  const double start = r->model.start_position;
+  SbDynamicsSample last;
+  sb_dynamics_sample(&r->motion, &last, NULL);
+  const double leaves =
+      r->mark[SB_STAGE_E].reached ? r->mark[SB_STAGE_E].time : fmax(r->valve.times.turn, r->rested);
+  SbRunEnd end = {.start = start,
+                  .top = fmax(r->top, start),
+                  .position = last.position,
+                  .speed = last.speed,
+                  .force = last.drive_force,
+                  .bonded = r->model.drive_bonded,
+                  .dwell = start > 0 ? model->rest : fmax(leaves - r->rested, 0),
+                  .press = r->press,
+                  // A fast return's viscous friction takes more than that at the films' speed.
+                  .sliding_least = r->return_least};
+  if (model->stribeck_speed > 0) {
+    // Slow sliding has nearly the friction of rest.
+    SbStatus status = sb_cycle_rest(&run->cycle, 0, report);
+    if (status != SB_OK) {
+      return status;
+    }
+    end.sliding_least =
+        fmin(end.sliding_least, sb_cycle_return_margin(&run->cycle, fmin(end.top, model->stroke)));
+  }
+  return sb_run_conclude_motion(out, run, &end, report);
+}
+
+// Figures of a motion that a motion without frames has as well.
+static SbStatus compute_figures(SbSummary *out, const Recorder *r, SbReport *report) {
+  memset(out->stage, 0, sizeof out->stage);
+  sb_figures_clear(out);
+  sb_run_fill_motion(out, &r->energy, &r->motion.counters);
+  out->force_peak = r->force_peak;
+  out->duration = 0; // of the frames
+  for (int i = 0; i < SB_STAGE_COUNT; i++) {
+    if (r->mark[i].reached) {
+      out->stage[i] = r->mark[i];
+    }
+  }
+  out->force_breakaway = out->stage[SB_STAGE_B].reached ? out->stage[SB_STAGE_B].force : NAN;
+  sb_run_weigh_users(out, r->run->model);
+  return conclude_motion(out, r, report);
+}
+
+static double speed_error(double one, double other) {
+  return one > 0 ? fabs(other / one - 1) : 0;
+}
+
+// Adds a share of what two motions differ by to the errors of the run's figures.
+static void add_errors(SbRun *run, const Recorder *one, const SbSummary *of_one,
+                       const Recorder *other, const SbSummary *of_other, double share) {
+  sb_run_add_errors(run, of_one, of_other, share);
+  run->leak_error += share * run->model->bore_circumference * fabs(one->net - other->net);
+  run->speed_error[SB_CYCLE_IN] += share * speed_error(one->middle, other->middle);
+  run->speed_error[SB_CYCLE_OUT] += share * speed_error(one->middle_back, other->middle_back);
+}
+
+// Adds a share of what a motion of other steps differs by.
+static SbStatus compare_motions(SbRun *run, const Recorder *one, const Recorder *other,
+                                double share, SbReport *report) {
+  SbSummary *figures = calloc(2, sizeof *figures);
+  if (figures == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the motion's errors");
+  }
+  SbStatus status = compute_figures(&figures[0], one, report);
+  status = status == SB_OK ? compute_figures(&figures[1], other, report) : status;
+  if (status == SB_OK) {
+    add_errors(run, one, &figures[0], other, &figures[1], share);
+  }
+  free(figures);
+  return status;
+}
+
+// What the errors of the states make of the motion: it is followed once more, to no more than a
+// coarse tolerance, with all of them.
+static SbStatus find_state_errors(SbRun *run, const Recorder *fine, double tolerance,
+                                  const SbRunHooks *hooks, SbReport *report) {
+  struct {
+    SbCycle cycle;
+    SbSummary right, other;
+  } *own = calloc(1, sizeof *own);
+  if (own == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the motion's errors");
+  }
+  SbReport why = {0};
+  SbStatus status = compute_figures(&own->right, fine, &why);
+  own->cycle = run->cycle;
+  const bool rubs = sb_run_worsen_friction(run), widens = sb_run_widen_contact(run);
+  if (status == SB_OK && (rubs || widens)) {
+    Recorder other;
+    const double coarse = fmax(tolerance, fmin(10 * tolerance, 1e-5));
+    status = run_motion(&other, run, false, coarse, hooks, &why);
+    status = status == SB_OK ? compute_figures(&own->other, &other, &why) : status;
+    if (status == SB_OK) {
+      add_errors(run, fine, &own->right, &other, &own->other, 1);
+    } else if (status == SB_ERROR_NOT_CONVERGED) {
+      sb_run_lose_errors(run);
+      status = SB_OK;
+    }
+  }
+  run->cycle = own->cycle;
+  free(own);
+  if (status != SB_OK && report != NULL) {
+    *report = why;
+  }
+  return status;
 }
 
 // The same motion at ten times the tolerance. With errors in proportion to the power 5/6 of the
@@ -321,6 +436,10 @@ static SbStatus estimate_error(const Recorder *fine, double tolerance, double *f
                                    fmax(peak, fabs(run->model->pressure_force))));
   }
   *force = fmax(share * *force, tolerance);
+  status = compare_motions(run, fine, &other, share, report);
+  if (status != SB_OK) {
+    return status;
+  }
   const SbDynamicsEnergy *one = &fine->energy, *two = &other.energy;
   *work = fmax(tolerance, share * fmax(relative(one->drive, two->drive, one->largest),
                                        relative(one->friction, two->friction, one->largest)));
@@ -385,12 +504,17 @@ static double straight_force(const SbRun *run) {
   return peak > 0 ? run->straight_error * most / peak : 0;
 }
 
-// By how much a motion's balance of energies is open. Work over less than the rounding of places is
-// none: a stem that is pushed and does not move.
-static double closure_of(const Recorder *r) {
+// Whether a motion does work. Work over less than the rounding of places is none: a stem that is
+// pushed and does not move.
+static bool does_work(const Recorder *r) {
   const SbModel *model = r->run->model;
   const double pushed = fmax(r->force_peak, fabs(sb_model_push(model, 0)));
-  return r->energy.largest < 1e-12 * pushed * model->stroke ? 0 : r->energy.closure;
+  return !(r->energy.largest < 1e-12 * pushed * model->stroke);
+}
+
+// By how much a motion's balance of energies is open.
+static double closure_of(const Recorder *r) {
+  return does_work(r) ? r->energy.closure : 0;
 }
 
 // The motion with its frames, to the model's tolerance or, where its energies do not balance, to as
@@ -424,37 +548,6 @@ static SbStatus follow(Recorder *r, double *tolerance, SbRun *run, const SbRunHo
   return status;
 }
 
-// The motion's outcome and the figures that follow from it.
-static SbStatus conclude_motion(Recorder *r, SbReport *report) {
-  SbRun *run = r->run;
-  const SbModel *model = run->model;
-  const double start = r->model.start_position;
-  SbDynamicsSample last;
-  sb_dynamics_sample(&r->motion, &last, NULL);
-  const double leaves =
-      r->mark[SB_STAGE_E].reached ? r->mark[SB_STAGE_E].time : fmax(r->valve.times.turn, r->rested);
-  SbRunEnd end = {.start = start,
-                  .top = fmax(r->top, start),
-                  .position = last.position,
-                  .speed = last.speed,
-                  .force = last.drive_force,
-                  .bonded = r->model.drive_bonded,
-                  .dwell = start > 0 ? model->rest : fmax(leaves - r->rested, 0),
-                  .press = r->press,
-                  // A fast return's viscous friction takes more than that at the films' speed.
-                  .sliding_least = r->return_least};
-  if (model->stribeck_speed > 0) {
-    // Slow sliding has nearly the friction of rest.
-    SbStatus status = sb_cycle_rest(&run->cycle, 0, report);
-    if (status != SB_OK) {
-      return status;
-    }
-    end.sliding_least =
-        fmin(end.sliding_least, sb_cycle_return_margin(&run->cycle, fmin(end.top, model->stroke)));
-  }
-  return sb_run_conclude_motion(run, &end, report);
-}
-
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbModel *model = run->model;
   SbSummary *summary = &run->summary;
@@ -470,7 +563,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   summary->duration = last->time;
   summary->force_peak = r.force_peak;
   if (status == SB_OK) {
-    status = conclude_motion(&r, report);
+    status = conclude_motion(summary, &r, report);
   }
   const bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * model->stroke;
   sb_run_leakage(summary, model, &run->bore, back);
@@ -484,6 +577,12 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
         "theirs, but where in its slip a frame meets the stem is arbitrary",
         (double)counters.grouped);
   }
+  sb_run_leak_error(run);
+  if (status == SB_OK && !run->follows && r.count > 1 && !r.valve.times.ends_run) {
+    // That the stem rests is seen at a frame.
+    run->motion_error[sb_figure_find("cycle.duration_s")] =
+        last->time - run->frames[r.count - 2].time;
+  }
   // Closed form throughout: rounding only.
   double force = 1e-12;
   double work = 1e-12;
@@ -493,12 +592,16 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     if (estimate == SB_ERROR_NOT_CONVERGED) {
       // The motion itself stands.
       force = work = NAN;
+      sb_run_lose_errors(run);
       sb_reason(summary, "solver.error_estimate.*", "the coarser motion failed: %s", own.text);
       sb_warn(&summary->warnings, "motion-error-unknown", "output.motion_tolerance",
               "the motion's error is not known: %s", own.text);
     } else if (estimate != SB_OK) {
       status = sb_fail(report, estimate, "%s", own.text);
     }
+  }
+  if (status == SB_OK && !run->follows) {
+    status = find_state_errors(run, &r, tolerance, hooks, report);
   }
   SbStatus speeds = sb_run_close_speeds(run, status == SB_OK ? report : NULL);
   status = status != SB_OK ? status : speeds;
@@ -508,6 +611,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   double straight = energy->external_max > 0
                         ? run->straight_error * fabs(energy->friction) / energy->external_max
                         : 0;
-  summary->error_energy = isnan(work) ? NAN : fmax(fmax(states, work), energy->closure) + straight;
+  const double worst = fmax(fmax(states, work), energy->closure) + straight;
+  summary->error_energy = isnan(work) ? NAN : does_work(&r) ? worst : 0;
   return status;
 }

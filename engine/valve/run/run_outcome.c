@@ -62,8 +62,8 @@ static void give_reasons(SbSummary *summary, const SbRunEnd *end) {
             "the stem does not reach its stop: the force that this takes is not known");
 }
 
-SbStatus sb_run_conclude_motion(SbRun *run, const SbRunEnd *end, SbReport *report) {
-  SbSummary *summary = &run->summary;
+SbStatus sb_run_conclude_motion(SbSummary *summary, SbRun *run, const SbRunEnd *end,
+                                SbReport *report) {
   summary->outcome = outcome_of(summary, run->model, end);
   const bool stuck = summary->outcome == SB_OUTCOME_STUCK;
   summary->returns = summary->outcome == SB_OUTCOME_RETURNED;

@@ -114,6 +114,12 @@ struct SbRun {
   double straight_error; // of friction in the motion's bands of speed, over that without a film
   SbValveBands bands[SB_CYCLE_CHAMBERS][SB_RUN_REST]; // of the motion; made when first asked for
   SbSummary summary;
+  // Errors (run_errors.c): absolute, of the motion's figures; relative, of the sliding speeds by
+  // direction; absolute, of a cycle's leak [m3] and of the mass that the chamber keeps [kg];
+  // relative, of the film solved for comparison.
+  double motion_error[SB_FIGURE_COUNT], speed_error[2], leak_error, kept_error;
+  double compared_error[SB_SEAL_COUNT];
+  SbSealState shown[SB_SEAL_COUNT][2]; // states of the seals' figures: in-stroke and return
   SbBore bore;                         // of the last motion, under the outer seal
   SbFilm film;                         // of whoever solves one beside the states
   double friction_error, static_error; // of any state's frictions by its films [N]
@@ -198,9 +204,12 @@ typedef struct {
                         // speeds; INFINITY: the steady states' friction alone counts
 } SbRunEnd;
 
-// Sets the outcome, the return's figures and the press force, with reasons for those that are null.
-// The stages and the peak force must be known. SB_ERROR_MEMORY (run_outcome.c).
-SbStatus sb_run_conclude_motion(SbRun *run, const SbRunEnd *end, SbReport *report);
+// Sets the outcome, the return's figures and the press force in `summary`, that of the run or of a
+// motion compared with it, with reasons for those that are null. The summary's stages and its peak
+// force must be known; the seals' states are those of the run's cycle. SB_ERROR_MEMORY
+// (run_outcome.c).
+SbStatus sb_run_conclude_motion(SbSummary *summary, SbRun *run, const SbRunEnd *end,
+                                SbReport *report);
 
 // Whether the actuation delivers a dose: the stages in which the chamber fills and empties have
 // happened (run_outcome.c).
@@ -259,6 +268,31 @@ SbStatus sb_run_shelf(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // Share of the chamber that there is time to fill between C and F; NaN where they are not reached.
 double sb_run_filled_share(const SbSummary *summary, const SbModel *model);
+
+// Errors (run_errors.c). Before a motion: no error; after one whose error is not known: NaN.
+void sb_run_begin_errors(SbRun *run);
+void sb_run_lose_errors(SbRun *run);
+
+// Adds `share` of what the figures of two motions differ by to the motion's errors.
+void sb_run_add_errors(SbRun *run, const SbSummary *one, const SbSummary *other, double share);
+
+// Makes the cycle's states wrong by their errors: frictions larger, the inner contact wider. False:
+// they have none, and nothing has changed.
+bool sb_run_worsen_friction(SbRun *run);
+bool sb_run_widen_contact(SbRun *run);
+
+// Adds the error of the last motion's leak by its films.
+void sb_run_leak_error(SbRun *run);
+
+// Fills the errors of all figures, which are known.
+void sb_run_fill_errors(SbRun *run);
+
+// Warns of errors above SB_ERROR_LARGE. SB_ERROR_NOT_CONVERGED for one above SB_ERROR_USELESS in
+// place of SB_OK, else `status`.
+SbStatus sb_run_judge_errors(SbRun *run, SbStatus status, SbReport *report);
+
+// Shares of the users who are weaker than a summary's forces (run.c).
+void sb_run_weigh_users(SbSummary *summary, const SbModel *model);
 
 // What of a metered mass [kg] the last motion delivers: less what there is no time to fill, and
 // what the emptied chamber keeps. NaN where sb_run_delivers() is false.

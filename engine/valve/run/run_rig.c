@@ -7,9 +7,11 @@
 // would give the rig's sliding coefficient: table 7.8 compares a coefficient measured under one
 // with one predicted under the other. Leaves out: the lubricant's film, the cell's noise.
 #include "engine/contact/rough/greenwood_tripp.h"
+#include "engine/valve/figures.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
+#include <string.h>
 
 static SbSealFrame no_seal(void) {
   return (SbSealFrame){.profile = UINT32_MAX, .shape = UINT32_MAX};
@@ -70,6 +72,19 @@ static void compare_contact(SbRun *run) {
   if (model->rig.coefficient > 0) {
     double ratio = out->contact_coefficient / model->rig.coefficient;
     out->contact_load = model->rig.load * ratio * ratio;
+  }
+}
+
+// Events and energies are those of the motion, the largest force is one of the samples.
+static void rig_errors(SbRun *run) {
+  const SbSummary *summary = &run->summary;
+  sb_run_begin_errors(run);
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    if (strncmp(sb_figure(i)->path, "cycle.energy", 12) == 0) {
+      run->motion_error[i] = summary->error_energy * summary->energy.external_max;
+    } else if (i == sb_figure_find("cycle.force_peak_N")) {
+      run->motion_error[i] = summary->error_force * summary->force_peak;
+    }
   }
 }
 
@@ -134,5 +149,6 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
                                                        rig->rate / summary->force_peak
                                                  : NAN;
   summary->error_energy = fmax(motion.counters.local_error, energy.closure);
+  rig_errors(run);
   return status;
 }

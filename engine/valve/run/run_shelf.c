@@ -19,6 +19,7 @@ static void fill(SbShelf *out, const SbModel *model, int seal, const SbShelfRest
   out->temperature = model->temperature;
   out->lag = rest->lag / sb_shelf_diffusivity(model);
   out->error = rest->error;
+  out->pressure_error = rest->pressure_error;
   out->permeation = rates->permeation + rates->plastic;
   out->plastic = sb_shelf_lacks_plastic(model) == NULL ? rates->plastic : NAN;
   out->interface = rates->interface;

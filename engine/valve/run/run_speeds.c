@@ -131,6 +131,12 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
     return;
   }
   sb_speed_state(out, *table, speed);
+  const SbSpeedStates *of = *table;
+  if (of->error > 0) { // what interpolation leaves
+    out->film_error += of->error;
+    out->central_error += of->error;
+    out->friction_error += of->friction_error * sb_sliding_friction(out);
+  }
 }
 
 int sb_run_asked_chamber(int way) {

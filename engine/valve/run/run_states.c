@@ -610,9 +610,15 @@ void sb_run_add_counters(SbCounters *sum, const SbCounters *more) {
 }
 
 // Adds a lane's to the run.
-static void join(SbRun *run, const Lane *lane) {
+static void join(SbRun *run, Lane *lane) {
   SbSummary *summary = &run->summary;
   sb_run_add_counters(&summary->counters, &lane->counters);
+  // One number for all of the seal's states: the one that is reported.
+  char subject[24];
+  snprintf(subject, sizeof subject, "%s seal", sb_seal_name(lane->seal));
+  sb_warn_replace(&lane->warnings, "ring-tolerance", subject,
+                  "%s: the ring's load is known to %.2g only, not to %.2g", subject,
+                  lane->error_load, run->model->tolerance);
   sb_warnings_merge(&summary->warnings, &lane->warnings);
   if (lane->failed.status != SB_OK) {
     sb_seal_reason(summary, lane->seal, "*", "%s", lane->failed.text);

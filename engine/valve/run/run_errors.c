@@ -1,0 +1,372 @@
+// Errors of a run's figures.
+//
+// A seal's figures have the errors of their state: those of its fit (ring, disc), of its film and
+// of the dry contact, which the solvers estimate, in the proportions in which the figure depends on
+// them. Figures of the motion depend on every state at once: the motion is repeated with states
+// that are wrong by their errors, all frictions larger together and the inner contact wider (what
+// is the same on both sides of a difference cancels, what adds up adds up), and, where it is solved
+// in steps, with coarser ones. The sum of the differences is the error. Everything that follows
+// from inputs by closed forms has the error 0.
+//
+// The errors of the terms are taken at their worst together. They cover discretisation and
+// iteration, not the choice of the model.
+#include "engine/valve/figures.h"
+#include "engine/valve/run/run_private.h"
+#include "engine/valve/shelf_private.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// ---- The motion
+
+void sb_run_begin_errors(SbRun *run) {
+  memset(run->motion_error, 0, sizeof run->motion_error);
+  run->speed_error[SB_CYCLE_IN] = run->speed_error[SB_CYCLE_OUT] = 0;
+  run->leak_error = 0;
+}
+
+void sb_run_lose_errors(SbRun *run) {
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    run->motion_error[i] = NAN;
+  }
+  run->leak_error = NAN;
+}
+
+void sb_run_add_errors(SbRun *run, const SbSummary *one, const SbSummary *other, double share) {
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    if (sb_figure(i)->error != SB_BY_MOTION) {
+      continue;
+    }
+    const double a = sb_figure_value(one, i), b = sb_figure_value(other, i);
+    // NaN where only one of them has the event.
+    run->motion_error[i] += isnan(a) && isnan(b) ? 0 : share * fabs(a - b);
+  }
+}
+
+// A friction that is larger by its error.
+static void worsen(SbSealState *state) {
+  const double slides = sb_sliding_friction(state), rests = state->friction_static;
+  if (state->friction_error > 0 && slides > 0) {
+    const double times = 1 + state->friction_error / slides;
+    state->boundary_area *= times;
+    state->boundary_load *= times;
+    state->friction_viscous *= times;
+  }
+  if (state->static_error > 0 && rests > 0) {
+    const double times = 1 + state->static_error / rests;
+    state->friction_static *= times;
+    state->rest_area *= times;
+    state->rest_load *= times;
+  }
+}
+
+bool sb_run_worsen_friction(SbRun *run) {
+  SbSealState *state = &run->cycle.state[0][0][0];
+  bool any = false;
+  for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
+    any = any || state[i].friction_error > 0 || state[i].static_error > 0;
+    worsen(&state[i]);
+  }
+  return any;
+}
+
+bool sb_run_widen_contact(SbRun *run) {
+  SbSealState *state = &run->cycle.state[SB_INNER][0][0];
+  bool any = false;
+  for (int i = 0; i < SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
+    const double by = state[i].width_error * (state[i].contact_right - state[i].contact_left);
+    if (by > 0) {
+      state[i].contact_left -= by;
+      state[i].contact_right += by;
+      any = true;
+    }
+  }
+  return any;
+}
+
+void sb_run_leak_error(SbRun *run) {
+  double error[2];
+  for (int way = 0; way < 2; way++) {
+    error[way] = 0;
+    for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) { // fmax() leaves out NaN
+      error[way] = fmax(error[way], run->cycle.state[SB_OUTER][chamber][way].central_error);
+    }
+  }
+  run->leak_error += run->model->bore_circumference *
+                     (error[SB_CYCLE_IN] * run->bore.out + error[SB_CYCLE_OUT] * run->bore.back);
+}
+
+// ---- A seal's state
+
+static double positive(double error) {
+  return error > 0 ? error : 0; // NaN: a closed form
+}
+
+static double leak_error(const SbSealState *state) {
+  const double share = state->leak_area_share;
+  // Near full contact the pressure changes as the open part does.
+  const double pressure = state->rest_error * share / fmax(1 - share, 1e-12);
+  return fabs(state->leak_sensitivity) * (pressure + state->rest_error) + state->width_error;
+}
+
+// Relative error of a figure that a seal's state has.
+static double relative_of_state(const SbRun *run, const SbFigure *figure,
+                                const SbSealState *state) {
+  const double film = positive(state->central_error);
+  const double speed = run->speed_error[figure->back ? SB_CYCLE_OUT : SB_CYCLE_IN];
+  switch ((int)figure->error) {
+  case SB_BY_LOAD:
+    return state->load_error;
+  case SB_BY_MEAN:
+    return state->net_error + state->width_error;
+  case SB_BY_PEAK:
+    return state->peak_error;
+  case SB_BY_WIDTH:
+    return state->width_error;
+  case SB_BY_FILM_LEAST:
+    return positive(state->film_error) + speed;
+  case SB_BY_FILM:
+    return film + speed;
+  case SB_BY_FILM_LAW:
+    return SB_FILM_LAW_LOAD_POWER * state->net_error + speed;
+  case SB_BY_AREA:
+    return state->area_error + speed;
+  case SB_BY_REST_AREA:
+    return state->rest_error;
+  case SB_BY_SHARE:
+    return state->share_error + speed;
+  case SB_BY_SQUEEZE_OUT:
+    // t goes with p w^2/h^2 (film/squeeze.h), and the gap that it ends at with the contact.
+    return 2 * film + state->net_error + 2 * state->width_error + state->rest_error;
+  case SB_BY_LEAK:
+    return leak_error(state);
+  case SB_BY_SLOPE:
+    return state->leak_sensitivity != 0 ? leak_error(state) / fabs(state->leak_sensitivity) : 0;
+  case SB_BY_SPEED:
+    return speed;
+  case SB_BY_TURN:
+    // Of a section that rubs it scatters more than the load does (1.6 to 7 % where loads scatter by
+    // 0.1 %).
+    return 5 * (state->load_error + state->width_error);
+  default:
+    return NAN;
+  }
+}
+
+// Absolute error of a seal's figure.
+static double of_seal(const SbRun *run, const SbFigure *figure, double value) {
+  const int seal = figure->seal;
+  const SbSealState *state = &run->shown[seal][figure->back ? SB_CYCLE_OUT : SB_CYCLE_IN];
+  const double speed = run->speed_error[figure->back ? SB_CYCLE_OUT : SB_CYCLE_IN];
+  const double friction = sb_sliding_friction(state);
+  switch ((int)figure->error) {
+  case SB_BY_INPUT:
+    return 0;
+  case SB_BY_EDGE:
+    return state->width_error * (state->contact_right - state->contact_left);
+  case SB_BY_FILM_SOLVED:
+    return fabs(value) *
+           fmax(run->compared_error[seal], run->model->asperities == SB_MODEL_ASPERITIES_COUPLED
+                                               ? 0
+                                               : positive(state->central_error));
+  case SB_BY_BOUNDARY:
+    return state->boundary_error;
+  case SB_BY_VISCOUS:
+    return state->viscous_error + speed * fabs(value);
+  case SB_BY_FRICTION:
+    return state->friction_error + speed * fabs(value);
+  case SB_BY_STATIC:
+    return state->static_error;
+  case SB_BY_COEFFICIENT:
+    return fabs(value) * (state->load_error + state->friction_error / fmax(friction, 1e-300));
+  default:
+    return fabs(value) * relative_of_state(run, figure, state);
+  }
+}
+
+// ---- Dose, life, shelf, rig
+
+static double of_path(const SbRun *run, const char *path) {
+  return sb_figure_error_absolute(&run->summary, sb_figure_find(path));
+}
+
+static double of_dose(const SbRun *run, const SbFigure *figure) {
+  const SbSummary *summary = &run->summary;
+  const SbModel *model = run->model;
+  const double times =
+      of_path(run, "cycle.stages.C.time_s") + of_path(run, "cycle.stages.F.time_s");
+  const double filled = summary->filled_share < 1 ? times / model->filling_time : 0;
+  switch ((int)figure->error) {
+  case SB_BY_FILLED:
+    return filled;
+  case SB_BY_KEPT:
+    return run->kept_error;
+  case SB_BY_DOSE:
+    return filled * model->supply.volume * model->density + run->kept_error;
+  default: { // what permeates is a closed form
+    const SbSealState *outer = &summary->seal[SB_OUTER];
+    return 86400 * fabs(outer->leakage_static) * leak_error(outer) / model->supply.volume;
+  }
+  }
+}
+
+static double of_life(const SbRun *run, const SbFigure *figure, double value) {
+  const bool coupled = run->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  // Between solved actuations parabolas stand, checked to the tolerance.
+  const double between = coupled ? run->model->tolerance : 0;
+  const SbLife *life = &run->summary.life;
+  switch ((int)figure->error) {
+  case SB_BY_LIFE_PEAK:
+    return of_path(run, "cycle.force_peak_N");
+  case SB_BY_LIFE_BREAKAWAY:
+    return of_path(run, "cycle.force_breakaway_N");
+  case SB_BY_LIFE_RETURN:
+    return of_path(run, "cycle.force_return_min_N") +
+           (figure->offset == offsetof(SbSummary, life.return_least)
+                ? between * positive(life->first.force_breakaway)
+                : 0);
+  case SB_BY_LIFE_NET:
+    return (double)life->done * of_path(run, "cycle.leakage_per_cycle_m3") +
+           between * positive(life->carried);
+  default: {
+    const SbSealState *outer = &run->shown[SB_OUTER][SB_CYCLE_IN];
+    const bool sum = figure->offset == offsetof(SbSummary, life.carried);
+    return fabs(value) * (positive(outer->central_error) + (sum ? between : 0));
+  }
+  }
+}
+
+static double of_shelf(const SbRun *run, const SbFigure *figure, double value) {
+  const SbShelf *shelf = &run->summary.shelf;
+  const double ring = positive(shelf->error);
+  const SbShelfSeal *seal = &shelf->seal[sb_shelf_seal(run->model)];
+  const double channels = positive(fabs(seal->sensitivity) * shelf->pressure_error);
+  const double passes = positive(shelf->interface), through = positive(shelf->permeation);
+  const double both = (ring * through + channels * passes) / fmax(through + passes, 1e-300);
+  switch ((int)figure->error) {
+  case SB_BY_PERMEATION:
+    return fabs(value) * ring;
+  case SB_BY_CHANNELS:
+    return fabs(value) * channels;
+  case SB_BY_SLOPE:
+    return fabs(value) * shelf->pressure_error;
+  case SB_BY_SHELF_PRESSURE:
+    return fabs(value) * shelf->pressure_error;
+  case SB_BY_LOSS:
+    return fabs(value) * both;
+  case SB_BY_MASS_LEFT:
+    return positive(shelf->loss) * both;
+  default:
+    return both > 0 ? 1 : 0; // whole doses
+  }
+}
+
+static double of_rig(const SbRun *run, const SbFigure *figure) {
+  const SbRig *rig = &run->model->rig;
+  if (strcmp(figure->si, "s") == 0) {
+    return 1 / rig->rate;
+  }
+  // Between two samples the thread is wound up by speed/rate: the largest sample misses the peak by
+  // half of that on average.
+  const double force = 0.5 * rig->thread_stiffness * rig->speed / rig->rate;
+  return strcmp(figure->si, "N") == 0 ? force : force / rig->load;
+}
+
+static double error_of(const SbRun *run, int index) {
+  const SbFigure *figure = sb_figure(index);
+  const double value = sb_figure_value(&run->summary, index);
+  switch (figure->error) {
+  case SB_BY_INPUT:
+    return 0;
+  case SB_BY_RESIDUAL:
+    return NAN;
+  case SB_BY_MOTION:
+    return run->motion_error[index];
+  case SB_BY_NET_LEAK: {
+    const bool all = figure->offset == offsetof(SbSummary, leakage_net);
+    return (all ? (double)run->model->actuations : 1) * run->leak_error;
+  }
+  case SB_BY_FILLED:
+  case SB_BY_KEPT:
+  case SB_BY_DOSE:
+  case SB_BY_PRIME:
+    return of_dose(run, figure);
+  case SB_BY_SAMPLES:
+    return of_rig(run, figure);
+  case SB_BY_LIFE_PEAK:
+  case SB_BY_LIFE_BREAKAWAY:
+  case SB_BY_LIFE_RETURN:
+  case SB_BY_LIFE_FILM:
+  case SB_BY_LIFE_NET:
+    return of_life(run, figure, value);
+  case SB_BY_PERMEATION:
+  case SB_BY_CHANNELS:
+  case SB_BY_LOSS:
+  case SB_BY_MASS_LEFT:
+  case SB_BY_DOSES_LEFT:
+  case SB_BY_SHELF_PRESSURE:
+    return of_shelf(run, figure, value);
+  default:
+    break;
+  }
+  if (figure->error == SB_BY_SLOPE && figure->seal == SB_SEAL_COUNT) {
+    return of_shelf(run, figure, value);
+  }
+  if (figure->seal == SB_SEAL_COUNT) { // of the valve, through its outer seal
+    SbFigure outer = *figure;
+    outer.seal = SB_OUTER;
+    return of_seal(run, &outer, value);
+  }
+  return of_seal(run, figure, value);
+}
+
+void sb_run_fill_errors(SbRun *run) {
+  SbSummary *summary = &run->summary;
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    summary->error[i] = isfinite(sb_figure_value(summary, i)) ? error_of(run, i) : NAN;
+  }
+}
+
+// The figure with the largest error that is reported, of the catalogue or of its groups; -1: none.
+static int largest(const SbSummary *summary, double *error, int *count) {
+  int worst = -1;
+  *error = 0;
+  *count = 0;
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    const bool group = strncmp(sb_figure(i)->path, "solver.error_estimate.", 22) == 0;
+    const double own = group                                        ? sb_figure_value(summary, i)
+                       : sb_figure_error_reason(summary, i) == NULL ? sb_figure_error(summary, i)
+                                                                    : NAN;
+    *count += own > SB_ERROR_LARGE;
+    if (own > *error) {
+      *error = own;
+      worst = i;
+    }
+  }
+  return worst;
+}
+
+SbStatus sb_run_judge_errors(SbRun *run, SbStatus status, SbReport *report) {
+  SbSummary *summary = &run->summary;
+  double error;
+  int count;
+  const int worst = largest(summary, &error, &count);
+  if (!(error > SB_ERROR_LARGE)) {
+    return status;
+  }
+  char others[64] = "";
+  if (count > 1) {
+    snprintf(others, sizeof others, " (and %d other estimates are above 30 %%)", count - 1);
+  }
+  sb_warn(&summary->warnings, "error-estimate-large", "output.tolerance",
+          "the estimated error of %s is %.3g %%%s: reduce output.tolerance, or add output.frames",
+          sb_figure(worst)->path, 100 * error, others);
+  if (error > SB_ERROR_USELESS && status == SB_OK) {
+    status = sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "output.tolerance",
+                               "the estimated error of %s is %.3g %%, more than the value",
+                               sb_figure(worst)->path, 100 * error);
+  }
+  return status;
+}
