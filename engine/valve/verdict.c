@@ -56,6 +56,39 @@ bool sb_verdict_take_worse(SbVerdict *worst, const SbVerdict *next) {
   return worse;
 }
 
+// What the film models that were computed for the figure's seal differ by, in the figure's unit; 0
+// for a figure that no other model has computed.
+static double model_spread(const SbSummary *summary, int index) {
+  const SbFigure *figure = sb_figure(index);
+  const bool film = figure->error == SB_BY_FILM || figure->error == SB_BY_FILM_LEAST;
+  if (!film || figure->seal == SB_SEAL_COUNT) {
+    return 0;
+  }
+  const SbSealState *of = &summary->seal[figure->seal];
+  const double by[] = {of->film_karaszkiewicz, of->film_thesis, of->film_asymptotic,
+                       of->film_reynolds};
+  double low = of->film_central, high = of->film_central;
+  for (size_t i = 0; i < sizeof by / sizeof *by; i++) { // without NaN
+    low = fmin(low, by[i]);
+    high = fmax(high, by[i]);
+  }
+  const double spread = (high - low) / of->film_central * fabs(sb_figure_value(summary, index));
+  return spread > 0 ? spread : 0;
+}
+
+// Makes an answer unknown whose figure is nearer to `bound` than it is known.
+static void doubt(SbVerdict *of, const SbSummary *summary, double bound) {
+  const double margin = fabs(of->value - bound);
+  const bool error = margin < sb_figure_error_absolute(summary, of->figure);
+  const bool models = margin < model_spread(summary, of->figure);
+  if (of->ok != SB_ANSWER_UNKNOWN && (error || models)) {
+    of->ok = SB_ANSWER_UNKNOWN;
+    snprintf(of->reason, sizeof of->reason, "uncertain: the margin of %s is less than %s",
+             sb_figure(of->figure)->path,
+             error ? "its estimated error" : "what the computed film models differ by");
+  }
+}
+
 static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int seal) {
   const SbSealState *of = &summary->seal[seal];
   SbSealPressure side = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
@@ -72,6 +105,9 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
     out.ok = SB_ANSWER_NO;
     snprintf(out.reason, sizeof out.reason, "the %s seal's peak pressure is not above the fluid's",
              sb_seal_name(seal));
+  }
+  if (of->leak_state != SB_LEAK_OPEN) {
+    doubt(&out, summary, out.limit);
   }
   // A model that does not solve the stretch cannot say that a ring seals which by the estimate does
   // not reach the bore.
@@ -119,6 +155,7 @@ static SbVerdict judge_limit(const SbSummary *summary, const SbLimit *limit) {
     snprintf(out.reason, sizeof out.reason, "%s is %s its limit", figure->path,
              value < limit->low ? "below" : "above");
   }
+  doubt(&out, summary, out.limit);
   return out;
 }
 
@@ -148,6 +185,7 @@ static SbVerdict judge_return(const SbSummary *summary) {
              value >= 0 ? ""
                         : "where the stem rests on its return, static friction exceeds the force "
                           "that pushes it back");
+    doubt(&out, summary, 0);
     break;
   }
   return out;

@@ -647,6 +647,55 @@ static void test_errors(void) {
   }
 }
 
+// A limit that is nearer to a figure than its error, or than the computed film models differ by, is
+// judged neither yes nor no; one that is farther is judged.
+static void test_uncertain(void) {
+  SbParams params;
+  sb_params_init(&params);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FIT, SB_FIT_DISC, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_TOLERANCE, 0.05, NULL), ==, SB_OK);
+  SbModel model;
+  SbPlan plan;
+  SbRun *run;
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
+  sb_plan_make(&plan, &model);
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, NULL), ==, SB_OK);
+  SbSummary *summary = g_new(SbSummary, 1);
+  *summary = *sb_run_summary(run);
+  static const struct {
+    const char *figure;
+    double margin; // of the limit, over the error
+    SbAnswer ok;
+  } row[] = {{"cycle.force_return_margin_N", 0.5, SB_ANSWER_UNKNOWN},
+             {"cycle.force_return_margin_N", 2, SB_ANSWER_YES},
+             {"cycle.force_return_margin_N", -0.5, SB_ANSWER_UNKNOWN},
+             {"cycle.force_return_margin_N", -2, SB_ANSWER_NO},
+             {"seals.outer.load_N", 0.5, SB_ANSWER_UNKNOWN},
+             {"seals.outer.load_N", 2, SB_ANSWER_YES}};
+  for (size_t i = 0; i < G_N_ELEMENTS(row); i++) {
+    const int figure = sb_figure_find(row[i].figure);
+    const double error = sb_figure_error_absolute(summary, figure);
+    const double limit = sb_figure_value(summary, figure) - row[i].margin * error;
+    g_assert_cmpfloat(error, >, 0);
+    model.limits = (SbLimits){.count = 1, .item = {{figure, limit, INFINITY}}};
+    sb_verdict_fill(summary, &model);
+    const SbVerdict *of = &summary->verdict[sb_figure(figure)->verdict];
+    g_assert_cmpint(of->ok, ==, row[i].ok);
+    g_assert_true(g_str_has_prefix(of->reason, "uncertain") == (row[i].ok == SB_ANSWER_UNKNOWN));
+  }
+  // Karaszkiewicz' film is a fraction of the thesis': a limit between them is judged by neither.
+  const int film = sb_figure_find("seals.outer.film_central_m");
+  const double apart =
+      fabs(summary->seal[SB_OUTER].film_karaszkiewicz - summary->seal[SB_OUTER].film_thesis);
+  model.limits = (SbLimits){
+      .count = 1, .item = {{film, summary->seal[SB_OUTER].film_central - 0.5 * apart, INFINITY}}};
+  sb_verdict_fill(summary, &model);
+  g_assert_cmpint(summary->verdict[sb_figure(film)->verdict].ok, ==, SB_ANSWER_UNKNOWN);
+  g_free(summary);
+  sb_run_destroy(run);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/figures/paths", test_paths);
@@ -667,5 +716,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/figures/limits-of-return", test_limits_of_return);
   g_test_add_func("/figures/geometry", test_geometry);
   g_test_add_func("/figures/errors", test_errors);
+  g_test_add_func("/figures/uncertain", test_uncertain);
   return g_test_run();
 }

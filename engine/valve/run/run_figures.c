@@ -232,7 +232,8 @@ double sb_run_dose(const SbRun *run, double metered) {
   if (!(run->model->canister_pressure > 0)) {
     return 0; // nothing drives out what is not above ambient
   }
-  return sb_run_delivers(run) ? fmax(metered * (isnan(filled) ? 1 : filled) - kept(run, 1), 0) : NAN;
+  return sb_run_delivers(run) ? fmax(metered * (isnan(filled) ? 1 : filled) - kept(run, 1), 0)
+                              : NAN;
 }
 
 void sb_run_summarise_seals(SbRun *run) {
