@@ -85,17 +85,22 @@ double sb_figure_error(const SbSummary *summary, int index) {
   return error > 0 ? error / fabs(sb_figure_value(summary, index)) : error;
 }
 
-// Whether a figure is the difference of terms that may be far larger, or a place from an origin of
-// its own.
-static bool is_difference(const SbFigure *figure) {
-  static const char *const paths[] = {"cycle.force_return", "life.force_return", "cycle.energy",
-                                      "cycle.stages."};
-  const SbErrorSource by = figure->error;
-  bool one = by == SB_BY_NET_LEAK || by == SB_BY_LIFE_NET || by == SB_BY_EDGE;
-  for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
-    one = one || strncmp(figure->path, paths[i], strlen(paths[i])) == 0;
+// Whether a solver's own estimate is the figure's error: above 1 it has not converged. Of a figure
+// that follows from solved ones, as a difference or by a steep law, such an error states only that
+// the figure is uncertain.
+static bool is_solved(const SbFigure *figure) {
+  switch (figure->error) {
+  case SB_BY_LOAD:
+  case SB_BY_PEAK:
+  case SB_BY_WIDTH:
+  case SB_BY_FILM:
+  case SB_BY_FILM_LEAST:
+  case SB_BY_FILM_SOLVED:
+  case SB_BY_PERMEATION:
+    return true;
+  default:
+    return false;
   }
-  return one;
 }
 
 const char *sb_figure_error_reason(const SbSummary *summary, int index) {
@@ -113,8 +118,8 @@ const char *sb_figure_error_reason(const SbSummary *summary, int index) {
   if (error > SB_ERROR_LARGE && figure->error == SB_BY_EDGE) {
     return "uncertain: the place is nearer to the section's centre than its error allows to state";
   }
-  if (error > 1 && is_difference(figure)) {
-    return "uncertain: the figure is a difference, and its error exceeds its magnitude";
+  if (error > SB_ERROR_USELESS && !is_solved(figure)) {
+    return "uncertain: the errors of what the figure follows from exceed its magnitude";
   }
   return NULL;
 }

@@ -6,8 +6,7 @@
 
 typedef enum { SB_BETTER_NONE, SB_BETTER_LESS, SB_BETTER_MORE } SbBetter;
 
-// What the error of a figure follows from (run/run_errors.c). A difference
-// has no relative error to report where its error exceeds its magnitude.
+// What the error of a figure follows from (run/run_errors.c).
 typedef enum {
   SB_BY_INPUT,       // inputs and closed forms of them: 0
   SB_BY_RESIDUAL,    // an error estimate or a residual: it has no error of its own

@@ -342,8 +342,10 @@ static SbStatus compute_figures(SbSummary *out, const Recorder *r, SbReport *rep
   return conclude_motion(out, r, report);
 }
 
+// Relative; NaN for speeds so far apart that the coarser motion has taken another course.
 static double speed_error(double one, double other) {
-  return one > 0 ? fabs(other / one - 1) : 0;
+  const double apart = one > 0 ? fabs(other / one - 1) : 0;
+  return apart < 0.5 ? apart : NAN;
 }
 
 // Adds a share of what two motions differ by to the errors of the run's figures.
