@@ -33,12 +33,14 @@ static const double FLOOR = 4e-3, FLOOR_FILM = 80;
 // be out by, or what leaks.
 static bool is_of_film(const SbFigure *row) {
   const bool shelf = row->needs == SB_DEPTH_SIZES;
-  return (row->verdict == SB_VERDICT_LEAK && !shelf) || strcmp(row->estimate, "film") == 0;
+  const SbErrorSource by = row->error;
+  return (row->verdict == SB_VERDICT_LEAK && !shelf) || by == SB_BY_FILM ||
+         by == SB_BY_FILM_LEAST || by == SB_BY_FILM_SOLVED || by == SB_BY_LIFE_FILM;
 }
 
 // Share of what a seal's contact changes by that slopes of a figure scatter by.
 static double scatter_of(const SbFigure *row, double order) {
-  if (strcmp(row->estimate, "load") == 0) {
+  if (row->error == SB_BY_LOAD) {
     return SCATTER_LOAD;
   }
   return !is_of_film(row) ? SCATTER : order > ORDER_MOST ? SCATTER_ROUGH : SCATTER_FILM;
