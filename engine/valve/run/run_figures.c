@@ -416,6 +416,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
         {model->fit != SB_FIT_RING, "contact.return.rotation_deg", still},
         {summary->seal[seal].load == 0, "*",
          "the seal does not touch the bore under its pressures"},
+        {model->kind == SB_VALVE_GASKET, "gland_fill", "a gasket lies between plates, in no gland"},
         {model->profile != SB_SEAL_PROFILE_CIRCLE, "film_by_model*",
          "seal.profile is no circle: the film laws are those of cylinders"},
         {closed, "film_by_model.reynolds", "models.film is a closed form: no film was solved"},
