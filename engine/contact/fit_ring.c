@@ -3,9 +3,10 @@
 //
 // The ring starts in the middle of its groove, so that the wall stands half the gland's width from
 // the section's centre, on the side of the lower pressure; without pressure it touches no wall. The
-// other wall is left out: a section wider than the groove is only warned about. Frictionless and
-// rigid walls; load is the bore's, over the bore's circumference. A dragged ring has both walls,
-// and friction on bore, floor and walls (ring_drag.c).
+// other wall is left out unless the section so solved is wider than the groove: then both walls
+// stand, and where no state between them is found the groove is refused as overfilled. Frictionless
+// and rigid walls; load is the bore's, over the bore's circumference. A dragged ring has both
+// walls, and friction on bore, floor and walls (ring_drag.c).
 #include "engine/contact/fit_models.h"
 
 #include <math.h>
@@ -72,13 +73,6 @@ void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem 
 // What a solved ring says of the problem, but for its errors.
 static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
                         const SbRingResult *result) {
-  const double width = result->axial_right - result->axial_left;
-  if (width > in->gland_width && !in->dragged && !in->gasket && in->groove == NULL) {
-    sb_warn(&out->warnings, "ring-groove-full", "gland.axial_width",
-            "the fitted section is %.3g mm wide in a groove of %.3g mm: its other wall is left out",
-            1e3 * width, 1e3 * in->gland_width);
-  }
-
   out->circumference = M_PI * in->bore_diameter;
   out->touches = result->touching;
   out->solver.converged = true;
@@ -175,6 +169,32 @@ static void take_errors(SbFit *out, const SbFitProblem *in, bool on_large,
                 fmax(result->error.width, fmax(path->width, large->width)));
 }
 
+// Whether a solved section reaches the groove's wall that its load leaves out.
+static bool loses_wall(const SbRingLoad *load, const SbFitProblem *in, const SbRingResult *result) {
+  const bool both = isfinite(load->wall_left) && isfinite(load->wall_right);
+  return !both && result->axial_right - result->axial_left > in->gland_width;
+}
+
+// Solves a ring that is wider than its groove between both walls.
+static SbStatus between_walls(SbRing **ring, SbRingResult *result, const SbRingBody *body,
+                              SbRingLoad *load, const SbRingOptions *options,
+                              const SbFitProblem *in, SbFit *out, SbReport *report) {
+  const double width = result->axial_right - result->axial_left;
+  sb_ring_destroy(*ring);
+  *ring = NULL;
+  load->wall_right = 0.5 * in->gland_width;
+  load->wall_left = -load->wall_right;
+  const SbStatus status = sb_ring_fit(ring, result, body, load, options, &out->warnings, report);
+  if (status == SB_ERROR_NOT_CONVERGED || status == SB_ERROR_INFEASIBLE) {
+    return sb_fail_parameter(
+        report, SB_ERROR_INFEASIBLE, "gland.axial_width",
+        "the groove is overfilled: without its second wall the ring is %.3g mm wide in a groove of "
+        "%.3g mm (gland fill %.3g %%), and no state between both walls was found",
+        1e3 * width, 1e3 * in->gland_width, 100.0 * out->gland_fill);
+  }
+  return status;
+}
+
 SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   SbRingBody body;
   SbRingLoad load;
@@ -227,6 +247,10 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
         *report = own; // else what ended the path that was wanted is told
       }
     }
+  }
+  if (status == SB_OK && loses_wall(&load, in, &result)) {
+    large = false;
+    status = between_walls(&ring, &result, &body, &load, &options, in, out, report);
   }
   if (status != SB_OK) {
     return status;

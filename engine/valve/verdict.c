@@ -121,6 +121,15 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
              "short of the bore, which models.fit = %s cannot judge (ring can)",
              sb_seal_name(seal), -1e3 * left, sb_fit_model_name(model->fit));
   }
+  // Nor does it know the groove's walls.
+  const double fill = model->seal[seal].gland_fill;
+  if (out.ok == SB_ANSWER_YES && model->fit != SB_FIT_RING && fill >= 1) {
+    out.ok = SB_ANSWER_UNKNOWN;
+    snprintf(out.reason, sizeof out.reason,
+             "uncertain: the %s ring overfills its groove (gland fill %.3g %%), whose walls "
+             "models.fit = %s does not know (ring does)",
+             sb_seal_name(seal), 100 * fill, sb_fit_model_name(model->fit));
+  }
   // A section that jams holds the stem; one that rolls seals, and is told.
   const SbContacts *contact = &summary->contact[seal];
   for (int way = 0; way < 2; way++) {

@@ -155,6 +155,20 @@ static void test_stretch(void) {
   }
 }
 
+// A ring that overfills its groove: models that do not know the walls cannot state that it seals.
+static void test_overfilled(void) {
+  for (int full = 0; full < 2; full++) {
+    const Setting changes[] = {{SB_P_GLAND_AXIAL_WIDTH, full ? 1.4e-3 : 1.5e-3}};
+    SbModel model;
+    compile(&model, changes, G_N_ELEMENTS(changes));
+    SbRun *run = run_of(&model, SB_OK, NULL);
+    const SbVerdict *seals = &sb_run_summary(run)->verdict[SB_VERDICT_SEALS];
+    g_assert_cmpint(seals->ok, ==, full ? SB_ANSWER_UNKNOWN : SB_ANSWER_YES);
+    g_assert_cmpint(strstr(seals->reason, "overfills") != NULL, ==, full);
+    sb_run_destroy(run);
+  }
+}
+
 // Every state of a leak path: closed, channels, none that a surface's theory tells.
 static void test_leak_states(void) {
   enum { PERSSON = 1 };
@@ -701,6 +715,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/figures/paths", test_paths);
   g_test_add_func("/figures/open", test_open);
   g_test_add_func("/figures/stretch", test_stretch);
+  g_test_add_func("/figures/overfilled", test_overfilled);
   g_test_add_func("/figures/leak-states", test_leak_states);
   g_test_add_func("/figures/one-contact", test_one_contact);
   g_test_add_func("/figures/dragged-contact", test_dragged_contact);
