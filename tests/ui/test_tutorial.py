@@ -8,7 +8,7 @@ from harness import ASSETS, App, main, scene, wait
 def open_the_thesis_cycle(app, folder):
     wait("the run", app.run_done)
     assert round(app.breakaway(), 1) == 28.7, app.breakaway()
-    wait("the verdict", lambda: app.label(r"^1\.6\sN"))
+    wait("the verdict", lambda: app.label(r"^0\.30\d*\sN"))
 
 
 def find_what_you_want_to_change(app, folder):
