@@ -199,9 +199,9 @@ static void test_check_issues(void) {
   g_assert_cmpstr(json_node_get_string(cli_at(root, "files.0.kind")), ==, "study");
   json_node_unref(root);
   // Values that contradict each other have the line of the key to change.
-  write_file("bad.valve", "[sealbench]\nformat = 1\nkind = valve\n[bore]\ndiameter = 5 mm\n");
+  write_file("bad.valve", "[sealbench]\nformat = 1\nkind = valve\n[seal]\ninner_diameter = 1 mm\n");
   root = check_json("bad.valve", 1);
-  is_issue(root, 0, 5, "bore", "diameter");
+  is_issue(root, 0, 5, "seal", "inner_diameter");
   json_node_unref(root);
   remove_file("bad.valve");
   remove_file("bad.rubber");

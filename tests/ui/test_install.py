@@ -40,7 +40,7 @@ def what_ships_is_known_by_name(folder):
                          env={"HOME": home, "PATH": os.environ["PATH"]}, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     assert abs(json.loads(run.stdout)["cycle"]["stages"]["B"]["force_N"] - 28.7) < 0.3
-    fit = subprocess.run([*as_other, PROGRAM, "fit", "piston.valve", "--seal", "outer"], cwd="/",
+    fit = subprocess.run([*as_other, PROGRAM, "fit", "piston", "--seal", "outer"], cwd="/",
                          env={"HOME": home, "PATH": os.environ["PATH"]}, capture_output=True, text=True)
     assert fit.returncode == 0 and "Contact width" in fit.stdout, fit.stderr
     none = subprocess.run([PROGRAM, "run", "no-such"], capture_output=True, text=True)
