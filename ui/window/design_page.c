@@ -28,7 +28,7 @@ typedef struct {
   SbSession *session; // owned reference
   SbDesignAsk ask;
   GtkWidget *box, *axis[2], *lines[SB_DESIGN_LINES], *goal, *models, *ranges, *area[AREAS], *limits,
-      *side, *side_button, *progress, *pause, *stop, *map_again, *find, *message;
+      *side, *side_button, *progress, *pause, *stop, *map_again, *find, *message, *marks;
   GtkWidget *picked, *told, *open, *pin, *use_best;
   int kind; // of the valve
   SbDrawCache *cache[AREAS];
@@ -262,25 +262,24 @@ static char *found_text(const SbDesignAnswer *answer) {
                                found->starts_feasible, found->starts, found->evaluations);
 }
 
-// The same, and what marks the best design: bounds that it is on, and its warnings of validity.
-static char *marked_text(const SbDesignAnswer *answer) {
-  const SbDesign *found = &answer->found;
+// Shows what marks the best design below the sentence: bounds that it is on, and its warnings of
+// validity. NULL: nothing.
+static void show_marks(Page *page, const SbDesignAnswer *answer) {
   GString *text = g_string_new(NULL);
-  g_autofree char *sentence = found_text(answer);
-  g_string_append(text, sentence);
-  if (answer->searched && found->found) {
-    g_autofree char *bounds = sb_design_bounds(found, answer->study);
-    g_autofree char *codes = sb_warning_codes(found->warnings, ", ");
+  if (answer != NULL && answer->searched && answer->found.found) {
+    g_autofree char *bounds = sb_design_bounds(&answer->found, answer->study);
+    g_autofree char *codes = sb_warning_codes(answer->found.warnings, ", ");
     if (bounds != NULL) {
-      g_string_append_c(text, ' ');
       g_string_append_printf(text, _("On a bound of the search: %s."), bounds);
     }
     if (codes != NULL) {
-      g_string_append_c(text, ' ');
+      g_string_append(text, text->len > 0 ? "\n" : "");
       g_string_append_printf(text, _("Warnings of validity: %s."), codes);
     }
   }
-  return g_string_free(text, FALSE);
+  gtk_label_set_text(GTK_LABEL(page->marks), text->str);
+  gtk_widget_set_visible(page->marks, text->len > 0);
+  g_string_free(text, TRUE);
 }
 
 static void on_done(void *data) {
@@ -291,11 +290,12 @@ static void on_done(void *data) {
   sb_design_answer_free(page->answer);
   page->answer = answer;
   g_autofree char *text =
-      why == NULL    ? marked_text(answer)
+      why == NULL    ? found_text(answer)
       : *why == '\0' ? g_strdup_printf(_("Cancelled: %zu of %zu points of the map are there."),
                                        answer->map.done, answer->map.n * answer->map.n)
                      : g_strdup_printf(_("Not finished: %s."), why);
   say(page, text);
+  show_marks(page, answer);
   refresh(page);
 }
 
@@ -315,6 +315,7 @@ static void compute(Page *page, gboolean search) {
   }
   g_free(page->hash);
   page->hash = sb_document_sha256(document);
+  show_marks(page, NULL);
   page->look.picked = FALSE;
   page->refreshing = TRUE;
   gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(page->pause), FALSE);
@@ -774,6 +775,11 @@ static GtkWidget *make_side(Page *page) {
   page->message = sb_style_label(NULL, "sb-row-label", 0);
   gtk_label_set_ellipsize(GTK_LABEL(page->message), PANGO_ELLIPSIZE_END);
   gtk_box_pack_start(side, page->message, FALSE, FALSE, 0);
+  page->marks = sb_style_label(NULL, "sb-row-label", 0);
+  gtk_label_set_line_wrap(GTK_LABEL(page->marks), TRUE);
+  gtk_label_set_line_wrap_mode(GTK_LABEL(page->marks), PANGO_WRAP_WORD_CHAR);
+  gtk_widget_set_no_show_all(page->marks, TRUE);
+  gtk_box_pack_start(side, page->marks, FALSE, FALSE, 0);
   const SbDesignLimitsHooks hooks = {on_limited, on_chosen, page};
   page->limits = sb_design_limits_new(&hooks);
   gtk_box_pack_start(side, page->limits, FALSE, FALSE, 0);
