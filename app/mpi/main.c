@@ -144,8 +144,7 @@ static size_t next_block(const Remaining *remaining) {
   if (!remaining->goes_on || left == 0) {
     return 0;
   }
-  const double each =
-      (now() - remaining->start) * processes / fmax((double)remaining->answered, 1);
+  const double each = (now() - remaining->start) * processes / fmax((double)remaining->answered, 1);
   const size_t share = left / (2 * (size_t)processes);
   const double wanted = remaining->answered > 0 ? 0.05 / each : 1;
   return MAX(MIN(share, (size_t)CLAMP(wanted, 1, BLOCK)), 1);

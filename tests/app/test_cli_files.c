@@ -469,8 +469,8 @@ static guint count_nulls(JsonNode *node, const char *path, JsonObject *reasons) 
     json_object_iter_init(&iter, json_node_get_object(node));
     while (json_object_iter_next(&iter, &name, &inside)) {
       g_autofree char *at = g_strdup_printf("%s.%s", path, name);
-      const bool told = json_object_has_member(reasons, at);
-      count += told ? 1 : count_nulls(inside, at, reasons);
+      const bool explained = json_object_has_member(reasons, at);
+      count += explained ? 1 : count_nulls(inside, at, reasons);
     }
   } else if (JSON_NODE_HOLDS_ARRAY(node)) {
     JsonArray *array = json_node_get_array(node);
