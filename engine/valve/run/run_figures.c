@@ -335,9 +335,8 @@ static void give_reasons_of_outcome(SbRun *run) {
   const bool never = summary->outcome == SB_OUTCOME_NEVER_MOVED;
   const char *missing = NULL; // the first stage that a dose needs
   for (int stage = SB_STAGE_C; stage <= SB_STAGE_F && missing == NULL; stage++) {
-    const bool needed = run->model->kind == SB_VALVE_GASKET
-                            ? stage == SB_STAGE_D
-                            : stage == SB_STAGE_C || stage == SB_STAGE_F;
+    const SbStage last = run->model->kind == SB_VALVE_GASKET ? SB_STAGE_D : SB_STAGE_F;
+    const bool needed = stage == SB_STAGE_C || stage == (int)last;
     missing = needed && !summary->stage[stage].reached ? sb_stage_name((SbStage)stage) : NULL;
   }
   if (never) {

@@ -98,12 +98,12 @@ SbStatus sb_run_conclude_motion(SbSummary *summary, SbRun *run, const SbRunEnd *
 bool sb_run_delivers(const SbRun *run) {
   const SbSummary *summary = &run->summary;
   const SbModel *model = run->model;
+  const bool first = summary->stage[SB_STAGE_C].reached;
   if (model->kind == SB_VALVE_GASKET) {
-    return summary->stage[SB_STAGE_D].reached || summary->outcome == SB_OUTCOME_RETURNED ||
-           summary->outcome == SB_OUTCOME_HELD;
+    return first && summary->stage[SB_STAGE_D].reached; // shut at C, emptied at the stop
   }
   // The chamber is filled from C to F and emptied behind F, where ports do not say when.
   const bool stuck = summary->outcome == SB_OUTCOME_STUCK;
-  return summary->stage[SB_STAGE_C].reached && summary->stage[SB_STAGE_F].reached &&
+  return first && summary->stage[SB_STAGE_F].reached &&
          (!stuck || model->pressure_map == SB_MAP_PORTS);
 }
