@@ -125,10 +125,10 @@ static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
   int code = SB_EXIT_DONE;
   if (status == SB_ERROR_INPUT && issues->len > 0) {
     code = SB_EXIT_INPUT;
-  } else if (status == SB_ERROR_CANCELLED) {
+  } else if (status == SB_ERROR_CANCELLED && !calibration.partial) {
     (void)sb_cli_fail("interrupted: there is no fit yet");
     code = SB_EXIT_INTERRUPTED;
-  } else if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
+  } else if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED && !calibration.partial) {
     code = sb_cli_status(status, &report);
   } else {
     g_autofree char *json = sb_calibration_json(&calibration, study);
@@ -139,7 +139,10 @@ static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
     } else if (code == SB_EXIT_DONE && !sb_cli_quiet()) {
       print_table(study, &calibration);
     }
-    if (status == SB_ERROR_NOT_CONVERGED) {
+    if (status == SB_ERROR_CANCELLED) {
+      (void)sb_cli_fail("interrupted: the estimates are the best so far, without intervals");
+      code = SB_EXIT_INTERRUPTED;
+    } else if (status == SB_ERROR_NOT_CONVERGED) {
       (void)sb_cli_fail("the fit did not converge: its steps did not end");
       code = MAX(code, SB_EXIT_NOT_CONVERGED);
     }

@@ -67,6 +67,7 @@ char *sb_calibration_json(const SbCalibration *of, const SbStudyFile *study) {
   sb_json_document(&json);
   sb_json_study_files(&json, study);
   sb_json_bool(&json, "converged", of->converged);
+  sb_json_bool(&json, "partial", of->partial);
   sb_json_count(&json, "samples", of->samples);
   sb_json_number(&json, "residual_rms_N", of->rms);
   sb_json_number(&json, "chi2_reduced", of->chi2);

@@ -40,7 +40,8 @@ static size_t overrides_at(SbOverride *out, const Work *work, const Curve *curve
 
 static bool is_cancelled(void *data) {
   const Work *work = data;
-  return work->hooks->cancelled != NULL && work->hooks->cancelled(work->hooks->data);
+  return !work->ending && work->hooks->cancelled != NULL &&
+         work->hooks->cancelled(work->hooks->data);
 }
 
 // Runs a curve's valve at some overrides into `run`, which is made or made anew; rings are those of
@@ -83,8 +84,10 @@ static bool run_at(Work *work, Curve *curve, SbRun **run, const SbRun *base,
   sb_model_destroy(made);
   work->evaluations++;
   if (work->hooks->progress != NULL) {
-    work->hooks->progress(work->hooks->data,
-                          fmin((double)work->evaluations / (double)work->expected, 1));
+    // How many runs a fit takes is not known: the fraction rises with each and reaches 1 at the
+    // end.
+    const double share = (double)work->evaluations / (double)work->expected;
+    work->hooks->progress(work->hooks->data, 1 - exp(-2 * share));
   }
   work->status = status;
   work->report = report;
@@ -161,11 +164,15 @@ static double added(const Curve *curve, size_t row, size_t coordinate) {
                                                                               : 0;
 }
 
-// Differences: central ones of closed forms, ahead along the rings' tangent where they are solved.
+// Differences: central ones of closed forms; where rings are solved, forward ones along their
+// tangent for the fit, and central ones of full solves for the posterior (`full`), as the tangent
+// fixes the places where a ring sticks, which have a history (engine/valve/gradient_rings.c). A
+// side that has no loop is replaced by the place itself.
 static bool differentiate(void *data, double *jacobian, const double *z, const double *residual) {
   Work *work = data;
   const size_t n = work->coordinates;
-  const double step = work->rings ? 0.02 : 1e-3;
+  const bool tangent = work->rings && !work->full;
+  const double step = tangent ? 0.02 : work->rings ? 0.2 : 1e-3;
   double moved[SB_INFERENCE_COORDINATES];
   memcpy(moved, z, n * sizeof *z);
   for (size_t c = 0; c < work->curves; c++) {
@@ -173,7 +180,7 @@ static bool differentiate(void *data, double *jacobian, const double *z, const d
     const size_t rows = curve->points + curve->breakaway;
     double *side[2] = {g_new(double, rows + 1), g_new(double, rows + 1)};
     bool good = !work->rings || settle_run(work, curve, z);
-    if (good && work->rings) {
+    if (good && tangent) {
       // What is predicted of the base itself: differences of like with like.
       SbOverride override[2 * SB_VARY_MAX];
       const size_t count = overrides_at(override, work, curve, z);
@@ -190,19 +197,23 @@ static bool differentiate(void *data, double *jacobian, const double *z, const d
       if (!depends(work, curve, j)) {
         continue;
       }
-      for (int s = work->rings; s < 2 && good; s++) {
+      bool loops[2] = {true, true};
+      for (int s = tangent; s < 2 && good; s++) {
         SbOverride override[2 * SB_VARY_MAX];
         moved[j] = z[j] + (s == 0 ? -step : step);
         const size_t count = overrides_at(override, work, curve, moved);
-        good =
-            run_at(work, curve, &curve->beside, work->rings ? curve->run : NULL, override, count);
-        if (good && work->rings && work->status == SB_ERROR_NOT_CONVERGED) {
+        good = run_at(work, curve, &curve->beside, tangent ? curve->run : NULL, override, count);
+        if (good && tangent && work->status == SB_ERROR_NOT_CONVERGED) {
           good = run_at(work, curve, &curve->beside, NULL, override, count); // no tangent there
         }
         residuals_of(side[s], curve, moved);
+        loops[s] = curve->loop.count[0] > 0;
+        if (!loops[s]) {
+          memcpy(side[s], tangent ? side[0] : residual + curve->first, rows * sizeof *residual);
+        }
       }
       moved[j] = z[j];
-      const double width = work->rings ? step : 2 * step;
+      const double width = tangent || !loops[0] || !loops[1] ? step : 2 * step;
       for (size_t i = 0; i < rows; i++) {
         jacobian[(curve->first + i) * n + j] = (side[1][i] - side[0][i]) / width;
       }
@@ -218,6 +229,15 @@ static bool differentiate(void *data, double *jacobian, const double *z, const d
     }
   }
   return true;
+}
+
+static bool differentiate_fit(void *data, double *jacobian, const double *z,
+                              const double *residual) {
+  Work *work = data;
+  work->full = true;
+  const bool good = differentiate(data, jacobian, z, residual);
+  work->full = false;
+  return good;
 }
 
 // ---- What the file says ----
@@ -508,6 +528,16 @@ static SbStatus check_start(Work *work, const double *start, SbReport *report) {
   return SB_OK;
 }
 
+// What an interrupted fit has: the best place so far, without a posterior, and its loops.
+static void take_best(SbCalibration *out, Work *work, SbInference *found) {
+  work->ending = true;
+  found->samples = 0;
+  keep_samples(out, work, found);
+  sb_calibration_tell(out);
+  out->partial =
+      sb_calibrate_evaluate(work, found->residual, found->z) && compare_curves(out, work, found);
+}
+
 static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
   const size_t n = work->coordinates, m = work->residuals;
   uint8_t *group = g_new(uint8_t, m);
@@ -542,6 +572,7 @@ static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
                                   .start = start,
                                   .evaluate = sb_calibrate_evaluate,
                                   .differentiate = differentiate,
+                                  .differentiate_fit = work->rings ? differentiate_fit : NULL,
                                   .data = work,
                                   .seed = work->study->seed,
                                   .samples = work->study->samples > 0 ? work->study->samples
@@ -566,9 +597,15 @@ static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
       status = work->status;
     }
   } else if (status == SB_ERROR_CANCELLED) {
-    status = work->status;
+    status = work->status == SB_OK ? SB_ERROR_CANCELLED : work->status;
+    if (status == SB_ERROR_CANCELLED) {
+      take_best(out, work, &found);
+    }
   }
   out->evaluations = work->evaluations;
+  if (work->hooks->progress != NULL) {
+    work->hooks->progress(work->hooks->data, 1);
+  }
   sb_inference_release(&found);
   return status;
 }

@@ -11,8 +11,8 @@
 // that leaves out; with solved rings the tangent is that of their equations
 // (sb_run_predict_from()).
 //
-// Leaves out: what a model cannot follow whatever its parameters. It shows in chi2_reduced, beyond
-// 1, and in the residuals' correlation, which widens the intervals.
+// What a model cannot follow whatever its parameters is a part of the noise, correlated along the
+// loop (inference.h): it shows in chi2_reduced, beyond 1, and widens the intervals.
 #pragma once
 
 #include "app/data/compare.h"
@@ -51,13 +51,14 @@ typedef struct {
   double before_rms;    // [N]
   double offset;        // of the force's zero at the fit [N]
   double noise;         // of the residuals [N]
-  double spread;        // (1 + rho)/(1 - rho) of their correlation
+  double spread;        // rows that count as one, as they are correlated (inference.h)
   SbComparison *after;  // NULL: the fitted stem does not slide
   SbLoop before_loop, after_loop;
   SbMeasuredBand prior, posterior; // hold 95 % of the model's loops; end 0: not known
 } SbCalibratedCurve;
 
 typedef struct {
+  bool partial; // interrupted: the estimates are the best so far, and there is no posterior
   bool converged, tangent; // tangent: the posterior is that of the fit's tangent
   size_t parameters, curves, points, samples, evaluations;
   SbCalibrated *parameter;
@@ -72,7 +73,8 @@ typedef struct {
   SbWarnings *warnings; // of validity, of the runs at the fit; NULL without any run
 } SbCalibration;
 
-// Fits and samples; *out is to be released in any case. False with issues: of the files, or of
+// Fits and samples; *out is to be released in any case. SB_ERROR_CANCELLED with `partial` where the
+// fit had begun. False with issues: of the files, or of
 // what [vary] says.
 typedef struct {
   int jobs;

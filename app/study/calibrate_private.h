@@ -37,6 +37,8 @@ typedef struct {
   int owner[SB_INFERENCE_COORDINATES];
   size_t residuals;
   bool rings, tangent;
+  bool full;   // derivatives are those of full solves
+  bool ending; // interrupted: what is left is done all the same
   size_t evaluations, expected;
   SbStatus status; // of the last run
   SbReport report; // where it failed

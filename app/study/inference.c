@@ -12,11 +12,15 @@
 
 #define BEND 2.5
 
+// Least number of independent differences by which their own deviation is known.
+#define LEAST_FREE 1.0
+
 typedef struct {
   const SbInferenceAsked *asked;
   SbInference *out;
   double *known_z, *known_residual; // the last place asked for
   bool known, cancelled;
+  bool at_fit; // derivatives are those of the posterior
 } Work;
 
 // ---- The model ----
@@ -38,10 +42,12 @@ static bool differentiate(Work *work, double *jacobian, const double *z) {
   const SbInferenceAsked *asked = work->asked;
   const size_t n = asked->coordinates, m = asked->residuals;
   const double step = 1e-3;
-  if (asked->differentiate != NULL) {
+  bool (*by)(void *, double *, const double *, const double *) =
+      work->at_fit && asked->differentiate_fit != NULL ? asked->differentiate_fit
+                                                       : asked->differentiate;
+  if (by != NULL) {
     double *residual = g_new(double, m);
-    const bool good =
-        evaluate(work, residual, z) && asked->differentiate(asked->data, jacobian, z, residual);
+    const bool good = evaluate(work, residual, z) && by(asked->data, jacobian, z, residual);
     g_free(residual);
     work->cancelled |= !good;
     return good;
@@ -119,23 +125,50 @@ static void find_sigma(Work *work, const double *residual, bool first) {
   g_free(value);
 }
 
-static void find_spread(Work *work, const double *residual) {
-  const SbInferenceAsked *asked = work->asked;
-  for (size_t g = 0; g < asked->groups; g++) {
-    double product = 0, square = 0, last = NAN, count = 0;
-    for (size_t i = 0; i < asked->residuals; i++) {
-      if (asked->group[i] != g) {
-        continue;
-      }
-      const double x = fmax(fmin(residual[i] * scale_of(work, i), BEND), -BEND);
-      product += isnan(last) ? 0 : x * last;
-      square += x * x;
-      last = x;
-      count++;
-    }
-    const double rho = square > 0 ? fmin(product / square, 0.99) : 0;
-    work->out->spread[g] = rho > 3 / sqrt(fmax(count, 1)) ? (1 + rho) / (1 - rho) : 1;
+// Integrated autocorrelation 1 + 2 sum rho_k of a series, up to the first lag whose correlation is
+// within two standard errors; 1 where that of the first lag is within three. `first`: the sum of a
+// series whose lags fall off as the powers of the first.
+static double integrated(const double *x, size_t count, bool first) {
+  double square = 0, sum = 0;
+  for (size_t i = 0; i < count; i++) {
+    square += x[i] * x[i];
   }
+  for (size_t lag = 1; lag < count && square > 0; lag++) {
+    double product = 0;
+    for (size_t i = lag; i < count; i++) {
+      product += x[i] * x[i - lag];
+    }
+    const double rho = product / square;
+    if (rho <= (lag == 1 ? 3 : 2) / sqrt((double)count)) {
+      break;
+    }
+    if (first) {
+      return (1 + fmin(rho, 0.99)) / (1 - fmin(rho, 0.99));
+    }
+    sum += rho;
+  }
+  return 1 + 2 * sum;
+}
+
+// Finds by how much the rows of each group count for less; see the header. `first`: by the first
+// lag alone, on the path to the fit.
+static void find_spread(Work *work, const double *residual, bool first) {
+  const SbInferenceAsked *asked = work->asked;
+  double *x = g_new(double, asked->residuals + 1);
+  for (size_t g = 0; g < asked->groups; g++) {
+    size_t count = 0;
+    for (size_t i = 0; i < asked->residuals; i++) {
+      if (asked->group[i] == g) {
+        x[count++] = fmax(fmin(residual[i] * scale_of(work, i), BEND), -BEND);
+      }
+    }
+    const double rows = integrated(x, count, first);
+    const double independent = (double)count / rows;
+    const double taken = (double)asked->coordinates * (double)count / (double)asked->residuals;
+    work->out->spread[g] =
+        first || rows <= 1 ? rows : rows * independent / fmax(independent - taken - 2, LEAST_FREE);
+  }
+  g_free(x);
 }
 
 static double spread_of(const Work *work, size_t i) {
@@ -196,12 +229,12 @@ static bool fit_once(Work *work, gsl_multifit_nlinear_workspace *w, gsl_multifit
   int info = 0;
   // A solved model is rough on the scale of its mesh: finer steps find no way down.
   const double step = work->asked->linear ? 1e-3 : 1e-7;
-  const int status = gsl_multifit_nlinear_driver(40, step, 1e-10, 1e-10, NULL, NULL, &info, w);
+  (void)gsl_multifit_nlinear_driver(40, step, 1e-10, 1e-10, NULL, NULL, &info, w);
   const gsl_vector *at = gsl_multifit_nlinear_position(w);
   memcpy(work->out->z, at->data, n * sizeof(double));
-  // No step that is better is an end as well; GSL tells one at the start as too many.
-  const bool ended = status == GSL_SUCCESS || status == GSL_ENOPROG || info == GSL_ENOPROG;
-  return !work->cancelled && evaluate(work, work->out->residual, work->out->z) && ended;
+  // Steps that did not end go on in the next round; whether the rounds end is judged by the
+  // density.
+  return !work->cancelled && evaluate(work, work->out->residual, work->out->z);
 }
 
 // Covariance of z by the tangent: (J' W J + 1)^-1.
@@ -280,7 +313,11 @@ static SbStatus fit(Work *work) {
       gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, m + n, n);
   gsl_vector *weight = gsl_vector_alloc(m + n);
   gsl_multifit_nlinear_fdf fdf = {.f = gsl_f, .df = gsl_df, .n = m + n, .p = n, .params = work};
-  enum { ROUNDS = 12 };
+  // What the model cannot follow is what remains at the fit: its correlation is found there, once,
+  // and the fit goes on with it. Before, that of the first lag lets steps pass the kinks of the
+  // loss.
+  enum { ROUNDS = 18, SPREAD_ROUND = 11 };
+  bool spread = false;
   bool good = w != NULL && weight != NULL && evaluate(work, out->residual, out->z);
   double *before = g_new(double, n), *residual = g_new(double, m);
   if (good) {
@@ -292,11 +329,23 @@ static SbStatus fit(Work *work) {
     good = fit_once(work, w, &fdf, weight);
     if (good) {
       find_sigma(work, out->residual, round == 0);
-      find_spread(work, out->residual);
       // A hundredth of a deviation in the density's logarithm is an end.
       const double gain =
           log_density(work, out->residual, out->z) - log_density(work, residual, before);
-      out->converged = round > 0 && fabs(gain) < 1e-4;
+      const bool ended = round > 0 && fabs(gain) < 1e-4;
+      out->converged = ended && spread;
+      if (!spread) {
+        // The trust region may end at a kink, from which Gauss and Newton's steps go on.
+        bool rests = ended;
+        if (ended) {
+          memcpy(before, out->z, n * sizeof *before);
+          good = polish(work);
+          find_sigma(work, out->residual, false);
+          rests = memcmp(before, out->z, n * sizeof *before) == 0;
+        }
+        spread = rests || round == SPREAD_ROUND;
+        find_spread(work, out->residual, !spread);
+      }
     }
   }
   g_free(residual);
@@ -466,6 +515,11 @@ SbStatus sb_inference(SbInference *out, const SbInferenceAsked *asked, SbReport 
     }
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     status = fit(&work);
+    work.at_fit = true;
+    if ((status == SB_OK || status == SB_ERROR_NOT_CONVERGED) && asked->differentiate_fit != NULL &&
+        !find_covariance(&work)) {
+      status = work.cancelled ? SB_ERROR_CANCELLED : SB_ERROR_NOT_CONVERGED;
+    }
     if ((status == SB_OK || status == SB_ERROR_NOT_CONVERGED) && asked->samples > 0 &&
         !sample_posterior(&work)) {
       status = work.cancelled ? SB_ERROR_CANCELLED : SB_ERROR_NOT_CONVERGED;

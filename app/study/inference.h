@@ -4,10 +4,15 @@
 // A residual's variance is sigma^2/weight with the sigma of its group, which is estimated, or
 // 1/weight in the group SB_NOISE_KNOWN. Loss: Huber's (1964) with the bend at 2.5 deviations, near
 // enough to squares that the posterior of normal noise is that of squares (variance too large by
-// 2 %), bounded in what an outlier pulls. Noise: Huber's proposal 2 with the same bend. Residuals
-// that follow each other are correlated where the model is wrong or the record is filtered: with a
-// first autocorrelation rho beyond three standard errors the loss of a group is divided by
-// (1 + rho)/(1 - rho), as so many rows less tell.
+// 2 %), bounded in what an outlier pulls. Noise: Huber's proposal 2 with the same bend.
+//
+// Residuals that follow each other are correlated where the model cannot follow the data, or the
+// record is filtered. The deviation sigma then has this discrepancy, and the loss of a group is
+// divided by `spread`: n rows count as n/tau independent ones, with the integrated autocorrelation
+// tau = 1 + 2 sum rho_k along the loop (the variance of a mean of correlated rows; Geyer 1992). It
+// is an upper bound of the variance of a parameter where the discrepancy is smooth. Few independent
+// differences know their own deviation badly: with nu = n/tau - coordinates the variance is larger
+// by (n/tau)/nu and by that of Student's t, nu/(nu - 2).
 //
 // The fit is the posterior's mode in z: GSL's nonlinear least squares (Levenberg and Marquardt)
 // with the weights of the loss renewed until they stand. The posterior is sampled from there by
@@ -35,6 +40,8 @@ typedef struct {
   bool (*evaluate)(void *data, double *residual, const double *z);
   // jacobian[residuals][coordinates] at z, where `residual` has been found. NULL: differences.
   bool (*differentiate)(void *data, double *jacobian, const double *z, const double *residual);
+  // The same at the fit, for covariance and posterior; NULL: `differentiate`.
+  bool (*differentiate_fit)(void *data, double *jacobian, const double *z, const double *residual);
   void *data;
   uint64_t seed;
   size_t samples; // of the posterior, 0: none
@@ -49,13 +56,13 @@ typedef struct {
   double *jacobian;   // [residuals][coordinates] there
   double *covariance; // [coordinates][coordinates] of z by the tangent
   double sigma[64];   // of the groups
-  double spread[64];  // (1 + rho)/(1 - rho), 1 where rows are independent
+  double spread[64];  // divides the loss of a group, 1 where rows are independent
   size_t samples;
   double *sample;  // [samples][coordinates]
   double accepted; // share of the proposals
 } SbInference;
 
-// *out is to be released in any case. SB_ERROR_CANCELLED, _MEMORY; SB_ERROR_NOT_CONVERGED with a
-// fit whose steps did not end.
+// *out is to be released in any case. SB_ERROR_CANCELLED: `z` is the best place so far, without
+// samples; SB_ERROR_MEMORY; SB_ERROR_NOT_CONVERGED with a fit whose steps did not end.
 SbStatus sb_inference(SbInference *out, const SbInferenceAsked *asked, SbReport *report);
 void sb_inference_release(SbInference *inference);
