@@ -21,6 +21,9 @@ enum { ROUNDS = 8, WARM_UP = 3 };
 static const char *const scenes[] = {"thesis-cycle", "quick-look", "sliding-plate",
                                      "part-profiles"};
 
+// One for all tests: a process can register no second one on its bus.
+static SbApplication *application;
+
 // Lets the main loop go on for a while.
 static void turn(int milliseconds) {
   gint64 end = g_get_monotonic_time() + milliseconds * 1000;
@@ -31,7 +34,7 @@ static void turn(int milliseconds) {
   }
 }
 
-static void open_and_close(SbApplication *application, const char *scene, int shown_for) {
+static void open_and_close(const char *scene, int shown_for) {
   g_autofree char *path =
       g_strdup_printf("%s/scenes/%s.scene", g_getenv("SEALBENCH_ASSETS"), scene);
   g_autoptr(GFile) file = g_file_new_for_path(path);
@@ -50,11 +53,10 @@ static void open_and_close(SbApplication *application, const char *scene, int sh
 }
 
 static void test_closed_windows_are_gone(void) {
-  g_autoptr(SbApplication) application = start_application();
   size_t in_use[ROUNDS];
   for (int round = 0; round < ROUNDS; round++) {
     for (guint i = 0; i < G_N_ELEMENTS(scenes); i++) {
-      open_and_close(application, scenes[i], i % 2 == 0 ? 60 : 400);
+      open_and_close(scenes[i], i % 2 == 0 ? 60 : 400);
     }
     turn(100);
     in_use[round] = mallinfo2().uordblks;
@@ -65,7 +67,6 @@ static void test_closed_windows_are_gone(void) {
   size_t windows = (ROUNDS - 1 - WARM_UP) * G_N_ELEMENTS(scenes);
   g_test_message("%zu kB a window", growth / windows / 1024);
   g_assert_cmpuint(growth / windows, <, 100 * 1024);
-  g_application_release(G_APPLICATION(application));
 }
 
 static GtkDialog *open_dialog(void) {
@@ -342,7 +343,7 @@ static void test_page_ends_with_its_calls(void) {
   }
 }
 
-static guint window_count(SbApplication *application) {
+static guint window_count(void) {
   guint count = 0;
   for (GList *item = gtk_application_get_windows(GTK_APPLICATION(application)); item != NULL;
        item = item->next) {
@@ -354,7 +355,6 @@ static guint window_count(SbApplication *application) {
 // A file that has a window is raised by a second start, by whatever path it names the file. The
 // window offers what to do once another program has written the file.
 static void test_a_file_has_one_window(void) {
-  g_autoptr(SbApplication) application = start_application();
   g_autofree char *folder = g_dir_make_tmp("sealbench-window-XXXXXX", NULL);
   g_autofree char *path = g_build_filename(folder, "a.valve", NULL);
   g_autofree char *other = g_build_filename(folder, "b.valve", NULL);
@@ -366,7 +366,7 @@ static void test_a_file_has_one_window(void) {
     g_autoptr(GFile) file = g_file_new_for_path(paths[i]);
     g_application_open(G_APPLICATION(application), &file, 1, "");
     turn(50);
-    g_assert_cmpuint(window_count(application), ==, 1);
+    g_assert_cmpuint(window_count(), ==, 1);
   }
   GtkWidget *window = gtk_application_get_windows(GTK_APPLICATION(application))->data;
   SbSession *session = sb_window_session(SB_WINDOW(window));
@@ -381,7 +381,6 @@ static void test_a_file_has_one_window(void) {
   g_assert_cmpint(sb_session_disk_state(session), ==, SB_DISK_SAME);
   gtk_widget_destroy(window);
   turn(50);
-  g_application_release(G_APPLICATION(application));
   g_unlink(other);
   g_unlink(path);
   g_rmdir(folder);
@@ -404,5 +403,9 @@ int main(int argc, char **argv) {
   g_test_add_func("/windows/design-point", test_design_point_goes_with_its_map);
   g_test_add_func("/windows/message-strip", test_message_strip);
   g_test_add_func("/windows/closed-windows-are-gone", test_closed_windows_are_gone);
-  return g_test_run();
+  application = start_application();
+  const int failed = g_test_run();
+  g_application_release(G_APPLICATION(application));
+  g_object_unref(application);
+  return failed;
 }
