@@ -456,7 +456,7 @@ static void test_films(void) {
   const SbOverride consistent[] = {{SB_P_MODELS_SET, SB_MODEL_SET_CONSISTENT},
                                    {SB_P_MODELS_FIT, SB_FIT_DISC}};
   if (g_test_slow()) {
-    compare(films, 2, whole ? 20 : 1, whole ? 19 : 4, 1e-4);
+    compare(films, 2, whole ? 20 : 5, whole ? 19 : 4, 1e-4);
     if (whole) {
       compare(consistent, 2, 8, 20, 1e-3);
     }
