@@ -146,7 +146,8 @@ static void test_half_step(void) {
   sb_run_destroy(fine);
 }
 
-// With solved rings and the film on their own surfaces: within what the run tells of its errors.
+// With solved rings and the film on their own surfaces: within three times the reported error
+// estimates, which is what an honest estimate means.
 // The pressed ring's finest mesh is in both; the other's differ.
 static void test_half_step_rings(void) {
   SbRun *coarse = run_cycle(SB_FIT_RING, 400, 1e-3, SB_VIEW_PROFILES);
@@ -156,7 +157,7 @@ static void test_half_step_rings(void) {
                  told->error_force, told->error_film);
   g_assert_cmpfloat(told->error_force, <, 0.02);
   g_assert_cmpfloat(told->error_film, <, 0.08);
-  compare(told, sb_run_summary(fine), told->error_force, told->error_film);
+  compare(told, sb_run_summary(fine), 3 * told->error_force, 3 * told->error_film);
   sb_run_destroy(coarse);
   sb_run_destroy(fine);
 }
