@@ -71,8 +71,8 @@ enum { SB_TABLE_ROWS_MAX = 50000000 };
 // of the first day), NaN for an empty cell. The arrays are owned by the caller (g_free). A row is
 // `damaged` if a cell of it cannot be read while others can, or if it holds a NUL. Other lines
 // between rows are `skipped`. Both are left out; the number and text of the first line that is left
-// out (owned by the caller, NULL for none). False with one issue: no memory, too many rows, or days and months
-// that read in two ways.
+// out (owned by the caller, NULL for none). False with one issue: no memory, too many rows, or days
+// and months that read in two ways.
 typedef struct {
   size_t rows, damaged, skipped;
   int left_line;

@@ -93,8 +93,8 @@ GPtrArray *sb_data_read(const GPtrArray *entries, const char *directory, const c
       key++;
     }
     if (key == SB_DATA_KEY_COUNT) {
-      sb_issues_add(issues, shown, entry->line, NULL, NULL, "[%s] %s: unknown key",
-                    entry->group, entry->name);
+      sb_issues_add(issues, shown, entry->line, NULL, NULL, "[%s] %s: unknown key", entry->group,
+                    entry->name);
     } else {
       g_free(data->text[key]);
       data->text[key] = g_strdup(entry->value);

@@ -121,8 +121,7 @@ static bool check_group(const SbEntry *entry, const char *shown, GPtrArray *issu
   sb_nearest_try(&nearest, SB_CASES_GROUP);
   sb_nearest_try(&nearest, SB_PINS_GROUP);
   g_autofree char *hint = sb_nearest_hint(&nearest);
-  sb_issues_add(issues, shown, entry->line, NULL, NULL, "unknown group [%s]%s", entry->group,
-                hint);
+  sb_issues_add(issues, shown, entry->line, NULL, NULL, "unknown group [%s]%s", entry->group, hint);
   return false;
 }
 

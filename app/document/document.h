@@ -61,8 +61,8 @@ const char *sb_document_path(const SbDocument *document);
 // Path of a scene's valve file, or NULL; borrowed.
 const char *sb_document_valve_path(const SbDocument *document);
 
-// Remarks that are no problems: where a part's shape makes another value than the one in force, what
-// modulus a hardness is, and which sizes stay while a drawing would change them with another.
+// Remarks that are no problems: where a part's shape makes another value than the one in force,
+// what modulus a hardness is, and which sizes stay while a drawing would change them with another.
 // Borrowed until the next call for this document, of const char *.
 const GPtrArray *sb_document_notes(const SbDocument *document);
 

@@ -42,8 +42,7 @@ static void refuse_range(SbStudyReader *reader, const SbEntry *entry, double lea
                          const char *unit) {
   g_autofree char *range =
       g_strdup_printf("%g to %g%s%s", least, most, *unit != '\0' ? " " : "", unit);
-  g_autofree char *text =
-      g_strdup_printf("\"%s\" is out of range or no such number", entry->value);
+  g_autofree char *text = g_strdup_printf("\"%s\" is out of range or no such number", entry->value);
   sb_study_complain(reader, entry, range, text);
 }
 

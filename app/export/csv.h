@@ -34,6 +34,6 @@ double sb_life_value(const SbLifeActuation *of, const SbLifeColumn *column);
 void sb_csv_life(FILE *stream, const SbRun *run);
 
 // Contact profiles: frame, seal, x, pressure of the contact, film, asperity pressure, and the
-// pressure that the film's own solution has (empty where no film was solved). A seal's profile is written
-// for the first frame that has it and again whenever it changes; it holds until then.
+// pressure that the film's own solution has (empty where no film was solved). A seal's profile is
+// written for the first frame that has it and again whenever it changes; it holds until then.
 void sb_csv_profiles(FILE *stream, const SbRun *run);

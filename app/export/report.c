@@ -50,8 +50,8 @@ char *sb_report_files(const SbDocument *document) {
 char *sb_report_foot(const char *files, const char *hash) {
   g_autofree char *day = sb_pdf_date("%Y-%m-%d");
   return g_strdup_printf("Sealbench %s" DOT "engine %.12s" DOT "%s%s%s" DOT "values %.8s",
-                         sb_version(), sb_engine_identity()->source, files,
-                         *day != '\0' ? DOT : "", day, hash);
+                         sb_version(), sb_engine_identity()->source, files, *day != '\0' ? DOT : "",
+                         day, hash);
 }
 
 // ---- Texts of figures ----

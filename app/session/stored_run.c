@@ -19,8 +19,8 @@ SbPlanWishes sb_stored_run_wishes(void) {
 // session waits for it: GLib's MD5 takes a fifth of the time of its SHA-256.
 static char *head_new(const char *hash, const void *bytes, size_t size) {
   g_autofree char *sum = g_compute_checksum_for_data(G_CHECKSUM_MD5, bytes, size);
-  return g_strdup_printf("%s\nengine %s\nvalues %s\nchecksum %s\n", TITLE, sb_engine_identity()->source, hash,
-                         sum);
+  return g_strdup_printf("%s\nengine %s\nvalues %s\nchecksum %s\n", TITLE,
+                         sb_engine_identity()->source, hash, sum);
 }
 
 static char *today(void) {

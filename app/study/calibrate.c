@@ -269,8 +269,7 @@ static bool read_set(Curve *curve, GPtrArray *issues) {
       return false;
     }
     if (!sb_param_parse(&value, (SbParamId)id, g_strstrip(parts[1]), &error)) {
-      sb_data_complain(curve->data, SB_DATA_SET, NULL, issues, "%s: %s", parts[0],
-                       error->message);
+      sb_data_complain(curve->data, SB_DATA_SET, NULL, issues, "%s: %s", parts[0], error->message);
       return false;
     }
     curve->set[curve->sets++] = (SbOverride){(SbParamId)id, value};

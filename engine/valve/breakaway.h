@@ -35,8 +35,8 @@
 SbStatus sb_breakaway_law(SbDwellLaw *out, double *squeeze_time, const SbModel *model, int seal,
                           const SbSealState *state, const SbRoughLaw *known, SbReport *report);
 
-// Returns in *out what a state of a seal holds after a rest [N]: by that law, or by the section that
-// rolls or jams under friction its greatest sliding friction. 0 for a seal that does not touch.
-// SB_ERROR_MEMORY.
+// Returns in *out what a state of a seal holds after a rest [N]: by that law, or by the section
+// that rolls or jams under friction its greatest sliding friction. 0 for a seal that does not
+// touch. SB_ERROR_MEMORY.
 SbStatus sb_breakaway_after(double *out, const SbModel *model, int seal, const SbSealState *state,
                             double dwell, SbReport *report);

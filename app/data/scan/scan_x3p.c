@@ -262,8 +262,8 @@ gboolean sb_scan_parse_x3p(SbScan *out, SbScanBytes bytes, const SbScanChoices *
   gboolean good = read_main(&main, zip, &bytes, error);
   const char *feature = text_of(&main, FEATURE);
   if (good && strcmp(feature, "SUR") != 0 && strcmp(feature, "PRF") != 0) {
-    good = sb_scan_fail(error, bytes.name, "has the feature type \"%s\" (allowed SUR, PRF)",
-                        feature);
+    good =
+        sb_scan_fail(error, bytes.name, "has the feature type \"%s\" (allowed SUR, PRF)", feature);
   }
   good =
       good && read_points(out, &main, zip, &bytes, error) &&

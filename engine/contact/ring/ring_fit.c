@@ -22,8 +22,8 @@ static const double SIZE_LEAST = 0.008, SIZE_MOST = 0.05;
 // tolerance of 1e-3, films 1.5 % (ring-cycle).
 static const double COARSE = 0.01;
 
-// Of a dragged ring's load on the mesh of its path, whose elements are not the contact's, a third of
-// the largest error found: 3 %, and where it rolls over a chamfer 5 % in one of 30.
+// Of a dragged ring's load on the mesh of its path, whose elements are not the contact's, a third
+// of the largest error found: 3 %, and where it rolls over a chamfer 5 % in one of 30.
 static const double UNFITTED = 0.01, UNFITTED_CHAMFER = 0.02;
 
 // Share of the bore's friction that may be missing without being told.
