@@ -142,8 +142,7 @@ static void port(void) {
   SbRun *run[2];
   for (int i = 0; i < 2; i++) {
     const SbOverride over[] = {{SB_P_STEM_PORT_DIAMETER, i == 0 ? 0.3e-3 : 1e-3},
-                               {SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC},
-                               {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_FREE_RETURN},
+                               {SB_P_DRIVE_SPEED, 0.3},
                                {SB_P_OUTPUT_TOLERANCE, 1e-2}};
     run[i] = run_with(over, G_N_ELEMENTS(over));
   }
