@@ -491,6 +491,12 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
   }
 }
 
+double sb_dynamics_force_peak(const SbDynamics *s) {
+  SbDynamics until_now = *s;
+  until_now.t_end = s->now;
+  return sb_motion_force_peak(&until_now, s->force_peak);
+}
+
 bool sb_dynamics_at_rest(const SbDynamics *s) {
   SbDynamicsState z;
   if (!s->ready || !s->linear || s->event != EVENT_BREAK || isfinite(s->piece.until)) {

@@ -290,5 +290,8 @@ SbStatus sb_dynamics_advance(SbDynamics *dynamics, double time, SbReport *report
 void sb_dynamics_sample(const SbDynamics *dynamics, SbDynamicsSample *sample,
                         SbDynamicsEnergy *energy);
 
+// Returns the largest force of the drive up to the time last advanced to [N], within the steps too.
+double sb_dynamics_force_peak(const SbDynamics *dynamics);
+
 // Whether the drive has ended and the stem rests: nothing more can happen.
 bool sb_dynamics_at_rest(const SbDynamics *dynamics);

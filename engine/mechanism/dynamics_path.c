@@ -516,7 +516,7 @@ double sb_motion_force_peak(const SbDynamics *s, double known) {
   double first = force_of(&p.wall[SB_DYNAMICS_PLATEN], &p), lasts = s->t_end - s->t;
   double peak = fmax(known, fmax(first, push_at(s, lasts)));
   if (!s->linear) {
-    double middle = s->step[0].h;
+    double middle = fmin(s->step[0].h, lasts);
     peak = fmax(peak, push_at(s, middle));
     return lasts > 0.0 ? step_peak(s, middle, lasts, step_peak(s, 0.0, middle, peak)) : peak;
   }

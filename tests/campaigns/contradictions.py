@@ -1,6 +1,6 @@
 """Contradictions inside one JSON document of `sealbench run`: a null without a reason, a fraction
 outside 0 to 1, a stage's force above the peak, a verdict against its figure, an open balance of
-energies, a state of the solver that the exit code denies."""
+energies, a large estimate without a warning, a state of the solver that the exit code denies."""
 import math
 
 STAGES = 'ABCDEF'
@@ -87,6 +87,11 @@ def solver(results, code):
     state = results['solver']
     if state['converged'] != (code == 0):
         yield f'converged {state["converged"]}, exit code {code}'
+    warned = any('estimate' in warning['code'] or 'error' in warning['code']
+                 for warning in results['warnings'])
+    for name, estimate in state['error_estimate'].items():
+        if estimate is not None and estimate > 0.3 and not warned:
+            yield f'estimate of {name} {estimate} without a warning'
 
 
 def contradictions(results, code):

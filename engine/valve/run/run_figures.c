@@ -297,10 +297,14 @@ void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore
   }
   if (!back) {
     summary->leakage_per_cycle = NAN;
+    char carried[32] = "";
+    if (!isnan(bore->out)) {
+      snprintf(carried, sizeof carried, " (%.3g nl)", 1e12 * circumference * bore->out);
+    }
     sb_reason(summary, "cycle.leakage_per_cycle_m3",
-              "the stem does not come back: what the outer seal carried one way (%.3g nl) is no "
-              "loss of a cycle",
-              1e12 * circumference * bore->out);
+              "the stem does not come back: what the outer seal carried one way%s is no loss of a "
+              "cycle",
+              carried);
     sb_reason(summary, "cycle.leakage_net_all_actuations_m3",
               "the stem does not come back: there is no second actuation");
   } else if (fabs(net) < summary->error_film * bore->out) {
@@ -438,6 +442,9 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
     sb_reason(summary, "cycle.leakage*", "outer seal: %s",
               outer != NULL ? outer : "it does not touch in all of the cycle's states");
   }
+  // The error is that of the loss, and is missing for the reason of the loss.
+  const char *loss = sb_figure_reason(summary, sb_figure_find("shelf.permeation_kg_per_s"));
+  const char *no_loss = loss != NULL ? loss : "a closed form gives what permeates";
   const Reason after[] = {
       {closed, "solver.error_estimate.film", "models.film is a closed form"},
       {!run->plan.film_history, "solver.error_estimate.film_history",
@@ -445,6 +452,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
       {well, "solver.error_estimate.film*", "no seal has a film to solve"},
       // What is left was to come behind the point where the run ended.
       {status == SB_ERROR_CANCELLED, "*", "the run was stopped before"},
+      {well, "solver.error_estimate.permeation", no_loss},
       {!well, "*", report->text[0] != '\0' ? report->text : sb_status_text(status)},
   };
   give(summary, -1, after, sizeof after / sizeof after[0]);

@@ -75,7 +75,15 @@ static void compare_contact(SbRun *run) {
   }
 }
 
-// Events and energies are those of the motion, the largest force is one of the samples.
+// Relative error of the largest force: that of the motion's path, and no less than the tolerance of
+// the path. The signal's samples have an error of their own (of_rig() in run_errors.c).
+static double force_error(const SbRun *run, const SbDynamics *motion) {
+  const double peak = run->summary.force_peak;
+  const double path = (fabs(motion->at.x) + 1e-3) * motion->counters.local_error;
+  return peak > 0 ? fmax(run->model->rig.thread_stiffness * path / peak, 1e-9) : NAN;
+}
+
+// Events, energies and the largest force are those of the motion.
 static void rig_errors(SbRun *run) {
   const SbSummary *summary = &run->summary;
   sb_run_begin_errors(run);
@@ -118,7 +126,6 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
                                    .platen = sample.drive_position,
                                    .force = sample.drive_force,
                                    .seal = {no_seal(), no_seal()}};
-    summary->force_peak = fmax(summary->force_peak, sample.drive_force);
     if (sb_rig_signal_add(&signal, sample.drive_force, &peak)) {
       run->frames[peak].peak = signal.peaks == 1 ? 1 : 2;
     }
@@ -138,16 +145,12 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
 
   if (summary->stage[SB_STAGE_B].reached) {
     summary->force_breakaway = summary->stage[SB_STAGE_B].force;
-    // The slip itself is between two samples.
-    summary->force_peak = fmax(summary->force_peak, summary->force_breakaway);
   }
+  // Slips, and what the plate's inertia adds to their force, are between two samples.
+  summary->force_peak = sb_dynamics_force_peak(&motion);
   summary->duration = rig->duration;
   sb_run_fill_motion(summary, &energy, &motion.counters);
-  // Between two samples the thread is wound up by speed / rate: the highest sample misses the peak
-  // by less than that times the stiffness, on average by half of it.
-  summary->error_force = summary->force_peak > 0 ? 0.5 * rig->thread_stiffness * rig->speed /
-                                                       rig->rate / summary->force_peak
-                                                 : NAN;
+  summary->error_force = force_error(run, &motion);
   summary->error_energy = fmax(motion.counters.local_error, energy.closure);
   rig_errors(run);
   return status;
