@@ -386,15 +386,17 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   sb_document_refresh_title(document);
   document->name = g_strdup(name);
   sb_document_add_faults(document, issues, before);
-  if (issues->len == before) {
-    g_autoptr(SbModel) model = NULL;
-    if (sb_document_compile(document, &model, issues)) {
-      (void)sb_document_check_cases(document, issues);
-    }
-    const guint compiled = issues->len;
+  // Cases and pins are read with the file's values, as far as these are sound; edits can correct
+  // what makes a document not compile.
+  const bool sound = issues->len == before;
+  g_autoptr(SbModel) model = NULL;
+  const bool compiles = sound && sb_document_compile(document, &model, issues);
+  const guint compiled = issues->len;
+  (void)(compiles ? sb_document_check_cases : sb_document_check_case_lines)(document, issues);
+  if (sound) {
     sb_document_read_pins(document, entries, name, issues);
-    sb_document_add_faults(document, issues, compiled);
   }
+  sb_document_add_faults(document, issues, compiled);
   return document;
 }
 

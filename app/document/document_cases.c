@@ -158,6 +158,30 @@ bool sb_document_compile_case(const SbDocument *document, size_t index, SbModel 
   return good;
 }
 
+bool sb_document_check_case_lines(const SbDocument *document, GPtrArray *issues) {
+  bool good = true;
+  for (guint i = 0; i < document->cases->len; i++) {
+    const SbCase *one = document->cases->pdata[i];
+    g_autofree char *path = g_strdup_printf("%s.%s", SB_CASES_GROUP, one->name);
+    SbParams params;
+    SbNamedRubber *rubber = NULL;
+    good = sb_document_case_params(document, one, path, &params, &rubber, issues) && good;
+    sb_named_rubber_release(rubber);
+  }
+  return good;
+}
+
+bool sb_document_case_is_good(const SbDocument *document, const char *name) {
+  for (size_t i = 0; i < document->cases->len; i++) {
+    if (strcmp(sb_document_case_name(document, i), name) == 0) {
+      g_autoptr(GPtrArray) issues = sb_issues_new();
+      g_autoptr(SbModel) model = NULL;
+      return sb_document_compile_case(document, i, &model, issues);
+    }
+  }
+  return false;
+}
+
 bool sb_document_check_cases(const SbDocument *document, GPtrArray *issues) {
   bool good = true;
   for (size_t i = 0; i < document->cases->len; i++) {

@@ -1,8 +1,10 @@
 // Errors of a document's files. A value with an error keeps its default, which the author of the
 // file did not ask for: so such a document does not compile, and nothing is computed from it, until
-// every error is corrected. An edit of the key corrects an error of a value; everything else is
-// corrected in the file.
+// every error is corrected. An edit of the key corrects an error of a value; an edit that makes a
+// case of [cases] possible corrects that case. Everything else is corrected in the file.
 #include "app/document/document_private.h"
+
+#include <string.h>
 
 void sb_document_add_faults(SbDocument *document, const GPtrArray *issues, guint first) {
   for (guint i = first; i < issues->len; i++) {
@@ -10,8 +12,12 @@ void sb_document_add_faults(SbDocument *document, const GPtrArray *issues, guint
   }
 }
 
-// Whether an edit gave the key at fault a value that its file does not give.
+// Whether an edit gave the key at fault a value that its file does not give, or made its case
+// possible.
 static bool is_corrected(const SbDocument *document, const SbIssue *fault) {
+  if (fault->key != NULL && g_str_has_prefix(fault->key, SB_CASES_GROUP ".")) {
+    return sb_document_case_is_good(document, fault->key + strlen(SB_CASES_GROUP "."));
+  }
   const int id = fault->key != NULL ? sb_param_find(fault->key) : -1;
   return id >= 0 && document->own.given[id] && !document->saved.given[id];
 }

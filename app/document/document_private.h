@@ -122,6 +122,13 @@ void sb_document_exchange(SbDocument *a, SbDocument *b);
 // Records the issues from `first` on as faults of the document's files.
 void sb_document_add_faults(SbDocument *document, const GPtrArray *issues, guint first);
 
+// Whether every line of [cases] can be read; adds the errors. Unlike sb_document_check_cases(), for
+// documents that do not compile.
+bool sb_document_check_case_lines(const SbDocument *document, GPtrArray *issues);
+
+// Whether the case of this name compiles with the values in force; false if there is none.
+bool sb_document_case_is_good(const SbDocument *document, const char *name);
+
 // Forgets faults that edits have corrected; to be called when they are saved.
 void sb_document_faults_saved(SbDocument *document);
 

@@ -129,6 +129,29 @@ static void test_files(void) {
                   SB_SCENE_ERROR_INPUT);
   refuses_to_compute(scene, "missing.valve");
   sb_scene_close(scene);
+  static const struct {
+    const char *lines, *error;
+  } groups[] = {
+      {"[cases]\na = seal.modulus\n", "seal.modulus"},
+      {"[cases]\na = foo = 3\n", "foo: unknown key"},
+      {"[cases]\na = stem.pressure_diameter = 7 mm\n", "bore.diameter"},
+      {"[limits]\ncycle.foo = >= 1 N\n", "no such figure"},
+      {"[pins]\na = foo = 3\n", "foo: unknown key"},
+      // Where another error hides what the case's values give, its line is read all the same.
+      {"[gland]\nradial_space = 9 m\n[cases]\na = foo = 3\n", "foo: unknown key"},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(groups); i++) {
+    g_autofree char *text = g_strdup_printf("[sealbench]\nformat = 1\nkind = scene\nvalve = "
+                                            "valves/piston.valve\n%s",
+                                            groups[i].lines);
+    g_assert_cmpint(sb_scene_parse(&scene, text, strlen(text), SB_ASSETS), ==,
+                    SB_SCENE_ERROR_INPUT);
+    const int at = i == G_N_ELEMENTS(groups) - 1 ? 1 : 0;
+    g_assert_nonnull(sb_scene_issue(scene, (size_t)at));
+    g_assert_nonnull(strstr(sb_scene_issue(scene, (size_t)at), groups[i].error));
+    refuses_to_compute(scene, at == 1 ? "radial_space" : groups[i].error);
+    sb_scene_close(scene);
+  }
   static const char good[] = "[sealbench]\nformat = 1\nkind = scene\ntitle = Ours\n"
                              "valve = valves/piston.valve\n[drive]\nspeed = 10 mm/s\n";
   g_assert_cmpint(sb_scene_parse(&scene, good, strlen(good), SB_ASSETS), ==, SB_SCENE_OK);

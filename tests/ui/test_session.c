@@ -568,6 +568,20 @@ static void test_faulty_files(void) {
   g_assert_true(sb_session_save(session, NULL, NULL));
   g_assert_false(sb_session_is_faulty(session));
   settle(session);
+  // A case that cannot be read is corrected in the file; one that the values forbid, by an edit.
+  *strstr(text, "[seal]") = '\0';
+  g_autofree char *unread = g_strconcat(text, "[cases]\na = seal.modulus\n", NULL);
+  g_free(write_scene(folder, unread));
+  g_assert_true(sb_session_open(session, path, issues));
+  sb_session_edit(session, SB_P_SEAL_MODULUS, "3 MPa");
+  fails_with(session, "seal.modulus");
+  g_autofree char *impossible =
+      g_strconcat(text, "[cases]\na = stem.pressure_diameter = 7 mm\n", NULL);
+  g_free(write_scene(folder, impossible));
+  g_assert_true(sb_session_open(session, path, issues));
+  fails_with(session, "the bore is smaller than the stem");
+  sb_session_edit(session, SB_P_BORE_DIAMETER, "7.4 mm");
+  g_assert_false(sb_session_is_faulty(session));
   g_remove(path);
   g_rmdir(folder);
 }
