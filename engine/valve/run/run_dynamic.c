@@ -48,7 +48,7 @@ typedef struct {
   double top;                       // largest displacement [m]
   double rested;                    // time at which the in-stroke came to rest [s]
   double leak_from, leak_since;     // place [m] and time [s] up to which it is known
-  double leak_last, leak_last_time; // where the stem was last seen
+  double leak_last, leak_last_time; // where the stem was last seen, and when it came there
   double home;                // time at which the stem is back on its rest stop [s], 0: not yet
   double middle, middle_back; // speed at the middle of B-C and of F-A [m/s], 0: not yet
   bool slips;                 // some contact has slid
@@ -57,30 +57,45 @@ typedef struct {
   SbReport *report;
 } Recorder;
 
-// Film dragged along up to where the stem is, at the film of the present state and of the mean
-// speed since it was last taken: a contact carries what has entered it over its own width, so that
-// sticks and slips shorter than that count as one sliding. Taken once the stem has gone that far,
-// has turned, or `now`.
-static void leak(Recorder *r, double time, double x, double pressure, bool now) {
+// Moves the film dragged along up to a place that the stem passed at the time `until`: the film of
+// the present state and of the mean speed since it was last moved.
+static void carry(Recorder *r, double end, double until, double pressure) {
   SbRun *run = r->run;
-  const SbSealState *outer = &run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-  const bool turned = (x - r->leak_last) * (r->leak_last - r->leak_from) < 0;
-  const double end = turned ? r->leak_last : x, until = turned ? r->leak_last_time : time;
   const double way = end - r->leak_from;
-  if (turned || now || fabs(way) >= outer->contact_right - outer->contact_left) {
-    const int direction = way > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT;
-    const SbChamber chamber = sb_valve_solved(&r->valve, direction, pressure).chamber;
-    double speed = until > r->leak_since ? way / (until - r->leak_since) : run->speed;
-    if (way != 0) {
-      const double carries = sb_model_way(run->model);
-      sb_bore_move(&run->bore, carries * r->leak_from, carries * end,
-                   sb_run_layer(run, SB_OUTER, chamber, direction, speed));
-    }
-    r->leak_from = end;
-    r->leak_since = until;
+  const int direction = way > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT;
+  const SbChamber chamber = sb_valve_solved(&r->valve, direction, pressure).chamber;
+  const double speed = until > r->leak_since ? way / (until - r->leak_since) : run->speed;
+  if (way != 0) {
+    const double carries = sb_model_way(run->model);
+    sb_bore_move(&run->bore, carries * r->leak_from, carries * end,
+                 sb_run_layer(run, SB_OUTER, chamber, direction, speed));
   }
+  r->leak_from = end;
+  r->leak_since = until;
+}
+
+// Film dragged along by a stem that is at x. A contact carries what has entered it over its own
+// width, so that sticks and slips shorter than that count as one sliding: the film moves by whole
+// widths, up to where the stem turns, and up to x `now`. The stem passes the end of a width between
+// two frames or segments, at even speed.
+static void leak(Recorder *r, double time, double x, double pressure, bool now) {
+  const SbSealState *outer = &r->run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const double width = outer->contact_right - outer->contact_left;
+  const double last = r->leak_last;
+  if ((x - last) * (last - r->leak_from) < 0) {
+    carry(r, last, r->leak_last_time, pressure);
+  }
+  const double way = x - r->leak_from;
+  if (now || !(width > 0)) {
+    carry(r, x, x != last ? time : r->leak_last_time, pressure);
+    r->leak_since = time;
+  } else if (fabs(way) >= width) {
+    const double end = r->leak_from + copysign(width * floor(fabs(way) / width), way);
+    const double share = x != last ? fmin(fmax((end - last) / (x - last), 0), 1) : 1;
+    carry(r, end, r->leak_last_time + share * (time - r->leak_last_time), pressure);
+  }
+  r->leak_last_time = x != last ? time : r->leak_last_time; // a rest at the end is no sliding
   r->leak_last = x;
-  r->leak_last_time = time;
 }
 
 // Adds a frame of the motion as it is now.
@@ -221,6 +236,15 @@ static double corner_at(const SbDriveTimes *times, int index) {
   return index < times->corners ? period * times->period + times->first[index % each] : INFINITY;
 }
 
+// At the start of a segment of the motion: the film follows the stem more finely than the frames,
+// since a return may be over between two of them. True: the motion is cancelled.
+static bool begin_segment(void *data) {
+  Recorder *r = data;
+  const SbDynamics *motion = &r->motion;
+  leak(r, motion->t, motion->at.x, sb_valve_chamber_pressure(&r->valve, motion->at.extra), false);
+  return sb_work_step(r->run->work);
+}
+
 // Makes the valve's mechanism and runs it to its end, to the model's tolerance or one other than 0.
 // A motion without frames leaves its warnings to the one that has them.
 static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double tolerance,
@@ -233,8 +257,8 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double toleranc
     warnings->count = told;
     warnings->dropped = dropped;
   }
-  r->model.poll = sb_work_step;
-  r->model.poll_data = run->work;
+  r->model.poll = begin_segment;
+  r->model.poll_data = r;
   r->model.tolerance = tolerance > 0 ? tolerance : r->model.tolerance;
   status = status == SB_OK ? sb_dynamics_init(&r->motion, &r->model, report) : status;
   if (status != SB_OK) {
