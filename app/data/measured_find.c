@@ -462,6 +462,22 @@ static void find_ramps(SbMeasured *m, const SbMeasuredCycle *cycle, double strok
   }
 }
 
+// How much higher the force can have become between a row and the next, where the stem slipped
+// somewhere between them while the force rose at its rate. A row between two others of the record's
+// own spacing is that of the event itself: an export of events, or of both states at one time.
+// Without a column of time the rows are equally spaced.
+static double unseen_rise(const SbMeasured *m, size_t row) {
+  const double rise = fmax(m->force[row] - m->force[row - 1], 0);
+  if (m->time == NULL) {
+    return rise;
+  }
+  const double before = m->time[row] - m->time[row - 1];
+  const double after = m->time[row + 1] - m->time[row];
+  const double spacing = m->time[row - 1] - m->time[row - 2];
+  const bool event = before + after < 1.5 * spacing;
+  return !event && before > 0 ? rise * after / before : 0;
+}
+
 static void find_first_slip(SbMeasured *m, const SbMeasuredCycle *cycle, double stroke) {
   SbMeasuredStage *b = &m->stage[SB_STAGE_B];
   size_t most = cycle->begin;
@@ -470,15 +486,7 @@ static void find_first_slip(SbMeasured *m, const SbMeasuredCycle *cycle, double 
   }
   b->reason = "the stem moves from the first row on";
   if (most > cycle->begin + 2 && m->force[cycle->begin] < 0.5 * m->force[most]) {
-    // The slip came somewhere between this row and the next, while the force rose at its rate. A
-    // row between two others of the record's own spacing is that of the event itself: an export of
-    // events, or of both states at one time.
-    const double before = m->time[most] - m->time[most - 1];
-    const double after = m->time[most + 1] - m->time[most];
-    const double spacing = m->time[most - 1] - m->time[most - 2];
-    const bool event = before + after < 1.5 * spacing;
-    const double rise = fmax(m->force[most] - m->force[most - 1], 0);
-    const double step = !event && before > 0 ? rise * after / before : 0;
+    const double step = unseen_rise(m, most);
     b->found = true;
     b->displacement = m->displacement[most];
     b->force = m->force[most] + 0.5 * step;

@@ -175,6 +175,59 @@ static void test_found(void) {
   }
 }
 
+// Rows at the peak of a loop without noise whose force rises by 0.5 N a row up to 20.2 N.
+typedef enum { PEAK_BETWEEN, PEAK_ROW, PEAK_BOTH_STATES } PeakRows;
+
+static SbMeasured *read_peak(PeakRows rows, bool time) {
+  const double rate = 0.5, slip = 40.4, sliding = 18; // [N] a row, row, [N]
+  GString *text =
+      g_string_new(time ? "Time [s],Travel [mm],Force [N]\n" : "Travel [mm],Force [N]\n");
+  for (int i = 0; i < 400; i++) {
+    const bool in = i < 220;
+    const double place = i < slip ? 0 : in ? 0.03 * (i - slip) : 0.03 * (400 - i);
+    const double force = i < slip ? rate * i : in ? sliding : 8;
+    for (int more = 0; more <= (i == 41 ? (int)rows : 0); more++) {
+      // The row itself comes last; before it, those of the event: the peak, then the sliding state.
+      const bool own = more == (i == 41 ? (int)rows : 0);
+      if (time) {
+        g_string_append_printf(text, "%.4f,", own ? 0.1 * i : 0.1 * slip);
+      }
+      g_string_append_printf(text, "%.5f,%.5f\n", own ? place : 0,
+                             own         ? force
+                             : more == 0 ? rate * slip
+                                         : sliding);
+    }
+  }
+  SbData *data = sb_data_of_file("x.csv");
+  data->text[SB_DATA_ZERO] = g_strdup("as-is");
+  data->text[SB_DATA_COMPLIANCE] = g_strdup("none");
+  g_autoptr(GBytes) bytes = g_string_free_to_bytes(text);
+  SbMeasured *measured = read_bytes(bytes, data);
+  sb_data_free(data);
+  return measured;
+}
+
+// A row exactly at the peak is the peak. Without one the force may have risen by up to one row's
+// 0.5 N; its middle is taken, and its deviation covers the truth. Files without a column of time
+// have rows at equal spacing.
+static void test_peak(void) {
+  const double peak = 20.2;
+  for (int rows = PEAK_BETWEEN; rows <= PEAK_BOTH_STATES; rows++) {
+    g_autoptr(SbMeasured) m = read_peak((PeakRows)rows, true);
+    const SbMeasuredStage *b = &m->stage[SB_STAGE_B];
+    g_assert_true(b->found);
+    if (rows == PEAK_BETWEEN) {
+      g_assert_cmpfloat_with_epsilon(b->force, 20.25, 1e-4);
+      g_assert_cmpfloat(fabs(b->force - peak), <, 1.7321 * b->deviation);
+    } else {
+      g_assert_cmpfloat_with_epsilon(b->force, peak, 1e-4);
+      g_assert_cmpfloat_with_epsilon(b->deviation, 0, 1e-3);
+    }
+  }
+  g_autoptr(SbMeasured) without = read_peak(PEAK_BETWEEN, false);
+  g_assert_cmpfloat_with_epsilon(without->stage[SB_STAGE_B].force, 20.25, 1e-4);
+}
+
 // What was found, written as keys, gives the same rows again; and a key stands against the data.
 static void test_said(void) {
   g_autoptr(GBytes) bytes = write_file(&plain);
@@ -456,6 +509,7 @@ int main(int argc, char **argv) {
   make_bench();
   g_test_add_func("/measured/dialects", test_dialects);
   g_test_add_func("/measured/found", test_found);
+  g_test_add_func("/measured/peak", test_peak);
   g_test_add_func("/measured/said", test_said);
   g_test_add_func("/measured/refused", test_refused);
   g_test_add_func("/measured/time-alone", test_time_alone);
