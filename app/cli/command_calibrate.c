@@ -9,15 +9,21 @@
 static const char result_name[] = "results.json", samples_name[] = "posterior.csv",
                   picture_name[] = "calibration.svg";
 
-// "fitted.scene", of several curves "fitted-NAME.scene". Owned by the caller.
-static char *scene_name(const SbStudyFile *study, size_t curve) {
+// The files that are written of each curve.
+static const struct {
+  const char *ending;
+  char *(*text)(const SbCalibration *, const SbStudyFile *, size_t, const char *, GError **);
+} fitted_file[] = {{"scene", sb_calibration_scene}, {"valve", sb_calibration_valve}};
+
+// "fitted.ENDING", of several curves "fitted-NAME.ENDING". Owned by the caller.
+static char *fitted_name(const SbStudyFile *study, size_t curve, size_t file) {
   const SbData *data = study->data->pdata[curve];
   if (study->data->len == 1) {
-    return g_strdup("fitted.scene");
+    return g_strconcat("fitted.", fitted_file[file].ending, NULL);
   }
   g_autofree char *name = *data->name != '\0' ? g_strdup(data->name) : g_strdup("data");
   g_strdelimit(name, "/\\ \t", '-');
-  return g_strdup_printf("fitted-%s.scene", name);
+  return g_strdup_printf("fitted-%s.%s", name, fitted_file[file].ending);
 }
 
 static char *value_text(const SbCalibrated *of, double value) {
@@ -42,7 +48,7 @@ static void print_table(const SbStudyFile *study, const SbCalibration *of) {
     g_autofree char *interval = g_strdup_printf("%s to %s", low, high);
     static const char *const told[] = {"yes", "only with another", "no, as before"};
     printf("  %-36s%-8s%11s%11s  %-24s%s\n", one->name, sb_param(one->id)->unit, before, estimate,
-           interval, told[one->told]);
+           interval, of->samples > 0 ? told[one->told] : "-");
   }
   for (size_t c = 0; c < of->curves; c++) {
     const SbCalibratedCurve *curve = &of->curve[c];
@@ -90,11 +96,12 @@ static int write_folder(const char *path, const SbStudyFile *study, const SbCali
     FILE *stream;
     good = good && sb_output_folder_add(&stream, folder, picture_name, &error) &&
            sb_calibration_put(stream, of, study, ".svg", &error);
-    for (size_t c = 0; c < of->curves && good; c++) {
-      g_autofree char *name = scene_name(study, c);
-      g_autofree char *file = g_build_filename(path, name, NULL);
-      g_autofree char *scene = sb_calibration_scene(of, study, c, file, &error);
-      good = scene != NULL && add_text(folder, name, scene, &error);
+    for (size_t i = 0; i < of->curves * G_N_ELEMENTS(fitted_file) && good; i++) {
+      const size_t curve = i / G_N_ELEMENTS(fitted_file), file = i % G_N_ELEMENTS(fitted_file);
+      g_autofree char *name = fitted_name(study, curve, file);
+      g_autofree char *to = g_build_filename(path, name, NULL);
+      g_autofree char *text = fitted_file[file].text(of, study, curve, to, &error);
+      good = text != NULL && add_text(folder, name, text, &error);
     }
     good = good && sb_output_folder_commit(folder, &error) &&
            sb_output_folder_finish(folder, kept, &error);
@@ -140,7 +147,8 @@ static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
       print_table(study, &calibration);
     }
     if (status == SB_ERROR_CANCELLED) {
-      (void)sb_cli_fail("interrupted: the estimates are the best so far, without intervals");
+      (void)sb_cli_fail("interrupted: the estimates are the best so far%s",
+                        calibration.samples > 0 ? "" : ", without intervals");
       code = SB_EXIT_INTERRUPTED;
     } else if (status == SB_ERROR_NOT_CONVERGED) {
       (void)sb_cli_fail("the fit did not converge: its steps did not end");
@@ -163,8 +171,9 @@ static void add_names(GPtrArray *names, const SbStudyFile *study) {
   g_ptr_array_add(names, g_strdup(result_name));
   g_ptr_array_add(names, g_strdup(samples_name));
   g_ptr_array_add(names, g_strdup(picture_name));
-  for (size_t c = 0; c < study->data->len; c++) {
-    g_ptr_array_add(names, scene_name(study, c));
+  for (size_t i = 0; i < study->data->len * G_N_ELEMENTS(fitted_file); i++) {
+    const size_t curve = i / G_N_ELEMENTS(fitted_file), file = i % G_N_ELEMENTS(fitted_file);
+    g_ptr_array_add(names, fitted_name(study, curve, file));
   }
 }
 
@@ -173,7 +182,7 @@ int sb_command_calibrate(int argc, char **argv) {
   SbCliStudyOptions options;
   const bool good = sb_cli_study_parse(
       &options, &argc, &argv,
-      "Folder for results.json, posterior.csv, calibration.svg and the fitted scenes");
+      "Folder for results.json, posterior.csv, calibration.svg and the fitted scenes and valves");
   const int code = good ? sb_cli_study_run(&options, argv[1], &work) : SB_EXIT_INPUT;
   sb_cli_study_clear(&options);
   return code;

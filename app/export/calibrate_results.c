@@ -20,7 +20,7 @@ static void put_parameter(SbJson *json, const SbCalibration *of, size_t j) {
   sb_json_number(json, "standard_deviation", one->deviation);
   sb_json_numbers(json, "interval_95", one->interval, 2);
   sb_json_numbers(json, "prior_95", one->prior, 2);
-  sb_json_string(json, "identifiable", sb_told_name(one->told));
+  sb_json_string(json, "identifiable", of->samples > 0 ? sb_told_name(one->told) : NULL);
   sb_json_array(json, "with");
   for (size_t k = 0; k < of->parameters; k++) {
     if (k != j && fabs(of->correlation[j * of->parameters + k]) > SB_TOLD_CORRELATION) {
@@ -152,6 +152,9 @@ static char *value_text(const SbCalibrated *of, double value, bool unit) {
 
 static char *told_text(const SbCalibration *of, size_t j) {
   const SbCalibrated *one = &of->parameter[j];
+  if (of->samples == 0) {
+    return g_strdup("-");
+  }
   if (one->told != SB_TOLD_WITH_OTHER) {
     return g_strdup(one->told == SB_TOLD_YES ? "yes" : "no, as before");
   }

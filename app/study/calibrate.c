@@ -592,8 +592,13 @@ static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
     // Priors of what is solved hold valves that no ring fits into, and take long.
     const bool runs = (out->tangent || sb_calibrate_draws(out, work, &found, true)) &&
                       (found.samples == 0 || sb_calibrate_draws(out, work, &found, false));
-    if (!runs || !compare_curves(out, work, &found)) {
+    const bool stopped = !runs && work->status == SB_ERROR_CANCELLED;
+    work->ending |= stopped;
+    if ((!runs && !stopped) || !compare_curves(out, work, &found)) {
       status = work->status;
+    } else if (stopped) {
+      out->partial = true;
+      status = SB_ERROR_CANCELLED;
     }
   } else if (status == SB_ERROR_CANCELLED) {
     status = work->status == SB_OK ? SB_ERROR_CANCELLED : work->status;

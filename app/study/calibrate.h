@@ -58,7 +58,9 @@ typedef struct {
 } SbCalibratedCurve;
 
 typedef struct {
-  bool partial; // interrupted: the estimates are the best so far, and there is no posterior
+  // Interrupted: the estimates are the best so far. There are no bands, and samples only if all of
+  // them were taken before the interruption.
+  bool partial;
   bool converged, tangent; // tangent: the posterior is that of the fit's tangent
   size_t parameters, curves, points, samples, evaluations;
   SbCalibrated *parameter;
@@ -90,6 +92,13 @@ void sb_calibration_release(SbCalibration *calibration);
 void sb_calibration_tell(SbCalibration *calibration);
 
 // The scene of a curve as it was fitted, with its origin in comments and its data, for a file at
-// `path`. Parameters that the data do not tell keep their values. Owned by the caller.
+// `path`. Parameters that the data do not tell keep their values; without a posterior every
+// parameter has the best value so far. Owned by the caller.
 char *sb_calibration_scene(const SbCalibration *calibration, const SbStudyFile *study, size_t curve,
+                           const char *path, GError **error);
+
+// The valve of the scene with the fitted parameters in place of its own, for a file at `path`; the
+// values of the curve's `set` are conditions of the measurement and are left out. Owned by the
+// caller.
+char *sb_calibration_valve(const SbCalibration *calibration, const SbStudyFile *study, size_t curve,
                            const char *path, GError **error);

@@ -90,6 +90,11 @@ static const char *experiment(const SbCalibrated *a, const SbCalibrated *b) {
 static char *make_sentence(const SbCalibration *out) {
   const size_t p = out->parameters;
   GString *text = g_string_new(NULL);
+  if (out->samples == 0) {
+    g_string_append(text, "The values are the best found so far; there is no posterior and no "
+                          "interval.");
+    return g_string_free(text, FALSE);
+  }
   for (size_t j = 0; j < p; j++) {
     for (size_t k = j + 1; k < p; k++) {
       const double rho = out->correlation[j * p + k];
@@ -120,55 +125,144 @@ void sb_calibration_tell(SbCalibration *out) {
   out->sentence = make_sentence(out);
 }
 
-// ---- The fitted scene ----
+// ---- The fitted files ----
 
-char *sb_calibration_scene(const SbCalibration *of, const SbStudyFile *study, size_t curve,
-                           const char *path, GError **error) {
-  const SbCalibratedCurve *from = &of->curve[curve];
+// Whether a fitted parameter replaces the value of the scene. Without a posterior the best values
+// found so far do.
+static bool replaces(const SbCalibration *of, const SbCalibrated *fitted) {
+  return of->samples == 0 || fitted->told != SB_TOLD_NO;
+}
+
+// The parameter that has this value of a curve; NULL: the curve's `set` has it. The last override
+// of a parameter is in force, and those of parameters follow those of `set`.
+static const SbCalibrated *fitted_of(const SbCalibration *of, size_t curve, size_t i) {
+  const SbOverride *value = &of->curve[curve].value[i];
+  for (size_t j = 0; j < of->parameters; j++) {
+    const SbCalibrated *one = &of->parameter[j];
+    const bool here = one->curve < 0 || one->curve == (int)curve;
+    if (one->id == value->id && here && one->estimate == value->value) {
+      return one;
+    }
+  }
+  return NULL;
+}
+
+static void add_origin(GString *origin, const SbCalibration *of, const SbCalibrated *fitted) {
+  g_autofree char *estimate = sb_param_format(fitted->id, fitted->estimate);
+  const char *key = sb_param(fitted->id)->key;
+  if (of->samples == 0) {
+    g_string_append_printf(origin, "# %s: %s (without an interval)\n", key, estimate);
+    return;
+  }
+  g_autofree char *low = sb_param_format(fitted->id, fitted->interval[0]);
+  g_autofree char *high = sb_param_format(fitted->id, fitted->interval[1]);
+  g_string_append_printf(origin, "# %s: %s (95 %%: %s to %s), told by the data: %s\n", key,
+                         estimate, low, high, sb_told_name(fitted->told));
+}
+
+// Sets a curve's values in a document and adds to `origin` where they come from; without `set`
+// those of the parameters alone.
+static bool put_values(SbDocument *document, GString *origin, const SbCalibration *of, size_t curve,
+                       bool set, GError **error) {
+  for (size_t i = 0; i < of->curve[curve].values; i++) {
+    const SbOverride *value = &of->curve[curve].value[i];
+    const SbCalibrated *fitted = fitted_of(of, curve, i);
+    if (fitted != NULL) {
+      add_origin(origin, of, fitted);
+    }
+    if ((fitted != NULL ? replaces(of, fitted) : set) &&
+        !sb_document_set_value(document, value->id, value->value, false, error)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+static GString *origin_of(const SbCalibration *of, const SbStudyFile *study, size_t curve) {
   const SbData *data = study->data->pdata[curve];
-  g_autofree char *own = sb_document_to_text(study->scene, sb_document_path(study->scene));
-  g_autofree char *folder = sb_document_path(study->scene) != NULL
-                                ? g_path_get_dirname(sb_document_path(study->scene))
-                                : NULL;
+  const SbComparison *after = of->curve[curve].after;
+  g_autofree char *measured = g_canonicalize_filename(data->path, NULL);
+  g_autofree char *asked = g_path_get_basename(study->path != NULL ? study->path : "-");
+  GString *origin = g_string_new(NULL);
+  g_string_append_printf(origin, "\n# Calibrated with %s from %s; residuals %.3g N.\n", asked,
+                         measured, after != NULL ? after->rms : NAN);
+  if (of->partial) {
+    g_string_append(origin, "# The calibration was interrupted: these are its best values.\n");
+  }
+  return origin;
+}
+
+// The document's text for a file at `path`, then the origin; frees `origin`.
+static char *finish(const SbDocument *document, const char *path, GString *origin) {
+  g_autofree char *text = sb_document_to_text(document, path);
+  char *whole = g_strconcat(text, origin->str, NULL);
+  g_string_free(origin, TRUE);
+  return whole;
+}
+
+static SbDocument *copy_scene(const SbStudyFile *study, GError **error) {
+  const char *path = sb_document_path(study->scene);
+  g_autofree char *own = sb_document_to_text(study->scene, path);
+  g_autofree char *folder = path != NULL ? g_path_get_dirname(path) : NULL;
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(SbDocument) scene = sb_document_parse(own, strlen(own), "scene", folder, issues);
   if (scene == NULL || issues->len > 0) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the scene cannot be written again");
     return NULL;
   }
-  g_autofree char *measured = g_canonicalize_filename(data->path, NULL);
-  g_autofree char *asked = g_path_get_basename(study->path != NULL ? study->path : "-");
-  GString *origin = g_string_new(NULL);
-  g_string_append_printf(origin, "\n# Calibrated with %s from %s; residuals %.3g N.\n", asked,
-                         measured, from->after != NULL ? from->after->rms : NAN);
-  for (size_t i = 0; i < from->values; i++) {
-    const SbOverride *value = &from->value[i];
-    const SbCalibrated *fitted = NULL;
-    for (size_t j = 0; j < of->parameters; j++) {
-      const SbCalibrated *one = &of->parameter[j];
-      const bool here = one->curve < 0 || one->curve == (int)curve;
-      fitted = one->id == value->id && here && one->estimate == value->value ? one : fitted;
-    }
-    if (fitted != NULL) {
-      g_autofree char *estimate = sb_param_format(fitted->id, fitted->estimate);
-      g_autofree char *low = sb_param_format(fitted->id, fitted->interval[0]);
-      g_autofree char *high = sb_param_format(fitted->id, fitted->interval[1]);
-      g_string_append_printf(origin, "# %s: %s (95 %%: %s to %s), told by the data: %s\n",
-                             sb_param(fitted->id)->key, estimate, low, high,
-                             sb_told_name(fitted->told));
-    }
-    if ((fitted == NULL || fitted->told != SB_TOLD_NO) &&
-        !sb_document_set_value(scene, value->id, value->value, false, error)) {
-      g_string_free(origin, TRUE);
-      return NULL;
-    }
+  return g_steal_pointer(&scene);
+}
+
+char *sb_calibration_scene(const SbCalibration *of, const SbStudyFile *study, size_t curve,
+                           const char *path, GError **error) {
+  g_autoptr(SbDocument) scene = copy_scene(study, error);
+  if (scene == NULL) {
+    return NULL;
+  }
+  GString *origin = origin_of(of, study, curve);
+  if (!put_values(scene, origin, of, curve, true, error)) {
+    g_string_free(origin, TRUE);
+    return NULL;
   }
   if (sb_document_data_count(scene) == 0) {
-    g_autofree char *keys = sb_measured_keys(from->measured);
+    const SbData *data = study->data->pdata[curve];
+    g_autofree char *measured = g_canonicalize_filename(data->path, NULL);
+    g_autofree char *keys = sb_measured_keys(of->curve[curve].measured);
     g_string_append_printf(origin, "\n[data]\nfile = %s\n%s", measured, keys);
   }
-  g_autofree char *text = sb_document_to_text(scene, path);
-  char *whole = g_strconcat(text, origin->str, NULL);
-  g_string_free(origin, TRUE);
-  return whole;
+  return finish(scene, path, origin);
+}
+
+// The valve of the study's scene: its valve file, the defaults without one, or the document itself
+// where the study names a valve.
+static SbDocument *copy_valve(const SbStudyFile *study, GError **error) {
+  if (sb_document_kind(study->scene) == SB_DOCUMENT_VALVE) {
+    return copy_scene(study, error);
+  }
+  const char *path = sb_document_valve_path(study->scene);
+  if (path == NULL) {
+    return sb_document_new();
+  }
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbDocument) valve = sb_document_load(path, issues);
+  if (valve == NULL || issues->len > 0) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: the valve cannot be read again",
+                path);
+    return NULL;
+  }
+  return g_steal_pointer(&valve);
+}
+
+char *sb_calibration_valve(const SbCalibration *of, const SbStudyFile *study, size_t curve,
+                           const char *path, GError **error) {
+  g_autoptr(SbDocument) valve = copy_valve(study, error);
+  if (valve == NULL) {
+    return NULL;
+  }
+  GString *origin = origin_of(of, study, curve);
+  if (!put_values(valve, origin, of, curve, false, error)) {
+    g_string_free(origin, TRUE);
+    return NULL;
+  }
+  return finish(valve, path, origin);
 }

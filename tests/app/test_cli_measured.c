@@ -194,6 +194,47 @@ static void test_running_in(void) {
   json_node_unref(root);
 }
 
+// The fitted valve reads by itself, has the fitted values and not the conditions of the
+// measurement, and a scene of its own meets the data as the fit does.
+static void assert_fitted_valve(const char *out, double rms) {
+  g_autofree char *path = g_build_filename(out, "fitted.valve", NULL);
+  CliResult result = CLI("check", path);
+  g_assert_cmpint(result.code, ==, 0);
+  cli_clear(&result);
+  g_autofree char *valve = cli_contents(out, "fitted.valve");
+  g_assert_nonnull(strstr(valve, "\nkind = valve\n"));
+  g_assert_nonnull(strstr(valve, "\n# Calibrated with bench.study from "));
+  g_assert_nonnull(strstr(valve, "\nland_edge = "));
+  g_assert_nonnull(strstr(valve, "\nload_coefficient = "));
+  g_assert_null(strstr(valve, "\n[data]"));
+  // The fitted scene with every value of the fit taken out and the fitted valve put in.
+  g_autofree char *scene_text = cli_contents(out, "fitted.scene");
+  g_auto(GStrv) lines = g_strsplit(scene_text, "\n", -1);
+  GString *text = g_string_new(NULL);
+  for (char **line = lines; *line != NULL; line++) {
+    static const char *const fitted[] = {"land_edge", "load_coefficient", "static_ratio",
+                                         "pressure_diameter"};
+    bool drops = false;
+    for (size_t i = 0; i < G_N_ELEMENTS(fitted); i++) {
+      drops |= g_str_has_prefix(*line, fitted[i]);
+    }
+    if (!drops) {
+      const bool names = g_str_has_prefix(*line, "valve = ");
+      g_string_append_printf(text, "%s\n", names ? "valve = fitted.valve" : *line);
+    }
+  }
+  g_autofree char *named = g_build_filename(out, "named.scene", NULL);
+  write_text(named, text->str);
+  g_string_free(text, TRUE);
+  result = CLI("compare", named, "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  JsonNode *root = cli_parse(result.out);
+  g_assert_cmpfloat_with_epsilon(cli_number(root, "measured.rms_N"), rms, 1e-9);
+  json_node_unref(root);
+  cli_clear(&result);
+  g_unlink(named);
+}
+
 // The shipped bench: the keys of the contract, the values that it was made with, a folder.
 static void test_calibrate(void) {
   g_autofree char *study =
@@ -222,9 +263,10 @@ static void test_calibrate(void) {
                                  cli_number(root, "curves.0.measured.rms_N"), 1e-9);
   cli_clear(&result);
   json_node_unref(again);
+  assert_fitted_valve(out, cli_number(root, "curves.0.measured.rms_N"));
   json_node_unref(root);
-  static const char *const own[] = {"posterior.csv", "fitted.scene", "calibration.svg",
-                                    ".sealbench-calibrate.manifest"};
+  static const char *const own[] = {"posterior.csv", "fitted.scene", "fitted.valve",
+                                    "calibration.svg", ".sealbench-calibrate.manifest"};
   for (size_t i = 0; i < G_N_ELEMENTS(own); i++) {
     g_autofree char *path = g_build_filename(out, own[i], NULL);
     g_assert_cmpint(g_unlink(path), ==, 0);
