@@ -12,6 +12,10 @@
 
 #define BEND 2.5
 
+// A solved model is rough on the scale of its mesh: smaller steps than this share of a prior's
+// deviation find no way down, and each costs a solution. polish() follows.
+#define ROUGH_STEP 1e-3
+
 // Least number of independent differences by which their own deviation is known.
 #define LEAST_FREE 1.0
 
@@ -20,7 +24,8 @@ typedef struct {
   SbInference *out;
   double *known_z, *known_residual; // the last place asked for
   bool known, cancelled;
-  bool at_fit; // derivatives are those of the posterior
+  bool at_fit;                            // derivatives are those of the posterior
+  double place[SB_INFERENCE_COORDINATES]; // of the last derivatives, from which steps are tried
 } Work;
 
 // ---- The model ----
@@ -191,10 +196,22 @@ static double log_density(const Work *work, const double *residual, const double
 
 // ---- The fit ----
 
+// Whether a step of a solved model is too small to be worth a solution.
+static bool is_rough(const Work *work, const double *z) {
+  double step = 0;
+  for (size_t j = 0; j < work->asked->coordinates; j++) {
+    step = fmax(step, fabs(z[j] - work->place[j]));
+  }
+  return work->asked->linear && step > 0 && step < ROUGH_STEP;
+}
+
 // GSL's rows: residuals, then the coordinates themselves, which are the prior's.
 static int gsl_f(const gsl_vector *x, void *data, gsl_vector *f) {
   Work *work = data;
   const size_t m = work->asked->residuals, n = work->asked->coordinates;
+  if (is_rough(work, x->data)) {
+    return GSL_ENOPROG; // GSL would halve the step up to fifteen times
+  }
   for (size_t j = 0; j < n; j++) {
     gsl_vector_set(f, m + j, gsl_vector_get(x, j));
   }
@@ -205,6 +222,7 @@ static int gsl_df(const gsl_vector *x, void *data, gsl_matrix *jacobian) {
   Work *work = data;
   const size_t m = work->asked->residuals, n = work->asked->coordinates;
   gsl_matrix_set_zero(jacobian);
+  memcpy(work->place, x->data, n * sizeof(double));
   for (size_t j = 0; j < n; j++) {
     gsl_matrix_set(jacobian, m + j, j, 1);
   }
@@ -222,13 +240,13 @@ static bool fit_once(Work *work, gsl_multifit_nlinear_workspace *w, gsl_multifit
   for (size_t j = 0; j < n; j++) {
     gsl_vector_set(weight, m + j, 1);
   }
+  memcpy(work->place, work->out->z, n * sizeof(double));
   const gsl_vector_const_view start = gsl_vector_const_view_array(work->out->z, n);
   if (gsl_multifit_nlinear_winit(&start.vector, weight, fdf, w) != GSL_SUCCESS) {
     return false;
   }
   int info = 0;
-  // A solved model is rough on the scale of its mesh: finer steps find no way down.
-  const double step = work->asked->linear ? 1e-3 : 1e-7;
+  const double step = work->asked->linear ? ROUGH_STEP : 1e-7;
   (void)gsl_multifit_nlinear_driver(40, step, 1e-10, 1e-10, NULL, NULL, &info, w);
   const gsl_vector *at = gsl_multifit_nlinear_position(w);
   memcpy(work->out->z, at->data, n * sizeof(double));
