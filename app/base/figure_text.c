@@ -34,11 +34,14 @@ static double to_unit(double *relative, int index, const char *unit, double valu
   return shown;
 }
 
-// The number in plain ASCII. Zeros at the end are written where the error supports them.
+// The number in plain ASCII. Zeros at the end are written where the number is rounded
+// there: 28.6988 is 28.70, and an input of 35 is 35.
 static void write_number(char out[SB_NUMBER_SIZE], double shown, int digits, double error) {
-  const bool known = error > 0 && isfinite(error);
   const int decimals = sb_format_decimals(shown, digits, error);
-  if (known && decimals > 0 && fabs(shown) >= 1e-5) {
+  const double scale = pow(10, decimals);
+  const bool exact = fabs(round(shown * scale) / scale - shown) <= 1e-12 * fabs(shown);
+  const bool known = error > 0 && isfinite(error);
+  if ((known || !exact) && decimals > 0 && fabs(shown) >= 1e-5) {
     char pattern[16];
     g_snprintf(pattern, sizeof pattern, "%%.%df", decimals);
     g_ascii_formatd(out, SB_NUMBER_SIZE, pattern, shown);

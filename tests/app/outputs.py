@@ -320,7 +320,7 @@ def several_files():
     plans = json.loads(done(run("plan", c, a, "--json", "-")).stdout)
     expect([plan["scene"] for plan in plans], [c, a])
     expect(plans[0]["fields"], json.loads(done(run("plan", c, "--json", "-")).stdout)["fields"])
-    result = done(run("run", a, c, "-q", "--progress", "json"))
+    result = done(run("run", a, c, "--progress", "json"))
     named = [json.loads(line)["file"] for line in result.stderr.splitlines()]
     expect(sorted(set(named)), [a, c])
     # The highest code: one solver that does not converge, one file with a problem.

@@ -320,7 +320,7 @@ static void test_least(void) {
                {"seals.outer.load_N", 1, 0},
                {"seals.inner.pressure_peak_Pa", 1, 0},
                {"seals.outer.film_central_m", 1, 2}, // on the half-plane and on the disc
-               {"cycle.leakage_carried_all_actuations_m3", 1, 2}};
+               {"seals.outer.leakage_per_stroke_m3", 1, 2}};
   SbModel base = base_model();
   SbEvaluator *evaluator = evaluator_new();
   for (size_t i = 0; i < G_N_ELEMENTS(needs); i++) {

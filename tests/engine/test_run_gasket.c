@@ -223,7 +223,7 @@ static void refusals(void) {
   } bad[] = {{{SB_P_MODELS_FIT, SB_FIT_DISC}, "models.fit"},
              {{SB_P_MODELS_FILM, SB_FILM_THESIS}, "models.film"},
              {{SB_P_GASKET_OUTER_DIAMETER, 2.8e-3}, "gasket.outer_diameter"},
-             {{SB_P_STEM_PRESSURE_DIAMETER, 1e-3}, "gasket.bore_diameter"},
+             {{SB_P_GASKET_BORE_DIAMETER, 1.5e-3}, "gasket.bore_diameter"},
              {{SB_P_BORE_DIAMETER, 2e-3}, "bore.diameter"},
              {{SB_P_STEM_SEAL_SPACING, 0.8e-3}, "stem.seal_spacing"},
              {{SB_P_MODELS_MOTION, SB_MODEL_MOTION_BODIES}, "models.motion"},
