@@ -385,7 +385,7 @@ static SbStatus bear(SbSealState *out, const SbSlidingTask *task, const SbSlidin
                      double asked, SbReport *report) {
   const SbFit *fit = &on->fit;
   double area = asked - out->boundary_load - out->friction_viscous;
-  out->area_cut = out->boundary_area > 0 ? area / out->boundary_area : 1;
+  out->area_cut = out->boundary_area > 0 ? fmin(area / out->boundary_area, 1) : 1;
   out->borne_share = fabs(fit->ring.drag) / asked;
   return sb_sliding_share_out(out, task, report);
 }
