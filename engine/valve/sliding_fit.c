@@ -386,7 +386,7 @@ static SbStatus bear(SbSealState *out, const SbSlidingTask *task, const SbSlidin
   const SbFit *fit = &on->fit;
   double area = asked - out->boundary_load - out->friction_viscous;
   out->area_cut = out->boundary_area > 0 ? fmin(area / out->boundary_area, 1) : 1;
-  out->borne_share = asked > 0 ? fabs(fit->ring.drag) / asked : 1;
+  out->borne_share = asked == 0 ? 1 : fabs(fit->ring.drag) / asked;
   return sb_sliding_share_out(out, task, report);
 }
 
