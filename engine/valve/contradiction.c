@@ -57,19 +57,12 @@ static bool outcome_contradicts(const Check *check) {
   return wrong != NULL;
 }
 
-// Forces against the peak, and stages against their order in time.
+// Forces against the peak.
 static bool motion_contradicts(const Check *check) {
   const SbSummary *s = check->summary;
-  double last = -INFINITY;
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
     const SbStageMark *mark = &s->stage[i];
     const char *name = sb_stage_name((SbStage)i);
-    if (mark->reached && mark->time < last - 1e-12) {
-      sb_text(check->text, check->size, "stage %s at %g s is before the one that it follows", name,
-              mark->time);
-      return true;
-    }
-    last = mark->reached ? mark->time : last;
     if (mark->reached && exceeds(mark->force, s->force_peak)) {
       sb_text(check->text, check->size, "the force at stage %s, %.9g N, is above the peak, %.9g N",
               name, mark->force, s->force_peak);

@@ -520,7 +520,7 @@ static void test_contradictions(void) {
   g_assert_false(sb_summary_contradiction(text, sizeof text, good, &model));
   g_assert_cmpstr(text, ==, "");
   SbSummary *bad = g_new(SbSummary, 1);
-  enum { RETURNS, STUCK, NEVER, VERDICT, VALUE, LIMIT, SHARE, PEAK, PRESS, ORDER, TWICE, KINDS };
+  enum { RETURNS, STUCK, NEVER, VERDICT, VALUE, LIMIT, SHARE, PEAK, PRESS, TWICE, KINDS };
   for (int kind = 0; kind < KINDS; kind++) {
     *bad = *good;
     switch (kind) {
@@ -553,9 +553,6 @@ static void test_contradictions(void) {
       break;
     case PRESS:
       bad->force_press = 0.99 * bad->force_breakaway;
-      break;
-    case ORDER:
-      bad->stage[SB_STAGE_D].time = 0.5 * bad->stage[SB_STAGE_C].time;
       break;
     default:
       bad->contact[SB_OUTER].in_stroke.load *= 1.001;
