@@ -167,11 +167,12 @@ int sb_figure_compared_decimals(int index, const SbFigureCompared *design, size_
   return decimals;
 }
 
-// A number with `decimals`; without zeros at the end if `exact`.
+// A number with `decimals`; without zeros at the end if `exact` and these decimals show all of it.
 static void write_decimals(char out[SB_NUMBER_SIZE], double shown, int decimals, bool exact) {
   const double unit = pow(10, -decimals);
   const double rounded = decimals < 0 ? round(shown / unit) * unit : shown;
-  if (exact || decimals > 9) {
+  const bool full = fabs(round(shown / unit) * unit - shown) <= 1e-12 * fabs(shown);
+  if ((exact && full) || decimals > 9) {
     const int exponent = shown != 0 ? (int)floor(log10(fabs(shown))) : 0;
     sb_number_round(out, rounded, CLAMP(decimals + exponent + 1, 1, 17));
     return;
