@@ -396,7 +396,9 @@ bool sb_store_get(SbStore *store, const guint8 key[SB_STORE_KEY], SbStoredAnswer
             (size_t)record.figures_size == store->figures * sizeof(double);
   }
   if (found) {
-    memcpy(out->value, record.figures, (size_t)record.figures_size);
+    if (record.figures_size > 0) {
+      memcpy(out->value, record.figures, (size_t)record.figures_size);
+    }
     out->status = (SbStatus)record.status;
     out->reason = g_strdup(record.reason);
     out->warnings = g_strdup(record.warnings);
