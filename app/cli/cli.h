@@ -184,11 +184,11 @@ void sb_progress_end(SbProgress *progress);
 // SB_EXIT_NOT_CONVERGED (with gaps) leave *out to be written, anything else does not.
 int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model);
 
-// Help of --measured; and the measured loop that it names, read as the scene's group [data] of that
-// file says, or without `path` that of the scene's first group. NULL without either, and with
-// messages where *code is no SB_EXIT_DONE. Owned by the caller.
+// Help of --measured; and the measured loop that it names (a file or a shipped example), read as
+// the scene's group [data] of that file says, or without `operand` that of the scene's first group.
+// NULL without either, and with messages where *code is no SB_EXIT_DONE. Owned by the caller.
 #define SB_CLI_MEASURED_HELP "Force over displacement from a test machine, any table of numbers"
-SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *path);
+SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *operand);
 
 // Reads all groups of data and adds their problems to `issues`; prints what was recognised if
 // `print` is set and unless --quiet is given.

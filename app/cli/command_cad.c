@@ -4,6 +4,7 @@
 #include "app/chart/half_sections.h"
 #include "app/cli/cli.h"
 #include "app/document/cad_parts.h"
+#include "app/document/shipped.h"
 #include "app/export/still.h"
 
 #include <math.h>
@@ -280,7 +281,8 @@ int sb_command_cad(int argc, char **argv) {
           "A drawing is a DXF (text) of half or whole sections, a STEP file, or an STL mesh.")) {
     code = read_options(&options);
     if (code == SB_EXIT_DONE) {
-      code = compute(argv[1], &options);
+      g_autofree char *path = sb_shipped_resolve(argv[1], SB_SHIPPED_FOR_IMPORT);
+      code = compute(path, &options);
     }
   }
   char *texts[] = {options.unit,  options.axis,   options.angle, options.shift, options.density,

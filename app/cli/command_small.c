@@ -203,7 +203,8 @@ int sb_command_list(int argc, char **argv) {
   const bool files = kind < SB_SHIPPED_KINDS;
   if (at == G_N_ELEMENTS(lists) && !files) {
     sb_cli_unknown("there is no list", what,
-                   "params|figures|models|views|fluids|scenes|studies|valves|rubbers", NULL);
+                   "params|figures|models|views|fluids|scenes|studies|valves|rubbers|examples",
+                   NULL);
     goto done;
   }
   code = SB_EXIT_DONE;

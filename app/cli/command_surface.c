@@ -2,6 +2,7 @@
 #include "app/base/output.h"
 #include "app/base/unit.h"
 #include "app/cli/cli.h"
+#include "app/document/shipped.h"
 #include "app/export/surface.h"
 
 #include <math.h>
@@ -318,7 +319,8 @@ int sb_command_surface(int argc, char **argv) {
                    "A scan is a text of heights (matrix, x z or x y z), .gwy, .sur or .x3p.")) {
     code = read_options(&options);
     if (code == SB_EXIT_DONE) {
-      code = compute(argv[1], &options);
+      g_autofree char *path = sb_shipped_resolve(argv[1], SB_SHIPPED_FOR_IMPORT);
+      code = compute(path, &options);
     }
   }
   char *owned[] = {options.form,         options.outliers, options.missing, options.cutoff_short,

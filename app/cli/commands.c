@@ -37,7 +37,7 @@ static const SbCommand commands[] = {
     {"report", "FILE.scene|FILE.study -o OUT.pdf",
      "Writes inputs, pictures, figures with their errors and the verdict as pages",
      sb_command_report},
-    {"list", "params|figures|models|views|fluids|scenes|studies|valves|rubbers",
+    {"list", "params|figures|models|views|fluids|scenes|studies|valves|rubbers|examples",
      "Lists parameters, figures, models, views, fluids, or files that ship", sb_command_list},
     {"bench", "[-o DIR]", "Measures error against time for every solver", sb_command_bench},
     {"open", "[FILE]", "Starts the window", sb_command_open},

@@ -1,6 +1,8 @@
 // Measured loops on the command line: --measured, or a scene's own [data].
 #include "app/cli/cli.h"
 
+#include "app/document/shipped.h"
+
 #include <string.h>
 
 static double drive_speed(const SbDocument *document) {
@@ -8,8 +10,10 @@ static double drive_speed(const SbDocument *document) {
                            sb_document_value(document, SB_P_DRIVE_SPEED));
 }
 
-SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *path) {
+SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *operand) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autofree char *path =
+      operand != NULL ? sb_shipped_resolve(operand, SB_SHIPPED_FOR_IMPORT) : NULL;
   const SbData *data = NULL;
   g_autofree char *wanted = path != NULL ? g_canonicalize_filename(path, NULL) : NULL;
   *code = SB_EXIT_DONE;

@@ -45,7 +45,28 @@ typedef struct {
 static const Kind kinds[SB_SHIPPED_KINDS] = {[SB_SHIPPED_SCENES] = {"scenes", ".scene"},
                                              [SB_SHIPPED_VALVES] = {"valves", ".valve"},
                                              [SB_SHIPPED_STUDIES] = {"studies", ".study"},
-                                             [SB_SHIPPED_RUBBERS] = {"rubbers", ".rubber"}};
+                                             [SB_SHIPPED_RUBBERS] = {"rubbers", ".rubber"},
+                                             [SB_SHIPPED_EXAMPLES] = {"examples", ""}};
+
+// Title that titles.ini in the folder of `path` gives to it; NULL if the file has none, and so is
+// no example. Owned by the caller.
+static char *example_title(const char *path) {
+  g_autoptr(GKeyFile) keys = g_key_file_new();
+  g_autofree char *folder = g_path_get_dirname(path), *name = g_path_get_basename(path);
+  g_autofree char *file = g_build_filename(folder, "titles.ini", NULL);
+  return g_key_file_load_from_file(keys, file, G_KEY_FILE_NONE, NULL)
+             ? g_key_file_get_string(keys, "titles", name, NULL)
+             : NULL;
+}
+
+// Whether `path` in the folder of a kind is a file of that kind.
+static bool is_of_kind(const char *path, SbShippedKind kind) {
+  if (kind == SB_SHIPPED_EXAMPLES) {
+    g_autofree char *title = example_title(path);
+    return title != NULL;
+  }
+  return g_str_has_suffix(path, kinds[kind].ending);
+}
 
 const char *sb_shipped_kind_name(SbShippedKind kind) {
   return kinds[kind].folder;
@@ -65,7 +86,8 @@ char *sb_shipped_find(const char *name, unsigned wanted) {
     g_autofree char *folder = (wanted >> i & 1) != 0 ? kind_folder((SbShippedKind)i) : NULL;
     g_autofree char *file = g_strconcat(name, kinds[i].ending, NULL);
     g_autofree char *path = folder != NULL ? g_build_filename(folder, file, NULL) : NULL;
-    if (path != NULL && g_file_test(path, G_FILE_TEST_IS_REGULAR)) {
+    if (path != NULL && g_file_test(path, G_FILE_TEST_IS_REGULAR) &&
+        is_of_kind(path, (SbShippedKind)i)) {
       return g_steal_pointer(&path);
     }
   }
@@ -74,7 +96,8 @@ char *sb_shipped_find(const char *name, unsigned wanted) {
 
 bool sb_shipped_has_ending(const char *name, unsigned wanted) {
   for (int i = 0; i < SB_SHIPPED_KINDS; i++) {
-    if ((wanted >> i & 1) != 0 && g_str_has_suffix(name, kinds[i].ending)) {
+    if ((wanted >> i & 1) != 0 && *kinds[i].ending != '\0' &&
+        g_str_has_suffix(name, kinds[i].ending)) {
       return true;
     }
   }
@@ -104,8 +127,9 @@ GPtrArray *sb_shipped_files(SbShippedKind kind) {
   g_autofree char *folder = kind_folder(kind);
   g_autoptr(GDir) dir = folder != NULL ? g_dir_open(folder, 0, NULL) : NULL;
   for (const char *name; dir != NULL && (name = g_dir_read_name(dir)) != NULL;) {
-    if (g_str_has_suffix(name, kinds[kind].ending)) {
-      g_ptr_array_add(out, g_build_filename(folder, name, NULL));
+    g_autofree char *path = g_build_filename(folder, name, NULL);
+    if (is_of_kind(path, kind)) {
+      g_ptr_array_add(out, g_steal_pointer(&path));
     }
   }
   g_ptr_array_sort(out, by_name);
@@ -122,5 +146,6 @@ char *sb_shipped_title(const char *path) {
   g_autoptr(GKeyFile) keys = g_key_file_new();
   g_key_file_load_from_file(keys, path, G_KEY_FILE_NONE, NULL);
   char *title = g_key_file_get_string(keys, "sealbench", "title", NULL);
+  title = title != NULL ? title : example_title(path);
   return title != NULL ? title : g_path_get_basename(path);
 }

@@ -12,43 +12,49 @@ typedef enum {
   SB_SHIPPED_VALVES,
   SB_SHIPPED_STUDIES,
   SB_SHIPPED_RUBBERS,
+  SB_SHIPPED_EXAMPLES, // scans, drawings, meshes and loops; named with their endings
   SB_SHIPPED_KINDS
 } SbShippedKind;
 
-// Sets of kinds, bits 1 << SbShippedKind: what a run, a study or `sealbench check` may name.
+// Sets of kinds, bits 1 << SbShippedKind: what a run, a study, an import or `sealbench check` may
+// name.
 enum {
   SB_SHIPPED_FOR_RUN = 1 << SB_SHIPPED_SCENES | 1 << SB_SHIPPED_VALVES,
   SB_SHIPPED_FOR_STUDY = 1 << SB_SHIPPED_STUDIES,
+  SB_SHIPPED_FOR_IMPORT = 1 << SB_SHIPPED_EXAMPLES, // what `surface`, `cad` and --measured read
   SB_SHIPPED_ANY = (1 << SB_SHIPPED_KINDS) - 1
 };
 
 // Name of a kind in the plural and of its folder ("scenes"). Static.
 const char *sb_shipped_kind_name(SbShippedKind kind);
 
-// Folder that holds scenes/, valves/, studies/, rubbers/ and series/; NULL if there is none. Owned
-// by the caller (g_free).
+// Folder that holds scenes/, valves/, studies/, rubbers/, examples/ and series/; NULL if there is
+// none. Owned by the caller (g_free).
 char *sb_shipped_folder(void);
 
 // Path of the shipped file of one of the `wanted` kinds that has this name without ending
-// ("thesis-cycle"); NULL if there is none. Owned by the caller (g_free).
+// ("thesis-cycle"), or of the example of this name ("valve.dxf"); NULL if there is none. Owned by
+// the caller (g_free).
 char *sb_shipped_find(const char *name, unsigned wanted);
 
-// Whether a file name has the ending of one of these kinds.
+// Whether a file name has the ending of one of these kinds. Examples have no common ending.
 bool sb_shipped_has_ending(const char *name, unsigned wanted);
 
 // Path that an operand of a command names: a file that exists under `operand`, or "-", is used as
-// it is. Otherwise the shipped file of that name, without ending, is used. If there is neither, the
-// result is a copy of `operand`, which cannot be opened. Owned by the caller (g_free).
+// it is. Otherwise the shipped file of that name (see sb_shipped_find()) is used. If there is
+// neither, the result is a copy of `operand`, which cannot be opened. Owned by the caller (g_free).
 char *sb_shipped_resolve(const char *operand, unsigned wanted);
 
 // Paths of all files of a kind that ship, sorted by name. Owned by the caller (g_ptr_array_unref);
 // never NULL.
 GPtrArray *sb_shipped_files(SbShippedKind kind);
 
-// Title of a key file ([sealbench] title), else its name. Owned by the caller (g_free).
+// Title of a shipped file: of a key file [sealbench] title, of an example that of
+// examples/titles.ini; without one its name. Owned by the caller (g_free).
 char *sb_shipped_title(const char *path);
 
-// Name by which a path of sb_shipped_files() is given to a command: without folder and ending.
+// Name by which a path of sb_shipped_files() is given to a command: without folder and ending
+// (examples with their ending).
 // Owned by the caller (g_free).
 char *sb_shipped_name(const char *path, SbShippedKind kind);
 

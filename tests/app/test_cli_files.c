@@ -61,6 +61,36 @@ static void test_shipped(void) {
   cli_clear(&result);
 }
 
+// Each shipped example is listed with its ending, and the commands that read its kind find it by
+// that name. Other files of its folder are no examples, and a user's own file has precedence.
+static void test_examples(void) {
+  CliResult list = IN("list", "examples");
+  g_assert_cmpstr(list.out, ==,
+                  "bench-loop.csv       Force over displacement of a bench machine (simulated)\n"
+                  "bore-scan.txt        Roughness of a bore, 64 µm square (simulated)\n"
+                  "valve-stem.step      The stem as a solid body\n"
+                  "valve-stem.stl       The stem as triangles\n"
+                  "valve.dxf            Half-sections of a stem and its housing\n");
+  cli_clear(&list);
+  static const char *const commands[][7] = {
+      {"surface", "bore-scan.txt", "--form", "cylinder", NULL},
+      {"cad", "valve.dxf", NULL},
+      {"cad", "valve-stem.stl", NULL},
+      {"check", "bench-loop.csv", NULL},
+      {"compare", "quick-look", "--measured", "bench-loop.csv", NULL},
+      {"run", "quick-look", "--measured", "bench-loop.csv", NULL}};
+  for (size_t i = 0; i < G_N_ELEMENTS(commands); i++) {
+    CliResult result = in_folder(commands[i]);
+    g_assert_cmpint(result.code, ==, 0);
+    cli_clear(&result);
+  }
+  IN_SAYS(1, "titles.ini: No such file or directory", "cad", "titles.ini");
+  IN_SAYS(1, "No such file or directory", "cad", "./valve.dxf");
+  write_file("valve.dxf", "");
+  IN_SAYS(1, "valve.dxf", "cad", "valve.dxf");
+  remove_file("valve.dxf");
+}
+
 // A user's own file has precedence over the shipped file of its name; the JSON holds its full path.
 static void test_own(void) {
   g_autofree char *text = NULL;
@@ -496,6 +526,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
   g_test_add_func("/cli-files/shipped", test_shipped);
+  g_test_add_func("/cli-files/examples", test_examples);
   g_test_add_func("/cli-files/own", test_own);
   g_test_add_func("/cli-files/lists", test_lists);
   g_test_add_func("/cli-files/check-kinds", test_check_kinds);
