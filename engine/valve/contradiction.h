@@ -1,6 +1,7 @@
 // Contradictions inside the summary of a run: two statements of one run of which at least one is
 // wrong, whatever the valve is. Debug and sanitizer builds (SB_ASSERT_RUNS) assert after every run
-// that there is none, and the campaign random-valves checks it in every build.
+// that there is none. The campaign random-valves judges the JSON of runs by the same rules
+// (tests/campaigns/contradictions.py).
 #pragma once
 
 #include "engine/valve/run/run.h"

@@ -7,15 +7,27 @@
 // this one's is 0.1 % above on smooth plates, 0.2 % below on rough ones (tests/engine).
 static const double EDGE = 0.015;
 
+// Smallest edge radius over the radial height of the section: the solver's own limit is 0.005
+// (ring_profile.c); the difference covers rounding. It acts on gaskets whose radial height exceeds
+// three thicknesses.
+static const double EDGE_MIN = 0.00505;
+
+// Thickness over radial height of the sections that the solver meshes (ring_profile.c).
+static const double THIN = 0.2, THICK = 5;
+
+static double radial_height(const SbModel *model) {
+  return (model->gasket_outer - model->gasket_bore) / 2;
+}
+
 void sb_gasket_take(SbModel *model) {
-  const double high = (model->gasket_outer - model->gasket_bore) / 2;
+  const double high = radial_height(model);
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     model->seal[seal].stored.section_diameter = high;
     model->seal[seal].stored.inner_diameter = model->gasket_bore;
   }
   model->profile = SB_SEAL_PROFILE_RECTANGLE;
   model->profile_axial_height = model->gasket_thickness;
-  model->profile_corner_radius = EDGE * model->gasket_thickness;
+  model->profile_corner_radius = fmax(EDGE * model->gasket_thickness, EDGE_MIN * high);
   // What storage sees of the squeeze.
   model->radial_space = (1 - model->gasket_crimp) * high;
   model->axial_width = (1 - model->gasket_crimp) * model->gasket_thickness;
@@ -37,6 +49,12 @@ void sb_gasket_check(const SbModel *model, SbProblems *problems) {
   if (model->gasket_outer < 1.2 * model->gasket_bore) {
     sb_model_refuse(problems, "gasket.outer_diameter", 1.2 * model->gasket_bore, NAN,
                     "leaves no gasket around its bore of %.4g mm", 1e3 * model->gasket_bore);
+  }
+  const double high = radial_height(model);
+  if (high > 0 &&
+      (model->gasket_thickness < THIN * high || model->gasket_thickness > THICK * high)) {
+    sb_model_refuse(problems, "gasket.thickness", THIN * high, THICK * high,
+                    "does not suit a gasket whose section is %.4g mm high radially", 1e3 * high);
   }
   if (stem < 0.5 * model->gasket_bore || stem > 1.6 * model->gasket_bore) {
     sb_model_refuse(problems, "gasket.bore_diameter", stem / 1.6, 2 * stem,

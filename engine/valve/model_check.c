@@ -5,6 +5,7 @@
 #include "engine/fluid/fluid.h"
 
 #include <math.h>
+#include <string.h>
 
 // The stem must fit into the bore and the groove must leave a core.
 static void check_sizes(const SbModel *model, SbProblems *problems) {
@@ -46,6 +47,20 @@ static void check_groove(const SbModel *model, SbProblems *problems) {
                       "is of grooves that are not drawn (gland.profile_file)");
     }
   }
+}
+
+// A variant that models.fit does not have: the sentence names those that it has.
+static void check_variant(const SbModel *model, SbProblems *problems) {
+  char variant[40], all[160] = "";
+  const char *name;
+  for (int i = 0; (name = sb_fit_variant_name(model->fit, i)) != NULL; i++) {
+    const size_t used = strlen(all);
+    sb_text(all + used, sizeof all - used, "%s%s", i > 0 ? ", " : "", name);
+  }
+  sb_model_choice_name(model, SB_P_MODELS_FIT_VARIANT, variant, sizeof variant);
+  sb_model_refuse(problems, "models.fit_variant", NAN, NAN,
+                  "models.fit = %s has no variant %s, but %s", sb_fit_model_name(model->fit),
+                  variant, all);
 }
 
 // Combinations that no model has, and ranges that do not rise.
@@ -96,10 +111,7 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
                     model->life_actuations);
   }
   if (model->fit_variant < 0) {
-    char variant[40];
-    sb_model_choice_name(model, SB_P_MODELS_FIT_VARIANT, variant, sizeof variant);
-    sb_model_refuse(problems, "models.fit_variant", NAN, NAN, "models.fit = %s has no variant %s",
-                    sb_fit_model_name(model->fit), variant);
+    check_variant(model, problems);
   }
   if (model->work_of_adhesion > 0 && model->surface != SB_ROUGH_GREENWOOD_TRIPP) {
     sb_model_refuse(problems, "models.adhesion", NAN, NAN,

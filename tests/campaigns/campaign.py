@@ -26,13 +26,16 @@ class Campaign:
     """Arguments, time and TAP output of one campaign. Used as a context: prints the plan last, and
     removes `folder`, a place for files, unless something failed."""
 
-    def __init__(self, text):
+    def __init__(self, text, add_options=None):
+        """`add_options` receives the parser: options of the campaign itself, kept in `options`."""
         parser = argparse.ArgumentParser(description=text)
         parser.add_argument('build')
         parser.add_argument('--slice', type=float, metavar='SECONDS')
         parser.add_argument('--full', action='store_true')
         parser.add_argument('--seed', type=int, default=1)
-        options = parser.parse_args()
+        if add_options:
+            add_options(parser)
+        options = self.options = parser.parse_args()
         if options.full == (options.slice is not None):
             parser.error('give either --slice SECONDS or --full')
         self.build = os.path.abspath(options.build)
@@ -45,6 +48,7 @@ class Campaign:
         self.start = time.monotonic()
         self.seconds = options.slice
         self.count = self.failed = 0
+        self.keep = False  # whether the folder stays
 
     def __enter__(self):
         name = os.path.splitext(os.path.basename(sys.argv[0]))[0]
@@ -56,7 +60,7 @@ class Campaign:
         if kind is not None:
             self.ok(False, f'the campaign ended by {kind.__name__}: {value}')
         print(f'1..{self.count}', flush=True)
-        if self.failed:
+        if self.failed or self.keep:
             self.say(f'files are left in {self.folder}')
         else:
             subprocess.run(['rm', '-rf', self.folder], check=False)

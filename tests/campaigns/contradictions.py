@@ -53,6 +53,50 @@ def stages(cycle):
             yield f'force {force} at stage {name} above the peak {peak}'
 
 
+def differ(a, b):
+    return (a is None) != (b is None) or a is not None and abs(a - b) > 1e-6 * max(abs(a), abs(b))
+
+
+def forces(results):
+    """Break-away, press force and peak; figures that the JSON states twice."""
+    cycle = results['cycle']
+    names = ('force_breakaway_N', 'force_press_N', 'force_peak_N')
+    known = [(name, cycle[name]) for name in names if cycle[name] is not None]
+    for (name, force), (bound, above) in zip(known, known[1:]):
+        if force > above * (1 + 1e-6) + 1e-9:
+            yield f'{name} {force} above {bound} {above}'
+    slip = cycle['stages']['B']['force_N']
+    if results['solver']['converged'] and slip is not None and differ(slip, cycle['force_breakaway_N']):
+        yield f'force at stage B {slip}, break-away {cycle["force_breakaway_N"]}'
+    for name, seal in results.get('seals', {}).items():
+        state = seal['contact']['in_stroke']
+        for key in ('load_N', 'contact_width_m', 'pressure_peak_Pa', 'film_min_m', 'film_central_m',
+                    'real_area_share'):
+            if state['state'] is not None and differ(seal[key], state[key]):
+                yield f'{name}: {key} {seal[key]}, in the stroke {state[key]}'
+
+
+def outcome(cycle):
+    """The outcome against the figures that follow from it."""
+    kind = cycle.get('outcome')
+    if kind is None:
+        return
+    null = set()
+    if kind == 'never-moved':
+        null = {'force_return_min_N', 'force_return_margin_N', 'leakage_per_cycle_m3'}
+        if cycle['dose_mass_kg']:
+            yield f'never moved, dose {cycle["dose_mass_kg"]}'
+    if kind in ('never-moved', 'stuck'):
+        null.add('leakage_carried_all_actuations_m3')
+    if (cycle['stuck_at_m'] is not None) != (kind == 'stuck'):
+        yield f'outcome {kind}, stuck at {cycle["stuck_at_m"]}'
+    if kind == 'stuck' and (cycle['force_return_margin_N'] or 0) > 0:
+        yield f'stuck with a margin of {cycle["force_return_margin_N"]}'
+    for key in null:
+        if cycle[key] is not None:
+            yield f'outcome {kind}, {key} {cycle[key]}'
+
+
 def verdict(cycle):
     returns = cycle['verdict']['returns']
     if returns['ok'] and returns.get('value') is not None and returns['value'] < 0:
@@ -89,9 +133,13 @@ def solver(results, code):
         yield f'converged {state["converged"]}, exit code {code}'
     warned = any('estimate' in warning['code'] or 'error' in warning['code']
                  for warning in results['warnings'])
-    for name, estimate in state['error_estimate'].items():
-        if estimate is not None and estimate > 0.3 and not warned:
-            yield f'estimate of {name} {estimate} without a warning'
+    large = {f'solver.{k}': v for k, v in state['error_estimate'].items()}
+    large |= {k: v for k, v in results.get('error_estimates', {}).items()}
+    large = {name: estimate for name, estimate in large.items() if (estimate or 0) > 0.3}
+    if large and not warned:
+        yield f'estimates without a warning: {large}'
+    if max(large.values(), default=0) > 1 and state['converged']:
+        yield f'converged with estimates above 1: {large}'
 
 
 def contradictions(results, code):
@@ -99,4 +147,5 @@ def contradictions(results, code):
     if results['models']['motion'] == 'rig':
         return [*missing(results), *solver(results, code)]
     return [*missing(results), *energies(results['cycle']), *stages(results['cycle']),
-            *verdict(results['cycle']), *seals(results), *solver(results, code)]
+            *verdict(results['cycle']), *outcome(results['cycle']), *forces(results), *seals(results),
+            *solver(results, code)]

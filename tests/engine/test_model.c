@@ -1,5 +1,6 @@
 // The catalogue is sound, and the thesis valve's derived sizes come out as the thesis prints them.
 #include "engine/contact/fit.h"
+#include "engine/contact/ring/ring_profile.h"
 #include "engine/valve/model.h"
 #include "engine/valve/sealbench.h"
 
@@ -193,6 +194,61 @@ static void test_problems(void) {
   g_assert_cmpstr(problems.item[0].key, ==, "bore.diameter");
 }
 
+// A variant of another fit model is refused with the names of those that the model has.
+static void test_variants(void) {
+  const SbOverride over[] = {{SB_P_MODELS_FIT, SB_FIT_HERTZ}, {SB_P_MODELS_FIT_VARIANT, 2}};
+  SbParams params;
+  SbModel model;
+  SbProblems problems;
+  sb_params_init(&params);
+  for (size_t i = 0; i < G_N_ELEMENTS(over); i++) {
+    g_assert_cmpint(sb_params_set(&params, over[i].id, over[i].value, NULL), ==, SB_OK);
+  }
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_ERROR_INPUT);
+  g_assert_cmpuint(problems.count, ==, 1);
+  g_assert_cmpstr(problems.item[0].key, ==, "models.fit_variant");
+  g_assert_nonnull(strstr(problems.item[0].text, ", but default"));
+}
+
+// A gasket that is flat radially has a section that the solver meshes; one beyond the meshes'
+// proportions is refused with its own key and range when the model is made, not by the run.
+static void test_gasket_sizes(void) {
+  static const struct {
+    double outer, thickness; // [m]; bore 2.65 mm
+    bool made;
+  } cases[] = {{8e-3, 1e-3, true},
+               {8e-3, 0.6e-3, true}, // 4.5 times as high as thick: edges of 0.005 of the height
+               {8e-3, 0.5e-3, false},
+               {3.3e-3, 2e-3, false}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    const SbOverride over[] = {{SB_P_VALVE_KIND, SB_VALVE_GASKET},
+                               {SB_P_BORE_DIAMETER, 3.2e-3},
+                               {SB_P_GASKET_OUTER_DIAMETER, cases[i].outer},
+                               {SB_P_GASKET_THICKNESS, cases[i].thickness}};
+    SbParams params;
+    SbModel model;
+    SbProblems problems;
+    SbRingOutline outline;
+    SbReport report = {0};
+    sb_params_init(&params);
+    for (size_t k = 0; k < G_N_ELEMENTS(over); k++) {
+      g_assert_cmpint(sb_params_set(&params, over[k].id, over[k].value, NULL), ==, SB_OK);
+    }
+    const SbStatus status = sb_model_compile(&model, &params, NULL, &problems);
+    g_assert_cmpint(status, ==, cases[i].made ? SB_OK : SB_ERROR_INPUT);
+    if (!cases[i].made) {
+      g_assert_cmpuint(problems.count, ==, 1);
+      g_assert_cmpstr(problems.item[0].key, ==, "gasket.thickness");
+      g_assert_true(problems.item[0].min > 0 && problems.item[0].max > problems.item[0].min);
+      continue;
+    }
+    const SbSealProfile profile = sb_model_profile(&model, SB_OUTER);
+    g_assert_cmpint(sb_ring_outline_of_profile(&outline, &profile,
+                                               model.seal[SB_OUTER].section_diameter, &report),
+                    ==, SB_OK);
+  }
+}
+
 // Sizes that a drawing changes together keep their difference until they are given.
 static void test_kept(void) {
   static const struct {
@@ -323,6 +379,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/model/sets", test_sets);
   g_test_add_func("/model/derived", test_derived);
   g_test_add_func("/model/problems", test_problems);
+  g_test_add_func("/model/variants", test_variants);
+  g_test_add_func("/model/gasket-sizes", test_gasket_sizes);
   g_test_add_func("/model/kept", test_kept);
   g_test_add_func("/model/pressure-maps", test_pressure_maps);
   g_test_add_func("/model/storage", test_storage);
