@@ -124,8 +124,32 @@ char *sb_figure_format(int index, double value, double error) {
                      isfinite(value) ? unit : "", NULL);
 }
 
+char *sb_figure_error_format(int index, double value, double error) {
+  if (!isfinite(value) || !isfinite(error)) {
+    return g_strdup("-");
+  }
+  enum { DIGITS = 2 };
+  const char *si = sb_figure(index)->si, *unit = unit_of(index, value);
+  // Units are affine: an error has the slope of the scale and not its origin.
+  const double slope = sb_quantity_to_shown(1, si, unit) - sb_quantity_to_shown(0, si, unit);
+  char number[SB_NUMBER_SIZE];
+  write_number(number, error * slope, DIGITS, 1);
+  return g_strconcat(number, *unit != '\0' ? " " : "", unit, NULL);
+}
+
+// Whether a number has more digits than an input.
+static bool is_computed(int index, double value) {
+  enum { DIGITS = 9 };
+  const double shown = sb_quantity_to_shown(value, sb_figure(index)->si, unit_of(index, value));
+  const double unit = pow(10, sb_format_decimals(shown, DIGITS, 0));
+  return fabs(round(shown * unit) / unit - shown) > 1e-12 * fabs(shown);
+}
+
 char *sb_figure_given(int index, double value) {
   const SbFigure *figure = sb_figure(index);
+  if (isfinite(value) && figure->digits > 0 && is_computed(index, value)) {
+    return sb_figure_format(index, value, 0);
+  }
   return figure->digits == 0 || !isfinite(value)
              ? sb_figure_format(index, value, NAN)
              : sb_quantity_format(value, figure->si, unit_of(index, value));

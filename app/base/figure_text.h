@@ -22,8 +22,14 @@ char *sb_format_figure(char *out, const SbSummary *summary, int index);
 // is not a number. Owned by the caller (g_free).
 char *sb_figure_format(int index, double value, double error);
 
-// A limit of a figure, which is an input: all its digits, in the unit of the figure. Owned by the
-// caller (g_free).
+// The absolute error [SI] of a figure with SI `value`, in the unit of the value and in plain ASCII,
+// with its first digit, or its first two if the first one is 1 or 2: "0.02 N" for 27.40 N. "-"
+// where one of the two is not a number. Owned by the caller (g_free).
+char *sb_figure_error_format(int index, double value, double error);
+
+// A limit of a figure, which is an input, in the unit of the figure: all its digits. A limit with
+// more than 9 digits was computed (a saturation pressure); it has the digits of the figure. Owned
+// by the caller (g_free).
 char *sb_figure_given(int index, double value);
 
 // A limit on a figure, an open end infinite: ">= 2 N", "8 % .. 25 %". Owned by the caller.

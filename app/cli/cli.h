@@ -200,6 +200,10 @@ void sb_cli_recognised(const SbMeasured *measured);
 // Prints what was recognised, the stages and the differences.
 void sb_cli_comparison(const SbComparison *comparison);
 
+// Returns the name of the measured loop and its differences from the run in one line. Owned by the
+// caller (g_free).
+char *sb_cli_comparison_brief(const SbComparison *comparison);
+
 int sb_command_run(int argc, char **argv);
 int sb_command_check(int argc, char **argv);
 int sb_command_list(int argc, char **argv);

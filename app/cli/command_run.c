@@ -1,125 +1,8 @@
-// sealbench run: a scene's cycle to a table, JSON or a folder of results.
-#include "app/base/figure_text.h"
+// sealbench run: a scene's cycle to a summary, a table, JSON or a folder of results.
 #include "app/cli/cli.h"
 #include "app/cli/plots.h"
+#include "app/cli/run_text.h"
 #include "app/export/results_files.h"
-
-#include <math.h>
-#include <string.h>
-
-// A line of the table: the figure, or a dash and the reason.
-static void print_figure(const SbSummary *summary, int index) {
-  double value = sb_figure_value(summary, index);
-  const char *reason = sb_figure_reason(summary, index);
-  g_autofree char *text = sb_figure_format(index, value, sb_figure_error(summary, index));
-  g_autofree char *why = reason != NULL ? g_strdup_printf("%s (%s)", text, reason) : NULL;
-  sb_cli_line(sb_figure(index)->label, reason != NULL ? why : text);
-}
-
-// Those of the short table whose paths begin with `scope`; `known`: without those that are not.
-static void print_figures(const SbSummary *summary, const char *scope, bool known) {
-  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
-    const SbFigure *figure = sb_figure(i);
-    if (figure->brief && g_str_has_prefix(figure->path, scope) &&
-        !(known && isnan(sb_figure_value(summary, i)))) {
-      print_figure(summary, i);
-    }
-  }
-}
-
-// Time, displacement and force in a line.
-static void print_stage(const SbSummary *summary, SbStage stage) {
-  g_autofree char *scope = g_strdup_printf("cycle.stages.%s.", sb_stage_name(stage));
-  g_autofree char *label = g_strdup_printf("Stage %s", sb_stage_name(stage));
-  g_autoptr(GString) text = g_string_new(NULL);
-  for (int i = 0; i < SB_FIGURE_COUNT && summary->stage[stage].reached; i++) {
-    if (g_str_has_prefix(sb_figure(i)->path, scope)) {
-      g_autofree char *one =
-          sb_figure_format(i, sb_figure_value(summary, i), sb_figure_error(summary, i));
-      g_string_append_printf(text, "%s%s", text->len > 0 ? ", " : "", one);
-    }
-  }
-  sb_cli_line(label, text->len > 0 ? text->str : "not reached");
-}
-
-static void print_seal(const SbSummary *summary, int seal) {
-  g_autofree char *scope = g_strdup_printf("seals.%s.", sb_seal_name(seal));
-  printf("%s seal, middle of B-C\n", seal == SB_OUTER ? "Outer" : "Inner");
-  print_figures(summary, scope, false);
-  sb_cli_line("Leak path", sb_leak_state_name(summary->seal[seal].leak_state));
-}
-
-// The figure that decides a question, with its limit; owned by the caller.
-static char *deciding_text(const SbSummary *summary, const SbVerdict *verdict) {
-  if (isnan(verdict->value) || isnan(verdict->limit)) {
-    return g_strdup("");
-  }
-  const double error = sb_figure_error(summary, verdict->figure);
-  g_autofree char *value = sb_figure_format(verdict->figure, verdict->value, error);
-  g_autofree char *limit = sb_figure_given(verdict->figure, verdict->limit);
-  return g_strdup_printf(", %s against %s", value, limit);
-}
-
-// The questions that have an answer.
-static void print_verdict(const SbSummary *summary, const SbCaseVerdict *verdicts) {
-  printf("Verdict\n");
-  for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
-    const SbVerdict *verdict = &verdicts[kind].of;
-    const char *name = verdicts[kind].name;
-    if (verdict->figure >= 0) {
-      static const char *const answers[] = {"-", "NO", "yes"};
-      bool because = verdict->reason[0] != '\0';
-      g_autofree char *deciding = deciding_text(summary, verdict);
-      g_autofree char *text = g_strdup_printf(
-          "%s%s%s%s%s%s%s", answers[verdict->ok], deciding, because ? " (" : "", verdict->reason,
-          because ? ")" : "", name != NULL ? ", case " : "", name != NULL ? name : "");
-      sb_cli_line(sb_verdict_name((SbVerdictKind)kind), text);
-    }
-  }
-}
-
-static void print_rig(const SbSummary *summary) {
-  print_figures(summary, "rig.", false);
-  sb_cli_figure("Dynamic, measured in the thesis", SB_RIG_MEASURED_DYNAMIC, "1", "");
-  sb_cli_figure("Dynamic, predicted there", SB_RIG_PREDICTED_DYNAMIC, "1", "");
-  g_autofree char *peaks = g_strdup_printf("%zu", summary->rig.of.peaks);
-  sb_cli_line("Peaks that follow", peaks);
-}
-
-static void print_solver(const SbSummary *summary) {
-  sb_cli_warnings(&summary->warnings);
-  printf("Solver\n");
-  sb_cli_line("Converged", summary->converged ? "yes" : "NO");
-  char *frames = g_strdup_printf("%zu", summary->frames);
-  sb_cli_line("Frames", frames);
-  g_free(frames);
-  sb_cli_figure("Engine time", summary->wall_s, "s", "ms");
-}
-
-static void print_table(const SbDocument *document, const SbRun *run,
-                        const SbCaseVerdict *verdict) {
-  const SbSummary *summary = sb_run_summary(run);
-  printf("%s\n", sb_document_title(document));
-  bool rig = sb_model_is_rig(sb_run_model(run));
-  print_figures(summary, "cycle.", rig);
-  if (rig) {
-    print_rig(summary);
-    print_solver(summary);
-    return;
-  }
-  for (int i = 0; i < SB_STAGE_COUNT; i++) {
-    print_stage(summary, (SbStage)i);
-  }
-  print_figures(summary, "people.", false);
-  if (summary->life.done > 0) {
-    printf("Life of %ld actuations\n", summary->life.done);
-    print_figures(summary, "life.", false);
-  }
-  print_seal(summary, SB_OUTER);
-  print_seal(summary, SB_INNER);
-  print_verdict(summary, verdict);
-  print_solver(summary);
-}
 
 static void on_progress(void *data, double fraction, size_t frames) {
   sb_progress_update(data, fraction);
@@ -151,6 +34,7 @@ typedef struct {
   char *folder, *json_target, *measured;
   char **settings;
   SbCliPlots plots;
+  gboolean all;
 } Options;
 
 // Whether all that will be written can be: told before the work, not after it. An exit code.
@@ -189,15 +73,16 @@ static int write_results(SbCliFiles *files, const SbCliFile *file, const Options
     g_ptr_array_add(files->json, g_steal_pointer(&json));
   } else if (!sb_cli_quiet()) {
     sb_cli_files_head(files);
-    print_table(file->document, run, info->verdict);
-    if (info->measured != NULL) {
-      sb_cli_comparison(info->measured);
-    }
-    if (sb_cli_plots(&options->plots)) {
-      sb_cli_plot_run(run, info->measured);
-    }
-    if (file->folder != NULL) {
-      printf("Results are in %s\n", file->folder);
+    const SbCliRunText text = {.title = sb_document_title(file->document),
+                               .run = run,
+                               .verdict = info->verdict,
+                               .measured = info->measured,
+                               .folder = file->folder,
+                               .plots = &options->plots};
+    if (options->all) {
+      sb_cli_run_table(&text);
+    } else {
+      sb_cli_run_summary(&text);
     }
   }
   return SB_EXIT_DONE;
@@ -297,8 +182,10 @@ int sb_command_run(int argc, char **argv) {
       {"measured", 0, 0, G_OPTION_ARG_FILENAME, &options.measured, SB_CLI_MEASURED_HELP, "FILE"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json_target, SB_CLI_JSON_HELP, "FILE|-"},
-      {"plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.on, SB_CLI_PLOT_HELP, NULL},
-      {"no-plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.off, SB_CLI_NO_PLOT_HELP, NULL},
+      {"all", 0, 0, G_OPTION_ARG_NONE, &options.all,
+       "Prints all figures, stages, warnings and the solver's state in place of the summary", NULL},
+      {"plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.on, "With --all: " SB_CLI_PLOT_HELP, NULL},
+      {"no-plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.off, "Draws no loop", NULL},
       {0},
   };
   SbCliFiles files = {.code = SB_EXIT_INPUT};

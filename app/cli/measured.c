@@ -59,6 +59,13 @@ static char *force_text(double force, bool known) {
                                  : g_strdup("-");
 }
 
+char *sb_cli_comparison_brief(const SbComparison *comparison) {
+  g_autofree char *rms = force_text(comparison->rms, true);
+  g_autofree char *most = force_text(comparison->most, true);
+  return g_strdup_printf("Measured: %s, difference %s (root mean square), at most %s",
+                         comparison->measured->name, rms, most);
+}
+
 void sb_cli_comparison(const SbComparison *comparison) {
   const SbMeasured *m = comparison->measured;
   sb_cli_recognised(m);

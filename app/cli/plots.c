@@ -10,7 +10,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-enum { COLUMNS = 80, COLUMNS_MAX = 120, ROWS = 18 };
+enum { COLUMNS = 80, COLUMNS_MAX = 120, ROWS = SB_CLI_PLOT_ROWS };
 
 bool sb_cli_plots(const SbCliPlots *plots) {
   return !plots->off && !sb_cli_quiet() && (plots->on || isatty(STDOUT_FILENO) != 0);
@@ -54,12 +54,12 @@ static SbTrace *read_run(SbChartRun *chart, const SbRun *run) {
   return trace;
 }
 
-void sb_cli_plot_run(const SbRun *run, const SbComparison *measured) {
+void sb_cli_plot_run(const SbRun *run, const SbComparison *measured, int rows) {
   SbChartData data = {.measured = measured};
   SbTrace *trace = read_run(&data.run, run);
   if (data.run.count > 0) {
     Sheet sheet;
-    begin(&sheet, ROWS);
+    begin(&sheet, rows);
     heading(&sheet, sb_chart_is_rig(&data.run) ? "Force / N over time / s"
                                                : "Force / N over displacement / mm");
     sb_chart_loop(&sheet.cells, sheet.rect, &sheet.theme, &data, SB_CHART_WHOLE);

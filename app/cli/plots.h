@@ -18,8 +18,11 @@ typedef struct {
 // Whether a chart is to follow the table.
 bool sb_cli_plots(const SbCliPlots *plots);
 
-// The loop of a run, with what was measured (NULL: nothing).
-void sb_cli_plot_run(const SbRun *run, const SbComparison *measured);
+// Lines of a chart with its heading; a blank line precedes them.
+enum { SB_CLI_PLOT_ROWS = 18 };
+
+// Draws the loop of a run, with the measured points (NULL: none), in `rows` lines.
+void sb_cli_plot_run(const SbRun *run, const SbComparison *measured, int rows);
 
 // Several, named. As many as have a place.
 void sb_cli_plot_runs(SbRun *const *run, const char *const *name, size_t count,

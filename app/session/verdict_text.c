@@ -42,13 +42,20 @@ const char *sb_verdict_answer(SbAnswer answer) {
                                   : C_("verdict", "not known");
 }
 
-// The value of the verdict with the digits that its figure has on every surface.
-static char *shown_value(const SbSummary *summary, int figure, double value) {
+// A figure's value with the digits that it has on every surface, typeset. Owned by the caller.
+static char *typeset(int figure, double value, double error) {
   char text[SB_FORMAT_MAX];
-  return g_strdup(sb_figure_text(text, figure, value, sb_figure_error(summary, figure)));
+  return g_strdup(sb_figure_text(text, figure, value, error));
 }
 
-char *sb_verdict_figure_text(const SbSummary *summary, int kind, const SbVerdict *verdict) {
+// The value of the verdict.
+static char *shown_value(const SbSummary *summary, int figure, double value) {
+  return typeset(figure, value, sb_figure_error(summary, figure));
+}
+
+// The deciding figure with its limit; `format` writes the value.
+static char *figure_text(const SbSummary *summary, int kind, const SbVerdict *verdict,
+                         char *(*format)(int figure, double value, double error)) {
   int figure = verdict->figure;
   double value = verdict->value;
   if (figure < 0) {
@@ -58,7 +65,7 @@ char *sb_verdict_figure_text(const SbSummary *summary, int kind, const SbVerdict
   if (isnan(value)) {
     return g_strdup(kind == SB_VERDICT_LEAK ? "" : _("not known"));
   }
-  g_autofree char *own = shown_value(summary, figure, value);
+  g_autofree char *own = format(figure, value, sb_figure_error(summary, figure));
   if (isnan(verdict->limit) || verdict->figure < 0) {
     return g_steal_pointer(&own);
   }
@@ -68,6 +75,14 @@ char *sb_verdict_figure_text(const SbSummary *summary, int kind, const SbVerdict
   }
   return kind == SB_VERDICT_SEALS ? g_strdup_printf(_("%s over %s"), own, limit)
                                   : g_strdup_printf(_("%s of %s"), own, limit);
+}
+
+char *sb_verdict_figure_text(const SbSummary *summary, int kind, const SbVerdict *verdict) {
+  return figure_text(summary, kind, verdict, typeset);
+}
+
+char *sb_verdict_figure_plain(const SbSummary *summary, int kind, const SbVerdict *verdict) {
+  return figure_text(summary, kind, verdict, sb_figure_format);
 }
 
 char *sb_verdict_why(const SbSummary *summary, int kind, const SbVerdict *verdict) {

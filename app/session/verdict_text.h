@@ -16,6 +16,9 @@ const char *sb_verdict_answer(SbAnswer answer);
 // What decides, in a few words: "26 N of 30 N", "1.2 MPa over 0.55 MPa". Owned by the caller.
 char *sb_verdict_figure_text(const SbSummary *summary, int kind, const SbVerdict *verdict);
 
+// The same text with numbers in plain ASCII, for standard output. Owned by the caller (g_free).
+char *sb_verdict_figure_plain(const SbSummary *summary, int kind, const SbVerdict *verdict);
+
 // The whole answer, some lines. Owned by the caller.
 char *sb_verdict_why(const SbSummary *summary, int kind, const SbVerdict *verdict);
 

@@ -316,7 +316,7 @@ def several_files():
     alone = json.loads(done(run("run", c, "--json", "-")).stdout)
     expect(alone["cycle"], every[1]["cycle"])
     table = done(run("run", a, c)).stdout
-    assert table.index(a + ":\n") < table.index("Peak force") < table.index("\n\n" + c + ":\n")
+    assert table.index(a + ":\n") < table.index("Break-away force") < table.index("\n\n" + c + ":\n")
     plans = json.loads(done(run("plan", c, a, "--json", "-")).stdout)
     expect([plan["scene"] for plan in plans], [c, a])
     expect(plans[0]["fields"], json.loads(done(run("plan", c, "--json", "-")).stdout)["fields"])

@@ -65,7 +65,7 @@ static void test_reasons(void) {
     g_assert_true(cases[i].code == 0 || strstr(run.err, cases[i].says) != NULL);
     cli_clear(&run);
   }
-  CliResult table = CLI("run", cli.scene, "--set=surface.gt_product=0.17");
+  CliResult table = CLI("run", cli.scene, "--all", "--set=surface.gt_product=0.17");
   g_assert_nonnull(
       strstr(table.out, "Leakage per cycle                    - (the stem does not come"));
   cli_clear(&table);
@@ -217,7 +217,7 @@ static void test_list(void) {
   cli_clear(&list);
   // The plate's force is sampled: the error of 5e-4 supports the fourth decimal.
   g_autofree char *plate = g_strdup_printf("%s/sliding-plate.scene", folder);
-  CliResult table = CLI("run", plate);
+  CliResult table = CLI("run", plate, "--all");
   g_assert_nonnull(strstr(table.out, " 0.5394\n"));
   cli_clear(&table);
   table = CLI("list", "figures");

@@ -99,7 +99,7 @@ static char **rows_of(const char *folder, const char *name) {
 static void test_rig(void) {
   g_autofree char *scene = scene_named("sliding-plate.scene");
   g_autofree char *out = g_build_filename(cli.folder, "rig", NULL);
-  CliResult table = CLI("run", scene, "-o", out);
+  CliResult table = CLI("run", scene, "--all", "-o", out);
   g_assert_cmpint(table.code, ==, 0);
   g_autofree char *text = cli_contents(out, "results.json");
   JsonNode *root = cli_parse(text);
@@ -127,8 +127,8 @@ static void test_rig(void) {
 static void test_life(void) {
   g_autofree char *scene = scene_named("life-400.scene");
   g_autofree char *out = g_build_filename(cli.folder, "life", NULL);
-  CliResult table =
-      CLI("run", scene, "-o", out, "--set", "life.actuations=5", "--set", "models.film=thesis");
+  CliResult table = CLI("run", scene, "--all", "-o", out, "--set", "life.actuations=5", "--set",
+                        "models.film=thesis");
   g_assert_cmpint(table.code, ==, 0);
   g_assert_nonnull(strstr(table.out, "\nLife of 5 actuations\n"));
   g_autofree char *text = cli_contents(out, "results.json");
@@ -153,8 +153,8 @@ static void test_life(void) {
   g_unlink(csv);
   cli_remove_results(out);
   // A life that ends early says at which actuation, and what it then does not know.
-  table = CLI("run", scene, "--set", "life.actuations=5", "--set", "models.film=thesis", "--set",
-              "surface.gt_product=0.17");
+  table = CLI("run", scene, "--all", "--set", "life.actuations=5", "--set", "models.film=thesis",
+              "--set", "surface.gt_product=0.17");
   g_assert_nonnull(strstr(table.out, "(the life ends at actuation 1: its stem does not return)\n"));
   cli_clear(&table);
   root = JSON("run", scene, "--set", "life.actuations=5", "--set", "models.film=thesis", "--set",
@@ -380,7 +380,7 @@ static double cell_of(char **rows, size_t row, const char *name) {
 static void test_peak(void) {
   g_autofree char *out = g_build_filename(cli.folder, "peak", NULL);
   g_autofree char *scene = scene_named("thesis-cycle.scene");
-  CliResult table = CLI("run", scene, "-o", out);
+  CliResult table = CLI("run", scene, "--all", "-o", out);
   g_assert_cmpint(table.code, ==, 0);
   g_autofree char *text = cli_contents(out, "results.json");
   JsonNode *root = cli_parse(text);

@@ -1,5 +1,6 @@
 // Every shipped scene: sound, closes its energy, keeps to its plan, and does not depend on its
 // frames.
+#include "app/cli/run_text.h"
 #include "app/document/document.h"
 
 #include "engine/valve/sealbench.h"
@@ -8,6 +9,10 @@
 #include "tests/sanitized.h"
 
 #include <math.h>
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
 typedef void SceneTest(const char *path);
 
@@ -92,12 +97,51 @@ static void keeps_plan(const SbRun *run) {
   }
 }
 
+// What `run` prints of it, from a file that replaces standard output. Owned by the caller (g_free).
+static char *summary_text(const SbCliRunText *of) {
+  fflush(stdout);
+  const int kept = dup(STDOUT_FILENO);
+  FILE *file = tmpfile();
+  g_assert_nonnull(file);
+  g_assert_cmpint(dup2(fileno(file), STDOUT_FILENO), >=, 0);
+  sb_cli_run_summary(of);
+  fflush(stdout);
+  g_assert_cmpint(dup2(kept, STDOUT_FILENO), >=, 0);
+  close(kept);
+  const off_t size = lseek(fileno(file), 0, SEEK_END);
+  g_autofree char *text = g_malloc0((gsize)size + 1);
+  g_assert_cmpint(pread(fileno(file), text, (gsize)size, 0), ==, size);
+  fclose(file);
+  return g_steal_pointer(&text);
+}
+
+// The summary of `run` fits a small terminal and ends with the loop.
+static void prints(const SbRun *run, const char *path) {
+  SbCaseVerdict verdict[SB_VERDICT_COUNT];
+  for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
+    verdict[kind] = (SbCaseVerdict){sb_run_summary(run)->verdict[kind], NULL};
+  }
+  const SbCliPlots plots = {0};
+  const SbCliRunText of = {.title = path, .run = run, .verdict = verdict, .plots = &plots};
+  g_autofree char *text = summary_text(&of);
+  g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
+  g_assert_cmpuint(g_strv_length(lines) - 1, <=, SB_CLI_SUMMARY_LINES);
+  for (char **line = lines; *line != NULL; line++) {
+    g_assert_cmpint(g_utf8_strlen(*line, -1), <=, 80);
+  }
+  g_assert_null(strstr(text, "…")); // no reason of a shipped scene is cut
+  g_assert_nonnull(strstr(text, "\n  Peak pressure, outer seal  "));
+  g_assert_nonnull(strstr(text, "Force / N over "));
+}
+
 // All of a scene; then its loop alone, which takes no more than that; then at half the step, where
 // peak, return force and energy stay.
 static void runs(const char *path) {
   SbRun *whole = run_scene(path, 1, 0);
   actuates(whole);
   keeps_plan(whole);
+  g_autofree char *name = g_path_get_basename(path);
+  prints(whole, name);
   sb_run_destroy(whole);
   if (SB_SANITIZED) {
     return; // it looks for other faults, and slowly

@@ -1,0 +1,32 @@
+// What `sealbench run` prints of a finished run: the summary, or with --all the full table.
+#pragma once
+
+#include "app/cli/plots.h"
+#include "app/run/cases.h"
+
+// What is printed; everything is borrowed.
+typedef struct {
+  const char *title;
+  const SbRun *run;
+  const SbCaseVerdict *verdict; // [SB_VERDICT_COUNT]
+  const SbComparison *measured; // NULL: no measured loop
+  const char *folder;           // that the results were written to; NULL: none
+  const SbCliPlots *plots;
+} SbCliRunText;
+
+// Largest number of lines of a summary.
+enum { SB_CLI_SUMMARY_LINES = 24 };
+
+// Prints the verdict with its reasons, the eight key figures with the absolute estimates of their
+// errors, the number of warnings and the loop, in at most SB_CLI_SUMMARY_LINES lines that fit the
+// terminal (80 columns elsewhere). Long reasons are wrapped while enough lines remain for the loop,
+// else they end with an ellipsis. The loop takes the remaining lines; --no-plot leaves it out.
+void sb_cli_run_summary(const SbCliRunText *of);
+
+// Prints all brief figures, the stages, the verdict, the warnings and the solver's state, then the
+// comparison with a measured loop and, where charts are drawn, the loop.
+void sb_cli_run_table(const SbCliRunText *of);
+
+// Returns the answer to the question `kind`, which has a deciding figure: the figure with its
+// limit, the reason and the case. One line in plain ASCII numbers. Owned by the caller (g_free).
+char *sb_cli_verdict_text(const SbSummary *summary, int kind, const SbCaseVerdict *verdict);
