@@ -1,0 +1,440 @@
+#!/usr/bin/python3
+"""Runs the commands of one page of the documentation and compares their output with the page.
+
+    pages.py [--rewrite] SOURCE BUILD PAGE      PAGE relative to SOURCE, e.g. docs/tutorial.md
+
+Each page has a temporary folder with a copy of `assets`, links to `bindings` and `build`, and the built
+programs on PATH. Blocks work in page order:
+
+  sh       commands for a shell, each must succeed (exit code 0, or another one if the output that follows
+           has an error line `sealbench: ...`). Variables and the current folder persist.
+  text     directly below a sh, python or c block: the output, standard error included, of the block's last
+           command. Lines must follow one another as in the output; a line `...` stands for any lines. The
+           block need not begin or end where the output does. Figures are compared as text; MASKS lists
+           what differs from run to run. A text block that follows no command is an error.
+  python   a program for a fresh interpreter that finds the module.
+  c        a program if it has main(): it is compiled, and run if a text block follows.
+  plain    not checked (diagrams, equations), as is a block of a file without a name.
+  others   a file: it is written if its first line is a comment with its name alone (`# my.scene`).
+
+A block without a language is an error. Code within a sentence that begins with `sealbench` is also run,
+after the block above it. If it has a word in capitals or `...` in place of a value, only the command's
+name and its options are looked up, in `COMMAND --help`; `sealbench thesis ITEM` is looked up in the list
+of items, since the campaign `thesis` computes them. `meson test NAME` must name a test.
+
+SKIPPED commands change the reader's system or need another machine. Commands that open the window or the
+workbench of the terminal are started, on a display or terminal of their own, and ended. Commands that need
+a feature which this build does not have are skipped.
+
+--rewrite replaces the lines of text blocks by those of the output that differ from them in figures only,
+and fills empty text blocks.
+"""
+import glob
+import json
+import os
+import pty
+import re
+import resource
+import select
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+SKIPPED = {'./run', './check', 'sudo', 'apt', 'apt-get', 'tools/setup', 'meson', 'ninja', 'git', 'cmake', 'pip',
+           'mpirun', 'sbatch', 'man'}
+
+# What depends on the moment and the machine: dates, hashes, versions of libraries, times of the program.
+MASKS = [
+    (re.compile(r'\d{4}-\d\d-\d\d([T ]\d\d:\d\d(:\d\d)?)?'), 'DATE'),
+    (re.compile(r'\b[0-9a-f]{12,}\b'), 'HASH'),
+    (re.compile(r'\b\d+\.\d+\.\d+(\S*)?'), 'VERSION'),
+    (re.compile(r'\b(in|took|after) [\d.]+ (ms|s|min)\b'), 'TIME'),
+    (re.compile(r'"wall_s": [\d.e-]+'), '"wall_s": TIME'),
+    (re.compile(r'/\S*/(assets|share/sealbench)/'), 'ASSETS/'),
+]
+
+# What a command needs that a build may not have, as `sealbench --version` names it.
+FEATURES = [
+    ('STEP', re.compile(r'\.step\b')),
+    ('MP4', re.compile(r'\.(mp4|webp|apng|gif|mov)\b')),
+    ('X3P', re.compile(r'\.x3p\b')),
+    ('terminal', re.compile(r'^sealbench tui\b')),
+    ('window', re.compile(r'^sealbench(-gtk| open)\b')),
+]
+
+PROGRAM = re.compile(r'(?:\./)?(?:build/)?(?:ui/)?(sealbench(?:-gtk)?)(?=\s|$)')
+PLACEHOLDER = re.compile(r'\b[A-Z]{2,}\b|…|\.\.\.|\[|\*|<')
+TIMEOUT = 120
+
+
+class Page:
+    """Blocks and commands within sentences of a page, in order: (kind, line, text)."""
+
+    def __init__(self, path):
+        with open(path, encoding='utf-8') as file:
+            self.lines = file.read().split('\n')
+        self.items, self.faults = [], []
+        prose, at = [], 0
+        while at < len(self.lines):
+            fence = re.match(r'\s*```+\s*(\S*)\s*$', self.lines[at])
+            if fence is None:
+                prose.append((at, self.lines[at]))
+                at += 1
+                continue
+            self.take_prose(prose)
+            prose, begin = [], at + 1
+            at = begin
+            while at < len(self.lines) and not re.match(r'\s*```+\s*$', self.lines[at]):
+                at += 1
+            if at == len(self.lines):
+                self.faults.append((begin, 'a block that does not end'))
+            if fence.group(1) == '':
+                self.faults.append((begin, 'a block without a language (sh, text, plain, ...)'))
+            self.items.append((fence.group(1), begin, self.lines[begin:at]))
+            at += 1
+        self.take_prose(prose)
+
+    def take_prose(self, prose):
+        text, places = '', []
+        for at, line in prose:
+            places.append((len(text), at + 1))
+            text += line + '\n'
+        for span in re.finditer(r'(?<!`)`([^`]+)`(?!`)', text):
+            line = max(at for begin, at in places if begin <= span.start())
+            code = ' '.join(span.group(1).split())
+            if PROGRAM.match(code) and '/' not in code.split()[0].replace('build/', '').replace('ui/', ''):
+                self.items.append(('inline', line, code))
+            elif code.startswith('meson test '):
+                self.items.append(('tests', line, code))
+        # Text between blocks separates an output from its command.
+        if text.strip():
+            self.items.append(('prose', 0, ''))
+
+
+def masked(line):
+    for pattern, replacement in MASKS:
+        line = pattern.sub(replacement, line)
+    return ' '.join(line.split())
+
+
+def find_run(expected, lines, start):
+    """First index from `start` at which the lines are found one after another; -1 if none."""
+    for at in range(start, len(lines) - len(expected) + 1):
+        if lines[at:at + len(expected)] == expected:
+            return at
+    return -1
+
+
+def difference(expected, output):
+    """None if the text is an excerpt of the output, else what is missing."""
+    lines, at, run = [masked(line) for line in output], 0, []
+    for line in [*expected, '...']:
+        if line.strip() != '...':
+            run.append(masked(line))
+            continue
+        found = find_run(run, lines, at)
+        if found < 0:
+            # The line that is missing, or the run whose lines are there but apart.
+            wrong = next((one for one in run if one not in lines[at:]), ' / '.join(run))
+            return 'not in the output: %s' % wrong
+        at, run = found + len(run), []
+    return None
+
+
+def skeleton(line):
+    return ' '.join(re.sub(r'[-+−]?\d[\d.,]*(e[-+]?\d+)?', '#', masked(line)).split())
+
+
+def rewritten(expected, output):
+    """The text with the output's lines that differ from its own in figures only."""
+    if not any(line.strip() for line in expected):
+        return output
+    at, result = 0, []
+    for line in expected:
+        found = next((i for i in range(at, len(output)) if skeleton(output[i]) == skeleton(line)), None)
+        if line.strip() != '...' and found is not None:
+            line, at = output[found].rstrip(), found + 1
+        result.append(line)
+    return result
+
+
+def split_commands(lines):
+    """(offset, command) of a block: a command goes on while the shell finds it incomplete."""
+    commands, begin, text = [], 0, ''
+    for at, line in enumerate(lines):
+        if text == '' and (line.strip() == '' or line.lstrip().startswith('#')):
+            continue
+        begin = begin if text else at
+        text += line + '\n'
+        parsed = subprocess.run(['bash', '-n', '-c', text], capture_output=True, text=True, check=False)
+        if not line.endswith('\\') and parsed.returncode == 0 and parsed.stderr == '':
+            commands.append((begin, text.rstrip('\n')))
+            text = ''
+    if text:
+        commands.append((begin, text.rstrip('\n')))
+    return commands
+
+
+class Runner:
+    def __init__(self, source, build, path, rewrite):
+        self.source, self.build, self.path, self.rewrite = source, build, path, rewrite
+        self.page = Page(os.path.join(source, path))
+        self.count = self.failed = 0
+        self.output, self.code, self.replaced = None, 0, []
+
+    def report(self, good, line, name, why=None, skip=None):
+        self.count += 1
+        self.failed += not good
+        print('%sok %d - %s:%d %s%s' % ('' if good else 'not ', self.count, self.path, line,
+                                        ' '.join(name.split()).replace('#', '')[:100],
+                                        ' # SKIP ' + skip if skip else ''))
+        for part in (why or '').split('\n') if not good else []:
+            print('# ' + part)
+        sys.stdout.flush()
+
+    def set_up(self, folder):
+        self.folder = os.path.join(folder, 'page')
+        programs = os.path.join(folder, 'bin')
+        home = os.path.join(folder, 'home')
+        for each in (self.folder, programs, home):
+            os.mkdir(each)
+        shutil.copytree(os.path.join(self.source, 'assets'), os.path.join(self.folder, 'assets'))
+        os.symlink(os.path.join(self.source, 'bindings'), os.path.join(self.folder, 'bindings'))
+        os.symlink(self.build, os.path.join(self.folder, 'build'))
+        for name in ('sealbench', 'ui/sealbench-gtk'):
+            os.symlink(os.path.join(self.build, name), os.path.join(programs, os.path.basename(name)))
+        self.state = os.path.join(folder, 'state')
+        with open(self.state, 'w', encoding='utf-8') as file:
+            file.write('cd %s\n' % shlex.quote(self.folder))
+        library = os.path.join(self.build, 'app/library')
+        self.env = {
+            'PATH': programs + ':' + os.environ['PATH'], 'HOME': home, 'LC_ALL': 'C.UTF-8', 'TERM': 'dumb',
+            'COLUMNS': '80', 'OPENBLAS_NUM_THREADS': '1', 'PYTHONDONTWRITEBYTECODE': '1',
+            'PYTHONPATH': os.path.join(self.source, 'bindings/python'),
+            'SEALBENCH_LIBRARY': os.path.join(library, 'libsealbench.so.0'),
+            'FONTCONFIG_FILE': os.path.join(self.source, 'tests/app/fonts.conf'),
+            # The library of the build, which pkg-config knows only where it will be installed.
+            'CPATH': os.path.join(self.source, 'include'), 'LIBRARY_PATH': library,
+            'LD_LIBRARY_PATH': library,
+            'PKG_CONFIG_PATH': os.path.join(self.build, 'meson-uninstalled')}
+        self.features = self.run(['sealbench', '--version'])[1]
+        self.features = next((line for line in self.features if line.startswith('features ')), '')
+
+    def run(self, command, folder=None):
+        """Exit code and the lines of standard output and error."""
+        with subprocess.Popen(command, cwd=folder or self.folder, env=self.env, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              encoding='utf-8', errors='replace', start_new_session=True) as process:
+            try:
+                text = process.communicate(timeout=TIMEOUT)[0]
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                return 124, ['took longer than %d s' % TIMEOUT]
+        return process.returncode, text.rstrip('\n').split('\n')
+
+    def run_shell(self, command):
+        script = ('. %(state)s\n%(command)s\ncode=$?\n'
+                  '{ export -p; printf "cd %%q\\n" "$PWD"; } > %(state)s\nexit $code\n')
+        return self.run(['bash', '-c', script % {'state': shlex.quote(self.state), 'command': command}])
+
+    def start_window(self, command):
+        """Whether the window still runs a while after its start on a display of its own."""
+        if shutil.which('xvfb-run') is None or shutil.which('dbus-run-session') is None:
+            return None
+        with subprocess.Popen(['dbus-run-session', '--', 'xvfb-run', '-a', 'bash', '-c', command],
+                              cwd=self.folder, env=self.env, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                              start_new_session=True) as process:
+            end = time.monotonic() + 2.5
+            while process.poll() is None and time.monotonic() < end:
+                time.sleep(0.1)
+            runs = process.poll() is None
+            if runs:
+                os.killpg(process.pid, signal.SIGTERM)
+        return runs
+
+    def start_terminal(self, command):
+        """Whether the workbench in a terminal draws its screen and ends by `q` with exit code 0."""
+        pid, terminal = pty.fork()
+        if pid == 0:
+            os.chdir(self.folder)
+            os.execvpe('bash', ['bash', '-c', 'stty rows 36 cols 120; ' + command],
+                       {**self.env, 'TERM': 'xterm-256color'})
+        drawn, end = 0, time.monotonic() + 30
+        while time.monotonic() < end:
+            # Silence after a screen of characters: it waits for a key.
+            if select.select([terminal], [], [], 0.7)[0]:
+                try:
+                    drawn += len(os.read(terminal, 65536))
+                except OSError:
+                    break
+            elif drawn > 1000:
+                os.write(terminal, b'q')
+        else:
+            os.kill(pid, signal.SIGKILL)
+        os.close(terminal)
+        return os.waitpid(pid, 0)[1] == 0 and drawn > 1000
+
+    def reason_to_skip(self, command):
+        words = [word for word in command.split() if not re.match(r'\w+=', word)] or ['']
+        if words[0] in SKIPPED:
+            return 'not run here'
+        plain = PROGRAM.sub(r'\1', command)
+        for name, pattern in FEATURES:
+            if pattern.search(plain) and not re.search(r'\b%s\b' % name, self.features):
+                return 'a build without ' + name
+        return None
+
+    # ---- The kinds of blocks ----
+
+    def finish(self, line, name, follows, text):
+        """Judges what ran: its exit code and the text block that follows, None without one."""
+        why = None
+        fails = self.code != 0
+        shows_error = text is not None and any(part.startswith('sealbench: ') for part in text)
+        if fails != shows_error and not (shows_error and self.code == 0):
+            why = 'exit code %d\n%s' % (self.code, '\n'.join(self.output[-8:]))
+        elif text is not None:
+            if self.rewrite:
+                new = rewritten(text, self.output)
+                self.replaced.append((follows, len(text), new))
+                text = new
+            why = difference(text, self.output)
+            if why is not None:
+                why += '\noutput:\n' + '\n'.join(self.output[:60])
+        self.report(why is None, line, name, why)
+
+    def run_command(self, line, command, follows=0, text=None):
+        skip = self.reason_to_skip(command)
+        plain = PROGRAM.sub(r'\1', command)
+        if skip is not None:
+            self.report(True, line, command, skip=skip)
+        elif re.match(r'sealbench(-gtk| open)\b', plain) and '--' not in plain:
+            runs = self.start_window(command)
+            self.report(runs is not False, line, command, 'the window ended',
+                        'without xvfb-run' if runs is None else None)
+        elif re.match(r'sealbench tui\b', plain) and '--help' not in plain:
+            self.report(self.start_terminal(command), line, command, 'the workbench did not start or end')
+        else:
+            self.code, self.output = self.run_shell(command)
+            self.finish(line, command, follows, text)
+
+    def run_sh(self, line, lines, follows, text):
+        commands = split_commands(lines)
+        for at, command in commands[:-1]:
+            self.run_command(line + at + 1, command)
+        for at, command in commands[-1:]:
+            self.run_command(line + at + 1, command, follows, text)
+
+    def run_python(self, line, lines, follows, text):
+        if not re.search(r'\bPython\b', self.features):
+            self.report(True, line, 'python', skip='a build without Python')
+            return
+        self.code, self.output = self.run(['/usr/bin/python3', '-c', '\n'.join(lines)])
+        self.finish(line, 'python', follows, text)
+
+    def run_c(self, line, lines, follows, text):
+        if 'main(' not in '\n'.join(lines):
+            return
+        with open(os.path.join(self.folder, 'page.c'), 'w', encoding='utf-8') as file:
+            file.write('\n'.join(lines) + '\n')
+        self.code, self.output = self.run_shell(
+            'cc -std=c17 -Wall -Werror -o page page.c $(pkg-config --cflags --libs sealbench) -lm')
+        if self.code == 0 and text is not None:
+            self.code, self.output = self.run_shell('./page')
+        self.finish(line, 'c', follows, text)
+
+    def write_file(self, lines):
+        name = re.match(r'#\s*([\w.-]+\.\w+)\s*$', lines[0]) if lines else None
+        if name is not None:
+            with open(os.path.join(self.folder, name.group(1)), 'w', encoding='utf-8') as file:
+                file.write('\n'.join(lines) + '\n')
+
+    def look_up(self, line, code):
+        """A command without its values: its name and options, or the items of the thesis."""
+        words = PROGRAM.sub('', code).split()
+        if words[0].startswith('-') or 'COMMAND' in words[0]:
+            self.report(True, line, code)
+        elif words[0] == 'thesis' and len(words) > 1 and re.fullmatch(r'(table|figure)-[\d.]+', words[1]):
+            known = any(words[1] in text.split() for text in self.run(['sealbench', 'thesis'])[1])
+            self.report(known, line, code, 'no such item')
+        else:
+            status, text = self.run(['sealbench', words[0], '--help'])
+            options = re.findall(r'--[a-z][\w-]*', ' '.join(words))
+            missing = [each for each in options if each not in '\n'.join(text)]
+            self.report(status == 0 and not missing, line, code,
+                        'no such command' if status != 0 else 'no option ' + ', '.join(missing))
+
+    def run_inline(self, line, code):
+        words = PROGRAM.sub('', code).split()
+        if not words:
+            return
+        named_only = (len(words) == 1 and not words[0].startswith('-')) or PLACEHOLDER.search(code)
+        if PROGRAM.match(code).group(1) == 'sealbench' and (named_only or words[0] == 'thesis'):
+            self.look_up(line, code)
+        elif not PLACEHOLDER.search(code):
+            self.run_command(line, code)
+
+    def run_tests(self, line, code):
+        with open(os.path.join(self.build, 'meson-info/intro-tests.json'), encoding='utf-8') as file:
+            known = {test['name'] for test in json.load(file)}
+        names = [word for word in code.split()[2:] if not word.startswith('-') and word[0].islower()]
+        missing = [name for name in names if name not in known and not re.match(r'build\b', name)]
+        self.report(not missing, line, code, 'no test ' + ', '.join(missing))
+
+    def run_items(self):
+        for line, why in self.page.faults:
+            self.report(False, line, 'block', why)
+        items, runs = self.page.items, {'sh': self.run_sh, 'python': self.run_python, 'c': self.run_c}
+        taken = set()
+        for at, (kind, line, lines) in enumerate(items):
+            if kind in runs:
+                below = items[at + 1] if at + 1 < len(items) and items[at + 1][0] == 'text' else None
+                taken.add(at + 1)
+                runs[kind](line, lines, below[1] if below else 0, below[2] if below else None)
+            elif kind == 'text' and at not in taken:
+                self.report(False, line, 'text', 'follows no command (use `plain` for a diagram)')
+            elif kind == 'inline':
+                self.run_inline(line, lines)
+            elif kind == 'tests':
+                self.run_tests(line, lines)
+            elif kind not in ('text', 'plain', 'prose', ''):
+                self.write_file(lines)
+
+    def write_page(self):
+        for begin, count, new in sorted(self.replaced, reverse=True):
+            self.page.lines[begin:begin + count] = new
+        with open(os.path.join(self.source, self.path), 'w', encoding='utf-8') as file:
+            file.write('\n'.join(self.page.lines))
+
+
+def pages(source):
+    """The pages whose commands are run."""
+    # README.md follows with its new text.
+    found = [] + sorted(glob.glob('docs/**/*.md', root_dir=source, recursive=True))
+    return [path for path in found if os.path.isfile(os.path.join(source, path))]
+
+
+def main():
+    arguments = [each for each in sys.argv[1:] if not each.startswith('--')]
+    source, build, path = os.path.abspath(arguments[0]), os.path.abspath(arguments[1]), arguments[2]
+    runner = Runner(source, build, path, '--rewrite' in sys.argv)
+    with tempfile.TemporaryDirectory(prefix='sealbench-page-') as folder:
+        runner.set_up(folder)
+        runner.run_items()
+    if runner.rewrite:
+        runner.write_page()
+    if runner.count == 0:
+        runner.report(True, 0, 'no commands')
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    print('# %.1f s of a processor' % (used.ru_utime + used.ru_stime))
+    print('1..%d' % runner.count)
+    return 1 if runner.failed else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,229 @@
+#!/usr/bin/python3
+"""The test of the documentation (pages.py) itself: what it must find, and that every page has its test.
+
+    test_pages.py SOURCE BUILD PAGE...          the pages that meson.build registered
+"""
+import os
+import subprocess
+import sys
+import tempfile
+
+import pages
+
+# Name: a page, and whether each of its commands passes.
+CASES = {
+    'output': ('''
+```sh
+echo first
+printf '1.61 mm\\n2 N\\n3 N\\n4 N\\n'
+```
+```text
+2 N
+...
+4 N
+```
+''', [True, True]),
+    'a wrong figure': ('''
+```sh
+printf '1.61 mm\\n'
+```
+```text
+1.62 mm
+```
+''', [False]),
+    'lines that are apart': ('''
+```sh
+printf '1\\n2\\n3\\n'
+```
+
+```text
+1
+3
+```
+''', [False]),
+    'lines in another order': ('''
+```sh
+printf '1\\n2\\n3\\n'
+```
+```text
+3
+...
+1
+```
+''', [False]),
+    'a wrong figure of the program': ('''
+```sh
+sealbench asperity --lambda 0.5 | grep F2
+```
+```text
+  F2                                   9.9999
+```
+''', [False]),
+    'an exit code': ('```sh\nfalse\n\n# a comment\ntrue\n```\n', [False, True]),
+    'an error that is shown': ('''
+```sh
+sealbench run no-such-scene
+```
+```text
+sealbench: no-such-scene: No such file or directory
+```
+''', [True]),
+    'an error that is not shown': ('```sh\nsealbench run no-such-scene\n```\n', [False]),
+    'an error that does not occur': ('''
+```sh
+sealbench list views | tail -1; echo 'sealbench: oh'
+```
+```text
+sealbench: something else
+```
+''', [False]),
+    'continued lines and the state of the shell': ('''
+```sh
+mkdir sub && cd sub
+export KEY=value
+echo $KEY \\
+  more
+```
+```text
+value more
+```
+
+```sh
+basename "$PWD"
+cat <<END
+$KEY
+END
+```
+```text
+value
+```
+''', [True] * 5),
+    'files': ('''
+```ini
+# my.scene
+[sealbench]
+format = 1
+kind = scene
+valve = assets/valves/piston.valve
+```
+
+```sh
+sealbench check my.scene
+sealbench check assets/scenes/quick-look.scene
+build/sealbench check my.scene
+```
+''', [True] * 3),
+    'times and dates': ('''
+```sh
+echo "2026-11-28: computed in 1.5 s, 3 N, source 0123456789abcdef"
+```
+```text
+2025-01-01: computed in 22 s, 3 N, source fedcba9876543210
+```
+''', [True]),
+    'python': ('''
+```python
+print(1.5)
+```
+```text
+2.5
+```
+
+```python
+import sealbench
+print(sealbench.Scene("assets/scenes/quick-look.scene")["seal.section_diameter"])
+```
+''', [False, True]),
+    'python that fails': ('```python\nraise SystemExit("no")\n```\n', [False]),
+    'c': ('''
+```c
+#include <sealbench.h>
+int main(void) { return no_such_name; }
+```
+
+```c
+#include <stdio.h>
+int main(void) { return puts("2.5 N") < 0; }
+```
+```text
+2.5 N
+```
+
+```c
+int part_of_a_program;
+```
+''', [False, True]),
+    'in sentences': ('''
+`sealbench list views` and `sealbench run`, `sealbench rum`, `sealbench run FILE.scene -o DIR --all-of-it`,
+`sealbench run FILE.scene -o DIR --json FILE`, `sealbench check
+no.scene`, `sealbench thesis table-7.5` and `sealbench thesis table-7.99`, `meson test docs-selftest`,
+`meson test docs-no-such-test`, and `my sealbench`.
+''', [True, True, False, False, True, False, True, False, True, False]),
+    'skipped': ('```sh\n./run\nKEY=1 sudo rm -rf /\nmeson setup build\n```\n', [True] * 3),
+    'blocks': ('```\nx\n```\n\n```text\nx\n```\n\n```plain\nx\n```\n\n```sh\ntrue', [False, False, False, True]),
+}
+
+
+def make_source(source, folder):
+    for name in ('assets', 'bindings', 'include', 'tests'):
+        os.symlink(os.path.join(source, name), os.path.join(folder, name))
+
+
+def run(folder, build, text, *options):
+    """Whether each command of a page passes, the page afterwards, and what was printed."""
+    path = os.path.join(folder, 'page.md')
+    with open(path, 'w', encoding='utf-8') as file:
+        file.write(text)
+    done = subprocess.run([sys.executable, pages.__file__, *options, folder, build, 'page.md'],
+                          capture_output=True, text=True, check=False)
+    lines = [line for line in done.stdout.split('\n') if line.startswith(('ok ', 'not ok '))]
+    with open(path, encoding='utf-8') as file:
+        return [line.startswith('ok') for line in lines], file.read(), done.stdout + done.stderr
+
+
+def rewrites(folder, build):
+    before = '''
+```sh
+printf 'Load 14.78 N\\nForce 3.1 N\\nWork 2 J\\n'
+```
+```text
+Load 15 N
+...
+Work 3 J
+```
+```sh
+echo 7
+```
+```text
+```
+'''
+    after = before.replace('Load 15 N', 'Load 14.78 N').replace('Work 3 J', 'Work 2 J')
+    after = after.replace('```text\n```', '```text\n7\n```')
+    passed, text, printed = run(folder, build, before, '--rewrite')
+    return passed == [True, True] and text == after, text + printed
+
+
+def main():
+    source, build, registered = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), sys.argv[3:]
+    count = 0
+
+    def report(good, name, why):
+        nonlocal count
+        count += 1
+        print('%sok %d - %s' % ('' if good else 'not ', count, name))
+        if not good:
+            print('# ' + why.replace('\n', '\n# '))
+
+    with tempfile.TemporaryDirectory() as folder:
+        make_source(source, folder)
+        for name, (text, expected) in CASES.items():
+            passed, _, printed = run(folder, build, text)
+            report(passed == expected, name, '%s, expected %s\n%s' % (passed, expected, printed))
+        report(*rewrites(folder, build)[:1], 'rewrite', rewrites(folder, build)[1])
+    found = pages.pages(source)
+    report(sorted(found) == sorted(registered), 'every page has its test',
+           'run `meson setup --reconfigure`: registered %s, found %s' % (registered, found))
+    print('1..%d' % count)
+
+
+main()
