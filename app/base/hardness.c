@@ -49,7 +49,7 @@ static const Scale *scale_of(const char *unit) {
 }
 
 // The scale of "60 Shore A" and the number; NULL: the text has no unit of hardness.
-static const Scale *read(double *hardness, const char *text) {
+static const Scale *read_hardness(double *hardness, const char *text) {
   g_autofree char *trimmed = g_strstrip(g_strdup(text));
   const size_t length = sb_number_read(hardness, trimmed);
   return length > 0 ? scale_of(g_strchug(trimmed + length)) : NULL;
@@ -65,7 +65,7 @@ bool sb_hardness_is_unit(const char *unit) {
 
 bool sb_hardness_parse(double *modulus, const char *text, GError **error) {
   double hardness = 0;
-  const Scale *scale = read(&hardness, text);
+  const Scale *scale = read_hardness(&hardness, text);
   if (scale == NULL) {
     return false;
   }
@@ -81,7 +81,7 @@ bool sb_hardness_parse(double *modulus, const char *text, GError **error) {
 
 char *sb_hardness_note(const char *text) {
   double hardness = 0, modulus = 0;
-  const Scale *scale = read(&hardness, text);
+  const Scale *scale = read_hardness(&hardness, text);
   if (scale == NULL || !sb_hardness_parse(&modulus, text, NULL)) {
     return NULL;
   }

@@ -1,5 +1,4 @@
 // One file. See output.h.
-#define _GNU_SOURCE // O_TMPFILE, O_PATH, memfd_create
 #include "app/base/output_private.h"
 
 #include "app/base/issue.h"

@@ -1,7 +1,6 @@
 // Several files of one result. See output.h. Lines of a manifest are added before the files they
 // name get their names, and the whole is written anew at the end: a file is known at any moment,
 // whatever ends the process, by one of the lines with its name.
-#define _GNU_SOURCE // O_PATH
 #include "app/base/output_private.h"
 
 #include <errno.h>

@@ -1,5 +1,4 @@
 // Wraps lines at words; see the header.
-#define _GNU_SOURCE // fopencookie
 #include "app/cli/wrap.h"
 
 #include <errno.h>

@@ -64,7 +64,7 @@ static void open(SbJson *json, const char *key, char bracket) {
   json->first = true;
 }
 
-static void close(SbJson *json, char bracket) {
+static void close_with(SbJson *json, char bracket) {
   json->depth--;
   if (!json->first) {
     indent(json);
@@ -78,7 +78,7 @@ void sb_json_object(SbJson *json, const char *key) {
 }
 
 void sb_json_object_end(SbJson *json) {
-  close(json, '}');
+  close_with(json, '}');
 }
 
 void sb_json_array(SbJson *json, const char *key) {
@@ -86,7 +86,7 @@ void sb_json_array(SbJson *json, const char *key) {
 }
 
 void sb_json_array_end(SbJson *json) {
-  close(json, ']');
+  close_with(json, ']');
 }
 
 static void number(SbJson *json, double value) {
