@@ -14,10 +14,14 @@ programs on PATH. Blocks work in page order:
            what differs from run to run. A text block that follows no command is an error.
   python   a program for a fresh interpreter that finds the module.
   c        a program if it has main(): it is compiled, and run if a text block follows.
-  plain    not checked (diagrams, equations), as is a block of a file without a name.
-  others   a file: it is written if its first line is a comment with its name alone (`# my.scene`).
+  figures  directly below a sh, python or c block: figures that sentences or tables of the page quote. Each line
+           must be in the output of the block's last command, and in the text of the page. With its command
+           such a block belongs in an HTML comment.
+  plain    not checked (diagrams, equations).
+  others   a file whose first line is a comment with its name alone (`# my.scene`). It is written, and
+           `sealbench check` must find no problem in a valve, scene, study or rubber.
 
-A block without a language is an error. Code within a sentence that begins with `sealbench` is also run,
+A block without a language is an error, and so is an ini block without a name. Code within a sentence that begins with `sealbench` is also run,
 after the block above it. If it has a word in capitals or `...` in place of a value, only the command's
 name and its options are looked up, in `COMMAND --help`; `sealbench thesis ITEM` is looked up in the list
 of items, since the campaign `thesis` computes them. `meson test NAME` must name a test.
@@ -77,7 +81,7 @@ class Page:
     def __init__(self, path):
         with open(path, encoding='utf-8') as file:
             self.lines = file.read().split('\n')
-        self.items, self.faults = [], []
+        self.items, self.faults, self.text = [], [], ''
         prose, at = [], 0
         while at < len(self.lines):
             fence = re.match(r'\s*```+\s*(\S*)\s*$', self.lines[at])
@@ -103,6 +107,7 @@ class Page:
         for at, line in prose:
             places.append((len(text), at + 1))
             text += line + '\n'
+        self.text += text
         for span in re.finditer(r'(?<!`)`([^`]+)`(?!`)', text):
             line = max(at for begin, at in places if begin <= span.start())
             code = ' '.join(span.group(1).split())
@@ -111,7 +116,7 @@ class Page:
             elif code.startswith('meson test '):
                 self.items.append(('tests', line, code))
         # Text between blocks separates an output from its command.
-        if text.strip():
+        if text.replace('<!--', '').replace('-->', '').strip():
             self.items.append(('prose', 0, ''))
 
 
@@ -179,12 +184,17 @@ def split_commands(lines):
     return commands
 
 
+def processor_time():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 class Runner:
     def __init__(self, source, build, path, rewrite):
         self.source, self.build, self.path, self.rewrite = source, build, path, rewrite
         self.page = Page(os.path.join(source, path))
         self.count = self.failed = 0
-        self.output, self.code, self.replaced = None, 0, []
+        self.output, self.code, self.replaced, self.used = None, 0, [], 0
 
     def report(self, good, line, name, why=None, skip=None):
         self.count += 1
@@ -194,6 +204,9 @@ class Runner:
                                         ' # SKIP ' + skip if skip else ''))
         for part in (why or '').split('\n') if not good else []:
             print('# ' + part)
+        before, self.used = self.used, processor_time()
+        if self.used - before > 1:
+            print('# %.1f s of a processor' % (self.used - before))
         sys.stdout.flush()
 
     def set_up(self, folder):
@@ -291,24 +304,28 @@ class Runner:
 
     # ---- The kinds of blocks ----
 
-    def finish(self, line, name, follows, text):
-        """Judges what ran: its exit code and the text block that follows, None without one."""
+    def finish(self, line, name, below):
+        """Judges what ran: its exit code and the output or figures below it, None without any."""
+        kind, begin, text = below or ('', 0, [])
         why = None
-        fails = self.code != 0
-        shows_error = text is not None and any(part.startswith('sealbench: ') for part in text)
-        if fails != shows_error and not (shows_error and self.code == 0):
+        if (self.code != 0) != any(part.startswith('sealbench: ') and 'note: ' not in part for part in text):
             why = 'exit code %d\n%s' % (self.code, '\n'.join(self.output[-8:]))
-        elif text is not None:
+        elif kind == 'text':
             if self.rewrite:
                 new = rewritten(text, self.output)
-                self.replaced.append((follows, len(text), new))
+                self.replaced.append((begin, len(text), new))
                 text = new
             why = difference(text, self.output)
-            if why is not None:
-                why += '\noutput:\n' + '\n'.join(self.output[:60])
+        elif kind == 'figures':
+            missing = [one for one in text if one.strip() not in '\n'.join(self.output)]
+            unquoted = [one for one in text if one.strip() not in self.page.text]
+            why = 'not in the output: %s' % ', '.join(missing) if missing else None
+            why = 'not in the text of the page: %s' % ', '.join(unquoted) if unquoted and not why else why
+        if why is not None:
+            why += '\noutput:\n' + '\n'.join(self.output[:60])
         self.report(why is None, line, name, why)
 
-    def run_command(self, line, command, follows=0, text=None):
+    def run_command(self, line, command, below=None):
         skip = self.reason_to_skip(command)
         plain = PROGRAM.sub(r'\1', command)
         if skip is not None:
@@ -321,38 +338,44 @@ class Runner:
             self.report(self.start_terminal(command), line, command, 'the workbench did not start or end')
         else:
             self.code, self.output = self.run_shell(command)
-            self.finish(line, command, follows, text)
+            self.finish(line, command, below)
 
-    def run_sh(self, line, lines, follows, text):
+    def run_sh(self, line, lines, below):
         commands = split_commands(lines)
         for at, command in commands[:-1]:
             self.run_command(line + at + 1, command)
         for at, command in commands[-1:]:
-            self.run_command(line + at + 1, command, follows, text)
+            self.run_command(line + at + 1, command, below)
 
-    def run_python(self, line, lines, follows, text):
+    def run_python(self, line, lines, below):
         if not re.search(r'\bPython\b', self.features):
             self.report(True, line, 'python', skip='a build without Python')
             return
         self.code, self.output = self.run(['/usr/bin/python3', '-c', '\n'.join(lines)])
-        self.finish(line, 'python', follows, text)
+        self.finish(line, 'python', below)
 
-    def run_c(self, line, lines, follows, text):
+    def run_c(self, line, lines, below):
         if 'main(' not in '\n'.join(lines):
             return
         with open(os.path.join(self.folder, 'page.c'), 'w', encoding='utf-8') as file:
             file.write('\n'.join(lines) + '\n')
         self.code, self.output = self.run_shell(
             'cc -std=c17 -Wall -Werror -o page page.c $(pkg-config --cflags --libs sealbench) -lm')
-        if self.code == 0 and text is not None:
+        if self.code == 0 and below is not None:
             self.code, self.output = self.run_shell('./page')
-        self.finish(line, 'c', follows, text)
+        self.finish(line, 'c', below)
 
-    def write_file(self, lines):
+    def write_file(self, kind, line, lines):
         name = re.match(r'#\s*([\w.-]+\.\w+)\s*$', lines[0]) if lines else None
-        if name is not None:
-            with open(os.path.join(self.folder, name.group(1)), 'w', encoding='utf-8') as file:
-                file.write('\n'.join(lines) + '\n')
+        if name is None:
+            if kind == 'ini':
+                self.report(False, line, 'ini', 'the first line does not name the file (`# my.scene`)')
+            return
+        with open(os.path.join(self.folder, name.group(1)), 'w', encoding='utf-8') as file:
+            file.write('\n'.join(lines) + '\n')
+        if name.group(1).endswith(('.valve', '.scene', '.study', '.rubber')):
+            self.code, self.output = self.run(['sealbench', 'check', name.group(1)])
+            self.finish(line, name.group(1), None)
 
     def look_up(self, line, code):
         """A command without its values: its name and options, or the items of the thesis."""
@@ -390,20 +413,18 @@ class Runner:
         for line, why in self.page.faults:
             self.report(False, line, 'block', why)
         items, runs = self.page.items, {'sh': self.run_sh, 'python': self.run_python, 'c': self.run_c}
-        taken = set()
         for at, (kind, line, lines) in enumerate(items):
+            last, below = items[at - 1] if at > 0 else ('',), items[at + 1] if at + 1 < len(items) else ('',)
             if kind in runs:
-                below = items[at + 1] if at + 1 < len(items) and items[at + 1][0] == 'text' else None
-                taken.add(at + 1)
-                runs[kind](line, lines, below[1] if below else 0, below[2] if below else None)
-            elif kind == 'text' and at not in taken:
-                self.report(False, line, 'text', 'follows no command (use `plain` for a diagram)')
+                runs[kind](line, lines, below if below[0] in ('text', 'figures') else None)
+            elif kind in ('text', 'figures') and last[0] not in runs:
+                self.report(False, line, kind, 'follows no command (use `plain` for a diagram)')
             elif kind == 'inline':
                 self.run_inline(line, lines)
             elif kind == 'tests':
                 self.run_tests(line, lines)
-            elif kind not in ('text', 'plain', 'prose', ''):
-                self.write_file(lines)
+            elif kind not in ('text', 'figures', 'plain', 'prose', ''):
+                self.write_file(kind, line, lines)
 
     def write_page(self):
         for begin, count, new in sorted(self.replaced, reverse=True):
@@ -430,8 +451,7 @@ def main():
         runner.write_page()
     if runner.count == 0:
         runner.report(True, 0, 'no commands')
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    print('# %.1f s of a processor' % (used.ru_utime + used.ru_stime))
+    print('# %.1f s of a processor in all' % processor_time())
     print('1..%d' % runner.count)
     return 1 if runner.failed else 0
 

@@ -112,7 +112,32 @@ sealbench check my.scene
 sealbench check assets/scenes/quick-look.scene
 build/sealbench check my.scene
 ```
-''', [True] * 3),
+''', [True] * 4),
+    'a file with a fault': ('```ini\n# my.scene\n[sealbench]\nformat = 1\nkind = scene\nvalve = no\n```\n', [False]),
+    'a file without a name': ('```ini\n[seal]\n```\n', [False]),
+    'figures in sentences': ('''
+It breaks away at 28.7 N.
+<!--
+```sh
+echo 'Break-away 28.7 N; return 1.6 N'
+```
+```figures
+28.7 N
+```
+-->
+```sh
+echo 28.8 N
+```
+```figures
+28.7 N
+```
+```sh
+echo 1.6 N
+```
+```figures
+1.6 N
+```
+''', [True, False, False]),
     'times and dates': ('''
 ```sh
 echo "2026-11-28: computed in 1.5 s, 3 N, source 0123456789abcdef"
