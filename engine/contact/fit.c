@@ -1,5 +1,5 @@
 // One entrance to the contact models: checks the problem, derives the sizes that all models share
-// (README, Definitions), calls the model and fills the common result; see the header.
+// (docs/results.md, Definitions), calls the model and fills the common result; see the header.
 #include "engine/contact/fit.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 //
 // Sizes: the ring (free section d, free inner diameter ID) lies in a groove whose floor has the
 // diameter D - 2 g, in a bore of diameter D. The fitted mean diameter is D - g. Quantities follow
-// the README's definitions:
+// the definitions of docs/results.md:
 //   squeeze (d - g)/d; stretch_mean ((D - g) - (ID + d))/(ID + d); stretch_inner (D - 2 g)/ID - 1;
 //   section_diameter_fitted d (1 - nu stretch_mean); interference = that - g, diametral;
 // Of a gasket squeeze is its crimp, stretch_inner that of its bore and interference the stem's

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-// Events of the cycle; README, Definitions.
+// Events of the cycle; docs/results.md, Definitions.
 typedef enum {
   SB_STAGE_A,
   SB_STAGE_B,

@@ -1,7 +1,7 @@
 // Compiles parameters to the model: overrides resolved, derived sizes computed, senseless
 // combinations refused.
 //
-// Derived sizes (thesis section 5.2 and 6.4.1; README, Definitions): squeeze eps = (d -
+// Derived sizes (thesis section 5.2 and 6.4.1; docs/results.md, Definitions): squeeze eps = (d -
 // g)/d on the free section; fitted mean diameter D - g; mean stretch eps_z = (D - g - (ID + d))/(ID
 // + d); section after stretch d (1 - nu eps_z), the uniform-shrink estimate (the finite-strain ring
 // is flatter, 1.500 mm against 1.576 mm for the thesis valve).

@@ -124,7 +124,7 @@ static void test_profile(void) {
   g_assert_cmpfloat(fit.profile_x[fit.profile_count - 1], ==, fit.contact_right);
 }
 
-// Sizes by the README's definitions.
+// Sizes by the definitions of docs/results.md.
 static void test_sizes(void) {
   SbFitProblem in = thesis(SB_FIT_KARASZKIEWICZ);
   SbFit fit;
