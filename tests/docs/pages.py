@@ -24,7 +24,9 @@ programs on PATH. Blocks work in page order:
 A block without a language is an error, and so is an ini block without a name. Code within a sentence that begins with `sealbench` is also run,
 after the block above it. If it has a word in capitals or `...` in place of a value, only the command's
 name and its options are looked up, in `COMMAND --help`; `sealbench thesis ITEM` is looked up in the list
-of items, since the campaign `thesis` computes them. `meson test NAME` must name a test.
+of items, since the campaign `thesis` computes them. `meson test NAME` must name a test, "campaign `NAME`" a
+campaign, a source file (`test_ring.c`, `params.def`) must exist, and so must the target of a link, heading
+included.
 
 SKIPPED commands change the reader's system or need another machine. Commands that open the window or the
 workbench of the terminal are started, on a display or terminal of their own, and ended. Commands that need
@@ -115,6 +117,12 @@ class Page:
                 self.items.append(('inline', line, code))
             elif code.startswith('meson test '):
                 self.items.append(('tests', line, code))
+            elif re.fullmatch(r'[\w./-]+\.(c|h|py|def)', code):
+                self.items.append(('source', line, code))
+            elif re.search(r'campaigns?\s$', text[:span.start()]):
+                self.items.append(('campaign', line, code))
+        for link in re.finditer(r'\]\(([^)\s:]+)\)', text):
+            self.items.append(('link', max(at for begin, at in places if begin <= link.start()), link.group(1)))
         # Text between blocks separates an output from its command.
         if text.replace('<!--', '').replace('-->', '').strip():
             self.items.append(('prose', 0, ''))
@@ -194,7 +202,7 @@ class Runner:
         self.source, self.build, self.path, self.rewrite = source, build, path, rewrite
         self.page = Page(os.path.join(source, path))
         self.count = self.failed = 0
-        self.output, self.code, self.replaced, self.used = None, 0, [], 0
+        self.output, self.code, self.replaced, self.used, self.looked = None, 0, [], 0, 0
 
     def report(self, good, line, name, why=None, skip=None):
         self.count += 1
@@ -322,7 +330,7 @@ class Runner:
             why = 'not in the output: %s' % ', '.join(missing) if missing else None
             why = 'not in the text of the page: %s' % ', '.join(unquoted) if unquoted and not why else why
         if why is not None:
-            why += '\noutput:\n' + '\n'.join(self.output[:60])
+            why += '\noutput:\n' + '\n'.join(self.output[:20])
         self.report(why is None, line, name, why)
 
     def run_command(self, line, command, below=None):
@@ -409,6 +417,27 @@ class Runner:
         missing = [name for name in names if name not in known and not re.match(r'build\b', name)]
         self.report(not missing, line, code, 'no test ' + ', '.join(missing))
 
+    def look_for_source(self, line, name):
+        found = glob.glob('**/' + name, root_dir=self.source, recursive=True)
+        self.look(line, name, any(not each.startswith('build') for each in found))
+
+    def look_for_link(self, line, target):
+        path, _, heading = target.partition('#')
+        path = os.path.normpath(os.path.join(self.source, os.path.dirname(self.path), path)) if path else \
+            os.path.join(self.source, self.path)
+        good = os.path.exists(path)
+        if good and heading:
+            with open(path, encoding='utf-8') as file:
+                titles = re.findall(r'^#+\s+(.*?)\s*$', file.read(), re.MULTILINE)
+            good = heading in [re.sub(r'[^\w -]', '', title.lower()).replace(' ', '-') for title in titles]
+        self.look(line, target, good)
+
+    def look(self, line, name, good):
+        """Counts what is looked for; what is missing is a case of its own."""
+        self.looked += 1
+        if not good:
+            self.report(False, line, name, 'does not exist')
+
     def run_items(self):
         for line, why in self.page.faults:
             self.report(False, line, 'block', why)
@@ -423,6 +452,12 @@ class Runner:
                 self.run_inline(line, lines)
             elif kind == 'tests':
                 self.run_tests(line, lines)
+            elif kind == 'source':
+                self.look_for_source(line, lines)
+            elif kind == 'campaign':
+                self.look(line, lines, os.path.exists(os.path.join(self.source, 'tests/campaigns', lines)))
+            elif kind == 'link':
+                self.look_for_link(line, lines)
             elif kind not in ('text', 'figures', 'plain', 'prose', ''):
                 self.write_file(kind, line, lines)
 
@@ -449,8 +484,7 @@ def main():
         runner.run_items()
     if runner.rewrite:
         runner.write_page()
-    if runner.count == 0:
-        runner.report(True, 0, 'no commands')
+    runner.report(True, 0, '%d links and names of sources' % runner.looked)
     print('# %.1f s of a processor in all' % processor_time())
     print('1..%d' % runner.count)
     return 1 if runner.failed else 0
