@@ -470,8 +470,7 @@ class Runner:
 
 def pages(source):
     """The pages whose commands are run."""
-    # README.md follows with its new text.
-    found = [] + sorted(glob.glob('docs/**/*.md', root_dir=source, recursive=True))
+    found = ['README.md'] + sorted(glob.glob('docs/**/*.md', root_dir=source, recursive=True))
     return [path for path in found if os.path.isfile(os.path.join(source, path))]
 
 
