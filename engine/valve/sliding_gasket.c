@@ -75,25 +75,24 @@ static SbRoughPoint point_at(const SbRoughLaw *law, double p, double film) {
   return at;
 }
 
-// The law of a seal's surface, owned; too large for a small stack.
-static SbStatus make_law(SbRoughLaw **out, const SbModel *model, int seal, double roughness,
-                         SbReport *report) {
-  const SbRoughSurface surface = sb_model_surface(model, seal, roughness);
-  *out = malloc(sizeof **out);
-  SbStatus status = *out != NULL
-                        ? sb_rough_law_init(*out, &surface, report)
-                        : sb_fail(report, SB_ERROR_MEMORY, "no memory for a rough surface's law");
-  if (status != SB_OK) {
-    free(*out);
-    *out = NULL;
-  }
-  return status;
+// The law of a task's surface, kept in its memory: it is the same at every speed and pressure.
+static SbStatus law_of(const SbRoughLaw **out, const SbSlidingTask *task, double roughness,
+                       SbReport *report) {
+  const SbRoughSurface surface = sb_model_surface(task->model, task->seal, roughness);
+  SbRoughLaw *law = &task->memory->law;
+  *out = law;
+  return law->count > 0 && sb_rough_same_surface(&law->surface, &surface)
+             ? sb_succeed(report)
+             : sb_rough_law_like(law, &surface, law, report);
 }
 
 SbStatus sb_sliding_edge_asperities(double *out, const double *p, size_t count,
                                     const SbModel *model, int seal, double film, SbReport *report) {
-  SbRoughLaw *law;
-  SbStatus status = make_law(&law, model, seal, 1, report);
+  const SbRoughSurface surface = sb_model_surface(model, seal, 1);
+  SbRoughLaw *law = malloc(sizeof *law); // too large for a small stack
+  SbStatus status = law != NULL
+                        ? sb_rough_law_init(law, &surface, report)
+                        : sb_fail(report, SB_ERROR_MEMORY, "no memory for a rough surface's law");
   for (size_t i = 0; status == SB_OK && i < count; i++) {
     out[i] = p[i] > 0 ? fmin(point_at(law, p[i], film).pressure, p[i]) : 0;
   }
@@ -150,15 +149,14 @@ SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, do
   const double width = out->contact_right - out->contact_left;
   const double around = model->bore_circumference, speed = task->speed;
   const bool slides = sb_sliding_has_film(task);
-  SbRoughLaw *law;
-  SbStatus status = make_law(&law, model, task->seal, roughness, report);
+  const SbRoughLaw *law;
+  SbStatus status = law_of(&law, task, roughness, report);
   if (status != SB_OK) {
     return status;
   }
   const double film = out->film_central;
   out->lambda = slides ? film / (roughness * model->sigma) : NAN;
   const Rough on = rough_at(out, model, law, film, speed), dry = rough_at(out, model, law, 0, 0);
-  free(law);
   out->real_area_share = fmin(on.area / width, 1);
   out->rest_area_share = fmin(dry.area / width, 1);
   out->asperity_share = out->load_net > 0 ? fmin(on.load / out->load_net, 1) : NAN;
