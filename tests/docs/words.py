@@ -1,10 +1,9 @@
 #!/usr/bin/python3
-"""The text of README.md and docs/: no words that the project does not use, links that resolve, 120 lines.
+"""The text of README.md and docs/: no words that the project does not use, and the length of the README.
 
     words.py SOURCE
 
-Words are searched without regard to case, outside of blocks and of code within sentences. A link to a file
-is relative to its page; its fragment is a heading of that page as GitHub names it.
+Words are searched without regard to case, outside of blocks and of code within sentences.
 """
 import glob
 import os
@@ -33,34 +32,6 @@ def unwanted(text):
             for found in WORDS.finditer(prose(text))]
 
 
-def anchors(text):
-    """Fragments of a page's headings."""
-    blocks_out = re.sub(r'^ *```.*?^ *```[^\n]*$', blank, text, flags=re.M | re.S)
-    names = []
-    for heading in re.findall(r'^#+ +(.*?) *$', blocks_out, re.M):
-        heading = re.sub(r'[^\w\- ]', '', heading.replace('`', '').lower()).replace(' ', '-')
-        names.append(heading)
-    return names
-
-
-def broken(source, page, text):
-    """Links of a page that lead nowhere."""
-    found = []
-    for target in re.findall(r'\]\(([^)\s]+)\)', prose(text)):
-        if re.match(r'[a-z]+:', target):
-            continue
-        path, _, fragment = target.partition('#')
-        path = os.path.normpath(os.path.join(os.path.dirname(page), path)) if path else page
-        where = os.path.join(source, path)
-        if not os.path.exists(where):
-            found.append(target)
-        elif fragment:
-            with open(where, encoding='utf-8') as file:
-                if fragment not in anchors(file.read()):
-                    found.append(target)
-    return found
-
-
 def check_itself():
     """Examples that must be found, and others that must not."""
     for text in ['It hangs\non the load.', 'Nobody knows.', 'This is no study.', 'A ring Beside a bore.', 'the same\nof both',
@@ -71,8 +42,6 @@ def check_itself():
                  'This is not a study.', '``a ` told``', 'between `a` and `told\nb`']:
         if unwanted(text):
             return f'{text!r} should have no finding'
-    if anchors('# A `b` c, d!\n```\n# no\n```\n## Rough contact\n') != ['a-b-c-d', 'rough-contact']:
-        return 'anchors'
     return ''
 
 
@@ -96,7 +65,6 @@ def main():
         with open(os.path.join(source, page), encoding='utf-8') as file:
             text = file.read()
         problems = [f'{page}:{line}: "{words}"' for line, words in unwanted(text)]
-        problems += [f'{page}: the link {target} leads nowhere' for target in broken(source, page, text)]
         result(page, '\n'.join(problems))
         if page == 'README.md':
             lines = text.count('\n')
