@@ -1,5 +1,5 @@
 #!/bin/sh
-# A hundred pictures under valgrind, as a film: no leak, no wrong access. First argument: sealbench,
+# Fifty pictures under valgrind, as a film: no leak, no wrong access. First argument: sealbench,
 # second: the sources. Skipped (77) where valgrind is missing.
 command -v valgrind >/dev/null || exit 77
 folder=$(mktemp -d) || exit 1
@@ -16,4 +16,4 @@ OPENBLAS_NUM_THREADS=1 G_SLICE=always-malloc valgrind -q --leak-check=full \
   --errors-for-leak-kinds=definite --show-leak-kinds=definite --error-exitcode=9 --num-callers=20 \
   --suppressions="$2/tests/valgrind.supp" \
   "$1" render "$2/assets/scenes/quick-look.scene" -o "$folder/$written" --view "${3:-section}" \
-  --size 160x90 --fps 25 --duration 4s --quiet && [ -n "$(ls "$folder")" ]
+  --size 160x90 --fps 25 --duration 2s --quiet && [ -n "$(ls "$folder")" ]

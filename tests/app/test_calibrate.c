@@ -380,7 +380,7 @@ static void test_coverage(void) {
 // parameter makes. Intervals of 95 % contain the truth in at least 85 % of the loops, each
 // parameter by itself.
 static void test_wrong_model(void) {
-  enum { LOOPS = 60, PARAMETERS = 2 };
+  enum { LOOPS = 50, PARAMETERS = 2 };
   static const SbParamId id[PARAMETERS] = {SB_P_FRICTION_LOAD_COEFFICIENT,
                                            SB_P_STEM_PRESSURE_DIAMETER};
   const SbDistribution prior[PARAMETERS] = {

@@ -162,15 +162,13 @@ static void test_plan_matches(void) {
   char *scenes = g_path_get_dirname(cli.scene);
   GDir *dir = g_dir_open(scenes, 0, NULL);
   const char *name;
+  unsigned seen = 0;
   while ((name = g_dir_read_name(dir)) != NULL) {
     char *path = g_build_filename(scenes, name, NULL);
     // Whatever the tolerance.
     CliResult plan = CLI("plan", path, "--json", "-", "--set", "output.tolerance=0.01");
-    CliResult run = CLI("run", path, "--json", "-", "--quiet", "--set", "output.tolerance=0.01");
     g_assert_cmpint(plan.code, ==, 0);
-    g_assert_cmpint(run.code, ==, 0);
     JsonNode *plan_root = cli_parse(plan.out);
-    JsonNode *run_root = cli_parse(run.out);
     bool reynolds = false;
     bool ring = false;
     bool profiles = false;
@@ -190,15 +188,23 @@ static void test_plan_matches(void) {
     if (json_array_get_length(json_node_get_array(cli_at(plan_root, "skipped"))) > 0) {
       cli_has_keys(plan_root, "skipped.0.name skipped.0.reason");
     }
-    JsonNode *counters = cli_at(run_root, "solver.counters");
-    g_assert_cmpint(cli_number(counters, "reynolds_solves") > 0, ==, reynolds);
-    g_assert_cmpint(cli_number(counters, "ring_solves") > 0, ==, ring);
-    g_assert_cmpint(cli_number(counters, "profile_evaluations") > 0, ==, profiles);
-    g_assert_cmpint(cli_number(counters, "field_evaluations") > 0, ==, interior);
+    // One scene of each plan runs; test_scenes.c runs them all.
+    const unsigned planned = 1U << (reynolds + 2 * ring + 4 * profiles + 8 * interior);
+    if ((seen & planned) == 0) {
+      CliResult run = CLI("run", path, "--json", "-", "--quiet", "--set", "output.tolerance=0.01");
+      g_assert_cmpint(run.code, ==, 0);
+      JsonNode *run_root = cli_parse(run.out);
+      JsonNode *counters = cli_at(run_root, "solver.counters");
+      g_assert_cmpint(cli_number(counters, "reynolds_solves") > 0, ==, reynolds);
+      g_assert_cmpint(cli_number(counters, "ring_solves") > 0, ==, ring);
+      g_assert_cmpint(cli_number(counters, "profile_evaluations") > 0, ==, profiles);
+      g_assert_cmpint(cli_number(counters, "field_evaluations") > 0, ==, interior);
+      json_node_unref(run_root);
+      cli_clear(&run);
+    }
+    seen |= planned;
     json_node_unref(plan_root);
-    json_node_unref(run_root);
     cli_clear(&plan);
-    cli_clear(&run);
     g_free(path);
   }
   g_dir_close(dir);
