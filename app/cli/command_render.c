@@ -2,6 +2,7 @@
 #include "app/cli/cli.h"
 
 #include "app/base/output.h"
+#include "app/export/formats.h"
 #include "app/export/render_movie.h"
 #include "app/export/studies.h"
 #include "app/section/painter.h"
@@ -82,7 +83,9 @@ static bool parse_film(Request *request, const Options *options) {
   }
   if (!moves && (options->fps != NULL || options->duration != NULL || options->speed != NULL ||
                  options->from != NULL || options->to != NULL)) {
-    sb_cli_fail("--fps, --duration, --speed, --from and --to are for films (.mp4) and sequences");
+    g_autofree char *films = sb_export_endings(1 << SB_FORMAT_FILM, 0, ", ", " or ");
+    sb_cli_fail("--fps, --duration, --speed, --from and --to are for films (%s) and sequences",
+                films);
     return false;
   }
   if (options->duration != NULL && options->speed != NULL) {
@@ -109,46 +112,58 @@ static bool parse_film(Request *request, const Options *options) {
   return true;
 }
 
-// Where the bytes go, of `files` files, and the ending that says how they are drawn.
-static bool parse_output(Request *request, const char **ending, const Options *options, int files) {
-  static const char *const formats[] = {".png", ".svg", ".pdf", ".mp4", NULL};
-  bool stream = strcmp(options->output, "-") == 0;
+// Whether -o and --format go together for `files` files.
+static bool check_target(const Options *options, int files) {
+  const bool stream = strcmp(options->output, "-") == 0;
+  g_autofree char *names = sb_export_endings(SB_FORMAT_ALL, 1, ", ", " or ");
   if (files > 1) {
-    bool named = stream;
-    for (const char *const *each = formats; *each != NULL; each++) {
-      named |= sb_output_ends_in(options->output, *each);
-    }
+    const bool named = stream || sb_export_format(options->output) != NULL;
     if (named && !g_file_test(options->output, G_FILE_TEST_IS_DIR)) {
-      sb_cli_fail("-o: %s: %d files need a folder; --format chooses png, svg, pdf or mp4",
-                  options->output, files);
+      sb_cli_fail("-o: %s: %d files need a folder; --format chooses %s", options->output, files,
+                  names);
       return false;
     }
-  } else if (stream != (options->format != NULL)) {
-    sb_cli_fail(stream ? "--format is missing: -o - needs png, svg, pdf or mp4"
-                       : "--format is for -o - and for several files; a file's ending says it");
+  } else if (stream && options->format == NULL) {
+    sb_cli_fail("--format is missing: -o - needs %s", names);
+    return false;
+  } else if (!stream && options->format != NULL) {
+    sb_cli_fail("--format is for -o - and for several files; the ending of a file chooses it");
     return false;
   }
-  *ending = options->output;
+  return true;
+}
+
+// Where the bytes go, of `files` files, and their format.
+static bool parse_output(Request *request, const Options *options, int files) {
+  if (!check_target(options, files)) {
+    return false;
+  }
+  const bool stream = strcmp(options->output, "-") == 0;
+  const SbExportFormat *format = sb_export_format(options->output);
   if (stream || files > 1) {
-    const char *format = options->format != NULL ? options->format : "png";
-    const char *const *found = formats;
-    while (*found != NULL && g_ascii_strcasecmp(*found + 1, format) != 0) {
-      found++;
-    }
-    if (*found == NULL) {
-      sb_cli_unknown("--format: there is no", format, "png|svg|pdf|mp4", NULL);
+    g_autofree char *ending =
+        g_strconcat(".", options->format != NULL ? options->format : "png", NULL);
+    format = sb_export_format(ending);
+    if (format == NULL || strlen(format->ending) != strlen(ending)) {
+      g_autofree char *names = sb_export_endings(SB_FORMAT_ALL, 1, "|", "|");
+      sb_cli_unknown("--format: there is no", options->format, names, NULL);
       return false;
     }
-    *ending = *found;
-    request->how.ending = stream ? *found : NULL;
-    request->name = files > 1 ? g_strconcat(request->how.view, *found, NULL) : NULL;
+    request->how.ending = stream ? format->ending : NULL;
+    request->name = files > 1 ? g_strconcat(request->how.view, format->ending, NULL) : NULL;
+  } else {
+    request->sequence = sb_render_is_sequence(options->output);
   }
-  request->film = sb_output_ends_in(*ending, ".mp4");
-  request->sequence = *ending == options->output && sb_render_is_sequence(options->output);
-  request->vector = sb_output_ends_in(*ending, ".svg") || sb_output_ends_in(*ending, ".pdf");
-  bool still = request->vector || sb_output_ends_in(*ending, ".png");
-  if (!still && !request->film && !request->sequence) {
-    sb_cli_fail("-o: %s: the ending must be .png, .svg, .pdf or .mp4", options->output);
+  if (format == NULL && !request->sequence) {
+    g_autofree char *endings = sb_export_endings(SB_FORMAT_ALL, 0, ", ", " or ");
+    sb_cli_fail("-o: %s: the ending must be %s", options->output, endings);
+    return false;
+  }
+  request->film = !request->sequence && format->kind == SB_FORMAT_FILM;
+  request->vector = !request->sequence && format->kind == SB_FORMAT_DRAWING;
+  const char *missing = request->film ? sb_movie_missing(format->film) : NULL;
+  if (missing != NULL) {
+    sb_cli_fail("-o: %s: %s", format->ending, missing);
     return false;
   }
   return true;
@@ -179,16 +194,13 @@ static bool parse(Request *request, const Options *options, int files) {
   if (options->size != NULL && !parse_size(&how->width, &how->height, options->size)) {
     return false;
   }
-  const char *ending;
-  if (!parse_output(request, &ending, options, files)) {
-    return false;
-  }
-  if (request->film && sb_movie_missing() != NULL) {
-    sb_cli_fail("-o: %s: %s", ending, sb_movie_missing());
+  if (!parse_output(request, options, files)) {
     return false;
   }
   if (request->is_study && (request->film || request->sequence)) {
-    sb_cli_fail("--view %s is a study, which does not move: write a .png, .svg or .pdf", how->view);
+    g_autofree char *stills =
+        sb_export_endings(1 << SB_FORMAT_PICTURE | 1 << SB_FORMAT_DRAWING, 0, ", ", " or ");
+    sb_cli_fail("--view %s is a study, which does not move: write a %s", how->view, stills);
     return false;
   }
   if (options->at != NULL && options->at[0] == '\0') {
@@ -521,12 +533,12 @@ int sb_command_render(int argc, char **argv) {
   Options options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output,
-       "Picture (.png, .svg, .pdf), film (.mp4) or sequence (frames/%04d.png or a folder); of "
-       "several "
-       "files a folder, for SCENE-NAME/VIEW.png in it",
+       "Picture (.png, .svg, .pdf), film (.mp4), animation (.webp, .apng, .gif) or sequence "
+       "(frames/%04d.png or a folder); of several files a folder, for SCENE-NAME/VIEW.png in it",
        "OUT"},
       {"format", 0, 0, G_OPTION_ARG_FILENAME, &options.format,
-       "Of -o -, which writes to standard output, and of several files: png, svg, pdf or mp4",
+       "Of -o -, which writes to standard output, and of several files: png, svg, pdf, mp4, webp, "
+       "apng or gif",
        "NAME"},
       {"view", 0, 0, G_OPTION_ARG_FILENAME, &options.view,
        "section (default), cutaway, hysteresis, profiles, dashboard, rig, life or a study "

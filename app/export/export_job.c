@@ -4,6 +4,7 @@
 
 #include "app/base/output.h"
 #include "app/data/compare.h"
+#include "app/export/formats.h"
 #include "app/export/json.h"
 #include "app/export/render_movie.h"
 #include "app/export/report.h"
@@ -159,12 +160,13 @@ static void make(SbExportJob *job, SbSectionPainter *painter) {
   SbMovieResult result = {0};
   g_autoptr(GError) error = NULL;
   bool sequence = sb_render_is_sequence(request->path);
+  const SbExportFormat *format = sb_export_format(request->path);
   if (sequence) {
     g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
     bool good = sb_render_sequence(run, &options, &movie, request->path, &result, kept, &error);
     tell_film(job, good, &result, true, error);
     tell_kept(job, kept);
-  } else if (sb_output_ends_in(request->path, ".mp4")) {
+  } else if (format != NULL && format->kind == SB_FORMAT_FILM) {
     bool good = sb_render_movie(run, &options, &movie, request->path, &result, &error);
     tell_film(job, good, &result, false, error);
   } else {

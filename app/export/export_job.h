@@ -12,7 +12,7 @@
 // What to make. Texts are owned by whoever holds the struct.
 typedef struct {
   char *stale;          // why the run no longer fits the values, NULL if it does
-  char *path;           // .png, .svg, .pdf, .mp4 for a film, or the pattern of a sequence
+  char *path;           // with an ending of formats.h, or the pattern of a sequence
   char *view;           // name in sb_render_views(), or "report": the pages, .json the figures
   double width, height; // pixels
   gboolean dark;
@@ -52,7 +52,7 @@ double sb_export_job_progress(SbExportJob *job);
 // Seconds it will still take at the pace so far; negative as long as that cannot be said.
 double sb_export_job_left(SbExportJob *job);
 
-// Asks it to end; returns at once. A film keeps the pictures done so far, playable.
+// Asks it to end; returns immediately. An MP4 keeps the pictures done so far, playable.
 void sb_export_job_cancel(SbExportJob *job);
 
 // Only after `done`: a sentence about the result, and whether it is a good one. Borrowed.

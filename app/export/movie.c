@@ -12,6 +12,18 @@
 
 enum { ROW = 3 }; // pictures in flight
 
+// A format's largest rate, and whether a cancelled film is kept.
+static const struct {
+  int fps_max;
+  bool keeps_partial;
+} traits[SB_MOVIE_FORMATS] = {
+    [SB_MOVIE_MP4] = {1000, true},
+    [SB_MOVIE_WEBP] = {1000, false},
+    [SB_MOVIE_APNG] = {1000, false},
+    // Delays are multiples of 10 ms, and browsers slow down those below 20 ms.
+    [SB_MOVIE_GIF] = {50, false},
+};
+
 typedef struct {
   SbMovieEncoder *encoder;
   size_t stride;
@@ -118,7 +130,8 @@ static SbStatus run_pipe(Pipe *line, const SbMovieOptions *options, SbMovieDraw 
     }
     return line->status;
   }
-  if (status != SB_OK && (status != SB_ERROR_CANCELLED || result->frames == 0)) {
+  const bool keeps = status == SB_ERROR_CANCELLED && traits[options->format].keeps_partial;
+  if (status != SB_OK && !(keeps && result->frames > 0)) {
     return status;
   }
   // A cancelled film is finished too, and says that it is partial.
@@ -151,9 +164,11 @@ static SbStatus check_options(const SbMovieOptions *options, SbReport *report) {
     return sb_fail(report, SB_ERROR_RANGE, "a film of %d x %d pixels: sides run from %d to %d",
                    options->width, options->height, SB_MOVIE_SIZE_MIN, SB_MOVIE_SIZE_MAX);
   }
-  if (options->fps_num < 1 || options->fps_den < 1 || options->fps_num > 1000 * options->fps_den) {
-    return sb_fail(report, SB_ERROR_RANGE, "%d/%d frames per second: 1/1000 to 1000 can be made",
-                   options->fps_num, options->fps_den);
+  const int most_fps = traits[options->format].fps_max;
+  if (options->fps_num < 1 || options->fps_den < 1 ||
+      options->fps_num > most_fps * (double)options->fps_den) {
+    return sb_fail(report, SB_ERROR_RANGE, "%d/%d frames per second: 1/1000 to %d can be made",
+                   options->fps_num, options->fps_den, most_fps);
   }
   if (options->frames < 1) {
     return sb_fail(report, SB_ERROR_RANGE, "a film needs at least one frame");

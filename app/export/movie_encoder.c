@@ -1,10 +1,11 @@
-// libavcodec and libavformat. pts is the picture's index in units of 1/fps; the index (moov) is
-// moved to the file's front; colours are tagged BT.709, limited range, chroma at the block's
+// libavcodec and libavformat. pts is the picture's index in units of 1/fps. MP4: the index (moov)
+// is moved to the file's front; colours are tagged BT.709, limited range, chroma at the block's
 // centre. Every write is checked, the last ones too: a full disk shows first in either.
 #include "app/export/movie_encoder.h"
 
 #include "app/base/identity.h"
 #include "app/export/colour.h"
+#include "app/export/quantise.h"
 
 #include <dlfcn.h>
 #include <errno.h>
@@ -68,8 +69,8 @@ static char *no_movie(const char *why) {
   return g_strdup_printf("%s: write frames/%%04d.png, a sequence of pictures", why);
 }
 
-// NULL, or why there is no libav. The libraries stay.
-static void *load(void *unused) {
+// Returns NULL, or why there is no libav. The libraries stay.
+static void *load_libraries(void *unused) {
   void *library[LIBRARIES];
   for (int i = 0; i < LIBRARIES; i++) {
     library[i] = dlopen(library_name[i], RTLD_LAZY | RTLD_LOCAL);
@@ -85,7 +86,18 @@ static void *load(void *unused) {
   return NULL;
 }
 
+// How a format is written; strings are static. Options are pairs of key and value.
+typedef struct {
+  const char *muxer, *encoder;
+  enum AVPixelFormat pixels;
+  int even; // sides are multiples of this many pixels
+  const char *codec_option[3][2], *muxer_option[1][2];
+  void (*convert)(SbMovieEncoder *encoder, const uint8_t *pixels, size_t stride);
+} Format;
+
 struct SbMovieEncoder {
+  const Format *how;
+  SbQuantiser *quantiser; // of GIF
   AVFormatContext *format;
   AVCodecContext *codec;
   AVStream *stream;
@@ -111,70 +123,153 @@ static SbStatus check_output(SbMovieEncoder *encoder, SbReport *report) {
   return code < 0 ? fail(report, "writing the film", code) : SB_OK;
 }
 
-static SbStatus set_up_codec(SbMovieEncoder *encoder, const SbMovieOptions *options,
-                             SbReport *report) {
-  const AVCodec *found = av.avcodec_find_encoder_by_name("libx264");
-  if (found == NULL) {
-    return sb_fail(report, SB_ERROR_IO, "libavcodec has no libx264 encoder");
+// ---- Pixels: cairo's ARGB32 to the encoder's picture ----
+
+static void convert_yuv(SbMovieEncoder *encoder, const uint8_t *pixels, size_t stride) {
+  sb_colour_to_yuv420(encoder->frame->data, encoder->frame->linesize, pixels, stride,
+                      encoder->width, encoder->height);
+}
+
+// AV_PIX_FMT_RGB32 has the same bytes.
+static void convert_argb(SbMovieEncoder *encoder, const uint8_t *pixels, size_t stride) {
+  for (int y = 0; y < encoder->height; y++) {
+    memcpy(encoder->frame->data[0] + (ptrdiff_t)y * encoder->frame->linesize[0],
+           pixels + (size_t)y * stride, 4 * (size_t)encoder->width);
   }
-  AVCodecContext *codec = encoder->codec = av.avcodec_alloc_context3(found);
-  if (codec == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the encoder");
+}
+
+static void convert_rgb(SbMovieEncoder *encoder, const uint8_t *pixels, size_t stride) {
+  for (int y = 0; y < encoder->height; y++) {
+    const uint32_t *row = (const uint32_t *)(const void *)(pixels + (size_t)y * stride);
+    uint8_t *to = encoder->frame->data[0] + (ptrdiff_t)y * encoder->frame->linesize[0];
+    for (int x = 0; x < encoder->width; x++) {
+      to[3 * x] = (uint8_t)(row[x] >> 16);
+      to[3 * x + 1] = (uint8_t)(row[x] >> 8);
+      to[3 * x + 2] = (uint8_t)row[x];
+    }
   }
-  codec->width = (options->width + 1) & ~1;
-  codec->height = (options->height + 1) & ~1;
-  codec->pix_fmt = AV_PIX_FMT_YUV420P;
-  codec->time_base = (AVRational){options->fps_den, options->fps_num};
-  codec->framerate = (AVRational){options->fps_num, options->fps_den};
-  codec->gop_size = MAX(1, 2 * options->fps_num / options->fps_den);
+}
+
+static void convert_palette(SbMovieEncoder *encoder, const uint8_t *pixels, size_t stride) {
+  AVFrame *frame = encoder->frame;
+  const uint32_t *entry = sb_quantise(encoder->quantiser, frame->data[0], frame->linesize[0],
+                                      pixels, stride, encoder->width, encoder->height);
+  memcpy(frame->data[1], entry, AVPALETTE_SIZE);
+}
+
+// ---- Formats ----
+
+// MP4 holds few pictures at once: for drawings like ours neither more lookahead nor pictures
+// between others make the file smaller, and one thread keeps up with the drawing.
+// clang-format off
+static const Format formats[SB_MOVIE_FORMATS] = {
+    [SB_MOVIE_MP4] = {"mp4", "libx264", AV_PIX_FMT_YUV420P, 2,
+                      {{"x264-params", "rc-lookahead=1:sync-lookahead=0"},
+                       {"preset", "veryfast"},
+                       {"crf", "18"}},
+                      {{"movflags", "+faststart"}},
+                      convert_yuv},
+    [SB_MOVIE_WEBP] = {"webp", "libwebp_anim", AV_PIX_FMT_RGB32, 1,
+                       {{"lossless", "1"}, {"compression_level", "3"}},
+                       {{"loop", "0"}},
+                       convert_argb},
+    [SB_MOVIE_APNG] = {"apng", "apng", AV_PIX_FMT_RGB24, 1,
+                       {{"pred", "none"}}, // filters make flat drawings larger
+                       {{"plays", "0"}},
+                       convert_rgb},
+    [SB_MOVIE_GIF] = {"gif", "gif", AV_PIX_FMT_PAL8, 1,
+                      {{"gifflags", "+offsetting+transdiff"}},
+                      {{"loop", "0"}},
+                      convert_palette},
+};
+// clang-format on
+
+// Adds `count` options that have a key.
+static void add_options(AVDictionary **set, const char *const (*option)[2], size_t count) {
+  for (size_t i = 0; i < count && option[i][0] != NULL; i++) {
+    av.av_dict_set(set, option[i][0], option[i][1], 0);
+  }
+}
+
+static void tag_colours(AVCodecContext *codec) {
   codec->color_range = AVCOL_RANGE_MPEG;
   codec->color_primaries = AVCOL_PRI_BT709;
   codec->color_trc = AVCOL_TRC_BT709;
   codec->colorspace = AVCOL_SPC_BT709;
   codec->chroma_sample_location = AVCHROMA_LOC_CENTER;
+}
+
+static SbStatus set_up_codec(SbMovieEncoder *encoder, const SbMovieOptions *options,
+                             SbReport *report) {
+  const Format *how = encoder->how;
+  const AVCodec *found = av.avcodec_find_encoder_by_name(how->encoder);
+  AVCodecContext *codec = encoder->codec = av.avcodec_alloc_context3(found);
+  if (codec == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the encoder");
+  }
+  codec->width = (options->width + how->even - 1) / how->even * how->even;
+  codec->height = (options->height + how->even - 1) / how->even * how->even;
+  codec->pix_fmt = how->pixels;
+  codec->time_base = (AVRational){options->fps_den, options->fps_num};
+  codec->framerate = (AVRational){options->fps_num, options->fps_den};
+  codec->gop_size = MAX(1, 2 * options->fps_num / options->fps_den);
   codec->sample_aspect_ratio = (AVRational){1, 1};
   codec->thread_count = options->threads > 0 ? options->threads : 1;
+  codec->max_b_frames = 0;
+  if (options->format == SB_MOVIE_MP4) {
+    tag_colours(codec);
+  }
   if (encoder->format->oformat->flags & AVFMT_GLOBALHEADER) {
     codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   }
   if (options->bit_exact) {
     codec->flags |= AV_CODEC_FLAG_BITEXACT;
   }
-  // Few pictures held at once: for drawings like ours neither more lookahead nor pictures between
-  // others make the file smaller, and one thread keeps up with the drawing.
-  codec->max_b_frames = 0;
   AVDictionary *set = NULL;
-  av.av_dict_set(&set, "x264-params", "rc-lookahead=1:sync-lookahead=0", 0);
-  av.av_dict_set(&set, "preset", options->preset != NULL ? options->preset : "veryfast", 0);
-  av.av_dict_set_int(&set, "crf", options->quality > 0 ? options->quality : 18, 0);
+  add_options(&set, how->codec_option, G_N_ELEMENTS(how->codec_option));
+  if (options->preset != NULL) {
+    av.av_dict_set(&set, "preset", options->preset, 0);
+  }
+  if (options->quality > 0) {
+    av.av_dict_set_int(&set, "crf", options->quality, 0);
+  }
   int code = av.avcodec_open2(codec, found, &set);
   av.av_dict_free(&set);
-  if (code < 0) {
-    return fail(report, "the H.264 encoder does not open", code);
-  }
-  return SB_OK;
+  return code < 0 ? fail(report, "the encoder does not open", code) : SB_OK;
 }
 
-const char *sb_movie_missing(void) {
+const char *sb_movie_missing(SbMovieFormat format) {
   static GOnce once = G_ONCE_INIT;
-  return g_once(&once, load, NULL);
+  const char *why = g_once(&once, load_libraries, NULL);
+  if (why != NULL || av.avcodec_find_encoder_by_name(formats[format].encoder) != NULL) {
+    return why;
+  }
+  static char *missing[SB_MOVIE_FORMATS];
+  if (g_once_init_enter(&missing[format])) {
+    g_autofree char *no = g_strdup_printf("libavcodec has no encoder %s", formats[format].encoder);
+    g_once_init_leave(&missing[format], no_movie(no));
+  }
+  return missing[format];
 }
 
 SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
                                const SbMovieOptions *options, SbReport *report) {
   *out = NULL;
-  if (sb_movie_missing() != NULL) {
-    return sb_fail(report, SB_ERROR_IO, "%s", sb_movie_missing());
+  const char *missing = sb_movie_missing(options->format);
+  if (missing != NULL) {
+    return sb_fail(report, SB_ERROR_IO, "%s", missing);
   }
   av.av_log_set_level(AV_LOG_QUIET);
   SbMovieEncoder *encoder = g_new0(SbMovieEncoder, 1);
+  encoder->how = &formats[options->format];
+  encoder->quantiser = encoder->how->pixels == AV_PIX_FMT_PAL8 ? sb_quantiser_create() : NULL;
   encoder->width = options->width;
   encoder->height = options->height;
   char *url = g_strdup_printf("file:%s", path);
   SbStatus status = SB_OK;
-  int code = av.avformat_alloc_output_context2(&encoder->format, NULL, "mp4", url);
+  int code = av.avformat_alloc_output_context2(&encoder->format, NULL, encoder->how->muxer, url);
   if (code < 0) {
-    status = fail(report, "no MP4 writer", code);
+    status = fail(report, "no writer of this format", code);
   } else {
     status = set_up_codec(encoder, options, report);
   }
@@ -190,7 +285,7 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
     encoder->stream->time_base = encoder->codec->time_base;
     encoder->stream->avg_frame_rate = encoder->codec->framerate;
     code = av.avcodec_parameters_from_context(encoder->stream->codecpar, encoder->codec);
-    encoder->frame->format = AV_PIX_FMT_YUV420P;
+    encoder->frame->format = encoder->how->pixels;
     encoder->frame->width = encoder->codec->width;
     encoder->frame->height = encoder->codec->height;
     if (code >= 0) {
@@ -214,7 +309,7 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
     g_autofree char *identity = sb_identity_text();
     av.av_dict_set(&encoder->format->metadata, "description", identity, 0);
     AVDictionary *set = NULL;
-    av.av_dict_set(&set, "movflags", "+faststart", 0);
+    add_options(&set, encoder->how->muxer_option, G_N_ELEMENTS(encoder->how->muxer_option));
     code = av.avformat_write_header(encoder->format, &set);
     av.av_dict_free(&set);
     encoder->header = code >= 0;
@@ -257,8 +352,7 @@ SbStatus sb_movie_encoder_add(SbMovieEncoder *encoder, const uint8_t *pixels, si
   if (code < 0) {
     return fail(report, "no memory for a picture", code);
   }
-  sb_colour_to_yuv420(encoder->frame->data, encoder->frame->linesize, pixels, stride,
-                      encoder->width, encoder->height);
+  encoder->how->convert(encoder, pixels, stride);
   encoder->frame->pts = encoder->next++;
   int64_t middle = g_get_monotonic_time();
   SbStatus status = push(encoder, encoder->frame, report);
@@ -290,6 +384,7 @@ void sb_movie_encoder_destroy(SbMovieEncoder *encoder) {
   if (encoder == NULL) {
     return;
   }
+  sb_quantiser_destroy(encoder->quantiser);
   av.av_packet_free(&encoder->packet);
   av.av_frame_free(&encoder->frame);
   av.avcodec_free_context(&encoder->codec);

@@ -1,4 +1,4 @@
-// The encoder and its file: pictures in, MP4 out. One thread at a time.
+// The encoder and its file: pictures in, a film out. One thread at a time.
 #pragma once
 
 #include "app/export/movie.h"

@@ -51,7 +51,7 @@ typedef struct {
   const char *subtitle; // names of the files; the header adds the run's conditions
   const char *hash;     // of the parameters
   const char *scene;    // text that restores the scene, for PNG and SVG
-  const char *ending;   // of a still whose path has none; NULL: the path's
+  const char *ending;   // of a file whose path has none; NULL: the path's
   const char *stale;    // why the run no longer fits the scene, said on the page; NULL: it does
   const SbComparison *measured; // of the run; NULL: nothing
   SbRenderPin pin[SB_CHART_PINS];

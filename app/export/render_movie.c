@@ -1,6 +1,8 @@
 // Hands a film's pictures to the movie writer.
 #include "app/export/render_movie.h"
 
+#include "app/export/formats.h"
+
 #include <string.h>
 
 static SbStatus draw(void *data, size_t picture, uint8_t *pixels, size_t stride, SbReport *report) {
@@ -27,7 +29,9 @@ bool sb_render_movie(const SbRun *run, const SbRenderOptions *options, const SbR
   if (!sb_movie_pictures_open(&film, run, options, movie, error)) {
     return false;
   }
-  SbMovieOptions how = {.frames = sb_movie_pictures_count(film),
+  const SbExportFormat *format = sb_export_format(options->ending != NULL ? options->ending : path);
+  SbMovieOptions how = {.format = format != NULL ? format->film : SB_MOVIE_MP4,
+                        .frames = sb_movie_pictures_count(film),
                         .title = options->title,
                         .comment = sb_movie_pictures_comment(film)};
   sb_movie_pictures_size(film, &how.width, &how.height);

@@ -1,13 +1,14 @@
-// A finished run as a film, H.264 in MP4, or as a sequence of PNG files.
+// A finished run as a film or animation, or as a sequence of PNG files.
 #pragma once
 
 #include "app/base/output.h"
 #include "app/export/movie_pictures.h"
 
-// Renders `run` into the MP4 file `path`; sizes default to the view's own, `at`, `scale` and
-// `scene` of the options are not used. SB_APP_ERROR_INPUT (unknown view, size, rate, range, no
-// frames), SB_APP_ERROR_IO (an earlier file is intact), SB_APP_ERROR_CANCELLED (a playable part is
-// there, flagged partial, if result->frames > 0). `result` may be NULL.
+// Renders `run` into the film `path`, in the format of its ending (formats.h); sizes default to the
+// view's own, `at`, `scale` and `scene` of the options are not used. SB_APP_ERROR_INPUT (unknown
+// view, size, rate, range, no frames), SB_APP_ERROR_IO (an earlier file is intact),
+// SB_APP_ERROR_CANCELLED (a playable part is there, flagged partial, if result->frames > 0, which
+// only MP4 has). `result` may be NULL.
 bool sb_render_movie(const SbRun *run, const SbRenderOptions *options, const SbRenderMovie *movie,
                      const char *path, SbMovieResult *result, GError **error);
 

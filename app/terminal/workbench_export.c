@@ -3,6 +3,7 @@
 #include "app/terminal/workbench_private.h"
 
 #include "app/base/output.h"
+#include "app/export/formats.h"
 #include "app/export/render.h"
 
 #include <glib/gi18n.h>
@@ -83,7 +84,6 @@ static void start(SbBench *bench, const char *path, const char *name, const SbRe
 }
 
 void sb_bench_export(SbBench *bench, const char *text) {
-  static const char *const pictures[] = {".png", ".svg", ".pdf", ".mp4"};
   g_autofree char *path = g_strstrip(g_strdup(text));
   const char *name = "section";
   const SbRenderView *view = find_view(name);
@@ -96,10 +96,7 @@ void sb_bench_export(SbBench *bench, const char *text) {
     *last = '\0';
     g_strchomp(path);
   }
-  bool picture = false;
-  for (size_t i = 0; i < G_N_ELEMENTS(pictures); i++) {
-    picture = picture || sb_output_ends_in(path, pictures[i]);
-  }
+  const bool picture = sb_export_format(path) != NULL;
   if (bench->export != NULL) {
     sb_bench_say(bench, true, _("An export is under way; c cancels it."));
   } else if (sb_output_ends_in(path, ".txt")) {
@@ -109,9 +106,8 @@ void sb_bench_export(SbBench *bench, const char *text) {
   } else if (view == NULL ? sb_output_ends_in(path, ".pdf") : picture) {
     start(bench, path, name, view);
   } else {
-    sb_bench_say(bench, true,
-                 _("%s: .json the figures, .txt this screen, .png .svg .pdf .mp4 a view, .pdf "
-                   "report"),
-                 path);
+    g_autofree char *endings = sb_export_endings(SB_FORMAT_ALL, 0, " ", " ");
+    sb_bench_say(bench, true, _("%s: .json the figures, .txt this screen, %s a view, .pdf report"),
+                 path, endings);
   }
 }

@@ -39,7 +39,11 @@ static void test_render(void) {
     const char *arguments[8];
     int code;
   } bad[] = {
-      {{"-o", "x.gif"}, 1},
+      {{"-o", "x.bmp"}, 1},
+      {{"-o", "x.webp", "--at", "C"}, 1},
+      {{"-o", "x.gif", "--fps", "60"}, 1},
+      {{"-o", "x.apng", "--view", "tolerances"}, 1},
+      {{"-o", "-", "--format", "bmp"}, 1},
       {{"-o", "x.png", "--view", "clouds"}, 1},
       {{"-o", "x.png", "--size", "12"}, 1},
       {{"-o", "x.png", "--size", "1x1"}, 1},
@@ -193,6 +197,36 @@ static void test_film_file(void) {
   g_free(bytes);
   g_unlink(path);
   g_free(path);
+}
+
+// Animations: the options of films; an unknown ending is answered by all that there are; what is
+// interrupted leaves nothing.
+static void test_animations(void) {
+  CliResult result = CLI("render", cli.scene, "-o", "x.bmp");
+  g_assert_nonnull(strstr(result.err, ".png, .svg, .pdf, .mp4, .webp, .apng or .gif"));
+  cli_clear(&result);
+  result = CLI("--help");
+  g_assert_nonnull(strstr(result.out, "OUT.{png,svg,pdf,mp4,webp,apng,gif}"));
+  cli_clear(&result);
+  static const struct {
+    const char *name, *magic;
+  } cases[] = {{"loop.webp", "RIFF"}, {"loop.apng", "\x89PNG"}, {"loop.gif", "GIF8"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autofree char *path = g_build_filename(cli.folder, cases[i].name, NULL);
+    result = CLI("render", cli.scene, "-o", path, "--view", "hysteresis", "--quiet", "--size",
+                 "320x180", "--fps", "5", "--duration", "1 s");
+    g_assert_cmpstr(result.err, ==, "");
+    g_assert_cmpint(result.code, ==, 0);
+    cli_clear(&result);
+    g_autofree char *bytes = cli_contents(cli.folder, cases[i].name);
+    g_assert_cmpint(memcmp(bytes, cases[i].magic, 4), ==, 0);
+    g_unlink(path);
+    const char *const argv[] = {cli.program, "render",     cli.scene, "-o",      path,
+                                "--view",    "hysteresis", "--size",  "320x180", "--duration",
+                                "20 s",      "--progress", "lines",   NULL};
+    g_assert_cmpint(interrupted_run(argv, "drawing 10", SIGINT), ==, 130);
+    g_assert_false(g_file_test(path, G_FILE_TEST_EXISTS));
+  }
 }
 
 static gint by_name(gconstpointer a, gconstpointer b) {
@@ -375,6 +409,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-pictures/render", test_render);
   g_test_add_func("/cli-pictures/studies", test_studies);
   g_test_add_func("/cli-pictures/film-file", test_film_file);
+  g_test_add_func("/cli-pictures/animations", test_animations);
   g_test_add_func("/cli-pictures/sequence", test_sequence);
   g_test_add_func("/cli-pictures/full-disk", test_full_disk);
   g_test_add_func("/cli-pictures/interrupt", test_interrupt);

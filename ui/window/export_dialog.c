@@ -5,6 +5,7 @@
 
 #include "app/base/translation.h"
 #include "app/export/export_job.h"
+#include "app/export/formats.h"
 #include "app/export/render.h"
 #include "ui/views/later.h"
 #include "ui/views/style.h"
@@ -28,8 +29,10 @@ typedef struct {
   gboolean sizing; // the preset writes the numbers, not the user
 } Dialog;
 
-static const char *format_of(Dialog *dialog) {
-  return gtk_combo_box_get_active_id(GTK_COMBO_BOX(dialog->format));
+// The chosen row of the table of formats; NULL: a sequence, which the table does not have, or none.
+static const SbExportFormat *format_of(Dialog *dialog) {
+  const char *ending = gtk_combo_box_get_active_id(GTK_COMBO_BOX(dialog->format));
+  return ending != NULL ? sb_export_format(ending) : NULL;
 }
 
 static const SbRenderView *view_of(Dialog *dialog) {
@@ -37,11 +40,13 @@ static const SbRenderView *view_of(Dialog *dialog) {
 }
 
 static gboolean is_sequence(Dialog *dialog) {
-  return g_strcmp0(format_of(dialog), "sequence") == 0;
+  const char *id = gtk_combo_box_get_active_id(GTK_COMBO_BOX(dialog->format));
+  return g_strcmp0(id, "sequence") == 0;
 }
 
 static gboolean is_film(Dialog *dialog) {
-  return g_strcmp0(format_of(dialog), "mp4") == 0 || is_sequence(dialog);
+  const SbExportFormat *format = format_of(dialog);
+  return is_sequence(dialog) || (format != NULL && format->kind == SB_FORMAT_FILM);
 }
 
 static gboolean by_speed(Dialog *dialog) {
@@ -59,6 +64,9 @@ static gboolean has_fields(Dialog *dialog) {
 
 // Gives the file name the ending of the format; a sequence a number too.
 static void follow_format(Dialog *dialog) {
+  if (format_of(dialog) == NULL && !is_sequence(dialog)) {
+    return;
+  }
   const char *text = gtk_entry_get_text(GTK_ENTRY(dialog->path));
   const char *slash = strrchr(text, G_DIR_SEPARATOR);
   const char *dot = strrchr(text, '.');
@@ -69,8 +77,8 @@ static void follow_format(Dialog *dialog) {
     stem -= tail;
   }
   g_autofree char *path =
-      g_strdup_printf("%.*s%s.%s", (int)stem, text, is_sequence(dialog) ? number : "",
-                      is_sequence(dialog) ? "png" : format_of(dialog));
+      g_strdup_printf("%.*s%s%s", (int)stem, text, is_sequence(dialog) ? number : "",
+                      is_sequence(dialog) ? ".png" : format_of(dialog)->ending);
   if (strcmp(path, text) != 0) {
     gtk_entry_set_text(GTK_ENTRY(dialog->path), path);
   }
@@ -363,6 +371,17 @@ static void on_destroy(GtkWidget *widget, Dialog *dialog) {
 // Opening
 // ------------------------------------------------------------------------------------------
 
+// All formats of the table, before the sequence of pictures that the form has.
+static void fill_formats(Dialog *dialog) {
+  size_t count;
+  const SbExportFormat *format = sb_export_formats(&count);
+  for (size_t i = 0; i < count; i++) {
+    gtk_combo_box_text_insert(GTK_COMBO_BOX_TEXT(dialog->format), (int)i, format[i].ending,
+                              sb_translation(format[i].label));
+  }
+  gtk_combo_box_set_active(GTK_COMBO_BOX(dialog->format), 0);
+}
+
 // The section as the scene wants it.
 static void fill_section(Dialog *dialog) {
   for (int i = 0; i < SB_FIELD_COUNT; i++) {
@@ -433,7 +452,7 @@ static void fill(Dialog *dialog) {
   gtk_combo_box_set_active(GTK_COMBO_BOX(dialog->pace), 0);
   fill_section(dialog);
   gtk_combo_box_set_active_id(GTK_COMBO_BOX(dialog->theme), sb_style_is_dark() ? "dark" : "light");
-  gtk_combo_box_set_active_id(GTK_COMBO_BOX(dialog->format), "png");
+  fill_formats(dialog);
 }
 
 void sb_export_dialog_open(GtkWindow *parent, SbSession *session) {

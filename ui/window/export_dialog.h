@@ -1,4 +1,4 @@
-// The export dialog: a picture (PNG, SVG, PDF) or a film (MP4) of the shown run.
+// The export dialog: a picture, a drawing or a film of the shown run.
 #pragma once
 
 #include "app/session/session.h"
