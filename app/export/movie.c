@@ -2,8 +2,10 @@
 // full ones. POSIX threads and a mutex, so that the thread sanitizer understands them.
 #include "app/export/movie.h"
 
+#include "app/base/identity.h"
 #include "app/base/output.h"
 #include "app/export/movie_encoder.h"
+#include "app/export/movie_remark.h"
 
 #include <glib.h>
 #include <math.h>
@@ -183,6 +185,14 @@ static SbStatus take_error(GError *error, SbReport *report) {
   return status;
 }
 
+// The program's identity and the comment, in animations; the encoder writes those of MP4.
+static SbStatus write_remark(const char *path, const SbMovieOptions *options, SbReport *report) {
+  g_autofree char *identity = sb_identity_text();
+  const char *comment = options->comment != NULL ? options->comment : "";
+  g_autofree char *text = g_strconcat(identity, *comment != '\0' ? "; " : "", comment, NULL);
+  return sb_movie_remark(path, options->format, text, report);
+}
+
 SbStatus sb_movie_write(const char *path, const SbMovieOptions *given, SbMovieDraw draw,
                         void *draw_data, const SbMovieHooks *hooks, SbMovieResult *result,
                         SbReport *report) {
@@ -223,6 +233,9 @@ SbStatus sb_movie_write(const char *path, const SbMovieOptions *given, SbMovieDr
   sb_movie_encoder_destroy(line.encoder);
   for (int i = 0; i < ROW; i++) {
     g_free(line.picture[i]);
+  }
+  if (status == SB_OK) {
+    status = write_remark(file.written_at, &options, report);
   }
   if (status == SB_OK || result->partial) {
     if (!sb_output_commit(&file, &error)) {

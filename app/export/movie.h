@@ -33,7 +33,7 @@ typedef struct {
   int threads;          // of the encoder; 0: one, which keeps up with the drawing
   bool bit_exact;       // the same bytes on every run (for tests); needs threads = 1
   const char *title;    // MP4: metadata; may be NULL
-  const char *comment;  // MP4: metadata, such as models and errors; may be NULL
+  const char *comment;  // metadata, such as models and errors; may be NULL
 } SbMovieOptions;
 
 // Draws picture `frame` into `pixels`: rows top down, cairo's ARGB32, `stride` bytes a row. Called

@@ -1,13 +1,20 @@
 // Animations in WebP, APNG and GIF: number and duration of the pictures, endless repetition, and
 // pixels as another program decodes them; nothing is left of a cancelled one.
+#include "app/base/identity.h"
 #include "app/export/formats.h"
 #include "app/export/movie.h"
 #include "app/export/quantise.h"
+
+#include "tests/crc.h"
 
 #include <glib.h>
 #include <glib/gstdio.h>
 #include <math.h>
 #include <string.h>
+
+// Longer than a block of GIF, with a character that XML escapes.
+#define REMARK_PART "Models: fit ring < 1 and film reynolds; "
+#define REMARK      REMARK_PART REMARK_PART REMARK_PART REMARK_PART REMARK_PART REMARK_PART REMARK_PART
 
 enum { WIDTH = 61, HEIGHT = 33, PICTURES = 24 };
 
@@ -54,7 +61,8 @@ static SbStatus write_animation(SbMovieFormat format, int fps, Painter *painter,
                                   .height = HEIGHT,
                                   .fps_num = fps,
                                   .fps_den = 1,
-                                  .frames = PICTURES};
+                                  .frames = PICTURES,
+                                  .comment = REMARK};
   const SbMovieHooks hooks = {NULL, cancelled, painter};
   g_autofree char *path = path_of(format);
   return sb_movie_write(path, &options, paint, painter, &hooks, result, report);
@@ -74,6 +82,7 @@ typedef struct {
   size_t pictures;
   double seconds;
   unsigned plays;
+  GString *remark; // owned
 } Content;
 
 static unsigned little(const guint8 *at, int bytes) {
@@ -94,7 +103,8 @@ static unsigned big(const guint8 *at, int bytes) {
 
 // WebP container: https://developers.google.com/speed/webp/docs/riff_container
 static Content read_webp(const guint8 *data, gsize length) {
-  Content content = {.plays = 99};
+  Content content = {.plays = 99, .remark = g_string_new(NULL)};
+  bool has_xmp = false;
   g_assert_cmpint(memcmp(data, "RIFF", 4), ==, 0);
   g_assert_cmpuint(little(data + 4, 4) + 8, ==, length);
   for (gsize at = 12; at + 8 <= length;) {
@@ -108,6 +118,10 @@ static Content read_webp(const guint8 *data, gsize length) {
     } else if (memcmp(data + at, "VP8X", 4) == 0) {
       g_assert_cmpuint(little(body + 4, 3) + 1, ==, WIDTH);
       g_assert_cmpuint(little(body + 7, 3) + 1, ==, HEIGHT);
+      has_xmp = (body[0] & 4) != 0;
+    } else if (memcmp(data + at, "XMP ", 4) == 0) {
+      g_assert_true(has_xmp);
+      g_string_append_len(content.remark, (const char *)body, size);
     }
     at += 8 + size + (size & 1);
   }
@@ -116,10 +130,16 @@ static Content read_webp(const guint8 *data, gsize length) {
 
 // APNG chunks: https://www.w3.org/TR/png-3/
 static Content read_apng(const guint8 *data, gsize length) {
-  Content content = {.plays = 99};
+  Content content = {.plays = 99, .remark = g_string_new(NULL)};
   unsigned announced = 0;
   for (gsize at = 8; at + 12 <= length; at += 12 + big(data + at, 4)) {
     const guint8 *body = data + at + 8;
+    const unsigned size = big(data + at, 4);
+    g_assert_cmphex(big(body + size, 4), ==, crc(data + at + 4, size + 4));
+    if (memcmp(data + at + 4, "iTXt", 4) == 0) {
+      g_assert_cmpint(memcmp(body, "Comment\0\0\0\0", 12), ==, 0);
+      g_string_append_len(content.remark, (const char *)body + 12, size - 12);
+    }
     if (memcmp(data + at + 4, "acTL", 4) == 0) {
       announced = big(body, 4);
       content.plays = big(body + 4, 4);
@@ -142,7 +162,7 @@ static gsize skip_blocks(const guint8 *data, gsize at) {
 
 // GIF89a: https://www.w3.org/Graphics/GIF/spec-gif89a.txt
 static Content read_gif(const guint8 *data, gsize length) {
-  Content content = {.plays = 99};
+  Content content = {.plays = 99, .remark = g_string_new(NULL)};
   gsize at = 13 + ((data[10] & 0x80) != 0 ? 3u << ((data[10] & 7) + 1) : 0);
   while (at < length && data[at] != 0x3B) {
     if (data[at] == 0x21) {
@@ -150,6 +170,10 @@ static Content read_gif(const guint8 *data, gsize length) {
         content.seconds += 1e-2 * little(data + at + 4, 2);
       } else if (data[at + 1] == 0xFF && memcmp(data + at + 3, "NETSCAPE2.0", 11) == 0) {
         content.plays = little(data + at + 16, 2);
+      } else if (data[at + 1] == 0xFE) {
+        for (gsize k = at + 2; data[k] != 0; k += 1u + data[k]) {
+          g_string_append_len(content.remark, (const char *)data + k + 1, data[k]);
+        }
       }
       at = skip_blocks(data, at + 2);
     } else {
@@ -182,6 +206,11 @@ static void test_content(void) {
     g_assert_cmpuint(content.plays, ==, 0);
     // 24 pictures at 12 a second; GIF counts in hundredths of a second.
     g_assert_cmpfloat(fabs(content.seconds - 2), <=, 0.02);
+    g_autofree char *identity = sb_identity_text();
+    g_autofree char *text = g_strconcat(identity, "; ", REMARK, NULL);
+    g_autofree char *escaped = g_markup_escape_text(text, -1);
+    g_assert_nonnull(strstr(content.remark->str, format == SB_MOVIE_WEBP ? escaped : text));
+    g_string_free(content.remark, TRUE);
     g_unlink(path);
   }
 }

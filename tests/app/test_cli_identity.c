@@ -114,11 +114,12 @@ static void test_json(void) {
   g_unlink(store);
 }
 
-// PNG, SVG, PDF and MP4 name the engine and the commit.
+// Pictures and films of all formats name the engine and the commit.
 static void test_pictures(void) {
-  static const char *const names[] = {"a.png", "a.svg", "a.pdf", "a.mp4"};
+  static const char *const names[] = {"a.png",  "a.svg",  "a.pdf", "a.mp4",
+                                      "a.webp", "a.apng", "a.gif"};
   CliResult features = CLI("--version");
-  const size_t count = strstr(features.out, "MP4") != NULL ? 4 : 3;
+  const size_t count = strstr(features.out, "MP4") != NULL ? G_N_ELEMENTS(names) : 3;
   cli_clear(&features);
   const SbEngineIdentity *engine = sb_engine_identity();
   g_autofree char *folder = g_path_get_dirname(cli.scene);
@@ -127,7 +128,7 @@ static void test_pictures(void) {
     g_autofree char *path = path_of(names[i]);
     const char *const arguments[] = {
         "render", quick,        "-o", path,
-        "--view", "hysteresis", "-q", i == 3 ? "--duration=0.1s" : NULL,
+        "--view", "hysteresis", "-q", i >= 3 ? "--duration=0.1s" : NULL,
         NULL};
     CliResult result = cli_run(arguments, NULL, NULL);
     g_assert_cmpint(result.code, ==, 0);
