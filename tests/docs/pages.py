@@ -121,8 +121,10 @@ class Page:
                 self.items.append(('source', line, code))
             elif re.search(r'campaigns?\s$', text[:span.start()]):
                 self.items.append(('campaign', line, code))
-        for link in re.finditer(r'\]\(([^)\s:]+)\)', text):
-            self.items.append(('link', max(at for begin, at in places if begin <= link.start()), link.group(1)))
+        for link in re.finditer(r'\]\(([^)\s]+)\)', text):
+            if not re.match(r'[a-z]+:', link.group(1)):
+                line = max(at for begin, at in places if begin <= link.start())
+                self.items.append(('link', line, link.group(1)))
         # Text between blocks separates an output from its command.
         if text.replace('<!--', '').replace('-->', '').strip():
             self.items.append(('prose', 0, ''))
@@ -339,8 +341,11 @@ class Runner:
         if skip is not None:
             self.report(True, line, command, skip=skip)
         elif re.match(r'sealbench(-gtk| open)\b', plain) and '--' not in plain:
+            files = [word for word in plain.split()[1:] if word != 'open']
             runs = self.start_window(command)
-            self.report(runs is not False, line, command, 'the window ended',
+            # The window would stay open with a message where it cannot read its file.
+            good = runs is not False and all(self.run(['sealbench', 'check', file])[0] == 0 for file in files)
+            self.report(good, line, command, 'the window ended, or its file has a fault',
                         'without xvfb-run' if runs is None else None)
         elif re.match(r'sealbench tui\b', plain) and '--help' not in plain:
             self.report(self.start_terminal(command), line, command, 'the workbench did not start or end')
@@ -423,12 +428,11 @@ class Runner:
 
     def look_for_link(self, line, target):
         path, _, heading = target.partition('#')
-        path = os.path.normpath(os.path.join(self.source, os.path.dirname(self.path), path)) if path else \
-            os.path.join(self.source, self.path)
-        good = os.path.exists(path)
+        path = os.path.normpath(os.path.join(os.path.dirname(self.path), path)) if path else self.path
+        good = os.path.exists(os.path.join(self.source, path))
         if good and heading:
-            with open(path, encoding='utf-8') as file:
-                titles = re.findall(r'^#+\s+(.*?)\s*$', file.read(), re.MULTILINE)
+            with open(os.path.join(self.source, path), encoding='utf-8') as file:
+                titles = re.findall(r'^#+ +(.*?) *$', file.read(), re.MULTILINE)
             good = heading in [re.sub(r'[^\w -]', '', title.lower()).replace(' ', '-') for title in titles]
         self.look(line, target, good)
 

@@ -4,6 +4,7 @@
     test_pages.py SOURCE BUILD PAGE...          the pages that meson.build registered
 """
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -184,13 +185,21 @@ int part_of_a_program;
 no.scene`, `sealbench thesis table-7.5` and `sealbench thesis table-7.99`, `meson test docs-selftest`,
 `meson test docs-no-such-test`, and `my sealbench`.
 ''', [True, True, False, False, True, False, True, False, True, False]),
+    'names': ('`params.def`, `no_such_file.c`, campaigns `thesis` and campaign `no-such`.\n', [False, False]),
+    'links': ('''
+# A heading, with 2 words
+[one](page.md#a-heading-with-2-words) [two](#a-heading) [three](assets/valves/piston.valve) [four](no.md)
+[five](https://example.org/)
+''', [False, False]),
+    'windows and terminals': ('```sh\nsealbench-gtk no.scene\nsealbench tui no.scene\nsealbench tui quick-look\n```\n',
+                              [False, False, True]),
     'skipped': ('```sh\n./run\nKEY=1 sudo rm -rf /\nmeson setup build\n```\n', [True] * 3),
     'blocks': ('```\nx\n```\n\n```text\nx\n```\n\n```plain\nx\n```\n\n```sh\ntrue', [False, False, False, True]),
 }
 
 
 def make_source(source, folder):
-    for name in ('assets', 'bindings', 'include', 'tests'):
+    for name in ('assets', 'bindings', 'engine', 'include', 'tests'):
         os.symlink(os.path.join(source, name), os.path.join(folder, name))
 
 
@@ -201,7 +210,7 @@ def run(folder, build, text, *options):
         file.write(text)
     done = subprocess.run([sys.executable, pages.__file__, *options, folder, build, 'page.md'],
                           capture_output=True, text=True, check=False)
-    lines = [line for line in done.stdout.split('\n') if line.startswith(('ok ', 'not ok '))]
+    lines = [line for line in done.stdout.split('\n') if re.match(r'(not )?ok \d+ - page.md:[1-9]', line)]
     with open(path, encoding='utf-8') as file:
         return [line.startswith('ok') for line in lines], file.read(), done.stdout + done.stderr
 
