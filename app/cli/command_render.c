@@ -8,6 +8,7 @@
 #include "app/section/painter.h"
 #include "app/session/pin_names.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -26,6 +27,7 @@ typedef struct {
   SbRenderMovie movie;
   SbSectionZoom zoom;
   SbGlBackend backend;
+  const SbExportFormat *format; // NULL: a sequence
   bool film, sequence, vector, is_study;
   SbStudyKind study;
   char *name; // of a picture in its file's folder: "section.png"; NULL: -o names it
@@ -104,6 +106,12 @@ static bool parse_film(Request *request, const Options *options) {
     sb_cli_fail("--fps, --duration and --speed must be positive");
     return false;
   }
+  const int most = request->film ? sb_movie_fps_max(request->format->film) : INT_MAX;
+  if (movie->fps > most) {
+    sb_cli_fail("--fps: %g is too fast for %s (allowed at most %d)", movie->fps,
+                request->format->ending, most);
+    return false;
+  }
   if (options->speed == NULL) {
     movie->speed = 0;
   }
@@ -159,6 +167,7 @@ static bool parse_output(Request *request, const Options *options, int files) {
     sb_cli_fail("-o: %s: the ending must be %s", options->output, endings);
     return false;
   }
+  request->format = request->sequence ? NULL : format;
   request->film = !request->sequence && format->kind == SB_FORMAT_FILM;
   request->vector = !request->sequence && format->kind == SB_FORMAT_DRAWING;
   const char *missing = request->film ? sb_movie_missing(format->film) : NULL;

@@ -160,13 +160,17 @@ static SbStatus run_pipe(Pipe *line, const SbMovieOptions *options, SbMovieDraw 
   return status;
 }
 
+int sb_movie_fps_max(SbMovieFormat format) {
+  return traits[format].fps_max;
+}
+
 static SbStatus check_options(const SbMovieOptions *options, SbReport *report) {
   int least = MIN(options->width, options->height), most = MAX(options->width, options->height);
   if (least < SB_MOVIE_SIZE_MIN || most > SB_MOVIE_SIZE_MAX) {
     return sb_fail(report, SB_ERROR_RANGE, "a film of %d x %d pixels: sides run from %d to %d",
                    options->width, options->height, SB_MOVIE_SIZE_MIN, SB_MOVIE_SIZE_MAX);
   }
-  const int most_fps = traits[options->format].fps_max;
+  const int most_fps = sb_movie_fps_max(options->format);
   if (options->fps_num < 1 || options->fps_den < 1 ||
       options->fps_num > most_fps * (double)options->fps_den) {
     return sb_fail(report, SB_ERROR_RANGE, "%d/%d frames per second: 1/1000 to %d can be made",

@@ -67,5 +67,8 @@ SbStatus sb_movie_write(const char *path, const SbMovieOptions *options, SbMovie
 // borrowed.
 const char *sb_movie_missing(SbMovieFormat format);
 
+// Returns the largest number of pictures per second of a format.
+int sb_movie_fps_max(SbMovieFormat format);
+
 // round(duration * fps), at least 1.
 size_t sb_movie_frames(double duration, int fps_num, int fps_den);

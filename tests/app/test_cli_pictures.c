@@ -205,6 +205,10 @@ static void test_animations(void) {
   CliResult result = CLI("render", cli.scene, "-o", "x.bmp");
   g_assert_nonnull(strstr(result.err, ".png, .svg, .pdf, .mp4, .webp, .apng or .gif"));
   cli_clear(&result);
+  result = CLI("render", cli.scene, "-o", "x.gif", "--fps", "60");
+  g_assert_cmpstr(result.err, ==,
+                  "sealbench: --fps: 60 is too fast for .gif (allowed at most 50)\n");
+  cli_clear(&result);
   result = CLI("--help");
   g_assert_nonnull(strstr(result.out, "OUT.{png,svg,pdf,mp4,webp,apng,gif}"));
   cli_clear(&result);
