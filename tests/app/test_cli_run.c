@@ -195,7 +195,7 @@ static void test_folder(void) {
   g_assert_true(g_file_set_contents(scene, text, -1, NULL));
   result = CLI("run", scene);
   g_assert_cmpint(result.code, ==, 0);
-  g_auto(GStrv) with_measured = summary_lines(result.out);
+  g_strfreev(summary_lines(result.out));
   g_assert_nonnull(strstr(result.out, "\nMeasured: cycle.csv, difference "));
   cli_clear(&result);
   g_unlink(scene);
