@@ -143,8 +143,9 @@ static void starve(SbFilmTransient *t) {
   sb_transient_bear(t, s, false);
 }
 
-// Least film, by a parabola through the lowest node and its neighbours, and the central one,
-// scaled. Returns the place of the least one.
+// Minimum film, by a parabola through the logarithms of the lowest node and its neighbours, and the
+// central film, scaled. Returns the place of the minimum. A parabola through the films themselves
+// falls below zero in a dip that is not wider than the spacing.
 static double read_films(double out[2], const SbFilmTransient *t) {
   const double *X = t->X, *H = t->now.H;
   int at = 1;
@@ -152,11 +153,11 @@ static double read_films(double out[2], const SbFilmTransient *t) {
     at = H[i] < H[at] ? i : at;
   }
   const double x0 = X[at - 1] - X[at], x1 = X[at + 1] - X[at];
-  const double h0 = H[at - 1] - H[at], h1 = H[at + 1] - H[at];
+  const double h0 = log(H[at - 1] / H[at]), h1 = log(H[at + 1] / H[at]);
   const double a = (h1 / x1 - h0 / x0) / (x1 - x0);
   const double b = h0 / x0 - a * x0;
   const double dx = a > 0.0 ? fmin(fmax(-0.5 * b / a, x0), x1) : 0.0;
-  out[0] = H[at] + dx * (b + a * dx);
+  out[0] = H[at] * exp(dx * (b + a * dx));
   const int k = (int)sb_interval(X, (size_t)t->nodes, 0.0);
   double bary[4], basis[4];
   sb_barycentric_weights(bary, &X[k - 1], 4);
@@ -599,22 +600,25 @@ static SbStatus compare(SbFilmTransient *t, double way) {
   double fine[2], coarse[2];
   (void)read_films(coarse, other);
   const double place = read_films(fine, t);
-  // A dip that the coarse spacing does not know may go twice as deep again as its node lies below
-  // the neighbours, for all that the two know.
+  // A dip that the coarse spacing does not resolve may be deeper than both meshes show: in
+  // proportion as much again as the minimum is below the next nodes but one, twice. The film stays
+  // above zero, so that this part of the estimate stays below 1.
   int at = 1;
   while (t->X[at] < place) {
     at++;
   }
   const double *H = t->now.H;
   const bool unknown = !t->problem.resolve && t->face[at].carried > 0.0;
-  const double bend = unknown ? fabs((H[at - 2] + H[at + 1]) / fine[0] - 2.0) : 0.0;
+  const double share = 2.0 * fine[0] / (H[at - 2] + H[at + 1]);
+  const double bend = unknown ? fabs(1.0 - share * share) : 0.0;
   t->way += way;
   trace(t, way, fine[0], coarse[0]);
+  const double history = t->result.error_mesh + trace_apart(t);
   t->result.error_history =
-      fmax(t->result.error_history, t->result.error_mesh + trace_apart(t) + bend);
+      fmax(t->result.error_history, history + bend * fmax(0.0, 1.0 - history));
   for (int k = 0; k < 2; k++) {
-    const double share = k == 0 ? 1.0 : 0.5;
-    const double apart = share * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);
+    const double part = k == 0 ? 1.0 : 0.5;
+    const double apart = part * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);
     if (apart > t->apart[k] || t->way - t->apart_way[k] > 2.0) {
       t->apart[k] = apart;
       t->apart_way[k] = t->way;

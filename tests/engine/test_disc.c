@@ -364,6 +364,12 @@ static void test_limits(void) {
       disc = solve(&in);
       g_assert_cmpint(disc.touches, ==, !above);
     }
+    // However near the pressure is to the greatest one, there is an outcome.
+    for (int k = 1; k <= 24; k++) {
+      in.pressure = (1.0 + 1e-3 * k) * most;
+      disc = solve(&in);
+      g_assert_true(disc.touches != warned(&disc.warnings, "disc-opens"));
+    }
   }
   // Contacts as wide as the disc: not even dry.
   in = disc_problem(SB_DISC_RADIAL, 0.42, 0.0);

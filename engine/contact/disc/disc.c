@@ -156,7 +156,7 @@ static bool given_left(double *residual, const double *x, void *context) {
 }
 
 // The greatest pressure that a contact holds, from the edges in `wet` at `pressure` on: INFINITY if
-// none is passed.
+// none is passed. The first point is a step before these edges, which may be at the maximum.
 static double find_limit(Work *w, double pressure) {
   double x[] = {w->wet[0], w->wet[3] > 0.0 ? w->wet[3] : w->wet[2], pressure};
   double left[3] = {0.0}, found[3] = {0.0}; // the last three points
@@ -166,7 +166,7 @@ static double find_limit(Work *w, double pressure) {
     double trial[3];
     const double from = w->wet[1];
     memcpy(trial, x, sizeof trial);
-    w->wet[1] += points > 0 ? step : 0.0;
+    w->wet[1] += points > 0 ? step : -step;
     if (!sb_solve_system(given_left, w, trial, 3, 1e-9, &w->edges[3])) {
       w->wet[1] = from;
       step *= 0.5;
@@ -309,6 +309,7 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
 
   static const size_t points[] = {4, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48};
   enum { LEVELS = sizeof points / sizeof points[0], COARSE = 4 };
+  static const double SAME = 2e-4;
   const double wanted = 0.1 * (in->tolerance > 0.0 ? in->tolerance : 1e-3);
   const double target = (fabs(in->pressure) - both) * compliance;
   Solution found[LEVELS];
@@ -325,7 +326,10 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
     if (reached < target) {
       const double last = limit;
       limit = reached > 0.0 && level > 0 ? find_limit(w, reached) : INFINITY;
-      opens = isfinite(limit) && fabs(limit - last) < 0.01 * fmin(limit, target - limit);
+      // The resolutions agree on the maximum to a hundredth of the distance from the wanted
+      // pressure; nearer to it than SAME no resolution tells which of the two is larger.
+      opens = isfinite(limit) &&
+              fabs(limit - last) < fmax(SAME * limit, 0.01 * fmin(limit, target - limit));
       if (reached >= 0.0 && (level < COARSE || isfinite(limit))) {
         // So few points do not hold a filled corner of a narrow contact, or too much.
         w->wet[2] = 0.0;
