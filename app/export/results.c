@@ -320,9 +320,14 @@ static void put_counters(SbJson *json, const char *key, const SbCounters *counte
   sb_json_object_end(json);
 }
 
-static void put_run_solver(SbJson *json, const SbSummary *summary) {
+// The run has converged if every point of its studies has, too: as the exit status states.
+static void put_run_solver(SbJson *json, const SbSummary *summary, const SbResultsInfo *info) {
+  bool converged = summary->converged;
+  for (size_t i = 0; i < info->study_count; i++) {
+    converged = converged && info->studies[i].complete;
+  }
   sb_json_object(json, "solver");
-  sb_json_bool(json, "converged", summary->converged);
+  sb_json_bool(json, "converged", converged);
   sb_json_count(json, "frames", summary->frames);
   sb_json_count(json, "steps", summary->steps);
   sb_json_count(json, "rejected_steps", summary->rejected_steps);
@@ -420,7 +425,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   if (info->measured != NULL) {
     sb_json_comparison(&json, "measured", info->measured);
   }
-  put_run_solver(&json, summary);
+  put_run_solver(&json, summary, info);
   sb_json_object_end(&json);
   return sb_json_finish(&json);
 }

@@ -149,10 +149,12 @@ typedef struct {
     };
     double term[SB_DYNAMICS_TERMS]; // these, which are integrated, in a row
   };
-  double kinetic; // present kinetic energy less that at the start
-  double stored;  // in seals, stops, spring and drive, less that at the start
-  double largest; // largest |drive + pressure| so far
-  double closure; // |drive + pressure - all the rest| / largest (0 if largest is 0)
+  double kinetic;        // present kinetic energy less that at the start
+  double stored;         // in seals, stops, spring and drive, less that at the start
+  double largest;        // largest |drive + pressure| so far
+  double largest_stored; // largest |stored| so far
+  double closure; // |drive + pressure - all the rest| / largest, or / largest_stored where neither
+                  // drive nor pressure does work (0 if both are 0)
 } SbDynamicsEnergy;
 
 typedef enum { SB_CONTACT_OFF, SB_CONTACT_STUCK, SB_CONTACT_SLIP } SbContactState;

@@ -467,7 +467,9 @@ void sb_motion_energy_at(const SbDynamics *s, double tau, const SbDynamicsState 
   e->largest = fmax(e->largest, fabs(external));
   double rest =
       external - e->friction - e->viscous - e->seal - e->stop - e->machine - e->kinetic - e->stored;
-  e->closure = e->largest > 0.0 ? fabs(rest) / e->largest : 0.0;
+  e->largest_stored = fmax(e->largest_stored, fabs(e->stored));
+  const double scale = e->largest > 0.0 ? e->largest : e->largest_stored;
+  e->closure = scale > 0.0 ? fabs(rest) / scale : 0.0;
 }
 
 // ---- the drive's greatest force ----

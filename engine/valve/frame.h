@@ -120,14 +120,16 @@ typedef struct {
 
 // Energy of the cycle, each term accumulated by itself.
 typedef struct {
-  double external;     // by the platen and the canister pressure on the stem [J]
-  double external_max; // largest |external| on the way, the scale of the closure [J]
-  double friction;     // by both seals [J]
-  double stored;       // change of elastic energy (machine, stops) [J]
-  double seal;         // released where the stem jumps (slip onset, land edge) or lost inside the
-                       // rubber [J]
-  double kinetic;      // change [J]
-  double stop;         // lost at the stops [J]
-  double loop;         // area of the force-displacement loop: energy_loss_J [J]
-  double closure;      // |external - friction - stored - seal - kinetic - stop| / external_max [1]
+  // By the platen and the canister pressure on the stem, and its largest magnitude on the way, the
+  // scale of the closure [J]; not a number where a spring alone moves the stem.
+  double external, external_max;
+  double friction; // by both seals [J]
+  double stored;   // change of elastic energy (machine, stops) [J]
+  double seal;     // released where the stem jumps (slip onset, land edge) or lost inside the
+                   // rubber [J]
+  double kinetic;  // change [J]
+  double stop;     // lost at the stops [J]
+  double loop;     // area of the force-displacement loop: energy_loss_J [J]
+  double closure;  // |external - friction - stored - seal - kinetic - stop| / external_max, or over
+                   // the largest |stored| where there is no external work [1]
 } SbEnergy;

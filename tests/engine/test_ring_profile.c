@@ -340,6 +340,13 @@ static void refusals(void) {
   SbRingBody body = body_of(SB_SEAL_PROFILE_T, 1.2e-3, 0.2e-3);
   g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
   g_assert_cmpstr(report.parameter, ==, "seal.corner_radius");
+  // The reported radius fits, to the digits that are printed.
+  const char *most = strstr(report.text, "at most ");
+  g_assert_nonnull(most);
+  SbRingOutline outline;
+  body.profile.corner_radius = 0.99e-3 * strtod(most + strlen("at most "), NULL);
+  g_assert_cmpint(sb_ring_outline_of_profile(&outline, &body.profile, body.section_diameter, NULL),
+                  ==, SB_OK);
   body = body_of(SB_SEAL_PROFILE_RECTANGLE, 12e-3, 0.2e-3);
   g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, &report), ==, SB_ERROR_RANGE);
   g_assert_cmpstr(report.parameter, ==, "seal.axial_height");

@@ -130,6 +130,25 @@ static void test_drives(void) {
   }
 }
 
+// A spring alone returns the stem: no external work is the scale of the other terms. It is not a
+// figure, and the balance is judged by the stored energies.
+static void test_spring_alone(void) {
+  const Setting spring[] = {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_FREE_RETURN},
+                            {SB_P_CANISTER_PRESSURE, 0},
+                            {SB_P_STEM_SPRING_STIFFNESS, 1e3},
+                            {SB_P_STEM_SPRING_PRELOAD, 15},
+                            {SB_P_OUTPUT_FRAMES, 50}};
+  SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, spring, G_N_ELEMENTS(spring));
+  const SbSummary *summary = sb_run_summary(run);
+  g_assert_true(summary->returns);
+  g_assert_true(isnan(summary->energy.external) && isnan(summary->energy.external_max));
+  g_assert_cmpfloat(summary->energy.stored, <, -1e-3);
+  g_assert_cmpfloat(summary->energy.closure, >, 0);
+  g_assert_cmpfloat(summary->energy.closure, <, 1e-6);
+  g_assert_nonnull(sb_figure_reason(summary, sb_figure_find("cycle.energy.external_J")));
+  sb_run_destroy(run);
+}
+
 // A stem flung back over the land's edge by a hard stop has not returned: the stages keep their
 // order.
 static void test_rebound(void) {
@@ -434,6 +453,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-dynamic/against-quasi-static", test_against_quasi_static);
   g_test_add_func("/run-dynamic/stick-slip", test_stick_slip);
   g_test_add_func("/run-dynamic/drives", test_drives);
+  g_test_add_func("/run-dynamic/spring-alone", test_spring_alone);
   g_test_add_func("/run-dynamic/rebound", test_rebound);
   g_test_add_func("/run-dynamic/no-return", test_no_return);
   g_test_add_func("/run-dynamic/stuck", test_stuck);

@@ -393,6 +393,31 @@ static SbStatus check(const SbSealProfile *p, double h, SbReport *report) {
   return status;
 }
 
+// Outline of a profile with corners; false where its roundings do not fit.
+static bool rounded(SbRingOutline *out, const SbSealProfile *p, double h) {
+  Corner corner[CORNERS_MAX];
+  const double w = 0.5 * p->axial_height / h, radius = p->corner_radius / h;
+  const int count = p->kind == SB_SEAL_PROFILE_D ? d_ring(corner, w, radius)
+                    : p->kind == SB_SEAL_PROFILE_T
+                        ? t_ring(corner, w, 0.5 * p->web_width / h, p->flange_height / h, radius)
+                    : p->kind == SB_SEAL_PROFILE_LIP ? lip_ring(corner, w, p, h, tip_beyond(p, h))
+                                                     : rectangle(corner, w, radius);
+  return round_corners(out, corner, count);
+}
+
+// Largest corner radius below the profile's own, which does not fit, that fits [m]; 0: none does.
+static double largest_radius(const SbSealProfile *p, double h) {
+  enum { HALVINGS = 30 };
+  double low = 0.0, high = p->corner_radius;
+  for (int i = 0; i < HALVINGS; i++) {
+    SbSealProfile trial = *p;
+    SbRingOutline ignored = {0};
+    trial.corner_radius = 0.5 * (low + high);
+    *(rounded(&ignored, &trial, h) ? &low : &high) = trial.corner_radius;
+  }
+  return low;
+}
+
 SbStatus sb_ring_outline_of_profile(SbRingOutline *out, const SbSealProfile *p, double h,
                                     SbReport *report) {
   *out = (SbRingOutline){0};
@@ -422,36 +447,19 @@ SbStatus sb_ring_outline_of_profile(SbRingOutline *out, const SbSealProfile *p, 
   if (status != SB_OK) {
     return status;
   }
-  Corner corner[CORNERS_MAX];
-  const double w = 0.5 * p->axial_height / h, radius = p->corner_radius / h;
-  int count = 0;
-  switch (p->kind) {
-  case SB_SEAL_PROFILE_X:
-    if ((p->valley_depth / h) * (p->valley_depth / h) + (0.5 - radius) * (0.5 - radius) <=
-        2.1 * radius * p->valley_depth / h) {
+  if (p->kind == SB_SEAL_PROFILE_X) {
+    const double valley = p->valley_depth / h, lobe = p->corner_radius / h;
+    if (valley * valley + (0.5 - lobe) * (0.5 - lobe) <= 2.1 * lobe * valley) {
       return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.valley_depth",
                                "hollows %.3g mm deep do not fit between lobes of %.3g mm radius",
                                1e3 * p->valley_depth, 1e3 * p->corner_radius);
     }
-    x_ring(out, radius, p->valley_depth / h);
-    break;
-  case SB_SEAL_PROFILE_D:
-    count = d_ring(corner, w, radius);
-    break;
-  case SB_SEAL_PROFILE_T:
-    count = t_ring(corner, w, 0.5 * p->web_width / h, p->flange_height / h, radius);
-    break;
-  case SB_SEAL_PROFILE_LIP:
-    count = lip_ring(corner, w, p, h, tip_beyond(p, h));
-    break;
-  default:
-    count = rectangle(corner, w, radius);
-    break;
-  }
-  if (count > 0 && !round_corners(out, corner, count)) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.corner_radius",
-                             "corners of %.3g mm radius do not fit the %s profile",
-                             1e3 * p->corner_radius, sb_seal_profile_name(p->kind));
+    x_ring(out, lobe, valley);
+  } else if (!rounded(out, p, h)) {
+    return sb_fail_parameter(
+        report, SB_ERROR_INFEASIBLE, "seal.corner_radius",
+        "corners of %.3g mm radius do not fit the %s profile; its sizes allow at most %.3g mm",
+        1e3 * p->corner_radius, sb_seal_profile_name(p->kind), 1e3 * largest_radius(p, h));
   }
   order(out);
   return sb_succeed(report);

@@ -384,6 +384,21 @@ static void assert_no_contradiction(const SbRun *run) {
 }
 #endif
 
+// The motion has ended, but the budget of work did not last for what follows it, such as the error
+// estimates: the report names where the motion ended.
+static SbStatus name_spent(const SbRun *run, SbReport *report) {
+  SbReport cause;
+  const SbStatus status = sb_work_status(run->work, SB_ERROR_CANCELLED, &cause);
+  const SbFrame *last = run->count > 0 ? &run->frames[run->count - 1] : NULL;
+  return last == NULL
+             ? sb_fail_parameter(report, status, cause.parameter, "%s", cause.text)
+             : sb_fail_parameter(report, status, cause.parameter,
+                                 "motion (its error estimate), both seals, stage %s, stem at %.4g "
+                                 "mm, %.4g s: %s; kept: the seals and the motion",
+                                 sb_stage_name((SbStage)last->stage), 1e3 * last->displacement,
+                                 last->time, cause.text);
+}
+
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbRunHooks none = {0};
   double start = sb_clock_seconds();
@@ -402,8 +417,7 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbStatus status = run->model->motion == SB_MODEL_MOTION_RIG ? sb_run_rig(run, hooks, report)
                                                               : execute_valve(run, hooks, report);
   if (status == SB_OK && run->work->spent) {
-    // What it could not compute has been left out.
-    status = sb_work_status(run->work, SB_ERROR_CANCELLED, report);
+    status = name_spent(run, report);
     sb_warn(&summary->warnings, "work-limit", report->parameter, "%s", report->text);
   }
   for (int i = 0; i < SB_SEAL_COUNT; i++) { // whoever uses the states next has no budget

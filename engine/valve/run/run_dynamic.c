@@ -535,12 +535,26 @@ static double straight_force(const SbRun *run) {
 static bool does_work(const Recorder *r) {
   const SbModel *model = r->run->model;
   const double pushed = fmax(r->force_peak, fabs(sb_model_push(model, 0)));
-  return !(r->energy.largest < 1e-12 * pushed * model->stroke);
+  const double work = fmax(r->energy.largest, r->energy.largest_stored);
+  return !(work < 1e-12 * pushed * model->stroke);
 }
 
 // By how much a motion's balance of energies is open.
 static double closure_of(const Recorder *r) {
   return does_work(r) ? r->energy.closure : 0;
+}
+
+// Writes the energies of a motion. Those of a stem that does not move are 0. Where a spring alone
+// returns the stem, no external work is the scale of the other terms: it is not a figure.
+static void fill_energy(SbSummary *summary, const Recorder *r, const SbDynamicsCounters *counters) {
+  sb_run_fill_motion(summary, &r->energy, counters);
+  if (!does_work(r)) {
+    summary->energy = (SbEnergy){0};
+  } else if (!(r->energy.largest > 0)) {
+    summary->energy.external = summary->energy.external_max = NAN;
+    sb_reason(summary, "cycle.energy.external*",
+              "neither drive nor pressure does work: the stored energies alone move the stem");
+  }
 }
 
 // The motion with its frames, to the model's tolerance or, where its energies do not balance, to as
@@ -593,8 +607,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   }
   const bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * model->stroke;
   sb_run_leakage(summary, model, &run->bore, back);
-  sb_run_fill_motion(summary, &r.energy, &counters);
-  summary->energy.closure = closure_of(&r);
+  fill_energy(summary, &r, &counters);
   summary->counters.newton_iterations += (size_t)counters.newton_iterations;
   if (counters.grouped > 0) {
     sb_warn(
