@@ -6,6 +6,7 @@
 #include "app/cli/wrap.h"
 #include "app/session/verdict_text.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -187,7 +188,8 @@ static void add_remarks(GPtrArray *items, const SbCliRunText *of, const SbSummar
 void sb_cli_run_summary(const SbCliRunText *of) {
   const SbSummary *summary = sb_run_summary(of->run);
   const int terminal = sb_wrap_columns(STDOUT_FILENO);
-  const bool loop = !of->plots->off;
+  const int columns = terminal > 0 ? terminal : COLUMNS;
+  const int loop = of->plots->off ? 0 : LOOP_LINES;
   const int room = SB_CLI_SUMMARY_LINES - (of->folder != NULL);
   g_autoptr(GPtrArray) items = g_ptr_array_new_with_free_func(g_free);
   g_ptr_array_add(items, g_strdup(of->title));
@@ -196,10 +198,10 @@ void sb_cli_run_summary(const SbCliRunText *of) {
   }
   add_figures(items, of);
   add_remarks(items, of, summary);
-  const int used =
-      print_items(items, terminal > 0 ? terminal : COLUMNS, room - (loop ? LOOP_LINES : 0));
-  if (loop) {
-    sb_cli_plot_run(of->run, of->measured, MIN(room - used, LOOP_LINES_MAX) - 1);
+  // A narrow terminal gets more lines instead of numbers that are cut.
+  const int used = print_items(items, columns, columns < COLUMNS ? INT_MAX : room - loop);
+  if (loop > 0) {
+    sb_cli_plot_run(of->run, of->measured, CLAMP(room - used, loop, LOOP_LINES_MAX) - 1);
   }
   if (of->folder != NULL) {
     printf("Results are in %s\n", of->folder);

@@ -20,7 +20,8 @@ enum { SB_CLI_SUMMARY_LINES = 24 };
 // Prints the verdict with its reasons, the eight key figures with the absolute estimates of their
 // errors, the number of warnings and the loop, in at most SB_CLI_SUMMARY_LINES lines that fit the
 // terminal (80 columns elsewhere). Long reasons are wrapped while enough lines remain for the loop,
-// else they end with an ellipsis. The loop takes the remaining lines; --no-plot leaves it out.
+// else they end with an ellipsis. A terminal with fewer than 80 columns gets more lines instead.
+// The loop takes the remaining lines; --no-plot leaves it out.
 void sb_cli_run_summary(const SbCliRunText *of);
 
 // Prints all brief figures, the stages, the verdict, the warnings and the solver's state, then the
