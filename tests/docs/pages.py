@@ -14,12 +14,13 @@ programs on PATH. Blocks work in page order:
            what differs from run to run. A text block that follows no command is an error.
   python   a program for a fresh interpreter that finds the module.
   c        a program if it has main(): it is compiled, and run if a text block follows.
-  figures  directly below a sh, python or c block: figures that sentences or tables of the page quote. Each line
-           must be in the output of the block's last command, and in the text of the page. With its command
-           such a block belongs in an HTML comment.
   plain    not checked (diagrams, equations).
   others   a file whose first line is a comment with its name alone (`# my.scene`). It is written, and
            `sealbench check` must find no problem in a valve, scene, study or rubber.
+
+Figures that sentences and tables quote are held by a comment `<!-- sealbench ... prints 28.70 N; 0.30 N -->`:
+each must be in the command's output and in the text of the page. The output of a command that the page has
+already run is used again.
 
 A block without a language is an error, and so is an ini block without a name. Code within a sentence that begins with `sealbench` is also run,
 after the block above it. If it has a word in capitals or `...` in place of a value, only the command's
@@ -109,7 +110,13 @@ class Page:
         for at, line in prose:
             places.append((len(text), at + 1))
             text += line + '\n'
-        self.text += text
+        for quoted in re.finditer(r'<!--\s*(sealbench\s.*?)\sprints\s(.*?)-->', text, re.DOTALL):
+            line = max(at for begin, at in places if begin <= quoted.start())
+            figures = [' '.join(each.split()) for each in quoted.group(2).split(';')]
+            self.items.append(('quoted', line, (' '.join(quoted.group(1).split()), figures)))
+        text = re.sub(r'<!--.*?-->', lambda comment: re.sub(r'[^\n]', ' ', comment.group()), text,
+                      flags=re.DOTALL)
+        self.text += ' '.join(text.split()) + '\n'
         for span in re.finditer(r'(?<!`)`([^`]+)`(?!`)', text):
             line = max(at for begin, at in places if begin <= span.start())
             code = ' '.join(span.group(1).split())
@@ -126,7 +133,7 @@ class Page:
                 line = max(at for begin, at in places if begin <= link.start())
                 self.items.append(('link', line, link.group(1)))
         # Text between blocks separates an output from its command.
-        if text.replace('<!--', '').replace('-->', '').strip():
+        if text.strip():
             self.items.append(('prose', 0, ''))
 
 
@@ -205,6 +212,7 @@ class Runner:
         self.page = Page(os.path.join(source, path))
         self.count = self.failed = 0
         self.output, self.code, self.replaced, self.used, self.looked = None, 0, [], 0, 0
+        self.outputs = {}
 
     def report(self, good, line, name, why=None, skip=None):
         self.count += 1
@@ -315,7 +323,7 @@ class Runner:
     # ---- The kinds of blocks ----
 
     def finish(self, line, name, below):
-        """Judges what ran: its exit code and the output or figures below it, None without any."""
+        """Judges what ran: its exit code and the output below it, None without one."""
         kind, begin, text = below or ('', 0, [])
         why = None
         if (self.code != 0) != any(part.startswith('sealbench: ') and 'note: ' not in part for part in text):
@@ -326,11 +334,6 @@ class Runner:
                 self.replaced.append((begin, len(text), new))
                 text = new
             why = difference(text, self.output)
-        elif kind == 'figures':
-            missing = [one for one in text if one.strip() not in '\n'.join(self.output)]
-            unquoted = [one for one in text if one.strip() not in self.page.text]
-            why = 'not in the output: %s' % ', '.join(missing) if missing else None
-            why = 'not in the text of the page: %s' % ', '.join(unquoted) if unquoted and not why else why
         if why is not None:
             why += '\noutput:\n' + '\n'.join(self.output[:20])
         self.report(why is None, line, name, why)
@@ -351,7 +354,17 @@ class Runner:
             self.report(self.start_terminal(command), line, command, 'the workbench did not start or end')
         else:
             self.code, self.output = self.run_shell(command)
+            self.outputs[command] = self.output
             self.finish(line, command, below)
+
+    def hold_figures(self, line, command, figures):
+        if command not in self.outputs:
+            self.outputs[command] = self.run_shell(command)[1]
+        output = ' '.join(' '.join(self.outputs[command]).split())
+        missing = [each for each in figures if each not in output]
+        unquoted = [each for each in figures if each not in self.page.text]
+        self.report(not missing and not unquoted, line, command,
+                    'not in the output: %s\nnot in the text of the page: %s' % (missing, unquoted))
 
     def run_sh(self, line, lines, below):
         commands = split_commands(lines)
@@ -449,8 +462,8 @@ class Runner:
         for at, (kind, line, lines) in enumerate(items):
             last, below = items[at - 1] if at > 0 else ('',), items[at + 1] if at + 1 < len(items) else ('',)
             if kind in runs:
-                runs[kind](line, lines, below if below[0] in ('text', 'figures') else None)
-            elif kind in ('text', 'figures') and last[0] not in runs:
+                runs[kind](line, lines, below if below[0] == 'text' else None)
+            elif kind == 'text' and last[0] not in runs:
                 self.report(False, line, kind, 'follows no command (use `plain` for a diagram)')
             elif kind == 'inline':
                 self.run_inline(line, lines)
@@ -460,9 +473,11 @@ class Runner:
                 self.look_for_source(line, lines)
             elif kind == 'campaign':
                 self.look(line, lines, os.path.exists(os.path.join(self.source, 'tests/campaigns', lines)))
+            elif kind == 'quoted':
+                self.hold_figures(line, *lines)
             elif kind == 'link':
                 self.look_for_link(line, lines)
-            elif kind not in ('text', 'figures', 'plain', 'prose', ''):
+            elif kind not in ('text', 'plain', 'prose', ''):
                 self.write_file(kind, line, lines)
 
     def write_page(self):

@@ -117,28 +117,15 @@ build/sealbench check my.scene
     'a file with a fault': ('```ini\n# my.scene\n[sealbench]\nformat = 1\nkind = scene\nvalve = no\n```\n', [False]),
     'a file without a name': ('```ini\n[seal]\n```\n', [False]),
     'figures in sentences': ('''
-It breaks away at 28.7 N.
-<!--
-```sh
-echo 'Break-away 28.7 N; return 1.6 N'
-```
-```figures
-28.7 N
-```
--->
-```sh
-echo 28.8 N
-```
-```figures
-28.7 N
-```
-```sh
-echo 1.6 N
-```
-```figures
-1.6 N
-```
+A film of 1 at 0.5. <!-- sealbench asperity --lambda 0.5
+prints 0.20963926002533384; 0.5 -->
+
+It is 0.20963926002533384. <!-- sealbench asperity --lambda 0.5 prints 0.3 -->
+<!-- sealbench asperity --lambda 0.5 prints F2 -->
 ''', [True, False, False]),
+    'figures that are printed': ('''
+It is 0.20963926002533384. <!-- sealbench asperity --lambda 0.5 prints 0.20963926002533384 -->
+''', [True]),
     'times and dates': ('''
 ```sh
 echo "2026-11-28: computed in 1.5 s, 3 N, source 0123456789abcdef"
