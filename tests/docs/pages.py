@@ -54,12 +54,15 @@ import time
 SKIPPED = {'./run', './check', 'sudo', 'apt', 'apt-get', 'tools/setup', 'meson', 'ninja', 'git', 'cmake', 'pip',
            'mpirun', 'sbatch', 'man'}
 
-# What depends on the moment and the machine: dates, hashes, versions of libraries, times of the program.
+# What depends on the moment and the machine: dates, hashes, versions, times of the program, rounding.
 MASKS = [
     (re.compile(r'\d{4}-\d\d-\d\d([T ]\d\d:\d\d(:\d\d)?)?'), 'DATE'),
     (re.compile(r'\b[0-9a-f]{12,}\b'), 'HASH'),
     (re.compile(r'\b\d+\.\d+\.\d+(\S*)?'), 'VERSION'),
     (re.compile(r'\b(in|took|after) [\d.]+ (ms|s|min)\b'), 'TIME'),
+    # Errors of rounding, and digits beyond those on which processors agree.
+    (re.compile(r'(error[^\d\n]*|± )[\d.]+e-\d+'), r'\1TINY'),
+    (re.compile(r'(\d\.\d{9})\d+'), r'\1'),
     (re.compile(r'"wall_s": [\d.e-]+'), '"wall_s": TIME'),
     (re.compile(r'/\S*/(assets|share/sealbench)/'), 'ASSETS/'),
 ]

@@ -134,6 +134,20 @@ echo "2026-11-28: computed in 1.5 s, 3 N, source 0123456789abcdef"
 2025-01-01: computed in 22 s, 3 N, source fedcba9876543210
 ```
 ''', [True]),
+    'rounding': ('''
+```sh
+echo "error 4e-06 % ± 2e-07 pl, 0.07533978334377073, 6.85e-10 m"
+```
+```text
+error 5e-08 % ± 1e-09 pl, 0.07533978311111111, 6.85e-10 m
+```
+```sh
+echo 6.85e-10
+```
+```text
+6.86e-10
+```
+''', [True, False]),
     'python': ('''
 ```python
 print(1.5)
