@@ -327,11 +327,11 @@ def several_files():
     with open(a) as file:
         stuck = file.read()
     with open(path("several", "stuck.scene"), "w") as file:
-        file.write(re.sub(r"\[models\]\n(\w+ = .*\n)*", "", stuck) + "[models]\nfit = disc\n"
-                   "[seal]\nmodulus = 0.1 MPa\n[canister]\npressure = 2 MPa\n")
+        file.write(re.sub(r"\[models\]\n(\w+ = .*\n)*", "[models]\nfit = ring\n", stuck)
+                   .replace("[output]\n", "[output]\nwork_limit = 10\n"))
     stuck = path("several", "stuck.scene")
     result = done(run("run", bad, stuck, a, "--json", "-"), 2)
-    assert f"{stuck}: [canister] pressure: fitment (disc)" in result.stderr, result.stderr
+    assert f"{stuck}: [output] work_limit: fitment (ring)" in result.stderr, result.stderr
     expect([each["solver"]["converged"] for each in json.loads(result.stdout)], [False, True])
 
 

@@ -118,15 +118,15 @@ static void test_shown(void) {
 // A case that a solver cannot do leaves its questions open, is named, and is flagged.
 static void test_failure(void) {
   write_scene("[limits]\nseals.outer.load_N = >= 1 N\ncycle.force_breakaway_N = <= 30 N\n[cases]\n"
-              "stuck = models.fit=disc; seal.modulus=0.1 MPa; canister.pressure=2 MPa\n"
+              "stuck = models.fit=ring; output.work_limit=10\n"
               "hot = canister.pressure=0.9 MPa\n");
   CliResult run = CLI("run", path, "--json", "-", "--quiet");
   g_assert_cmpint(run.code, ==, 2);
-  g_assert_nonnull(strstr(run.err, "sealbench: case stuck: fitment (disc), outer seal"));
+  g_assert_nonnull(strstr(run.err, "sealbench: case stuck: fitment (ring), outer seal"));
   JsonNode *root = cli_parse(run.out);
   g_assert_true(JSON_NODE_HOLDS_NULL(cli_at(root, "cycle.verdict.fits.ok")));
   g_assert_cmpstr(json_node_get_string(cli_at(root, "cycle.verdict.fits.case")), ==, "stuck");
-  g_assert_nonnull(strstr(json_node_get_string(cli_at(root, "cycle.verdict.fits.reason")), "disc"));
+  g_assert_nonnull(strstr(json_node_get_string(cli_at(root, "cycle.verdict.fits.reason")), "ring"));
   // A no stands whatever is unknown beside it.
   g_assert_false(json_node_get_boolean(cli_at(root, "cycle.verdict.presses.ok")));
   g_assert_cmpstr(json_node_get_string(cli_at(root, "cycle.verdict.presses.case")), ==, "hot");
