@@ -127,6 +127,8 @@ static void test_failure(void) {
   g_assert_true(JSON_NODE_HOLDS_NULL(cli_at(root, "cycle.verdict.fits.ok")));
   g_assert_cmpstr(json_node_get_string(cli_at(root, "cycle.verdict.fits.case")), ==, "stuck");
   g_assert_nonnull(strstr(json_node_get_string(cli_at(root, "cycle.verdict.fits.reason")), "ring"));
+  // A seal that was not computed is not open.
+  g_assert_true(JSON_NODE_HOLDS_NULL(cli_at(root, "cycle.verdict.seals.ok")));
   // A no stands whatever is unknown beside it.
   g_assert_false(json_node_get_boolean(cli_at(root, "cycle.verdict.presses.ok")));
   g_assert_cmpstr(json_node_get_string(cli_at(root, "cycle.verdict.presses.case")), ==, "hot");

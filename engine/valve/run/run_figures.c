@@ -43,17 +43,21 @@ static const char *pressed_by(const SbModel *model) {
   return model->kind == SB_VALVE_GASKET ? "gasket.crimp" : "gland.radial_space";
 }
 
-// Whether a seal presses the bore in every state in which the cycle needs it to.
-static bool presses(const SbRun *run, int seal) {
+// Whether a seal presses the bore in every state in which the cycle needs it to: no before not
+// known, which is a state whose fit did not converge, before yes.
+static SbAnswer presses(const SbRun *run, int seal) {
+  SbAnswer answer = SB_ANSWER_YES;
   for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
     bool needed = seal == SB_OUTER || chamber != SB_CHAMBER_OPEN;
     int alike = sb_run_first_alike(run, seal, chamber);
     const SbSealState *state = &run->cycle.state[seal][alike][SB_CYCLE_IN];
-    if (needed && (!state->touches || state->load_net <= 0 || state->opened)) {
-      return false;
+    if (needed && isnan(state->load)) {
+      answer = SB_ANSWER_UNKNOWN;
+    } else if (needed && (!state->touches || state->load_net <= 0 || state->opened)) {
+      return SB_ANSWER_NO;
     }
   }
-  return true;
+  return answer;
 }
 
 // Leak at rest through the real contact at rest that static friction has: its real area.
@@ -64,7 +68,7 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
   SbSpectrum spectrum;
   SbPercolation leak;
   SbReport report = {0};
-  bool open = !presses(run, seal);
+  bool open = presses(run, seal) == SB_ANSWER_NO;
   out->leak_state = open ? SB_LEAK_OPEN : SB_LEAK_NOT_COMPUTED;
   if (open) {
     sb_seal_reason(&run->summary, seal, "leak*", "%s",
