@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The test of the documentation (pages.py) itself: what it must find, and that every page has its test.
+"""The test of the documentation (pages.py) itself: what it must find, and the pages without a test of their own.
 
     test_pages.py SOURCE BUILD PAGE...          the pages that meson.build registered
 """
@@ -255,9 +255,11 @@ def main():
             passed, _, printed = run(folder, build, text)
             report(passed == expected, name, '%s, expected %s\n%s' % (passed, expected, printed))
         report(*rewrites(folder, build)[:1], 'rewrite', rewrites(folder, build)[1])
-    found = pages.pages(source)
-    report(sorted(found) == sorted(registered), 'every page has its test',
-           'run `meson setup --reconfigure`: registered %s, found %s' % (registered, found))
+    # Pages that are newer than the build's configuration have no test of their own yet.
+    for page in sorted(set(pages.pages(source)) - set(registered)):
+        done = subprocess.run([sys.executable, pages.__file__, source, build, page], capture_output=True, text=True,
+                              check=False)
+        report(done.returncode == 0, page, done.stdout + done.stderr)
     print('1..%d' % count)
 
 
