@@ -22,7 +22,7 @@ Figures that sentences and tables quote are held by a comment `<!-- sealbench ..
 each must be in the command's output and in the text of the page. The output of a command that the page has
 already run is used again.
 
-A block without a language is an error, and so is an ini block without a name. Code within a sentence that begins with `sealbench` is also run,
+A block without a language is an error, and so is one of another language without a name. Code within a sentence that begins with `sealbench` is also run,
 after the block above it. If it has a word in capitals or `...` in place of a value, only the command's
 name and its options are looked up, in `COMMAND --help`; `sealbench thesis ITEM` is looked up in the list
 of items, since the campaign `thesis` computes them. `meson test NAME` must name a test, "campaign `NAME`" a
@@ -90,21 +90,23 @@ class Page:
         self.items, self.faults, self.text = [], [], ''
         prose, at = [], 0
         while at < len(self.lines):
-            fence = re.match(r'\s*```+\s*(\S*)\s*$', self.lines[at])
+            fence = re.match(r'\s*(```|~~~)[`~]*\s*([^`\s]*)[^`]*$', self.lines[at])
             if fence is None:
+                if re.match(r'(\t| {4,})\S*sealbench\b', self.lines[at]):
+                    self.faults.append((at + 1, 'a command outside of a block: ```sh'))
                 prose.append((at, self.lines[at]))
                 at += 1
                 continue
             self.take_prose(prose)
             prose, begin = [], at + 1
             at = begin
-            while at < len(self.lines) and not re.match(r'\s*```+\s*$', self.lines[at]):
+            while at < len(self.lines) and not re.match(r'\s*%s+\s*$' % fence.group(1), self.lines[at]):
                 at += 1
             if at == len(self.lines):
                 self.faults.append((begin, 'a block that does not end'))
-            if fence.group(1) == '':
+            if fence.group(2) == '':
                 self.faults.append((begin, 'a block without a language (sh, text, plain, ...)'))
-            self.items.append((fence.group(1), begin, self.lines[begin:at]))
+            self.items.append((fence.group(2), begin, self.lines[begin:at]))
             at += 1
         self.take_prose(prose)
 
@@ -397,8 +399,7 @@ class Runner:
     def write_file(self, kind, line, lines):
         name = re.match(r'#\s*([\w.-]+\.\w+)\s*$', lines[0]) if lines else None
         if name is None:
-            if kind == 'ini':
-                self.report(False, line, 'ini', 'the first line does not name the file (`# my.scene`)')
+            self.report(False, line, kind, 'neither a language that is run nor a file with its name in the first line')
             return
         with open(os.path.join(self.folder, name.group(1)), 'w', encoding='utf-8') as file:
             file.write('\n'.join(lines) + '\n')

@@ -195,6 +195,22 @@ no.scene`, `sealbench thesis table-7.5` and `sealbench thesis table-7.99`, `meso
     'windows and terminals': ('```sh\nsealbench-gtk no.scene\nsealbench tui no.scene\nsealbench tui quick-look\n```\n',
                               [False, False, True]),
     'skipped': ('```sh\n./run\nKEY=1 sudo rm -rf /\nmeson setup build\n```\n', [True] * 3),
+    'other blocks': ('''
+~~~sh
+true
+~~~
+
+- in a list
+  ```sh title
+  false
+  ```
+
+```console
+$ sealbench run quick-look
+```
+
+    sealbench run quick-look
+''', [False, True, False, False]),
     'blocks': ('```\nx\n```\n\n```text\nx\n```\n\n```plain\nx\n```\n\n```sh\ntrue', [False, False, False, True]),
 }
 
