@@ -149,6 +149,51 @@ static void test_spring_alone(void) {
   sb_run_destroy(run);
 }
 
+// Summary of a run of the default valve in any status.
+static SbSummary limited(double work_limit) {
+  const Setting set[] = {{SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC},
+                         {SB_P_FRICTION_STRIBECK_SPEED, 1e-3},
+                         {SB_P_OUTPUT_FRAMES, 50},
+                         {SB_P_OUTPUT_WORK_LIMIT, work_limit}};
+  SbParams params;
+  SbModel model;
+  SbPlan plan;
+  SbRun *run;
+  sb_params_init(&params);
+  for (size_t i = 0; i < G_N_ELEMENTS(set); i++) {
+    g_assert_cmpint(sb_params_set(&params, (SbParamId)set[i].id, set[i].value, NULL), ==, SB_OK);
+  }
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
+  sb_plan_make(&plan, &model);
+  g_assert_cmpint(sb_run_create(&run, &model, &plan, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_run_execute(run, NULL, NULL), !=, SB_ERROR_INPUT);
+  const SbSummary out = *sb_run_summary(run);
+  sb_run_destroy(run);
+  return out;
+}
+
+// A budget of work that lasts for the motion, but not for a second one that measures its error,
+// leaves a converged run whose errors are not known; one that does not last for the motion does
+// not converge. Neither is exceeded.
+static void test_budget(void) {
+  const SbSummary whole = limited(1e6);
+  const double all = (double)whole.work;
+  int known = 0, unknown = 0, unfinished = 0;
+  g_assert_true(whole.converged);
+  for (int tenths = 1; tenths <= 20; tenths++) {
+    const double limit = ceil(0.1 * tenths * all);
+    const SbSummary summary = limited(limit);
+    g_assert_cmpfloat((double)summary.work, <=, limit);
+    known += summary.converged && isfinite(summary.error_force);
+    unknown += summary.converged && isnan(summary.error_force);
+    unfinished += !summary.converged;
+  }
+  g_test_message("%g steps; known %d, unknown %d, unfinished %d", all, known, unknown, unfinished);
+  g_assert_cmpint(known, >, 0);
+  g_assert_cmpint(unknown, >, 0);
+  g_assert_cmpint(unfinished, >, 0);
+}
+
 // A stem flung back over the land's edge by a hard stop has not returned: the stages keep their
 // order.
 static void test_rebound(void) {
@@ -454,6 +499,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-dynamic/stick-slip", test_stick_slip);
   g_test_add_func("/run-dynamic/drives", test_drives);
   g_test_add_func("/run-dynamic/spring-alone", test_spring_alone);
+  g_test_add_func("/run-dynamic/budget", test_budget);
   g_test_add_func("/run-dynamic/rebound", test_rebound);
   g_test_add_func("/run-dynamic/no-return", test_no_return);
   g_test_add_func("/run-dynamic/stuck", test_stuck);

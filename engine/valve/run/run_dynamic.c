@@ -397,6 +397,15 @@ static SbStatus compare_motions(SbRun *run, const Recorder *one, const Recorder 
   return status;
 }
 
+// The motion stands, but a second one that its error is measured by failed.
+static void lose_errors(SbRun *run, const SbReport *why) {
+  SbSummary *summary = &run->summary;
+  sb_run_lose_errors(run);
+  sb_reason(summary, "solver.error_estimate.*", "the coarser motion failed: %s", why->text);
+  sb_warn(&summary->warnings, "motion-error-unknown", "output.motion_tolerance",
+          "the motion's error is not known: %s", why->text);
+}
+
 // What the errors of the states make of the motion: it is followed once more, to no more than a
 // coarse tolerance, with all of them.
 static SbStatus find_state_errors(SbRun *run, const Recorder *fine, double tolerance,
@@ -420,7 +429,7 @@ static SbStatus find_state_errors(SbRun *run, const Recorder *fine, double toler
     if (status == SB_OK) {
       add_errors(run, fine, &own->right, &other, &own->other, 1);
     } else if (status == SB_ERROR_NOT_CONVERGED) {
-      sb_run_lose_errors(run);
+      lose_errors(run, &why);
       status = SB_OK;
     }
   }
@@ -557,6 +566,22 @@ static void fill_energy(SbSummary *summary, const Recorder *r, const SbDynamicsC
   }
 }
 
+// Gives the motions of the error estimates half of the steps that are left: their end leaves the
+// motion itself converged, its errors unknown. `part` is the run's budget until end_part().
+static SbWork *begin_part(SbRun *run, SbWork *part) {
+  SbWork *whole = run->work;
+  *part = sb_work_part(whole, 2);
+  part->cancelled = whole->cancelled;
+  part->data = whole->data;
+  run->work = part;
+  return whole;
+}
+
+static void end_part(SbRun *run, SbWork *whole, const SbWork *part) {
+  whole->done += part->done;
+  run->work = whole;
+}
+
 // The motion with its frames, to the model's tolerance or, where its energies do not balance, to as
 // much smaller a one as they need. *tolerance is that of the last.
 static SbStatus follow(Recorder *r, double *tolerance, SbRun *run, const SbRunHooks *hooks,
@@ -627,20 +652,21 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   double work = 1e-12;
   if (status == SB_OK && counters.steps > 0 && !run->follows) {
     SbReport own = {0};
+    SbWork part, *whole = begin_part(run, &part);
     SbStatus estimate = estimate_error(&r, tolerance, &force, &work, hooks, &own);
+    end_part(run, whole, &part);
     if (estimate == SB_ERROR_NOT_CONVERGED) {
       // The motion itself stands.
       force = work = NAN;
-      sb_run_lose_errors(run);
-      sb_reason(summary, "solver.error_estimate.*", "the coarser motion failed: %s", own.text);
-      sb_warn(&summary->warnings, "motion-error-unknown", "output.motion_tolerance",
-              "the motion's error is not known: %s", own.text);
+      lose_errors(run, &own);
     } else if (estimate != SB_OK) {
       status = sb_fail(report, estimate, "%s", own.text);
     }
   }
   if (status == SB_OK && !run->follows) {
+    SbWork part, *whole = begin_part(run, &part);
     status = find_state_errors(run, &r, tolerance, hooks, report);
+    end_part(run, whole, &part);
   }
   SbStatus speeds = sb_run_close_speeds(run, status == SB_OK ? report : NULL);
   status = status != SB_OK ? status : speeds;
