@@ -147,7 +147,13 @@ echo 6.85e-10
 ```text
 6.86e-10
 ```
-''', [True, False]),
+```sh
+echo 0.07533978334377073
+```
+```text
+0.07533988334377073
+```
+''', [True, False, False]),
     'python': ('''
 ```python
 print(1.5)
