@@ -27,6 +27,16 @@ typedef struct {
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
+// Scales of pairs "unit|SI unit" that need no database.
+static const struct {
+  const char *pair;
+  Scale scale;
+} displayed[] = {
+#define SB_SCALE(unit, si, scale, zero) {unit "|" si, {SCALE_OK, scale, zero}},
+#include "app/base/unit_scales.def"
+#undef SB_SCALE
+};
+
 // A unit may hold digits as exponents only ("m3", "s-2") or as the leading "1/" of a reciprocal;
 // "mm 10" or "5 mm" inside a unit would be silent factors.
 static bool unit_is_plain(const char *unit) {
@@ -100,11 +110,18 @@ static Scale find_scale(const char *unit, const char *si) {
   if (strlen(unit) > UNIT_LENGTH_MAX || !unit_is_plain(strcmp(unit, "1") == 0 ? "" : unit)) {
     return (Scale){SCALE_UNKNOWN, 0, 0};
   }
+  if (strcmp(unit, si) == 0) {
+    return (Scale){SCALE_OK, 1, 0};
+  }
   static GHashTable *remembered = NULL;
   char *pair = g_strdup_printf("%s|%s", unit, si);
   pthread_mutex_lock(&lock);
   if (remembered == NULL) {
     remembered = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
+    for (size_t i = 0; i < G_N_ELEMENTS(displayed); i++) {
+      g_hash_table_insert(remembered, g_strdup(displayed[i].pair),
+                          g_memdup2(&displayed[i].scale, sizeof displayed[i].scale));
+    }
   }
   Scale *known = g_hash_table_lookup(remembered, pair);
   Scale scale;

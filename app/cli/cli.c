@@ -6,6 +6,7 @@
 #include "app/cli/wrap.h"
 #include "app/document/shipped.h"
 #include "app/export/json.h"
+#include "app/lazy/lazy.h"
 #include "app/run/process.h"
 
 #include <errno.h>
@@ -400,6 +401,9 @@ SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
 }
 
 bool sb_cli_has_memory(const SbModel *model) {
+  // Opens the solvers' libraries before the work, whose time is reported (`wall_s`). If that fails,
+  // their first call reports it.
+  (void)sb_lazy_missing(&sb_lazy_algebra);
   // Closed forms and the quasi-static cycle solve nothing dense.
   bool dense = model == NULL;
   if (model != NULL) {

@@ -1,6 +1,7 @@
 // sealbench bench: error against time for every solver, by the engine's cases with known answers.
 #include "app/base/output.h"
 #include "app/cli/cli.h"
+#include "app/cli/start_up.h"
 #include "app/export/bench_page.h"
 #include "app/export/json.h"
 
@@ -8,7 +9,8 @@
 
 #include <math.h>
 
-static char *to_json(const SbBenchCase *cases, size_t count) {
+// `start_up` may be NULL: not measured.
+static char *to_json(const SbBenchCase *cases, size_t count, const SbStartUp *start_up) {
   SbJson json;
   sb_json_document(&json);
   sb_json_array(&json, "cases");
@@ -26,6 +28,9 @@ static char *to_json(const SbBenchCase *cases, size_t count) {
     sb_json_object_end(&json);
   }
   sb_json_array_end(&json);
+  if (start_up != NULL) {
+    sb_start_up_put(&json, start_up);
+  }
   sb_json_object_end(&json);
   return sb_json_finish(&json);
 }
@@ -107,7 +112,8 @@ int sb_command_bench(int argc, char **argv) {
   int code = SB_EXIT_INPUT;
   char *names[] = {(char *)"bench.json", (char *)"bench.png", NULL};
   bool good = sb_cli_parse(&argc, &argv, entries, 0, 0,
-                           "Times are the median of 20 cold solves after a warm-up.");
+                           "Times are the median of 20 cold solves after a warm-up; those of the "
+                           "start-up are processor times of 20 starts.");
   if (good) {
     code = sb_cli_check_outputs(folder, names, target);
   }
@@ -121,12 +127,17 @@ int sb_command_bench(int argc, char **argv) {
     size_t done = 0;
     sb_cli_catch_interrupts();
     code = run_cases(cases, count, &done, repeats);
-    char *json = to_json(cases, done);
+    SbStartUp start_up;
+    const bool started = code != SB_EXIT_INTERRUPTED && sb_start_up_measure(&start_up, repeats);
+    char *json = to_json(cases, done, started ? &start_up : NULL);
     int written = folder != NULL ? write_folder(folder, json, cases, done) : SB_EXIT_DONE;
     if (written == SB_EXIT_DONE && target != NULL) {
       written = sb_cli_emit(json, target);
     } else if (written == SB_EXIT_DONE && !sb_cli_quiet()) {
       print_table(cases, done);
+      if (started) {
+        sb_start_up_print(&start_up);
+      }
     }
     code = written != SB_EXIT_DONE ? written : code;
     g_free(json);

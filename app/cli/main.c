@@ -8,34 +8,25 @@
 
 #include "sealbench_features.h"
 
-#include <cairo.h>
 #include <errno.h>
 #include <glib.h>
 #include <gsl/gsl_version.h>
 #include <locale.h>
-#include <nlopt.h>
-#include <pango/pango.h>
-#include <png.h>
 #include <poll.h>
-#include <sqlite3.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-// One item a line: the identity, what this build contains, and the libraries that are loaded.
+// One item a line: the identity, what this build contains, the versions of the libraries that the
+// program is linked with, and those of the other libraries as the build found them.
 static void print_version(void) {
   const SbEngineIdentity *engine = sb_engine_identity();
-  int nlopt[3];
-  nlopt_version(&nlopt[0], &nlopt[1], &nlopt[2]);
   printf("sealbench %s\ncommit %s\nsource %s\ncompiler %s\nfeatures %s\n", engine->version,
          engine->commit != NULL ? engine->commit : "none", engine->source, engine->options,
          SB_FEATURES);
   printf("GLib %u.%u.%u\nGSL %s\n", glib_major_version, glib_minor_version, glib_micro_version,
          gsl_version);
-  printf("cairo %s\nPango %s\nlibpng %s\nSQLite %s\nNLopt %d.%d.%d\n", cairo_version_string(),
-         pango_version_string(), png_get_libpng_ver(NULL), sqlite3_libversion(), nlopt[0], nlopt[1],
-         nlopt[2]);
   fputs(SB_BUILT_WITH, stdout);
 }
 

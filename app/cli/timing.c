@@ -9,6 +9,11 @@ static int compare(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
+double sb_timing_middle(double *times, size_t count) {
+  qsort(times, count, sizeof times[0], compare);
+  return (times[(count - 1) / 2] + times[count / 2]) / 2;
+}
+
 SbStatus sb_timing_median(double *wall_s, SbTimedSolve solve, void *data) {
   enum { REPEATS = 20 };
   const double budget = 0.5;
@@ -22,8 +27,7 @@ SbStatus sb_timing_median(double *wall_s, SbTimedSolve solve, void *data) {
     count++;
   }
   if (status == SB_OK && count > 0) {
-    qsort(times, (size_t)count, sizeof times[0], compare);
-    *wall_s = (times[(count - 1) / 2] + times[count / 2]) / 2;
+    *wall_s = sb_timing_middle(times, (size_t)count);
   }
   return status;
 }

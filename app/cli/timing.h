@@ -3,10 +3,15 @@
 
 #include "engine/base/status.h"
 
+#include <stddef.h>
+
 #define SB_TIMING_NOTE                                                                             \
   "The time shown (wall_s) is the median of up to 20 cold solves after a warm-up; fewer where "    \
   "they "                                                                                          \
   "would last more than half a second together."
+
+// Median of count > 0 times, which are sorted.
+double sb_timing_middle(double *times, size_t count);
 
 // Solves once and reports its time [s].
 typedef SbStatus (*SbTimedSolve)(void *data, double *wall_s);

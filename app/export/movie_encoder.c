@@ -6,8 +6,8 @@
 #include "app/base/identity.h"
 #include "app/export/colour.h"
 #include "app/export/quantise.h"
+#include "app/lazy/lazy.h"
 
-#include <dlfcn.h>
 #include <errno.h>
 #include <glib.h>
 #include <libavcodec/avcodec.h>
@@ -15,75 +15,14 @@
 #include <libavutil/opt.h>
 #include <string.h>
 
-// libav brings some hundred libraries, which take longer to load than most commands take: they are
-// opened when the first film is written. The table keeps the types of the headers.
-enum { CODEC, FORMAT, UTIL, LIBRARIES };
-#define LIBRARY(name, major) "lib" name ".so." G_STRINGIFY(major)
-static const char *const library_name[LIBRARIES] = {
-    [CODEC] = LIBRARY("avcodec", LIBAVCODEC_VERSION_MAJOR),
-    [FORMAT] = LIBRARY("avformat", LIBAVFORMAT_VERSION_MAJOR),
-    [UTIL] = LIBRARY("avutil", LIBAVUTIL_VERSION_MAJOR),
-};
-
-// clang-format off
-#define FUNCTIONS(X) \
-  X(CODEC, av_packet_alloc) \
-  X(CODEC, av_packet_free) \
-  X(CODEC, av_packet_rescale_ts) \
-  X(CODEC, avcodec_alloc_context3) \
-  X(CODEC, avcodec_find_encoder_by_name) \
-  X(CODEC, avcodec_free_context) \
-  X(CODEC, avcodec_open2) \
-  X(CODEC, avcodec_parameters_from_context) \
-  X(CODEC, avcodec_receive_packet) \
-  X(CODEC, avcodec_send_frame) \
-  X(FORMAT, av_interleaved_write_frame) \
-  X(FORMAT, av_write_trailer) \
-  X(FORMAT, avformat_alloc_output_context2) \
-  X(FORMAT, avformat_free_context) \
-  X(FORMAT, avformat_new_stream) \
-  X(FORMAT, avformat_write_header) \
-  X(FORMAT, avio_closep) \
-  X(FORMAT, avio_open) \
-  X(UTIL, av_dict_free) \
-  X(UTIL, av_dict_set) \
-  X(UTIL, av_dict_set_int) \
-  X(UTIL, av_frame_alloc) \
-  X(UTIL, av_frame_free) \
-  X(UTIL, av_frame_get_buffer) \
-  X(UTIL, av_frame_make_writable) \
-  X(UTIL, av_log_set_level) \
-  X(UTIL, av_strerror)
-// clang-format on
-
-#define FIELD(library, name) __typeof__(name) *name;
-static struct { FUNCTIONS(FIELD) } av;
-
-static bool find(void *library, const char *name, void *target) {
-  void *address = dlsym(library, name);
-  memcpy(target, &address, sizeof address);
-  return address != NULL;
-}
-
 static char *no_movie(const char *why) {
   return g_strdup_printf("%s: write frames/%%04d.png, a sequence of pictures", why);
 }
 
-// Returns NULL, or why there is no libav. The libraries stay.
-static void *load_libraries(void *unused) {
-  void *library[LIBRARIES];
-  for (int i = 0; i < LIBRARIES; i++) {
-    library[i] = dlopen(library_name[i], RTLD_LAZY | RTLD_LOCAL);
-    if (library[i] == NULL) {
-      return no_movie(dlerror());
-    }
-  }
-#define FIND(of, name)                                                                             \
-  if (!find(library[of], #name, &av.name)) {                                                       \
-    return no_movie("libav has no " #name);                                                        \
-  }
-  FUNCTIONS(FIND)
-  return NULL;
+// Returns NULL, or why there is no libav.
+static void *find_problem(void *unused) {
+  const char *problem = sb_lazy_missing(&sb_lazy_video);
+  return problem != NULL ? no_movie(problem) : NULL;
 }
 
 // How a format is written; strings are static. Options are pairs of key and value.
@@ -113,7 +52,7 @@ static SbStatus fail(SbReport *report, const char *what, int code) {
     return sb_fail(report, SB_ERROR_IO, "the disk is full");
   }
   char text[AV_ERROR_MAX_STRING_SIZE] = "";
-  av.av_strerror(code, text, sizeof text);
+  av_strerror(code, text, sizeof text);
   return sb_fail(report, SB_ERROR_IO, "%s: %s", what, text);
 }
 
@@ -187,7 +126,7 @@ static const Format formats[SB_MOVIE_FORMATS] = {
 // Adds `count` options that have a key.
 static void add_options(AVDictionary **set, const char *const (*option)[2], size_t count) {
   for (size_t i = 0; i < count && option[i][0] != NULL; i++) {
-    av.av_dict_set(set, option[i][0], option[i][1], 0);
+    av_dict_set(set, option[i][0], option[i][1], 0);
   }
 }
 
@@ -202,8 +141,8 @@ static void tag_colours(AVCodecContext *codec) {
 static SbStatus set_up_codec(SbMovieEncoder *encoder, const SbMovieOptions *options,
                              SbReport *report) {
   const Format *how = encoder->how;
-  const AVCodec *found = av.avcodec_find_encoder_by_name(how->encoder);
-  AVCodecContext *codec = encoder->codec = av.avcodec_alloc_context3(found);
+  const AVCodec *found = avcodec_find_encoder_by_name(how->encoder);
+  AVCodecContext *codec = encoder->codec = avcodec_alloc_context3(found);
   if (codec == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the encoder");
   }
@@ -228,20 +167,20 @@ static SbStatus set_up_codec(SbMovieEncoder *encoder, const SbMovieOptions *opti
   AVDictionary *set = NULL;
   add_options(&set, how->codec_option, G_N_ELEMENTS(how->codec_option));
   if (options->preset != NULL) {
-    av.av_dict_set(&set, "preset", options->preset, 0);
+    av_dict_set(&set, "preset", options->preset, 0);
   }
   if (options->quality > 0) {
-    av.av_dict_set_int(&set, "crf", options->quality, 0);
+    av_dict_set_int(&set, "crf", options->quality, 0);
   }
-  int code = av.avcodec_open2(codec, found, &set);
-  av.av_dict_free(&set);
+  int code = avcodec_open2(codec, found, &set);
+  av_dict_free(&set);
   return code < 0 ? fail(report, "the encoder does not open", code) : SB_OK;
 }
 
 const char *sb_movie_missing(SbMovieFormat format) {
   static GOnce once = G_ONCE_INIT;
-  const char *why = g_once(&once, load_libraries, NULL);
-  if (why != NULL || av.avcodec_find_encoder_by_name(formats[format].encoder) != NULL) {
+  const char *why = g_once(&once, find_problem, NULL);
+  if (why != NULL || avcodec_find_encoder_by_name(formats[format].encoder) != NULL) {
     return why;
   }
   static char *missing[SB_MOVIE_FORMATS];
@@ -259,7 +198,7 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
   if (missing != NULL) {
     return sb_fail(report, SB_ERROR_IO, "%s", missing);
   }
-  av.av_log_set_level(AV_LOG_QUIET);
+  av_log_set_level(AV_LOG_QUIET);
   SbMovieEncoder *encoder = g_new0(SbMovieEncoder, 1);
   encoder->how = &formats[options->format];
   encoder->quantiser = encoder->how->pixels == AV_PIX_FMT_PAL8 ? sb_quantiser_create() : NULL;
@@ -267,16 +206,16 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
   encoder->height = options->height;
   char *url = g_strdup_printf("file:%s", path);
   SbStatus status = SB_OK;
-  int code = av.avformat_alloc_output_context2(&encoder->format, NULL, encoder->how->muxer, url);
+  int code = avformat_alloc_output_context2(&encoder->format, NULL, encoder->how->muxer, url);
   if (code < 0) {
     status = fail(report, "no writer of this format", code);
   } else {
     status = set_up_codec(encoder, options, report);
   }
   if (status == SB_OK) {
-    encoder->stream = av.avformat_new_stream(encoder->format, NULL);
-    encoder->frame = av.av_frame_alloc();
-    encoder->packet = av.av_packet_alloc();
+    encoder->stream = avformat_new_stream(encoder->format, NULL);
+    encoder->frame = av_frame_alloc();
+    encoder->packet = av_packet_alloc();
     if (encoder->stream == NULL || encoder->frame == NULL || encoder->packet == NULL) {
       status = sb_fail(report, SB_ERROR_MEMORY, "no memory for the film");
     }
@@ -284,15 +223,15 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
   if (status == SB_OK) {
     encoder->stream->time_base = encoder->codec->time_base;
     encoder->stream->avg_frame_rate = encoder->codec->framerate;
-    code = av.avcodec_parameters_from_context(encoder->stream->codecpar, encoder->codec);
+    code = avcodec_parameters_from_context(encoder->stream->codecpar, encoder->codec);
     encoder->frame->format = encoder->how->pixels;
     encoder->frame->width = encoder->codec->width;
     encoder->frame->height = encoder->codec->height;
     if (code >= 0) {
-      code = av.av_frame_get_buffer(encoder->frame, 0);
+      code = av_frame_get_buffer(encoder->frame, 0);
     }
     if (code >= 0) {
-      code = av.avio_open(&encoder->format->pb, url, AVIO_FLAG_WRITE);
+      code = avio_open(&encoder->format->pb, url, AVIO_FLAG_WRITE);
     }
     if (code < 0) {
       status = fail(report, "the film does not open", code);
@@ -303,15 +242,15 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
       encoder->format->flags |= AVFMT_FLAG_BITEXACT;
     }
     if (options->title != NULL) {
-      av.av_dict_set(&encoder->format->metadata, "title", options->title, 0);
+      av_dict_set(&encoder->format->metadata, "title", options->title, 0);
     }
     // libavformat writes its own name as the encoder.
     g_autofree char *identity = sb_identity_text();
-    av.av_dict_set(&encoder->format->metadata, "description", identity, 0);
+    av_dict_set(&encoder->format->metadata, "description", identity, 0);
     AVDictionary *set = NULL;
     add_options(&set, encoder->how->muxer_option, G_N_ELEMENTS(encoder->how->muxer_option));
-    code = av.avformat_write_header(encoder->format, &set);
-    av.av_dict_free(&set);
+    code = avformat_write_header(encoder->format, &set);
+    av_dict_free(&set);
     encoder->header = code >= 0;
     status = code < 0 ? fail(report, "the film's header", code) : check_output(encoder, report);
   }
@@ -326,15 +265,15 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
 
 // Hands a picture (or NULL: the end) to the encoder and writes what comes out.
 static SbStatus push(SbMovieEncoder *encoder, const AVFrame *frame, SbReport *report) {
-  int code = av.avcodec_send_frame(encoder->codec, frame);
+  int code = avcodec_send_frame(encoder->codec, frame);
   if (code < 0) {
     return fail(report, "encoding", code);
   }
-  while ((code = av.avcodec_receive_packet(encoder->codec, encoder->packet)) >= 0) {
+  while ((code = avcodec_receive_packet(encoder->codec, encoder->packet)) >= 0) {
     encoder->packet->stream_index = encoder->stream->index;
     encoder->packet->duration = 1;
-    av.av_packet_rescale_ts(encoder->packet, encoder->codec->time_base, encoder->stream->time_base);
-    code = av.av_interleaved_write_frame(encoder->format, encoder->packet);
+    av_packet_rescale_ts(encoder->packet, encoder->codec->time_base, encoder->stream->time_base);
+    code = av_interleaved_write_frame(encoder->format, encoder->packet);
     if (code < 0) {
       return fail(report, "writing the film", code);
     }
@@ -348,7 +287,7 @@ static SbStatus push(SbMovieEncoder *encoder, const AVFrame *frame, SbReport *re
 SbStatus sb_movie_encoder_add(SbMovieEncoder *encoder, const uint8_t *pixels, size_t stride,
                               double *convert_s, double *encode_s, SbReport *report) {
   int64_t begin = g_get_monotonic_time();
-  int code = av.av_frame_make_writable(encoder->frame);
+  int code = av_frame_make_writable(encoder->frame);
   if (code < 0) {
     return fail(report, "no memory for a picture", code);
   }
@@ -368,12 +307,12 @@ SbStatus sb_movie_encoder_finish(SbMovieEncoder *encoder, const char *comment, S
     return status;
   }
   if (comment != NULL) {
-    av.av_dict_set(&encoder->format->metadata, "comment", comment, 0);
+    av_dict_set(&encoder->format->metadata, "comment", comment, 0);
   }
-  int code = av.av_write_trailer(encoder->format);
+  int code = av_write_trailer(encoder->format);
   encoder->header = false;
   status = code < 0 ? fail(report, "the film's index", code) : check_output(encoder, report);
-  code = av.avio_closep(&encoder->format->pb);
+  code = avio_closep(&encoder->format->pb);
   if (status == SB_OK && code < 0) {
     status = fail(report, "closing the film", code);
   }
@@ -385,14 +324,14 @@ void sb_movie_encoder_destroy(SbMovieEncoder *encoder) {
     return;
   }
   sb_quantiser_destroy(encoder->quantiser);
-  av.av_packet_free(&encoder->packet);
-  av.av_frame_free(&encoder->frame);
-  av.avcodec_free_context(&encoder->codec);
+  av_packet_free(&encoder->packet);
+  av_frame_free(&encoder->frame);
+  avcodec_free_context(&encoder->codec);
   if (encoder->format != NULL) {
     if (encoder->format->pb != NULL) {
-      av.avio_closep(&encoder->format->pb);
+      avio_closep(&encoder->format->pb);
     }
-    av.avformat_free_context(encoder->format);
+    avformat_free_context(encoder->format);
   }
   g_free(encoder);
 }

@@ -1,11 +1,16 @@
 // See process.h.
 #include "app/run/process.h"
 
+#include "app/lazy/lazy.h"
+
 #include <cblas.h>
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <gsl/gsl_errno.h>
 #include <malloc.h>
 #include <signal.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -13,6 +18,12 @@
 bool sb_process_has_memory(void) {
   // Taken once for the first solve and kept by OpenBLAS; without room it would wait for ever.
   const size_t area = (size_t)136 << 20;
+  // The libraries take address space as well.
+  struct rlimit limit;
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+      sb_lazy_missing(&sb_lazy_algebra) != NULL) {
+    return false;
+  }
   void *room =
       mmap(NULL, area, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (room == MAP_FAILED) {
@@ -37,14 +48,26 @@ static void open_standard_streams(void) {
   }
 }
 
+// One thread for a solve: repeatable results, and the other cores are the drawing's. OpenBLAS reads
+// the variable when it is loaded, which is at its first use (app/lazy) unless the program is linked
+// with it.
+static void use_one_thread(void) {
+  setenv("OPENBLAS_NUM_THREADS", "1", 1);
+  void (*set)(int) = NULL;
+  void *address = dlsym(RTLD_DEFAULT, "openblas_set_num_threads");
+  memcpy(&set, &address, sizeof set);
+  if (set != NULL) {
+    set(1);
+  }
+}
+
 void sb_process_set_up(void) {
   open_standard_streams();
   // A reader that has gone, of progress or of results, is a failed write like any other.
   signal(SIGPIPE, SIG_IGN);
   // A limit on the size of files is a failed write like any other, not the program's end.
   signal(SIGXFSZ, SIG_IGN);
-  // One thread for a solve: repeatable results, and the other cores are the drawing's.
-  openblas_set_num_threads(1);
+  use_one_thread();
   // A special function outside its domain must not end the program; the engine checks results.
   gsl_set_error_handler_off();
   // A ring's factors are some 100 kB, made anew at each of its steps. By default their pages go

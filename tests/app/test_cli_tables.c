@@ -205,7 +205,19 @@ static void test_bench(void) {
   JsonNode *root = cli_parse(text);
   JsonArray *cases = json_node_get_array(cli_at(root, "cases"));
   g_auto(GStrv) lines = g_strsplit(g_strchomp(table.out), "\n", -1);
-  g_assert_cmpuint(g_strv_length(lines), ==, json_array_get_length(cases) + 1);
+  // An empty line and the head of the start-up are between the cases and its commands.
+  JsonNode *start_up = cli_at(root, "start_up");
+  JsonArray *commands = json_node_get_array(cli_at(start_up, "commands"));
+  cli_has_keys(start_up, "empty_program_s limit_s shared_objects commands");
+  g_assert_cmpfloat(cli_number(start_up, "limit_s"), >=, 15e-3);
+  g_assert_cmpfloat(cli_number(start_up, "shared_objects"), >, 0);
+  g_assert_cmpuint(g_strv_length(lines), ==,
+                   json_array_get_length(cases) + 3 + json_array_get_length(commands));
+  for (guint i = 0; i < json_array_get_length(commands); i++) {
+    JsonNode *row = json_array_get_element(commands, i);
+    cli_has_keys(row, "command processor_s");
+    g_assert_cmpfloat(cli_number(row, "processor_s"), >, 0);
+  }
   for (guint i = 0; i < json_array_get_length(cases); i++) {
     JsonNode *row = json_array_get_element(cases, i);
     g_assert_true(g_str_has_prefix(lines[i + 1], json_node_get_string(cli_at(row, "solver"))));

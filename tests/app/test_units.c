@@ -6,6 +6,7 @@
 #include <locale.h>
 #include <math.h>
 #include <string.h>
+#include <udunits2.h>
 
 static double parsed(const char *text, const char *si, const char *shown) {
   GError *error = NULL;
@@ -368,6 +369,54 @@ static void test_typed(void) {
   g_rand_free(random);
 }
 
+// ---- Scales that need no database ----
+
+static const struct {
+  const char *unit, *si;
+  double scale, zero;
+} displayed[] = {
+#define SB_SCALE(unit, si, scale, zero) {unit, si, scale, zero},
+#include "app/base/unit_scales.def"
+#undef SB_SCALE
+};
+
+// They are those of udunits, within the rounding of its versions.
+static void test_scales(void) {
+  ut_set_error_message_handler(ut_ignore);
+  ut_system *units = ut_read_xml(NULL);
+  g_assert_nonnull(units);
+  for (size_t i = 0; i < G_N_ELEMENTS(displayed); i++) {
+    // The catalogue's own unit (unit.c): 1e-10 cm3 (STP) cm / (cm2 s cmHg).
+    const bool own = strcmp(displayed[i].unit, "barrer") == 0;
+    ut_unit *from = ut_parse(units, own ? "3.35e-16 mol/(m.s.Pa)" : displayed[i].unit, UT_UTF8);
+    ut_unit *to = ut_parse(units, displayed[i].si, UT_UTF8);
+    cv_converter *converter = ut_get_converter(from, to);
+    const double zero = cv_convert_double(converter, 0);
+    const double scale = cv_convert_double(converter, 1) - zero;
+    g_assert_cmpfloat(fabs(displayed[i].zero - zero), <=, 1e-13 * zero);
+    // The difference of two temperatures loses digits.
+    g_assert_cmpfloat(fabs(displayed[i].scale - scale), <=, (zero != 0 ? 1e-12 : 1e-15) * scale);
+    cv_free(converter);
+    ut_free(from);
+    ut_free(to);
+  }
+  ut_free_system(units);
+}
+
+// All parameters are displayed without the database.
+static void test_displayed(void) {
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParam *param = sb_param((SbParamId)i);
+    bool found = *param->unit == '\0' || strcmp(param->unit, param->si) == 0 ||
+                 strcmp(param->unit, "deg") == 0;
+    for (size_t k = 0; k < G_N_ELEMENTS(displayed) && !found; k++) {
+      found =
+          strcmp(displayed[k].unit, param->unit) == 0 && strcmp(displayed[k].si, param->si) == 0;
+    }
+    g_assert_true(found);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/units/parse", test_parse);
@@ -381,5 +430,7 @@ int main(int argc, char **argv) {
   // Last: it changes the process' locale.
   g_test_add_func("/units/locale", test_locale);
   g_test_add_func("/units/typed", test_typed);
+  g_test_add_func("/units/scales", test_scales);
+  g_test_add_func("/units/displayed", test_displayed);
   return g_test_run();
 }
