@@ -62,6 +62,38 @@ static void put_bounds(SbJson *json, const SbCalibration *of) {
   sb_json_array_end(json);
 }
 
+static void put_reason(SbJson *json, const char *path, double value, const char *why) {
+  if (!isfinite(value)) {
+    sb_json_string(json, path, why);
+  }
+}
+
+// Why numbers are null, by their paths.
+static void put_reasons(SbJson *json, const SbCalibration *of) {
+  const char *posterior = of->partial ? "interrupted: there is no posterior"
+                                      : "there is no posterior: no samples were taken";
+  sb_json_object(json, "reasons");
+  put_reason(json, "residual_rms_N", of->rms, "no loop was computed at the estimates");
+  put_reason(json, "chi2_reduced", of->chi2,
+             of->partial ? "interrupted: not computed for the best values so far"
+                         : "there are no degrees of freedom");
+  for (size_t j = 0; j < of->parameters; j++) {
+    const SbCalibrated *one = &of->parameter[j];
+    static const char *const names[] = {"standard_deviation", "interval_95", "identifiable"};
+    const double values[] = {one->deviation, one->interval[0], of->samples > 0 ? 0 : NAN};
+    for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
+      g_autofree char *path = g_strdup_printf("parameters.%s.%s", one->name, names[i]);
+      put_reason(json, path, values[i], posterior);
+    }
+  }
+  put_reason(json, "correlation.matrix", of->samples > 0 ? 0 : NAN, posterior);
+  put_reason(json, "posterior.accepted", of->accepted, posterior);
+  put_reason(json, "posterior.tangent_rms_N", of->check_rms,
+             of->partial ? "interrupted: not compared with full runs"
+                         : "the posterior is not that of a tangent");
+  sb_json_object_end(json);
+}
+
 char *sb_calibration_json(const SbCalibration *of, const SbStudyFile *study) {
   SbJson json;
   sb_json_document(&json);
@@ -107,6 +139,7 @@ char *sb_calibration_json(const SbCalibration *of, const SbStudyFile *study) {
   sb_json_count(&json, "evaluations", of->evaluations);
   sb_json_count(&json, "seed", study->seed);
   sb_json_object_end(&json);
+  put_reasons(&json, of);
   sb_json_object_end(&json);
   return sb_json_finish(&json);
 }

@@ -1,5 +1,6 @@
 // Calibration against loops made with parameters that it is not told: recovered from hostile files,
 // their intervals as wide as they should be, what cannot be parted flagged, several curves at once.
+#include "app/export/calibrate_results.h"
 #include "app/study/calibrate.h"
 
 #include "engine/numeric/sampling.h"
@@ -519,6 +520,15 @@ static void test_cancel(void) {
   g_assert_true(isnan(found.parameter[0].interval[0]));
   g_assert_true(isfinite(found.rms));
   g_assert_cmpfloat(found.parameter[0].estimate, !=, found.parameter[0].before);
+  // Every null of its JSON has a reason.
+  g_autofree char *json = sb_calibration_json(&found, study);
+  static const char *const paths[] = {
+      "parameters.bore.land_edge.standard_deviation", "parameters.bore.land_edge.interval_95",
+      "parameters.bore.land_edge.identifiable", "correlation.matrix", "posterior.tangent_rms_N"};
+  for (size_t i = 0; i < G_N_ELEMENTS(paths); i++) {
+    g_autofree char *reason = g_strdup_printf("\"%s\": \"interrupted: ", paths[i]);
+    g_assert_nonnull(strstr(json, reason));
+  }
   g_autofree char *path = g_build_filename(folder, "partial.scene", NULL);
   g_autofree char *scene = sb_calibration_scene(&found, study, 0, path, NULL);
   assert_written(scene, SB_DOCUMENT_SCENE, &found.parameter[0]);

@@ -49,7 +49,8 @@ void sb_calibrate_job_cancel(SbCalibrateJob *job) {
 
 bool sb_calibrate_job_take(SbCalibrateJob *job, SbCalibration *out, SbStudyFile **study,
                            char **why) {
-  if (job->status != SB_OK && job->status != SB_ERROR_NOT_CONVERGED) {
+  const bool best = job->status == SB_ERROR_CANCELLED && job->found.partial;
+  if (job->status != SB_OK && job->status != SB_ERROR_NOT_CONVERGED && !best) {
     *why = job->issues->len > 0          ? sb_issue_line(job->issues->pdata[0])
            : job->report.text[0] != '\0' ? g_strdup(job->report.text)
                                          : g_strdup(sb_status_text(job->status));

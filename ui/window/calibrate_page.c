@@ -59,9 +59,13 @@ static char *describe(const Page *page) {
   GString *text = g_string_new(NULL);
   for (size_t j = 0; j < page->found.parameters; j++) {
     const SbCalibrated *one = &page->found.parameter[j];
+    g_autofree char *value = sb_param_format(one->id, one->estimate);
+    if (page->found.samples == 0) { // interrupted: there is no interval
+      g_string_append_printf(text, "%s: %s\n", one->name, value);
+      continue;
+    }
     g_autofree char *low = sb_param_format(one->id, one->interval[0]);
     g_autofree char *high = sb_param_format(one->id, one->interval[1]);
-    g_autofree char *value = sb_param_format(one->id, one->estimate);
     g_string_append_printf(text, "%s: %s, %s - %s, %s\n", one->name, value, low, high,
                            sb_told_name(one->told));
   }
@@ -180,7 +184,9 @@ static void on_done(void *data) {
   g_autofree char *why = NULL;
   const bool good = sb_calibrate_job_take(page->job, &found, &study, &why);
   end_job(page);
-  say(page, good ? "" : why);
+  say(page, !good           ? why
+            : found.partial ? _("Interrupted: the best values so far, without intervals")
+                            : "");
   if (good) {
     forget(page);
     page->found = found;
@@ -218,7 +224,9 @@ static void on_recognised(GtkButton *button, Page *page) {
 static void on_use(GtkButton *button, Page *page) {
   for (size_t j = 0; j < page->found.parameters; j++) {
     const SbCalibrated *one = &page->found.parameter[j];
-    if (one->told != SB_TOLD_NO && one->curve < 0) {
+    // Without a posterior every parameter has the best value so far.
+    const gboolean known = page->found.samples == 0 || one->told != SB_TOLD_NO;
+    if (known && one->curve < 0) {
       sb_session_edit_value(page->session, one->id, one->estimate);
     }
   }
@@ -305,7 +313,7 @@ static void add_toolbar(Page *page) {
   gtk_widget_set_valign(page->progress, GTK_ALIGN_CENTER);
   sb_style_name(page->progress, _("Progress of the fit"), NULL);
   gtk_box_pack_start(bar, page->progress, FALSE, FALSE, 0);
-  page->stop = button_of(bar, _("Cancel"), _("Stop fitting; the fit shown stays"),
+  page->stop = button_of(bar, _("Cancel"), _("Stop fitting and show the best values so far"),
                          G_CALLBACK(on_stop), page);
   page->fit = gtk_button_new_with_label(_("Fit again"));
   g_signal_connect_swapped(page->fit, "clicked", G_CALLBACK(fit), page);
