@@ -34,9 +34,8 @@ static double to_unit(double *relative, int index, const char *unit, double valu
   return shown;
 }
 
-// The number in plain ASCII. Zeros at the end are written where the number is rounded
-// there: 28.6988 is 28.70, and an input of 35 is 35.
-static void write_number(char out[SB_NUMBER_SIZE], double shown, int digits, double error) {
+// Zeros: 28.6988 is 28.70, and an input of 35 is 35.
+void sb_number_with_error(char out[SB_NUMBER_SIZE], double shown, int digits, double error) {
   const int decimals = sb_format_decimals(shown, digits, error);
   const double scale = pow(10, decimals);
   const bool exact = fabs(round(shown * scale) / scale - shown) <= 1e-12 * fabs(shown);
@@ -65,7 +64,7 @@ static void plain_parts(char number[SB_NUMBER_SIZE], const char **unit, int inde
     const bool noise = strcmp(figure->si, "N") == 0 && fabs(value) < 1e-9;
     double relative;
     const double shown = to_unit(&relative, index, *unit, noise ? 0 : value, error);
-    write_number(number, shown, figure->digits, relative);
+    sb_number_with_error(number, shown, figure->digits, relative);
   }
 }
 
@@ -133,7 +132,7 @@ char *sb_figure_error_format(int index, double value, double error) {
   // Units are affine: an error has the slope of the scale and not its origin.
   const double slope = sb_quantity_to_shown(1, si, unit) - sb_quantity_to_shown(0, si, unit);
   char number[SB_NUMBER_SIZE];
-  write_number(number, error * slope, DIGITS, 1);
+  sb_number_with_error(number, error * slope, DIGITS, 1);
   return g_strconcat(number, *unit != '\0' ? " " : "", unit, NULL);
 }
 

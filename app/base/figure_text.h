@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/base/format.h"
+#include "app/base/number.h"
 
 #include "engine/valve/figures.h"
 
@@ -37,6 +38,10 @@ char *sb_limit_format(int figure, double low, double high);
 
 // The label of a figure with its seal or stage: "Load, outer seal". Owned by the caller.
 char *sb_figure_label(int index);
+
+// Writes a number in plain ASCII by the rounding rule, with at most `digits` significant digits;
+// `error` is relative, 0: exact. Zeros at the end are written where the number is rounded there.
+void sb_number_with_error(char out[SB_NUMBER_SIZE], double shown, int digits, double error);
 
 // One figure of one of several designs that are compared.
 typedef struct {

@@ -1,5 +1,6 @@
 // The swap page; propellants.h says what it shows. Between the temperatures of the study values lie
 // on straight lines, as the curves are drawn.
+#include "app/base/figure_text.h"
 #include "app/base/label.h"
 #include "app/base/translation.h"
 #include "app/chart/axis.h"
@@ -96,8 +97,10 @@ SbRole sb_propellants_role(SbPropellantsAnswer answer) {
   return roles[answer];
 }
 
-const char *sb_propellants_force(char *out, double force) {
-  return sb_format_text(out, SB_QUANTITY_FORCE, force, 0);
+const char *sb_propellants_force(char *out, const SbStudy *study, int panel, double force) {
+  static const char *const paths[SB_PROPELLANTS_CHARTS] = {
+      "cycle.pressure_force_N", "cycle.force_breakaway_N", "cycle.force_return_margin_N"};
+  return sb_figure_text(out, sb_figure_find(paths[panel]), force, study->error);
 }
 
 const char *sb_propellants_degrees(char *out, double T) {
@@ -353,8 +356,8 @@ static void draw_cursor(const Chart *chart) {
     if (chart->panel == RETURN && answer != SB_PROPELLANT_RETURNS) {
       style.color = sb_canvas_role(c, sb_propellants_role(answer));
     }
-    sb_canvas_text(c, sb_propellants_force(text, value[order[i]]), &style, box.x + width - 8, y,
-                   SB_RIGHT);
+    sb_canvas_text(c, sb_propellants_force(text, chart->study, chart->panel, value[order[i]]),
+                   &style, box.x + width - 8, y, SB_RIGHT);
   }
 }
 

@@ -38,7 +38,7 @@ static void draw_sign(SbCanvas *c, SbPropellantsAnswer answer, double x, double 
 static char *answer_text(const SbStudy *study, int k, double T, double gauge) {
   char force[SB_FORMAT_MAX], at[SB_FORMAT_MAX];
   const double value = sb_propellants_value(sb_propellants_series(study, RETURN, k), T);
-  sb_propellants_force(force, value);
+  sb_propellants_force(force, study, RETURN, value);
   sb_propellants_degrees(at, T);
   if (gauge <= 0) {
     return g_strdup_printf(_("delivers nothing at %s °C: below ambient"), at);

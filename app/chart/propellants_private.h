@@ -27,9 +27,10 @@ double sb_propellants_weak_below(const SbStudy *study);
 SbPropellantsAnswer sb_propellants_answer(const SbStudy *study, double force);
 SbRole sb_propellants_role(SbPropellantsAnswer answer);
 
-// Both in `out`, of SB_FORMAT_MAX bytes: "-1.7 N", a dash where there is none; whole degrees
+// Both in `out`, of SB_FORMAT_MAX bytes: a force of a panel as its figure of a run is printed, with
+// the digits that the error of the study supports, a dash where there is none; whole degrees
 // Celsius, with a tenth where they have one.
-const char *sb_propellants_force(char *out, double force);
+const char *sb_propellants_force(char *out, const SbStudy *study, int panel, double force);
 const char *sb_propellants_degrees(char *out, double T);
 
 // The modulus at T [K] against that at 20 degC, and the tag of where this comes from (g_free).

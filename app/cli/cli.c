@@ -1,6 +1,7 @@
 // Shared parts of the commands.
 #include "app/cli/cli.h"
 
+#include "app/base/figure_text.h"
 #include "app/base/nearest.h"
 #include "app/base/output.h"
 #include "app/cli/wrap.h"
@@ -118,7 +119,7 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
       {"quiet", 'q', 0, G_OPTION_ARG_NONE, &common.quiet,
        "No progress, no table, no notes: errors alone", NULL},
       {"progress", 0, 0, G_OPTION_ARG_FILENAME, &progress,
-       "Progress on standard error where it is no terminal", "lines|json"},
+       "Progress on standard error where it is not a terminal", "lines|json"},
       {0},
   };
   const GOptionEntry writing[] = {
@@ -393,8 +394,9 @@ SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
     document = NULL;
   }
   g_ptr_array_unref(issues);
-  for (guint i = 0; document != NULL && i < sb_document_notes(document)->len; i++) {
-    g_autofree char *note = g_strconcat("note: ", sb_document_notes(document)->pdata[i], NULL);
+  const GPtrArray *notes = document != NULL && !sb_cli_quiet() ? sb_document_notes(document) : NULL;
+  for (guint i = 0; notes != NULL && i < notes->len; i++) {
+    g_autofree char *note = g_strconcat("note: ", notes->pdata[i], NULL);
     print_line(note);
   }
   return document;
@@ -485,10 +487,24 @@ void sb_cli_figure(const char *label, double value, const char *si, const char *
   g_free(text);
 }
 
+// With the digits that the error estimate supports, where there is one.
+static void put_row(const SbResultRow *row, const void *of) {
+  const double value = sb_result_value(row, of);
+  const double error = row->error > 0 ? *(const double *)((const char *)of + row->error) : 0;
+  if (!isfinite(value) || !(error > 0)) {
+    sb_cli_figure(row->label, value, row->si, row->shown);
+    return;
+  }
+  char digits[SB_NUMBER_SIZE];
+  sb_number_with_error(digits, sb_quantity_to_shown(value, row->si, row->shown), 5, error);
+  g_autofree char *text = g_strconcat(digits, *row->shown != '\0' ? " " : "", row->shown, NULL);
+  sb_cli_line(row->label, text);
+}
+
 void sb_cli_rows(const SbResultRow *row, const void *of) {
   for (; row->key != NULL; row++) {
     if (row->label != NULL) {
-      sb_cli_figure(row->label, sb_result_value(row, of), row->si, row->shown);
+      put_row(row, of);
     }
   }
 }

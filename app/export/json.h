@@ -48,6 +48,7 @@ void sb_json_numbers(SbJson *json, const char *key, const double *values, size_t
 typedef struct {
   const char *key, *label, *si, *shown;
   size_t offset;
+  size_t error; // offset of the estimate of its relative error; 0: none
 } SbResultRow;
 
 double sb_result_value(const SbResultRow *row, const void *of);

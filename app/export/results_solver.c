@@ -4,108 +4,116 @@
 #include <math.h>
 
 const SbResultRow sb_film_rows[] = {
-    {"film_min_m", "Film, least", "m", "nm", offsetof(SbFilm, film_min)},
-    {"film_central_m", "Film, central", "m", "nm", offsetof(SbFilm, film_central)},
-    {"film_flux_m", "Film, of the flow", "m", "nm", offsetof(SbFilm, film_flux)},
-    {"pressure_max_Pa", "Pressure, largest", "Pa", "MPa", offsetof(SbFilm, pressure_max)},
+    {"film_min_m", "Film, least", "m", "nm", offsetof(SbFilm, film_min),
+     offsetof(SbFilm, solver.error_film_min)},
+    {"film_central_m", "Film, central", "m", "nm", offsetof(SbFilm, film_central),
+     offsetof(SbFilm, solver.error_film_central)},
+    {"film_flux_m", "Film, of the flow", "m", "nm", offsetof(SbFilm, film_flux),
+     offsetof(SbFilm, solver.error_film_flux)},
+    {"pressure_max_Pa", "Pressure, largest", "Pa", "MPa", offsetof(SbFilm, pressure_max), 0},
     {"position_film_min_m", "Place of the least film", "m", "mm",
-     offsetof(SbFilm, position_film_min)},
-    {"position_rupture_m", "Place of rupture", "m", "mm", offsetof(SbFilm, position_rupture)},
+     offsetof(SbFilm, position_film_min), 0},
+    {"position_rupture_m", "Place of rupture", "m", "mm", offsetof(SbFilm, position_rupture), 0},
     {"friction_couette_N_per_m", "Friction, Couette", "N/m", "N/m",
-     offsetof(SbFilm, friction_couette)},
+     offsetof(SbFilm, friction_couette), 0},
     {"friction_poiseuille_N_per_m", "Friction, Poiseuille", "N/m", "N/m",
-     offsetof(SbFilm, friction_poiseuille)},
+     offsetof(SbFilm, friction_poiseuille), 0},
     {0}};
 
 const SbResultRow sb_film_contact_rows[] = {
-    {"hertz_half_width_m", "Hertz half-width", "m", "mm", offsetof(SbFilm, hertz_half_width)},
-    {"hertz_pressure_Pa", "Hertz pressure", "Pa", "MPa", offsetof(SbFilm, hertz_pressure)},
-    {"moes_M", "Moes' M", "1", "", offsetof(SbFilm, moes_M)},
+    {"hertz_half_width_m", "Hertz half-width", "m", "mm", offsetof(SbFilm, hertz_half_width), 0},
+    {"hertz_pressure_Pa", "Hertz pressure", "Pa", "MPa", offsetof(SbFilm, hertz_pressure), 0},
+    {"moes_M", "Moes' M", "1", "", offsetof(SbFilm, moes_M), 0},
     {0}};
 
 const SbResultRow sb_film_rough_rows[] = {
-    {"film_ratio", "Central film over roughness", "1", "", offsetof(SbFilm, film_ratio)},
-    {"asperity_load_N_per_m", NULL, "", "", offsetof(SbFilm, asperity_load)},
-    {"asperity_load_share", "Load on asperities, share", "1", "", offsetof(SbFilm, asperity_share)},
-    {"real_area_m", NULL, "", "", offsetof(SbFilm, real_area)},
+    {"film_ratio", "Central film over roughness", "1", "", offsetof(SbFilm, film_ratio), 0},
+    {"asperity_load_N_per_m", NULL, "", "", offsetof(SbFilm, asperity_load), 0},
+    {"asperity_load_share", "Load on asperities, share", "1", "", offsetof(SbFilm, asperity_share),
+     0},
+    {"real_area_m", NULL, "", "", offsetof(SbFilm, real_area), 0},
     {"real_area_share", "Real contact at the axis, share", "1", "",
-     offsetof(SbFilm, real_area_share)},
+     offsetof(SbFilm, real_area_share), 0},
     {"friction_boundary_N_per_m", "Friction, boundary", "N/m", "N/m",
-     offsetof(SbFilm, friction_boundary)},
+     offsetof(SbFilm, friction_boundary), 0},
     {"friction_cavity_N_per_m", "Friction, broken film", "N/m", "N/m",
-     offsetof(SbFilm, friction_cavity)},
+     offsetof(SbFilm, friction_cavity), 0},
     {0}};
 
 const SbResultRow sb_film_error_rows[] = {
-    {"film_min", "Error estimate, least film", "1", "", offsetof(SbFilm, solver.error_film_min)},
+    {"film_min", "Error estimate, least film", "1", "", offsetof(SbFilm, solver.error_film_min), 0},
     {"film_central", "Error estimate, central film", "1", "",
-     offsetof(SbFilm, solver.error_film_central)},
-    {"film_flux", NULL, "", "", offsetof(SbFilm, solver.error_film_flux)},
+     offsetof(SbFilm, solver.error_film_central), 0},
+    {"film_flux", NULL, "", "", offsetof(SbFilm, solver.error_film_flux), 0},
     {0}};
 
 const SbResultRow sb_fit_rows[] = {
-    {"squeeze", "Squeeze", "1", "%", offsetof(SbFit, squeeze)},
-    {"stretch_mean", "Stretch, mean diameter", "1", "%", offsetof(SbFit, stretch_mean)},
-    {"stretch_inner", "Stretch, inner diameter", "1", "%", offsetof(SbFit, stretch_inner)},
+    {"squeeze", "Squeeze", "1", "%", offsetof(SbFit, squeeze), 0},
+    {"stretch_mean", "Stretch, mean diameter", "1", "%", offsetof(SbFit, stretch_mean), 0},
+    {"stretch_inner", "Stretch, inner diameter", "1", "%", offsetof(SbFit, stretch_inner), 0},
     {"section_diameter_fitted_m", "Section when fitted", "m", "mm",
-     offsetof(SbFit, section_diameter_fitted)},
-    {"interference_m", "Interference", "m", "mm", offsetof(SbFit, interference)},
-    {"gland_fill", "Gland fill", "1", "%", offsetof(SbFit, gland_fill)},
+     offsetof(SbFit, section_diameter_fitted), 0},
+    {"interference_m", "Interference", "m", "mm", offsetof(SbFit, interference), 0},
+    {"gland_fill", "Gland fill", "1", "%", offsetof(SbFit, gland_fill), 0},
     {0}};
 
 const SbResultRow sb_fit_contact_rows[] = {
-    {"circumference_m", "Circumference of the load", "m", "mm", offsetof(SbFit, circumference)},
-    {"contact_width_m", "Contact width", "m", "mm", offsetof(SbFit, contact_width)},
-    {"contact_left_m", NULL, "", "", offsetof(SbFit, contact_left)},
-    {"contact_right_m", NULL, "", "", offsetof(SbFit, contact_right)},
-    {"load_N", "Load", "N", "N", offsetof(SbFit, load)},
-    {"load_N_per_m", "Load per length", "N/m", "N/m", offsetof(SbFit, load_per_length)},
-    {"pressure_peak_Pa", "Peak pressure", "Pa", "MPa", offsetof(SbFit, pressure_peak)},
+    {"circumference_m", "Circumference of the load", "m", "mm", offsetof(SbFit, circumference), 0},
+    {"contact_width_m", "Contact width", "m", "mm", offsetof(SbFit, contact_width),
+     offsetof(SbFit, solver.error_estimate.contact_width)},
+    {"contact_left_m", NULL, "", "", offsetof(SbFit, contact_left), 0},
+    {"contact_right_m", NULL, "", "", offsetof(SbFit, contact_right), 0},
+    {"load_N", "Load", "N", "N", offsetof(SbFit, load),
+     offsetof(SbFit, solver.error_estimate.load)},
+    {"load_N_per_m", "Load per length", "N/m", "N/m", offsetof(SbFit, load_per_length),
+     offsetof(SbFit, solver.error_estimate.load)},
+    {"pressure_peak_Pa", "Peak pressure", "Pa", "MPa", offsetof(SbFit, pressure_peak),
+     offsetof(SbFit, solver.error_estimate.pressure_peak)},
     {0}};
 
 const SbResultRow sb_fit_ring_rows[] = {
-    {"floor_load_N", "Load on the groove floor", "N", "N", offsetof(SbFit, ring.floor_load)},
-    {"wall_load_N", "Load on the groove wall", "N", "N", offsetof(SbFit, ring.wall_load)},
-    {"radial_thickness_m", NULL, "", "", offsetof(SbFit, ring.thickness)},
-    {"volume_change", NULL, "", "", offsetof(SbFit, ring.volume_change)},
-    {"axial_imbalance", NULL, "", "", offsetof(SbFit, ring.axial_imbalance)},
+    {"floor_load_N", "Load on the groove floor", "N", "N", offsetof(SbFit, ring.floor_load), 0},
+    {"wall_load_N", "Load on the groove wall", "N", "N", offsetof(SbFit, ring.wall_load), 0},
+    {"radial_thickness_m", NULL, "", "", offsetof(SbFit, ring.thickness), 0},
+    {"volume_change", NULL, "", "", offsetof(SbFit, ring.volume_change), 0},
+    {"axial_imbalance", NULL, "", "", offsetof(SbFit, ring.axial_imbalance), 0},
     {0}};
 
 const SbResultRow sb_fit_drag_rows[] = {
-    {"drag_N", "Drag of the bore", "N", "N", offsetof(SbFit, ring.drag)},
-    {"wall_load_N", NULL, "", "", offsetof(SbFit, ring.wall_load)},
-    {"floor_load_N", NULL, "", "", offsetof(SbFit, ring.floor_load)},
-    {"turn_rad", "Turn of the section", "rad", "°", offsetof(SbFit, ring.turn)},
+    {"drag_N", "Drag of the bore", "N", "N", offsetof(SbFit, ring.drag), 0},
+    {"wall_load_N", NULL, "", "", offsetof(SbFit, ring.wall_load), 0},
+    {"floor_load_N", NULL, "", "", offsetof(SbFit, ring.floor_load), 0},
+    {"turn_rad", "Turn of the section", "rad", "°", offsetof(SbFit, ring.turn), 0},
     {0}};
 
 const SbResultRow sb_fit_error_rows[] = {
-    {"load", "Error estimate, load", "1", "", offsetof(SbFit, solver.error_estimate.load)},
-    {"pressure_peak", NULL, "", "", offsetof(SbFit, solver.error_estimate.pressure_peak)},
-    {"contact_width", NULL, "", "", offsetof(SbFit, solver.error_estimate.contact_width)},
+    {"load", "Error estimate, load", "1", "", offsetof(SbFit, solver.error_estimate.load), 0},
+    {"pressure_peak", NULL, "", "", offsetof(SbFit, solver.error_estimate.pressure_peak), 0},
+    {"contact_width", NULL, "", "", offsetof(SbFit, solver.error_estimate.contact_width), 0},
     {0}};
 
 // Of the JSON alone.
 static const SbResultRow gland_rows[] = {
-    {"nominal", NULL, "", "", offsetof(SbGlandReadout, nominal)},
-    {"worst_low", NULL, "", "", offsetof(SbGlandReadout, worst_low)},
-    {"worst_high", NULL, "", "", offsetof(SbGlandReadout, worst_high)},
-    {"rss_low", NULL, "", "", offsetof(SbGlandReadout, rss_low)},
-    {"rss_high", NULL, "", "", offsetof(SbGlandReadout, rss_high)},
-    {"band_low", NULL, "", "", offsetof(SbGlandReadout, band_low)},
-    {"band_high", NULL, "", "", offsetof(SbGlandReadout, band_high)},
+    {"nominal", NULL, "", "", offsetof(SbGlandReadout, nominal), 0},
+    {"worst_low", NULL, "", "", offsetof(SbGlandReadout, worst_low), 0},
+    {"worst_high", NULL, "", "", offsetof(SbGlandReadout, worst_high), 0},
+    {"rss_low", NULL, "", "", offsetof(SbGlandReadout, rss_low), 0},
+    {"rss_high", NULL, "", "", offsetof(SbGlandReadout, rss_high), 0},
+    {"band_low", NULL, "", "", offsetof(SbGlandReadout, band_low), 0},
+    {"band_high", NULL, "", "", offsetof(SbGlandReadout, band_high), 0},
     {0}};
 
 static const SbResultRow storage_rows[] = {
-    {"section_diameter_m", NULL, "", "", offsetof(SbRubberState, section_diameter)},
-    {"inner_diameter_m", NULL, "", "", offsetof(SbRubberState, inner_diameter)},
-    {"modulus_Pa", NULL, "", "", offsetof(SbRubberState, modulus)},
-    {"relaxation", NULL, "", "", offsetof(SbRubberState, relaxation)},
-    {"network", NULL, "", "", offsetof(SbRubberState, network)},
-    {"compression_set", NULL, "", "", offsetof(SbRubberState, compression_set)},
-    {"section_diameter_after_set_m", NULL, "", "", offsetof(SbRubberState, section_after_set)},
-    {"uptake", NULL, "", "", offsetof(SbRubberState, uptake)},
-    {"volume_swell", NULL, "", "", offsetof(SbRubberState, volume_swell)},
-    {"linear_swell", NULL, "", "", offsetof(SbRubberState, linear_swell)},
+    {"section_diameter_m", NULL, "", "", offsetof(SbRubberState, section_diameter), 0},
+    {"inner_diameter_m", NULL, "", "", offsetof(SbRubberState, inner_diameter), 0},
+    {"modulus_Pa", NULL, "", "", offsetof(SbRubberState, modulus), 0},
+    {"relaxation", NULL, "", "", offsetof(SbRubberState, relaxation), 0},
+    {"network", NULL, "", "", offsetof(SbRubberState, network), 0},
+    {"compression_set", NULL, "", "", offsetof(SbRubberState, compression_set), 0},
+    {"section_diameter_after_set_m", NULL, "", "", offsetof(SbRubberState, section_after_set), 0},
+    {"uptake", NULL, "", "", offsetof(SbRubberState, uptake), 0},
+    {"volume_swell", NULL, "", "", offsetof(SbRubberState, volume_swell), 0},
+    {"linear_swell", NULL, "", "", offsetof(SbRubberState, linear_swell), 0},
     {0}};
 
 // Why figures of a film are null, by path; a solver that found nothing has none of them.
@@ -227,7 +235,7 @@ static void put_fit_reasons(SbJson *json, const SbFit *fit, bool found, bool dra
     sb_json_string(json, "state", "the solver found no such state");
     sb_json_string(json, "drag_limit", "the solver found no such state");
   } else if (dragged && !limit) {
-    sb_json_string(json, "drag_limit", "not asked for by --drag limit or --drag -limit");
+    sb_json_string(json, "drag_limit", "not requested by --drag limit or --drag -limit");
   } else if (dragged && isnan(fit->ring.drag_limit)) {
     sb_json_string(json, "drag_limit", "the ring slides at every friction up to 2");
   }

@@ -7,30 +7,30 @@
 #include <stddef.h>
 
 const SbResultRow sb_surface_heights[] = {
-    {"sq_m", "Sq, standard deviation", "m", "µm", offsetof(SbHeightFigures, sq)},
-    {"sa_m", "Sa, mean magnitude", "m", "µm", offsetof(SbHeightFigures, sa)},
-    {"ssk", "Ssk, skewness", "1", "", offsetof(SbHeightFigures, ssk)},
-    {"sku", "Sku, kurtosis", "1", "", offsetof(SbHeightFigures, sku)},
-    {"sdq", "Sdq, slope", "1", "", offsetof(SbHeightFigures, sdq)},
+    {"sq_m", "Sq, standard deviation", "m", "µm", offsetof(SbHeightFigures, sq), 0},
+    {"sa_m", "Sa, mean magnitude", "m", "µm", offsetof(SbHeightFigures, sa), 0},
+    {"ssk", "Ssk, skewness", "1", "", offsetof(SbHeightFigures, ssk), 0},
+    {"sku", "Sku, kurtosis", "1", "", offsetof(SbHeightFigures, sku), 0},
+    {"sdq", "Sdq, slope", "1", "", offsetof(SbHeightFigures, sdq), 0},
     {0},
 };
 
 const SbResultRow sb_surface_asperities[] = {
-    {"density_per_m2", "ζ, density", "m-2", "mm-2", offsetof(SbAsperityFigures, density)},
-    {"radius_m", "β, tip radius", "m", "µm", offsetof(SbAsperityFigures, radius)},
-    {"sigma_m", "σ, deviation of heights", "m", "µm", offsetof(SbAsperityFigures, sigma)},
-    {"gt_product", "ζβσ", "1", "", offsetof(SbAsperityFigures, product)},
-    {"sigma_over_beta", "σ/β", "1", "", offsetof(SbAsperityFigures, sigma_over_beta)},
+    {"density_per_m2", "ζ, density", "m-2", "mm-2", offsetof(SbAsperityFigures, density), 0},
+    {"radius_m", "β, tip radius", "m", "µm", offsetof(SbAsperityFigures, radius), 0},
+    {"sigma_m", "σ, deviation of heights", "m", "µm", offsetof(SbAsperityFigures, sigma), 0},
+    {"gt_product", "ζβσ", "1", "", offsetof(SbAsperityFigures, product), 0},
+    {"sigma_over_beta", "σ/β", "1", "", offsetof(SbAsperityFigures, sigma_over_beta), 0},
     {0},
 };
 
 // At the top, of summits by neighbours.
 static const SbResultRow summits[] = {
-    {"summit_density_per_m2", NULL, "m-2", "mm-2", offsetof(SbAsperityFigures, density)},
-    {"summit_radius_m", NULL, "m", "µm", offsetof(SbAsperityFigures, radius)},
-    {"summit_sigma_m", NULL, "m", "µm", offsetof(SbAsperityFigures, sigma)},
-    {"gt_product", NULL, "1", "", offsetof(SbAsperityFigures, product)},
-    {"sigma_over_beta", NULL, "1", "", offsetof(SbAsperityFigures, sigma_over_beta)},
+    {"summit_density_per_m2", NULL, "m-2", "mm-2", offsetof(SbAsperityFigures, density), 0},
+    {"summit_radius_m", NULL, "m", "µm", offsetof(SbAsperityFigures, radius), 0},
+    {"summit_sigma_m", NULL, "m", "µm", offsetof(SbAsperityFigures, sigma), 0},
+    {"gt_product", NULL, "1", "", offsetof(SbAsperityFigures, product), 0},
+    {"sigma_over_beta", NULL, "1", "", offsetof(SbAsperityFigures, sigma_over_beta), 0},
     {0},
 };
 

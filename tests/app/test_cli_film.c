@@ -1,6 +1,8 @@
 // The command film from outside: JSON keys, its options, films through a table of speeds.
 #include "tests/app/cli_fixture.h"
 
+#include "app/base/figure_text.h"
+
 #include <glib/gstdio.h>
 #include <math.h>
 #include <string.h>
@@ -30,6 +32,25 @@ static void test_json_film(void) {
   g_assert_cmpfloat(fabs(cli_number(root, "film_central_m") - 0.282e-9), <, 5e-13);
   json_node_unref(root);
   cli_clear(&result);
+}
+
+// The table prints the digits that the error estimate supports, by the rule of figures.
+static void test_film_digits(void) {
+#define COARSE                                                                                     \
+  "film", "--load", "850.2N/m", "--speed", "10mm/s", "--radius", "0.805mm", "--modulus",           \
+      "6.5725MPa", "--viscosity", "0.211mPa.s", "--tolerance", "3e-2"
+  CliResult json = CLI(COARSE, "--json", "-"), table = CLI(COARSE);
+  g_autoptr(JsonNode) root = cli_parse(json.out);
+  const double film = 1e9 * cli_number(root, "film_min_m");
+  const double error = cli_number(root, "solver.error_estimate.film_min");
+  char digits[SB_NUMBER_SIZE];
+  sb_number_with_error(digits, film, 5, error);
+  g_autofree char *line = g_strdup_printf("  Film, least                          %s nm\n", digits);
+  if (strstr(table.out, line) == NULL) {
+    g_error("%s is not in\n%s", line, table.out);
+  }
+  cli_clear(&json);
+  cli_clear(&table);
 }
 
 // The film through a table of speeds: a row for each of the file, steady at first; files that are
@@ -190,6 +211,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
   g_test_add_func("/cli/json/film", test_json_film);
+  g_test_add_func("/cli/film-digits", test_film_digits);
   g_test_add_func("/cli/film-options", test_film_options);
   g_test_add_func("/cli/film-history", test_film_history);
   int result = g_test_run();
