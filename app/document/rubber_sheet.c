@@ -101,7 +101,7 @@ static void take(SbRubberSheet *out, const GPtrArray *entries, const SbEntry *en
   }
   if (id < 0 || !sb_param_of_rubber((SbParamId)id) || (named && fluid < 0)) {
     sb_issues_add(issues, path, entry->line, key, NULL,
-                  named ? "names no fluid" : "is no figure of a rubber");
+                  named ? "names no fluid" : "is not a figure of a rubber");
     return;
   }
   double value = 0;
@@ -122,6 +122,12 @@ static void take(SbRubberSheet *out, const GPtrArray *entries, const SbEntry *en
                   "has no source: [source] must say where it comes from, or \"typical\"");
     return;
   }
+  if (strlen(source) >= SB_SOURCE_MAX) {
+    g_autofree char *range = g_strdup_printf("at most %d bytes", SB_SOURCE_MAX - 1);
+    sb_issues_add(issues, path, entry->line, key, range, "has a source of %zu bytes in [source]",
+                  strlen(source));
+    return;
+  }
   if (out->count == SB_RUBBER_FIGURES_MAX) {
     sb_issues_add(issues, path, entry->line, key, NULL, "is more than the %d figures there may be",
                   SB_RUBBER_FIGURES_MAX);
@@ -140,7 +146,7 @@ static void read_entries(SbRubberSheet *out, const GPtrArray *entries, const cha
   if (g_strcmp0(text_of(entries, "sealbench", "kind"), "rubber") != 0 ||
       g_strcmp0(text_of(entries, "sealbench", "format"), "1") != 0) {
     sb_issues_add(issues, path, 0, "sealbench.kind", "rubber",
-                  "is no rubber: [sealbench] must have format = 1 and kind = rubber");
+                  "is not a rubber: [sealbench] must have format = 1 and kind = rubber");
     return;
   }
   for (guint i = 0; i < entries->len; i++) {
@@ -154,7 +160,7 @@ static void read_entries(SbRubberSheet *out, const GPtrArray *entries, const cha
     }
     g_auto(GStrv) parts = g_strsplit(entry->name, ".", 2);
     if (g_strv_length(parts) != 2 || text_of(entries, parts[0], parts[1]) == NULL) {
-      sb_issues_add(issues, path, entry->line, "source", NULL, "%s is no figure of this file",
+      sb_issues_add(issues, path, entry->line, "source", NULL, "%s is not a figure of this file",
                     entry->name);
     }
   }

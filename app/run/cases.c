@@ -9,10 +9,10 @@
 // The answers of one set of values.
 static SbStatus evaluate(SbVerdict out[SB_VERDICT_COUNT], const SbModel *model,
                          const SbRunHooks *hooks, SbReport *report) {
-  SbPlan plan;
-  sb_plan_wished(&plan, model, &(SbPlanWishes){0});
+  g_autofree SbPlan *plan = g_new(SbPlan, 1);
+  sb_plan_wished(plan, model, &(SbPlanWishes){0});
   SbRun *run = NULL;
-  SbStatus status = sb_run_create(&run, model, &plan, report);
+  SbStatus status = sb_run_create(&run, model, plan, report);
   if (status == SB_OK) {
     status = sb_run_execute(run, hooks, report);
     memcpy(out, sb_run_summary(run)->verdict, SB_VERDICT_COUNT * sizeof *out);
@@ -72,7 +72,7 @@ SbStatus sb_cases_judge(SbCaseVerdict out[SB_VERDICT_COUNT], const SbRun *run,
     worst = status != SB_OK ? status : worst;
     for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
       if (each[kind].ok == SB_ANSWER_UNKNOWN && each[kind].reason[0] == '\0') {
-        sb_text(each[kind].reason, sizeof each[kind].reason, "%s", report.text);
+        sb_message(each[kind].reason, SB_TEXT, "%s", report.text);
       }
       // A question that has no limit stays without an answer.
       if (each[kind].figure >= 0 && sb_verdict_take_worse(&out[kind].of, &each[kind])) {

@@ -9,7 +9,7 @@ struct SbGlContext {
   void *state;
   SbGlApi api;
   char name[64];
-  char reason[256];
+  char reason[SB_TEXT];
 };
 
 int sb_gl_backend_find(const char *name) {
@@ -49,8 +49,8 @@ static SbStatus create(SbGlContext **out, const SbGlBackendTable *table, const c
     return status;
   }
   const char *renderer = (const char *)context->api.GetString(GL_RENDERER);
-  g_snprintf(context->reason, sizeof context->reason, "%s (%s): %s", table->name,
-             renderer != NULL ? renderer : "unknown renderer", why);
+  sb_text(context->reason, sizeof context->reason, "%s (%s): %s", table->name,
+          renderer != NULL ? renderer : "unknown renderer", why);
   *out = context;
   return SB_OK;
 }
@@ -58,21 +58,21 @@ static SbStatus create(SbGlContext **out, const SbGlBackendTable *table, const c
 SbStatus sb_gl_context_create(SbGlContext **out, SbGlBackend backend, SbReport *report) {
   *out = NULL;
   if (backend == SB_GL_OSMESA) {
-    return create(out, &sb_gl_osmesa_table, "as asked", report);
+    return create(out, &sb_gl_osmesa_table, "as requested", report);
   }
   if (backend == SB_GL_EGL) {
-    return create(out, &sb_gl_egl_table, "as asked", report);
+    return create(out, &sb_gl_egl_table, "as requested", report);
   }
   SbReport first = {0}, second = {0};
   if (create(out, &sb_gl_osmesa_table, "it works without display or driver", &first) == SB_OK) {
     return sb_succeed(report);
   }
-  char why[160];
-  g_snprintf(why, sizeof why, "no OSMesa (%.120s)", first.text);
+  char why[SB_TEXT];
+  sb_text(why, sizeof why, "no OSMesa (%s)", first.text);
   if (create(out, &sb_gl_egl_table, why, &second) == SB_OK) {
     return sb_succeed(report);
   }
-  return sb_fail(report, SB_ERROR_IO, "no OpenGL: %.110s; %.110s", first.text, second.text);
+  return sb_fail(report, SB_ERROR_IO, "no OpenGL: %s; %s", first.text, second.text);
 }
 
 SbStatus sb_gl_context_wrap(SbGlContext **out, SbGlGetProc get_proc, void *data,
@@ -86,8 +86,8 @@ SbStatus sb_gl_context_wrap(SbGlContext **out, SbGlGetProc get_proc, void *data,
     return status;
   }
   const char *renderer = (const char *)context->api.GetString(GL_RENDERER);
-  g_snprintf(context->reason, sizeof context->reason, "%s (%s): the caller's context", description,
-             renderer != NULL ? renderer : "unknown renderer");
+  sb_text(context->reason, sizeof context->reason, "%s (%s): the caller's context", description,
+          renderer != NULL ? renderer : "unknown renderer");
   *out = context;
   return SB_OK;
 }

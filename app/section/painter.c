@@ -13,7 +13,7 @@
 struct SbSectionPainter {
   SbGlContext *context;
   SbGlRenderer *renderer;
-  char reason[256];
+  char reason[SB_TEXT];
   SbSectionStyle style;
   SbDrawList list;
   SbText *text;
@@ -33,7 +33,7 @@ SbStatus sb_section_painter_create(SbSectionPainter **out, bool use_gl, SbGlBack
   SbSectionPainter *painter = g_new0(SbSectionPainter, 1);
   sb_draw_list_init(&painter->list);
   painter->text = sb_text_create();
-  g_strlcpy(painter->reason, "cairo: as asked", sizeof painter->reason);
+  g_strlcpy(painter->reason, "cairo: as requested", sizeof painter->reason);
   if (use_gl) {
     SbReport why = {0};
     SbStatus status = sb_gl_context_create(&painter->context, backend, &why);
@@ -46,7 +46,7 @@ SbStatus sb_section_painter_create(SbSectionPainter **out, bool use_gl, SbGlBack
       sb_section_painter_destroy(painter);
       return sb_fail(report, SB_ERROR_IO, "%s", why.text);
     } else {
-      g_snprintf(painter->reason, sizeof painter->reason, "cairo: %.240s", why.text);
+      sb_text(painter->reason, sizeof painter->reason, "cairo: %s", why.text);
     }
   }
   *out = painter;

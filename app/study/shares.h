@@ -17,7 +17,7 @@ typedef struct {
   size_t beyond, of;
   double probability, interval[2], beta; // beta: normal quantile of the probability
   bool certain;                          // every sample with an answer is beyond the limit
-  char reason[200];                      // why it is 0 or certain, or nothing
+  char reason[SB_TEXT];                  // why it is 0 or certain, or nothing
 } SbLimitShare;
 
 // `limit` of the study, or one past them: any of them. SB_ERROR_MEMORY.

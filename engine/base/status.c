@@ -15,12 +15,14 @@ const char *sb_status_text(SbStatus status) {
   return index < sizeof texts / sizeof texts[0] ? texts[index] : "unknown status";
 }
 
-void sb_text_v(char *out, size_t size, const char *format, va_list arguments) {
+// Returns whether all of the text fits.
+SB_PRINTF(3, 0)
+static bool fit_text(char *out, size_t size, const char *format, va_list arguments) {
   static const char MARK[] = "…";
   assert(size > sizeof MARK);
   int length = vsnprintf(out, size, format, arguments);
   if (length >= 0 && (size_t)length < size) {
-    return;
+    return true;
   }
   // Not within a character of several bytes, whose later ones are 10xxxxxx.
   size_t at = size - sizeof MARK;
@@ -28,6 +30,27 @@ void sb_text_v(char *out, size_t size, const char *format, va_list arguments) {
     at--;
   }
   memcpy(out + at, MARK, sizeof MARK);
+  return false;
+}
+
+void sb_text_v(char *out, size_t size, const char *format, va_list arguments) {
+  (void)fit_text(out, size, format, arguments);
+}
+
+void sb_message_v(char *out, size_t size, const char *format, va_list arguments) {
+  const bool fits = fit_text(out, size, format, arguments);
+#ifdef SB_ASSERT_RUNS
+  assert(fits);
+#else
+  (void)fits;
+#endif
+}
+
+void sb_message(char *out, size_t size, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  sb_message_v(out, size, format, arguments);
+  va_end(arguments);
 }
 
 void sb_text(char *out, size_t size, const char *format, ...) {
@@ -42,7 +65,7 @@ static void fail_v(SbReport *report, SbStatus status, const char *parameter, con
                    va_list arguments) {
   if (report != NULL) {
     report->status = status;
-    sb_text_v(report->text, sizeof report->text, format, arguments);
+    sb_message_v(report->text, sizeof report->text, format, arguments);
     sb_text(report->parameter, sizeof report->parameter, "%s", parameter);
   }
 }
@@ -91,20 +114,20 @@ static void add(SbWarnings *list, const char *code, const char *parameter, const
     return;
   }
   SbWarning *warning = &list->item[list->count++];
-  const bool told = strstr(text, subject) != NULL;
+  const bool named = strstr(text, subject) != NULL;
   sb_text(warning->code, sizeof warning->code, "%s", code);
   sb_text(warning->parameter, sizeof warning->parameter, "%s", parameter);
   sb_text(warning->subject, sizeof warning->subject, "%s", subject);
-  sb_text(warning->text, sizeof warning->text, "%s%s%s", told ? "" : subject, told ? "" : ": ",
-          text);
+  sb_message(warning->text, sizeof warning->text, "%s%s%s", named ? "" : subject, named ? "" : ": ",
+             text);
 }
 
 void sb_warn(SbWarnings *list, const char *code, const char *parameter, const char *format, ...) {
   if (list != NULL) {
-    char text[sizeof list->item->text];
+    char text[SB_TEXT];
     va_list arguments;
     va_start(arguments, format);
-    sb_text_v(text, sizeof text, format, arguments);
+    sb_message_v(text, sizeof text, format, arguments);
     va_end(arguments);
     add(list, code, parameter, list->subject != NULL ? list->subject : "", text);
   }
@@ -117,7 +140,7 @@ void sb_warn_replace(SbWarnings *list, const char *code, const char *subject, co
     if (strcmp(at->code, code) == 0 && strcmp(at->subject, subject) == 0) {
       va_list arguments;
       va_start(arguments, format);
-      sb_text_v(at->text, sizeof at->text, format, arguments);
+      sb_message_v(at->text, sizeof at->text, format, arguments);
       va_end(arguments);
     }
   }

@@ -50,10 +50,14 @@ SB_EXTENSION typedef enum SB_CHECKED_TYPE {
 #undef SB_STATUS_ENUM
 } SbStatus;
 
+// Bytes of every message: reports, warnings, reasons, verdicts. A message that combines others has
+// this size too; its parts are short enough (asserted in builds with SB_ASSERT_RUNS).
+enum { SB_TEXT = 512 };
+
 // Details of a failure, owned by the caller. All fields are zero after a success.
 typedef struct {
   SbStatus status;
-  char text[256];     // one sentence for a person, no trailing newline
+  char text[SB_TEXT]; // one sentence for a person, no trailing newline
   char parameter[64]; // catalogue key at fault, or empty
   double residual;    // last residual of an iteration, 0 if none
   int iteration;      // iterations done, 0 if none
@@ -70,6 +74,11 @@ SbStatus sb_fail(SbReport *report, SbStatus status, const char *format, ...) SB_
 SbStatus sb_fail_parameter(SbReport *report, SbStatus status, const char *parameter,
                            const char *format, ...) SB_PRINTF(4, 5);
 
+// Formats a message into `out` of `size` bytes. Every message of the engine is formatted here;
+// builds with SB_ASSERT_RUNS abort where one does not fit.
+void sb_message(char *out, size_t size, const char *format, ...) SB_PRINTF(3, 4);
+void sb_message_v(char *out, size_t size, const char *format, va_list arguments) SB_PRINTF(3, 0);
+
 // Formats a text into `size` bytes; what does not fit ends in "…", between two characters.
 void sb_text(char *out, size_t size, const char *format, ...) SB_PRINTF(3, 4);
 void sb_text_v(char *out, size_t size, const char *format, va_list arguments) SB_PRINTF(3, 0);
@@ -84,7 +93,7 @@ enum { SB_WARNINGS_MAX = 48 };
 // empty), which the sentence names.
 typedef struct {
   char code[48];
-  char text[200];
+  char text[SB_TEXT];
   char parameter[64];
   char subject[16];
 } SbWarning;

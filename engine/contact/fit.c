@@ -98,7 +98,7 @@ static SbStatus check(const SbFitProblem *in, SbReport *report) {
   }
   if (in->profile.kind != SB_SEAL_PROFILE_CIRCLE && in->model != SB_FIT_RING) {
     return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
-                             "only the ring model knows a section that is no circle "
+                             "only the ring model knows a section that is not a circle "
                              "(seal.profile = %s), not %s",
                              sb_seal_profile_name(in->profile.kind), sb_fit_model_name(in->model));
   }

@@ -131,8 +131,8 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   out->friction_cavity = shear * r->cavity;
   out->friction_poiseuille = r->poiseuille * scale->film * scale->pressure;
   out->asperity_load = r->asperity_load * scale->half_width * scale->pressure;
-  // Where adhesion adds to the load asperities transmit more than the net load: all of it.
-  out->asperity_share = fmin(out->asperity_load / problem->load, 1);
+  out->asperity_share = sb_ehl_asperity_share(
+      out->asperity_load, r->solid_load * scale->half_width * scale->pressure, problem->load);
   out->real_area = r->real_area * scale->half_width;
   out->real_area_share = r->central_share;
   out->film_ratio = c->rough.law != NULL ? out->film_central / problem->sigma : NAN;
@@ -374,7 +374,7 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
       status = results->film_flux > supply ? SB_ERROR_NOT_CONVERGED : SB_OK; // it is starved
     }
     if (status != SB_OK) {
-      return sb_fail(report, status, "film: none beside the last one");
+      return sb_fail(report, status, "film: none next to the last one");
     }
     fill(out, problem, scale, &solver->now->c, results);
     info->unknowns = (size_t)solver->now->mesh.dofs + (rough ? 2 : 3);

@@ -135,6 +135,7 @@ typedef struct {
   // theta/H over the cavity.
   double couette, poiseuille, cavity;
   double real_area, asperity_load, central_share;
+  double solid_load; // integral of p_a - p_v
   double area_error; // of the real area where the share reaches its limit of 1 between two nodes
   double load_error, flux_error;
   bool ruptured;
@@ -316,6 +317,13 @@ SbStatus sb_ehl_follow(SbFilmSolver *solver, const SbEhlCase *c);
 // The problem's rough law in *law, from the solver's storage.
 SbStatus sb_ehl_rough_law(const SbRoughLaw **law, SbFilmSolver *solver,
                           const SbFilmProblem *problem, SbReport *report);
+
+// Share of the pressing load that asperities carry: A/(A + F). Force balance of the contact,
+// W = F + A - V: net load W, film pressure F, asperities A, adhesion V, all integrals over x in the
+// same unit. So F = W - `solid` with `solid` = A - V. Adhesion adds to what presses: the share does
+// not exceed 1 where A exceeds W. Where the film's own integral is negative (its cavity pulls) the
+// asperities carry all that presses, and the share is 1.
+double sb_ehl_asperity_share(double asperity, double solid, double load);
 
 // Asperities and adhesion of the solver's problem into a case that is complete otherwise.
 SbStatus sb_ehl_rough_case(SbEhlCase *c, SbFilmSolver *solver, const SbFilmScale *scale,

@@ -271,6 +271,7 @@ void sb_ehl_results(SbEhlResults *out, const SbEhlSolution *s) {
     }
     out->real_area += w * at->share;
     out->asperity_load += w * at->asperity;
+    out->solid_load += w * at->solid;
     out->pressure_min = fmin(out->pressure_min, at->p);
     thinnest = at->h < point[thinnest].h ? i : thinnest;
     highest = at->p + at->solid > peak ? i : highest;

@@ -28,6 +28,10 @@ void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t) {
                            .share = p.share};
 }
 
+double sb_ehl_asperity_share(double asperity, double solid, double load) {
+  return asperity > 0 ? asperity / (asperity + fmax(load - solid, 0)) : 0;
+}
+
 double sb_ehl_rough_of_gap(const SbEhlCase *c, double gap) {
   if (c->rough.law != NULL) {
     return sb_rough_law_of_gap(c->rough.law, gap * c->rough.film);

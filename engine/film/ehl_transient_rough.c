@@ -35,7 +35,7 @@ void sb_transient_rub(SbFilmTransientResult *out, const SbFilmTransient *t) {
   const SbTransientState *s = &t->now;
   const SbFilmScale *scale = &t->scale;
   const SbFilmProblem *film = &t->problem.film;
-  double couette = 0.0, cavity = 0.0, poiseuille = 0.0, load = 0.0, area = 0.0;
+  double couette = 0.0, cavity = 0.0, poiseuille = 0.0, load = 0.0, solid = 0.0, area = 0.0;
   double open = 1.0;
   for (int i = 0; i < t->nodes; i++) {
     SbEhlRoughPoint at;
@@ -44,6 +44,7 @@ void sb_transient_rub(SbFilmTransientResult *out, const SbFilmTransient *t) {
     open = 1.0 - at.share;
     *(s->cavity[i] ? &cavity : &couette) += t->volume[i] * open * s->m[i] / (s->H[i] * s->H[i]);
     load += t->volume[i] * at.asperity;
+    solid += t->volume[i] * at.solid;
     area += t->volume[i] * at.share;
     if (i > 0) {
       const double half = 0.25 * (open * s->H[i] + before * s->H[i - 1]);
@@ -56,7 +57,8 @@ void sb_transient_rub(SbFilmTransientResult *out, const SbFilmTransient *t) {
   out->friction_cavity = shear * cavity;
   out->friction_poiseuille = poiseuille * scale->film * scale->pressure;
   out->asperity_load = load * scale->half_width * scale->pressure;
-  out->asperity_share = fmin(out->asperity_load / film->load, 1); // as in ehl.c
+  out->asperity_share = sb_ehl_asperity_share(
+      out->asperity_load, solid * scale->half_width * scale->pressure, film->load);
   out->real_area = area * scale->half_width;
   const double way = s->speed < 0.0 ? -1.0 : 1.0;
   out->friction_boundary =

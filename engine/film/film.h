@@ -152,7 +152,7 @@ typedef struct {
   double friction_cavity;     // of the cavitated film, see ehl.c [N/m]
   double friction_boundary;   // tau_0 real area + m asperity load [N/m], signed as the speed
   double asperity_load;       // integral of the asperities' pressure [N/m]
-  double asperity_share;      // of the net load
+  double asperity_share;      // asperity_load divided by the load that film and asperities carry
   double real_area;           // integral of the real contact's share over x [m]
   double real_area_share;     // real contact over nominal at the axis
   double film_ratio;          // film_central / sigma; NAN without roughness

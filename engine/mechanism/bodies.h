@@ -78,11 +78,11 @@ typedef struct {
 } SbAssemblyWork;
 
 typedef struct {
-  int gruebler;    // 6 (n - 1) - constraints
-  int constraints; // sum over joints
-  int redundant;   // of them, that repeat others
-  int freedom;     // real degrees of freedom, 6 (n - 1) - rank
-  char text[256];  // one sentence: count, and what is over- or under-constrained
+  int gruebler;       // 6 (n - 1) - constraints
+  int constraints;    // sum over joints
+  int redundant;      // of them, that repeat others
+  int freedom;        // real degrees of freedom, 6 (n - 1) - rank
+  char text[SB_TEXT]; // one sentence: count, and what is over- or under-constrained
 } SbMobility;
 
 // What a joint does to its first body (the second gets the opposite), at the joint's point.

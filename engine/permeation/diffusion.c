@@ -211,9 +211,8 @@ static SbStatus factorise(SbCholesky *factor, const SbDiffusion *d, bool steady,
   }
   return sb_cholesky_compute(factor, d->value)
              ? sb_succeed(report)
-             : sb_fail(
-                   report, SB_ERROR_NOT_CONVERGED,
-                   "the section's equations are singular: a part of it hangs on no wetted face");
+             : sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                       "the section's equations are singular: a part of it has no wetted face");
 }
 
 static double row_times(const SbDiffusion *d, const double *matrix, int row, const double *u) {

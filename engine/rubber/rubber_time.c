@@ -234,7 +234,7 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
   if (glassy(r, use) > storage->modulus * rubbery(r, use)) {
     sb_warn(warnings, "glass-near", "canister.temperature",
             "%.3g K above its glass transition the rubber is %.2g times as stiff as at 20 °C: "
-            "stiffness hangs on time there, and one modulus stands for all of it",
+            "stiffness depends on time there, and one modulus replaces all of it",
             use - r->glass_temperature, out->stiffening);
   }
 

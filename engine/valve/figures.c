@@ -176,17 +176,17 @@ static unsigned char text_number(SbReasons *reasons, const char *text) {
     at++;
   }
   if (at == SB_REASONS_MAX) {
-    snprintf(reasons->text[--at], sizeof reasons->text[0], "one of several failures: see warnings");
+    sb_message(reasons->text[--at], SB_TEXT, "one of several failures: see warnings");
   } else if (at == reasons->count) {
-    snprintf(reasons->text[reasons->count++], sizeof reasons->text[0], "%s", text);
+    sb_message(reasons->text[reasons->count++], SB_TEXT, "%s", text);
   }
   return (unsigned char)(at + 1);
 }
 
 static void SB_PRINTF(3, 0)
     give_reason(SbSummary *summary, const char *pattern, const char *format, va_list arguments) {
-  char text[sizeof summary->reasons.text[0]];
-  vsnprintf(text, sizeof text, format, arguments);
+  char text[SB_TEXT];
+  sb_message_v(text, sizeof text, format, arguments);
   size_t length = strlen(pattern);
   bool many = length > 0 && pattern[length - 1] == '*';
   unsigned char number = 0;

@@ -169,7 +169,7 @@ static void SB_PRINTF(4, 5)
   char text[SB_GRADIENT_TEXT];
   va_list arguments;
   va_start(arguments, format);
-  sb_text_v(text, sizeof text, format, arguments);
+  sb_message_v(text, sizeof text, format, arguments);
   va_end(arguments);
   set(work, parameter, figure, NAN, NAN);
   work->out->why[figure * work->out->parameters + parameter] = sb_gradient_text(work->out, text);
@@ -204,8 +204,8 @@ static void settle(Work *work, size_t parameter, size_t figure) {
     return;
   }
   if (least.kind == MISSING) {
-    refuse(work, parameter, figure, "%s: %.100s",
-           work->refused ? "there is no other value" : "the figure has no value beside it",
+    refuse(work, parameter, figure, "%s: %s",
+           work->refused ? "there is no other value" : "the figure has no value next to it",
            work->report.text[0] != '\0' ? work->report.text : work->changed);
     return;
   }

@@ -4,7 +4,7 @@
 
 #include "engine/valve/gradient.h"
 
-enum { SB_GRADIENT_TEXTS = 64, SB_GRADIENT_TEXT = 160 };
+enum { SB_GRADIENT_TEXTS = 64, SB_GRADIENT_TEXT = SB_TEXT };
 
 struct SbGradient {
   size_t figures, parameters;

@@ -24,14 +24,14 @@ const char *sb_seal_name(int seal) {
 
 void sb_model_refuse(SbProblems *problems, const char *key, double min, double max,
                      const char *format, ...) {
-  if (problems->count < SB_PROBLEMS_MAX) {
+  if (problems != NULL && problems->count < SB_PROBLEMS_MAX) {
     SbProblem *problem = &problems->item[problems->count++];
     sb_text(problem->key, sizeof problem->key, "%s", key);
     problem->min = min;
     problem->max = max;
     va_list arguments;
     va_start(arguments, format);
-    sb_text_v(problem->text, sizeof problem->text, format, arguments);
+    sb_message_v(problem->text, sizeof problem->text, format, arguments);
     va_end(arguments);
   }
 }
@@ -367,9 +367,9 @@ static SbStatus tell_problem(const SbProblems *problems, SbReport *report) {
 // With what documents bring besides.
 static SbStatus complete(SbModel *out, const SbParams *params, const SbModelData *data,
                          const SbLimits *limits, SbProblems *problems) {
-  SbProblems own;
-  problems = problems != NULL ? problems : &own;
-  problems->count = 0;
+  if (problems != NULL) {
+    problems->count = 0;
+  }
   if (sb_params_get(params, SB_P_DRIVE_KIND) == SB_MODEL_DRIVE_MEASURED &&
       (data == NULL || data->measured.count == 0)) {
     sb_model_refuse(problems, "drive.file", NAN, NAN,
@@ -406,12 +406,18 @@ SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *
     return sb_fail_parameter(report, SB_ERROR_INPUT, "drive.kind",
                              "drive.kind: measured needs a measured series");
   }
-  SbProblems problems;
-  SbStatus status = complete(out, &params, base->data, &base->limits, &problems);
+  SbProblems *problems = malloc(sizeof *problems); // too large for a small stack
+  SbStatus status = problems == NULL ? SB_ERROR_MEMORY
+                                     : complete(out, &params, base->data, &base->limits, problems);
   if (status == SB_ERROR_INPUT) {
-    return tell_problem(&problems, report);
+    status = tell_problem(problems, report);
+  } else if (status != SB_OK) {
+    status = sb_fail(report, status, "no memory for a model");
+  } else {
+    status = sb_succeed(report);
   }
-  return status == SB_OK ? sb_succeed(report) : sb_fail(report, status, "no memory for a model");
+  free(problems);
+  return status;
 }
 
 // Hands a model that was made over, holding its data, or none.

@@ -54,7 +54,7 @@ int sb_param_tolerance(SbParamId id);
 
 // A rubber by name: figures that stand where nobody gives them, each with its source. Whoever reads
 // a file fills it.
-enum { SB_RUBBER_FIGURES_MAX = 48 };
+enum { SB_RUBBER_FIGURES_MAX = 48, SB_SOURCE_MAX = 256 }; // bytes of a source
 typedef struct {
   char name[48]; // as the file has it; empty: none
   size_t count;
@@ -63,7 +63,7 @@ typedef struct {
     int fluid;    // choice of fluid.name that it holds for, -1: any
     double value; // SI
     bool typical; // usual of such rubbers, no figure of one
-    char source[120];
+    char source[SB_SOURCE_MAX];
   } figure[SB_RUBBER_FIGURES_MAX];
 } SbRubberSheet;
 

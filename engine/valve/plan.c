@@ -47,7 +47,7 @@ static void SB_PRINTF(7, 8) add(SbPlan *plan, bool wanted, const char *name, con
   item->error = wanted ? error : 0;
   va_list arguments;
   va_start(arguments, format);
-  sb_text_v(item->reason, sizeof item->reason, format, arguments);
+  sb_message_v(item->reason, sizeof item->reason, format, arguments);
   va_end(arguments);
 }
 
@@ -55,11 +55,12 @@ static void SB_PRINTF(7, 8) add(SbPlan *plan, bool wanted, const char *name, con
 static void mask_names(SbParamId id, unsigned mask, char *text, size_t size) {
   size_t used = 0;
   text[0] = '\0';
-  for (int i = 0; i < sb_param_choice_count(sb_param(id)) && used < size; i++) {
+  for (int i = 0; i < sb_param_choice_count(sb_param(id)); i++) {
     char name[32];
     sb_param_choice_name(sb_param(id), i, name, sizeof name);
     if ((mask & (1u << i)) != 0) {
-      used += (size_t)snprintf(text + used, size - used, "%s%s", used > 0 ? ", " : "", name);
+      sb_message(text + used, size - used, "%s%s", used > 0 ? ", " : "", name);
+      used = strlen(text);
     }
   }
 }
@@ -133,13 +134,13 @@ static void plan_studies(SbPlan *plan, const SbModel *model, unsigned studies) {
       char item[40];
       sb_text(item, sizeof item, "study %s", sb_study_name((SbStudyKind)i));
       add(plan, true, item, "several", sb_study_cost((SbStudyKind)i, model), model->tolerance,
-          "output.studies asks for it");
+          "output.studies requests it");
     }
   }
   if ((studies & all) != all) {
-    char others[160];
+    char others[128];
     mask_names(SB_P_OUTPUT_STUDIES, ~studies, others, sizeof others);
-    add(plan, false, "studies", "", 0, 0, "output.studies does not ask for %s", others);
+    add(plan, false, "studies", "", 0, 0, "output.studies does not request %s", others);
   }
 }
 
@@ -247,26 +248,26 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
   // 56 at 0.1 %).
   enum { LIVED = 20 };
   const double lived = model->life_actuations < LIVED ? model->life_actuations : LIVED;
-  char law[32], motion[32], profiles_by[80], sections_by[80], text[6][160];
+  char law[32], motion[32], profiles_by[96], sections_by[96], text[6][160];
   sb_model_choice_name(model, SB_P_MODELS_FILM, law, sizeof law);
   sb_model_choice_name(model, SB_P_MODELS_MOTION, motion, sizeof motion);
   mask_names(SB_P_OUTPUT_VIEWS, drawn, profiles_by, sizeof profiles_by);
   mask_names(SB_P_OUTPUT_VIEWS, sections, sections_by, sizeof sections_by);
-  sb_text(text[0], sizeof text[0],
-          "friction and film need them; %d pressure differences over two seals", fits);
-  sb_text(text[1], sizeof text[1], "models.fit = %s already gives load and width", fit);
-  sb_text(text[2], sizeof text[2], "models.film = %s meets what the friction needs", law);
-  sb_text(text[3], sizeof text[3], "%d actuations while the roughness runs in; %s",
-          model->life_actuations,
-          coupled ? "films between coupled asperities are solved at some of them"
-                  : "fitment and film are the first's");
-  sb_text(text[4], sizeof text[4], "drawn by %s; each seal's states and at rest", profiles_by);
-  sb_text(text[5], sizeof text[5],
-          "drawn by %s: %d shapes, those of the states and over the land's edge", sections_by,
-          shapes);
+  sb_message(text[0], sizeof text[0],
+             "friction and film need them; %d pressure differences over two seals", fits);
+  sb_message(text[1], sizeof text[1], "models.fit = %s already gives load and width", fit);
+  sb_message(text[2], sizeof text[2], "models.film = %s meets what the friction needs", law);
+  sb_message(text[3], sizeof text[3], "%d actuations while the roughness runs in; %s",
+             model->life_actuations,
+             coupled ? "films between coupled asperities are solved at some of them"
+                     : "fitment and film are the first's");
+  sb_message(text[4], sizeof text[4], "drawn by %s; each seal's states and at rest", profiles_by);
+  sb_message(text[5], sizeof text[5],
+             "drawn by %s: %d shapes, those of the states and over the land's edge", sections_by,
+             shapes);
   char frames[48], joints[80];
   sb_text(frames, sizeof frames, "figures of the cycle, %d frames", model->frames);
-  sb_text(joints, sizeof joints, "models.motion = bodies asks for them, %d joints",
+  sb_text(joints, sizeof joints, "models.motion = bodies requests them, %d joints",
           SB_VALVE_JOINTS);
   const Row rows[] = {
       {true, "contact load and width", fit,
@@ -305,9 +306,9 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
        0, text[3], "life.actuations = 1"},
       {plan->shelf != SB_SHELF_NOTHING, "loss on the shelf", plan->ring ? "ring" : "slab",
        plan->ring ? 5 * SB_COST_RING : SB_COST_CLOSED, plan->ring ? fit_off : 0,
-       "the view shelf or a limit asks for it", "no view, limit or study asks for it"},
+       "the view shelf or a limit needs it", "no view, limit or study needs it"},
       {plan->bodies, "joint reactions", "constrained bodies", 0.1 + model->frames * 1e-4, 0, joints,
-       "nobody asks for them: one coordinate gives the same motion"},
+       "not requested: one coordinate gives the same motion"},
       {plan->profiles, "contact profiles", plan->reynolds ? "reynolds" : fit,
        (double)n->profile_evaluations * (plan->reynolds ? SB_COST_FILM_PROFILE : SB_COST_CLOSED),
        fmax(fit_off, film_off), text[4], "no view draws them"},

@@ -19,7 +19,7 @@ int sb_shelf_seal(const SbModel *model) {
 const char *sb_shelf_lacks_permeability(const SbModel *model) {
   return model->fluid == 0 ? "fluid.name = custom has no vapour pressure and no molar mass"
          : !(sb_fluids[model->fluid].mass > 0) || !sb_fluids[model->fluid].propellant
-             ? "fluid.name is no propellant with a vapour pressure"
+             ? "fluid.name is not a propellant with a vapour pressure"
          : model->ethanol > 0         ? "a mixture's partial pressure is not known (fluid.ethanol)"
          : !(model->permeability > 0) ? "rubber.permeability is not given: no value, and no rubber "
                                         "that has this propellant's"

@@ -456,7 +456,7 @@ static SbStatus drag_beside(const SbSlidingTask *task, SbSlidingFitment *on,
     }
     if (round == ROUNDS) {
       return sb_fail(report, SB_ERROR_NOT_CONVERGED,
-                     "fitment and friction of the %s seal do not agree beside the base's",
+                     "fitment and friction of the %s seal do not agree next to the base's",
                      sb_seal_name(task->seal));
     }
     law = next;
@@ -473,11 +473,11 @@ static void warn_limit(SbWarnings *warnings, const SbSlidingTask *task, const Sb
     sb_warn(
         warnings, "gasket-detaches", "friction.shear_strength",
         "the friction of the %s gasket %s exceeds half of its pressure, where the surface of the "
-        "rubber folds and no steady contact was found: the gasket bears %.0f %% of that friction",
+        "rubber folds and no steady contact was found: the gasket carries %.0f %% of that friction",
         seal, way, 100 * state->borne_share);
   } else {
     sb_warn(warnings, rolls ? "ring-rolls" : "ring-jams", "gland.floor_friction",
-            "the %s ring %s %s: its section bears %.0f %% of its friction, turned by %.0f°", seal,
+            "the %s ring %s %s: its section carries %.0f %% of its friction, turned by %.0f°", seal,
             rolls ? "rolls" : "jams", way, 100 * state->borne_share, state->rotation);
   }
 }

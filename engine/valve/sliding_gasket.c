@@ -159,6 +159,8 @@ SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, do
   const Rough on = rough_at(out, model, law, film, speed), dry = rough_at(out, model, law, 0, 0);
   out->real_area_share = fmin(on.area / width, 1);
   out->rest_area_share = fmin(dry.area / width, 1);
+  // At every point asperities carry at most the contact pressure (rough_at()). Above 1 only by the
+  // difference of two quadratures: that sum is over strips, load_net is the solved ring's.
   out->asperity_share = out->load_net > 0 ? fmin(on.load / out->load_net, 1) : NAN;
   out->boundary_area = model->shear_strength * out->real_area_share * width * around;
   out->rest_area = model->shear_strength * out->rest_area_share * width * around;

@@ -93,7 +93,7 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
   }
   if (fit->model == SB_FIT_RING && warnings != NULL) {
     sb_warn(warnings, "film-disc-surface", "models.fit",
-            "the %s ring's surface beside its contact is too steep for a film on it: the film "
+            "the %s ring's surface next to its contact is too steep for a film on it: the film "
             "takes the ring's pressure, but gives way like a linear disc",
             sb_seal_name(seal));
   }

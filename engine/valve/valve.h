@@ -46,7 +46,7 @@ enum { SB_PROBLEMS_MAX = 32 };
 // NaN where that side is open).
 typedef struct {
   char key[64];
-  char text[200];
+  char text[SB_TEXT];
   double min, max;
 } SbProblem;
 

@@ -83,9 +83,9 @@ static void doubt(SbVerdict *of, const SbSummary *summary, double bound) {
   const bool models = margin < model_spread(summary, of->figure);
   if (of->ok != SB_ANSWER_UNKNOWN && (error || models)) {
     of->ok = SB_ANSWER_UNKNOWN;
-    snprintf(of->reason, sizeof of->reason, "uncertain: the margin of %s is less than %s",
-             sb_figure(of->figure)->path,
-             error ? "its estimated error" : "what the computed film models differ by");
+    sb_message(of->reason, SB_TEXT, "uncertain: the margin of %s is less than %s",
+               sb_figure(of->figure)->path,
+               error ? "its estimated error" : "what the computed film models differ by");
   }
 }
 
@@ -96,15 +96,15 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
   SbVerdict out = {SB_ANSWER_YES, figure, of->pressure_peak, fabs(side.left - side.right), ""};
   if (of->leak_state == SB_LEAK_OPEN) {
     out.ok = SB_ANSWER_NO;
-    snprintf(out.reason, sizeof out.reason, "the %s seal is open: %.200s", sb_seal_name(seal),
-             sb_figure_reason(summary, seal_figure(seal, "leakage_static_m3_per_s")));
+    sb_message(out.reason, SB_TEXT, "the %s seal is open: %s", sb_seal_name(seal),
+               sb_figure_reason(summary, seal_figure(seal, "leakage_static_m3_per_s")));
   } else if (isnan(of->pressure_peak)) {
     out.ok = SB_ANSWER_UNKNOWN;
-    snprintf(out.reason, sizeof out.reason, "%s", sb_figure_reason(summary, figure));
+    sb_message(out.reason, SB_TEXT, "%s", sb_figure_reason(summary, figure));
   } else if (!(of->pressure_peak > out.limit)) {
     out.ok = SB_ANSWER_NO;
-    snprintf(out.reason, sizeof out.reason, "the %s seal's peak pressure is not above the fluid's",
-             sb_seal_name(seal));
+    sb_message(out.reason, SB_TEXT, "the %s seal's peak pressure is not above the fluid's",
+               sb_seal_name(seal));
   }
   if (of->leak_state != SB_LEAK_OPEN) {
     doubt(&out, summary, out.limit);
@@ -116,19 +116,19 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
   const double left = sb_interference_on_floor(&problem);
   if (out.ok == SB_ANSWER_YES && model->fit != SB_FIT_RING && !(left > 0)) {
     out.ok = SB_ANSWER_UNKNOWN;
-    snprintf(out.reason, sizeof out.reason,
-             "uncertain: stretched onto its groove floor the %s ring stays an estimated %.2g mm "
-             "short of the bore, which models.fit = %s cannot judge (ring can)",
-             sb_seal_name(seal), -1e3 * left, sb_fit_model_name(model->fit));
+    sb_message(out.reason, SB_TEXT,
+               "uncertain: stretched onto its groove floor the %s ring stays an estimated %.2g mm "
+               "short of the bore, which models.fit = %s cannot judge (ring can)",
+               sb_seal_name(seal), -1e3 * left, sb_fit_model_name(model->fit));
   }
   // Nor does it know the groove's walls.
   const double fill = model->seal[seal].gland_fill;
   if (out.ok == SB_ANSWER_YES && model->fit != SB_FIT_RING && fill >= 1) {
     out.ok = SB_ANSWER_UNKNOWN;
-    snprintf(out.reason, sizeof out.reason,
-             "uncertain: the %s ring overfills its groove (gland fill %.3g %%), whose walls "
-             "models.fit = %s does not know (ring does)",
-             sb_seal_name(seal), 100 * fill, sb_fit_model_name(model->fit));
+    sb_message(out.reason, SB_TEXT,
+               "uncertain: the %s ring overfills its groove (gland fill %.3g %%), whose walls "
+               "models.fit = %s does not know (ring does)",
+               sb_seal_name(seal), 100 * fill, sb_fit_model_name(model->fit));
   }
   // A section that jams holds the stem; one that rolls seals, and is told.
   const SbContacts *contact = &summary->contact[seal];
@@ -138,10 +138,10 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
     bool rolls = of_way->known && of_way->section == SB_RING_ROLLS;
     if (out.ok == SB_ANSWER_YES && (jams || (rolls && out.reason[0] == '\0'))) {
       out.ok = jams ? SB_ANSWER_NO : out.ok;
-      snprintf(out.reason, sizeof out.reason,
-               "the %s ring %s on the %s: friction turns its section by %.0f degrees",
-               sb_seal_name(seal), jams ? "jams" : "rolls", way == 0 ? "in-stroke" : "return",
-               of_way->rotation);
+      sb_message(out.reason, SB_TEXT,
+                 "the %s ring %s on the %s: friction turns its section by %.0f degrees",
+                 sb_seal_name(seal), jams ? "jams" : "rolls", way == 0 ? "in-stroke" : "return",
+                 of_way->rotation);
     }
   }
   return out;
@@ -156,13 +156,13 @@ static SbVerdict judge_limit(const SbSummary *summary, const SbLimit *limit) {
     bool open = figure->verdict == SB_VERDICT_LEAK && any_open(summary);
     out.ok = open ? SB_ANSWER_NO : SB_ANSWER_UNKNOWN;
     out.limit = isfinite(limit->high) ? limit->high : limit->low;
-    snprintf(out.reason, sizeof out.reason, "%s", sb_figure_reason(summary, limit->figure));
+    sb_message(out.reason, SB_TEXT, "%s", sb_figure_reason(summary, limit->figure));
   } else if (value < limit->low || value > limit->high) {
     out.ok = SB_ANSWER_NO;
     out.limit = value < limit->low ? limit->low : limit->high;
     // Value and limit are fields of their own: each surface prints them in one format.
-    snprintf(out.reason, sizeof out.reason, "%s is %s its limit", figure->path,
-             value < limit->low ? "below" : "above");
+    sb_message(out.reason, SB_TEXT, "%s is %s its limit", figure->path,
+               value < limit->low ? "below" : "above");
   }
   doubt(&out, summary, out.limit);
   return out;
@@ -176,24 +176,23 @@ static SbVerdict judge_return(const SbSummary *summary) {
   switch (summary->outcome) {
   case SB_OUTCOME_UNKNOWN:
   case SB_OUTCOME_NEVER_MOVED:
-    snprintf(out.reason, sizeof out.reason, "%s",
-             sb_figure_reason(summary, sb_figure_find("cycle.returns")));
+    sb_message(out.reason, SB_TEXT, "%s",
+               sb_figure_reason(summary, sb_figure_find("cycle.returns")));
     break;
   case SB_OUTCOME_HELD:
-    snprintf(out.reason, sizeof out.reason,
-             "the drive holds the stem until its motion ends: there is no return to judge");
+    sb_message(out.reason, SB_TEXT,
+               "the drive holds the stem until its motion ends: there is no return to judge");
     break;
   case SB_OUTCOME_STUCK:
     out.ok = SB_ANSWER_NO;
-    snprintf(out.reason, sizeof out.reason, "the stem is stuck at %.4g mm",
-             1e3 * summary->stuck_at);
+    sb_message(out.reason, SB_TEXT, "the stem is stuck at %.4g mm", 1e3 * summary->stuck_at);
     break;
   case SB_OUTCOME_RETURNED:
     out.ok = value >= 0 ? SB_ANSWER_YES : SB_ANSWER_NO;
-    snprintf(out.reason, sizeof out.reason, "%s",
-             value >= 0 ? ""
-                        : "where the stem rests on its return, static friction exceeds the force "
-                          "that pushes it back");
+    sb_message(out.reason, SB_TEXT, "%s",
+               value >= 0 ? ""
+                          : "where the stem rests on its return, static friction exceeds the force "
+                            "that pushes it back");
     doubt(&out, summary, 0);
     break;
   }
@@ -207,8 +206,7 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
     verdict[kind] = (SbVerdict){SB_ANSWER_UNKNOWN, -1, NAN, NAN, "no limit is set"};
   }
   if (model->motion == SB_MODEL_MOTION_RIG) {
-    snprintf(verdict[SB_VERDICT_SEALS].reason, sizeof verdict->reason,
-             "the sliding plate seals nothing");
+    sb_message(verdict[SB_VERDICT_SEALS].reason, SB_TEXT, "the sliding plate seals nothing");
   } else {
     SbVerdict *seals = &verdict[SB_VERDICT_SEALS];
     for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
@@ -223,8 +221,7 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
   if (summary->outcome == SB_OUTCOME_NEVER_MOVED) {
     const int press = sb_figure_find("cycle.force_press_N");
     verdict[SB_VERDICT_PRESSES] = (SbVerdict){SB_ANSWER_NO, press, NAN, NAN, ""};
-    snprintf(verdict[SB_VERDICT_PRESSES].reason, sizeof verdict->reason, "%s",
-             sb_figure_reason(summary, press));
+    sb_message(verdict[SB_VERDICT_PRESSES].reason, SB_TEXT, "%s", sb_figure_reason(summary, press));
   }
   if (summary->dose_mass == 0 && model->canister_pressure > 0) {
     verdict[SB_VERDICT_DOSES] =

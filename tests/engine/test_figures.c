@@ -340,7 +340,8 @@ static void test_people(void) {
   compile(&model, changes, G_N_ELEMENTS(changes));
   run = run_of(&model, SB_OK, NULL);
   check_reasons(sb_run_summary(run));
-  g_assert_nonnull(strstr(reason_at(sb_run_summary(run), "people.men_below_peak"), "nobody"));
+  g_assert_nonnull(
+      strstr(reason_at(sb_run_summary(run), "people.men_below_peak"), "not pressed by a person"));
   sb_run_destroy(run);
 }
 

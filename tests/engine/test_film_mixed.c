@@ -446,6 +446,11 @@ static void test_adhesion(void) {
   g_assert_false(warned(&other.warnings, "film-snap-in"));
   close_to("film without the pull", film.film_min * 1e9, 2.6209, 5e-5);
   close_to("film with the pull", other.film_min * 1e9, 2.6126, 5e-5);
+  // The pull adds to what presses: asperities carry a smaller share of that than of the net load.
+  g_test_message("share %.8g, of the net load %.8g", other.asperity_share,
+                 other.asperity_load / problem.load);
+  g_assert_cmpfloat_with_epsilon(film.asperity_share, film.asperity_load / problem.load, 1e-12);
+  g_assert_cmpfloat(other.asperity_share * (1 + 1e-6), <, other.asperity_load / problem.load);
   // Nor is a pressure that hardly rises as the gap closes (by a hundredth of the asperities' own
   // slope at the worst) mistaken for a window: solved, at rest.
   problem = rough_seal(0, SB_ROUGH_GREENWOOD_TRIPP);

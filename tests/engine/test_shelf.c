@@ -208,7 +208,7 @@ static void test_not_asked(void) {
   compile(&model, usual, USUAL);
   SbRun *run = run_of(&model, SB_OK, NULL);
   g_assert_true(isnan(sb_run_summary(run)->shelf.loss_per_year));
-  g_assert_nonnull(strstr(reason(sb_run_summary(run), "shelf.loss_kg_per_year"), "nobody asks"));
+  g_assert_nonnull(strstr(reason(sb_run_summary(run), "shelf.loss_kg_per_year"), "not requested"));
   sb_run_destroy(run);
   model.views |= SB_VIEW_SHELF;
   run = run_of(&model, SB_OK, NULL);

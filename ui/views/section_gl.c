@@ -27,7 +27,7 @@ typedef struct {
   SbGlContext *context;
   SbGlRenderer *renderer;
   gboolean works;
-  char reason[320];
+  char reason[SB_TEXT];
 } Area;
 
 static void *get_proc(void *data, const char *name) {
@@ -65,8 +65,8 @@ static gboolean wrap_gl(Area *area, SbReport *report) {
       sb_gl_context_wrap(&area->context, get_proc, area, "window", report) == SB_OK) {
     return TRUE;
   }
-  g_snprintf(area->reason, sizeof area->reason, "the window's GL does not do: %.240s",
-             report->text[0] != '\0' ? report->text : "its library is missing");
+  sb_text(area->reason, sizeof area->reason, "the window's GL does not do: %s",
+          report->text[0] != '\0' ? report->text : "its library is missing");
   return FALSE;
 }
 
@@ -75,7 +75,7 @@ static gboolean wrap_gl(Area *area, SbReport *report) {
 static gboolean is_wanted(Area *area) {
   const char *wish = g_getenv("SEALBENCH_SECTION");
   if (g_strcmp0(wish, "picture") == 0) {
-    g_strlcpy(area->reason, "SEALBENCH_SECTION asks for a picture", sizeof area->reason);
+    g_strlcpy(area->reason, "SEALBENCH_SECTION requests a picture", sizeof area->reason);
     return FALSE;
   }
   if (g_strcmp0(wish, "window") == 0) {
@@ -94,14 +94,14 @@ static gboolean is_wanted(Area *area) {
   g_autoptr(GError) error = NULL;
   GdkGLContext *gl = gdk_window_create_gl_context(gtk_widget_get_window(window), &error);
   if (gl == NULL || !gdk_gl_context_realize(gl, &error)) {
-    g_snprintf(area->reason, sizeof area->reason, "the window has no GL: %.240s", error->message);
+    sb_text(area->reason, sizeof area->reason, "the window has no GL: %s", error->message);
   } else {
     gdk_gl_context_make_current(gl);
     SbReport report = {0};
     if (wrap_gl(area, &report)) {
       const char *context = sb_gl_context_reason(area->context);
       wanted = !is_software(context);
-      g_snprintf(area->reason, sizeof area->reason, "the window's GL is software: %.240s", context);
+      sb_text(area->reason, sizeof area->reason, "the window's GL is software: %s", context);
       g_clear_pointer(&area->context, sb_gl_context_destroy);
     }
     gdk_gl_context_clear_current();
@@ -117,7 +117,7 @@ static gboolean open_gl(Area *area) {
   gtk_gl_area_make_current(GTK_GL_AREA(area->area));
   const GError *error = gtk_gl_area_get_error(GTK_GL_AREA(area->area));
   if (error != NULL) {
-    g_snprintf(area->reason, sizeof area->reason, "the window has no GL: %.240s", error->message);
+    sb_text(area->reason, sizeof area->reason, "the window has no GL: %s", error->message);
     return FALSE;
   }
   SbReport report = {0};
@@ -125,8 +125,7 @@ static gboolean open_gl(Area *area) {
     return FALSE;
   }
   if (sb_gl_renderer_create(&area->renderer, area->context, &report) != SB_OK) {
-    g_snprintf(area->reason, sizeof area->reason, "the window's GL does not do: %.240s",
-               report.text);
+    sb_text(area->reason, sizeof area->reason, "the window's GL does not do: %s", report.text);
     return FALSE;
   }
   g_strlcpy(area->reason, sb_gl_context_reason(area->context), sizeof area->reason);

@@ -395,7 +395,7 @@ static void judge_margin(SbFit *out, const SbFitProblem *in, double both) {
     sb_warn(
         &out->warnings, "disc-ring-contact", "models.fit",
         "the disc presses %.3g MPa more than the fluid, %.2g of the modulus: below %.2g a solved "
-        "ring may not touch (models.fit = ring tells)",
+        "ring may not touch (models.fit = ring shows it)",
         1e-6 * margin, margin / in->modulus, LEAST);
   }
 }

@@ -218,7 +218,7 @@ SbStatus sb_ring_check_apart(const SbRing *ring, SbReport *report) {
   if (!sb_ring_is_circle(ring) && sb_ring_crosses_itself(ring->contact)) {
     // Where elements are large beside a corner's rounding that may be theirs: finer ones are tried.
     return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "seal.profile",
-                             "the %s section folds onto itself beside its hollows: contact with "
+                             "the %s section folds onto itself next to its hollows: contact with "
                              "itself is not modelled there",
                              name);
   }
@@ -327,7 +327,7 @@ static SbStatus tell_crease(const SbRing *ring, const SbRingLoad *target, double
   const SbReport reason = report != NULL ? *report : (SbReport){0};
   return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile",
                            "the %s section's surface creases where it is pressed to %.2f of its "
-                           "length (rubber's does from %.2f on): %.120s",
+                           "length (rubber's does from %.2f on): %s",
                            sb_seal_profile_name(ring->body.profile.kind), 1.0 / sqrt(crease),
                            1.0 / sqrt(SB_RING_CREASE), reason.text);
 }

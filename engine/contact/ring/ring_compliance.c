@@ -292,7 +292,7 @@ static SbStatus surface_over(SbRing *ring, SbRingPatch patch, double reach,
   double nu = ring->body.poisson_ratio, unstrained = 2.0 * ring->body.modulus / (1.0 - nu * nu);
   if (!(out->modulus > MODULUS[0] * unstrained && out->modulus < MODULUS[1] * unstrained)) {
     return sb_fail(report, SB_ERROR_INFEASIBLE,
-                   "the ring's surface is too steep beside the bore contact");
+                   "the ring's surface is too steep next to the bore contact");
   }
   smooth_part(out, length, answer, ring->fem->axial_spring > 0.0 ? slope : NULL);
   return dry_gap(ring, &patch, out, report);

@@ -99,7 +99,7 @@ static SbStatus end_of_path(const SbRing *ring, SbReport *report) {
   sb_ring_contact_settle(ring->contact);
   return sb_fail(report, SB_ERROR_NOT_CONVERGED,
                  "steady sliding was followed to a friction of %.4g, where the section has turned "
-                 "by %.3g rad: %.120s",
+                 "by %.3g rad: %s",
                  ring->contact->is.now.friction_bore, ring->contact->is.turn, reason.text);
 }
 

@@ -178,7 +178,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
     if (load->bore_slides == 0 && !sb_ring_is_circle(ring) && turn > ROLLED) {
       sb_warn(warnings, "section-rolled", "seal.profile",
               "the section has rolled by %.0f degrees as it was fitted: another state of another "
-              "load, upright, may be beside it",
+              "load, upright, may exist next to it",
               turn * 180.0 / M_PI);
     }
     // Of a lip that the fluid nearly lifts: little beside an end of a contact, much along a flat

@@ -288,7 +288,8 @@ SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
   }
   if (status == SB_OK && (ring->state != SB_RING_SLIDES || ring->arc.free ||
                           ring->contact->is.now.bore_slides != load->bore_slides)) {
-    status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring near it does not slide alike");
+    status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                     "the ring that starts it slides in another direction");
   }
   status = status == SB_OK ? sb_ring_beside(&other, ring, report) : status;
   if (status != SB_OK) {

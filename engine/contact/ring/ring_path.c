@@ -92,7 +92,7 @@ static SbStatus take_turn(SbRing *ring, SbReport *report) {
   SbRingContact *contact = ring->contact;
   double turn = sb_ring_turn(contact, NULL, NULL, NULL);
   if (fabs(turn - contact->is.turn) > TURN_STEP) {
-    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the section turns by %.3g rad at once",
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the section turns by %.3g rad in one step",
                    turn - contact->is.turn);
   }
   if (contact->is.now.bore_slides == 0 && fabs(turn) > ROLLED &&
@@ -166,8 +166,8 @@ static void explain(double done, SbReport *report) {
     return;
   }
   SbReport reason = *report;
-  (void)sb_fail(report, SB_ERROR_NOT_CONVERGED, "equilibrium lost at %.3g of the step: %.160s",
-                done, reason.text);
+  (void)sb_fail(report, SB_ERROR_NOT_CONVERGED, "equilibrium lost at %.3g of the step: %s", done,
+                reason.text);
   report->residual = reason.residual;
   report->iteration = reason.iteration;
 }

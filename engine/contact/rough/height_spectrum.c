@@ -219,7 +219,7 @@ static void find_self_affine(SbHeightSpectrum *out, bool surface) {
   if (!isfinite(best) || exp(x[to] - x[from]) < 4) {
     out->reason = "no straight range spans a factor of four in wave number";
   } else if (lines.squares / (double)n > 0.5 * 0.5) {
-    out->reason = "the spectrum is no sequence of straight lines";
+    out->reason = "the spectrum is not a sequence of straight lines";
   } else if (!(hurst > 0 && hurst <= 1)) {
     out->reason = "its slope gives no Hurst exponent between 0 and 1";
   }

@@ -241,12 +241,11 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   if (status == SB_ERROR_NOT_CONVERGED && run->count > 0) {
     const SbFrame *last = &run->frames[run->count - 1];
     SbReport cause = own;
-    (void)sb_fail_parameter(
-        &own, status, cause.parameter,
-        "motion (%s), both seals, stage %s, stem at %.4g mm, %.4g s: %.110s; kept: "
-        "the seals, the frames and stages before",
-        names[run->model->motion], sb_stage_name((SbStage)last->stage), 1e3 * last->displacement,
-        last->time, cause.text);
+    (void)sb_fail_parameter(&own, status, cause.parameter,
+                            "motion (%s), both seals, stage %s, stem at %.4g mm, %.4g s: %s; kept: "
+                            "the seals, the frames and stages before",
+                            names[run->model->motion], sb_stage_name((SbStage)last->stage),
+                            1e3 * last->displacement, last->time, cause.text);
   }
   if (status != SB_OK) {
     clear_motion(run, status == SB_ERROR_CANCELLED ? "the run was stopped before" : own.text);
@@ -377,7 +376,7 @@ void sb_run_begin_work(SbRun *run, const SbRunHooks *hooks) {
 #ifdef SB_ASSERT_RUNS
 // Ends the program with a message if the run's figures contradict each other.
 static void assert_no_contradiction(const SbRun *run) {
-  char text[256];
+  char text[SB_TEXT];
   if (sb_summary_contradiction(text, sizeof text, &run->summary, run->model)) {
     __assert_fail(text, __FILE__, __LINE__, __func__);
   }

@@ -104,7 +104,7 @@ typedef struct {
 // The constrained parts of a run with models.motion = bodies.
 typedef struct {
   int gruebler, constraints, freedom;
-  char text[256];
+  char text[SB_TEXT];
   double moving_mass;        // that the stroke sees, by the joints' conditions [kg]
   double acceleration_error; // largest difference of a part's acceleration from the stroke's,
                              // relative to all forces over the mass [1]
@@ -152,7 +152,7 @@ enum {
 enum { SB_REASONS_MAX = 48 };
 typedef struct {
   size_t count;
-  char text[SB_REASONS_MAX][256];
+  char text[SB_REASONS_MAX][SB_TEXT];
   unsigned char of[SB_FIGURE_COUNT];
 } SbReasons;
 
@@ -170,9 +170,9 @@ typedef enum { SB_ANSWER_UNKNOWN, SB_ANSWER_NO, SB_ANSWER_YES } SbAnswer;
 // One question of the verdict: the answer, and the figure that decides it.
 typedef struct {
   SbAnswer ok;
-  int figure;          // index, -1: none
-  double value, limit; // in the figure's SI unit; NaN: none
-  char reason[256];    // one sentence; empty where there is nothing to say
+  int figure;           // index, -1: none
+  double value, limit;  // in the figure's SI unit; NaN: none
+  char reason[SB_TEXT]; // one sentence; empty where there is nothing to say
 } SbVerdict;
 
 // What a run found: one member for each SB_FIGURE (meaning and unit there; NaN: not computed), and

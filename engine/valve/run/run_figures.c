@@ -305,10 +305,11 @@ void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore
     if (!isnan(bore->out)) {
       snprintf(carried, sizeof carried, " (%.3g nl)", 1e12 * circumference * bore->out);
     }
-    sb_reason(summary, "cycle.leakage_per_cycle_m3",
-              "the stem does not come back: what the outer seal carried one way%s is no loss of a "
-              "cycle",
-              carried);
+    sb_reason(
+        summary, "cycle.leakage_per_cycle_m3",
+        "the stem does not come back: what the outer seal carried one way%s is not a loss of a "
+        "cycle",
+        carried);
     sb_reason(summary, "cycle.leakage_net_all_actuations_m3",
               "the stem does not come back: there is no second actuation");
   } else if (fabs(net) < summary->error_film * bore->out) {
@@ -382,10 +383,10 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
       {rig, "solver.error_estimate.permeation",
        "the sliding plate (models.motion = rig) has no can"},
       {run->plan.shelf == SB_SHELF_NOTHING, "shelf.*",
-       "nobody asks for it: output.views has no shelf, and no limit is on it"},
+       "not requested: output.views has no shelf, and no limit is on it"},
       {run->plan.shelf == SB_SHELF_NOTHING, "solver.error_estimate.permeation",
        "no loss on the shelf was computed"},
-      {run->plan.shelf == SB_SHELF_RATES, "shelf.*", "nobody asks for sums over the shelf time"},
+      {run->plan.shelf == SB_SHELF_RATES, "shelf.*", "sums over the shelf time were not requested"},
       {run->lacks.status != SB_OK, "life.*", run->lacks.text},
       {!rig, "rig.*", "models.motion is not rig: no plate is pulled"},
       {rig && well, "rig.*",
@@ -396,7 +397,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
       {rig, "seals.*", "the sliding plate (models.motion = rig) has no valve's seals"},
       {rig, "solver.*", "the sliding plate (models.motion = rig) solves no film or fit"},
       {well, "cycle.force_breakaway_N", "the stem never slips: stage B is not reached"},
-      {rig, "people.*", "the sliding plate (models.motion = rig) is pressed by nobody"},
+      {rig, "people.*", "the sliding plate (models.motion = rig) is not pressed by a person"},
       {well, "people.*", "the stem never slips: stage B is not reached"},
       {rig, "dose.*", "the sliding plate (models.motion = rig) gives no dose"},
       {!(model->canister_pressure > 0), "dose.fill*", "nothing drives liquid into the chamber"},
@@ -425,7 +426,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
          "the seal does not touch the bore under its pressures"},
         {model->kind == SB_VALVE_GASKET, "gland_fill", "a gasket lies between plates, in no gland"},
         {model->profile != SB_SEAL_PROFILE_CIRCLE, "film_by_model*",
-         "seal.profile is no circle: the film laws are those of cylinders"},
+         "seal.profile is not a circle: the film laws are those of cylinders"},
         {closed, "film_by_model.reynolds", "models.film is a closed form: no film was solved"},
         {!coupled, "asperity_load_share",
          "models.asperities = beside: asperities share no load with the film"},

@@ -12,6 +12,7 @@
 // does not resolve. From where a film fails its frames have none. Left out: the land's edge
 // under the contact and the step of the pressures themselves.
 #include <math.h>
+#include <string.h>
 
 #include "engine/film/transient.h"
 #include "engine/valve/figures.h"
@@ -103,20 +104,20 @@ static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *h
   return status;
 }
 
-// The present film into a frame of the run. Not in its caller's frame on the stack, for a film's
-// size.
-__attribute__((noinline)) static void show(const History *history,
-                                           const SbFilmTransientResult *result, SbFrame *frame) {
-  const SbFilm film = {.film_min = result->film_min,
-                       .film_central = result->film_central,
-                       .film_ratio = result->film_central / history->run->model->sigma,
-                       .hertz_half_width = result->half_width,
-                       .friction_couette = result->friction_couette,
-                       .friction_cavity = result->friction_cavity,
-                       .asperity_load = result->asperity_load,
-                       .asperity_share = result->asperity_share,
-                       .real_area = result->real_area};
-  sb_run_frame_film(frame, history->run, history->seal, &film, history->fitted);
+// Stores the present film in a frame of the run.
+static void show(const History *history, const SbFilmTransientResult *result, SbFrame *frame) {
+  SbFilm *film = &history->run->history_film; // too large for a small stack
+  memset(film, 0, sizeof *film);
+  film->film_min = result->film_min;
+  film->film_central = result->film_central;
+  film->film_ratio = result->film_central / history->run->model->sigma;
+  film->hertz_half_width = result->half_width;
+  film->friction_couette = result->friction_couette;
+  film->friction_cavity = result->friction_cavity;
+  film->asperity_load = result->asperity_load;
+  film->asperity_share = result->asperity_share;
+  film->real_area = result->real_area;
+  sb_run_frame_film(frame, history->run, history->seal, film, history->fitted);
 }
 
 // The way of sliding in a frame; at rest that before, or at the start the first to come.
@@ -217,12 +218,11 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
       worst = sb_fail(report, status, "%s", own.text);
     } else if (status != SB_OK) {
       SbFrame *at = &run->frames[history.frame];
-      (void)sb_fail(
-          &whole, status,
-          "film in time, %s seal, stage %s, stem at %.4g mm, %.4g s: %.100s; kept: the films "
-          "before, the motion",
-          sb_seal_name(seal), sb_stage_name((SbStage)at->stage), 1e3 * at->displacement, at->time,
-          own.text);
+      (void)sb_fail(&whole, status,
+                    "film in time, %s seal, stage %s, stem at %.4g mm, %.4g s: %s; kept: the films "
+                    "before, the motion",
+                    sb_seal_name(seal), sb_stage_name((SbStage)at->stage), 1e3 * at->displacement,
+                    at->time, own.text);
       sb_warn(&summary->warnings, "film-history", "models.film_time", "%s", whole.text);
       for (; at < run->frames + count; at++) {
         at->seal[seal].film_min = at->seal[seal].film_central = at->seal[seal].lambda = NAN;

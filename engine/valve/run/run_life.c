@@ -61,8 +61,7 @@ static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const 
     status = sb_run_move(one, &quiet, &own);
     run->work->done += one->work->done;
     if (status != SB_OK) {
-      return sb_fail_parameter(report, status, own.parameter, "actuation %ld: %.230s", n + 1,
-                               own.text);
+      return sb_fail_parameter(report, status, own.parameter, "actuation %ld: %s", n + 1, own.text);
     }
   }
   run->summary.energy.closure = fmax(run->summary.energy.closure, one->summary.energy.closure);
@@ -164,8 +163,7 @@ static SbStatus solve_one(Solved *s, long n, bool shown, SbReport *report) {
     return sb_fail(report, status, "cancelled after 1 actuation");
   }
   if (status != SB_OK) {
-    return sb_fail_parameter(report, status, own.parameter, "actuation %ld: %.230s", n + 1,
-                             own.text);
+    return sb_fail_parameter(report, status, own.parameter, "actuation %ld: %s", n + 1, own.text);
   }
   s->solved++;
   take(s, s->one, n);

@@ -114,6 +114,8 @@ struct SbRun {
   double straight_error; // of friction in the motion's bands of speed, over that without a film
   SbValveBands bands[SB_CYCLE_CHAMBERS][SB_RUN_REST]; // of the motion; made when first asked for
   SbSummary summary;
+  SbFilm history_film;      // of the film history's present frame
+  SbWarnings before_states; // the summary's, before the last states of sb_run_solve_states()
   // Errors (run_errors.c): absolute, of the motion's figures; relative, of the sliding speeds by
   // direction; absolute, of a cycle's leak [m3] and of the mass that the chamber keeps [kg];
   // relative, of the film solved for comparison.

@@ -46,7 +46,7 @@ const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int 
       strcmp(from.tag, "typical") != 0) {
     return NULL;
   }
-  sb_text(text, size, "the %s rests on a figure typical of %s, no measurement: %.110s",
+  sb_text(text, size, "the %s rests on a figure typical of %s, no measurement: %s",
           figures[which].what, from.name != NULL ? from.name : "such rubbers", from.source);
   return sb_param(figures[which].id)->key;
 }
@@ -54,7 +54,7 @@ const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int 
 // What the figures rest on that is no measurement of this rubber.
 static void warn_typical(SbShelf *out, SbWarnings *warnings, const SbModel *model) {
   for (int i = 0; i < SB_SHELF_TYPICAL; i++) {
-    char text[240];
+    char text[SB_TEXT];
     const char *key = sb_shelf_typical(text, sizeof text, model, i);
     if (key != NULL) {
       out->typical = true;
@@ -69,7 +69,7 @@ static void give_reasons(SbSummary *summary, const SbModel *model, int seal) {
                                sb_shelf_lacks_interface(model)};
   char name[64];
   sb_text(name, sizeof name, "shelf.seals.%s*", sb_seal_name(SB_SEAL_COUNT - 1 - seal));
-  sb_reason(summary, name, "no pressure stands across this seal at rest");
+  sb_reason(summary, name, "there is no pressure difference across this seal at rest");
   if (shelf->seal[seal].state == SB_LEAK_OPEN) {
     sb_reason(summary, "shelf.*", "the %s seal is open: nothing holds the propellant",
               sb_seal_name(seal));

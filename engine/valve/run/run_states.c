@@ -261,7 +261,7 @@ static void report_failure(const Task *task, SbReport *report) {
   }
   const SbReport cause = *report;
   (void)sb_fail_parameter(report, cause.status, cause.parameter,
-                          "%s (%s), %s seal, stages %s, %s, %s: %.127s; kept: %s",
+                          "%s (%s), %s seal, stages %s, %s, %s: %s; kept: %s",
                           fitted ? "film" : "fitment",
                           !fitted   ? sb_fit_model_name(model->fit)
                           : coupled ? "with asperities"
@@ -718,7 +718,9 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   if (own && run->plan.ring && model->profile == SB_SEAL_PROFILE_CIRCLE) {
     status = proxy_speed(run, hooks, report);
   }
-  SbWarnings before = *warnings;
+  // The warnings before these states: too large for a small stack.
+  SbWarnings *before = &run->before_states;
+  *before = *warnings;
   status = status == SB_OK ? solve_states(run, hooks, report) : status;
   run->mid_speed = run->back_speed = run->speed;
   if (!own || (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) || run->lacks.status != SB_OK) {
@@ -741,7 +743,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   run->mid_speed = speed > 0 ? speed : run->speed;
   if (!run->plan.ring && run->mid_speed != run->speed) {
     run->speed = run->mid_speed;
-    *warnings = before;
+    *warnings = *before;
     status = solve_states(run, hooks, report);
   }
   return status;

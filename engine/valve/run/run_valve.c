@@ -361,7 +361,8 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
       if (a->pressure != b->pressure && a->low < b->high && b->low < a->high) {
         return sb_fail_parameter(
             report, SB_ERROR_INFEASIBLE, "chamber.flow",
-            "the chamber would be open to canister and vent at once (stem at %.3g to %.3g mm): "
+            "the chamber would be open to canister and vent simultaneously (stem at %.3g to %.3g "
+            "mm): "
             "a pressure between them needs chamber.flow = orifice, or other places of the vent "
             "(bore.vent_position) and the by-pass (bore.refill_travel)",
             1e3 * fmax(fmax(a->low, b->low), 0), 1e3 * fmin(fmin(a->high, b->high), model->stroke));

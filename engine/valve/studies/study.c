@@ -128,8 +128,8 @@ static void put_design(SbStudyWork *work) {
   }
   const char *const text[] = {design->row_heading, design->models, design->validity};
   sb_text(out->row_heading, sizeof out->row_heading, "%s", text[0] != NULL ? text[0] : "");
-  sb_text(out->models, sizeof out->models, "%s", text[1] != NULL ? text[1] : "");
-  sb_text(out->validity, sizeof out->validity, "%s", text[2] != NULL ? text[2] : "");
+  sb_message(out->models, sizeof out->models, "%s", text[1] != NULL ? text[1] : "");
+  sb_message(out->validity, sizeof out->validity, "%s", text[2] != NULL ? text[2] : "");
 }
 
 bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report) {
@@ -341,8 +341,8 @@ void sb_study_mark(SbStudyWork *work, double x, const char *format, ...) {
 void sb_study_note(SbStudy *out, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  sb_text_v(out->note[next(&out->note_count, SB_STUDY_NOTES)], sizeof out->note[0], format,
-            arguments);
+  sb_message_v(out->note[next(&out->note_count, SB_STUDY_NOTES)], sizeof out->note[0], format,
+               arguments);
   va_end(arguments);
 }
 

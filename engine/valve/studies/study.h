@@ -13,11 +13,12 @@
 // enumerator, function's suffix, name, title, help
 #define SB_STUDY_LIST(X)                                                                           \
   X(SB_STUDY_SQUEEZE, squeeze, "squeeze", "Load over squeeze",                                     \
-    "load, peak and width of every fitment model over the squeeze, beside the solved ring")        \
+    "load, peak and width of every fitment model over the squeeze, compared with the solved ring") \
   X(SB_STUDY_MODELS, models, "models", "Fitment models side by side",                              \
     "thesis, linear disc and finite-strain ring: loads, peaks, widths, sensitivities, friction")   \
   X(SB_STUDY_FILM_LAW, film_law, "film-law", "Film law from our own solutions",                    \
-    "h/R = k U^b W^a regressed over a range, with residuals, beside eq. 7.5, 7.6 and the limit")   \
+    "h/R = k U^b W^a regressed over a range, with residuals, compared with eq. 7.5, 7.6 and the "  \
+    "limit")                                                                                       \
   X(SB_STUDY_STORAGE, storage, "storage", "Storage time",                                          \
     "load, friction, squeeze and modulus against storage time: relaxation, set, swell")            \
   X(SB_STUDY_LEAK, leak, "leak", "Leak over squeeze",                                              \
@@ -106,14 +107,14 @@ typedef struct {
   size_t column_count, row_count;
   SbStudyColumn column[SB_STUDY_COLUMNS];
   SbStudyRow row[SB_STUDY_ROWS];
-  char models[160];   // what made it: "ring, disc, lindley"
-  char validity[200]; // where it holds
+  char models[160];       // what made it: "ring, disc, lindley"
+  char validity[SB_TEXT]; // where it holds
   // Largest error estimate of what was solved [1]: of a film relative to itself, of a load or a
   // contact width relative to the largest one, because a ring that barely touches has none to speak
   // of. 0: closed forms alone.
   double error;
   size_t note_count;
-  char note[SB_STUDY_NOTES][200]; // what the numbers say, definitions, sources
+  char note[SB_STUDY_NOTES][SB_TEXT]; // what the numbers say, definitions, sources
   SbWarnings warnings;
   size_t solves; // fitments and films solved for it, closed forms not counted
   bool complete; // false: some points are gaps because a solver did not converge

@@ -207,10 +207,10 @@ static void make(SbStudyWork *work) {
   sb_study_row(out, "solved, central")->value[8] = film[CENTRAL];
   sb_study_row(out, "solved, least")->value[8] = film[LEAST];
   sb_study_mark(work, model->speed, "drive");
-  sb_text(out->validity, sizeof out->validity,
-          "our law: U %.2g to %.2g, W %.3g to %.3g only; the limit: thin films (M above 100)",
-          work->lo * ours.U_speed, work->hi * ours.U_speed, range->load_min * ours.W_load,
-          range->load_max * ours.W_load);
+  sb_message(out->validity, sizeof out->validity,
+             "our law: U %.2g to %.2g, W %.3g to %.3g only; the limit: thin films (M above 100)",
+             work->lo * ours.U_speed, work->hi * ours.U_speed, range->load_min * ours.W_load,
+             range->load_max * ours.W_load);
   sb_study_note(out,
                 "U = \xce\xb7 (u/2)/(E' R), W = w/(E' R); R %.4g mm, E' %.4g MPa, \xce\xb7 %.4g "
                 "mPa s. \xc2\xb1: 95 %% confidence in this range. Curves at %.0f N/m.",

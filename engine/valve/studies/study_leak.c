@@ -189,9 +189,9 @@ static void make(SbStudyWork *work) {
   double design = model->seal[SB_OUTER].squeeze;
   sb_study_mark(work, design, "as designed, %.1f %%", 100 * design);
   bool own = model->fit != SB_FIT_DISC && model->fit != SB_FIT_RING;
-  sb_text(out->models, sizeof out->models,
-          "fit %s%sdisc, ring; percolation by Persson's contact; film as the scene's",
-          own ? sb_fit_model_name(model->fit) : "", own ? ", " : "");
+  sb_message(out->models, sizeof out->models,
+             "fit %s%sdisc, ring; percolation by Persson's contact; film as the scene's",
+             own ? sb_fit_model_name(model->fit) : "", own ? ", " : "");
   sb_study_note(out,
                 "Roughness %.3g \xc2\xb5m; channels close at %.3g MPa of solid pressure. Stroke "
                 "%.3g mm at %.4g mm/s. Karaszkiewicz holds from 7 to 25 %%.",

@@ -158,8 +158,8 @@ static void make(SbStudyWork *work) {
   sb_study_level(work, &out->panel[3], "table 7.8: 0.4", 0.4);
   sb_study_mark(work, model->canister_pressure, "canister");
   put_table(work);
-  sb_text(out->models, sizeof out->models, "disc-thesis, disc, ring, Karaszkiewicz%s",
-          is_thesis(model) ? "; printed: thesis tables 7.2 to 7.4, 7.8, 7.9" : "");
+  sb_message(out->models, sizeof out->models, "disc-thesis, disc, ring, Karaszkiewicz%s",
+             is_thesis(model) ? "; printed: thesis tables 7.2 to 7.4, 7.8, 7.9" : "");
   sb_study_note(out,
                 "Friction by shear strength: real area at rest x shear strength over the "
                 "load, as table 7.8; with m: the load coefficient %.3g added.",

@@ -347,9 +347,9 @@ static void ask_all(SbStudyWork *work, int points, const double table[TABLE]) {
     }
     const double across = work->scene->stem_diameter, area = M_PI / 4 * across * across;
     if (of->count > 0) {
-      sb_text(out->models, sizeof out->models,
-              "rings solved at %zu pressures, %.2f to %.2f MPa, interpolated within %.2g %%",
-              of->count, 1e-6 * of->least / area, 1e-6 * of->largest / area, 100 * error);
+      sb_message(out->models, sizeof out->models,
+                 "rings solved at %zu pressures, %.2f to %.2f MPa, interpolated within %.2g %%",
+                 of->count, 1e-6 * of->least / area, 1e-6 * of->largest / area, 100 * error);
     }
     out->error = fmax(out->error, error);
   }
@@ -420,7 +420,7 @@ static void make(SbStudyWork *work) {
     }
   }
   ask_all(work, points, table);
-  char starts[160] = "";
+  char starts[SB_TEXT / 2] = "";
   for (int fluid = 1; fluid <= FLUIDS; fluid++) {
     const char *label = sb_fluids[fluid].label;
     sb_study_curves(work, SB_STUDY_CURVE, label, line_of(fluid, ALL), NULL, points);
@@ -451,8 +451,8 @@ static void make(SbStudyWork *work) {
   note_modulus(work);
   sb_study_mark(work, model->temperature, "this scene");
   if (out->models[0] == '\0') {
-    sb_text(out->models, sizeof out->models, "fit %s, film %s, a cycle at each temperature",
-            sb_fit_model_name(model->fit), sb_film_model_name(model->film));
+    sb_message(out->models, sizeof out->models, "fit %s, film %s, a cycle at each temperature",
+               sb_fit_model_name(model->fit), sb_film_model_name(model->film));
   }
 }
 

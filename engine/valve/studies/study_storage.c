@@ -57,9 +57,9 @@ static void make(SbStudyWork *work) {
   SbStudyRow *scene = sb_study_row(out, "this scene, %.3g days", scene_time / 86400);
   sb_study_cells(scene->value, work, scene_time, 0);
   sb_study_mark(work, scene_time, "this scene");
-  sb_text(out->models, sizeof out->models, "fit %s, film %s; rubber: %d Prony terms, %s",
-          sb_fit_model_name(model->fit), sb_film_model_name(model->film), (int)model->rubber.terms,
-          model->rubber.swell_mass > 0 ? "Fickian swell" : "no swell");
+  sb_message(out->models, sizeof out->models, "fit %s, film %s; rubber: %d Prony terms, %s",
+             sb_fit_model_name(model->fit), sb_film_model_name(model->film),
+             (int)model->rubber.terms, model->rubber.swell_mass > 0 ? "Fickian swell" : "no swell");
   sb_study_note(out,
                 "%.1f K. Sliding at %.4g mm/s, pressures of B to C; the ring of each time is "
                 "fitted afresh.",

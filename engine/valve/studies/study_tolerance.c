@@ -92,8 +92,8 @@ static void make(SbStudyWork *work) {
   SbStudyRow *dose = &out->row[out->row_count - 1];
   sb_text(dose->si, sizeof dose->si, "kg");
   sb_text(dose->unit, sizeof dose->unit, "mg");
-  sb_text(out->models, sizeof out->models, "fit %s, film %s, quasi-static cycle of the machine",
-          sb_fit_model_name(model->fit), sb_film_model_name(model->film));
+  sb_message(out->models, sizeof out->models, "fit %s, film %s, quasi-static cycle of the machine",
+             sb_fit_model_name(model->fit), sb_film_model_name(model->film));
   sb_study_note(out,
                 "Half-widths: d %.3g and %.3g mm, ID %.3g and %.3g mm (outer, inner), g %.3g mm, "
                 "D %.3g mm, stem %.3g mm. \"by\": half the difference between the band's ends.",
