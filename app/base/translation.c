@@ -14,11 +14,13 @@ G_GNUC_UNUSED static const char *const listed[] = {
     N_("above"),
     // engine/valve/studies/study.h
     N_("Load over squeeze"),
-    N_("load, peak and width of every fitment model over the squeeze, beside the solved ring"),
+    N_("load, peak and width of every fitment model over the squeeze, compared with the solved "
+       "ring"),
     N_("Fitment models side by side"),
     N_("thesis, linear disc and finite-strain ring: loads, peaks, widths, sensitivities, friction"),
     N_("Film law from our own solutions"),
-    N_("h/R = k U^b W^a regressed over a range, with residuals, beside eq. 7.5, 7.6 and the limit"),
+    N_("h/R = k U^b W^a regressed over a range, with residuals, compared with eq. 7.5, 7.6 and the "
+       "limit"),
     N_("Storage time"),
     N_("load, friction, squeeze and modulus against storage time: relaxation, set, swell"),
     N_("Leak over squeeze"),

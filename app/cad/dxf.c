@@ -83,7 +83,7 @@ static bool read_pair(Reader *reader, GError **error) {
   copy(digits, sizeof digits, text, length);
   if (length >= sizeof digits || !sb_number_parse(&code, digits) || code != floor(code) ||
       fabs(code) > 9999) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "line %d is no group code of a DXF",
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "line %d is not a group code of a DXF",
                 reader->line);
     return false;
   }
@@ -103,7 +103,7 @@ static bool value_number(const Reader *reader, double *out, GError **error) {
   if (sb_number_parse(out, reader->value) && fabs(*out) < most) {
     return true;
   }
-  sb_app_error_input(error, "line %d: '%s' is no number here", reader->line, reader->value);
+  sb_app_error_input(error, "line %d: '%s' is not a number here", reader->line, reader->value);
   return false;
 }
 
@@ -627,8 +627,8 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
   } else if (read_drawing(&drawing, &reader, &unit, &problem)) {
     const double scale = unit != NULL ? scale_of(unit, &problem) : 0;
     if (unit == NULL) {
-      g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT, "tells no unit ($INSUNITS)%s",
-                  choices->section ? "" : ": say it by --unit");
+      g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT, "states no unit ($INSUNITS)%s",
+                  choices->section ? "" : ": specify it with --unit");
     } else if (scale > 0) {
       cad = sb_cad_new("DXF");
       cad->unit = g_strdup(unit);

@@ -339,7 +339,7 @@ int main(int argc, char **argv) {
   gmshOptionSetString("Geometry.OCCTargetUnit", "MM", &ierr);
   gmshOptionSetNumber("Geometry.OCCImportLabels", 1, &ierr);
   gmshModelOccImportShapes(argv[1], &bodies, &count, 1, "step", &ierr);
-  check(ierr != 0, "it is no STEP file that OpenCASCADE reads");
+  check(ierr != 0, "it is not a STEP file that OpenCASCADE reads");
   gmshModelOccSynchronize(&ierr);
   check(ierr, "its bodies cannot be built");
   size_t solids = 0;

@@ -50,7 +50,7 @@ static const char *guess_unit(double side, double *scale, GError **error) {
     return found;
   }
   g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-              "an STL file knows no unit, and its longest side of %.4g is %s: say it by --unit",
+              "an STL file knows no unit, and its longest side of %.4g is %s: specify it with --unit",
               side, found != NULL ? all->str : "that of a valve's part in none");
   return NULL;
 }
@@ -213,7 +213,7 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
                                                    unit, 1e3 * scale * side));
   }
   if (asymmetry(&solid, axis) > ALIKE) {
-    g_ptr_array_add(cad->warnings, g_strdup_printf("it is no body of revolution: its moments "
+    g_ptr_array_add(cad->warnings, g_strdup_printf("it is not a body of revolution: its moments "
                                                    "across the axis differ by %.2g %%",
                                                    100 * asymmetry(&solid, axis)));
   }

@@ -202,7 +202,7 @@ static void half_section(SbCadBody *body, const GArray *chain, bool closed, doub
     }
   }
   if (breaks > 1 || above->len == 0) {
-    body->why = g_strdup(above->len == 0 ? "it has no area beside the axis"
+    body->why = g_strdup(above->len == 0 ? "it has no area next to the axis"
                                          : "it crosses the axis more than twice");
     return;
   }

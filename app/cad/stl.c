@@ -273,7 +273,7 @@ gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *un
     return FALSE;
   }
   if (!(scale > 0.0)) {
-    sb_app_error_input(error, "%s: '%s' is no unit of length", name, unit);
+    sb_app_error_input(error, "%s: '%s' is not a unit of length", name, unit);
     return FALSE;
   }
   // Binary files may start with "solid" too: their length tells.

@@ -194,7 +194,7 @@ static void draw_table(Draw *d, SbRect rect) {
     sb_canvas_text(c, _(heads[i]), &head, column[i], rect.y + 38, SB_RIGHT);
   }
   sb_canvas_text(c, _("narrowed to"), &head, bar, rect.y + 38, SB_LEFT);
-  sb_canvas_text(c, _("told?"), &head, right, rect.y + 38, SB_RIGHT);
+  sb_canvas_text(c, _("identifiable"), &head, right, rect.y + 38, SB_RIGHT);
   for (size_t j = 0; j < d->view->rows; j++) {
     const SbCalibrationRow *row = &d->view->row[j];
     const double y = rect.y + 48 + ROW * (double)j, base = y + 20;

@@ -115,7 +115,7 @@ static void draw_strip(SbHysteresisView *v) {
   char digits[SB_FORMAT_MAX];
   g_autofree char *rms = isfinite(m->rms)
                              ? g_strdup_printf(_("rms %s N"), sb_format_digits(digits, m->rms, 3))
-                             : g_strdup(_("no point beside the model"));
+                             : g_strdup(_("no point to compare with the model"));
   sb_canvas_text_fit(c,
                      compact ? _("measured \xe2\x88\x92 model / N")
                              : _("measured \xe2\x88\x92 model / N; filled in-stroke, open return"),

@@ -276,9 +276,10 @@ int sb_command_cad(int argc, char **argv) {
       {0},
   };
   int code = SB_EXIT_INPUT;
-  if (sb_cli_parse(
-          &argc, &argv, entries, 1, 1,
-          "A drawing is a DXF (text) of half or whole sections, a STEP file, or an STL mesh.")) {
+  if (sb_cli_parse(&argc, &argv, entries, 1, 1,
+                   "FILE is a DXF drawing (text) of half or full sections (.dxf), a STEP file "
+                   "(.step, .stp) or an "
+                   "STL mesh (.stl).")) {
     code = read_options(&options);
     if (code == SB_EXIT_DONE) {
       g_autofree char *path = sb_shipped_resolve(argv[1], SB_SHIPPED_FOR_IMPORT);

@@ -38,7 +38,7 @@ static char *value_text(const SbCalibrated *of, double value) {
 static void print_table(const SbStudyFile *study, const SbCalibration *of) {
   printf("%s: %zu curves, %zu points\n", study->title, of->curves, of->points);
   printf("  %-36s%-8s%11s%11s  %-24s%s\n", "", "", "before", "estimate", "95 % interval",
-         "told by the data");
+         "identifiable");
   for (size_t j = 0; j < of->parameters; j++) {
     const SbCalibrated *one = &of->parameter[j];
     g_autofree char *before = value_text(one, one->before);

@@ -357,7 +357,7 @@ static int render_film(const SbRun *run, Request *request, const char *output) {
     double read_back = sb_section_painter_read_back(request->how.section_data);
     sb_cli_note(
         "%zu pictures in %.1f s (%.0f a second): drawing %.1f s, of it %.1f s "
-        "waiting for GL and reading back; beside it colours %.1f s and encoding %.1f s; engine "
+        "waiting for GL and reading back; in parallel colours %.1f s and encoding %.1f s; engine "
         "%.2f s before",
         result.frames, result.wall_s, (double)result.frames / result.wall_s, result.draw_s,
         read_back, result.convert_s, result.encode_s, sb_run_summary(run)->wall_s);

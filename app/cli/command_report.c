@@ -112,11 +112,11 @@ static int report_scene(const char *path, const Options *options) {
     const SbPlanWishes wishes = {.views = sb_report_views(model),
                                  .studies = (unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES),
                                  .life = true};
-    SbPlan plan;
+    g_autofree SbPlan *plan = g_new(SbPlan, 1);
     SbReport report = {0};
     SbRun *run = NULL;
-    sb_plan_wished(&plan, model, &wishes);
-    SbStatus status = sb_run_create(&run, model, &plan, &report);
+    sb_plan_wished(plan, model, &wishes);
+    SbStatus status = sb_run_create(&run, model, plan, &report);
     if (status == SB_OK) {
       SbProgress progress;
       sb_progress_start(&progress, "computing ");
@@ -157,7 +157,7 @@ static int report_study(const char *path, const Options *options) {
     return sb_cli_fail("--measured: is for a scene, not for a study");
   }
   if (study->design.asked || study->data->len > 0) {
-    return sb_cli_fail("%s: asks for a %s: a report takes what `sealbench study` computes", path,
+    return sb_cli_fail("%s: requests a %s: a report takes what `sealbench study` computes", path,
                        study->design.asked ? "design" : "calibration");
   }
   const int code = sb_cli_check_outputs(NULL, NULL, options->output);
@@ -183,7 +183,7 @@ int sb_command_report(int argc, char **argv) {
   };
   int code = SB_EXIT_INPUT;
   if (sb_cli_parse(&argc, &argv, entries, 1, 1,
-                   "Of a study, what NAME.store beside it has is not computed again.") &&
+                   "Answers that NAME.store next to a study has are not computed again.") &&
       sb_cli_jobs(&options.threads, options.jobs)) {
     if (options.output == NULL) {
       code = sb_cli_fail("-o is missing: the pages to write (.pdf, or - for standard output)");

@@ -119,10 +119,10 @@ static int judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *doc
 // Computes one file's run, cases and studies, and writes them. An exit code.
 static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *options) {
   const SbModel *model = file->model;
-  SbPlan plan;
+  g_autofree SbPlan *plan = g_new(SbPlan, 1);
   SbReport report = {0};
-  sb_plan_make(&plan, model);
-  if (!has_memory(file, plan.studies != 0)) {
+  sb_plan_make(plan, model);
+  if (!has_memory(file, plan->studies != 0)) {
     return SB_EXIT_IO;
   }
   int read;
@@ -131,7 +131,7 @@ static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *opt
     return read;
   }
   SbRun *run = NULL;
-  SbStatus status = sb_run_create(&run, model, &plan, &report);
+  SbStatus status = sb_run_create(&run, model, plan, &report);
   if (status != SB_OK) {
     return sb_cli_status(status, &report);
   }
@@ -149,9 +149,9 @@ static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *opt
     SbCaseVerdict verdict[SB_VERDICT_COUNT];
     int judged = judge(verdict, run, file->document);
     code = MAX(code, judged);
-    if (code != SB_EXIT_INTERRUPTED && plan.studies != 0) {
+    if (code != SB_EXIT_INTERRUPTED && plan->studies != 0) {
       studies = g_new(SbStudy, SB_STUDY_COUNT);
-      int studied = make_studies(studies, &study_count, model, plan.studies);
+      int studied = make_studies(studies, &study_count, model, plan->studies);
       code = studied != SB_EXIT_DONE ? studied : code;
     }
     SbLoop loop = {0};

@@ -165,13 +165,32 @@ static double value_of(char **names, const double *value, size_t count, const ch
   return NAN;
 }
 
+// The parameter of a column as study tables print it; NULL: this program knows none of that name.
+static const SbParam *param_of(const Export *out, const GPtrArray *columns, const char *name) {
+  const int id = columns == out->parameter ? sb_param_find(name) : -1;
+  return id >= 0 ? sb_param((SbParamId)id) : NULL;
+}
+
+static void put_choice(const Export *out, const SbParam *param, double value) {
+  char choice[64];
+  sb_param_choice_name(param, (int)value, choice, sizeof choice);
+  if (out->json != NULL) {
+    sb_json_string(out->json, param->key, choice);
+  } else {
+    fprintf(out->stream, ",%s", choice);
+  }
+}
+
 static void put_values(const Export *out, const GPtrArray *columns, char **names,
                        const double *value, size_t count) {
   for (guint i = 0; i < columns->len; i++) {
     char digits[SB_NUMBER_SIZE];
     const char *name = columns->pdata[i];
     const double of = value_of(names, value, count, name);
-    if (out->json != NULL) {
+    const SbParam *param = param_of(out, columns, name);
+    if (param != NULL && param->kind == SB_PARAM_CHOICE && isfinite(of)) {
+      put_choice(out, param, of);
+    } else if (out->json != NULL) {
       sb_json_number(out->json, name, of);
     } else {
       fprintf(out->stream, ",%s", isnan(of) ? "" : sb_number_format(digits, of));
@@ -220,9 +239,13 @@ static bool put_csv(Export *out, SbStore *store, GError **error) {
   fputs("row", out->stream);
   for (guint i = 0; i < out->parameter->len + out->figure->len; i++) {
     const bool parameter = i < out->parameter->len;
+    const char *name =
+        parameter ? out->parameter->pdata[i] : out->figure->pdata[i - out->parameter->len];
+    const SbParam *param = parameter ? param_of(out, out->parameter, name) : NULL;
+    g_autofree char *heading =
+        param != NULL ? g_strdup_printf("%s [%s]", name, param->si) : g_strdup(name);
     fputc(',', out->stream);
-    sb_csv_text(out->stream,
-                parameter ? out->parameter->pdata[i] : out->figure->pdata[i - out->parameter->len]);
+    sb_csv_text(out->stream, heading);
   }
   fputs(",status,reason,engine,warnings\n", out->stream);
   return sb_store_visit(store, put_csv_row, out, error);

@@ -35,7 +35,7 @@ static bool read_whole(int *out, const char *text, int most) {
 bool sb_cli_jobs(int *threads, const char *text) {
   *threads = (int)g_get_num_processors();
   if (text != NULL && !read_whole(threads, text, 256)) {
-    (void)sb_cli_fail("--jobs: \"%s\" is no number of threads (1 to 256)", text);
+    (void)sb_cli_fail("--jobs: \"%s\" is not a number of threads (1 to 256)", text);
     return false;
   }
   return true;
@@ -50,7 +50,7 @@ static int read_options(Options *options) {
     int index = 0, count = 0;
     if (g_strv_length(parts) != 2 || !read_whole(&count, parts[1], 100000) ||
         !read_whole(&index, parts[0], count)) {
-      return sb_cli_fail("--shard: \"%s\" is no I/N, from 1/N to N/N", options->shard);
+      return sb_cli_fail("--shard: \"%s\" is not of the form I/N, from 1/N to N/N", options->shard);
     }
     options->shard_index = (size_t)index - 1;
     options->shard_count = (size_t)count;
@@ -428,7 +428,7 @@ int sb_command_merge(int argc, char **argv) {
   }
   for (int i = 2; i < argc; i++) {
     if (!g_file_test(argv[i], G_FILE_TEST_IS_REGULAR)) {
-      return sb_cli_fail("%s: is no file", argv[i]);
+      return sb_cli_fail("%s: is not a file", argv[i]);
     }
   }
   GError *error = NULL;

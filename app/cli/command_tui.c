@@ -31,7 +31,7 @@ int sb_command_tui(int argc, char **argv) {
       {"colors", 0, 0, G_OPTION_ARG_FILENAME, &color,
        "none, 16, 256 or truecolor; else what NO_COLOR, COLORTERM and TERM say", "N"},
       {"pictures", 0, 0, G_OPTION_ARG_FILENAME, &picture,
-       "sixel, kitty, iterm, blocks, lines or none; else what the terminal tells", "KIND"},
+       "sixel, kitty, iterm, blocks, lines or none; else what the terminal reports", "KIND"},
       {"ascii", 0, 0, G_OPTION_ARG_NONE, &ascii, "No other signs than ASCII's", NULL},
       {0},
   };

@@ -12,7 +12,8 @@ typedef struct {
   gboolean on, off;
 } SbCliPlots;
 
-#define SB_CLI_PLOT_HELP    "Draws a chart below the table where standard output is no terminal, too"
+#define SB_CLI_PLOT_HELP                                                                           \
+  "Draws a chart below the table where standard output is not a terminal, too"
 #define SB_CLI_NO_PLOT_HELP "Draws none on a terminal"
 
 // Whether a chart is to follow the table.

@@ -102,7 +102,7 @@ static int judge(const SbAnswers *answers) {
   const size_t unsolved = count[SB_ERROR_NOT_CONVERGED];
   const size_t impossible = sb_study_failed(answers) - unsolved;
   if (impossible > 0) {
-    sb_cli_note("%zu of %zu samples are no valves: their values do not go together", impossible,
+    sb_cli_note("%zu of %zu samples are infeasible: their values do not go together", impossible,
                 answers->samples);
   }
   if (unsolved > 0) {

@@ -128,7 +128,7 @@ static bool take_said(SbMeasured *m, SbTable *table, const SbData *data, GPtrArr
       }
       if (channel == SB_CHANNELS && strcmp(word, "-") != 0) {
         sb_data_complain(data, keys[k], "time, displacement, force, -", issues,
-                         "\"%s\" is no column that is read", word);
+                         "\"%s\" is not a column that is read", word);
         return false;
       }
       if (channel < SB_CHANNELS) {
@@ -183,7 +183,7 @@ static bool settle_speed(SbMeasured *m, const SbTable *table, const SbData *data
   if (said != NULL && (!sb_quantity_parse(&speed, said, "m/s", "mm/min", NULL) ||
                        !(speed > 0 && speed <= SPEED_MAX))) {
     sb_data_complain(data, SB_DATA_SPEED, "as in 20 mm/min, up to 10 m/s", issues,
-                     "\"%s\" is no speed of a machine", said);
+                     "\"%s\" is not a speed of a machine", said);
     return false;
   }
   if (said != NULL && (column || m->column[SB_CHANNEL_TIME].index < 0)) {
@@ -321,7 +321,7 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     mean += m->force[i] / (double)m->count;
     if (i > 0 && !(m->time[i] >= m->time[i - 1])) {
       sb_data_complain(data, SB_DATA_FILE, NULL, issues,
-                       "its time goes back at row %zu, and nothing else tells the displacement",
+                       "its time goes back at row %zu, and nothing else gives the displacement",
                        i + 1);
       return false;
     }
@@ -353,7 +353,7 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     sb_data_complain(
         data, SB_DATA_FILE, NULL, issues,
         "its greatest force, where a machine of constant speed turns, is at row %zu of "
-        "%zu: that is no stroke and return",
+        "%zu: that is not a stroke and return",
         turn + 1, m->count);
     return false;
   }
@@ -409,8 +409,8 @@ static SbMeasured *read_table(SbTable *table, const SbData *data, double speed, 
   m->skipped_text = rows.left_text;
   if (m->skipped > m->count) {
     sb_issues_add(issues, data->path, m->skipped_line, NULL, NULL,
-                  "%zu lines are no rows of the table and %zu are, the first is \"%s\"", m->skipped,
-                  m->count, m->skipped_text);
+                  "%zu lines are not rows of the table and %zu are, the first is \"%s\"",
+                  m->skipped, m->count, m->skipped_text);
     return NULL;
   }
   if (!settle_rows(m, data, value, scale, issues)) {
@@ -538,7 +538,7 @@ char *sb_measured_text(const SbMeasured *m) {
                            m->dropped);
   }
   if (m->skipped > 0) {
-    g_string_append_printf(out, ", %zu lines between them are no rows (line %d: \"%s\")",
+    g_string_append_printf(out, ", %zu lines between them are not rows (line %d: \"%s\")",
                            m->skipped, m->skipped_line, m->skipped_text);
   }
   char digits[3][SB_NUMBER_SIZE];

@@ -171,7 +171,7 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     if (!sb_number_parse(&number, said) || number != floor(number) || number < 1 ||
         number > m->cycle->len) {
       g_autofree char *allowed = g_strdup_printf("all, or 1 to %u", m->cycle->len);
-      sb_data_complain(data, SB_DATA_CYCLE, allowed, issues, "\"%s\" is no cycle of it", said);
+      sb_data_complain(data, SB_DATA_CYCLE, allowed, issues, "\"%s\" is not a cycle of it", said);
       return false;
     }
     m->first = m->last = (size_t)number - 1;
@@ -262,7 +262,7 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     m->zero = m->force_zero = SB_HOW_SAID;
     if (strcmp(zero, "as-is") != 0 && !read_pair(&m->at_rest, &m->no_load, zero)) {
       sb_data_complain(data, SB_DATA_ZERO, "as-is, or as in 0.31 mm, 0.2 N", issues,
-                       "\"%s\" is no such pair", zero);
+                       "\"%s\" is not such a pair", zero);
       return false;
     }
   } else if (rise.level > 0) {
@@ -278,7 +278,7 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     if (strcmp(compliance, "none") != 0 &&
         (!sb_quantity_parse(&m->slope, compliance, "m/N", "mm/N", NULL) || m->slope < 0)) {
       sb_data_complain(data, SB_DATA_COMPLIANCE, "none, or as in 0.01 mm/N", issues,
-                       "\"%s\" is no compliance", compliance);
+                       "\"%s\" is not a compliance", compliance);
       return false;
     }
   } else if (rise.level > m->no_load) {

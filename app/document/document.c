@@ -28,6 +28,7 @@ SbDocument *sb_document_new(void) {
   document->faults = sb_issues_new();
   document->cases = sb_document_cases_new();
   document->pins = sb_document_pins_new();
+  document->pins_broken = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
   sb_document_remarks_init(document);
   document->shapes = sb_shapes_new();
   sb_params_init(&document->base);
@@ -66,6 +67,7 @@ void sb_document_free(SbDocument *document) {
   g_ptr_array_unref(document->faults);
   g_ptr_array_unref(document->cases);
   g_ptr_array_unref(document->pins);
+  g_hash_table_unref(document->pins_broken);
   sb_document_remarks_clear(document);
   sb_shapes_free(document->shapes);
   g_free(document);
@@ -301,6 +303,17 @@ void sb_document_refresh_title(SbDocument *document) {
   }
 }
 
+void sb_document_note_size(GPtrArray *notes, const char *file, SbParamId id, double value,
+                           SbParamId giver, double before, double now) {
+  g_autofree char *stays = sb_param_format(id, value);
+  g_autofree char *first = sb_param_format(giver, before);
+  g_autofree char *second = sb_param_format(giver, now);
+  g_ptr_array_add(notes, g_strdup_printf("%s stays at the %s of the %s while %s changes from "
+                                         "%s to %s; set it too if the drawing changes both",
+                                         sb_param(id)->key, stays, file, sb_param(giver)->key,
+                                         first, second));
+}
+
 // Adds a note for each size that a drawing would change with `giver`, which the document changes
 // from the value of its valve's file, while the file's value of that size stays.
 static void note_kept(GPtrArray *notes, const SbDocument *document, SbParamId giver) {
@@ -313,14 +326,8 @@ static void note_kept(GPtrArray *notes, const SbDocument *document, SbParamId gi
   const double before = sb_params_get(base, giver), now = sb_params_get(&all, giver);
   for (int id = 0; id < SB_PARAM_COUNT && now != before; id++) {
     if (sb_param_keeps((SbParamId)id, giver, kind) && base->given[id] && !own->given[id]) {
-      g_autofree char *value = sb_param_format((SbParamId)id, base->value[id]);
-      g_autofree char *first = sb_param_format(giver, before);
-      g_autofree char *second = sb_param_format(giver, now);
-      g_ptr_array_add(
-          notes, g_strdup_printf("%s stays at the %s of the valve's file while %s changes from "
-                                 "%s to %s; set it too if the drawing changes both",
-                                 sb_param((SbParamId)id)->key, value, sb_param(giver)->key, first,
-                                 second));
+      sb_document_note_size(notes, "valve's file", (SbParamId)id, base->value[id], giver, before,
+                            now);
     }
   }
 }
@@ -584,22 +591,22 @@ bool sb_document_compile(const SbDocument *document, SbModel **out, GPtrArray *i
     return false;
   }
   SbParams params = sb_document_params(document);
-  SbProblems problems;
+  g_autofree SbProblems *problems = g_new(SbProblems, 1);
   const char *shown = document->path != NULL ? document->path : document->name;
-  SbStatus status = sb_model_create(out, &params, document->data, &document->limits, &problems);
+  SbStatus status = sb_model_create(out, &params, document->data, &document->limits, problems);
   if (status == SB_ERROR_MEMORY) {
     sb_issues_add(issues, shown, 0, NULL, NULL, "%s", sb_status_text(status));
   } else if (status != SB_OK) {
-    add_problems(document, &params, &problems, issues);
+    add_problems(document, &params, problems, issues);
   }
   return status == SB_OK;
 }
 
 void sb_document_remarks(const SbDocument *document, const SbModel *model, GPtrArray *issues) {
   SbParams params = sb_document_params(document);
-  SbProblems problems;
-  sb_model_remarks(model, &problems);
-  add_problems(document, &params, &problems, issues);
+  g_autofree SbProblems *problems = g_new(SbProblems, 1);
+  sb_model_remarks(model, problems);
+  add_problems(document, &params, problems, issues);
 }
 
 static void sum_series(GChecksum *sum, const SbModelSeries *series) {

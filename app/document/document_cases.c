@@ -69,7 +69,7 @@ static void put_setting(SbParams *params, bool *set, SbNamedRubber **rubber,
                         const char *setting, GPtrArray *issues) {
   const char *equal = strchr(setting, '=');
   if (equal == NULL || equal == setting) {
-    sb_issues_add(issues, one->shown, 0, path, "KEY=VALUE; KEY=VALUE", "\"%s\" is no KEY=VALUE",
+    sb_issues_add(issues, one->shown, 0, path, "KEY=VALUE; KEY=VALUE", "\"%s\" is not KEY=VALUE",
                   setting);
     return;
   }
@@ -127,16 +127,16 @@ bool sb_document_case_model(const SbDocument *document, SbParams params, SbNamed
   if (rubber != NULL) {
     params.rubber = &data->rubber;
   }
-  SbProblems problems = {0};
-  SbStatus status = sb_model_create(out, &params, data, &document->limits, &problems);
+  g_autofree SbProblems *problems = g_new0(SbProblems, 1);
+  SbStatus status = sb_model_create(out, &params, data, &document->limits, problems);
   if (rubber != NULL) {
     sb_model_data_release(data); // the model has its own hold
   }
-  if (status != SB_OK && problems.count == 0) {
+  if (status != SB_OK && problems->count == 0) {
     sb_issues_add(issues, shown, 0, path, NULL, "%s", sb_status_text(status));
   }
-  for (size_t i = 0; status != SB_OK && i < problems.count; i++) {
-    const SbProblem *problem = &problems.item[i];
+  for (size_t i = 0; status != SB_OK && i < problems->count; i++) {
+    const SbProblem *problem = &problems->item[i];
     int id = sb_param_find(problem->key);
     g_autofree char *range =
         id >= 0 ? sb_document_problem_range(problem, sb_param((SbParamId)id)) : NULL;

@@ -33,7 +33,7 @@ static bool parse_limit(SbLimit *out, const char *text, const SbFigure *figure, 
     return parse_bound(&out->high, text + 2, figure, error);
   }
   if (dots == NULL) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "\"%s\" is no limit", text);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "\"%s\" is not a limit", text);
     return false;
   }
   g_autofree char *first = g_strndup(text, (gsize)(dots - text));

@@ -224,7 +224,7 @@ static bool read_stretch(const Part *part, const char *name, double *from, doubl
   }
   g_auto(GStrv) ends = g_strsplit(entry->value, "..", 2);
   if (g_strv_length(ends) != 2) {
-    complain(part, name, "3 mm .. 5 mm", "is no stretch of the profile");
+    complain(part, name, "3 mm .. 5 mm", "is not a stretch of the profile");
     return false;
   }
   *from = quantity(part, name, g_strstrip(ends[0]), "m", "mm");
@@ -384,7 +384,7 @@ static bool solve_mesh(SbSolid *solid, const Part *part, const char *file, const
           : strcmp(along->value, "z") == 0                ? 2
                                                           : -1;
   if (*axis < 0) {
-    complain(part, "axis", "x, y or z", "'%s' is no axis", along->value);
+    complain(part, "axis", "x, y or z", "'%s' is not an axis", along->value);
     return false;
   }
   g_autofree char *path = g_path_is_absolute(file) || directory == NULL
@@ -456,7 +456,7 @@ static void read_part(const Part *part, SbParamId mass, const char *directory) {
   if (profile == NULL && stl == NULL) {
     for (int i = 0; shape_keys[i] != NULL; i++) {
       if (find(part, shape_keys[i]) != NULL) {
-        complain(part, shape_keys[i], NULL, "needs a profile or an stl beside it");
+        complain(part, shape_keys[i], NULL, "needs a profile or an stl too");
       }
     }
     return;

@@ -1,6 +1,7 @@
 // A document's [pins]: designs that are kept beside it to compare with, NAME = KEY=VALUE; KEY=VALUE
-// as [cases] are written. A pin stands for all its values, whatever is edited afterwards: only the
-// file says it as a difference to the document, anew on each saving.
+// as [cases] are written. A pin stores all its values, whatever is edited afterwards: only the file
+// writes it as the difference from the document, recomputed when the document is saved. Lines that
+// cannot be read as a design stay in the file as they are.
 #include "app/base/reader.h"
 #include "app/base/writer.h"
 #include "app/document/document_private.h"
@@ -51,6 +52,15 @@ static bool is_unnamed(const char *name) {
          strspn(name + head, "0123456789") == strlen(name + head);
 }
 
+static bool has_line(const GPtrArray *lines, const char *name) {
+  for (guint i = 0; i < lines->len; i++) {
+    if (strcmp(((const SbCase *)lines->pdata[i])->name, name) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 void sb_document_read_pins(SbDocument *document, const GPtrArray *entries, const char *shown,
                            GPtrArray *issues) {
   g_autoptr(GPtrArray) lines = sb_document_cases_new();
@@ -67,10 +77,19 @@ void sb_document_read_pins(SbDocument *document, const GPtrArray *entries, const
     good = good && sb_document_case_model(document, params, rubber, shown, path, &model, issues);
     if (!good) {
       sb_named_rubber_release(rubber);
+      g_hash_table_add(document->pins_broken, g_strdup(line->name));
       continue;
     }
     add(document, is_unnamed(line->name) ? NULL : line->name, &params,
         rubber != NULL ? rubber : sb_named_rubber_hold(sb_document_rubber_in_force(document)));
+  }
+  // Lines beyond the largest number of designs were not read at all.
+  for (guint i = 0; i < entries->len; i++) {
+    const SbEntry *entry = entries->pdata[i];
+    if (entry->name != NULL && strcmp(entry->group, SB_PINS_GROUP) == 0 &&
+        !has_line(lines, entry->name)) {
+      g_hash_table_add(document->pins_broken, g_strdup(entry->name));
+    }
   }
   document->pins_changed = false;
 }
@@ -114,8 +133,16 @@ static char *settings_of(const SbDocument *document, const Pin *pin) {
 }
 
 static char *line_name(const SbDocument *document, size_t index) {
-  const char *name = pin_at(document, index)->name;
-  return name != NULL ? g_strdup(name) : g_strdup_printf(UNNAMED "%zu", index + 1);
+  const char *own = pin_at(document, index)->name;
+  char *name = own != NULL ? g_strdup(own) : NULL;
+  // Numbers of lines that cannot be read are taken.
+  for (size_t number = index + 1; name == NULL; number += document->pins->len) {
+    name = g_strdup_printf(UNNAMED "%zu", number);
+    if (g_hash_table_contains(document->pins_broken, name)) {
+      g_clear_pointer(&name, g_free);
+    }
+  }
+  return name;
 }
 
 void sb_document_change_pins(GArray *changes, const SbDocument *document) {
@@ -132,7 +159,8 @@ void sb_document_change_pins(GArray *changes, const SbDocument *document) {
   for (guint i = 0; i < document->entries->len; i++) {
     const SbEntry *entry = document->entries->pdata[i];
     if (entry->name != NULL && strcmp(entry->group, SB_PINS_GROUP) == 0 &&
-        !g_hash_table_contains(names, entry->name)) {
+        !g_hash_table_contains(names, entry->name) &&
+        !g_hash_table_contains(document->pins_broken, entry->name)) {
       SbChange change = {g_strdup(SB_PINS_GROUP), g_strdup(entry->name), NULL};
       g_array_append_val(changes, change);
     }
@@ -174,7 +202,8 @@ void sb_document_name_pin(SbDocument *document, size_t index, const char *name) 
   // What a key file's line cannot begin with or hold.
   g_autofree char *clean = g_strstrip(g_strdelimit(g_strdup(name), "=#[]\n\r\t", ' '));
   Pin *pin = pin_at(document, index);
-  bool taken = *clean == '\0' || is_unnamed(clean);
+  bool taken =
+      *clean == '\0' || is_unnamed(clean) || g_hash_table_contains(document->pins_broken, clean);
   for (size_t i = 0; i < document->pins->len; i++) {
     taken = taken || (i != index && g_strcmp0(pin_at(document, i)->name, clean) == 0);
   }

@@ -98,6 +98,7 @@ struct SbDocument {
   SbLimits limits;                    // on figures: the valve's, and its own in their place
   GPtrArray *cases;                   // in the same way (document_cases.c)
   GPtrArray *pins;                    // its own alone, see document_pins.c
+  GHashTable *pins_broken;            // names of its lines that are no design; they stay
   bool pins_changed;                  // since the file was read or written
   GPtrArray *remark[SB_REMARK_KINDS]; // what a review adds (document_review.c)
   bool remarks_changed;               // in the same way
@@ -242,6 +243,11 @@ void sb_document_edit_rubber(SbDocument *document, SbNamedRubber *rubber);
 
 // What a document in `directory` must call its own rubber; NULL: it has none. Owned by the caller.
 char *sb_document_rubber_name_at(const SbDocument *document, const char *directory);
+
+// Adds to `notes`: size `id` stays at `value` [SI], as `file` gives it, while `giver`, with which a
+// drawing would change it, goes from `before` to `now`.
+void sb_document_note_size(GPtrArray *notes, const char *file, SbParamId id, double value,
+                           SbParamId giver, double before, double now);
 
 // Adds a note to the document that states the modulus and the relation if `text`, the value of
 // `key`, is a hardness.

@@ -93,7 +93,7 @@ static char *problem_of(SbRemarkKind kind, const char *name, const char *text) {
   g_autoptr(GError) error = NULL;
   if (*name == '\0' || strlen(name) > NAME_MAX_BYTES || strpbrk(name, "=[]\n") != NULL ||
       *name == '#' || g_ascii_isspace(*name) || g_ascii_isspace(name[strlen(name) - 1])) {
-    return g_strdup_printf("\"%s\" is no name (1 to %d bytes, none of = [ ])", name,
+    return g_strdup_printf("\"%s\" is not a name (1 to %d bytes, none of = [ ])", name,
                            NAME_MAX_BYTES);
   }
   if (strlen(text) > TEXT_MAX_BYTES) {
@@ -102,7 +102,8 @@ static char *problem_of(SbRemarkKind kind, const char *name, const char *text) {
   if (kind == SB_REMARK_BOOKMARK && !sb_quantity_parse(&time, text, "s", "s", &error)) {
     return g_strdup(error->message);
   }
-  return kind == SB_REMARK_BOOKMARK && !(time >= 0) ? g_strdup("is no time (at least 0 s)") : NULL;
+  return kind == SB_REMARK_BOOKMARK && !(time >= 0) ? g_strdup("is not a time (at least 0 s)")
+                                                    : NULL;
 }
 
 static Remark *find(const SbDocument *document, SbRemarkKind kind, const char *name, guint *at) {

@@ -60,14 +60,14 @@ static bool read_heading(Reader *r, const SbTable *table, size_t column) {
     if (!sb_quantity_parse(&r->offset, none, "K", "°C", NULL) ||
         !sb_quantity_parse(&unit, one, "K", "°C", NULL)) {
       sb_issues_add(r->issues, r->name, line, NULL, "K, degC",
-                    "column %zu: \"%s\" is no unit of %s", column + 1, heading->unit,
+                    "column %zu: \"%s\" is not a unit of %s", column + 1, heading->unit,
                     heading->name);
       return false;
     }
     r->scale[column] = unit - r->offset;
   } else if (!(heading->clock && column == 0) &&
              !(sb_quantity_parse(&r->scale[column], one, si, si, NULL) && r->scale[column] > 0)) {
-    sb_issues_add(r->issues, r->name, line, NULL, si, "column %zu: \"%s\" is no unit of %s",
+    sb_issues_add(r->issues, r->name, line, NULL, si, "column %zu: \"%s\" is not a unit of %s",
                   column + 1, heading->unit, heading->name);
     si = NULL;
   }
@@ -120,7 +120,7 @@ static bool read_rows(Reader *r, const SbTable *table) {
   bool good = rows.left_text == NULL;
   if (!good) {
     sb_issues_add(r->issues, r->name, rows.left_line, NULL, "two numbers",
-                  "\"%s\" is no row of the series", rows.left_text);
+                  "\"%s\" is not a row of the series", rows.left_text);
   }
   for (size_t i = 0; i < rows.rows && good; i++) {
     good = take_row(r, i, value);

@@ -51,7 +51,7 @@ static void read_correlation(SbStudyReader *reader, const SbEntry *entry, double
   if (at[0] < 0 || at[1] < 0 || at[0] == at[1]) {
     sb_study_complain(reader, entry, "KEY, KEY = NUMBER", "does not name two parameters of [vary]");
   } else if (!sb_number_parse(&share, entry->value) || !(fabs(share) < 1)) {
-    sb_study_complain(reader, entry, "between -1 and 1", "is no correlation");
+    sb_study_complain(reader, entry, "between -1 and 1", "is not a correlation");
   } else {
     const size_t n = study->vary->len;
     matrix[(size_t)at[0] * n + (size_t)at[1]] = matrix[(size_t)at[1] * n + (size_t)at[0]] = share;
@@ -175,13 +175,13 @@ static void read_study(SbStudyReader *reader, const SbEntry *entry, bool *has_sa
     if (sb_study_read_count(&count, entry->value, 1, SB_SAMPLES_MAX)) {
       study->samples = (size_t)count;
     } else {
-      sb_study_complain(reader, entry, "1 to 10000000", "is no number of samples");
+      sb_study_complain(reader, entry, "1 to 10000000", "is not a number of samples");
     }
   } else if (strcmp(entry->name, "seed") == 0) {
     if (sb_study_read_count(&count, entry->value, 0, 9007199254740992.0)) {
       study->seed = (guint64)count;
     } else {
-      sb_study_complain(reader, entry, "0 to 2^53", "is no seed");
+      sb_study_complain(reader, entry, "0 to 2^53", "is not a seed");
     }
   } else if (strcmp(entry->name, "figures") == 0) {
     read_figures(reader, entry);
@@ -264,7 +264,7 @@ static bool read_meta(SbStudyReader *reader, char **scene) {
   const SbEntry *first = entries->len > 0 ? entries->pdata[0] : NULL;
   if (first == NULL || strcmp(first->group, SB_META_GROUP) != 0) {
     sb_issues_add(reader->issues, reader->shown, 0, NULL, NULL,
-                  "is no study: the first group must be [sealbench]");
+                  "is not a study: the first group must be [sealbench]");
     return false;
   }
   const char *format = NULL, *kind = NULL;
@@ -292,7 +292,7 @@ static bool read_meta(SbStudyReader *reader, char **scene) {
   }
   if (kind == NULL || strcmp(kind, "study") != 0) {
     sb_issues_add(reader->issues, reader->shown, 0, "sealbench.kind", "study", "%s",
-                  kind == NULL ? "is missing" : "is no study");
+                  kind == NULL ? "is missing" : "is not a study");
     return false;
   }
   if (*scene == NULL || **scene == '\0') {

@@ -61,7 +61,7 @@ static bool read_range(double *low, double *high, const SbVary *vary, const char
   text += strspn(text, " \t");
   const char *dots = strstr(text, "..");
   if (dots == NULL) {
-    return fail(error, "\"%s\" is no range", text);
+    return fail(error, "\"%s\" is not a range", text);
   }
   g_autofree char *first = g_strndup(text, (gsize)(dots - text));
   if (!read_value(low, vary, first, error) || !read_value(high, vary, dots + 2, error)) {
@@ -79,7 +79,7 @@ static bool read_uniform(SbVary *vary, const char *text, GError **error) {
     g_autofree char *digits = g_strstrip(g_strdup(comma + 1));
     if (!sb_number_parse(&count, digits) || count != floor(count) || count < 2 ||
         count > SB_SAMPLES_MAX) {
-      return fail(error, "\"%s\" is no number of points (2 and more)", digits);
+      return fail(error, "\"%s\" is not a number of points (2 and more)", digits);
     }
     of->count = (size_t)count;
   }
@@ -96,7 +96,7 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
   SbDistribution *of = &vary->distribution;
   const char *comma = strchr(text, ','), *within = strstr(text, " within ");
   if (comma == NULL || (within != NULL && within < comma)) {
-    return fail(error, "\"%s\" is no mean with a deviation", text);
+    return fail(error, "\"%s\" is not a mean with a deviation", text);
   }
   g_autofree char *mean = g_strndup(text, (gsize)(comma - text));
   g_autofree char *deviation = g_strstrip(
@@ -187,7 +187,7 @@ static bool read_distribution(SbVary *vary, const char *text, GError **error) {
       vary->distribution.kind = forms[i].kind;
       if (vary->offset && (kind != SB_PARAM_REAL || (forms[i].kind != SB_DISTRIBUTION_UNIFORM &&
                                                      forms[i].kind != SB_DISTRIBUTION_NORMAL))) {
-        return fail(error, "\"%s\" is no tolerance", text);
+        return fail(error, "\"%s\" is not a tolerance", text);
       }
       if ((kind == SB_PARAM_CHOICE || kind == SB_PARAM_INT) &&
           forms[i].kind != SB_DISTRIBUTION_LEVELS) {

@@ -251,7 +251,8 @@ bool sb_cae_check(const char *path, const SbFitProblem *problem, GError **error)
                 sb_fit_model_name(problem->model));
   } else if (KIND[kind].write == sb_cae_write_calculix && problem->dragged) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "%s: a ring with friction is not written for CalculiX: it hangs on its path", path);
+                "%s: a ring with friction is not written for CalculiX: it depends on its path",
+                path);
   } else if (KIND[kind].write == sb_cae_write_calculix &&
              (problem->wall_draft > 0 || problem->groove_corner > 0 ||
               problem->groove_chamfer > 0 || problem->groove != NULL)) {
@@ -259,9 +260,9 @@ bool sb_cae_check(const char *path, const SbFitProblem *problem, GError **error)
                 "%s: only grooves with upright walls and sharp edges are written for CalculiX",
                 path);
   } else if (KIND[kind].write == sb_cae_write_calculix && problem->gasket) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "%s: a gasket is not written for CalculiX: the plates' friction hangs on its path",
-                path);
+    g_set_error(
+        error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+        "%s: a gasket is not written for CalculiX: the plates' friction depends on its path", path);
   } else {
     return true;
   }

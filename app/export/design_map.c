@@ -578,7 +578,7 @@ static char *foot_of(const SbDesignAnswer *answer) {
   }
   g_string_append_printf(text, _(" in %.1f s"), map->seconds);
   if (map->refused > 0) {
-    g_string_append_printf(text, _("; %zu make no valve or were given up"), map->refused);
+    g_string_append_printf(text, _("; %zu are infeasible or did not converge"), map->refused);
   }
   return g_string_free(text, FALSE);
 }

@@ -125,7 +125,7 @@ static void draw_limits(SbReportPages *pages, Study *study) {
   sb_report_text(pages,
                  independent ? "Shares of the samples that are valves; a sample whose solver did "
                                "not converge widens the interval."
-                             : "The points are no independent draws, so they give no probability.",
+                             : "The points are not independent draws, so they give no probability.",
                  SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
 }
 

@@ -179,12 +179,19 @@ static void put_mode(SbJson *json, const SbStudyFile *study, const SbFailureMode
   }
   sb_json_object_end(json);
   // Shares of the squared distance, where the variates are those of the parameters.
-  sb_json_object(json, "importance");
-  for (size_t k = 0; study->root == NULL && k < study->vary->len; k++) {
-    const double part = mode->u[k] / mode->found.beta;
-    sb_json_number(json, vary_key(study, k), part * part);
+  if (study->root == NULL) {
+    sb_json_object(json, "importance");
+    for (size_t k = 0; k < study->vary->len; k++) {
+      const double part = mode->u[k] / mode->found.beta;
+      sb_json_number(json, vary_key(study, k), part * part);
+    }
+    sb_json_object_end(json);
+  } else {
+    sb_json_string(json, "importance", NULL);
+    sb_json_string(
+        json, "importance_reason",
+        "the parameters are correlated: the squared distance is not a sum of their shares");
   }
-  sb_json_object_end(json);
   sb_json_object_end(json);
 }
 
@@ -332,7 +339,7 @@ static SbStatus put_leakage(SbJson *json, const SbStudyFile *study, const SbAnsw
 }
 
 char *sb_study_typical(const SbStudyFile *study, int which) {
-  char text[240];
+  char text[SB_TEXT];
   const char *key = NULL;
   for (guint k = 0; k < study->figures->len && key == NULL; k++) {
     const char *path = sb_figure(g_array_index(study->figures, int, k))->path;

@@ -60,7 +60,7 @@ bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *
       return false;
     }
     if (!(value > 0 && isfinite(value))) {
-      return numbers[i].unit ? fail(error, "\"%s\" is no unit of length", text)
+      return numbers[i].unit ? fail(error, "\"%s\" is not a unit of length", text)
                              : fail(error, "\"%s\": a value above 0 is needed", text);
     }
     *numbers[i].value = value;
@@ -79,5 +79,5 @@ bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *
     choices->scan.channel = choices->channel = g_strdup(text);
     return true;
   }
-  return fail(error, "\"%s\" is no choice of a scan", name);
+  return fail(error, "\"%s\" is not a setting of a scan", name);
 }

@@ -299,7 +299,7 @@ static bool read_actuation(Curve *curve, GPtrArray *issues) {
       !(first + (double)m->first <= most)) {
     g_autofree char *allowed = g_strdup_printf("1 to %.0f", most);
     sb_data_complain(curve->data, SB_DATA_ACTUATION, allowed, issues,
-                     "\"%s\" is no number of an actuation since new", text);
+                     "\"%s\" is not a number of an actuation since new", text);
     return false;
   }
   if (m->first != m->last) {

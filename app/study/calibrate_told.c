@@ -115,7 +115,7 @@ static char *make_sentence(const SbCalibration *out) {
     }
   }
   if (text->len == 0) {
-    g_string_append(text, "These data tell each parameter by itself.");
+    g_string_append(text, "All parameters are identifiable from these data.");
   }
   return g_string_free(text, FALSE);
 }
@@ -156,8 +156,8 @@ static void add_origin(GString *origin, const SbCalibration *of, const SbCalibra
   }
   g_autofree char *low = sb_param_format(fitted->id, fitted->interval[0]);
   g_autofree char *high = sb_param_format(fitted->id, fitted->interval[1]);
-  g_string_append_printf(origin, "# %s: %s (95 %%: %s to %s), told by the data: %s\n", key,
-                         estimate, low, high, sb_told_name(fitted->told));
+  g_string_append_printf(origin, "# %s: %s (95 %%: %s to %s), identifiable: %s\n", key, estimate,
+                         low, high, sb_told_name(fitted->told));
 }
 
 // Sets a curve's values in a document and adds to `origin` where they come from; without `set`

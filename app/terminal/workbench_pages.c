@@ -183,7 +183,7 @@ static void draw_calibrate(SbBench *bench, SbCellRect rect) {
   const SbComparison *measured = data->measured;
   const SbPen plain = sb_bench_pen(bench, SB_ROLE_INK, 0);
   const SbPen quiet = sb_bench_pen(bench, SB_ROLE_SECOND, 0);
-  sb_cells_text(cells, 1, rect.y, rect.width - 2, _("Measured beside computed"),
+  sb_cells_text(cells, 1, rect.y, rect.width - 2, _("Measured and computed"),
                 sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
   const char *failure = sb_session_measured_failure(bench->session);
   if (measured == NULL) {
@@ -192,7 +192,7 @@ static void draw_calibrate(SbBench *bench, SbCellRect rect) {
         failure != NULL ? failure
                         : _("No loop was measured: a group [data] in the scene names its file, as "
                             "in `file = machine-export.csv`. `sealbench calibrate FILE.study` fits "
-                            "parameters to one and says which of them it tells."),
+                            "parameters to one and reports which are identifiable."),
         failure != NULL ? sb_bench_pen(bench, SB_ROLE_ERROR, 0) : quiet);
     return;
   }
@@ -276,7 +276,7 @@ static const char *const help[] = {
     N_("1 2 3 4         valve, studies, measured, propellants"),
     N_("s  S  o         save, save as, open"),
     N_("x               export: .json, .txt of this screen, a picture or film of a view"),
-    N_("Ctrl-L          draw the screen anew; Ctrl-Z suspend"),
+    N_("Ctrl-L          redraw the screen; Ctrl-Z suspend"),
     N_("q               quit"),
 };
 

@@ -391,11 +391,11 @@ static void test_mesh_refused(void) {
   g_autoptr(GByteArray) slotted = shaft_mesh(1, true), small = shaft_mesh(0.2, false);
   g_autoptr(SbCad) cad = parse_mesh(slotted, &none, &error);
   g_assert_no_error(error);
-  g_assert_true(g_str_has_prefix(cad->warnings->pdata[1], "it is no body of revolution"));
+  g_assert_true(g_str_has_prefix(cad->warnings->pdata[1], "it is not a body of revolution"));
   g_assert_null(parse_mesh(small, &none, &error));
   g_assert_cmpstr(error->message, ==,
                   "parts/Stem-centre.stl: an STL file knows no unit, and its longest side of 1.2 "
-                  "is in mm 1.2 mm, in inch 30.5 mm: say it by --unit");
+                  "is in mm 1.2 mm, in inch 30.5 mm: specify it with --unit");
   g_clear_error(&error);
   // A facet is missing: open.
   const guint32 fewer = slotted->data[80] - 1U + 256U * slotted->data[81];
@@ -569,12 +569,12 @@ static void test_refused(void) {
     const char *text, *says;
   } cases[] = {
       {"", "a.dxf: is neither a STEP file (ISO 10303-21) nor a DXF: it has no section"},
-      {"hello\nworld\n", "a.dxf: line 1 is no group code of a DXF"},
+      {"hello\nworld\n", "a.dxf: line 1 is not a group code of a DXF"},
       {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\nfar\n",
-       "a.dxf: line 8: 'far' is no number here"},
+       "a.dxf: line 8: 'far' is not a number here"},
       {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n", "a.dxf: the file ends behind line 7"},
       {"  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n",
-       "a.dxf: tells no unit ($INSUNITS): say it by --unit"},
+       "a.dxf: states no unit ($INSUNITS): specify it with --unit"},
       {"AutoCAD Binary DXF\r\n\x1a", "a.dxf: is a binary DXF: save it as text (ASCII)"},
   };
   const SbCadChoices none = {0}, millimetres = {.unit = "mm"}, wrong = {.unit = "kg"};

@@ -132,7 +132,7 @@ static void test_limits(void) {
   cli_clear(&run);
   static const char *const bad[][2] = {
       {"cycle.force_return_min = >= 2 N", "do you mean cycle.force_return_min_N?"},
-      {"cycle.force_peak_N = 30 N", "[limits] cycle.force_peak_N: \"30 N\" is no limit"},
+      {"cycle.force_peak_N = 30 N", "[limits] cycle.force_peak_N: \"30 N\" is not a limit"},
       {"cycle.force_peak_N = 3 N .. 2 N", "does not rise"},
       {"cycle.force_peak_N = <= 30", "has no unit"},
       {"cycle.force_peak_N = <= 30 mm", "another kind"},
@@ -278,7 +278,7 @@ static void test_sensitivity(void) {
     const char *option, *value, *says;
   } wrong[] = {{"--figures", "cycle.force_braekaway_N", "do you mean cycle.force_breakaway_N?"},
                {"--parameters", "gland.radial_spce", "do you mean gland.radial_space?"},
-               {"--parameters", "models.film", "models.film is no real number"}};
+               {"--parameters", "models.film", "models.film is not a real number"}};
   for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
     result = CLI("sensitivity", cli.scene, wrong[i].option, wrong[i].value);
     g_assert_cmpint(result.code, ==, 1);

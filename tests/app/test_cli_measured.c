@@ -387,6 +387,14 @@ static void test_check(void) {
   g_assert_cmpint(result.code, ==, 0);
   g_assert_nonnull(strstr(result.err, "60 Shore A is a modulus of 3.61 MPa"));
   cli_clear(&result);
+  // Notes are not printed with --quiet.
+  result = CLI("plan", quick, "--set", "seal.modulus=60 Shore A");
+  g_assert_nonnull(strstr(result.err, "note: seal.modulus: 60 Shore A is a modulus"));
+  cli_clear(&result);
+  result = CLI("plan", quick, "--set", "seal.modulus=60 Shore A", "-q");
+  g_assert_cmpint(result.code, ==, 0);
+  g_assert_cmpstr(result.err, ==, "");
+  cli_clear(&result);
   result = CLI("check", plain, "--set", "seal.modulus=60 Shore A");
   g_assert_cmpint(result.code, ==, 1);
   cli_clear(&result);

@@ -103,7 +103,7 @@ static void test_damage(void) {
   cli_clear(&result);
   result = CLI("store", "export", saved);
   g_assert_cmpint(result.code, ==, 0);
-  g_assert_true(g_str_has_prefix(result.out, "row,gland.radial_space,cycle.force_breakaway_N,"
+  g_assert_true(g_str_has_prefix(result.out, "row,gland.radial_space [m],cycle.force_breakaway_N,"
                                              "seals.outer.load_N,status,reason,engine,warnings\n"));
   g_auto(GStrv) lines = g_strsplit(result.out, "\n", -1);
   g_assert_cmpuint(g_strv_length(lines), ==, 4); // heading, two rows, the end

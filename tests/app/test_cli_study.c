@@ -140,14 +140,14 @@ static void test_told(void) {
   g_autofree char *study = write_study("monte-carlo", "samples = 0\n");
   CliResult result = CLI("study", study);
   g_assert_cmpint(result.code, ==, 1);
-  g_assert_nonnull(strstr(result.err, "x.study: [study] samples: is no number of samples"));
+  g_assert_nonnull(strstr(result.err, "x.study: [study] samples: is not a number of samples"));
   cli_clear(&result);
   g_autofree char *store = path_of("x.store");
   g_assert_false(g_file_test(store, G_FILE_TEST_EXISTS)); // nothing was begun
   g_free(write_study("grid", ""));
   result = CLI("study", study, "--shard", "3/2");
   g_assert_cmpint(result.code, ==, 1);
-  g_assert_nonnull(strstr(result.err, "--shard: \"3/2\" is no I/N"));
+  g_assert_nonnull(strstr(result.err, "--shard: \"3/2\" is not of the form I/N"));
   cli_clear(&result);
   result = CLI("merge", store, study);
   g_assert_cmpint(result.code, ==, 1);
@@ -204,6 +204,10 @@ static void test_reliability(void) {
   g_assert_true(low < truth && truth < high && high < 1.4 * low);
   g_assert_cmpfloat(
       fabs(share_beyond(cli_number(root, "limits.0.failure_points.0.beta")) / truth - 1), <, 2e-3);
+  // Shares of correlated parameters do not add up: null, with the reason.
+  g_assert_true(json_node_is_null(cli_at(root, "limits.0.failure_points.0.importance")));
+  g_assert_nonnull(
+      json_node_get_string(cli_at(root, "limits.0.failure_points.0.importance_reason")));
   // The second is missed by most, and on its upper side never.
   const double most = below_squeeze(0.16);
   g_assert_cmpfloat(most, >, 0.5);

@@ -2,6 +2,7 @@
 #include "app/base/output.h"
 #include "app/base/unit.h"
 #include "app/document/document.h"
+#include "app/document/rubber_sheet.h"
 #include "app/export/still.h"
 
 #include <glib/gstdio.h>
@@ -475,6 +476,28 @@ static void test_rubbers(void) {
   }
 }
 
+// A source that is too long for messages is refused, not cut.
+static void test_rubber_source(void) {
+  for (int more = 0; more < 2; more++) {
+    g_autofree char *source = g_strnfill((gsize)(SB_SOURCE_MAX - 1 + more), 's');
+    g_autofree char *text = g_strdup_printf("[sealbench]\nformat = 1\nkind = rubber\n"
+                                            "[rubber]\ndensity = 999 kg/m3\n"
+                                            "[source]\nrubber.density = %s\n",
+                                            source);
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autofree SbRubberSheet *sheet = g_new(SbRubberSheet, 1);
+    g_assert_cmpint(sb_rubber_sheet_parse(sheet, text, strlen(text), "x.rubber", issues), ==,
+                    more == 0);
+    if (more > 0) {
+      const char *line = sb_issue_line(issues->pdata[0]);
+      g_assert_nonnull(strstr(line, "density"));
+      g_assert_nonnull(strstr(line, "at most 255 bytes"));
+    } else {
+      g_assert_cmpstr(sheet->figure[0].source, ==, source);
+    }
+  }
+}
+
 // Measured data are put in, taken back and put in again like a value; what is saved is the file's.
 static void test_edited_data(void) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
@@ -611,10 +634,10 @@ static void test_own_rubber(void) {
        "[permeability] hfa-134a: "},
       {RUBBER "[seal]\nmodulus = 4 MPa\n", "own.rubber: [seal] modulus: has no source"},
       {RUBBER "[seal]\nmodulus = 4 mm\n[source]\nseal.modulus = own\n", "[seal] modulus: "},
-      {RUBBER "[gland]\nradial_space = 1 mm\n", "is no figure of a rubber"},
+      {RUBBER "[gland]\nradial_space = 1 mm\n", "is not a figure of a rubber"},
       {RUBBER "[swell]\nhfa-1 = 4 %\n[source]\nswell.hfa-1 = own\n", "names no fluid"},
-      {RUBBER "[source]\nseal.modulus = own\n", "source: seal.modulus is no figure"},
-      {"[sealbench]\nformat = 1\nkind = valve\n", "is no rubber"},
+      {RUBBER "[source]\nseal.modulus = own\n", "source: seal.modulus is not a figure"},
+      {"[sealbench]\nformat = 1\nkind = valve\n", "is not a rubber"},
   };
   char *folder = temporary_folder();
   g_autofree char *path = g_build_filename(folder, "own.rubber", NULL);
@@ -680,6 +703,19 @@ static void test_project(void) {
   g_assert_cmpstr(sb_document_remark_text(again, SB_REMARK_NOTE, 1), ==, "a\nb");
   sb_document_free(again);
   sb_document_free(document);
+  // A line that is not a design stays in the file when another design is saved, with its number.
+  static const char broken[] = "[sealbench]\nformat = 1\nkind = project\nvalve = piston.valve\n"
+                               "[pins]\npin 1 = gland.radial_spaec = 1.38 mm\n";
+  g_autoptr(GPtrArray) wrong = sb_issues_new();
+  document = sb_document_parse(broken, strlen(broken), "x.project", folder, wrong);
+  g_assert_cmpuint(wrong->len, ==, 1);
+  g_assert_nonnull(document);
+  const SbOverride wide = {SB_P_GLAND_RADIAL_SPACE, 1.39e-3};
+  g_assert_true(sb_document_add_pin(document, &wide, 1));
+  g_autofree char *saved = sb_document_to_text(document, NULL);
+  g_assert_nonnull(strstr(saved, "pin 1 = gland.radial_spaec = 1.38 mm\n"));
+  g_assert_nonnull(strstr(saved, "pin 2 = gland.radial_space = 1.39 mm\n"));
+  sb_document_free(document);
   // What is no such.
   static const struct {
     const char *lines, *word;
@@ -713,6 +749,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/document/picture", test_picture);
   g_test_add_func("/document/links", test_links);
   g_test_add_func("/document/rubbers", test_rubbers);
+  g_test_add_func("/document/rubber-source", test_rubber_source);
   g_test_add_func("/document/own-rubber", test_own_rubber);
   g_test_add_func("/document/edited-data", test_edited_data);
   g_test_add_func("/document/edited-rubber", test_edited_rubber);

@@ -268,7 +268,7 @@ static void test_refused(void) {
       {"profile = mm 0,1 5;1 5,2\n", "profile", "point 2"},
       {"profile = mm 0,1 0x5,1 5,2\n", "profile", "point 2"},
       {"profile = mm 10,0 10,2 0,2 0,0\nland = 20 mm .. 30 mm\n", "land", "does not reach"},
-      {"profile = mm 10,0 10,2 0,2 0,0\nland = 20 mm\n", "land", "no stretch"},
+      {"profile = mm 10,0 10,2 0,2 0,0\nland = 20 mm\n", "land", "not a stretch"},
       {"stl = nowhere.stl\nunit = mm\n", "stl", "nowhere.stl"},
       {"stl = nowhere.stl\n", "unit", "knows no unit"},
       {"stl = a.stl\nunit = mm\nprofile = mm 0,0 1,1 1,0\n", "stl", "not both"},

@@ -81,7 +81,7 @@ static void test_gwy(void) {
   parse(&scan, bytes, &(SbScanChoices){.ignore_mask = TRUE});
   g_assert_cmpfloat(scan.heights.z[45], ==, 0);
   sb_scan_clear(&scan);
-  assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.channel = "9"}, "no lengths");
+  assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.channel = "9"}, "not lengths");
   assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.channel = "4"},
                  "no channel 4 (there are 0 \"Topography 0\", 9)");
   assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.unit = 1}, "--unit");
@@ -154,7 +154,7 @@ static void test_x3p(void) {
     const char *from, *to, *why;
   } wrong[] = {{"<SizeX>20<", "<SizeX>21<", "2720 bytes of points"},
                {"<SizeX>20<", "<SizeX>-4<", "matrix of \"-4\""},
-               {"<AxisType>I<", "<AxisType>A<", "CX is no incremental axis"},
+               {"<AxisType>I<", "<AxisType>A<", "CX is not an incremental axis"},
                {">SUR<", ">PCL<", "feature type \"PCL\""},
                {">D<", ">Q<", "data type \"Q\""},
                {"bindata/data.bin<", "bindata/date.bin<", "no member \"bindata/date.bin\""},
@@ -339,7 +339,7 @@ static void test_numbers(void) {
 static void test_refused(void) {
   assert_refused("", 0, &plain, "no numbers");
   assert_refused("hello\nworld\n", 12, &plain, "no numbers");
-  assert_refused("\0\1\2", 3, &plain, "no scan that is known");
+  assert_refused("\0\1\2", 3, &plain, "not a scan that is known");
   assert_refused("0,5\n0,6\n0,7\n", 12, &plain, "reads in two ways");
   assert_refused("ncols 100000\nnrows 100000\ncellsize 1\n1 2 3\n", 43,
                  &(SbScanChoices){.unit = 1e-9}, "3 numbers where the header announces");

@@ -60,8 +60,8 @@ static void test_refused(void) {
        "a leakage test draws its cans"},
       {STUDY, "vary: nothing varies"},
       {"[vary]\n" LEVELS, "samples: is missing"},
-      {"[vary]\n" LEVELS "[study]\nsamples = 0\n", "is no number of samples"},
-      {"[vary]\n" LEVELS "[study]\nsamples = 1e9\n", "is no number of samples"},
+      {"[vary]\n" LEVELS "[study]\nsamples = 0\n", "is not a number of samples"},
+      {"[vary]\n" LEVELS "[study]\nsamples = 1e9\n", "is not a number of samples"},
       {"[vary]\n" LEVELS STUDY "method = guess\n",
        "there is no such method (allowed grid, monte-carlo, "},
       {"[vary]\n" LEVELS STUDY "figures = cycle.force\n", "there is no figure \"cycle.force\""},
@@ -77,7 +77,7 @@ static void test_refused(void) {
        "does not name two parameters of [vary]"},
       {"[vary]\n" LEVELS "bore.diameter = levels 6 mm" STUDY
        "[correlation]\ngland.radial_space, bore.diameter = 1.2\n",
-       "is no correlation (allowed between -1 and 1)"},
+       "is not a correlation (allowed between -1 and 1)"},
       {"[vary]\nfluid.name = levels hfa-134a, hfa-152a" STUDY
        "method = reliability\n[limits]\ncycle.force_breakaway_N = <= 30 N\n",
        "[vary] fluid.name: the method reliability takes no levels"},
@@ -87,17 +87,17 @@ static void test_refused(void) {
 #define LEAST "[design]\nobjective = minimise cycle.force_breakaway_N\n"
       {SPACE "[design]\nobjective = minimise cycle.force\n",
        "[design] objective: there is no figure \"cycle.force\""},
-      {SPACE "[design]\nobjective = least cycle.force_breakaway_N\n", "is no objective"},
-      {SPACE "[design]\nobjective = minimise cycle.returns\n", "a yes or no is no objective"},
+      {SPACE "[design]\nobjective = least cycle.force_breakaway_N\n", "is not an objective"},
+      {SPACE "[design]\nobjective = minimise cycle.returns\n", "a yes or no is not an objective"},
       {SPACE "[design]\nstarts = 3\n", "[design] objective: is missing"},
       {SPACE LEAST "colour = red\n", "[design] colour: unknown key"},
-      {SPACE LEAST "robust = 1\n", "is no probability that all limits hold"},
+      {SPACE LEAST "robust = 1\n", "is not a probability that all limits hold"},
       {SPACE LEAST "robust = 0.99\n", "[design] robust: needs [tolerances]"},
       {SPACE LEAST "[tolerances]\ngland.radial_space = normal 0 mm, -0.01 mm\n",
        "[tolerances] gland.radial_space: the deviation \"-0.01 mm\" is not above 0"},
       {SPACE LEAST "[tolerances]\ngland.radial_space = normal 0 mm, 0.01 N\n",
        "\"N\" is a unit of another kind, expected mm"},
-      {SPACE LEAST "[tolerances]\ngland.radial_space = levels 0 mm\n", "is no tolerance"},
+      {SPACE LEAST "[tolerances]\ngland.radial_space = levels 0 mm\n", "is not a tolerance"},
       {"[vary]\nseal.outer.section_diameter = uniform 1.5 mm .. 1.6 mm\n" LEAST
        "[tolerances]\nseal.section_diameter = normal 0 mm, 0.01 mm\n",
        "[tolerances] seal.section_diameter: seal.outer.section_diameter varies, which this does "

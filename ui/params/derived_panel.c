@@ -35,7 +35,7 @@ static const Item items[] = {
     {"seals.outer.stretch_inner", N_("low"), N_("high"), NULL, 0, 0.25, 0, 0,
      SB_GLAND_STRETCH_INNER},
     {"seals.outer.gland_fill", N_("low"), N_("high"), NULL, 0.3, 1.1, 0, 0, SB_GLAND_FILL},
-    {"cycle.force_return_margin_N", N_("low"), N_("high"), N_("This program asks for 2 N."), -2, 8,
+    {"cycle.force_return_margin_N", N_("low"), N_("high"), N_("This program requires 2 N."), -2, 8,
      2, INFINITY, NO_GLAND},
     {"dose.metered_volume_m3", N_("small"), N_("large"), N_("Usual: 25 to 100 µl."), 0, 150e-9,
      25e-9, 100e-9, NO_GLAND},

@@ -16,7 +16,7 @@ static const struct {
   int fit;
 } choices[2] = {
     {N_("Closed form"), N_("Closed"), "karaszkiewicz",
-     N_("Rings by the closed form of Karaszkiewicz: at once"), SB_FIT_KARASZKIEWICZ},
+     N_("Rings by the closed form of Karaszkiewicz: immediate"), SB_FIT_KARASZKIEWICZ},
     {N_("Rings solved"), N_("Solved"), "ring", N_("Rings solved by finite elements: seconds"),
      SB_FIT_RING},
 };

@@ -176,7 +176,7 @@ static void add_toolbar(Page *page) {
   }
   page->item =
       sb_toolbar_combo(GTK_BOX(bar), (const char *const *)titles->pdata, (int)titles->len,
-                       _("Table or figure"), _("Table or figure of the thesis, computed anew"));
+                       _("Table or figure"), _("Table or figure of the thesis, recomputed"));
   // Titles are long; the page asks for no more width than others do.
   g_autoptr(GList) cells = gtk_cell_layout_get_cells(GTK_CELL_LAYOUT(page->item));
   for (GList *cell = cells; cell != NULL; cell = cell->next) {

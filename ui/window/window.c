@@ -549,7 +549,7 @@ static void sb_window_init(SbWindow *window) {
                     gtk_image_new_from_icon_name("view-dual-symbolic", GTK_ICON_SIZE_BUTTON));
   gtk_widget_show_all(charts);
   gtk_widget_set_visible(charts, FALSE);
-  gtk_widget_set_tooltip_text(charts, _("Charts beside the section"));
+  gtk_widget_set_tooltip_text(charts, _("Charts next to the section"));
   sb_style_name(charts, _("Charts"), NULL);
   gtk_header_bar_pack_end(GTK_HEADER_BAR(window->header), charts);
   sb_paned_layout_attach(GTK_PANED(window->columns), GTK_PANED(window->views), charts);

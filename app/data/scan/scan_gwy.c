@@ -304,7 +304,7 @@ static gboolean read_channel(SbScan *out, const Channel *channel, const SbScanCh
   const double z = sb_scan_length(field.unit_z != NULL ? field.unit_z : "");
   gboolean good = xy > 0 && z > 0;
   if (!good) {
-    sb_scan_fail(error, name, "units of the channel are no lengths (\"%s\", heights \"%s\")",
+    sb_scan_fail(error, name, "units of the channel are not lengths (\"%s\", heights \"%s\")",
                  field.unit_xy != NULL ? field.unit_xy : "",
                  field.unit_z != NULL ? field.unit_z : "");
   }

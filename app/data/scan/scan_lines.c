@@ -244,7 +244,7 @@ static gboolean read_lines(SbScanText *out, SbScanBytes bytes, GError **error) {
       return sb_scan_fail(error, out->name, "has too many numbers");
     }
   }
-  return out->rows > 0 || sb_scan_fail(error, out->name, "is no scan: it holds no numbers");
+  return out->rows > 0 || sb_scan_fail(error, out->name, "is not a scan: it holds no numbers");
 }
 
 gboolean sb_scan_text_read(SbScanText *out, SbScanBytes bytes, GError **error) {
@@ -269,7 +269,7 @@ gboolean sb_scan_text_read(SbScanText *out, SbScanBytes bytes, GError **error) {
     bytes.at += 3;
   }
   if (bytes.at < bytes.end && memchr(bytes.at, '\0', (gsize)(bytes.end - bytes.at)) != NULL) {
-    return sb_scan_fail(error, out->name, "is no scan that is known (text, .gwy, .sur or .x3p)");
+    return sb_scan_fail(error, out->name, "is not a scan that is known (text, .gwy, .sur or .x3p)");
   }
   return read_lines(out, bytes, error);
 }

@@ -23,7 +23,7 @@ static double spacing(const guchar *h, int axis, const char *name, GError **erro
   g_autofree char *unit = field(h + 180 + 16 * axis, 16);
   const double step = sb_scan_float(h + 120 + 4 * axis), metres = sb_scan_length(unit);
   if (!(metres > 0) || !isfinite(step) || step == 0) {
-    sb_scan_fail(error, name, "the spacing along %c, %g \"%s\", is no length", names[axis], step,
+    sb_scan_fail(error, name, "the spacing along %c, %g \"%s\", is not a length", names[axis], step,
                  unit);
     return 0;
   }

@@ -158,7 +158,7 @@ static gboolean read_step(double *out, const Main *main, int type, const char *a
   *out = number(main, type + 1, NAN);
   if (strcmp(text_of(main, type), "I") != 0) {
     return sb_scan_fail(error, bytes->name,
-                        "%s is no incremental axis: points at any place are "
+                        "%s is not an incremental axis: points at any place are "
                         "not read",
                         axis);
   }
@@ -242,7 +242,7 @@ gboolean sb_scan_parse_x3p(SbScan *out, SbScanBytes bytes, const SbScanChoices *
   zip_t *zip = source != NULL ? zip_open_from_source(source, ZIP_RDONLY, &problem) : NULL;
   if (zip == NULL) {
     zip_source_free(source);
-    sb_scan_fail(error, bytes.name, "is no sound zip: %s", zip_error_strerror(&problem));
+    sb_scan_fail(error, bytes.name, "is not a sound zip: %s", zip_error_strerror(&problem));
     zip_error_fini(&problem);
     return FALSE;
   }
