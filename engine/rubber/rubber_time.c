@@ -129,6 +129,9 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
   return SB_OK;
 }
 
+// Share of the network below which the rubber is a liquid, not a seal.
+static const double NETWORK_MIN = 1e-6;
+
 // What the glass transition adds to the modulus [Pa].
 static double glassy(const SbRubber *r, double temperature) {
   static const double GLASS = 1e9, HELD = 10.0, AT_GLASS = 100.0, SHAPE = 0.7; // [Pa], [s], [s]
@@ -242,6 +245,12 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
   const double growth = (1.0 + out->linear_swell) * (1.0 + r->thermal_expansion * warmer);
   out->section_diameter = storage->section_diameter * growth;
   out->inner_diameter = storage->inner_diameter * growth;
+  if (out->network < NETWORK_MIN) {
+    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "rubber.network_rate",
+                             "no network is left to carry a load after %.3g s of storage: bonds "
+                             "break at %.3g 1/s",
+                             storage->storage_time, r->network_rate);
+  }
   out->modulus =
       storage->modulus * out->stiffening * out->swell_modulus * out->relaxation * out->network;
   out->section_after_set =

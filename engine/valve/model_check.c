@@ -1,5 +1,6 @@
 // What a model refuses before anything is worked out, what it remarks, and what it has to say about
 // its validity.
+#include "engine/contact/rough/persson.h"
 #include "engine/valve/gasket.h"
 
 #include "engine/fluid/fluid.h"
@@ -112,6 +113,14 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
   }
   if (model->fit_variant < 0) {
     check_variant(model, problems);
+  }
+  SbSpectrum spectrum;
+  if (model->surface == SB_ROUGH_PERSSON &&
+      sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
+                                  model->gt_product, NULL) == SB_ERROR_INFEASIBLE) {
+    sb_model_refuse(
+        problems, "surface.gt_product", 0.025, NAN,
+        "no random surface has so small an asperity product (models.surface = persson)");
   }
   if (model->work_of_adhesion > 0 && model->surface != SB_ROUGH_GREENWOOD_TRIPP) {
     sb_model_refuse(problems, "models.adhesion", NAN, NAN,

@@ -210,6 +210,34 @@ static void test_variants(void) {
   g_assert_nonnull(strstr(problems.item[0].text, ", but default"));
 }
 
+// What leaves no rubber, or no random surface, is refused with its own key when the model is made.
+static void test_nothing_left(void) {
+  static const struct {
+    const char *key;
+    SbOverride over[3];
+  } cases[] = {{"rubber.network_rate",
+                {{SB_P_RUBBER_NETWORK_RATE, 6.7e-3},
+                 {SB_P_STORAGE_TIME, 7.8e6},
+                 {SB_P_RUBBER_NETWORK_REFORM, 0}}},
+               {"surface.gt_product",
+                {{SB_P_MODELS_SURFACE, 1}, // persson
+                 {SB_P_SURFACE_GT_PRODUCT, 0.024},
+                 {SB_P_SURFACE_SIGMA, 1e-6}}}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    SbParams params;
+    SbModel model;
+    SbProblems problems;
+    sb_params_init(&params);
+    for (int k = 0; k < 3; k++) {
+      const SbOverride *over = &cases[i].over[k];
+      g_assert_cmpint(sb_params_set(&params, over->id, over->value, NULL), ==, SB_OK);
+    }
+    g_assert_cmpint(sb_model_compile(&model, &params, NULL, &problems), ==, SB_ERROR_INPUT);
+    g_assert_cmpuint(problems.count, >, 0);
+    g_assert_cmpstr(problems.item[0].key, ==, cases[i].key);
+  }
+}
+
 // A gasket that is flat radially has a section that the solver meshes; one beyond the meshes'
 // proportions is refused with its own key and range when the model is made, not by the run.
 static void test_gasket_sizes(void) {
@@ -380,6 +408,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/model/derived", test_derived);
   g_test_add_func("/model/problems", test_problems);
   g_test_add_func("/model/variants", test_variants);
+  g_test_add_func("/model/nothing-left", test_nothing_left);
   g_test_add_func("/model/gasket-sizes", test_gasket_sizes);
   g_test_add_func("/model/kept", test_kept);
   g_test_add_func("/model/pressure-maps", test_pressure_maps);
