@@ -413,7 +413,10 @@ static void test_displayed(void) {
       found =
           strcmp(displayed[k].unit, param->unit) == 0 && strcmp(displayed[k].si, param->si) == 0;
     }
-    g_assert_true(found);
+    if (!found) {
+      g_test_message("app/base/unit_scales.def has no scale of %s in %s", param->unit, param->si);
+      g_test_fail();
+    }
   }
 }
 
