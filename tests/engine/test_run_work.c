@@ -69,6 +69,7 @@ static void ends(void) {
       g_assert_cmpuint(summary->work, <=, (size_t)limit);
       g_assert_cmpstr(cut.report.parameter, ==, "output.work_limit");
       g_assert_nonnull(strstr(cut.report.text, "work limit"));
+      g_assert_nonnull(strstr(cut.report.text, "larger output.tolerance"));
       if (limit == 1) {
         g_assert_nonnull(strstr(cut.report.text, cases[i].solver));
         g_assert_true(strstr(cut.report.text, " mm") || strstr(cut.report.text, " MPa"));

@@ -23,9 +23,7 @@ void sb_work_add(SbWork *work, const SbWork *part) {
 SbStatus sb_work_status(const SbWork *work, SbStatus status, SbReport *report) {
   return status == SB_ERROR_CANCELLED && work->spent
              ? sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "output.work_limit",
-                                 "the run has used up its work limit of %zu solver steps "
-                                 "(output.work_limit); raise output.work_limit, or reduce the work "
-                                 "by a larger output.tolerance",
-                                 work->limit)
+                                 "the run has used up its work limit (output.work_limit): raise "
+                                 "it, or reduce the work by a larger output.tolerance")
              : status;
 }
