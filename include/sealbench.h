@@ -98,11 +98,12 @@ const SbFigureInfo *sb_list_quantities(size_t *count);
 
 // ---- Scenes ----
 
-// Opens a valve or scene file (and a scene's valve). *out is a scene even after an error, for its
-// message, and must be closed; NULL only after SB_SCENE_ERROR_MEMORY. After an error of the file,
-// runs and evaluations fail with that error: nothing is computed from defaults in place of what the
-// file should give. _INPUT: the file says something wrong (every issue: sb_scene_issue()); _IO: it
-// cannot be read.
+// Opens a valve or scene file (and a scene's valve). If there is no file `path`, the scene or valve
+// of this name that ships with the program is opened ("quick-look"; `sealbench list scenes`). *out
+// is a scene even after an error, for its message, and must be closed; NULL only after
+// SB_SCENE_ERROR_MEMORY. After an error of the file, runs and evaluations fail with that error:
+// nothing is computed from defaults in place of what the file should give. _INPUT: the file says
+// something wrong (every issue: sb_scene_issue()); _IO: it cannot be read.
 SbSceneStatus sb_scene_open(SbScene **out, const char *path);
 
 // The same from `length` bytes of a file's text; `folder` is where other files are looked for
@@ -123,6 +124,10 @@ const char *sb_scene_message_key(const SbScene *scene);
 // Issue `index` of the last file that was opened, as one line with file, line, key and range; NULL
 // beyond the last.
 const char *sb_scene_issue(const SbScene *scene, size_t index);
+
+// Path of the file that sb_scene_open() opened; NULL for a scene that was made otherwise. Borrowed
+// from the scene.
+const char *sb_scene_path(const SbScene *scene);
 
 // Title of the scene.
 const char *sb_scene_title(const SbScene *scene);

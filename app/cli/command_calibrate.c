@@ -35,6 +35,19 @@ static char *value_text(const SbCalibrated *of, double value) {
           : "-");
 }
 
+// Explains estimates outside of their interval: the mode of a skewed posterior, for example one
+// that ends where the stem stops returning, may be beyond its 97.5 % quantile.
+static void print_modes_outside(const SbCalibration *of) {
+  for (size_t j = 0; j < of->parameters; j++) {
+    const SbCalibrated *one = &of->parameter[j];
+    if (one->estimate < one->interval[0] || one->estimate > one->interval[1]) {
+      printf("  %s: the estimate is the best fit, at the edge of a skewed posterior; the interval "
+             "leaves out 2.5 %% of the posterior at either end\n",
+             one->name);
+    }
+  }
+}
+
 static void print_table(const SbStudyFile *study, const SbCalibration *of) {
   printf("%s: %zu curves, %zu points\n", study->title, of->curves, of->points);
   printf("  %-36s%-8s%11s%11s  %-24s%s\n", "", "", "before", "estimate", "95 % interval",
@@ -50,6 +63,7 @@ static void print_table(const SbStudyFile *study, const SbCalibration *of) {
     printf("  %-36s%-8s%11s%11s  %-24s%s\n", one->name, sb_param(one->id)->unit, before, estimate,
            interval, of->samples > 0 ? told[one->told] : "-");
   }
+  print_modes_outside(of);
   for (size_t c = 0; c < of->curves; c++) {
     const SbCalibratedCurve *curve = &of->curve[c];
     printf("  %s: differences %.3g N before, %.3g N after%s\n", curve->name, curve->before_rms,

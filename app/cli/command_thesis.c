@@ -1,4 +1,4 @@
-// sealbench thesis: tables and figures of the thesis, computed anew beside what it prints.
+// sealbench thesis: tables and figures of the thesis, recomputed and compared with the printed values.
 #include "app/cli/cli.h"
 
 #include "app/base/output.h"

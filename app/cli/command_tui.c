@@ -29,7 +29,7 @@ int sb_command_tui(int argc, char **argv) {
   gboolean ascii = FALSE;
   const GOptionEntry entries[] = {
       {"colors", 0, 0, G_OPTION_ARG_FILENAME, &color,
-       "none, 16, 256 or truecolor; else what NO_COLOR, COLORTERM and TERM say", "N"},
+       "none, 16, 256 or truecolor; default from NO_COLOR, COLORTERM and TERM", "N"},
       {"pictures", 0, 0, G_OPTION_ARG_FILENAME, &picture,
        "sixel, kitty, iterm, blocks, lines or none; else what the terminal reports", "KIND"},
       {"ascii", 0, 0, G_OPTION_ARG_NONE, &ascii, "No other signs than ASCII's", NULL},

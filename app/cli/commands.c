@@ -5,7 +5,7 @@ static const SbCommand commands[] = {
     {"run", "FILE.scene...", "Computes the cycle of scenes", sb_command_run},
     {"render", "FILE.scene... -o OUT.{png,svg,pdf,mp4,webp,apng,gif}", "Draws a view of scenes",
      sb_command_render},
-    {"plan", "FILE.scene...", "Says what scenes would compute, and why", sb_command_plan},
+    {"plan", "FILE.scene...", "Prints what scenes would compute, and why", sb_command_plan},
     {"check", "FILE...",
      "Reports every problem of valves, scenes, studies, rubbers, sections and grooves",
      sb_command_check},

@@ -1,14 +1,13 @@
 // What ships with the program; see the header.
 #include "app/document/shipped.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-// The first of the places, from where the program lies, that has `name`; its whole path or its
-// folder.
-static char *find(const char *const *places, const char *name, bool whole) {
-  g_autofree char *program = g_file_read_link("/proc/self/exe", NULL);
-  g_autofree char *in = g_path_get_dirname(program != NULL ? program : "/");
+// Returns the path of `name` (`whole`) or the folder that contains it, from the first of `places`,
+// relative to the folder `in`, that has it; NULL if there is none. Owned by the caller (g_free).
+static char *find_from(const char *in, const char *const *places, const char *name, bool whole) {
   for (; *places != NULL; places++) {
     g_autofree char *there = g_build_filename(in, *places, NULL);
     g_autofree char *path = g_build_filename(there, name, NULL);
@@ -19,9 +18,29 @@ static char *find(const char *const *places, const char *name, bool whole) {
   return NULL;
 }
 
+// The same search, relative to the folder of the running program.
+static char *find(const char *const *places, const char *name, bool whole) {
+  g_autofree char *program = g_file_read_link("/proc/self/exe", NULL);
+  g_autofree char *in = g_path_get_dirname(program != NULL ? program : "/");
+  return find_from(in, places, name, whole);
+}
+
+// Folder of the shared library that contains this code, with its links resolved; NULL in a program.
+// Written once by sb_shipped_set_library(), before any other call.
+static char *library_folder;
+
+void sb_shipped_set_library(const char *path) {
+  g_autofree char *real = realpath(path, NULL);
+  library_folder = real != NULL ? g_path_get_dirname(real) : NULL;
+}
+
 char *sb_shipped_folder(void) {
   static const char *const places[] = {"../share/sealbench", "../assets", "../../assets", NULL};
-  return find(places, "scenes", false);
+  // A library is installed in lib/ or lib/MACHINE/; the build has it in app/library/.
+  static const char *const library_places[] = {"../share/sealbench", "../../share/sealbench",
+                                               "../../../assets", NULL};
+  return library_folder != NULL ? find_from(library_folder, library_places, "scenes", false)
+                                : find(places, "scenes", false);
 }
 
 char *sb_shipped_study(const char *name) {

@@ -28,6 +28,10 @@ enum {
 // Name of a kind in the plural and of its folder ("scenes"). Static.
 const char *sb_shipped_kind_name(SbShippedKind kind);
 
+// Makes sb_shipped_folder() search relative to a shared library at `path` in place of the program,
+// which is another one's (an interpreter, for example). Call it once, before the other functions.
+void sb_shipped_set_library(const char *path);
+
 // Folder that holds scenes/, valves/, studies/, rubbers/, examples/ and series/; NULL if there is
 // none. Owned by the caller (g_free).
 char *sb_shipped_folder(void);

@@ -1,11 +1,14 @@
 // The installed interface (include/sealbench.h) over documents, runs and the evaluator.
 //
 // Statuses are the engine's, numbered alike. All memory that callers see belongs to the scene.
+#define _GNU_SOURCE // dladdr()
 #include "include/sealbench.h"
 
 #include "app/document/document.h"
+#include "app/document/shipped.h"
 #include "engine/valve/sealbench.h"
 
+#include <dlfcn.h>
 #include <gsl/gsl_errno.h>
 #include <locale.h>
 #include <math.h>
@@ -35,6 +38,7 @@ struct SbScene {
   char key[64];      // of the parameter at fault in the last failure, or empty
   char *message;     // of that failure
   char *text;        // last value given as text
+  char *path;        // of the file that was opened; NULL: none
   SbRun *run;        // NULL before the first
   SbEvaluator *evaluator;
   void (*progress)(void *data, double fraction);
@@ -107,6 +111,11 @@ static void set_up(void) {
   }
   // A special function outside its domain must not end the program; the engine checks results.
   gsl_set_error_handler_off();
+  // Shipped files are found from the library, as the program is the caller's.
+  Dl_info library;
+  if (dladdr(&once, &library) != 0) {
+    sb_shipped_set_library(library.dli_fname);
+  }
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
     parameter_infos[i] =
@@ -224,9 +233,16 @@ SbSceneStatus sb_scene_open(SbScene **out, const char *path) {
   ensure_set_up();
   IN_OWN_LOCALE;
   GPtrArray *issues = sb_issues_new();
-  SbDocument *document = sb_document_load(path, issues);
-  bool readable = document != NULL || access(path, R_OK) == 0;
-  return take(out, document, issues, readable);
+  char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN);
+  SbDocument *document = sb_document_load(file, issues);
+  bool readable = document != NULL || access(file, R_OK) == 0;
+  SbSceneStatus status = take(out, document, issues, readable);
+  if (*out != NULL) {
+    (*out)->path = file;
+  } else {
+    g_free(file);
+  }
+  return status;
 }
 
 SbSceneStatus sb_scene_parse(SbScene **out, const char *text, size_t length, const char *folder) {
@@ -253,6 +269,7 @@ void sb_scene_close(SbScene *scene) {
   g_ptr_array_unref(scene->lines);
   g_free(scene->message);
   g_free(scene->text);
+  g_free(scene->path);
   g_free(scene);
 }
 
@@ -266,6 +283,10 @@ const char *sb_scene_message_key(const SbScene *scene) {
 
 const char *sb_scene_issue(const SbScene *scene, size_t index) {
   return index < scene->lines->len ? scene->lines->pdata[index] : NULL;
+}
+
+const char *sb_scene_path(const SbScene *scene) {
+  return scene->path;
 }
 
 const char *sb_scene_title(const SbScene *scene) {

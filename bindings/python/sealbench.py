@@ -137,6 +137,7 @@ for _name, _result, _arguments in (
         ("sb_scene_parse", ctypes.c_int, [_pointer(_scene), _Text, _size, _Text]),
         ("sb_scene_new", ctypes.c_int, [_pointer(_scene)]),
         ("sb_scene_close", None, [_scene]),
+        ("sb_scene_path", _Text, [_scene]),
         ("sb_scene_message", _Text, [_scene]),
         ("sb_scene_message_key", _Text, [_scene]),
         ("sb_scene_issue", _Text, [_scene, _size]),
@@ -217,8 +218,8 @@ class Scene:
 
     def __init__(self, path: str | os.PathLike[str] | None = None, *, text: str | None = None,
                  folder: str | os.PathLike[str] | None = None) -> None:
-        """Opens a file, or a file's text (other files are looked for in `folder`); without either
-        the thesis' valve. Error with every issue of the file, a line each."""
+        """Opens a file or a shipped scene or valve by its name ("quick-look"), or a file's text (other
+        files are looked for in `folder`); without either the thesis' valve. Error with every issue of the file, a line each."""
         self._scene: ctypes.c_void_p | None = None
         self._lock = threading.RLock()
         self._inside = False  # a call of the library is under way
@@ -232,8 +233,9 @@ class Scene:
             data = text.encode()
             status = _lib.sb_scene_parse(out, data, len(data), _path(folder) if folder else None)
         elif path is not None:
-            self._folder = os.path.dirname(os.path.abspath(os.fspath(path)))
             status = _lib.sb_scene_open(out, _path(path))
+            if opened := found and _lib.sb_scene_path(found):
+                self._folder = os.path.dirname(os.path.abspath(os.fsdecode(opened)))
         else:
             status = _lib.sb_scene_new(out)
         self._scene = found

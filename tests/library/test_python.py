@@ -8,6 +8,7 @@ import math
 import os
 import pickle
 import sys
+import tempfile
 import threading
 import typing
 
@@ -139,6 +140,25 @@ def copies():
 
 
 check('copies', copies())
+
+
+def shipped():
+    """A name opens the file that ships, also in a copy; a file of that name in the folder goes first."""
+    before = os.getcwd()
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        try:
+            with sealbench.Scene('quick-look') as scene, copy.copy(scene) as other:
+                found = scene.title == other.title == 'Quick look'
+            with open('quick-look', 'w', encoding='utf-8') as file:
+                file.write('[sealbench]\nformat = 1\nkind = valve\ntitle = Own\n')
+            with sealbench.Scene('quick-look') as scene:
+                return found and scene.title == 'Own' and failure(lambda: sealbench.Scene('quick-lok'))[0] == 'io'
+        finally:
+            os.chdir(before)
+
+
+check('a shipped scene by its name', shipped())
 with sealbench.Scene(SCENES + 'quick-look.scene') as scene:
     everything = dict(scene)
     check('a mapping of parameters', list(scene) == list(sealbench.PARAMETERS) == list(everything)
