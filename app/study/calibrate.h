@@ -37,9 +37,7 @@ typedef struct {
   SbParamId id;
   int curve;                                       // whose own it is; -1: of all
   char *name;                                      // key, of an own one "key@curve"
-  // SI. The estimate is the place of the greatest density. The interval holds it and 95 % of the
-  // samples or more.
-  double before, estimate, deviation, interval[2];
+  double before, estimate, deviation, interval[2]; // SI; interval of 95 %
   double prior[2];                                 // interval of 95 % before
   SbDistribution distribution;                     // prior
   SbTold told;

@@ -40,10 +40,8 @@ static void find_moments(SbCalibration *out) {
     }
     of->deviation = sqrt(square / (double)(count - 1));
     qsort(column, count, sizeof *column, compare_doubles);
-    // Where the density falls off a cliff, such as that of a static ratio whose first slip would be
-    // missed, the estimate is at its edge and nearly all samples lie on one side of it.
-    of->interval[0] = fmin(quantile(column, count, 0.025), of->estimate);
-    of->interval[1] = fmax(quantile(column, count, 0.975), of->estimate);
+    of->interval[0] = quantile(column, count, 0.025);
+    of->interval[1] = quantile(column, count, 0.975);
   }
   out->correlation = g_new(double, p *p + 1);
   for (size_t j = 0; j < p; j++) {
