@@ -328,6 +328,9 @@ void sb_movie_encoder_destroy(SbMovieEncoder *encoder) {
   av_frame_free(&encoder->frame);
   avcodec_free_context(&encoder->codec);
   if (encoder->format != NULL) {
+    if (encoder->header) {
+      av_write_trailer(encoder->format); // frees the pictures that some formats keep
+    }
     if (encoder->format->pb != NULL) {
       avio_closep(&encoder->format->pb);
     }
