@@ -49,9 +49,10 @@ static const char *guess_unit(double side, double *scale, GError **error) {
   if (found != NULL && found[0] != '\0') {
     return found;
   }
-  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-              "an STL file knows no unit, and its longest side of %.4g is %s: specify it with --unit",
-              side, found != NULL ? all->str : "that of a valve's part in none");
+  g_set_error(
+      error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+      "an STL file knows no unit, and its longest side of %.4g is %s: specify it with --unit", side,
+      found != NULL ? all->str : "that of a valve's part in none");
   return NULL;
 }
 

@@ -1,4 +1,5 @@
-// sealbench thesis: tables and figures of the thesis, recomputed and compared with the printed values.
+// sealbench thesis: tables and figures of the thesis, recomputed and compared with the printed
+// values.
 #include "app/cli/cli.h"
 
 #include "app/base/output.h"

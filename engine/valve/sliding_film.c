@@ -4,9 +4,10 @@
 // With a fitment model that gives a pressure of its own the solved film lies on this body: its
 // edges, its pressure, its compliance; the half-plane's film stands beside it. The film's load is
 // the net one: the fluid on either side carries its own step, so a contact from l to r under the
-// total load W leaves W - p_left (0 - l) - p_right (r - 0) to the film (docs/results.md, Definitions). What
-// it leaves out: beside the film, asperities do not take load off it (they carry 1 to 14 % of it at
-// its least, docs/thesis.md, 10; coupled they share it); the closed forms know no inlet starvation.
+// total load W leaves W - p_left (0 - l) - p_right (r - 0) to the film (docs/results.md,
+// Definitions). What it leaves out: beside the film, asperities do not take load off it (they carry
+// 1 to 14 % of it at its least, docs/thesis.md, 10; coupled they share it); the closed forms know
+// no inlet starvation.
 #include "engine/valve/sliding_private.h"
 
 #include <math.h>

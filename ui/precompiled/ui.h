@@ -1,4 +1,5 @@
-// Headers of libraries that most files of ui/ need, compiled once per build; see app/precompiled/app.h.
+// Headers of libraries that most files of ui/ need, compiled once per build; see
+// app/precompiled/app.h.
 #include <glib/gi18n.h>
 #include <gtk/gtk.h>
 #include <math.h>
