@@ -197,8 +197,12 @@ class App:
     def choose(self, combo, item):
         """Picks an item of a combo box."""
         node = self.find("combo box", combo, showing=False)
-        items = self.all("menu item", root=node, showing=False)
-        index = [self.text(entry) or entry.name for entry in items].index(item)
+
+        def names():  # its items may be made again while they are read
+            items = self.all("menu item", root=node, showing=False)
+            found = [self.text(entry) or entry.name for entry in items]
+            return found if item in found else None
+        index = wait("the item %r of %r" % (item, combo), names).index(item)
         node.querySelection().selectChild(index)
 
     def spin(self, name, number):
