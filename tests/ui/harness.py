@@ -18,10 +18,7 @@ import gi
 
 gi.require_version("Atspi", "2.0")
 import pyatspi  # noqa: E402
-from gi.repository import Atspi  # noqa: E402
-
-# A busy machine answers later than the 0.8 s that AT-SPI waits by itself.
-Atspi.set_timeout(20000, 20000)
+from gi.repository import Atspi, GLib  # noqa: E402
 
 PROGRAM = os.environ["SEALBENCH_GTK"]
 COMMAND = os.path.join(os.path.dirname(os.path.dirname(PROGRAM)), "sealbench")
@@ -94,10 +91,13 @@ class App:
         if self.process.poll() is not None:
             raise SystemExit("the program ended with %d" % self.process.returncode)
         desktop = pyatspi.Registry.getDesktop(0)
-        for i in range(desktop.childCount):
-            app = desktop.getChildAtIndex(i)
-            if app is not None and app.get_process_id() == self.process.pid and app.childCount > 0:
-                return app
+        for i in reversed(range(desktop.childCount)):  # the last one registered last
+            try:
+                app = desktop.getChildAtIndex(i)
+                if app is not None and app.get_process_id() == self.process.pid and app.childCount > 0:
+                    return app
+            except GLib.GError:
+                pass  # one that ends answers no more
         return None
 
     # Looking -----------------------------------------------------------------------------------
@@ -108,14 +108,17 @@ class App:
         states = Atspi.StateSet.new([Atspi.StateType.SHOWING] if showing else [])
         every, any_ = Atspi.CollectionMatchType.ALL, Atspi.CollectionMatchType.ANY
         rule = Atspi.MatchRule.new(states, every, {}, every, [ROLES[role]], any_, [], every, False)
-        tops = [root] if root is not None else [
-            self.node.getChildAtIndex(i) for i in range(self.node.childCount)]
-        # What a collection finds lies below its node.
-        return [node for top in tops if top is not None
-                for node in (*([top] if top.get_role() == ROLES[role] else []),
-                             *top.get_collection_iface().get_matches(
-                                 rule, Atspi.CollectionSortOrder.CANONICAL, 0, True))
-                if self._named(node, name)]
+        def answer():
+            tops = [root] if root is not None else [
+                self.node.getChildAtIndex(i) for i in range(self.node.childCount)]
+            # What a collection finds lies below its node.
+            return [node for top in tops if top is not None
+                    for node in (*([top] if top.get_role() == ROLES[role] else []),
+                                 *top.get_collection_iface().get_matches(
+                                     rule, Atspi.CollectionSortOrder.CANONICAL, 0, True))
+                    if self._named(node, name)],
+        # On a busy machine an answer may take longer than the 0.8 s that AT-SPI waits.
+        return wait("an answer of the window", answer)[0]
 
     @staticmethod
     def _named(node, name):
