@@ -75,10 +75,24 @@ static SbRoughPoint point_at(const SbRoughLaw *law, double p, double film) {
   return at;
 }
 
-// The law of a task's surface, kept in its memory: it is the same at every speed and pressure.
-static SbStatus law_of(const SbRoughLaw **out, const SbSlidingTask *task, double roughness,
-                       SbReport *report) {
+// The law of a surface, owned, NULL without memory; too large for a small stack.
+static SbStatus make_law(SbRoughLaw **out, const SbRoughSurface *surface, SbReport *report) {
+  *out = malloc(sizeof **out);
+  return *out != NULL ? sb_rough_law_init(*out, surface, report)
+                      : sb_fail(report, SB_ERROR_MEMORY, "no memory for a rough surface's law");
+}
+
+// The law of a task's surface: it is the same at every speed and pressure, so that the task's
+// memory keeps it. A task without a memory gets one of its own in *own, NULL otherwise.
+static SbStatus law_of(const SbRoughLaw **out, SbRoughLaw **own, const SbSlidingTask *task,
+                       double roughness, SbReport *report) {
   const SbRoughSurface surface = sb_model_surface(task->model, task->seal, roughness);
+  *own = NULL;
+  if (task->memory == NULL) {
+    SbStatus status = make_law(own, &surface, report);
+    *out = *own;
+    return status;
+  }
   SbRoughLaw *law = &task->memory->law;
   *out = law;
   return law->count > 0 && sb_rough_same_surface(&law->surface, &surface)
@@ -89,10 +103,8 @@ static SbStatus law_of(const SbRoughLaw **out, const SbSlidingTask *task, double
 SbStatus sb_sliding_edge_asperities(double *out, const double *p, size_t count,
                                     const SbModel *model, int seal, double film, SbReport *report) {
   const SbRoughSurface surface = sb_model_surface(model, seal, 1);
-  SbRoughLaw *law = malloc(sizeof *law); // too large for a small stack
-  SbStatus status = law != NULL
-                        ? sb_rough_law_init(law, &surface, report)
-                        : sb_fail(report, SB_ERROR_MEMORY, "no memory for a rough surface's law");
+  SbRoughLaw *law;
+  SbStatus status = make_law(&law, &surface, report);
   for (size_t i = 0; status == SB_OK && i < count; i++) {
     out[i] = p[i] > 0 ? fmin(point_at(law, p[i], film).pressure, p[i]) : 0;
   }
@@ -150,13 +162,16 @@ SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, do
   const double around = model->bore_circumference, speed = task->speed;
   const bool slides = sb_sliding_has_film(task);
   const SbRoughLaw *law;
-  SbStatus status = law_of(&law, task, roughness, report);
+  SbRoughLaw *own;
+  SbStatus status = law_of(&law, &own, task, roughness, report);
   if (status != SB_OK) {
+    free(own);
     return status;
   }
   const double film = out->film_central;
   out->lambda = slides ? film / (roughness * model->sigma) : NAN;
   const Rough on = rough_at(out, model, law, film, speed), dry = rough_at(out, model, law, 0, 0);
+  free(own);
   out->real_area_share = fmin(on.area / width, 1);
   out->rest_area_share = fmin(dry.area / width, 1);
   // At every point asperities carry at most the contact pressure (rough_at()). Above 1 only by the
