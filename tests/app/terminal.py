@@ -251,7 +251,8 @@ def test_signals():
 
 
 def test_plots():
-    """Charts below tables: on a terminal, off one where --plot asks, nowhere with --no-plot."""
+    """Charts below tables: on a terminal, off one where --plot asks, nowhere with --no-plot. The
+    loop is part of the summary of run, on a terminal or off."""
     scene = f'{ASSETS}/scenes/quick-look.scene'
     utf8 = {**os.environ, 'LC_ALL': 'C.UTF-8'}
     drawn = re.compile('[\u2801-\u28ff]')
@@ -260,7 +261,9 @@ def test_plots():
         return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=True,
                               env=utf8).stdout
 
-    for command in (['run', scene], ['compare', scene, scene],
+    if not drawn.search(output('run', scene)) or drawn.search(output('run', scene, '--no-plot')):
+        raise AssertionError('the summary of run is drawn, but for --no-plot')
+    for command in (['run', scene, '--all'], ['compare', scene, scene],
                     ['fit', f'{ASSETS}/valves/piston.valve', '--seal', 'outer']):
         if drawn.search(output(*command)):
             raise AssertionError(f'{command[0]} draws off a terminal')

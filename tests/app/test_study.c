@@ -305,7 +305,7 @@ static void test_swap(void) {
   // No line breaks between a number and its unit.
   g_auto(GStrv) parts = g_strsplit(text, "\u00a0", -1);
   g_autofree char *plain = g_strjoinv(" ", parts);
-  g_assert_nonnull(strstr(plain, "HFA-134a: does not return, \u22121.38 N at 20 \u00b0C; from "
+  g_assert_nonnull(strstr(plain, "HFA-134a: does not return, \u22121.382 N at 20 \u00b0C; from "
                                  "24 \u00b0C, 3 N from 30 \u00b0C."));
   // Without a measurement the modulus is constant, and the page and the study state this.
   g_assert_nonnull(strstr(plain, "Modulus: 0 % at 20 °C against 20 °C (inferred)."));
