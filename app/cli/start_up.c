@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <glib.h>
 #include <spawn.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
