@@ -489,7 +489,7 @@ static void test_rubber_source(void) {
     g_assert_cmpint(sb_rubber_sheet_parse(sheet, text, strlen(text), "x.rubber", issues), ==,
                     more == 0);
     if (more > 0) {
-      const char *line = sb_issue_line(issues->pdata[0]);
+      g_autofree char *line = sb_issue_line(issues->pdata[0]);
       g_assert_nonnull(strstr(line, "density"));
       g_assert_nonnull(strstr(line, "at most 255 bytes"));
     } else {
