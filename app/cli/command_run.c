@@ -75,6 +75,7 @@ static int write_results(SbCliFiles *files, const SbCliFile *file, const Options
     sb_cli_files_head(files);
     const SbCliRunText text = {.title = sb_document_title(file->document),
                                .run = run,
+                               .converged = sb_results_converged(sb_run_summary(run), info),
                                .verdict = info->verdict,
                                .measured = info->measured,
                                .folder = file->folder,

@@ -61,7 +61,7 @@ static int read_options(Options *options) {
   for (guint i = 0; i < options->parameter->len && code == SB_EXIT_DONE; i++) {
     const SbParamId id = (SbParamId)g_array_index(options->parameter, int, i);
     if (!sb_gradient_wants(id)) {
-      code = sb_cli_fail("--parameters: %s is not a real number: there is no derivative by it",
+      code = sb_cli_fail("--parameters: %s is not a real number and has no derivative",
                          sb_param(id)->key);
     }
   }

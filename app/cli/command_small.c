@@ -43,18 +43,8 @@ static void list_params(void) {
     g_free(value);
     g_free(range);
   }
-  // Keys whose values are texts.
-  static const struct {
-    const char *key, *help;
-  } texts[] = {
-      {"rubber.name", "Rubber of the seals: a name of `list rubbers`, or a file NAME.rubber"},
-      {"drive.file", "CSV file of the measured series (drive.kind = measured)"},
-      {"shelf.file", "CSV file of temperatures over time (shelf.history = file)"},
-      {"seal.profile_file", "Drawing of the free section (seal.profile = file)"},
-      {"gland.profile_file", "Drawing of the outline of the groove"},
-  };
-  for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
-    printf("%-32s %s\n    none (a text)\n", texts[i].key, texts[i].help);
+  for (const SbTextKey *text = sb_document_text_keys(); text->key != NULL; text++) {
+    printf("%-32s %s\n    none (a text)\n", text->key, text->help);
   }
   printf("seal.outer.* and seal.inner.* override seal.* for one seal.\n");
 }

@@ -128,7 +128,7 @@ static size_t list_figures(int index[SB_FIGURE_COUNT], const SbCliRunText *of) {
 static char *missing_text(const SbSummary *summary, const int *index, size_t at) {
   const char *reason = sb_figure_reason(summary, index[at]);
   for (size_t i = 0; reason != NULL && i < at; i++) {
-    if (g_strcmp0(reason, sb_figure_reason(summary, index[i])) == 0) {
+    if (reason == sb_figure_reason(summary, index[i])) { // each reason is stored once
       g_autofree char *label = sb_figure_label(index[i]);
       return g_strdup_printf("- (reason: see %s)", label);
     }
@@ -171,6 +171,8 @@ static void add_figures(GPtrArray *items, const SbCliRunText *of) {
 static void add_remarks(GPtrArray *items, const SbCliRunText *of, const SbSummary *summary) {
   if (!summary->converged) {
     g_ptr_array_add(items, g_strdup("Not converged: the figures belong to the last good states."));
+  } else if (!of->converged) {
+    g_ptr_array_add(items, g_strdup("Not converged: a point of a study has failed."));
   }
   if (of->measured != NULL) {
     g_ptr_array_add(items, sb_cli_comparison_brief(of->measured));

@@ -68,10 +68,10 @@ static void print_rig(const SbSummary *summary) {
   sb_cli_line("Peaks that follow", peaks);
 }
 
-static void print_solver(const SbSummary *summary) {
+static void print_solver(const SbSummary *summary, bool converged) {
   sb_cli_warnings(&summary->warnings);
   printf("Solver\n");
-  sb_cli_line("Converged", summary->converged ? "yes" : "NO");
+  sb_cli_line("Converged", converged ? "yes" : "NO");
   char *frames = g_strdup_printf("%zu", summary->frames);
   sb_cli_line("Frames", frames);
   g_free(frames);
@@ -102,7 +102,7 @@ void sb_cli_run_table(const SbCliRunText *of) {
   } else {
     print_valve(of, summary);
   }
-  print_solver(summary);
+  print_solver(summary, of->converged);
   if (of->measured != NULL) {
     sb_cli_comparison(of->measured);
   }

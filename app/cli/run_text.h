@@ -8,6 +8,7 @@
 typedef struct {
   const char *title;
   const SbRun *run;
+  bool converged;               // sb_results_converged()
   const SbCaseVerdict *verdict; // [SB_VERDICT_COUNT]
   const SbComparison *measured; // NULL: no measured loop
   const char *folder;           // that the results were written to; NULL: none

@@ -49,7 +49,8 @@ static double measure(const char *path, const char *words, int repeats) {
   return least < 0 ? -1 : sb_timing_middle(times, (size_t)repeats);
 }
 
-// Lines of what the dynamic linker lists in place of running the program, as ldd does.
+// Number of shared objects that the dynamic linker lists instead of running the program, as ldd
+// does; 0: it did not.
 static int count_shared_objects(void) {
   g_auto(GStrv) environment =
       g_environ_setenv(g_get_environ(), "LD_TRACE_LOADED_OBJECTS", "1", TRUE);

@@ -16,6 +16,14 @@
 
 typedef struct SbDocument SbDocument;
 
+// A key whose value is a text, with its help for a person.
+typedef struct {
+  const char *key, *help;
+} SbTextKey;
+
+// The table of these keys, which sb_param() does not have; it ends with a key of NULL. Static.
+const SbTextKey *sb_document_text_keys(void);
+
 typedef enum { SB_DOCUMENT_VALVE, SB_DOCUMENT_SCENE } SbDocumentKind;
 
 enum { SB_DOCUMENT_FORMAT = 1, SB_DOCUMENT_BYTES_MAX = 1 << 20 };

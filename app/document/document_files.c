@@ -7,14 +7,26 @@
 #include <math.h>
 #include <string.h>
 
-const char *const sb_document_file_key[SB_FILE_COUNT] = {[SB_FILE_DRIVE] = "drive.file",
-                                                         [SB_FILE_SHELF] = "shelf.file",
-                                                         [SB_FILE_SECTION] = "seal.profile_file",
-                                                         [SB_FILE_GROOVE] = "gland.profile_file"};
+// Those of files come first.
+static const SbTextKey text_keys[] = {
+    [SB_FILE_DRIVE] = {"drive.file", "CSV file of the measured series (drive.kind = measured)"},
+    [SB_FILE_SHELF] = {"shelf.file", "CSV file of temperatures over time (shelf.history = file)"},
+    [SB_FILE_SECTION] = {"seal.profile_file", "Drawing of the free section (seal.profile = file)"},
+    [SB_FILE_GROOVE] = {"gland.profile_file", "Drawing of the outline of the groove"},
+    {SB_RUBBER_KEY, "Rubber of the seals: a name of `list rubbers`, or a file NAME.rubber"},
+    {0}};
+
+const SbTextKey *sb_document_text_keys(void) {
+  return text_keys;
+}
+
+const char *sb_document_file_key(int key) {
+  return text_keys[key].key;
+}
 
 int sb_document_find_file(const char *key) {
   for (int i = 0; i < SB_FILE_COUNT; i++) {
-    if (strcmp(key, sb_document_file_key[i]) == 0) {
+    if (strcmp(key, sb_document_file_key(i)) == 0) {
       return i;
     }
   }
@@ -176,7 +188,7 @@ bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name
                ? sb_groove_file_read(&data->groove, path, &error)
                : sb_seal_file_read(&data->profile, &document->section_height, path, &error);
     if (!good) {
-      sb_issues_add(issues, shown, line, sb_document_file_key[key], NULL, "%s", error->message);
+      sb_issues_add(issues, shown, line, sb_document_file_key(key), NULL, "%s", error->message);
       g_error_free(error);
     }
     break;

@@ -26,8 +26,8 @@ typedef enum {
   SB_FILE_COUNT
 } SbFileKey;
 
-// "drive.file"...
-extern const char *const sb_document_file_key[SB_FILE_COUNT];
+// "drive.file"...: the key of sb_document_text_keys().
+const char *sb_document_file_key(int key);
 
 // One of them in force; name NULL: none.
 typedef struct {

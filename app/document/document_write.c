@@ -91,7 +91,7 @@ static char *moved_file(const SbDocument *document, int key, const char *path) {
     return to != NULL ? relative_path(whole, to) : g_strdup(whole);
   }
   char *moved = moved_name(document, file->path, file->name, path);
-  return moved != NULL || stands(document, sb_document_file_key[key], file->name)
+  return moved != NULL || stands(document, sb_document_file_key(key), file->name)
              ? moved
              : g_strdup(file->name);
 }
@@ -154,7 +154,7 @@ char *sb_document_to_text(const SbDocument *document, const char *path) {
         document->saved_drawing[i] != NULL && sb_document_own_drawing(document, i) == NULL;
     if (name != NULL || taken_back) {
       SbChange change = {.value = name};
-      split_key(sb_document_file_key[i], (char **)&change.group, (char **)&change.name);
+      split_key(sb_document_file_key(i), (char **)&change.group, (char **)&change.name);
       g_array_append_val(changes, change);
     }
   }
@@ -250,7 +250,7 @@ static void append_shape(GString *text, const SbDocument *document, const char *
 static void append_files(GString *text, const SbDocument *document, const char *group,
                          size_t length) {
   for (int i = 0; i < SB_FILE_COUNT; i++) {
-    const char *key = sb_document_file_key[i], *dot = strrchr(key, '.');
+    const char *key = sb_document_file_key(i), *dot = strrchr(key, '.');
     if (document->file[i].path != NULL && (size_t)(dot - key) == length &&
         strncmp(key, group, length) == 0) {
       g_autofree char *whole = g_canonicalize_filename(document->file[i].path, NULL);

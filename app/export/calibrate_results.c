@@ -70,8 +70,8 @@ static void put_reason(SbJson *json, const char *path, double value, const char 
 
 // Why numbers are null, by their paths.
 static void put_reasons(SbJson *json, const SbCalibration *of) {
-  const char *posterior = of->partial ? "interrupted: there is no posterior"
-                                      : "there is no posterior: no samples were taken";
+  const char *posterior =
+      of->partial ? "interrupted: the posterior was not sampled" : "the posterior was not sampled";
   sb_json_object(json, "reasons");
   put_reason(json, "residual_rms_N", of->rms, "no loop was computed at the estimates");
   put_reason(json, "chi2_reduced", of->chi2,

@@ -19,7 +19,7 @@ static char *no_movie(const char *why) {
   return g_strdup_printf("%s: write frames/%%04d.png, a sequence of pictures", why);
 }
 
-// Returns NULL, or why there is no libav.
+// Returns NULL, or why libav cannot be opened.
 static void *find_problem(void *unused) {
   const char *problem = sb_lazy_missing(&sb_lazy_video);
   return problem != NULL ? no_movie(problem) : NULL;
@@ -98,8 +98,8 @@ static void convert_palette(SbMovieEncoder *encoder, const uint8_t *pixels, size
 
 // ---- Formats ----
 
-// MP4 holds few pictures at once: for drawings like ours neither more lookahead nor pictures
-// between others make the file smaller, and one thread keeps up with the drawing.
+// MP4: the encoder holds few pictures, since for drawings like ours neither more lookahead nor
+// pictures between others make the file smaller, and one thread keeps up with the drawing.
 // clang-format off
 static const Format formats[SB_MOVIE_FORMATS] = {
     [SB_MOVIE_MP4] = {"mp4", "libx264", AV_PIX_FMT_YUV420P, 2,

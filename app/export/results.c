@@ -320,14 +320,17 @@ static void put_counters(SbJson *json, const char *key, const SbCounters *counte
   sb_json_object_end(json);
 }
 
-// The run has converged if every point of its studies has, too: as the exit status states.
-static void put_run_solver(SbJson *json, const SbSummary *summary, const SbResultsInfo *info) {
+bool sb_results_converged(const SbSummary *summary, const SbResultsInfo *info) {
   bool converged = summary->converged;
   for (size_t i = 0; i < info->study_count; i++) {
     converged = converged && info->studies[i].complete;
   }
+  return converged;
+}
+
+static void put_run_solver(SbJson *json, const SbSummary *summary, const SbResultsInfo *info) {
   sb_json_object(json, "solver");
-  sb_json_bool(json, "converged", converged);
+  sb_json_bool(json, "converged", sb_results_converged(summary, info));
   sb_json_count(json, "frames", summary->frames);
   sb_json_count(json, "steps", summary->steps);
   sb_json_count(json, "rejected_steps", summary->rejected_steps);

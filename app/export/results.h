@@ -24,6 +24,9 @@ typedef struct {
   const SbComparison *measured; // NULL: nothing was
 } SbResultsInfo;
 
+// Whether a run and every point of its studies have converged, as the exit status states.
+bool sb_results_converged(const SbSummary *summary, const SbResultsInfo *info);
+
 // A film through a series of speeds, one value a row; NAN where it was not reached.
 typedef struct {
   size_t count;

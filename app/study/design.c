@@ -82,8 +82,8 @@ static bool solved(const SbModel *model) {
 
 // The slope of a figure that has none here is that of a chord. A kink of a closed form is bridged
 // by a small step. Where the figure's own slope is withheld because its value scatters with the
-// mesh (solved rings and films) the step must move the figure by more than that scatter: 5 % of the
-// range.
+// mesh (solved rings and gaskets) the step must move the figure by more than that scatter: 5 % of
+// the range.
 static void chord(View *view, const SbSlopesAsked *asked, size_t j) {
   const double step = solved(view->problem->study->base) ? 0.05 : 1e-4;
   double end[2][FIGURES_MAX], x[SB_VARY_MAX], v[SB_VARY_MAX], place[2];

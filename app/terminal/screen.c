@@ -608,7 +608,7 @@ SbScreen *sb_screen_open(const SbScreenWishes *wishes, const SbScreenClient *cli
   const int tty = name != NULL ? open(name, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC) : -1;
   if (tty < 0 || !make_pipe()) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO,
-                "standard input and output are not terminal; `sealbench open` starts the window, "
+                "standard input and output are not a terminal; `sealbench open` starts the window, "
                 "`sealbench run` computes without either");
     if (tty >= 0) {
       close(tty);

@@ -24,8 +24,8 @@ enum { SIZES = sizeof SIZE / sizeof SIZE[0], CORNERS = 1 << SIZES };
 // 5-2 (reciprocating). Both tables are in inches; bands in mm are rounded to 0.01 mm. The squeezes
 // of both charts and the clearances of chart 4-2 were compared with a public copy of the charts,
 // engineersedge.com/general_engineering: oring_gland_size_static_cylinders.htm and
-// oring_gland_size_dynamic_cylinder.htm. That copy of chart 5-2 has no column of clearance; the
-// handbook gives the same clearances (column E) in both charts.
+// oring_gland_size_dynamic_cylinder.htm. That copy of chart 5-2 has no column of clearance: the
+// reciprocating clearances below are those of chart 4-2 and were not compared with the handbook.
 #define BANDS(chart, kind, mm, low, high, gap_low, gap_high)                                       \
   {                                                                                                \
     0.01 * (low), 0.01 * (high), 1e-3 * (gap_low), 1e-3 * (gap_high),                              \

@@ -122,7 +122,11 @@ static void prints(const SbRun *run, const char *path) {
     verdict[kind] = (SbCaseVerdict){sb_run_summary(run)->verdict[kind], NULL};
   }
   const SbCliPlots plots = {0};
-  const SbCliRunText of = {.title = path, .run = run, .verdict = verdict, .plots = &plots};
+  const SbCliRunText of = {.title = path,
+                           .run = run,
+                           .converged = sb_run_summary(run)->converged,
+                           .verdict = verdict,
+                           .plots = &plots};
   g_autofree char *text = summary_text(&of);
   g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
   g_assert_cmpuint(g_strv_length(lines) - 1, <=, SB_CLI_SUMMARY_LINES);

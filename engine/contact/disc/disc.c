@@ -327,7 +327,7 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
       const double last = limit;
       limit = reached > 0.0 && level > 0 ? find_limit(w, reached) : INFINITY;
       // The resolutions agree on the maximum to a hundredth of the distance from the wanted
-      // pressure; nearer to it than SAME no resolution tells which of the two is larger.
+      // pressure, or to SAME of it (found by trial): nearer than that the first cannot be met.
       opens = isfinite(limit) &&
               fabs(limit - last) < fmax(SAME * limit, 0.01 * fmin(limit, target - limit));
       if (reached >= 0.0 && (level < COARSE || isfinite(limit))) {

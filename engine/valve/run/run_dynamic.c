@@ -401,7 +401,8 @@ static SbStatus compare_motions(SbRun *run, const Recorder *one, const Recorder 
 static void lose_errors(SbRun *run, const SbReport *why) {
   SbSummary *summary = &run->summary;
   sb_run_lose_errors(run);
-  sb_reason(summary, "solver.error_estimate.*", "the coarser motion failed: %s", why->text);
+  sb_reason(summary, "solver.error_estimate.*",
+            "a second motion, which measures the error, failed: %s", why->text);
   sb_warn(&summary->warnings, "motion-error-unknown", "output.motion_tolerance",
           "the motion's error is not known: %s", why->text);
 }
