@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Every header compiles alone, twice, by the flags of its layer, and so does a variable of each type
 that it gives an initialiser for (SbRingLoad, SB_RING_LOAD_INIT); a dropped status does not pass.
+Each function, and each type of functions, has a comment of its own on the line above its declaration.
 The build itself has compiled a header that comes first in its own source; it needs a guard alone.
 
 headers.py BUILD SOURCE LAYER..., TAP on standard output.
@@ -15,6 +16,8 @@ import subprocess
 import sys
 
 build, source, *layers = sys.argv[1:]
+# Folders whose headers must have a comment for each function.
+COMMENTED = ('engine/base', 'engine/numeric', 'engine/rubber', 'engine/fluid', 'engine/permeation')
 # The installed header stands alone as C and as C++, with no flags at all.
 
 # How a layer is compiled: compiler, places of headers and definitions of the file that has most of
@@ -64,12 +67,54 @@ def alone(header):
     return compiles(layer, f'#include "{header}"\n#include "{header}"\nint used;\n{used}', *options)
 
 
+def uncommented(text):
+    """(line, name) of each function, and of each pointer type of functions, that is declared without a
+    comment on the line directly above."""
+    found, depth, first, above = [], 0, None, ''
+    text = re.sub(r'^#(?:.*\\\n)*.*$', lambda macro: '#' + '\n#' * macro.group().count('\n'), text, flags=re.M)
+    for number, line in enumerate(text.replace('extern "C" {', '').split('\n'), 1):
+        code = line.split('//')[0].rstrip()
+        if depth == 0 and first is None and re.match('[A-Za-z]', code):
+            first, signature, comment = number, '', above.startswith('//')
+        if depth == 0 and first is not None:
+            signature += code.split('{')[0] + ' '
+        depth = max(0, depth + code.count('{') - code.count('}'))
+        if first is not None and depth == 0 and (
+                code.endswith((';', '}')) or re.match(r'[A-Z_]+\(.*\) $', signature)):
+            name = re.search(r'\(\*(\w+)\)\(' if signature.startswith('typedef') else r'\b([a-z]\w*)\(',
+                             signature)
+            if name and name[1] != 'static_assert' and code.endswith((';', '}')) and not comment:
+                found.append((first, name[1]))
+            first = None
+        above = line
+    return found
+
+
+# The search itself: what it must find, and a header in which it must find nothing.
+BARE = [('void f(void);', 'f'), ('// One.\nvoid f(void);\nvoid g(void);', 'g'), ('// One.\n\nint f(int a,\n      int b);', 'f'),
+        ('int f(void) { // not its own\n  return 0;\n}', 'f'), ('typedef double (*F)(double x);', 'F'),
+        ('// One.\nvoid f(void); // one\nvoid g(void);', 'g'), ('G_DECLARE_TYPE(A, a, B,\n  C)\nvoid f(void);', 'f'),
+        ('#define M(a) \\\n  a\nvoid f(void) SB_PRINTF(1, 2);', 'f'), ('extern "C" {\nvoid f(void);\n}', 'f')]
+FULL = ('// One.\ntypedef struct {\n  int (*call)(int a);\n} A;\n\n#define M(x) f(x)\n// Two.\nint f(int a,\n      int b);\n'
+        'enum { B = sizeof(A) };\ntypedef struct C C;\nextern const int d[3];\nG_DECLARE_TYPE(A, a)\n// Three.\n'
+        'static inline int g(void) {\n  return f(1, 2);\n}\nstatic_assert(1, "one");\n')
+
 headers = sorted(os.path.relpath(os.path.join(where, name), source)
                  for layer in commands for where, _, names in os.walk(os.path.join(source, layer))
                  for name in names if name.endswith('.h'))
 with concurrent.futures.ThreadPoolExecutor(2) as pool:
     results = [(header + ' stands alone', said == '', said)
                for header, said in zip(headers, pool.map(alone, headers))]
+
+said = [f'{text!r}: {found}' for text, name in BARE + [(FULL, '')]
+        for found in [[name for _, name in uncommented(text)]] if found != [name] * (name != '')]
+results.append(('functions without a comment are found', not said, '\n'.join(said)))
+for header in headers + ['include/sealbench.h']:
+    if header.startswith(COMMENTED):
+        with open(os.path.join(source, header), encoding='utf-8') as file:
+            bare = uncommented(file.read())
+        results.append((f'{header} has a comment for each function', not bare,
+                        '\n'.join(f'{header}:{line}: {name}() needs a comment of its own' for line, name in bare)))
 
 for language in ('c', 'c++') if shutil.which('c++') else ('c',):
     said = subprocess.run(['c++' if language == 'c++' else 'cc', '-x', language, '-I', source + '/include',

@@ -1,9 +1,10 @@
-// The clock of everything that tells how long it took.
+// A monotonic clock for measuring durations.
 #pragma once
 
 #include <time.h>
 
-// Seconds since some instant, of a clock that never goes back.
+// Returns the time in seconds since an unspecified instant. It never decreases; only differences
+// have a meaning. May be called from any thread.
 static inline double sb_clock_seconds(void) {
   struct timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);

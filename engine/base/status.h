@@ -1,8 +1,8 @@
-// Status codes, reports and warnings: how every part of the engine says what went wrong.
+// Status codes, error reports and validity warnings of the engine.
 //
-// The engine never prints, exits or aborts on input. A function that can fail returns SbStatus and
-// fills the caller's SbReport (which may be NULL); a result that is usable but outside its model's
-// validity carries SbWarnings.
+// The engine never prints or exits. A function that can fail returns SbStatus and describes the
+// error in the caller's SbReport (NULL: not wanted). A result that is usable but outside the
+// validity of its model comes with SbWarnings.
 #pragma once
 
 #include <stdarg.h>
@@ -15,10 +15,10 @@
 #define SB_PRINTF(format_index, first)
 #endif
 
-// The compiler warns where a result is dropped: of one function (SB_CHECKED before its
-// declaration), or of every function that returns a type (SB_CHECKED_TYPE in its definition, after
-// SB_EXTENSION: gcc knows that attribute of a type only in C2x's form). Where a result is dropped
-// on purpose a (void) cast says so.
+// The compiler warns about an unused result: SB_CHECKED before the declaration of one function;
+// SB_EXTENSION and SB_CHECKED_TYPE in the definition of a type, for all functions that return it.
+// Cast to (void) to ignore a result intentionally. gcc accepts the attribute of a type only in the
+// form of C2x.
 #if defined(__clang__)
 #define SB_EXTENSION
 #define SB_CHECKED      __attribute__((warn_unused_result))
@@ -33,7 +33,7 @@
 #define SB_CHECKED_TYPE
 #endif
 
-// code, one-line text
+// X(code, text): all status codes, with the text of sb_status_text().
 #define SB_STATUS_LIST(X)                                                                          \
   X(SB_OK, "done")                                                                                 \
   X(SB_ERROR_INPUT, "bad input")                                                                   \
@@ -50,79 +50,87 @@ SB_EXTENSION typedef enum SB_CHECKED_TYPE {
 #undef SB_STATUS_ENUM
 } SbStatus;
 
-// Bytes of every message: reports, warnings, reasons, verdicts. A message that combines others has
-// this size too; its parts are short enough (asserted in builds with SB_ASSERT_RUNS).
+// Size in bytes of every message (reports, warnings, reasons, verdicts), with the terminating NUL.
+// Builds with SB_ASSERT_RUNS abort if a message does not fit.
 enum { SB_TEXT = 512 };
 
-// Details of a failure, owned by the caller. All fields are zero after a success.
+// Description of an error, in memory of the caller. Defined after an error only.
 typedef struct {
   SbStatus status;
-  char text[SB_TEXT]; // one sentence for a person, no trailing newline
-  char parameter[64]; // catalogue key at fault, or empty
-  double residual;    // last residual of an iteration, 0 if none
-  int iteration;      // iterations done, 0 if none
+  char text[SB_TEXT]; // one sentence for the user, without a line break
+  char parameter[64]; // catalogue key of the parameter at fault, "" if none
+  double residual;    // last residual of the iteration; only iterative solvers set it
+  int iteration;      // number of iterations done; only iterative solvers set it
 } SbReport;
 
-// Fixed text of a status code; borrowed, never NULL.
+// Returns the fixed text of a status code; static, never NULL.
 const char *sb_status_text(SbStatus status);
 
-// Fills the report (if any) with a formatted sentence and returns `status`, so that a failing
-// function can end in `return sb_fail(report, SB_ERROR_RANGE, "speed %g m/s ...", u);`.
+// Writes `status` and a formatted sentence to `report` (NULL: nothing is written) and returns
+// `status`. Use: `return sb_fail(report, SB_ERROR_RANGE, "speed %g m/s ...", u);`. The fields
+// `residual` and `iteration` are not changed.
 SbStatus sb_fail(SbReport *report, SbStatus status, const char *format, ...) SB_PRINTF(3, 4);
 
-// The same with the catalogue key of the parameter at fault.
+// Does the same as sb_fail() and also stores `parameter`, the catalogue key at fault ("": none).
 SbStatus sb_fail_parameter(SbReport *report, SbStatus status, const char *parameter,
                            const char *format, ...) SB_PRINTF(4, 5);
 
-// Formats a message into `out` of `size` bytes. Every message of the engine is formatted here;
-// builds with SB_ASSERT_RUNS abort where one does not fit.
+// Formats a message into out[size] (size > 3). A message that does not fit is truncated as by
+// sb_text(); builds with SB_ASSERT_RUNS abort then. All messages of the engine are formatted by
+// this function.
 void sb_message(char *out, size_t size, const char *format, ...) SB_PRINTF(3, 4);
+// Does the same as sb_message() with an argument list.
 void sb_message_v(char *out, size_t size, const char *format, va_list arguments) SB_PRINTF(3, 0);
 
-// Formats a text into `size` bytes; what does not fit ends in "…", between two characters.
+// Formats a text into out[size] (size > 3), with a terminating NUL. A text that does not fit is
+// truncated between two UTF-8 characters and ends in "…".
 void sb_text(char *out, size_t size, const char *format, ...) SB_PRINTF(3, 4);
+// Does the same as sb_text() with an argument list.
 void sb_text_v(char *out, size_t size, const char *format, va_list arguments) SB_PRINTF(3, 0);
 
-// Clears the report (if any) and returns SB_OK.
+// Sets all fields of `report` (NULL: none) to zero and returns SB_OK.
 SbStatus sb_succeed(SbReport *report);
 
+// Capacity of a list of warnings.
 enum { SB_WARNINGS_MAX = 48 };
 
-// One validity warning: a stable code ("film-below-continuum"), a sentence, the catalogue key of
-// the parameter that a user would change (may be empty), and what it is about ("inner seal"; may be
-// empty), which the sentence names.
+// One validity warning.
 typedef struct {
-  char code[48];
-  char text[SB_TEXT];
-  char parameter[64];
-  char subject[16];
+  char code[48];      // stable identifier of the kind of warning, "film-below-continuum"
+  char text[SB_TEXT]; // one sentence, which names the subject
+  char parameter[64]; // catalogue key of the parameter to change, "" if none
+  char subject[16];   // part that the warning is about, "inner seal"; "" if there is only one
 } SbWarning;
 
-// A bounded list without duplicates (same code, parameter and subject). `dropped` counts what did
-// not fit. While `subject` is set (borrowed), what is added without one is about it.
+// A list of warnings without duplicates (equal code, parameter and subject). It owns its texts.
+// Initialise with {0}; nothing has to be freed.
 typedef struct {
-  const char *subject;
-  size_t count;
-  size_t dropped;
+  const char *subject; // subject of warnings that are added next, borrowed; NULL: none
+  size_t count;        // elements of `item` in use
+  size_t dropped;      // number of warnings that did not fit
   SbWarning item[SB_WARNINGS_MAX];
 } SbWarnings;
 
-// Adds a warning unless one with the same code, parameter and subject is there; `list` may be NULL.
+// Adds a warning about the current subject of `list`, with a formatted sentence. Does nothing if
+// the list has a warning with equal code, parameter and subject. All strings are copied. `list` may
+// be NULL.
 void sb_warn(SbWarnings *list, const char *code, const char *parameter, const char *format, ...)
     SB_PRINTF(4, 5);
 
-// Replaces the text of the warning with this code and subject; nothing where there is none.
+// Formats a new text into each warning of `list` that has this code and this subject ("": no
+// subject). Does nothing if there is none. `list` must not be NULL.
 void sb_warn_replace(SbWarnings *list, const char *code, const char *subject, const char *format,
                      ...) SB_PRINTF(4, 5);
 
-// What the warnings added from now on are about (NULL: nothing of which there are several); `list`
-// may be NULL.
+// Sets the subject of the warnings that are added from now on; borrowed until the next call, NULL:
+// none. `list` may be NULL.
 void sb_warn_about(SbWarnings *list, const char *subject);
 
-// Whether a warning of this code tells a defect of the valve itself, or a picture or model that
-// leaves out what it should show, rather than how far a figure can be trusted: such a finding is
-// shown in words wherever results are, never as one of a number of warnings.
+// Returns whether a warning with this code reports a defect of the valve, or a model or picture
+// that omits something relevant. Such a warning is always printed in words; other warnings, which
+// reduce the confidence in a result, may be shown as a count only.
 bool sb_warning_is_serious(const char *code);
 
-// Adds all of `from` to `list`.
+// Adds copies of all warnings of `from` to `list` (NULL: does nothing), and its number of dropped
+// warnings. A warning without a subject gets the current subject of `list`.
 void sb_warnings_merge(SbWarnings *list, const SbWarnings *from);

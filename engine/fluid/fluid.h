@@ -1,31 +1,30 @@
-// The fluids of a canister and what lubricates it, at saturation.
+// Properties of canister fluids and lubricants at saturation. All pressures are absolute. All
+// tables are constant, so the functions may be called concurrently.
 //
-// Propellants and ethanol: an equation of state in the Helmholtz energy (helmholtz.h) gives
-// pressure, densities and enthalpy of vaporisation, a correlation of its own or corresponding
-// states the liquid's viscosity (viscosity.h), and
+// Propellants and ethanol: an equation of state (helmholtz.h) gives pressure, densities and
+// enthalpy of vaporisation. The liquid's viscosity follows from a correlation or from corresponding
+// states (viscosity.h), and the surface tension from
 //
-//   sigma = sum s_i (1 - T/T_s)^n_i         surface tension (Mulero et al. 2012, 2014)
+//   sigma = sum s_i (1 - T/T_s)^n_i         (Mulero et al. 2012, 2014)
 //
-// Silicone oils (polydimethylsiloxane, by grade in mm2/s at 25 degC):
+// Silicone oils (polydimethylsiloxane, grade = kinematic viscosity at 25 degC):
 //
 //   log10 nu/nu_25 = 763.1/(273 + t) - 2.559, t in degC, from 100 mm2/s and -25 degC up (Shin-Etsu,
-//   KF-96); density falling by 0.95e-3/K, surface tension by 0.06 mN/(m.K)
+//   KF-96); density decreases by 0.95e-3/K, surface tension by 0.06 mN/(m.K)
 //
-// Ethanol as a cosolvent, by mass: pressure by Raoult's law, viscosity by Grunberg and Nissan
-// (1949) without interaction, ln eta = sum x_i ln eta_i, ideal volumes. An estimate:
-// hydrofluoroalkanes and ethanol deviate from Raoult's law to higher pressures (Gavtash et al.,
-// Drug Delivery to the Lungs 26, 2015), so that the pressure lies between the estimate and the
-// propellant's own.
+// Mixtures of a propellant with ethanol, by mass: pressure by Raoult's law, viscosity by Grunberg
+// and Nissan (1949) without interaction, ln eta = sum x_i ln eta_i, ideal volumes. This is an
+// estimate: hydrofluoroalkanes with ethanol deviate from Raoult's law to higher pressures (Gavtash
+// et al., Drug Delivery to the Lungs 26, 2015). The pressure is between the estimate and that of
+// the propellant.
 //
-// Valid at saturation in each fluid's range of temperature; never extrapolated, but for the
-// viscosity below `viscosity_min`, of which a warning tells. Left out: the dissolved air of a
-// canister that was not evacuated, drug and surfactants.
+// Nothing is extrapolated beyond a fluid's range of temperature, except the viscosity below
+// `viscosity_min` (with a warning). Not modelled: dissolved air, drug, surfactants.
 #pragma once
 
 #include "engine/fluid/viscosity.h"
 
-// Properties: constant, name, unit in JSON's key, SI unit, unit that people read, label, and which
-// of a fluid's sources it comes from.
+// X(constant, name, suffix of the JSON key, SI unit, display unit, label, origin): the properties.
 #define SB_FLUID_PROPERTY_LIST(X)                                                                  \
   X(PRESSURE, "pressure_saturation", "_Pa", "Pa", "kPa", "Saturation pressure", EQUATION)          \
   X(LIQUID, "density_liquid", "_kg_per_m3", "kg/m3", "kg/m3", "Density, liquid", EQUATION)         \
@@ -37,6 +36,7 @@
   X(MASS, "molar_mass", "_kg_per_mol", "kg/mol", "g/mol", "Molar mass", EQUATION)                  \
   X(GWP, "gwp100", "", "1", "", "Global warming potential, 100 years", GWP)
 
+// Index of a property.
 typedef enum {
 #define SB_FLUID_PROPERTY_ENUM(id, name, suffix, si, shown, label, origin) SB_FLUID_##id,
   SB_FLUID_PROPERTY_LIST(SB_FLUID_PROPERTY_ENUM)
@@ -44,69 +44,82 @@ typedef enum {
       SB_FLUID_PROPERTY_COUNT
 } SbFluidPropertyId;
 
+// Which of a fluid's sources a property comes from.
 typedef enum {
-  SB_FLUID_FROM_EQUATION,
-  SB_FLUID_FROM_VISCOSITY,
-  SB_FLUID_FROM_TENSION,
-  SB_FLUID_FROM_GWP,
+  SB_FLUID_FROM_EQUATION,  // the equation of state (or the data sheet of an oil)
+  SB_FLUID_FROM_VISCOSITY, // the viscosity correlation
+  SB_FLUID_FROM_TENSION,   // the surface tension correlation
+  SB_FLUID_FROM_GWP,       // the list of global warming potentials
   SB_FLUID_ORIGIN_COUNT
 } SbFluidOrigin;
 
+// Row of the table of properties.
 typedef struct {
-  const char *name, *key; // "density_liquid", "density_liquid_kg_per_m3"
-  const char *label, *si, *shown;
+  const char *name, *key;         // "density_liquid", "density_liquid_kg_per_m3"
+  const char *label, *si, *shown; // "Density, liquid"; SI unit; display unit, "" if none
   SbFluidOrigin origin;
 } SbFluidProperty;
 
+// The table of properties, by SbFluidPropertyId.
 extern const SbFluidProperty sb_fluid_property[SB_FLUID_PROPERTY_COUNT];
 
+// Coefficients of a fluid.
+
 typedef struct {
-  const char *name, *label, *help;         // "hfa-134a"
-  double temperature_min, temperature_max; // [K]
-  double temperature_critical;             // [K], 0: none
-  bool propellant;                         // takes ethanol
-  double mass;                             // [kg/mol]
-  double gwp100;                           // NAN: not listed
-  const SbHelmholtz *equation;             // NULL: a silicone oil, or no figures at all
-  const SbViscosity *viscosity;
-  double viscosity_min;                 // [K] where the correlation begins, 0: with the range
-  const SbCorresponding *corresponding; // where viscosity is NULL
-  double tension_temperature;           // T_s [K]
-  double tension[3][2];                 // s_i [N/m], n_i
-  double grade, density, tension_25;    // of a silicone oil at 25 degC [m2/s], [kg/m3], [N/m]
-  const char *source[SB_FLUID_ORIGIN_COUNT];
-  double uncertainty[SB_FLUID_PROPERTY_COUNT]; // relative; below 0: estimated here; 0: none
+  const char *name, *label, *help;         // "hfa-134a"; name for the user; one line
+  double temperature_min, temperature_max; // range of the properties [K]
+  double temperature_critical;             // [K], 0: not given
+  bool propellant;                         // may be mixed with ethanol
+  double mass;                             // molar mass [kg/mol]
+  double gwp100;                           // global warming potential; NAN: not listed
+  const SbHelmholtz *equation;             // NULL: a silicone oil, or `custom`
+  const SbViscosity *viscosity;            // NULL: by `corresponding`, or a silicone oil
+  double viscosity_min; // lower end of the viscosity correlation [K]; 0: temperature_min
+  const SbCorresponding *corresponding;        // used if `viscosity` is NULL
+  double tension_temperature;                  // T_s [K]
+  double tension[3][2];                        // terms (s_i [N/m], n_i), unused ones 0
+  double grade, density, tension_25;           // silicone oil at 25 degC: nu [m2/s], [kg/m3], [N/m]
+  const char *source[SB_FLUID_ORIGIN_COUNT];   // reference of each origin; all NULL for `custom`
+  double uncertainty[SB_FLUID_PROPERTY_COUNT]; // relative; negative: our estimate; 0: not stated
 } SbFluid;
 
-// All fluids; the first is `custom`, which has no figures.
+// All fluids, sb_fluids[sb_fluid_count]. The first is `custom`, which has no properties: the user
+// specifies them.
 extern const SbFluid sb_fluids[];
+// Number of fluids.
 extern const int sb_fluid_count;
 
-// The fluid of a name of `length` bytes, in upper or lower case; NULL if there is none.
+// Returns the fluid whose name equals the first `length` bytes of `name`, ignoring case; static.
+// NULL if there is none.
 const SbFluid *sb_fluid_find(const char *name, size_t length);
 
+// A property of a fluid in a state.
 typedef struct {
-  double value;       // SI; NAN: there is none
+  double value;       // SI; NAN: not available
   double uncertainty; // relative; NAN: not stated
-  const char *source; // of the value, or why there is none
-  bool estimated;     // the uncertainty, here rather than by the source
+  const char *source; // reference of the value, or the reason why it is not available; static
+  bool estimated;     // the uncertainty is our estimate, not that of the source
 } SbFluidFigure;
 
+// Properties of a fluid at saturation.
 typedef struct {
-  double temperature; // [K]
-  bool estimate;      // with ethanol
-  SbFluidFigure figure[SB_FLUID_PROPERTY_COUNT];
+  double temperature;                            // [K]
+  bool estimate;                                 // a mixture with ethanol
+  SbFluidFigure figure[SB_FLUID_PROPERTY_COUNT]; // by SbFluidPropertyId
 } SbFluidState;
 
-// Largest share of ethanol in the mass for which a mixture is estimated.
+// Largest mass fraction of ethanol in a mixture.
 #define SB_FLUID_ETHANOL_MAX 0.3
 
-// State of a fluid at a temperature [K], with a share `ethanol` of the mass (0: none). `warnings`
-// (may be NULL) tells of an estimate with ethanol and of an extrapolated viscosity. SB_ERROR_RANGE
-// outside the fluid's range, SB_ERROR_INPUT for `custom` and for ethanol in what is no propellant.
+// Computes the properties of `fluid` at `temperature` [K], mixed with the mass fraction `ethanol`
+// (0: pure). Warnings: "mixture-estimate", "viscosity-extrapolated". SB_ERROR_RANGE: `temperature`
+// is outside the fluid's range or `ethanol` outside 0 to SB_FLUID_ETHANOL_MAX. SB_ERROR_INPUT:
+// `fluid` is `custom`, or ethanol with a fluid that is not a propellant. SB_ERROR_NOT_CONVERGED: no
+// equilibrium of liquid and vapour was found.
 SbStatus sb_fluid_state(SbFluidState *out, SbWarnings *warnings, const SbFluid *fluid,
                         double temperature, double ethanol, SbReport *report);
 
-// Density [kg/m3] of a fluid's vapour at a temperature [K] in its range and an absolute pressure
-// [Pa] not above saturation; NAN for one without an equation of state.
+// Returns the density [kg/m3] of the vapour at `temperature` [K] and the absolute `pressure` [Pa].
+// NAN if the fluid has no equation of state, the temperature is outside its range, or the pressure
+// is above saturation.
 double sb_fluid_vapour(const SbFluid *fluid, double temperature, double pressure);

@@ -1,16 +1,19 @@
-// Viscosity of a fluid from its density and temperature.
+// Viscosity of a fluid from its density and temperature. The functions have no state and may be
+// called concurrently.
 //
 //   eta = eta_0(T) (1 + N_A sigma^3 B*(kT/epsilon) rho) + sum n delta^d tau^t
 //         + f delta^d (1/(delta_0 - delta) - 1/delta_0)
 //   delta_0 = (g_0 + g_1 tau^(-1/2)) / (1 + h_1/tau + h_2/tau^2)
 //
-// B*: Rainwater and Friend's second viscosity virial by Vogel, Kuechenmeister, Bich and Laesecke,
-// J. Phys. Chem. Ref. Data 27 (1998) 947, where the paper has one. eta_0: a fit of the collision
-// integral, or a quotient of polynomials in T. Where a paper gives no free-volume term, f = 0.
+// B*: second viscosity virial of Rainwater and Friend by Vogel, Kuechenmeister, Bich and Laesecke,
+// J. Phys. Chem. Ref. Data 27 (1998) 947, if the publication uses it. eta_0: viscosity of the
+// dilute gas, by a fit of the collision integral or a quotient of polynomials in T. Without a
+// free-volume term f = 0. tau = temperature/T and delta = rho/density with the constants of
+// SbViscosity.
 //
-// A fluid without a correlation of its own follows a reference fluid in the conformal state
-// (delta_0, T_0), at which alpha and the compression factor agree (extended corresponding states,
-// Huber, Laesecke and Perkins, Ind. Eng. Chem. Res. 42 (2003) 3163):
+// A fluid without a correlation uses that of a reference fluid (index 0) in the conformal state
+// (rho_0, T_0), where alpha and the compressibility factor are equal (extended corresponding
+// states, Huber, Laesecke and Perkins, Ind. Eng. Chem. Res. 42 (2003) 3163):
 //
 //   eta = eta_0(T) + (eta - eta_0)_reference(rho_0 psi, T_0) sqrt(T/T_0 M/M_0) (rho/rho_0)^(2/3)
 //
@@ -19,34 +22,40 @@
 
 #include "engine/fluid/helmholtz.h"
 
+// Coefficients of a correlation; symbols as above.
 typedef struct {
-  double epsilon;       // epsilon/k of Lennard and Jones [K]
-  double sigma;         // [nm]
-  double chapman, mass; // eta_0 = chapman sqrt(mass T)/(sigma^2 exp(sum a_i ln^i (kT/epsilon)))
-  double collision[5];  // a_i
-  // Where chapman is 0, eta_0 = sum a_i T^i / sum b_i T^i [Pa.s].
-  double above[4], below[3];
-  bool initial;                // with B*
-  double temperature, density; // tau = temperature/T [K], delta = rho/density [mol/m3]
-  const double (*term)[3];     // n [Pa.s], d, t
-  size_t count;
-  double free, free_d, g[2], h[2]; // f [Pa.s] and what goes with it
+  double epsilon; // epsilon/k of Lennard and Jones [K]
+  double sigma;   // of Lennard and Jones [nm]
+  // eta_0 = chapman sqrt(mass T)/(sigma^2 exp(sum a_i ln^i (kT/epsilon))), mass in g/mol
+  double chapman, mass;
+  double collision[5];         // a_i
+  double above[4], below[3];   // if chapman is 0: eta_0 = sum above_i T^i / sum below_i T^i [Pa.s]
+  bool initial;                // the term with B* is used
+  double temperature, density; // reducing temperature [K] and density [mol/m3]
+  const double (*term)[3];     // [count] (n [Pa.s], d, t), borrowed
+  size_t count;                // number of terms
+  // Free-volume term: f [Pa.s] (0: none), d, (g_0, g_1), (h_1, h_2).
+  double free, free_d, g[2], h[2];
 } SbViscosity;
 
+// Coefficients for corresponding states.
 typedef struct {
-  double epsilon, sigma;  // [K], [nm]
-  double psi[3], density; // polynomial of rho/density [mol/m3]
-  const SbHelmholtz *reference;
-  const SbViscosity *viscosity; // of the reference
-  double mass;                  // of the reference [kg/mol]
+  double epsilon, sigma;        // of the fluid, Lennard and Jones [K], [nm]
+  double psi[3], density;       // psi = sum psi_i (rho/density)^i, density in mol/m3
+  const SbHelmholtz *reference; // equation of state of the reference fluid, borrowed
+  const SbViscosity *viscosity; // correlation of the reference fluid, borrowed
+  double mass;                  // molar mass of the reference fluid [kg/mol]
 } SbCorresponding;
 
-// Viscosity [Pa.s] at a density [mol/m3] and temperature [K]; in *residual (may be NULL) without
-// eta_0.
+// Returns the viscosity [Pa.s] at a density [mol/m3] and temperature [K]. Writes eta - eta_0 to
+// *residual (NULL: not wanted).
 double sb_viscosity(double *residual, const SbViscosity *viscosity, double density,
                     double temperature);
 
-// The same by corresponding states, of a fluid of `mass` [kg/mol] in a `state` of its `equation`.
+// Computes the viscosity *out [Pa.s] by corresponding states, for a fluid with the molar mass
+// `mass` [kg/mol] and the equation of state `equation`. `state` is its alpha at `density` [mol/m3]
+// and `temperature` [K] (SbSaturation.liquid_state). SB_ERROR_NOT_CONVERGED: no conformal state was
+// found.
 SbStatus sb_viscosity_corresponding(double *out, const SbCorresponding *corresponding,
                                     const SbHelmholtz *equation, double mass,
                                     const SbResidual *state, double density, double temperature,

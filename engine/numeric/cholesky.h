@@ -1,23 +1,29 @@
-// Sparse symmetric positive definite systems: A = L D L^T without exchanges.
+// Direct solver for sparse symmetric positive definite systems A x = b, by A = L D L^T.
 //
-// Unknowns in the order of least degree (Amestoy, Davis and Duff 1996); the factor by rows, each
-// found by its path up the elimination tree (T.A. Davis, ACM Trans. Math. Softw. 31 (2005) 587).
-// For stiffness and mass matrices of one unknown a node; the ring's blocks of two have their own
-// (contact/ring/ring_factor.h).
+// The unknowns are ordered by approximate minimum degree (Amestoy, Davis and Duff 1996). The factor
+// is computed by rows along the elimination tree (T.A. Davis, ACM Trans. Math. Softw. 31 (2005)
+// 587). Use: create once for a pattern, compute for each matrix, solve for each right-hand side.
+// contact/ring/ring_factor.h is a separate solver for systems of 2 x 2 blocks.
 #pragma once
 
 #include "engine/base/status.h"
 
 typedef struct SbCholesky SbCholesky;
 
-// For n unknowns; row i has the columns column[start[i] .. start[i + 1]), its diagonal among them,
-// and the pattern is symmetric. The pattern is borrowed as long as the factor lives. Owned; NULL
-// without memory.
+// Creates a solver for n >= 0 unknowns and analyses the pattern of A. Row i has its non-zero
+// entries in the columns column[start[i]] to column[start[i + 1] - 1]; start[n + 1], start[0] = 0.
+// Each row includes its diagonal, and the pattern is symmetric (both triangles). `start` and
+// `column` are borrowed until the solver is destroyed. Returns NULL if memory is short or the
+// pattern is invalid.
 SbCholesky *sb_cholesky_create(int n, const int *start, const int *column);
-void sb_cholesky_destroy(SbCholesky *factor); // takes NULL
 
-// Factorises: value[k] belongs to column[k]. False where the matrix is not positive definite.
+// Frees the solver. Takes NULL.
+void sb_cholesky_destroy(SbCholesky *factor);
+
+// Factorises A, whose entry in column[k] is value[k], k < start[n]. `value` is only read during the
+// call. Returns false if A is not positive definite; sb_cholesky_solve() must not be called then.
 SB_CHECKED bool sb_cholesky_compute(SbCholesky *factor, const double *value);
 
-// b becomes A^-1 b.
+// Replaces b[n] by A^-1 b, with the factor of the last sb_cholesky_compute() that returned true.
+// Uses a work array of `factor`: one thread at a time.
 void sb_cholesky_solve(const SbCholesky *factor, double *b);

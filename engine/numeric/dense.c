@@ -69,8 +69,8 @@ bool sb_eliminate(double *a, double *b, size_t n) {
   return true;
 }
 
-bool sb_factor_solve(double *a, int *pivot, double *b, int n, bool fresh) {
+bool sb_factor_solve(double *a, int *pivot, double *b, int n, bool factor) {
   // Our rows are LAPACK's columns: solve with the transpose.
-  return (!fresh || LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, a, n, pivot) == 0) &&
+  return (!factor || LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, a, n, pivot) == 0) &&
          LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', n, 1, a, n, pivot, b, n) == 0;
 }

@@ -1,35 +1,47 @@
-// Discrete Fourier transforms of lines and of the columns of matrices, by GSL's mixed radix.
+// Discrete Fourier transforms of complex vectors and of the columns of complex matrices (GSL's
+// mixed radix).
 //
-// forward: Z_k = sum_j z_j exp(-2 pi i j k/n); the inverse divides by n. Lengths whose factors are
-// 2, 3 and 5 take O(n log n).
+// Forward: Z_k = sum_j z_j exp(-2 pi i j k/n), not normalised. Inverse: exponent +, divided by n. A
+// length n whose prime factors are 2, 3 and 5 costs O(n log n). Complex numbers are pairs (real
+// part, imaginary part) of doubles.
 #pragma once
 
 #include "engine/base/status.h"
 
 #include <gsl/gsl_fft_complex.h>
 
-// Such a length: the least not below n, the greatest not above it (n >= 1).
+// Returns the smallest length >= n whose only prime factors are 2, 3 and 5; n >= 1.
 size_t sb_fourier_length_above(size_t n);
+
+// Returns the largest length <= n whose only prime factors are 2, 3 and 5; n >= 1.
 size_t sb_fourier_length_below(size_t n);
 
-// What transforms of one length need; zeroed it is empty.
+// Tables and work memory for transforms of n complex numbers. The functions below use the work
+// memory also through a const pointer: one thread at a time.
 typedef struct {
-  size_t n;
+  size_t n; // complex numbers of a transform
   gsl_fft_complex_wavetable *table;
   gsl_fft_complex_workspace *work;
-  double *block; // some columns, side by side
+  double *block; // work memory of sb_fourier_columns()
 } SbFourier;
 
-// SB_ERROR_MEMORY; to be finished in any case.
+// Allocates tables and work memory for length n >= 1. Call sb_fourier_finish() also after
+// SB_ERROR_MEMORY.
 SbStatus sb_fourier_init(SbFourier *fourier, size_t n, SbReport *report);
+
+// Frees the memory and sets all fields to zero. A zeroed structure is allowed.
 void sb_fourier_finish(SbFourier *fourier);
 
-// In place, of n pairs of real and imaginary part.
+// Transforms line[2*n] in place, forward.
 void sb_fourier_forward(const SbFourier *fourier, double *line);
+
+// Transforms line[2*n] in place, inverse, including the division by n.
 void sb_fourier_inverse(const SbFourier *fourier, double *line);
 
-// Calls `act` with every column of a complex matrix of at most n rows, continued by zeros to n
-// pairs, and takes back what it leaves in the first rows.
+// Calls `act` once for every column of the complex matrix[rows][columns], rows <= n. `act` gets the
+// column as line[2*n], padded with zeros from `rows` on. It may transform and change `line` in
+// place; the first `rows` numbers that it leaves replace the column. `act` must not call
+// sb_fourier_columns() with the same `fourier`.
 void sb_fourier_columns(const SbFourier *fourier, double *matrix, size_t rows, size_t columns,
                         void (*act)(const SbFourier *fourier, double *line, void *data),
                         void *data);

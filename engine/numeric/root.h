@@ -1,52 +1,62 @@
-// Roots and minima of functions of one variable inside a bracket, roots of small systems, and the
-// interval of a table.
+// Roots and minima of functions of one variable in a bracket, roots of small systems, search in a
+// table, cubic interpolation. The functions have no state of their own and may be called
+// concurrently.
 #pragma once
 
 #include "engine/base/status.h"
 
+// A function of x. `context` is the pointer that the caller passed to the solver.
 typedef double (*SbFunction)(double x, const void *context);
 
-// Where f turns from positive at `above` to zero or negative at `below`, whichever of them is the
-// greater, to the last digit. Neither end is evaluated.
+// Returns the x between `above` and `below` at which f changes sign, to the last digit, by
+// bisection. f must be positive at `above` and zero or negative at `below`. Either end may be the
+// larger one; neither is evaluated.
 double sb_bisect(SbFunction f, const void *context, double above, double below);
 
-// A function with its slope.
+// Returns the value of a function at x and writes its derivative to *slope.
 typedef double (*SbSlopedFunction)(double *slope, double x, const void *context);
 
-// Root of a rising f in [low, high] to the rounding of its ends: Newton's method from `guess`,
-// bisection where that leaves the bracket.
+// Returns the root of an increasing f in [low, high], to 2 DBL_EPSILON times the larger magnitude
+// of the ends. Uses Newton's method from `guess`, and bisection if a step leaves the bracket. f
+// must have a root in [low, high]; the ends are not evaluated. Without a root the result is an end.
 double sb_newton_bracketed(SbSlopedFunction f, const void *context, double low, double high,
                            double guess);
 
-// Place of the minimum of f in [low, high], where it has one, to `digits` of the bracket (1e-8:
-// more a minimum does not hold); golden section.
+// Returns the x at which f has its minimum in [low, high], by golden section search; f must be
+// unimodal. The error is at most `digits` times (high - low); values below 1e-8 gain nothing in
+// double precision.
 double sb_minimum(SbFunction f, const void *context, double low, double high, double digits);
 
-// Greatest i <= count - 2 with x[i] <= at, 0 if there is none; x increasing, count >= 2.
+// Returns the largest i <= count - 2 with x[i] <= at, or 0 if at < x[0]. x[count] is increasing,
+// count >= 2.
 size_t sb_interval(const double *x, size_t count, double at);
 
-// Cubic with the values and slopes of both ends of an interval of some width, at its fraction f;
-// its slope.
+// Returns the cubic Hermite polynomial at the fraction f (0 to 1) of an interval, and writes its
+// derivative with respect to the coordinate to *slope. `width` is the length of the interval,
+// `value` has the values and `end` the derivatives at its two ends.
 double sb_hermite(double *slope, double f, double width, const double value[2],
                   const double end[2]);
 
-// Residuals r of the unknowns x; false where they are not defined.
+// Computes the residuals r[n] at x[n]. Returns false if they are not defined there.
 typedef bool (*SbSystem)(double *r, const double *x, void *context);
 
+// Largest number of unknowns of sb_solve_system().
 enum { SB_SYSTEM_MAX = 4 };
 
-// What one solve hands on to the next. Zero-initialise.
+// Jacobian that one solve passes to the next solve of a similar system. Initialise with {0}.
 typedef struct {
-  double slope[SB_SYSTEM_MAX * SB_SYSTEM_MAX]; // derivatives of the residuals, n x n by columns
-  bool known;                                  // if set
-  size_t iterations;                           // of all solves
-  double residual;                             // the largest one of the last
+  double slope[SB_SYSTEM_MAX * SB_SYSTEM_MAX]; // dr_i/dx_j = slope[i + n*j]
+  bool known;                                  // `slope` has been set
+  size_t iterations;                           // sum over all solves so far
+  double residual; // max norm of r after the last solve; INFINITY if r is not defined
 } SbBroyden;
 
-// Solves f(x) = 0 for n <= SB_SYSTEM_MAX unknowns from the given ones by Newton's method.
-// Derivatives come from an earlier solve or from differences and are corrected by Broyden's formula
-// while each step at least halves the residual; with fresh ones steps are shortened until it falls.
-// True if the largest residual is at most `tolerance`, or a thousand times that where rounding
-// allows no less; f was then last called with x.
+// Solves f(x) = 0 for n <= SB_SYSTEM_MAX unknowns by a quasi-Newton method. x[n] has the initial
+// guess and receives the solution. The Jacobian is that of `broyden`, or computed by differences.
+// Broyden's formula updates it while each step at least halves the residual; otherwise it is
+// recomputed and steps are shortened until the residual decreases. Returns true if the max norm of
+// r is at most `tolerance`, or at most 1000 `tolerance` if rounding prevents a smaller one. f was
+// then last called with the returned x. Returns false if r is not defined or 40 iterations were not
+// enough; x is then the best point found.
 SB_CHECKED bool sb_solve_system(SbSystem f, void *context, double *x, size_t n, double tolerance,
                                 SbBroyden *broyden);

@@ -1,8 +1,9 @@
-// Where a study looks: distributions of parameters, and the points of its designs.
+// Distributions of study parameters, and sampling designs.
 //
-// Random numbers are functions of seed, sample and dimension (a counter goes through SplitMix64's
-// finaliser, Steele, Lea and Flood 2014), so that a sample does not depend on which others were
-// drawn. Points lie in the open unit cube; a distribution's quantile turns them into values.
+// Random numbers are functions of seed, sample and dimension (SplitMix64's finaliser, Steele, Lea
+// and Flood 2014). A sample does not depend on which other samples were drawn. Points of designs
+// are in the open unit cube; the quantile function of a distribution converts a coordinate into a
+// value. The functions have no state and may be called concurrently.
 #pragma once
 
 #include "engine/base/status.h"
@@ -11,55 +12,70 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// In (0, 1), with 53 bits.
+// Returns a random number in the open interval (0, 1), with 53 bits. Equal arguments give equal
+// numbers.
 double sb_random(uint64_t seed, uint64_t sample, uint32_t dimension);
 
+// Type of a distribution.
 typedef enum {
-  SB_DISTRIBUTION_UNIFORM,    // a .. b
-  SB_DISTRIBUTION_LOGUNIFORM, // a .. b, 0 < a: uniform in the logarithm
-  SB_DISTRIBUTION_NORMAL,     // mean a, deviation b, cut off at low and high
-  SB_DISTRIBUTION_LEVELS      // one of `count` values, each as likely
+  SB_DISTRIBUTION_UNIFORM,    // uniform in [a, b]
+  SB_DISTRIBUTION_LOGUNIFORM, // logarithm uniform, in [a, b], 0 < a
+  SB_DISTRIBUTION_NORMAL,     // mean a, standard deviation b > 0, truncated to [low, high]
+  SB_DISTRIBUTION_LEVELS      // one of `count` values with equal probability
 } SbDistributionKind;
 
+// A distribution. a, b, low, high and levels have the unit of the parameter.
 typedef struct {
   SbDistributionKind kind;
-  double a, b, low, high; // low, high of a normal one: -+INFINITY where it is not cut off
-  const double *level;    // [count], borrowed
-  size_t count;           // levels; of the other kinds, how many points a grid takes (0: not said)
+  double a, b;         // see SbDistributionKind; not used by LEVELS
+  double low, high;    // NORMAL: ends of the range, -INFINITY and INFINITY: not truncated
+  const double *level; // LEVELS: [count], borrowed
+  size_t count;        // number of levels; for the other kinds, points of a grid (0: not given)
 } SbDistribution;
 
-// Value below which the share `p` of (0, 1) lies.
+// Returns the quantile: the value below which the fraction `p` of the probability is, 0 < p < 1.
 double sb_distribution_quantile(const SbDistribution *distribution, double p);
 
-// The same at a standard normal variate, exact far out in both tails.
+// Returns the quantile at p = Phi(z), z a standard normal variate. Accurate in both tails, where
+// Phi(z) rounds to 0 or 1.
 double sb_distribution_at_normal(const SbDistribution *distribution, double z);
 
-// Derivative of that by the variate; 0 of levels, which are constant between their steps.
+// Returns the derivative of sb_distribution_at_normal() with respect to z; 0 for LEVELS.
 double sb_distribution_slope(const SbDistribution *distribution, double z);
 
-// Place `index` of a grid's `count` points.
+// Returns point `index` of a grid of `count` points: the level; for UNIFORM and LOGUNIFORM (count
+// >= 2) equal steps of probability from a to b, both included. Not defined for NORMAL.
 double sb_distribution_grid(const SbDistribution *distribution, size_t index);
 
-// Standard normal distribution function, and its inverse.
+// Returns the standard normal distribution function Phi(z).
 double sb_normal_share(double z);
+
+// Returns the inverse of Phi: z with Phi(z) = p, 0 < p < 1.
 double sb_normal_quantile(double p);
 
-// `point` is [samples][dimensions] in all of these; SB_ERROR_MEMORY.
+// Writes independent random points to point[samples][dimensions].
 void sb_sample_random(double *point, size_t samples, size_t dimensions, uint64_t seed);
 
-// Sobol's low-discrepancy sequence (GSL's, directions of Bratley and Fox 1988), its digits shifted
-// by the seed. At most SB_SOBOL_DIMENSIONS dimensions, SB_ERROR_RANGE.
+// Largest number of dimensions of sb_sample_sobol().
 enum { SB_SOBOL_DIMENSIONS = 40 };
+
+// Writes the first points of Sobol's low-discrepancy sequence to point[samples][dimensions] (GSL,
+// directions of Bratley and Fox 1988). Its binary digits are shifted by random digits of `seed`.
+// SB_ERROR_RANGE: `dimensions` is not 1 to SB_SOBOL_DIMENSIONS.
 SbStatus sb_sample_sobol(double *point, size_t samples, size_t dimensions, uint64_t seed,
                          SbReport *report);
 
-// Morris' trajectories (1991): `samples` / (dimensions + 1) of them, each of dimensions + 1 points
-// that differ in one coordinate by half the range between levels 1/8, 3/8, 5/8 and 7/8.
+// Change of the one coordinate that differs between successive points of a Morris trajectory.
 #define SB_MORRIS_STEP 0.5
+
+// Writes Morris' trajectories (1991) to point[samples][dimensions]. Each trajectory has dimensions
+// + 1 successive points; successive points differ in one coordinate by +-SB_MORRIS_STEP, between
+// the levels 1/8, 3/8, 5/8 and 7/8. `samples` is a multiple of dimensions + 1.
 void sb_sample_morris(double *point, size_t samples, size_t dimensions, uint64_t seed);
 
-// Saltelli's design: of `base` points A and B of a Sobol sequence in twice the dimensions (random
-// ones beyond SB_SOBOL_DIMENSIONS), rows A, then B, then for each dimension A with that of B:
-// base (dimensions + 2) points.
+// Writes Saltelli's design to point[base (dimensions + 2)][dimensions]: `base` rows A, `base` rows
+// B, then for each dimension k the rows A with coordinate k of B. A and B are the two halves of a
+// Sobol sequence in 2 dimensions (of random points if that exceeds SB_SOBOL_DIMENSIONS). Input of
+// sb_sobol_indices().
 SbStatus sb_sample_saltelli(double *point, size_t base, size_t dimensions, uint64_t seed,
                             SbReport *report);

@@ -1,75 +1,89 @@
-// Fick's diffusion through a meshed section, sorbed by Henry's law: c = S p at wetted faces.
+// Fick's diffusion of one species through a meshed section. Wetted faces are in equilibrium with
+// the fluids by Henry's law: c = S p.
 //
-//   div (P grad p) = 0, steady;  dp/dt = D div grad p, D = P/S  (Crank, The Mathematics of
-//   Diffusion, 2nd ed. 1975, 1.2 and 10.1)
+//   steady:     div (P grad p) = 0
+//   transient:  dp/dt = D div grad p, D = P/S
+//   (Crank, The Mathematics of Diffusion, 2nd ed. 1975, 1.2 and 10.1)
 //
-// in finite elements of six-node triangles, p quadratic: the steady flux is the sum of the nodal
-// reactions of a face, which balance to rounding and converge with h^4 (h the side of an element)
-// where the solution is smooth; wetted_mesh.h says how the ends of faces are met. With the partial
-// pressure 1 inside and 0 outside everything is geometry:
+// P is the permeability, S the solubility, D the diffusivity; they are constant. p is the partial
+// pressure divided by that at the inside face: 1 at inside faces, 0 at outside faces. The results
+// depend on the geometry only; the caller multiplies them by P, S, D and the pressure:
 //
-//   flux = P S_g (p_in - p_out), S_g [m] the conductance: A/L of a slab, 2 pi H/ln(r2/r1)
-//   time lag t_l = l2/D, l2 = int p (1 - p) dV/S_g [m2]: L^2/6 of a slab (Daynes 1920; for any body
-//   Frisch, J. Phys. Chem. 61 (1957) 93)
+//   flux = P S_g (p_in - p_out), S_g = conductance: A/L of a slab, 2 pi H/ln(r2/r1) of a tube
+//   time lag = l2/D, l2 = int p (1 - p) dV/S_g: L^2/6 of a slab
+//   (Daynes 1920; for any body Frisch, J. Phys. Chem. 61 (1957) 93)
 //
-// The approach to it from a dry body: time by an L-stable method of fourth order in five stages
-// (Hairer and Wanner, Solving ODEs II, table IV.6.5), in steps that grow with the time.
+// Method: finite elements with quadratic shape functions. The flux of a face is the sum of its
+// nodal reactions; it converges with h^4 where the solution is smooth (h: size of an element; ends
+// of faces: wetted_mesh.h). Time steps: L-stable Runge-Kutta method of order 4 with five stages
+// (Hairer and Wanner, Solving ODEs II, table IV.6.5). Not modelled: changes of P and D by stretch,
+// swell and concentration.
 //
-// Constant P and D: stretch, swell and concentration do not change them here. SI units; an
-// axisymmetric section's figures are those of the whole ring, a plane one's per metre.
+// Integrals over an axisymmetric section are those of the full ring. Those over a plane section are
+// per metre of depth, so their unit has one m less than stated below.
 #pragma once
 
 #include "engine/permeation/wetted_mesh.h"
 
+// A section with its equations and its steady solution.
 typedef struct SbDiffusion SbDiffusion;
 
+// Steady results.
 typedef struct {
-  double conductance;       // S_g [m]; plane: [1]
-  double flux_in, flux_out; // through the faces for P = 1 and 1 inside; equal but for rounding
-  double lag;               // D times the time lag [m2]
-  double volume;            // [m3]; plane: [m2]
+  double conductance; // S_g, mean of flux_in and flux_out [m]
+  double flux_in;     // into the section through the inside faces, divided by P (p_in - p_out) [m]
+  double flux_out; // out of the outside faces, divided likewise; equals flux_in up to rounding [m]
+  double lag;      // l2, the time lag multiplied by D [m2]
+  double volume;   // [m3]
 } SbDiffusionSteady;
 
-// Assembles and solves the steady state. `section` is borrowed until the end. Owned; free with
-// sb_diffusion_destroy(). SB_ERROR_INPUT: an element is turned inside out, or a face has no node;
-// SB_ERROR_MEMORY; SB_ERROR_NOT_CONVERGED: not positive definite, a part hangs on no face.
+// Assembles and solves the steady state of `section`, which is borrowed and must not change until
+// sb_diffusion_destroy(). SB_ERROR_INPUT: an element has a negative or zero area, a triangle has an
+// invalid node number, or no node is wetted from inside or from outside. SB_ERROR_NOT_CONVERGED: a
+// part of the section has no wetted face.
 SbStatus sb_diffusion_create(SbDiffusion **out, const SbWettedMesh *section, SbReport *report);
-void sb_diffusion_destroy(SbDiffusion *diffusion); // takes NULL
 
+// Frees the object. Takes NULL.
+void sb_diffusion_destroy(SbDiffusion *diffusion);
+
+// Returns the steady results in *out.
 void sb_diffusion_steady(SbDiffusionSteady *out, const SbDiffusion *diffusion);
 
-// The steady partial pressure, 1 inside, at each node; borrowed.
+// Returns the steady p of each node, field[section->nodes]; borrowed until sb_diffusion_destroy().
 const double *sb_diffusion_field(const SbDiffusion *diffusion);
 
-// Size of its gradient [1/m] at each node, the mean of the elements that share it; the flux per
-// area over P and the pressure. At the ends of faces, where it has no bound, that of the elements'
-// other nodes. SB_ERROR_MEMORY.
+// Writes |grad p| [1/m] of the steady state to out[section->nodes], averaged over the elements of
+// each node. Multiply it by P (p_in - p_out) for the flux per area. At ends of faces, where the
+// gradient is unbounded, the mean over the other nodes of the adjacent elements is written.
+// SB_ERROR_MEMORY is the only error.
 SbStatus sb_diffusion_gradient(double *out, const SbDiffusion *diffusion, SbReport *report);
 
-// One instant of the approach.
+// State at one time after the inside faces of a dry section were wetted.
 typedef struct {
   double time;     // D t [m2]
-  double flux_in;  // over P and the pressure [m]
-  double flux_out; // [m]
-  double sorbed;   // what the body holds over S times the pressure [m3]
+  double flux_in;  // flux through the inside faces, divided by P (p_in - p_out) [m]
+  double flux_out; // flux through the outside faces, divided by P (p_in - p_out) [m]
+  double sorbed;   // amount in the section, divided by S (p_in - p_out) [m3]
 } SbDiffusionInstant;
 
-// The approach from a dry body whose inner face is wetted at t = 0, at `count` times each twice the
-// one before, the last D t = `last`; `steps` of time between two of them (0: 16).
-// SB_ERROR_MEMORY, SB_ERROR_NOT_CONVERGED.
+// Computes the transient from a dry section whose inside faces are wetted at t = 0. Writes
+// out[count]: the last has D t = `last` [m2], each earlier one half the time of its successor.
+// `steps` is the number of time steps between two of them (0: 16). SB_ERROR_NOT_CONVERGED: the
+// system matrix is not positive definite.
 SbStatus sb_diffusion_approach(SbDiffusionInstant *out, int count, double last, int steps,
                                const SbDiffusion *diffusion, SbReport *report);
 
-// The steady state to an estimated error: on the section and on its elements parted into four, both
-// with quarter points. What those leave falls with the side of the elements, the angles round an
-// end being met by a few of them: the last change once more is added to the finer one's figures,
-// and half of it is the estimate.
+// Steady results with an error estimate. Two meshes are solved, the section and its elements split
+// into four, both with quarter-point elements at ends of faces. Their error is proportional to h
+// there. `steady.conductance` and `steady.lag` are extrapolated; the other fields are those of the
+// finer mesh.
 typedef struct {
   SbDiffusionSteady steady;
-  double error;    // of conductance and lag, relative
-  double flux_gap; // of the finer mesh, |in - out| over their mean
+  double error;    // estimated relative error of conductance and lag
+  double flux_gap; // |flux_in - flux_out| divided by the conductance, finer mesh
 } SbDiffusionConverged;
 
-// `section` stays as it is. Errors as sb_diffusion_create().
+// Computes the steady results with their error. `section` is only read. Errors as for
+// sb_diffusion_create().
 SbStatus sb_diffusion_converge(SbDiffusionConverged *out, const SbWettedMesh *section,
                                SbReport *report);

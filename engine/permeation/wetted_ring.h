@@ -1,11 +1,13 @@
-// A solved ring's deformed section, wetted by the fluids that stand at its open sides; contacts are
-// dry.
+// Mesh of a solved ring's deformed section for diffusion.h. Its open sides are wetted by the
+// adjacent fluid; contacts with bore, floor and walls are dry.
 #pragma once
 
 #include "engine/contact/ring/ring.h"
 #include "engine/permeation/wetted_mesh.h"
 
-// `inside_right`: the inner fluid stands on the right, else on the left. Owned. SB_ERROR_MEMORY;
-// SB_ERROR_INFEASIBLE where both fluids meet: the ring does not touch bore or floor.
+// Creates an axisymmetric mesh of the section of `ring`; free it with sb_wetted_mesh_destroy().
+// `inside_right`: the inner fluid is on the right (x > 0), else on the left. `ring` is only read
+// during the call. SB_ERROR_INFEASIBLE: the two fluids meet, because the ring has no contact with
+// the bore or the floor.
 SbStatus sb_wetted_ring_create(SbWettedMesh **out, const SbRing *ring, bool inside_right,
                                SbReport *report);

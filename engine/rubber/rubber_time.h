@@ -1,118 +1,130 @@
-// How storage and temperature change the rubber: stress relaxation, set and swell as functions of
-// the time in storage, stiffness and expansion at the temperature of use; each changes the ring's
-// sizes and modulus by itself.
+// Ageing of a rubber ring in storage and its stiffness at the temperature of use. Computes the
+// ring's sizes and modulus after storage. The functions have no state and may be called
+// concurrently.
 //
-//   Relaxation   E(t)/E_0 = 1 - sum g_i (1 - exp(-t/(a_T tau_i)))    Prony series, held strain
+//   Relaxation   E(t)/E_0 = 1 - sum g_i (1 - exp(-t/(a_T tau_i)))    Prony series, constant strain
 //   Shift        log10 a_T = -C1 (T - T_r)/(C2 + T - T_r)             Williams, Landel, Ferry 1955
 //                ln a_T = (Q/R)(1/T - 1/T_r)                          Arrhenius
-//   Temperature  E ~ E_0 [1 + beta (T - T_0)] + E_g/(1 + (t/tau)^0.7), tau = 100 s a_T from the
-//                glass temperature by WLF's universal constants: a measured slope beta of filled
-//                rubber, or E_0 T/T_0, entropy elasticity, of unfilled gum (Treloar 1975); without
-//                either E_0 is constant. The glass transition as Cole and Cole's retardation, held
-//                for t = 10 s as in Gehman's test (ISO 1432), with E_g = 1 GPa; 0.7 lets a rubber
-//                of 2.5 MPa double its stiffness 20 K above T_g and grow it tenfold at 13 K, as
-//                Gehman curves of nitrile typically do. Sizes x (1
-//                + alpha (T - T_0)). Sizes and modulus are those at T_0 = 20 degC.
-//   Network      f = exp(-k t) of the original is left, k by Arrhenius (Tobolsky, two networks);
-//                the share beta of what broke forms anew, unstrained in the squeezed shape
-//   Set          of the squeeze, after release: beta (1 - f)/(f + beta (1 - f)) for good; of the
-//                rest what the Prony elements have not recovered yet
+//   Temperature  E = E_0 [1 + beta (T - T_0)] + E_g/(1 + (t/tau)^0.7), T_0 = 20 degC
+//                or E = E_0 T/T_0 + ... with `entropic` (Treloar 1975)
+//   Network      f = exp(-k t) of the original network remains, k by Arrhenius (Tobolsky);
+//                the fraction beta of the broken network reforms without stress in the squeezed
+//                shape
+//   Set          permanent: beta (1 - f)/(f + beta (1 - f)) of the squeeze; in addition, the strain
+//                that the Prony elements have not recovered yet
 //   Uptake       M/M_inf = 1 - sum 4/a_n^2 exp(-a_n^2 D t/R^2), J_0(a_n) = 0: Fick, round section
 //                (Crank, The Mathematics of Diffusion, 5.23)
 //   Swell        volume v = m rho_rubber/rho_fluid (additive), length (1 + v)^(1/3) - 1; modulus
 //                (1 + v)^(-1/3) (ideal network) or a given ratio at equilibrium
+//   Expansion    sizes x (1 + alpha (T - T_0))
 //
-// The load of a fitted ring follows from the fit models with the sizes and the modulus below: the
-// remaining network's share and the relaxation multiply the modulus, because a squeeze that is held
-// is a constant strain. Time and temperature of storage are constants, that of use follows it at
-// once; SI units and kelvin.
-// Constants are the caller's: the thesis gives none but table 2.2 (mass after 24 h), and its text's
-// 8 % length does not agree with its 17 % mass (docs/thesis.md, 15). Left out: swelling stress and
-// slower uptake between walls, diffusion that depends on concentration, desorption, oxidation from
-// the surface.
+// The glass transition term is a Cole-Cole retardation at t = 10 s, as in Gehman's test (ISO 1432),
+// with E_g = 1 GPa and tau = 100 s a_T by WLF's universal constants from T_g. The exponent 0.7
+// doubles the stiffness of a rubber of 2.5 MPa 20 K above T_g and multiplies it by ten at 13 K,
+// typical of nitrile.
+//
+// The load of a fitted ring follows from the fit models with the sizes and the modulus below. A
+// fitted ring has constant strain, so relaxation and network loss multiply the modulus. Storage has
+// one temperature; the temperature of use applies afterwards, without a delay. Not modelled:
+// swelling stress, slower uptake between walls, concentration-dependent diffusion, desorption,
+// oxidation. Constants are the caller's; docs/thesis.md, 15, discusses those of the thesis.
 #pragma once
 
 #include "engine/base/status.h"
 
+// Largest number of Prony terms.
 enum { SB_RUBBER_TERMS = 12 };
 
-// Of sizes and moduli as they are given: 20 degC (ISO 1) [K].
+// T_0, the temperature at which sizes and moduli are given: 20 degC (ISO 1) [K].
 #define SB_SIZES_TEMPERATURE 293.15
 
-typedef enum { SB_SHIFT_NONE, SB_SHIFT_WLF, SB_SHIFT_ARRHENIUS } SbShift;
+// Temperature dependence of the relaxation times.
+typedef enum {
+  SB_SHIFT_NONE,     // a_T = 1
+  SB_SHIFT_WLF,      // wlf_c1, wlf_c2
+  SB_SHIFT_ARRHENIUS // relaxation_energy
+} SbShift;
 
-// The rubber. All zero (but T_r) is a rubber that never changes.
+// Constants of a rubber. {.reference_temperature = T_r} is a rubber that never changes.
 typedef struct {
-  double reference_temperature; // T_r of times and rates below [K]
+  double reference_temperature; // T_r, to which the times and rates below apply [K]
   // Stress relaxation.
-  size_t terms;
-  double g[SB_RUBBER_TERMS];   // shares of the initial modulus, sum below 1
+  size_t terms;                // Prony terms in use
+  double g[SB_RUBBER_TERMS];   // fractions of the initial modulus, sum below 1
   double tau[SB_RUBBER_TERMS]; // relaxation times at T_r [s]
   SbShift shift;
-  double wlf_c1, wlf_c2;    // [-], [K]; "universal" 17.44, 51.6 K if T_r is the glass temperature
+  double wlf_c1, wlf_c2;    // C1 [1], C2 [K]; universal 17.44, 51.6 K if T_r = T_g
   double relaxation_energy; // Q [J/mol]
   // Temperature.
-  bool entropic;               // modulus proportional to T, whatever modulus_slope is
-  double modulus_slope;        // beta, change of the modulus over that at T_0 [1/K]; 0: constant
-  double slope_from, slope_to; // temperatures of use between which beta was measured [K]
-  double glass_temperature;    // T_g [K], 0: none
+  bool entropic;               // modulus proportional to T; modulus_slope is ignored
+  double modulus_slope;        // beta, dE/dT divided by E at T_0 [1/K]; 0: constant
+  double slope_from, slope_to; // range of temperatures in which beta was measured [K]
+  double glass_temperature;    // T_g [K], below T_0; 0: no glass transition
   double thermal_expansion;    // alpha, linear [1/K]
   // Network.
   double network_rate;   // k at T_r [1/s]
-  double network_energy; // [J/mol]
+  double network_energy; // activation energy of k [J/mol]
   double network_reform; // beta, 0 to 1
   // Swell.
-  double swell_mass;       // mass taken up at equilibrium over dry mass [-]
-  double rubber_density;   // dry [kg/m3]
-  double fluid_density;    // as absorbed [kg/m3]
+  double swell_mass;       // m, mass of absorbed fluid at equilibrium divided by dry mass; 0: none
+  double rubber_density;   // of the dry rubber [kg/m3]
+  double fluid_density;    // of the absorbed fluid [kg/m3]
   double diffusion;        // D at T_r [m2/s]
-  double diffusion_energy; // [J/mol]
-  double swell_modulus;    // E_inf/E_dry at equilibrium; 0: ideal network
+  double diffusion_energy; // activation energy of D [J/mol]
+  double swell_modulus;    // modulus at equilibrium divided by the dry modulus; 0: ideal network
 } SbRubber;
 
-// The dry, new ring and what it goes through.
+// The dry, new ring, and its history.
 typedef struct {
-  double section_diameter, inner_diameter; // [m]
-  double radial_space;                     // it is squeezed into [m]
+  double section_diameter, inner_diameter; // free ring at T_0 [m]
+  double radial_space;                     // space into which the section is squeezed [m]
   double modulus;                          // E at T_0 when new [Pa]
-  double storage_time;                     // fitted and wetted [s]
+  double storage_time;                     // time in storage, fitted and wetted [s]
   double temperature;                      // of storage [K]
-  double use_temperature;                  // afterwards [K]
-  double recovery_time;                    // after release, for the set [s]
+  double use_temperature;                  // after storage [K]
+  double recovery_time;                    // time between release and measurement of the set [s]
 } SbRubberStorage;
 
+// The ring after storage.
 typedef struct {
-  double section_diameter, inner_diameter; // free and swollen, at temperature [m]
-  double modulus;           // of the ring as held: relaxed, swollen, at temperature [Pa]
-  double shift;             // a_T
-  double stiffening;        // factor of the modulus by the temperature of use
+  double section_diameter, inner_diameter; // free ring, swollen, at the temperature of use [m]
+  double modulus;           // of the fitted ring: relaxed, swollen, at the temperature of use [Pa]
+  double shift;             // a_T at the storage temperature
+  double stiffening;        // sb_rubber_stiffening()
   double relaxation;        // E(t)/E_0 by the Prony series alone
   double network;           // f
-  double compression_set;   // of the squeeze, after the recovery time [-]
+  double compression_set;   // set divided by the squeeze, after recovery_time [1]
   double section_after_set; // free section after release and recovery [m]
   double uptake;            // M/M_inf
   double volume_swell;      // v
   double linear_swell;      // (1 + v)^(1/3) - 1
-  double swell_modulus;     // factor of the modulus by swell
+  double swell_modulus;     // factor of the modulus due to swell
 } SbRubberState;
 
-// State after storage. SB_ERROR_RANGE for constants that make no sense (shares that sum to 1 or
-// more, a temperature at or below C2 under T_r, use below T_g, ...). Warnings:
-// "modulus-extrapolated" beyond the temperatures between which the modulus' slope was measured,
-// "relaxation-extrapolated" beyond ten times the longest relaxation time, "shift-range" more than
-// 100 K from T_r, "swell-large" above 50 % volume, "glass-near" where the glass transition has
-// doubled the modulus.
+// Computes the ring after storage. Errors:
+// SB_ERROR_RANGE: a constant or a condition is out of range (fractions that sum to 1 or more, use
+//   below T_g, storage at or below T_r - C2, ...).
+// SB_ERROR_INFEASIBLE: less than 1e-6 of the network remains.
+// Warnings:
+// "modulus-extrapolated": use outside the range of the measured slope.
+// "relaxation-extrapolated": storage longer than ten times the longest relaxation time.
+// "shift-range": storage more than 100 K from T_r.
+// "swell-large": swell above 50 % by volume.
+// "glass-near": the glass transition has at least doubled the modulus.
 SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRubberStorage *storage,
                          SbWarnings *warnings, SbReport *report);
 
-// M/M_inf of a round bar after the dimensionless time D t/R^2 >= 0; to 2e-7.
+// Returns M/M_inf of a round bar after the dimensionless time D t/R^2 = `fourier`; absolute error
+// 2e-7.
 double sb_rubber_uptake(double fourier);
 
-// Modulus at a temperature of use [K] divided by that at 20 degC, for a rubber whose modulus is
-// `modulus` [Pa] there. Takes no part in storage; below the glass transition it means nothing.
+// Returns the modulus at the temperature of use `temperature` [K] divided by that at T_0, for a
+// rubber with `modulus` [Pa] at T_0. Storage is not considered. Not defined below the glass
+// temperature.
 double sb_rubber_stiffening(const SbRubber *rubber, double modulus, double temperature);
 
-// Set of the Prony elements alone, of the held strain, `recovery` after release from `hold` (both
-// in the same unit as `tau`): internal strains follow their own relaxation with zero stress.
+// Returns the set of the Prony elements alone, as a fraction of the strain: constant strain for the
+// time `hold`, then `recovery` without stress. g[terms] and tau[terms] are those of the series;
+// `hold` and `recovery` have the unit of `tau`. terms <= SB_RUBBER_TERMS.
 double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t terms, double hold,
                                   double recovery);
