@@ -1,75 +1,80 @@
-// Rigid bodies in joints: degrees of freedom, accelerations and joint reactions by multipliers.
+// Rigid bodies connected by joints: degrees of freedom, accelerations and joint reactions.
 //
-// Newton and Euler for each part with the joints' conditions as Lagrange multipliers (thesis ch. 4,
-// eq. 4.2, 4.16, 4.17; its Euler-angle momenta 4.11-4.13 are misprinted, so that spins and unit
-// quaternions are used instead):
+// Newton-Euler equations of each body with the joints' conditions as Lagrange multipliers l (thesis
+// ch. 4, eq. 4.2, 4.16, 4.17; unit quaternions replace its Euler angles, whose momenta 4.11-4.13
+// are misprinted):
 //
 //   [ M  J' ] [ a  ]   [ applied - gyroscopic ]
 //   [ J  0  ] [ -l ] = [ -(dJ/dt) velocity    ]
 //
-// J has 6 rows for a fixed joint, 5 for a translational or revolute one, 4 for a cylindrical, 3 for
-// a spherical one. Gruebler's count 6 (n - 1) - sum of constraints is compared with the rank of J:
-// conditions that repeat each other or a part that nothing holds are named. SI units, ground frame.
-// Leaves out: flexible parts, clearance, friction inside joints (apply it as a force).
+// A fixed joint has 6 conditions, a translational or revolute one 5, a cylindrical one 4, a
+// spherical one 3. Gruebler's count 6 (n - 1) - conditions is compared with the rank of J;
+// redundant conditions and unconstrained parts are reported by name. All vectors are in the ground
+// frame unless stated otherwise. Functions may be called concurrently with different assemblies and
+// work memories. Not modelled: flexible parts, clearance, friction in joints (apply it as a force).
 #pragma once
 
 #include "engine/base/status.h"
 
-// The ground is behind the parts that move.
+// Limits. Bodies are numbered from 0 in the order of their creation; SB_GROUND is the number of the
+// ground.
 enum { SB_BODIES_MAX = 15, SB_GROUND = SB_BODIES_MAX, SB_JOINTS_MAX = 20, SB_BODY_NAME = 32 };
 
+// A rigid body.
 typedef struct {
   char name[SB_BODY_NAME];
-  double mass;                 // kg
-  double inertia[3];           // principal moments about the centre of mass, body axes, kg m2
-  double position[3];          // centre of mass, m
+  double mass;                 // [kg]
+  double inertia[3];           // principal moments about the centre of mass, body axes [kg m2]
+  double position[3];          // centre of mass [m]
   double orientation[4];       // unit quaternion w, x, y, z: body to ground
-  double velocity[3], spin[3]; // m/s, rad/s, ground axes
-  double force[3], torque[3];  // applied at the centre of mass, N, N m
+  double velocity[3], spin[3]; // of the centre; angular velocity [m/s], [rad/s]
+  double force[3], torque[3];  // sum of applied forces; torque about the centre of mass [N], [N m]
 } SbBody;
 
-// Conditions: 6, 5, 5, 3, 4.
+// Kind of a joint. `axis` is that of sb_assembly_join().
 typedef enum {
-  SB_JOINT_FIXED,
-  SB_JOINT_TRANSLATIONAL,
-  SB_JOINT_REVOLUTE,
-  SB_JOINT_SPHERICAL = 4, // a point in common, any turn
+  SB_JOINT_FIXED,         // 6 conditions
+  SB_JOINT_TRANSLATIONAL, // slides along the axis
+  SB_JOINT_REVOLUTE,      // turns about the axis
+  SB_JOINT_SPHERICAL = 4, // common point, free rotation
   SB_JOINT_CYLINDRICAL,   // slides along the axis and turns about it
 } SbJointKind;
 
-// Joint between two bodies.
+// A joint between two bodies.
 typedef struct {
   SbJointKind kind;
-  size_t body[2];
-  double point[2][3];    // its point in either body's axes, from the centre [m]
-  double frame[2][3][3]; // unit vectors in either body, the joint's axis first
+  size_t body[2];        // numbers of the bodies, or SB_GROUND
+  double point[2][3];    // the joint's point relative to either centre of mass, body axes [m]
+  double frame[2][3][3]; // three unit vectors in either body's axes; the first is the joint's axis
 } SbJoint;
 
+// Bodies and joints. Start with sb_assembly_start(); nothing has to be freed.
 typedef struct {
-  size_t bodies, joints; // bodies that move
-  SbBody body[SB_BODIES_MAX + 1];
+  size_t bodies, joints;          // numbers in use, without the ground
+  SbBody body[SB_BODIES_MAX + 1]; // the last is the ground
   SbJoint joint[SB_JOINTS_MAX];
 } SbAssembly;
 
+// Sizes of the linear systems.
 enum {
   SB_ASSEMBLY_ROWS = 6 * SB_JOINTS_MAX,
   SB_ASSEMBLY_COLUMNS = 6 * (SB_BODIES_MAX + 1),
   SB_ASSEMBLY_SIZE = SB_ASSEMBLY_ROWS + SB_ASSEMBLY_COLUMNS
 };
 
-// The joints' conditions at the present positions and speeds.
+// The joints' conditions at the present positions and velocities, one row each.
 typedef struct {
   size_t rows;
-  double jacobian[SB_ASSEMBLY_ROWS][SB_ASSEMBLY_COLUMNS]; // of (velocity, length x spin)
-  double rate[SB_ASSEMBLY_ROWS];  // what the rows' second derivative has beside J a [m/s2]
-  double error[SB_ASSEMBLY_ROWS]; // violation of the position conditions [m]
-  bool turns[SB_ASSEMBLY_ROWS];   // the condition is one on turns, not on the joint's point
-  size_t joint[SB_ASSEMBLY_ROWS];
+  double jacobian[SB_ASSEMBLY_ROWS][SB_ASSEMBLY_COLUMNS]; // by body: velocity, length x spin
+  double rate[SB_ASSEMBLY_ROWS];                          // second time derivative minus J a [m/s2]
+  double error[SB_ASSEMBLY_ROWS];                         // violation of the position condition [m]
+  bool turns[SB_ASSEMBLY_ROWS];   // a condition on rotation, not on the joint's point
+  size_t joint[SB_ASSEMBLY_ROWS]; // number of the joint
 } SbAssemblyConditions;
 
-// Work memory of the functions below, whose content means nothing between calls, but that
-// sb_assembly_slide() knows a tangent found with it; one serves any assembly, but one thread at a
-// time. Half a megabyte: not for the stack.
+// Work memory of the functions below, 0.6 MB: allocate it, do not put it on the stack. It needs no
+// initialisation and serves any assembly, one thread at a time. sb_assembly_slide() must get the
+// one that computed its tangent, unchanged since.
 typedef struct {
   SbAssemblyConditions conditions;
   double matrix[SB_ASSEMBLY_SIZE * SB_ASSEMBLY_SIZE], right[SB_ASSEMBLY_SIZE];
@@ -77,75 +82,88 @@ typedef struct {
   double tangent_jacobian[SB_ASSEMBLY_ROWS][SB_ASSEMBLY_COLUMNS]; // of the last tangent
 } SbAssemblyWork;
 
+// Degrees of freedom of an assembly.
 typedef struct {
   int gruebler;       // 6 (n - 1) - constraints
-  int constraints;    // sum over joints
-  int redundant;      // of them, that repeat others
-  int freedom;        // real degrees of freedom, 6 (n - 1) - rank
-  char text[SB_TEXT]; // one sentence: count, and what is over- or under-constrained
+  int constraints;    // number of conditions of all joints
+  int redundant;      // number of conditions that follow from others
+  int freedom;        // degrees of freedom, 6 (n - 1) - rank
+  char text[SB_TEXT]; // one clause: the counts, and what is over- or under-constrained
 } SbMobility;
 
-// What a joint does to its first body (the second gets the opposite), at the joint's point.
+// Reaction of a joint on its first body, at the joint's point; the second body gets the opposite.
 typedef struct {
-  double force[3], torque[3]; // N, N m
+  double force[3], torque[3]; // [N], [N m]
 } SbReaction;
 
+// Accelerations of the bodies and reactions of the joints.
 typedef struct {
-  double acceleration[SB_BODIES_MAX][3], spin_rate[SB_BODIES_MAX][3]; // m/s2, rad/s2
+  // Of the centres of mass [m/s2]; of the angular velocities [rad/s2].
+  double acceleration[SB_BODIES_MAX][3], spin_rate[SB_BODIES_MAX][3];
   SbReaction reaction[SB_JOINTS_MAX];
 } SbAssemblyForces;
 
-// Nothing but the ground.
+// Initialises *assembly with the ground only.
 void sb_assembly_start(SbAssembly *assembly);
 
-// Appends a body at rest, unrotated.
+// Appends a body at rest, with its axes parallel to the ground's. `name` is copied (truncated to
+// SB_BODY_NAME - 1 bytes). `inertia` are the principal moments [kg m2], `position` is the centre of
+// mass [m]. SB_ERROR_RANGE: no more space, a value that is not positive, or a moment that exceeds
+// the sum of the others.
 SbStatus sb_assembly_add(SbAssembly *assembly, const char *name, double mass,
                          const double inertia[3], const double position[3], SbReport *report);
 
-// Appends a joint of bodies i and j, one of which may be SB_GROUND, through `point`, ground frame,
-// as they stand; `axis` is that of the sliding or turning (any if fixed).
+// Appends a joint of the bodies i and j, one of which may be SB_GROUND, at `point` [m] in their
+// present positions. `axis` is the direction of sliding or turning, of any length > 0 (ignored by
+// FIXED and SPHERICAL, but not zero). SB_ERROR_RANGE: no more space. SB_ERROR_INPUT: i = j, a
+// number that does not exist, or a zero axis.
 SbStatus sb_assembly_join(SbAssembly *assembly, SbJointKind kind, size_t i, size_t j,
                           const double point[3], const double axis[3], SbReport *report);
 
-// Adds a force [N] at a point, ground frame, to what is applied to a body.
+// Adds a force [N] that acts at `point` [m] to the applied force and torque of a body.
 void sb_assembly_apply(SbAssembly *assembly, size_t body, const double force[3],
                        const double point[3]);
+
+// Sets the applied forces and torques of all bodies to zero.
 void sb_assembly_clear_forces(SbAssembly *assembly);
 
-// Counts. SB_ERROR_INFEASIBLE, with the text of `mobility`, unless there are exactly `expected`
-// degrees of freedom and no redundant conditions; expected < 0 accepts any freedom.
+// Counts the degrees of freedom. SB_ERROR_INFEASIBLE, with mobility->text in the report: redundant
+// conditions, or another number than `expected` (< 0: any number). *mobility is also set after this
+// error.
 SbStatus sb_assembly_mobility(SbMobility *mobility, const SbAssembly *assembly, int expected,
                               SbAssemblyWork *work, SbReport *report);
 
-// Accelerations and reactions under the applied forces. SB_ERROR_INFEASIBLE if conditions repeat
-// each other (reactions are then not unique).
+// Computes accelerations and reactions under the applied forces. SB_ERROR_INFEASIBLE: redundant
+// conditions (reactions are not unique).
 SbStatus sb_assembly_forces(SbAssemblyForces *forces, const SbAssembly *assembly,
                             SbAssemblyWork *work, SbReport *report);
 
-// Motion along the single degree of freedom: velocity of every centre [m/s] and spin [rad/s] per
-// 1 m/s of one body's centre along an axis, and the mass that a push there sees [kg].
+// Motion along a single degree of freedom, per 1 m/s of the velocity component of one body's centre
+// along an axis.
 typedef struct {
-  size_t body;
-  double axis[3]; // unit
-  double velocity[SB_BODIES_MAX][3], spin[SB_BODIES_MAX][3];
-  double mass; // sum of m velocity^2 + spin . I spin
+  size_t body;                       // number of that body
+  double axis[3];                    // unit vector
+  double velocity[SB_BODIES_MAX][3]; // velocity of each centre of mass [m/s per m/s]
+  double spin[SB_BODIES_MAX][3];     // angular velocity [rad/s per m/s]
+  double mass;                       // effective mass at that body along the axis [kg]
 } SbAssemblyTangent;
 
-// Null vector of the joints' Jacobian at the present positions, from its QR factorisation.
-// SB_ERROR_INFEASIBLE, with Gruebler's count, unless freedom is 1, nothing repeats and `body` moves
-// along `axis`.
+// Computes the motion at the present positions: the null vector of the joints' Jacobian. `axis`
+// need not have length 1. SB_ERROR_INFEASIBLE, with Gruebler's count: the freedom is not 1,
+// conditions are redundant, or `body` does not move along `axis`.
 SbStatus sb_assembly_tangent(SbAssemblyTangent *tangent, const SbAssembly *assembly, size_t body,
                              const double axis[3], SbAssemblyWork *work, SbReport *report);
 
-// Moves all parts along their freedom until the tangent's body is `distance` [m] further along the
-// axis, onto the joints by Newton's method, and sets all speeds to those of `speed` [m/s] there.
-// `tangent` is that of the present place and becomes that of the new one. *error (may be NULL) is
-// what the joints were violated by before they were brought back [m]. Errors as above, and
-// SB_ERROR_NOT_CONVERGED if the parts cannot get there; they may then have moved.
+// Moves all bodies along the single degree of freedom until the tangent's body has moved by
+// `distance` [m] along the axis. Sets all velocities to those of `speed` [m/s] at the new position.
+// `tangent` must be that of the present position (sb_assembly_tangent() with the same `work`) and
+// becomes that of the new one. *error (NULL: not wanted) receives the largest violation of the
+// joints before its correction [m]. SB_ERROR_INFEASIBLE as for sb_assembly_tangent();
+// SB_ERROR_NOT_CONVERGED: the position cannot be reached. After an error the bodies may have moved.
 SbStatus sb_assembly_slide(SbAssembly *assembly, SbAssemblyTangent *tangent, double distance,
                            double speed, double *error, SbAssemblyWork *work, SbReport *report);
 
-// The valve's parts, and their indices in sb_assembly_valve.
+// Numbers of the valve's bodies in sb_assembly_valve().
 enum {
   SB_VALVE_HOUSING,
   SB_VALVE_STEM_CENTRE,
@@ -157,7 +175,7 @@ enum {
   SB_VALVE_PARTS,
 };
 
-// The joints of thesis table 4.3 in its order.
+// Numbers of the valve's joints, in the order of thesis table 4.3.
 enum {
   SB_VALVE_HOUSING_GROUND,
   SB_VALVE_CENTRE_TOP,
@@ -168,25 +186,27 @@ enum {
   SB_VALVE_BLOCK_GROUND,
   SB_VALVE_JOINTS,
 };
-enum { SB_JOINT_NONE = SB_JOINT_REVOLUTE + 1 }; // no SbJointKind: left out
+// Value of SbValveParts.joint: this joint is omitted.
+enum { SB_JOINT_NONE = SB_JOINT_REVOLUTE + 1 };
 
-// Mass [kg] and moments of inertia about the valve's axis and across it through the centre [kg m2].
+// Inertia of a part, about its centre of mass.
 typedef struct {
-  double mass, axial, transverse;
+  double mass, axial, transverse; // [kg]; moments about the valve's axis and across it [kg m2]
 } SbValvePart;
 
+// Inertia of all parts, and the kinds of the joints.
 typedef struct {
   SbValvePart part[SB_VALVE_PARTS];
-  int joint[SB_VALVE_JOINTS]; // SbJointKind or SB_JOINT_NONE
+  int joint[SB_VALVE_JOINTS]; // SbJointKind, or SB_JOINT_NONE
 } SbValveParts;
 
-// Eight parts (thesis table 4.1) and the joints between them, axis along x (in-stroke > 0),
-// everything on the axis. Where the parts sit along it is not given there: ours, without effect on
-// axial loads.
+// Creates the valve's bodies (thesis table 4.1) and joints; the axis is x, positive into the
+// canister, and all centres are on it. Their positions along the axis are our choice; they do not
+// affect axial loads. Errors as for sb_assembly_add() and sb_assembly_join().
 SbStatus sb_assembly_valve(SbAssembly *assembly, const SbValveParts *parts, SbReport *report);
 
-// "stem top"; borrowed.
+// Returns the name of a part (SB_VALVE_HOUSING, ...), such as "stem top"; static.
 const char *sb_valve_part_name(int part);
 
-// "fixed", "translational", "revolute"; borrowed.
+// Returns the name of a kind, such as "fixed"; static.
 const char *sb_joint_kind_name(SbJointKind kind);

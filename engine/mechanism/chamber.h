@@ -1,104 +1,119 @@
-// Pressure in the dose chamber as a state: open to the canister, closed, venting.
+// Pressure in the dose chamber, and mass of the doses.
 //
-// The chamber lies between the inner and the outer seal. Ports join it to the canister or to the
-// outside while the stem is in a stretch of its stroke; through an open port of effective area CdA
-// liquid flows as through an orifice, Q = CdA sqrt(2 dp / rho), and the pressure follows
-// p' = (B/V) sum Q, B the stiffness of liquid, rings and walls together. An infinite area equalises
-// in one step. Then the seals see canister - chamber (inner) and chamber - outside (outer), and the
-// thesis' two readings (docs/thesis.md) are two sets of ports, not two tables. SI units, gauge
-// pressures, stem position > 0 into the canister. Leaves out: boiling in the chamber and the
-// aerosol (B stands for both), heat, the seals' own leakage (see leak/).
+// The chamber is between the inner and the outer seal. Ports connect it to the canister or to the
+// outside while the stem is in a range of positions. Liquid flows through an open port of effective
+// area CdA like through an orifice, Q = CdA sqrt(2 dp/rho), and p' = (B/V) sum Q. B is the
+// stiffness of liquid, rings and walls together. A port of infinite area equalises the pressure
+// immediately. The inner seal carries canister - chamber, the outer chamber - outside. The two
+// pressure histories of the thesis (docs/thesis.md) are two sets of ports. Not modelled: boiling in
+// the chamber, aerosol, heat, leakage of the seals. The functions have no state of their own and
+// may be called concurrently on different chambers.
 #pragma once
 
 #include "engine/base/status.h"
 
+// Largest number of ports.
 enum { SB_CHAMBER_PORTS = 4 };
 
+// When a port opens.
 typedef enum {
-  SB_PORT_BOTH_WAYS, // open whenever the stem is in the stretch
-  SB_PORT_ON_RETURN, // opens only if the stem enters the stretch from above; open until it leaves
+  SB_PORT_BOTH_WAYS, // open whenever the stem is in the range
+  SB_PORT_ON_RETURN, // opens if the stem enters the range from above, and until it leaves it
 } SbPortWay;
 
+// A port.
 typedef struct {
-  double low, high; // stretch of stem position, m; -INFINITY and INFINITY allowed
+  double low, high; // range of the stem position, low <= x < high [m]; -INFINITY, INFINITY allowed
   SbPortWay way;
-  double pressure; // beyond it, Pa gauge
-  double area;     // effective (discharge coefficient included), m2; INFINITY: at once
+  double pressure; // on the other side of the port [Pa]
+  double area;     // effective area CdA [m2]; INFINITY: equalises immediately
 } SbChamberPort;
 
+// Constants of a chamber.
 typedef struct {
-  double canister;  // Pa gauge
-  double volume;    // m3
-  double stiffness; // B, Pa
-  double density;   // kg/m3
-  size_t ports;
+  double canister;  // pressure of the canister [Pa]
+  double volume;    // V [m3]
+  double stiffness; // B [Pa]
+  double density;   // rho of the liquid [kg/m3]
+  size_t ports;     // number of ports
   SbChamberPort port[SB_CHAMBER_PORTS];
 } SbChamberModel;
 
+// State of the ports.
 typedef struct {
   const SbChamberModel *model; // borrowed
-  bool open[SB_CHAMBER_PORTS];
+  bool open[SB_CHAMBER_PORTS]; // by port
 } SbDoseChamber;
 
-// Refuses what makes no sense.
+// Checks a model. SB_ERROR_RANGE: a constant or a port is out of range.
 SbStatus sb_chamber_check(const SbChamberModel *model, SbReport *report);
 
-// Ports for a stem at rest at x; `pressure` is equalised through ports of infinite area.
+// Initialises the ports for a stem at rest at x [m]; SB_PORT_ON_RETURN ports are closed. If a port
+// of infinite area is open, *pressure [Pa] is set to its pressure, else it is unchanged. `model` is
+// borrowed.
 void sb_chamber_start(SbDoseChamber *chamber, const SbChamberModel *model, double x,
                       double *pressure);
 
-// The stem crosses the edge at position x in direction +1 or -1.
+// Updates the ports when the stem crosses the position x [m], which must equal `low` or `high` of a
+// port exactly; `direction` is +1 (into the canister) or -1. *pressure [Pa] changes as in
+// sb_chamber_start().
 void sb_chamber_cross(SbDoseChamber *chamber, double x, int direction, double *pressure);
 
-// Pressure at which the flows through the open ports of a stem at rest balance; with none open, or
-// ports of infinite area, the pressure given.
+// Returns the pressure [Pa] at which the flows through the open ports cancel. If no port or one of
+// infinite area is open, it returns `pressure`.
 double sb_chamber_rest_pressure(const SbDoseChamber *chamber, double pressure);
 
-// dp/dt [Pa/s], and whether nothing flows any more (to 1e-9 of the canister's pressure).
+// Returns dp/dt [Pa/s] at the chamber pressure `pressure` [Pa], for the ports of finite area. Below
+// 1e-4 of the canister pressure the square root is replaced by a smooth polynomial.
 double sb_chamber_rate(const SbDoseChamber *chamber, double pressure);
+
+// Returns whether the flow has ceased, or inflow equals outflow, to a relative 1e-9.
 bool sb_chamber_settled(const SbDoseChamber *chamber, double pressure);
 
-// What bounds the dose chamber, all in m.
+// Dimensions of the dose chamber [m].
 typedef struct {
-  double bore, land, floor;           // diameters: bore, stem's land, groove floors
-  double spacing, groove;             // between the grooves' middles; width of a groove
-  double recess_depth, recess_length; // cut into the stem's land between them
+  double bore, land, floor; // diameters of the bore, of the stem's land, of the groove floors
+  double spacing, groove;   // distance of the groove centres; width of a groove
+  double recess_depth, recess_length; // recess in the land between the grooves
   struct {
-    double section, inner; // free diameters; rubber keeps its volume
+    double section, inner; // free diameters of the section and of the ring's inside
   } rings[2];
 } SbDoseGeometry;
 
-// Volume [m3] between the middles of the two grooves that neither stem nor rubber fills: annulus,
-// recess and the inner halves of both grooves, less the inner half of each ring. Exact for rings
-// that lie symmetrically in their grooves. May be negative if the rings overfill it.
+// Returns the volume [m3] between the centres of the two grooves that is not filled by stem or
+// rubber: annulus, recess and the inner half of both grooves, minus half of each ring. The rubber
+// is incompressible. Exact for rings that are symmetric in their grooves. The result is negative if
+// the rings overfill the chamber.
 double sb_chamber_metered_volume(const SbDoseGeometry *geometry);
 
-// What the canister gives the dose chamber over its life, its pressure held by what boils: each
-// dose leaves a room that vapour fills, which boils off liquid besides, so that the liquid falls by
-// V rho/(rho - rho_v) with each. Leaves out leaks, and what boiling cools.
+// A canister and its chamber for the doses over the canister's life. Evaporation keeps the pressure
+// constant: each dose leaves a volume of vapour, so the liquid decreases by V rho/(rho - rho_v) per
+// dose. Not modelled: leakage, cooling by evaporation.
 typedef struct {
-  double volume;          // metered, V [m3]
-  double density, vapour; // rho, rho_v at saturation; rho_v 0: unknown [kg/m3]
-  double liquid, residue; // in a new canister, and what can no longer be drawn [m3]
-  bool empty;             // the chamber is before the first actuation, which fills it for the next
-  double gas;             // density of the vapour at ambient pressure; 0: unknown [kg/m3]
-  double pressure;        // absolute, at saturation [Pa]
+  double volume;          // V, metered volume [m3]
+  double density, vapour; // rho, rho_v at saturation [kg/m3]; rho_v 0: not known
+  double liquid, residue; // volume of liquid in a new canister; volume that cannot be drawn [m3]
+  bool empty;             // the chamber is empty before the first actuation
+  double gas;             // density of the vapour at ambient pressure [kg/m3]; 0: not known
+  double pressure;        // absolute saturation pressure [Pa]
 } SbDoseSupply;
 
-// Whole doses in the canister.
+// Returns the number of complete doses in the canister.
 long sb_chamber_doses(const SbDoseSupply *supply);
 
-// Mass [kg] that actuation n, from 1, delivers: the liquid's share of the last one falls short.
+// Returns the mass [kg] that actuation n (from 1) delivers. It is 0 for the first one of an empty
+// chamber; the last ones deliver the remaining fraction.
 double sb_chamber_dose(const SbDoseSupply *supply, long n);
 
-// Time [s] in which liquid fills a volume through an effective area [m2] under a pressure drop
-// [Pa], as through an orifice; NAN without a drop or an area.
+// Returns the time [s] in which liquid of `density` [kg/m3] fills `volume` [m3] through the
+// effective `area` [m2] under the pressure difference `drop` [Pa], by the orifice equation. NAN if
+// `drop` or `area` is not positive.
 double sb_chamber_filling(double volume, double area, double drop, double density);
 
-// Mass [kg] that a full chamber keeps after it was open to the outside for a time [s] through an
-// effective area [m2], under a pressure drop [Pa] that boiling holds: liquid leaves as through an
-// orifice, V/(CdA sqrt(2 dp/rho)), then the vapour, choked and at one temperature, rho falling by
-// exp(-0.63 CdA sqrt(p/rho_v) t/V), to that at ambient pressure; an infinite time leaves that
-// alone. 0.63: sqrt(g) (2/(g + 1))^((g + 1)/(2(g - 1))) at g = 1.1. Leaves out: what boils in the
-// hole itself, which takes longer (a short one lets little boil: Fauske 1985), and cooling.
+// Returns the mass [kg] that remains in a full chamber after it was open to the outside for `time`
+// [s] (INFINITY: vapour at ambient pressure) through the effective `area` [m2], with the constant
+// pressure difference `drop` [Pa]. First the liquid flows out as through an orifice in V/(CdA
+// sqrt(2 dp/rho)). Then the vapour flows out, choked and isothermal: rho decays as exp(-0.63 CdA
+// sqrt(p/rho_v) t/V). 0.63 = sqrt(g) (2/(g + 1))^((g + 1)/(2(g - 1))) at g = 1.1. Not modelled:
+// boiling in the orifice (Fauske 1985), cooling.
 double sb_chamber_kept(const SbDoseSupply *supply, double area, double drop, double time);

@@ -1,66 +1,76 @@
-// What moves the stem: the position of a machine's platen or the force of a finger, against time.
+// The drive of the stem as a function of time: the position of a machine's platen, or the force of
+// a finger. Position and force are positive into the canister.
 //
-// Every drive but the sinusoid is straight between its breaks, so that the motion between them has
-// a closed form. A machine that goes to a place and back at constant speed is a press of its
-// platen's position. SI units, positive into the canister. Source: thesis 3.5 (machine,
-// 20 mm/min); the hand's press-and-release is ours.
+// Every drive except the sinusoid is piecewise linear in time. Source: thesis 3.5 (machine, 20
+// mm/min); the press of a finger is our choice. The functions have no state of their own and may be
+// called concurrently.
 #pragma once
 
 #include "engine/base/status.h"
 
+// Time function of a drive.
 typedef enum {
-  SB_DRIVE_NONE,  // nothing pushes: free return
-  SB_DRIVE_PRESS, // `start` to `end` in `rise`, `hold` (INFINITY: a ramp), back in `fall`
+  SB_DRIVE_NONE,  // no drive: free return
+  SB_DRIVE_PRESS, // from `start` to `end` in `rise`, constant for `hold`, back in `fall`
   SB_DRIVE_SINE,  // start + amplitude sin(2 pi frequency t + phase)
-  SB_DRIVE_TABLE, // straight lines between measured points, the ends held
+  SB_DRIVE_TABLE, // linear between given points, constant before the first and after the last
 } SbDriveKind;
 
-typedef enum { SB_DRIVE_OF_POSITION, SB_DRIVE_OF_FORCE } SbDriveQuantity;
+// What the time function describes.
+typedef enum {
+  SB_DRIVE_OF_POSITION, // position of the platen [m]
+  SB_DRIVE_OF_FORCE     // force on the stem [N]
+} SbDriveQuantity;
+
+// A drive. Values below have the unit of `quantity`, m or N.
 
 typedef struct {
   SbDriveKind kind;
   SbDriveQuantity quantity;
-  double start, end;                  // m or N
-  double rise, hold, fall;            // PRESS: s
-  int cycles;                         // PRESS: repeats, at least 1
-  double pause;                       // PRESS: s between repeats
-  double amplitude, frequency, phase; // m or N, Hz, rad
-  const double *time, *value;         // TABLE: s (strictly increasing), m or N; borrowed
-  size_t count;
+  double start, end;                  // value at rest; value when pressed
+  double rise, hold, fall;            // PRESS [s]; hold INFINITY: no return
+  int cycles;                         // PRESS: number of presses, at least 1
+  double pause;                       // PRESS: time between presses [s]
+  double amplitude, frequency, phase; // SINE: [m] or [N], [Hz], [rad]
+  const double *time, *value;         // TABLE: [count], strictly increasing [s]; borrowed
+  size_t count;                       // TABLE: points, at least 2
 } SbDrive;
 
+// Phase of a press.
 typedef enum {
-  SB_DRIVE_FORWARD,
-  SB_DRIVE_HOLD,
-  SB_DRIVE_BACK,
-  SB_DRIVE_PAUSE,
-  SB_DRIVE_DONE,
+  SB_DRIVE_FORWARD, // from start to end
+  SB_DRIVE_HOLD,    // at end
+  SB_DRIVE_BACK,    // from end to start
+  SB_DRIVE_PAUSE,   // at start, before the next press
+  SB_DRIVE_DONE,    // at start, after the last press
 } SbDrivePhase;
 
+// Position in the time function; set by sb_drive_start(), the fields are private.
 typedef struct {
   SbDrivePhase phase;
-  double since, from; // time [s] and value [m or N] at the start of the phase
-  int cycle;
-  size_t cursor;
+  double since, from; // time [s] and value at the start of the phase
+  int cycle;          // presses completed
+  size_t cursor;      // TABLE: next point
 } SbDriveState;
 
-// The drive on one piece of time: value + rate (t - at) until `until`, or a sinusoid.
+// The drive in an interval of time: value + rate (t - at), or a sinusoid.
 typedef struct {
-  double at, until;   // s
-  double value, rate; // m or N, per s
-  bool curved;        // sinusoid: value and rate hold at `at` only
-  double step;        // s, which steps should not exceed then
+  double at, until;   // reference time and end of the interval [s]
+  double value, rate; // at `at`: value, and its derivative [1/s]
+  bool curved;        // sinusoid: value and rate are those at `at`, see sb_drive_sine()
+  double step;        // sinusoid: recommended upper limit of time steps [s]
 } SbDrivePiece;
 
-// Refuses a drive that makes no sense, naming what is wrong.
+// Checks a drive. SB_ERROR_RANGE or SB_ERROR_INPUT, with the field and its range.
 SbStatus sb_drive_check(const SbDrive *drive, SbReport *report);
 
-// State at time t = 0.
+// Sets *state to time t = 0.
 void sb_drive_start(SbDriveState *state, const SbDrive *drive);
 
-// The piece that holds at time t and on to `until` (> t, maybe INFINITY). Time never runs
-// backwards.
+// Writes to *piece the interval that contains the time t [s]; its `until` is after t, possibly
+// INFINITY. *state advances: t must not decrease from call to call. `drive` must have passed
+// sb_drive_check().
 void sb_drive_piece(SbDrivePiece *piece, SbDriveState *state, const SbDrive *drive, double t);
 
-// Value and rate of a sinusoid at t.
+// Writes value and derivative of a drive of kind SB_DRIVE_SINE at time t [s].
 void sb_drive_sine(const SbDrive *drive, double t, double *value, double *rate);

@@ -1,31 +1,35 @@
-// What a contact at rest holds, as a force or over its sliding level, as a function of how long it
-// has rested: any law that grows, tabled in pieces that are straight in the logarithm of time, as
-// dynamics.h finds its events by.
+// Static friction of a contact as a function of its time at rest (dwell), tabulated piecewise
+// linear in the logarithm of time, as dynamics.h requires. The law is increasing; its value is a
+// force or a factor of the sliding friction, as the user of the table chooses. The functions have
+// no state and may be called concurrently.
 #pragma once
 
 #include <stddef.h>
 
+// Largest number of pieces.
 enum { SB_DWELL_PIECES = 64 };
 
-// From a rest `from` on: value + gain ln(1 + (t - from)/time).
+// A piece: value + gain ln(1 + (t - from)/time) from the dwell t = `from` on.
 typedef struct {
-  double from, time; // s; time > 0
-  double value, gain;
+  double from, time;  // [s]; time > 0
+  double value, gain; // unit of the law; gain >= 0
 } SbDwellPiece;
 
+// A tabulated law. Pieces in increasing order; the first begins at 0.
 typedef struct {
   size_t count; // > 0
   SbDwellPiece piece[SB_DWELL_PIECES];
 } SbDwellLaw;
 
-// Tables `law`, which must not fall, where it is not straight in ln(t): pieces between 1e-3 `first`
-// and 1e6 `last` [s] are halved where their middle is farthest off until all are used or that is
-// below 1e-4 of the value. It goes on straight behind them.
+// Tabulates the non-decreasing function `law` of the dwell [s], with its `context`. Pieces between
+// 1e-3 `first` and 1e6 `last` [s] are halved until their error is below 1e-4 of the value or all
+// pieces are used. After the last piece the law continues linearly in ln(t).
 void sb_dwell_table(SbDwellLaw *out, double (*law)(double dwell, const void *context),
                     const void *context, double first, double last);
 
-// The piece that holds after a rest, and until when [s], maybe INFINITY.
+// Returns the piece that contains the `dwell` [s], borrowed from `law`, and writes the dwell at
+// which it ends to *until (INFINITY for the last).
 const SbDwellPiece *sb_dwell_piece(double *until, const SbDwellLaw *law, double dwell);
 
-// The law after a rest [s].
+// Returns the value of the law at `dwell` [s].
 double sb_dwell_at(const SbDwellLaw *law, double dwell);

@@ -1,33 +1,34 @@
-// The valve's one coordinate with real dynamics: true stick, stops, a platen that only pushes.
+// Motion of the stem in one coordinate, with stick-slip friction, stops, and a drive that only
+// pushes.
 //
 //   m x'' = drive + pressure - spring - sum of seal frictions - damping x' + stop reactions
 //
-// (thesis ch. 4 with its one degree of freedom; friction and contact laws below are ours where the
-// thesis has none.) x > 0 is the in-stroke, compression of the drive is positive.
+// (thesis ch. 4 with one degree of freedom; friction and contact laws are ours where the thesis has
+// none.) x > 0 is into the canister. A drive force > 0 pushes into the canister.
 //
-// Friction. A contact carries a level L [N] given by the caller for where the stem is: its friction
-// as the speed goes to 0. It sticks up to L (static_ratio + dwell_gain ln(1 + dwell/dwell_time)),
-// or up to L times a law of the dwell that comes with the level (dwell.h);
-// it slides at L [1 + (static_ratio - 1) exp(-(speed/stribeck_speed)^stribeck_exponent)], or at L
-// from the first slip if stribeck_speed is 0. What the speed changes of it beyond that the caller
-// gives as bands of the stem's speed in which it is straight, continuous from one to the next;
-// rising or falling, it acts beside the tangential spring. A contact with finite `stiffness` joins
-// stem and bore through the seal's tangential spring and damper (pre-sliding, thesis slope A-B):
-// its patch does not move at all while it sticks. A rigid contact (stiffness INFINITY) holds the
-// stem itself at rest, exactly. Contacts that the land does not reach have level 0.
+// Friction. The caller gives a level L [N] of each contact as a function of x: its sliding friction
+// in the limit of zero speed. While it sticks, a contact carries up to L (static_ratio + dwell_gain
+// ln(1 + dwell/dwell_time)), or up to L times a law of the dwell (dwell.h). While it slides, its
+// friction is L [1 + (static_ratio - 1) exp(-(speed/stribeck_speed)^stribeck_exponent)], or L if
+// stribeck_speed is 0. Further speed dependence is piecewise linear in |v| and continuous ("bands"
+// of speed); it acts in addition to the tangential spring and may increase or decrease. A contact
+// of finite `stiffness` connects stem and bore by a tangential spring and damper; its patch does
+// not move while it sticks. A rigid contact (stiffness INFINITY) fixes the stem while it sticks. A
+// contact with level 0 does not exist.
 //
-// Stops. Spring and damper in one direction, the damper from the restitution of a free impact that
-// ends when the force does (Schwager and Poeschel 2007); stiffness INFINITY is an impact law, at
-// rest once a rebound would stay below 1 pm. A massless stop or platen that is left behind relaxes
-// by its own damper and can be met again.
+// Stops. A spring and damper that only push, with the damping of a given restitution (Schwager and
+// Poeschel 2007); stiffness INFINITY is an impact law, with rest once the rebound is below 1 pm. A
+// stop or platen that has lost contact relaxes by its own damper and can be met again.
 //
-// Method. Between events, of which leaving a band of speed is one, the motion is linear in almost
-// all models: closed form (oscillator.h), events found by bounds, resting costs nothing, nor does
-// stick-slip that repeats itself. Stribeck's exponential, position-dependent loads and sinusoids go
-// through Radau IIA with error control and events located by re-stepping. Each energy term is
-// integrated by itself; their balance is a result, not a construction. Nothing is allocated. Leaves
-// out: rotation and tilt of the stem, wave motion in the parts, a speed law evaluated at the patch
-// (it uses the stem's speed).
+// Method. Between two events (a segment) the motion is linear in most models and has a closed form
+// (oscillator.h). Events are found with bounds, so the duration of a rest costs nothing. Periodic
+// stick-slip is not stepped through. Stribeck's exponential, loads that vary with x, and sinusoids
+// are integrated by Radau IIA with error control. Each energy term is integrated separately, so
+// their balance checks the result. Nothing is allocated. Not modelled: rotation and tilt of the
+// stem, waves in the parts, a speed law of the patch (the stem's speed is used).
+//
+// One SbDynamics is used by one thread at a time; different ones may run concurrently if the
+// callbacks allow it.
 #pragma once
 
 #include "engine/base/status.h"
@@ -36,264 +37,295 @@
 #include "engine/mechanism/oscillator.h"
 #include "engine/mechanism/radau.h"
 
+// Largest numbers of contacts, stops and edges.
 enum {
   SB_DYNAMICS_CONTACTS = 4,
   SB_DYNAMICS_STOPS = 2,
   SB_DYNAMICS_EDGES = 8,
 };
 
+// Friction law of a contact.
 typedef struct {
-  double static_ratio;      // >= 1
-  double dwell_gain;        // >= 0, per factor e of rest
-  double dwell_time;        // s, > 0 if dwell_gain > 0
-  double stribeck_speed;    // m/s; 0: static_ratio is lost at the first slip
+  double static_ratio;      // static friction divided by L, >= 1
+  double dwell_gain;        // increase of that ratio per factor e of the dwell, >= 0
+  double dwell_time;        // [s], > 0 if dwell_gain > 0
+  double stribeck_speed;    // [m/s]; 0: friction is L from the first slip on
   double stribeck_exponent; // > 0 if stribeck_speed > 0
-  double stiffness;         // N/m; INFINITY: rigid
-  double damping;           // N s/m, of the tangential spring; 0 if rigid
+  double stiffness;         // of the tangential spring, > 0 [N/m]; INFINITY: rigid
+  double damping;           // of the tangential spring, >= 0 [N s/m]; not used if rigid
 } SbDynamicsContact;
 
+// A stop.
 typedef struct {
-  double position;    // m, where the stem meets it
+  double position;    // x at which the stem meets it [m]
   int side;           // +1 stops motion to +x, -1 to -x
-  double stiffness;   // N/m; INFINITY: impact law
-  double restitution; // of a free impact, 0 (INFINITY only) or 0.01 .. 1
+  double stiffness;   // [N/m]; INFINITY: impact law
+  double restitution; // of a free impact: 0.01 to 1, or 0 to 1 if stiffness is INFINITY
 } SbDynamicsStop;
 
-// What the valve does to the stem at one place: net force on it [N] and the contacts' levels [N].
+// Loads on the stem at one position.
 typedef struct {
-  double force;                       // N
-  double level[SB_DYNAMICS_CONTACTS]; // N, of sliding to +x
-  double back[SB_DYNAMICS_CONTACTS];  // N, by how much that of sliding to -x is larger
-  // What holds at rest over the level, by dwell; borrowed, NULL: the contact's own constants.
+  double force;                       // net force other than drive, spring, friction and stops [N]
+  double level[SB_DYNAMICS_CONTACTS]; // L for sliding to +x [N]; 0: no contact
+  double back[SB_DYNAMICS_CONTACTS];  // L for sliding to -x minus L for sliding to +x [N]
+  // Static friction divided by L as a function of the dwell, borrowed; NULL: the constants of
+  // SbDynamicsContact.
   const SbDwellLaw *rest[SB_DYNAMICS_CONTACTS];
-  bool constant; // neither changes before the next edge is crossed, nor does the extra state
-  bool settled;  // the extra state does not change while the stem does not move
+  bool constant; // loads and extra state do not change until the next edge is crossed
+  bool settled;  // the extra state does not change while the stem is at rest
 } SbDynamicsLoads;
 
-// What the speed adds to the level of contacts that slide with the stem: rise + slope |v| [N], for
-// |v| from low up to but not including high; 0 at rest.
+// Speed dependence of the friction of sliding contacts in a band of speed low <= |v| < high: rise +
+// slope |v| is added to L [N].
 typedef struct {
-  double low, high;                   // m/s; high = INFINITY: for all above
-  double rise[SB_DYNAMICS_CONTACTS];  // N
-  double slope[SB_DYNAMICS_CONTACTS]; // N s/m, of either sign
+  double low, high;                   // [m/s]; high INFINITY: no upper end
+  double rise[SB_DYNAMICS_CONTACTS];  // [N]
+  double slope[SB_DYNAMICS_CONTACTS]; // [N s/m], of either sign
 } SbDynamicsBand;
 
+// A mechanism. Callbacks get `user` and must not call functions with the SbDynamics that calls
+// them. `extra` is one additional state of the caller, such as the pressure of the dose chamber.
 typedef struct {
-  double mass;                             // kg, > 0
-  double damping;                          // N s/m, of the stem against ground
-  double spring_preload, spring_stiffness; // N, N/m; return spring: -(preload + stiffness x)
-  size_t contacts, stops, edges;
+  double mass;    // [kg], > 0
+  double damping; // of the stem against ground [N s/m]
+  // Force of the return spring on the stem: -(preload + stiffness x) [N], [N/m].
+  double spring_preload, spring_stiffness;
+  size_t contacts, stops, edges; // numbers in use
   SbDynamicsContact contact[SB_DYNAMICS_CONTACTS];
   SbDynamicsStop stop[SB_DYNAMICS_STOPS];
-  double edge[SB_DYNAMICS_EDGES]; // m, increasing; region r lies between edge[r-1] and edge[r]
-  // Loads in a region; called once a region if constant. NULL: none.
+  double edge[SB_DYNAMICS_EDGES]; // increasing [m]; region r is from edge[r-1] to edge[r]
+  // Writes the loads at x in a region; *loads is zeroed before. If they are constant it is called
+  // once for each visit of a region. NULL: no loads.
   void (*loads)(SbDynamicsLoads *loads, double x, size_t region, const double *extra, void *user);
-  // The band of speed |v| in direction +1 or -1; asked for once a band where the loads are
-  // constant, else like them, for any speed in it. NULL: friction does not depend on speed.
+  // Writes the band that contains `speed` = |v|, for motion in `direction` (+1 or -1); *band is
+  // zeroed before. Where the loads are constant it is called once for each band, else as often as
+  // `loads`. NULL: no speed dependence.
   void (*band)(SbDynamicsBand *band, double x, size_t region, int direction, double speed,
                const double *extra, void *user);
-  // The stem crosses edge[i] in direction +1 or -1: the caller may change `extra` or its own state.
+  // Called when the stem crosses edge[i] in `direction` (+1 or -1), i = `edge`; may change *extra
+  // and the caller's own state. NULL: not wanted.
   void (*cross)(size_t edge, int direction, double *extra, void *user);
-  // Rate of the extra state (a chamber pressure), asked for while loads vary; NULL: there is none.
+  // Writes the time derivative of the extra state; called while the loads are not constant. NULL:
+  // no extra state.
   void (*extra_rate)(double *rate, double x, double v, size_t region, const double *extra,
                      void *user);
-  double extra_start, extra_scale; // in the unit of that state; scale > 0: its size
-  // Polled once a segment; true ends the motion there with SB_ERROR_CANCELLED. NULL: never.
+  double extra_start, extra_scale; // value at the start, and typical size > 0, for the tolerance
+  // Called once in each segment; true ends the motion with SB_ERROR_CANCELLED. NULL: never.
   bool (*poll)(void *data);
   void *poll_data;
-  // The mass that the stroke sees at (x, v) [kg], asked for at the start of every segment; NULL:
-  // always `mass`.
+  // Writes the effective mass at (x, v) [kg]; called at the start of each segment. An error ends
+  // the motion. NULL: `mass`.
   SbStatus (*mass_at)(double *mass, double x, double v, void *user, SbReport *report);
   void *user;
-  SbDrive drive;
-  // N/m, N s/m. A force drive has no stiffness; its push falls by drive_damping times the speed, as
-  // a finger's does, and ends with the force.
+  SbDrive drive; // its arrays are borrowed
+  // Between the platen and the stem [N/m], [N s/m]. A drive of force has no stiffness; its force is
+  // reduced by drive_damping times the speed and ends when the drive's force is 0.
   double drive_stiffness, drive_damping;
-  bool drive_bonded;                  // pulls as well as pushes
-  double start_position, start_speed; // m, m/s
-  double start_dwell;                 // s of rest before the start
-  double tolerance;                   // relative, of the numerical path, <= 1e-5; 0: 1e-9
-  double rest_speed; // m/s below which a slowing contact rests, a rigid stop keeps; 0: 1e-9
+  bool drive_bonded;                  // the drive also pulls
+  double start_position, start_speed; // [m], [m/s]
+  double start_dwell;                 // time at rest before the start [s]
+  double tolerance;                   // of the numerical integration, relative, <= 1e-5; 0: 1e-9
+  double rest_speed; // speed [m/s] below which a decelerating contact comes to rest; 0: 1e-9
 } SbDynamicsModel;
 
+// Kind of an event.
 typedef enum {
-  SB_MOTION_SLIP,       // contact `index` starts to slide (index < 0: all rigid ones)
-  SB_MOTION_STICK,      // ... comes to rest
-  SB_MOTION_TOUCH_STOP, // stop `index`
-  SB_MOTION_LEAVE_STOP,
-  SB_MOTION_TOUCH_DRIVE, // platen or finger
-  SB_MOTION_LEAVE_DRIVE,
-  SB_MOTION_EDGE, // edge `index`, direction `sign`
+  SB_MOTION_SLIP,        // contact `index` begins to slide in direction `sign`; index -1: all rigid
+                         // contacts
+  SB_MOTION_STICK,       // contact `index` comes to rest; index -1: all rigid contacts
+  SB_MOTION_TOUCH_STOP,  // the stem meets stop `index`
+  SB_MOTION_LEAVE_STOP,  // the stem leaves stop `index`
+  SB_MOTION_TOUCH_DRIVE, // platen or finger meets the stem
+  SB_MOTION_LEAVE_DRIVE, // platen or finger leaves the stem
+  SB_MOTION_EDGE,        // the stem crosses edge `index` in direction `sign`
 } SbMotionEventKind;
 
-// State just before the event.
+// An event, with the state just before it.
 typedef struct {
   SbMotionEventKind kind;
-  int index, sign;
-  double time, position, speed, drive_force; // s, m, m/s, N
+  int index, sign;                           // see SbMotionEventKind; sign 0 if not used
+  double time, position, speed, drive_force; // [s], [m], [m/s], [N]
 } SbMotionEvent;
 
+// Number of integrated energy terms.
 enum { SB_DYNAMICS_TERMS = 7 };
 
-// Energies [J].
+// Energies since the start [J].
 typedef struct {
   union {
     struct {
       double drive;    // work done by the drive at its moving end
-      double pressure; // work of the loads' force
-      double friction; // sliding contacts
-      double viscous;  // `damping`
-      double seal;     // dampers of the tangential springs
-      double stop;     // stops
-      double machine;  // damper of the drive
+      double pressure; // work of SbDynamicsLoads.force
+      double friction; // dissipated by sliding contacts
+      double viscous;  // dissipated by `damping`
+      double seal;     // dissipated by the dampers of the tangential springs
+      double stop;     // dissipated by the stops
+      double machine;  // dissipated by drive_damping
     };
-    double term[SB_DYNAMICS_TERMS]; // these, which are integrated, in a row
+    double term[SB_DYNAMICS_TERMS]; // the same as an array
   };
-  double kinetic;        // present kinetic energy less that at the start
-  double stored;         // in seals, stops, spring and drive, less that at the start
-  double largest;        // largest |drive + pressure| so far
+  double kinetic; // kinetic energy minus that at the start
+  double stored;  // in tangential springs, stops, return spring and drive, minus that at the start
+  double largest; // largest |drive + pressure| so far
   double largest_stored; // largest |stored| so far
-  double closure; // |drive + pressure - all the rest| / largest, or / largest_stored where neither
-                  // drive nor pressure does work (0 if both are 0)
+  // |drive + pressure - all other terms| divided by `largest`, or by largest_stored if that is 0; 0
+  // if both are 0.
+  double closure;
 } SbDynamicsEnergy;
 
-typedef enum { SB_CONTACT_OFF, SB_CONTACT_STUCK, SB_CONTACT_SLIP } SbContactState;
+// State of a contact.
+typedef enum {
+  SB_CONTACT_OFF,   // no contact: level 0
+  SB_CONTACT_STUCK, // at rest on the bore
+  SB_CONTACT_SLIP   // sliding
+} SbContactState;
 
+// State and forces at one time. Forces on the stem are positive into the canister.
 typedef struct {
-  double time, position, speed, acceleration;    // s, m, m/s, m/s2
-  double drive_position;                         // m
-  double drive_force, loads_force, spring_force; // on the stem, N
-  double stop_force[SB_DYNAMICS_STOPS];          // reaction, >= 0, N
-  double friction[SB_DYNAMICS_CONTACTS];         // force on the stem, N
-  double deflection[SB_DYNAMICS_CONTACTS];       // of the tangential spring, m
+  double time, position, speed, acceleration; // [s], [m], [m/s], [m/s2]
+  double drive_position; // of the platen; of the stem with a drive of force [m]
+  double drive_force, loads_force, spring_force; // on the stem [N]
+  double stop_force[SB_DYNAMICS_STOPS];          // magnitude of the reaction, >= 0 [N]
+  double friction[SB_DYNAMICS_CONTACTS];         // on the stem [N]
+  double deflection[SB_DYNAMICS_CONTACTS];       // of the tangential spring [m]
   SbContactState contact[SB_DYNAMICS_CONTACTS];
-  double extra; // the caller's
+  double extra; // extra state of the caller
   size_t region;
 } SbDynamicsSample;
 
+// Cost of a motion so far.
 typedef struct {
   long events, segments, steps, rejected, newton_iterations;
   long repeated;      // cycles of stick-slip that were not stepped through
-  long grouped;       // of these, those that differ a little from one to the next
-  double local_error; // sum of the numerical path's local errors of position, over |x| + 1 mm
+  long grouped;       // those of them that change slowly from cycle to cycle
+  double local_error; // sum of the estimated errors of position divided by (|x| + 1 mm), numerical
+                      // path
 } SbDynamicsCounters;
 
-// The unknowns of the motion, for the numerical path in a row.
+// Unknowns of the motion, by name and as an array.
 typedef union {
   struct {
-    double x, v;                    // m, m/s
-    double extra;                   // the caller's
-    double d[SB_DYNAMICS_CONTACTS]; // deflections of the tangential springs, m; 0 if rigid
+    double x, v;                    // [m], [m/s]
+    double extra;                   // extra state of the caller
+    double d[SB_DYNAMICS_CONTACTS]; // deflections of the tangential springs [m]; 0 if rigid
   };
   double z[3 + SB_DYNAMICS_CONTACTS];
 } SbDynamicsState;
 
-// What pushes the stem in one direction by a spring and damper: a stop or, with a place that moves,
-// the platen. A finger has no spring.
+// A spring and damper that push the stem in one direction: a stop, or the platen. A drive of force
+// has no spring.
 typedef struct {
-  bool on;
+  bool on;                   // in contact
   int push;                  // direction of its force, +1 or -1
-  double stiffness, damping; // N/m (INFINITY: rigid), N s/m
-  double residual, since;    // deflection [m] left when it was last left [s]
+  double stiffness, damping; // [N/m] (INFINITY: rigid), [N s/m]
+  double residual, since;    // deflection [m] when contact was lost, and that time [s]
 } SbDynamicsWall;
+
+// Indices of the walls: the stops, then the platen.
 enum { SB_DYNAMICS_PLATEN = SB_DYNAMICS_STOPS, SB_DYNAMICS_WALLS };
 
-// Where a contact broke away: what a cycle of stick-slip begins and ends with.
+// The state at a break-away, where a cycle of stick-slip begins and ends (private).
 typedef struct {
-  int event; // that began the slip; -1: none yet
+  int event; // event that began the slip; -1: none yet
   size_t region;
-  // So far; platens: touched or left; others: that no cycle has.
+  // Counted so far: all events; contacts made and lost by the platen; events that no cycle has;
+  // segments.
   long events, platens, others, segments;
-  double t, until; // s; end of the drive's piece
-  double stretch;  // of the drive's spring [m]
+  double t, until; // time; end of the drive's piece [s]
+  double stretch;  // position of the platen minus x [m]
   SbDynamicsState at;
   SbContactState state[SB_DYNAMICS_CONTACTS];
-  double rest[SB_DYNAMICS_CONTACTS]; // since it came to rest, if it did [s]
+  double rest[SB_DYNAMICS_CONTACTS]; // time since the contact came to rest [s]
   SbDynamicsEnergy energy;
 } SbDynamicsBreak;
 
-// Cycles passed over that change slowly: power of each term of energy [W] in the middle [s] of the
-// cycles before the last two groups.
+// A group of slowly changing cycles that was passed over (private). Energies of a group follow from
+// the power of each term [W] in cycles before, between and after the groups.
 typedef struct {
-  bool open;       // the last group's energies are extrapolated from its begin
+  bool open;       // the energies of the last group are extrapolated so far
   double from, to; // the last group [s]
-  double span;     // of the last [s]
-  double rest[SB_DYNAMICS_CONTACTS], longer[SB_DYNAMICS_CONTACTS];   // last, and by how much [s]
-  double rested[SB_DYNAMICS_CONTACTS], slower[SB_DYNAMICS_CONTACTS]; // s; its rate since
-  double middle[2], power[2][SB_DYNAMICS_TERMS], taken[SB_DYNAMICS_TERMS];
+  double span;     // its duration [s]
+  double rest[SB_DYNAMICS_CONTACTS], longer[SB_DYNAMICS_CONTACTS]; // last dwell, its change [s]
+  // Dwell before the group [s], its rate of change [1].
+  double rested[SB_DYNAMICS_CONTACTS], slower[SB_DYNAMICS_CONTACTS];
+  double middle[2], power[2][SB_DYNAMICS_TERMS], taken[SB_DYNAMICS_TERMS]; // [s], [W], [J]
 } SbDynamicsGroup;
 
-// Working state; on the caller's memory, no pointers owned. Fields are private, but what is to be
-// read.
+// Working state, in memory of the caller; owns nothing, so it need not be freed.
+// Read `counters` and `force_peak`; all other fields are private.
 typedef struct {
-  SbDynamicsCounters counters; // to be read: what the run cost so far
-  double force_peak;           // to be read: of the drive, up to the last event [N]
-  const SbDynamicsModel *model;
-  double t, t_end;    // anchor of the segment, and its end [s]
-  SbDynamicsState at; // at the anchor
-  double now;         // time last advanced to, within the segment [s]
-  double mass;        // kg
+  SbDynamicsCounters counters;  // cost so far
+  double force_peak;            // largest force of the drive up to the last event [N]
+  const SbDynamicsModel *model; // borrowed
+  double t, t_end;              // start and end of the segment [s]
+  SbDynamicsState at;           // at the start of the segment
+  double now;                   // time last advanced to [s]
+  double mass;                  // effective mass in the segment [kg]
   SbContactState state[SB_DYNAMICS_CONTACTS];
-  int sign[SB_DYNAMICS_CONTACTS];
-  double since[SB_DYNAMICS_CONTACTS]; // start of the rest
-  // Last slip, and what a contact holds beyond its limit because that slip had no duration, N.
+  int sign[SB_DYNAMICS_CONTACTS];     // direction of sliding
+  double since[SB_DYNAMICS_CONTACTS]; // time at which the rest began [s]
+  // Time of the last slip [s]; addition to the static friction because that slip had no duration
+  // [N].
   double slipped[SB_DYNAMICS_CONTACTS], margin[SB_DYNAMICS_CONTACTS];
-  bool fresh[SB_DYNAMICS_CONTACTS]; // newly loaded: sticks up to the sliding level only
+  bool fresh[SB_DYNAMICS_CONTACTS]; // newly loaded: static friction is that of sliding
   size_t region;
   SbDynamicsLoads loads;
-  // Of the speed in the present segment, if a contact slides; which way; it fell out of the last.
-  SbDynamicsBand band;
-  int direction;
-  bool banded, fell;
+  SbDynamicsBand band; // of the segment, if `banded`
+  int direction;       // of the motion, +1 or -1
+  bool banded, fell;   // a contact slides with a band; the speed left its band downwards
   SbDynamicsWall wall[SB_DYNAMICS_WALLS]; // the stops, and the platen
   SbDriveState drive;
   SbDrivePiece piece;
-  SbDynamicsEnergy energy;
-  SbDynamicsBreak broke, mark; // the last, and the one that later ones are compared with
-  long since_mark, mark_after; // break-aways since it was set, and after how many it is set again
-  double least_stretch;        // of the drive's spring at events since then, in size [m]
-  long platens, others;        // events of the platen; of kinds that no cycle has: stops and edges
+  SbDynamicsEnergy energy;     // at the start of the segment
+  SbDynamicsBreak broke, mark; // last break-away, and the one with which later ones are compared
+  // Break-aways since `mark`, and the number after which it is replaced.
+  long since_mark, mark_after;
+  double least_stretch; // smallest |platen - x| at events since `mark` [m]
+  long platens, others; // see SbDynamicsBreak
   SbDynamicsGroup group;
-  double asked;                       // time that is being advanced to
-  double stored_start, kinetic_start; // J
-  bool ready, linear, held;
-  // The patch started the segment clearly faster than rest_speed: falling below it is coming to
-  // rest.
-  bool brisk[SB_DYNAMICS_CONTACTS];
-  int event; // that ends the segment, or -1
-  SbOscillator motion;
-  SbRadauSystem system;
-  size_t unknown[SB_RADAU_MAX]; // its unknowns' places in SbDynamicsState.z
-  double speed_size;            // of its tolerance [m/s]
+  double asked;                       // target of sb_dynamics_advance() [s]
+  double stored_start, kinetic_start; // [J]
+  bool ready, linear, held;           // the segment is known; has a closed form; the stem is fixed
+  bool brisk[SB_DYNAMICS_CONTACTS];   // the patch began the segment clearly faster than rest_speed
+  int event;                          // that ends the segment, or -1
+  SbOscillator motion;                // closed form
+  SbRadauSystem system;               // numerical path
+  size_t unknown[SB_RADAU_MAX];       // indices of its unknowns in SbDynamicsState.z
+  double speed_size;                  // speed to which its tolerance refers [m/s]
   SbRadauStep step[2];
-  double h; // next step size [s]
-  double accumulated_at;
-  int accumulated;
+  double h;              // next step size [s]
+  double accumulated_at; // time of the last event [s]
+  int accumulated;       // number of events at that time
   void (*listener)(const SbMotionEvent *event, void *user);
   void *listener_user;
 } SbDynamics;
 
-// Refuses a model that makes no sense, naming what is wrong.
+// Checks a model. SB_ERROR_RANGE or SB_ERROR_INPUT, with the quantity and its range.
 SbStatus sb_dynamics_check(const SbDynamicsModel *model, SbReport *report);
 
-// State at time 0. The model is borrowed for the life of the state.
+// Checks the model and sets the state at time 0. `model` is borrowed while *dynamics is used; it
+// must not change. Errors as for sb_dynamics_check().
 SbStatus sb_dynamics_init(SbDynamics *dynamics, const SbDynamicsModel *model, SbReport *report);
 
-// Reports every event as it happens, save those of cycles passed over (counters.repeated); NULL to
-// stop.
+// Sets a function that is called at each event, with `user`; NULL: none. Events of cycles that are
+// passed over (counters.repeated) are not reported.
 void sb_dynamics_listen(SbDynamics *dynamics,
                         void (*listener)(const SbMotionEvent *event, void *user), void *user);
 
-// Moves on to `time` (not before the present). SB_ERROR_NOT_CONVERGED (too many events, a step that
-// cannot be solved) leaves the last good state, which can still be sampled at its time.
+// Advances the motion to `time` [s], which must not be before the present time (SB_ERROR_RANGE).
+// SB_ERROR_CANCELLED: `poll` returned true. SB_ERROR_NOT_CONVERGED: too many segments, accumulating
+// events, or a step that cannot be solved. An error of `mass_at` is returned. After an error the
+// motion is at the last good state, which sb_dynamics_sample() returns.
 SbStatus sb_dynamics_advance(SbDynamics *dynamics, double time, SbReport *report);
 
-// State, forces and energies at the time last advanced to; either may be NULL.
+// Writes state and forces to *sample and the energies to *energy, at the present time; either may
+// be NULL. Requires one sb_dynamics_advance() before.
 void sb_dynamics_sample(const SbDynamics *dynamics, SbDynamicsSample *sample,
                         SbDynamicsEnergy *energy);
 
-// Returns the largest force of the drive up to the time last advanced to [N], within the steps too.
+// Returns the largest force of the drive up to the present time [N], including times between
+// samples.
 double sb_dynamics_force_peak(const SbDynamics *dynamics);
 
-// Whether the drive has ended and the stem rests: nothing more can happen.
+// Returns whether the drive has ended and the stem is at rest, so that nothing can happen any more.
 bool sb_dynamics_at_rest(const SbDynamics *dynamics);

@@ -1,5 +1,6 @@
-// What the files of dynamics share: _check (input), _forces (forces, energies, event functions),
-// _path (motion between events), and dynamics.c (what events do). Private to this folder.
+// Shared by the files of dynamics.h: dynamics_check.c (input), dynamics_forces.c (forces, energies,
+// event functions), dynamics_path.c (motion between events), dynamics.c (effects of events),
+// dynamics_repeat.c (stick-slip cycles). Private to engine/mechanism.
 #pragma once
 
 #include "engine/mechanism/dynamics.h"
@@ -7,165 +8,181 @@
 #include <float.h>
 #include <math.h>
 
-// Everything that can end a segment; of those at one time the first counts. Stops and contacts
-// follow each other by index.
+// Events that end a segment; if several have the same time, the first of this list is processed
+// first. Events of stops and contacts are followed by those of the next index.
 enum {
   EVENT_NONE = -1,
-  EVENT_BREAK, // the drive's next piece
-  EVENT_EDGE_UP,
-  EVENT_EDGE_DOWN,
-  EVENT_PLATEN,   // platen or finger touches or is left
-  EVENT_RIGID_UP, // rigid contacts: slip forward, or come to rest
-  EVENT_RIGID_DOWN,
-  EVENT_SPEED_UP, // the stem's speed leaves its band
-  EVENT_SPEED_DOWN,
-  EVENT_STOP,
-  EVENT_CONTACT_UP = EVENT_STOP + SB_DYNAMICS_STOPS,
-  EVENT_CONTACT_DOWN = EVENT_CONTACT_UP + SB_DYNAMICS_CONTACTS,
+  EVENT_BREAK,                                       // the drive's next piece begins
+  EVENT_EDGE_UP,                                     // an edge is crossed to +x
+  EVENT_EDGE_DOWN,                                   // an edge is crossed to -x
+  EVENT_PLATEN,                                      // platen or finger gains or loses contact
+  EVENT_RIGID_UP,                                    // rigid contacts slip to +x, or come to rest
+  EVENT_RIGID_DOWN,                                  // rigid contacts slip to -x
+  EVENT_SPEED_UP,                                    // the speed leaves its band upwards
+  EVENT_SPEED_DOWN,                                  // the speed leaves its band downwards
+  EVENT_STOP,                                        // a stop gains or loses contact
+  EVENT_CONTACT_UP = EVENT_STOP + SB_DYNAMICS_STOPS, // an elastic contact slips to +x, or sticks
+  EVENT_CONTACT_DOWN = EVENT_CONTACT_UP + SB_DYNAMICS_CONTACTS, // an elastic contact slips to -x
   EVENT_COUNT = EVENT_CONTACT_DOWN + SB_DYNAMICS_CONTACTS,
 };
 
-// Force on the stem about a point of its motion: f0 + f1 tau - k (x - x0) - c v, tau since then.
+// Force on the stem near a point of its motion: f0 + f1 tau - k (x - x0) - c v, with tau the time
+// since that point.
 typedef struct {
-  double f0, f1, k, c; // N, N/s, N/m, N s/m
+  double f0, f1, k, c; // [N], [N/s], [N/m], [N s/m]
 } Force;
 
-// A point of the motion, and what acts on the stem there: the one description of forces, which the
-// closed form takes as coefficients and the numerical path as numbers.
+// A point of the motion, and the forces on the stem there, for both the closed form and the
+// numerical path.
 typedef struct {
-  double t;                 // s
+  double t;                 // [s]
   const SbDynamicsState *z; // borrowed
-  double v;                 // speed, 0 if held [m/s]
+  double v;                 // speed, 0 if the stem is fixed [m/s]
   SbDynamicsLoads loads;
-  Force wall[SB_DYNAMICS_WALLS], contact[SB_DYNAMICS_CONTACTS]; // 0 where nothing acts
-  Force beside[SB_DYNAMICS_CONTACTS]; // of a contact that slides: what the speed adds
-  Force sum;                          // of these, the loads, the return spring and what is viscous
-  double rigid; // of sum.f0, rigid contacts that slide [N]; at rest they, like rigid stops, are 0
+  Force wall[SB_DYNAMICS_WALLS], contact[SB_DYNAMICS_CONTACTS]; // 0 without contact
+  Force beside[SB_DYNAMICS_CONTACTS]; // speed-dependent part of a sliding contact's friction
+  Force sum;                          // of all of these, loads, return spring and damping
+  double rigid; // part of sum.f0 due to sliding rigid contacts [N]; rigid walls and contacts at
+                // rest count 0
 } Point;
 
-// Integrals over a stretch of the motion, or, with a time of 1, their rates at its start.
+// Integrals over a stretch of the motion; with time = 1, their time derivatives at its start.
 typedef struct {
-  double time, travel; // of 1 and v [s, m]
-  double square, ramp; // of v^2 and tau v [m2/s, m s]
-  double lag;          // of the way less that of the platen, which goes steadily [m s]
-  double shift[SB_DYNAMICS_CONTACTS], fade[SB_DYNAMICS_CONTACTS]; // of d' and d'^2 [m, m2/s]
+  double time, travel; // integrals of 1 [s] and v [m]
+  double square, ramp; // integrals of v^2 [m2/s] and tau v [m s]
+  double lag;          // integral of x minus the position of the platen [m s]
+  double shift[SB_DYNAMICS_CONTACTS],
+      fade[SB_DYNAMICS_CONTACTS]; // integrals of d' [m], d'^2 [m2/s]
 } Stretch;
 
-// After so many segments a motion is given up: two to four minutes of a processor.
+// Largest number of segments: two to four minutes of processor time.
 enum { SEGMENTS_MAX = 40000000 };
 
-// Positions closer than rounding of this are the same [m].
+// Positions that differ by less than rounding of this are equal [m].
 static const double length_noise = 1e-6;
 
-// Stiffness INFINITY.
+// Returns whether a stiffness is INFINITY.
 static inline bool rigid(double stiffness) {
   return stiffness > 1e300;
 }
 
+// Returns whether contact i has no tangential spring.
 static inline bool is_rigid(const SbDynamicsModel *m, size_t i) {
   return rigid(m->contact[i].stiffness);
 }
 
+// Returns the speed below which a contact comes to rest [m/s].
 static inline double sb_motion_rest_speed(const SbDynamicsModel *m) {
   return m->rest_speed > 0.0 ? m->rest_speed : 1e-9;
 }
 
-// The drive prescribes a force on the stem, not a place.
+// Returns whether the drive prescribes a force, not a position.
 static inline bool sb_motion_by_force(const SbDynamicsModel *m) {
   return m->drive.quantity == SB_DRIVE_OF_FORCE;
 }
 
-// A force that stays at zero: the finger has been taken away, damper and all.
+// Returns whether the force of a finger has become 0 for the rest of the piece: the finger is
+// removed, with its damper.
 static inline bool sb_motion_finger_gone(const SbDynamics *s) {
   return s->model->drive.kind != SB_DRIVE_NONE && sb_motion_by_force(s->model) &&
          !s->model->drive_bonded && !s->piece.curved && s->piece.value == 0.0 &&
          s->piece.rate == 0.0;
 }
 
-// Place of a wall's or the drive's moving end [m], or the finger's force [N], and its rate.
+// Position [m] of a wall or of the drive, or force [N] of a finger, and its time derivative.
 typedef struct {
   double value, rate;
 } Moving;
 
+// Returns the drive at time t [s].
 Moving sb_motion_drive_at(const SbDynamics *s, double t);
 
-// Of wall w at time t.
+// Returns the position of wall w at time t [s]; of SB_DYNAMICS_PLATEN the drive.
 Moving sb_motion_wall_at(const SbDynamics *s, size_t w, double t);
 
-// Deflection that wall w has at (t, x); of one that was left what remains of it [m].
+// Returns the deflection [m] of wall w at time t and position x; after contact was lost, the
+// remaining one.
 double sb_motion_deflection(const SbDynamics *s, size_t w, double t, double x);
 
-// Level of contact i in a direction [N].
+// Returns the level L [N] of contact i for sliding in `direction`.
 static inline double sb_motion_level(const SbDynamicsLoads *loads, size_t i, int direction) {
   return loads->level[i] + (direction < 0 ? loads->back[i] : 0.0);
 }
 
-// Level times the factor of the sliding speed.
+// Returns `level` times the Stribeck factor of contact i at `speed` [m/s].
 double sb_motion_sliding_level(const SbDynamics *s, size_t i, double level, double speed);
 
-// Whether the law of contact i is no straight line in a band of speed.
+// Returns whether contact i has a Stribeck factor, so that its law is not linear within a band.
 bool sb_motion_speed_dependent(const SbDynamicsModel *m, size_t i);
 
-// Force of wall w, as if it touched a stem at x.
+// Writes the force of wall w as if it had contact with a stem at x.
 void sb_motion_wall_force(Force *force, const SbDynamics *s, size_t w, double t, double x);
 
-// The point at time t and state z, in the present mode.
+// Computes the point at time t with the state z, in the present contact states. `z` is borrowed by
+// *p.
 void sb_motion_point(Point *p, const SbDynamics *s, double t, const SbDynamicsState *z);
 
-// A force at the point's own speed [N].
+// Returns a force at the speed of the point [N].
 static inline double force_of(const Force *force, const Point *p) {
   return force->f0 - force->c * p->v;
 }
 
-// Size of the rounding of time t [s]: of two times closer than that neither comes first.
+// Returns the rounding error of time t [s]: events closer than that are simultaneous.
 static inline double sb_motion_time_noise(double t) {
   return 8.0 * DBL_EPSILON * fabs(t);
 }
 
-// How long the pieces of their laws hold for contacts that rest at p [s], maybe INFINITY.
+// Returns the time [s] until a resting contact reaches the next piece of its dwell law, at p;
+// INFINITY if none does.
 double sb_motion_rest_ends(const SbDynamics *s, const Point *p);
 
-// Largest force that contact i can hold at p against the stem's going in `direction`.
+// Returns the largest static friction [N] of contact i at p against motion of the stem in
+// `direction`.
 double sb_motion_holding(const SbDynamics *s, const Point *p, size_t i, int direction);
 
-// Rate of the deflection of contact i at p [m/s]; the rest of the stem's speed is its patch's.
+// Returns the time derivative of the deflection of contact i at p [m/s]; the stem's speed minus it
+// is the patch's.
 double sb_motion_deflection_rate(const SbDynamics *s, const Point *p, size_t i);
 
-// Tangential deflection of contact i at tau and `travel` after the anchor in the closed-form path,
-// and how fast it relaxes if it slides.
+// Returns the deflection [m] of contact i at `tau` and `travel` after the start of the segment, in
+// the closed form. *rate receives its relaxation rate [m/s] if the contact slides, else 0.
 double sb_motion_deflection_at(const SbDynamics *s, size_t i, double tau, double travel,
                                double *rate);
 
-// Function of an event about a point; false if it cannot happen in this mode.
+// Writes the event function of `event` near p. Returns false if the event is impossible in the
+// present contact states.
 bool sb_motion_event_function(const SbDynamics *s, const Point *p, int event, SbEventFunction *g);
 
-// Its value at that point, where the speed is v, and a size below which its sign means nothing in
-// the numerical path.
+// Returns the value of g at its point, where the speed is v. *noise receives the size below which
+// its sign is not significant in the numerical path.
 double sb_motion_event_value(const SbDynamics *s, int event, const SbEventFunction *g, double v,
                              double *noise);
 
-// Finds the motion from the anchor and the event that ends it (s->t_end, s->event).
+// Finds the motion in the segment that begins at s->t, its end s->t_end and the event s->event that
+// ends it. SB_ERROR_NOT_CONVERGED: no step of the numerical path converges.
 SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report);
 
-// After `event`, by which contacts broke away at the anchor: goes on by whole cycles of stick-slip
-// if they are equal, or by a group of them if they change slowly.
+// Called after `event`, a break-away at the start of the segment. If cycles of stick-slip repeat,
+// advances by a number of full cycles; if they change slowly, by a group of cycles.
 void sb_motion_repeat(SbDynamics *s, int event);
 
-// The state at tau after the anchor, within the segment.
+// Writes the state at `tau` [s] after the start of the segment, within it.
 void sb_motion_state_at(const SbDynamics *s, double tau, SbDynamicsState *z);
 
-// Largest force of the drive over the present segment [N], no less than `known`.
+// Returns the largest force of the drive in the present segment [N], at least `known`.
 double sb_motion_force_peak(const SbDynamics *s, double known);
 
-// Energy in seals, stops, return spring and drive [J].
+// Returns the energy in tangential springs, stops, return spring and drive [J] at time t and state
+// z.
 double sb_motion_stored_energy(const SbDynamics *s, double t, const SbDynamicsState *z);
 
-// What the damper of wall w takes from t0 to t1 once it was left [J].
+// Returns the energy [J] dissipated by the damper of wall w from t0 to t1, after contact was lost.
 double sb_motion_relaxed(const SbDynamics *s, size_t w, double t0, double t1);
 
-// Adds to the terms of SbDynamicsEnergy what the forces at p do over a stretch from there on.
+// Adds to term[SB_DYNAMICS_TERMS] the work of the forces at p over the stretch `over`, which begins
+// there.
 void sb_motion_add_energy(double *term, const SbDynamics *s, const Point *p, const Stretch *over);
 
-// Energies up to tau after the anchor, where the state is z.
+// Computes all energies up to `tau` [s] after the start of the segment, where the state is z.
 void sb_motion_energy_at(const SbDynamics *s, double tau, const SbDynamicsState *z,
                          SbDynamicsEnergy *e);

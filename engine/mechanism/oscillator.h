@@ -1,65 +1,68 @@
-// One mass under forces that are linear in its state: exact motion, exact integrals, first event.
+// One mass under forces that are linear in its state: closed-form motion, integrals, first event.
 //
 //   m u'' + C u' + K u = f0 + f1 tau,   u(0) = 0, u'(0) = v0,   tau = time since then
 //
-// Elementary mechanics. Oscillating, overdamped, critical, without a spring, a damper or both: one
-// set of functions, written so that no digits are lost when a coefficient is small. Between two
-// events of a piecewise linear mechanism this is its whole motion, so that a rest of an hour costs
-// as much as a microsecond. The first event is found with bounds, not by sampling: none can be
-// stepped over. SI units. Leaves out: forcing other than a ramp; any nonlinearity (see radau.h).
+// All cases (oscillating, critical, overdamped, no spring, no damper) without loss of digits if a
+// coefficient is small. This is the exact motion of a piecewise linear mechanism between two
+// events, whatever its duration. The first event is found with bounds on the curvature, so none is
+// missed. The functions have no state and may be called concurrently. Not modelled: other forcing
+// than a ramp, nonlinearity (radau.h).
 #pragma once
 
 #include <stdbool.h>
 
-// One that is zero throughout is a mass that is held.
+// A prepared oscillator, set by sb_oscillator_init(); the fields are private. {0} is a fixed mass.
 typedef struct {
   double damping, stiffness; // C/m [1/s], K/m [1/s2]
-  double v0, g0, g1;         // m/s, and f0 and f1 over m [m/s2, m/s3]
+  double v0, g0, g1;         // [m/s], f0/m [m/s2], f1/m [m/s3]
   double omega;              // sqrt(K/m) [1/s]
-  double slow, fast;         // decay rates if overdamped, else C/(2m) [1/s]
+  double slow, fast;         // decay rates if overdamped, else both C/(2m) [1/s]
   double split;              // sqrt|(C/2m)^2 - K/m| [1/s]
-  bool swings, apart;        // underdamped; not near critical damping
-  // With a spring u follows trend0 + trend1 tau once the transient is gone [m, m/s].
-  double trend0, trend1;
+  bool swings, apart;        // underdamped; clearly different from critical damping
+  double trend0, trend1;     // with a spring, u tends to trend0 + trend1 tau [m], [m/s]
 } SbOscillator;
 
-// mass > 0, stiffness >= 0, all finite; f0 is the force at x0 and rest. Under a damping below 0
-// what swings grows: the motion is known up to tau = mass / -damping.
+// Prepares an oscillator: mass > 0 [kg], stiffness >= 0 [N/m], damping [N s/m], all finite. f0 [N]
+// and f1 [N/s] are the force at tau = 0 for u = 0 and u' = 0 and its rate, v0 [m/s] the initial
+// velocity. With damping < 0 the motion grows and is valid up to tau = mass/-damping.
 void sb_oscillator_init(SbOscillator *o, double mass, double damping, double stiffness, double f0,
                         double f1, double v0);
 
+// State of the motion.
 typedef struct {
-  double tau;                // s
-  double travel, v, a, jerk; // u and its rates [m, m/s, m/s2, m/s3]
-  double area;               // integral of u from 0 on [m s]
-  double size_u, size_v;     // sums of the magnitudes in u and v: their rounding
+  double tau;                // [s]
+  double travel, v, a, jerk; // u and its derivatives [m], [m/s], [m/s2], [m/s3]
+  double area;               // integral of u from 0 to tau [m s]
+  double size_u, size_v;     // sums of the magnitudes of the terms of u and v, for rounding errors
 } SbOscillatorState;
 
-// The motion at tau >= 0.
+// Returns the state at tau >= 0 [s].
 SbOscillatorState sb_oscillator_at(const SbOscillator *o, double tau);
 
-// Integral of u - rate tau over (0, tau) [m s]; `pull` is g1 - rate K/m [m/s3] without the rounding
-// of its terms.
+// Returns the integral of u - rate tau from 0 to tau [m s]. `rate` [m/s]. `pull` is f1/m - rate K/m
+// [m/s3], computed by the caller without cancellation.
 double sb_oscillator_lag(const SbOscillator *o, double tau, double rate, double pull);
 
-// Integral of v^2 over (0, tau) [m^2/s].
+// Returns the integral of u'^2 from 0 to tau [m2/s].
 double sb_oscillator_square(const SbOscillator *o, double tau);
 
-// A quantity that must stay >= 0; the event is where it first turns negative:
-//   g = constant + rate tau + of_x u + of_v v + relax exp(-relax_rate tau)
-//       + sum of logs, gain ln(1 + (start + tau)/time)             (gain >= 0, time > 0)
+// Largest number of logarithms of an event function.
 enum { SB_EVENT_LOGS = 4 };
+
+// An event function g(tau), in any unit. The event is the first tau at which g becomes negative:
+//   g = constant + rate tau + of_x u + of_v u' + relax exp(-relax_rate tau)
+//       + sum over `logs` terms of gain ln(1 + (start + tau)/time)        (gain >= 0, time > 0)
 typedef struct {
-  double constant, rate, of_x, of_v; // of g's unit, tau in s, u in m, v in m/s
-  double relax, relax_rate;
-  int logs;
+  double constant, rate, of_x, of_v;
+  double relax, relax_rate; // relax_rate in 1/s
+  int logs;                 // terms in use, at most SB_EVENT_LOGS
   struct {
-    double gain, start, time;
+    double gain, start, time; // start, time in s
   } log[SB_EVENT_LOGS];
-  double noise; // size of terms that have cancelled in the coefficients: sets the rounding error
+  double noise; // sum of the magnitudes of terms that cancelled in `constant`, for rounding errors
 } SbEventFunction;
 
-// First tau in [0, horizon] at which g turns negative; `horizon` if none (then *found = false).
-// A g that is zero at 0 and rises is not an event; one that is zero and falls is one, at 0.
-// Bounds on the curvature make the march safe: between its steps g provably keeps its sign.
+// Returns the first tau in [0, horizon] [s] at which g becomes negative, and sets *found. Without
+// an event it returns `horizon` and *found is false. If g(0) = 0, the event is at 0 if g decreases
+// and none if it increases.
 double sb_event_first(const SbEventFunction *g, const SbOscillator *o, double horizon, bool *found);

@@ -1,43 +1,50 @@
-// Half-sections of parts as polygons: a profile with its arcs divided, its inner and outer surface
-// along the axis, and the room that a recess leaves. For drawing the part and for sizes that follow
-// from its shape. SI units.
+// Half-sections of parts as polygons, and their inner and outer surface as functions of x. The
+// functions have no state and may be called concurrently.
 #pragma once
 
 #include "engine/mechanism/solid.h"
 
+// Largest number of points of an outline.
 enum { SB_OUTLINE_MAX = 512 };
+
+// A point of an outline.
 
 typedef struct {
   double x, r; // axial, radial [m]
 } SbOutlinePoint;
 
-// Closed by the piece from its last point to the first; counter-clockwise. count 0: none.
+// A polygon, counter-clockwise in (x, r). The last point is connected to the first. count 0: empty.
 typedef struct {
   size_t count;
   SbOutlinePoint point[SB_OUTLINE_MAX];
 } SbOutline;
 
-// Divides a profile's arcs so that none is further than `sagitta` [m] from its chords, or as finely
-// as SB_OUTLINE_MAX points allow. The enclosed area differs by less than 2/3 of the chords' length
-// times the sagitta. Refuses what sb_profile_check() refuses.
+// Converts a half-section to a polygon. Arcs are divided so that they deviate from their chords by
+// at most `sagitta` [m], or by more if SB_OUTLINE_MAX points are not enough. SB_ERROR_INPUT as for
+// sb_profile_check(); `out` is empty then.
 SbStatus sb_outline_of_profile(SbOutline *out, const SbProfile *profile, double sagitta,
                                SbReport *report);
 
-// Inner and outer surface by x: between x[i] and x[i + 1] both are straight, from `right` of i to
-// `left` of i + 1. Where the part is solid the inner one is 0.
+// Inner and outer radius as piecewise linear functions of x. Between x[i] and x[i + 1] the inner
+// radius goes from low_right[i] to low_left[i + 1], the outer from high_right[i] to high_left[i +
+// 1]. A step has different left and right values.
 typedef struct {
-  size_t count;
-  double x[SB_OUTLINE_MAX];                                     // m, as the radii
-  double low_left[SB_OUTLINE_MAX], low_right[SB_OUTLINE_MAX];   // inner, -1 where there is nothing
-  double high_left[SB_OUTLINE_MAX], high_right[SB_OUTLINE_MAX]; // outer
+  size_t count;             // number of x
+  double x[SB_OUTLINE_MAX]; // increasing [m]
+  // Inner radius [m]; 0 if the part is solid, -1 if there is no part on this side of x.
+  double low_left[SB_OUTLINE_MAX], low_right[SB_OUTLINE_MAX];
+  // Outer radius [m]; -1 if there is no part on this side of x.
+  double high_left[SB_OUTLINE_MAX], high_right[SB_OUTLINE_MAX];
 } SbOutlineSurface;
 
+// Computes the surfaces of an outline, which must not cross itself.
 void sb_outline_surface(SbOutlineSurface *out, const SbOutline *outline);
 
-// Radii of both surfaces at x [m]. False beside the part.
+// Writes the inner and the outer radius at x [m] to *low and *high. Returns false if there is no
+// part at x.
 SB_CHECKED bool sb_outline_radii(double *low, double *high, const SbOutlineSurface *surface,
                                  double x);
 
-// Volume between the outer surface and the cylinder of radius `radius` from x0 to x1, where the
-// surface lies inside it [m3].
+// Returns the volume [m3] between the outer surface and the cylinder of radius `radius` [m], from
+// x0 to x1 [m]. Where the surface is outside the cylinder, 0 is added.
 double sb_outline_room(const SbOutlineSurface *surface, double radius, double x0, double x1);

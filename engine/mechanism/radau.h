@@ -1,9 +1,9 @@
-// Radau IIA of order 5: one step of a small stiff system, with quadratures carried along.
+// Radau IIA of order 5 for small stiff systems, with quadratures, step doubling and dense output.
 //
 // Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5 and IV.8 (3 stages,
-// L-stable). The caller doubles steps for the error estimate (sb_radau_pair), which then is of the
-// order of the result, and ends them on events by stepping again. Nothing is allocated. Leaves
-// out: mass matrices, systems larger than SB_RADAU_MAX.
+// L-stable). sb_radau_pair() makes two half steps and estimates their error; the caller chooses the
+// step size and locates events. Nothing is allocated; the functions have no state and may be called
+// concurrently. Not supported: mass matrices, more than SB_RADAU_MAX unknowns.
 #pragma once
 
 #include "engine/base/status.h"
@@ -11,39 +11,42 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+// Largest number of unknowns, of quadratures, and the number of stages.
 enum { SB_RADAU_MAX = 7, SB_RADAU_POWERS = 7, SB_RADAU_STAGES = 3 };
 
-// dz[n] = rates of the state, power[powers] = integrands that do not feed back, unless
-// NULL. z and dz have room for SB_RADAU_MAX.
+// Computes the rates dz[n] of the unknowns z[n] at time t and, unless `power` is NULL, the
+// integrands power[powers] of quadratures, on which the rates do not depend. z and dz have
+// SB_RADAU_MAX elements. `user` is that of SbRadauSystem.
 typedef void (*SbRadauRates)(double *dz, double *power, double t, const double *z, void *user);
 
+// A system and its tolerances. n <= SB_RADAU_MAX, powers <= SB_RADAU_POWERS.
 typedef struct {
   size_t n, powers;
   SbRadauRates rates;
-  void *user;
-  double tolerance;             // relative
-  double floor[SB_RADAU_MAX];   // absolute size per component below which errors are scaled by this
-  double ceiling[SB_RADAU_MAX]; // absolute size above which they are; 0: none
-  double noise[SB_RADAU_MAX];   // rounding of the rates: Newton's iteration ends there
+  void *user;                   // passed to `rates`
+  double tolerance;             // relative, per step
+  double floor[SB_RADAU_MAX];   // added to |z|: the error of z is scaled by tolerance (|z| + floor)
+  double ceiling[SB_RADAU_MAX]; // upper limit of |z| + floor; 0: none
+  double noise[SB_RADAU_MAX];   // rounding error of dz, below which Newton's iteration stops
 } SbRadauSystem;
 
-// One step, enough for dense output.
+// A completed step.
 typedef struct {
-  double t, h; // s
-  double z0[SB_RADAU_MAX], z1[SB_RADAU_MAX];
-  double k[SB_RADAU_STAGES][SB_RADAU_MAX];
-  double q[SB_RADAU_STAGES][SB_RADAU_POWERS];
+  double t, h;                                // start and length [s]
+  double z0[SB_RADAU_MAX], z1[SB_RADAU_MAX];  // unknowns at start and end
+  double k[SB_RADAU_STAGES][SB_RADAU_MAX];    // rates at the stages
+  double q[SB_RADAU_STAGES][SB_RADAU_POWERS]; // integrands at the stages
 } SbRadauStep;
 
-// From (t, z) over h > 0 in two steps of h/2; against one of h the difference of every component,
-// over 31, as `local`, and the greatest scaled one as `error` (accept below 1). The pair is more
-// accurate than that by about 31. False if Newton's iteration, counted in *iterations, did not
-// converge (take a smaller h).
+// Steps from (t, z[n]) over h > 0 in two steps of h/2, which are pair[0] and pair[1]. Compares them
+// with one step of h: local[n] is the difference of each unknown divided by 31, *error the largest
+// of these divided by its tolerance. Accept the pair if *error < 1. Adds the number of Newton
+// iterations to *iterations. Returns false if Newton's method did not converge: try a smaller h.
 SB_CHECKED bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local,
                               const SbRadauSystem *system, double t, const double *z, double h,
                               long *iterations);
 
-// State z[n] at t + theta h, 0 <= theta <= 1, and the quadratures over (t, t + theta h); either may
-// be NULL.
+// Computes from a completed step the unknowns z[n] at t + theta h and the quadratures
+// integral[powers] over (t, t + theta h), 0 <= theta <= 1. `z` or `integral` may be NULL.
 void sb_radau_dense(const SbRadauStep *step, const SbRadauSystem *system, double theta, double *z,
                     double *integral);

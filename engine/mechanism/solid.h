@@ -1,58 +1,64 @@
-// Mass, centre and moments of inertia of a part: a half-profile revolved, or a closed mesh.
+// Mass, centre and moments of inertia of a part: a half-section revolved about the axis, or a
+// closed triangle mesh. Also the diameters of a revolved part.
 //
-// Profile: integrals over the area become integrals along its outline (Green), which Gauss points
-// evaluate exactly on straight pieces and to rounding on arcs. Mesh: signed tetrahedra from the
-// first vertex (divergence theorem), exact for the polyhedron. The same profile gives the diameters
-// of groove, land and pressure. Anything that is not the outline of a body (open, crossing itself,
-// inside out, across the axis) is refused by name. SI units.
+// Half-sections: area integrals are converted to integrals along the outline (Green), by Gauss
+// points; exact on straight pieces, to rounding on arcs. Meshes: signed tetrahedra (divergence
+// theorem), exact for the polyhedron. The functions have no state and may be called concurrently.
 #pragma once
 
 #include "engine/base/status.h"
 
+// Largest number of points of a half-section.
 enum { SB_PROFILE_MAX = 512 };
 
-// A point of a half-profile; `bulge` bends the piece to the next point: tan of a quarter of the
-// arc's angle, > 0 turning left (counter-clockwise), 0 straight.
+// A point of a half-section. `bulge` describes the piece to the next point: tan(angle/4) of an arc,
+// > 0 if it turns left (counter-clockwise); 0: straight.
 typedef struct {
   double x, r; // axial, radial (r >= 0), m
   double bulge;
 } SbProfilePoint;
 
-// Counter-clockwise in the (x, r) plane, material on the left. Closed by its own last piece back to
-// the first point, unless first and last lie on the axis: then the axis closes it (the last bulge
-// must be 0 in that case). The first point is not repeated.
+// A half-section in the (x, r) plane, counter-clockwise, with the material on the left. The last
+// point is connected to the first one by a piece, which is not listed as a point. If first and last
+// point are on the axis, the axis closes the outline, and the last bulge must be 0.
 typedef struct {
-  const SbProfilePoint *point;
-  size_t count;
-  bool closed; // the maker says that it closes: an outline that is not, off the axis, is refused
+  const SbProfilePoint *point; // [count], borrowed
+  size_t count;                // 2 to SB_PROFILE_MAX
+  bool closed; // the outline is closed by the last piece; if false, it must start and end on the
+               // axis
 } SbProfile;
 
+// Properties of a body.
 typedef struct {
-  double volume, mass;  // m3, kg
-  double centre[3];     // m
-  double inertia[3][3]; // about the centre, kg m2, ground axes (profile: x is the axis)
+  double volume, mass;  // [m3], [kg]
+  double centre[3];     // of mass [m]; profile: x is the axis
+  double inertia[3][3]; // tensor about the centre, axes of the coordinates [kg m2]
 } SbSolid;
 
-// Refuses an outline that bounds no body, naming the fault and the piece.
+// Checks an outline. SB_ERROR_INPUT: it does not bound a body (open, crosses itself, clockwise,
+// below the axis, zero area); the report names the fault and the piece (counted from 0).
 SbStatus sb_profile_check(const SbProfile *profile, SbReport *report);
 
-// Properties of the body that the profile revolved about r = 0 bounds. density in kg/m3, > 0.
+// Computes the body of a revolved half-section. `density` [kg/m3]; SB_ERROR_RANGE if it is not
+// above 0. SB_ERROR_INPUT as for sb_profile_check().
 SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *profile, double density,
                           SbReport *report);
 
-// Diameters between two places of a profile [m].
+// Diameters of a revolved part within a range of x [m].
 typedef struct {
-  double smallest, largest; // of the outermost surface: groove floor, land
-  double bore;              // smallest of the innermost surface; 0 where the part is solid
+  double smallest, largest; // of the outer surface, such as groove floor and land
+  double bore;              // smallest one of the inner surface; 0 if the part is solid there
 } SbProfileDiameters;
 
-// SB_ERROR_RANGE if the part has nothing between x0 and x1.
+// Computes the diameters between x0 and x1 [m]. SB_ERROR_RANGE: x1 <= x0, or the part is not in
+// this range. SB_ERROR_INPUT as for sb_profile_check().
 SbStatus sb_profile_diameters(SbProfileDiameters *out, const SbProfile *profile, double x0,
                               double x1, SbReport *report);
 
-// Properties of the body inside a closed mesh: vertices[3 n], triangles[3 m] of vertex indices,
-// counter-clockwise seen from outside. Allocates and frees scratch of the order of the mesh.
-// Triangles that share a vertex are not tested for crossing each other.
+// Computes the body of a closed mesh with vertices[vertex_count][3] (x, y, z) [m] and
+// triangles[triangle_count][3] of vertex numbers, counter-clockwise seen from outside.
+// SB_ERROR_RANGE: `density` [kg/m3] is not above 0. SB_ERROR_INPUT: the mesh is not a closed
+// surface, or inside out. Triangles that share a vertex are not tested for intersections.
 SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_count,
                        const unsigned *triangles, size_t triangle_count, double density,
                        SbReport *report);
