@@ -1,106 +1,121 @@
-// Scales, fluid and dry contact shared by the film models (private to engine/film).
+// Scales, fluid and dry contact shared by the film models. Private to engine/film.
 #pragma once
 
 #include "engine/film/film.h"
 
-// Scales of a line contact. The scaled problem has X = x / b, P = p / p_H, H = h R / b^2 and only
-// one parameter, lambda = 3 pi^2 U / (4 W^2), when nothing but Reynolds and elasticity acts.
+// Scales of a line contact: X = x/b, P = p/p_H, H = h R/b^2. The isoviscous half-plane problem then
+// depends on lambda = 3 pi^2 U/(4 W^2) only. The flow frame has the inlet on the left (X < 0) for
+// either sign of the speed.
 typedef struct {
   double half_width; // b [m]
   double pressure;   // p_H [Pa]
-  double film;       // b^2 / R [m]
-  double U;          // eta |speed| / (2 E' R)
-  double W;          // load / (E' R)
-  double M;          // W / sqrt(2 U); infinite is replaced by 0 at zero speed
-  double lambda;     // 3 pi^2 U / (4 W^2)
-  double inlet;      // scaled gauge pressure at the inlet
-  double outlet;     // scaled gauge pressure at the outlet
-  double kappa; // slope factor of the dry pressure at the inlet edge, 1 - (inlet - outlet) / pi
-  double kappa_outlet; // and at the outlet edge, 1 + (inlet - outlet) / pi
-  // A fitted body's contact: its middle over b in the flow frame, and the rest of its dry pressure
-  // over Hertz's, p_dry = ends + sqrt(1 - X^2) (1 + sum bow[k] U_k(X)). All zero on a half-plane.
+  double film;       // b^2/R [m]
+  double U;          // eta |speed|/(2 E' R)
+  double W;          // load/(E' R)
+  double M;          // W/sqrt(2 U); 0 at zero speed
+  double lambda;     // 3 pi^2 U/(4 W^2)
+  double inlet;      // pressure at the inlet minus the rupture pressure, divided by p_H
+  double outlet;     // the same at the outlet
+  double kappa;      // slope factor of the dry pressure at the inlet edge, 1 - (inlet - outlet)/pi
+  double kappa_outlet; // the same at the outlet edge, 1 + (inlet - outlet)/pi
+  // Contact of a fitted body, 0 on a half-plane: its middle divided by b in the flow frame;
+  // deviation of its dry pressure from Hertz's, p_dry = ends + sqrt(1 - X^2) (1 + sum bow[k]
+  // U_k(X)).
   double middle;
   double bow[SB_COMPLIANCE_PRESSURES];
 } SbFilmScale;
 
-// A fitted body in place of the half-plane, in SI with the scales that make it one.
+// A fitted body that replaces the half-plane, with its scales.
 typedef struct {
-  const SbSurfaceCompliance *compliance; // NULL: none
-  double side;                           // seal's x over the flow frame's, 1 or -1
-  double half_width, film;               // scales b and of the film
+  const SbSurfaceCompliance *compliance; // borrowed; NULL: half-plane
+  double side;                           // seal's x = side times flow frame's x, 1 or -1
+  double half_width, film;               // b and the film scale [m]
 } SbFilmBody;
 
-// Whether `problem` has asperities or adhesion.
+// Returns whether `problem` has asperities or adhesion.
 bool sb_film_rough(const SbFilmProblem *problem);
 
-// Scales of `problem`, which must have been checked.
+// Returns the half-plane scales of a checked problem.
 SbFilmScale sb_film_scale(const SbFilmProblem *problem);
 
-// Solves the dry contact of `problem->compliance` and gives the scales its half-width, middle and
-// edge slopes: b is half its width, p_H = 2 w/(pi b), film 4 p_H b/E'. SB_ERROR_INPUT if the moduli
-// differ, and what sb_dry_contact returns.
+// Solves the dry contact of problem->compliance into *dry and sets half-width, middle and edge
+// slopes of *scale: b is half its width, p_H = 2 w/(pi b), film = 4 p_H b/E'. SB_ERROR_INPUT: the
+// moduli of problem and body differ; else the errors of sb_dry_contact().
 SbStatus sb_film_scale_fitted(SbFilmScale *scale, SbDryContact *dry, const SbFilmProblem *problem,
                               SbReport *report);
 
-// Moments of the ambient pressures up to the ends of a mesh, `begin` and `end` from the axis, less
-// the lower one everywhere, added to `out`; to `slope` their derivatives to the axis.
+// Adds to out[modes] the moments of the ambient pressures outside a mesh from `begin` to `end`
+// (scaled, from the axis), minus those of the lower ambient pressure everywhere. Adds their
+// derivatives with respect to the axis position to slope[modes]. `inlet`, `outlet`: scaled
+// pressures.
 void sb_film_ambient(double *out, double *slope, const SbFilmBody *body, double inlet,
                      double outlet, double begin, double end);
 
-// The tilt of unequal ambient pressures belongs to the window, a mesh gives it to |X| < 1: what is
-// to be added to the gap, over X.
+// Returns the correction to the slope of the gap that moves the tilt of unequal ambient pressures
+// from |X| < 1 to the window of the body; multiply it by X.
 double sb_film_window_tilt(const SbFilmBody *body, double inlet, double outlet);
 
-// Dry contact at rest of a fitted body.
+// Fills *out with the dry contact of a fitted body at rest.
 void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryContact *dry);
 
-// End pressures joined as in the dry smooth contact (docs/verification.md), at X.
+// Returns the ambient pressure at X, between `inlet` and `outlet` as in the dry smooth contact
+// (docs/verification.md).
 double sb_film_ends(double X, double inlet, double outlet);
 
-// Scaled dry pressure in the flow frame (inlet at X = -1), with end pressures: Hertz's plus the
-// transition of the end pressures with the tilt removed so that the contact stays |X| < 1.
+// Returns the scaled dry pressure at X in the flow frame: Hertz's plus the end pressures, without
+// the tilt that they cause, so that the contact is |X| < 1.
 double sb_film_dry_pressure(double X, double inlet, double outlet);
 
-// Fills the scales, numbers of Moes and the sign-dependent parts common to every model.
+// Zeroes *out and sets its profile buffer, scales, Moes' numbers, regime and valid = true.
 void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale);
 
-// The film's fluid, scaled: viscosity under pressure and shear.
+// Fluid of the film, scaled: viscosity under pressure and shear.
 //
 //   eta = eta_0 exp(alpha p)                                        Barus, p gauge
-//   gamma' = (tau_0 / eta) sinh(tau / tau_0)                        Eyring
+//   gamma' = (tau_0/eta) sinh(tau/tau_0)                            Eyring
 //
-// Where the sliding dominates the shear, with Sigma = eta u / (tau_0 h), the stress is tau_0
-// asinh(Sigma) and the pressure flow -(h^3 / 12 eta) sqrt(1 + Sigma^2) dp/dx (Ehret, Dowson and
-// Taylor, Proc. R. Soc. A 454 (1998) 763). Left out: temperature, compressibility, and the share of
-// the pressure flow in the shear. All zero but the rupture pressure: isoviscous.
+// Where sliding dominates the shear, with Sigma = eta u/(tau_0 h), the shear stress is tau_0
+// asinh(Sigma) and the pressure flow -(h^3/12 eta) sqrt(1 + Sigma^2) dp/dx (Ehret, Dowson and
+// Taylor, Proc. R. Soc. A 454 (1998) 763). Not modelled: temperature, compressibility, shear by the
+// pressure flow. All zero except `rupture`: isoviscous.
 typedef struct {
-  double rupture; // rupture pressure: the solvers' pressures are above it
+  double rupture; // rupture pressure divided by p_H; pressures of the solvers are relative to it
   double barus;   // alpha p_H
-  double eyring;  // eta |speed| / (tau_0 b^2 / R): Sigma at unit film; 0 = off
+  double eyring;  // eta |speed|/(tau_0 b^2/R): Sigma at unit film; 0: off
 } SbFilmFluid;
 
-// Fluid of `problem` for pressures in units of `pressure` [Pa] and films in units of `film` [m].
+// Returns the fluid of `problem` for pressures in units of `pressure` [Pa] and films in units of
+// `film` [m].
 SbFilmFluid sb_film_fluid(const SbFilmProblem *problem, double pressure, double film);
 
-// Mobility factor m of the pressure flow, h^3 m p' / lambda, and its derivatives to film and
-// pressure; 1, 0, 0 without options.
+// Writes the mobility factor m of the pressure flow h^3 m p'/lambda, and its derivatives with
+// respect to film and pressure; 1, 0, 0 for an isoviscous fluid.
 void sb_film_mobility(double *m, double *m_film, double *m_pressure, const SbFilmFluid *fluid,
                       double film, double pressure);
 
-// Mean shear stress of the sliding over eta_0 speed: 1 / film without options.
+// Returns the mean shear stress of sliding divided by eta_0 speed; 1/film for an isoviscous fluid.
 double sb_film_shear(const SbFilmFluid *fluid, double film, double pressure);
 
-// The closed-form models, Blok's inverse film and the rigid wedge (wedge.h), in the flow frame but
-// for the flow; the dry contact at zero speed.
+// Solves a power law, the asymptotic or the Moes model in the flow frame. *out must have been
+// prepared by sb_film_begin().
 SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                            SbReport *report);
+
+// Solves Blok's inverse film of problem->dry_pressure in the flow frame, likewise. SB_ERROR_INPUT:
+// the table has fewer than 9 points or is not increasing. SB_ERROR_INFEASIBLE: the dry pressure
+// never rises, or is not smooth.
 SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                                SbReport *report);
+
+// Solves the rigid wedge (wedge.h) in the flow frame, likewise. SB_ERROR_INFEASIBLE: the outlet
+// pressure drives the film back.
 SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                              SbReport *report);
+
+// Fills *out with the dry contact of the half-plane at zero speed, with a warning. Does not fail.
 SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmScale *scale, SbReport *report);
 
-// Point n of the profile, without asperities, where one is wanted.
+// Sets point n of the profile, without asperities, if the problem provides a buffer.
 static inline void sb_film_put(SbFilm *out, size_t n, double x, double pressure, double film) {
   if (out->x != NULL) {
     out->x[n] = x;
