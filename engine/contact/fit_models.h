@@ -1,20 +1,26 @@
-// Inside the contact models: what fit.c calls to solve each of them. Every function gets a checked
-// problem and a result with the common sizes filled in, and adds contact, solver and warnings.
+// Contact models, called by fit.c. Private to engine/contact. Each function requires a checked
+// problem and a result with the common sizes set (squeeze, stretch, fill), and sets contact,
+// profile, solver information and warnings. Errors are those of sb_fit_solve().
 #pragma once
 
 #include "engine/contact/fit.h"
 
-// The closed forms, all four (closed_forms.h).
+// Solves one of the four closed forms (closed_forms.h).
 SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report);
-// The linear disc, the thesis' own too (disc/).
+
+// Solves the linear disc or the thesis' disc (disc/).
 SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report);
+
+// Solves the finite-element ring (ring/).
 SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report);
 
-// A contact between two edges [m] with the circumference and the load per length that stand in
-// `out`: edges, width and load, and a profile of zero pressure at SB_FIT_POINTS places that crowd
-// towards the edges.
+// Number of profile points that sb_fit_contact() sets.
 enum { SB_FIT_POINTS = 257 };
+
+// Sets contact edges `left` and `right` [m], width, load (from load_per_length and circumference,
+// which must be set), and SB_FIT_POINTS profile positions with zero pressure, denser near the
+// edges.
 void sb_fit_contact(SbFit *out, double left, double right);
 
-// Relative errors of load, peak and width.
+// Sets the relative error estimates of load, peak pressure and width.
 void sb_fit_errors(SbFit *out, double load, double peak, double width);

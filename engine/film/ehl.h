@@ -190,8 +190,8 @@ struct SbFilmSolver {
 
   // The last converged solution as the base of SB_FILM_NEAR and SB_FILM_BESIDE (ehl_beside.c).
   struct {
-    bool solved, held,
-        ready;            // it exists; is stored below; its factors and kernel are in the solver
+    // It exists; is stored below; its factors and kernel are in the solver.
+    bool solved, held, ready;
     bool in_use;          // factors and kernel must not be overwritten
     double error_contact; // SbFilmSolverInfo.error_contact of that solution
     SbEhlCase c;

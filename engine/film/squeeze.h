@@ -23,7 +23,6 @@
 enum { SB_SQUEEZE_NODES = 129 };
 
 // A squeeze film, set by sb_squeeze_init().
-
 typedef struct {
   double film, rest;             // initial gap; final gap (0 without a law) [m]
   double pressure;               // P [Pa]

@@ -64,7 +64,6 @@ typedef struct {
 extern const SbFluidProperty sb_fluid_property[SB_FLUID_PROPERTY_COUNT];
 
 // Coefficients of a fluid.
-
 typedef struct {
   const char *name, *label, *help;         // "hfa-134a"; name for the user; one line
   double temperature_min, temperature_max; // range of the properties [K]

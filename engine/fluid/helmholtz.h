@@ -49,7 +49,6 @@ SbResidual sb_helmholtz(const SbHelmholtz *equation, double delta, double tau);
 double sb_helmholtz_pressure(const SbHelmholtz *equation, double density, double temperature);
 
 // Liquid and vapour in equilibrium.
-
 typedef struct {
   double pressure;         // [Pa]
   double liquid, vapour;   // molar densities [mol/m3]

@@ -23,7 +23,6 @@ typedef enum {
 } SbDriveQuantity;
 
 // A drive. Values below have the unit of `quantity`, m or N.
-
 typedef struct {
   SbDriveKind kind;
   SbDriveQuantity quantity;

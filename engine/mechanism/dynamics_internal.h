@@ -51,8 +51,8 @@ typedef struct {
   double time, travel; // integrals of 1 [s] and v [m]
   double square, ramp; // integrals of v^2 [m2/s] and tau v [m s]
   double lag;          // integral of x minus the position of the platen [m s]
-  double shift[SB_DYNAMICS_CONTACTS],
-      fade[SB_DYNAMICS_CONTACTS]; // integrals of d' [m], d'^2 [m2/s]
+  // Integrals of d' [m], d'^2 [m2/s].
+  double shift[SB_DYNAMICS_CONTACTS], fade[SB_DYNAMICS_CONTACTS];
 } Stretch;
 
 // Largest number of segments: two to four minutes of processor time.

@@ -8,7 +8,6 @@
 enum { SB_OUTLINE_MAX = 512 };
 
 // A point of an outline.
-
 typedef struct {
   double x, r; // axial, radial [m]
 } SbOutlinePoint;

@@ -1,23 +1,24 @@
 // Closed-form surface displacement of a linear plane-strain disc under boundary point forces, split
-// into the half-plane's logarithm and a smooth rest.
+// into the half-plane's logarithm and a smooth remainder. The functions have no state and may be
+// called concurrently.
 //
 // Angles are from the top of the disc, clockwise: a boundary point is R (sin t, cos t), e_r points
-// outward, e_t to growing t. For a unit point force (n_r, n_t) at angle phi the displacement at
-// theta, with a = theta - phi, L = -ln(2 |sin(a/2)|), H = sgn(a) (pi - |a|)/2, is C times
+// outward, e_t to increasing t. For a unit point force (n_r, n_t) at the angle phi the displacement
+// at theta, with a = theta - phi, L = -ln(2 |sin(a/2)|), H = sgn(a) (pi - |a|)/2, is C times
 //
 //   u_r = n_r (cos a L + e1 sin a H - 1/2 - e2 cos a) + n_t (sin a L - e1 cos a H + e2 sin a)
 //   u_t = n_r (-sin a L + e1 cos a H + e2 sin a) + n_t (cos a L + e1 sin a H - kappa e2 + e2 cos a)
 //
 // C = 2 (1 - nu^2)/(pi E), kappa = 3 - 4 nu, e1 = (kappa - 1)/(kappa + 1), e2 = 1/(kappa + 1): the
-// sum of Michell's series for a disc under boundary tractions. Net force and couple are dropped, so
-// only sums over forces in equilibrium mean anything, up to a rigid motion. Two opposite vertical
-// forces give the "vertical" kernel of docs/verification.md, two opposite radial ones Hertz and
-// Michell's.
+// sum of Michell's series for a disc under boundary tractions. Net force and couple are omitted, so
+// only sums over forces in equilibrium are defined, up to a rigid motion. Two opposite vertical
+// forces give the "vertical" kernel of docs/verification.md, two opposite radial ones that of Hertz
+// and Michell.
 //
-// In Cartesian components the singular part is C (m.n) L, and with x = R sin t
+// In Cartesian components (x to the right, y up) the singular part is C (m.n) L, and with x = R sin
+// t
 //   L = -ln|x - x'|/R + ln cos((theta + phi)/2),
-// so that the kernel is the half-plane's plus something smooth for any contact that leaves the
-// equator alone.
+// so the kernel is the half-plane's plus a smooth function for contacts that exclude the equator.
 #pragma once
 
 #include <stdbool.h>
@@ -37,32 +38,34 @@ typedef struct {
   double angle, sin, cos;
 } SbDiscPoint;
 
-// Poisson's ratio in [0, 0.5).
+// Returns the constants of the kernel for Poisson's ratio in [0, 0.5).
 SbDiscKernel sb_disc_kernel(double poisson_ratio);
 
-// C in displacement = C x force: 2 (1 - nu^2)/(pi E) [1/Pa].
+// Returns C = 2 (1 - nu^2)/(pi E) [1/Pa]: displacement [m] = C x kernel x force [N/m].
 double sb_disc_compliance(double modulus, double poisson_ratio);
 
-// The boundary point at an angle, and the one with a given sine in (-1, 1) on the upper half.
+// Returns the boundary point at an angle [rad].
 SbDiscPoint sb_disc_point(double angle);
+
+// Returns the boundary point on the upper half with the sine `sine` in (-1, 1).
 SbDiscPoint sb_disc_point_at(double sine);
 
-// Displacement along m at `to` by a force n at `from`, the whole kernel; the points must differ.
+// Returns the displacement at `to` in the direction m due to a force n at `from` (full kernel, C =
+// 1). The points must differ.
 double sb_disc_kernel_value(const SbDiscKernel *kernel, SbDiscPoint to, SbDiscVector m,
                             SbDiscPoint from, SbDiscVector n);
 
-// The same for the force and its mirror image below the horizontal axis together.
+// Returns the same displacement due to the force and its mirror image below the horizontal axis.
 double sb_disc_kernel_pair(const SbDiscKernel *kernel, SbDiscPoint to, SbDiscVector m,
                            SbDiscPoint from, SbDiscVector n);
 
-// The mirror image below the horizontal axis alone.
+// Returns the same displacement due to the mirror image below the horizontal axis only.
 double sb_disc_kernel_mirror(const SbDiscKernel *kernel, SbDiscPoint to, SbDiscVector m,
                              SbDiscPoint from, SbDiscVector n);
 
-// The kernel without -(m.n) ln|sin theta - sin phi| and without *kink |sin theta - sin phi|; smooth
-// also where the points coincide. Both lie on the upper half, angles in (-pi/2, pi/2). The
-// directions are either the same at both points (`radial` = 0, no kink) or both radial, with
-// product of magnitudes `radial`; a traction that turns in another way has a jump and does not
-// split so.
+// Returns the kernel without -(m.n) ln|sin theta - sin phi| and without *kink |sin theta - sin
+// phi|, which is smooth also if the points coincide, and writes *kink. Both points are on the upper
+// half, angles in (-pi/2, pi/2). Either m and n are the same directions at all points (`radial` =
+// 0: no kink), or both are radial and `radial` is the product of their magnitudes.
 double sb_disc_kernel_smooth(const SbDiscKernel *kernel, SbDiscPoint to, SbDiscVector m,
                              SbDiscPoint from, SbDiscVector n, double radial, double *kink);

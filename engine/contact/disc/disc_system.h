@@ -1,68 +1,75 @@
-// Inside the disc: the linear system for given contact edges, and how far it is from smooth edges.
+// Linear system of the disc for given contact edges, and the singularity of the pressure at the
+// edges. Private to engine/contact/disc.
 //
-// Dimensionless: lengths in the disc's radius, pressures times C. Over the contact xi = sin theta
-// of [left, right] is mapped to tau in [-1, 1]. The unknowns are F_j at Chebyshev points, excess
-// pressure = F/(h sqrt(1 - tau^2)) with h the half-width; where fluid stands on the left, a known
-// smooth step from its pressure p at the left edge to 0 at the right is added. The groove wall
-// on the right has its own F over [-wall, wall] and the unknown depth to which it flattens the
-// disc.
+// Dimensionless: lengths divided by the disc's radius, pressures times C (disc_kernel.h). The
+// contact with the bore, xi = sin theta in [left, right], is mapped to tau in [-1, 1]. The unknowns
+// are F_j at Chebyshev points, excess pressure = F/(h sqrt(1 - tau^2)) with h the half-width. If
+// there is fluid on the left, a known smooth step from its pressure p at the left edge to 0 at the
+// right edge is added. The groove wall on the right has its own F over [-wall, wall], and its depth
+// of flattening is an unknown.
 #pragma once
 
 #include "engine/base/status.h"
 #include "engine/contact/disc/disc_kernel.h"
 #include "engine/contact/fit.h"
 
+// Capacities.
 enum {
-  SB_DISC_POINTS_MAX = 48, // Chebyshev points over a contact, at most
-  SB_DISC_GAUSS = 20,
+  SB_DISC_POINTS_MAX = 48, // Chebyshev points of a contact
+  SB_DISC_GAUSS = 20,      // Gauss points of an arc
   SB_DISC_ROWS_MAX = 2 * SB_DISC_POINTS_MAX + 1,
 };
 
+// The system; used by one thread at a time. The caller sets the problem, then calls
+// sb_disc_system_points().
 typedef struct {
   // Problem.
   SbDiscKernel kernel;
-  bool radial;
-  double half_space;  // g/(2 R)
-  double pressure;    // fluid on the left, p C; the wall is there if it is not 0
-  double hydrostatic; // inward radial displacement by the pressure that is on both sides
-  // Rule with n points; weights of the logarithm and of the kink, n x n by rows.
+  bool radial;        // contact forces are radial; else vertical
+  double half_space;  // g/(2 R), g the distance of the flats
+  double pressure;    // p C of the fluid on the left; not 0: the wall is there
+  double hydrostatic; // inward radial displacement by a pressure on both sides
+  // Quadrature with n points; weights of the logarithm and of the kink, [n][n] by rows.
   size_t n;
-  double tau[SB_DISC_POINTS_MAX]; // on [-1, 1]
+  double tau[SB_DISC_POINTS_MAX]; // points in [-1, 1]
   double log_weight[SB_DISC_POINTS_MAX * SB_DISC_POINTS_MAX];
   double kink_weight[SB_DISC_POINTS_MAX * SB_DISC_POINTS_MAX];
-  double gauss_x[SB_DISC_GAUSS]; // on [0, 1]
-  double gauss_w[SB_DISC_GAUSS]; // their sum is 1
-  // Solution for the last edges, the bore's contact at centre +- half, sines: n bore values, n wall
-  // values, depth of the wall.
+  double gauss_x[SB_DISC_GAUSS]; // points in [0, 1]
+  double gauss_w[SB_DISC_GAUSS]; // weights, sum 1
+  // Solution for the last edges; the bore's contact is at centre +- half (sines). n bore values, n
+  // wall values, depth of the wall.
   double centre, half;
   double solution[SB_DISC_ROWS_MAX];
   double series[2][SB_DISC_POINTS_MAX]; // F of bore and wall = sum series[][k] T_k(-tau)
-  double matrix[SB_DISC_ROWS_MAX * SB_DISC_ROWS_MAX]; // by columns
+  double matrix[SB_DISC_ROWS_MAX * SB_DISC_ROWS_MAX]; // by columns, work memory
 } SbDiscSystem;
 
-// Prepares the rule with n points (2 to SB_DISC_POINTS_MAX).
+// Computes the quadrature with n points (2 to SB_DISC_POINTS_MAX).
 void sb_disc_system_points(SbDiscSystem *system, size_t n);
 
-// Solves `system` for given sines of the edges: the right one and, under pressure, the left one and
-// the wall's; without it the left one mirrors the right one. False if the matrix is singular or the
-// edges leave (-1, 1). residual: F at the same edges over the mean of |F|; zero when all are
-// smooth.
+// Solves the system for given sines of the edges; the parameters are those of an SbSystem (root.h),
+// `system` is an SbDiscSystem. edges[0] is the right edge; with pressure edges[1] is the left edge
+// and edges[2] the wall's; without, the left edge mirrors the right one. residual[i] is F at edge i
+// divided by the mean of |F|: 0 for a smooth edge. Returns false if the matrix is singular or an
+// edge is outside (-1, 1).
 SB_CHECKED bool sb_disc_system_solve(double *residual, const double *edges, void *system);
 
-// How pressure acts on an arc: normal to it, horizontally on the arc, horizontally on its height.
+// Direction of a pressure on an arc: normal to it; horizontal, per length of arc; horizontal, per
+// vertical projection.
 typedef enum { SB_DISC_NORMAL, SB_DISC_HORIZONTAL, SB_DISC_HEIGHT } SbDiscAction;
 
-// Displacement at `to` along m by unit pressure on the arc of a length (negative: to the left) from
-// an angle on and on its mirror image below. At the arc's beginning the logarithm is met by cubic
-// grading.
+// Returns the displacement at `to` in the direction m due to unit pressure on the arc of `length`
+// [rad] from the angle `from` (negative: to the left), and on its mirror image below. Cubic grading
+// resolves the logarithm at `from`.
 double sb_disc_system_arc(const SbDiscSystem *system, SbDiscPoint to, SbDiscVector m, double from,
                           double length, SbDiscAction action);
 
-// The thesis' own disc (disc_thesis.c), checked and in contact.
+// Solves the thesis' disc (disc_thesis.c). `in` must be checked and have contact. Errors as for
+// sb_fit_solve().
 SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report);
 
-// The smooth step of the known part, 1 at tau = -1 and 0 at 1.
+// Returns the smooth step of the known pressure: 1 at tau = -1, 0 at tau = 1.
 double sb_disc_system_step(double tau);
 
-// Outward displacement (x) at the right end of the horizontal diameter for the last solution.
+// Returns the displacement in +x at the right end of the horizontal diameter for the last solution.
 double sb_disc_system_bulge(const SbDiscSystem *system);

@@ -1,17 +1,17 @@
-// Rigid surfaces around the ring (ring_groove.c), unilateral contact with Coulomb friction
-// (ring_contact.c), and fluid pressure (ring_fluid.c).
+// Rigid surfaces around the ring (ring_groove.c), unilateral contact with friction
+// (ring_contact.c), and fluid pressure (ring_fluid.c). Private to engine/contact/ring.
 //
-// Internal to the ring; all quantities, those of a load too, in the element solver's units: lengths
-// in section diameters, stresses in initial shear moduli. A boundary node that is held by a surface
-// lies on it exactly and may only be pushed; the fluid loads every side of the boundary that is not
-// closed by contact, and a node is let go when the contact pushes less than the fluid would. So
-// fluid enters exactly as far as the first held node, and contact pressure starts there from the
-// fluid's.
+// All quantities, also of loads, are in the units of the element solver: lengths in section
+// diameters, stresses in initial shear moduli. A boundary node in contact ("held") is exactly on
+// the surface and can only be pushed. The fluid loads every side of the boundary that is not closed
+// by contact; a node is released if the contact pushes less than the fluid would. So the fluid
+// extends to the first node in contact, and the contact pressure begins there at the fluid's.
 #pragma once
 
 #include "engine/contact/ring/ring.h"
 #include "engine/contact/ring/ring_fem.h"
 
+// The rigid surfaces.
 typedef enum {
   SB_RING_BORE,
   SB_RING_FLOOR,
@@ -20,188 +20,207 @@ typedef enum {
   SB_RING_SURFACES
 } SbRingSurface;
 
-// A surface at a place.
+// Geometry of a surface at a position.
 typedef struct {
-  double n[2], t[2]; // unit normal into the free side, tangent (r, z)
-  double gap;        // along the normal, > 0 outside
-  double curvature;  // the normal's turn towards the tangent per length along `axis`
-  int axis;          // of r, z: the one that the surface runs along
+  double n[2], t[2]; // unit normal into the free side, unit tangent (r, z)
+  double gap;        // distance along the normal, > 0 outside the surface
+  double curvature;  // turn of the normal towards the tangent per length along `axis`
+  int axis;          // 0 r, 1 z: direction in which the surface extends
 } SbRingFrame;
 
-// One boundary node against one surface.
+// Contact pair: a boundary node and a surface.
 typedef struct {
-  bool held;
-  bool smooth;           // its friction is left out in this solve
-  signed char slip;      // 0 sticks; +-1 slides with the friction force on the ring along +-t
+  bool held;             // in contact
+  bool smooth;           // without friction in this solve
+  signed char slip;      // 0: sticks; +1, -1: slides, friction force on the ring along +t, -t
   unsigned char flips;   // changes of the slip state in this solve
-  unsigned char catches; // times this node was caught in this solve
-  double force;          // normal contact force on the ring, >= 0 when held
-  double tangent;        // tangential contact force along t
+  unsigned char catches; // number of times that contact began in this solve
+  double force;          // normal contact force on the ring, >= 0
+  double tangent;        // tangential contact force on the ring along t
 } SbRingTouch;
 
-// What a state of the contact is beside its displacements.
+// State of the contact in addition to the displacements.
 typedef struct {
-  SbRingLoad now;     // where the surfaces stand and what acts, once per load step
-  double turn;        // of the section since it was free, from +r towards +z, unwrapped, rad
-  int crest[2];       // boundary nodes of bore and floor between which the fluids change sides
-  double excess;      // of the bore's greatest pressure over the fluid, in shear moduli, where the
-                      // last solve of a lobed section began; else infinite
-  SbRingTouch *touch; // [count][SB_RING_SURFACES]
+  SbRingLoad now; // present load, set once per load step
+  double turn;    // rotation of the section since it was free, from +r to +z, unwrapped [rad]
+  int crest[2];   // boundary nodes of bore and floor that separate the left from the right fluid
+  double excess;  // lobed section: largest bore pressure minus the fluid's at the start of the last
+                  // solve; else infinite
+  SbRingTouch *touch; // [count][SB_RING_SURFACES] contact pairs
 } SbRingContactState;
 
-// Places of saved states, those of sb_ring_fem_save: the start of a load step or of a part of it,
-// from which friction counts its motion, and the state before an attempt of several of them.
+// Places of saved states, also of sb_ring_fem_save(): the start of a load step or of a part of it,
+// from which friction measures the motion; the state before an attempt of several steps.
 enum { SB_RING_START = 1, SB_RING_BEFORE = 2 };
 
+// The contact of a ring.
 typedef struct {
-  SbRingFem *fem; // borrowed
-  int count;      // boundary nodes
-  SbRingContactState is, saved[3];
-  bool *closed;       // [count / 2] boundary sides closed by contact
-  double *share;      // [2 count] force of the fluid that held nodes must exceed
-  double *pressed;    // [2 count] the part of it from open sides
-  double *fluid;      // [2 count] fluid force on the open sides' nodes
-  double *weight;     // [count] current area of the boundary nodes
-  double *wet;        // [count / 2] the fluid's pressure on the sides, closed or not
-  bool lobes;         // contacts may have several crests: fluid ends at the first that holds it
-  bool settled;       // the state stands still: its crests stay
-  bool fixed;         // the held set and the slip states stay
-  bool carried;       // from another mesh: while they do, the first iterations are stuck,
-  bool stuck;         // that is, every held node stays at its place
-  bool passed;        // nodes that come and go stay held against a small pull
-  double onset;       // of friction under fluid, over the usual one
-  double slid;        // how far sliding nodes may go back before they stick: what they came
-  double slip_excess; // departure from Coulomb's law at nodes that could not settle
+  SbRingFem *fem;                  // borrowed
+  int count;                       // boundary nodes
+  SbRingContactState is, saved[3]; // present state; saved states
+  bool *closed;                    // [count / 2] boundary sides closed by contact
+  double *share;   // [count][2] fluid force that the contact force of a node must exceed
+  double *pressed; // [count][2] part of it due to open sides
+  double *fluid;   // [count][2] fluid force on nodes of open sides
+  double *weight;  // [count] present area of the boundary nodes
+  double *wet;     // [count / 2] fluid pressure at the sides, closed or not
+  bool lobes;      // contacts may have several maxima: the fluid ends at the first node in contact
+  bool settled;    // `crest` does not change
+  bool fixed;      // contact pairs and slip states do not change
+  bool carried;    // the state is from another mesh: the first iterations are `stuck`
+  bool stuck;      // every node in contact keeps its position
+  bool passed;     // oscillating nodes stay in contact against a small tension
+  double onset;    // range over which friction under fluid develops, divided by the usual one
+  double slid;     // distance that sliding nodes may go back before they stick
+  double slip_excess; // deviation from Coulomb's law at nodes whose state oscillates
   double force_scale; // for tolerances
-  double folded;      // how deep the section is in itself at most
-  unsigned folds;     // which nodes are behind which pieces, as a number
-  double stress;      // unit of stress, Pa
-  int unsteady;       // touch that last changed, -1: none since the solve began
+  double folded;      // largest depth of self-penetration
+  unsigned folds;     // hash of the nodes that penetrate another part of the section
+  double stress;      // unit of stress [Pa]
+  int unsteady;       // contact pair that changed last; -1: none in this solve
 } SbRingContact;
 
+// Creates the contact of a model, without contact pairs in contact. `fem` is borrowed.
 SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report);
+
+// Frees the contact. Takes NULL.
 void sb_ring_contact_destroy(SbRingContact *contact);
 
-// A boundary node in the order of the loop, by any whole number.
+// Returns the loop index 0 to count - 1 of any integer i (periodic).
 static inline int sb_ring_wrap(const SbRingContact *contact, int i) {
   int count = contact->count;
   return i >= 0 && i < count ? i : (i % count + count) % count;
 }
 
+// Returns the contact pair of loop node i (periodic) and a surface; borrowed.
 static inline SbRingTouch *sb_ring_touch(const SbRingContact *contact, int i, int surface) {
   return &contact->is.touch[SB_RING_SURFACES * sb_ring_wrap(contact, i) + surface];
 }
 
-// Deformed place (r, z) of a boundary node.
+// Writes the deformed position (r, z) of loop node i to x[2].
 static inline void sb_ring_contact_place(const SbRingContact *contact, int i, double x[2]) {
   sb_ring_fem_place(contact->fem, contact->fem->mesh->loop[sb_ring_wrap(contact, i)], x);
 }
 
-// A surface at a place, and at that of a boundary node.
+// Returns the geometry of a surface of `load` at the position x (r, z).
 SbRingFrame sb_ring_frame(const SbRingLoad *load, SbRingSurface surface, const double x[2]);
+
+// Returns the geometry of a surface at loop node i.
 SbRingFrame sb_ring_frame_at(const SbRingContact *contact, int i, SbRingSurface surface);
 
-// The name of a surface, for messages.
+// Returns the name of a surface, for messages; static.
 const char *sb_ring_surface_name(SbRingSurface surface);
 
-// Share of a surface's friction law, 0 where its shear is given; whether anything drags the ring.
+// Returns the friction coefficient of a surface (factor of the bore's law); 0 if its traction is
+// prescribed.
 double sb_ring_friction(const SbRingLoad *load, SbRingSurface surface);
+
+// Returns whether any surface has friction or a prescribed traction.
 bool sb_ring_rubs(const SbRingLoad *load);
 
-// A load in units of a length and a pressure.
+// Returns the load with lengths divided by `length` and pressures by `pressure`.
 SbRingLoad sb_ring_load_in(const SbRingLoad *load, double length, double pressure);
 
-// The load of the ring that is mirrored in x = 0.
+// Returns the load reflected at x = 0.
 SbRingLoad sb_ring_load_mirrored(const SbRingLoad *load);
 
-// The load at a share t of the way; discrete choices are b's. An end of the land that is set or
-// removed comes from or goes to SB_RING_REACH, where it touches nothing.
+// Position of an end of the land that touches nothing [section diameters].
 #define SB_RING_REACH 1.5
+
+// Returns the load interpolated between a (t = 0) and b (t = 1); discrete fields are those of b. A
+// land end that is infinite in one of them is taken at SB_RING_REACH.
 SbRingLoad sb_ring_load_between(const SbRingLoad *a, const SbRingLoad *b, double t);
 
-// Whether the deformed boundary crosses itself: contact of the section with itself beside its
-// hollows, which nothing here stops.
+// Returns whether the deformed boundary intersects itself outside its concavities, where
+// self-contact is not modelled.
 bool sb_ring_crosses_itself(const SbRingContact *contact);
 
-// After assembly: adds what the sides of a hollow press on each other to residual and tangent.
-// Returns how deep a node is behind the other side at most.
+// Adds the self-contact of concavities to residual and tangent, after assembly. Returns the largest
+// penetration.
 double sb_ring_fold_apply(SbRingContact *contact);
 
-// How much more the free surface is stretched across than along, at most, (lambda_1^2 lambda_3)^-1
-// with the stretches along the section's outline and around the ring. Rubber that is pressed along
-// its surface creases from SB_RING_CREASE on: Hong, Zhao and Suo, Appl. Phys. Lett. 95, 111901
-// (2009), flat and neo-Hookean; in the plane at a stretch of 0.65, so measured (Cai and others,
-// Soft Matter 8, 1301, 2012). Ripples of every length grow from 3.4 on (Biot).
+// Critical value of sb_ring_crease() for creases of a neo-Hookean surface: Hong, Zhao and Suo,
+// Appl. Phys. Lett. 95, 111901 (2009); plane: at a stretch of 0.65, also measured (Cai and others,
+// Soft Matter 8, 1301, 2012). Biot's wrinkles need 3.4.
 #define SB_RING_CREASE 2.4
+
+// Returns the maximum of (lambda_1^2 lambda_3)^-1 over the free surface, with the stretches
+// lambda_1 along the section's outline and lambda_3 around the ring.
 double sb_ring_crease(const SbRingContact *contact);
 
-// Adds the fluid to residual and tangent; renews `closed`, `wet`, `weight`, `share`, `pressed`,
-// `fluid`.
+// Adds the fluid pressure to residual and tangent; recomputes `closed`, `wet`, `weight`, `share`,
+// `pressed`, `fluid`.
 void sb_ring_contact_load_fluid(SbRingContact *contact);
 
-// Whether the right fluid stands at a boundary side, beyond the crests over the right flank.
+// Returns whether the right fluid is at a boundary side, according to `crest`.
 bool sb_ring_contact_on_right(const SbRingContact *contact, int side);
 
-// A pressure on one boundary side, that begins at an even boundary node: p = value + slope (z - z0)
-// with z0 the axial place of the side's first node.
+// Pressure on a boundary side: p = value + slope (z - z0), z0 the axial position of the side's
+// first node.
 typedef struct {
-  double value, slope; // Pa, Pa/m
-  bool fixed; // in space, its force per length of the axis kept; else it follows the surface
+  double value, slope; // pressure; pressure/length
+  bool fixed; // fixed in space (force per axial length is constant); else it follows the surface
 } SbRingSidePressure;
 
-// Forces of the pressure on a side's three nodes, force[node][(r, z)], what they change with the
-// nodes' places (subtracted, the tangent's entries), and the nodes' shares of the side's area.
+// Computes the forces of a pressure on a side's three nodes, force[node][(r, z)], minus their
+// derivatives with respect to the nodes' positions, and the nodes' parts of the side's area. The
+// side begins at an even loop index.
 void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressure pressure,
                        double force[3][2], double tangent[3][2][3][2], double area[3]);
 
-// What the share of a side's node `a` of its area changes with the places of its nodes.
+// Computes the derivative of the area of node `a` of a side with respect to the positions of its
+// nodes.
 void sb_ring_side_area_slope(const SbRingContact *contact, int side, int a, double slope[3][2]);
 
-// Friction force of the whole law of a surface at a boundary node (of Coulomb's with a coefficient
-// of 1) under a normal force, of which the fluid has a part, and what it changes with both and with
-// the node's area.
+// Friction force of a node by the full law of a surface (Coulomb with coefficient 1), and its
+// derivatives.
 typedef struct {
   double force, by_normal, by_area, by_fluid;
 } SbRingGrip;
+
+// Returns the friction at loop node i for a total `normal` force, of which the fluid has the part
+// `fluid`.
 SbRingGrip sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surface, double normal,
                         double fluid);
 
-// The fluid's force on a node along a normal, which its contact has to exceed.
+// Returns the fluid force on loop node i along the normal n, which its contact force must exceed.
 double sb_ring_fluid_at(const SbRingContact *contact, int i, const double n[2]);
 
-// Whether a node sticks by Coulomb friction of its own.
+// Returns whether loop node i sticks on a surface by Coulomb friction.
 bool sb_ring_contact_sticks(const SbRingContact *contact, int i, SbRingSurface surface);
 
-// Marks every node that is on or inside a surface as held.
+// Sets every node on or inside a surface to `held`.
 void sb_ring_contact_detect(SbRingContact *contact);
 
-// Before a solve: forgets how often slip states have changed.
+// Resets the counters of slip changes before a solve.
 void sb_ring_contact_begin(SbRingContact *contact);
 
-// After assembly: adds fluid to residual and tangent, writes the nodes' conditions. Returns the
-// largest penetration or gap of a held node.
+// Adds the fluid to residual and tangent and sets the nodes' conditions, after assembly. Returns
+// the largest gap or penetration of a node in contact.
 double sb_ring_contact_apply(SbRingContact *contact);
 
-// After the solve: the share of the correction that held nodes may take where the surface is
-// curved, since the linear model ends there.
+// Returns the largest factor of the correction du that nodes in contact may take on curved
+// surfaces, where the linear model becomes inaccurate; after a solve.
 double sb_ring_contact_limit(const SbRingContact *contact);
 
-// After the solve and the step: new held set and slip states from the linear model's reactions.
-// Returns how many changed. With `single` only the worst offender of each kind changes.
+// Updates contact pairs and slip states from the reactions of the linear model, after a solve and
+// step. Returns the number of changes. With `single` only the worst pair of each kind changes.
 int sb_ring_contact_update(SbRingContact *contact, bool single);
 
-// At convergence: forces of all touches from the residual.
+// Computes the forces of all contact pairs from the residual, at convergence.
 void sb_ring_contact_forces(SbRingContact *contact);
 
-// Sum of the forces by which a state violates its active set: held nodes that are pulled, open ones
-// inside a surface, stuck ones beyond their friction, sliding ones that go back; the lengths among
-// these by a stiffness of one.
+// Returns the sum of forces by which a state violates its active set: tension of nodes in contact,
+// penetration of others, friction beyond the limit of sticking nodes, reversed motion of sliding
+// nodes. Lengths count with a stiffness of one.
 double sb_ring_contact_fault(const SbRingContact *contact);
 
-// Assembles a state that was an equilibrium anew and leaves its conditions and forces, whatever
-// attempts to go on from it have left behind.
+// Assembles a state in equilibrium again, so that conditions and forces are those of the state,
+// after failed attempts to continue from it.
 void sb_ring_contact_settle(SbRingContact *contact);
 
-// The whole state, displacements too, to and from one of the places above.
+// Saves the full state, with displacements, in one of the places above.
 void sb_ring_save(SbRingContact *contact, int place);
+
+// Restores the full state from one of these places.
 void sb_ring_restore(SbRingContact *contact, int place);

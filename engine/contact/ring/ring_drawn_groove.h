@@ -1,56 +1,63 @@
-// Grooves whose floor and walls are drawn, and outlines of grooves as solved rings meet them.
+// Grooves with drawn floor and walls, and outlines of grooves. The functions have no state and may
+// be called concurrently.
 #pragma once
 
 #include "engine/base/status.h"
 #include "engine/contact/ring/ring_profile.h"
 
-// A surface's height over a straight line: offset + slope at + what its bends add. Each turns the
-// slope by `turn`, smoothly over `length` about its place.
+// A smooth bend of a line: the slope changes by `turn` over `length` around the position `at` [m].
 typedef struct {
   double at, turn, length;
 } SbGrooveBend;
 
+// Largest number of bends.
 enum { SB_GROOVE_BENDS_MAX = 64 };
 
+// A surface as height over position [m]: offset + slope x position + contributions of the bends.
 typedef struct {
   double offset, slope;
   int count;
   SbGrooveBend bend[SB_GROOVE_BENDS_MAX];
 } SbGrooveLine;
 
-// A drawn groove, lengths in m. Floor: rise above its lowest place over the axial distance from the
-// wall, > 0 behind it; it is flat away from the wall. Walls: recess behind where they stand nearest
-// over the height above the floor's lowest place. [0] is the left side, [1] the right one.
+// A drawn groove [m]. [0] is the left side, [1] the right one. Floor: height above its lowest point
+// against the axial distance from the wall (> 0 behind it); constant far from the wall. Walls:
+// recess behind their narrowest position against the height above the lowest point of the floor.
 typedef struct {
-  double width, depth; // between the walls where they stand nearest; of the ends above the floor
-  int count;           // points that it was made of; 0: there is none
+  // Distance of the walls at the narrowest position; height of the edges above the floor.
+  double width, depth;
+  int count; // points of the drawing; 0: empty
   SbGrooveLine floor[2], wall[2];
 } SbGrooveDrawing;
 
-// Makes a groove of its outline from one edge to the other: `count` points (z axial, r radial from
-// any axis, in m), bulges counter-clockwise in (z, r). The floor is what leans by 70 degrees at
-// most about its lowest place, walls are what is steeper and, above that, leans by 60 at most; what
-// is flatter still at the edges is left out. Arcs are divided by 7.5 degrees (0.2 % of their
-// radius), corners rounded over SB_GROOVE_ROUNDING of the depth or the shorter piece beside them. A
-// round transition from floor to wall is straight beyond 70 degrees at most (3 % of its radius).
-// SB_ERROR_INPUT where there is no such floor or wall, or where these surfaces miss a point by more
-// than 2 % of width or depth.
+// Fraction of the depth over which corners are rounded.
 #define SB_GROOVE_ROUNDING 0.04
+
+// Converts an outline from one edge to the other, points[count]: z axial, r radial from any axis
+// [m], bulge counter-clockwise in (z, r) (SbSealPoint), into a groove. The floor is what inclines
+// by at most 70 degrees around its lowest point. Walls are steeper, and higher up incline by at
+// most 60 degrees from the radial direction; flatter parts at the edges are omitted. Arcs are
+// divided by 7.5 degrees (0.2 % of their radius). SB_ERROR_INPUT: no such floor or wall, or the
+// surfaces deviate by more than 2 % of width or depth from a point.
 SbStatus sb_groove_draw(SbGrooveDrawing *out, const SbSealPoint *points, int count,
                         SbReport *report);
 
-// Height above zero whose slope rises from 0 to 1 over a length (twice differentiable, so that
-// Newton does not stumble where it sets in): half the length less than `x` beyond it.
+// Returns a height that is 0 for x <= 0 and x - length/2 for x >= length; its slope increases from
+// 0 to 1 in between. Twice differentiable, as Newton's method requires. Writes slope and curvature.
 double sb_groove_ramp(double x, double length, double *slope, double *curvature);
 
-// Height, slope and curvature at a place [m].
+// Returns the height [m] of a line at the position `at` [m], and writes slope and curvature.
 double sb_groove_line(const SbGrooveLine *line, double at, double *slope, double *curvature);
 
-// Points (z, r) of a drawn groove from its right edge at a height [m] above the floor's lowest
-// place to the left one, walls `width` [m] apart about z = 0. At most SB_GROOVE_POINTS.
+// Capacity of an outline.
 enum { SB_GROOVE_POINTS = 160 };
+
+// Writes the outline of a drawn groove to out[][2] (z, r) [m], from its right edge to its left
+// edge, up to `height` above the lowest point of the floor (r = 0), with walls `width` apart around
+// z = 0. Returns the number of points.
 int sb_groove_outline(double out[SB_GROOVE_POINTS][2], const SbGrooveDrawing *groove, double width,
                       double height);
 
-// Area of that outline below the height [m2], above the drawing as wide as its opening.
+// Returns the area of that outline below `height` [m2]. Above the drawing it has the width of the
+// opening.
 double sb_groove_drawn_area(const SbGrooveDrawing *groove, double width, double height);

@@ -1,33 +1,36 @@
-// Factors of the ring's sparse equations, by blocks of two unknowns: a node's.
+// Direct solver for the ring's sparse equations in 2 x 2 blocks (one block row for each node).
+// Private to engine/contact/ring.
 //
-// A = L U with blocks of 2 x 2 on the pattern of A and its transpose, nodes in the order of least
-// degree (Amestoy, Davis and Duff 1996). Nothing is exchanged but the two rows of a node, inside
-// the inverse of its pivot: rows with conditions are scaled to their node, and a body in
-// equilibrium has definite pivots. Who solves checks the residual. With a thousand unknowns this
-// takes a third of the time of a sparse code by single unknowns, whose indices cost more than its
-// products.
+// A = L U on the symmetric pattern of A, nodes ordered by approximate minimum degree (Amestoy,
+// Davis and Duff 1996). Pivoting is only inside the blocks; a ring in equilibrium has definite
+// pivots. The caller checks the residual.
 #pragma once
 
 #include "engine/base/status.h"
 
 #include <stdbool.h>
 
-enum { SB_RING_BLOCK = 4 }; // numbers of a block
+// Numbers of a block.
+enum { SB_RING_BLOCK = 4 };
 
+// A solver with its factors; used by one thread at a time.
 typedef struct SbRingFactor SbRingFactor;
 
-// For `nodes` nodes; row i has the blocks of the columns column[start[i] .. start[i + 1]), the
-// diagonal's among them, and the pattern is symmetric. Owned; NULL without memory.
+// Creates a solver for `nodes` nodes. Block row i has blocks in the columns column[start[i]] to
+// column[start[i + 1] - 1], including the diagonal; the pattern is symmetric and is copied. NULL:
+// no memory.
 SbRingFactor *sb_ring_factor_create(int nodes, const int *start, const int *column);
-void sb_ring_factor_destroy(SbRingFactor *factor); // takes NULL
 
-// Another one for the same pattern, which both hold: its order is not sought again. Owned; NULL
-// without memory. From any thread.
+// Frees the solver. Takes NULL.
+void sb_ring_factor_destroy(SbRingFactor *factor);
+
+// Creates another solver for the same pattern, which both share. NULL: no memory. Any thread.
 SbRingFactor *sb_ring_factor_like(const SbRingFactor *factor);
 
-// Factorises: value[4 k] is block k of the pattern, its rows one after the other. Allocates at the
-// first call. False where a pivot has no inverse, or without memory.
+// Factorises A: value[4 k] to value[4 k + 3] is block k of the pattern by rows. Returns false if a
+// pivot is singular or memory is short.
 SB_CHECKED bool sb_ring_factor_compute(SbRingFactor *factor, const double *value);
 
-// x[2 nodes] = A^-1 b; x may be b. Allocates nothing.
+// Writes A^-1 b to x[2 nodes]; x and b may be the same array. Requires a successful
+// sb_ring_factor_compute().
 void sb_ring_factor_solve(SbRingFactor *factor, double *x, const double *b);

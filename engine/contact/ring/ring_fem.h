@@ -1,9 +1,10 @@
-// Nearly incompressible finite-strain finite elements in a plane or about an axis.
+// Nearly incompressible finite-strain finite elements, plane or axisymmetric. Private to
+// engine/contact/ring.
 //
-// Internal to the ring. Displacement (r, z) quadratic on six-node triangles plus a cubic bubble,
-// pressure linear and discontinuous (Crouzeix-Raviart P2+/P1): free of locking for any bulk
-// modulus. Bubble and pressure are condensed inside each element. All quantities in one consistent
-// set of units (the ring passes lengths in section diameters and stress in initial shear moduli).
+// Displacement (r, z) quadratic on six-node triangles plus a cubic bubble, pressure linear and
+// discontinuous (Crouzeix-Raviart P2+/P1): no locking for any bulk modulus. Bubble and pressure are
+// condensed in each element. Any consistent units; the ring uses lengths in section diameters and
+// stresses in initial shear moduli.
 #pragma once
 
 #include "engine/contact/ring/ring_factor.h"
@@ -11,122 +12,138 @@
 
 #include <stdbool.h>
 
+// Gauss points of an element, and its condensed unknowns.
 enum { SB_RING_FEM_POINTS = 7, SB_RING_INNER = 5 };
 
-// W = c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3) + bulk/2 (J - 1)^2.
+// Material W = c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3) + bulk/2 (J - 1)^2.
 typedef struct {
-  double c1, c2, bulk; // Pa
+  double c1, c2, bulk; // unit of stress
 } SbRingMaterial;
 
-// What holds at one node: the rows of its two equations are replaced accordingly.
-// count 0: free, the residual vanishes. count 1: n . du = gap, and along t the residual vanishes
-// with a share `mix` of the normal reaction: (t + mix n) . R = drive. count 2: both `direction`
-// rows hold: direction[k] . du = gap[k]. `curve` is the turn of the normal towards the tangent per
-// length along x, r or z by `axis` (a curved surface): dn/dx = curve t, dt/dx = -curve n. `drive`
-// changes with the places of the nodes `beside`.
+// Largest number of other nodes on which a prescribed traction depends.
 enum { SB_RING_BESIDE = 5 };
+
+// Boundary condition of a node, which replaces its two equations.
+// count 0: free, the residual vanishes.
+// count 1: n . du = gap; along the tangent t the residual balances the fraction `mix` of the normal
+//   reaction (friction): (t + mix n) . R = drive, R the reaction.
+// count 2: direction[k] . du = gap[k] for both rows.
+// A curved surface turns its normal: dn/dx = curve t, dt/dx = -curve n per length along `axis`.
+// `drive` (prescribed traction) changes with the positions of the nodes `beside`.
 typedef struct {
   int count;
-  double direction[2][2];
-  double gap[2];            // m
-  double mix, curve, drive; // 1, 1/m, N
-  int axis;                 // of `curve`: 0 r, 1 z
-  int beside_count, beside[SB_RING_BESIDE];
-  double drive_slope[SB_RING_BESIDE][2]; // N/m
+  double direction[2][2];                   // unit vectors (r, z): n and t, or two directions
+  double gap[2];                            // prescribed displacements
+  double mix, curve, drive;                 // friction coefficient; 1/length; force
+  int axis;                                 // of `curve`: 0 r, 1 z
+  int beside_count, beside[SB_RING_BESIDE]; // node numbers
+  double drive_slope[SB_RING_BESIDE][2];    // derivative of `drive`, force/length
 } SbRingCondition;
 
+// A finite-element model with its state.
 typedef struct SbRingFem SbRingFem;
 struct SbRingFem {
   const SbRingMesh *mesh; // borrowed
-  double around;          // 2 pi, of radii that count inwards -2 pi; 0: a straight cord
+  double around;          // 2 pi; -2 pi for negative radii; 0: plane
   SbRingMaterial material;
-  double axial_spring;  // stiffness per node against axial drift, 0 = none
-  double axial_rest;    // mean drift since the saved state 1 at which the spring is slack
-  double axial_damping; // the same against axial motion in one iteration only
-  double viscosity;     // resistance per reference volume to motion since the saved state 1
+  double axial_spring;  // stiffness per node against a mean axial displacement; 0: none
+  double axial_rest;    // mean axial displacement since saved state 1 at which the spring is free
+  double axial_damping; // the same against axial motion within an iteration
+  double viscosity;     // resistance per reference volume against motion since saved state 1
 
-  double *u;        // [2 nodes] displacement
-  double *inner;    // [5 elements] bubble (r, z), pressure (3 terms)
-  double *saved[3]; // room for three saved states
-  double *mass;     // [nodes] reference volume lumped at the nodes
+  double *u;        // [nodes][2] displacement (r, z)
+  double *inner;    // [elements][5] bubble (r, z), pressure (3 terms)
+  double *saved[3]; // saved states, see sb_ring_fem_save()
+  double *mass;     // [nodes] lumped reference volume
 
-  double *residual;           // [2 nodes] condensed internal minus external force
-  double *du;                 // [2 nodes] last solution
-  double *du_path;            // [2 nodes] its change with the parameter of a path
+  double *residual;           // [nodes][2] condensed internal minus external force
+  double *du;                 // [nodes][2] last solution
+  double *du_path;            // [nodes][2] its derivative with respect to a path parameter
   SbRingCondition *condition; // [nodes]
 
-  double residual_inner; // largest residual of an element's own equations
-  double det_min;        // least det F at the last assembly
-  double volume;         // deformed, at the last assembly; the area in the plane
+  double residual_inner; // largest residual of the condensed equations
+  double det_min;        // smallest det F at the last assembly
+  double volume;         // deformed volume at the last assembly; plane: area
 
-  bool balance_only; // what is assembled has no tangent of the nodes: nothing is solved with it
+  bool balance_only; // assemble the residual only, without the tangent
 
   // Private: quadrature data, condensation, sparse rows, factor.
   double *gauss, *condensed;
   int *row_start, *column, *scatter, *diagonal;
   double *value, *raw, *rhs, *left;
   SbRingFactor *factor;
-  int *work_int; // [nodes] scratch
-  int *hollow;   // [loop_count] number of the hollow that a boundary node lies in or by; 0: none
+  int *work_int; // [nodes] work memory
+  int *hollow;   // [loop_count] number of the concavity that contains a boundary node; 0: none
 };
 
-// Deformed place (r, z) of a node.
+// Writes the deformed position (r, z) of a node to x[2].
 static inline void sb_ring_fem_place(const SbRingFem *fem, int node, double x[2]) {
   x[0] = fem->mesh->x[2 * node] + fem->u[2 * node];
   x[1] = fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1];
 }
 
-// Owned, free with sb_ring_fem_destroy; keeps `mesh` borrowed. The state is zero.
+// Creates a model with zero displacement; `mesh` is borrowed.
 SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMaterial material,
                             double around, SbReport *report);
+
+// Frees the model. Takes NULL.
 void sb_ring_fem_destroy(SbRingFem *fem);
 
-// For create only: numbers the hollows of the free section, [loop_count]; 0 where a node lies in
-// none (ring_fold.c).
+// Numbers the concavities of the free section: hollow[loop_count], 0 for nodes in none
+// (ring_fold.c). Called by sb_ring_fem_create().
 void sb_ring_hollows(int *hollow, const SbRingMesh *mesh);
 
-// For create only: the sparse pattern and room for its factors.
+// Creates the sparse pattern and the factor. Called by sb_ring_fem_create().
 SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report);
 
-// Residual and condensed tangent of the elements at the current state (external terms are added by
-// the caller afterwards). False if some point is turned inside out (det F <= 0).
+// Assembles residual and condensed tangent of the elements at the present state; the caller then
+// adds external terms. Returns false if det F <= 0 at some point.
 SB_CHECKED bool sb_ring_fem_assemble(SbRingFem *fem);
 
-// Adds to the tangent entry of (row node a, component i; column node b, component j).
+// Adds k to the tangent entry of row (node a, component i) and column (node b, component j).
 void sb_ring_fem_add(SbRingFem *fem, int a, int i, int b, int j, double k);
 
-// Solves for du under the nodes' conditions; keeps the raw rows of conditioned nodes.
+// Solves for fem->du under the nodes' conditions; keeps the original rows of conditioned nodes for
+// sb_ring_fem_reaction(). SB_ERROR_NOT_CONVERGED: singular.
 SbStatus sb_ring_fem_solve(SbRingFem *fem, SbReport *report);
 
-// The same in parts, for several right-hand sides: replaces the conditioned rows (rhs = -residual
-// and gaps) and factorises; solves du for the present rhs. SB_ERROR_NOT_CONVERGED if singular.
+// First part of sb_ring_fem_solve(): replaces the conditioned rows, sets the right-hand side
+// (-residual and gaps), and factorises. SB_ERROR_NOT_CONVERGED: singular.
 SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report);
+
+// Second part: solves for fem->du with the present right-hand side. May be repeated with other
+// ones.
 SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, SbReport *report);
 
-// The force R + K du that a conditioned node receives after the step, by the linear model.
+// Writes the reaction R + K du of a conditioned node after the step, by the linear model.
 void sb_ring_fem_reaction(const SbRingFem *fem, int node, double force[2]);
 
-// u += step du with the matching bubble and pressure.
+// Adds `step` times du to the displacement, with the corresponding bubble and pressure.
 void sb_ring_fem_advance(SbRingFem *fem, double step);
 
-// Largest residual over the rows that the conditions leave free.
+// Returns the largest residual of the rows without conditions.
 double sb_ring_fem_free_residual(const SbRingFem *fem);
 
-// Three places for a state: 0 is Newton's own, 1 the load stepper's, 2 the state before
-// pseudo-transient continuation.
+// Saves the state in place 0 (Newton's method), 1 (start of a load step) or 2 (before
+// pseudo-transient continuation).
 void sb_ring_fem_save(SbRingFem *fem, int place);
+
+// Restores the state from one of these places.
 void sb_ring_fem_restore(SbRingFem *fem, int place);
 
-// Stress at area coordinates of one element: Cauchy (rr, zz, rz, hoop), and J.
+// Computes Cauchy stress (rr, zz, rz, hoop) and *jacobian J at the area coordinates l1, l2 (of
+// vertices 1 and 2) of an element.
 void sb_ring_fem_stress(const SbRingFem *fem, int element, double l1, double l2, double cauchy[4],
                         double *jacobian);
 
-// A field [2 nodes] on another mesh of the same body at this mesh's nodes.
+// Interpolates field[from->nodes][2] of another mesh of the same body at the nodes of `mesh` into
+// out[nodes][2].
 void sb_ring_fem_interpolate(double *out, const SbRingMesh *mesh, const double *field,
                              const SbRingMesh *from);
 
-// Takes over the state of another mesh of the same body at this mesh's nodes.
+// Sets the state of `to` from that of another mesh of the same body.
 void sb_ring_fem_transfer(SbRingFem *to, const SbRingFem *from);
 
-// Takes over the state of the mirrored mesh (sb_ring_mesh_mirror), mirrored.
+// Sets the state of `to`, on the mirrored mesh (sb_ring_mesh_mirror()), to the reflected state of
+// `from`.
 void sb_ring_fem_mirror(SbRingFem *to, const SbRingFem *from);

@@ -1,246 +1,263 @@
-// What a ring object holds. Internal to the ring.
+// The ring object and the functions shared by its files. Private to engine/contact/ring. Lengths,
+// stresses and forces are in the units of the element solver unless a unit is stated.
 #pragma once
 
 #include "engine/contact/ring/ring.h"
 #include "engine/contact/ring/ring_contact.h"
 
+// Counters of a ring.
 typedef struct {
-  int iterations; // Newton iterations, rejected attempts included
+  int iterations; // Newton iterations, including rejected attempts
   int steps;      // accepted load steps
-  int rejected;   // attempts that were halved
+  int rejected;   // rejected attempts
 } SbRingCount;
 
-// Work memory of sb_ring_ends(); of no content between calls (ring_pressure.c).
+// Work memory of sb_ring_ends() (ring_pressure.c), without content between calls.
 typedef struct SbRingRecovery SbRingRecovery;
-SbRingRecovery *sb_ring_recovery_create(void); // NULL without memory; free() ends it
 
-// A place on the path of steady sliding, in the plane of the section's turn and the share of the
-// bore's law, in units of Coulomb's coefficient: where direction . ((turn, unit share) - base) =
-// length.
+// Returns work memory, or NULL. Free it with free().
+SbRingRecovery *sb_ring_recovery_create(void);
+
+// Arc-length condition of the path of steady sliding, in the plane of the section's rotation and
+// friction_bore: direction . ((turn, unit friction) - base) = length.
 typedef struct {
-  bool free; // the share is found from it; else it is given
-  double direction[2], base[2], length, unit;
+  bool free;                                  // friction_bore is an unknown; else it is given
+  double direction[2], base[2], length, unit; // unit: scale of friction_bore
 } SbRingArc;
 
-// The state of the greatest friction on a path, saved as SB_RING_BEFORE of its mesh, while the path
-// goes on over others.
+// The state of largest friction on a path, saved as SB_RING_BEFORE of its mesh while the path
+// continues on other meshes.
 typedef struct {
-  bool here; // on the ring's present mesh; else on this one, owned, NULL: none
+  bool here; // it is on the ring's present mesh; else on the following one (owned; NULL: none)
   SbRingMesh *mesh;
   SbRingFem *fem;
   SbRingContact *contact;
 } SbRingBest;
 
-// How a contact's pressure was recovered at the state beside which this one is: so it is here, too,
-// that it be a smooth function of what differs. Not known: as fits best.
+// How the pressure of a contact was recovered at the state that was linearised, so that a
+// linearised state uses the same curve; not known: best fit.
 typedef struct {
   bool known;
-  int terms;     // 0: none fits
-  double end[2]; // of the contact, where to look from
+  int terms;     // number of polynomials; 0: no curve fits
+  double end[2]; // ends of the contact, as initial guess
 } SbRingHeld;
 
+// The ring (SbRing of ring.h).
 struct SbRing {
   SbRingBody body;
   SbRingLoad load;
   SbRingOptions options;
-  double length, stress, force; // units of the element solver: d, mu, mu d^2 (mu d in the plane)
-  double centre;                // radius of the free section's middle, in section diameters
-  SbRingOutline outline;        // of the free section, about that middle
+  double length, stress, force; // units: d [m], mu [Pa], mu d^2 [N] (plane: mu d [N/m])
+  double centre;                // radius of the middle of the free section
+  SbRingOutline outline;        // of the free section, around that middle
   SbRingMesh *mesh;
   SbRingFem *fem;
   SbRingContact *contact;
   SbRingCount count;
   SbRingArc arc;
-  bool at_once; // a dragged ring's other mesh takes its state with its slip or not at all
-  bool passing; // single nodes may have no state: they are held against a small pull
-  bool easy;    // a path of softer friction under fluid and of fewer meshes
-  bool soft;    // laid by such a path beside friction on floor and walls
-  double onset; // of that friction, over the usual one
+  bool at_once; // a transfer to another mesh must succeed in one step, with its slip
+  bool passing; // nodes whose state oscillates stay in contact against a small tension
+  bool easy;    // path with softer friction under fluid and fewer meshes
+  bool soft;    // fitted by such a path although floor and walls have friction
+  double onset; // SbRingContact.onset
   SbRingBest best;
-  SbRingState state;        // how the last step ended: rolls or jams, else slides
-  double share_limit;       // greatest share of the bore's law in steady sliding, 0: not met
-  double drag_limit;        // drag over load there
-  double fitted_size;       // elements of the mesh that was last fitted to the contacts, 0: none
-  double fitted_end[2];     // material angles of the bore contact's ends that it was fitted to
+  SbRingState state;        // of the last step: rolls or jams, else slides
+  double share_limit;       // friction_bore at the limit of steady sliding; 0: not reached
+  double drag_limit;        // drag/load at that limit
+  double fitted_size;       // element size of the mesh last fitted to the contacts; 0: none
+  double fitted_end[2];     // material angles of the bore contact's ends of that mesh
   SbRingRecovery *recovery; // owned
-  SbRingHeld held[SB_RING_SURFACES]; // of each surface
-  bool first_order;                  // a state beside another one: nothing is solved from it
-  double fault; // of a state to first order, beyond its base's (sb_ring_contact_fault())
-                // of each surface
+  SbRingHeld held[SB_RING_SURFACES]; // by surface
+  bool first_order;                  // a linearised state: nothing is solved from it
+  double fault; // linearised state: sb_ring_contact_fault() minus that of its base
 };
 
-// One contiguous contact with a surface, in the order of the loop.
+// A contiguous contact with a surface, in the order of the loop.
 typedef struct {
-  int first, last;        // loop places of the outermost held nodes (last may exceed the count)
-  double angle[2];        // material angle of both ends, angle[0] < angle[1]
-  double place[2];        // place of both ends along the surface (z, or r for a wall)
-  double end_pressure[2]; // fluid pressure at both ends
+  int first, last; // loop indices of the outermost nodes in contact (last may exceed the count)
+  double angle[2]; // material angles of the ends, angle[0] < angle[1]
+  double place[2]; // positions of the ends along the surface (z; r for a wall)
+  double end_pressure[2]; // fluid pressure at the ends
 } SbRingPatch;
 
-// Finds a surface's contact; false if it does not touch.
+// Finds the contact with a surface. Returns false if there is none.
 SB_CHECKED bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch);
 
-// Contact pressure at a loop node (element solver's units), from the excess over the fluid's.
+// Returns the contact pressure at loop node i, from the nodal force.
 double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface);
 
-// What the bore's friction lacks of its law, as a share, since it sets in gradually as the contact
-// exceeds the fluid's pressure beside it (ring_contact.c).
+// Returns the fraction of the bore's friction that is missing because friction develops gradually
+// with the contact pressure above the adjacent fluid's (ring_contact.c).
 double sb_ring_friction_lack(const SbRing *ring);
 
-// Whether a surface holds a node of a side of the boundary.
+// Returns whether a surface has contact with a node of boundary side `side`.
 bool sb_ring_holds_some(const SbRing *ring, SbRingSurface surface, int side);
 
-// Recovers the pressure of the contact that sb_ring_patch has found, a smooth curve with the load
-// of the nodal forces, and replaces the places of its ends by the recovered ones. The curve (edges,
-// ambient pressures, coefficients and peak, element solver's units) runs over the place along the
-// surface, its negative where that falls along the loop. False, with the ends as they are, where no
-// smooth curve fits it.
+// Recovers a smooth pressure of a contact from its nodal forces, with their load, and replaces the
+// positions of its ends (`patch` is that of sb_ring_patch()). *pressure is a function of the
+// position along the surface, or of its negative if that decreases along the loop. Returns false,
+// with the ends unchanged, if no smooth curve fits.
 bool sb_ring_ends(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
                   SbDryContact *pressure);
 
-// Points of a smooth profile, from its left to its right end: dense at both, where the pressure
-// rises with the root of the distance.
+// Number of points of a profile.
 enum { SB_RING_PROFILE = 321 };
+
+// Returns the position of profile point i from the left to the right end, denser near both.
 double sb_ring_profile_place(const SbDryContact *pressure, int i);
 
-// Whether the section is a circle, whose nodes go round its middle.
+// Returns whether the section is a circle.
 bool sb_ring_is_circle(const SbRing *ring);
 
-// A mesh without zones yet; mesh, elements and contact by a plan; the end of these, which the ring
-// is then without.
+// Returns a mesh plan without zones: element size `size_max`, and `size` at the surface.
 SbRingMeshPlan sb_ring_empty_plan(const SbRing *ring, double size_max, double size);
+
+// Builds mesh, elements and contact of a ring by a plan.
 SbStatus sb_ring_build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report);
+
+// Frees mesh, elements and contact of a ring and sets them to NULL.
 void sb_ring_drop(SbRing *ring);
 
-// Fails for a state whose section lies in itself or has elements that are turned over.
+// Returns SB_ERROR_NOT_CONVERGED or SB_ERROR_INFEASIBLE if the section penetrates itself or has
+// inverted elements, else SB_OK.
 SbStatus sb_ring_check_apart(const SbRing *ring, SbReport *report);
 
-// Replaces the mesh by one fitted to the present contacts and solves on it; the state before is
-// kept if that fails.
+// Replaces the mesh by one fitted to the present contacts and solves on it, with other sizes
+// (sb_ring_try) if that fails. After an error the state before remains.
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
-SbStatus sb_ring_refit_once(SbRing *ring, double element_size, SbReport *report); // of one size
 
-// A sliding ring that stumbles over single nodes of one mesh is taken over to others, of these
-// shares of the size, in turn.
+// Does the same with one size only.
+SbStatus sb_ring_refit_once(SbRing *ring, double element_size, SbReport *report);
+
+// Factors of the element size that are tried in turn when a solve fails on one mesh.
 enum { SB_RING_TRIES = 3 };
 extern const double sb_ring_try[SB_RING_TRIES];
 
-// Whether a body and its load are within what is solved; else SB_ERROR_RANGE or
-// SB_ERROR_INFEASIBLE with the parameter.
+// Checks a body and a load. SB_ERROR_RANGE, SB_ERROR_INFEASIBLE, with the catalogue key.
 SbStatus sb_ring_check(const SbRingBody *body, const SbRingLoad *load, SbReport *report);
 
-// A body with its units, and the load that it bears.
+// Sets body, load, units and outline of a ring; both must have passed sb_ring_check().
 void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *load);
 
-// A ring beside another of the same body, owned, without a mesh yet; elements and contact on its
-// mesh once it has one. SB_ERROR_MEMORY.
+// Creates a ring with the body, load and options of another one, without a mesh.
 SbStatus sb_ring_beside(SbRing **out, const SbRing *ring, SbReport *report);
+
+// Builds elements and contact on the mesh that was set.
 SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report);
 
-// Whether the bore contact's ends have left the short elements that its mesh has for them: moved by
-// more than `most` of the size of the others.
+// Returns whether the ends of the bore contact have left the small elements of the mesh: moved by
+// more than `most` times the size of the other elements.
 bool sb_ring_outgrown(const SbRing *ring, double most);
 
-// The ring's state on a mesh fitted to its contacts, in `fresh`, which has no mesh of its own yet
-// and keeps none where that fails. `edge`: size of the elements at the contacts' ends over that of
-// the others; 0 as friction asks for.
+// Transfers the state of `ring` to a mesh fitted to its contacts in `fresh`, which has no mesh, and
+// solves there. `edge`: size of the elements at the contacts' ends divided by that of the others;
+// 0: chosen by the friction. After an error `fresh` has no mesh.
 SbStatus sb_ring_remesh(SbRing *fresh, const SbRing *ring, double element_size, double edge,
                         SbReport *report);
 
-// How the nodes of a ring's mesh are shifted along the section's surface as its contacts are
+// Displacement of a mesh's nodes along the section's surface that follows the contacts
 // (ring_ends.c).
 typedef struct {
-  bool held[SB_RING_SURFACES]; // contacts, in the order of the angle,
+  bool held[SB_RING_SURFACES]; // there is a contact
   SbRingPatch patch[SB_RING_SURFACES];
-  double moment[SB_RING_SURFACES][2]; // with mean and deviation of their pressures
-  int count;                          // ends of contacts; 0: the mesh stays
-  double end[2 * SB_RING_SURFACES];   // their material angles, rising
-  double by[2 * SB_RING_SURFACES];    // what is added to them
-  int side[2 * SB_RING_SURFACES];     // boundary sides that they lie on
-  double *gradient;                   // [4 nodes] deformation gradient, owned
+  double moment[SB_RING_SURFACES][2]; // mean and deviation of the contact pressure's position
+  int count;                          // ends of contacts; 0: no displacement
+  double end[2 * SB_RING_SURFACES];   // their material angles, increasing
+  double by[2 * SB_RING_SURFACES];    // displacements of these angles
+  int side[2 * SB_RING_SURFACES];     // boundary sides that contain them
+  double *gradient;                   // [nodes][4] deformation gradient, owned
 } SbRingShift;
 
-// Finds a ring's contacts, for shifts by nothing; shifts as those of another ring on its mesh are
-// displaced. False: there are none to follow.
+// Finds the contacts of a ring and sets zero displacements.
 void sb_ring_shift_begin(SbRingShift *shift, const SbRing *ring);
+
+// Sets the displacements so that the contacts move to those of `other`, a ring on the same mesh.
+// Returns false if there is no contact to follow.
 bool sb_ring_shift_follow(SbRingShift *shift, const SbRing *other);
 
-// Shifts the same contacts on another mesh as those are. False: not the same contacts.
+// Applies the displacements of `other` to the same contacts on another mesh. Returns false if the
+// contacts differ.
 bool sb_ring_shift_like(SbRingShift *shift, const SbRingShift *other);
 
-// Shifts on the mesh of `ring`, of nothing yet; NULL: no memory. `destroy` takes NULL.
+// Returns a zero displacement for the mesh of `ring`, or NULL.
 SbRingShift *sb_ring_shift_create(const SbRing *ring);
+
+// Frees a displacement. Takes NULL.
 void sb_ring_shift_destroy(SbRingShift *shift);
 
-// What is added to a node's reference and deformed place; to the angle of one on the boundary.
+// Writes the changes of a node's reference position x and deformed position `place`.
 void sb_ring_shift_node(const SbRingShift *shift, const SbRing *ring, int node, double x[2],
                         double place[2]);
+
+// Returns the change of the material angle of a boundary point.
 double sb_ring_shift_angle(const SbRingShift *shift, double angle);
 
-// Size of the elements that sb_ring_fit() takes for a tolerance.
+// Returns the element size that sb_ring_fit() uses for a tolerance.
 double sb_ring_fit_size(const SbRingBody *body, const SbRingLoad *load, double tolerance);
 
-// Leaves the meshes of a tangent's states with the material, as that of sb_ring_near() is.
+// Makes the meshes of a linearisation's states fixed to the material, as sb_ring_near() uses them.
 void sb_ring_tangent_stay(SbRingTangent *tangent);
 
-// A ring of another body at another load, not solved: on the mesh of `ring`, moved, and shifted
-// unless `shift` is NULL, in its place on the floor, with its contact. Owned.
-// SB_ERROR_NOT_CONVERGED where that one does not slide alike.
+// Creates a ring of another body and load that is not solved: on the moved mesh of `ring`, with the
+// displacement `shift` (NULL: none), at its position on the floor, with its contact.
+// SB_ERROR_NOT_CONVERGED: `ring` does not slide in the same direction.
 SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
                      const SbRingLoad *load, const SbRingOptions *options, const SbRingShift *shift,
                      SbReport *report);
 
-// What floor friction could change by where friction has dragged a ring to a wall that another load
-// displaces, by the share of its travel that this is; 0 where it was laid there.
+// Returns an estimate of the change of floor friction if another load moves the wall to which
+// friction has dragged the ring; 0 if the ring was at that wall initially.
 double sb_ring_travel_fault(const SbRing *ring, const SbRingLoad *target);
 
-// How load steps are taken: followed in viscous steps where the next equilibrium is not near, never
-// so, or as long as the bore is touched.
-typedef enum { SB_RING_FOLLOW, SB_RING_DIRECT, SB_RING_SEALED } SbRingPath;
+// Method of load steps.
+typedef enum {
+  SB_RING_FOLLOW, // pseudo-transient continuation if the next equilibrium is not close
+  SB_RING_DIRECT, // Newton's method only
+  SB_RING_SEALED  // as FOLLOW, while there is contact with the bore
+} SbRingPath;
 
-// Newton's method with the contact's active set at the load `contact->is.now`; the state is left at
-// the last iterate on failure.
+// Solves for equilibrium at contact->is.now by Newton's method with an active set. After an error
+// the state is the last iterate. SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED.
 SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report);
 
-// Solves at the present load, unless the section turns too far at once; back to the state of
-// SB_RING_START where that fails.
+// Solves at the present load, unless the section rotates too far in one step; after an error the
+// state of SB_RING_START is restored.
 SbStatus sb_ring_attempt(SbRing *ring, SbRingPath path, SbReport *report);
 
-// Moves from the present converged load to `target`, in as many steps as it takes. On failure the
-// last converged load and state remain, and the report says where equilibrium ended.
+// Changes the load to `target` in as many steps as needed. After an error the last converged load
+// and state remain, and the report states the fraction that was reached.
 SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path, SbReport *report);
 
-// Fits the ring anew without friction, but for that of clamping walls, at a load, fluid last, on
-// its present mesh. Errors as sb_ring_create.
+// Fits the ring from the free state without friction (except clamping walls) at the load `smooth`,
+// the fluid last, on its present mesh. Errors as for sb_ring_create().
 SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport *report);
 
-// Shifts a ring that neither wall holds to the one that the bore slides to.
+// Moves a ring that has no contact with a wall to the wall to which the bore drags it.
 void sb_ring_rest_on_wall(SbRing *ring);
 
-// From the present state to another load, leaning on the wall first where the fluid wants it.
+// Changes the load to `target`; first moves the ring to the wall if the fluid pushes it there.
 SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report);
 
-// The turn of the section since it was free, that of all which look the same that is nearest to the
-// last one known, and what it changes by a displacement du; NULL: none. Its mean axial place.
+// Returns the rotation of the section since it was free (the equivalent value nearest to the last
+// known one). Writes its derivative with respect to a displacement du to *change and the mean axial
+// position to *place (each NULL: not wanted).
 double sb_ring_turn(const SbRingContact *contact, const double *du, double *change, double *place);
 
-// How much more softly than usual friction under fluid sets in along an easy path, and along one
-// beside friction on floor and walls.
+// SbRingContact.onset on an easy path, and on one with friction on floor and walls.
 #define SB_RING_EASY 7.0
 #define SB_RING_SOFT 3.5
 
-// Follows steady sliding from a state without friction on the bore to a share `aim` of its law, or
-// beyond the greatest one that the ring bears: then it rolls or jams, which `state` and
-// `share_limit` tell, and the state is that of the greatest. SB_ERROR_NOT_CONVERGED where neither
-// is reached.
+// Follows steady sliding from zero friction on the bore to friction_bore = `aim`, or past the
+// largest one that the ring can carry. Then `state` (rolls or jams) and `share_limit` are set and
+// the state is that of the largest friction. SB_ERROR_NOT_CONVERGED: neither was reached.
 SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report);
 
-// Ends the memory of the state of the greatest friction; `take`: the ring goes back to it.
+// Frees ring->best; with `take` the ring returns to that state.
 void sb_ring_end_best(SbRing *ring, bool take);
 
-// From here on the present turn is held, with the share that belongs to it.
+// Fixes the present rotation of the section, so that friction_bore becomes an unknown.
 void sb_ring_hold_turn(SbRing *ring);
 
-// Tangent of the present state with the bore's nodes set free, factorised; sb_ring_contact_settle
-// must follow. SB_ERROR_NOT_CONVERGED.
+// Factorises the tangent of the present state with free nodes at the bore; sb_ring_contact_settle()
+// must follow. SB_ERROR_NOT_CONVERGED: singular.
 SbStatus sb_ring_free_bore(SbRing *ring, SbReport *report);

@@ -1,41 +1,43 @@
-// A measured surface: heights on a grid, made ready for its figures.
+// A measured surface or profile: heights on a grid, and their preparation (form, outliers,
+// filters). The functions may be called concurrently on different heights.
 //
-// Form is taken away by least squares in z: the mean, a plane, a polynomial of order 2, or a
-// cylinder that lies on the surface with any direction, tilt and sign. Outliers are points further
-// from the median of what is left than so many robust deviations (1.4826 times the median distance,
-// P.J. Rousseeuw & C. Croux, J. Am. Stat. Assoc. 88 (1993) 1273); without them the form is fitted
-// once more. Waves are then cut off by the Gaussian filter of ISO 16610-61 (areas) and -21
-// (profiles), with the weight
+// The form is removed by least squares in z: mean, plane, polynomial of degree 2, or a cylinder of
+// any direction, tilt and sign. Outliers are points whose distance from the median of the remainder
+// exceeds a number of robust deviations (1.4826 times the median distance, P.J. Rousseeuw & C.
+// Croux, J. Am. Stat. Assoc. 88 (1993) 1273); the form is then fitted again. Gaussian filters of
+// ISO 16610-61 (areas) and -21 (profiles) have the weight
 //
 //   s(r) = exp(-pi (r/(alpha L))^2)/(alpha L)^n,  alpha = sqrt(ln 2/pi),
 //
-// which passes half of the wave length L: the short cut-off keeps the mean line of the filter (S),
-// the long one what is left beside it (L). At edges and missing points the weights are those of the
-// points that there are. Leaves out robust and spline filters, and end corrections beyond that.
+// and transmit half of the wavelength L. The short cut-off keeps the filtered surface (S filter),
+// the long one the remainder (L filter). At edges and missing points the weights are normalised
+// over the existing points. Not available: robust and spline filters.
 #pragma once
 
 #include "engine/base/status.h"
 
 #include <stdint.h>
 
-// One row is a profile.
+// Heights on a grid. One row: a profile.
 typedef struct {
   size_t columns, rows;
-  size_t stride; // from a row to the next, at least `columns`
-  double dx, dy; // between neighbours [m]
-  double *z;     // heights [m], row after row, NaN where missing
+  size_t stride; // elements from one row to the next, at least `columns`
+  double dx, dy; // spacing of columns and of rows [m]
+  double *z;     // [rows][stride] heights [m], NaN: missing; owned by the caller
 } SbHeights;
 
-enum { SB_HEIGHTS_SIDE_MIN = 16 }; // points that a side must have
+// Smallest number of points on a side, and largest number of points.
+enum { SB_HEIGHTS_SIDE_MIN = 16 };
 #define SB_HEIGHTS_POINTS_MAX ((size_t)1 << 26)
 
-// choice, name
+// X(enumerator, name): the forms.
 #define SB_FORM_LIST(X)                                                                            \
   X(SB_FORM_NONE, "none")                                                                          \
   X(SB_FORM_PLANE, "plane")                                                                        \
   X(SB_FORM_QUADRATIC, "quadratic")                                                                \
   X(SB_FORM_CYLINDER, "cylinder")
 
+// Form that is removed; the mean is removed in any case.
 typedef enum {
 #define SB_FORM_ENUM(code, text) code,
   SB_FORM_LIST(SB_FORM_ENUM)
@@ -43,44 +45,48 @@ typedef enum {
       SB_FORM_COUNT
 } SbForm;
 
-const char *sb_form_name(int form); // borrowed
+// Returns the name of a form ("plane"); static.
+const char *sb_form_name(int form);
 
+// Steps of the preparation.
 typedef struct {
-  SbForm form;         // the mean is taken away in any case
-  double outliers;     // robust deviations beyond which a point is none; 0: all stay
-  bool fill;           // missing points take the value that their neighbours make likely
-  double cutoff_short; // wave lengths [m]; 0: none
-  double cutoff_long;
+  SbForm form;
+  double outliers;     // robust deviations beyond which a point becomes missing; 0: none
+  bool fill;           // missing points get a value from their neighbours
+  double cutoff_short; // of the S filter, wavelength [m]; 0: none
+  double cutoff_long;  // of the L filter, wavelength [m]; 0: none
 } SbHeightsChoices;
 
-// Robust deviations beyond which points are counted as suspicious where all stay.
+// Robust deviations beyond which a remaining point is counted as suspicious.
 #define SB_HEIGHTS_SUSPICIOUS 8.0
 
-// What was done.
+// Result of the preparation.
 typedef struct {
   size_t points;       // of the grid
-  size_t missing;      // as measured
-  size_t outliers;     // taken away
-  size_t suspicious;   // beyond SB_HEIGHTS_SUSPICIOUS and left
-  size_t filled;       //
-  double form_share;   // of the variance about the mean that the form takes
-  double curved_share; // of the variance about the plane that a quadratic form takes or would take
-  double form_radius;  // of the cylinder, positive where it is convex [m]; NaN of others
+  size_t missing;      // in the measured data
+  size_t outliers;     // made missing
+  size_t suspicious;   // beyond SB_HEIGHTS_SUSPICIOUS, not removed
+  size_t filled;       // missing points that got a value
+  double form_share;   // fraction of the variance about the mean that the form explains
+  double curved_share; // fraction of the variance about the plane that a quadratic form explains
+  double form_radius;  // of the cylinder, > 0 if convex [m]; NaN for other forms
 } SbHeightsReport;
 
-// Does it in place. SB_ERROR_RANGE for a grid too small, too large or without size, numbers that
-// are no numbers, cut-offs out of range; SB_ERROR_INFEASIBLE where too few points are left;
-// SB_ERROR_NOT_CONVERGED for a cylinder that does not fit.
+// Prepares the heights in place. SB_ERROR_RANGE: grid too small, too large or without spacing, a
+// height beyond 1000 km, or a cut-off out of range. SB_ERROR_INFEASIBLE: less than a quarter of the
+// points is measured, or nothing remains. SB_ERROR_NOT_CONVERGED: no cylinder fits. After an error
+// the heights are partly processed.
 SbStatus sb_heights_prepare(SbHeightsReport *out, SbHeights *heights,
                             const SbHeightsChoices *choices, SbReport *report);
 
-// Least-squares form alone: subtracts it. *radius as in SbHeightsReport.
+// Subtracts the least-squares form. *radius is SbHeightsReport.form_radius. SB_ERROR_INFEASIBLE:
+// too few points determine the form. SB_ERROR_NOT_CONVERGED: no cylinder fits.
 SbStatus sb_heights_level(double *radius, SbHeights *heights, SbForm form, SbReport *report);
 
-// The Gaussian mean surface at wave length `cutoff` in place of the heights (`keep`: short), or
-// what is left beside it.
+// Applies a Gaussian filter of wavelength `cutoff` [m] in place: with `keep` the heights become the
+// filtered surface, else the remainder.
 SbStatus sb_heights_filter(SbHeights *heights, double cutoff, bool keep, SbReport *report);
 
-// Gives missing points the mean of the nearest measured ones in their row and column, weighted by
-// the inverse distance.
+// Replaces missing points by the mean of the nearest measured ones in their row and column,
+// weighted by the inverse distance; by the mean of all if there are none.
 SbStatus sb_heights_fill(SbHeights *heights, SbReport *report);

@@ -1,52 +1,55 @@
-// Static leakage through a closed rough contact at rest: percolation and the critical constriction.
+// Static leakage through a closed rough contact at rest, by percolation and the critical
+// constriction. The functions have no state and may be called concurrently.
 //
-// Source: B.N.J. Persson & C. Yang, J. Phys.: Condens. Matter 20 (2008) 315011. Looking at the
-// contact ever more closely, the real contact A(q)/A0 falls; where it reaches the percolation
+// Source: B.N.J. Persson & C. Yang, J. Phys.: Condens. Matter 20 (2008) 315011. With increasing
+// magnification the fraction of real contact A(q)/A0 decreases. Where it reaches the percolation
 // threshold (0.42; Dapp et al., Phys. Rev. Lett. 108 (2012) 244301) the first open channel crosses
-// it, through a constriction of lateral size 2 pi/q_c and height u_c. All of the pressure drops
-// there, and there is one per square, so that
+// the contact, through a constriction of lateral size 2 pi/q_c and height u_c. The full pressure
+// drop is there, and there is one per square:
 //
 //   Q = (u_c^3/(12 eta)) dp L_y/L_x
 //
-// for a laminar liquid, L_y round the bore, L_x the contact's width.
-//
-// A contact that stays above the threshold to the shortest wave does not leak by this mechanism
-// (0). The rate is steep near the threshold: `sensitivity` is d ln Q/d ln p there, so that the user
-// sees it coming. Leaves out the pressure profile (mean contact pressure is used), two-phase flow,
-// diffusion.
+// for a laminar liquid, L_y the circumference, L_x the width of the contact. If the contact stays
+// above the threshold at all wavelengths, Q = 0. Near the threshold Q is very sensitive to the
+// contact pressure (`sensitivity`). Not modelled: the pressure profile (the mean contact pressure
+// is used), two-phase flow, diffusion.
 #pragma once
 
 #include "engine/contact/rough/persson.h"
 
+// Fraction of real contact at which the first channel opens.
 #define SB_PERCOLATION_THRESHOLD 0.42
 
-// Gap of the constriction over the roughness beyond which the surfaces no longer touch each other
-// (Gaussian heights): an open path, not a contact with channels.
+// Height of the constriction divided by the rms roughness above which Gaussian surfaces have no
+// contact: an open path.
 #define SB_PERCOLATION_OPEN_GAP 3.0
 
+// A contact.
 typedef struct {
-  const SbSpectrum *spectrum;
-  double modulus;          // E', 2/E' = sum (1 - nu^2)/E [Pa]
-  double contact_pressure; // mean, of the solids (total less the fluid's) [Pa]
-  double viscosity;        // [Pa s]
-  double pressure_drop;    // [Pa]
-  double width;            // of the contact along the flow [m]
-  double circumference;    // [m]
+  const SbSpectrum *spectrum; // borrowed during the call
+  double modulus;             // E', 2/E' = sum (1 - nu^2)/E [Pa]
+  double contact_pressure;    // mean pressure of the solids (total minus fluid) [Pa]
+  double viscosity;           // [Pa s]
+  double pressure_drop;       // of the fluid [Pa]
+  double width;               // L_x, in flow direction [m]
+  double circumference;       // L_y [m]
 } SbPercolationProblem;
 
+// Leakage of a contact.
 typedef struct {
-  bool percolates;
+  bool percolates;         // an open channel exists
   double real_share;       // A/A0 with all roughness
-  double constriction_q;   // q_c [1/m], 0 if closed
+  double constriction_q;   // q_c [1/m]; 0 if closed
   double constriction_gap; // u_c [m]
-  double leak_rate;        // [m3/s]
-  double sensitivity;      // d ln Q/d ln contact pressure, negative; 0 if closed
-  double closing_pressure; // contact pressure at which the last channel closes [Pa]
+  double leak_rate;        // Q [m3/s]
+  double sensitivity;      // d ln Q/d ln contact_pressure, negative; 0 if closed
+  double closing_pressure; // contact pressure above which no channel is open [Pa]
 } SbPercolation;
 
-// SB_ERROR_RANGE for a modulus, viscosity, width that is not positive or a pressure below 0.
+// Computes the leakage. SB_ERROR_RANGE: modulus, viscosity or width is not positive, or the contact
+// pressure is negative.
 SbStatus sb_percolation_solve(SbPercolation *out, const SbPercolationProblem *problem,
                               SbReport *report);
 
-// Contact pressure [Pa] at which the last channel closes, for a modulus E' [Pa].
+// Returns the contact pressure [Pa] above which no channel is open, for the modulus E' [Pa].
 double sb_percolation_closing_pressure(const SbSpectrum *spectrum, double modulus);
