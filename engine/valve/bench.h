@@ -1,26 +1,26 @@
-// Error against time for every solver, on cases whose answer is known independently.
-//
-// The answers are literature constants, closed forms, or reference solutions of other programs to
-// the digits stated in bench.c. `sealbench bench` prints them; tests hold the errors.
+// Accuracy and time of each solver on cases with a known result: literature constants, closed
+// forms, or reference solutions of other programs (bench.c). `sealbench bench` prints them.
 #pragma once
 
 #include "engine/base/status.h"
 
+// Result of a case.
 typedef struct {
   char solver[24];       // "reynolds", "disc", ...
   char name[64];         // the case: "M = 100, tolerance 0.001"
   size_t unknowns;       // 0 for a closed form
-  size_t iterations;     // Newton or other; 0 for a closed form
-  double wall_s;         // median of the repeats after one warm-up
-  double error;          // relative, against the known answer; NaN if that is no better
-  double error_estimate; // what the solver itself said; NaN if it says nothing
-  double order; // observed against the case before: -d ln(error)/d ln(unknowns); NaN if none
+  size_t iterations;     // Newton or other iterations; 0 for a closed form
+  double wall_s;         // median elapsed time of the repeats [s]
+  double error;          // relative, to the known result; NaN if that is not more accurate
+  double error_estimate; // relative, by the solver itself; NaN: none
+  double order; // observed order relative to `previous`: -d ln(error)/d ln(unknowns); NaN: none
 } SbBenchCase;
 
-// Number of cases.
+// Returns the number of cases.
 size_t sb_bench_count(void);
 
-// Runs case `index` `repeats` times (at least once) after a warm-up. `order` needs the results
-// before it: `previous` may be NULL. A solver that fails gives its status and leaves error NaN.
+// Runs case `index` (from 0) once as warm-up and `repeats` >= 1 times. `previous` is the result of
+// the case before, for `order` (NULL: not wanted). If the solver fails, its status is returned and
+// `error` is NaN.
 SbStatus sb_bench_run(SbBenchCase *out, size_t index, int repeats, const SbBenchCase *previous,
                       SbReport *report);

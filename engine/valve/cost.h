@@ -1,6 +1,6 @@
-// Typical processor time of one solve [s] on one core of 2 to 3 GHz, for predictions: what the
-// plan, the studies and their progress reckon with. Measured on whole runs of the shipped scenes
-// and with `sealbench bench`; good to a factor of two or three.
+// Typical processor time of one solve [s] on one core of 2 to 3 GHz, for predictions of plan,
+// studies and progress; accurate to a factor of two or three. Measured with `sealbench bench` and
+// on runs of the shipped scenes.
 #pragma once
 
 #include "engine/contact/fit.h"
@@ -8,6 +8,7 @@
 
 #include <math.h>
 
+// Processor times [s].
 #define SB_COST_CLOSED       2e-6
 #define SB_COST_DISC         0.8e-3
 #define SB_COST_RING         50e-3  // fitted; pressed against its wall a little more
@@ -26,25 +27,24 @@
 #define SB_COST_DYNAMICS     8e-3   // a stroke in and out with inertia
 #define SB_COST_DYNAMICS_OWN 2e-3   // the same where no machine's speed is given
 
-// One solve of a fitment model.
+// Returns the time of one solve of a fit model [s].
 static inline double sb_cost_fit(SbFitModel model) {
   return model == SB_FIT_RING                                  ? SB_COST_RING
          : model == SB_FIT_DISC || model == SB_FIT_DISC_THESIS ? SB_COST_DISC
                                                                : SB_COST_CLOSED;
 }
 
-// A ring's fitments at a tolerance, over those at the default one: the path that finds a state is
-// followed on a coarse mesh in any case.
+// Returns the time of a ring's fit at a relative tolerance divided by that at 1e-3.
 static inline double sb_cost_ring_share(double tolerance) {
   return pow(1e-3 / tolerance, tolerance < 1e-3 ? 0.27 : 0.1);
 }
 
-// One film of a film model, on the half-plane.
+// Returns the time of one film of a film model on the half-plane [s].
 static inline double sb_cost_film(SbFilmModel model) {
   return model == SB_FILM_REYNOLDS ? SB_COST_FILM : SB_COST_CLOSED;
 }
 
-// One film of a state at another speed, on what its films lie on.
+// Returns the time of one film of a model's state at another speed [s].
 static inline double sb_cost_speed_state(const SbModel *model) {
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   const bool body = model->fit == SB_FIT_RING || model->fit == SB_FIT_DISC;

@@ -1,78 +1,78 @@
-// Figures of a model with overrides: the one question that whoever asks many asks.
+// Evaluation: figures of a model with overrides.
 //
-// evaluate(model, overrides) -> figures. A base that was compiled and checked, any parameters of it
-// replaced, and the figures that are wanted; no more is computed than those need (plan.h), and
-// those are the same to the bit as a run's of that model, whatever else is asked for with them.
+// A question is a base model, overrides of its parameters, and figures. Only what these figures
+// need is computed (plan.h), and they equal those of a run of that model to the bit.
 //
-// An evaluator is the memory of one thread: nothing is shared between two of them but the base,
-// which nobody writes. What an answer is does not depend on what the evaluator was asked before:
-// solvers start warm only from states of the same question, in the order of a run, or of a base
-// that the question names: a ring's friction on floor and walls then has another history, within
-// the errors that are told. Where a question asks for the very contacts of the one before (another
-// stroke, drive, pressure diameter), those stand.
-//
-// Leaves out: derivatives; frames, profiles and shapes (run.h has them); wall times and counts.
+// An evaluator is used by one thread at a time. Different evaluators may share a base model and a
+// `start` evaluator, which are only read. The answer to a question does not depend on earlier
+// questions: solvers start from states of the same question, or from the `start` that it names (a
+// ring's friction on floor and walls then has another history, within the error estimates). If a
+// question has the same contacts as the one before (another stroke, drive, pressure diameter),
+// these are reused. Not available: frames, profiles, shapes (run.h), derivatives (gradient.h).
 #pragma once
 
 #include "engine/valve/figures.h"
 
+// An evaluator with its memory and its last answer.
 typedef struct SbEvaluator SbEvaluator;
 
-// What is asked. Pointers are borrowed for the call.
+// A question. Initialise with {0}, then set base and figures. All pointers are borrowed during the
+// call.
 typedef struct {
   const SbModel *base;
-  const SbOverride *override; // [override_count], the last of a parameter counts
+  const SbOverride *override; // [override_count]; the last one of a parameter applies
   size_t override_count;
-  const int *figure; // [figure_count], indices of figures.def (sb_figure_find)
+  const int *figure; // [figure_count] indices of figures.h
   size_t figure_count;
-  // An evaluator that has answered a question with `keep` and none since, borrowed: rings start
-  // from its states, and what is answered hangs on them and the question alone, however many ask at
-  // the same time. NULL: cold. `keep`: keeps them for others, beside those of earlier questions
-  // with `keep`.
+  // Warm start: an evaluator whose last question had `keep`; solved rings start from its states. It
+  // may be used by several threads. NULL: cold start.
   const SbEvaluator *start;
-  bool keep;
-  bool as_run;         // the shelf only where the base's views or limits ask for it
-  bool tangent;        // rings are those of `start` to first order: sb_run_predict_from()
-  SbRingsBeside rings; // of tangents: what they do
-  // Polled as in a run (SbRunHooks), at least every 50 ms; may be NULL.
+  bool keep;    // store the rings' states for other questions, in addition to those stored before
+  bool as_run;  // shelf figures only if the base's views or limits need them
+  bool tangent; // rings are linearised about `start`: sb_run_predict_from()
+  SbRingsBeside rings; // with `tangent`: how they are evaluated
+  // Called at least every 50 ms in the calling thread; true cancels. NULL: never.
   bool (*cancelled)(void *data);
   void *data;
 } SbQuestion;
 
-// *out is owned by the caller. SB_ERROR_MEMORY.
+// Creates an evaluator.
 SbStatus sb_evaluator_create(SbEvaluator **out, SbReport *report);
 
-// Takes NULL.
+// Frees the evaluator. Takes NULL. Evaluators that started from it must not be used with it any
+// more.
 void sb_evaluator_destroy(SbEvaluator *evaluator);
 
-// Answers: value[i] is figure[i] in SI, or NaN where sb_evaluator_reason() tells why.
-//   SB_OK                     every figure has its value or a reason of the valve's own
-//   SB_ERROR_RANGE, _INPUT    an override is out of its range, or the values do not go together:
-//   the
-//                             report names key and range; all NaN
-//   SB_ERROR_NOT_CONVERGED    some figures have values, others NaN
-//   SB_ERROR_INFEASIBLE, _CANCELLED, _MEMORY
-// `report` may be NULL.
+// Computes value[figure_count] in SI, in the order of question->figure; NaN: sb_evaluator_reason()
+// states why.
+//   SB_OK                     each figure has a value, or a reason that lies in the valve
+//   SB_ERROR_RANGE, _INPUT    an override is out of range, or the values are inconsistent: the
+//                             report has key and range; all values are NaN
+//   SB_ERROR_NOT_CONVERGED, _INFEASIBLE, _CANCELLED   values that were computed, others NaN
 SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestion *question,
                           SbReport *report);
 
-// Whether it would answer without solving a contact, by those of the last question.
+// Returns whether the evaluator can answer the question with the contacts of its last question,
+// without solving any.
 bool sb_evaluator_has_solved(const SbEvaluator *evaluator, const SbQuestion *question);
 
-// Forgets the last question: the next one solves all that it needs.
+// Discards the last answer, so that the next question solves everything.
 void sb_evaluator_forget(SbEvaluator *evaluator);
 
-// Why a figure of the last question has no value; NULL for one that has. Borrowed until the next
-// question.
+// Returns why figure `figure` of the last question has no value; NULL if it has one. Borrowed until
+// the next question.
 const char *sb_evaluator_reason(const SbEvaluator *evaluator, int figure);
 
-// A seal's steady state at a speed [m/s] > 0 in the model of the last question, which asked for a
-// figure of the return: sb_run_sliding(). NaN where the run has none.
+// Computes the steady state of a seal at `speed` [m/s] > 0 in direction `way` (SB_CYCLE_IN,
+// SB_CYCLE_OUT) in the model of the last question, which must have requested a figure of the
+// return; see sb_run_sliding(). NaN if the run has none.
 SbStatus sb_evaluator_sliding(SbSealState *out, SbEvaluator *evaluator, int seal, int way,
                               double speed, SbReport *report);
 
-// The model that the last question was answered for, and its whole summary, of which only what the
-// figures asked for needed means something; NULL after one that was refused. Borrowed until the
-// next question.
+// Returns the model of the last question; NULL if that was refused. Borrowed until the next
+// question.
 const SbModel *sb_evaluator_model(const SbEvaluator *evaluator);
+
+// Returns the summary of the last question, in which only what its figures need is defined; NULL if
+// it was refused. Borrowed until the next question.
 const SbSummary *sb_evaluator_summary(const SbEvaluator *evaluator);

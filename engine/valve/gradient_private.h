@@ -1,32 +1,36 @@
-// What the parts of a gradient share. Internal to gradient.c, gradient_rings.c, gradient_values.c
-// and gradient_outcome.c.
+// Shared by gradient.c, gradient_rings.c, gradient_values.c and gradient_outcome.c. Private to
+// these.
 #pragma once
 
 #include "engine/valve/gradient.h"
 
+// Number of reasons, and bytes of each.
 enum { SB_GRADIENT_TEXTS = 64, SB_GRADIENT_TEXT = SB_TEXT };
 
+// The derivatives (SbGradient of gradient.h).
 struct SbGradient {
   size_t figures, parameters;
-  int *figure;
-  SbParamId *parameter;
-  double *at, *value;    // of each parameter, of each figure
+  int *figure;           // [figures]
+  SbParamId *parameter;  // [parameters]
+  double *at, *value;    // [parameters]; [figures]
   double *slope, *error; // [figures][parameters]
-  unsigned char *why;    // text number from 1 of those without, 0: none
-  bool *solved;          // [figures][parameters]: the slope is a difference of full solves
+  unsigned char *why;    // [figures][parameters] number of the reason from 1; 0: none
+  bool *solved;          // [figures][parameters] the slope is a difference of full solves
   size_t text_count;
   char text[SB_GRADIENT_TEXTS][SB_GRADIENT_TEXT];
 };
 
-// Room for the question's figures by parameters; NULL: no memory.
+// Returns an object with arrays for the question's figures and `count` parameters; NULL: no memory.
+// Free it with sb_gradient_destroy().
 SbGradient *sb_gradient_make(const SbQuestion *question, const SbParamId *parameter, size_t count);
 
-// Number of a text, from 1. The last place takes what no longer fits.
+// Returns the number (from 1) of a reason, which is stored if it is new. The last number is used
+// for all that exceed the capacity.
 unsigned char sb_gradient_text(SbGradient *gradient, const char *text);
 
-// What happened, beside the figures: of it a step keeps all, or the reason of a jump is told.
+// Discrete outcomes of a run, which a step must not change.
 typedef struct {
-  bool known, stage[SB_STAGE_COUNT];
+  bool known, stage[SB_STAGE_COUNT]; // stage reached
   SbOutcome end;
   struct {
     bool touches, opened, film_fitted;
@@ -35,34 +39,36 @@ typedef struct {
   } seal[SB_SEAL_COUNT];
 } SbGradientOutcome;
 
+// Extracts the outcomes from a summary.
 void sb_gradient_outcome(SbGradientOutcome *out, const SbSummary *summary);
 
-// Says in what two outcomes differ (true), or nothing.
+// Returns whether two outcomes differ, and writes how to text[size].
 bool sb_gradient_differ(char *text, size_t size, const SbGradientOutcome *a,
                         const SbGradientOutcome *b);
 
-// Load, width and peak of a seal's contact, to and fro; NaN: not computed.
+// Directions of sliding, and sizes of a contact (load, width, peak).
 enum { SB_GRADIENT_WAYS = 2, SB_GRADIENT_SIZES = 3 };
+
+// Load, width and peak of each seal's contact by direction; NaN: not computed.
 typedef struct {
   double size[SB_SEAL_COUNT][SB_GRADIENT_WAYS][SB_GRADIENT_SIZES];
 } SbGradientContacts;
 
+// Extracts the contacts from a summary.
 void sb_gradient_contacts(SbGradientContacts *out, const SbSummary *summary);
 
-// Of what a figure is the sum: of terms that nearly cancel in the balance of energies, and in what
-// a cycle leaks.
+// Returns the magnitude of the terms whose sum is the figure (energy balance, leakage of a cycle),
+// for rounding errors.
 double sb_gradient_size(const SbSummary *summary, int figure);
 
 // Reason of a slope that is smaller than its error.
 #define SB_GRADIENT_UNCERTAIN "uncertain"
 
-// Points of a level: above and below its base at whole and half steps; where only one side is there
-// (h has its sign) h, h/2, h/4 in their places.
+// Points of a level: above and below the base at full and half steps; one-sided: h, h/2, h/4.
 enum { SB_GRADIENT_PLUS, SB_GRADIENT_MINUS, SB_GRADIENT_POINTS = 4 };
 
-// Steps: the first, two smaller ones for what is not smooth, a larger one for what rounding hides.
-// Steps of rings to first order, whose mesh shows in the figures' curvature soon: one, and a larger
-// one for what the films' rounding hides.
+// Levels (steps): the first, two smaller ones for functions that are not smooth, a larger one
+// against rounding; one for linearised rings, and a larger one against rounding of films.
 enum {
   SB_GRADIENT_FIRST,
   SB_GRADIENT_SMALL,
@@ -73,54 +79,56 @@ enum {
   SB_GRADIENT_LEVELS
 };
 
+// A level.
 typedef struct {
-  bool asked, one_sided;
-  bool pair; // no half steps were asked: the outer ones are enough
-  double h;  // [SI]; one-sided: of the side's sign
-  // Of each seal's rings' active sets over the step, the mean of both sides, last the larger
-  // [1/SI].
+  bool asked, one_sided; // evaluated; on one side of the base only
+  bool pair;             // without half steps
+  double h;              // step [SI]; one-sided: with the sign of the side
+  // Violation of the active sets of each seal's rings divided by the step, mean of both sides; last
+  // the larger one [1/SI].
   double fault[SB_SEAL_COUNT + 1];
 } SbGradientLevel;
 
+// Work memory of sb_gradient_create().
 typedef struct {
   SbGradient *out;
-  SbEvaluator *evaluator; // keeps the base's contacts, or those to first order
-  SbEvaluator *other;     // answers where they are others, owned
-  SbQuestion question;    // with one more override than asked, that of the parameter
+  SbEvaluator *evaluator; // has the contacts of the base, solved or to first order
+  SbEvaluator *other;     // owned; answers questions whose contacts differ from the base's
+  SbQuestion question;    // has one more override than asked, that of the parameter
   SbOverride *override;
-  double *own_value;  // of the figures by `evaluator` [figures]
-  double *base_value; // of the figures while this parameter is moved [figures]
-  double *size;       // of what each figure is the sum of, to which rounding goes [figures]
+  double *own_value;  // [figures] by `evaluator`
+  double *base_value; // [figures] at the base while this parameter varies
+  double *size;       // [figures] magnitude of the figure's terms, for rounding errors
   double *value;      // [SB_GRADIENT_LEVELS][SB_GRADIENT_POINTS][figures]
   SbGradientLevel level[SB_GRADIENT_LEVELS];
-  bool *open;    // figures whose derivative is still sought [figures]
-  bool *follows; // figures that depend on the rings which this parameter moves [figures]
+  bool *open;    // [figures] whose derivative is not yet decided
+  bool *follows; // [figures] that depend on rings which this parameter affects
   SbGradientOutcome outcome;
-  double *ring_value;           // of the figures with the base's rings to first order [figures]
-  const SbEvaluator *own_start; // of `evaluator`; NULL: it has solved its own
-  const SbEvaluator *start;     // solved rings of the base; NULL: there are none
-  SbEvaluator *own_rings;       // `start` where it is owned, else NULL
-  bool rings;                   // this parameter enters rings
-  bool refused;                 // the last question, by the parameters alone
-  double fault[SB_SEAL_COUNT];  // of the last answer's rings
-  SbGradientContacts contacts, moved, up; // of the base's rings to first order, of the last
-                                          // answer's, at a step up
-  double tolerance;                       // that films are solved to
+  double *ring_value;           // [figures] with the base's rings to first order
+  const SbEvaluator *own_start; // of `evaluator`; NULL: it has solved its own rings
+  const SbEvaluator *start;     // solved rings of the base; NULL: none
+  SbEvaluator *own_rings;       // `start` if it is owned, else NULL
+  bool rings;                   // this parameter affects rings
+  bool refused;                 // the last question was refused because of its parameters
+  double fault[SB_SEAL_COUNT];  // of the rings of the last answer (SbSummary.ring_fault)
+  // Of the base's rings to first order; of the last answer; at a step up.
+  SbGradientContacts contacts, moved, up;
+  double tolerance;               // of solved films
   double order;                   // of the rings' recovered pressures (SbSummary.ring_order)
-  char changed[SB_GRADIENT_TEXT]; // what another outcome at a smallest step was, or empty
+  char changed[SB_GRADIENT_TEXT]; // how the outcome at a smallest step differs; or ""
   SbReport report;                // of the last question that was refused or failed
 } SbGradientWork;
 
-// Values of the figures at a point of a level, [figures].
+// Returns the array [figures] of values at a point of a level.
 double *sb_gradient_values(const SbGradientWork *work, int level, int point);
 
-// Whether an error ends the work.
+// Returns whether an error ends the computation.
 bool sb_gradient_ends(SbStatus status);
 
-// Figures with the parameter at x; NaN where there are none. `tell`: another outcome than the
-// base's is written to `changed`.
+// Computes value[figures] with the parameter at x; NaN where not available. With `tell` an outcome
+// that differs from the base's is written to work->changed.
 SbStatus sb_gradient_ask(SbGradientWork *work, double *value, double x, bool tell);
 
-// Adds to the errors of slopes through rings what is not in their differences, and compares these
-// slopes with a full solve. `x`, `scale`: the parameter's value and size [SI].
+// Adds the errors of linearised rings to the slopes of `parameter`, and compares the slopes with a
+// full solve. `x`, `scale`: value and magnitude of the parameter [SI].
 SbStatus sb_gradient_check_rings(SbGradientWork *work, size_t parameter, double x, double scale);

@@ -1,30 +1,33 @@
-// A leakage test of sealed cans as a pharmacopoeia writes it, simulated on cans whose losses are
-// known: what is the probability that a lot passes?
+// Pharmacopoeial leakage test of sealed cans, simulated for cans with known losses: probability
+// that a lot passes. The function has no state.
 //
-// As written in USP <604> (SB_LEAKAGE_TEST_INIT): weigh 12 containers, let them stand T hours, at
-// least three days, at 25 degC, weigh them again; a container's rate is 365 (24/T) (W1 - W2) a
-// year. With a net fill below 15 g the mean of the 12 is at most 525 mg and none is above 750 mg;
-// else 3.5 % and 5 % of the fill. If one of them is above 750 mg (5 %) and none above 1.1 g (7 %),
-// 24 more are tested: at most 2 of the 36 are above 750 mg and none above 1.1 g. The mean of the
-// first 12 is asked for in either case. All of it is data and may be changed.
+// As in USP <604> (SB_LEAKAGE_TEST_INIT): weigh 12 containers, store them T hours (at least three
+// days) at 25 degC, weigh again; the rate is 365 (24/T) (W1 - W2) per year. With a net fill below
+// 15 g the mean of the 12 is at most 525 mg and none exceeds 750 mg; else 3.5 % and 5 % of the
+// fill. If one exceeds 750 mg (5 %) and none 1.1 g (7 %), 24 more are tested: at most 2 of the 36
+// exceed 750 mg and none 1.1 g. The mean of the first 12 applies in both cases. All numbers are
+// data and may be changed.
 #pragma once
 
 #include "engine/base/status.h"
 
 #include <stdint.h>
 
+// The rules of a test.
 typedef struct {
-  char edition[96];          // where the numbers below come from
+  char edition[96];          // source of the numbers
   double duration;           // T [s]
   double temperature;        // [K]
-  int containers, more;      // of the first stage, and those added
-  int beyond, beyond_all;    // above `single`: of the first for a second stage; of all that pass
-  double small_fill;         // net fill below which rates count by mass [kg]
-  double mean, single, most; // [kg a year of 365 days]
-  double mean_share, single_share, most_share; // [of the fill a year]
-  double balance;                              // standard deviation of one weighing [kg]
+  int containers, more;      // first stage; added in the second stage
+  int beyond, beyond_all;    // allowed number above `single`: to enter the second stage; in total
+  double small_fill;         // net fill below which the limits are masses [kg]
+  double mean, single, most; // limits [kg per year of 365 days]
+  double mean_share, single_share,
+      most_share; // limits for larger fills [fraction of the fill per year]
+  double balance; // standard deviation of one weighing [kg]
 } SbLeakageTest;
 
+// The rules of USP <604>.
 #define SB_LEAKAGE_TEST_INIT                                                                       \
   {                                                                                                \
     .edition = "USP <604> Leak Rate", .duration = 72 * 3600.0, .temperature = 298.15,              \
@@ -33,20 +36,22 @@ typedef struct {
     .most_share = 0.07, .balance = 0                                                               \
   }
 
+// Largest number of containers of a test.
 enum { SB_LEAKAGE_CONTAINERS_MAX = 1000 };
 
+// Result of the simulation.
 typedef struct {
-  size_t tests, passed, second; // simulated; passed; that went to the second stage
-  double probability;           // to pass
-  double interval[2];           // of 95 %
-  bool dealt;                   // every can was another sample; else drawn from them again
+  size_t tests, passed, second; // simulated; passed; that had a second stage
+  double probability;           // of passing
+  double interval[2];           // 95 % interval, lower and upper end
+  bool dealt;                   // each can is a different sample; false: drawn with replacement
 } SbLeakageOdds;
 
-// Simulates `tests` tests of cans that lose loss[i] [kg a year], INFINITY for one that is open,
-// with a net fill [kg]. Where there are enough samples each can is another one and the interval
-// Clopper and Pearson's; else cans are drawn from the samples with replacement, and the interval
-// comes from ten parts of them, each with tests of its own. Equal seeds give equal answers.
-// SB_ERROR_RANGE: fewer than ten samples or tests, or a test that makes no sense.
+// Simulates `tests` tests of cans with the losses loss[samples] [kg per year] (INFINITY: open) and
+// the net fill `fill` [kg]. With enough samples each can is a different one and the interval is
+// Clopper and Pearson's; else cans are drawn with replacement and the interval follows from ten
+// subsets. Equal seeds give equal results. SB_ERROR_RANGE: fewer than ten samples or tests, or
+// invalid rules.
 SbStatus sb_leakage_odds(SbLeakageOdds *out, const SbLeakageTest *test, const double *loss,
                          size_t samples, double fill, size_t tests, uint64_t seed,
                          SbReport *report);

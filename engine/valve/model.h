@@ -1,5 +1,5 @@
-// The model from inside: what engine/valve reads and, in a copy of its own, fills. Keys, defaults
-// and overrides end here. Everybody else has valve.h.
+// The fields of a model, for engine/valve only; all others use valve.h. A model is constant after
+// its creation.
 #pragma once
 
 #include "engine/contact/fit.h"
@@ -8,22 +8,24 @@
 #include "engine/valve/shelf.h"
 #include "engine/valve/valve.h"
 
-// Roughness before actuation n, 0 the first: end + (start - end) exp(-n/actuations).
+// Roughness before actuation n (0: the first) divided by the given one: end + (start - end)
+// exp(-n/actuations).
 typedef struct {
-  double start, end; // roughness over the given one, new and run in, > 0 [1]
-  double actuations; // e-folding number, > 0 [1]
+  double start, end; // new; run in; > 0
+  double actuations; // e-folding number, > 0
 } SbRunningIn;
 
-// Ranges that studies cover.
+// Ranges of the drawn studies.
 typedef struct {
   double squeeze_min, squeeze_max;         // of the free section
-  double speed_min, speed_max;             // sliding [m/s]
-  double load_min, load_max;               // net, per length [N/m]
+  double speed_min, speed_max;             // of sliding [m/s]
+  double load_min, load_max;               // net load per length [N/m]
   double time_min, time_max;               // in storage [s]
   double temperature_min, temperature_max; // of canister and valve [K]
-  bool rings_solved;                       // in every cycle over the temperature
+  bool rings_solved;                       // rings are solved at each temperature
 } SbStudyRange;
 
+// A model. Fields of parameters are declared by params.def.
 struct SbModel {
   SbParams params; // what it was compiled from
 #define SB_REAL(id, where, place, ...)         SB_DECLARE_##where(double, place)
@@ -50,49 +52,54 @@ struct SbModel {
   SbLimits limits;         // filled by whoever read them, none otherwise
 };
 
-// Adds a problem with a key: why, and the range that would do (NaN: open).
+// Adds a problem with `key`, a formatted reason, and the valid range (NaN: no limit). Does nothing
+// if the list is full.
 void SB_PRINTF(5, 6) sb_model_refuse(SbProblems *problems, const char *key, double min, double max,
                                      const char *format, ...);
 
-// Holds data once more, for sb_model_data_release().
+// Takes a reference to `data`, which sb_model_data_release() releases. Any thread.
 void sb_model_data_hold(const SbModelData *data);
 
-// Adds what makes no sense of the values alone: sizes, profiles, grooves, combinations, the fluid.
+// Adds the problems of a compiled model: sizes, profiles, grooves, combinations, fluid.
 void sb_model_check(const SbModel *model, SbProblems *problems);
 
-// Compiles parameters into *out, which borrows `data`, without limits. Otherwise as
-// sb_model_create(), *out as it was.
+// Compiles parameters into *out, without limits; `data` is borrowed. Errors as for
+// sb_model_create(); *out is unchanged then.
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, const SbModelData *data,
                           SbProblems *problems);
 
-// As sb_model_derive(), into *out, which borrows the data and may be `base`, and is as it was where
-// it fails. What else was written into `base` is left behind.
+// Does the same as sb_model_derive() in memory of the caller. *out borrows the data, may be `base`,
+// and is unchanged after an error. Changes made to fields of `base` are not carried over; only its
+// parameters are.
 SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *overrides,
                            size_t count, SbReport *report);
 
-// A contact's law of friction by the friction.* keys, but for its viscous part: `mass` [kg] swings
-// on its tangential spring, damped as drive.damping_ratio says.
+// Returns the friction law of a contact by the friction.* parameters, without its viscous part.
+// `mass` [kg] oscillates on its tangential spring with drive.damping_ratio.
 SbDynamicsContact sb_model_contact(const SbModel *model, double static_ratio, double mass);
 
-// Pressures on the two sides of a seal [Pa gauge]: canister side (left, x < 0) and ambient side
-// (right).
+// Pressures on the two sides of a seal [Pa]: left the canister side (x < 0), right the ambient
+// side.
 typedef struct {
   double left, right;
 } SbSealPressure;
 
-// Rough surface of a seal on the bore, its roughness over the model's.
+// Returns the rough surface of a seal on the bore, with the model's roughness multiplied by
+// `roughness`.
 SbRoughSurface sb_model_surface(const SbModel *model, int seal, double roughness);
 
-// Way of the surface that slides on the seals along x on the in-stroke: the bore's past rings is
-// +1, that of the stem through gaskets -1.
+// Returns the direction along x in which the surface slides over the seals on the in-stroke: +1 for
+// the bore over rings, -1 for the stem through gaskets.
 static inline double sb_model_way(const SbModel *model) {
   return model->kind == SB_VALVE_GASKET ? -1 : 1;
 }
 
-// What pushes the stem out at a displacement beside friction and stops: the canister and a return
-// spring [N].
+// Returns the force that pushes the stem out at the displacement s [m]: canister pressure and
+// return spring [N].
 static inline double sb_model_push(const SbModel *model, double s) {
   return model->pressure_force + model->spring_preload + model->spring_stiffness * s;
 }
 
+// Returns the pressures of a seal for a state of the chamber. With ports, AT_REST means vented,
+// CLOSED full.
 SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber);

@@ -1,15 +1,16 @@
-// The equation that a parameter enters first, for the help of its row: text, where it is from and
-// the folder that solves it. docs/physics.md has the same with range and what is left out.
+// The main equation of a parameter, for its help. docs/physics.md has ranges and omissions. The
+// table is constant.
 #pragma once
 
 #include "engine/valve/params.h"
 
+// An equation; all strings are static.
 typedef struct {
-  const char *prefix;   // of keys that it is for; seal.outer.X and seal.inner.X are as seal.X
-  const char *equation; // UTF-8, lines apart by \n
-  const char *source;   // author and year, or the thesis' number
-  const char *room;     // folder or file of the source
+  const char *prefix;   // beginning of the keys; seal.outer.X and seal.inner.X count as seal.X
+  const char *equation; // UTF-8, lines separated by \n
+  const char *source;   // author and year, or equation number of the thesis
+  const char *room;     // folder or file that solves it
 } SbParamEquation;
 
-// NULL where a parameter enters none: it says what is drawn, asked or put out.
+// Returns the equation of a parameter; NULL if it enters none (drawing, output).
 const SbParamEquation *sb_param_equation(SbParamId id);

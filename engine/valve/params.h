@@ -1,11 +1,13 @@
-// The parameter catalogue and a set of values.
+// The parameter catalogue, and a set of parameter values.
 //
-// SbParams holds one double per parameter (SI; an index for a choice, a bit mask for flags) and
-// whether it was given. What was not given follows: one seal's value from both seals', where
-// SB_DEFAULT rows say so from a choice (models.set), from a named fluid at the canister's
-// temperature (fluid.name), and from a named rubber (rubber.name). That is resolved whenever it is
-// asked for, so that a choice that changes takes with it what follows from it. The catalogue knows
-// ranges and texts; what a combination of values means is model.h.
+// SbParams has one double for each parameter (SI; an index for a choice, a bit mask for flags) and
+// whether it was given. The value of a parameter that was not given follows from the first source
+// that has one: the value for both seals; a choice with SB_DEFAULT rows (models.set); another size;
+// a named fluid at the canister's temperature (fluid.name); a named rubber (rubber.name); the
+// catalogue. It is resolved whenever it is requested, so it follows changes of its sources. The
+// catalogue has ranges and texts; model.h defines which combinations are valid.
+//
+// The catalogue is constant, and functions with `const SbParams *` may be called concurrently.
 #pragma once
 
 #include "engine/base/status.h"
@@ -13,6 +15,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+// Number of a parameter, SB_P_... by the first column of params.def. A parameter of a seal has
+// three: for both seals, the outer and the inner one.
 typedef enum {
 #define SB_REAL(id, ...) SB_P_##id,
 #define SB_INT           SB_REAL
@@ -23,120 +27,126 @@ typedef enum {
   SB_PARAM_COUNT
 } SbParamId;
 
+// Kind of a parameter's value: a real number, an integer, the index of a choice, or a bit mask of
+// flags (bit i: choice i).
 typedef enum { SB_PARAM_REAL, SB_PARAM_INT, SB_PARAM_CHOICE, SB_PARAM_FLAGS } SbParamKind;
 
 // One row of the catalogue. All strings are static.
 typedef struct {
   const char *key;     // "gland.radial_space": group, dot, name
   SbParamKind kind;    //
-  const char *symbol;  // short symbol for panels, UTF-8
-  const char *si;      // SI unit as udunits reads it, "1" if none
-  const char *unit;    // unit shown and saved first, "" if none
-  double min, max;     // allowed range, SI, inclusive
-  double fallback;     // default, SI
+  const char *symbol;  // short symbol for panels, UTF-8; "" if none
+  const char *si;      // SI unit in the notation of udunits, "1" if dimensionless
+  const char *unit;    // preferred unit for display and files, "" if none
+  double min, max;     // allowed range of numbers, SI, inclusive
+  double fallback;     // the catalogue's default, SI
   const char *choices; // "first|second" for choices and flags, else NULL
   const char *label;   // "Radial space"
   const char *help;    // one line
-  const char *source;  // where the default comes from
+  const char *source;  // where the default is from
   const char *tag;     // "thesis", "inferred", "ours", "published" or "typical"
-  int parent;          // for seal.outer.X and seal.inner.X the id of seal.X, whose value they take
-                       // when not given; -1 for every other parameter
+  int parent; // seal.outer.X, seal.inner.X: number of seal.X, whose value applies when it is not
+              // given; else -1
 } SbParam;
 
-// Whether it is one of the few that a design begins with, of a kind of valve (valve.kind).
+// Returns whether it is one of the few parameters with which a design of this kind of valve
+// (valve.kind) begins.
 bool sb_param_is_main(SbParamId id, int kind);
 
-// What people also call it, in small letters; "" for most. Borrowed.
+// Returns synonyms of a parameter in lower case, for searches; "" for most. Static.
 const char *sb_param_words(SbParamId id);
 
-// The parameter that holds its tolerance; -1 if none does.
+// Returns the number of the parameter that is its tolerance; -1 if there is none.
 int sb_param_tolerance(SbParamId id);
 
-// A rubber by name: figures that stand where nobody gives them, each with its source. Whoever reads
-// a file fills it.
+// Largest number of values of a rubber, and bytes of a source.
 enum { SB_RUBBER_FIGURES_MAX = 48, SB_SOURCE_MAX = 256 }; // bytes of a source
+
+// A named rubber: values of parameters that apply if they are not given, each with its source. The
+// reader of a rubber's file fills it.
 typedef struct {
-  char name[48]; // as the file has it; empty: none
-  size_t count;
+  char name[48]; // as in the file; "": none
+  size_t count;  // values in use
   struct {
     SbParamId id;
-    int fluid;    // choice of fluid.name that it holds for, -1: any
+    int fluid;    // choice of fluid.name for which it applies, -1: any
     double value; // SI
-    bool typical; // usual of such rubbers, no figure of one
+    bool typical; // typical of such rubbers, not measured on this one
     char source[SB_SOURCE_MAX];
   } figure[SB_RUBBER_FIGURES_MAX];
 } SbRubberSheet;
 
+// A set of values. Initialise with sb_params_init().
 typedef struct {
-  double value[SB_PARAM_COUNT]; // SI
+  double value[SB_PARAM_COUNT]; // SI; not used if not given
   const SbRubberSheet *rubber;  // borrowed; NULL: none
   bool given[SB_PARAM_COUNT];
 } SbParams;
 
-// Row `id` of the catalogue; borrowed.
+// Returns the row of a parameter; static.
 const SbParam *sb_param(SbParamId id);
 
-// Id of a key, or -1.
+// Returns the number of a key, or -1.
 int sb_param_find(const char *key);
 
-// All defaults, nothing given.
+// Sets all parameters to not given, and no rubber.
 void sb_params_init(SbParams *params);
 
-// What a parameter is while nobody gives it, and why. Strings are static, or the rubber's.
+// The default of a parameter and its source. Strings are static, or borrowed from the rubber.
 typedef struct {
-  double value;       // SI; NAN: of a fluid beyond the range of its figures
-  const char *from;   // key that it follows from; NULL: the catalogue's own default
-  int giver;          // that key's parameter; -1: it names no parameter
-  const char *name;   // what that key is; NULL: the parameter's value
-  const char *source; // where the value comes from
-  const char *tag;    // as SbParam's
+  double value;       // SI; NAN: a fluid outside the range of its properties
+  const char *from;   // key from which it follows; NULL: the catalogue
+  int giver;          // number of that key's parameter; -1: it is not a parameter
+  const char *name;   // value of that key as text; NULL: see the parameter
+  const char *source; // reference of the value
+  const char *tag;    // as SbParam.tag
 } SbParamDefault;
 
-// That of `id` beside the given values of `params`: from the first source that has one, its parent,
-// a choice that brings defaults, a named fluid, a named rubber, the catalogue.
+// Computes the default that `id` has for the values of `params`, whether it is given or not, from
+// the first source that has one (see the top of this file).
 void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id);
 
-// Whether `id` is a size that a drawing changes with the size `giver`, in a valve of a kind
-// (valve.kind): while nobody gives it, the difference of the two stays.
+// Returns whether, in a valve of `kind` (valve.kind), the size `id` follows the size `giver` with a
+// constant difference while it is not given.
 bool sb_param_keeps(SbParamId id, SbParamId giver, int kind);
 
-// Fluid (choice of fluid.name) that the value in force of a figure that depends on the fluid holds
-// for, where this is another one than fluid.name: fluid.figures, or the one of which the named
-// rubber has the given value. -1: the parameter is no such figure, or holds for fluid.name.
+// Returns the fluid (choice of fluid.name) to which the value of a fluid-dependent parameter
+// applies, if that is not fluid.name: that of fluid.figures, or the one for which the named rubber
+// has this value. Returns -1 if `id` does not depend on the fluid or applies to fluid.name.
 int sb_params_other_fluid(const SbParams *params, SbParamId id);
 
-// The figures that depend on the fluid, counted from 0; -1: no more of them.
+// Returns the number of the fluid-dependent parameter `index` (from 0); -1 after the last one.
 int sb_params_of_fluid(int index);
 
-// States by fluid.figures that given figures which `params` shares with `base` hold for the base's
-// fluid, where the two have different fluids and neither states another one.
+// Sets fluid.figures of `params` to the fluid of `base`, if the two have different fluids, share a
+// given fluid-dependent value, and neither has fluid.figures.
 void sb_params_keep_fluid(SbParams *params, const SbParams *base);
 
-// Whether a parameter may be a figure of a rubber.
+// Returns whether a rubber's file may have a value of this parameter.
 bool sb_param_of_rubber(SbParamId id);
 
-// Whether a parameter has sources of its default beside the catalogue.
+// Returns whether the default of a parameter may follow from something other than the catalogue.
 bool sb_param_follows(SbParamId id);
 
-// The value in force: its own if given, else its default.
+// Returns the value of a parameter: the given one, else its default. SI; NAN: see SbParamDefault.
 double sb_params_get(const SbParams *params, SbParamId id);
 
-// All values in force, each given or not as in `given`.
+// Copies `given` to *effective with all values resolved; `given` flags are unchanged.
 void sb_params_resolve(SbParams *effective, const SbParams *given);
 
-// Whether some choice brings a default for a parameter, and how often: `index` counts from 0. The
-// parameter that chooses and the choice, with the default; false: no more of them.
+// Returns the default number `index` (from 0) that a choice has for parameter `id`: out->giver is
+// the choosing parameter, *choice its choice. Returns false after the last one.
 bool sb_params_brought(SbParamDefault *out, int *choice, SbParamId id, int index);
 
-// Sets a value [SI] after checking kind and range. SB_ERROR_INPUT (not a number, not whole) or
-// SB_ERROR_RANGE; then nothing changes and the report names the key and the range in SI.
+// Sets a value [SI] as given. After SB_ERROR_INPUT (not finite, not an integer) or SB_ERROR_RANGE
+// nothing has changed; the report has key and range in SI.
 SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *report);
 
-// Index of `name` (length `length`) among the choices of a parameter, or -1.
+// Returns the index of the choice whose name is the first `length` bytes of `name`, or -1.
 int sb_param_choice(const SbParam *param, const char *name, size_t length);
 
-// Copies the name of choice `index` into `name` (of `size` bytes); empty if there is none.
+// Writes the name of choice `index` to name[size]; "" if there is none.
 void sb_param_choice_name(const SbParam *param, int index, char *name, size_t size);
 
-// Number of choices, 0 for other kinds.
+// Returns the number of choices; 0 for numbers.
 int sb_param_choice_count(const SbParam *param);

@@ -1,59 +1,68 @@
-// What the files of the shelf share: a seal at rest, and what passes it at a temperature.
+// Shared by shelf.c and shelf_history.c: a seal at rest, and the flow past it at a temperature.
 #pragma once
 
 #include "engine/valve/model.h"
 
-// A resting seal after its storage.
+// A seal at rest after storage.
 typedef struct {
-  bool touches;            // and the rubber presses; else it is open
+  bool touches;            // there is contact pressure of the rubber; else the seal is open
   double conductance;      // S_g [m]
   double lag;              // D times the time lag [m2]
-  double error;            // of S_g, relative; NaN: closed form
-  double contact_pressure; // of the rubber alone [Pa]
-  double pressure_error;   // of that, relative
+  double error;            // relative, of S_g; NaN: closed form
+  double contact_pressure; // of the rubber only [Pa]
+  double pressure_error;   // relative, of contact_pressure
   double width;            // of the contact [m]
   double modulus;          // E' [Pa]
 } SbShelfRest;
 
-// What passes it and the plastic; NaN: not known.
+// Flows past a seal and through the plastic; NaN: not known.
 typedef struct {
   double permeation, plastic, interface; // propellant [kg/s]
-  double moisture;                       // through the seal, inwards [kg/s]
-  double plastic_moisture;               // [kg/s]
-  double sensitivity;
+  double moisture;                       // water through the seal, inwards [kg/s]
+  double plastic_moisture;               // water through the plastic, inwards [kg/s]
+  double sensitivity;                    // SbShelfSeal.sensitivity
   SbLeakState state;
 } SbShelfRates;
 
-// The seal that parts canister and open air.
+// Returns the seal that separates canister and ambient, SB_OUTER or SB_INNER.
 int sb_shelf_seal(const SbModel *model);
 
-// S_g of a seal as a slab [m]: as high as the radial space, as wide as its volume leaves it, which
-// stretch has thinned.
+// Returns S_g of a seal as a slab with the height of the radial space and the width that its
+// stretched volume then has [m].
 double sb_shelf_slab(const SbModel *model, int seal);
 
-// Solves it at rest under the model's pressures; solved rings poll `cancel`. Statuses of
-// sb_fit_solve() and sb_diffusion_create().
+// Solves a seal at rest under the model's pressures; `cancel` (NULL: never) is called with `data`
+// by solved rings. Errors of sb_fit_solve() and sb_diffusion_create().
 SbStatus sb_shelf_rest(SbShelfRest *out, const SbModel *model, int seal, bool (*cancel)(void *),
                        void *data, SbReport *report);
 
-// At the model's temperature and pressure.
+// Computes the flows at the model's temperature and pressure.
 void sb_shelf_rates(SbShelfRates *out, const SbModel *model, const SbShelfRest *rest);
 
-// Why there is no permeation, no water's, no flow along the contact, no path through the plastic
-// (which then counts as none); NULL: there is.
+// Returns why permeation of propellant is not computed; NULL if it is. Static.
 const char *sb_shelf_lacks_permeability(const SbModel *model);
+
+// Returns why permeation of water is not computed; NULL if it is. Static.
 const char *sb_shelf_lacks_water(const SbModel *model);
+
+// Returns why flow along the contact is not computed; NULL if it is. Static.
 const char *sb_shelf_lacks_interface(const SbModel *model);
+
+// Returns why there is no path through the plastic (which then counts as zero); NULL if there is.
+// Static.
 const char *sb_shelf_lacks_plastic(const SbModel *model);
 
-// D at the model's temperature [m2/s].
+// Returns D at the model's temperature [m2/s].
 double sb_shelf_diffusivity(const SbModel *model);
 
-// A temperature of the history at a time [s], and the range in which they lie [K].
+// Returns the temperature of the history at a time [s] [K].
 double sb_shelf_temperature(const SbModel *model, double time);
+
+// Returns the range of temperatures of the history [K].
 void sb_shelf_range(double *low, double *high, const SbModel *model);
 
-// Sums the history into `out`, whose fill in kg is `filled`. `now` is the seal as the model has it.
-// SB_ERROR_RANGE or _INPUT: the model has no such temperature; else as sb_shelf_rest().
+// Integrates the history into *out, whose rates at the model's state must be set before the call.
+// `now` is the seal at the model's state. SB_ERROR_RANGE, SB_ERROR_INPUT: the model is not defined
+// at a temperature of the history; else as for sb_shelf_rest().
 SbStatus sb_shelf_history(SbShelf *out, const SbModel *model, int seal, const SbShelfRest *now,
                           bool (*cancel)(void *), void *data, SbReport *report);

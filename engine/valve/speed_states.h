@@ -1,72 +1,79 @@
-// Steady states of one sliding contact over its speed: film, lambda, real area, boundary and
-// viscous friction of any instant belong to one state, at that instant's speed.
+// Steady states of one sliding contact as a function of speed: film, lambda, real area and friction
+// at any speed, from few solved states.
 //
-// A film of a power law is that power of the speed. Solved films are tabulated over ln(speed) in
-// cells, two decades wide from 10 m/s down, each solved (sliding.h) where a speed in it is first
-// asked for, so that nothing is computed that no instant visits. A cell is the cubic through its
-// ends, a quarter and the middle; where the parabola that leaves the quarter out misses it by more
-// than SB_SPEED_TOLERANCE in film or friction the cell is halved. That miss is told as the error,
-// and is larger than the cubic's. Interpolated are the logarithms of the films and, with coupled
-// asperities, their real area, load and viscous friction; all else follows from them by the same
-// functions as in a solved state, so that its identities hold exactly. From the speed on at which
-// the supply alone shapes the film one state stands for all, but for its viscous friction.
+// A film of a power law is scaled by its power of the speed. Solved films are tabulated over
+// ln(speed) in cells, two decades wide from 10 m/s down, each solved (sliding.h) when a speed in it
+// is first requested. A cell is the cubic through both ends, a quarter and the middle. If the
+// parabola without the quarter point deviates from it by more than SB_SPEED_TOLERANCE in film or
+// friction, the cell is halved; the deviation is the error estimate. Logarithms of films are
+// interpolated and, with coupled asperities, real area, load and viscous friction; all else follows
+// by the functions of a solved state. Above the speed at which the supply alone determines the
+// film, one state applies, with viscous friction proportional to speed.
 //
-// Where only speeds near the reference are asked for, as of a cycle whose machine gives way a
-// little, two states a tenth to either side of it and the reference state itself make a parabola,
-// whose bend is told as the error; where that is more than SB_SPEED_TOLERANCE cells stand in.
+// If only speeds near the reference speed are requested (`near`), two states at 10 % lower and
+// higher speed and the reference state form a parabola, whose curvature is the error estimate;
+// above SB_SPEED_TOLERANCE cells are used.
 //
-// Below 1 um/s and above 10 m/s the film is that at these speeds. A film that cannot be solved
-// there goes on from the reference state with the power 0.6 of the speed, with a warning.
+// Below 1 um/s and above 10 m/s the film is that at these speeds. A film that cannot be solved is
+// extrapolated from the reference state with the power 0.6 of the speed, with a warning.
 #pragma once
 
 #include "engine/valve/sliding.h"
 
-#define SB_SPEED_LEAST     1e-6 // m/s
-#define SB_SPEED_MOST      10.0 // m/s
+// Range of tabulated speeds [m/s].
+#define SB_SPEED_LEAST 1e-6 // m/s
+#define SB_SPEED_MOST  10.0 // m/s
+
+// Relative interpolation tolerance of films and friction.
 #define SB_SPEED_TOLERANCE 5e-4 // relative, of films and friction
 
+// Capacities of nodes and cells, and number of interpolated values.
 enum { SB_SPEED_NODES = 80, SB_SPEED_CELLS = 40, SB_SPEED_VALUES = 7 };
 
+// A solved state (private).
 typedef struct {
-  int place; // on the grid of nodes
+  int place; // position on the grid
   bool solved;
   double value[SB_SPEED_VALUES];
 } SbSpeedNode;
 
+// A cell (private).
 typedef struct {
-  int place, width; // on the grid of nodes
-  bool usable;
+  int place, width; // position and width on the grid
+  bool usable;      // its nodes were solved
   double value[4][SB_SPEED_VALUES];
 } SbSpeedCell;
 
-// On the caller's memory; plain, to be copied. Fields are private, but what is to be read.
+// The states of a contact, in memory of the caller; owns nothing. Set `near`, read solves, error,
+// friction_error and status; all other fields are private.
 typedef struct {
-  SbSlidingTask task; // its speed is the reference state's, with the direction of sliding
+  SbSlidingTask task; // of the reference state, with its speed and direction
   SbSealState base;   // the reference state
-  double roughness;   // over the model's
-  bool on_body;       // `body` is that of the film
+  double roughness;   // divided by the model's
+  bool on_body;       // the film is on `body`
   SbSlidingBody body;
-  bool near; // to be set: asked for speeds near the reference only; cells are half a decade
-  bool beside_known, beside_usable;
-  double beside[2][SB_SPEED_VALUES]; // below and above the reference speed
-  double power;                      // of a film that is a power law, else NAN
-  double starved_from; // speed from which on `starved` stands [m/s]; NAN: not yet asked
+  bool near; // only speeds near the reference will be requested; cells are half a decade wide
+  bool beside_known, beside_usable;  // the two neighbouring states were tried; are usable
+  double beside[2][SB_SPEED_VALUES]; // at lower and higher speed
+  double power;                      // exponent of a power law film, else NAN
+  double starved_from; // speed from which on `starved` applies [m/s]; NAN: not yet known
   double starved[SB_SPEED_VALUES];
-  size_t solves; // to be read: nodes solved
-  // To be read: largest miss of a cell in use, relative, and what the cubic leaves in friction.
+  size_t solves; // number of states solved
+  // Largest relative deviation of a used cell, and that which the cubic leaves in friction.
   double error, friction_error;
   SbStatus
-      status; // to be read: SB_ERROR_CANCELLED or _MEMORY ended it; it answers with what it has
+      status; // SB_ERROR_CANCELLED or _MEMORY: ended early; later results use what is available
   size_t nodes, cells;
   SbSpeedNode node[SB_SPEED_NODES];
   SbSpeedCell cell[SB_SPEED_CELLS];
 } SbSpeedStates;
 
-// `at` is the solved state of `task`, whose speed is not 0; memory, counts and warnings of the task
-// are used when states are asked for. `body`: see sb_sliding_respeed(), copied.
+// Initialises the states from `at`, the solved state of `task` (its speed is not 0). The task's
+// memory, counters and warnings are borrowed as long as states are requested. `body` (NULL:
+// half-plane) is that of the state's film and is copied.
 void sb_speed_states_init(SbSpeedStates *out, const SbSlidingTask *task, const SbSealState *at,
                           const SbSlidingBody *body);
 
-// The state at a speed [m/s] of either sign; only films and what follows from them differ from the
-// reference state. One without a film is returned as it is.
+// Computes the state at `speed` [m/s] of either sign; it solves states if needed. Only film, area
+// and friction differ from the reference state; a reference without a film is returned unchanged.
 void sb_speed_state(SbSealState *out, SbSpeedStates *states, double speed);

@@ -1,6 +1,7 @@
-// A valve's model, as everybody outside engine/valve has it: a checked set of physical quantities
-// that is compiled from parameters and never changes; its values are read here, another one is
-// derived. What it is made of is model.h's.
+// The model of a valve as seen outside engine/valve: a checked, immutable set of physical
+// quantities, compiled from parameters. model.h has its fields.
+//
+// A model never changes after its creation, so any number of threads may read it at the same time.
 #pragma once
 
 #include "engine/contact/fit.h"
@@ -16,80 +17,96 @@
 #include <stddef.h>
 #include <stdint.h>
 
+// A compiled valve.
 typedef struct SbModel SbModel;
 
-// One parameter in place of a base's.
+// A parameter value that replaces that of a base model.
 typedef struct {
   SbParamId id;
   double value; // SI
 } SbOverride;
 
+// Index of a seal.
 enum { SB_OUTER = 0, SB_INNER = 1, SB_SEAL_COUNT = 2 };
 
-// "outer" or "inner"; borrowed.
+// Returns "outer" or "inner"; static.
 const char *sb_seal_name(int seal);
 
-// Whether anything can pass a seal at rest under its pressures.
+// Leakage of a seal at rest under its pressures.
 typedef enum {
   SB_LEAK_NOT_COMPUTED,
-  SB_LEAK_CLOSED,
-  SB_LEAK_PERCOLATING, // through channels between the asperities, contact/rough/percolation.h
-  SB_LEAK_OPEN         // no contact, or none that the rubber presses: no leak law holds
+  SB_LEAK_CLOSED,      // no channel through the contact
+  SB_LEAK_PERCOLATING, // channels between the asperities, contact/rough/percolation.h
+  SB_LEAK_OPEN         // no contact, or none that the rubber presses: no leak law applies
 } SbLeakState;
 
-// "not-computed", "closed", "percolating", "open"; borrowed.
+// Returns "not-computed", "closed", "percolating" or "open"; static.
 const char *sb_leak_state_name(SbLeakState state);
 
+// Capacity of SbProblems.
 enum { SB_PROBLEMS_MAX = 32 };
 
-// One thing wrong with a parameter set: the key to change, why, and the range that would do (SI;
-// NaN where that side is open).
+// A problem of a parameter set.
 typedef struct {
-  char key[64];
-  char text[SB_TEXT];
-  double min, max;
+  char key[64];       // parameter to change
+  char text[SB_TEXT]; // reason
+  double min, max;    // range that would be valid, SI; NaN: no limit on this side
 } SbProblem;
 
+// A list of problems; initialise with {0}. Problems beyond its capacity are omitted.
 typedef struct {
   size_t count;
   SbProblem item[SB_PROBLEMS_MAX];
 } SbProblems;
 
+// Kind of a valve: the choices of valve.kind.
 typedef enum {
   SB_VALVE_PISTON, // rings on the stem slide in a bore
   SB_VALVE_GASKET  // the stem slides through gaskets
 } SbValveKind;
 
-// Thickness of a gasket's plate on the chamber's side, over its own.
+// Thickness of a gasket's plate on the chamber side divided by that of the gasket.
 #define SB_GASKET_PLATE 0.12
 
+// When the dose chamber has the canister's pressure: the choices of canister.pressure_map.
 typedef enum {
-  SB_MAP_CHAMBER_FILLED,
-  SB_MAP_CHAMBER_VENTED,
-  SB_MAP_PORTS // the chamber's pressure is a state
+  SB_MAP_CHAMBER_FILLED, // before the stroke the chamber is full
+  SB_MAP_CHAMBER_VENTED, // before the stroke the chamber is at ambient pressure
+  SB_MAP_PORTS           // the pressure is a state of the motion (mechanism/chamber.h)
 } SbPressureMap;
-// Which models stand where none is chosen.
+
+// Set of models that applies where none is chosen (models.set).
 typedef enum { SB_MODEL_SET_THESIS, SB_MODEL_SET_CONSISTENT } SbModelSet;
+
+// Law of boundary friction.
 typedef enum {
-  SB_MODEL_FRICTION_THESIS, // shear strength on the real area and a share of the load (eq. 5.14)
-  SB_MODEL_FRICTION_SHEAR   // shear strength on the real area alone
+  SB_MODEL_FRICTION_THESIS, // shear strength on the real area plus a fraction of the load
+                            // (eq. 5.14)
+  SB_MODEL_FRICTION_SHEAR   // shear strength on the real area only
 } SbModelFriction;
+
+// How asperities and film share the load.
 typedef enum {
-  SB_MODEL_ASPERITIES_BESIDE, // at the smooth film, taking no load off it
-  SB_MODEL_ASPERITIES_COUPLED // in the film's own solve
+  SB_MODEL_ASPERITIES_BESIDE, // evaluated at the smooth film, which carries the full load
+  SB_MODEL_ASPERITIES_COUPLED // in the solve of the film
 } SbModelAsperities;
+
+// Adhesion between seal and bore.
 typedef enum {
   SB_MODEL_ADHESION_OFF,
-  SB_MODEL_ADHESION_ON,        // van der Waals across the film
-  SB_MODEL_ADHESION_ASPERITIES // of the asperities' tips
+  SB_MODEL_ADHESION_ON,        // van der Waals attraction across the film
+  SB_MODEL_ADHESION_ASPERITIES // adhesive asperity tips
 } SbModelAdhesion;
+
+// Model of the motion.
 typedef enum {
-  SB_MODEL_MOTION_QUASI_STATIC,
-  SB_MODEL_MOTION_DYNAMIC,
-  SB_MODEL_MOTION_RIG,   // the sliding plate of thesis 3.3 instead of the valve
-  SB_MODEL_MOTION_BODIES // as DYNAMIC, by the constrained parts and with their joints' reactions
+  SB_MODEL_MOTION_QUASI_STATIC, // balance of forces at each instant
+  SB_MODEL_MOTION_DYNAMIC,      // with inertia
+  SB_MODEL_MOTION_RIG,          // the sliding plate of thesis 3.3 instead of the valve
+  SB_MODEL_MOTION_BODIES        // as DYNAMIC, with constrained parts and joint reactions
 } SbModelMotion;
 
+// What drives the stem (drive.kind).
 typedef enum {
   SB_MODEL_DRIVE_MACHINE,
   SB_MODEL_DRIVE_HAND,
@@ -99,78 +116,85 @@ typedef enum {
   SB_MODEL_DRIVE_MEASURED
 } SbDriveChoice;
 
-// A measured series for drive MEASURED, straight lines between its rows.
+// Capacity of a series.
 enum { SB_MODEL_SERIES_MAX = 4096 };
+
+// A measured series, linear between its rows.
 typedef struct {
-  SbDriveQuantity quantity;
-  size_t count;                      // 0: none
+  SbDriveQuantity quantity;          // of a drive
+  size_t count;                      // rows; 0: none
   double time[SB_MODEL_SERIES_MAX];  // [s], increasing from 0
-  double value[SB_MODEL_SERIES_MAX]; // [m] or [N]
+  double value[SB_MODEL_SERIES_MAX]; // [m] or [N]; of shelf temperatures [K]
 } SbModelSeries;
 
-// Limits on figures, as a scene's [limits] gives them, and the six questions that they decide.
+// The six criteria of the verdict, which limits on figures decide.
 typedef enum {
-  SB_VERDICT_SEALS,   // no seal open, its peak above the fluid's pressure
-  SB_VERDICT_PRESSES, // forces within limits
-  SB_VERDICT_RETURNS, // the stem comes back by itself, and with the force asked for
-  SB_VERDICT_DOSES,
-  SB_VERDICT_LEAK,
-  SB_VERDICT_FITS,
+  SB_VERDICT_SEALS,   // no seal is open, and its peak pressure exceeds the fluid's
+  SB_VERDICT_PRESSES, // forces are within limits
+  SB_VERDICT_RETURNS, // the stem returns by itself, with the required force
+  SB_VERDICT_DOSES,   // doses are within limits
+  SB_VERDICT_LEAK,    // leakage is within limits
+  SB_VERDICT_FITS,    // sizes of seals and glands are within limits
   SB_VERDICT_COUNT,
-  SB_VERDICT_NONE = SB_VERDICT_COUNT // decides nothing: no limit may be set
+  SB_VERDICT_NONE = SB_VERDICT_COUNT // of a figure: no limit may be set on it
 } SbVerdictKind;
 
+// Capacity of SbLimits.
 enum { SB_LIMITS_MAX = 64 };
 
+// A limit on a figure.
 typedef struct {
-  int figure;       // index, engine/valve/figures.h
-  double low, high; // SI; -INFINITY, INFINITY: open
+  int figure;       // index of figures.h
+  double low, high; // SI; -INFINITY, INFINITY: no limit
 } SbLimit;
 
+// Limits on figures (group [limits] of a scene).
 typedef struct {
   size_t count;
   SbLimit item[SB_LIMITS_MAX];
 } SbLimits;
 
-// Where in the cycle the chamber and so the seals' pressures change (docs/thesis.md).
+// State of the dose chamber in the cycle, which determines the seals' pressures (docs/thesis.md).
 typedef enum {
-  SB_CHAMBER_AT_REST, // A to C: as filled or vented before
-  SB_CHAMBER_OPEN,    // C to F: open to the canister, the inner seal out of contact
-  SB_CHAMBER_CLOSED   // F to A: cut off again, still at canister pressure
+  SB_CHAMBER_AT_REST, // A to C: filled or vented before the stroke
+  SB_CHAMBER_OPEN,    // C to F: open to the canister, the inner seal has no contact
+  SB_CHAMBER_CLOSED   // F to A: closed again, at canister pressure
 } SbChamber;
 
-// Sizes that the drawing of the section needs beside the rest; the thesis gives none of them. The
-// metered volume comes from some, and with ports the chamber's pressure. All in m; the catalogue
-// says what each is.
+// Sizes for the drawing of the section [m]; the thesis does not state them. Some determine the
+// metered volume and, with ports, the chamber pressure. Their meaning is that of the parameters of
+// the same name in the catalogue.
 typedef struct {
   double entry_diameter, entry_length, land_length, vent_position, vent_diameter; // housing
-  double seal_spacing, nose_length, chamber_depth, chamber_length, shoulder_length,
-      rod_diameter; // stem
+  // Stem.
+  double seal_spacing, nose_length, chamber_depth, chamber_length, shoulder_length, rod_diameter;
 } SbValveShape;
 
-// Half-sections of the parts whose shape a document gives, as it gives them; for the drawing only.
-// The housing has an x axis of its own, the three parts of the stem share one; both point out of
-// the canister.
+// Half-sections of drawn parts, for the drawing only. The housing has its own x axis, the three
+// stem parts share one; both point out of the canister.
 typedef struct {
-  SbOutline part[SB_VALVE_STEM_BOTTOM + 1]; // by the valve's parts; count 0: no shape
-  bool housing, stem;                       // the sizes below are known: it can be drawn
-  double land_edge, bore;                   // where the bore land begins [m], its radius
-  double groove_left[SB_SEAL_COUNT], groove_right[SB_SEAL_COUNT], floor, land; // walls, radii
+  SbOutline part[SB_VALVE_STEM_BOTTOM + 1]; // by SB_VALVE_HOUSING, ...; count 0: not drawn
+  bool housing, stem;                       // the sizes below are known
+  double land_edge, bore;                   // x of the bore land's beginning; its radius [m]
+  // Stem: x of the groove walls; radii of groove floor and land [m].
+  double groove_left[SB_SEAL_COUNT], groove_right[SB_SEAL_COUNT], floor, land;
 } SbValveOutlines;
 
-// Half of the section, both halves, or in three dimensions, a quarter cut away: output.section.
+// Kind of section drawing (output.section): half, both halves, or three-dimensional with a quarter
+// cut away.
 enum { SB_SECTION_HALF, SB_SECTION_FULL, SB_SECTION_CUTAWAY };
 
-// How the section is shown when nobody says otherwise; no result depends on it.
+// Default style of the section drawing; no result depends on it.
 typedef struct {
-  int field;                 // index among the choices of output.field = SbField
-  int insets;                // 0 of the outer seal, 1 of the inner one, 2 none
+  int field;                 // choice of output.field = SbField
+  int insets;                // 0: of the outer seal, 1: of the inner seal, 2: none
   int section;               // SB_SECTION_HALF, ...
-  double azimuth, elevation; // of the cutaway's camera [rad]
-  bool undeformed;           // the rings' outline before fitting
-  double field_max;          // end of the colours of stresses [Pa]; 0: the range of the run
+  double azimuth, elevation; // camera of the cutaway [rad]
+  bool undeformed;           // draw the rings' free outline
+  double field_max; // upper end of the colour scale of stresses [Pa]; 0: maximum of the run
 } SbSectionLook;
 
+// Views of a scene (output.views), a bit each.
 typedef enum {
   SB_VIEW_HYSTERESIS = 1 << 0,
   SB_VIEW_PROFILES = 1 << 1,
@@ -181,15 +205,15 @@ typedef enum {
   SB_VIEW_SHELF = 1 << 6
 } SbView;
 
-// Members that lines of params.def declare; those of places that are declared here are left out.
+// Declares a field for a row of params.def; rows with IN have their field elsewhere.
 #define SB_DECLARE_OWN(type, name) type name;
 #define SB_DECLARE_IN(...)
 
-// One ring and what follows from its size and its gland alone. Sizes and modulus are those after
-// storage; the new ring's are in `stored`.
+// A ring and the quantities that follow from its size and gland. Sizes and modulus are those after
+// storage, at the temperature of use.
 typedef struct {
-  SbRubberStorage stored; // the new ring and what it went through
-  SbRubberState storage;  // what that made of it
+  SbRubberStorage stored; // the new ring and its history
+  SbRubberState storage;  // result of the storage
 #define SB_SEAL(id, where, place, ...) SB_DECLARE_##where(double, place)
 #include "engine/valve/params.def"
   double section_diameter; // d, free [m]
@@ -202,130 +226,151 @@ typedef struct {
   double stretch_inner;    // of the inner diameter
   double section_fitted;   // section diameter after stretch, d (1 - nu stretch_mean) [m]
   double interference;     // section_fitted - g [m]
-  double gland_fill;       // ring volume over groove volume
+  double gland_fill;       // ring volume divided by groove volume
 } SbSealModel;
 
-// What is large in a model: models share it by reference. Whoever reads a file makes and fills it.
+// Large data of a model, shared by reference count. The reader of a file creates and fills it
+// before it creates a model; then it is constant and may be read by any thread.
 typedef struct {
-  atomic_uint holders;
-  SbModelSeries measured; // count 0: none
-  SbModelSeries shelf;    // temperatures [K] over time, of shelf.file; count 0: none
+  atomic_uint holders;    // reference count
+  SbModelSeries measured; // drive; count 0: none
+  SbModelSeries shelf;    // temperatures over time of shelf.file; count 0: none
   SbSealDrawing profile;  // of seal.profile_file; count 0: none
   SbGrooveDrawing groove; // of gland.profile_file; count 0: none
   SbValveOutlines outlines;
-  SbRubberSheet rubber; // of the parameters that it comes with, which borrow it
+  SbRubberSheet rubber; // borrowed by the parameters of the model
 } SbModelData;
 
-// *out is all zero and held once; to be filled before a model is made with it. SB_ERROR_MEMORY.
+// Creates empty data with one reference. There is no report.
 SbStatus sb_model_data_create(SbModelData **out);
 
-// Lets go of it; with the last holder it goes. From any thread; takes NULL.
+// Releases a reference; the last one frees the data. Any thread. Takes NULL.
 void sb_model_data_release(const SbModelData *data);
 
-// A number of what files draw, section and groove: another one where they differ (FNV-1a). 0: there
-// is neither.
+// Returns a hash (FNV-1a) of the drawn section and groove; 0: neither is drawn.
 uint64_t sb_model_data_drawings(const SbModelData *data);
 
-// Compiles parameters. On SB_OK *out is owned by the caller and holds `data` (NULL: no
-// measured series, drawn section or outlines); it has `limits` (NULL: none). Otherwise *out is
-// NULL: SB_ERROR_MEMORY, or SB_ERROR_INPUT, and `problems` (may be NULL) lists every combination
-// that makes no sense: bore smaller than the stem, no room for the ring...
+// Compiles parameters into a model. It takes a reference to `data` (NULL: no series, drawings and
+// outlines) and copies `limits` (NULL: none). The rubber of `params` is borrowed and must live as
+// long as the model (usually data->rubber). SB_ERROR_INPUT: inconsistent values; `problems` (NULL:
+// not wanted) lists all of them. SB_ERROR_MEMORY.
 SbStatus sb_model_create(SbModel **out, const SbParams *params, const SbModelData *data,
                          const SbLimits *limits, SbProblems *problems);
 
-// Compiles the parameters of `base` with `count` overrides in their place, the last of a parameter
-// counts; series, outlines and limits are the base's. SB_ERROR_RANGE or SB_ERROR_INPUT with a
-// report that names key, value and range; SB_ERROR_MEMORY. As sb_model_create() otherwise.
+// Compiles the parameters of `base` with overrides[count] in their place; the last one of a
+// parameter applies. Data and limits are those of the base. SB_ERROR_RANGE, SB_ERROR_INPUT: the
+// report has key, value and range.
 SbStatus sb_model_derive(SbModel **out, const SbModel *base, const SbOverride *overrides,
                          size_t count, SbReport *report);
 
-// One of its own for somebody who keeps it (another thread, a drawing). SB_ERROR_MEMORY.
+// Creates a copy. SB_ERROR_MEMORY is its only error; there is no report.
 SbStatus sb_model_copy(SbModel **out, const SbModel *model);
 
-// Takes NULL.
+// Frees a model and its reference to the data. Takes NULL.
 void sb_model_destroy(const SbModel *model);
 
-// Whether two are of the same values and data; NULL is like NULL only.
+// Returns whether two models have equal values and the same data; NULL equals NULL only.
 bool sb_model_same(const SbModel *a, const SbModel *b);
 
-// The value of a parameter that it was compiled from: SI, or as a whole number, choice or bit mask.
+// Returns the value of a parameter of the model, SI.
 double sb_model_value(const SbModel *model, SbParamId id);
+
+// Returns the value of an integer, choice or flags.
 int sb_model_number(const SbModel *model, SbParamId id);
 
-// Whether a value follows from another parameter: that default with its source; false: it is given
-// or the catalogue's.
+// Computes the default of a parameter. Returns whether the model's value is that default and
+// follows from another parameter; false: it is given, or from the catalogue.
 bool sb_model_default(SbParamDefault *out, const SbModel *model, SbParamId id);
 
-// Returns a number that is equal for two models of the same numerical methods and only for those:
-// kind of valve and section, models.* from the fit to the motion. Errors of discretisation of two
-// such runs have the same sign and about the same relative size.
+// Returns a number that two models share if and only if they use the same numerical methods: kind
+// of valve and section, models.* from fit to motion. Discretisation errors of such runs have the
+// same sign and a similar relative size.
 uint64_t sb_model_methods(const SbModel *model);
 
-// Name of a choice that it was compiled from, into `name` of `size` bytes.
+// Writes the name of the model's choice of parameter `id` to name[size].
 void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t size);
 
-// Whether it is the sliding plate in place of a valve (NULL: no).
+// Returns whether the model is the sliding plate instead of a valve; false for NULL.
 bool sb_model_is_rig(const SbModel *model);
 
-// Whether its stem slides through gaskets (NULL: no).
+// Returns whether the stem slides through gaskets; false for NULL.
 bool sb_model_is_gasket(const SbModel *model);
 
-// Whether a return spring pushes the stem out.
+// Returns whether a return spring pushes the stem out.
 bool sb_model_has_spring(const SbModel *model);
 
-// What follows from the parameters; borrowed.
+// Returns the ring SB_OUTER or SB_INNER.
 const SbSealModel *sb_model_seal(const SbModel *model, int seal);
-const SbValveShape *sb_model_shape(const SbModel *model);
-const SbValveParts *sb_model_parts(const SbModel *model);
-const SbRig *sb_model_rig(const SbModel *model);
-const SbSectionLook *sb_model_look(const SbModel *model);
-double sb_model_pressure_force(const SbModel *model); // p pi D_p^2/4, pushes the stem out [N]
-double sb_model_sigma(const SbModel *model);          // of the first actuation's surface [m]
-int sb_model_shown_actuation(const SbModel *model);   // of a life, from 1
 
-// The measured series and the parts' outlines; NULL: none. Borrowed.
+// Returns the sizes for the drawing.
+const SbValveShape *sb_model_shape(const SbModel *model);
+
+// Returns inertia and joints of the parts.
+const SbValveParts *sb_model_parts(const SbModel *model);
+
+// Returns the sliding plate (meaningful if sb_model_is_rig()).
+const SbRig *sb_model_rig(const SbModel *model);
+
+// Returns the default style of the section drawing.
+const SbSectionLook *sb_model_look(const SbModel *model);
+
+// Returns the force p pi D_p^2/4 of the canister pressure, which pushes the stem out [N].
+double sb_model_pressure_force(const SbModel *model);
+
+// Returns the combined rms roughness of the first actuation [m].
+double sb_model_sigma(const SbModel *model);
+
+// Returns the number (from 1) of the actuation whose frames are shown.
+int sb_model_shown_actuation(const SbModel *model);
+
+// Returns the measured series of the drive; NULL: none.
 const SbModelSeries *sb_model_measured(const SbModel *model);
+
+// Returns the outlines of drawn parts; NULL: the model has no data.
 const SbValveOutlines *sb_model_outlines(const SbModel *model);
 
-// Geometry that is possible and hardly meant, with the key to change and the range that would do.
+// Writes to *out the sizes that are possible but unlikely to be intended, with key and usual range.
 void sb_model_remarks(const SbModel *model, SbProblems *out);
 
-// What the modulus does over the temperature of use: `factor` times that at 20 degC for the outer
-// seal at `temperature` [K], and where this comes from. `tag` is "given", "entropy elasticity", or
-// that of rubber.modulus_slope's default: "inferred", "typical" or "published". Strings are static
-// or the rubber's.
+// Effect of the temperature of use on the modulus.
 typedef struct {
-  double factor;
-  const char *tag, *source;
+  double factor; // modulus divided by that at 20 degC
+  const char *tag,
+      *source; // "given", "entropy elasticity", "inferred", "typical", "published"; reference
 } SbModulusChange;
+
+// Computes the effect on the outer seal's modulus of `temperature` [K]. Strings are static or
+// borrowed from the model's rubber.
 void sb_model_modulus(SbModulusChange *out, const SbModel *model, double temperature);
 
-// Warns ("modulus-temperature") where the modulus at `temperature` is inferred to be that of 20
-// degC and measured slopes of filled rubbers would move it by more than some 3 %.
+// Adds the warning "modulus-temperature" if the modulus is assumed to be independent of temperature
+// and typical slopes would change it by more than about 3 % at `temperature` [K].
 void sb_model_warn_modulus(const SbModel *model, double temperature, SbWarnings *warnings);
 
-// Adds what the model has to say about its validity: the storage of the rings, the fluid.
+// Adds the warnings of the model itself: storage of the rings, fluid.
 void sb_model_warn(const SbModel *model, SbWarnings *warnings);
 
-// The drawn groove, borrowed with the model's data; NULL: it is not drawn.
+// Returns the drawn groove; NULL: none.
 const SbGrooveDrawing *sb_model_groove(const SbModel *model);
 
-// sb_model_data_drawings() of its data; 0: it has none.
+// Returns sb_model_data_drawings() of the model's data; 0: no data.
 uint64_t sb_model_drawings(const SbModel *model);
 
-// The free section's profile, as large as the seal is in use.
+// Returns the free section's shape with the sizes at the temperature of use.
 SbSealProfile sb_model_profile(const SbModel *model, int seal);
 
-// The gland of a seal with its tolerances, for sb_gland_readouts: sizes as stored, at 20 degC.
+// Sets *out to the gland of a seal with its tolerances, for sb_gland_readouts(): sizes as given, at
+// 20 degC. It borrows the model's drawn groove.
 void sb_model_gland(SbGland *out, const SbModel *model, int seal);
 
-// The fitment problem of a seal by the model's own choice, at a pressure difference (positive on
-// the left).
+// Sets *out to the fit problem of a seal by the model's choice, for the pressure difference
+// `pressure` [Pa] (> 0: higher on the left). It borrows the model's drawn groove.
 void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure);
-// Counts of what a run computed; added to, never reset.
+
+// Counters of solves; they are only incremented.
 typedef struct {
   size_t fit_solves, disc_solves, ring_solves, reynolds_solves, newton_iterations;
-  size_t film_steps;  // of the films' history, all seals
-  size_t speed_nodes; // states solved to be interpolated over the speed
-  size_t field_evaluations, profile_evaluations;
+  size_t film_steps;                             // time steps of film histories, all seals
+  size_t speed_nodes;                            // states solved for interpolation over the speed
+  size_t field_evaluations, profile_evaluations; // section fields; contact profiles
 } SbCounters;
