@@ -59,7 +59,7 @@ def readers_of_the_model(source):
                 includes[name] = re.findall(r'#include "([^"]+)"', file.read())
 
     def sees(name, seen):
-        return name == 'engine/valve/model.h' or any(
+        return name == 'engine/valve/model/model.h' or any(
             other not in seen and sees(other, seen | {other}) for other in includes.get(name, []))
 
     return [name for name in sorted(includes)
@@ -72,7 +72,7 @@ libraries = subprocess.run(['ldd', program], capture_output=True, text=True, che
 
 def lost_rooms(source):
     """Places that the help of parameters names and that are not there."""
-    with open(source + '/engine/valve/param_equation.c', encoding='utf-8') as text:
+    with open(source + '/engine/valve/model/param_equation.c', encoding='utf-8') as text:
         rooms = re.findall(r'"(engine/[^"]*|docs/[^"]*)"', text.read())
     return [room for room in rooms if not os.path.exists(f'{source}/{room}')]
 

@@ -11,7 +11,7 @@
 // of E at 60; filled rubbers differ from the relations by up to about 20 %.
 #pragma once
 
-#include "engine/valve/params.h"
+#include "engine/valve/model/params.h"
 
 #include <glib.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 // Words of the lower layers in the user's language. Labels of parameters are read for translation
-// from engine/valve/params.def itself (po/meson.build); the others, which are few, are listed here,
-// because the engine knows nothing of translations.
+// from engine/valve/model/params.def itself (po/meson.build); the others, which are few, are listed
+// here, because the engine knows nothing of translations.
 #include "app/base/translation.h"
 
 #include <glib/gi18n.h>

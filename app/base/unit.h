@@ -10,7 +10,7 @@
 #include "app/base/error.h"
 #include "app/base/number.h"
 
-#include "engine/valve/params.h"
+#include "engine/valve/model/params.h"
 
 #include <glib.h>
 

@@ -3,7 +3,7 @@
 
 #include "app/base/number.h"
 
-#include "engine/valve/valve.h"
+#include "engine/valve/model/valve.h"
 
 #include <math.h>
 #include <string.h>

@@ -12,7 +12,7 @@
 #include "app/base/unit.h"
 #include "app/document/data_keys.h"
 
-#include "engine/valve/valve.h"
+#include "engine/valve/model/valve.h"
 
 typedef struct SbDocument SbDocument;
 

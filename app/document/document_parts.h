@@ -3,7 +3,7 @@
 
 #include "app/base/reader.h"
 
-#include "engine/valve/valve.h"
+#include "engine/valve/model/valve.h"
 
 // Whether `name` in `group` belongs to a part's shape and is no key of the catalogue.
 bool sb_parts_is_shape_key(const char *group, const char *name);

@@ -16,7 +16,7 @@
 
 #include "app/base/issue.h"
 
-#include "engine/valve/params.h"
+#include "engine/valve/model/params.h"
 
 #include <stdbool.h>
 

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "app/base/issue.h"
-#include "engine/valve/valve.h"
+#include "engine/valve/model/valve.h"
 
 enum { SB_SERIES_BYTES_MAX = 1 << 20 };
 

@@ -4,7 +4,7 @@
 // (sb_param_parse()), "60 Shore A" and "60 IRHD" included.
 #pragma once
 
-#include "engine/valve/params.h"
+#include "engine/valve/model/params.h"
 
 #include <glib.h>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/section/draw_list.h"
-#include "engine/valve/valve.h"
+#include "engine/valve/model/valve.h"
 
 typedef struct {
   bool dark;

@@ -15,7 +15,7 @@
 // next size that can be drawn, and `adjusted` says so.
 #pragma once
 
-#include "engine/valve/valve.h"
+#include "engine/valve/model/valve.h"
 
 typedef struct {
   double x, y;

@@ -1,5 +1,6 @@
-// Outlines of a gasket valve (engine/valve/gasket.h): the body that clamps both gaskets between
-// plates and holds the chamber, and the stem with its neck, its side port and the channel behind.
+// Outlines of a gasket valve (engine/valve/model/gasket.h): the body that clamps both gaskets
+// between plates and holds the chamber, and the stem with its neck, its side port and the channel
+// behind.
 //
 // The housing's frame has the chamber gasket's middle at x = 0. Can, ferrule, neck gasket, cage and
 // spring are a scheme around it: no result depends on their sizes.

@@ -25,7 +25,7 @@
 #pragma once
 
 #include "engine/mechanism/dwell.h"
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/run/run.h"
 
 // Tabulates the static friction [N] of a seal's solved state against the dwell (values NaN if the

@@ -2,7 +2,7 @@
 #include "engine/valve/contradiction.h"
 
 #include "engine/valve/figures.h"
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/contact/fit.h"
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
 #include "engine/numeric/legendre.h"
 #include "engine/numeric/root.h"
 #include "engine/valve/breakaway.h"
-#include "engine/valve/gasket.h"
+#include "engine/valve/model/gasket.h"
 
 #include <float.h>
 #include <math.h>

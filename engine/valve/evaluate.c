@@ -1,7 +1,7 @@
 // Answers by a run whose plan has no more than the figures need; see the header.
 #include "engine/valve/evaluate.h"
 
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/run/run.h"
 
 #include <math.h>
@@ -70,7 +70,7 @@ static bool same_states(SbModel *a, const SbModel *b) {
 #define SB_INT(id, where, place, ...)          SAME_##where(int, place)
 #define SB_CHOICE(id, type, where, place, ...) SAME_##where(type, place)
 #define SB_FLAGS(id, where, place, ...)        SAME_##where(unsigned, place)
-#include "engine/valve/params.def"
+#include "engine/valve/model/params.def"
   return same && same_rings(&a->seal[SB_OUTER], &b->seal[SB_OUTER]) &&
          same_rings(&a->seal[SB_INNER], &b->seal[SB_INNER]);
 }

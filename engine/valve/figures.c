@@ -1,7 +1,7 @@
 // See figures.h.
 #include "engine/valve/figures.h"
 
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 
 #include <math.h>
 #include <stdarg.h>

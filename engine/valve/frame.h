@@ -2,7 +2,7 @@
 // thread may read them.
 #pragma once
 
-#include "engine/valve/valve.h"
+#include "engine/valve/model/valve.h"
 
 #include <stdint.h>
 

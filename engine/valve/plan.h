@@ -3,8 +3,8 @@
 // functions have no state and may be called concurrently.
 #pragma once
 
+#include "engine/valve/model/valve.h"
 #include "engine/valve/shelf.h"
-#include "engine/valve/valve.h"
 
 // Capacities and counts.
 enum {

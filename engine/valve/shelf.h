@@ -22,7 +22,7 @@
 // inward air, partial pressures of mixtures.
 #pragma once
 
-#include "engine/valve/valve.h"
+#include "engine/valve/model/valve.h"
 
 // Number of points of a history.
 enum { SB_SHELF_POINTS = 37 };

@@ -1,7 +1,7 @@
 // Shared by shelf.c and shelf_history.c: a seal at rest, and the flow past it at a temperature.
 #pragma once
 
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 
 // A seal at rest after storage.
 typedef struct {

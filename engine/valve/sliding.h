@@ -26,7 +26,7 @@
 
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/run/run.h"
 
 // The friction of a state as a local law of the bore's shear on a ring at a contact pressure:

@@ -8,7 +8,7 @@
 #include "engine/valve/figures.h"
 
 #include "engine/contact/closed_forms.h"
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 // Models and runs of the default valve with some parameters changed.
 #pragma once
 
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/plan.h"
 #include "engine/valve/run/run.h"
 

@@ -1,7 +1,7 @@
 // Runs of the default valve with some settings, for the tests of its motion with inertia.
 #pragma once
 
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/sealbench.h"
 
 #include <glib.h>

@@ -5,7 +5,7 @@
 // test_run_limits.c, test_run_rig.c.)
 #include "app/study/view.h"
 #include "engine/contact/fit.h"
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/sealbench.h"
 #include "engine/valve/studies/study.h"
 #include "tests/engine/films.h"

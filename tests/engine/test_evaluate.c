@@ -2,7 +2,7 @@
 // no more computed than wanted; refused overrides; two threads.
 #include "engine/contact/fit.h"
 #include "engine/valve/evaluate.h"
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/sealbench.h"
 
 #include <glib.h>

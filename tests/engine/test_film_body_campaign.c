@@ -5,7 +5,7 @@
 // with them.
 //
 // test-engine-film-body-campaign [COUNT [SEED [FIT]]]: 12 discs in the tests.
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/sliding.h"
 
 #include <glib.h>

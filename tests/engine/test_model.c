@@ -1,7 +1,7 @@
 // The catalogue is sound, and the thesis valve's derived sizes come out as the thesis prints them.
 #include "engine/contact/fit.h"
 #include "engine/contact/ring/ring_profile.h"
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/sealbench.h"
 
 #include <glib.h>

@@ -2,7 +2,7 @@
 // against its one-coordinate form.
 #include "engine/mechanism/bodies.h"
 #include "engine/mechanism/dynamics.h"
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/sealbench.h"
 #include "tests/engine/assembly_step.h"
 #include "tests/engine/near.h"

@@ -2,7 +2,7 @@
 // of motion, and the thesis' cycle against the reduced form.
 #include "engine/mechanism/bodies.h"
 #include "engine/mechanism/dynamics.h"
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/sealbench.h"
 #include "tests/engine/assembly_step.h"
 

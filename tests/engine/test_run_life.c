@@ -1,5 +1,5 @@
 // A life as a run: each actuation is what a scene with that roughness gives by itself.
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/sealbench.h"
 
 #include "tests/engine/near.h"

@@ -1,6 +1,6 @@
 // The sliding-plate rig as a run: its frames are the samples, and its coefficients those of the
 // signal that they hold, taken here by another way.
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/sealbench.h"
 
 #include "tests/engine/near.h"

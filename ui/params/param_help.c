@@ -1,7 +1,7 @@
 #include "ui/params/param_help.h"
 
 #include "app/base/translation.h"
-#include "engine/valve/param_equation.h"
+#include "engine/valve/model/param_equation.h"
 #include "ui/params/param_sketch.h"
 #include "ui/views/style.h"
 

@@ -1,7 +1,7 @@
 // A sketch for a parameter's help: where on the valve its size is measured.
 #pragma once
 
-#include "engine/valve/valve.h"
+#include "engine/valve/model/valve.h"
 
 #include <gtk/gtk.h>
 

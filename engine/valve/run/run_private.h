@@ -4,7 +4,7 @@
 #include "engine/mechanism/chamber.h"
 #include "engine/mechanism/dynamics.h"
 #include "engine/valve/cycle.h"
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/run/run.h"
 #include "engine/valve/run/run_work.h"
 #include "engine/valve/speed_states.h"

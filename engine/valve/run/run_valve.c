@@ -18,7 +18,7 @@
 // contacts (open wholly or not at all), and the canister through a by-pass below
 // bore.refill_travel.
 #include "engine/valve/breakaway.h"
-#include "engine/valve/gasket.h"
+#include "engine/valve/model/gasket.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>

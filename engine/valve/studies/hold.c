@@ -1,6 +1,6 @@
 #include "engine/valve/studies/hold.h"
 
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 // What a study holds of its scene while it varies the rest.
 #pragma once
 
-#include "engine/valve/valve.h"
+#include "engine/valve/model/valve.h"
 
 // enumerator, name, what is held
 #define SB_HOLDS(X)                                                                                \

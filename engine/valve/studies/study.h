@@ -8,7 +8,7 @@
 
 #include "engine/base/status.h"
 #include "engine/valve/evaluate.h"
-#include "engine/valve/valve.h"
+#include "engine/valve/model/valve.h"
 
 // enumerator, function's suffix, name, title, help
 #define SB_STUDY_LIST(X)                                                                           \

@@ -7,7 +7,7 @@
 #include "engine/film/laws.h"
 #include "engine/valve/cost.h"
 #include "engine/valve/evaluate.h"
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 #include "engine/valve/studies/study.h"
 
 enum { SB_STUDY_VALUES = 20, SB_STUDY_ANSWERS = 1024, SB_STUDY_LAW_POINTS = 400 };

@@ -1,7 +1,7 @@
 // The catalogue's table and the checks that need nothing but the table.
 #include "engine/film/film.h"
 #include "engine/fluid/fluid.h"
-#include "engine/valve/valve.h"
+#include "engine/valve/model/valve.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,7 +26,7 @@
   SEAL_ROW(OUTER_##id, SB_P_SEAL_##id, "seal.outer." name, __VA_ARGS__)                            \
   SEAL_ROW(INNER_##id, SB_P_SEAL_##id, "seal.inner." name, __VA_ARGS__)
 static const SbParam table[SB_PARAM_COUNT] = {
-#include "engine/valve/params.def"
+#include "engine/valve/model/params.def"
 };
 
 static const struct {
@@ -37,7 +37,7 @@ static const struct {
 } brought[] = {
 #define SB_DEFAULT(id, giver, choice, value, source, tag)                                          \
   {SB_P_##id, SB_P_##giver, choice, value, source, tag},
-#include "engine/valve/params.def"
+#include "engine/valve/model/params.def"
 };
 
 bool sb_params_brought(SbParamDefault *out, int *choice, SbParamId id, int index) {
@@ -59,12 +59,12 @@ bool sb_params_brought(SbParamDefault *out, int *choice, SbParamId id, int index
 enum { PISTON = 1 << SB_VALVE_PISTON, GASKET = 1 << SB_VALVE_GASKET, BOTH = PISTON | GASKET };
 static const unsigned char main_ones[SB_PARAM_COUNT] = {
 #define SB_MAIN(id, kinds) [SB_P_##id] = kinds,
-#include "engine/valve/params.def"
+#include "engine/valve/model/params.def"
 };
 
 static const char *const words[SB_PARAM_COUNT] = {
 #define SB_WORDS(id, text) [SB_P_##id] = text,
-#include "engine/valve/params.def"
+#include "engine/valve/model/params.def"
 };
 
 bool sb_param_is_main(SbParamId id, int kind) {
@@ -132,7 +132,7 @@ static const struct {
 } keeps[] = {
 #define SB_KEEPS(id, giver, kind, own, given, source)                                              \
   {SB_P_##id, SB_P_##giver, kind, own, given, source},
-#include "engine/valve/params.def"
+#include "engine/valve/model/params.def"
 };
 enum { KEEPS = sizeof keeps / sizeof keeps[0] };
 

@@ -2,7 +2,7 @@
 // table is constant.
 #pragma once
 
-#include "engine/valve/params.h"
+#include "engine/valve/model/params.h"
 
 // An equation; all strings are static.
 typedef struct {

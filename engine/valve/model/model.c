@@ -5,7 +5,7 @@
 // g)/d on the free section; fitted mean diameter D - g; mean stretch eps_z = (D - g - (ID + d))/(ID
 // + d); section after stretch d (1 - nu eps_z), the uniform-shrink estimate (the finite-strain ring
 // is flatter, 1.500 mm against 1.576 mm for the thesis valve).
-#include "engine/valve/gasket.h"
+#include "engine/valve/model/gasket.h"
 
 #include "engine/contact/closed_forms.h"
 #include "engine/contact/fit.h"
@@ -49,7 +49,7 @@ static void take_values(SbModel *model, const SbParams *params) {
 #define SB_SEAL(id, where, place, ...)                                                             \
   model->seal[SB_OUTER].place = VALUE(SEAL_OUTER_##id);                                            \
   model->seal[SB_INNER].place = VALUE(SEAL_INNER_##id);
-#include "engine/valve/params.def"
+#include "engine/valve/model/params.def"
 #undef VALUE
   // The catalogue counts the names of all models, the model those of its own.
   char variant[40];

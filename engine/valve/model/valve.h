@@ -10,7 +10,7 @@
 #include "engine/mechanism/drive.h"
 #include "engine/mechanism/outline.h"
 #include "engine/rubber/rubber_time.h"
-#include "engine/valve/params.h"
+#include "engine/valve/model/params.h"
 #include "engine/valve/rig.h"
 
 #include <stdatomic.h>
@@ -215,7 +215,7 @@ typedef struct {
   SbRubberStorage stored; // the new ring and its history
   SbRubberState storage;  // result of the storage
 #define SB_SEAL(id, where, place, ...) SB_DECLARE_##where(double, place)
-#include "engine/valve/params.def"
+#include "engine/valve/model/params.def"
   double section_diameter; // d, free [m]
   double inner_diameter;   // free [m]
   double modulus;          // E [Pa]

@@ -1,5 +1,5 @@
 // What is large in a model and shared by reference: who holds it, and what of it is drawn.
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 
 #include <stdlib.h>
 

@@ -23,7 +23,7 @@ typedef enum {
 #define SB_CHOICE        SB_REAL
 #define SB_FLAGS         SB_REAL
 #define SB_SEAL(id, ...) SB_P_SEAL_##id, SB_P_SEAL_OUTER_##id, SB_P_SEAL_INNER_##id,
-#include "engine/valve/params.def"
+#include "engine/valve/model/params.def"
   SB_PARAM_COUNT
 } SbParamId;
 

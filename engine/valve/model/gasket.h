@@ -14,7 +14,7 @@
 // gaskets. Not modelled: loss of contact at the port, the neck's taper, different gaskets.
 #pragma once
 
-#include "engine/valve/model.h"
+#include "engine/valve/model/model.h"
 
 // Sets the fields of rings, gland and bore from the gaskets' sizes; before temperature and storage.
 void sb_gasket_take(SbModel *model);

@@ -1,4 +1,4 @@
-#include "engine/valve/param_equation.h"
+#include "engine/valve/model/param_equation.h"
 
 #include <string.h>
 
@@ -35,7 +35,7 @@ static const SbParamEquation table[] = {
     {"rubber.glass_temperature", "E(T) = E₀ T/T₀ + E_g/(1 + (t/τ)^0.7), τ = 100 s a_T",
      "Williams, Landel, Ferry 1955; ISO 1432", "engine/rubber/rubber_time.h"},
     {"rubber.thermal_expansion", "d(T) = d (1 + α (T − T₀))", "linear expansion",
-     "engine/valve/model.c"},
+     "engine/valve/model/model.c"},
     {"gland.draft", "gap of the wall = wall + (r - floor) tan α - z", "geometry",
      "engine/contact/ring/ring_groove.c"},
     {"gland.corner_radius", "floor = r₁ - √(r₁² - u²) up to 60°, then straight to the wall",
@@ -63,7 +63,7 @@ static const SbParamEquation table[] = {
      "engine/permeation"},
     {"housing.stop", "F = k δ, rebound speed = e × speed", "Newton", "engine/mechanism"},
     {"housing.thermal_expansion", "D(T) = D (1 + α (T − T₀))", "linear expansion",
-     "engine/valve/model.c"},
+     "engine/valve/model/model.c"},
     {"housing.", "2/E′ = Σ (1 − ν²)/E", "thesis 5.8", "engine/contact"},
     {"fluid.name", "p_v, ρ, η, γ from the residual Helmholtz energy α(δ, τ)",
      "by fluid: sealbench fluid", "engine/fluid"},
@@ -88,7 +88,7 @@ static const SbParamEquation table[] = {
     {"gasket.", "clamped between plates, then ∫ p dA on the stem", "finite elements",
      "engine/contact/ring"},
     {"stem.port", "the chamber empties from s = travel − d/2 on", "geometry",
-     "engine/valve/gasket.h"},
+     "engine/valve/model/gasket.h"},
     {"stem.spring", "F = F₀ + k s", "Hooke", "engine/mechanism"},
     {"stem.chamber", "V = bore − stem − rings, between the grooves' middles", "geometry",
      "engine/mechanism/chamber.h"},

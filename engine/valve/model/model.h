@@ -5,8 +5,8 @@
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
 #include "engine/mechanism/chamber.h"
+#include "engine/valve/model/valve.h"
 #include "engine/valve/shelf.h"
-#include "engine/valve/valve.h"
 
 // Roughness before actuation n (0: the first) divided by the given one: end + (start - end)
 // exp(-n/actuations).
@@ -32,7 +32,7 @@ struct SbModel {
 #define SB_INT(id, where, place, ...)          SB_DECLARE_##where(int, place)
 #define SB_CHOICE(id, type, where, place, ...) SB_DECLARE_##where(type, place)
 #define SB_FLAGS(id, where, place, ...)        SB_DECLARE_##where(unsigned, place)
-#include "engine/valve/params.def"
+#include "engine/valve/model/params.def"
   SbSealModel seal[SB_SEAL_COUNT];
   SbRubber rubber;           // how storage changes it
   double bore_circumference; // pi D: the friction area's length [m]

@@ -1,5 +1,5 @@
 // Sizes of a gasket valve; see the header.
-#include "engine/valve/gasket.h"
+#include "engine/valve/model/gasket.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 // What a model refuses before anything is worked out, what it remarks, and what it has to say about
 // its validity.
 #include "engine/contact/rough/persson.h"
-#include "engine/valve/gasket.h"
+#include "engine/valve/model/gasket.h"
 
 #include "engine/fluid/fluid.h"
 
