@@ -1,12 +1,13 @@
-// Figures of a run (engine/valve/figures.h) as text. Every surface that prints a figure uses these
-// functions, so that one figure is one number everywhere: table, terminal, window, report, verdict,
-// chart labels. They choose the unit and, by the rounding rule of sb_format_decimals(), the digits.
+// Figures of a run (engine/valve/figures/figures.h) as text. Every surface that prints a figure
+// uses these functions, so that one figure is one number everywhere: table, terminal, window,
+// report, verdict, chart labels. They choose the unit and, by the rounding rule of
+// sb_format_decimals(), the digits.
 #pragma once
 
 #include "app/base/format.h"
 #include "app/base/number.h"
 
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 // Number and unit of figure `index` with SI `value` and `error`, an estimate of its relative error
 // (0: exact, an input; NaN: not known). True minus and thin spaces. "yes" or "no" for a question;

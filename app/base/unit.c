@@ -7,7 +7,7 @@
 #include "app/base/hardness.h"
 #include "app/base/issue.h"
 #include "app/base/nearest.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 #include <locale.h>
 #include <math.h>

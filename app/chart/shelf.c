@@ -2,7 +2,7 @@
 #include "app/chart/shelf.h"
 
 #include "app/chart/study.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 #include <glib.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "app/document/study_file_private.h"
 
 #include "app/base/unit.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 // JSON of measured loops; see the header.
 #include "app/export/measured_results.h"
 
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 #include <math.h>
 

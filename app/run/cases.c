@@ -1,7 +1,7 @@
 // See cases.h.
 #include "app/run/cases.h"
 
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 #include <math.h>
 #include <string.h>

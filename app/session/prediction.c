@@ -1,7 +1,7 @@
 // Sums over the parameters that differ. See the header.
 #include "app/session/prediction.h"
 
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 #include <math.h>
 #include <string.h>

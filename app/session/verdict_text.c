@@ -3,7 +3,7 @@
 
 #include "app/base/figure_text.h"
 #include "app/base/translation.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 // See contradiction.h.
 #include "engine/valve/contradiction.h"
 
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/model/model.h"
 
 #include <math.h>

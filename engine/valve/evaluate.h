@@ -11,7 +11,7 @@
 // these are reused. Not available: frames, profiles, shapes (run.h), derivatives (gradient.h).
 #pragma once
 
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 // An evaluator with its memory and its last answer.
 typedef struct SbEvaluator SbEvaluator;

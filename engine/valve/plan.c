@@ -9,7 +9,7 @@
 
 #include "engine/contact/fit.h"
 #include "engine/valve/cost.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/model/model.h"
 #include "engine/valve/speed_states.h"
 #include "engine/valve/studies/study.h"

@@ -5,7 +5,7 @@
 #include "engine/base/version.h"
 #include "engine/film/film.h"
 #include "engine/valve/evaluate.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/frame.h"
 #include "engine/valve/model/params.h"
 #include "engine/valve/model/valve.h"

@@ -503,7 +503,7 @@ void sb_sliding_clear(SbSealState *out) {
                        .borne_share = NAN,
                        .rotation = NAN};
 #define SB_SEAL_FIGURE(path, member, ...) out->member = NAN;
-#include "engine/valve/figures.def"
+#include "engine/valve/figures/figures.def"
 }
 
 // Fitment, film and friction; a ring dragged as given, else as it is known.

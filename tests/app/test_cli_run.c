@@ -3,7 +3,7 @@
 #include "tests/app/cli_fixture.h"
 
 #include "app/cli/run_text.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 #include <glib/gstdio.h>
 #include <math.h>

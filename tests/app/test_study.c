@@ -6,7 +6,7 @@
 #include "app/chart/propellants.h"
 #include "app/chart/study.h"
 #include "app/export/studies.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 #include <glib.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 // A run as bytes and back: what is shown of it is the same to the bit, and bytes that were cut or
 // are another model's make no run.
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/sealbench.h"
 
 #include <glib.h>

@@ -1,6 +1,6 @@
 // Supply of the strokes: what a seal leaves on the bore, what it takes back, and the leak that is
 // left, by hand and in runs.
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 #include "tests/engine/models.h"
 

@@ -2,7 +2,7 @@
 // is no figure.
 #include "engine/fluid/fluid.h"
 #include "engine/valve/evaluate.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "tests/engine/models.h"
 #include "tests/engine/near.h"
 

@@ -6,7 +6,7 @@
 #include "near.h"
 
 #include "engine/fluid/fluid.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/studies/study.h"
 
 #include <math.h>

@@ -42,7 +42,7 @@ def files_that_speak():
 
 
 def potfiles_lists_what_speaks():
-    extra = {"app/base/translation.c", "engine/valve/figures.def", "engine/valve/model/params.def",
+    extra = {"app/base/translation.c", "engine/valve/figures/figures.def", "engine/valve/model/params.def",
              "assets/org.sealbench.Sealbench.desktop"}
     assert sorted(listed()) == sorted(set(files_that_speak()) | extra), \
         set(listed()) ^ (set(files_that_speak()) | extra)

@@ -4,7 +4,7 @@
 
 #include "app/session/session_private.h"
 #include "app/session/stored_run.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "tests/sanitized.h"
 
 #include <glib/gstdio.h>

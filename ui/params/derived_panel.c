@@ -14,7 +14,7 @@
 #include "app/base/theme.h"
 #include "app/base/translation.h"
 #include "app/session/verdict_text.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>

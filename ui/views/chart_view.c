@@ -15,7 +15,7 @@
 #include "app/chart/rig.h"
 #include "app/chart/shelf.h"
 #include "app/chart/signal.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "ui/views/canvas_area.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/later.h"

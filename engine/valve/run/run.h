@@ -40,7 +40,7 @@ enum { SB_SEAL_EDGE_POINTS = 33 };
 // middle of B-C, friction_static at B.
 typedef struct {
 #define SB_SEAL_FIGURE(path, member, ...) double member;
-#include "engine/valve/figures.def"
+#include "engine/valve/figures/figures.def"
   SbLeakState leak_state;
   bool touches;
   bool opened;      // by the fluid: the rubber does not press, or the film's ends differ too much
@@ -74,7 +74,7 @@ typedef struct {
 // A seal in a steady stroke, by one member for each SB_CONTACT_FIGURE.
 typedef struct {
 #define SB_CONTACT_FIGURE(path, member, ...) double member;
-#include "engine/valve/figures.def"
+#include "engine/valve/figures/figures.def"
   bool known;
   SbRingState section;
 } SbContact;
@@ -145,10 +145,11 @@ enum {
 #define SB_FIGURE_AT(...)      +1
 #define SB_SEAL_FIGURE(...)    +SB_SEAL_COUNT
 #define SB_CONTACT_FIGURE(...) +2 * SB_SEAL_COUNT
-#include "engine/valve/figures.def"
+#include "engine/valve/figures/figures.def"
 };
 
-// Why figures were not computed (engine/valve/figures.h): 0 for no reason, else text[of - 1].
+// Why figures were not computed (engine/valve/figures/figures.h): 0 for no reason, else text[of -
+// 1].
 enum { SB_REASONS_MAX = 48 };
 typedef struct {
   size_t count;
@@ -179,7 +180,7 @@ typedef struct {
 // what is no figure or stands in a struct of its own.
 typedef struct {
 #define SB_FIGURE(path, member, ...) double member;
-#include "engine/valve/figures.def"
+#include "engine/valve/figures/figures.def"
   SbStatus status;
   SbOutcome outcome;
   bool returns; // the outcome is SB_OUTCOME_RETURNED

@@ -13,7 +13,7 @@
 // to the tolerance (tested: test_run_limits.c).
 #include "engine/valve/run/run_private.h"
 
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -10,7 +10,7 @@
 //
 // The errors of the terms are taken at their worst together. They cover discretisation and
 // iteration, not the choice of the model.
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 #include "engine/valve/shelf_private.h"
 

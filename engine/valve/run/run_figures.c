@@ -3,7 +3,7 @@
 #include "engine/contact/rough/percolation.h"
 #include "engine/film/laws.h"
 #include "engine/fluid/fluid.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 #include "engine/valve/shelf_private.h"
 

@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "engine/film/transient.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 
 // A stretch is followed so many times more, for films thinner by this factor.

@@ -13,7 +13,7 @@
 // the section, storage and loss of propellant between actuations; beside, what the film's thickness
 // owes to roughness.
 #include "engine/film/laws.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>

@@ -9,7 +9,7 @@
 // The outcome is unknown where the motion failed, or where the stem still moves when its motion
 // ends. The return margin has one definition in all motions (sb_cycle_return_margin()): it depends
 // on the seals' states, on the largest displacement and on the dwell there, not on speeds.
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
 // would give the rig's sliding coefficient: table 7.8 compares a coefficient measured under one
 // with one predicted under the other. Leaves out: the lubricant's film, the cell's noise.
 #include "engine/contact/rough/greenwood_tripp.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>

@@ -12,7 +12,7 @@
 // The one that is done first solves rings for the other (run_ahead.h).
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/numeric/root.h"
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_ahead.h"
 #include "engine/valve/run/run_private.h"
 

@@ -3,7 +3,7 @@
 // wrote them: who keeps them sees to that (sb_engine_identity(), app/session/stored_run.h), and to
 // their being whole. What is read is still checked, so that no index leads out of an array. Left
 // out is what other runs start from: a run that was read computes nothing.
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 
 #include <limits.h>

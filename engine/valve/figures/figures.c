@@ -1,5 +1,5 @@
 // See figures.h.
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 #include "engine/valve/model/model.h"
 
@@ -37,17 +37,17 @@ static const SbFigure figures[SB_FIGURE_COUNT] = {
   {path, offsetof(SbSummary, member), "", SB_SEAL_COUNT, false, COLUMNS(__VA_ARGS__)},
 #define SB_FIGURE_AT(path, place, where, ...)                                                      \
   {path, offsetof(SbSummary, place), where, SB_SEAL_COUNT, false, COLUMNS(__VA_ARGS__)},
-#include "engine/valve/figures.def"
+#include "engine/valve/figures/figures.def"
 #define SB_SEAL_FIGURE(...)    SEAL("outer", SB_OUTER, __VA_ARGS__)
 #define SB_CONTACT_FIGURE(...) CONTACT_IN("outer", SB_OUTER, __VA_ARGS__)
-#include "engine/valve/figures.def"
+#include "engine/valve/figures/figures.def"
 #define SB_CONTACT_FIGURE(...) CONTACT_OUT("outer", SB_OUTER, __VA_ARGS__)
-#include "engine/valve/figures.def"
+#include "engine/valve/figures/figures.def"
 #define SB_SEAL_FIGURE(...)    SEAL("inner", SB_INNER, __VA_ARGS__)
 #define SB_CONTACT_FIGURE(...) CONTACT_IN("inner", SB_INNER, __VA_ARGS__)
-#include "engine/valve/figures.def"
+#include "engine/valve/figures/figures.def"
 #define SB_CONTACT_FIGURE(...) CONTACT_OUT("inner", SB_INNER, __VA_ARGS__)
-#include "engine/valve/figures.def"
+#include "engine/valve/figures/figures.def"
 };
 
 const SbFigure *sb_figure(int index) {

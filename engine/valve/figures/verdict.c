@@ -5,7 +5,7 @@
 // pressure lies above the fluid's, and friction does not jam it; channels between asperities are a
 // matter of the leak's limit. A question without a limit has no answer, but for the first and the
 // return, which need none.
-#include "engine/valve/figures.h"
+#include "engine/valve/figures/figures.h"
 
 #include "engine/contact/closed_forms.h"
 #include "engine/valve/model/model.h"
