@@ -3,8 +3,8 @@
 
 #include "engine/numeric/legendre.h"
 #include "engine/numeric/root.h"
-#include "engine/valve/breakaway.h"
 #include "engine/valve/model/gasket.h"
+#include "engine/valve/states/breakaway.h"
 
 #include <float.h>
 #include <math.h>

@@ -25,7 +25,7 @@
 #pragma once
 
 #include "engine/valve/frame.h"
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 
 // Directions of sliding, as indices: in-stroke (speed > 0), return.
 enum { SB_CYCLE_IN = 0, SB_CYCLE_OUT = 1 };

@@ -11,7 +11,7 @@
 #include "engine/valve/cost.h"
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/model/model.h"
-#include "engine/valve/speed_states.h"
+#include "engine/valve/states/speed_states.h"
 #include "engine/valve/studies/study.h"
 
 #include <assert.h>

@@ -2,8 +2,8 @@
 // and its table, and what cycle, motion and repeated strokes make of it.
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/film/squeeze.h"
-#include "engine/valve/breakaway.h"
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/breakaway.h"
+#include "engine/valve/states/sliding.h"
 #include "models.h"
 #include "near.h"
 

@@ -6,7 +6,7 @@
 //
 // test-engine-film-body-campaign [COUNT [SEED [FIT]]]: 12 discs in the tests.
 #include "engine/valve/model/model.h"
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 
 #include <glib.h>
 #include <math.h>

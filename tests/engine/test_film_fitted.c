@@ -8,7 +8,7 @@
 
 #include "engine/contact/compliance.h"
 #include "engine/film/ehl_transient.h"
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 
 static const double RADIUS = 0.75e-3, YOUNG = 2.5e6, NU = 0.49;
 

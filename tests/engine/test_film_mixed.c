@@ -3,7 +3,7 @@
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
 #include "engine/contact/rough/rough_law.h"
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 #include "tests/engine/near.h"
 #include "tests/engine/rough_cells.h"
 

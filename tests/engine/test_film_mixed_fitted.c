@@ -1,7 +1,7 @@
 // Film and asperities on a fitted body: the half-plane as a special case, the smooth and the dry
 // limit on the disc's compliance by other methods, symmetry, and a run's seals.
 #include "engine/contact/compliance.h"
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 #include "tests/engine/rough_cells.h"
 
 #include "tests/engine/parabola.h"

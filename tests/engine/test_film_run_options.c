@@ -1,7 +1,7 @@
 // Options of the film that a scene can ask for, seen through a sliding seal: each off changes
 // nothing, each on moves the film the way its equation says, and where it cannot act it is told.
 #include "engine/valve/sealbench.h"
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 #include "tests/engine/near.h"
 
 #include <glib.h>

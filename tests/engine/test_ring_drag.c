@@ -235,10 +235,10 @@ static void test_law(void) {
 }
 
 // What a real area shears with, but no more than the pressure there: the law of a valve's own film
-// (engine/valve/sliding.h). Near the greatest drag, where nodes at the contact's ends once came and
-// went for ever or bore no friction, and where a path on coarse meshes was taken for another: the
-// drag is the law's and the load that of the grooves beside it, to what is told, and no path is
-// tried twice.
+// (engine/valve/states/sliding.h). Near the greatest drag, where nodes at the contact's ends once
+// came and went for ever or bore no friction, and where a path on coarse meshes was taken for
+// another: the drag is the law's and the load that of the grooves beside it, to what is told, and
+// no path is tried twice.
 static double limited(double pressure, double *slope, const void *data) {
   const double shear = *(const double *)data;
   *slope = pressure < shear ? 1.0 : 0.0;

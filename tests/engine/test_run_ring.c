@@ -2,7 +2,7 @@
 // picture; the same with one thread and with two; a ring that rolls is a result.
 #include "engine/valve/cycle.h"
 #include "engine/valve/evaluate.h"
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 #include "tests/engine/models.h"
 
 #include <glib.h>

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "engine/valve/run/run_work.h"
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 
 typedef struct SbRunAhead SbRunAhead;
 

@@ -7,7 +7,7 @@
 #include "engine/valve/model/model.h"
 #include "engine/valve/run/run.h"
 #include "engine/valve/run/run_work.h"
-#include "engine/valve/speed_states.h"
+#include "engine/valve/states/speed_states.h"
 
 enum {
   SB_RUN_REST = 2,

@@ -1,6 +1,6 @@
 // A run's steady states at any speed: of each seal, chamber and direction one table
-// (valve/speed_states.h), made when an instant first asks for another speed than the states'.
-// Seals, chambers and directions that slide alike share one.
+// (valve/states/speed_states.h), made when an instant first asks for another speed than the
+// states'. Seals, chambers and directions that slide alike share one.
 //
 // Between the vented and the filled chamber contact and film lie between those of the two at the
 // same speed, and friction follows from them: exact where the chamber rests, which is all but the

@@ -17,9 +17,9 @@
 // when the inner contact has left the land, the vent while any of the hole lies between the two
 // contacts (open wholly or not at all), and the canister through a by-pass below
 // bore.refill_travel.
-#include "engine/valve/breakaway.h"
 #include "engine/valve/model/gasket.h"
 #include "engine/valve/run/run_private.h"
+#include "engine/valve/states/breakaway.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 #include "engine/valve/studies/study.h"
 
 #include "engine/valve/plan.h"
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 #include "engine/valve/studies/hold.h"
 #include "engine/valve/studies/study_private.h"
 

@@ -8,7 +8,7 @@
 // cycle's speed, so that this is one valve and no grid. Between solved speeds the curve is
 // interpolated, with its error told.
 #include "engine/valve/cycle.h"
-#include "engine/valve/speed_states.h"
+#include "engine/valve/states/speed_states.h"
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>

@@ -1,9 +1,9 @@
 // See breakaway.h.
-#include "engine/valve/breakaway.h"
+#include "engine/valve/states/breakaway.h"
 
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/film/squeeze.h"
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // What the parts of a steady sliding state share. Internal to sliding*.c.
 #pragma once
 
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 
 // A film with what is drawn of it.
 typedef struct {

@@ -1,5 +1,5 @@
 // See speed_states.h. The grid of nodes: place 0 is the least speed, GRID places to two decades.
-#include "engine/valve/speed_states.h"
+#include "engine/valve/states/speed_states.h"
 
 #include <math.h>
 #include <string.h>

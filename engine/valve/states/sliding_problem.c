@@ -1,5 +1,5 @@
 // What the solvers of fitment and film are asked of a seal; see sliding.h.
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 
 #include <math.h>
 

@@ -8,7 +8,7 @@
 // Definitions). What it leaves out: beside the film, asperities do not take load off it (they carry
 // 1 to 14 % of it at its least, docs/thesis.md, 10; coupled they share it); the closed forms know
 // no inlet starvation.
-#include "engine/valve/sliding_private.h"
+#include "engine/valve/states/sliding_private.h"
 
 #include <math.h>
 

@@ -18,7 +18,7 @@
 // extrapolated from the reference state with the power 0.6 of the speed, with a warning.
 #pragma once
 
-#include "engine/valve/sliding.h"
+#include "engine/valve/states/sliding.h"
 
 // Range of tabulated speeds [m/s].
 #define SB_SPEED_LEAST 1e-6 // m/s

@@ -13,7 +13,7 @@
 // and levels stand as long as the base's do. Where the slopes to both sides disagree (a kink,
 // another order of a curve), or an option comes from nothing, the state is solved as asked. Films
 // of a state next to z0 are solved on the meshes of its own (film.h, `beside`).
-#include "engine/valve/sliding_private.h"
+#include "engine/valve/states/sliding_private.h"
 
 #include <math.h>
 #include <pthread.h>

@@ -1,9 +1,9 @@
 // Joins fitment, film, surface and friction for one seal; see sliding.h for the equations.
-#include "engine/valve/sliding_private.h"
+#include "engine/valve/states/sliding_private.h"
 
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
-#include "engine/valve/breakaway.h"
+#include "engine/valve/states/breakaway.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -14,7 +14,7 @@
 // Valid while h is a small part of the roughness; above a tenth of it the user is told. Leaves out:
 // the edge's deformation by the film, adhesion.
 #include "engine/contact/rough/rough_law.h"
-#include "engine/valve/sliding_private.h"
+#include "engine/valve/states/sliding_private.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 // One seal's fitment, and a ring dragged by its own friction.
-#include "engine/valve/sliding_private.h"
+#include "engine/valve/states/sliding_private.h"
 
 #include <float.h>
 #include <math.h>
