@@ -7,7 +7,7 @@
 #include "app/export/study_results.h"
 
 #include "engine/numeric/statistics.h"
-#include "engine/valve/shelf.h"
+#include "engine/valve/shelf/shelf.h"
 
 #include <glib/gstdio.h>
 #include <math.h>

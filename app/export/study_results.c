@@ -5,7 +5,7 @@
 #include "app/export/json.h"
 
 #include "engine/numeric/statistics.h"
-#include "engine/valve/shelf.h"
+#include "engine/valve/shelf/shelf.h"
 
 #include <math.h>
 #include <stdlib.h>

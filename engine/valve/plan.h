@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/valve/model/valve.h"
-#include "engine/valve/shelf.h"
+#include "engine/valve/shelf/shelf.h"
 
 // Capacities and counts.
 enum {

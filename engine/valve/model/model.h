@@ -6,7 +6,7 @@
 #include "engine/film/film.h"
 #include "engine/mechanism/chamber.h"
 #include "engine/valve/model/valve.h"
-#include "engine/valve/shelf.h"
+#include "engine/valve/shelf/shelf.h"
 
 // Roughness before actuation n (0: the first) divided by the given one: end + (start - end)
 // exp(-n/actuations).

@@ -8,7 +8,7 @@
 #include "engine/valve/frame.h"
 #include "engine/valve/plan.h"
 #include "engine/valve/rig.h"
-#include "engine/valve/shelf.h"
+#include "engine/valve/shelf/shelf.h"
 
 #include <stdatomic.h>
 

@@ -1,7 +1,7 @@
 // The shelf's figures of a run, and why some are missing. Computed where somebody asks for them.
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
-#include "engine/valve/shelf_private.h"
+#include "engine/valve/shelf/shelf_private.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include "engine/permeation/diffusion.h"
 #include "engine/permeation/slit.h"
 #include "engine/permeation/wetted_ring.h"
-#include "engine/valve/shelf_private.h"
+#include "engine/valve/shelf/shelf_private.h"
 
 #include <math.h>
 #include <stdlib.h>
