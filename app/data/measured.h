@@ -27,7 +27,7 @@
 #include "app/base/table.h"
 #include "app/document/data_keys.h"
 
-#include "engine/valve/frame.h"
+#include "engine/valve/run/frame.h"
 
 typedef enum { SB_CHANNEL_TIME, SB_CHANNEL_DISPLACEMENT, SB_CHANNEL_FORCE, SB_CHANNELS } SbChannel;
 

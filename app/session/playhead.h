@@ -4,7 +4,7 @@
 
 #include "app/chart/data.h"
 #include "app/chart/trace.h"
-#include "engine/valve/frame.h"
+#include "engine/valve/run/frame.h"
 
 #include <glib.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/valve/model/model.h"
-#include "engine/valve/plan.h"
+#include "engine/valve/run/plan.h"
 #include "engine/valve/run/run.h"
 
 #include <glib.h>

@@ -1,7 +1,7 @@
 // The cycle A to F against a hand calculation from the printed equations, and on its hard cases.
 #include "engine/film/laws.h"
-#include "engine/valve/cost.h"
 #include "engine/valve/figures/figures.h"
+#include "engine/valve/run/cost.h"
 #include "engine/valve/sealbench.h"
 #include "tests/engine/models.h"
 

@@ -1,6 +1,6 @@
 // Figures: each has a value or a reason, an open seal is told, and the verdict follows the limits.
 #include "engine/contact/fit.h"
-#include "engine/valve/contradiction.h"
+#include "engine/valve/run/contradiction.h"
 #include "engine/valve/run/run_private.h"
 #include "engine/valve/sealbench.h"
 #include "tests/engine/models.h"

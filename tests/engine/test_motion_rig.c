@@ -1,5 +1,5 @@
 // The coefficients of the sliding-plate rig.
-#include "engine/valve/rig.h"
+#include "engine/valve/run/rig.h"
 #include "tests/engine/near.h"
 
 #include <glib.h>

@@ -1,6 +1,6 @@
 // The gasket valve: its cycle balances in every frame, and its figures answer to interference,
 // crimp and port the way a valve's do.
-#include "engine/valve/cycle.h"
+#include "engine/valve/run/cycle.h"
 #include "engine/valve/studies/hold.h"
 #include "tests/engine/models.h"
 #include "tests/executed.h"

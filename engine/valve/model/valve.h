@@ -11,7 +11,7 @@
 #include "engine/mechanism/outline.h"
 #include "engine/rubber/rubber_time.h"
 #include "engine/valve/model/params.h"
-#include "engine/valve/rig.h"
+#include "engine/valve/run/rig.h"
 
 #include <stdatomic.h>
 #include <stddef.h>

@@ -7,8 +7,8 @@
 // read while this one writes.
 #include "engine/base/clock.h"
 #include "engine/numeric/sampling.h"
-#include "engine/valve/contradiction.h"
 #include "engine/valve/figures/figures.h"
+#include "engine/valve/run/contradiction.h"
 #include "engine/valve/run/run_private.h"
 
 #ifdef SB_ASSERT_RUNS

@@ -5,9 +5,9 @@
 // (acquire/release), so a reader never waits and a frame never changes once seen.
 #pragma once
 
-#include "engine/valve/frame.h"
-#include "engine/valve/plan.h"
-#include "engine/valve/rig.h"
+#include "engine/valve/run/frame.h"
+#include "engine/valve/run/plan.h"
+#include "engine/valve/run/rig.h"
 #include "engine/valve/shelf/shelf.h"
 
 #include <stdatomic.h>
@@ -84,7 +84,7 @@ typedef struct {
   SbContact in_stroke, back;
 } SbContacts;
 
-// What the sliding-plate rig reports (valve/rig.h).
+// What the sliding-plate rig reports (valve/run/rig.h).
 typedef struct {
   bool found; // whether the force has a first peak; else the coefficients mean nothing
   SbRigCoefficients of;

@@ -3,8 +3,8 @@
 
 #include "engine/mechanism/chamber.h"
 #include "engine/mechanism/dynamics.h"
-#include "engine/valve/cycle.h"
 #include "engine/valve/model/model.h"
+#include "engine/valve/run/cycle.h"
 #include "engine/valve/run/run.h"
 #include "engine/valve/run/run_work.h"
 #include "engine/valve/states/speed_states.h"

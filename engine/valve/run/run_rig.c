@@ -1,4 +1,4 @@
-// The sliding-plate rig as a run: each sample of the load cell is a frame (valve/rig.h).
+// The sliding-plate rig as a run: each sample of the load cell is a frame (valve/run/rig.h).
 //
 // A frame's displacement and velocity are the plate's, its platen the thread wound up, its force
 // the cell's signal. There are no seals in it: their places stay empty. The coefficients come from

@@ -5,9 +5,9 @@
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
 #include "engine/film/laws.h"
-#include "engine/valve/cost.h"
 #include "engine/valve/evaluate.h"
 #include "engine/valve/model/model.h"
+#include "engine/valve/run/cost.h"
 #include "engine/valve/studies/study.h"
 
 enum { SB_STUDY_VALUES = 20, SB_STUDY_ANSWERS = 1024, SB_STUDY_LAW_POINTS = 400 };

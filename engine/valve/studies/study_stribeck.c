@@ -7,7 +7,7 @@
 // film and asperities share the load (film/ehl.h). The contact of a ring keeps the drag of the
 // cycle's speed, so that this is one valve and no grid. Between solved speeds the curve is
 // interpolated, with its error told.
-#include "engine/valve/cycle.h"
+#include "engine/valve/run/cycle.h"
 #include "engine/valve/states/speed_states.h"
 #include "engine/valve/studies/study_private.h"
 

@@ -1,5 +1,5 @@
 // Plans the segments of the quasi-static cycle and evaluates them; the equations are in cycle.h.
-#include "engine/valve/cycle.h"
+#include "engine/valve/run/cycle.h"
 
 #include "engine/numeric/legendre.h"
 #include "engine/numeric/root.h"

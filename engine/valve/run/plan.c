@@ -5,12 +5,12 @@
 // Predicted error is what the solvers usually reach at the tolerance, which is less than that where
 // a mesh of few unknowns is already better; closed forms have none of discretisation. The counters
 // in a run's results are the proof of the plan.
-#include "engine/valve/plan.h"
+#include "engine/valve/run/plan.h"
 
 #include "engine/contact/fit.h"
-#include "engine/valve/cost.h"
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/model/model.h"
+#include "engine/valve/run/cost.h"
 #include "engine/valve/states/speed_states.h"
 #include "engine/valve/studies/study.h"
 

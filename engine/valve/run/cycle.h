@@ -24,7 +24,7 @@
 // A cycle is used by one thread while it is built, and may then be read by several.
 #pragma once
 
-#include "engine/valve/frame.h"
+#include "engine/valve/run/frame.h"
 #include "engine/valve/states/sliding.h"
 
 // Directions of sliding, as indices: in-stroke (speed > 0), return.

@@ -1,5 +1,5 @@
 // See contradiction.h.
-#include "engine/valve/contradiction.h"
+#include "engine/valve/run/contradiction.h"
 
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/model/model.h"

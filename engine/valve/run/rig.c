@@ -1,5 +1,5 @@
 // See rig.h.
-#include "engine/valve/rig.h"
+#include "engine/valve/run/rig.h"
 
 #include "engine/contact/closed_forms.h"
 
