@@ -5,7 +5,7 @@
 #include "app/export/bench_page.h"
 #include "app/export/json.h"
 
-#include "engine/valve/bench.h"
+#include "engine/valve/answer/bench.h"
 
 #include <math.h>
 

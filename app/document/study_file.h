@@ -3,7 +3,7 @@
 // GKeyFile text like a scene's: [sealbench] with kind = study and scene = FILE; [vary] a line a
 // parameter; [correlation]; [study]; [limits]; [design] and [tolerances] of `sealbench design`,
 // which takes the ranges of [vary] as bounds; [data] of `sealbench calibrate`, which takes them as
-// priors; [leakage_test], whose cans are the samples (engine/valve/leakage_test.h).
+// priors; [leakage_test], whose cans are the samples (engine/valve/answer/leakage_test.h).
 //
 // A grid may say more. Each group [vary NAME] is a grid of its own beside the others, with the
 // lines of [vary] added; samples stand in the order of the groups, the last line runs fastest. A
@@ -17,7 +17,7 @@
 #include "app/document/document.h"
 
 #include "engine/numeric/sampling.h"
-#include "engine/valve/leakage_test.h"
+#include "engine/valve/answer/leakage_test.h"
 
 // code, name
 #define SB_STUDY_METHODS(X)                                                                        \

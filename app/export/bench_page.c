@@ -56,7 +56,7 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
   char version[64];
   g_snprintf(version, sizeof version, "Sealbench %s", sb_version());
   SbPageFoot foot = {
-      "reynolds, disc, ring; the cases and their known answers: engine/valve/bench.c",
+      "reynolds, disc, ring; the cases and their known answers: engine/valve/answer/bench.c",
       "relative, of the worst of the figures that a case knows", version, NULL};
   sb_page_foot_draw(cr, page.whole, theme, &foot);
   cairo_restore(cr);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/base/unit.h"
-#include "engine/valve/bench.h"
+#include "engine/valve/answer/bench.h"
 
 #include <stdio.h>
 

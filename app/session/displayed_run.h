@@ -5,7 +5,7 @@
 
 #include "app/chart/data.h"
 #include "app/run/runner.h"
-#include "engine/valve/gradient.h"
+#include "engine/valve/answer/gradient.h"
 
 #include <glib.h>
 

@@ -1,8 +1,8 @@
 // Derivatives of all figures of a run of solved rings by one parameter after another, with the
-// engine's acceptance test (engine/valve/gradient.h), computed on a thread of its own.
+// engine's acceptance test (engine/valve/answer/gradient.h), computed on a thread of its own.
 #pragma once
 
-#include "engine/valve/gradient.h"
+#include "engine/valve/answer/gradient.h"
 
 typedef struct SbSlopeJob SbSlopeJob;
 

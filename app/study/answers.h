@@ -1,8 +1,8 @@
 // Answers to many questions about one base: those that a store has are taken from it, the others
 // are computed side by side on threads and put there.
 //
-// Every sample's answer depends on the base and on the sample alone (engine/valve/evaluate.h), not
-// on threads, shards, other samples or interruptions.
+// Every sample's answer depends on the base and on the sample alone
+// (engine/valve/answer/evaluate.h), not on threads, shards, other samples or interruptions.
 #pragma once
 
 #include "app/study/store.h"

@@ -166,8 +166,8 @@ static double added(const Curve *curve, size_t row, size_t coordinate) {
 
 // Differences: central ones of closed forms; where rings are solved, forward ones along their
 // tangent for the fit, and central ones of full solves for the posterior (`full`), as the tangent
-// fixes the places where a ring sticks, which have a history (engine/valve/gradient_rings.c). A
-// side that has no loop is replaced by the place itself.
+// fixes the places where a ring sticks, which have a history
+// (engine/valve/answer/gradient_rings.c). A side that has no loop is replaced by the place itself.
 static bool differentiate(void *data, double *jacobian, const double *z, const double *residual) {
   Work *work = data;
   const size_t n = work->coordinates;

@@ -1,7 +1,7 @@
 // What figures do as parameters move by what is usual of each, for people.
 #pragma once
 
-#include "engine/valve/gradient.h"
+#include "engine/valve/answer/gradient.h"
 
 // A figure's change as a parameter moves by its tolerance, or by 5 % where it has none.
 typedef struct {

@@ -1,7 +1,7 @@
 // Slopes of figures and threads for tasks; see the header.
 #include "app/study/slopes.h"
 
-#include "engine/valve/gradient.h"
+#include "engine/valve/answer/gradient.h"
 
 #include <math.h>
 #include <pthread.h>

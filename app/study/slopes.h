@@ -22,8 +22,8 @@ typedef struct {
 } SbSlopesAsked;
 
 // Figures value[figures] at x[parameters], NaN: none, and where `slope` is not NULL their slopes
-// [figures][parameters] (engine/valve/gradient.h), NaN: none. Values that make no valve, or are out
-// of range, and solvers that do not converge are no errors but figures without a value.
+// [figures][parameters] (engine/valve/answer/gradient.h), NaN: none. Values that make no valve, or
+// are out of range, and solvers that do not converge are no errors but figures without a value.
 // SB_ERROR_CANCELLED, _MEMORY.
 SbStatus sb_slopes(double *value, double *slope, SbEvaluator *evaluator, const SbSlopesAsked *asked,
                    const double *x, SbReport *report);

@@ -4,7 +4,7 @@
 #include "engine/base/status.h"
 #include "engine/base/version.h"
 #include "engine/film/film.h"
-#include "engine/valve/evaluate.h"
+#include "engine/valve/answer/evaluate.h"
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/model/params.h"
 #include "engine/valve/model/valve.h"

@@ -1,5 +1,5 @@
 // Every bench case meets what its tolerance promises, and its estimate is honest.
-#include "engine/valve/bench.h"
+#include "engine/valve/answer/bench.h"
 
 #include <glib.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 // Evaluate: the figures of a run to the bit, whatever is asked for with them or was asked before;
 // no more computed than wanted; refused overrides; two threads.
 #include "engine/contact/fit.h"
-#include "engine/valve/evaluate.h"
+#include "engine/valve/answer/evaluate.h"
 #include "engine/valve/model/model.h"
 #include "engine/valve/sealbench.h"
 

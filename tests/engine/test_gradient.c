@@ -1,7 +1,7 @@
 // Gradients: against differences of whole runs by another stencil; exact zeros; jumps,
 // what has no derivative, and why; the tangent of a ring; cancelling.
 #include "engine/contact/fit.h"
-#include "engine/valve/gradient.h"
+#include "engine/valve/answer/gradient.h"
 #include "engine/valve/sealbench.h"
 
 #include <glib.h>

@@ -1,7 +1,7 @@
 // The simulated leakage test against closed forms of a normal loss: by the second stage alone, by
 // the mean alone, by balance noise alone; and its two scales.
 #include "engine/numeric/sampling.h"
-#include "engine/valve/leakage_test.h"
+#include "engine/valve/answer/leakage_test.h"
 
 #include <glib.h>
 #include <math.h>

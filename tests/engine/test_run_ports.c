@@ -3,7 +3,7 @@
 #include "tests/engine/motion_run.h"
 #include "tests/engine/near.h"
 
-#include "engine/valve/evaluate.h"
+#include "engine/valve/answer/evaluate.h"
 
 #include <string.h>
 

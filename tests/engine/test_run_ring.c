@@ -1,6 +1,6 @@
 // Solved rings in a run: each state of contact is one dragged ring, in figures, friction and
 // picture; the same with one thread and with two; a ring that rolls is a result.
-#include "engine/valve/evaluate.h"
+#include "engine/valve/answer/evaluate.h"
 #include "engine/valve/run/cycle.h"
 #include "engine/valve/states/sliding.h"
 #include "tests/engine/models.h"

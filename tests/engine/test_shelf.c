@@ -1,7 +1,7 @@
 // Loss on the shelf: what it is made of, which way it goes with each of its inputs, and when there
 // is no figure.
 #include "engine/fluid/fluid.h"
-#include "engine/valve/evaluate.h"
+#include "engine/valve/answer/evaluate.h"
 #include "engine/valve/figures/figures.h"
 #include "tests/engine/models.h"
 #include "tests/engine/near.h"

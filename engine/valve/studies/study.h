@@ -7,7 +7,7 @@
 #pragma once
 
 #include "engine/base/status.h"
-#include "engine/valve/evaluate.h"
+#include "engine/valve/answer/evaluate.h"
 #include "engine/valve/model/valve.h"
 
 // enumerator, function's suffix, name, title, help

@@ -5,7 +5,7 @@
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
 #include "engine/film/laws.h"
-#include "engine/valve/evaluate.h"
+#include "engine/valve/answer/evaluate.h"
 #include "engine/valve/model/model.h"
 #include "engine/valve/run/cost.h"
 #include "engine/valve/studies/study.h"

@@ -26,7 +26,7 @@
 // derivatives with respect to integers, choices and flags; second derivatives.
 #pragma once
 
-#include "engine/valve/evaluate.h"
+#include "engine/valve/answer/evaluate.h"
 
 // Derivatives of figures; constant after its creation, so several threads may read it.
 typedef struct SbGradient SbGradient;

@@ -3,7 +3,7 @@
 // independent finite-strain finite element program, to the digits given; pressed ones have no other
 // program's answer, but this one's: the ring on meshes of 8000 to 10000 unknowns, which agree to
 // 3e-4, the disc at a tolerance of 3e-6.
-#include "engine/valve/bench.h"
+#include "engine/valve/answer/bench.h"
 
 #include "engine/base/clock.h"
 #include "engine/contact/fit.h"

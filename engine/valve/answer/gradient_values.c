@@ -1,5 +1,5 @@
 // What a gradient holds, and what it predicts.
-#include "engine/valve/gradient_private.h"
+#include "engine/valve/answer/gradient_private.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 // What a gradient looks at in an answer beside its figures.
-#include "engine/valve/gradient_private.h"
+#include "engine/valve/answer/gradient_private.h"
 
 #include <math.h>
 #include <stddef.h>

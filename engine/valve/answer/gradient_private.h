@@ -2,7 +2,7 @@
 // these.
 #pragma once
 
-#include "engine/valve/gradient.h"
+#include "engine/valve/answer/gradient.h"
 
 // Number of reasons, and bytes of each.
 enum { SB_GRADIENT_TEXTS = 64, SB_GRADIENT_TEXT = SB_TEXT };

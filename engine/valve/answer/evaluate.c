@@ -1,5 +1,5 @@
 // Answers by a run whose plan has no more than the figures need; see the header.
-#include "engine/valve/evaluate.h"
+#include "engine/valve/answer/evaluate.h"
 
 #include "engine/valve/model/model.h"
 #include "engine/valve/run/run.h"

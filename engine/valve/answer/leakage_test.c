@@ -1,5 +1,5 @@
 // See leakage_test.h.
-#include "engine/valve/leakage_test.h"
+#include "engine/valve/answer/leakage_test.h"
 
 #include "engine/numeric/sampling.h"
 #include "engine/numeric/statistics.h"

@@ -6,7 +6,7 @@
 // the same at any step; at a jump, and in rounding, by more the smaller it is. At an end of the
 // range one-sided slopes d(h), d(h/2), d(h/4) are extrapolated twice. The error is |R - D(h/2)|,
 // that of the last but one order, and what rounding leaves in it.
-#include "engine/valve/gradient_private.h"
+#include "engine/valve/answer/gradient_private.h"
 
 #include <float.h>
 #include <math.h>

@@ -10,7 +10,7 @@
 //   gap > e_D:  D takes its place with the error e_D, unless an event or an outcome differs there
 // h is such that the contacts change by MOVES. The cost is two full solves for each parameter that
 // enters rings.
-#include "engine/valve/gradient_private.h"
+#include "engine/valve/answer/gradient_private.h"
 
 #include <math.h>
 #include <string.h>
