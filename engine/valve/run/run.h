@@ -1,8 +1,10 @@
-// A run: one scene's cycle, computed step by step on whatever thread calls sb_run_execute().
+// A run: the cycle of one scene, computed by the thread that calls sb_run_execute().
 //
-// One thread executes; any thread may at the same time read what has been published:
-// sb_run_frames() returns a stable array and the number of frames complete so far
-// (acquire/release), so a reader never waits and a frame never changes once seen.
+// Use: sb_run_create(), sb_run_execute(), then the functions that read; sb_run_destroy() at the
+// end. One thread executes. Any other thread may at the same time read published frames, and
+// profiles and shapes that they refer to: sb_run_frames() returns a constant array and the number
+// of complete frames (acquire/release). A reader never waits, and a published frame does not change
+// until the run is executed or renewed again.
 #pragma once
 
 #include "engine/valve/run/frame.h"
@@ -12,66 +14,70 @@
 
 #include <stdatomic.h>
 
+// A run.
 typedef struct SbRun SbRun;
 
-// Callbacks of a run at work. Both may be NULL. `progress` is called at most every few milliseconds
-// with the fraction done, 0 to 1; a true answer of `cancelled` ends the run within 50 ms with
-// SB_ERROR_CANCELLED, its frames so far kept.
+// Callbacks of sb_run_execute(), called in its thread.
 typedef struct {
+  // Completed fraction, 0 to 1, and the number of published frames; at most every few milliseconds.
+  // NULL: none.
   void (*progress)(void *data, double fraction, size_t frames);
+  // True ends the run within 50 ms with SB_ERROR_CANCELLED; its frames so far remain. NULL: never.
   bool (*cancelled)(void *data);
   void *data;
-  bool alone; // no thread beside the caller's, which is the one that calls back in either case
+  bool alone; // the run starts no thread of its own; false: it may solve the two seals at a time
 } SbRunHooks;
 
+// A stage of the cycle.
 typedef struct {
   bool reached;
-  // Just before the event; NaN: not reached.
+  // Just before the event; NaN if not reached.
   double time;         // [s]
   double displacement; // of the stem [m]
   double force;        // of the drive [N]
-  size_t frame;        // index of the frame that sits on it
+  size_t frame;        // index of the frame exactly at the event
 } SbStageMark;
 
+// Points of a gasket's contact pressure.
 enum { SB_SEAL_EDGE_POINTS = 33 };
 
-// One seal in a steady state, sliding or at rest, by one member for each SB_SEAL_FIGURE (meaning
-// and unit there; NaN: not computed) and what they come from. A run's summary has that in the
-// middle of B-C, friction_static at B.
+// One seal in a steady state, sliding or at rest: one member for each SB_SEAL_FIGURE of figures.def
+// (meaning and unit there; NaN: not computed), and what they follow from. In a run's summary it is
+// the state in the middle of B-C, friction_static that at B.
 typedef struct {
 #define SB_SEAL_FIGURE(path, member, ...) double member;
 #include "engine/valve/figures/figures.def"
   SbLeakState leak_state;
   bool touches;
-  bool opened;      // by the fluid: the rubber does not press, or the film's ends differ too much
+  bool opened;      // by the fluid: the rubber has no contact pressure, or no film can be solved
   bool film_fitted; // film_min and film_central are solved on the fitted body
-  double layer;     // that it leaves on the bore behind it: flow over speed [m]
-  double load_net;  // per length, above the ambient step: what the film carries [N/m]
-  // Relative errors of the fit [1], 0 of a closed form: of the load, of load_net, of the contact's
-  // width and of its peak pressure.
+  double layer;     // thickness that it leaves on the bore: flow per length divided by speed [m]
+  double load_net;  // per length, without the fluid's step: load that the film carries [N/m]
+  // Relative errors of the fit [1], 0 of a closed form: load, load_net, contact width, peak
+  // pressure.
   double load_error, net_error, width_error, peak_error;
-  double film_error;           // of the least film, relative [1]; NaN: a closed form of exact loads
-  double central_error;        // of film_central alone, which friction depends on, relative [1]
-  double area_error;           // of the real area while sliding, relative [1]
-  double rest_error;           // of the real area at rest, relative [1]
-  double share_error;          // of the asperities' share of the load, relative [1]
-  double boundary_area;        // tau_0 A_a, the part of F_b in proportion to the width [N]
-  double boundary_load;        // m W, the part in proportion to the load [N]
-  double rest_area, rest_load; // what these two become at rest, once the film has gone [N]
+  double film_error;           // of the minimum film, relative; NaN: a closed form of exact loads
+  double central_error;        // of film_central, relative
+  double area_error;           // of the real area while sliding, relative
+  double rest_error;           // of the real area at rest, relative
+  double share_error;          // of the asperities' share of the load, relative
+  double boundary_area;        // tau_0 A_a, part of F_b proportional to the width [N]
+  double boundary_load;        // m W, part proportional to the load [N]
+  double rest_area, rest_load; // the same two at rest, when the film is squeezed out [N]
   double boundary_error;       // of boundary_area + boundary_load [N]
   double viscous_error;        // of friction_viscous [N]
   double friction_error;       // of kinetic friction, by its film and its fit [N]
   double static_error;         // of static friction, by its fit and its dry contact [N]
-  // Of a ring that friction drags, NaN without: what the pressure leaves of tau_0 A_a, what the
-  // section bears of the whole friction, its turn [degrees], > 0 as friction turns it.
+  // Of a ring dragged by friction, else NaN: fraction of tau_0 A_a that the pressure can transmit;
+  // fraction of the friction that the section bears; rotation [degrees], > 0 as friction turns it.
   double area_cut, borne_share, rotation;
   SbRingState section;
-  // Of a gasket's contact, at equal steps of the angle t from its left end, place = middle - half
-  // cos t: pressure above the lower fluid's [Pa]; 0 of rings.
+  // Contact pressure of a gasket above the lower fluid pressure [Pa], at equal steps of the angle t
+  // from its left end, x = middle - half width cos t; 0 of rings.
   double edge_pressure[SB_SEAL_EDGE_POINTS];
 } SbSealState;
 
-// A seal in a steady stroke, by one member for each SB_CONTACT_FIGURE.
+// A seal in a steady stroke: one member for each SB_CONTACT_FIGURE of figures.def.
 typedef struct {
 #define SB_CONTACT_FIGURE(path, member, ...) double member;
 #include "engine/valve/figures/figures.def"
@@ -84,15 +90,15 @@ typedef struct {
   SbContact in_stroke, back;
 } SbContacts;
 
-// What the sliding-plate rig reports (valve/run/rig.h).
+// Result of the sliding-plate rig (rig.h).
 typedef struct {
-  bool found; // whether the force has a first peak; else the coefficients mean nothing
+  bool found; // the force has a first peak; else the coefficients are undefined
   SbRigCoefficients of;
-  double contact_coefficient; // of friction by the valve's surface model under the rig's load [1]
-  double contact_load;        // load under which that model gives the sliding coefficient [N]
+  double contact_coefficient; // of friction by the valve's surface model at the rig's load [1]
+  double contact_load;        // load at which that model gives the sliding coefficient [N]
 } SbRigSummary;
 
-// What a joint bears over the run, on the first part it names; compare bodies.h.
+// Largest loads of a joint over the run, on the first part of its name; bodies.h.
 typedef struct {
   char name[2 * SB_BODY_NAME + 8]; // "stem centre, stem top"
   char kind[16];
@@ -103,39 +109,41 @@ typedef struct {
 
 // The constrained parts of a run with models.motion = bodies.
 typedef struct {
-  int gruebler, constraints, freedom;
+  int gruebler, constraints, freedom; // SbMobility
   char text[SB_TEXT];
-  double moving_mass;        // that the stroke sees, by the joints' conditions [kg]
-  double acceleration_error; // largest difference of a part's acceleration from the stroke's,
-                             // relative to all forces over the mass [1]
-  double joint_error;        // most that a step of the motion left a joint violated [m]
-  size_t joints;             // 0: not asked for
+  double moving_mass; // effective mass of the stroke, by the joints' conditions [kg]
+  // Largest difference between a part's acceleration and the stroke's, divided by the sum of all
+  // forces over the mass [1].
+  double acceleration_error;
+  double joint_error; // largest violation of a joint after a step of the motion [m]
+  size_t joints;      // 0: not computed
   SbJointSummary joint[SB_VALVE_JOINTS];
 } SbBodiesSummary;
 
-// Who presses the valve, each with a distribution of strength.
+// Groups of users, each with a distribution of strength; SB_USERS is their number.
 typedef enum { SB_WOMEN, SB_MEN, SB_USERS } SbUsers;
 
-// What one actuation yields.
+// Result of one actuation.
 typedef struct {
-  double roughness;       // over the given one [1]
-  double lambda;          // film over roughness [1]
+  double roughness;       // divided by the scene's [1]
+  double lambda;          // film divided by roughness [1]
   double leakage;         // net [m3]
-  double carried;         // out under the film on the way in [m3]
+  double carried;         // out under the film on the in-stroke [m3]
   double force_peak;      // [N]
-  double force_breakaway; // at the first slip [N]; NaN if there was none
-  double force_return;    // least [N]
-  double returned;        // [1] 1: the stem comes back to rest, 0: it does not
+  double force_breakaway; // at the first slip [N]; NaN if there is none
+  double force_return;    // minimum [N]
+  double returned;        // 1: the stem returns to rest, 0: it does not
   double dose;            // delivered [kg]
 } SbLifeActuation;
 
+// Result of a life (many actuations).
 typedef struct {
   long done;                   // actuations computed
-  double leakage;              // sum [m3]; NaN like `carried` for a life that ended before its time
-  double carried;              // sum [m3]
-  SbLifeActuation first, last; // figures of the last NaN for such a life
-  double return_least;         // over the life [N]; NaN if no actuation has one
-  long failure;                // number from 1 of the actuation without return, 0 if none
+  double leakage;              // sum [m3]; NaN if the life ended early
+  double carried;              // sum [m3]; NaN if the life ended early
+  SbLifeActuation first, last; // figures of `last` are NaN if the life ended early
+  double return_least;         // minimum over the life [N]; NaN if no actuation has one
+  long failure;                // number from 1 of the actuation without return; 0: none
 } SbLife;
 
 // One figure for each row of figures.def, the seals' twice.
@@ -148,9 +156,10 @@ enum {
 #include "engine/valve/figures/figures.def"
 };
 
-// Why figures were not computed (engine/valve/figures/figures.h): 0 for no reason, else text[of -
-// 1].
+// Capacity of different reasons.
 enum { SB_REASONS_MAX = 48 };
+
+// Why figures were not computed (figures.h): of[index] is 0 for no reason, else text[of - 1].
 typedef struct {
   size_t count;
   char text[SB_REASONS_MAX][SB_TEXT];
@@ -161,23 +170,24 @@ typedef struct {
 typedef enum {
   SB_OUTCOME_UNKNOWN,     // no motion was computed, it failed, or the stem still moves at its end
   SB_OUTCOME_NEVER_MOVED, // the drive does not overcome the static friction
-  SB_OUTCOME_STUCK,       // at rest away from its rest stop, without a push of the drive
+  SB_OUTCOME_STUCK,       // at rest away from its rest stop, not pushed by the drive
   SB_OUTCOME_RETURNED,    // at rest on its rest stop, released by the drive
   SB_OUTCOME_HELD         // the drive still pushes the stem, or is bonded to it
 } SbOutcome;
 
+// Answer of a criterion.
 typedef enum { SB_ANSWER_UNKNOWN, SB_ANSWER_NO, SB_ANSWER_YES } SbAnswer;
 
-// One question of the verdict: the answer, and the figure that decides it.
+// One criterion of the verdict: the answer, and the figure that decides it.
 typedef struct {
   SbAnswer ok;
-  int figure;           // index, -1: none
+  int figure;           // index; -1: none
   double value, limit;  // in the figure's SI unit; NaN: none
-  char reason[SB_TEXT]; // one sentence; empty where there is nothing to say
+  char reason[SB_TEXT]; // one sentence, or ""
 } SbVerdict;
 
-// What a run found: one member for each SB_FIGURE (meaning and unit there; NaN: not computed), and
-// what is no figure or stands in a struct of its own.
+// Results of a run: one member for each SB_FIGURE of figures.def (meaning and unit there; NaN: not
+// computed), and further data.
 typedef struct {
 #define SB_FIGURE(path, member, ...) double member;
 #include "engine/valve/figures/figures.def"
@@ -189,114 +199,134 @@ typedef struct {
   SbContacts contact[SB_SEAL_COUNT];
   SbBodiesSummary bodies;
   SbEnergy energy;
-  // Shares of users who are weaker than the peak and the break-away force [1].
+  // Fraction of users who are weaker than the peak force, and than the break-away force [1].
   double below_peak[SB_USERS], below_breakaway[SB_USERS];
-  SbRigSummary rig; // motion RIG
-  SbLife life;      // done = 0: no life was asked for
-  SbShelf shelf;    // points = 0: nobody asked for its history
+  SbRigSummary rig; // models.motion = rig
+  SbLife life;      // done = 0: no life
+  SbShelf shelf;    // points = 0: without history
   SbWarnings warnings;
   SbReasons reasons;
   SbVerdict verdict[SB_VERDICT_COUNT];
-  bool converged;
+  bool converged; // status is SB_OK
   size_t frames, steps, rejected_steps;
   size_t work;   // solver steps counted against output.work_limit, in all actuations of a life
   double wall_s; // elapsed time of the computation [s]
-  double error[SB_FIGURE_COUNT];    // of each figure, absolute in its SI unit; NaN: not known
-  double ring_fault[SB_SEAL_COUNT]; // of a predicted run's rings: forces that violate their active
-                                    // sets, over the bore's [1]
-  double ring_order;  // most polynomials of a ring's recovered pressure for each node [1]
-  double error_width; // of contact widths, relative as error_load [1]; NaN: does not apply
+  double error[SB_FIGURE_COUNT]; // of each figure, absolute in its SI unit; NaN: not known
+  // Of the rings of a predicted run: forces that violate their active sets, divided by the bore's
+  // [1].
+  double ring_fault[SB_SEAL_COUNT];
+  double ring_order;  // largest number of polynomials of a ring's recovered pressure per node [1]
+  double error_width; // of contact widths, relative like error_load [1]; NaN: does not apply
   SbCounters counters;
 } SbSummary;
 
-// Allocates a run for `model` by `plan` (both copied). *out is owned by the caller.
+// Creates a run of `model` by `plan` (both are copied). SB_ERROR_MEMORY.
 SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, SbReport *report);
 
-// Makes `run`, which no thread executes, one for another model and plan; it keeps its memory and
-// nothing else. What was borrowed from it is gone. On SB_ERROR_MEMORY it can only be renewed again
-// or destroyed.
+// Turns a run that no thread executes into one for another model and plan (both are copied). Only
+// its memory is reused; whatever was borrowed from it becomes invalid. After SB_ERROR_MEMORY it can
+// only be renewed again or destroyed.
 SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbReport *report);
 
-// The same, for a model of the last one's kind whose seals' steady states are those of the last one
-// to the bit, at the same plan: where they were solved they stand and are not solved again.
+// Does the same with the present plan, for a model of the same kind whose steady states of the
+// seals are equal to the bit: solved ones are reused.
 SbStatus sb_run_renew_same(SbRun *run, const SbModel *model, SbReport *report);
 
-// Frees a run that no thread executes any more; NULL is allowed.
+// Frees a run that no thread executes. Takes NULL.
 void sb_run_destroy(SbRun *run);
 
-// Computes the whole cycle once. SB_OK, SB_ERROR_CANCELLED, or a solver's status with the last good
-// state kept; the summary is valid after any of them.
+// Computes the whole cycle. `hooks` may be NULL. SB_ERROR_CANCELLED; SB_ERROR_NOT_CONVERGED or
+// another status of a solver, with what was computed before. The summary is valid after any of
+// them, with a reason for each figure that has no value. Executing again repeats the computation.
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
-// Before sb_run_execute(): keeps the rings' states for other runs to start from; after it they are
-// there, and the run must be executed anew for anything else.
+// Stores the states of the rings of the next sb_run_execute(), so that other runs can start from
+// them.
 void sb_run_keep_rings(SbRun *run);
+
+// Ends the storing, after sb_run_execute(). The run must be executed again before it can be used
+// for anything else than a base.
 void sb_run_end_rings(SbRun *run);
 
-// Prepares what the first run from kept rings would wait for, until `stop`. Any thread, also while
-// others start from them.
+// Computes what the first run that starts from the stored rings would wait for, until `stop` (not
+// NULL; called with `data`) returns true. Any thread, also while others start from them.
 void sb_run_prepare_rings(const SbRun *run, bool (*stop)(void *data), void *data);
 
-// Lets this run's rings start from those that `base` kept, borrowed until it is told otherwise;
-// NULL: cold, as at first. Its answers then hang on that base and its own model alone.
+// Lets the rings of this run start from those stored by `base`, borrowed until the next call; NULL:
+// cold start (the default). The results then depend only on that base and the run's own model.
+// After sb_run_renew(), before sb_run_execute().
 void sb_run_start_from(SbRun *run, const SbRun *base);
 
-// The same, but rings are not solved: they are the base's to first order in all that the models
-// differ by (ring_tangent.c), with the friction that goes with them; film, motion and frames are
-// then computed as ever. A prediction of the whole run, milliseconds each state: exact at the
-// base, second order beside it, blind to nodes and slips of the contact that come and go. Rings
-// that the base has not (they roll, jam, do not touch) have none: SB_ERROR_NOT_CONVERGED.
+// Does the same, but rings are not solved: they are linearised about the base with respect to all
+// differences of the models (ring_tangent.c), with the friction that follows. Film, motion and
+// frames are then computed as usual. The prediction takes milliseconds for each state; it is exact
+// at the base and has errors of second order near it. It does not see changes of the contact's
+// active set. Rings that the base does not have (they roll, jam or have no contact) cannot be
+// predicted: SB_ERROR_NOT_CONVERGED from sb_run_execute().
 void sb_run_predict_from(SbRun *run, const SbRun *base);
 
-// What the rings of such a prediction do: follow to first order; stay as they are at the first
-// state that was predicted beside the base, so that only what lies on them follows; or be solved
-// where the first order leads them, on its meshes, films next to the base's on theirs: what a
-// prediction is measured by. SbSummary.ring_fault is then 0 where all have the base's active set,
-// else infinite.
-typedef enum { SB_RINGS_FOLLOW, SB_RINGS_STAY, SB_RINGS_SOLVED } SbRingsBeside;
+// How the rings of a prediction are evaluated.
+typedef enum {
+  SB_RINGS_FOLLOW, // linearised
+  SB_RINGS_STAY,   // constant, as in the first state predicted from the base; only films follow
+  // Solved from the linearised state on its meshes, and films next to the base's films: reference
+  // for predictions. SbSummary.ring_fault is then 0 if all rings have the base's active set, else
+  // infinite.
+  SB_RINGS_SOLVED
+} SbRingsBeside;
+
+// Sets how the rings of predictions are evaluated; SB_RINGS_FOLLOW by default.
 void sb_run_rings_beside(SbRun *run, SbRingsBeside how);
 
-// Frames published so far, oldest first; borrowed, valid until sb_run_destroy(). Any thread.
+// Returns the published frames, oldest first, and writes their number to *count; borrowed until the
+// run is renewed or destroyed. Any thread.
 const SbFrame *sb_run_frames(const SbRun *run, size_t *count);
 
-// Reactions of the joints at a published frame, as many as the summary has joints, in the order of
-// thesis table 4.3; NULL if nobody asked. Borrowed; any thread.
+// Returns the reactions of the joints at a published frame: as many as the summary has joints, in
+// the order of thesis table 4.3. NULL if not computed. Borrowed; any thread.
 const SbReaction *sb_run_reactions(const SbRun *run, size_t frame);
 
-// A run that has ended well as bytes of this build, *out owned by the caller (free()), and back,
-// for the model and the plan that it was made by: to be looked at, not to start others from.
-// SB_ERROR_INPUT: reactions of joints are not kept; not such bytes.
+// Writes a converged run to bytes *out of *size, owned by the caller: free(). They are valid for
+// this build only. SB_ERROR_INPUT: not converged, or with reactions of joints (not stored);
+// SB_ERROR_MEMORY; *out is NULL then.
 SbStatus sb_run_pack(void **out, size_t *size, const SbRun *run, SbReport *report);
+
+// Creates a run from such bytes, for the model and plan of the packed run. It can be read, but
+// others cannot start from it. SB_ERROR_INPUT: bytes of another build, or damaged; SB_ERROR_MEMORY.
 SbStatus sb_run_unpack(SbRun **out, const SbModel *model, const SbPlan *plan, const void *bytes,
                        size_t size, SbReport *report);
 
-// Number of frames a complete run will have at most (for progress). Any thread.
+// Returns the largest possible number of frames, for progress. Any thread.
 size_t sb_run_capacity(const SbRun *run);
 
-// Profile `index` of the run; borrowed. Any thread, for an index found in a published frame.
+// Returns profile `index`, NULL if there is none; borrowed. Any thread, for an index of a published
+// frame.
 const SbContactProfile *sb_run_profile(const SbRun *run, uint32_t index);
 
-// No shape has an index as large as this.
+// Indices of shapes are smaller than this.
 enum { SB_RUN_SHAPES_MAX = 96 };
 
-// Solved ring shape `index`, NULL if there is none; borrowed. Any thread, for an index found in a
-// published frame.
+// Returns the solved ring shape `index`, NULL if there is none; borrowed. Any thread, for an index
+// of a published frame.
 const SbSealShape *sb_run_shape(const SbRun *run, uint32_t index);
 
-// What each actuation of a life yielded, oldest first; *count is 0 without a life. Only after
-// sb_run_execute() returned; borrowed.
+// Returns the actuations of a life, oldest first, and writes their number to *count (0 without a
+// life). Only after sb_run_execute(); borrowed.
 const SbLifeActuation *sb_run_life(const SbRun *run, size_t *count);
 
-// After sb_run_execute(): the steady state of a seal at a speed [m/s] > 0 by way of sliding,
-// SB_CYCLE_IN or SB_CYCLE_OUT (cycle.h), under the pressures at the middle of B-C or of F-A: those
-// states that the motion's friction is taken from (speed_states.h), more of which are solved where
-// need be. Their errors, counts and warnings go to the summary. SB_ERROR_CANCELLED, _MEMORY.
+// Computes, after sb_run_execute(), the steady state of a seal at `speed` [m/s] > 0 in direction
+// `way`, SB_CYCLE_IN or SB_CYCLE_OUT (cycle.h), under the pressures in the middle of B-C or F-A:
+// the states from which the motion's friction is interpolated (speed_states.h). More are solved if
+// needed; their errors, counts and warnings are added to the summary. SB_ERROR_CANCELLED,
+// SB_ERROR_MEMORY; SB_ERROR_NOT_CONVERGED if output.work_limit is exhausted.
 SbStatus sb_run_sliding(SbSealState *out, SbRun *run, int seal, int way, double speed,
                         SbReport *report);
 
-// Only after sb_run_execute() returned; borrowed.
+// Returns the summary; borrowed. Only after sb_run_execute().
 const SbSummary *sb_run_summary(const SbRun *run);
 
-// What the run was made for; any time, any thread; borrowed.
+// Returns the run's copy of its model; borrowed. Any thread.
 const SbModel *sb_run_model(const SbRun *run);
+
+// Returns the run's copy of its plan; borrowed. Any thread.
 const SbPlan *sb_run_plan(const SbRun *run);

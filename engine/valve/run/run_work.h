@@ -10,20 +10,21 @@
 
 #include "engine/base/status.h"
 
+// A budget of steps.
 typedef struct {
   size_t done, limit;            // steps
-  bool spent;                    // a step was refused; every later one is too
-  bool (*cancelled)(void *data); // whether the user asks to stop; NULL: never
+  bool spent;                    // a step was refused; all later ones are refused too
+  bool (*cancelled)(void *data); // returns whether the user cancels; NULL: never
   void *data;
 } SbWork;
 
-// Counts a step of `data`, an SbWork. Returns true where the solver must stop.
+// Counts a step of `data`, an SbWork. Returns true if the solver must stop.
 bool sb_work_step(void *data);
 
-// Returns a budget of one of `parts` equal parts of the steps that are left.
+// Returns a budget of one of `parts` equal parts of the remaining steps.
 SbWork sb_work_part(const SbWork *work, size_t parts);
 
-// Adds the steps of a part, which has ended; more than are left spend the budget.
+// Adds the steps of a part that has ended; more than the remaining ones exhaust the budget.
 void sb_work_add(SbWork *work, const SbWork *part);
 
 // Returns the status of a solver that polled `work`: SB_ERROR_NOT_CONVERGED, with a report that

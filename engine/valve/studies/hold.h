@@ -1,9 +1,9 @@
-// What a study holds of its scene while it varies the rest.
+// Conditions that a study keeps constant while it varies others.
 #pragma once
 
 #include "engine/valve/model/valve.h"
 
-// enumerator, name, what is held
+// Enumerator, name, what is constant.
 #define SB_HOLDS(X)                                                                                \
   X(SB_HOLD_MACHINE, "machine",                                                                    \
     "the cycle of the test machine, quasi-static, whatever drives the scene")                      \
@@ -13,6 +13,7 @@
   X(SB_HOLD_SATURATED, "saturated",                                                                \
     "pressure, viscosity and density those of the liquid by its name, whatever the scene gives")
 
+// A set of such conditions.
 typedef enum {
 #define SB_HOLD_ENUM(code, name, help) code,
   SB_HOLDS(SB_HOLD_ENUM)
@@ -20,10 +21,12 @@ typedef enum {
       SB_HOLD_COUNT
 } SbHold;
 
-// All names, for messages; borrowed.
+// Returns all names, for messages; static.
 const char *sb_hold_names(void);
 
+// Finds a set by its name. Returns false, and leaves *out, if there is none.
 SB_CHECKED bool sb_hold_from_name(SbHold *out, const char *name);
 
-// The scene with that held; owned by the caller. As sb_model_derive() otherwise.
+// Creates the model of `scene` with these conditions; owned by the caller, sb_model_destroy().
+// Errors of sb_model_derive().
 SbStatus sb_model_hold(SbModel **out, const SbModel *scene, SbHold hold, SbReport *report);
