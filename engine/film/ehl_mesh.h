@@ -12,6 +12,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+// Capacities and constants.
 enum {
   SB_EHL_DEGREE_MAX = 18,    // largest polynomial degree
   SB_EHL_ELEMENTS_MAX = 100, // largest number of elements

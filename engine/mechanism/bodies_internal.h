@@ -4,6 +4,7 @@
 
 #include "engine/mechanism/bodies.h"
 
+// Short names in these files.
 enum { ROWS = SB_ASSEMBLY_ROWS, COLUMNS = SB_ASSEMBLY_COLUMNS };
 
 typedef SbAssemblyConditions Conditions;
