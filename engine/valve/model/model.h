@@ -25,31 +25,33 @@ typedef struct {
   bool rings_solved;                       // rings are solved at each temperature
 } SbStudyRange;
 
-// A model. Fields of parameters are declared by params.def.
+// A model. Fields of parameters are declared by params.def: one field for each row, of the type and
+// in the unit of the row.
 struct SbModel {
-  SbParams params; // what it was compiled from
+  SbParams params; // values from which the model was compiled
 #define SB_REAL(id, where, place, ...)         SB_DECLARE_##where(double, place)
 #define SB_INT(id, where, place, ...)          SB_DECLARE_##where(int, place)
 #define SB_CHOICE(id, type, where, place, ...) SB_DECLARE_##where(type, place)
 #define SB_FLAGS(id, where, place, ...)        SB_DECLARE_##where(unsigned, place)
 #include "engine/valve/model/params.def"
   SbSealModel seal[SB_SEAL_COUNT];
-  SbRubber rubber;           // how storage changes it
-  double bore_circumference; // pi D: the friction area's length [m]
+  SbRubber rubber;           // law of the rubber's change in storage
+  double bore_circumference; // pi D, length of the friction area [m]
   SbDoseSupply supply;       // of the dose chamber between the two seals
-  double filling_time;       // of that, past the land's edge [s]; NAN: nothing drives liquid in
-  double pressure_force;     // p pi D_p^2/4, pushes the stem out [N]
-  SbValveParts parts;        // the stem's share stem_mass
-  double moving_mass;        // stem, seals and block [kg]
+  double
+      filling_time; // time to fill the chamber past the land's edge [s]; NaN: no driving pressure
+  double pressure_force; // p pi D_p^2/4, pushes the stem out [N]
+  SbValveParts parts;    // the stem has the mass stem_mass
+  double moving_mass;    // stem, seals and block [kg]
   SbRoughModel surface;
   SbRunningIn running_in; // factor on the roughness
-  SbRig rig;              // motion RIG
-  SbSectionLook look;     // for the drawing only
-  SbValveShape shape;     // for the drawing only
+  SbRig rig;              // models.motion = rig
+  SbSectionLook look;     // for drawing only
+  SbValveShape shape;     // for drawing only
   SbStudyRange study;
-  SbShelfInput shelf;      // what a loss on the shelf hangs on beside the rest
+  SbShelfInput shelf;      // parameters of the loss on the shelf
   const SbModelData *data; // borrowed; NULL: no series, drawn section or outlines
-  SbLimits limits;         // filled by whoever read them, none otherwise
+  SbLimits limits;         // set by the reader of a scene; else empty
 };
 
 // Adds a problem with `key`, a formatted reason, and the valid range (NaN: no limit). Does nothing

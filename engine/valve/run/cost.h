@@ -9,23 +9,23 @@
 #include <math.h>
 
 // Processor times [s].
-#define SB_COST_CLOSED       2e-6
-#define SB_COST_DISC         0.8e-3
-#define SB_COST_RING         50e-3  // fitted; pressed against its wall a little more
-#define SB_COST_RING_DRAGGED 0.13   // sliding: squeezed, pressed and dragged, its error told
-#define SB_COST_RING_SHAPE   11e-3  // to draw, from a state: over the land's edge
+#define SB_COST_CLOSED       2e-6   // a closed form
+#define SB_COST_DISC         0.8e-3 // a disc
+#define SB_COST_RING         50e-3  // at rest, without pressure; slightly more with pressure
+#define SB_COST_RING_DRAGGED 0.13   // sliding: squeezed, pressed and dragged, with error estimate
+#define SB_COST_RING_SHAPE   11e-3  // one shape over the land's edge, from a solved state
 #define SB_COST_FILM         4e-3   // coupled film on the half-plane
-#define SB_COST_FILM_FITTED  8e-3   // on a disc's or ring's own surface
+#define SB_COST_FILM_FITTED  8e-3   // on the surface of a disc or ring
 #define SB_COST_FILM_MIXED   12e-3  // with asperities in it
-#define SB_COST_FILM_PROFILE 1e-3   // 1500 points of a solved film
-#define SB_COST_FILM_STEP    2.5e-3 // of a film's history
-#define SB_COST_ROUGH        1e-5   // real area at a film
-#define SB_COST_LEAK         0.2e-3 // percolation at rest
-#define SB_COST_FRAME        3e-7
-#define SB_COST_SAMPLE       2e-6   // of the sliding plate
-#define SB_COST_ACTUATION    0.5e-3 // quasi-static, its rough contacts evaluated anew
+#define SB_COST_FILM_PROFILE 1e-3   // 1500 points of the profile of a solved film
+#define SB_COST_FILM_STEP    2.5e-3 // one time step of a transient film
+#define SB_COST_ROUGH        1e-5   // real area of a rough contact under a film
+#define SB_COST_LEAK         0.2e-3 // leakage at rest by percolation
+#define SB_COST_FRAME        3e-7   // one frame of a cycle
+#define SB_COST_SAMPLE       2e-6   // one sample of the sliding plate
+#define SB_COST_ACTUATION    0.5e-3 // a quasi-static actuation with its rough contacts
 #define SB_COST_DYNAMICS     8e-3   // a stroke in and out with inertia
-#define SB_COST_DYNAMICS_OWN 2e-3   // the same where no machine's speed is given
+#define SB_COST_DYNAMICS_OWN 2e-3   // a stroke with a drive that prescribes no speed
 
 // Returns the time of one solve of a fit model [s].
 static inline double sb_cost_fit(SbFitModel model) {
