@@ -60,7 +60,7 @@ const char *sb_param_words(SbParamId id);
 int sb_param_tolerance(SbParamId id);
 
 // Largest number of values of a rubber, and bytes of a source.
-enum { SB_RUBBER_FIGURES_MAX = 48, SB_SOURCE_MAX = 256 }; // bytes of a source
+enum { SB_RUBBER_FIGURES_MAX = 48, SB_SOURCE_MAX = 256 };
 
 // A named rubber: values of parameters that apply if they are not given, each with its source. The
 // reader of a rubber's file fills it.

@@ -108,12 +108,12 @@ typedef enum {
 
 // What drives the stem (drive.kind).
 typedef enum {
-  SB_MODEL_DRIVE_MACHINE,
-  SB_MODEL_DRIVE_HAND,
-  SB_MODEL_DRIVE_FREE_RETURN,
-  SB_MODEL_DRIVE_SINUSOID,
-  SB_MODEL_DRIVE_RAMP,
-  SB_MODEL_DRIVE_MEASURED
+  SB_MODEL_DRIVE_MACHINE,     // platen of a test machine, constant speed up to a force, and back
+  SB_MODEL_DRIVE_HAND,        // force of a finger: rise, hold, fall
+  SB_MODEL_DRIVE_FREE_RETURN, // none: the stem is released at the end stop
+  SB_MODEL_DRIVE_SINUSOID,    // platen bonded to the stem, sinusoidal displacement about mid-stroke
+  SB_MODEL_DRIVE_RAMP,        // force: rise and hold, without fall
+  SB_MODEL_DRIVE_MEASURED     // displacement or force of a measured series
 } SbDriveChoice;
 
 // Capacity of a series.
@@ -196,13 +196,13 @@ typedef struct {
 
 // Views of a scene (output.views), a bit each.
 typedef enum {
-  SB_VIEW_HYSTERESIS = 1 << 0,
-  SB_VIEW_PROFILES = 1 << 1,
-  SB_VIEW_SECTION = 1 << 2,
-  SB_VIEW_DASHBOARD = 1 << 3,
-  SB_VIEW_RIG = 1 << 4,
-  SB_VIEW_LIFE = 1 << 5,
-  SB_VIEW_SHELF = 1 << 6
+  SB_VIEW_HYSTERESIS = 1 << 0, // force against displacement
+  SB_VIEW_PROFILES = 1 << 1,   // contact pressure and film against x
+  SB_VIEW_SECTION = 1 << 2,    // section of the valve
+  SB_VIEW_DASHBOARD = 1 << 3,  // several charts
+  SB_VIEW_RIG = 1 << 4,        // force of the sliding plate
+  SB_VIEW_LIFE = 1 << 5,       // actuations of a life
+  SB_VIEW_SHELF = 1 << 6       // loss on the shelf
 } SbView;
 
 // Declares a field for a row of params.def; rows with IN have their field elsewhere.
@@ -334,9 +334,9 @@ void sb_model_remarks(const SbModel *model, SbProblems *out);
 
 // Effect of the temperature of use on the modulus.
 typedef struct {
-  double factor; // modulus divided by that at 20 degC
-  const char *tag,
-      *source; // "given", "entropy elasticity", "inferred", "typical", "published"; reference
+  double factor;      // modulus divided by that at 20 degC
+  const char *tag;    // "given", "entropy elasticity", "inferred", "typical" or "published"
+  const char *source; // reference
 } SbModulusChange;
 
 // Computes the effect on the outer seal's modulus of `temperature` [K]. Strings are static or

@@ -146,7 +146,8 @@ typedef struct {
   long failure;                // number from 1 of the actuation without return; 0: none
 } SbLife;
 
-// One figure for each row of figures.def, the seals' twice.
+// Number of figures: one for each row of figures.def, two for each row of a seal, four for each row
+// of a seal's contact.
 enum {
   SB_FIGURE_COUNT =
 #define SB_FIGURE(...)         +1
@@ -261,8 +262,8 @@ void sb_run_start_from(SbRun *run, const SbRun *base);
 // differences of the models (ring_tangent.c), with the friction that follows. Film, motion and
 // frames are then computed as usual. The prediction takes milliseconds for each state; it is exact
 // at the base and has errors of second order near it. It does not see changes of the contact's
-// active set. Rings that the base does not have (they roll, jam or have no contact) cannot be
-// predicted: SB_ERROR_NOT_CONVERGED from sb_run_execute().
+// active set. Rings that roll or jam at the base cannot be predicted:
+// SB_ERROR_NOT_CONVERGED from sb_run_execute(). After sb_run_renew(), before sb_run_execute().
 void sb_run_predict_from(SbRun *run, const SbRun *base);
 
 // How the rings of a prediction are evaluated.
