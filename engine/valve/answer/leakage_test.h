@@ -15,15 +15,17 @@
 
 // The rules of a test.
 typedef struct {
-  char edition[96];          // source of the numbers
-  double duration;           // T [s]
-  double temperature;        // [K]
-  int containers, more;      // first stage; added in the second stage
-  int beyond, beyond_all;    // allowed number above `single`: to enter the second stage; in total
-  double small_fill;         // net fill below which the limits are masses [kg]
-  double mean, single, most; // limits [kg per year of 365 days]
-  double mean_share, single_share,
-      most_share; // limits for larger fills [fraction of the fill per year]
+  char edition[96];     // source of the numbers
+  double duration;      // T [s]
+  double temperature;   // [K]
+  int containers, more; // number in the first stage; added in the second stage
+  // Allowed number above `single`: to enter the second stage; in both stages together.
+  int beyond, beyond_all;
+  double small_fill; // net fill below which the limits are masses [kg]
+  // Limits of the mean, of one container, and of each container in any stage [kg per 365 days].
+  double mean, single, most;
+  // The same limits for larger fills [fraction of the fill per 365 days].
+  double mean_share, single_share, most_share;
   double balance; // standard deviation of one weighing [kg]
 } SbLeakageTest;
 

@@ -6,13 +6,14 @@
 //
 //   in-stroke  k (X - s) = F_p + f(s)      return  k (X - s) = F_p - f(s) >= 0
 //
-// F_p = F_canister + F_0 + k_r s with a return spring, X is the platen's position, s the stem's
-// displacement, f the seals' friction. f changes while the inner seal passes the edge of the bore
-// land: its contact [l, r] then extends over x > x_e only, x_e = l_in + (s - s_C), with l_in of the
-// in-stroke. The part of friction proportional to the width falls linearly, that proportional to
-// the load as the integral of an elliptic pressure. The stem sticks up to the static friction after
-// the rest before A, and up to the kinetic friction where it stops during a stroke (without dwell
-// the contact keeps its film).
+// X is the platen's position, s the stem's displacement, f the seals' friction, F_p the force that
+// pushes the stem out: canister pressure, and F_0 + k_r s of a return spring with preload F_0 and
+// stiffness k_r. f changes while the inner seal passes the edge of the bore land: its contact
+// [l, r] then extends over x > x_e only, x_e = l_in + (s - s_C), with the left edge l_in of the
+// contact on the in-stroke and the displacement s_C of stage C. The part of friction proportional
+// to the width falls linearly, that proportional to the load as the integral of an elliptic
+// pressure. The stem sticks up to the static friction after the rest before A, and up to the
+// kinetic friction where it stops during a stroke (without dwell the contact keeps its film).
 //
 // On the return the stem sticks permanently at the first position where the static friction after
 // the dwell at the end stop reaches F_p, because so slow a motion can come to rest anywhere. While

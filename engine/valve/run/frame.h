@@ -6,14 +6,14 @@
 
 #include <stdint.h>
 
-// Stages (events) of the cycle; docs/results.md, Definitions.
+// Stages (events) of the cycle. The frame at an event is the state just before it.
 typedef enum {
-  SB_STAGE_A,
-  SB_STAGE_B,
-  SB_STAGE_C,
-  SB_STAGE_D,
-  SB_STAGE_E,
-  SB_STAGE_F,
+  SB_STAGE_A, // start
+  SB_STAGE_B, // first slip
+  SB_STAGE_C, // the land's edge reaches the inner contact (gasket: the shoulder closes the chamber)
+  SB_STAGE_D, // the stem reaches the end stop
+  SB_STAGE_E, // first slip in the reverse direction
+  SB_STAGE_F, // the inner seal contacts the land again (gasket: the neck opens the chamber)
   SB_STAGE_COUNT
 } SbStage;
 
@@ -27,15 +27,15 @@ typedef struct {
   float pressure_right; // fluid pressure on the ambient side [Pa]
   uint32_t profile;     // index for sb_run_profile(), UINT32_MAX: none
   uint32_t shape;       // index for sb_run_shape(), UINT32_MAX: none
-  double
-      contact_left; // x of the left edge in the seal's frame [m]; equal to the right if no contact
-  double contact_right;     // x of the right edge [m]
-  double load;              // contact load around the circumference [N]
-  double pressure_peak;     // minus the lower fluid pressure [Pa]
-  double film_min;          // [m]; 0 at rest unless the film history is solved; NAN without contact
-  double film_central;      // [m]
-  double lambda;            // film_central/sigma
-  double real_area_share;   // fraction of real contact area while sliding; NAN like the film
+  double contact_left;  // x of the left edge [m]; equal to the right one without contact
+  double contact_right; // x of the right edge [m]
+  double load;          // contact load around the circumference [N]
+  double pressure_peak; // peak contact pressure minus the lower fluid pressure [Pa]
+  double film_min;     // minimum film [m]; 0 at rest unless the film history is solved; NaN without
+                       // contact
+  double film_central; // [m]; as film_min
+  double lambda;       // film_central/sigma
+  double real_area_share;   // fraction of real contact area while sliding; NaN like the film
   double friction_boundary; // part of `friction` due to asperities [N]
   double friction_viscous;  // part of `friction` due to the film [N]
   double friction;          // force on the stem, > 0 if it pushes the stem out [N]

@@ -55,12 +55,15 @@ SbStatus sb_rig_start(SbDynamics *motion, SbDynamicsModel *model, const SbRig *r
 // fields to 0. A peak is a maximum from which the force falls by more than `prominence` before it
 // exceeds the maximum again.
 typedef struct {
-  double prominence;  // [N]; a few times the noise
-  bool falling;       // after a peak, before the next rise
-  double top, trough; // maximum and minimum since then [N]
-  double first, others,
-      after; // first peak; sums of other peaks and of all samples after the first [N]
-  size_t count, top_at, first_at, peaks; // samples; sample numbers; peaks found
+  double prominence;       // [N]; a few times the noise
+  bool falling;            // after a peak, before the next rise
+  double top, trough;      // maximum and minimum since then [N]
+  double first;            // force of the first peak [N]
+  double others;           // sum of the other peaks [N]
+  double after;            // sum of all samples after the first peak [N]
+  size_t count;            // samples so far
+  size_t top_at, first_at; // sample numbers of `top` and of the first peak
+  size_t peaks;            // peaks found
 } SbRigSignal;
 
 // Adds the next sample. Returns whether it proves an earlier sample to be a peak, whose number is

@@ -358,8 +358,6 @@ void sb_run_progress(const SbRun *run, const SbRunHooks *hooks, double fraction,
 // Returns whether the hooks cancel the run, and fills the report then.
 bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report);
 
-// ---- Motion: the valve as a mechanism and its frames (run_valve.c), what drives it (run_drive.c)
-
 // ---- Motion: the valve as a mechanism and its frames (run_valve.c), its drive (run_drive.c)
 
 // Indices of stops.

@@ -5,8 +5,7 @@
 // plastic of the housing if housing.permeation_length is given.
 //
 //   permeation  P(T) S_g p M,  P = P_r exp(-Q_P/R (1/T - 1/T_r)), p the propellant's vapour
-//               pressure at T, none outside; S_g of the ring at rest (permeation/diffusion.h), or
-// of
+//               pressure at T, 0 outside; S_g of the ring at rest (permeation/diffusion.h), or of
 //               a slab if models.fit does not solve a ring
 //   water       the same inwards, with its own permeability and the relative humidity times the
 //               saturation pressure 610.94 exp(17.625 t/(t + 243.04)) Pa, t in degC (Alduchov and
@@ -28,17 +27,27 @@
 enum { SB_SHELF_POINTS = 37 };
 
 // Temperature history on the shelf (shelf.history).
-typedef enum { SB_SHELF_CONSTANT, SB_SHELF_WAREHOUSE, SB_SHELF_FILE } SbShelfHistory;
+typedef enum {
+  SB_SHELF_CONSTANT,  // the temperature of the canister
+  SB_SHELF_WAREHOUSE, // sines of the year and of the day about it
+  SB_SHELF_FILE       // SbModelData.shelf
+} SbShelfHistory;
 
-// Parameters of the shelf (groups rubber, housing and shelf of the catalogue).
+// Parameters of the shelf (groups rubber, housing, fluid and shelf of the catalogue).
+// Permeabilities [mol/(m s Pa)]; 0: not given.
 typedef struct {
-  double permeability_energy, water_permeability, water_permeability_energy; // of the rubber
-  double plastic_permeability, plastic_water_permeability, plastic_length;   // of the housing
-  double humidity, vapour_viscosity, contact_angle; // relative; [Pa s]; [rad]
-  bool vapour; // the seals are in contact with vapour; else with liquid
-  double time; // on the shelf [s]
+  double permeability_energy;       // Q_P of the rubber's permeability [J/mol]
+  double water_permeability;        // of the rubber for water
+  double water_permeability_energy; // [J/mol]
+  double plastic_permeability, plastic_water_permeability; // of the housing
+  double plastic_length;   // area of the wall divided by its thickness [m]; 0: no path
+  double humidity;         // relative, of the ambient air
+  double vapour_viscosity; // of the propellant [Pa s]
+  double contact_angle;    // of the liquid on seal and bore [rad]
+  bool vapour;             // the seals are in contact with vapour; else with liquid
+  double time;             // on the shelf [s]
   SbShelfHistory history;
-  double season, day; // amplitudes of the temperature [K]
+  double season, day; // amplitudes of the two sines [K]
 } SbShelfInput;
 
 // One seal at rest; NaN: not computed. All values of a seal without pressure difference are NaN; it
@@ -53,13 +62,19 @@ typedef struct {
   SbLeakState state;
 } SbShelfSeal;
 
-// A can. The fields are figures "shelf...." of figures.def (units there); NaN: not computed.
-// Without a path through the plastic its fields are NaN and the sums are the seals'.
+// A can. Without a path through the plastic `plastic` is NaN and the sums are the seals'. NaN: not
+// computed.
 typedef struct {
-  double temperature, permeation, interface, plastic, loss_per_year, moisture_per_year, lag;
-  double loss, moisture, mass_left, doses_left; // after shelf.time
-  double error;                                 // relative, of S_g; NaN: closed form
-  double pressure_error;                        // relative, of the seal's contact pressure
+  double temperature;                      // of the rates below [K]
+  double permeation;                       // propellant through seals and plastic [kg/s]
+  double interface;                        // propellant along the contacts [kg/s]
+  double plastic;                          // part of `permeation` through the plastic [kg/s]
+  double loss_per_year, moisture_per_year; // at these rates [kg per 365 days]
+  double lag;                              // time lag of the seal's permeation [s]
+  double loss, moisture;                   // propellant lost, water taken up in shelf.time [kg]
+  double mass_left, doses_left;            // remaining propellant [kg], complete doses
+  double error;                            // relative, of S_g; NaN: closed form
+  double pressure_error;                   // relative, of the seal's contact pressure
   SbShelfSeal seal[SB_SEAL_COUNT];
   bool typical;  // a value that is typical of such rubbers was used
   size_t points; // of the history; 0: not computed
@@ -68,7 +83,7 @@ typedef struct {
     double temperature; // mean since the previous point [K]
     // Sums since the start through rubber, contact, plastic; water taken up [kg].
     double permeated, passed, plastic, moisture;
-    double doses; // remaining
+    double doses; // remaining complete doses
   } point[SB_SHELF_POINTS];
 } SbShelf;
 
@@ -79,6 +94,9 @@ enum { SB_SHELF_TYPICAL = 2 };
 // and writes a sentence to text[size]. Returns NULL, and writes "", if there is none.
 const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int which);
 
-// How much of the shelf is computed: nothing, rates at the model's temperature, or also the
-// history.
-typedef enum { SB_SHELF_NOTHING, SB_SHELF_RATES, SB_SHELF_OVER_TIME } SbShelfDepth;
+// How much of the shelf is computed.
+typedef enum {
+  SB_SHELF_NOTHING,
+  SB_SHELF_RATES,    // rates at the model's temperature
+  SB_SHELF_OVER_TIME // and the history
+} SbShelfDepth;

@@ -170,8 +170,6 @@ SbStatus sb_sliding_rest(const SbSlidingTask *task, SbSealState *out, SbReport *
 
 // ---- The film (sliding_film.c)
 
-// ---- The film (sliding_film.c)
-
 // Returns whether a task has a film: speed is not 0, and there is liquid at the inlet.
 bool sb_sliding_has_film(const SbSlidingTask *task);
 
@@ -217,8 +215,6 @@ SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbRep
 // Computes the state of a sliding ring: ring and film in turns, until the friction that drags the
 // ring is that of its own film.
 SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *report);
-
-// ---- A gasket (sliding_gasket.c)
 
 // ---- A gasket (sliding_gasket.c)
 

@@ -21,11 +21,11 @@
 #include "engine/valve/states/sliding.h"
 
 // Range of tabulated speeds [m/s].
-#define SB_SPEED_LEAST 1e-6 // m/s
-#define SB_SPEED_MOST  10.0 // m/s
+#define SB_SPEED_LEAST 1e-6
+#define SB_SPEED_MOST  10.0
 
 // Relative interpolation tolerance of films and friction.
-#define SB_SPEED_TOLERANCE 5e-4 // relative, of films and friction
+#define SB_SPEED_TOLERANCE 5e-4
 
 // Capacities of nodes and cells, and number of interpolated values.
 enum { SB_SPEED_NODES = 80, SB_SPEED_CELLS = 40, SB_SPEED_VALUES = 7 };
@@ -59,10 +59,10 @@ typedef struct {
   double starved_from; // speed from which on `starved` applies [m/s]; NAN: not yet known
   double starved[SB_SPEED_VALUES];
   size_t solves; // number of states solved
-  // Largest relative deviation of a used cell, and that which the cubic leaves in friction.
+  // Largest relative deviation of a used cell; part of it that remains in friction with the cubic.
   double error, friction_error;
-  SbStatus
-      status; // SB_ERROR_CANCELLED or _MEMORY: ended early; later results use what is available
+  // SB_ERROR_CANCELLED or _MEMORY: ended early; later results use what is available.
+  SbStatus status;
   size_t nodes, cells;
   SbSpeedNode node[SB_SPEED_NODES];
   SbSpeedCell cell[SB_SPEED_CELLS];
