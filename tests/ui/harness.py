@@ -326,7 +326,12 @@ def least_of(test, runs):
 
 
 def main(*tests):
-    """Runs the tests and prints TAP."""
+    """Runs the tests and prints TAP. Arguments: none, or `only NAME...` or `without NAME...`."""
+    how, names = (sys.argv[1:2] or [None])[0], sys.argv[2:]
+    unknown = set(names) - {test.__name__ for test in tests}
+    assert how in (None, "only", "without") and not unknown, "arguments %r" % sys.argv[1:]
+    if how is not None:
+        tests = [test for test in tests if (test.__name__ in names) == (how == "only")]
     # The bus and its registry talk on standard output too: results go through a descriptor of their own.
     if "SEALBENCH_TAP_FD" in os.environ:
         sys.stdout = os.fdopen(int(os.environ["SEALBENCH_TAP_FD"]), "w", buffering=1)
