@@ -1,5 +1,5 @@
-// The closed forms as contact models: each gives width and load, the rest is common. Equations,
-// sources and ranges in the header.
+// The closed forms as contact models. Each form gives width and load; all other results are
+// computed by common code. Equations, sources and ranges: see the header.
 #include "engine/contact/closed_forms.h"
 
 #include "engine/contact/fit_models.h"
@@ -152,7 +152,7 @@ SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report) {
       [SB_FIT_GREEN_ENGLISH] = green_english,
   };
   out->circumference = M_PI * (in->inner_diameter + in->section_diameter);
-  // Closed forms hold to rounding and have no unknowns.
+  // Closed forms are exact to rounding and have no unknowns.
   out->solver.converged = true;
   sb_fit_errors(out, 0.0, 0.0, 0.0);
   const double diameter = in->fitted_section ? out->section_diameter_fitted : in->section_diameter;

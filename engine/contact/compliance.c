@@ -112,8 +112,8 @@ double sb_compliance_smooth(const SbSurfaceCompliance *c, double x, const double
   return sum;
 }
 
-// What the disc's surface has beside the half-plane's logarithm, S(x, x') for |x|, |x'| < R:
-// smooth, in parts of the compliance 2 (1 - nu^2)/(pi E) (disc_kernel.h).
+// The disc's surface compliance minus the half-plane's logarithm, S(x, x') for |x|, |x'| < R. It is
+// smooth. The terms are in units of the compliance 2 (1 - nu^2)/(pi E) (disc_kernel.h).
 static double smooth_rest(double radius, double x, double x_prime) {
   const SbDiscPoint to = sb_disc_point_at(x / radius);
   const SbDiscPoint from = sb_disc_point_at(x_prime / radius);

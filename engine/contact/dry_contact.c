@@ -1,10 +1,10 @@
 // The dry contact on a surface of the header's kind, and the gap that has a given dry pressure.
 //
-// For p = sqrt(1 - z^2) U_k(z) on a half-plane of half-width a, the displacement's slope is -C pi
-// T_{k+1}(z) inside and -C pi (z -+ sqrt(z^2 - 1))^{k+1} outside (Johnson, section 2.7; the finite
-// Hilbert transform of Chebyshev's polynomials), so that smooth edges need no condition of their
-// own: the form of the pressure holds it. The coefficients follow from both edges by a linear
-// system, the edges by Newton's method. Leaves out contacts in several parts, which are refused.
+// For p = sqrt(1 - z^2) U_k(z) on a half-plane of half-width a, the slope of the displacement is -C
+// pi T_{k+1}(z) inside and -C pi (z -+ sqrt(z^2 - 1))^{k+1} outside (Johnson, section 2.7; the
+// finite Hilbert transform of Chebyshev's polynomials). Smooth edges need no condition of their
+// own, because the form of the pressure satisfies it. For given edges a linear system gives the
+// coefficients; Newton's method finds the edges. Contacts in several parts are refused.
 #include <math.h>
 #include <string.h>
 
@@ -64,8 +64,8 @@ static double window_of(const SbSurfaceCompliance *c) {
   return 0.5 * (c->right - c->left);
 }
 
-// For given edges the slope of the gap vanishes at COUNT + 1 points z = cos(angle), T_0 to T_COUNT
-// of it: all but T_0 give the coefficients, T_0 and the load tell how wrong the edges are.
+// For given edges the slope of the gap is 0 at COUNT + 1 points z = cos(angle). Its components T_1
+// to T_COUNT give the coefficients; T_0 and the load are the residuals of the edges.
 static bool edge_residuals(double *r, const double *x, void *context) {
   Problem *problem = context;
   const SbSurfaceCompliance *c = problem->c;

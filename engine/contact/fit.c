@@ -179,7 +179,7 @@ static void judge_stretch(SbFit *out, const SbFitProblem *in) {
                                      : "ignores it (models.section = fitted does not)");
 }
 
-// Any warning but that of a ring that does not touch means that a model is outside its range.
+// Every warning except that of a ring without contact means that a model is outside its range.
 static void judge_validity(SbFit *out) {
   out->valid = true;
   for (size_t i = 0; i < out->warnings.count; i++) {

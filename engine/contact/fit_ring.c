@@ -1,12 +1,12 @@
-// The finite-strain ring as a contact model: floor and bore as cylinders without land gap, the
-// fluid on one side and a flat groove wall on the other.
+// The finite-strain ring as a contact model. Floor and bore are cylinders without a land gap; the
+// fluid is on one side, and a flat groove wall on the other.
 //
-// The ring starts in the middle of its groove, so that the wall stands half the gland's width from
-// the section's centre, on the side of the lower pressure; without pressure it touches no wall. The
-// other wall is left out unless the section so solved is wider than the groove: then both walls
-// stand, and where no state between them is found the groove is refused as overfilled. Frictionless
-// and rigid walls; load is the bore's, over the bore's circumference. A dragged ring has both
-// walls, and friction on bore, floor and walls (ring_drag.c).
+// The ring starts in the middle of its groove. The wall on the side of the lower pressure is half
+// the gland's width from the section's centre; without pressure the ring does not contact it. The
+// other wall is left out unless the solved section is wider than the groove. Then both walls are
+// present, and if no state between them is found the groove is refused as overfilled. Walls are
+// frictionless and rigid. The load is that of the bore, around the bore's circumference. A dragged
+// ring has both walls, and friction on bore, floor and walls (ring_drag.c).
 #include "engine/contact/fit_models.h"
 
 #include <math.h>
@@ -70,7 +70,7 @@ void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem 
   }
 }
 
-// What a solved ring says of the problem, but for its errors.
+// Copies the results of a solved ring, except its error estimates.
 static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
                         const SbRingResult *result) {
   out->circumference = M_PI * in->bore_diameter;
@@ -108,24 +108,24 @@ static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
     out->pressure_peak = result->pressure_peak;
     const int points = sb_ring_profile(ring, out->profile_x, out->profile_p, SB_FIT_PROFILE_MAX);
     out->profile_count = points < SB_FIT_PROFILE_MAX ? (size_t)points : SB_FIT_PROFILE_MAX;
-    // Without one the film has to do with another model's, and says so.
+    // Without it the film uses the surface of another model and warns.
     if (in->surface_wanted && sb_ring_surface(ring, &out->surface, NULL) != SB_OK) {
       out->surface.modes = 0;
     }
   }
 }
 
-// Least errors of rings. An estimate is a third of the largest difference that was found.
+// Minimum errors of rings. An estimate is a third of the largest difference that was found.
 typedef struct {
   double load, peak, width;
 } Floor;
 
-// Rubbing on floor and walls under pressure a dragged ring, and a gasket between its plates, keeps
-// what the coarse meshes of its path have left there: by a law that is not Coulomb's other meshes
-// and path tolerances give loads up to 1.2 % and widths up to 0.6 % apart, which its last two
-// meshes do not see (over a range of 0.8 % of the radial space loads of piston.scene scatter by
-// 0.1 %, peaks by 0.12 %, widths by 0.19 % rms: campaign estimates). Without pressure (dry) little
-// of it is left: 0.11 %, 0.05 %, 0.33 % at most.
+// Minimum errors of a dragged ring, or of a gasket between its plates, that has friction on floor
+// and walls under pressure. Its state depends on the coarse meshes of its continuation path. With a
+// law other than Coulomb's, other meshes and path tolerances change loads by up to 1.2 % and widths
+// by up to 0.6 %; its last two meshes do not show this. Over a range of 0.8 % of the radial space,
+// loads of piston.scene scatter by 0.1 %, peaks by 0.12 %, widths by 0.19 % rms (campaign
+// estimates). Without pressure (dry) the scatter is at most 0.11 %, 0.05 % and 0.33 %.
 static const Floor PATH = {0.004, 0.002, 0.002}, DRY = {4e-4, 3e-4, 1.3e-3};
 
 // Load that such a ring's mesh aims at, and is wanted to.
@@ -140,20 +140,19 @@ static bool keeps_path(const SbFitProblem *in) {
   return rubs_as_dragged(in) && (in->gasket || in->pressure != 0.0);
 }
 
-// A dragged round ring that is wanted to no more than ENOUGH follows a quick path on larger
-// elements, in 0.45 of the time of the usual one. It then lies otherwise than after that: of 85
-// random rings that slide by a bounded law, two thirds of them rubbing on floor and walls, by at
-// most 0.4 % in load (tried once, no test).
+// A dragged round ring whose requested tolerance is at least ENOUGH follows a quick path on larger
+// elements, which takes 0.45 of the usual time. Its state then differs from the usual one, by at
+// most 0.4 % in load for 85 random rings with a bounded friction law.
 static const double ENOUGH = 0.01;
 static const Floor LARGE = {0.003, 0.003, 0.003};
 
-// Where such a ring is led there from another one's state its load was up to 4.4 % from that of a
-// ring laid anew (120 random edits of two scenes; tried once, no test), most where it is pulled
-// back under fluid.
+// If such a ring is continued from the state of another one, its load differs by up to 4.4 % from
+// that of a ring fitted from scratch (120 random edits of two scenes), most if it is pulled back
+// under fluid.
 static const double LED = 0.015;
 
-// A ring that nothing drags has no path and is then laid anew sooner than beside another one, whose
-// mesh is finer.
+// A ring without drag has no continuation path. Fitting it from scratch is then faster than
+// starting from another ring, whose mesh is finer.
 static bool takes_large(const SbFitProblem *in) {
   return in->dragged && in->tolerance >= ENOUGH && in->profile.kind == SB_SEAL_PROFILE_CIRCLE;
 }
@@ -200,12 +199,12 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   SbRingLoad load;
   sb_fit_ring_problem(&body, &load, in);
   const double wanted = in->tolerance > 0.0 ? in->tolerance : 1e-3;
-  // A film hangs on the root of the pressure at the contact's ends, which scatters with the mesh
-  // about ten times as much as the load does. A dragged ring's load is known to its friction only,
-  // and its finest meshes stumble: a third. So is one at rest in a valve whose rings rub and are
-  // wanted to no more than ENOUGH: no film slides over it. No finer than a third of what its path
-  // leaves, where it leaves something: loads and films 0.5 % from those of a mesh of half the size
-  // (measured).
+  // A film depends on the root of the pressure at the contact's ends, which scatters with the mesh
+  // about ten times as much as the load. The load of a dragged ring is only as accurate as its
+  // friction, and its finest meshes often fail: a third of the tolerance. The same applies to a
+  // ring at rest in a valve whose rings have friction and a requested tolerance of at least ENOUGH,
+  // because no film slides over it. The size is not below a third of the path's error: loads and
+  // films then differ by 0.5 % from those of a mesh of half the size.
   const bool path = keeps_path(in);
   const bool third = in->dragged || (wanted >= ENOUGH && in->floor_friction > 0.0);
   const double finer = !in->surface_wanted ? 1.0 : third ? 0.35 : 0.1;
@@ -244,7 +243,7 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
       cold.element_size = SB_RING_LARGE;
       status = sb_ring_fit(&ring, &result, &body, &load, &cold, &out->warnings, &own);
       if (status != SB_ERROR_NOT_CONVERGED && report != NULL) {
-        *report = own; // else what ended the path that was wanted is told
+        *report = own; // else the error of the first path is reported
       }
     }
   }

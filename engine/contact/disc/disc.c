@@ -1,36 +1,36 @@
 // The linear plane-strain disc as a contact model: squeezed between two rigid frictionless flats,
-// with fluid pressure on its flanks and, where it is on one alone, a flat groove wall on the other
-// side.
+// with fluid pressure on its flanks. If the fluid is on one flank only, a flat groove wall is on
+// the other side.
 //
 // A boundary method: the contact pressure is expanded in Chebyshev polynomials over the contact,
 // the closed-form kernels of disc_kernel.h are integrated with their logarithm exactly, and the
-// edges of the contacts are unknowns. Unilateral contact is met in its smooth form: no penetration
-// inside, the pressure above the fluid's, and at an edge continuous with the fluid's (no
-// singularity); Newton on the edges. Both signs are checked afterwards. Convergence is spectral.
+// edges of the contacts are unknowns. The unilateral conditions have their smooth form: no
+// penetration inside, and a pressure that at an edge equals the fluid's (no singularity). Newton's
+// method finds the edges. Both signs are checked afterwards. Convergence is spectral.
 //
-// Kinematics (a linear disc at finite squeeze is an estimate and must say which): the traction
+// Kinematics (a linear disc at finite squeeze is an estimate and must state which): the traction
 // acts per horizontally projected width and the surface moves vertically onto the flat ("vertical",
 // depends on nu only through 1 - nu^2), or both are radial ("radial", Hertz and Michell). The gap
 // is the circle's exactly. Against finite strain at 15.5 % squeeze: load -11 % and -1.4 %, width -9
 // % and +5 %, peak -5 % and -7 % (docs/verification.md).
 //
-// Where pressure (from 0.57 to 0.7 of the modulus) has pressed the disc so far that its contacts
-// with bore and wall meet, the corner is filled: no arc is left on that side, and the uniform
-// pressure that the meeting contacts have there joins the state as an unknown (a uniform pressure
-// all round only shrinks the disc), so that both contacts end at the pressure of the other. Further
-// fluid pressure is then passed on as by a fluid, the more the closer nu is to 1/2.
+// If the pressure (from 0.57 to 0.7 of the modulus) moves the disc so far that its contacts with
+// bore and wall meet, the corner is filled. There is then no arc on that side, and the uniform
+// pressure at which the two contacts meet becomes an additional unknown (a uniform pressure all
+// around only shrinks the disc). Both contacts end at the pressure of the other. Further fluid
+// pressure is then transmitted as by a fluid, the more completely the closer nu is to 1/2.
 //
-// The fluid creeps under the disc as its pressure rises: the contact's left edge moves in, the
-// faster the softer the bulk, and beyond a limit point there is no contact that could hold the
-// fluid. The path is followed over the place of that edge instead of the pressure, through the
-// greatest pressure that a contact holds; a disc under more is open (warning "disc-opens"), no
-// failure.
+// The fluid moves under the disc as its pressure increases: the contact's left edge moves inwards,
+// the faster the softer the bulk. Beyond a limit point no contact can seal the fluid. The path is
+// parameterised by the position of that edge instead of the pressure, and passes through the
+// maximum pressure that a contact seals. A disc under a higher pressure is open (warning
+// "disc-opens"), which is not an error.
 //
 // Fluid acts normally on the open arcs up to the contact edges of the undeformed circle. The disc
-// leans on the wall, which touches it before the pressure comes, and slides frictionless. The
-// stretch shrinks the section; load per length times the fitted mean circumference pi (D - g) is
-// the load. It leaves out: finite strain, housing compliance, friction, the gap beside the land.
-// About 0.2 ms without pressure difference, 2 ms with.
+// is supported by the wall, which it contacts before the pressure is applied, and slides without
+// friction. The stretch reduces the section; the load is the load per length times the fitted mean
+// circumference pi (D - g). Not modelled: finite strain, housing compliance, friction, the gap next
+// to the land. Takes about 0.2 ms without pressure difference, 2 ms with.
 #include "engine/contact/fit_models.h"
 
 #include <math.h>
@@ -155,8 +155,9 @@ static bool given_left(double *residual, const double *x, void *context) {
          sb_disc_system_solve(residual, (double[]){x[0], w->wet[1], x[1]}, &w->system);
 }
 
-// The greatest pressure that a contact holds, from the edges in `wet` at `pressure` on: INFINITY if
-// none is passed. The first point is a step before these edges, which may be at the maximum.
+// Returns the maximum pressure that a contact seals, on the path from the edges in `wet` at
+// `pressure`; INFINITY if no maximum is passed. The first point is one step before these edges,
+// which may be at the maximum.
 static double find_limit(Work *w, double pressure) {
   double x[] = {w->wet[0], w->wet[3] > 0.0 ? w->wet[3] : w->wet[2], pressure};
   double left[3] = {0.0}, found[3] = {0.0}; // the last three points
@@ -233,12 +234,12 @@ static void keep(Solution *out, const Work *w) {
   out->figure[PEAK] = peak_of(out);
 }
 
-// Estimated errors of the last of three sets of figures at resolutions n[0] < n[1] < n[2]. The
-// error falls like rho^n, so that |f1 - f0| is about the error at n[0] and |f2 - f1| that at n[1];
-// what is left is the rest of the geometric series. A factor 2 covers uneven rates. The radial
-// kernel's kink leaves a tail like n^-4 (n^-7 seen with fluid) under that, so its rate is never
-// taken to be better. An unsymmetric contact passes through accidental zeros of the error: there
-// the slowest rate of the three figures stands for all. The floor is quadrature and rounding.
+// Estimates the errors of the last of three sets of figures at resolutions n[0] < n[1] < n[2]. The
+// error decreases like rho^n, so |f1 - f0| is about the error at n[0] and |f2 - f1| that at n[1];
+// the remaining error is the remainder of the geometric series. A factor 2 covers uneven rates. The
+// radial kernel's kink leaves a tail like n^-4 (n^-7 with fluid) below that, so the rate is never
+// assumed to be better. An unsymmetric contact passes through accidental zeros of the error: there
+// the slowest rate of the three figures applies to all. The minimum covers quadrature and rounding.
 static void estimate(double error[FIGURES], const Solution *s, bool kink) {
   const bool unsymmetric = s[2].pressure != 0.0;
   const double floor = unsymmetric ? 2e-7 : 1e-12;
@@ -269,8 +270,8 @@ static void estimate(double error[FIGURES], const Solution *s, bool kink) {
 
 // ---- solve
 
-// Fills the result; the fluid stands on the left, on the right if `mirrored`, and with the pressure
-// `both` on both sides.
+// Fills the result. The fluid is on the left (on the right if `mirrored`), with the pressure `both`
+// on both sides.
 static void fill(SbFit *out, const Solution *s, double compliance, double both, bool mirrored) {
   const double radius = 0.5 * out->section_diameter_fitted;
   const double left = radius * (s->centre - s->half + s->shift);
@@ -317,7 +318,7 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
   double reached = target;
   double error[FIGURES] = {1.0, 1.0, 1.0};
   double worst = 1.0;
-  double limit = INFINITY; // a pressure that no contact holds, by the resolution before
+  double limit = INFINITY; // pressure that no contact seals, at the previous resolution
   bool opens = false;
   for (size_t level = 0;
        level < LEVELS && worst > wanted && !opens && (reached == target || levels == 0); level++) {
@@ -331,7 +332,7 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
       opens = isfinite(limit) &&
               fabs(limit - last) < fmax(SAME * limit, 0.01 * fmin(limit, target - limit));
       if (reached >= 0.0 && (level < COARSE || isfinite(limit))) {
-        // So few points do not hold a filled corner of a narrow contact, or too much.
+        // So few points cannot represent a filled corner of a narrow contact.
         w->wet[2] = 0.0;
         levels = 0;
         continue;
@@ -386,8 +387,9 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
   return status == SB_OK ? sb_succeed(report) : status;
 }
 
-// What a disc presses above the fluid is small against the section's other strains where it hardly
-// touches: a ring stretched over its stem, or pressed to its wall, then may not.
+// Below this load a disc hardly has contact: its pressure above the fluid's is small against the
+// section's other strains. A ring stretched over its stem, or pressed against its wall, may then
+// have no contact.
 static void judge_margin(SbFit *out, const SbFitProblem *in, double both) {
   static const double LEAST = 0.16; // of the modulus: rings part from discs up to 0.157 (measured)
   const double margin = out->pressure_peak - fmax(fabs(in->pressure), both);

@@ -1,23 +1,22 @@
-// The thesis' own linear disc ("current analysis" of tables 7.2 to 7.4), repaired where it was
-// wrong.
+// The thesis' own linear disc ("current analysis" of tables 7.2 to 7.4), with its errors corrected.
 //
 // The ring is stretched to the fitted mean diameter and its section shrinks by nu eps_z (6.4.1).
 // The section is a plane-strain disc under opposite vertical load pairs at nodes one degree apart
-// (6.71 with the sign of its shear repaired, in closed form instead of summed elements), squeezed
-// until each loaded node lies on the bore; a node with negative pressure is dropped, an overlapped
-// one added (6.73), met here as a complementarity problem and not by relaxation. Canister pressure
+// (6.71 with the sign of its shear corrected, in closed form instead of summed elements), squeezed
+// until each loaded node is on the bore. A node with negative pressure is dropped, an overlapping
+// one is added (6.73); here as a complementarity problem instead of relaxation. Canister pressure
 // acts as horizontal force pairs on both flanks outside the contact (6.4.2), p R dbeta per arc. The
-// thesis leaves open how exactly; this reading is the one that fits its nine cases best
-// (docs/verification.md): loads within 2 %, peaks within 1 %, width within a node.
-// Nor does it say along what the contact's own forces act: vertically, as the pairs of 6.71, or,
-// the variant "radial", towards the section's centre as a frictionless bore's, with the nodes
-// moving along the radius too (Hertz and Michell). The printed loads lie between the two.
+// thesis does not state how exactly; this interpretation fits its nine cases best
+// (docs/verification.md): loads within 2 %, peaks within 1 %, width within a node. The thesis does
+// not state the direction of the contact forces either: vertical, as the pairs of 6.71, or (variant
+// "radial") towards the section's centre as those of a frictionless bore, with nodes that move
+// along the radius too (Hertz and Michell). The printed loads are between the two.
 //
-// The width is printed by the thesis as d sin(n + 1/2 deg) with the free d: quantised to 0.023 mm.
-// It leaves out the groove wall, that fluid acts normally, and finite strain; against a
+// The thesis prints the width as d sin(n + 1/2 deg) with the free d, quantised to 0.023 mm. Not
+// modelled: the groove wall, the normal direction of fluid pressure, finite strain. Compared with a
 // finite-strain ring its pressurised loads are 8-9 % low and its widths 7-20 % high.
 //
-// Inside, lengths are in the fitted radius, pressures times C.
+// Internally, lengths are divided by the fitted radius, and pressures multiplied by C.
 #include "engine/contact/disc/disc_system.h"
 
 #include <math.h>
@@ -76,7 +75,7 @@ static void fill_influence(Work *w, size_t count) {
         const double from_low = to.sin - low, from_high = to.sin - high;
         sum += high - low - (from_low != 0.0 ? from_low * log(fabs(from_low)) : 0.0) +
                (from_high != 0.0 ? from_high * log(fabs(from_high)) : 0.0);
-        to.angle = -to.angle; // the left cell lies to it as this one to its image
+        to.angle = -to.angle; // the left cell is the mirror image
         to.sin = -to.sin;
       }
       w->influence[i + j * MAX] = sum;

@@ -4,8 +4,8 @@
 //
 //   integral f(a) W(lambda + delta(a)/sigma) delta'(a)/sigma da      from where a contact tears
 //
-// taken over b with a = (sqrt(a_0) + (R sigma)^(1/4) b)^2, in which everything is smooth from
-// Hertz's limit to asperities that hold on much further than sigma.
+// integrated over b with a = (sqrt(a_0) + (R sigma)^(1/4) b)^2. In b everything is smooth, from
+// Hertz's limit to asperities that adhere at distances much larger than sigma.
 #include "engine/contact/rough/asperity.h"
 
 #include "engine/numeric/legendre.h"
@@ -70,7 +70,7 @@ void sb_asperity_sums(double out[3], const SbAsperity *asperity, double sigma, d
   sb_legendre_gauss(node, weight, POINTS);
   SbAsperityPoint at;
   sb_asperity_at(&at, asperity, asperity->least);
-  // Heights of e^-40 of the likeliest that touches no longer count.
+  // Heights with a probability below e^-40 of the most probable contact are neglected.
   const double first = fmax(lambda + at.approach / sigma, 0);
   const Range range = {asperity, sigma, sigma * (sqrt(first * first + 80) - lambda)};
   double last = 1;

@@ -1,4 +1,4 @@
-// See height_figures.h. One pass for the mean, one for the rest.
+// See height_figures.h. One pass computes the mean, a second one all other parameters.
 #include "engine/contact/rough/height_figures.h"
 
 #include <math.h>

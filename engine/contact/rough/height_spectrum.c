@@ -51,8 +51,8 @@ static double weighted_mean(const SbHeights *h, const Window *window) {
   return sum / weights;
 }
 
-// Two real rows are the parts of one complex line, taken apart by symmetry; of each the waves
-// 0 .. n/2 are kept.
+// Two real rows are the real and imaginary part of one complex row, separated by symmetry. The
+// waves 0 .. n/2 of each are stored.
 static void transform_rows(double *half, const SbHeights *h, const Window *window,
                            const SbFourier *fourier, double *line, double mean) {
   const size_t n = h->columns, kept = n / 2 + 1;
@@ -116,8 +116,8 @@ static void add_rings(SbHeightSpectrum *out, const double *half, const SbHeights
   }
 }
 
-// Rings that are whole, in bins of a twentieth of a decade, one ring at least, or more where there
-// would be too many.
+// Complete rings in bins of a twentieth of a decade; a bin has at least one ring, or more if there
+// would be too many bins.
 static void make_bins(SbHeightSpectrum *out, const SbHeights *h) {
   const double nyquist = M_PI / fmax(h->dx, h->rows > 1 ? h->dy : 0);
   const double decades = log10((double)out->ring_count);
@@ -147,8 +147,8 @@ typedef struct {
   double squares, value[PARTS];
 } Lines;
 
-// y = level - middle max(0, min(x, b) - a) - beyond max(0, x - b) by least squares; squares
-// infinite unless 0 < middle.
+// Fits y = level - middle max(0, min(x, b) - a) - beyond max(0, x - b) by least squares. The sum of
+// squares is infinite unless 0 < middle.
 static Lines fit_lines(const double *x, const double *y, size_t n, double a, double b) {
   double normal[PARTS * PARTS] = {0}, right[PARTS] = {0}, sum = 0;
   for (size_t i = 0; i < n; i++) {

@@ -195,7 +195,7 @@ SbStatus sb_heights_prepare(SbHeightsReport *out, SbHeights *h, const SbHeightsC
     return sb_fail(report, SB_ERROR_INFEASIBLE, "only %zu of %zu points are measured", count,
                    out->points);
   }
-  // What a curved form takes is told whichever is chosen, of a copy where it is another.
+  // The share of a curved form is reported for every choice, from a copy if another is chosen.
   const SbForm form = choices->form;
   SbHeights copy = *h;
   copy.stride = h->columns;

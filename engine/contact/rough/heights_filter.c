@@ -1,7 +1,7 @@
-// The Gaussian filter of a surface, rows and then columns; see heights.h. The weights reach as far
-// as the cut-off, where they are 7e-7 of the first. Heights times their being measured are the real
-// part, the being measured the imaginary one, so that both are filtered at once and the ratio is
-// the mean of the points that there are.
+// The Gaussian filter of a surface, rows and then columns; see heights.h. The weights extend to the
+// cut-off, where they are 7e-7 of the first. The real part is the height where it is measured (else
+// 0), the imaginary part is 1 where it is measured (else 0). Both are filtered together, and their
+// ratio is the mean over the existing points.
 #include "engine/contact/rough/heights.h"
 
 #include "engine/numeric/fourier.h"

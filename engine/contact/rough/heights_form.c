@@ -1,6 +1,6 @@
-// The form of a surface by least squares in z; see heights.h. Coordinates are taken from the
-// middle, over half of the longer side. The cylinder is fitted to some 512 x 512 of the points,
-// evenly taken: its five figures need no more.
+// The form of a surface by least squares in z; see heights.h. Coordinates are relative to the
+// middle, divided by half of the longer side. The cylinder is fitted to about 512 x 512 evenly
+// spaced points, which are enough for its five parameters.
 #include "engine/contact/rough/heights.h"
 
 #include "engine/numeric/dense.h"
@@ -119,8 +119,8 @@ static bool cylinder_at(double *z, double slope[UNKNOWNS], const Cylinder *c, do
   return true;
 }
 
-// Sum of squares of what is left, and the normal equations (NULL: none); infinite where points lie
-// beyond the cylinder.
+// Computes the sum of squares of the residuals, and the normal equations (NULL: not wanted);
+// infinite if points are beyond the cylinder.
 static double cylinder_sums(double *a, double *b, const Cylinder *c, const Frame *f) {
   const SbHeights *h = f->heights;
   const double cosine = cos(c->angle), sine = sin(c->angle);
@@ -189,7 +189,7 @@ static bool fit_cylinder(Cylinder *c, const Frame *f) {
   return false;
 }
 
-// From the quadratic form: the axis runs where that curves least.
+// Initial guess from the quadratic form: the axis has the direction of the smallest curvature.
 static Cylinder cylinder_start(const double p[TERMS], const Frame *f) {
   const double mean = (p[3] + p[5]), half = hypot(p[3] - p[5], p[4]);
   Cylinder c = {p[0] / f->half, 0, 0, 0, 0};
@@ -233,7 +233,7 @@ SbStatus sb_heights_level(double *radius, SbHeights *h, SbForm form, SbReport *r
   for (size_t i = 0; i < h->rows; i++) {
     for (size_t j = 0; j < h->columns; j++) {
       double *z = &h->z[i * h->stride + j], of = NAN, slope[UNKNOWNS];
-      // Missing points may lie beyond it.
+      // Missing points may be beyond it.
       *z = cylinder_at(&of, slope, &c, cosine, sine, x_at(&f, j), y_at(&f, i)) ? *z - f.half * of
                                                                                : NAN;
     }

@@ -123,7 +123,7 @@ static double inner(double *slope, const SbPerssonGap *gap, double log_a) {
   enum { LAST = SB_PERSSON_INNER - 1 };
   double f = (log_a - gap->begin) / gap->step;
   if (f <= 0) {
-    // The exponential integral and a constant rest: the integrand is gamma below.
+    // The exponential integral and a constant remainder: the integrand is gamma below.
     *slope = -GAMMA;
     return exp(gap->value[0]) + GAMMA * (gap->begin - log_a);
   }

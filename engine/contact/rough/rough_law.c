@@ -301,7 +301,7 @@ double sb_rough_pull(double *slope, const SbRoughPoint *at, double hamaker) {
 
 SbSnapWindow sb_rough_snap_in(const SbRoughLaw *law, const SbSnapContact *c) {
   static const double GROWTH = 10;
-  // Least slope that lets half a wave of the contact grow, and that from which h^3 s^3 suffices.
+  // Smallest slope at which half a wave of the contact grows, and that from which h^3 s^3 suffices.
   double held = c->modulus * M_PI / (4 * c->width);
   double passage = 2 * c->width / fabs(c->speed);
   double grown = cbrt(GROWTH * 12 * c->viscosity * 27 / 64 * c->modulus * c->modulus / passage);
