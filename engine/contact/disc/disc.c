@@ -387,9 +387,9 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
   return status == SB_OK ? sb_succeed(report) : status;
 }
 
-// Below this load a disc hardly has contact: its pressure above the fluid's is small against the
-// section's other strains. A ring stretched over its stem, or pressed against its wall, may then
-// have no contact.
+// Warns of a disc that hardly has contact: its pressure above the fluid's is small against the
+// section's other strains, so a ring stretched over its stem, or pressed against its wall, may have
+// no contact.
 static void judge_margin(SbFit *out, const SbFitProblem *in, double both) {
   static const double LEAST = 0.16; // of the modulus: rings part from discs up to 0.157 (measured)
   const double margin = out->pressure_peak - fmax(fabs(in->pressure), both);

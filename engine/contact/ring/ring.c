@@ -12,11 +12,12 @@
 
 static const double SIZE_DEFAULT = 0.05, SQUEEZE_MOST = 0.6, STRETCH_MOST = 0.6, CRIMP_MOST = 0.5;
 
-// How far the contact's ends may move, over the elements' size, before a sliding ring's mesh is
-// fitted anew: their short elements end there.
+// Largest displacement of the contact's ends, divided by the elements' size, before a sliding
+// ring's mesh is fitted again: its short elements are at the ends.
 static const double OUTGROWN = 0.1;
 
-// How deep a section may lie in itself, in its heights, by the stiffness that presses it apart.
+// Largest penetration of a section into itself, in section heights, due to the finite stiffness
+// that separates its sides.
 static const double FOLDED = 0.02;
 
 static SbStatus check_body(const SbRingBody *body, SbReport *report) {
@@ -96,7 +97,7 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
                              "the groove has no width");
   }
-  // A nearly incompressible section cannot be larger than its groove; its volume is kept.
+  // A nearly incompressible section cannot be larger than its groove; its volume is constant.
   double area = outline->area * d * d;
   if (!body->plane_strain) {
     const double centroid = 0.5 * body->inner_diameter + (0.5 + outline->centroid) * d;
@@ -132,7 +133,8 @@ bool sb_ring_is_circle(const SbRing *ring) {
   return ring->body.profile.kind == SB_SEAL_PROFILE_CIRCLE;
 }
 
-// The angles between which a section lies within `depth` of the bore, or of the floor (about pi).
+// Finds the angles between which a section is within `depth` of the bore, or of the floor (about
+// pi).
 static SbRingZone zone_within(const SbRingOutline *outline, double depth, bool at_floor) {
   enum { STEPS = 720 };
   SbRingZone zone = {0.0, 0.0, 0.0};
@@ -159,7 +161,7 @@ SbRingMeshPlan sb_ring_empty_plan(const SbRing *ring, double size_max, double si
                           .layers = (int)fmax(4.0, floor(0.5 + 1.76 * log2(0.5 / size)))};
 }
 
-// First mesh: fine where bore, floor and, under pressure, the low-pressure flank will touch.
+// First mesh: fine where bore, floor and, under pressure, the low-pressure flank will have contact.
 static SbRingMeshPlan first_plan(const SbRing *ring, const SbRingLoad *s, double size) {
   SbRingMeshPlan plan = sb_ring_empty_plan(ring, 0.16, size);
   const double squeeze = 1.0 - (s->bore_radius - s->floor_radius);
@@ -201,8 +203,8 @@ static bool turned_over(const SbRing *ring) {
   return false;
 }
 
-// What presses a section apart where it touches itself is that of its hollows alone (ring_fold.c),
-// and bears no more than some shear moduli.
+// The stiffness that separates a section in self-contact acts only in its hollows (ring_fold.c) and
+// carries at most some shear moduli.
 SbStatus sb_ring_check_apart(const SbRing *ring, SbReport *report) {
   const char *name = sb_seal_profile_name(ring->body.profile.kind);
   if (!sb_ring_is_circle(ring) && turned_over(ring)) {
@@ -216,7 +218,7 @@ SbStatus sb_ring_check_apart(const SbRing *ring, SbReport *report) {
                              name, ring->contact->folded);
   }
   if (!sb_ring_is_circle(ring) && sb_ring_crosses_itself(ring->contact)) {
-    // Where elements are large beside a corner's rounding that may be theirs: finer ones are tried.
+    // If elements are larger than a corner's rounding they may be the cause: finer ones are tried.
     return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "seal.profile",
                              "the %s section folds onto itself next to its hollows: contact with "
                              "itself is not modelled there",
@@ -316,8 +318,8 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
   return status;
 }
 
-// Says of a way to a load that has ended at a surface that creases that there is no smooth state
-// beyond. `crease` of the states at which it ended.
+// Reports, for a path that ended at a creased surface, that there is no smooth state beyond.
+// `crease` is that of the states at which it ended.
 static SbStatus tell_crease(const SbRing *ring, const SbRingLoad *target, double crease,
                             SbStatus status, SbReport *report) {
   if (status != SB_ERROR_NOT_CONVERGED || sb_ring_is_circle(ring) || target->bore_slides != 0 ||
@@ -332,11 +334,11 @@ static SbStatus tell_crease(const SbRing *ring, const SbRingLoad *target, double
                            1.0 / sqrt(SB_RING_CREASE), reason.text);
 }
 
-// An easy path comes first where floor and walls do not rub, so that a state hangs on none before:
-// it takes a part of the steps. Where they rub it leads to states that hang on it by some tenths of
-// a percent, and only under fluid is it easier: it is for quick ones, and its limit is not theirs.
-// A ring that barely resists rolling can stumble over single nodes of a mesh, and a corner that
-// closes turns large elements over: finer ones are tried.
+// An easy path comes first if floor and walls have no friction, so that a state does not depend on
+// earlier ones: it needs a part of the steps. With friction it leads to states that depend on it by
+// some tenths of a per cent, and it is easier only under fluid. It is then used for quick rings
+// only, and its limit is not theirs. A ring that barely resists rolling can fail at single nodes of
+// a mesh, and a corner that closes inverts large elements: finer ones are tried.
 static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *report) {
   enum { ITERATIONS_ALL = 5000 }; // after which no other path is begun but of a circle
   static const double FINER[] = {1.0, 1.0, 0.8, 0.6, 0.4};
@@ -348,7 +350,8 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
   const bool fluid = target->pressure_left != target->pressure_right;
   const bool easy = slides && (smooth || (fluid && ring->options.quick));
   const int before = ring->count.iterations;
-  SbReport own = {0}, told = {0}; // of a try; of the first by the whole law, which is told
+  SbReport own = {0},
+           told = {0}; // of a trial; of the first one with the full law, which is reported
   for (size_t i = easy ? 0 : 1;
        i < tries && status == SB_ERROR_NOT_CONVERGED &&
        (sb_ring_is_circle(ring) || ring->count.iterations - before < ITERATIONS_ALL);
@@ -457,8 +460,8 @@ const SbRingLoad *sb_ring_load(const SbRing *ring) {
   return &ring->load;
 }
 
-// To steady sliding that is near; where single nodes of the mesh stand in the way, on others. The
-// ring's state stays where none helps, perhaps on another mesh.
+// Solves steady sliding near the present state; if single nodes of the mesh prevent it, on other
+// meshes. If none succeeds the ring's state is unchanged, perhaps on another mesh.
 static SbStatus slide_at_once(SbRing *ring, const SbRingLoad *target, SbReport *report) {
   const double size = ring->fitted_size;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
@@ -474,8 +477,8 @@ static SbStatus slide_at_once(SbRing *ring, const SbRingLoad *target, SbReport *
   return status;
 }
 
-// To steady sliding, at once from steady sliding the same way; where that is too far, anew. The
-// ring stays as it is where neither succeeds.
+// Changes to steady sliding: directly from steady sliding in the same direction, or from scratch if
+// the difference is too large. If neither succeeds the ring is unchanged.
 static SbStatus slide_on(SbRing *ring, const SbRingLoad *target, SbReport *report) {
   SbRing fresh = *ring;
   fresh.mesh = NULL;
@@ -516,7 +519,7 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   if (target.bore_slides != 0) {
     status = slide_on(ring, &target, report);
   } else if (before * after < 0.0) {
-    // The pressure changes sides: by way of equal pressures, where the ring may cross the groove.
+    // The pressure changes sides: through equal pressures, where the ring may cross the groove.
     SbRingLoad even = *now;
     even.pressure_left = even.pressure_right = fmin(target.pressure_left, target.pressure_right);
     status = sb_ring_advance(ring, &even, SB_RING_FOLLOW, report);

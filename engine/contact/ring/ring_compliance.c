@@ -1,16 +1,19 @@
 // Normal compliance of the ring at its bore contact: static condensation of the converged tangent.
 //
-// The tangent stiffness of the present equilibrium (large strain, prestress, follower fluid and all
-// other contacts held as they are) is factorised once with the bore's nodes set free; one solve per
-// node gives its column. Exact for the discrete ring to first order in the change of pressure, as
-// long as no other contact opens or closes; along the bore the nodes are free (frictionless), as
-// under a film. The columns belong to nodal forces: a pressure p acts with the forces area_j p_j.
+// The tangent stiffness of the present equilibrium (large strain, prestress, follower fluid, all
+// other contacts fixed as they are) is factorised once with the bore's nodes free; one solve per
+// node gives its column. It is exact for the discrete ring to first order in the change of
+// pressure, as long as no other contact opens or closes. Along the bore the nodes are free
+// (frictionless), as under a film. The columns are those of nodal forces: a pressure p acts with
+// the forces area_j p_j.
+//
 // For films much thinner than the mesh the same factor gives the split into the half-plane's
-// logarithm and a smooth rest: the surface's answer to the pressures sqrt(1 - z^2) U_l(z) over a
-// window, which the mesh resolves, less the half-plane's, which is closed (Johnson, Contact
-// Mechanics, 2.7), is a sum of Chebyshev polynomials in the pressure's place and in the answer's.
-// The half-plane's modulus is the squeezed rubber's own, from the shortest of these waves; that it
-// varies a little along the contact is left to the smooth part.
+// logarithm and a smooth remainder. The response of the surface to the pressures sqrt(1 - z^2)
+// U_l(z) over a window, which the mesh resolves, minus the response of the half-plane, which is
+// known in closed form (Johnson, Contact Mechanics, 2.7), is a sum of Chebyshev polynomials in the
+// position of the pressure and of the response. The modulus of the half-plane is that of the
+// squeezed rubber, from the shortest of these waves; its slight variation along the contact is part
+// of the smooth remainder.
 #include "engine/contact/compliance.h"
 #include "engine/contact/ring/ring_private.h"
 #include "engine/numeric/legendre.h"
@@ -18,10 +21,10 @@
 #include <math.h>
 #include <string.h>
 
-// Tangent of the present contact pressure as a follower load that is fixed in space, as a film's
-// is: forces on material points would roll the section over (a load that travels with the point it
-// acts on leaves its support), which is neither what a rigid bore nor what a film does. The force
-// per axial length is kept, not the pressure, so that forces are the unknowns throughout.
+// Tangent of the present contact pressure as a follower load that is fixed in space, as that of a
+// film is. Forces on material points would roll the section over, because a load that moves with
+// its point leaves its support; neither a rigid bore nor a film does that. The force per axial
+// length is constant, not the pressure, so that forces are the unknowns throughout.
 static void add_follower(SbRing *ring) {
   SbRingFem *fem = ring->fem;
   const SbRingContact *contact = ring->contact;
@@ -60,7 +63,7 @@ SbStatus sb_ring_free_bore(SbRing *ring, SbReport *report) {
   }
   sb_ring_contact_apply(contact);
   add_follower(ring);
-  // A node that a wall holds as well keeps the wall.
+  // A node that is also in contact with a wall keeps that condition.
   for (int i = 0; i < contact->count; i++) {
     if (!sb_ring_touch(contact, i, SB_RING_BORE)->held) {
       continue;
@@ -78,9 +81,9 @@ SbStatus sb_ring_free_bore(SbRing *ring, SbReport *report) {
   return sb_ring_fem_factor(fem, report);
 }
 
-// Waves of pressure that are tried, and those that tell the half-plane's modulus; share of the
-// contact's width that the window reaches beyond it, less where the surface turns away; least order
-// of the dry pressure's fit.
+// Number of waves of pressure; of those that determine the half-plane's modulus; extent of the
+// window beyond the contact divided by its width, less if the surface turns away; smallest order of
+// the fit of the dry pressure.
 enum { WAVES = 10, WAVE_SHORT = 5, ORDER_LEAST = 2, REACHES = 3 };
 static const double REACH[REACHES] = {0.2, 0.12, 0.07};
 
@@ -109,8 +112,8 @@ static void side_of(const SbRing *ring, int side, Side *out) {
   }
 }
 
-// The upper side that lies over the axial place z, from the bore's contact outwards. False beyond
-// the surface's turn.
+// Returns the upper side at the axial position z, outwards from the bore's contact. False beyond
+// the point where the surface turns away.
 static bool find_side(const SbRing *ring, const SbRingPatch *patch, double z, int *side, Side *s) {
   *side = (patch->first + patch->last) / 4;
   side_of(ring, *side, s);
@@ -181,11 +184,13 @@ static void half_plane(double half, int l, double *value) {
   }
 }
 
-// Chebyshev coefficients of the smooth part from the answers, less the half-plane's.
+// Computes the Chebyshev coefficients of the smooth part from the responses minus those of the
+// half-plane.
 //
-// A ring that nothing holds axially drifts by any amount under a lopsided pressure, and its free
-// surface beside the contact with it. What of that the rest of an answer holds is taken out by the
-// surface's slope: as much drift as leaves the least. `slope` NULL: the ring is held.
+// A ring without axial support drifts by any amount under an unsymmetric pressure, and its free
+// surface next to the contact drifts with it. The part of a response that is proportional to the
+// surface's slope is therefore removed, by the drift that leaves the smallest remainder. `slope`
+// NULL: the ring has axial support.
 static void smooth_part(SbSurfaceCompliance *out, double half,
                         double answer[WAVES][SB_COMPLIANCE_MODES], const double *slope) {
   enum { N = SB_COMPLIANCE_MODES };
@@ -214,9 +219,9 @@ static void smooth_part(SbSurfaceCompliance *out, double half,
   }
 }
 
-// The gap whose dry contact has the ring's recovered pressure; solved again for a check. As many
-// polynomials as the curve has hold it exactly; where their highest make the gap touch outside the
-// contact, fewer.
+// Computes the gap whose dry contact has the ring's recovered pressure, and solves that contact for
+// a check. As many polynomials as the curve has represent it exactly; fewer are used if the highest
+// ones cause contact outside the contact.
 static SbStatus dry_gap(const SbRing *ring, SbRingPatch *patch, SbSurfaceCompliance *c,
                         SbReport *report) {
   SbDryContact p, dry;

@@ -1,52 +1,56 @@
-// Unilateral contact of the ring with smooth rigid surfaces and its Coulomb friction: the active
-// sets and their forces.
+// Unilateral contact of the ring with smooth rigid surfaces and its Coulomb friction: active sets
+// and their forces.
 //
-// Contact is a primal-dual active set (Hintermueller, Ito and Kunisch 2002) on boundary nodes: held
-// nodes satisfy gap = 0 as an equation of their own, the normal force is the residual of the
-// balance they replace, so neither penetration nor tension is left at the end. The fluid loads
-// every side that is not closed (ring_fluid.c); the surfaces are those of ring_groove.c.
+// Contact is a primal-dual active set (Hintermueller, Ito and Kunisch 2002) on boundary nodes.
+// Nodes in contact satisfy gap = 0 as an equation of their own; the normal force is the residual of
+// the balance that this equation replaces. So neither penetration nor tension is left at the end.
+// The fluid loads every side that is not closed (ring_fluid.c); the surfaces are those of
+// ring_groove.c.
 //
-// Friction enters the same nodes' tangential rows. A sticking node has not moved along its surface
-// since the start of the step and |t . R| <= mu n . R; a sliding one has t . R = s mu n . R, s the
-// sign of the force on the ring, and moves against it. On the bore mu n . R may be any law of the
-// local pressure, a share of area times shear(n . R / area). Both are exact, without a regularising
-// stiffness; the states follow the motion like the active set of the normal contact. Leaves out
-// adhesion, rate, wear and a static coefficient of its own.
+// Friction enters the tangential rows of the same nodes. A sticking node has not moved along its
+// surface since the start of the step, and |t . R| <= mu n . R. A sliding node has t . R = s mu n .
+// R, s the sign of the force on the ring, and moves against it. On the bore mu n . R may be any law
+// of the local pressure, a fraction of area times shear(n . R / area). Both are exact, without a
+// regularising stiffness. The states follow the motion like the active set of the normal contact.
+// Not modelled: adhesion, rate, wear, a separate static coefficient.
 #include "engine/contact/ring/ring_contact.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Share of the edge's rounding that a held node may move along it in one iteration.
+// Largest motion of a node in contact along the edge in one iteration, divided by the edge's
+// rounding.
 static const double EDGE_SHARE = 0.5;
 
-// A node that keeps changing between sticking and sliding has no discrete solution of Coulomb's law
-// (it happens at coefficients near 1, where the continuous problem may have none either). It is
-// left sticking after this many changes, and what exceeds the law is reported.
+// A node that alternates between sticking and sliding has no discrete solution of Coulomb's law (at
+// coefficients near 1, where the continuous problem may have none either). After this many changes
+// it remains sticking, and the excess over the law is reported.
 enum { FLIPS_MAX = 5 };
 
-// An end node of a contact can have no state with friction at all: pulled when held, whether it
-// sticks or slides, and inside the surface when let go. (Under fluid it jumps by mu p when caught.)
-// After being caught so often it is held without friction, which always has a solution; its
-// friction is taken up again in the next step, and what is missing is reported.
-// On a path, whose states lead to others only, such a node stays held against a small pull, in
-// units of force: a larger one makes another path of it.
+// An end node of a contact can have no state with friction: in contact it is pulled, whether it
+// sticks or slides, and released it is inside the surface. (Under fluid its friction jumps by mu p
+// when it enters the contact.) After so many entries it is in contact without friction, which
+// always has a solution; its friction is restored in the next step, and the missing part is
+// reported. On a continuation path, whose states only lead to others, such a node stays in contact
+// against a small tension, in units of force; a larger one would change the path.
 enum { CATCHES_MAX = 3, PASSED_MAX = 1 };
 static const double PULL = 1e-3;
 
-// Under fluid a node at the end of a contact would bear friction of the fluid's pressure at once
-// when it is caught, and could have no state: held it is pulled, let go it comes back. Its friction
-// sets in smoothly over the first excess of its pressure over the fluid's, by this share of that,
-// or of WET_MOST shear moduli if those are less; of a section with several crests, of what its
-// whole contact exceeds the fluid by, if that is less: a flat lip may nowhere exceed it by more.
-// The drag then is the law's integral over the recovered pressure to 0.3 % (tests/engine); on a
-// path, whose states lead to others only, to some percent. On an easy path it sets in more softly,
-// so that hardly a node is without a state: too softly to tell a limit.
+// Under fluid a node at the end of a contact would have the friction of the fluid's pressure as
+// soon as it enters the contact, and could have no state: in contact it is pulled, released it
+// returns. Therefore its friction develops smoothly over the first excess of its pressure above the
+// fluid's: over this fraction of the fluid's pressure, or WET_MOST shear moduli if that is less;
+// for a section with several crests, over the excess of its whole contact if that is less, because
+// a flat lip may nowhere exceed the fluid by more. The drag is then the law's integral over the
+// recovered pressure to 0.3 % (tests/engine), on a continuation path to some per cent. On an easy
+// path friction develops more gradually, so that hardly any node is without a state, but the limit
+// of sliding is not accurate.
 static const double WET = 0.15, WET_MOST = 0.7;
 
-// Neighbours at the end of a contact can come and go in turn for ever: a node that was caught or
-// changed its slip so often in a solve changes further only where it is the worst of all.
+// Neighbouring nodes at the end of a contact can enter and leave it alternately for ever. A node
+// that has entered the contact or changed its slip so often in a solve changes again only if it has
+// the largest violation.
 enum { FREE = 2 };
 
 SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report) {
@@ -104,7 +108,8 @@ void sb_ring_contact_detect(SbRingContact *contact) {
 
 // ---- friction
 
-// Whether a node is held by a surface with Coulomb friction whose direction is to be found.
+// Returns whether a node is in contact with a surface with Coulomb friction whose direction is
+// unknown.
 static bool rubs(const SbRingContact *contact, int i, SbRingSurface surface) {
   return sb_ring_touch(contact, i, surface)->held &&
          !(surface == SB_RING_BORE && contact->is.now.bore_slides != 0) &&
@@ -121,7 +126,7 @@ SbRingGrip sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surfa
   const double area = contact->weight[i];
   SbRingGrip grip = {normal, 1.0, 0.0, 0.0};
   if (surface == SB_RING_BORE && now->shear != NULL && area > 0.0) {
-    // A node that is pulled, before it is let go, goes on along the law's start.
+    // A node under tension, before it is released, continues the beginning of the law.
     const double pressure = fmax(0.0, normal) / area;
     const double shear =
         now->shear(pressure * contact->stress, &grip.by_normal, now->law) / contact->stress;
@@ -145,7 +150,7 @@ SbRingGrip sb_ring_grip(const SbRingContact *contact, int i, SbRingSurface surfa
   return grip;
 }
 
-// The most that friction bears at a node under its present normal force.
+// Returns the largest friction at a node under its present normal force.
 static double bears(const SbRingContact *contact, int i, SbRingSurface surface) {
   const double normal = sb_ring_touch(contact, i, surface)->force;
   return sb_ring_friction(&contact->is.now, surface) *
@@ -170,8 +175,9 @@ static double slipped(const SbRingContact *contact, SbRingSurface surface, int i
   return moved;
 }
 
-// How far a held node is from Coulomb's law, in units of force: too large a sticking force, or a
-// slip that its own friction would have to drive. The new slip state is given too.
+// Returns the deviation of a node in contact from Coulomb's law, in units of force: an excessive
+// sticking force, or a slip that its own friction would have to drive. Also returns the new slip
+// state.
 static double slip_fault(const SbRingContact *contact, SbRingSurface surface, int i,
                          signed char *state) {
   const SbRingTouch *touch = sb_ring_touch(contact, i, surface);
@@ -297,7 +303,7 @@ static void lean_on_sides(const SbRingContact *contact, int i, const SbRingGrip 
   }
 }
 
-// Whether a surface after this one holds the node too.
+// Returns whether a later surface is in contact with the node too.
 static bool corner(const SbRingContact *contact, int i, int surface) {
   for (int other = surface + 1; other < SB_RING_SURFACES; other++) {
     if (sb_ring_touch(contact, i, other)->held) {
@@ -325,7 +331,7 @@ double sb_ring_contact_apply(SbRingContact *contact) {
       memcpy(condition->direction[condition->count], frame.n, sizeof frame.n);
       condition->gap[condition->count] = -frame.gap;
       if (condition->count == 1) {
-        condition->count = 2; // held in a corner
+        condition->count = 2; // in contact with both surfaces of a corner
         break;
       }
       condition->count = 1;
@@ -358,7 +364,7 @@ double sb_ring_contact_apply(SbRingContact *contact) {
   return worst;
 }
 
-// Splits a nodal force into the touches' normal and tangential parts.
+// Splits a nodal force into normal and tangential parts of the contacts.
 static void split_force(SbRingContact *contact, int i, const double force[2]) {
   SbRingTouch *held[2];
   SbRingFrame frame[2];
@@ -384,7 +390,7 @@ static void split_force(SbRingContact *contact, int i, const double force[2]) {
   }
 }
 
-// Holds a node or lets it go.
+// Adds a node to the contact or releases it.
 static void toggle(SbRingContact *contact, int at) {
   SbRingTouch *touch = &contact->is.touch[at];
   contact->unsteady = at;
@@ -401,7 +407,7 @@ int sb_ring_contact_update(SbRingContact *contact, bool single) {
   if (contact->fixed) {
     return 0;
   }
-  int worst[2] = {-1, -1}; // to be let go, to be caught
+  int worst[2] = {-1, -1}; // to be released, to be added
   const double none = -1e-11 * contact->force_scale;
   double least = none, deepest = -1e-11;
   for (int i = 0; i < contact->count; i++) {

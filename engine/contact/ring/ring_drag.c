@@ -1,26 +1,28 @@
-// Steady sliding of the bore over the ring: the path of its states over the friction m, a share of
-// the bore's law, or Coulomb's coefficient.
+// Steady sliding of the bore over the ring: the path of its states as a function of the friction m,
+// a factor of the bore's law, or Coulomb's coefficient.
 //
-// The bore slides under the whole contact, so that friction has one direction and there is nothing
-// to find out by small motions of the bore: t . R = m x law(n . R) at each of its nodes
-// (ring_contact.c).
-// Floor and walls keep their history, from the fitted ring without friction, in the middle of its
-// groove or resting on the wall, over the rising drag. The states are followed by the length of
-// their path in the plane of m and the section's turn (Riks 1979; Crisfield 1981, the constraint a
-// plane across the last secant), since the drag that a ring bears has a maximum: what resists the
-// turning is the hoop stress, by nearly the sine of the turn. Beyond it the section rolls on at a
-// falling drag. There is no maximum without that fall, to FALL of it and FALL_TURN beyond; single
-// nodes that stick or let go make m waver by less. A ring whose load grows to JAM of the one
-// without friction is wedged: it jams. As the contact travels around the section the mesh is fitted
-// anew at the same turn.
+// The bore slides under the whole contact, so friction has one direction, and no small motions of
+// the bore are needed: t . R = m x law(n . R) at each of its nodes (ring_contact.c). Floor and
+// walls have a history: it begins at the ring fitted without friction, in the middle of its groove
+// or at the wall, and continues with the increasing drag.
+//
+// The states are followed by the arc length of their path in the plane of m and the section's
+// rotation (Riks 1979; Crisfield 1981, with a plane across the last secant as constraint), because
+// the drag that a ring can carry has a maximum: the hoop stress resists the rotation nearly like
+// the sine of the angle. Beyond the maximum the section rolls at a decreasing drag. A maximum is
+// accepted only if the drag then falls to FALL of it and the rotation is FALL_TURN larger; single
+// nodes that stick or are released change m by less. A ring whose load grows to JAM times the load
+// without friction is wedged: it jams. As the contact moves around the section, the mesh is fitted
+// again at the same rotation.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
 #include <string.h>
 
-// Steps along the path: first, largest and least; the length over which its direction is taken; the
-// turn after which the mesh is fitted anew, and that on an easy path; of the search for its limit.
-// A search ends within half of CLIMB's turn, where a flat maximum is known to a few percent.
+// Steps along the path: first, largest and smallest; the length over which its direction is
+// determined; the rotation after which the mesh is fitted again, also on an easy path; steps of the
+// search for the limit. A search ends within half of CLIMB's rotation, where a flat maximum is
+// known to a few per cent.
 static const double ARC = 0.05, ARC_MOST = 0.15, ARC_LEAST = 5e-4, SECANT = 0.02, REFIT_TURN = 0.1,
                     EASY_TURN = 0.5, CLIMB = 0.1;
 
@@ -36,10 +38,11 @@ static const double FINER = 0.12;
 static const double FALL = 0.97, EASY_FALL = 0.985, FALL_TURN = 0.1, FLAT_TURN = 0.15, OVER = 3.0,
                     JAM = 10.0;
 
-// The drag over load from which on a gasket's path that ends has met its limit: its plates hold the
-// section, which does not turn, and where friction exceeds about half of the pressure the rubber
-// beside its edges folds and waves of detachment run through the contact (Schallamach 1971, Wear
-// 17:301), for which there is no steady state. A path that ends below is one that was not found.
+// Drag divided by load from which on a gasket's path that ends has reached its limit. Its plates
+// fix the section, which does not rotate. Where friction exceeds about half of the pressure the
+// rubber next to its edges folds, and waves of detachment move through the contact (Schallamach
+// 1971, Wear 17:301), for which there is no steady state. A path that ends below this value was not
+// found.
 static const double DETACHES = 0.5, DETACHED_LEAST = 0.01;
 
 void sb_ring_rest_on_wall(SbRing *ring) {
@@ -84,8 +87,8 @@ void sb_ring_hold_turn(SbRing *ring) {
   ring->arc = (SbRingArc){true, {1.0, 0.0}, {is->turn, 0.0}, 0.0, 1.0};
 }
 
-// A mesh fitted to the present contact, at the same turn: near a maximum it may have no state at
-// the same coefficient. The present one is kept where that fails.
+// Fits a mesh to the present contact at the same rotation: near a maximum it may have no state at
+// the same coefficient. If that fails the present mesh remains.
 static SbStatus fit_mesh(SbRing *ring, double size, double unit, SbReport *report) {
   sb_ring_hold_turn(ring);
   ring->arc.unit = unit;
@@ -93,7 +96,7 @@ static SbStatus fit_mesh(SbRing *ring, double size, double unit, SbReport *repor
   return status == SB_ERROR_NOT_CONVERGED ? SB_OK : status;
 }
 
-// Says where the path could not be followed further.
+// Reports where the path could not be followed further.
 static SbStatus end_of_path(const SbRing *ring, SbReport *report) {
   SbReport reason = report != NULL ? *report : (SbReport){0};
   sb_ring_contact_settle(ring->contact);
@@ -111,7 +114,7 @@ static SbStatus end_at_limit(SbRing *ring, SbRingState state, double share, doub
   return SB_OK;
 }
 
-// The state at the wanted coefficient, at once from the present one.
+// Solves the state at the requested coefficient directly from the present one.
 static SbStatus state_at(SbRing *ring, double aim, SbReport *report) {
   ring->arc.free = false;
   sb_ring_save(ring->contact, SB_RING_START);
@@ -140,8 +143,9 @@ static SbStatus next_state(SbRing *ring, const double direction[2], double lengt
   return status;
 }
 
-// Solves a state of the path as any other, at the share `aim`. Where single nodes of its mesh have
-// none they are held against a small pull: a mesh that is fitted to the contact has one.
+// Solves a state of the path like any other, at the coefficient `aim`. Single nodes of its mesh
+// without a state stay in contact against a small tension; a mesh fitted to the contact has a
+// state.
 static SbStatus settle_at(SbRing *ring, double aim, SbReport *report) {
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   sb_ring_save(ring->contact, SB_RING_START);
@@ -236,12 +240,12 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
       return status;
     }
   }
-  // Another mesh at a held turn may have passed the coefficient.
+  // Another mesh at a fixed rotation may have passed the coefficient.
   ring->arc.free = false;
   return ring->easy ? sb_succeed(report) : settle_at(ring, aim, report);
 }
 
-// From a state of a held turn to the one of the greatest friction, by turns of CLIMB.
+// Moves from a state at a fixed rotation to the state of maximum friction, in rotations of CLIMB.
 static void climb(SbRing *ring) {
   const SbRingContactState *is = &ring->contact->is;
   for (int side = -1; side <= 1; side += 2) {
@@ -291,8 +295,9 @@ static SbStatus settle_limit(SbRing *ring, bool easy, SbReport *report) {
   return status;
 }
 
-// Solves the state of a gasket at the limit as strictly as any other, at its share: the turn, which
-// hardly changes along the path, tells nothing. The state of the path stays where that fails.
+// Solves the state of a gasket at its limit as strictly as any other, at its coefficient: the
+// rotation, which hardly changes along the path, contains no information. If that fails the state
+// of the path remains.
 static SbStatus settle_detached(SbRing *ring, SbReport *report) {
   const SbRingState state = ring->state;
   SbStatus status = settle_at(ring, ring->contact->is.now.friction_bore, report);

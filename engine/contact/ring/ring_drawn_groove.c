@@ -1,16 +1,17 @@
 // Drawn grooves: an outline divided into floor and walls, each a line with bends; see the header.
 //
-// One side is worked out at a time, from the floor's lowest place to the right edge; the left one
-// in the mirrored outline. Lines go on straight beyond their ends, into the stem, so that a concave
-// corner needs no more; where floor and wall met at one normal, a place would be held twice.
+// One side is processed at a time, from the floor's lowest point to the right edge; the left side
+// in the mirrored outline. Lines continue straight beyond their ends, into the stem, so a concave
+// corner needs no more points. If floor and wall met with one normal, a point would be in contact
+// with both.
 #include "engine/contact/ring/ring_drawn_groove.h"
 #include "engine/numeric/arc.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// Directions [rad]: of arcs' chords; of the floor at most, and of a wall's lean; of a wall over the
-// floor's last piece at least.
+// Directions [rad]: of the chords of arcs; largest one of the floor, and of a wall's inclination;
+// smallest angle between a wall and the floor's last piece.
 static const double CHORD = 7.5 * M_PI / 180, APART = 12 * M_PI / 180;
 static const double STEEP = 70 * M_PI / 180 + 1e-9, LEAN = M_PI / 3 + 1e-9;
 
@@ -119,8 +120,8 @@ static double direction(const Row *row, int piece) {
   return atan2(q->r - p->r, q->z - p->z);
 }
 
-// Bends a line at a point of a row between two slopes; lengths are those of the pieces beside it,
-// infinite where there is none.
+// Bends a line at a point of a row between two slopes. The lengths are those of the adjacent
+// pieces, infinite if there is none.
 static bool bend(SbGrooveLine *line, double at, double turn, bool round, double before,
                  double after, double rounding) {
   if (fabs(turn) < 1e-12) {
@@ -154,8 +155,8 @@ static bool end_floor(SbGrooveLine *floor, const Point *last, double rise, const
   return true;
 }
 
-// The right side of a row that rises from `lowest` on; *nearest: where its wall stands nearest;
-// *top: the point where it ends.
+// Processes the right side of a row that rises from `lowest` on. *nearest: point at which its wall
+// is nearest; *top: its end point.
 static SbStatus side(SbGrooveLine *floor, SbGrooveLine *wall, double *nearest, int *top,
                      const Row *row, int lowest, SbReport *report) {
   const double base = row->at[lowest].r;
@@ -176,7 +177,7 @@ static SbStatus side(SbGrooveLine *floor, SbGrooveLine *wall, double *nearest, i
   while (i + 1 < row->count && direction(row, i) < steep && direction(row, i) > 0.0) {
     i++;
   }
-  // Not with the rest of the corner's arc, if something as steep follows.
+  // Not with the remainder of the corner's arc, if an equally steep piece follows.
   int straight = i;
   while (straight + 1 < row->count && row->at[straight].round) {
     straight++;
@@ -219,8 +220,8 @@ static SbStatus side(SbGrooveLine *floor, SbGrooveLine *wall, double *nearest, i
   return SB_OK;
 }
 
-// How far a place (z, r) lies off the nearest surface, in the ring's room > 0; the floor lies at
-// `base` and the walls where the drawing has them.
+// Returns the distance of a point (z, r) from the nearest surface, > 0 in the ring's room. The
+// floor is at `base`, the walls are where the drawing has them.
 static double off(const SbGrooveDrawing *groove, const double wall[2], double base,
                   const Point *p) {
   double least = INFINITY, rise = base - p->r, s[2] = {0.0}, slope, curvature;

@@ -1,14 +1,15 @@
 // Meshes that follow their contacts.
 //
-// On a mesh that stays with the material a contact's ends move through its nodes, and what is found
-// there rises and falls from node to node (discretisation error): little in itself, but with slopes
-// as large as those of the state, and larger for films, which hang on the pressure at an end.
-// Solved rings have meshes that are fitted to their contacts. A state beside one of them has its
-// mesh, with the nodes shifted along the section's surface as the contacts are: each is the base's,
-// displaced and widened as the mean and the deviation of its pressure tell. These are sums of nodal
-// forces and hang little on the mesh, unlike single ends. Shifts are linear in the angle between
-// ends and go inwards with the square of the radius. The material stays where it is: deformed
-// places go with the nodes by the deformation gradient, the mean of the elements' around each.
+// On a mesh that is fixed to the material, a contact's ends move through its nodes, and results
+// oscillate from node to node (discretisation error). The oscillation is small, but its slopes are
+// as large as those of the state, and it is larger for films, which depend on the pressure at an
+// end. Solved rings have meshes that are fitted to their contacts. A state near one of them has its
+// mesh, with the nodes shifted along the section's surface like the contacts. Each contact is that
+// of the base, displaced and widened by the mean and the deviation of its pressure. These are sums
+// of nodal forces and depend little on the mesh, unlike single ends. Shifts are linear in the angle
+// between ends and decrease inwards with the square of the radius. The material does not move:
+// deformed positions change with the nodes by the deformation gradient, the mean of the adjacent
+// elements.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -51,7 +52,7 @@ static void side_of(const SbRing *ring, int side, int axis, double z[3], double 
   }
 }
 
-// The side next to a boundary node on which a place lies; false: none.
+// Finds the side next to a boundary node that contains a position; false: none.
 static bool find_side(int *out, const SbRing *ring, int node, int axis, double place) {
   enum { SIDES = 24 };
   const int middle = (int)floor(0.5 * node);

@@ -12,7 +12,7 @@
 enum { BLOCK = SB_RING_BLOCK };
 
 struct SbRingFactor {
-  atomic_uint *holders; // of the lists up to mirror_of, which factors alike share
+  atomic_uint *holders; // of the lists up to mirror_of, which equal factors share
   int nodes;
   int *order;             // [nodes] node of each place
   int *start;             // [nodes + 1] of each column's blocks below the diagonal
@@ -198,7 +198,7 @@ SB_QUAD_INLINE void list(SbRingFactor *f, int column, int k) {
   }
 }
 
-// A block's columns, each beside itself; its rows, one below the other.
+// Columns of a block are next to each other; its rows are one below the other.
 #define FIRST_COLUMN(a) __builtin_shufflevector(a, a, 0, 0, 2, 2)
 #define OTHER_COLUMN(a) __builtin_shufflevector(a, a, 1, 1, 3, 3)
 #define FIRST_ROW(a)    __builtin_shufflevector(a, a, 0, 1, 0, 1)

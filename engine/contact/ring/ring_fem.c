@@ -253,8 +253,9 @@ SB_QUAD_INLINE void piola(const SbRingFem *fem, const double f[5], double p, Slo
   stress[4] = w->f;
 }
 
-// One element's tangent and residual. Columns of `k` are those of the shapes, radial and axial side
-// by side, of which the upper half counts; the rest goes by the shapes, radial ones first.
+// Computes the tangent and residual of one element. Columns of `k` are those of the shapes, radial
+// and axial side by side, of which only the upper half is used; the remainder is ordered by shapes,
+// radial ones first.
 typedef struct {
   union {
     SbQuad quad[2 * SHAPES][QUADS];
@@ -361,7 +362,7 @@ SB_QUAD_INLINE bool element_system(SbRingFem *fem, int e, System *s, bool balanc
   return true;
 }
 
-// Eliminates bubble and pressure; keeps what they respond with. `x` [INNER][RIGHT].
+// Eliminates bubble and pressure, and stores their response. `x` [INNER][RIGHT].
 SB_QUAD_INLINE void condense(SbRingFem *fem, System *s, double *x, bool balance) {
   enum { BUBBLE = NODES };
   double inner[INNER][INNER];

@@ -1,9 +1,9 @@
 // The deformed ring for drawing, and its section for others: nodes, triangles, outline and nodal
-// stresses, only when asked for.
+// stresses, computed on request.
 //
 // Stresses are Cauchy stresses of the elements at their nodes, averaged over the elements that
-// share a node. Each six-node triangle is given as four plain ones. Triangles and outline run
-// counter-clockwise with the axial place to the right and the radius upwards.
+// share a node. Each six-node triangle is divided into four three-node ones. Triangles and outline
+// are counter-clockwise with the axial coordinate to the right and the radius upwards.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -48,7 +48,7 @@ static void stresses(const SbRing *ring, const SbRingFields *out) {
   }
 }
 
-// Contact pressure where held, the fluid's elsewhere.
+// Contact pressure at nodes in contact, else the fluid's.
 static void boundary_pressure(const SbRing *ring, double *contact) {
   const SbRingContact *c = ring->contact;
   memset(contact, 0, sizeof(double) * (size_t)ring->mesh->nodes);
@@ -104,8 +104,8 @@ void sb_ring_section_sizes(const SbRing *ring, int *nodes, int *elements, int *s
   *sides = ring->mesh->loop_count / 2;
 }
 
-// The vertex of the loop that is nearest to an end of a contact, among those about its last held
-// node `at`.
+// Returns the vertex of the loop that is nearest to an end of a contact, among those near its last
+// node in contact, `at`.
 static int vertex_at_end(const SbRing *ring, int at, int axis, double place) {
   enum { AROUND = 4 };
   int best = at;
@@ -148,8 +148,8 @@ static bool is_wetted_hollow(const SbRing *ring, SbRingSurface surface, int side
              (now->pressure_right > now->pressure_left);
 }
 
-// Closes the sides of a surface's contact, whose ends lie where its pressure, not its last held
-// node, says: they come to stand on vertices.
+// Closes the sides of a surface's contact. Its ends are those of its recovered pressure, not its
+// last nodes in contact; vertices are moved to them.
 static void close_contact(const SbRing *ring, const SbRingSection *out, SbRingSurface surface) {
   const SbRingContact *contact = ring->contact;
   const int axis = surface == SB_RING_BORE || surface == SB_RING_FLOOR ? 1 : 0;
@@ -184,7 +184,8 @@ static void close_contact(const SbRing *ring, const SbRingSection *out, SbRingSu
   }
 }
 
-// Gives a ring that seals inwards its radii: elements and boundary run the other way round then.
+// Gives a ring that seals inwards its radii; the orientation of elements and boundary is then
+// reversed.
 static void turn_outwards(const SbRing *ring, const SbRingSection *out) {
   const int sides = ring->mesh->loop_count / 2;
   for (int i = 0; i < ring->mesh->nodes; i++) {

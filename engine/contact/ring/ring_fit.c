@@ -1,12 +1,12 @@
-// One fitment to a tolerance, with the error estimated from meshes of different size.
+// One fit to a tolerance, with the error estimated from meshes of different size.
 //
-// A coarse mesh with assumed contact zones finds the contacts; meshes with vertices at the contact
-// ends follow, each started from the one before, until the estimate meets the tolerance. The
-// estimate is a share of the last change, but never below a floor measured against much finer
-// meshes over squeeze 10-40 %, pressure 0-2 MPa at E = 2.5 MPa (tests/engine/test_ring_fit.c): the
-// contact ends cost least where nothing presses on them, and under pressure the load moves with the
-// place of its end, in proportion to p/E or, with little squeeze, to the share of the load that the
-// fluid bears.
+// A coarse mesh with assumed contact zones finds the contacts. Meshes with vertices at the contact
+// ends follow, each started from the previous one, until the estimate meets the tolerance. The
+// estimate is a fraction of the last change, but at least a minimum that was determined with much
+// finer meshes for squeeze 10-40 %, pressure 0-2 MPa at E = 2.5 MPa (tests/engine/test_ring_fit.c).
+// The contact ends contribute least without fluid pressure; under pressure the load changes with
+// the position of its end, in proportion to p/E or, with little squeeze, to the fraction of the
+// load that the fluid carries.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -26,11 +26,11 @@ static const double COARSE = 0.01;
 // of the largest error found: 3 %, and where it rolls over a chamfer 5 % in one of 30.
 static const double UNFITTED = 0.01, UNFITTED_CHAMFER = 0.02;
 
-// Share of the bore's friction that may be missing without being told.
+// Fraction of the bore's friction that may be missing without a report.
 static const double LACK = 0.01;
 
-// Of a section whose surface creases or nearly does, per unit of size: how deep it does hangs on
-// the elements there (X squeezed by 20 and 25 %: 0.4 and 1.1 % at 0.05).
+// Error of a section whose surface creases or nearly does, per unit of size: the depth of the
+// crease depends on the elements there (X squeezed by 20 and 25 %: 0.4 and 1.1 % at 0.05).
 static const double CREASED = 0.25, NEAR_CREASE = 0.85;
 
 // Floors at SIZE, per unit of size.
@@ -38,7 +38,8 @@ static double load_floor(const SbRingBody *body, const SbRingLoad *load) {
   return 2e-4 + 2e-3 * fmax(load->pressure_left, load->pressure_right) / body->modulus;
 }
 
-// Where the fluid bears much of the load, the place of the contact's ends shifts more of it.
+// If the fluid carries much of the load, the position of the contact's ends shifts a larger part of
+// it.
 static double fluid_floor(const SbRingResult *result, const SbRingBody *body,
                           const SbRingLoad *load) {
   double pressure = fmax(load->pressure_left, load->pressure_right);
@@ -54,10 +55,10 @@ static double change(double fine, double coarse) {
   return fine != 0.0 ? fabs(coarse / fine - 1.0) : 0.0;
 }
 
-// What parts that bend add at SIZE: of webs and lobes it falls with the fourth power of the size,
-// as their energy's error (T by 5 to 15 %: 0.2 % at 0.05, 0.03 % at SIZE; X by 15 %: 0.6 and 0.04
-// %); of lips, whose tips touch along little, it does not fall evenly (by 10 to 20 %: 0.2 % at
-// 0.05, 0.1 % at SIZE and at two thirds of it).
+// Additional error of parts in bending at SIZE. For webs and lobes it decreases with the fourth
+// power of the size, like the error of their energy (T by 5 to 15 %: 0.2 % at 0.05, 0.03 % at SIZE;
+// X by 15 %: 0.6 and 0.04 %). For lips, whose tips have short contacts, it decreases irregularly
+// (by 10 to 20 %: 0.2 % at 0.05, 0.1 % at SIZE and at two thirds of it).
 static double bent(const SbRing *ring, double relative) {
   if (sb_ring_outline_has_sides(&ring->outline)) {
     return 1.5e-3 * relative;
@@ -120,7 +121,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   const double path = first.element_size > 0.0 ? first.element_size : SIZE / RATIO;
   first.element_size = load->bore_slides != 0 ? path : fmin(0.08, fmax(SIZE, size) / RATIO);
   first.fit_mesh = false;
-  // A ring that does not touch lets the fluid past: no pressure rests on it.
+  // The fluid passes a ring without contact: no pressure acts on it.
   first.alone = true;
   SbRing *ring = NULL;
   SbStatus status = sb_ring_create(&ring, body, load, &first, report);
@@ -158,7 +159,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
       size = fmax(SIZE_LEAST, RATIO * size);
     }
     if (status == SB_ERROR_NOT_CONVERGED) {
-      // The finer mesh stumbled: the coarser solution stands, with what it is worth.
+      // The finer mesh failed: the coarser solution is used, with its error.
       result->error.load = fmax(unfitted, fmax(result->error.load, 4.0 * floor_load * size / SIZE));
       result->error.peak = fmax(result->error.peak, 4e-3 * size / SIZE);
       result->error.width = fmax(result->error.width, 6e-3 * size / SIZE);

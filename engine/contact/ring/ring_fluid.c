@@ -1,18 +1,20 @@
 // The fluid's pressure on the ring's open sides: a follower load with its consistent tangent.
 //
-// Three-point Gauss, exact for quadratic sides: f = -int N p n dA, n and dA of the deformed side.
-// Left pressure stands up to the crests of bore and floor contact, right pressure beyond; the lower
-// of both behind a ring that seals inwards, from the crest at the higher one's wall on. A side is
-// closed by contact when a surface holds all three of its nodes; what the fluid would press there
-// is kept as the share that the contact must exceed. Leaves out flow and pressure drop.
+// Three-point Gauss rule, exact for quadratic sides: f = -int N p n dA, n and dA of the deformed
+// side. The left pressure acts up to the crests of bore and floor contact, the right pressure
+// beyond. Behind a ring that seals inwards the lower of both acts, from the crest at the wall of
+// the higher one. A side is closed if all three of its nodes are in contact with a surface; the
+// pressure that the fluid would exert there is stored as the part that the contact must exceed. Not
+// modelled: flow and pressure drop.
 #include "engine/contact/ring/ring_contact.h"
 
 #include <math.h>
 #include <string.h>
 
-// The vertex where a surface pushes hardest; without contact the one nearest to an angle. A vertex,
-// since each side has one fluid: parted at the middle node of a side that is held in part, its open
-// part would have the other flank's fluid. A contact of a middle node alone is parted after it.
+// Returns the vertex with the largest contact pressure on a surface; without contact the one
+// nearest to an angle. It is a vertex because each side has one fluid: with a division at the
+// middle node of a side that is partly in contact, its open part would have the fluid of the other
+// flank. A contact of a middle node only is divided after that node.
 static int crest(const SbRingContact *contact, SbRingSurface surface, double angle) {
   const double *angles = contact->fem->mesh->angle;
   int best = -1, nearest = 0;
@@ -30,9 +32,9 @@ static int crest(const SbRingContact *contact, SbRingSurface surface, double ang
   return best >= 0 ? best : nearest;
 }
 
-// The same for a bore that slides: not at the crest, which on a long flat contact is now here, now
-// there, and friction with it, but by the end of the first part that holds the higher pressure. -1
-// where none does.
+// Does the same for a sliding bore: the division is not at the crest, which moves along a long flat
+// contact and changes friction, but at the end of the first part that seals the higher pressure. -1
+// if there is none.
 static int first_part(const SbRingContact *contact, int start, int way, double high) {
   enum { INTO = 1 }; // vertices of the part before
   int inside = 0, at = -1;
@@ -53,9 +55,9 @@ static int first_part(const SbRingContact *contact, int start, int way, double h
   return most > high ? at : -1;
 }
 
-// The same where a contact may have several crests, that is hollows which nothing but the other
-// fluid fills as long as one crest holds the higher pressure: the first crest above it on the way
-// from the bore (to the bore: from the floor) over the flank of the higher pressure.
+// Does the same if a contact may have several crests, with hollows that only the other fluid fills
+// as long as one crest seals the higher pressure: the first crest above that pressure, from the
+// bore (to the bore: from the floor) over the flank of the higher pressure.
 static int first_crest(const SbRingContact *contact, SbRingSurface surface, double angle) {
   static const double FALLS = 0.8; // to this share of a crest, or to the fluid's, it is passed
   const SbRingLoad *now = &contact->is.now;
@@ -86,9 +88,10 @@ static int first_crest(const SbRingContact *contact, SbRingSurface surface, doub
   return best >= 0 ? best : crest(contact, surface, angle);
 }
 
-// Brings the fluid's force on one node of an open side into the balance. What presses a held node
-// on its surface is kept apart: it changes no motion, but without it the node's contact force, and
-// with it friction, would jump whenever the neighbour is caught or let go.
+// Adds the fluid's force on one node of an open side to the balance. The part that presses a node
+// in contact onto its surface is stored separately: it changes no motion, but without it the node's
+// contact force, and with it friction, would jump whenever the neighbour enters or leaves the
+// contact.
 static void load_node(SbRingContact *contact, int i, const int nodes[3], const double force[2],
                       double k[2][3][2]) {
   SbRingFem *fem = contact->fem;
@@ -189,7 +192,7 @@ void sb_ring_side_area_slope(const SbRingContact *contact, int side, int a, doub
   }
 }
 
-// Whether a surface holds all three nodes of a side.
+// Returns whether all three nodes of a side are in contact with a surface.
 static bool closes(const SbRingContact *contact, int side) {
   for (int s = 0; s < SB_RING_SURFACES; s++) {
     if (sb_ring_touch(contact, 2 * side, s)->held &&
@@ -202,7 +205,7 @@ static bool closes(const SbRingContact *contact, int side) {
 }
 
 bool sb_ring_contact_on_right(const SbRingContact *contact, int side) {
-  // Between the crests over the right flank stands the right pressure.
+  // The right pressure acts between the crests over the right flank.
   const int count = contact->count, middle = 2 * side + 1;
   const int bore = contact->is.crest[0], floor_at = contact->is.crest[1];
   const int past = floor_at > bore ? floor_at : floor_at + count;

@@ -20,12 +20,12 @@
 // Pressure per depth, in shear moduli per section height.
 static const double STIFFNESS = 1000.0;
 
-// How deep in the hull of the free section the nodes of a hollow lie at least; how far behind a
-// piece a node has come at most; how much the two sides face each other at least.
+// Smallest depth of a hollow's nodes in the hull of the free section; largest distance of a node
+// behind a piece; smallest degree to which the two sides face each other.
 static const double HOLLOW = 1e-3, BEHIND = 0.12, FACES = 0.2;
 
-// Nodes beside a hollow that may come into it, at either end, and those along the boundary from a
-// node that are its own side.
+// Nodes adjacent to a hollow, at either end, that may come into it, and nodes along the boundary
+// that belong to a node's own side.
 enum { BESIDE = 6, OWN = 1 };
 
 // Twice the area of a triangle, counter-clockwise.
@@ -154,7 +154,7 @@ static bool find(Fold *out, const SbRingContact *contact, int i) {
   sb_ring_contact_place(contact, i, x);
   sb_ring_contact_place(contact, i - 1, left);
   sb_ring_contact_place(contact, i + 1, right);
-  // Outwards of the body at the node: its boundary runs the way of the loop.
+  // Outward normal at the node: the boundary has the direction of the loop.
   const double way = hypot(right[0] - left[0], right[1] - left[1]);
   const double face[2] = {(right[1] - left[1]) / way, -(right[0] - left[0]) / way};
   bool found = false;

@@ -1,13 +1,13 @@
-// The groove's rigid surfaces: floor, both walls and the bore with its land and chamfers.
+// The groove's rigid surfaces: floor, both walls, and the bore with its land and chamfers.
 //
-// Each gives the gap of a place, its normal, tangent and curvature; and what can be done with a
-// load, which says where they stand. Beyond an end of the land the bore opens with the chamfer's
-// slope, which sets in smoothly over the edge's rounding; so do the chamfers of the walls' edges.
-// Walls lean by their draft from where they meet the floor. A rounded corner is the floor's: its
-// arc up to 60 degrees, then the straight line to the wall, which lies within 3.6 % of the radius
-// from the arc's rest; an arc of its own for a wall would leave places that two surfaces of one
-// normal hold. Beside a wall with draft it is that of an upright one. Leaves out any give of the
-// surfaces.
+// Each surface gives gap, normal, tangent and curvature at a position. Other functions work on a
+// load, which contains the positions of the surfaces. Beyond an end of the land the bore opens with
+// the chamfer's slope, which develops smoothly over the edge's rounding; so do the chamfers of the
+// walls' edges. Walls are inclined by their draft from where they meet the floor. A rounded corner
+// belongs to the floor: its arc up to 60 degrees, then the straight line to the wall, which is
+// within 3.6 % of the radius from the remainder of the arc. With a separate arc for a wall,
+// positions would be in contact with two surfaces of one normal. Next to a wall with draft it is
+// the corner of a wall without draft. The surfaces are rigid.
 #include "engine/contact/ring/ring_contact.h"
 #include "engine/contact/ring/ring_drawn_groove.h"
 
@@ -126,8 +126,8 @@ SbRingFrame sb_ring_frame(const SbRingLoad *load, SbRingSurface surface, const d
                        .axis = 1};
 }
 
-// Whether two points lie on different sides of a line, beyond rounding: sides in one flat contact
-// lie on a line.
+// Returns whether two points are on different sides of a line, beyond rounding: sides in one flat
+// contact are on a line.
 static bool parts(const double a[2], const double b[2], const double c[2], const double d[2]) {
   static const double ROUNDING = 1e-9; // twice the area of a triangle, in section diameters
   const double u[2] = {b[0] - a[0], b[1] - a[1]};
@@ -136,8 +136,8 @@ static bool parts(const double a[2], const double b[2], const double c[2], const
   return at_c * at_d < 0.0 && fmin(fabs(at_c), fabs(at_d)) > ROUNDING;
 }
 
-// Whether two sides of the boundary lie in one hollow, where what presses them apart lets them
-// cross.
+// Returns whether two sides of the boundary are in one hollow, where the separating stiffness
+// allows them to cross.
 static bool presses(const SbRingContact *contact, int i, int k) {
   const int *hollow = contact->fem->hollow;
   const int number = hollow[i];

@@ -1,9 +1,9 @@
 // Graded triangle meshes of a circular section.
 //
-// Rows of triangles follow the surface inwards; each row has as many vertices as its local size
-// asks for, so the mesh is fine under a contact and at its edges and coarse inside, which a
-// structured quadrilateral grid cannot do without carrying the fine spacing through the section.
-// The two halves share the axis of symmetry; equal plans give mirror meshes. Own construction.
+// Rows of triangles follow the surface inwards. Each row has as many vertices as its local size
+// requires, so the mesh is fine under a contact and at its edges and coarse inside. A structured
+// quadrilateral grid would continue the fine spacing through the section. The two halves share the
+// axis of symmetry; equal plans give mirrored meshes. Own construction.
 #include "engine/contact/ring/ring_mesh.h"
 #include "engine/numeric/root.h"
 
@@ -15,8 +15,8 @@
 enum { LAYERS_MAX = 24, ROW_MAX = 2000, SAMPLES = 720, SMOOTHINGS = 4 };
 enum { VERTEX_MAX = 2 * LAYERS_MAX * ROW_MAX };
 
-// Least shape of a triangle that a mesh may have, and how rows are tried: number of rows added and
-// how strongly their depth follows the surface size.
+// Smallest shape of a triangle that a mesh may have, and trial parameters of rows: number of added
+// rows and how strongly their depth follows the surface size.
 static const double QUALITY_LEAST = 0.35;
 static const struct {
   int rows;
@@ -232,8 +232,8 @@ static void stitch(Builder *b, int half, int k) {
   }
 }
 
-// Moves inner vertices to the mean of their neighbours, half of the way, since those move as well,
-// where that betters their worst triangle.
+// Moves inner vertices to the mean of their neighbours (half of the distance, because the
+// neighbours move too) if that improves their worst triangle.
 static void smooth(Builder *b) {
   SbRingMesh *mesh = b->mesh;
   double *x = mesh->x, *moved = b->vertex; // the builder's own copy takes the new places
@@ -395,7 +395,7 @@ static SbStatus build(SbRingMesh **out, Builder *b) {
   return SB_OK;
 }
 
-// Least triangle shape, negative if one is turned over.
+// Returns the smallest triangle shape; negative if a triangle is inverted.
 static double worst_quality(const SbRingMesh *mesh) {
   double worst = 1.0;
   for (int e = 0; e < mesh->elements; e++) {
@@ -415,7 +415,7 @@ SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbRep
     return sb_fail(report, SB_ERROR_INPUT, "ring mesh with %d rows, size %g", plan->layers,
                    plan->size_max);
   }
-  // The first trial is nearly always good; the best one is kept.
+  // The first trial is nearly always good; the best one is used.
   double best = 0.0;
   for (size_t i = 0; i < sizeof TRIAL / sizeof TRIAL[0] && best < QUALITY_LEAST; i++) {
     SbRingMeshPlan trial = *plan;
