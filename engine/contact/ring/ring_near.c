@@ -1,14 +1,14 @@
 // States near a solved one, of another body at another load.
 //
-// The active set of a dragged ring's contact does not settle where its ends move through the short
-// elements that a fitted mesh has there. So a coarse copy of the solved ring goes first, on a mesh
-// without short ends, and shows the way: its displacement and how its contacts are displaced. The
-// fitted mesh is shifted along with the contacts (ring_ends.c), displaced alike, and solved, with
-// its contact fixed until the balance is near. Where that fails the solved ring's own mesh goes, in
-// parts, and where that fails too the coarse ring is taken over to a fitted mesh. Where no more
-// than larger elements is wanted the coarse copy takes the ring's place, or a coarser one. What is
-// solved last is the same balance as of any ring: the way enters by friction on floor and walls
-// alone, which sees the motion from the solved ring to the new one as monotonic.
+// The active set of a dragged ring's contact does not settle if its ends move through the short
+// elements of a fitted mesh. Therefore a coarse copy of the solved ring, on a mesh without short
+// ends, is solved first as a predictor: its displacement, and the displacement of its contacts. The
+// fitted mesh is shifted with the contacts (ring_ends.c), displaced in the same way, and solved,
+// with its contact fixed until the balance is nearly reached. If that fails, the solved ring's own
+// mesh is moved in parts; if that fails too, the coarse ring is transferred to a fitted mesh. If
+// larger elements are sufficient, the coarse copy, or a coarser one, replaces the ring. The last
+// solve is the same balance as that of any ring. The path only enters through friction on floor and
+// walls, which sees the motion from the solved ring to the new one as monotonic.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -25,23 +25,23 @@ static const double COARSE = 1.5, COARSE_EDGE = 0.5;
 // of two scenes).
 static const double LARGER = 1.3;
 
-// Single nodes of the coarse copy can be in the way; of one with other elements other ones are. Of
-// 480 rings after random edits of two scenes 9 found no way on the first, of these 5 on this one,
-// in a fifth of the time that the path from the free ring takes (tried once, no test), and none on
-// the ring's own mesh, in twice that time.
+// Element size of a second coarse copy divided by that of the first. Single nodes of the first copy
+// can prevent a solution; with other elements these are other nodes. Of 480 rings after random
+// edits of two scenes the first copy failed for 9, of which the second solved 5, in a fifth of the
+// time of the path from the free ring.
 static const double COARSER = 2.0;
 
-// How far the contact's ends may then be from where the mesh has short elements for them, over the
-// size of the others: from 0.1 to 0.3 loads of a study scatter by 0.11 % and widths by 0.25 % all
-// the same (measured over 120 samples).
+// Largest distance of the contact's ends from the short elements of the mesh, divided by the size
+// of the others. From 0.1 to 0.3 loads of a study scatter by 0.11 % and widths by 0.25 % (120
+// samples).
 static const double OUTGROWN = 0.2;
 
-// The least part of the way to a state that is gone at once; on a copy that can take the ring's
-// place, which is left soon for the next way.
+// Smallest part of a step; the same for a copy that can replace the ring, which is abandoned sooner
+// in favour of the next method.
 static const double PART_LEAST = 1.0 / 8.0, PART_LARGER = 0.5;
 
-// So near its balance single nodes that have no state are what is in the way: they are held, as on
-// a path, against a small pull.
+// Residual below which nodes that have no state (they enter and leave the contact alternately)
+// remain in contact against a small tension, as on a continuation path.
 static const double PASSES = 1e-2;
 
 struct SbRingGuide {
@@ -73,20 +73,20 @@ void sb_ring_guide_destroy(SbRingGuide *guide) {
   }
 }
 
-// Radius of what a ring lies on.
+// Returns the radius of the surface on which a ring is supported.
 static double seat(const SbRingLoad *load) {
   return isfinite(load->floor_radius) ? load->floor_radius : load->bore_radius;
 }
 
-// Distance of a wall from the plane z = 0, half way up the groove.
+// Returns the distance of a wall from the plane z = 0, at half the height of the groove.
 static double wall_place(const SbRingLoad *load, SbRingSurface wall) {
   const double x[2] = {0.5 * (load->floor_radius + load->bore_radius), 0.0};
   const SbRingFrame frame = sb_ring_frame(load, wall, x);
   return frame.gap / fabs(frame.n[1]);
 }
 
-// How far the one wall that a ring rests on is displaced at another load; *laid: it lay there
-// before friction dragged it.
+// Returns the displacement, at another load, of the wall on which a ring is supported. *laid: the
+// ring was on this wall before friction dragged it.
 static double wall_moves(const SbRing *ring, const SbRingLoad *target, bool *laid) {
   const SbRingContact *contact = ring->contact;
   const SbRingLoad *now = &contact->is.now;
@@ -102,7 +102,7 @@ static double wall_moves(const SbRing *ring, const SbRingLoad *target, bool *lai
   return side != 0 ? side * (wall_place(target, wall) - wall_place(now, wall)) : 0.0;
 }
 
-// A ring that was laid on its wall goes with it.
+// Moves a ring that was on its wall initially together with the wall.
 static double along_wall(const SbRing *ring, const SbRingLoad *target) {
   bool laid;
   const double moves = wall_moves(ring, target, &laid);
@@ -125,8 +125,8 @@ double sb_ring_travel_fault(const SbRing *ring, const SbRingLoad *target) {
   return now->friction_floor * fmax(floor, 0.0) * (moves < travel ? moves / travel : 1.0);
 }
 
-// The state of another mesh of the same nodes: displacements that leave the ring as it lies on its
-// floor and wall, and its contact.
+// Sets the state of another mesh with the same nodes: displacements that leave the ring in its
+// position on floor and wall, and its contact.
 static void lay_alike(SbRing *to, const SbRing *from, const SbRingLoad *target,
                       const SbRingShift *shift) {
   const double rise = seat(target) - seat(&from->contact->is.now);
@@ -164,9 +164,9 @@ static void shift_mesh(SbRingMesh *mesh, const SbRing *ring, const SbRingShift *
   }
 }
 
-// Whether what friction on floor and walls keeps of the way between two loads is less than what is
-// told of a ring dragged anew: loads within 0.3 % of that over these changes (measured). A ring
-// that nothing drags keeps nothing.
+// Returns whether the effect of friction on floor and walls between two loads is below the error of
+// a ring dragged from scratch: loads are within 0.3 % of it over these changes. A ring without drag
+// has no such effect.
 static bool is_near(const SbRingLoad *a, const SbRingLoad *b) {
   static const double PRESSURE = 0.35, PRESSURE_LEAST = 0.1, SPACE = 0.03, FAR = 3.0;
   const double before = a->pressure_left - a->pressure_right;
@@ -178,7 +178,7 @@ static bool is_near(const SbRingLoad *a, const SbRingLoad *b) {
          fabs(space) <= times * SPACE;
 }
 
-// Solves at a load, where need be with single nodes held.
+// Solves at a load, if necessary with single nodes fixed in contact.
 static SbStatus attempt(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   ring->contact->is.now = *load;
   SbStatus status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
@@ -191,7 +191,7 @@ static SbStatus attempt(SbRing *ring, const SbRingLoad *load, SbReport *report) 
   return status;
 }
 
-// A law on the way from one to another.
+// A friction law between two others.
 typedef struct {
   SbRingShear shear[2];
   const void *law[2];
@@ -218,12 +218,12 @@ static void take_law(SbRing *ring, SbRingShear shear, const void *law) {
   }
 }
 
-// From a load to another one, at once or in parts of so much at least. SB_RING_BEFORE is where it
-// was laid.
+// Steps from one load to another, in one step or in parts of at least the given size.
+// SB_RING_BEFORE is the initial position.
 static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *to, double least,
                         SbReport *report) {
   SbRingLoad start = *from;
-  start.floor_radius = to->floor_radius; // where it lies
+  start.floor_radius = to->floor_radius; // its position
   start.bore_radius += seat(to) - seat(from);
   start.wall_left += along_wall(ring, to);
   start.wall_right += along_wall(ring, to);
@@ -318,7 +318,8 @@ SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
   return SB_OK;
 }
 
-// The coarse copy, if there can be one; the lock is held. Nobody cancels it: it is every caller's.
+// Creates the coarse copy, if there can be one. The caller has locked the mutex. The copy is not
+// cancelled, because all callers use it.
 static void make_coarse(SbRingGuide *guide) {
   const SbRing *ring = guide->ring;
   guide->made = true;
@@ -349,7 +350,8 @@ void sb_ring_guide_make(SbRingGuide *guide) {
   pthread_mutex_unlock(&guide->lock);
 }
 
-// Displaces a laid ring as another one was since it was laid (its SB_RING_BEFORE).
+// Displaces a ring in its initial position by the displacement of another one since its own initial
+// position (its SB_RING_BEFORE).
 static SbStatus displace(SbRing *ring, const SbRing *way, SbReport *report) {
   const int nodes = way->fem->mesh->nodes;
   double *by = malloc(sizeof(double) * 2 * (size_t)nodes);
@@ -371,7 +373,8 @@ static SbStatus displace(SbRing *ring, const SbRing *way, SbReport *report) {
   return SB_OK;
 }
 
-// Solves a laid ring from where another one went; `passing`: with single nodes held.
+// Solves a ring in its initial position from the displacement of another one; `passing`: with
+// single nodes fixed in contact.
 static SbStatus go_along(SbRing *ring, const SbRing *way, bool passing, SbReport *report) {
   SbStatus status = displace(ring, way, report);
   if (status == SB_OK) {
@@ -383,7 +386,7 @@ static SbStatus go_along(SbRing *ring, const SbRing *way, bool passing, SbReport
   return status;
 }
 
-// The ring on its mesh, shifted and displaced as the coarse one on its way.
+// Solves the ring on its mesh, shifted and displaced like the coarse one.
 static SbStatus follow(SbRing **out, SbRingGuide *guide, const SbRing *way, const SbRingBody *body,
                        const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
   SbRing *other;
@@ -409,16 +412,16 @@ static SbStatus follow(SbRing **out, SbRingGuide *guide, const SbRing *way, cons
   return SB_OK;
 }
 
-// Whether elements much larger than the solved ring's are enough, where it was fitted to its
-// contacts; the others lie on large ones already.
+// Returns whether elements much larger than the solved ring's are sufficient, if its mesh was
+// fitted to its contacts; other rings have large elements already.
 static bool takes_larger(const SbRing *ring, const SbRingBody *body, const SbRingLoad *load,
                          const SbRingOptions *options) {
   return ring->fitted_size > 0.0 &&
          sb_ring_fit_size(body, load, options->tolerance) > LARGER * ring->fitted_size;
 }
 
-// Fits the mesh anew to the contact: at once on one of three meshes, else as any ring's. The second
-// begins anew, and still saves solving the ring from nothing in 3 of 60 random edits (tried once).
+// Fits the mesh to the contact again: directly on one of three meshes, else like that of any ring.
+// The second mesh starts from scratch.
 static SbStatus fit_larger(SbRing *way, double size, SbReport *report) {
   way->at_once = true;
   SbStatus status = sb_ring_refit(way, size, report);
@@ -474,7 +477,7 @@ static SbStatus near_larger(SbRing **out, SbRingGuide *guide, const SbRingBody *
   return status;
 }
 
-// By way of the coarse copy. Where it alone arrives the caller has it, in *kept, owned.
+// Solves by the coarse copy. If only the copy succeeds, the caller gets it in *kept, owned.
 static SbStatus near_guided(SbRing **out, SbRing **kept, SbRingGuide *guide, const SbRingBody *body,
                             const SbRingLoad *load, const SbRingOptions *options,
                             SbReport *report) {
@@ -554,7 +557,8 @@ SbStatus sb_ring_near(SbRing **out, const SbRing *ring, SbRingGuide *guide, cons
     }
     sb_ring_destroy(way);
   }
-  // Where the finer ends of the mesh no longer are the contact's: anew, unless that fails.
+  // If the finer ends of the mesh are no longer at the contact's ends: fitted again, unless that
+  // fails.
   if (status == SB_OK && sb_ring_outgrown(other, OUTGROWN)) {
     status = sb_ring_refit(other, other->fitted_size, &own);
     status = status == SB_ERROR_NOT_CONVERGED ? SB_OK : status;

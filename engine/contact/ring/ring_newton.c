@@ -1,9 +1,9 @@
 // Newton iteration for the ring: consistent tangent, active-set contact, damped corrections.
 //
-// One iteration assembles, factorises once, takes the correction (shortened if a node would move
-// too far or a point turn inside out) and renews the held set from the linear model's reactions. It
-// has converged when the balance holds on all free rows, held nodes lie on their surfaces and the
-// held set is steady.
+// One iteration assembles, factorises once, applies the correction (shortened if a node would move
+// too far or a point would invert) and updates the active set from the linear model's reactions. It
+// has converged when the balance holds in all free rows, nodes in contact are on their surfaces,
+// and the active set is constant.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -19,8 +19,8 @@ static const double NEARLY = 1e-2;
 enum { FAR_AFTER = 8 };
 static const double FAR = 1.0;
 
-// Another mesh's state has its nodes held where interpolation has put them for the first
-// iterations, and its contact fixed until the balance is so near, or so many iterations.
+// For the first iterations the nodes of a state from another mesh stay at their interpolated
+// positions; its contact is fixed until the balance is this close, or for so many iterations.
 enum { STUCK = 2, FIXED_MAX = 8 };
 static const double NEAR_FIXED = 1e-3;
 
@@ -28,30 +28,30 @@ static const double DET_SHARE = 0.35, DAMPING = 10.0;
 static const double RESIDUAL_TOLERANCE = 1e-11, PASSED_TOLERANCE = 1e-7, PATH_TOLERANCE = 1e-9,
                     DRIFT_FORCE = 1e-13;
 
-// Far below any elastic stiffness (about 10): it only fixes where a ring that nothing holds axially
-// stands. The ring is let drift until the spring is slack, and it vanishes as soon as a wall or
-// friction holds.
+// Stiffness of a weak spring, far below any elastic stiffness (about 10). It only determines the
+// position of a ring without axial support. The ring drifts until the spring is slack; the spring
+// is removed as soon as a wall or friction supports the ring.
 static const double AXIAL_SPRING = 1e-7;
 
-// Largest nodal correction of one iteration, in section diameters. One that has to be cut shorter
-// than STUMBLE of it is a stumble; after so many the solve is given up.
+// Largest nodal correction of one iteration, in section diameters. A correction that must be
+// shortened below STUMBLE of it counts as a failure; after so many the solve ends.
 static const double CORRECTION_MAX = 0.15, STUMBLE = 0.1;
 enum { STUMBLES_MAX = 4 };
 
-// Nodes that come and go in turn leave the residual where it is, to this share; after so many of
-// these the solve is given up too.
+// Nodes that enter and leave the contact alternately leave the residual constant, to this fraction;
+// after so many such iterations the solve ends too.
 static const double SAME = 0.02;
 enum { REPEATS_MAX = 6 };
 
-// With a steady contact the residual falls at every iteration but where a node's friction sets in
-// or its law bends: there it can go round between two or three values for ever, and after so many
-// iterations that do not bring it to this share of the least since the contact is steady, it does.
-// Half a step leads out of it more often than not where the residual is not rounding; some rings
-// lose their path by it, so that only quick ones take it.
+// With a constant contact the residual decreases in every iteration, except where a node's friction
+// starts or its law has a kink. There it can alternate between two or three values for ever. After
+// so many iterations that do not reduce it to this fraction of its minimum with constant contact, a
+// half step is taken. It usually succeeds if the residual is not rounding, but some rings lose
+// their path by it, so that only quick ones use it.
 static const double FALLS = 0.5, BENDS = 1e-7;
 enum { ROUND_MAX = 4 };
 
-// Whether something holds the ring axially.
+// Returns whether something supports the ring axially.
 static bool leans(const SbRingContact *contact) {
   for (int i = 0; i < contact->count; i++) {
     if (sb_ring_touch(contact, i, SB_RING_WALL_RIGHT)->held ||
@@ -75,7 +75,7 @@ static double largest(const double *v, int n) {
   return m;
 }
 
-// Moves the spring's rest to where the ring stands; true if that changed its force.
+// Moves the spring's rest position to the ring; returns true if that changed the spring's force.
 static bool recentre(SbRingFem *fem, double force_scale) {
   if (fem->axial_spring == 0.0) {
     return false;
@@ -89,7 +89,7 @@ static bool recentre(SbRingFem *fem, double force_scale) {
   return fabs(drift) * fem->axial_spring * nodes > DRIFT_FORCE * force_scale;
 }
 
-// Says where the contact did not settle.
+// Reports where the contact did not settle.
 static void fail(const SbRingContact *contact, double residual, int changes, int iterations,
                  SbReport *report) {
   if (contact->unsteady < 0 || changes == 0) {
@@ -199,7 +199,7 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
         gap <= tolerance && fabs(off_path(ring)) <= PATH_TOLERANCE) {
       slack = recentres++ < RECENTRES_MAX && recentre(fem, contact->force_scale);
       if (slack) {
-        continue; // assembled anew, then solved once more
+        continue; // assembled again, then solved once more
       }
       sb_ring_contact_forces(contact);
       return SB_OK;

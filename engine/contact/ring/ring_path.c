@@ -1,19 +1,21 @@
-// A load step is taken in parts whose largest change is moderate, halved where Newton fails. Where
-// that is not enough the equilibrium is unstable or far (the land's edge lets the section snap
-// through, friction lets go, a wall is reached across the groove): the setting is then held and the
-// ring follows in steps of a viscous motion, M c (u_n - u_n-1) + R(u_n) = 0 with reference volume M
-// and falling c (pseudo-transient continuation, Kelley and Keyes 1998), friction seeing every step.
-// The viscosity is gone at the end, so that what is returned is an equilibrium. A ring that keeps
-// moving has none; the report says how it leaves. Leaves out inertia: where several equilibria can
-// be reached it is the one of an overdamped motion.
+// Load steps of the ring, in parts whose largest change is moderate and which are halved if
+// Newton's method fails.
 //
-// Rolling. What resists the turning of a ring's section is its hoop stress, by nearly the sine of
-// the turn, so that the drag it bears is greatest near a quarter turn. Steady sliding was found at
-// turns up to 1.55 rad, falling drag from 2.05 rad on (dry and under fluid, with and without
-// friction on floor and wall). A section that turns beyond ROLLED has equilibria at a given place
-// of the bore still, but rolls on with it at a falling drag: no sliding state, and the step is
-// refused. The turn is the mean one of the section's points, followed along the path so that it
-// does not wrap.
+// If that is not sufficient, the equilibrium is unstable or far (the section snaps through at the
+// land's edge, friction is released, a wall is reached across the groove). The load is then
+// constant, and the ring follows in steps of a viscous motion, M c (u_n - u_n-1) + R(u_n) = 0 with
+// reference volume M and decreasing c (pseudo-transient continuation, Kelley and Keyes 1998);
+// friction sees every step. The viscosity is removed at the end, so the result is an equilibrium. A
+// ring that keeps moving has none; the report describes its motion. Not modelled: inertia. If
+// several equilibria can be reached, the result is that of an overdamped motion.
+//
+// Rolling. The hoop stress resists the rotation of a ring's section nearly like the sine of the
+// angle, so the drag that it can carry has its maximum near a quarter turn. Steady sliding was
+// found at rotations up to 1.55 rad, decreasing drag from 2.05 rad on (dry and under fluid, with
+// and without friction on floor and wall). A section that rotates beyond ROLLED still has
+// equilibria for a given position of the bore, but rolls with it at a decreasing drag: there is no
+// sliding state, and the step is refused. The rotation is the mean of the section's points,
+// followed along the path so that it does not wrap.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -21,16 +23,16 @@
 // Largest changes of one part: pressure in shear moduli, places in section diameters.
 static const double PRESSURE_STEP = 0.8, LAND_STEP = 0.15;
 
-// Viscosities, in shear moduli per section diameter squared: first, least before it is dropped,
-// most; and how many steps and droppings are tried.
+// Viscosities, in shear moduli per section diameter squared: first, smallest one before it is
+// removed, largest; number of steps and removals that are tried.
 static const double VISCOSITY = 30.0, VISCOSITY_LEAST = 0.3, VISCOSITY_MOST = 3e4;
 enum { TRANSIENT_STEPS = 50, DROPS_MAX = 4, TRANSIENTS_MAX = 9 };
 
-// Newton iterations after which a load step is given up at its next failure.
+// Newton iterations after which a load step ends at its next failure.
 enum { ITERATIONS_MOST = 1000 };
 
-// Least share of a part before it is given up. Parts of a sealed path at least, and their least
-// share: a step that loses the contact went past its fold.
+// Smallest fraction of a part before it ends. Smallest number of parts of a sealed path, and their
+// smallest fraction: a step that loses the contact passed its fold.
 static const double STEP_LEAST = 1.0 / 64.0, SEALED_PARTS = 4.0, SEALED_LEAST = 1.0 / 8.0;
 
 // A motion beyond which the ring counts as gone, in section diameters; the turn beyond which it
@@ -160,7 +162,7 @@ static SbStatus pseudo_transient(SbRing *ring, const SbRingLoad *load, SbReport 
                          : status;
 }
 
-// Keeps the reason and puts before it where equilibrium ended.
+// Puts the position where equilibrium ended before the reason.
 static void explain(double done, SbReport *report) {
   if (report == NULL) {
     return;
@@ -225,7 +227,7 @@ SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path
       if (status == SB_ERROR_NOT_CONVERGED) {
         explain(done, report);
       }
-      sb_ring_contact_settle(contact); // forces and conditions of the state that is kept
+      sb_ring_contact_settle(contact); // forces and conditions of the present state
       return status;
     }
   }

@@ -1,10 +1,10 @@
-// Puts the ring into its groove and brings on the fluid: first guesses, leaning on the wall, the
+// Places the ring in its groove and applies the fluid: initial guesses, support by the wall, the
 // ring that only the fluid closes.
 //
-// Fitting starts from a volume-preserving guess (uniform stretch and part of the squeeze) with
-// every node beyond a surface held there; the contact's active set lets go of what is too much.
-// Pressure comes after, from the ring pushed against its wall. Leaves out friction, which acts from
-// the fitted state on.
+// Fitting starts from a volume-preserving guess (uniform stretch and part of the squeeze), in which
+// every node beyond a surface is moved onto it. The contact's active set releases the nodes that
+// are too many. Pressure is applied afterwards, to the ring pushed against its wall. There is no
+// friction up to this fitted state.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -43,8 +43,8 @@ static void guess(SbRing *ring, const SbRingLoad *s, double share) {
   ring->contact->is.turn = 0.0;
 }
 
-// The same of a ring that is clamped and seals inwards: r^2 - R^2/c is uniform where the axial
-// compression c is, c the stretch; the bore widens with the free ring's, or lies on the stem.
+// Does the same for a ring that is clamped and seals inwards: r^2 - R^2/c is uniform where the
+// axial compression is c; the bore widens with the free ring's, or is on the stem.
 static void guess_clamped(SbRing *ring, const SbRingLoad *s) {
   const double c = fmin(1.0, (s->wall_right - s->wall_left) / (2.0 * ring->outline.half));
   const double free = -ring->centre - 0.5, bore = fmax(-s->bore_radius, free / sqrt(c));
@@ -131,9 +131,9 @@ SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report)
   return status;
 }
 
-// Presses a ring that does not touch the bore by itself. The sealed state, which the fluid holds
-// once something has closed the gap, ends in a fold as the gap grows, where the contact has still
-// some width: it is followed from a bore that touches, outwards, as far as it goes. Beyond, the
+// Pressurises a ring that has no contact with the bore by itself. The sealed state, which the fluid
+// maintains once something has closed the gap, ends in a fold as the gap increases, at a finite
+// contact width. It is followed outwards from a bore in contact as far as possible. Beyond that the
 // fluid passes the ring.
 static SbStatus press_open(SbRing *ring, const SbRingLoad *target, SbReport *report) {
   static const double CLOSED = 0.05;
@@ -190,8 +190,8 @@ static double crest_of(const SbRing *ring, SbRingSurface surface) {
   return most;
 }
 
-// A clamped ring's contacts on stem and plate end in a fold as the fluid rises to the pressure of
-// their crests: beyond, the fluid passes. Tells so where a rise to a load has ended near there.
+// Reports that the fluid passes, if a pressure rise ended near such a state: the contacts of a
+// clamped ring on stem and plate end in a fold as the fluid reaches the pressure of their crests.
 static SbStatus tell_passed(const SbRing *ring, const SbRingLoad *load, SbStatus status,
                             SbReport *report) {
   static const double NEAR = 1.5; // crests over the fluid's pressure
@@ -229,10 +229,10 @@ static SbStatus press_fitted(SbRing *ring, const SbRingLoad *load, SbReport *rep
   return tell_passed(ring, load, status, report);
 }
 
-// Puts the ring over the stem, then closes the walls on it, against their friction; then brings on
-// the fluid. Closed first and widened by the stem then, it bears 1.7 times the load where nothing
-// slips on the walls, and 0.19 times where they rub on the way of the stem alone (measured on the
-// gasket of docs/verification.md: 36, 62 and 6.7 N).
+// Puts the ring over the stem, then closes the walls on it, against their friction; then applies
+// the fluid. In the reverse order the load is 1.7 times as high if nothing slips on the walls, and
+// 0.19 times if they have friction only while the stem is inserted (gasket of docs/verification.md:
+// 36, 62 and 6.7 N).
 static SbStatus clamp_and_press(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   const double middle = 0.5 * (load->wall_left + load->wall_right);
   SbRingLoad dry = *load;

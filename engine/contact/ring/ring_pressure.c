@@ -1,20 +1,22 @@
 // The contact pressure recovered from nodal forces: a smooth curve with the same load, and its
 // ends.
 //
-// Nodal forces are what the element solver knows of the pressure: f_i = int N_i p dA. Divided by
-// the nodes' areas they zigzag between vertices and mid-sides and end at the nearest node; as
-// weights of a smooth p they are far more accurate (they are the residual of the balance, tested
-// with the elements' own shape functions). So the pressure of a smooth contact (Johnson, Contact
-// Mechanics, 2.7),
+// Nodal forces contain the information of the element solver about the pressure: f_i = int N_i p
+// dA. Divided by the nodes' areas they oscillate between vertices and mid-sides and end at the
+// nearest node. As weights of a smooth p they are far more accurate (they are the residual of the
+// balance, tested with the elements' own shape functions). So the pressure of a smooth contact
+// (Johnson, Contact Mechanics, 2.7),
+//
 //   p = p_first (1 - t/pi) + p_last t/pi + sum a_k sin((k + 1) t),   place = middle - half cos t,
-// is fitted to them: least squares of (f_i - int N_i p dA)^2 / area_i with the total force held
-// exactly, linear in a_k, and Gauss-Newton's method on both ends, which the residual tells about
-// ten times more sharply than the gaps of single nodes do. The number of terms is the one of the
-// least generalised cross-validation (Golub, Heath and Wahba 1979). The outermost held node takes
-// no part but in the total: its force is that of an end that the mesh cannot place. On sides that
-// the fluid still bears in the balance only the excess over it is in f_i. Leaves out contacts in
-// several parts and pressures with a corner in them (a land's edge under the contact): there the
-// fit is not good enough and says so.
+//
+// is fitted to them: least squares of (f_i - int N_i p dA)^2 / area_i with the exact total force,
+// linear in a_k, and Gauss-Newton's method for both ends, which the residual determines about ten
+// times more accurately than the gaps of single nodes. The number of terms is that of the smallest
+// generalised cross-validation (Golub, Heath and Wahba 1979). The outermost node in contact only
+// contributes to the total: its force is that of an end which the mesh cannot locate. On sides that
+// the fluid still loads in the balance, f_i only has the excess over the fluid. Not modelled:
+// contacts in several parts, and pressures with a corner (a land's edge under the contact). The fit
+// is then not good enough and is rejected.
 #include "engine/contact/ring/ring_private.h"
 #include "engine/numeric/dense.h"
 
@@ -28,20 +30,20 @@ enum { ROWS_MAX = 640, TERMS_LEAST = 3, TERMS_MOST = 8, POINTS = 4, ENDS_MAX = 1
 // zigzag of a coarse mesh, below what a corner or a second contact leaves.
 static const double MISFIT = 0.03;
 
-// One contact: its nodes from one before the first held to one after the last, along the loop. The
-// place of node i is x[i], rising; r[i] is its radius, or 1 in the plane.
+// One contact: its nodes from one before the first in contact to one after the last, along the
+// loop. The position of node i is x[i], increasing; r[i] is its radius, or 1 in the plane.
 typedef struct SbRingRecovery {
   int rows, terms;
   double x[ROWS_MAX], r[ROWS_MAX], z[ROWS_MAX];
   double force[ROWS_MAX], area[ROWS_MAX];
-  bool fits[ROWS_MAX];   // takes part in the least squares
+  bool fits[ROWS_MAX];   // is part of the least squares
   bool closed[ROWS_MAX]; // of the side that begins at an even row
   double turn, end_pressure[2];
   double range[2][2]; // what either end may be
   // Of the last fit.
   double matrix[ROWS_MAX][TERMS_MOST], known[ROWS_MAX];
   double a[TERMS_MOST];
-  // Residuals at the ends, beside them, and their slopes to both.
+  // Residuals at the ends, at displaced ends, and their derivatives with respect to both.
   double here[ROWS_MAX], there[ROWS_MAX], slope[2][ROWS_MAX];
   // The bore's ends of a state that never changes (SbRing.first_order).
   bool kept, found;
@@ -90,8 +92,8 @@ static bool collect(Fit *fit, const SbRing *ring, SbRingSurface surface, const S
   }
   for (int end = 0; end < 2; end++) {
     fit->end_pressure[end] = patch->end_pressure[end];
-    // To two nodes inside the last held one. At its open neighbour the gap is open: outwards the
-    // end lies nearer to where that extrapolates to zero.
+    // Between two nodes inside the last one in contact and its open neighbour, whose gap is open:
+    // the end is nearer to where that gap extrapolates to zero.
     int at = (end == 0 ? patch->first : patch->last) - first, out = end == 0 ? -1 : 1;
     const double open = fit->x[at + out], closed = sign * patch->place[end];
     const double most = out * (open - closed) > 0.0 ? 0.5 * (open + closed) : open;
@@ -245,7 +247,8 @@ static double find_ends(Fit *fit, double end[2]) {
   return solve(fit, end, here);
 }
 
-// The same, to rounding: a comparison of squares tells an end to the root of that only.
+// Does the same to rounding: a comparison of squares determines an end to the square root of
+// rounding only.
 static double find_held_ends(Fit *fit, double end[2]) {
   enum { MOVES_MAX = 14 };
   static const double CLOSE = 3e-11;
@@ -281,8 +284,8 @@ static bool presses(SbDryContact *p) {
   return good;
 }
 
-// The contact without a single held node beyond an open one at either end, where the fluid holds
-// the next node open: its force is small and counts in the total only.
+// Omits a single node in contact beyond an open one at either end, where the fluid keeps the next
+// node open: its force is small and only contributes to the total.
 static SbRingPatch without_strays(const SbRing *ring, SbRingSurface surface, SbRingPatch patch) {
   const SbRingContact *contact = ring->contact;
   if (!sb_ring_touch(contact, patch.first + 1, surface)->held &&

@@ -12,7 +12,7 @@
 
 enum { CORNERS_MAX = 12 };
 
-// A joint that turns by less is smooth [rad]: pieces that stand for a curve.
+// A joint that turns by less is smooth [rad]: pieces that approximate a curve.
 static const double SMOOTH = 0.2;
 
 typedef struct {
@@ -39,7 +39,7 @@ static void part_place(const SbRingOutlinePart *part, double share, double x[2])
   }
 }
 
-// Ends that lie at both angles of an arc, and its length.
+// Sets the ends of an arc at both angles, and its length.
 static void finish_arc(SbRingOutlinePart *part) {
   part_place(part, 0.0, part->from);
   part_place(part, 1.0, part->to);
@@ -82,7 +82,7 @@ static bool round_corners(SbRingOutline *out, const Corner *corner, int count) {
     if (cut[i] + cut[(i + 1) % count] > hypot(c->r - b->r, c->z - b->z) * (1.0 + 1e-9)) {
       return false;
     }
-    // The arc's centre lies to the left of the way for a left turn.
+    // The arc's centre is on the left of the direction for a left turn.
     const Corner *a = &corner[(i + count - 1) % count];
     double u[2] = {b->r - a->r, b->z - a->z}, l = hypot(u[0], u[1]);
     double side = turn[i] > 0.0 ? 1.0 : -1.0;
@@ -207,8 +207,8 @@ static bool crosses(const SbRingOutlinePart *part, double *share) {
   return false;
 }
 
-// Turns the outline round so that it begins where it crosses z = 0 at the least radius, and finds
-// its sizes.
+// Rotates the outline's order so that it begins where it crosses z = 0 at the smallest radius, and
+// finds its sizes.
 static void order(SbRingOutline *out) {
   SbRingOutline old = *out;
   int first = 0;
@@ -314,8 +314,8 @@ static int t_ring(Corner *c, double w, double web, double flange, double radius)
   return 8;
 }
 
-// A heel to the right, two lips flared outwards to the left and a hollow between them. The tips'
-// corners stand `beyond` the height that their roundings leave.
+// A heel to the right, two lips flared outwards to the left, and a hollow between them. The tips'
+// corners are `beyond` the height that remains after rounding.
 static int lip_ring(Corner *c, double w, const SbSealProfile *p, double h, double beyond) {
   const double radius = p->corner_radius / h, thickness = p->lip_thickness / h;
   const double heel = 0.5 - p->lip_flare / h, bottom = p->lip_depth / h - w, tip = 0.5 + beyond;
@@ -329,14 +329,16 @@ static int lip_ring(Corner *c, double w, const SbSealProfile *p, double h, doubl
   return 10;
 }
 
-// How far a tip's corner must stand out for its rounding to reach the height: half the angle
-// between its sides tells how much that cuts off, which hardly hangs on the corner's place.
+// Returns how far a tip's corner must project so that its rounding reaches the height. Half the
+// angle between its sides determines how much the rounding removes; it hardly depends on the
+// corner's position.
 static double tip_beyond(const SbSealProfile *p, double h) {
   enum { PASSES = 20 };
   const double radius = p->corner_radius / h, along = p->lip_depth / h;
   double beyond = 0.0;
   for (int i = 0; i < PASSES; i++) {
-    // The flank leans by this from the axis; the rounding's centre lies a radius inside both sides.
+    // The flank is inclined by this angle from the axis; the centre of the rounding is one radius
+    // inside both sides.
     const double lean = atan2(p->lip_flare / h + beyond, along);
     const double centre = 0.5 + beyond - radius * (tan(lean) + 1.0 / cos(lean));
     beyond += 0.5 - (centre + radius);
@@ -344,7 +346,8 @@ static double tip_beyond(const SbSealProfile *p, double h) {
   return beyond;
 }
 
-// Lobes tangent to the square, hollows tangent to the lobes: their centres lie rl + rv apart.
+// Lobes tangent to the square, hollows tangent to the lobes: the distance of their centres is rl +
+// rv.
 static void x_ring(SbRingOutline *out, double lobe, double valley) {
   const double l = 0.5 - lobe, apart = (valley * valley + l * l) / (2.0 * valley);
   const double hollow = apart - lobe, centre = 0.5 - valley + hollow;
@@ -422,7 +425,7 @@ SbStatus sb_ring_outline_of_profile(SbRingOutline *out, const SbSealProfile *p, 
                                     SbReport *report) {
   *out = (SbRingOutline){0};
   if (p->kind == SB_SEAL_PROFILE_CIRCLE) {
-    // Asked at every fitment: known without order().
+    // Needed at every fit: known without order().
     add_arc(out, 0.0, 0.0, 0.5, M_PI, M_PI);
     add_arc(out, 0.0, 0.0, 0.5, 0.0, M_PI);
     out->part[1].at = out->bore = 0.5 * M_PI;

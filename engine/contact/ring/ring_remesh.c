@@ -1,23 +1,23 @@
 // A ring's state on another mesh, fitted to its contacts.
 //
-// Vertices lie at the contacts' ends and elements are finest there. The state is carried over by
-// material places, with its held nodes by material angle, and solved on the new mesh: with its
-// contact fixed until the balance is near, else by way of the state of the same turn, or from the
-// free ring.
+// Vertices are at the contacts' ends, and elements are smallest there. The state is transferred by
+// material positions, the nodes in contact by material angle, and solved on the new mesh: with its
+// contact fixed until the balance is nearly reached; else through the state of the same rotation;
+// else from the free ring.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
 
-// Arc of a bore contact, in section diameters, below which its elements shrink with it, and the
-// least share of their size that is left.
+// Arc of a bore contact, in section diameters, below which its elements become smaller with it, and
+// the smallest fraction of their size.
 static const double WIDE = 0.3, NARROW_LEAST = 0.12;
 
-// Largest change of the friction by another mesh at a held turn: of its share, and of its
-// coefficient where that is small.
+// Largest change of the friction by another mesh at a fixed rotation: of its factor, and of its
+// coefficient if that is small.
 static const double SAME_STATE = 0.05, SAME_COEFFICIENT = 0.005;
 
-// Largest element over those of the contacts. Lips and webs bend away from them: at rest half of it
-// (dragged, another mesh is another path, whose load is told to 1.2 %).
+// Largest element divided by those of the contacts. Lips and webs bend away from them: at rest half
+// of it (of a dragged ring another mesh is another path, whose load has an error of 1.2 %).
 static double growth_of(const SbRing *ring) {
   const bool rests = ring->contact->is.now.bore_slides == 0;
   return rests && sb_ring_bends(&ring->body.profile) ? 1.6 : 3.2;
@@ -35,7 +35,7 @@ static void plan_patch(SbRingMeshPlan *plan, const SbRingPatch *patch, double si
   }
 }
 
-// Slip states of a mesh's held nodes: those of the nearest nodes of another.
+// Sets the slip states of a mesh's nodes in contact: those of the nearest nodes of another mesh.
 static void carry_slip(SbRingContact *to, const SbRingContact *from) {
   for (int i = 0; i < to->count; i++) {
     for (int s = 0; s < SB_RING_SURFACES; s++) {
@@ -52,9 +52,9 @@ static void carry_slip(SbRingContact *to, const SbRingContact *from) {
   }
 }
 
-// Solves on a mesh from the state on another, whose contacts are `patch`: same setting and, by
-// material angle, the same held nodes; `fixed`: with their slip states, fixed until the balance is
-// near, else sticking at first.
+// Solves on a mesh from the state on another one, whose contacts are `patch`, with the same load
+// and, by material angle, the same nodes in contact. `fixed`: with their slip states, fixed until
+// the balance is nearly reached; else sticking at first.
 static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch *patch,
                            const bool *touches, bool fixed, SbReport *report) {
   SbRingContact *contact = fresh->contact;
@@ -83,7 +83,8 @@ static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch 
   SbStatus status = sb_ring_newton(fresh, SB_RING_FOLLOW, report);
   contact->fixed = contact->carried = contact->stuck = false;
   contact->slid = 0.0;
-  // Where the turn is held its coefficient is the mesh's; one far off is another state's.
+  // At a fixed rotation the coefficient depends on the mesh; a very different one is that of
+  // another state.
   const double was = ring->contact->is.now.friction_bore;
   const double change = fabs(contact->is.now.friction_bore - was);
   if (fresh->arc.free && status == SB_OK &&
@@ -94,8 +95,8 @@ static SbStatus carry_over(SbRing *fresh, const SbRing *ring, const SbRingPatch 
   return status;
 }
 
-// The same by way of the state of the same turn: near the greatest drag the turn hangs on the mesh
-// at a held friction.
+// Does the same through the state of the same rotation: near the maximum drag the rotation at a
+// given friction depends on the mesh.
 static SbStatus carry_turn(SbRing *fresh, const SbRing *ring, const SbRingPatch *patch,
                            const bool *touches, SbReport *report) {
   SbRingContact *contact = fresh->contact;
@@ -128,8 +129,8 @@ SbStatus sb_ring_remesh(SbRing *fresh, const SbRing *ring, double element_size, 
       const double arc = sb_ring_mesh_arc(ring->mesh, patch[s].angle[0], patch[s].angle[1]);
       double wide = s == SB_RING_BORE ? arc / WIDE : 1.0;
       double size = element_size * fmin(1.0, fmax(NARROW_LEAST, wide));
-      // Friction on the last node includes that of the fluid beside it: short elements there, less
-      // so along a path, which stumbles over them, and none along an easy one.
+      // Friction on the last node includes that of the adjacent fluid: short elements there, less
+      // short along a path, which fails at them, and none along an easy path.
       bool slides = s == SB_RING_BORE && ring->contact->is.now.bore_slides != 0;
       double path = ring->easy && ring->options.quick ? 1.0 : 0.15;
       double share = edge > 0.0 ? edge : !slides ? 0.3 : ring->arc.free ? path : 0.07;

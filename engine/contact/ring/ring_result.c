@@ -1,10 +1,11 @@
-// What the ring tells: forces, contact ends, pressure profile, volume, checks of its own balance.
+// Results of the ring: forces, contact ends, pressure profile, volume, checks of its balance.
 //
-// Ends, profile and peak of a contact are those of the smooth curve that its nodal forces recover
-// (ring_pressure.c). Where no curve fits, they are nodal: pressures are the nodal contact forces
-// over the nodes' areas, so that they are never negative and their sum is the load, and an end of a
-// contact lies between the last held and the first open node, where the gap, which opens with the
-// 3/2 power of the distance, extrapolates to zero; the pressure there is the fluid's.
+// Ends, profile and peak of a contact are those of the smooth curve that is recovered from its
+// nodal forces (ring_pressure.c). If no curve fits, they are nodal: pressures are the nodal contact
+// forces divided by the nodes' areas, so they are never negative and their sum is the load. An end
+// of a contact is between the last node in contact and the first open node, where the gap, which
+// opens with the 3/2 power of the distance, extrapolates to zero; the pressure there is the
+// fluid's.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -15,8 +16,8 @@ static double angle_of(const SbRing *ring, int i) {
   return ring->mesh->angle[sb_ring_wrap(ring->contact, i)] + turn;
 }
 
-// Where a contact ends between its last held node and the first open one: the gap opens with the
-// 3/2 power of the distance from there.
+// Returns where a contact ends between its last node in contact and the first open one: the gap
+// opens with the 3/2 power of the distance from there.
 static void find_end(const SbRing *ring, SbRingSurface surface, int last, int outward,
                      double *angle, double *place) {
   const SbRingContact *contact = ring->contact;
@@ -54,7 +55,7 @@ bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch
   double left = ring->contact->is.now.pressure_left, right = ring->contact->is.now.pressure_right;
   patch->end_pressure[0] = surface == SB_RING_BORE || surface == SB_RING_WALL_LEFT ? left : right;
   patch->end_pressure[1] = surface == SB_RING_BORE || surface == SB_RING_WALL_RIGHT ? right : left;
-  if (ring->body.inward && surface != SB_RING_BORE) { // outside stands the lower pressure
+  if (ring->body.inward && surface != SB_RING_BORE) { // the lower pressure is outside
     patch->end_pressure[surface == SB_RING_WALL_LEFT ? 0 : 1] = fmin(left, right);
   }
   find_end(ring, surface, patch->first, -1, &patch->angle[0], &patch->place[0]);
@@ -84,8 +85,8 @@ static int nodal_profile(const SbRing *ring, const SbRingPatch *patch, double *x
     double at[2];
     sb_ring_contact_place(ring->contact, i, at);
     double place = end ? patch->place[which] : at[1];
-    // A held node beyond the end that its neighbours tell is only a tail of the mesh. Where the
-    // surface lets go within the contact it may fold: its open part is passed over.
+    // A node in contact beyond the end that its neighbours determine is only an artefact of the
+    // mesh. Where the surface leaves the contact in between it may fold: its open part is skipped.
     if (!end &&
         (place < patch->place[0] + margin || place > patch->place[1] - margin || place <= before)) {
       continue;
@@ -185,7 +186,7 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
                         .load_steps = ring->count.steps,
                         .rejected_steps = ring->count.rejected};
   double l = ring->length, f = ring->force, force[SB_RING_SURFACES][2] = {{0.0}};
-  // Forces, extents, penetration, least excess pressure.
+  // Forces, extents, penetration, smallest excess pressure.
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, least = HUGE_VAL;
   double axial = 0.0;
   for (int i = 0; i < contact->count; i++) {

@@ -1,9 +1,9 @@
 // The ring's sparse equations: pattern, conditions of nodes, factorisation.
 //
-// Stored by blocks of node pairs, in rows; ordering and the factors' pattern are found once per
-// mesh. Each solution's residual is checked, and refined where it asks for that. A condition
+// Stored by blocks of node pairs, in rows; the ordering and the factors' pattern are determined
+// once per mesh. The residual of each solution is checked, and refined if necessary. A condition
 // replaces the two rows of its node (Dirichlet along a normal, balance with friction along the
-// tangent); the raw rows are kept, since their residual is the reaction.
+// tangent). The original rows are stored, because their residual is the reaction.
 #include "engine/contact/ring/ring_fem.h"
 
 #include <math.h>
@@ -24,8 +24,8 @@ SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
   }
   sb_ring_hollows(fem->hollow, mesh);
-  // Room for rows in which each element has its own blocks, though neighbours share theirs; and
-  // for those of nodes in one hollow, which may touch.
+  // Space for rows in which each element has its own blocks, although neighbours share theirs, and
+  // for those of nodes in one hollow, which may have contact.
   size_t most = 6 * corners;
   for (int i = 0; i < mesh->loop_count; i++) {
     for (int k = 0; k < mesh->loop_count && fem->hollow[i] != 0; k++) {
@@ -100,7 +100,7 @@ void sb_ring_fem_add(SbRingFem *fem, int a, int i, int b, int j, double k) {
   add(fem, a, b, 2 * i + j, k);
 }
 
-// Replaces the two rows of a conditioned node; the raw rows are kept for its reaction.
+// Replaces the two rows of a conditioned node; the original rows are stored for its reaction.
 static void apply_condition(SbRingFem *fem, int node) {
   const SbRingCondition *c = &fem->condition[node];
   const int start = fem->row_start[node], width = fem->row_start[node + 1] - start;
@@ -144,7 +144,7 @@ static void apply_condition(SbRingFem *fem, int node) {
 
 SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report) {
   int nodes = fem->mesh->nodes;
-  if (fem->factor == NULL) { // many a state beside another is never factorised
+  if (fem->factor == NULL) { // many linearised states are never factorised
     fem->factor = sb_ring_factor_create(nodes, fem->row_start, fem->column);
   }
   if (fem->factor == NULL) {

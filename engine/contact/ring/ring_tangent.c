@@ -1,14 +1,16 @@
-// States beside a solved one, to first order: the implicit function theorem at the equilibrium.
+// States near a solved one, to first order: the implicit function theorem at the equilibrium.
 //
-// With the active set held (contact, stick and slip, wetted faces, the law's branches) the balance
-// R(u, q) = 0 is smooth in the displacements u and in all that a ring is given, q: its body, the
+// With a constant active set (contact, stick and slip, wetted faces, the law's branches) the
+// balance R(u, q) = 0 is smooth in the displacements u and in all inputs q of a ring: its body, the
 // load, the bore's law. At a solved state u0 of q0 its tangent K = dR/du is factorised once, and
+//
 //   du = -K^-1 R(u0, q)
+//
 // is the state's change to first order in q - q0: one assembly and one back-substitution. R(u0, q)
-// is that of the moved mesh with every node left in its place on the floor, so that what sticks
-// stays where it is. Forces of the contact are those of the linear model, R(u0, q) + K du, as
-// Newton's method has them (ring_newton.c); all else is taken from the moved state as from a solved
-// one. What it leaves out is of second order, and the set itself: how far q violates it is told.
+// is that of the moved mesh with every node in its position on the floor, so that sticking nodes do
+// not move. Contact forces are those of the linear model, R(u0, q) + K du, as in Newton's method
+// (ring_newton.c); all else is computed from the moved state as from a solved one. Errors are of
+// second order, plus violations of the active set, which are reported.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -20,7 +22,7 @@ struct SbRingTangent {
   const SbRing *ring;
   const void *law;
   pthread_mutex_t lock; // of the factors with their workspace, which several threads may want
-  SbRing *base;         // the ring laid anew, with its factors; NULL before the first question
+  SbRing *base;         // the ring in its position, with its factors; NULL before the first use
   SbRingShift *shift;   // of its mesh, by nothing yet; as long as `base`
   bool stays;           // the mesh stays with the material
 };
@@ -51,8 +53,8 @@ void sb_ring_tangent_destroy(SbRingTangent *tangent) {
   }
 }
 
-// Residual and conditions of a ring at its load, in the place where it is laid, with the wetted
-// faces and the motion counted from there.
+// Computes residual and conditions of a ring at its load, in its initial position, with the wetted
+// faces and the motion measured from there.
 static SbStatus balance(SbRing *ring, double axial_spring, SbReport *report) {
   SbRingFem *fem = ring->fem;
   SbRingContact *contact = ring->contact;
@@ -67,7 +69,7 @@ static SbStatus balance(SbRing *ring, double axial_spring, SbReport *report) {
   return SB_OK;
 }
 
-// Keeps how the pressure of the base's contacts is recovered.
+// Stores how the pressures of the base's contacts are recovered.
 static void hold_recovery(SbRing *base) {
   for (int s = 0; s < SB_RING_SURFACES; s++) {
     SbRingPatch patch;
@@ -83,7 +85,7 @@ static void hold_recovery(SbRing *base) {
   }
 }
 
-// The ring of the tangent with its factors; the lock is held.
+// Returns the ring of the tangent with its factors. The caller has locked the mutex.
 static SbStatus factorise(SbRingTangent *tangent, SbReport *report) {
   const SbRing *ring = tangent->ring;
   SbRing *base;
@@ -92,7 +94,7 @@ static SbStatus factorise(SbRingTangent *tangent, SbReport *report) {
   if (status != SB_OK) {
     return status;
   }
-  // The load as it was solved, with a law that stands.
+  // The load as it was solved, with a law that remains valid.
   base->contact->is.now = ring->contact->is.now;
   base->contact->is.now.law = tangent->law;
   memcpy(base->contact->is.crest, ring->contact->is.crest, sizeof ring->contact->is.crest);
@@ -213,7 +215,7 @@ static SbStatus linear(SbRing **out, SbRingTangent *tangent, const SbRingBody *b
     return status;
   }
   other->fem->balance_only = true;
-  // Its nodes have the base's neighbours; without memory the order is sought anew.
+  // Its nodes have the base's neighbours; without memory the order is computed again.
   other->fem->factor = sb_ring_factor_like(base->factor);
   memcpy(other->contact->is.crest, ring->contact->is.crest, sizeof ring->contact->is.crest);
   status = balance(other, ring->fem->axial_spring, report);
@@ -271,7 +273,8 @@ SbStatus sb_ring_tangent_at(SbRing **out, SbRingTangent *tangent, const SbRingBo
   return status == SB_OK ? sb_succeed(report) : status;
 }
 
-// Whether two rings on meshes of the same nodes hold and slip alike.
+// Returns whether two rings on meshes of the same nodes have the same nodes in contact and the same
+// slip states.
 static bool same_set(const SbRing *a, const SbRing *b) {
   bool same = true;
   for (int i = 0; same && i < SB_RING_SURFACES * a->contact->count; i++) {

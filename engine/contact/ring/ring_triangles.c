@@ -1,11 +1,11 @@
 // Graded triangle meshes of any outline.
 //
-// Boundary vertices first, spaced as the zones ask for, finer where the outline bends or the body
-// is thin; then Delaunay's triangulation of them (Bowyer and Watson 1981), refined at the centres
-// of triangles larger than the size wanted there, none within the circle over a boundary side
-// (Ruppert 1995), so that every side stays an edge; then inner vertices are moved to the mean of
-// their neighbours, and edges turned, where that betters the worst triangle. Own construction.
-// Leaves out symmetry: a symmetric outline has a mesh that is not.
+// First the boundary vertices, spaced as the zones require, more densely where the outline bends or
+// the body is thin. Then Delaunay's triangulation of them (Bowyer and Watson 1981), refined at the
+// centres of triangles larger than the local size, but not within the circle over a boundary side
+// (Ruppert 1995), so that every side remains an edge. Then inner vertices are moved to the mean of
+// their neighbours, and edges are swapped, if that improves the worst triangle. Own construction.
+// The mesh of a symmetric outline is not symmetric.
 #include "engine/contact/ring/ring_mesh.h"
 
 #include <math.h>
@@ -15,11 +15,12 @@
 enum { SAMPLES = 900, BOUNDARY_MAX = 3000, POINTS_MAX = 24000, SWEEPS = 6, BREAKS_MAX = 160 };
 enum { TRIANGLES_MAX = 2 * POINTS_MAX + 16, CAVITY_MAX = 1024 };
 
-// Largest turn of an arc's side, rad; least sides across a thin part; how near two places of a
-// vertex may be, over the size there; a triangle's greatest circumradius over the size.
+// Largest angle of an arc's side [rad]; smallest number of sides across a thin part; smallest
+// distance of two positions of a vertex divided by the local size; largest circumradius of a
+// triangle divided by the size.
 static const double TURN_MOST = 0.5, ACROSS = 3.0, NEAR = 0.4, RADIUS_MOST = 0.7;
 
-// Least shape of a triangle that a mesh may have.
+// Smallest shape of a triangle that a mesh may have.
 static const double SHAPE_LEAST = 0.15;
 
 typedef struct {
@@ -36,7 +37,7 @@ typedef struct {
   double split[BOUNDARY_MAX];   // and those of half sides
   double spacing[BOUNDARY_MAX]; // mean of both sides
   int points;                   // boundary vertices first, three far ones last
-  double x[POINTS_MAX][2];      // slightly off, so that no four lie on a circle
+  double x[POINTS_MAX][2];      // slightly displaced, so that no four are on a circle
   int triangles, cavity_count;
   Triangle t[TRIANGLES_MAX];
   int cavity[CAVITY_MAX], rim[CAVITY_MAX][3],
@@ -83,7 +84,7 @@ static void sample_sizes(Builder *b) {
   for (int i = 0; i < SAMPLES; i++) {
     const double *x = b->place[i], *next = b->place[(i + 1) % SAMPLES];
     for (int k = 0; k < SAMPLES; k++) {
-      // Across the body: to the left of the way, and facing it.
+      // Across the body: to the left of the direction, and facing it.
       const double *y = b->place[k], *beyond = b->place[(k + 1) % SAMPLES];
       double u[2] = {next[0] - x[0], next[1] - x[1]}, v[2] = {beyond[0] - y[0], beyond[1] - y[1]};
       double w[2] = {y[0] - x[0], y[1] - x[1]}, away = hypot(w[0], w[1]);
@@ -187,7 +188,7 @@ static double cross(const double *a, const double *b, const double *c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-// Whether a point lies within the circle about a triangle.
+// Returns whether a point is within the circumcircle of a triangle.
 static bool in_circle(const Builder *b, const Triangle *t, const double p[2]) {
   double m[3][3];
   for (int k = 0; k < 3; k++) {
@@ -216,8 +217,8 @@ static double circumcentre(const Builder *b, const Triangle *t, double at[2]) {
   return hypot(c[0], c[1]);
 }
 
-// Collects the triangles whose circles hold p, from one of them on, and the edges about them.
-// False where they do not form a star about p, or are too many.
+// Collects the triangles whose circumcircles contain p, starting from one of them, and the edges
+// around them. False if they do not form a star around p, or are too many.
 static bool find_cavity(Builder *b, int first, const double p[2]) {
   b->cavity_count = b->rim_count = 0;
   b->cavity[b->cavity_count++] = first;
@@ -320,7 +321,8 @@ static bool is_side(const Builder *b, int from, int to) {
   return from < b->sides && to == (from + 1) % b->sides;
 }
 
-// Splits boundary sides that are no edges or whose circle holds another vertex; how many.
+// Splits boundary sides that are no edges or whose circle contains another vertex; returns how
+// many.
 static int split_sides(Builder *b) {
   int splits = 0, count = 0;
   double *arc = b->split;
@@ -387,7 +389,7 @@ static void judge(Builder *b, Triangle *t) {
   t->over = radius / (RADIUS_MOST * size_at(b, at));
 }
 
-// Whether a point lies within the circle over a boundary side.
+// Returns whether a point is within the circle over a boundary side.
 static bool encroaches(const Builder *b, const double p[2]) {
   for (int i = 0; i < b->sides; i++) {
     const double *u = b->x[i], *v = b->x[(i + 1) % b->sides];
@@ -491,7 +493,7 @@ static void turn_edges(Builder *b) {
       int af = o->beside[(m + 1) % 3], fc = o->beside[(m + 2) % 3];
       *t = (Triangle){.v = {a, f, e}, .beside = {af, j, ea}, .inside = true};
       *o = (Triangle){.v = {f, c, e}, .beside = {fc, ce, i}, .inside = true};
-      const int moved[2][3] = {{af, j, i}, {ce, i, j}}; // neighbour, what it had beside, now
+      const int moved[2][3] = {{af, j, i}, {ce, i, j}}; // neighbour, its old and new neighbour
       for (int n = 0; n < 2; n++) {
         for (int s = 0; moved[n][0] >= 0 && s < 3; s++) {
           int *side = &b->t[moved[n][0]].beside[s];
@@ -530,7 +532,8 @@ static void smooth(Builder *b, double (*sum)[3], double (*worst)[2]) {
         worst[v][pass] = fmin(worst[v][pass], shape(at, p, q));
       }
     }
-    // One after the other would be another mesh for another order: all at once, each half as far.
+    // Moved one after the other, another order would give another mesh: all are moved together,
+    // each by half.
     for (int v = b->sides + 3; v < b->points; v++) {
       if (worst[v][1] > worst[v][0]) {
         b->x[v][0] = 0.5 * (b->x[v][0] + sum[v][0] / sum[v][2]);
