@@ -25,10 +25,10 @@ static const double COARSE = 1.5, COARSE_EDGE = 0.5;
 // of two scenes).
 static const double LARGER = 1.3;
 
-// Element size of a second coarse copy divided by that of the first. Single nodes of the first copy
-// can prevent a solution; with other elements these are other nodes. Of 480 rings after random
-// edits of two scenes the first copy failed for 9, of which the second solved 5, in a fifth of the
-// time of the path from the free ring.
+// Element size of a second coarse copy divided by that of the fitted mesh. Single nodes of the
+// first copy can prevent a solution; with other elements these are other nodes. Of 480 rings after
+// random edits of two scenes the first copy failed for 9, of which the second solved 5, in a fifth
+// of the time of the path from the free ring.
 static const double COARSER = 2.0;
 
 // Largest distance of the contact's ends from the short elements of the mesh, divided by the size

@@ -85,7 +85,7 @@ static void hold_recovery(SbRing *base) {
   }
 }
 
-// Returns the ring of the tangent with its factors. The caller has locked the mutex.
+// Creates the ring of the tangent with its factors. The caller has locked the mutex.
 static SbStatus factorise(SbRingTangent *tangent, SbReport *report) {
   const SbRing *ring = tangent->ring;
   SbRing *base;

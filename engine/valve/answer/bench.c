@@ -272,7 +272,7 @@ SbStatus sb_bench_run(SbBenchCase *out, size_t index, int repeats, const SbBench
     double start = sb_clock_seconds();
     out->wall_s = 0;
     status = c->run(out, c, report);
-    // A case that times a part of itself has said so.
+    // A case that measures the time of a part of itself has set it.
     wall[i] = out->wall_s > 0 ? out->wall_s : sb_clock_seconds() - start;
   }
   out->wall_s = gsl_stats_median(wall, 1, (size_t)n);

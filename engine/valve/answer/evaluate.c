@@ -45,9 +45,10 @@ static bool same_rings(const SbSealModel *a, const SbSealModel *b) {
          a->poisson_ratio == b->poisson_ratio && a->mooney_share == b->mooney_share;
 }
 
-// Whether the seals' steady states are the same for `b` and the model that `a` is a copy of: what
-// they do not hang on is taken for alike, of all that the states' files (sliding*.c, breakaway.c,
-// run_states.c, run_speeds.c, run_supply.c) read of a model. Any other line of params.def they may.
+// Returns whether the seals' steady states are the same for `b` and the model of which `a` is a
+// copy. Fields that these states do not depend on are ignored, out of all that the states' files
+// (sliding*.c, breakaway.c, run_states.c, run_speeds.c, run_supply.c) read of a model. Any other
+// row of params.def counts.
 static bool same_states(SbModel *a, const SbModel *b) {
 #define LIKE(member) a->member = b->member
   LIKE(storage_time), LIKE(storage_temperature), LIKE(recovery_time);
@@ -82,7 +83,7 @@ static bool same_plan(const SbPlan *a, const SbPlan *b) {
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     same = same && a->seal[i] == b->seal[i];
   }
-  return same; // the rest is the model's choices
+  return same; // the remaining fields are the model's choices
 }
 
 // Whether the last question's run has solved all that a model and plan want solved.
@@ -157,7 +158,8 @@ SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestio
     if (question->keep) {
       sb_run_keep_rings(evaluator->run);
     }
-    // Whoever asks many questions asks them side by side; but for the one that they start from.
+    // A caller with many questions asks them on parallel threads, except the one that they start
+    // from.
     const SbRunHooks hooks = {
         .cancelled = question->cancelled, .data = question->data, .alone = !question->keep};
     status = sb_run_execute(evaluator->run, &hooks, &own);

@@ -93,8 +93,8 @@ typedef struct {
   bool hidden;   // the error is rounding's
 } Estimate;
 
-// Part of a figure by which two answers of one solver may differ; of rings beside the base's, whose
-// contacts' ends are found to that.
+// Fraction of a figure by which two answers of one solver may differ; of linearised rings, whose
+// contacts' ends are found to that accuracy.
 static const double ROUNDING = 4e-14, RINGS_ROUNDING = 1e-10;
 
 // Change of a figure, relative to its size, below which a slope is rounding: twice ROUNDING over
@@ -175,13 +175,13 @@ static void SB_PRINTF(4, 5)
   work->out->why[figure * work->out->parameters + parameter] = sb_gradient_text(work->out, text);
 }
 
-// Whether a derivative with its error is good enough to ask no more for it: of it, or of what the
-// figure changes by as the parameter does by itself.
+// Returns whether a derivative with its error is accurate enough: relative to itself, or to the
+// change of the figure when the parameter changes by itself.
 static bool enough(const Estimate *of, double size, double scale) {
   return of->kind == SMOOTH && of->error <= fmax(1e-6 * fabs(of->slope), 1e-12 * size / scale);
 }
 
-// The best of what all levels say of a figure that none says well.
+// Takes the best result of all levels for a figure that no level determines well.
 static void settle(Work *work, size_t parameter, size_t figure) {
   Estimate best = {.kind = MISSING}, least = {.kind = MISSING}, most = {.kind = MISSING};
   for (int i = 0; i < LEVELS; i++) {
@@ -209,7 +209,7 @@ static void settle(Work *work, size_t parameter, size_t figure) {
            work->report.text[0] != '\0' ? work->report.text : work->changed);
     return;
   }
-  // The smallest step tells how far a figure jumps, or scatters, beside it.
+  // The smallest step determines how far a figure jumps or scatters.
   const double jump = least.apart * least.step;
   const bool scatters = jump < 1e-6 * work->size[figure] && least.apart > 3 * most.apart;
   if (scatters) {
@@ -250,7 +250,7 @@ static bool all_same(const Work *work, int at, int points) {
   return true;
 }
 
-// Whether the outer points of a level tell all figures well.
+// Returns whether the outer points of a level determine all figures well.
 static bool pair_tells(Work *work, int at) {
   bool well = true;
   work->level[at].pair = true;
@@ -263,7 +263,7 @@ static bool pair_tells(Work *work, int at) {
   return well;
 }
 
-// Asks at the places of a level; which sides the model refused.
+// Evaluates the points of a level, and reports which sides the model refused.
 static SbStatus ask_places(Work *work, int at, double x, bool *refused) {
   static const double sides[POINTS] = {1, -1, 0.5, -0.5}, one[POINTS] = {1, 0.5, 0.25, 0.25};
   Level *level = &work->level[at];
@@ -325,8 +325,8 @@ static SbStatus ask_level(Work *work, int at, double x, double h, const SbParam 
   return SB_OK;
 }
 
-// Takes what a level is enough for; whether figures are left that a smaller or larger step may
-// tell.
+// Takes the figures that a level determines; returns whether figures are left that a smaller or
+// larger step may determine.
 static void take(Work *work, int at, size_t parameter, double scale, bool *smaller, bool *larger) {
   *smaller = *larger = false;
   for (size_t i = 0; i < work->out->figures; i++) {
@@ -500,7 +500,7 @@ static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) 
   status = sb_evaluator_ask(work->own_value, work->evaluator, &base, report);
   memcpy(work->ring_value, work->own_value, out->figures * sizeof *out->value);
   if (status == SB_ERROR_NOT_CONVERGED && solved == SB_OK && work->start != NULL) {
-    // Rings without a tangent: what does not hang on them has the solved ones.
+    // Rings without a linearisation: figures that do not depend on them use the solved ones.
     base.start = work->own_start = NULL;
     base.tangent = false;
     status = sb_evaluator_ask(work->own_value, work->evaluator, &base, report);
@@ -563,7 +563,7 @@ SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQu
   free(work.value);
   free(work.open);
   free(work.follows);
-  // The caller's evaluator must not stand on what ends here.
+  // The caller's evaluator must not refer to what is freed here.
   sb_evaluator_forget(evaluator);
   sb_evaluator_destroy(work.other);
   sb_evaluator_destroy(work.own_rings);

@@ -1,4 +1,4 @@
-// What a gradient looks at in an answer beside its figures.
+// What a gradient compares in an answer in addition to its figures.
 #include "engine/valve/answer/gradient_private.h"
 
 #include <math.h>

@@ -17,11 +17,11 @@
 
 typedef SbGradientWork Work;
 
-// What slopes of rings scatter by between meshes: this part of what load, width and peak of the
-// contacts change by, relative, of a load; of a film, which hangs on the pressure at the contact's
-// end; and of all else (measured on solved rings 1 to 4 % to either side: 0.06, 0.06, 0.12 at
-// most). A film on a contact with few nodes for each polynomial of its pressure scatters more
-// (measured: 0.72 with 7, none with 12).
+// Scatter of the slopes of rings between meshes, as a fraction of the relative changes of load,
+// width and peak of the contacts: of a load; of a film, which depends on the pressure at the
+// contact's end; and of all other figures (solved rings at 1 to 4 % on either side: at most 0.06,
+// 0.06, 0.12). A film on a contact with few nodes for each polynomial of its pressure scatters more
+// (0.72 with 7 nodes, none with 12).
 static const double SCATTER_LOAD = 0.08, SCATTER_FILM = 0.13, SCATTER = 0.13;
 static const double SCATTER_ROUGH = 0.8, ORDER_MOST = 0.1, MANY = 16;
 // And where contacts hardly move, rings of two meshes some per cent of a parameter apart differ, as
@@ -29,8 +29,8 @@ static const double SCATTER_ROUGH = 0.8, ORDER_MOST = 0.1, MANY = 16;
 // what they are solved to, so many times the tolerance (measured: 56 at most).
 static const double FLOOR = 4e-3, FLOOR_FILM = 80;
 
-// Whether a figure is of a film by its line in the table of figures: what a solved film is told to
-// be out by, or what leaks.
+// Returns whether a figure is that of a film by its row in the table of figures: by the source of
+// its error, or a leakage.
 static bool is_of_film(const SbFigure *row) {
   const bool shelf = row->needs == SB_DEPTH_SIZES;
   const SbErrorSource by = row->error;

@@ -1,4 +1,4 @@
-// What a gradient holds, and what it predicts.
+// Contents of a gradient, and its predictions.
 #include "engine/valve/answer/gradient_private.h"
 
 #include <stdlib.h>

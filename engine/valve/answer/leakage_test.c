@@ -70,8 +70,8 @@ static void simulate(SbLeakageOdds *out, const Lot *lot, size_t tests) {
   sb_probability_interval(out->interval, out->passed, tests);
 }
 
-// Ten parts of the samples, each with a tenth of the tests: their scatter holds that of the samples
-// too. Student's 2.262 of nine degrees of freedom.
+// Ten parts of the samples, each with a tenth of the tests: their scatter includes that of the
+// samples. Student's factor 2.262 for nine degrees of freedom.
 static void by_parts(SbLeakageOdds *out, const Lot *whole, size_t tests) {
   double value[PARTS], mean = 0, square = 0;
   SbLeakageOdds sum = {.tests = 0};

@@ -1,10 +1,9 @@
-// The verdict on a valve: six questions, each decided by the figure that is worst against its
-// limit.
+// The verdict on a valve: six criteria, each decided by the figure that is worst against its limit.
 //
-// A seal seals if it touches, the rubber presses it beyond what the fluid carries, its peak
-// pressure lies above the fluid's, and friction does not jam it; channels between asperities are a
-// matter of the leak's limit. A question without a limit has no answer, but for the first and the
-// return, which need none.
+// A seal seals if it has contact, the contact pressure of the rubber exceeds the part that the
+// fluid carries, its peak pressure is above the fluid's, and friction does not jam it. Channels
+// between asperities are judged by the limit of leakage. A criterion without a limit has no answer,
+// except the first one and the return, which need none.
 #include "engine/valve/figures/figures.h"
 
 #include "engine/contact/closed_forms.h"
@@ -109,7 +108,7 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
   if (of->leak_state != SB_LEAK_OPEN) {
     doubt(&out, summary, out.limit);
   }
-  // A model that does not solve the stretch cannot say that a ring seals which by the estimate does
+  // A model that does not solve the stretch cannot decide that a ring seals if its estimate does
   // not reach the bore.
   SbFitProblem problem;
   sb_model_fit_problem(&problem, model, seal, 0);
@@ -130,7 +129,7 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
                "models.fit = %s does not know (ring does)",
                sb_seal_name(seal), 100 * fill, sb_fit_model_name(model->fit));
   }
-  // A section that jams holds the stem; one that rolls seals, and is told.
+  // A section that jams blocks the stem; one that rolls seals, and is reported.
   const SbContacts *contact = &summary->contact[seal];
   for (int way = 0; way < 2; way++) {
     const SbContact *of_way = way == 0 ? &contact->in_stroke : &contact->back;
@@ -237,8 +236,8 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
     SbVerdictKind kind = sb_figure(limit->figure)->verdict;
     SbVerdict of = judge_limit(summary, limit);
     if (kind == SB_VERDICT_RETURNS && verdict[kind].ok == SB_ANSWER_YES) {
-      // The return margin decides. A limit on it takes the place of the bare margin, one on another
-      // figure judges that figure and shows only where it does not hold.
+      // The return margin decides. A limit on the margin replaces the margin itself; a limit on
+      // another figure judges that figure and appears only if it is violated.
       if (limit->figure != margin_figure && of.ok == SB_ANSWER_YES) {
         continue;
       }

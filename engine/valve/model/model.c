@@ -36,7 +36,8 @@ void sb_model_refuse(SbProblems *problems, const char *key, double min, double m
   }
 }
 
-// What the catalogue says by itself, and what makes of a parameter another of its kind.
+// Sets the model's fields from the values of the parameters, and converts parameters that replace
+// another one.
 static void take_values(SbModel *model, const SbParams *params) {
   SbParams effective;
   sb_params_resolve(&effective, params);
@@ -71,7 +72,8 @@ static void take_values(SbModel *model, const SbParams *params) {
   const bool glass = model->rubber.glass_temperature > sb_param(SB_P_RUBBER_GLASS_TEMPERATURE)->min;
   model->rubber.glass_temperature = glass ? model->rubber.glass_temperature : 0;
   model->rubber.fluid_density = model->density;
-  // stem.pressure_diameter keeps its value, so that the pressure force is the pressure's alone.
+  // stem.pressure_diameter keeps its value, so that the pressure force depends on the pressure
+  // only.
   const double grown = 1 + model->housing_expansion * (model->temperature - SB_SIZES_TEMPERATURE);
   if (model->kind == SB_VALVE_GASKET) {
     sb_gasket_take(model);
@@ -112,8 +114,8 @@ SbDynamicsContact sb_model_contact(const SbModel *model, double static_ratio, do
   };
 }
 
-// The rig's rings obey the friction.* keys: the static ratio, its growth with rest, the loss with
-// speed and the shear stiffness of one ring. Dampers as drive.damping_ratio says.
+// The rig's rings use the friction.* keys: the static ratio, its growth with dwell, the decrease
+// with speed, and the tangential stiffness of one ring. Dampers follow from drive.damping_ratio.
 static void compile_rig(SbModel *model, SbProblems *problems) {
   SbRig *rig = &model->rig;
   rig->rest = model->rest;
@@ -217,7 +219,7 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
 static void compile_dose(SbModel *model, SbProblems *problems) {
   const SbValveShape *shape = &model->shape;
   const bool gasket = model->kind == SB_VALVE_GASKET;
-  // Housing and stem expand alike, and with them the room between them.
+  // Housing and stem expand equally, and so does the space between them.
   const double grown = model->bore_diameter / sb_model_value(model, SB_P_BORE_DIAMETER);
   const SbDoseGeometry between = {
       .bore = model->bore_diameter,
@@ -347,7 +349,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, const SbModelDat
   return status;
 }
 
-// What the first of the problems says, with its range.
+// Reports the first of the problems, with its range.
 static SbStatus tell_problem(const SbProblems *problems, SbReport *report) {
   const SbProblem *problem = &problems->item[0];
   int id = sb_param_find(problem->key);
@@ -586,7 +588,7 @@ SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber 
     const double held = chamber == SB_CHAMBER_CLOSED ? 0 : canister; // vented, else full
     return seal == SB_INNER ? (SbSealPressure){canister, held} : (SbSealPressure){held, 0};
   }
-  // With ports the pressure lies between: vented stands for none, closed for all of it.
+  // With ports the pressure is in between: vented means none, closed means all of it.
   bool vented_at_rest = model->pressure_map != SB_MAP_CHAMBER_FILLED;
   double in_chamber = chamber == SB_CHAMBER_AT_REST && vented_at_rest ? 0 : canister;
   if (seal == SB_INNER) {

@@ -1,5 +1,5 @@
-// What a model refuses before anything is worked out, what it remarks, and what it has to say about
-// its validity.
+// Checks of a model before any computation, remarks on unusual values, and warnings about its
+// validity.
 #include "engine/contact/rough/persson.h"
 #include "engine/valve/model/gasket.h"
 
@@ -66,12 +66,12 @@ static void check_variant(const SbModel *model, SbProblems *problems) {
 
 // Combinations that no model has, and ranges that do not rise.
 static void check_combinations(const SbModel *model, SbProblems *problems) {
-  // Each stands behind its range's least in the catalogue.
+  // Upper ends of ranges; in the catalogue the lower end precedes each.
   static const SbParamId largest[] = {SB_P_STUDY_SQUEEZE_MAX, SB_P_STUDY_SPEED_MAX,
                                       SB_P_STUDY_LOAD_MAX, SB_P_STUDY_TIME_MAX,
                                       SB_P_STUDY_TEMPERATURE_MAX};
-  // The quasi-static balance is not silently asked for what only the motion with inertia can do:
-  // it knows their least values.
+  // The quasi-static balance must not be used silently with options that only the motion with
+  // inertia has. At their minimum values they have no effect.
   static const SbParamId inertial[] = {SB_P_DRIVE_KIND, SB_P_DRIVE_CYCLES,
                                        SB_P_FRICTION_STRIBECK_SPEED,
                                        SB_P_FRICTION_TANGENTIAL_STIFFNESS};
@@ -183,7 +183,8 @@ void sb_model_check(const SbModel *model, SbProblems *problems) {
   check_combinations(model, problems);
 }
 
-// Before, one temperature stood for storage and use.
+// Returns whether only storage.temperature is given: scenes of earlier versions had one temperature
+// for storage and use.
 static bool stored_only(const SbModel *model) {
   return model->params.given[SB_P_STORAGE_TEMPERATURE] &&
          !model->params.given[SB_P_CANISTER_TEMPERATURE];
@@ -198,7 +199,7 @@ void sb_model_remarks(const SbModel *model, SbProblems *out) {
   if (stored_only(model)) {
     sb_model_refuse(out, "storage.temperature", NAN, NAN, "%s", stored_only_text);
   }
-  // Where the vent lies between the contacts, their widths left out (run_valve.c has them).
+  // Position of the vent between the contacts, without their widths (run_valve.c includes them).
   double hole = model->shape.vent_diameter;
   double nearest = model->land_edge - model->stroke - hole / 2;
   double furthest = model->land_edge + model->shape.seal_spacing + hole / 2;

@@ -1,4 +1,4 @@
-// What is large in a model and shared by reference: who holds it, and what of it is drawn.
+// Large data of a model, shared by reference count, and its drawings.
 #include "engine/valve/model/model.h"
 
 #include <stdlib.h>

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-// The rows are all alike but for what a kind leaves out.
+// All rows have the same form, except for what a kind omits.
 #define ROW(id, kind, key, symbol, si, unit, min, max, fallback, choices, parent, ...)             \
   [SB_P_##id] = {key, kind, symbol, si, unit, min, max, fallback, choices, __VA_ARGS__, parent},
 #define SB_REAL(id, where, place, key, symbol, si, unit, min, max, fallback, ...)                  \

@@ -1,4 +1,4 @@
-// A seal at rest, and what passes it at one temperature; see the header for what is computed.
+// A seal at rest, and the flow past it at one temperature; see the header for the equations.
 #include "engine/contact/rough/percolation.h"
 #include "engine/fluid/fluid.h"
 #include "engine/permeation/diffusion.h"

@@ -162,7 +162,7 @@ static double add_interval(double sum[QUANTITIES], const SbModel *model, const T
   const int samples = t->temperatures > 1 ? HOURS * DAYS : 1;
   double mean = 0;
   for (int i = 0; i < samples; i++) {
-    // Hours of days that lie evenly between, whatever the interval's length.
+    // Hours of days that are evenly spaced in the interval, whatever its length.
     double time = from + (to - from) * (i + 0.5) / samples;
     if (samples > 1 && model->shelf.history == SB_SHELF_WAREHOUSE) {
       time = floor(time / DAY) * DAY + DAY * (i % HOURS + 0.5) / HOURS;

@@ -17,7 +17,7 @@ typedef struct {
   double area[2], load[2]; // tau_0 A and m W [N]
   double squeeze_time;     // as in the header
   SbRoughSurface surface;
-  double lambda;   // beside the film, while sliding
+  double lambda;   // of the smooth film, while sliding
   double share[2]; // real contact that belongs to the ends of the squeeze
   SbSqueeze squeeze;
 } Contact;

@@ -109,7 +109,7 @@ bool sb_sliding_usable(SbStatus status) {
   return status == SB_OK || status == SB_ERROR_NOT_CONVERGED;
 }
 
-// Break-away after the rest before the first stroke.
+// Static friction after the dwell before the first stroke.
 static SbStatus set_static(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   SbDwellLaw law;
   SbStatus status = sb_breakaway_law(&law, &out->squeeze_out_time, task->model, task->seal, out,
@@ -118,7 +118,7 @@ static SbStatus set_static(SbSealState *out, const SbSlidingTask *task, SbReport
   return status;
 }
 
-// The thesis' shear strength goes with its own real area.
+// Warns that the thesis' shear strength was determined with its own real area.
 static void strength_warning(const SbSlidingTask *task, double share) {
   const SbModel *model = task->model;
   const bool thesis = model->set == SB_MODEL_SET_THESIS;
@@ -132,8 +132,8 @@ static void strength_warning(const SbSlidingTask *task, double share) {
   }
 }
 
-// What a film says of the asperities in it. Lengths of the half-plane's contact are over that, of a
-// fitted body's over the fitted one; forces over the fitted circumference.
+// Takes the asperities' results from a film. Lengths are divided by the contact width of the
+// half-plane, or of the fitted body; forces are those of the fitted circumference.
 static void take_asperities(SbSealState *out, const SbModel *model, const SbFilm *film,
                             bool fitted) {
   const double fit_width = out->contact_right - out->contact_left;
@@ -148,7 +148,8 @@ static void take_asperities(SbSealState *out, const SbModel *model, const SbFilm
   out->friction_viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
 }
 
-// The dry rough contact of a coupled state at rest, which stands as long as the fit does.
+// Solves the dry rough contact of a coupled state at rest. It remains valid as long as the fit
+// does.
 static SbStatus solve_rest(const SbSlidingTask *task, const SbSealState *out, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
   if (memory->rested && memory->rest_on == memory->now &&
@@ -179,7 +180,7 @@ void sb_sliding_kinetic_errors(SbSealState *out, double borne) {
   out->friction_error = out->boundary_error + out->viscous_error;
 }
 
-// What that says of a state, and of its break-away.
+// Takes the results of that contact, and static friction.
 static SbStatus take_rest(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   const SbSlidingMemory *memory = task->memory;
   const SbFilm *rest = &memory->rest.film;
@@ -235,8 +236,8 @@ static SbStatus solve_coupled(const SbSlidingTask *task, SbSealState *out, SbRep
   return status != SB_OK ? status : at_rest;
 }
 
-// Share of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
-// film, Persson's on the net pressure that the solids must carry.
+// Fraction of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
+// film, Persson's on the net pressure that the solids carry.
 static SbStatus real_area(SbSealState *out, const SbSlidingTask *task, double roughness,
                           SbReport *report) {
   const SbModel *model = task->model;
@@ -309,7 +310,7 @@ static SbStatus rub(SbSealState *out, const SbSlidingTask *task, double roughnes
   return SB_OK;
 }
 
-// The same, and of what stands.
+// Does the same, and computes the values at rest.
 SbStatus sb_sliding_rough_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
                                   SbReport *report) {
   const SbModel *model = task->model;
@@ -325,13 +326,14 @@ SbStatus sb_sliding_rough_contact(SbSealState *out, const SbSlidingTask *task, d
   return status;
 }
 
-// Leaves of a law's kinetic friction what the section bears. What the pressure cannot shear is no
-// real contact; one that rolls is not sheared to the full.
+// Reduces a law's kinetic friction to what the section carries. Where the pressure cannot transmit
+// the shear strength there is no full real contact; a rolling section is not sheared fully.
 static void share_kinetic(SbSealState *out) {
   if (!isnan(out->borne_share)) {
     out->real_area_share *= out->area_cut * (out->section == SB_RING_SLIDES ? out->borne_share : 1);
     out->boundary_area *= out->area_cut * out->borne_share;
-    // Where the pressure limits the shear, near the contact's ends, the area goes with the width.
+    // Where the pressure limits the shear, near the contact's ends, the area is proportional to the
+    // width.
     out->area_error += out->area_cut < 1 ? out->width_error : 0;
     out->boundary_load *= out->borne_share;
     out->friction_viscous *= out->borne_share;
@@ -350,7 +352,7 @@ void sb_sliding_whole(SbSealState *state) {
   }
 }
 
-// Leaves of a law's friction what the section bears (bear()).
+// Reduces a law's friction to what the section carries (bear()).
 SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   if (isnan(out->borne_share)) {
     return SB_OK;
@@ -451,7 +453,7 @@ SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
 SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double roughness,
                            SbReport *report) {
   const SbModel *model = task->model;
-  // Without a film what stands has none either, whatever the speed.
+  // The state at rest has no film either, whatever the speed.
   const SbSealState rest = *state;
   if (model->kind == SB_VALVE_GASKET) {
     SbStatus edges = sb_sliding_edge_contact(state, task, roughness, report);
@@ -517,7 +519,7 @@ SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *la
     return status;
   }
   SbReport own = {0};
-  SbReport *first = status == SB_OK ? report : NULL; // the first failure is told
+  SbReport *first = status == SB_OK ? report : NULL; // the first failure is reported
   if (task->model->kind == SB_VALVE_GASKET && out->load_net > 0) {
     sb_sliding_take_edges(out, &task->memory->now->fit);
     task->memory->last = &task->memory->plane; // which has none

@@ -1,18 +1,18 @@
-// States beside those of a kept ring as sums: what the solvers of fitment, surface and film make of
-// a state is a smooth function of the few numbers that they are given of it, however many
-// parameters these come from.
+// States near a stored ring's state as linear sums. The results E of the solvers of fit, surface
+// and film are smooth functions of the few numbers z that these solvers get, however many
+// parameters the numbers follow from:
 //
 //   E(z) = E(z0) + sum_i (z_i - z0_i) dE/dz_i
 //
-// z0 is where the state was first asked for, dE/dz_i a difference found when z_i first differs, and
-// kept. It is a central one; but a forward one of what a number of the ring makes of its surface
-// and its films, which are half of a state's work and bend by nothing over such steps. A parameter
-// that enters no solver costs none, and parameters that enter by the same numbers share these
-// solves. Everything else (rough contact, friction, its agreement with the law that drags the ring,
-// the motion) is computed at each question as ever. The tolerance is none of these numbers: meshes
-// and levels stand as long as the base's do. Where the slopes to both sides disagree (a kink,
-// another order of a curve), or an option comes from nothing, the state is solved as asked. Films
-// of a state next to z0 are solved on the meshes of its own (film.h, `beside`).
+// z0 is the first requested state; dE/dz_i is a difference computed when z_i first differs, and
+// stored. It is a central difference, except a forward one for the effect of a ring's numbers on
+// its surface and its films, which are half of a state's work and hardly nonlinear over such steps.
+// A parameter that affects no solver costs nothing, and parameters that affect the same numbers
+// share these solves. Everything else (rough contact, friction, its agreement with the law that
+// drags the ring, the motion) is computed for each question as usual. The tolerance is not one of
+// these numbers: meshes and levels are those of the base. If the slopes on both sides disagree (a
+// kink, another order of a curve), or an option is switched on, the state is solved. Films of a
+// state near z0 are solved on its meshes (film.h, SB_FILM_BESIDE).
 #include "engine/valve/states/sliding_private.h"
 
 #include <math.h>
@@ -112,12 +112,13 @@ static bool counts(int i, const SbModel *model) {
   return i != LAND || model->groove_chamfer > 0;
 }
 
-// Numbers that go with 0 as smoothly as elsewhere, upwards; others are options that are off.
+// Numbers whose effect is smooth at 0 too, for positive values; other numbers are options that are
+// off at 0.
 static double step_of(int i, double at, double part) {
   static const double unit[INPUTS] = {
       [MOONEY] = 1, [FLOOR] = 1, [WALL] = 1, [COEFFICIENT] = 1, [BARUS] = 1e-6};
   const bool size = i == SECTION || i == INNER || i == SPACE || i == BORE || i == WIDTH;
-  // A nearly incompressible rubber's hangs on what it lacks of 1/2.
+  // The effect of a nearly incompressible rubber depends on 1/2 minus Poisson's ratio.
   return part * (i == POISSON ? 5 * (0.5 - at) : at != 0 ? fabs(at) * (size ? SIZES : 1) : unit[i]);
 }
 
@@ -179,8 +180,8 @@ static void take(SbSlidingSolution *out, SbSlidingMemory *memory) {
   }
 }
 
-// Whether a state was solved in the same way as another, or its fitment alone was, so that both may
-// be parts of a sum.
+// Returns whether a state was solved in the same way as another, or its fit alone was, so that both
+// may be terms of a sum.
 static bool alike(const SbSlidingSolution *a, const SbSlidingSolution *b, bool fitment) {
   bool same = a->fit.profile_count == b->fit.profile_count && a->fit.touches == b->fit.touches &&
               a->fit.ring.state == b->fit.ring.state;
@@ -222,11 +223,11 @@ typedef struct Anchor {
   double z[INPUTS];
   SbSlidingSolution is;
   SbFilmSolver *solver[SB_SLIDING_FILMS]; // with its films
-  Column *column[INPUTS];                 // NULL: not yet asked for
+  Column *column[INPUTS];                 // NULL: not yet used
 } Anchor;
 
 struct SbSlidingBeside {
-  pthread_mutex_t lock; // of the lists, and one of the solvers; all else stands
+  pthread_mutex_t lock; // of the lists, and one of the solvers; all else is constant
   pthread_mutex_t films;
   Anchor *first;
 };
@@ -269,8 +270,8 @@ void sb_sliding_beside_destroy(SbSlidingBeside *beside) {
 
 // ---- Solving
 
-// Lets the films of a memory use an anchor's solvers: to leave their solutions there, or, `beside`,
-// next to these.
+// Lets the films of a memory use an anchor's solvers: to leave their solutions there, or (`beside`)
+// to be solved next to these.
 static void lend(SbSlidingMemory *memory, SbSlidingBeside *beside, Anchor *anchor, bool next) {
   pthread_mutex_lock(&beside->films);
   memory->lender = beside;
@@ -295,9 +296,9 @@ void sb_sliding_sum_end(SbSlidingMemory *memory) {
 // What of a state is solved.
 typedef enum { WHOLE, BY_FITMENT, FITMENT_ALONE } Part;
 
-// The state of a task whose numbers are z, as it is solved beside an anchor: by the anchor's
-// fitment if only films differ, or its fitment alone, without a surface; or, of an anchor that is
-// `made`, its own. Leaves its traces in the task's memory.
+// Solves the state of a task whose numbers are z near an anchor: with the anchor's fit if only
+// films differ, or its fit alone, without a surface; or the anchor's own state, if `made`. Changes
+// the task's memory.
 static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, const SbSlidingLaw *law,
                          const double *z, SbSlidingBeside *beside, Anchor *anchor, Part part) {
   SbSlidingMemory *memory = task->memory;
@@ -436,7 +437,7 @@ static const Column *column_of(SbSlidingBeside *beside, Anchor *anchor, int i,
   }
   *status = SB_OK;
   pthread_mutex_lock(&beside->lock);
-  if (anchor->column[i] != NULL) { // somebody else was as quick
+  if (anchor->column[i] != NULL) { // another thread has stored it in the meantime
     free(column);
   } else {
     anchor->column[i] = column;

@@ -1,18 +1,19 @@
 // The film of a seal's sliding state: on the fitted body or the half-plane, alone or next to the
-// last one, from liquid without limit or from what the bore brings; see sliding.h.
+// last one, with unlimited liquid or with the layer on the bore; see sliding.h.
 //
-// With a fitment model that gives a pressure of its own the solved film lies on this body: its
-// edges, its pressure, its compliance; the half-plane's film stands beside it. The film's load is
+// If the fit model gives a pressure of its own, the film is solved on that body: its edges, its
+// pressure, its compliance; the film on the half-plane is solved in addition. The film's load is
 // the net one: the fluid on either side carries its own step, so a contact from l to r under the
 // total load W leaves W - p_left (0 - l) - p_right (r - 0) to the film (docs/results.md,
-// Definitions). What it leaves out: beside the film, asperities do not take load off it (they carry
-// 1 to 14 % of it at its least, docs/thesis.md, 10; coupled they share it); the closed forms know
-// no inlet starvation.
+// Definitions). Not modelled: without coupling, asperities do not reduce the load of the film (they
+// carry 1 to 14 % of it at the minimum film, docs/thesis.md, 10); the closed forms have no inlet
+// starvation.
 #include "engine/valve/states/sliding_private.h"
 
 #include <math.h>
 
-// One solve of a film, counted; one that is not found beside another is solved alone then.
+// Solves a film once and counts it. If it is not found next to another film, the caller solves it
+// alone.
 static SbStatus solve_once(const SbSlidingTask *task, SbFilm *film, const SbFilmProblem *problem,
                            SbFilmSolver *solver, SbReport *report) {
   SbStatus status = sb_film_solve(film, problem, solver, report);
@@ -24,10 +25,10 @@ static SbStatus solve_once(const SbSlidingTask *task, SbFilm *film, const SbFilm
   return status;
 }
 
-// Speed from which on a given film stands for that at any higher one; infinite where none does.
-// Once a flooded film would be several times as thick, nothing but the supply shapes it: what
-// passes is given, and the film is twice the layer, but for what pressure moves, which is less the
-// faster it goes (2e-4 of it at four times).
+// Returns the speed above which a starved film is that of any higher speed; infinite if there is
+// none. If a flooded film would be several times as thick, the supply alone determines the film:
+// the flow is given, and the film is twice the layer, except for the flow due to pressure, which
+// decreases with speed (2e-4 of it at four times).
 static double starved_speed(SbFilm *film, const SbFilmProblem *problem) {
   enum { ROUNDS = 4 };
   static const double TIMES = 4, POWER = 0.6; // of a flooded film over the speed, nearly
@@ -47,9 +48,9 @@ static double starved_speed(SbFilm *film, const SbFilmProblem *problem) {
   return law.speed;
 }
 
-// Solves a film; where it is given, at the share of its speed that is enough, or lower where the
-// solver fails there. How far it then is from twice the layer is added to its error; the
-// constriction at the outlet goes on towards that as well, but slowly: it is half way.
+// Solves a film; with a limited supply at the sufficient fraction of its speed, or lower if the
+// solver fails there. The deviation from twice the layer is added to its error; the constriction at
+// the outlet converges to that too, but more slowly: half of its deviation.
 static SbStatus solve_supplied(const SbSlidingTask *task, SbSlidingSolved *out,
                                SbFilmProblem *problem, SbFilmSolver *solver, SbReport *report) {
   static const double STEP = 0.5, LEAST = 1e-3;
@@ -108,9 +109,9 @@ static bool is_within(double a, double b, double times) {
   return a < times * b && b < times * a;
 }
 
-// Whether a film is near enough to what the solver solved last: it is then solved on that one's
-// mesh in a tenth of the time, with that one's error. One the other way on the mirror image of a
-// body is the same.
+// Returns whether a film is close to the one that the solver solved last. It is then solved on that
+// film's mesh in a tenth of the time, with that film's error. A film in the opposite direction on
+// the mirror image of a body is equivalent.
 static bool is_near(const SbSlidingMemory *memory, const SbSlidingSolved *out,
                     const SbFilmProblem *problem) {
   static const double SPEED = 1.25, LOAD = 1.03;
@@ -173,8 +174,8 @@ static void lay_on(SbFilmProblem *problem, const SbSlidingBody *body) {
   problem->modulus = body->compliance.modulus;
 }
 
-// Whether a film that the solver has just left above the tolerance is nearer than the half-plane's
-// all the same; its error is told.
+// Returns whether a film whose error is slightly above the tolerance is still more accurate than
+// the half-plane's. Its error is reported.
 static bool misses_by_little(const SbSlidingTask *task, const SbSlidingSolved *solved) {
   static const double NEARER = 0.05, SOLVED = 1e-6; // of error and residual
   const SbFilm *film = &solved->film;
@@ -217,7 +218,7 @@ static bool solve_fitted(const SbSlidingTask *task, SbSlidingSolved *out,
   return status == SB_OK;
 }
 
-// Tells that a film is the half-plane's, and why; one that the fluid opens is nobody's.
+// Reports that a film is that of the half-plane, and why; not if the fluid opens the contact.
 static void tell_half_plane(const SbSlidingTask *task, SbStatus status, const SbReport *why) {
   if (sb_sliding_usable(status) && why->text[0] != '\0') {
     sb_warn(task->warnings, "film-half-plane", "models.fit",
@@ -240,15 +241,14 @@ bool sb_sliding_read_film(SbSealState *out, const SbSlidingSolved *solved, SbSta
   out->film_central = film->film_central;
   double ring = SB_FILM_LAW_LOAD_POWER * out->net_error; // on the half-plane: that of its load
   if (solved->fitted && fit->model != SB_FIT_RING) {
-    // A thin film goes with the power -0.8 of the strength of the pressure's root at its inlet,
-    // which goes with peak over root of width; a disc's, whose pressure is tabled, is out by up to
-    // 20 times their relative errors (campaign estimates).
+    // A thin film is proportional to the power -0.8 of the coefficient of the pressure's root at
+    // its inlet, which is proportional to peak/sqrt(width). That of a disc, whose pressure is
+    // tabulated, has an error of up to 20 times their relative errors (campaign estimates).
     ring = 0.8 * 10 * (out->peak_error + 0.5 * out->width_error);
   } else if (solved->fitted) {
-    // A thin film goes with the power -0.8 of the strength of the pressure's root at its inlet,
-    // which goes with peak over root of width but depends on few nodes of the ring's mesh:
-    // measured, it is out by up to five times their relative errors. An estimate is a third of
-    // that.
+    // A thin film is proportional to the power -0.8 of the coefficient of the pressure's root at
+    // its inlet, which is proportional to peak/sqrt(width) but depends on few nodes of the ring's
+    // mesh: its error is up to five times their relative errors. An estimate is a third of that.
     ring = 0.8 * 5 / 3 * (out->peak_error + 0.5 * out->width_error);
     // A dragged one's scatters by up to 7 % between the meshes and path tolerances tried (by 0.3 to
     // 0.8 % rms over the radial space of piston.scene): a third of that.
@@ -265,7 +265,7 @@ bool sb_sliding_has_film(const SbSlidingTask *task) {
   return task->speed != 0 && !(task->supply.limited && !(task->supply.layer > 0));
 }
 
-// What a run's options cannot reach, told once.
+// Warns of options that have no effect with this model.
 static void option_warnings(const SbSlidingTask *task, const SbFilmProblem *problem) {
   const SbModel *model = task->model;
   bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
@@ -327,7 +327,8 @@ SbStatus sb_sliding_solve_film(const SbSlidingTask *task, SbSealState *out, SbRe
     sb_sliding_law_error(out);
     sb_sliding_limit_law(out, task);
   }
-  // The half-plane may be opened or lost by end pressures that the fitted body bears.
+  // End pressures that the fitted body carries may open the half-plane's contact or prevent its
+  // solution.
   SbReport why = {0};
   if (solved && solve_fitted(task, &memory->fitted, &problem, &why)) {
     sb_sliding_read_film(out, &memory->fitted, SB_OK, &memory->now->fit);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { IN, OUT, REST }; // ways of sliding
+enum { IN, OUT, REST }; // directions of sliding, and at rest
 
 static bool is_ring(const SbSlidingTask *task) {
   return task->model->fit == SB_FIT_RING;
@@ -122,9 +122,9 @@ static void fit_problem(SbFitProblem *problem, const SbSlidingTask *task, SbSlid
   const SbModel *model = task->model;
   double pressure = task->pressure.left - task->pressure.right;
   sb_model_fit_problem(problem, model, task->seal, pressure);
-  problem->cancel = cancelled; // a kept ring asks whoever waits then
+  problem->cancel = cancelled; // a stored ring polls the memory that uses it then
   problem->cancel_data = memory;
-  // No film lies on a ring at rest, but that of coupled asperities.
+  // A ring at rest has no film, except with coupled asperities.
   const bool film = model->film == SB_FILM_REYNOLDS && (task->speed != 0 || !is_ring(task));
   problem->surface_wanted =
       !memory->bare && (film || model->asperities == SB_MODEL_ASPERITIES_COUPLED);
@@ -176,7 +176,7 @@ static bool take_ahead(const SbSlidingTask *task, SbSlidingFitment *now, const S
   return true;
 }
 
-// The task's fitment, anew if it is not the last one of these pressures or a `law` of friction is
+// Solves the task's fit, unless it is the last one at these pressures and no friction `law` is
 // given to drag it.
 static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
@@ -238,7 +238,7 @@ static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, Sb
   return status;
 }
 
-// Contact and loads of a seal that touches.
+// Sets contact and loads of a seal with contact.
 static void take_contact(SbSealState *out, const SbSlidingTask *task, const SbFit *fit) {
   SbSealPressure pressure = task->pressure;
   out->contact_left = fit->contact_left;
@@ -264,7 +264,7 @@ static void take_contact(SbSealState *out, const SbSlidingTask *task, const SbFi
   }
 }
 
-// Fitment: contact and loads. *known tells whether there is a contact to go on with.
+// Fit: contact and loads. *known: there is a contact.
 SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *law,
                                 SbSealState *out, bool *known, SbReport *report) {
   (void)sb_succeed(report);
@@ -288,9 +288,10 @@ SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *l
   const SbFit *fit = &task->memory->now->fit;
   if (!sb_sliding_drags(task) || fit->ring.state == SB_RING_SLIDES ||
       fit->ring.state == SB_RING_NO_CONTACT) {
-    sb_warnings_merge(task->warnings, &fit->warnings); // else sb_sliding_drag() tells
+    sb_warnings_merge(task->warnings, &fit->warnings); // else sb_sliding_drag() warns
   }
-  // One that stopped above the tolerance counts, with its error; else it holds another load's.
+  // A fit that stopped above the tolerance counts, with its error; a larger error means that it is
+  // that of another load.
   bool close = fit->solver.error_estimate.load > 0 && fit->solver.error_estimate.load < 1;
   out->touches = fit->touches || status != SB_OK;
   if (status != SB_OK && !(fit->touches && close)) {
@@ -366,7 +367,7 @@ static SbSlidingLaw first_law(const SbSlidingTask *task, SbSlidingFitment *on,
 void sb_sliding_solve_ahead(const SbSlidingTask *task, const SbSlidingMemory *like) {
   SbSlidingMemory *memory = task->memory;
   const bool drags = sb_sliding_drags(task);
-  // Without fluid it may be the mirror image of one that slides the other way.
+  // Without fluid it may be the mirror image of a ring that slides in the opposite direction.
   if (!is_ring(task) || like->tangent || (drags && task->pressure.left == task->pressure.right)) {
     return;
   }
@@ -379,8 +380,8 @@ void sb_sliding_solve_ahead(const SbSlidingTask *task, const SbSlidingMemory *li
   (void)solve_fit(task, drags ? &law : NULL, NULL);
 }
 
-// What the dragged section bears of the law's friction: all of it while it slides, each part alike
-// at the greatest drag of one that rolls or jams, which no rest makes greater.
+// Reduces the law's friction to what the dragged section carries: all of it while it slides; each
+// part in proportion at the maximum drag of a section that rolls or jams, which no dwell increases.
 static SbStatus bear(SbSealState *out, const SbSlidingTask *task, const SbSlidingFitment *on,
                      double asked, SbReport *report) {
   const SbFit *fit = &on->fit;
@@ -390,8 +391,8 @@ static SbStatus bear(SbSealState *out, const SbSlidingTask *task, const SbSlidin
   return sb_sliding_share_out(out, task, report);
 }
 
-// Without fluid a ring that slides one way is the mirror image of one that slides the other way.
-// False where that is not known.
+// Without fluid a ring that slides in one direction is the mirror image of the ring that slides in
+// the other one. Returns false if that ring is not known.
 static bool mirror(const SbSlidingTask *task, SbSlidingFitment *on) {
   const SbSlidingFitment *other = &task->memory->fitment[task->speed > 0 ? OUT : IN];
   if (task->pressure.left != task->pressure.right || !other->known || other->pressure != 0 ||
@@ -413,8 +414,8 @@ static bool mirror(const SbSlidingTask *task, SbSlidingFitment *on) {
   return on->known;
 }
 
-// The law to drag with next: what was found, but between the greatest shear that was too small and
-// the least too great.
+// Returns the next law for the drag: the law found, but between the largest shear that was too
+// small and the smallest that was too large.
 static void near_law(SbSlidingLaw *found, const SbSlidingLaw *before, double bracket[2]) {
   bracket[found->shear > before->shear ? 0 : 1] = before->shear;
   if (found->shear > before->shear ? found->shear >= bracket[1] : found->shear <= bracket[0]) {
@@ -425,12 +426,12 @@ static void near_law(SbSlidingLaw *found, const SbSlidingLaw *before, double bra
   }
 }
 
-// The same beside a kept pair of ring and friction. That one agrees to the tolerance only; what it
-// lacks is held, so that the pair is a smooth function of all that it hangs on.
+// Does the same near a stored pair of ring and friction. That pair agrees to the tolerance only;
+// its difference remains constant, so that the pair is a smooth function of all inputs.
 static SbStatus drag_beside(const SbSlidingTask *task, SbSlidingFitment *on,
                             const SbSlidingStart *start, bool known, SbSealState *out,
                             SbReport *report) {
-  // Solved anew, nodes of a floor stick and slip in turns (measured: 4e-6 of the friction).
+  // If solved again, nodes of a floor stick and slip alternately (4e-6 of the friction).
   enum { ROUNDS = 12 };
   static const double CLOSE = 1e-9, TURNS = 5e-6;
   SbSlidingLaw law = start->law;
@@ -482,12 +483,12 @@ static void warn_limit(SbWarnings *warnings, const SbSlidingTask *task, const Sb
   }
 }
 
-// A ring's states: friction drags it, and hangs on the film that lies on the dragged ring.
-// SbSlidingSolved in turns until the friction that drags it is that of its own film. A ring whose
-// greatest drag is less than its friction rolls or jams; the film is then that of this last state.
-// The film hangs on the nodes at the contact's inlet (sb_sliding_read_film()), and where one
-// comes or goes the friction jumps: a jump inside the film's own error is as near as the two come,
-// and an error of the friction.
+// Computes the state of a sliding ring: friction drags it, and depends on the film on the dragged
+// ring. Both are solved in turns until the friction that drags the ring is that of its own film. A
+// ring whose maximum drag is less than its friction rolls or jams; the film is then that of this
+// last state. The film depends on the nodes at the contact's inlet (sb_sliding_read_film()). Where
+// a node enters or leaves the contact the friction jumps: a jump within the film's own error is
+// accepted, and is an error of the friction.
 SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
   enum { ROUNDS = 6 };
   // Of the friction at which a gasket detaches: its path ends at 0.50 to 0.66 of the pressure,

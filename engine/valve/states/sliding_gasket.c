@@ -1,18 +1,20 @@
 // Film and rough contact under a gasket, whose edges are sharp.
 //
-// What a surface drags into a contact hangs on how steeply the pressure rises at the inlet (Blok
-// 1963, film/inverse.c): the film that passes its steepest place, p'_max, is
-//   h = 2/3 sqrt(4 eta u_m / p'_max), u_m half the sliding speed.
-// A ring's film thus lies on a surface that curves over its own radius. A gasket's pressure rises
-// within its edge's radius r, where the finite elements' pressure goes with a root and has no
-// steepest slope: its rise over r stands for it, (p(r) - p(0))/r. The film that is left is
-// nanometres thick, and does not lift the gasket: the pressure stays the dry one, at each place the
-// gap is the larger of h and the dry rough contact's, and the asperities bear what they bear at
-// that gap, the fluid the rest. Towards the outlet Reynolds' equation then wants
-// k y^3 - y + 1 = 0, y = h_min/h, k = p' h^2/(12 eta u_m) < 0.
+// The film that a surface transports into a contact depends on the slope of the pressure at the
+// inlet (Blok 1963, film/inverse.c). With the steepest slope p'_max it is
 //
-// Valid while h is a small part of the roughness; above a tenth of it the user is told. Leaves out:
-// the edge's deformation by the film, adhesion.
+//   h = 2/3 sqrt(4 eta u_m / p'_max), u_m half the sliding speed.
+//
+// A ring's film thus depends on the radius of its section. A gasket's pressure rises within its
+// edge's radius r, where the pressure of the finite elements has a root and no steepest slope. The
+// mean slope over r replaces it, (p(r) - p(0))/r. The film is nanometres thick and does not lift
+// the gasket. The pressure remains the dry one; at each position the gap is the larger of h and the
+// gap of the dry rough contact, the asperities carry their pressure at that gap, and the fluid
+// carries the remainder. Towards the outlet Reynolds' equation gives k y^3 - y + 1 = 0, y =
+// h_min/h, k = p' h^2/(12 eta u_m) < 0.
+//
+// Valid while h is a small part of the roughness; above a tenth of it there is a warning. Not
+// modelled: deformation of the edge by the film, adhesion.
 #include "engine/contact/rough/rough_law.h"
 #include "engine/valve/states/sliding_private.h"
 
@@ -56,7 +58,7 @@ static double rise(const SbSealState *state, const SbModel *model, bool left) {
   return (inside - state->edge_pressure[left ? 0 : LAST]) / radius;
 }
 
-// h_min/h behind an outlet that falls as k says, k >= 0 its magnitude: y + k y^3 = 1.
+// Returns h_min/h behind an outlet with the slope k, k >= 0 its magnitude: y + k y^3 = 1.
 static double outlet(double k) {
   double y = 1;
   for (int i = 0; i < 60; i++) {
@@ -65,7 +67,8 @@ static double outlet(double k) {
   return y;
 }
 
-// The rough contact that bears a pressure, or what it bears at the gap of the film if that is more.
+// Returns the rough contact that carries a pressure, or the contact at the gap of the film if that
+// gap is larger.
 static SbRoughPoint point_at(const SbRoughLaw *law, double p, double film) {
   SbRoughPoint at;
   sb_rough_law_at(&at, law, sb_rough_law_of_pressure(law, p));
@@ -82,8 +85,8 @@ static SbStatus make_law(SbRoughLaw **out, const SbRoughSurface *surface, SbRepo
                       : sb_fail(report, SB_ERROR_MEMORY, "no memory for a rough surface's law");
 }
 
-// The law of a task's surface: it is the same at every speed and pressure, so that the task's
-// memory keeps it. A task without a memory gets one of its own in *own, NULL otherwise.
+// Returns the law of a task's surface. It is the same at every speed and pressure, so the task's
+// memory stores it. A task without a memory gets a law of its own in *own, NULL otherwise.
 static SbStatus law_of(const SbRoughLaw **out, SbRoughLaw **own, const SbSlidingTask *task,
                        double roughness, SbReport *report) {
   const SbRoughSurface surface = sb_model_surface(task->model, task->seal, roughness);
@@ -149,8 +152,8 @@ void sb_sliding_edge_film(SbSealState *out, const SbSlidingTask *task) {
   out->film_central = film;
   out->film_min = least;
   out->layer = film / 2;
-  // The film goes with the power -1/2 of the rise at the edge, which depends on few nodes there:
-  // as a ring's film does (sb_sliding_read_film()), three times the error of the peak.
+  // The film is proportional to the power -1/2 of the slope at the edge, which depends on few nodes
+  // there: as for a ring's film (sb_sliding_read_film()), three times the error of the peak.
   out->film_error = out->central_error =
       film > 0 ? 0.5 * 3 * (out->peak_error + 0.5 * out->width_error) : NAN;
 }

@@ -1,4 +1,4 @@
-// What the solvers of fitment and film are asked of a seal; see sliding.h.
+// Problems of the solvers of fit and film for a seal; see sliding.h.
 #include "engine/valve/states/sliding.h"
 
 #include <math.h>
@@ -46,15 +46,15 @@ void sb_sliding_film_problem(SbFilmProblem *out, const SbModel *model, int seal,
   out->pressure_right = pressure.right;
   out->pressure_viscosity = model->pressure_viscosity;
   out->eyring_stress = model->eyring_stress;
-  // A fluid beside the seal that is below its vapour pressure has boiled away: the film then
-  // breaks at the pressure around it.
+  // A fluid next to the seal that is below its vapour pressure has evaporated: the film then
+  // cavitates at the pressure around it.
   out->rupture_pressure = fmin(model->rupture_pressure, fmin(pressure.left, pressure.right));
   out->tolerance = model->tolerance;
   out->profile_points = 1500; // drawn and written, not differentiated
 }
 
-// Gives a surface the gap whose dry contact has the fitment's pressure, and solves that for a
-// check. A gap of many polynomials may touch again outside the contact; then fewer do.
+// Gives a surface the gap whose dry contact has the pressure of the fit, and solves that contact as
+// a check. A gap of many polynomials may have a second contact outside; then fewer are used.
 static SbStatus match_fit(SbSurfaceCompliance *surface, double load, const SbFit *fit, double left,
                           double right, SbReport *report) {
   enum { ORDER = 8, LEAST = 3 };
@@ -83,7 +83,8 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
   double right = pressure.right - low;
   *load = fit->load_per_length + left * fit->contact_left - right * fit->contact_right;
   if (fit->surface.modes > 0) {
-    // Condensed against a rigid bore; the housing gives way as a half-plane beside it.
+    // Condensed against a rigid bore; the housing's compliance is that of a half-plane, in
+    // addition.
     double rubber = 2 * ring->modulus / (1 - ring->poisson_ratio * ring->poisson_ratio);
     *out = fit->surface;
     out->modulus = 1 / (1 / out->modulus + 1 / ring->reduced_modulus - 1 / rubber);

@@ -1,4 +1,5 @@
-// See speed_states.h. The grid of nodes: place 0 is the least speed, GRID places to two decades.
+// See speed_states.h. The grid of nodes: position 0 is the lowest speed, GRID positions to two
+// decades.
 #include "engine/valve/states/speed_states.h"
 
 #include <math.h>
@@ -6,8 +7,8 @@
 
 enum { LEAST_FILM, CENTRAL_FILM, LAYER, AREA, LOAD, VISCOUS, SHARE };
 
-// A cell of two decades has GRID places; halved DEPTH times its nodes are still on the grid. Four
-// of them reach from 10 m/s below the least speed.
+// A cell of two decades has GRID positions; after DEPTH halvings its nodes are still on the grid.
+// Four cells extend from 10 m/s to below the lowest speed.
 enum { DEPTH = 4, GRID = 4 << DEPTH, WIDE = 4 };
 
 static const double decades = 2;
@@ -17,7 +18,7 @@ static double speed_of(int place) {
 }
 
 static bool is_coupled(const SbSpeedStates *states) {
-  const SbModel *model = states->task.model; // a gasket's friction goes with its film, too
+  const SbModel *model = states->task.model; // a gasket's friction depends on its film too
   return model->asperities == SB_MODEL_ASPERITIES_COUPLED || model->kind == SB_VALVE_GASKET;
 }
 
@@ -86,7 +87,7 @@ static bool solve(double value[SB_SPEED_VALUES], SbSpeedStates *states, double s
   states->status = fatal ? status : SB_OK;
   states->solves++;
   take(value, &state);
-  if (status == SB_OK && task.supply.limited) { // that of one that stands for another speed
+  if (status == SB_OK && task.supply.limited) { // that of a film which is used for another speed
     const SbFilmSolverInfo *info = &sb_sliding_film(task.memory)->solver;
     states->error = fmax(states->error, fmax(info->error_film_min, info->error_film_central));
   }
@@ -116,7 +117,7 @@ static bool is_starved(SbSpeedStates *states, double speed) {
     states->starved[VISCOUS] += log(share);
     states->starved_from = starved ? share * from : INFINITY;
     if (starved) {
-      // As for one film that stands for another speed (sliding_film.c).
+      // As for a film that is used for another speed (sliding_film.c).
       const SbFilm *film = sb_sliding_film(memory);
       const double end = 2 * states->task.supply.layer;
       const double least = 0.5 * fabs(film->film_min / end - 1);
@@ -194,10 +195,10 @@ static double miss_of(double *rubs, const SbSpeedStates *states, const SbSpeedCe
   return miss_at(rubs, states, speed_of(cell->place + cell->width / 4), cell->value[1], guess);
 }
 
-// How far beside the reference speed the two states are, ln(speed).
+// Distance of the two states from the reference speed, in ln(speed).
 static const double BESIDE = 0.1;
 
-// Values at a speed beside the reference; false where there is no parabola.
+// Computes the values at a speed near the reference; false if there is no parabola.
 static bool is_beside(double out[SB_SPEED_VALUES], SbSpeedStates *states, double speed) {
   const double reference = fabs(states->task.speed), t = log(speed / reference) / BESIDE;
   if (!states->near || fabs(t) > 1) {
@@ -233,7 +234,7 @@ static double left(double straight, double parabola) {
   return parabola * (straight > 0 ? fmin(1, 2 * parabola / straight) : 1);
 }
 
-// The cell that holds a place, made if there is none; NULL if there is no room.
+// Returns the cell that contains a position, created if there is none; NULL if there is no space.
 static const SbSpeedCell *cell_at(SbSpeedStates *states, double place) {
   for (size_t i = 0; i < states->cells; i++) {
     const SbSpeedCell *cell = &states->cell[i];
