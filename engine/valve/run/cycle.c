@@ -16,8 +16,8 @@ static bool is_gasket(const SbCycle *cycle) {
   return cycle->model->kind == SB_VALVE_GASKET;
 }
 
-// Whether the inner seal seals at all. While the chamber is open its state is not solved, so the
-// closed states tell.
+// Returns whether the inner seal has contact at all. While the chamber is open its state is not
+// solved, so the closed states decide.
 static bool inner_touches(const SbCycle *cycle, SbChamber chamber, int direction) {
   if (chamber == SB_CHAMBER_OPEN) {
     chamber = direction == SB_CYCLE_OUT ? SB_CHAMBER_CLOSED : SB_CHAMBER_AT_REST;
@@ -26,7 +26,7 @@ static bool inner_touches(const SbCycle *cycle, SbChamber chamber, int direction
 }
 
 double sb_cycle_edge_begin(const SbCycle *cycle, SbChamber chamber, int direction) {
-  // Friction lays a solved ring's contact elsewhere on the way out.
+  // Friction displaces the contact of a solved ring on the return.
   const SbSealState *first = &cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   const SbSealState *inner = &cycle->state[SB_INNER][chamber][direction];
   bool both = first->touches && inner->touches;
@@ -120,7 +120,7 @@ double sb_cycle_reserve(const SbCycle *cycle, SbChamber chamber, double s) {
   return sb_model_push(cycle->model, s) - friction;
 }
 
-// A platen's position and where in the cycle it stands.
+// A position of the platen and the corresponding state of the cycle.
 typedef struct {
   const SbCycle *cycle;
   SbChamber chamber;
@@ -138,7 +138,7 @@ static double friction_at(double s, const void *context) {
   return sb_cycle_friction(p->cycle, p->chamber, p->direction, s);
 }
 
-// Force that balances sliding: F_p + f on the way in, F_p - f on the way out.
+// Returns the force that balances sliding: F_p + f on the in-stroke, F_p - f on the return.
 static double balance_at(double s, const void *context) {
   const Place *p = context;
   return sb_model_push(p->cycle->model, s) + sign_of(p->direction) * friction_at(s, p);
@@ -209,7 +209,7 @@ double sb_cycle_stem_rate(const SbCycle *cycle, const SbCycleSegment *segment, d
     return 0;
   }
   const Place place = {cycle, segment->chamber, segment->direction, 0};
-  // On the brink of a jump the rate has no bound; a thousand times the platen's stands for it.
+  // Close to a jump the rate has no bound; a thousand times the platen's rate replaces it.
   return 1 / fmax(rate_at(s, &place), 1e-3);
 }
 
@@ -223,7 +223,7 @@ double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, dou
            sb_cycle_friction(cycle, segment->chamber, segment->direction, s);
   }
 
-  // At a stop the friction keeps the value it came with until the stop is unloaded.
+  // At a stop the friction keeps its value on arrival until the stop is unloaded.
   double needed = force - sb_model_push(model, s);
   bool stopped = (s >= model->stroke && needed > segment->friction0) ||
                  (s <= 0 && needed < segment->friction0);
@@ -246,7 +246,7 @@ typedef struct {
   bool full;
 } Planner;
 
-// The nearest of places ahead of the stem on its way, or the stop.
+// Returns the nearest of several positions in front of the stem, or the stop.
 static double nearest_ahead(const Planner *p, const double *marks, int count) {
   const double sign = sign_of(p->direction);
   double best = p->direction == SB_CYCLE_IN ? p->cycle->model->stroke : 0;
@@ -257,9 +257,9 @@ static double nearest_ahead(const Planner *p, const double *marks, int count) {
   return best;
 }
 
-// Ends of the smooth pieces of the way from s in `direction`: the nearest of the edge's start,
-// middle and end, or the stop. On the way in at the edge's end the chamber opens; on the way out it
-// closes there. That of a gasket valve closes and opens at the start, and empties at the port.
+// Returns the end of the smooth piece from s in `direction`: the nearest of the edge's start,
+// middle and end, or the stop. On the in-stroke the chamber opens at the edge's end; on the return
+// it closes there. That of a gasket valve closes and opens at the start, and empties at the port.
 static double piece_end(const Planner *p) {
   const bool in = p->direction == SB_CYCLE_IN, open = p->chamber == SB_CHAMBER_OPEN;
   SbChamber chamber = p->chamber;
@@ -318,11 +318,11 @@ static int reach(SbChamber *chamber, const Planner *p, double s) {
   return in && s == cycle->model->land_edge && p->stage == SB_STAGE_B ? SB_STAGE_C : event;
 }
 
-// Where the platen stands when a stem that sticks slips the way `direction`, after a rest of
-// `dwell` so far: where it stands, or ahead of it. A contact that ages does so on the way: each
-// pass holds the friction of the one before, less than its own, so that the passes go one way and
-// the first such place is found. Friction is over the kinetic one as the contact of the last
-// sliding has grown.
+// Computes the platen position at which a sticking stem slips in `direction`, after a dwell of
+// `dwell` so far: the present position, or one in front of it. A contact that ages does so during
+// this motion. Each pass uses the friction of the previous one, which is less than its own, so the
+// passes are monotonic and find the first such position. The friction is increased by the ratio of
+// the static friction to the kinetic one of the last sliding.
 static SbStatus slip_platen(double *out, const Planner *p, int direction, double dwell,
                             SbReport *report) {
   const SbModel *model = p->cycle->model;
@@ -393,15 +393,15 @@ static void jump(Planner *p, const Place *place, double end) {
   emit(p, SB_CYCLE_JUMP, p->X, target, -1);
 }
 
-// Whether static friction holds the stem where it is on the return. The place where it does so
-// first is known to rounding only.
+// Returns whether static friction holds the stem at its position on the return. The first such
+// position is known to rounding only.
 static bool is_held(const Planner *p) {
   return sb_cycle_reserve(p->cycle, p->chamber, p->s) <=
          1e-9 * fabs(sb_model_push(p->cycle->model, p->s));
 }
 
 // Slides from the present point in the present direction until the stem sticks, stops, or (on the
-// way out) is left by the platen. Forces balance at entry unless a jump is due.
+// return) the platen leaves it. Forces balance at entry unless a jump is due.
 static void slide(Planner *p) {
   const SbModel *model = p->cycle->model;
   double k = model->stiffness;
@@ -418,7 +418,7 @@ static void slide(Planner *p) {
       return; // resistance has risen above the force: the stem sticks
     }
     if (out && reserve_at(end, &place) < 0) {
-      // Static friction overtakes the push inside this piece: the stem comes to rest there.
+      // Static friction exceeds the push inside this piece: the stem comes to rest there.
       end = sb_bisect(reserve_at, &place, p->s, end);
       if (end == p->s) {
         return;
@@ -513,7 +513,7 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   double k = model->stiffness, dwell = 0, stopped = 0;
   Planner p = {.cycle = cycle, .platen = 1, .direction = SB_CYCLE_IN, .stage = SB_STAGE_A};
 
-  // A chamber whose inner seal does not touch is always open, that of a gasket valve at rest.
+  // A chamber whose inner seal has no contact is always open, that of a gasket valve at rest.
   bool touches = inner_touches(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
   p.chamber = touches ? SB_CHAMBER_AT_REST : SB_CHAMBER_OPEN;
   if (is_gasket(cycle)) {
@@ -550,8 +550,8 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
 
   cycle->stem_top = p.s;
 
-  // Return: the platen goes back to X = 0; the stem follows while the push beats static friction.
-  // The rest at the stop ends where the push alone holds the stem against the platen's force.
+  // Return: the platen moves back to X = 0; the stem follows while the push exceeds static
+  // friction. The dwell at the stop ends when the push alone carries the platen's force.
   p.platen = -1;
   const double pushed = balance_at(p.s, &(Place){cycle, p.chamber, SB_CYCLE_OUT, 0});
   cycle->dwell = (p.X - stopped + fmax(p.X - p.s - fmax(pushed, 0) / k, 0)) / model->speed;
@@ -626,7 +626,7 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
     double X0 = segment->platen0;
     double X1 = segment->platen1;
 
-    // Where the platen leaves a stem that stands the force has a corner: X = s.
+    // Where the platen leaves a stem at rest the force has a kink: X = s.
     double corner = segment->mode == SB_CYCLE_STICK
                         ? fmin(fmax(segment->stem0, fmin(X0, X1)), fmax(X0, X1))
                         : X1;
@@ -662,7 +662,7 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
       out->loop += model->pressure_force * ds + spring + rubbed;
     }
   }
-  // A spring that ends as it began stores nothing; the rest of its differences is rounding.
+  // A spring with equal initial and final state stores nothing; the remainder is rounding.
   out->stored = fabs(out->stored) <= 16 * DBL_EPSILON * out->external_max ? 0 : out->stored;
   double sum = out->friction + out->stored + out->seal + out->kinetic + out->stop;
   out->closure = out->external_max > 0 ? fabs(out->external - sum) / out->external_max : 0;

@@ -20,22 +20,23 @@
 #include <stdio.h>
 #include <string.h>
 
-// Profiles of a cycle: of the outer seal in three chamber states, of the inner in two, sliding both
-// ways and at rest.
+// Profiles of a cycle: of the outer seal in three chamber states, of the inner in two; sliding in
+// both directions, and at rest.
 enum { PROFILE_STATES = 15, CHAMBERS = 3 };
 
 // Times that a motion is run to find its own speed, where no machine gives one.
 enum { OWN_SPEED_ROUNDS = 2 };
 
-// States solved over the speed, where films are solved: two of each seal and way beside a machine's
-// speed, or over decades.
+// States solved for other speeds, if films are solved: two for each seal and direction near a
+// machine's speed, or over decades.
 enum { NEAR_STATES = 8, SPEED_STATES = 40 };
 
 // Steps of a seal's film through a cycle: fronts that cross the contact set them, hardly the
 // frames.
 enum { FILM_STEPS = 500 };
 
-// Adds a field that is computed, or one that is skipped, of which only name and reason are told.
+// Adds a field that is computed, or one that is skipped, of which only name and reason are
+// reported.
 static void SB_PRINTF(7, 8) add(SbPlan *plan, bool wanted, const char *name, const char *model,
                                 double cost, double error, const char *format, ...) {
   size_t *count = wanted ? &plan->field_count : &plan->skipped_count;
@@ -86,7 +87,7 @@ static double film_error(const SbModel *model) {
   if (model->film != SB_FILM_REYNOLDS) {
     return 0;
   }
-  // The ring's film hangs on its contact's ends.
+  // The ring's film depends on its contact's ends.
   return model->fit == SB_FIT_RING ? 6 * fit_error(model) : 0.01 * model->tolerance;
 }
 
@@ -125,7 +126,7 @@ static void plan_rig(SbPlan *plan, const SbModel *model) {
   add(plan, false, "film", "", 0, 0, "the rig's friction is its input");
 }
 
-// Studies are asked for one by one; the others share a line.
+// Studies are requested one by one; the others share a line.
 static void plan_studies(SbPlan *plan, const SbModel *model, unsigned studies) {
   const unsigned all = (1u << SB_STUDY_COUNT) - 1;
   plan->studies = studies;
@@ -152,13 +153,13 @@ typedef struct {
   const char *why, *why_not;
 } Row;
 
-// How often solvers will be called. A ring slides both ways at each pressure difference, fitted
-// anew with its film until the friction that drags it is that of this film, and rests at each.
+// Numbers of solves. A ring slides in both directions at each pressure difference, fitted again
+// with its film until the friction that drags it is that of this film, and is at rest at each.
 static SbCounters expect(const SbPlan *plan, const SbModel *model) {
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   const bool disc = model->fit == SB_FIT_DISC || model->fit == SB_FIT_DISC_THESIS;
   const size_t rounds = finds_speed(model) && !plan->ring ? OWN_SPEED_ROUNDS : 1;
-  const size_t fits = (size_t)count_fits(model), way = coupled ? 5 : 3; // rounds of both ways
+  const size_t fits = (size_t)count_fits(model), way = coupled ? 5 : 3; // rounds of both directions
   const size_t drags = plan->ring ? way * fits : 0;
   const size_t films = drags + (plan->ring ? 0 : 2 * fits);
   const size_t each = plan->ring || (model->fit == SB_FIT_DISC && !coupled) ? 2 : 1;
@@ -192,7 +193,7 @@ static SbShelfDepth shelf_of(const SbFigure *figure) {
   return sums ? SB_SHELF_OVER_TIME : rates ? SB_SHELF_RATES : SB_SHELF_NOTHING;
 }
 
-// What views and limits ask for of it.
+// Depth of the shelf that views and limits require.
 static SbShelfDepth shelf_wished(const SbModel *model, unsigned views) {
   SbShelfDepth depth =
       ((views | model->views) & SB_VIEW_SHELF) != 0 ? SB_SHELF_OVER_TIME : SB_SHELF_NOTHING;
@@ -233,7 +234,7 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
   const double films = solved || coupled ? (double)(n->reynolds_solves - n->speed_nodes)
                                          : 2.0 * fits * (finds ? OWN_SPEED_ROUNDS : 1);
   const double at_speed = sb_cost_speed_state(model);
-  // Each film on the half-plane has one on the fitted body beside it.
+  // Each film on the half-plane has one on the fitted body in addition.
   const double states = gasket                    ? 2.0 * fits * SB_COST_ROUGH
                         : on_body > 0 && !coupled ? films / 2 * (film + on_body)
                                                   : films * at_speed;
@@ -346,7 +347,7 @@ void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size
   for (size_t i = 0; i < count; i++) {
     const SbFigure *figure = sb_figure(figures[i]);
     int seal = strncmp(figure->where, "inner seal", 10) == 0 ? SB_INNER : SB_OUTER;
-    // Friction drags a solved ring: its contact hangs on the film.
+    // Friction drags a solved ring: its contact depends on the film.
     SbSealDepth needs =
         out->ring && figure->needs == SB_DEPTH_FITMENT ? SB_DEPTH_SLIDING : figure->needs;
     out->seal[seal] = needs > out->seal[seal] ? needs : out->seal[seal];
@@ -364,7 +365,7 @@ void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size
                   (out->seal[seal] > SB_DEPTH_FITMENT && finds_speed(model));
   }
   if (!out->inertia && !out->film_history) {
-    out->frames = 2; // they are looked at and nothing else; the least that there may be
+    out->frames = 2; // for display only; the smallest possible number
     out->frame_films = errors;
   }
   if (out->motion) {

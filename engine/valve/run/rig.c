@@ -31,7 +31,7 @@ SbStatus sb_rig_start(SbDynamics *motion, SbDynamicsModel *model, const SbRig *r
                              .contacts = SB_RIG_RINGS,
                              .loads = rig_loads,
                              .user = (void *)rig,
-                             // No longer than it is looked at: what lies ahead is told by it.
+                             // Not longer than the record, so that nothing after it matters.
                              .drive = {.kind = SB_DRIVE_PRESS,
                                        .end = rig->speed * until,
                                        .rise = until,

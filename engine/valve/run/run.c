@@ -46,7 +46,7 @@ SbStatus sb_run_create(SbRun **out, const SbModel *model, const SbPlan *plan, Sb
   return status;
 }
 
-// Frees what one execution made beside the seals' states, and forgets all of it.
+// Frees and clears everything that belongs to one execution, except the seals' states.
 static void clear_execution(SbRun *run) {
   for (int i = 0; i < SB_RUN_PROFILE_SLOTS; i++) {
     free(run->profile[i].data);
@@ -69,7 +69,7 @@ static void begin(SbRun *run, const SbModel *model, const SbPlan *plan) {
 }
 
 SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbReport *report) {
-  SbModel *kept; // before what the run held goes: it may be this model
+  SbModel *kept; // copied before the run's model is freed, which may be this one
   if (sb_model_copy(&kept, model) != SB_OK) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a run");
   }
@@ -84,7 +84,7 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
   }
   if (run->capacity > run->room) {
     free(run->frames);
-    // Left untouched until used: a run that is cancelled early never pays for the rest.
+    // Not initialised, so a run that is cancelled early does not use all of the memory.
     run->frames = malloc(run->capacity * sizeof *run->frames);
     run->room = run->frames != NULL ? run->capacity : 0;
   }
@@ -208,9 +208,9 @@ bool sb_run_poll(SbRun *run, const SbRunHooks *hooks, size_t count, double fract
   return sb_run_cancelled(hooks, report);
 }
 
-// Takes back what only a whole motion tells, of one that ended early.
+// Clears figures that only a complete motion has, of one that ended early.
 static void clear_motion(SbRun *run, const char *why) {
-  SbSummary *summary = &run->summary; // stages that were reached stand
+  SbSummary *summary = &run->summary; // stages that were reached remain
   summary->force_peak = summary->force_return_min = summary->leakage_per_cycle = NAN;
   summary->force_return_margin = summary->force_press = summary->stuck_at = NAN;
   summary->duration = summary->error_force = summary->error_energy = NAN;
@@ -419,7 +419,7 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     status = name_spent(run, report);
     sb_warn(&summary->warnings, "work-limit", report->parameter, "%s", report->text);
   }
-  for (int i = 0; i < SB_SEAL_COUNT; i++) { // whoever uses the states next has no budget
+  for (int i = 0; i < SB_SEAL_COUNT; i++) { // later users of the states have no budget
     sb_sliding_memory_poll(run->memory[i], hooks->cancelled, hooks->data);
   }
   summary->work = run->work->done;

@@ -56,7 +56,7 @@ void sb_run_ahead_add(SbRunAhead *ahead, const SbSlidingTask *task, int slot, co
   }
 }
 
-// The next one that nobody has begun; it has then.
+// Returns the next ring that no thread has begun, and marks it as begun.
 static Ring *begin(SbRunAhead *ahead) {
   Ring *ring = NULL;
   pthread_mutex_lock(&ahead->lock);
@@ -111,7 +111,7 @@ SbSlidingMemory *sb_run_ahead_take(SbRunAhead *ahead, int slot, SbWork *work,
       until.tv_nsec %= 1000000000;
       pthread_cond_timedwait(&ahead->solved, &ahead->lock, &until);
       pthread_mutex_unlock(&ahead->lock);
-      (void)cancelled(data); // who works on it is told
+      (void)cancelled(data); // passes a cancel on to the working thread
       pthread_mutex_lock(&ahead->lock);
     }
     memory = ring->memory;

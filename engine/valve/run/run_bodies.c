@@ -1,16 +1,16 @@
-// The valve's constrained parts in a run: their motion under the joints' conditions, and what each
-// joint bears at every frame.
+// The valve's constrained parts in a run: their motion under the joints' conditions, and the joint
+// reactions at every frame.
 //
 // The parts of thesis table 4.1 in the joints of table 4.3. At the start of every segment of the
-// motion (mechanism/dynamics.h) all parts are brought to where the stem is, onto the joints, and
-// the Jacobian of the joints' conditions is factored there: its null vector is the motion they
-// leave, and gives the mass that the stroke sees; the parts must move as one, so that each force
-// counts in full. The loads act where they arise: the drive on the block, friction on each seal,
-// pressure and return spring on the stem top, the stops on the stem bottom; all but the drive push
-// the housing (with the canister, which is sealed to it) back. At every frame the multipliers'
-// system is solved with the loads on their parts, for the reactions, and every moving part's
-// acceleration is compared with the stroke's. Leaves out: parts that move by levers against each
-// other (refused), whose loads dynamics.h does not know.
+// motion (mechanism/dynamics.h) all parts are moved to the stem's position, onto the joints, and
+// the Jacobian of the joints' conditions is factorised there. Its null vector is the remaining
+// motion and gives the effective mass of the stroke. The parts must move together, so that each
+// force counts fully. The loads act at their parts: the drive on the block, friction on each seal,
+// pressure and return spring on the stem top, the stops on the stem bottom; the reactions of all
+// but the drive act on the housing (with the canister, which is sealed to it). At every frame the
+// multipliers' system is solved with the loads on their parts, for the reactions, and every moving
+// part's acceleration is compared with the stroke's. Parts that move relative to each other by
+// levers are refused, because dynamics.h does not have their loads.
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ static const size_t loaded[LOADS] = {SB_VALVE_BLOCK, SB_VALVE_INNER_SEAL, SB_VAL
                                      SB_VALVE_STEM_TOP, SB_VALVE_STEM_BOTTOM};
 
 struct SbRunBodies {
-  SbAssembly assembly;       // where the stem was last asked for
+  SbAssembly assembly;       // at the last stem displacement
   SbAssemblyTangent tangent; // there
   double at;                 // that displacement [m]
   double mass;               // as assembled [kg]
@@ -124,7 +124,7 @@ SbStatus sb_run_bodies_frame(SbRun *run, size_t index, const SbDynamicsSample *s
   SbRunBodies *bodies = run->bodies;
   SbAssembly *assembly = &bodies->assembly;
   SbBodiesSummary *summary = &run->summary.bodies;
-  // Friction as the frame tells it; the motion's own is straight in bands of speed.
+  // Friction of the frame; that of the motion is linear in bands of speed.
   const SbSealFrame *seal = run->frames[index].seal;
   const double inner = -seal[SB_INNER].friction, outer = -seal[SB_OUTER].friction;
   const double more = inner + outer - sample->friction[SB_INNER] - sample->friction[SB_OUTER];

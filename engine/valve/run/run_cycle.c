@@ -42,7 +42,7 @@ static void fill_frame(SbFrame *out, SbRun *run, const SbCycleSegment *segment, 
     if (at.moving) {
       sample->friction[seal] = sign * own;
     } else if (total > 0) {
-      // A stuck stem's friction is split between the seals in proportion to what each can bear.
+      // A stuck stem's friction is divided between the seals in proportion to their limits.
       sample->friction[seal] = -friction * own / total;
     }
   }
@@ -91,7 +91,7 @@ static SbStatus emit_frames(SbRun *run, const SbRunHooks *hooks, SbReport *repor
 // What the films' error leaves in the cycle's works, over the greatest external work.
 static double error_work(const SbRun *run) {
   double peak = run->summary.force_peak;
-  // Static friction works only over the way that the machine yields before the stem slips.
+  // Static friction does work only over the machine's deflection before the stem slips.
   double yields = fmin(1, peak / (run->model->stiffness * run->model->stroke));
   return peak > 0 ? SB_SEAL_COUNT * (run->friction_error + yields * run->static_error) / peak : 0;
 }
@@ -169,9 +169,9 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   SbStatus status = sb_cycle_build(&run->cycle, report);
   SbStatus frames = emit_frames(run, hooks, status == SB_OK ? report : NULL);
   status = status != SB_OK ? status : frames;
-  // Film dragged out under the outer seal on the way in, less what comes back (thesis equation
-  // 5.21).
-  const double carries = sb_model_way(run->model); // the way that leaves a layer outside
+  // Film transported out under the outer seal on the in-stroke, minus what comes back (thesis
+  // equation 5.21).
+  const double carries = sb_model_way(run->model); // the direction that leaves a layer outside
   sb_bore_start(&run->bore, carries * cycle->segment[0].stem0);
   for (const SbCycleSegment *at = cycle->segment; at < cycle->segment + cycle->count; at++) {
     sb_bore_move(&run->bore, carries * at->stem0, carries * at->stem1,

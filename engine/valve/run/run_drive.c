@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-// Where the machine turns: a rigid stop would then bear the reversal force, or a fiftieth more than
-// what it takes to hold the stem there if that is greater.
+// Returns the position where the machine turns: a rigid stop would then carry the reversal force,
+// or the force that holds the stem there plus 2 % if that is larger.
 static double platen_top(const SbCycle *cycle) {
   const SbModel *model = cycle->model;
   double hold = sb_model_push(model, model->stroke);
@@ -16,8 +16,8 @@ static double platen_top(const SbCycle *cycle) {
   return model->stroke + fmax(model->reversal_force, 1.02 * hold) / model->stiffness;
 }
 
-// A stem that pressure and spring alone push back: the time of the whole way under the least net
-// force, and half as long again.
+// Returns 1.5 times the time of the full return under the smallest net force, for a stem that only
+// pressure and spring push back.
 static double free_return_time(const SbRun *run) {
   const SbModel *model = run->model;
   double least = sb_cycle_sliding_margin(&run->cycle, model->stroke);

@@ -1,16 +1,16 @@
 // Frames and figures of the motion with inertia: the valve (run_valve.c) given to
 // mechanism/dynamics.h, in one pass.
 //
-// The motion is found from event to event; a frame is an evaluation of it at its time, and one more
-// sits on every stage, filled just before the event changes anything. Frames are evenly spaced
-// while something drives; what still moves then (a stem that creeps home) is followed with steps
-// that grow with the time since, until it rests.
+// The motion is computed from event to event. A frame is an evaluation at its time, and an
+// additional frame is placed at every stage, filled just before the event changes anything. Frames
+// are evenly spaced during the drive. A stem that still moves afterwards is followed with steps
+// that grow with time, until it is at rest.
 //
-// Where the motion has no closed form (the land's edge under the contact, friction that depends on
-// speed, a chamber that fills) it is solved step by step to output.motion_tolerance, and the same
-// motion at ten times that tolerance tells the error: with break-away in the cycle a sum of local
-// errors says little. Radau IIA is of order 5 in its step, so that errors fall about in proportion
-// to the tolerance (tested: test_run_limits.c).
+// If the motion has no closed form (the land's edge under the contact, friction that depends on
+// speed, a chamber that fills) it is integrated to output.motion_tolerance, and the same motion at
+// ten times that tolerance gives the error: with break-away in the cycle a sum of local errors is
+// not meaningful. Radau IIA has order 5 in its step, so errors decrease about in proportion to the
+// tolerance (tested: test_run_limits.c).
 #include "engine/valve/run/run_private.h"
 
 #include "engine/valve/figures/figures.h"
@@ -22,14 +22,15 @@
 // Instants at which a motion without frames halts: for a cancel, no more.
 enum { WITHOUT_FRAMES = 9 };
 
-// Below this rounding tells more than the steps.
+// Below this tolerance rounding exceeds the error of the steps.
 static const double least_tolerance = 1e-12;
 
-// Up to this a motion's frames are shown as they come. A coarser one's balance of energies may be
-// open by more than is allowed, and the motion is then followed anew with smaller steps.
+// Up to this tolerance a motion's frames are published while they are computed. The energy balance
+// of a coarser one may be open by more than is allowed; the motion is then repeated with smaller
+// steps.
 static const double sure_tolerance = 1e-8;
 
-// A motion and what is noted of it on the way.
+// A motion and the data recorded during it.
 typedef struct {
   SbRun *run;
   SbValve valve;
@@ -40,14 +41,14 @@ typedef struct {
   size_t count;            // frames written
   SbStage stage;           // last passed
   SbStageMark mark[SB_STAGE_COUNT];
-  int direction;                    // of the last sliding
-  bool stopped;                     // the stem touches the end stop
-  double force_peak;                // [N]
-  double return_least;              // least force that pushed the stem out while it slid back [N]
-  double press;                     // force_peak when the stem meets the stop [N]
-  double top;                       // largest displacement [m]
-  double rested;                    // time at which the in-stroke came to rest [s]
-  double leak_from, leak_since;     // place [m] and time [s] up to which it is known
+  int direction;                // of the last sliding
+  bool stopped;                 // the stem is in contact with the end stop
+  double force_peak;            // [N]
+  double return_least;          // smallest force that pushed the stem out while it slid back [N]
+  double press;                 // force_peak when the stem meets the stop [N]
+  double top;                   // largest displacement [m]
+  double rested;                // time at which the in-stroke came to rest [s]
+  double leak_from, leak_since; // place [m] and time [s] up to which it is known
   double leak_last, leak_last_time; // where the stem was last seen, and when it came there
   double home;                // time at which the stem is back on its rest stop [s], 0: not yet
   double middle, middle_back; // speed at the middle of B-C and of F-A [m/s], 0: not yet
@@ -94,7 +95,7 @@ static void leak(Recorder *r, double time, double x, double pressure, bool now) 
     const double share = x != last ? fmin(fmax((end - last) / (x - last), 0), 1) : 1;
     carry(r, end, r->leak_last_time + share * (time - r->leak_last_time), pressure);
   }
-  r->leak_last_time = x != last ? time : r->leak_last_time; // a rest at the end is no sliding
+  r->leak_last_time = x != last ? time : r->leak_last_time; // a dwell at the end is not sliding
   r->leak_last = x;
 }
 
@@ -128,7 +129,7 @@ static void mark(Recorder *r, SbStage stage, const SbMotionEvent *event) {
     return;
   }
   r->mark[stage] = (SbStageMark){true, event->time, event->position, event->drive_force, 0};
-  // The rest before a break-away and that at the stop are no part of a sliding.
+  // The dwell before a break-away and that at the stop are not part of sliding.
   const bool now = stage == SB_STAGE_B || stage == SB_STAGE_D || stage == SB_STAGE_E;
   SbFrame *frame = add_frame(r, now);
   if (frame != NULL) {
@@ -139,8 +140,8 @@ static void mark(Recorder *r, SbStage stage, const SbMotionEvent *event) {
   r->stage = stage;
 }
 
-// Pressure and spring less friction of a stem that slides back. Events see the greatest speeds of a
-// return that nothing holds: at the land's edge and at the rest stop.
+// Returns pressure and spring force minus friction of a stem that slides back. Events include the
+// largest speeds of a free return: at the land's edge and at the rest stop.
 static void note_return(Recorder *r, const SbDynamicsSample *sample) {
   double force = -sample->loads_force - sample->spring_force;
   bool slides = sample->speed < 0;
@@ -187,7 +188,7 @@ static void valve_event(const SbMotionEvent *event, void *user) {
       mark(r, SB_STAGE_C, event);
     } else if (valve->touches && edge == valve->edge_closed && event->sign < 0 &&
                event->time >= turn && valve->chamber != SB_CHAMBER_AT_REST) {
-      // A rebound that passes the edge on the way in is no return.
+      // A rebound that passes the edge on the in-stroke is not the return.
       mark(r, SB_STAGE_F, event);
     }
     break;
@@ -212,8 +213,8 @@ static void valve_event(const SbMotionEvent *event, void *user) {
     break;
   case SB_MOTION_LEAVE_STOP:
     if (event->index == SB_END_STOP) {
-      // While the stop unloads it takes the stem back with it by a micrometre or two; the stem's
-      // own way back begins here.
+      // While the stop unloads it moves the stem back by a micrometre or two; the stem's own return
+      // begins here.
       r->stopped = false;
       if (event->time >= turn) {
         mark(r, SB_STAGE_E, event);
@@ -269,7 +270,7 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double toleranc
   sb_dynamics_listen(&r->motion, valve_event, r);
   const SbDriveTimes *times = &r->valve.times;
   const double drive = times->duration;
-  // Behind the drive's end it is followed for as long again, ten seconds at least.
+  // After the drive's end the motion is followed for the same time, at least ten seconds.
   const double last = drive + fmax(drive, 10);
   const size_t total = frames ? (size_t)run->plan.frames : WITHOUT_FRAMES;
   const double step = drive / (double)(total - 1);
@@ -294,7 +295,7 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double toleranc
     corner += turn == even;
     time = fmin(turn, even);
     status = sb_dynamics_advance(&r->motion, time, report);
-    r->report = status == SB_OK ? report : NULL; // the first failure is told
+    r->report = status == SB_OK ? report : NULL; // the first failure is reported
     add_frame(r, false);
     status = status != SB_OK ? status : r->status;
     if (status != SB_OK) {
@@ -338,7 +339,7 @@ static SbStatus conclude_motion(SbSummary *out, const Recorder *r, SbReport *rep
                   // A fast return's viscous friction takes more than that at the films' speed.
                   .sliding_least = r->return_least};
   if (model->stribeck_speed > 0) {
-    // Slow sliding has nearly the friction of rest.
+    // Slow sliding has nearly the static friction.
     SbStatus status = sb_cycle_rest(&run->cycle, 0, report);
     if (status != SB_OK) {
       return status;
@@ -397,7 +398,7 @@ static SbStatus compare_motions(SbRun *run, const Recorder *one, const Recorder 
   return status;
 }
 
-// The motion stands, but a second one that its error is measured by failed.
+// The motion is valid, but a second one for its error estimate failed.
 static void lose_errors(SbRun *run, const SbReport *why) {
   SbSummary *summary = &run->summary;
   sb_run_lose_errors(run);
@@ -442,11 +443,11 @@ static SbStatus find_state_errors(SbRun *run, const Recorder *fine, double toler
   return status;
 }
 
-// The same motion at ten times the tolerance. With errors in proportion to the power 5/6 of the
-// tolerance (order 5 in the step, order 6 locally) the difference is 5.8 times the error of the
-// fine motion; a half of it is told, three times as much as that, and never less than the
-// tolerance: the coarse motion may be right by chance. Where it takes no fewer steps its errors are
-// those of the fine one, and a motion at a tenth of the tolerance tells them: twice the difference.
+// Computes the same motion at ten times the tolerance. With errors proportional to the power 5/6 of
+// the tolerance (order 5 in the step, order 6 locally) the difference is 5.8 times the error of the
+// fine motion. Half of the difference is reported, three times that error, and at least the
+// tolerance: the coarse motion may be accurate by chance. If it takes as many steps its errors are
+// those of the fine one, and a motion at a tenth of the tolerance gives them: twice the difference.
 static SbStatus estimate_error(const Recorder *fine, double tolerance, double *force, double *work,
                                const SbRunHooks *hooks, SbReport *report) {
   SbRun *run = fine->run;
@@ -644,7 +645,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   }
   sb_run_leak_error(run);
   if (status == SB_OK && !run->follows && r.count > 1 && !r.valve.times.ends_run) {
-    // That the stem rests is seen at a frame.
+    // Rest of the stem is detected at a frame.
     run->motion_error[sb_figure_find("cycle.duration_s")] =
         last->time - run->frames[r.count - 2].time;
   }
@@ -657,7 +658,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     SbStatus estimate = estimate_error(&r, tolerance, &force, &work, hooks, &own);
     end_part(run, whole, &part);
     if (estimate == SB_ERROR_NOT_CONVERGED) {
-      // The motion itself stands.
+      // The motion itself is valid.
       force = work = NAN;
       lose_errors(run, &own);
     } else if (estimate != SB_OK) {

@@ -2,14 +2,14 @@
 //
 // A seal's figures have the errors of their state: those of its fit (ring, disc), of its film and
 // of the dry contact, which the solvers estimate, in the proportions in which the figure depends on
-// them. Figures of the motion depend on every state at once: the motion is repeated with states
-// that are wrong by their errors, all frictions larger together and the inner contact wider (what
-// is the same on both sides of a difference cancels, what adds up adds up), and, where it is solved
-// in steps, with coarser ones. The sum of the differences is the error. Everything that follows
-// from inputs by closed forms has the error 0.
+// them. Figures of the motion depend on every state together. The motion is therefore repeated with
+// states perturbed by their errors, all frictions increased together and the inner contact widened
+// (equal contributions to a difference cancel, others add), and with coarser steps if it is
+// integrated. The sum of the differences is the error. Everything that follows from inputs by
+// closed forms has the error 0.
 //
-// The errors of the terms are taken at their worst together. They cover discretisation and
-// iteration, not the choice of the model.
+// The errors of the terms are added at their worst. They include discretisation and iteration, not
+// the choice of the model.
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 #include "engine/valve/shelf/shelf_private.h"
@@ -138,7 +138,7 @@ static double relative_of_state(const SbRun *run, const SbFigure *figure,
   case SB_BY_SHARE:
     return state->share_error + speed;
   case SB_BY_SQUEEZE_OUT:
-    // t goes with p w^2/h^2 (film/squeeze.h), and the gap that it ends at with the contact.
+    // t is proportional to p w^2/h^2 (film/squeeze.h); its final gap depends on the contact.
     return 2 * film + state->net_error + 2 * state->width_error + state->rest_error;
   case SB_BY_LEAK:
     return leak_error(state);
@@ -214,7 +214,7 @@ static double of_dose(const SbRun *run, const SbFigure *figure) {
 
 static double of_life(const SbRun *run, const SbFigure *figure, double value) {
   const bool coupled = run->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  // Between solved actuations parabolas stand, checked to the tolerance.
+  // Between solved actuations parabolas are used, checked to the tolerance.
   const double between = coupled ? run->model->tolerance : 0;
   const SbLife *life = &run->summary.life;
   switch ((int)figure->error) {

@@ -1,5 +1,5 @@
-// Figures of a run: those of each seal, sliding in the middle of B-C and its leak at rest; and why
-// figures are missing: what a run that ended early cannot tell, and what its models leave out.
+// Figures of a run: those of each seal, sliding in the middle of B-C, and its leakage at rest; and
+// the reasons of missing figures, for a run that ended early or by the choice of models.
 #include "engine/contact/rough/percolation.h"
 #include "engine/film/laws.h"
 #include "engine/fluid/fluid.h"
@@ -60,7 +60,7 @@ static SbAnswer presses(const SbRun *run, int seal) {
   return answer;
 }
 
-// Leak at rest through the real contact at rest that static friction has: its real area.
+// Computes the leakage at rest through the real contact that static friction uses: its real area.
 static void static_leak(SbRun *run, int seal, SbSealState *out) {
   const SbModel *model = run->model;
   const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
@@ -154,7 +154,7 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
   }
 }
 
-// A state as it stands in the figures of its stroke.
+// Copies a state to the figures of its stroke.
 static void fill_contact(SbContact *out, const SbSealState *state, double speed) {
   bool touches = state->load > 0;
   *out = (SbContact){
@@ -178,13 +178,13 @@ double sb_run_filled_share(const SbSummary *summary, const SbModel *model) {
   const SbStageMark *opens = &summary->stage[SB_STAGE_C], *closes = &summary->stage[SB_STAGE_F];
   const bool both = opens->reached && closes->reached && isfinite(model->filling_time);
   if (model->kind == SB_VALVE_GASKET) {
-    return NAN; // it fills at rest, which lasts as long as it takes
+    return NAN; // it fills at rest, without a time limit
   }
   return both ? fmin(1, (closes->time - opens->time) / model->filling_time) : NAN;
 }
 
-// Time [s] for which the vent is open: on the way back, or both ways; for good if it is at the end.
-// From every `step`-th frame.
+// Returns the time [s] for which the vent is open: on the return, or in both directions; INFINITY
+// if it is open at the end. Uses every `step`-th frame.
 static double vent_time(const SbRun *run, double low, double high, size_t step) {
   const SbModel *model = run->model;
   const bool both_ways = !model->vent_on_return || model->kind == SB_VALVE_GASKET;
@@ -292,7 +292,7 @@ void sb_run_summarise_seals(SbRun *run) {
 
 void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore, bool back) {
   const double circumference = model->bore_circumference;
-  // Films alike on both ways leave nothing but rounding.
+  // Equal films in both directions leave rounding only.
   const double net = bore->out - bore->back;
   summary->leakage_per_cycle = fabs(net) <= 1e-12 * bore->out ? 0 : circumference * net;
   if (summary->outcome == SB_OUTCOME_NEVER_MOVED) {

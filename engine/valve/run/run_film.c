@@ -1,16 +1,16 @@
-// The film's history through a run: each seal's velocity of frame after frame goes through the
-// transient film (film/transient.h), so that stops squeeze the film, reversals carry the old one
-// back through the contact, and the frames show that in place of the steady film.
+// The film's history through a run: the transient film (film/transient.h) follows the velocity of
+// each seal from frame to frame. Stops squeeze the film, reversals carry the old film back through
+// the contact, and the frames show this film instead of the steady one.
 //
-// A stretch is as long as the seal's whole contact lies on the land between the same pressures, and
-// slides one way where the two ways have contacts of their own; the next begins with the film that
-// was there, evened out. The first begins with fluid.rest_film. Body, load and inlets are the
-// steady states' (run_supply.c); while a seal slides out of a room without liquid it has no film.
-// Lambda, real area and friction of a frame follow its film; the motion and the figures of a seal
-// keep to the steady one. A stretch whose film collapses is followed again on a mesh for thinner
-// films: it has slowed down to films far below those of its begin, whose necks the edges' spacing
-// does not resolve. From where a film fails its frames have none. Left out: the land's edge
-// under the contact and the step of the pressures themselves.
+// A stretch lasts as long as the seal's full contact is on the land between the same pressures, and
+// has one direction of sliding if the two directions have different contacts. The next stretch
+// begins with the present film, made uniform. The first begins with fluid.rest_film. Body, load and
+// inlets are those of the steady states (run_supply.c). While a seal slides out of a room without
+// liquid it has no film. Lambda, real area and friction of a frame follow its film; the motion and
+// the figures of a seal use the steady one. A stretch whose film collapses is repeated on a mesh
+// for thinner films: it has slowed down to films far thinner than at its start, whose necks the
+// edges' spacing does not resolve. From the instant at which a film fails its frames have none. Not
+// modelled: the land's edge under the contact, and the step of the pressures themselves.
 #include <math.h>
 #include <string.h>
 
@@ -30,12 +30,12 @@ typedef struct {
   SbFilmTransient *film; // of the present stretch, NULL between stretches
   int chamber;           // of the stretch
   int direction;         // of sliding; below 0: not yet
-  bool fitted;           // the film lies on the fitted body
+  bool fitted;           // the film is on the fitted body
   double central;        // last film [m], what the next stretch begins with
   size_t frame;          // that it has come to
-  double error;          // largest estimate of the least film's history
+  double error;          // largest estimate of the history of the minimum film
   int finer;             // times that the stretch's mesh was made for thinner films
-  size_t begin;          // of the stretch: frame; film, error and way of sliding before it
+  size_t begin;          // of the stretch: frame; film, error and direction of sliding before it
   double begin_central, begin_error;
   int begin_direction;
 } History;
@@ -56,8 +56,8 @@ static void end_stretch(History *history) {
   history->film = NULL;
 }
 
-// Whether a seal has one contact for both ways of sliding: a stretch then goes on through a
-// reversal.
+// Returns whether a seal has the same contact in both directions of sliding; a stretch then
+// continues through a reversal.
 static bool both_alike(const SbRun *run, int seal, int chamber) {
   const SbSealState *in = &run->cycle.state[seal][chamber][SB_CYCLE_IN];
   const SbSealState *back = &run->cycle.state[seal][chamber][SB_CYCLE_OUT];
@@ -120,7 +120,8 @@ static void show(const History *history, const SbFilmTransientResult *result, Sb
   sb_run_frame_film(frame, history->run, history->seal, film, history->fitted);
 }
 
-// The way of sliding in a frame; at rest that before, or at the start the first to come.
+// Returns the direction of sliding in a frame; at rest the previous one, or at the start the next
+// one.
 static int way_of(const History *history, size_t i, size_t count) {
   const SbFrame *frames = history->run->frames;
   for (size_t k = i; k < count && (k == i || history->direction < 0); k++) {

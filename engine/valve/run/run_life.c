@@ -1,17 +1,17 @@
 // A valve's life: the actuations after the first, each by the run's own motion model.
 //
-// Roughness runs in from its value when new to its value when run in as exp(-n/actuations).
-// Literature in the thesis gives 1.7 um new and 0.2 um run in (Rana); how fast is not given: an
-// input. The asperity product and the height deviation are scaled together, tip radius and density
-// of the asperities held (zeta beta sigma and sigma both go with sigma). With asperities beside the
-// film fitment and film know no roughness, so the first actuation's are reused and only the rough
-// contact is evaluated anew. Coupled asperities share the film's load: some actuations are solved
-// as whole runs with their roughness, and what those between yield goes by parabolas over it,
-// halved until these meet what is solved between to the run's tolerance. A stem that stays in ends
-// the life: there is no stroke left. The frames of one later actuation follow those of the first,
-// as if nothing lay between; profiles and shapes are the first's. Leaves out: wear and swelling of
-// the section, storage and loss of propellant between actuations; beside, what the film's thickness
-// owes to roughness.
+// Roughness changes from its value when new to its value when run in as exp(-n/actuations).
+// Literature in the thesis gives 1.7 um new and 0.2 um run in (Rana); the rate is not given and is
+// an input. The asperity product and the height deviation are scaled together, with constant tip
+// radius and density of the asperities (zeta beta sigma and sigma are both proportional to sigma).
+// Without coupled asperities fit and film do not depend on roughness, so those of the first
+// actuation are reused and only the rough contact is recomputed. Coupled asperities share the
+// film's load: some actuations are solved as complete runs with their roughness. Results between
+// them follow from parabolas in the roughness, whose intervals are halved until they agree with
+// solved values to the run's tolerance. A stem that does not return ends the life, because there is
+// no further stroke. The frames of one later actuation follow those of the first directly; profiles
+// and shapes are those of the first. Not modelled: wear and swelling of the section, storage and
+// loss of propellant between actuations; without coupling, the effect of roughness on the film.
 #include "engine/film/laws.h"
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
@@ -43,7 +43,7 @@ static SbStatus resurface(SbRun *run, double factor, SbReport *report) {
 static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const SbRunHooks *hooks,
                         SbReport *report) {
   one->cycle = run->cycle;
-  // Reactions are for frames, and only those of the actuation shown are kept.
+  // Reactions are only stored for the frames of the actuation that is shown.
   one->plan.bodies = run->plan.bodies && n + 1 == run->model->life_shown;
   one->speed = run->speed;
   one->mid_speed = run->mid_speed;
@@ -109,7 +109,8 @@ typedef struct {
   SbRun *run; // of the first
   SbRun *one;
   const SbRunHooks *hooks;
-  // Of each actuation: the share of the chamber that is filled, and what it keeps [kg].
+  // Of each actuation: the fraction of the chamber that is filled, and the mass that remains in it
+  // [kg].
   double *filled, *kept;
   bool *known;
   long solved;
@@ -182,7 +183,7 @@ static SbStatus solve_one(Solved *s, long n, bool shown, SbReport *report) {
   return SB_OK;
 }
 
-// Members that go with the roughness.
+// Members that depend on the roughness.
 static void members(double *out[6], SbLifeActuation *of) {
   double *const all[] = {&of->lambda,     &of->leakage,         &of->carried,
                          &of->force_peak, &of->force_breakaway, &of->force_return};
@@ -232,7 +233,7 @@ static double apart(SbLifeActuation *guess, SbLifeActuation *found) {
 // Actuation between two whose roughness is nearest to the middle of theirs.
 static long middle_of(const SbModel *model, long a, long b) {
   const double aim = 0.5 * (roughness_of(model, a) + roughness_of(model, b));
-  long low = a, high = b; // the roughness goes one way
+  long low = a, high = b; // the roughness is monotonic
   while (high - low > 1) {
     const long n = low + (high - low) / 2;
     const bool before = (roughness_of(model, n) - aim) * (roughness_of(model, a) - aim) > 0;
@@ -375,8 +376,7 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     memset(one->shape, 0, sizeof one->shape);
   }
   sb_run_destroy(one);
-  // What is "last", and the sums, stand for the whole life: unknown for one that ended before its
-  // time.
+  // "last" and the sums refer to the full life: unknown if it ended early.
   if (life->done == count) {
     life->last = run->life[count - 1];
   } else {

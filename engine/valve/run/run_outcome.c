@@ -82,7 +82,7 @@ SbStatus sb_run_conclude_motion(SbSummary *summary, SbRun *run, const SbRunEnd *
   }
   const double top = fmin(end->top, run->model->stroke); // the stop yields a little
   summary->force_return_margin = sb_cycle_return_margin(&run->cycle, top);
-  // A stem that static friction holds at the stop only follows the stop's own deflection.
+  // A stem that static friction holds at the stop only follows the stop's deflection.
   if (!stuck || sb_cycle_first_reserve(&run->cycle, top) > 0) {
     summary->force_return_min = fmin(sb_cycle_sliding_margin(&run->cycle, top), end->sliding_least);
   }
@@ -102,7 +102,7 @@ bool sb_run_delivers(const SbRun *run) {
   if (model->kind == SB_VALVE_GASKET) {
     return first && summary->stage[SB_STAGE_D].reached; // shut at C, emptied at the stop
   }
-  // The chamber is filled from C to F and emptied behind F, where ports do not say when.
+  // The chamber is filled from C to F and emptied after F, if no ports determine the time.
   const bool stuck = summary->outcome == SB_OUTCOME_STUCK;
   return first && summary->stage[SB_STAGE_F].reached &&
          (!stuck || model->pressure_map == SB_MAP_PORTS);

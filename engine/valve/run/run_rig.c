@@ -1,11 +1,11 @@
 // The sliding-plate rig as a run: each sample of the load cell is a frame (valve/run/rig.h).
 //
-// A frame's displacement and velocity are the plate's, its platen the thread wound up, its force
-// the cell's signal. There are no seals in it: their places stay empty. The coefficients come from
-// the sampled signal alone, as the thesis takes them from its 1000 Hz record (3.4.3). Beside them
-// stands what the valve's own surface model gives under the rig's load, and the load under which it
-// would give the rig's sliding coefficient: table 7.8 compares a coefficient measured under one
-// with one predicted under the other. Leaves out: the lubricant's film, the cell's noise.
+// A frame's displacement and velocity are the plate's, its platen is the wound thread, its force
+// the cell's signal. There are no seals: their fields are empty. The coefficients are computed from
+// the sampled signal only, as the thesis does from its 1000 Hz record (3.4.3). In addition the run
+// gives the coefficient of the valve's own surface model at the rig's load, and the load at which
+// that model would give the rig's sliding coefficient: table 7.8 compares a coefficient measured at
+// one load with one predicted at another. Not modelled: the lubricant's film, the cell's noise.
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
@@ -17,7 +17,7 @@ static SbSealFrame no_seal(void) {
   return (SbSealFrame){.profile = UINT32_MAX, .shape = UINT32_MAX};
 }
 
-// Keeps the first slip.
+// Stores the first slip.
 static void note_slip(const SbMotionEvent *event, void *user) {
   SbMotionEvent *slip = user;
   if (event->kind == SB_MOTION_SLIP && slip->time < 0) {
@@ -25,7 +25,7 @@ static void note_slip(const SbMotionEvent *event, void *user) {
   }
 }
 
-// Stage A at the start, B at the first slip; the frame just before it sits on the event.
+// Stage A at the start, B at the first slip; the frame just before it is the frame of the event.
 static void mark_stages(SbRun *run, const SbMotionEvent *slip, size_t count) {
   if (count == 0) {
     return;
@@ -58,7 +58,7 @@ static void take_coefficients(SbRun *run, const SbRigSignal *signal) {
   }
 }
 
-// What the surface model of the valve says of the rig.
+// Evaluates the surface model of the valve for the rig.
 static void compare_contact(SbRun *run) {
   const SbModel *model = run->model;
   const SbSealModel *ring = &model->seal[SB_OUTER];
@@ -99,7 +99,7 @@ static void rig_errors(SbRun *run) {
 SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   const SbRig *rig = &run->model->rig;
-  run->before_frames = 1; // all frames appear at once: peaks are known by what follows them
+  run->before_frames = 1; // all frames are published together: peaks follow from later samples
   SbDynamics motion;
   SbDynamicsModel model;
   SbRigSignal signal = {.prominence = run->model->rig_prominence};

@@ -1,17 +1,17 @@
-// Deformed sections of the rings for the views that draw them: those that the states of contact
-// were solved with, and a row of the inner ring over the land's edge.
+// Deformed sections of the rings for the views that draw them: those of the solved states of
+// contact, and a row of the inner ring over the land's edge.
 //
-// A row for each way of sliding: the inner ring while the land's edge and the chamfer beside it
-// pass over it, until the free ring clears the chamfer. It begins with the ring as it slides; from
-// then on what touches is held where it lies, so that the shear of sliding stays in it, and the
-// floor holds it against the chamfer's push. (Sliding on over the chamfer has no steady state: it
-// pushes the ring away.) A ring that rolls begins with the one at rest. A frame takes the last one
-// whose land reaches at least as far over the ring as the frame's own, and its contact: the drawn
-// ring never stands in the housing, and the gap that this leaves is at most the chamfer's rise over
-// one place of the row. That the chamfer still presses the ring when its contact has left the land
-// is drawn, but has no part in the cycle's forces.
+// There is a row for each direction of sliding: the inner ring while the land's edge and the
+// adjacent chamfer pass over it, until the free ring clears the chamfer. It begins with the sliding
+// ring. From then on nodes in contact are fixed, so that the shear of sliding remains, and the
+// floor supports the ring against the chamfer's push. (Steady sliding over the chamfer does not
+// exist: it pushes the ring away.) A ring that rolls begins with the one at rest. A frame uses the
+// last shape whose land covers at least as much of the ring as the frame's land, and its contact.
+// So the drawn ring never penetrates the housing, and the remaining gap is at most the chamfer's
+// rise over one position of the row. The pressure of the chamfer on the ring after its contact has
+// left the land is drawn, but does not affect the cycle's forces.
 //
-// Frames only refer to shapes, so that a film of any length costs the same.
+// Frames only refer to shapes, so a film of any length costs the same.
 #include "engine/contact/ring/ring.h"
 #include "engine/permeation/diffusion.h"
 #include "engine/permeation/wetted_ring.h"
@@ -22,19 +22,20 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Of the rows over the land's edge: less on the floor lets the chamfer push the ring to its wall;
-// on the bore more than any law, so that what touches stays where sliding laid it.
+// Friction of the rows over the land's edge. With less on the floor the chamfer pushes the ring to
+// its wall; on the bore it is larger than any law, so that nodes in contact stay where sliding left
+// them.
 static const double edge_floor_friction = 0.5;
 static const double edge_bore_friction = 1.5;
 
 // Side of the rows' contact elements over the section's diameter: they are only drawn.
 static const double edge_element_size = 0.08;
 
-// Newton iterations of one place of a row: found ones take 5 to 60; over the last of the chamfer
-// the ring may have no equilibrium, which would take hundreds to tell.
+// Limit of Newton iterations of one position of a row: 5 to 60 are needed. Over the last part of
+// the chamfer the ring may have no equilibrium, which would take hundreds to detect.
 enum { PLACE_ITERATIONS = 100 };
 
-// Asks whoever waits, and ends a place that takes too long.
+// Polls for a cancel, and ends a position that takes too long.
 typedef struct {
   const SbRingOptions *asks;
   int left;
@@ -83,8 +84,8 @@ uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int m
   return run->shape[found].view.nodes > 0 ? found : UINT32_MAX;
 }
 
-// The steady flux of permeation through a ring that parts canister and air; 0 of one that does not,
-// or that leaves a way past.
+// Computes the steady flux of permeation through a ring that separates canister and air; 0 of one
+// that does not, or that is open.
 static void fill_permeation(float *out, const SbRun *run, int seal, const SbRing *ring, size_t n) {
   SbWettedMesh *mesh = NULL;
   SbDiffusion *diffusion = NULL;
@@ -215,7 +216,7 @@ SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *
   // Clear of the free ring, and of the contact that sliding has moved.
   double end = fmax(clear_of(&whole->view, run->model->radial_space, &load),
                     state.contact_right + load.edge_length);
-  // Held from there on as it lies; a ring that rolls from where it rests.
+  // Fixed from there on in its position; a ring that rolls: from its position at rest.
   SbRingLoad held = load;
   held.bore_slides = 0;
   held.shear = NULL;
@@ -244,6 +245,6 @@ SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *
   if (end > begin) {
     run->edge[way] = (SbRunEdge){begin, end};
   }
-  // Beyond a place without an equilibrium the last one stands.
+  // Beyond a position without an equilibrium the last shape is used.
   return status == SB_ERROR_NOT_CONVERGED ? SB_OK : status;
 }

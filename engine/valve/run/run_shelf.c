@@ -1,4 +1,4 @@
-// The shelf's figures of a run, and why some are missing. Computed where somebody asks for them.
+// The shelf's figures of a run, and why some are missing. Computed on request.
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 #include "engine/valve/shelf/shelf_private.h"
@@ -51,7 +51,7 @@ const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int 
   return sb_param(figures[which].id)->key;
 }
 
-// What the figures rest on that is no measurement of this rubber.
+// Reports inputs of the figures that were not measured on this rubber.
 static void warn_typical(SbShelf *out, SbWarnings *warnings, const SbModel *model) {
   for (int i = 0; i < SB_SHELF_TYPICAL; i++) {
     char text[SB_TEXT];

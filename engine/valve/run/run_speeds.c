@@ -1,10 +1,10 @@
-// A run's steady states at any speed: of each seal, chamber and direction one table
-// (valve/states/speed_states.h), made when an instant first asks for another speed than the
-// states'. Seals, chambers and directions that slide alike share one.
+// A run's steady states at any speed: one table for each seal, chamber and direction
+// (valve/states/speed_states.h), created when an instant first needs a speed other than the
+// states'. Equivalent seals, chambers and directions share one.
 //
-// Between the vented and the filled chamber contact and film lie between those of the two at the
-// same speed, and friction follows from them: exact where the chamber rests, which is all but the
-// milliseconds of filling and venting.
+// Between the vented and the filled chamber, contact and film are interpolated between the two at
+// the same speed, and friction follows from them. This is exact while the chamber's pressure is
+// constant, which is all but the milliseconds of filling and venting.
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
@@ -35,7 +35,7 @@ static SbStatus make(SbRun *run, int seal, int chamber, int direction, const SbS
   const SbSupply *was = *table != NULL ? &(*table)->task.supply : NULL;
   if (was != NULL && same_contact(&(*table)->base, state) && was->limited == task.supply.limited &&
       was->layer == task.supply.layer) {
-    // What it holds stands: the same contact on the same supply, solved at another speed.
+    // Its solved states remain valid: the same contact on the same supply, solved at another speed.
     (*table)->base = *state;
     (*table)->task = task;
     (*table)->beside_known = false;
@@ -81,9 +81,9 @@ static bool same_ring(const SbSealModel *a, const SbSealModel *b) {
          a->mooney_share == b->mooney_share;
 }
 
-// Whether two are solutions of the same problem, maybe from other starts, at any speed: the same
-// contact of equal rings under the same pressures on the same supply. Either way slides alike under
-// equal pressures, but on a body, which is one of a way.
+// Returns whether two are solutions of the same problem at any speed, perhaps from other starts:
+// the same contact of equal rings under the same pressures on the same supply. Both directions are
+// equivalent under equal pressures, except on a body, which belongs to one direction.
 static bool alike(const SbRun *run, Place a, Place b) {
   const SbModel *model = run->model;
   const SbSealState *one = &run->cycle.state[a.seal][a.chamber][a.direction];

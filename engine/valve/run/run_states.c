@@ -42,8 +42,8 @@ uint32_t sb_run_profile_slot(int seal, int chamber, int motion) {
 // A seal's states in work, and what they add to the run.
 typedef struct {
   SbRun *run;
-  const SbRunHooks *hooks; // NULL on a thread of its own, which asks nobody
-  atomic_bool *stop;       // somebody asked to stop
+  const SbRunHooks *hooks; // NULL on a thread of its own, which calls no hooks
+  atomic_bool *stop;       // the run is cancelled
   SbWork work;             // the seal's part of the run's
   SbRunAhead *ahead;       // rings of both seals; NULL: none
   int seal;
@@ -94,8 +94,8 @@ static double fit_pressure(const SbFit *fit, double x, double left, double right
   return fit->profile_p[low] + t * (fit->profile_p[high] - fit->profile_p[low]);
 }
 
-// What Greenwood and Tripp's asperities bear at the local film (thesis equation 5.12). The film
-// does not give this load up to them (sliding.h): it is shown beside the film's pressure.
+// Pressure of Greenwood and Tripp's asperities at the local film (thesis equation 5.12). The film
+// still carries this load too (sliding.h): the pressure is shown in addition to the film's.
 static void asperity_pressure(const SbModel *model, int seal, const double *film, double *out,
                               size_t n) {
   double last = NAN;
@@ -219,8 +219,8 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   return SB_OK;
 }
 
-// Whether the plan asks for this state and the cycle can visit it at all: the outer seal does in
-// every chamber state, the inner one slides only while it touches the land.
+// Returns whether the plan needs this state and the cycle can reach it: the outer seal does in
+// every chamber state, the inner one slides only while it is on the land.
 static bool state_needed(const Task *task) {
   const SbRun *run = task->run;
   const int seal = task->seal, chamber = task->chamber, motion = task->motion;
@@ -241,8 +241,8 @@ static bool state_needed(const Task *task) {
   return motion != SB_RUN_REST || run->plan.profiles || run->plan.ring;
 }
 
-// Names what failed and where: solver, seal, stages, place; and what there is all the same. Figures
-// that need it say so, too.
+// Reports the failure and its place: solver, seal, stages, position; and the results that exist
+// nevertheless. Figures that need it report it too.
 static void report_failure(const Task *task, SbReport *report) {
   static const char *const stages[] = {"A to C", "C to F", "F to A"};
   static const char *const ways[] = {"in-stroke", "return", "at rest"};
@@ -293,8 +293,8 @@ static bool cancelled(void *data) {
   return atomic_load(lane->stop);
 }
 
-// Keeps a state's ring to draw, the inner one's row over the land's edge with it. What cannot be
-// found is not drawn.
+// Stores the ring of a state for drawing, and the inner ring's row over the land's edge. Shapes
+// that cannot be solved are not drawn.
 static SbStatus keep_shapes(const Task *of, const SbRing *ring, SbReport *report) {
   Lane *lane = of->lane;
   const SbRingOptions options = {.poll = sb_work_step, .poll_data = &lane->work};
@@ -306,7 +306,7 @@ static SbStatus keep_shapes(const Task *of, const SbRing *ring, SbReport *report
   if (status != SB_OK || !of->run->plan.over_edge || of->seal != SB_INNER || !(in || out)) {
     return status;
   }
-  SbReport own = {0}; // `report` may hold why the state did not converge
+  SbReport own = {0}; // `report` may already say why the state did not converge
   status = sb_run_solve_edge(of->run, of->motion, ring, &lane->counters, &options, &own);
   status = sb_work_status(&lane->work, status, &own);
   if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
@@ -381,8 +381,8 @@ static SbSlidingTask sliding_task(const Task *of) {
                          sb_run_supply(run, of->seal, (SbChamber)of->chamber, of->motion)};
 }
 
-// Whether a state's ring begins the row over the land's edge; one that is not the last of its way,
-// NULL, is solved for it.
+// Returns whether a state's ring begins the row over the land's edge. If it is not the last one in
+// its direction, *ring is NULL, and the ring is solved for the row.
 static bool begins_row(const Task *of, const SbRing **ring) {
   const SbPlan *plan = &of->run->plan;
   const SbSlidingTask task = sliding_task(of);
@@ -452,7 +452,7 @@ static bool fatal(SbStatus status) {
   return status != SB_OK && status != SB_ERROR_NOT_CONVERGED;
 }
 
-// Solves what a state just solved will be asked for, if it will.
+// Solves states near the one just solved that will be needed, if any.
 static void ask_beside(const Task *of) {
   const SbRun *run = of->run;
   const SbPlan *plan = &run->plan;
@@ -501,7 +501,7 @@ static void *solve_lane(void *data) {
     }
     lane->solved[chamber][task.motion] = status == SB_OK;
     if (fatal(status) || (status != SB_OK && lane->status == SB_OK)) {
-      lane->report = own; // of failures to converge the first is told
+      lane->report = own; // the first failure to converge is reported
       lane->status = status;
     }
     if (alike < 0 && !fatal(status)) {
@@ -533,7 +533,7 @@ static void *solve_beside(void *data) {
   return NULL;
 }
 
-// Adds the rings of a seal's states that may be solved ahead; alike ones are solved once.
+// Adds the rings of a seal's states that may be solved ahead; equal ones are solved once.
 static void add_ahead(SbRunAhead *ahead, Lane *lane) {
   SbRun *run = lane->run;
   SbSealPressure pressure[SB_CYCLE_CHAMBERS];
@@ -555,7 +555,7 @@ static void add_ahead(SbRunAhead *ahead, Lane *lane) {
   }
 }
 
-// Solves both lanes, the second on a thread of its own; `first` asks whether to stop, for both.
+// Solves both lanes, the second on a thread of its own; `first` polls for a cancel, for both.
 static void solve_together(Lane *first, Lane *second) {
   Beside beside = {second, PTHREAD_MUTEX_INITIALIZER, PTHREAD_COND_INITIALIZER, false};
   const SbRunHooks *hooks = second->hooks;
@@ -658,7 +658,7 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     lane[seal].work.cancelled = cancelled;
     lane[seal].work.data = &lane[seal];
     sb_sliding_memory_poll(run->memory[seal], sb_work_step, &lane[seal].work);
-    // At least what the figures are taken from is unknown until it is solved.
+    // At least the states of the figures are unknown until they are solved.
     sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN]);
     sb_sliding_clear(&run->cycle.state[seal][SB_CHAMBER_CLOSED][SB_CYCLE_OUT]);
   }
@@ -728,7 +728,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   }
   double speed;
   bool slips;
-  // What goes wrong with the motion is told by the run itself.
+  // Errors of the motion are reported by the run itself.
   SbStatus motion = sb_run_dynamic_speed(&speed, &slips, run, hooks, NULL);
   if (motion == SB_ERROR_CANCELLED) {
     return sb_fail(report, motion, "cancelled");

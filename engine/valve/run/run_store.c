@@ -1,8 +1,8 @@
 // A finished run as bytes and back, for a program that shows it without computing it: its frames,
-// profiles, shapes, actuations and summary, as they lie in memory. The bytes serve the build that
-// wrote them: who keeps them sees to that (sb_engine_identity(), app/session/stored_run.h), and to
-// their being whole. What is read is still checked, so that no index leads out of an array. Left
-// out is what other runs start from: a run that was read computes nothing.
+// profiles, shapes, actuations and summary, as they are in memory. The bytes are valid only for the
+// build that wrote them; the caller ensures that (sb_engine_identity(), app/session/stored_run.h),
+// and that they are complete. What is read is still checked, so that no index is outside its array.
+// Data from which other runs start are not stored: a run that was read computes nothing.
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 
@@ -128,7 +128,7 @@ static bool take(void *to, Reader *reader, size_t size) {
   return reader->good;
 }
 
-// A number of items of at least `each` bytes that can still follow.
+// Reads a number of items, of at least `each` bytes, that the remaining bytes can contain.
 static size_t take_count(Reader *reader, size_t each) {
   size_t count = 0;
   if (take(&count, reader, sizeof count) && count > reader->left / each) {
@@ -154,7 +154,7 @@ static void take_profile(SbRunProfile *profile, Reader *reader) {
   if (!take(profile->data, reader, SB_PROFILE_ROWS * n * sizeof(double))) {
     return;
   }
-  // Its model's name lies behind the numbers.
+  // The name of its model follows the numbers.
   char *name = (char *)(profile->data + SB_PROFILE_ROWS * n);
   model[MODEL_NAME - 1] = '\0';
   memcpy(name, model, sizeof model);
@@ -218,7 +218,7 @@ static void take_life(SbRun *run, Reader *reader) {
     run->life = room_for(reader, count * sizeof *run->life);
     take(run->life, reader, count * sizeof *run->life);
   }
-  run->summary.life.done = (long)count; // asked again once the summary is read
+  run->summary.life.done = (long)count; // compared when the summary is read
 }
 
 static void end_text(char *text, size_t size) {

@@ -1,24 +1,24 @@
-// What the strokes find at their inlets, and what lies on the bore.
+// The supply of liquid at the inlets of the strokes, and the layers on the bore.
 //
-// The bore enters the contact from the left on the in-stroke and from the right on the return, the
-// stem of a gasket valve the other way round. Left
-// of a seal is what it holds back, right of it the next room, right of the outer one the air.
-// Liquid floods the inlet; in a room without liquid the bore brings what the stroke before left on
-// it: the layer that the contact let through, flow over speed. The layer is a volume by area, so
-// that one number serves a thin film and a rough gap.
+// The bore enters the contact from the left on the in-stroke and from the right on the return; the
+// stem of a gasket valve moves the other way round. Left of a seal is the room that it seals, right
+// of it the next room, right of the outer seal the air. Liquid floods the inlet. In a room without
+// liquid the bore brings what the previous stroke left on it: the layer that the contact
+// transported, flow divided by speed. The layer is a volume per area, so that one number applies to
+// a thin film and a rough gap.
 //
-// Volumes are kept by place, whatever models.inlet says: a seal at displacement s has left a layer
-// on all the bore that it has passed, from its start to s. On the way back it takes from each place
-// what its film can carry there, and no more than lies there; the rest stays outside. So the net
-// leak is never below zero. Left out: that what is not taken back gathers before the inlet and is
-// taken later, and that it dries: the net leak told is the most there can be.
+// Volumes are recorded by position, whatever models.inlet is: a seal at displacement s has left a
+// layer on all the bore that it has passed, from its start to s. On the return it takes from each
+// position what its film can carry there, and at most the layer there; the remainder stays outside.
+// So the net leakage is never negative. Not modelled: liquid that is not taken back collects in
+// front of the inlet and is taken later, or dries. So the reported net leakage is the maximum.
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
 
-// Whether a seal has liquid on its left or right in a state of the chamber. With ports the chamber
-// at rest stands for the vented one; that of a gasket valve is vented where both its gaskets close
-// after the dose.
+// Returns whether a seal has liquid on its left or right in a state of the chamber. With ports the
+// chamber at rest represents the vented one; that of a gasket valve is vented where both its
+// gaskets close after the dose.
 static bool is_wet(const SbModel *model, int seal, SbChamber chamber, bool left) {
   if (left ? seal == SB_INNER : seal == SB_OUTER) {
     return left; // the canister; the air
@@ -29,7 +29,8 @@ static bool is_wet(const SbModel *model, int seal, SbChamber chamber, bool left)
   return chamber != SB_CHAMBER_AT_REST || model->pressure_map == SB_MAP_CHAMBER_FILLED;
 }
 
-// Whether a way of the stem brings what is left of the seal into its contact.
+// Returns whether the stem's motion in a direction brings the bore on the left of the seal into its
+// contact.
 static bool enters_left(const SbModel *model, int direction) {
   return (direction == SB_CYCLE_IN) == (sb_model_way(model) > 0);
 }
@@ -55,12 +56,12 @@ SbSupply sb_run_supply(const SbRun *run, int seal, SbChamber chamber, int motion
     return (SbSupply){0};
   }
   if (model->kind == SB_VALVE_GASKET) {
-    // What the way out left on the stem has flashed off before the next way in.
+    // The liquid that the return left on the stem has evaporated before the next in-stroke.
     return (SbSupply){true, 0};
   }
   const bool in = motion == SB_CYCLE_IN;
-  // A chamber that is cut off again slides back over what it passed at rest; where ports fill and
-  // vent it that is not known beforehand, and the same chamber stands in.
+  // A chamber that is closed again slides back over the layer that it passed at rest. With ports
+  // that fill and vent it this is not known beforehand, and the same chamber replaces it.
   const bool ports = model->pressure_map == SB_MAP_PORTS;
   const SbChamber before = chamber == SB_CHAMBER_CLOSED && !ports ? SB_CHAMBER_AT_REST : chamber;
   const bool dry = in || is_dry(model, seal, before, SB_CYCLE_IN);

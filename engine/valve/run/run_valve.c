@@ -1,21 +1,20 @@
-// The valve as a mechanism with one coordinate (mechanism/dynamics.h) and, if the scene asks for
-// ports, one chamber pressure (mechanism/chamber.h); and the frame of any motion's instant.
+// The valve as a mechanism with one coordinate (mechanism/dynamics.h) and, with ports, one chamber
+// pressure (mechanism/chamber.h); and the frame of an instant of any motion.
 //
-// The same sliding states as in the quasi-static cycle, over the speed (run_speeds.c), give each
-// seal's friction: its level is that without a film, tau_0 A_a(0) + m W, and what the film takes
-// off and its shear adds at a speed is laid through bands of the speed in which it is straight, to
+// The sliding states of the quasi-static cycle at all speeds (run_speeds.c) give each seal's
+// friction. Its level is that without a film, tau_0 A_a(0) + m W. The decrease by the film and the
+// increase by its shear at a speed are approximated by bands of speed in which they are linear, to
 // BAND_TOLERANCE of the level (dynamics.h). While the edge of the land passes, the inner seal's
-// follows the part that still touches. With ports friction lies between those of the vented and of
-// the filled chamber, in proportion to its pressure.
+// friction follows the part that is still in contact. With ports, friction is interpolated between
+// the vented and the filled chamber, in proportion to its pressure.
 //
-// Contacts that age (friction.breakaway) hold by the law of the state that stands for their
-// chamber.
+// Contacts that age (friction.breakaway) have the law of the state that applies to their chamber.
 //
-// Ports by position. With y from the land's edge outwards and the contacts' edges l < r in each
-// seal's frame, the inner contact starts at y = s_C - s and the outer ends of the chamber lie at
-// s_C - s + (r - l)_inner and s_C - s - l_inner + spacing + l_outer. The chamber meets the canister
-// when the inner contact has left the land, the vent while any of the hole lies between the two
-// contacts (open wholly or not at all), and the canister through a by-pass below
+// Ports by position. With y outwards from the land's edge and the contacts' edges l < r in each
+// seal's frame, the inner contact starts at y = s_C - s and the outer ends of the chamber are at
+// s_C - s + (r - l)_inner and s_C - s - l_inner + spacing + l_outer. The chamber is connected to
+// the canister when the inner contact has left the land, to the vent while any of the hole is
+// between the two contacts (fully open or closed), and to the canister through a by-pass below
 // bore.refill_travel.
 #include "engine/valve/model/gasket.h"
 #include "engine/valve/run/run_private.h"
@@ -26,8 +25,8 @@
 // Of the friction without a film.
 static const double band_tolerance = 1e-3;
 
-// How near the chamber is to the state that stands for SB_CHAMBER_CLOSED, from 0, that for
-// SB_CHAMBER_AT_REST, to 1: by its pressure, which the closed chamber holds in full; that of a
+// Returns how close the chamber is to the state of SB_CHAMBER_CLOSED, from 0 (that of
+// SB_CHAMBER_AT_REST) to 1, by its pressure: the closed chamber has the full pressure; that of a
 // gasket valve has been emptied then.
 static double filling(const SbRun *run, double pressure) {
   double canister = run->model->canister_pressure;
@@ -35,7 +34,8 @@ static double filling(const SbRun *run, double pressure) {
   return run->model->kind == SB_VALVE_GASKET ? 1 - full : full;
 }
 
-// The states that friction lies between: with ports those of the vented and the filled chamber.
+// States between which friction is interpolated: with ports those of the vented and the filled
+// chamber.
 typedef struct {
   int count;
   SbChamber chamber[2];
@@ -50,8 +50,8 @@ static Ends ends_of(const SbValve *valve, double pressure) {
   return (Ends){2, {SB_CHAMBER_AT_REST, SB_CHAMBER_CLOSED}, {1 - q, q}};
 }
 
-// The direction whose state tells where a chamber's contact meets the land's edge: that in which
-// the stem passes it in this chamber.
+// Returns the direction whose state determines where a chamber's contact meets the land's edge:
+// that in which the stem passes the edge in this chamber state.
 static int passing(SbChamber chamber) {
   return chamber == SB_CHAMBER_CLOSED ? SB_CYCLE_OUT : SB_CYCLE_IN;
 }
@@ -60,7 +60,7 @@ static SbLandShare land_share(const SbCycle *cycle, int seal, SbChamber chamber,
   return sb_cycle_land_share(cycle, seal, chamber, passing(chamber), s);
 }
 
-// The same for the motion, which asks several times at each place.
+// Does the same for the motion, which needs it several times at each position.
 static SbLandShare land_at(SbValve *valve, int seal, SbChamber chamber, double s) {
   if (seal == SB_OUTER) {
     double whole = valve->run->cycle.state[seal][chamber][passing(chamber)].touches ? 1 : 0;
@@ -99,7 +99,7 @@ static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const d
       }
     }
   }
-  // Only while the edge lies under the inner contact does anything change with x.
+  // Something changes with x only while the edge is under the inner contact.
   bool still = valve->chamber == SB_CHAMBER_OPEN && !valve->ports;
   bool settled = !valve->ports || sb_chamber_settled(&valve->dose, extra[0]);
   loads->settled = settled;
@@ -138,8 +138,9 @@ static SbBandPart line(const SbValveBand *band, double low, double high) {
   return (SbBandPart){low - slope * band->low, slope};
 }
 
-// Lays the band from `low` to `high` through friction there; how far that is off between, over the
-// friction without a film. A power of the speed bends most at a quarter of the way.
+// Fits the band from `low` to `high` to the friction at its ends. Returns its largest deviation in
+// between, divided by the friction without a film. A power of the speed deviates most at a quarter
+// of the band.
 static double try_band(SbValveBand *band, SbValve *valve, int direction, double low, double high) {
   Added ends[2], at;
   band->low = low;
@@ -168,8 +169,8 @@ static double try_band(SbValveBand *band, SbValve *valve, int direction, double 
   return worst;
 }
 
-// The next band, from the last one's end up as far as it is straight, in steps of a seventh of a
-// decade so that no state is asked for at speeds that nothing comes near.
+// Adds the next band, from the end of the last one as far as friction is linear, in steps of a
+// seventh of a decade so that no state is solved at speeds that never occur.
 static void add_band(SbValveBands *bands, SbValve *valve, int direction) {
   const double step = pow(10, 1.0 / 7), first = 1e-2, most = 1e3;
   const double low = bands->count > 0 ? bands->item[bands->count - 1].high : 0;
@@ -386,9 +387,9 @@ static SbStatus valve_mass(double *mass, double x, double v, void *user, SbRepor
   return sb_run_bodies_move(mass, valve->run, x, v, report);
 }
 
-// The law of a contact that ages, over its level. A stem comes to rest through steady states of
-// ever lower speed, the last of which has no film left: the contact holds no less than the dry
-// level.
+// Computes the law of a contact that ages, divided by its level. A stem comes to rest through
+// steady states of decreasing speed, the last of which has no film: static friction is at least the
+// dry level.
 static SbStatus set_rest(SbRun *run, int seal, SbChamber chamber, SbReport *report) {
   const SbSealState *state = &run->cycle.state[seal][chamber][passing(chamber)];
   const double level = state->rest_area + state->rest_load;
@@ -495,7 +496,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
     if (status != SB_OK) {
       return status;
     }
-    // The orifice law holds for turbulent jets of liquid.
+    // The orifice law is valid for turbulent jets of liquid.
     double jet = sqrt(2 * fabs(model->canister_pressure) / model->density);
     double reynolds = model->density * jet * model->shape.vent_diameter / model->viscosity;
     if (valve->chamber_model.ports > 1 && !model->chamber_at_once && reynolds < 1e3) {
@@ -542,7 +543,7 @@ SbSolvedState sb_valve_solved(const SbValve *valve, int direction, double pressu
   if (valve->chamber == SB_CHAMBER_OPEN) {
     return (SbSolvedState){SB_CHAMBER_OPEN, direction, direction};
   }
-  // With ports the nearest to what the chamber holds.
+  // With ports the state nearest to the chamber's pressure.
   SbChamber chamber = valve->chamber;
   if (valve->ports) {
     chamber = filling(valve->run, pressure) < 0.5 ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
@@ -582,7 +583,7 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
     on.load = (1 - filled) * vented.load + filled * full.load;
   } else {
     sb_run_state_at(&state, run, seal, chamber, direction, speed);
-    // At rest a solved ring is one that friction does not drag; other models know one contact.
+    // At rest a solved ring is not dragged by friction; other models have one contact.
     const SbSealState *still = &run->cycle.state[seal][chamber][SB_RUN_REST];
     state = run->plan.ring && !moving && still->load > 0 ? *still : state;
   }
@@ -626,7 +627,7 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
     out->friction_viscous = way * on.width * state.friction_viscous;
     out->friction_boundary = way * (on.width * state.boundary_area + on.load * state.boundary_load);
     if (model->stribeck_speed > 0 || !(way * out->friction > 0)) {
-      // Stribeck's factor acts on the boundary part; a patch may yet slide the other way.
+      // Stribeck's factor acts on the boundary part; a patch may slide in the other direction.
       out->friction_boundary = out->friction - out->friction_viscous;
     }
     out->friction = out->friction_boundary + out->friction_viscous;
@@ -639,7 +640,7 @@ void sb_run_frame_film(SbFrame *frame, SbRun *run, int seal, const SbFilm *film,
   SbSealFrame *out = &frame->seal[seal];
   const int direction = frame->velocity < 0 ? SB_CYCLE_OUT : SB_CYCLE_IN;
   const double speed = frame->velocity != 0 ? frame->velocity : run->speed;
-  // A stem that stands, or a patch that sticks, has the friction that holds it.
+  // A stem at rest, or a patch that sticks, has the friction that holds it.
   const bool slides = out->friction_viscous > 0 || out->friction_viscous < 0;
   SbSealState state;
   sb_run_state_at(&state, run, seal, frame->chamber, direction, speed);

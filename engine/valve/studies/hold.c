@@ -42,7 +42,7 @@ SbStatus sb_model_hold(SbModel **out, const SbModel *scene, SbHold hold, SbRepor
   const SbOverride outer[] = {
       {SB_P_STORAGE_TIME, 0},
       {SB_P_STORAGE_TEMPERATURE, scene->rubber.reference_temperature},
-      // What the temperature has made of the rest.
+      // Quantities at the temperature of use.
       {SB_P_CANISTER_TEMPERATURE, SB_SIZES_TEMPERATURE},
       {SB_P_GLAND_RADIAL_SPACE, scene->radial_space},
       {SB_P_BORE_DIAMETER, scene->bore_diameter},

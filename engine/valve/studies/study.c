@@ -68,7 +68,7 @@ double sb_study_cost(SbStudyKind kind, const SbModel *model) {
          solves->cycles * SB_COST_ACTUATION;
 }
 
-// Index for one more. A study that asks for more than its struct holds is wrong.
+// Returns the index of one more element. A study must not add more than its struct can store.
 static size_t next(size_t *count, size_t capacity) {
   assert(*count < capacity);
   return *count < capacity ? (*count)++ : capacity - 1;
@@ -136,7 +136,7 @@ bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report
   if (work->status == SB_OK && status != SB_OK) {
     work->status = status;
     if (status == SB_ERROR_CANCELLED) {
-      // Said alike wherever it struck.
+      // The same sentence wherever the study was cancelled.
       (void)sb_fail(work->report, status, "the study was cancelled");
     } else if (work->report != NULL) {
       *work->report = *report;
@@ -145,7 +145,7 @@ bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report
   return work->status == SB_OK;
 }
 
-// Tells the progress and looks for a cancel.
+// Reports progress and polls for a cancel.
 static void step(SbStudyWork *work, double fraction) {
   const SbStudyHooks *hooks = &work->hooks;
   if (work->status != SB_OK) {
@@ -162,7 +162,7 @@ static void step(SbStudyWork *work, double fraction) {
 static void answer_rows(SbStudyWork *work, const double *value, const int *line, const double *x,
                         size_t rows, double from, double to);
 
-// Gives the base what studies without a grid hold.
+// Sets the base of studies without a grid.
 static void hold_base(SbStudyWork *work) {
   SbReport report;
   SbModel *held = NULL;
@@ -298,7 +298,7 @@ const double *sb_study_at(SbStudyWork *work, int line, double x) {
   if (is_new && work->design->solve != NULL) {
     work->design->solve(value, work, line, x);
   } else if (is_new) {
-    work->answers = before; // no answer, until one is asked for
+    work->answers = before; // no answer yet
   }
   return value;
 }
@@ -386,7 +386,7 @@ static void account(SbStudyWork *work, const Seen *seen) {
                  (double)seen->films * SB_COST_FILM;
   out->solves += fits + seen->films;
   for (int seal = 0; seen->status == SB_OK && fits > 0 && seal < SB_SEAL_COUNT; seal++) {
-    for (int i = 0; i < 2; i++) { // fmax() leaves out the seal that was not asked for
+    for (int i = 0; i < 2; i++) { // fmax() ignores a seal without results
       work->error[i] = fmax(work->error[i], seen->error[i] * seen->size[seal][i]);
       work->largest[i] = fmax(work->largest[i], seen->size[seal][i]);
     }
@@ -406,7 +406,7 @@ static void account(SbStudyWork *work, const Seen *seen) {
 
 // ---- the grid ----
 
-// Rows under way.
+// Rows that are being computed.
 typedef struct {
   SbStudyWork *work;
   Seen *seen;

@@ -1,14 +1,14 @@
-// The film as a power law of speed and load, regressed on our own coupled solutions, beside the
-// thesis' (eq. 7.5), Karaszkiewicz' (eq. 7.6) and the exact limit of thin films.
+// The film as a power law of speed and load, regressed on our own coupled solutions, compared with
+// the thesis' law (eq. 7.5), Karaszkiewicz' (eq. 7.6) and the exact limit of thin films.
 //
 //   h/R = k U^beta W^alpha,   U = eta (u/2)/(E' R),  W = w/(E' R)
 //
 // over the range study.speed_* and study.load_* of the outer seal, on a grid even in ln U and ln W
-// (least squares of the logarithms, 95 % confidence by Student's t; the residuals
-// are the law's lack of fit, not noise). What the thesis' exponent 0.5434 is: a mesh that is too
-// coarse at low speed (docs/thesis.md, 3); solved in the mesh it is 0.6.
+// (least squares of the logarithms, 95 % confidence by Student's t; the residuals are the law's
+// lack of fit, not noise). The thesis' exponent 0.5434 results from a mesh that is too coarse at
+// low speed (docs/thesis.md, 3); with a resolved mesh it is 0.6.
 //
-// Not a grid of valves: the load of these films is given, not that of any ring.
+// Not a grid of valves: the load of these films is given, not that of a ring.
 #include "engine/valve/studies/study_private.h"
 
 #include <gsl/gsl_cdf.h>

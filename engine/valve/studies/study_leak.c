@@ -1,13 +1,14 @@
-// Too little squeeze leaks: pressure of the rubber on the bore, leak at rest and leakage per stroke
-// over the squeeze, at the canister's pressure on the outer seal and at a tenth of it.
+// Too little squeeze leaks: pressure of the rubber on the bore, leakage at rest and leakage per
+// stroke as functions of the squeeze, at the canister's pressure on the outer seal and at a tenth
+// of it.
 //
-// Leak at rest by percolation and the critical constriction (contact/rough/percolation.h): nil
-// while the rubber's own mean pressure, net load over width, is above the closing pressure of the
-// roughness. A ring seals by itself the better the higher the pressure, so the low one is the one
-// that leaks. Leakage per stroke: what the film carries out, q = pi D h L/2 (film/laws.h). As in
-// the study of the squeeze the bore moves and the groove floor stays. The scene's fitment model is
-// set beside the disc and the ring: Karaszkiewicz' mean pressure does not vanish with the squeeze,
-// so that model never leaks at rest and cannot show this. The grid is assets/studies/leak.study.
+// Leakage at rest by percolation and the critical constriction (contact/rough/percolation.h): zero
+// while the rubber's own mean pressure, net load divided by width, is above the closing pressure of
+// the roughness. A ring seals better at higher pressure, so it leaks at the low one. Leakage per
+// stroke: volume carried out by the film, q = pi D h L/2 (film/laws.h). As in the study of the
+// squeeze the bore changes and the groove floor does not. The scene's fit model is compared with
+// disc and ring: Karaszkiewicz' mean pressure does not vanish with the squeeze, so that model never
+// leaks at rest and cannot show this. The grid is assets/studies/leak.study.
 #include "engine/contact/rough/percolation.h"
 #include "engine/valve/studies/study_private.h"
 
@@ -37,7 +38,7 @@ static const char *name_of(const SbModel *scene, int line) {
   return sb_fit_model_name(fit_of(line) == OWN ? scene->fit : fits[fit_of(line)]);
 }
 
-// A ring that does not touch by itself lets the fluid past before any pressure could press it on.
+// The fluid passes a ring without contact before any pressure could press it on.
 static bool is_no_case(SbStudyWork *work, int line, double squeeze) {
   return line % (1 + SHARES) > 0 &&
          !(sb_study_at(work, line_of(fit_of(line), -1), squeeze)[WIDTH] > 0);
@@ -48,7 +49,7 @@ static void derive(double *value, SbStudyWork *work, int line, double squeeze) {
   value[PRESSURE] = isnan(value[PRESSURE]) ? NAN : fmax(value[PRESSURE], 0);
 }
 
-// First of `count` pressures that is at least `least`; `count`: none.
+// Returns the first of `count` pressures that is at least `least`; `count`: none.
 static size_t first_at_least(const double *y, size_t count, double least) {
   size_t i = 0;
   while (i < count && !(y[i] >= least)) {
@@ -57,7 +58,7 @@ static size_t first_at_least(const double *y, size_t count, double least) {
   return i;
 }
 
-// What a curve of pressure says: where the ring touches and where channels open.
+// Evaluates a curve of pressure: where the ring has contact and where channels open.
 static void note_closing(SbStudy *out, const SbStudySeries *series, double closing) {
   const double *x = series->x, *y = series->y;
   const size_t first = first_at_least(y, series->count, 0);
@@ -82,8 +83,8 @@ static void note_closing(SbStudy *out, const SbStudySeries *series, double closi
 
 #define SHARE 0.8 // of the work that the grid is, the finer places aside
 
-// Places of a line: even ones, and more between where the ring begins to touch and where its
-// channels close; the leak lies there.
+// Abscissas of a line: even ones, and more between the first contact of the ring and the closing of
+// its channels, where leakage changes.
 static int choose_places(double at[POINTS + FINE], SbStudyWork *work, int line, double closing) {
   int even = fit_of(line) == RING ? RING_POINTS : POINTS, count = 0;
   double pressure[POINTS];

@@ -73,7 +73,7 @@ static bool is_thesis(const SbModel *model) {
          near(model->radial_space, 1.36e-3) && near(model->bore_diameter, 6e-3);
 }
 
-// Share of the friction that the shear strength alone gives at rest, over the load.
+// Returns the friction that the shear strength alone gives at rest, divided by the load.
 static double coefficient(const SbModel *model, double load, double width) {
   const SbRoughSurface surface = sb_model_surface(model, SB_OUTER, 1);
   double area = width * model->bore_circumference * sb_rough_area_share(&surface, 0);

@@ -1,22 +1,22 @@
-// What another propellant and the temperature make of the valve: pressure force, break-away,
-// return margin and dose of each propellant over the canister's temperature, where the stem begins
-// to come back, and what of the change from 20 degC each of four ways makes alone: the vapour
-// pressure; the liquid's viscosity and density, which the film has; the rubber's modulus; the
-// expansion of ring, radial space and bore.
+// Effects of another propellant and of the temperature on the valve: pressure force, break-away,
+// return margin and dose of each propellant against the canister's temperature; where the stem
+// begins to return; and the part of the change from 20 degC that each of four effects causes alone:
+// the vapour pressure; the liquid's viscosity and density, which the film has; the rubber's
+// modulus; the expansion of ring, radial space and bore.
 //
-// Every point is a whole quasi-static cycle (assets/studies/propellants.study), the propellant
-// saturated, whatever liquid the scene has. Parts are taken one at a time with all else as at 20
-// degC; what is left of their sum is how they act on each other. Leaves out: swell by another
-// propellant, and what evaporation cools.
+// Every point is a complete quasi-static cycle (assets/studies/propellants.study) with the
+// propellant saturated, whatever liquid the scene has. Effects are computed one at a time with all
+// else as at 20 degC; the remainder of their sum is their interaction. Not modelled: swell by
+// another propellant, cooling by evaporation.
 //
-// Solved rings, of which a cycle takes seconds, are solved at some pressures alone (study.rings).
-// At each, what is not the pressure's force in break-away and return margin, the friction, is
-// compared with that of closed forms. A ring's load over E d^2 depends on its squeeze, its friction
-// coefficients and p/E: the ratio is interpolated over p/E (monotone cubic, Steffen 1990), and the
-// closed forms carry what temperature and propellant do besides. Six places are closest where the
-// friction of a return changes most, a p/E below 0.15. The error told is the largest that leaving
-// out one of those in between makes, so with gaps twice as wide; two more are solved where it is
-// over 10 %. Beyond the ends the ratio stays, with a warning.
+// Solved rings, for which a cycle takes seconds, are solved at some pressures only (study.rings).
+// At each, the friction (break-away and return margin without the pressure force) is compared with
+// that of closed forms. A ring's load divided by E d^2 depends on its squeeze, its friction
+// coefficients and p/E. The ratio is interpolated in p/E (monotone cubic, Steffen 1990), and the
+// closed forms account for all other effects of temperature and propellant. Six points are closest
+// where the friction of a return changes most, at p/E below 0.15. The reported error is the largest
+// change when one of the inner points is omitted, so with gaps twice as wide; two more points are
+// solved if it is above 10 %. Beyond the ends the ratio is constant, with a warning.
 #include "engine/fluid/fluid.h"
 #include "engine/valve/studies/study_private.h"
 
@@ -61,7 +61,8 @@ static bool interpolates(const SbModel *scene) {
   return scene->fit == SB_FIT_RING;
 }
 
-// What a row of a part, or of closed forms in place of rings, has beside the grid's columns.
+// Data of a row of an effect, or of closed forms instead of rings, in addition to the grid's
+// columns.
 static const SbParamId extra[] = {SB_P_CANISTER_PRESSURE,
                                   SB_P_FLUID_VISCOSITY,
                                   SB_P_FLUID_DENSITY,
@@ -198,7 +199,7 @@ static double ratio_at(const Ratios *ratios, int way, double strain) {
   return out;
 }
 
-// What closed forms say, with the solved rings' friction.
+// Results of closed forms, with the solved rings' friction.
 static void correct(double *value, const Ratios *ratios) {
   value[BREAKAWAY] = value[FORCE] + friction(value, 0) * ratio_at(ratios, 0, value[STRAIN]);
   value[RETURN] = value[FORCE] - friction(value, 1) * ratio_at(ratios, 1, value[STRAIN]);
@@ -222,9 +223,9 @@ static double left_out(const Ratios *ratios) {
 
 // Solves rings at as many pressures as it takes; the error that interpolation leaves.
 static double solve_rings(Ratios *out, SbStudyWork *work) {
-  // By the fluid and the share of the range: over the default one p/E = -0.01, 0.04, 0.07, 0.15,
-  // 0.25 and 0.44; then 0.02 and 0.34. Fluids change from place to place, so that the error told
-  // has what p/E does not tell of them.
+  // By the fluid and the fraction of the range: over the default range p/E = -0.01, 0.04, 0.07,
+  // 0.15, 0.25 and 0.44; then 0.02 and 0.34. Fluids differ from point to point, so that the
+  // reported error includes effects other than that of p/E.
   static const struct {
     int fluid;
     double share;
@@ -310,7 +311,7 @@ static SbEvaluator *find_starts(SbStudyWork *work) {
 
 #define SHARE 0.6 // of the work that the grid is, the parts aside
 
-// Whether a cycle costs so little that the whole grid is asked for.
+// Returns whether a cycle is so cheap that the full grid is computed.
 static bool is_closed(const SbModel *scene) {
   return scene->fit < SB_FIT_DISC_THESIS && scene->film != SB_FILM_REYNOLDS &&
          scene->asperities == SB_MODEL_ASPERITIES_BESIDE;

@@ -1,11 +1,11 @@
-// Load, peak pressure and width of the contact over the squeeze, by every fitment model beside the
-// finite-strain ring.
+// Load, peak pressure and width of the contact against the squeeze, by every fit model, compared
+// with the finite-strain ring.
 //
-// The grid is that of assets/studies/squeeze.study; lines in its order. The closed forms and the
-// discs' circumferences are those of the definitions in contact/fit.h. Lindley, Green and English,
-// Hertz and Karaszkiewicz know no stretch, so a second ring without stretch (its inner diameter the
-// floor's) shows how much of a difference that is: a ring stretched by 15 % flattens and does not
-// touch at all below some 7 % of squeeze.
+// The grid is that of assets/studies/squeeze.study; lines in its order. The circumferences of
+// closed forms and discs are those of the definitions in contact/fit.h. Lindley, Green and English,
+// Hertz and Karaszkiewicz do not include stretch. A second ring without stretch (its inner diameter
+// is the floor's) shows how much of the difference this is: a ring stretched by 15 % flattens and
+// has no contact at all below about 7 % of squeeze.
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ static const struct {
     [KARASZKIEWICZ] = {"Karaszkiewicz", SB_STUDY_REFERENCE, 77},
 };
 
-// Squeezes of the table beside the design's own.
+// Squeezes of the table in addition to the design's own.
 static const double table_squeeze[] = {0.10, 0.20, 0.30, 0.40};
 enum { TABLE = sizeof table_squeeze / sizeof table_squeeze[0] };
 

@@ -1,12 +1,12 @@
-// Stribeck curve: coefficient of friction, real contact and film of both seals over the sliding
+// Stribeck curve: coefficient of friction, real contact and film of both seals against the sliding
 // speed, in the middle of the in-stroke (chamber as at rest) and of the return.
 //
-// The states are those that the cycle's friction of the instant is taken from (speed_states.h),
-// asked of a run of the scene: curve and cycle are one solution, and a point stands at the cycle's
-// own speed. Film, asperities and friction are the scene's models; with models.asperities = coupled
-// film and asperities share the load (film/ehl.h). The contact of a ring keeps the drag of the
-// cycle's speed, so that this is one valve and no grid. Between solved speeds the curve is
-// interpolated, with its error told.
+// The states are those from which the cycle's friction is interpolated (speed_states.h), in a run
+// of the scene: curve and cycle are one solution, and a point is at the cycle's own speed. Film,
+// asperities and friction are the scene's models; with models.asperities = coupled film and
+// asperities share the load (film/ehl.h). The contact of a ring has the drag at the cycle's speed,
+// so this is one valve and no grid. Between solved speeds the curve is interpolated, with its error
+// reported.
 #include "engine/valve/run/cycle.h"
 #include "engine/valve/states/speed_states.h"
 #include "engine/valve/studies/study_private.h"

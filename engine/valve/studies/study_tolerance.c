@@ -1,12 +1,12 @@
-// What the tolerances of the sizes do to the valve: load of both seals, break-away force, least
-// return force and dose, each size moved over its own tolerance band, the worst case and the root
-// of the sum of squares.
+// Effects of the tolerances of the sizes on the valve: load of both seals, break-away force,
+// minimum return force and dose, each size varied over its own tolerance band; the worst case; and
+// the root of the sum of squares.
 //
-// Every point is a whole quasi-static cycle of its own. Abscissa: the size's place in its band, -1
-// to +1. Root sum of squares: nominal -+ sqrt(sum of half differences squared), independent sizes,
-// so linear. Worst case: the corner that the signs of those differences choose, solved anew; it is
-// the worst of all corners where every figure rises or falls with every size, which the curves
-// show. The groove's width is left out: nothing here depends on it.
+// Every point is a complete quasi-static cycle. Abscissa: the size's position in its band, -1 to
+// +1. Root sum of squares: nominal -+ sqrt(sum of half differences squared), independent sizes, so
+// linear. Worst case: the corner that the signs of those differences select, computed by a cycle of
+// its own. It is the worst of all corners if every figure is monotonic in every size, which the
+// curves show. The groove's width is omitted, because nothing here depends on it.
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
@@ -14,8 +14,8 @@
 enum { SIZES = 7, STEPS = 2, FIGURES = 5 }; // STEPS on either side of the nominal size
 enum { LOAD_OUTER, BREAKAWAY, RETURN, LOAD_INNER, DOSE, TURNED };
 
-// A line of assets/studies/tolerance.study is a size. Behind them the corners: a bit for each size
-// that moves the other way.
+// A line of assets/studies/tolerance.study is a size. The corners follow: a bit for each size that
+// varies in the opposite direction.
 enum { CORNERS = SIZES };
 
 // The sizes' places in their bands there; names, and the half-width of the band.
