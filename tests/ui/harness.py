@@ -289,7 +289,7 @@ class App:
     def quit(self):
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGTERM)
-            self.process.wait(10)
+            self.process.wait(TIMEOUT)
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def __enter__(self):
