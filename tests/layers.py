@@ -9,6 +9,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 
 
 def symbols(library, kinds):
@@ -29,23 +30,62 @@ ROOMS = {
 }
 
 
+# Rooms of the valve, from the left: each includes only rooms to its left.
+VALVE_ROOMS = ['model', 'figures', 'states', 'shelf', 'run', 'answer', 'studies']
+
+
+def sources_below(folder):
+    for path in sorted(glob.glob(f'{folder}/**/*', recursive=True)):
+        if path.endswith(('.c', '.h', '.def')):
+            with open(path, encoding='utf-8') as file:
+                yield path, file.read()
+
+
 def arrows_up(source):
     """Includes of a layer or a room that is not below the including file's own."""
     found = []
     layers = list(ROOMS)
     for layer, floors in ROOMS.items():
         floor = {room: number for number, rooms in enumerate(floors) for room in rooms.split()}
-        for path in glob.glob(f'{source}/{layer}/*/**/*.[chd]*', recursive=True):
+        for path, text in sources_below(f'{source}/{layer}'):
             name = os.path.relpath(path, source)
-            if not name.endswith(('.c', '.h', '.def')):
-                continue
             room = name.split('/')[1]
-            with open(path, encoding='utf-8') as file:
-                for where, other in re.findall(r'#include "(engine|app|ui)/(\w+)/', file.read()):
-                    if layers.index(where) > layers.index(layer) or (
-                            where == layer and other != room and floor[other] >= floor[room]):
-                        found.append(f'{name} -> {where}/{other}')
+            for where, other in re.findall(r'#include "(engine|app|ui)/(\w+)/', text):
+                if layers.index(where) > layers.index(layer) or (
+                        where == layer and other != room and floor[other] >= floor[room]):
+                    found.append(f'{name} -> {where}/{other}')
     return found
+
+
+def arrows_right(source):
+    """Includes of the valve's rooms that do not go to the left, and of another room's private header."""
+    found = []
+    for path, text in sources_below(f'{source}/engine/valve'):
+        room = os.path.relpath(path, f'{source}/engine/valve').split('/')[0]
+        if room not in VALVE_ROOMS:
+            continue  # sealbench.h includes all
+        for other, header in re.findall(r'#include "engine/valve/(\w+)/?([^"]*)"', text):
+            if other != room and (other not in VALVE_ROOMS or header.endswith('_private.h') or
+                                  VALVE_ROOMS.index(other) > VALVE_ROOMS.index(room)):
+                found.append(f'{os.path.relpath(path, source)} -> {other}/{header}')
+    return found
+
+
+def lines_of_rooms_that_pass():
+    """Wrong lines that arrows_right() does not find: it reads a source tree with one line in each room."""
+    wrong = {'model': 'states/sliding.h', 'figures': 'run/run.h', 'states': 'shelf/shelf.h',
+             'shelf': 'run/plan.h', 'run': 'shelf/shelf_private.h', 'answer': 'studies/study.h',
+             'studies': 'sealbench.h'}
+    with tempfile.TemporaryDirectory() as source:
+        for room in VALVE_ROOMS:
+            os.makedirs(f'{source}/engine/valve/{room}')
+            with open(f'{source}/engine/valve/{room}/file.c', 'w', encoding='utf-8') as file:
+                file.write(f'#include "engine/valve/{room}/own_private.h"\n'
+                           '#include "engine/valve/model/params.h"\n'
+                           f'#include "engine/valve/{wrong[room]}"\n')
+        found = arrows_right(source)
+    return [line for room, line in wrong.items()
+            if sum(name.startswith(f'engine/valve/{room}/') for name in found) != 1]
 
 
 def readers_of_the_model(source):
@@ -108,6 +148,8 @@ checks = [
      [name for name in sorted(symbols(engine, 'bBC')) if not name.startswith(('__', '.'))]),
     ('app uses no GTK', matching(symbols(app, 'U'), r'(gtk|gdk)_')),
     ('no layer includes one above it, no room one beside or above it', arrows_up(source)),
+    ('no room of the valve includes one to its right, or a private header of another', arrows_right(source)),
+    ('each wrong include of a room of the valve is found', lines_of_rooms_that_pass()),
     ('the library shows what its header declares and nothing else', sorted(visible(library) ^ declared)),
     ('the library needs GLib, GIO, udunits and the engine\'s libraries alone',
      [name for name in needed if not re.match(LIBRARY_MAY_NEED, name)]),

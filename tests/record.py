@@ -19,12 +19,14 @@ def record(*arguments):
 def main():
     with tempfile.TemporaryDirectory() as home:
         one, other = home + '/one', home + '/other'
-        made = [record('make', build, folder, '--only', '^(asperity|plan/quick-look|library/quick-look)$')
+        made = [record('make', build, folder, '--only', '^(asperity|plan/quick-look|run/quick-look|library/quick-look)$')
                 for folder in (one, other)]
         same = record('compare', one, other)
-        # The scene's run states its time and the engine's source; neither may remain.
+        # A plan states its cost and the engine's source, a run its time; none of them may remain.
         with open(one + '/plan/quick-look/plan.json', encoding='utf-8') as file:
             plan = file.read()
+        with open(one + '/run/quick-look/stdout.txt', encoding='utf-8') as file:
+            table = file.read()
         path = other + '/library/quick-look/stdout.txt'
         with open(path, 'rb+') as file:
             byte = file.read(1)
@@ -34,9 +36,10 @@ def main():
         os.remove(other + '/asperity/asperity.json')
         missing = record('compare', one, other)
     return [
-        ('three items are recorded', all(run.returncode == 0 for run in made), made),
+        ('four items are recorded', all(run.returncode == 0 for run in made), made),
         ('two runs give equal records', same.returncode == 0 and '0 of ' in same.stdout, same),
-        ('times and identity are left out', '"cost_s": *' in plan and '"engine": *' in plan, plan[:300]),
+        ('times and identity are left out', '"cost_s": *' in plan and '"engine": *' in plan
+         and 'Engine time                          *' in table, plan[:300]),
         ('one byte that differs is reported with its file',
          changed.returncode == 1 and 'library/quick-look/stdout.txt: 1 lines differ' in changed.stdout, changed),
         ('a file that is missing is reported', 'asperity/asperity.json: only in' in missing.stdout, missing),

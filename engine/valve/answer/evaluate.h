@@ -12,6 +12,7 @@
 #pragma once
 
 #include "engine/valve/figures/figures.h"
+#include "engine/valve/states/perturbed.h"
 
 // An evaluator with its memory and its last answer.
 typedef struct SbEvaluator SbEvaluator;

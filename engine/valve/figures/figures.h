@@ -3,7 +3,7 @@
 // called concurrently; the table is constant.
 #pragma once
 
-#include "engine/valve/run/run.h"
+#include "engine/valve/figures/summary.h"
 
 // Which direction of a figure is preferable.
 typedef enum { SB_BETTER_NONE, SB_BETTER_LESS, SB_BETTER_MORE } SbBetter;

@@ -6,7 +6,6 @@
 #include "engine/film/film.h"
 #include "engine/mechanism/chamber.h"
 #include "engine/valve/model/valve.h"
-#include "engine/valve/shelf/shelf.h"
 
 // Roughness before actuation n (0: the first) divided by the given one: end + (start - end)
 // exp(-n/actuations).
@@ -24,6 +23,30 @@ typedef struct {
   double temperature_min, temperature_max; // of canister and valve [K]
   bool rings_solved;                       // rings are solved at each temperature
 } SbStudyRange;
+
+// Temperature history on the shelf (shelf.history).
+typedef enum {
+  SB_SHELF_CONSTANT,  // the temperature of the canister
+  SB_SHELF_WAREHOUSE, // sines of the year and of the day about it
+  SB_SHELF_FILE       // SbModelData.shelf
+} SbShelfHistory;
+
+// Parameters of the shelf (groups rubber, housing, fluid and shelf of the catalogue).
+// Permeabilities [mol/(m s Pa)]; 0: not given.
+typedef struct {
+  double permeability_energy;       // Q_P of the rubber's permeability [J/mol]
+  double water_permeability;        // of the rubber for water
+  double water_permeability_energy; // [J/mol]
+  double plastic_permeability, plastic_water_permeability; // of the housing
+  double plastic_length;   // area of the wall divided by its thickness [m]; 0: no path
+  double humidity;         // relative, of the ambient air
+  double vapour_viscosity; // of the propellant [Pa s]
+  double contact_angle;    // of the liquid on seal and bore [rad]
+  bool vapour;             // the seals are in contact with vapour; else with liquid
+  double time;             // on the shelf [s]
+  SbShelfHistory history;
+  double season, day; // amplitudes of the two sines [K]
+} SbShelfInput;
 
 // A model. Fields of parameters are declared by params.def: one field for each row, of the type and
 // in the unit of the row.

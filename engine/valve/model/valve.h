@@ -8,10 +8,10 @@
 #include "engine/contact/gland.h"
 #include "engine/mechanism/bodies.h"
 #include "engine/mechanism/drive.h"
+#include "engine/mechanism/dynamics.h"
 #include "engine/mechanism/outline.h"
 #include "engine/rubber/rubber_time.h"
 #include "engine/valve/model/params.h"
-#include "engine/valve/run/rig.h"
 
 #include <stdatomic.h>
 #include <stddef.h>
@@ -183,6 +183,22 @@ typedef struct {
 // Kind of section drawing (output.section): half, both halves, or three-dimensional with a quarter
 // cut away.
 enum { SB_SECTION_HALF, SB_SECTION_FULL, SB_SECTION_CUTAWAY };
+
+// Number of rings of the sliding-plate rig.
+enum { SB_RIG_RINGS = 4 };
+
+// The sliding-plate rig of thesis 3.3 (motion RIG); run/rig.h.
+typedef struct {
+  double load;               // normal load of the full plate [N]
+  double mass;               // moved mass [kg]
+  double coefficient;        // sliding friction divided by load, before effects of speed and dwell
+  SbDynamicsContact contact; // friction law of one ring
+  double speed;              // of winding [m/s]
+  double thread_stiffness, thread_damping; // [N/m], [N s/m]
+  double rest;                             // time at rest before the motor starts [s]
+  double duration;                         // of the record [s]
+  double rate;                             // samples per second [1/s]
+} SbRig;
 
 // Default style of the section drawing; no result depends on it.
 typedef struct {

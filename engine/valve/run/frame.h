@@ -2,23 +2,9 @@
 // thread may read them.
 #pragma once
 
-#include "engine/valve/model/valve.h"
+#include "engine/valve/figures/summary.h"
 
 #include <stdint.h>
-
-// Stages (events) of the cycle. The frame at an event is the state just before it.
-typedef enum {
-  SB_STAGE_A, // start
-  SB_STAGE_B, // first slip
-  SB_STAGE_C, // the land's edge reaches the inner contact (gasket: the shoulder closes the chamber)
-  SB_STAGE_D, // the stem reaches the end stop
-  SB_STAGE_E, // first slip in the reverse direction
-  SB_STAGE_F, // the inner seal contacts the land again (gasket: the neck opens the chamber)
-  SB_STAGE_COUNT
-} SbStage;
-
-// Returns "A" to "F"; static.
-const char *sb_stage_name(SbStage stage);
 
 // One seal at one instant.
 typedef struct {
@@ -116,19 +102,3 @@ typedef struct {
   double load;                        // on the bore [N]
   double drag;                        // friction of the bore on the ring, in-stroke > 0 [N]
 } SbSealShape;
-
-// Energies of the cycle, each integrated separately.
-typedef struct {
-  // Work of platen and canister pressure on the stem, and its largest magnitude during the cycle
-  // [J]; NaN if only a spring moves the stem.
-  double external, external_max;
-  double friction; // dissipated by both seals [J]
-  double stored;   // change of elastic energy in machine and stops [J]
-  double seal;    // released in jumps of the stem (slip, land edge) or dissipated in the rubber [J]
-  double kinetic; // change [J]
-  double stop;    // dissipated at the stops [J]
-  double loop;    // area of the force-displacement loop: energy_loss_J [J]
-  // |external - friction - stored - seal - kinetic - stop| divided by external_max, or by the
-  // largest |stored| without external work.
-  double closure;
-} SbEnergy;

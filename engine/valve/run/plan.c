@@ -11,8 +11,10 @@
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/model/model.h"
 #include "engine/valve/run/cost.h"
+#include "engine/valve/run/frame.h"
+#include "engine/valve/run/rig.h"
+#include "engine/valve/run/study_cost.h"
 #include "engine/valve/states/speed_states.h"
-#include "engine/valve/studies/study.h"
 
 #include <assert.h>
 #include <math.h>

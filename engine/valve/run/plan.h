@@ -3,14 +3,12 @@
 // functions have no state and may be called concurrently.
 #pragma once
 
-#include "engine/valve/model/valve.h"
-#include "engine/valve/shelf/shelf.h"
+#include "engine/valve/figures/summary.h"
 
 // Capacities and counts.
 enum {
   SB_PLAN_ITEMS_MAX = 24,
-  SB_RUN_MOTIONS = 3, // motions in which a seal is solved: sliding in, sliding out, at rest
-  SB_RUN_EDGES = 16   // drawn positions of the land's edge over the inner ring in each direction
+  SB_RUN_EDGES = 16 // drawn positions of the land's edge over the inner ring in each direction
 };
 
 // A computed or skipped field.
@@ -21,15 +19,6 @@ typedef struct {
   double cost_s;    // predicted processor time for the run [s]
   double error;     // predicted relative discretisation error; 0 for a closed form
 } SbPlanItem;
-
-// How much of a seal is solved; each level includes the earlier ones.
-typedef enum {
-  SB_DEPTH_SIZES,   // nothing: sizes are part of the model
-  SB_DEPTH_FITMENT, // the contact under the pressures at rest
-  SB_DEPTH_SLIDING, // film and friction in that contact, sliding in
-  SB_DEPTH_LEAK,    // sliding in at the other chamber pressures, to detect an open seal
-  SB_DEPTH_WHOLE    // all states of the cycle
-} SbSealDepth;
 
 // A plan. Set by the functions below; a caller may change single fields before a run.
 typedef struct {

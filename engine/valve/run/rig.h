@@ -9,37 +9,11 @@
 // The rig.* parameters of the catalogue have the data that the thesis does not state.
 #pragma once
 
-#include "engine/mechanism/dynamics.h"
-
-// Number of rings.
-enum { SB_RIG_RINGS = 4 };
+#include "engine/valve/figures/summary.h"
 
 // Dynamic coefficients of thesis table 7.8: measured on the rig, predicted for the valve's seal.
 #define SB_RIG_MEASURED_DYNAMIC  0.51
 #define SB_RIG_PREDICTED_DYNAMIC 0.4
-
-// A plate.
-typedef struct {
-  double load;               // normal load of the full plate [N]
-  double mass;               // moved mass [kg]
-  double coefficient;        // sliding friction divided by load, before effects of speed and dwell
-  SbDynamicsContact contact; // friction law of one ring
-  double speed;              // of winding [m/s]
-  double thread_stiffness, thread_damping; // [N/m], [N s/m]
-  double rest;                             // time at rest before the motor starts [s]
-  double duration;                         // of the record [s]
-  double rate;                             // samples per second [1/s]
-} SbRig;
-
-// Evaluation of a signal.
-typedef struct {
-  double static_coefficient;     // first peak/load
-  double dynamic_coefficient;    // mean of the following peaks/load; mean_coefficient without any
-  double mean_coefficient;       // mean force after the first peak/load
-  double first_peak, first_time; // of the first peak [N], [s]
-  size_t peaks;                  // number of following peaks
-  bool stick_slip;               // there are following peaks
-} SbRigCoefficients;
 
 // Returns the number of samples of a record: floor(duration x rate) + 1.
 size_t sb_rig_samples(const SbRig *rig);

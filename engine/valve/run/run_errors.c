@@ -12,7 +12,6 @@
 // the choice of the model.
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
-#include "engine/valve/shelf/shelf_private.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,7 +5,6 @@
 #include "engine/fluid/fluid.h"
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
-#include "engine/valve/shelf/shelf_private.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -16,7 +16,6 @@
 #include "engine/permeation/diffusion.h"
 #include "engine/permeation/wetted_ring.h"
 #include "engine/valve/run/run_private.h"
-#include "engine/valve/shelf/shelf_private.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,7 +1,6 @@
 // The shelf's figures of a run, and why some are missing. Computed on request.
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
-#include "engine/valve/shelf/shelf_private.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -33,22 +32,6 @@ static void fill(SbShelf *out, const SbModel *model, int seal, const SbShelfRest
                                   .contact_pressure = rest->contact_pressure,
                                   .moisture = rates->moisture,
                                   .state = rates->state};
-}
-
-const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int which) {
-  static const struct {
-    SbParamId id;
-    const char *what;
-  } figures[SB_SHELF_TYPICAL] = {{SB_P_RUBBER_PERMEABILITY, "loss by permeation"},
-                                 {SB_P_RUBBER_WATER_PERMEABILITY, "moisture"}};
-  SbParamDefault from;
-  if (!sb_model_default(&from, model, figures[which].id) || from.tag == NULL ||
-      strcmp(from.tag, "typical") != 0) {
-    return NULL;
-  }
-  sb_text(text, size, "the %s rests on a figure typical of %s, no measurement: %s",
-          figures[which].what, from.name != NULL ? from.name : "such rubbers", from.source);
-  return sb_param(figures[which].id)->key;
 }
 
 // Reports inputs of the figures that were not measured on this rubber.

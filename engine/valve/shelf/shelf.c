@@ -1,13 +1,16 @@
 // A seal at rest, and the flow past it at one temperature; see the header for the equations.
+#include "engine/valve/shelf/shelf.h"
+
 #include "engine/contact/rough/percolation.h"
 #include "engine/fluid/fluid.h"
 #include "engine/permeation/diffusion.h"
 #include "engine/permeation/slit.h"
 #include "engine/permeation/wetted_ring.h"
-#include "engine/valve/shelf/shelf_private.h"
+#include "engine/valve/model/model.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double GAS_CONSTANT = 8.314462618; // J/(mol K)
 static const double WATER = 0.018015;           // kg/mol
@@ -233,4 +236,20 @@ void sb_shelf_rates(SbShelfRates *out, const SbModel *model, const SbShelfRest *
   if (sb_shelf_lacks_interface(model) == NULL && model->fluid > 0) {
     along_contact(out, model, rest);
   }
+}
+
+const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int which) {
+  static const struct {
+    SbParamId id;
+    const char *what;
+  } figures[SB_SHELF_TYPICAL] = {{SB_P_RUBBER_PERMEABILITY, "loss by permeation"},
+                                 {SB_P_RUBBER_WATER_PERMEABILITY, "moisture"}};
+  SbParamDefault from;
+  if (!sb_model_default(&from, model, figures[which].id) || from.tag == NULL ||
+      strcmp(from.tag, "typical") != 0) {
+    return NULL;
+  }
+  sb_text(text, size, "the %s rests on a figure typical of %s, no measurement: %s",
+          figures[which].what, from.name != NULL ? from.name : "such rubbers", from.source);
+  return sb_param(figures[which].id)->key;
 }

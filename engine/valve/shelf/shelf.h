@@ -21,71 +21,7 @@
 // inward air, partial pressures of mixtures.
 #pragma once
 
-#include "engine/valve/model/valve.h"
-
-// Number of points of a history.
-enum { SB_SHELF_POINTS = 37 };
-
-// Temperature history on the shelf (shelf.history).
-typedef enum {
-  SB_SHELF_CONSTANT,  // the temperature of the canister
-  SB_SHELF_WAREHOUSE, // sines of the year and of the day about it
-  SB_SHELF_FILE       // SbModelData.shelf
-} SbShelfHistory;
-
-// Parameters of the shelf (groups rubber, housing, fluid and shelf of the catalogue).
-// Permeabilities [mol/(m s Pa)]; 0: not given.
-typedef struct {
-  double permeability_energy;       // Q_P of the rubber's permeability [J/mol]
-  double water_permeability;        // of the rubber for water
-  double water_permeability_energy; // [J/mol]
-  double plastic_permeability, plastic_water_permeability; // of the housing
-  double plastic_length;   // area of the wall divided by its thickness [m]; 0: no path
-  double humidity;         // relative, of the ambient air
-  double vapour_viscosity; // of the propellant [Pa s]
-  double contact_angle;    // of the liquid on seal and bore [rad]
-  bool vapour;             // the seals are in contact with vapour; else with liquid
-  double time;             // on the shelf [s]
-  SbShelfHistory history;
-  double season, day; // amplitudes of the two sines [K]
-} SbShelfInput;
-
-// One seal at rest; NaN: not computed. All values of a seal without pressure difference are NaN; it
-// leaks nothing.
-typedef struct {
-  double conductance;      // S_g [m]
-  double permeation;       // [kg/s]
-  double interface;        // along the contact [kg/s]
-  double sensitivity;      // d ln interface/d ln contact pressure
-  double contact_pressure; // mean, of the rubber only [Pa]
-  double moisture;         // water inwards [kg/s]
-  SbLeakState state;
-} SbShelfSeal;
-
-// A can. Without a path through the plastic `plastic` is NaN and the sums are the seals'. NaN: not
-// computed.
-typedef struct {
-  double temperature;                      // of the rates below [K]
-  double permeation;                       // propellant through seals and plastic [kg/s]
-  double interface;                        // propellant along the contacts [kg/s]
-  double plastic;                          // part of `permeation` through the plastic [kg/s]
-  double loss_per_year, moisture_per_year; // at these rates [kg per 365 days]
-  double lag;                              // time lag of the seal's permeation [s]
-  double loss, moisture;                   // propellant lost, water taken up in shelf.time [kg]
-  double mass_left, doses_left;            // remaining propellant [kg], complete doses
-  double error;                            // relative, of S_g; NaN: closed form
-  double pressure_error;                   // relative, of the seal's contact pressure
-  SbShelfSeal seal[SB_SEAL_COUNT];
-  bool typical;  // a value that is typical of such rubbers was used
-  size_t points; // of the history; 0: not computed
-  struct {
-    double time;        // [s]
-    double temperature; // mean since the previous point [K]
-    // Sums since the start through rubber, contact, plastic; water taken up [kg].
-    double permeated, passed, plastic, moisture;
-    double doses; // remaining complete doses
-  } point[SB_SHELF_POINTS];
-} SbShelf;
+#include "engine/valve/figures/summary.h"
 
 // Number of species for sb_shelf_typical(): propellant (0), water (1).
 enum { SB_SHELF_TYPICAL = 2 };
@@ -94,9 +30,66 @@ enum { SB_SHELF_TYPICAL = 2 };
 // and writes a sentence to text[size]. Returns NULL, and writes "", if there is none.
 const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int which);
 
-// How much of the shelf is computed.
-typedef enum {
-  SB_SHELF_NOTHING,
-  SB_SHELF_RATES,    // rates at the model's temperature
-  SB_SHELF_OVER_TIME // and the history
-} SbShelfDepth;
+// A seal at rest after storage.
+typedef struct {
+  bool touches;            // there is contact pressure of the rubber; else the seal is open
+  double conductance;      // S_g [m]
+  double lag;              // D times the time lag [m2]
+  double error;            // relative, of S_g; NaN: closed form
+  double contact_pressure; // of the rubber only [Pa]
+  double pressure_error;   // relative, of contact_pressure
+  double width;            // of the contact [m]
+  double modulus;          // E' [Pa]
+} SbShelfRest;
+
+// Flows past a seal and through the plastic; NaN: not known.
+typedef struct {
+  double permeation, plastic, interface; // propellant [kg/s]
+  double moisture;                       // water through the seal, inwards [kg/s]
+  double plastic_moisture;               // water through the plastic, inwards [kg/s]
+  double sensitivity;                    // SbShelfSeal.sensitivity
+  SbLeakState state;
+} SbShelfRates;
+
+// Returns the seal that separates canister and ambient, SB_OUTER or SB_INNER.
+int sb_shelf_seal(const SbModel *model);
+
+// Returns S_g of a seal as a slab with the height of the radial space and the width that its
+// stretched volume then has [m].
+double sb_shelf_slab(const SbModel *model, int seal);
+
+// Solves a seal at rest under the model's pressures; `cancel` (NULL: never) is called with `data`
+// by solved rings. Errors of sb_fit_solve() and sb_diffusion_create().
+SbStatus sb_shelf_rest(SbShelfRest *out, const SbModel *model, int seal, bool (*cancel)(void *),
+                       void *data, SbReport *report);
+
+// Computes the flows at the model's temperature and pressure.
+void sb_shelf_rates(SbShelfRates *out, const SbModel *model, const SbShelfRest *rest);
+
+// Returns why permeation of propellant is not computed; NULL if it is. Static.
+const char *sb_shelf_lacks_permeability(const SbModel *model);
+
+// Returns why permeation of water is not computed; NULL if it is. Static.
+const char *sb_shelf_lacks_water(const SbModel *model);
+
+// Returns why flow along the contact is not computed; NULL if it is. Static.
+const char *sb_shelf_lacks_interface(const SbModel *model);
+
+// Returns why there is no path through the plastic (which then counts as zero); NULL if there is.
+// Static.
+const char *sb_shelf_lacks_plastic(const SbModel *model);
+
+// Returns D at the model's temperature [m2/s].
+double sb_shelf_diffusivity(const SbModel *model);
+
+// Returns the temperature of the history at a time [s] [K].
+double sb_shelf_temperature(const SbModel *model, double time);
+
+// Returns the range of temperatures of the history [K].
+void sb_shelf_range(double *low, double *high, const SbModel *model);
+
+// Integrates the history into *out, whose rates at the model's state must be set before the call.
+// `now` is the seal at the model's state. SB_ERROR_RANGE, SB_ERROR_INPUT: the model is not defined
+// at a temperature of the history; else as for sb_shelf_rest().
+SbStatus sb_shelf_history(SbShelf *out, const SbModel *model, int seal, const SbShelfRest *now,
+                          bool (*cancel)(void *), void *data, SbReport *report);

@@ -4,7 +4,8 @@
 // them (permeation is nearly so), for each of the times at which the ring is solved, and straight
 // in the root of time between those.
 #include "engine/fluid/fluid.h"
-#include "engine/valve/shelf/shelf_private.h"
+#include "engine/valve/model/model.h"
+#include "engine/valve/shelf/shelf.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -25,8 +25,8 @@
 #pragma once
 
 #include "engine/mechanism/dwell.h"
+#include "engine/valve/figures/summary.h"
 #include "engine/valve/model/model.h"
-#include "engine/valve/run/run.h"
 
 // Tabulates the static friction [N] of a seal's solved state against the dwell (values NaN if the
 // state lacks a quantity), and writes the dwell after which half of the film is squeezed out [s] to

@@ -26,8 +26,9 @@
 
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
+#include "engine/valve/figures/summary.h"
 #include "engine/valve/model/model.h"
-#include "engine/valve/run/run.h"
+#include "engine/valve/states/perturbed.h"
 
 // Friction of a state as a local law: the shear stress that the bore exerts on a ring at a contact
 // pressure p [Pa],

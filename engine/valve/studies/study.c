@@ -1,7 +1,7 @@
 // The table of studies and the pieces that they are made of.
 #include "engine/valve/studies/study.h"
 
-#include "engine/valve/run/plan.h"
+#include "engine/valve/run/study_cost.h"
 #include "engine/valve/states/sliding.h"
 #include "engine/valve/studies/hold.h"
 #include "engine/valve/studies/study_private.h"
@@ -12,60 +12,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct {
-  const char *name, *title, *help;
-  const SbStudyDesign *design;
-} Entry;
-
-static const Entry entries[SB_STUDY_COUNT] = {
-#define SB_STUDY_ENTRY(code, function, name, title, help)                                          \
-  [code] = {name, title, help, &sb_study_##function},
-    SB_STUDY_LIST(SB_STUDY_ENTRY)
+static const SbStudyDesign *find(SbStudyKind kind) {
+  static const SbStudyDesign *const designs[SB_STUDY_COUNT] = {
+#define SB_STUDY_ENTRY(code, function, name, title, help) [code] = &sb_study_##function,
+      SB_STUDY_LIST(SB_STUDY_ENTRY)
 #undef SB_STUDY_ENTRY
-};
-
-static const Entry *find(SbStudyKind kind) {
-  static const Entry none;
-  return (unsigned)kind < SB_STUDY_COUNT ? &entries[kind] : &none;
-}
-
-const char *sb_study_name(SbStudyKind kind) {
-  return find(kind)->name;
-}
-
-const char *sb_study_title(SbStudyKind kind) {
-  return find(kind)->title;
-}
-
-const char *sb_study_help(SbStudyKind kind) {
-  return find(kind)->help;
-}
-
-bool sb_study_from_name(SbStudyKind *out, const char *name) {
-  for (int i = 0; i < SB_STUDY_COUNT; i++) {
-    if (strcmp(entries[i].name, name) == 0) {
-      *out = (SbStudyKind)i;
-      return true;
-    }
-  }
-  return false;
-}
-
-double sb_study_cost(SbStudyKind kind, const SbModel *model) {
-  const SbStudyDesign *design = find(kind)->design;
-  const SbStudySolves none = {0}, *solves = design != NULL ? &design->solves : &none;
-  double runs = 0;
-  if (solves->runs > 0) {
-    SbPlan plan;
-    sb_plan_wished(&plan, model, &(SbPlanWishes){0});
-    for (size_t i = 0; i < plan.field_count; i++) {
-      runs += solves->runs * plan.field[i].cost_s;
-    }
-  }
-  return runs + solves->speeds * sb_cost_speed_state(model) + solves->rings * SB_COST_RING +
-         solves->discs * SB_COST_DISC + solves->fits * sb_cost_fit(model->fit) +
-         solves->films * sb_cost_film(model->film) + solves->reynolds * SB_COST_FILM +
-         solves->cycles * SB_COST_ACTUATION;
+  };
+  return (unsigned)kind < SB_STUDY_COUNT ? designs[kind] : NULL;
 }
 
 // Returns the index of one more element. A study must not add more than its struct can store.
@@ -174,17 +127,17 @@ static void hold_base(SbStudyWork *work) {
 }
 
 bool sb_study_has_grid(SbStudyKind kind) {
-  return find(kind)->design != NULL && find(kind)->design->grid;
+  return find(kind) != NULL && find(kind)->grid;
 }
 
 size_t sb_study_extra(const SbParamId **out, SbStudyKind kind) {
-  *out = find(kind)->design->extra;
-  return find(kind)->design->extras;
+  *out = find(kind)->extra;
+  return find(kind)->extras;
 }
 
 SbStatus sb_study_view(SbStudy *out, SbStudyKind kind, const SbModel *model,
                        const SbStudyGrid *grid, const SbStudyHooks *hooks, SbReport *report) {
-  const SbStudyDesign *design = find(kind)->design;
+  const SbStudyDesign *design = find(kind);
   memset(out, 0, sizeof *out);
   if (design == NULL) {
     return sb_fail(report, SB_ERROR_INPUT, "there is no study %d", (int)kind);

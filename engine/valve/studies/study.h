@@ -8,35 +8,8 @@
 
 #include "engine/base/status.h"
 #include "engine/valve/answer/evaluate.h"
+#include "engine/valve/model/study_kinds.h"
 #include "engine/valve/model/valve.h"
-
-// Enumerator, suffix of the function, name, title, help.
-#define SB_STUDY_LIST(X)                                                                           \
-  X(SB_STUDY_SQUEEZE, squeeze, "squeeze", "Load over squeeze",                                     \
-    "load, peak and width of every fitment model over the squeeze, compared with the solved ring") \
-  X(SB_STUDY_MODELS, models, "models", "Fitment models side by side",                              \
-    "thesis, linear disc and finite-strain ring: loads, peaks, widths, sensitivities, friction")   \
-  X(SB_STUDY_FILM_LAW, film_law, "film-law", "Film law from our own solutions",                    \
-    "h/R = k U^b W^a regressed over a range, with residuals, compared with eq. 7.5, 7.6 and the "  \
-    "limit")                                                                                       \
-  X(SB_STUDY_STORAGE, storage, "storage", "Storage time",                                          \
-    "load, friction, squeeze and modulus against storage time: relaxation, set, swell")            \
-  X(SB_STUDY_LEAK, leak, "leak", "Leak over squeeze",                                              \
-    "leak at rest and leakage per stroke over the squeeze: where too little squeeze leaks")        \
-  X(SB_STUDY_STRIBECK, stribeck, "stribeck", "Stribeck curve",                                     \
-    "friction, real contact and film of both seals over the speed, as the cycle takes them")       \
-  X(SB_STUDY_TOLERANCE, tolerance, "tolerance", "Tolerances",                                      \
-    "loads, break-away and return force over the tolerances of the sizes: worst case and RSS")     \
-  X(SB_STUDY_PROPELLANTS, propellants, "propellants", "Propellants over the temperature",          \
-    "pressure force, break-away, least return and dose of each propellant in this valve")
-
-// A study.
-typedef enum {
-#define SB_STUDY_ENUM(code, function, name, title, help) code,
-  SB_STUDY_LIST(SB_STUDY_ENUM)
-#undef SB_STUDY_ENUM
-      SB_STUDY_COUNT
-} SbStudyKind;
 
 // Capacities of SbStudy.
 enum {
@@ -141,22 +114,6 @@ typedef struct {
   bool (*cancelled)(void *data);                 // true ends the study within one solve
   void *data;
 } SbStudyHooks;
-
-// Returns the name of a study for command line and files ("squeeze"); static; NULL outside the
-// enumeration.
-const char *sb_study_name(SbStudyKind kind);
-
-// Returns the title of a study; static; NULL outside the enumeration.
-const char *sb_study_title(SbStudyKind kind);
-
-// Returns one line of help; static; NULL outside the enumeration.
-const char *sb_study_help(SbStudyKind kind);
-
-// Finds a study by its name. Returns false, and leaves *out, if there is none.
-SB_CHECKED bool sb_study_from_name(SbStudyKind *out, const char *name);
-
-// Returns the predicted processor time of a study [s].
-double sb_study_cost(SbStudyKind kind, const SbModel *model);
 
 // Rows for which a study needs figures.
 typedef struct {

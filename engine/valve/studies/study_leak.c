@@ -208,9 +208,6 @@ const SbStudyDesign sb_study_leak = {
     .row_heading = "squeeze, pressure",
     .validity = "mean contact pressure, liquid without vapour; gaps below 3 \xcf\x83; no figure "
                 "where the ring does not touch by itself",
-    .solves = {.rings = 2 * (2 * (RING_POINTS + FINE) + ROWS),
-               .discs = POINTS,
-               .films = LINES * POINTS},
     .grid = true,
     .share = SHARE,
     .is_no_case = is_no_case,

@@ -184,6 +184,5 @@ const SbStudyDesign sb_study_models = {
                 "pressure from the canister against the groove wall",
     .grid = true,
     .derive = derive,
-    .solves = {.rings = PRESSURES + SIZES, .discs = 2 * (PRESSURES + SIZES)},
     .make = make,
 };

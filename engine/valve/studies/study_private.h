@@ -16,16 +16,6 @@ enum { SB_STUDY_VALUES = 20, SB_STUDY_ANSWERS = 1024, SB_STUDY_LAW_POINTS = 400 
 // State of a computation (below).
 typedef struct SbStudyWork SbStudyWork;
 
-// Number of solves of a study, for its predicted time (cost.h).
-typedef struct {
-  int rings, discs; // fits
-  int fits, films;  // by the scene's own models
-  int reynolds;     // films on the half-plane
-  int cycles;       // quasi-static
-  int runs;         // of the scene as it is
-  int speeds;       // films of its states at other speeds
-} SbStudySolves;
-
 // A study as data; its make() adds what depends on the scene. Quantities are texts with the display
 // unit: "central film [nm]".
 typedef struct {
@@ -50,7 +40,6 @@ typedef struct {
   // then.
   bool (*is_no_case)(SbStudyWork *work, int line, double x);
   bool forces; // its error includes that of the forces
-  SbStudySolves solves;
   // Without a grid: sets the values of a line at x, those of the panels first; they are NaN before.
   void (*solve)(double value[SB_STUDY_VALUES], SbStudyWork *work, int line, double x);
   void (*make)(SbStudyWork *work);

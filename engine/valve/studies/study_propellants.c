@@ -468,7 +468,6 @@ const SbStudyDesign sb_study_propellants = {
                "change [N]", "by pressure [N]", "by film [N]", "by rubber [N]", "by expansion [N]"},
     .validity = "saturated propellant; the range of its figures, -40 to 80 °C, and above the "
                 "rubber's glass transition",
-    .solves = {.fits = 2 * ANSWERS, .films = 10 * ANSWERS, .cycles = ANSWERS},
     .grid = true,
     .share = SHARE,
     .asks_grid = is_closed,

@@ -76,6 +76,5 @@ const SbStudyDesign sb_study_squeeze = {
     .validity = "Lindley to 25 %, Green & English to 32 %, Karaszkiewicz 7 to 25 %, discs: linear "
                 "strain, an estimate beyond 10 %; ring: neo-Hookean",
     .grid = true,
-    .solves = {.rings = 2 * (20 + 1 + TABLE), .discs = 2 * (39 + 1 + TABLE)},
     .make = make,
 };

@@ -89,8 +89,6 @@ const SbStudyDesign sb_study_storage = {
     .value = {LOAD, LOAD, FRICTION, FRICTION, SECTION, SQUEEZE, MODULUS, NETWORK, SET, UPTAKE},
     .validity = "relaxation to ten times its longest time; swell below 50 % by volume; the "
                 "constants are the scene's, the thesis gives but table 2.2",
-    .solves = {.fits = (POINTS + TIMES + 1) * SB_SEAL_COUNT,
-               .films = (POINTS + TIMES + 1) * SB_SEAL_COUNT},
     .grid = true,
     .derive = derive,
     .make = make,

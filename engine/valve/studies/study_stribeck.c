@@ -144,7 +144,6 @@ const SbStudyDesign sb_study_stribeck = {
     .models = "the scene's own, at the pressures of the cycle",
     .validity =
         "steady sliding; 1 \xc2\xb5m/s to 10 m/s; a ring's contact is that of the cycle's speed",
-    .solves = {.runs = 1, .speeds = LINES * POINTS},
     .solve = solve,
     .make = make,
 };

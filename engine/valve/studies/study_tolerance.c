@@ -112,7 +112,6 @@ const SbStudyDesign sb_study_tolerance = {
                "by stem [N]"},
     .validity = "worst case: where every figure rises or falls with every size; root sum of "
                 "squares: independent sizes, linear",
-    .solves = {.fits = 2 * CYCLES, .films = 10 * CYCLES, .cycles = CYCLES},
     .grid = true,
     .share = SHARE,
     .forces = true,
