@@ -51,8 +51,8 @@ double sb_taper_factor(double ratio);
 
 // Returns the volume [m3] that a stroke transports through the contact, with the sign of `length`
 // [m] (thesis equations 5.19 to 5.21). `diameter` of the bore [m], central `film` thickness [m]: q
-// = (1/2) pi D h L. The net leakage of a cycle is the volume of the out-stroke minus that of the
-// return. Valid for a flooded inlet and a full film.
+// = (1/2) pi D h L. The net leakage of a cycle is the volume that one stroke carries out
+// minus the volume that the other one brings back. Valid for a flooded inlet and a full film.
 static inline double sb_leak_stroke(double diameter, double film, double length) {
   return M_PI * diameter * film * length / 2;
 }
