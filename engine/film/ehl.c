@@ -1,23 +1,24 @@
-// The coupled film solver: levels of degree, error estimate, results, with asperities or without.
+// The coupled film solver: levels of degree, error estimate, results, with or without asperities.
 //
-// A cold solve starts from the layers' shapes (ehl_layers.c) on the lowest degree and climbs: each
-// level takes the one below as its guess, and the difference of two levels, reduced by the rate at
-// which differences shrink, estimates the error of the finer. It stops when the estimate meets the
-// tolerance. Validity: isoviscous half-plane (options aside), Hertz half-width below the radius.
+// A cold start begins with the shapes of the layers (ehl_layers.c) at the lowest degree. Each level
+// uses the previous one as its initial guess. The difference of two levels, reduced by the rate at
+// which differences decrease, estimates the error of the finer one. The solver stops when the
+// estimate meets the tolerance. Validity: isoviscous half-plane (without options), Hertz half-width
+// below the radius.
 //
-// Friction with asperities, per length of seal: over the real area A_a (share times length) tau_0
-// A_a + m W_a, W_a what the asperities carry (thesis eq. 5.14); over the rest, eta u / h of Couette
-// and (h/2) p' of Poiseuille in the full film (eq. 5.16); in the cavity the liquid covers the part
-// theta = flux film / h of the length, in full-height streamers that the wall shears: theta eta u /
-// h. Validity: mean-gap Reynolds without flow factors (isotropic roughness; factors are near 1
-// above h = 2 sigma), and the ranges of the rough law.
+// Friction with asperities, per length of seal: over the real area A_a (fraction times length)
+// tau_0 A_a + m W_a, W_a the load of the asperities (thesis eq. 5.14); over the remaining area, eta
+// u/h (Couette) and (h/2) p' (Poiseuille) in the full film (eq. 5.16). In the cavity the liquid
+// covers the fraction theta = flux film/h of the length, in streamers of full height that the wall
+// shears: theta eta u/h. Validity: mean-gap Reynolds equation without flow factors (isotropic
+// roughness; factors are near 1 above h = 2 sigma), and the ranges of the rough law.
 #include "engine/film/ehl.h"
 
 #include <math.h>
 #include <string.h>
 
-// Levels of degree 4, 6 and so on, and the last one's degree; every tolerance takes at least the
-// first levels.
+// Levels of degree 4, 6 and so on, and the degree of the last one; every tolerance uses at least
+// the first levels.
 enum { LEVELS = 6, DEGREE_FIRST = 4, DEGREE_LAST = 14, DEGREE_LAST_ROUGH = 8 };
 
 // Scaled residual where Newton's method of smooth rows ends, on a level that may be the last and on
@@ -44,15 +45,16 @@ static bool forms_again(const SbEhlSolution *s) {
   return again;
 }
 
-// Estimate of the errors of the last level: its change from the level below times the rate at which
-// changes shrink, which is not believed to be better than what was found over the range of M and
-// end pressures. Changes are those of the films' surroundings (sb_ehl_change). The flux hangs
-// on the inlet alone; the centre has its error and its own; the minimum both and the outlet's.
+// Estimates the errors of the last level: its change from the previous level times the rate at
+// which changes decrease. The rate is not assumed to be better than the rates found over the range
+// of M and end pressures. Changes are those of the surroundings of the films (sb_ehl_change). The
+// flux depends on the inlet only; the centre has the inlet's error and its own; the minimum has
+// both and the outlet's.
 static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
                      const SbEhlResults *results) {
   static const double SLOWEST[LEVELS] = {1.0, 0.13, 0.06, 0.1, 0.1, 0.1};
-  // Half of what a level leaves at its best, whatever the changes say: at last the kernel's and
-  // Newton's own digits; of rough rows what they leave beside the rupture.
+  // At least half of the best error of a level, whatever the changes are: finally the rounding of
+  // the kernel and of Newton's method; of rough rows the error near the rupture.
   static const double FINEST[LEVELS] = {1.0, 2e-8, 1.5e-10, 1e-10, 1e-10, 1e-10};
   SbFilmSolverInfo *info = solver->info;
   const SbEhlCase *c = &solver->now->c;
@@ -65,11 +67,12 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
   last[1] = fmax(last[1], last[2]);
   last[0] = fmax(last[0], last[1]);
   for (int i = 0; i < 3; i++) {
-    // A level of rough rows leaves some hundredth of its change, beside the rupture's kink more;
-    // two of one degree tell no rate.
+    // A level of rough rows has about a hundredth of its change as error, near the rupture's kink
+    // more; two levels of one degree give no rate.
     static const double ROUGH[2][3] = {{0.05, 0.02, 0.05}, {0.12, 0.05, 0.12}};
-    // Without asperities nothing rounds the kinks where the film breaks and forms again, which lie
-    // anywhere between nodes: read off smooth rows' films (M from 0.3 to 1e3, ends to p_H).
+    // Without asperities the kinks where the film cavitates and re-forms are not rounded, and are
+    // anywhere between nodes: determined from films of smooth rows (M from 0.3 to 1e3, end
+    // pressures up to p_H).
     static const double KINK = 0.4, BROKEN[] = {5e-7, 1e-7, 1e-7}, FORMED = 1e-5;
     const bool sharp = rough && c->rough.law == NULL;
     const double left = sharp ? again ? FORMED : BROKEN[i] : 0.0;
@@ -81,7 +84,7 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
   }
   if (rough) {
     static const double RATE = 0.05, RATE_FLOW = 0.02;
-    // The least film lies between nodes.
+    // The minimum film is between nodes.
     static const double BETWEEN[] = {5e-8, 4e-7};
     solver->error[0] += c->layers.degree < DEGREE_LAST_ROUGH ? BETWEEN[c->rough.coarse] : 0.0;
     info->error_contact = noise + RATE_FLOW * change[levels - 1][2];
@@ -240,7 +243,7 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
     if (++*levels >= 2) {
       sb_ehl_change(change[*levels - 1], solver, now, now - 1, !anew);
       if (isfinite(supply) && !rough) {
-        // The supply holds the centre of a starved film: two levels agree there by chance.
+        // The supply determines the centre of a starved film: two levels agree there by chance.
         double *last_change = change[*levels - 1];
         last_change[1] = fmax(last_change[1], 0.05 * last_change[0]);
       }
@@ -254,7 +257,7 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
     }
     degree += 2;
   }
-  // Of a single level nobody knows the error; rough rows may do better than one of smooth ones.
+  // A single level has no error estimate; rough rows may be better than one level of smooth ones.
   return *levels > 1 || rough ? SB_OK : SB_ERROR_NOT_CONVERGED;
 }
 
@@ -314,7 +317,7 @@ static SbStatus solve_cold(SbEhlResults *results, int *levels, SbFilmSolver *sol
   SbStatus status = climb(results, levels, solver, c, rest ? INFINITY : supply);
   if (c->rough.rows) {
     if (status == SB_ERROR_NOT_CONVERGED && flows && !c->rough.sealed) {
-      // Closed beyond what the flow at rest can be told from.
+      // Closed so far that the flow at rest cannot be determined.
       c->rough.sealed = true;
       status = climb(results, levels, solver, c, INFINITY);
     }

@@ -1,17 +1,17 @@
-// Films beside a solved one, on its mesh and by its factors.
+// Films near a solved one, on its mesh and with its factors.
 //
-// Newton's method with the matrix of the base's solution in place of each step's own: the error
-// falls by the share that the case differs by at every step, so that two or three steps serve a
-// case that differs by a thousandth, each with a residual and a back-substitution only. The mesh
-// stands in the scaled frame, which moves with the case: the error of the discretisation stays the
-// base's. It leaves out what moves the mesh itself (a meniscus, a film that forms again) and cases
-// whose film ends in another way.
+// Newton's method with the matrix of the base's solution instead of each step's own. The error
+// decreases by the relative difference of the cases in every step, so two or three steps are enough
+// for a case that differs by a thousandth, each with a residual and a back-substitution only. The
+// mesh is fixed in the scaled frame, which moves with the case: the discretisation error remains
+// that of the base. Not available: changes of the mesh itself (a meniscus, a film that re-forms),
+// and cases whose film ends differently.
 #include "engine/film/ehl.h"
 
 #include <math.h>
 #include <string.h>
 
-// Keeps the last solution.
+// Stores the last solution.
 static void hold(SbFilmSolver *solver) {
   const SbEhlSolution *s = solver->now;
   solver->base.c = s->c;
@@ -31,7 +31,7 @@ static void take_back(SbFilmSolver *solver) {
   s->mesh.outlet_pressure = solver->base.c.layers.outlet;
 }
 
-// Keeps it with its factors, those of a body whose compliance is `c`'s.
+// Stores it with its factors, for a body with the compliance of `c`.
 static SbStatus ready(SbFilmSolver *solver, const SbEhlCase *c) {
   SbEhlSolution *s = solver->now;
   if (solver->base.held) {
@@ -68,7 +68,7 @@ SbStatus sb_ehl_beside(SbFilmSolver *solver, const SbEhlCase *c, SbFilmPlace pla
       (c->body.compliance == NULL) != (base->body.compliance == NULL)) {
     return SB_ERROR_NOT_CONVERGED;
   }
-  // From the base, whatever was solved beside it last.
+  // From the base, whatever was solved near it last.
   const SbEhlRough meshed = base->rough;
   take_back(solver);
   s->c = *c;

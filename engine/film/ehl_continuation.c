@@ -10,8 +10,8 @@
 
 #include <math.h>
 
-// Newton's solves after which smooth rows give up a flooded start, of all levels together, and
-// those of a path.
+// Number of Newton solves after which smooth rows end a flooded start, of all levels together, and
+// after which they end a continuation path.
 enum { STARTS_MAX = 24, STEPS_MAX = 38 };
 
 // Pressure below the rupture pressure that counts as tension: less is the lowest degree's error in
@@ -96,7 +96,7 @@ static double expected(const SbEhlCase *c) {
   return !(layers.lambda > 0.0) ? 1.0 : starved ? c->supply : sb_ehl_layers_flux(&layers);
 }
 
-// From the last solution to a case near it; on failure that solution stands.
+// Continues from the last solution to a case near it; after a failure that solution remains.
 static SbStatus take(SbFilmSolver *solver, const SbEhlCase *c) {
   const SbEhlSolution *from = solver->now;
   SbEhlSolution *to = sb_ehl_other(solver);
@@ -113,7 +113,7 @@ static SbStatus take(SbFilmSolver *solver, const SbEhlCase *c) {
   return status;
 }
 
-// The case a part t of the way from a to b.
+// Returns the case at the fraction t between a and b.
 static SbEhlCase between(const SbEhlCase *a, const SbEhlCase *b, double t) {
   SbEhlCase c = *b;
   if (t >= 1.0) {
@@ -134,8 +134,8 @@ static SbEhlCase between(const SbEhlCase *a, const SbEhlCase *b, double t) {
   return c;
 }
 
-// From the last solution, which is that of `start`, to `target`, first by `step` of the way; a step
-// that serves is followed by a longer one.
+// Continues from the last solution, which is that of `start`, to `target`, first by the fraction
+// `step`; a successful step is followed by a longer one.
 static SbStatus follow_path(SbFilmSolver *solver, const SbEhlCase *start, const SbEhlCase *target,
                             double step) {
   enum { EASY = 8 }; // Newton steps
@@ -198,7 +198,7 @@ static bool easier(SbEhlCase *c, const SbEhlCase *target, int k) {
     c->layers.outlet *= reform ? 0.25 : 1.0;
   } else if (reform) { // a small outlet pressure at the inlet's own
     c->layers.outlet *= k == 3 ? 0.25 : 0.05;
-  } else { // an outlet pressure that keeps a thick film full
+  } else { // an outlet pressure at which a thick film does not cavitate
     c->layers.outlet = fmax(2.2 + c->layers.inlet, c->layers.outlet);
   }
   return k < 3 + (target->layers.end == SB_EHL_FULL) + 2 * reform;
@@ -214,8 +214,8 @@ static SbStatus follow_fronts(SbFilmSolver *solver) {
   return status == SB_ERROR_RANGE ? SB_OK : status; // no room for them
 }
 
-// A mesh for a case whose film's ends may be so sharp that none has room for them all: then less of
-// each, and the change to the next level tells the error.
+// Builds a mesh for a case whose film may have such sharp ends that no mesh has space for all of
+// them: then fewer elements for each, and the change to the next level gives the error.
 static bool lay_out_wider(SbEhlSolution *s, SbEhlCase *c) {
   enum { WIDENINGS = 6 };
   for (int i = 0; i <= WIDENINGS; i++) {
@@ -230,9 +230,9 @@ static bool lay_out_wider(SbEhlSolution *s, SbEhlCase *c) {
   return false;
 }
 
-// Rough rows from the contact at rest: the film marched over it, and the contact sealed with that
-// film's pressure in turns until Newton's method holds from a march, on elements at its film's
-// ends.
+// Rough rows from the contact at rest: in turns the film is marched over it, and the contact is
+// sealed with that film's pressure, until Newton's method converges from a march, on elements at
+// the ends of the film.
 static SbStatus start_marched(SbFilmSolver *solver, const SbEhlCase *target) {
   enum { ROUNDS = 12, RESTS = 4 }; // at rest a contact may be closed beyond any flow
   const int rounds = target->layers.lambda > 0.0 ? ROUNDS : RESTS;
@@ -271,8 +271,8 @@ static SbStatus start_flooded(SbFilmSolver *solver, const SbEhlCase *target) {
       status = start_marched(solver, target);
     }
   }
-  // Where end pressures nearly open the outlet the place of its least film is known to a width of
-  // its layer only, which is more than a start may be off.
+  // If end pressures nearly open the outlet, the position of its minimum film is only known to a
+  // width of its layer, which is more than the error that a start may have.
   static const double MOVED[] = {0.4, -0.4, 0.9, -0.9, 1.5}, FAR_APART = 2.2;
   const int moves = sizeof MOVED / sizeof MOVED[0];
   const bool apart = !target->rough.rows && target->layers.end == SB_EHL_FULL &&
@@ -386,7 +386,8 @@ SbStatus sb_ehl_refine(SbFilmSolver *solver, int degree) {
   SbEhlCase next = solver->now->c;
   next.layers.degree = degree;
   SbStatus status = take(solver, &next);
-  // Ends so sharp that no mesh has room for them all: less of each, and the change tells the error.
+  // Ends so sharp that no mesh has space for all of them: fewer elements for each, and the change
+  // gives the error.
   for (int i = 0; i < WIDENINGS && status == SB_ERROR_RANGE; i++) {
     for (int k = 0; k < SB_EHL_FRONTS; k++) {
       next.rough.front[k].width *= 3.0;

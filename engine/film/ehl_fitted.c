@@ -1,11 +1,11 @@
 // Film on a fitted body: scales of its dry contact, and its kernel on the solvers' meshes.
 //
-// The body's gap and smooth compliance (contact/compliance.h) are polynomials in the seal's x, the
-// film's mesh stands in the flow frame with the axis at the shift c: x = side b (X + c). The smooth
-// part acts through as many moments of the pressure as it has polynomials, so that it costs two
-// thin products; b and p_H are those of a Hertz contact of the dry contact's width and load, so
-// that the layers sit at its edges. The smooth film's shift is an unknown, the mixed film's mesh
-// stands still over the dry contact.
+// The body's gap and smooth compliance (contact/compliance.h) are polynomials in the seal's x. The
+// film's mesh is fixed in the flow frame with the axis at the shift c: x = side b (X + c). The
+// smooth part acts through as many moments of the pressure as it has polynomials, so it costs two
+// thin products. b and p_H are those of a Hertz contact with the width and load of the dry contact,
+// so the layers are at its edges. The shift of the smooth film is an unknown; the mesh of the mixed
+// film is fixed on the dry contact.
 #include "engine/film/ehl.h"
 
 #include "engine/numeric/legendre.h"
@@ -67,8 +67,9 @@ void sb_film_rest_fitted(SbFilm *out, const SbFilmProblem *problem, const SbDryC
 
 enum { MODES = SB_COMPLIANCE_MODES };
 
-// S acts on the window only: an affine element that reaches beyond it counts as far as it lies in
-// it. Moments of the element's basis, and of the state's pressure with its derivative to the shift.
+// S acts on the window only: an affine element that extends beyond it counts for the part inside.
+// Moments of the element's basis, and of the state's pressure with its derivative with respect to
+// the shift.
 static void add_element(double *state, double *state_slope, const SbEhlSolution *s,
                         const SbEhlElement *e) {
   const SbFilmBody *body = &s->c.body;

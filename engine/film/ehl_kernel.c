@@ -16,7 +16,7 @@ enum { COLUMNS = SB_EHL_DEGREE_MAX + 1 };
 
 // Half the sum of the distances to -1 and 1 is (rho + 1/rho)/2 on Bernstein's ellipse rho: closer
 // than NEAR (rho = 2) the split kernel is used. Beyond FAR half-lengths from the middle the
-// expansion holds 16 digits with at most SB_EHL_MULTIPOLES terms, -ln z of them each.
+// expansion has 16 digits with at most SB_EHL_MULTIPOLES terms, -ln z of them each.
 static const double NEAR = 1.25;
 static const double FAR = 3.0;
 static const double DIGITS = 37.0; // ln of what is left out, negative

@@ -126,7 +126,7 @@ static double rupture_guess(const SbEhlLayers *l) {
   double width = outlet_width(l), above = excess(l);
   double elastic = 1.0 + 0.16406 * width - 0.25 * fmin(width, 0.3) * width;
   if (above > 1.0) {
-    // Some way to where the dry gap is as wide as the flux film, read off our own solutions.
+    // Part of the distance to where the dry gap equals the flux film, from our own solutions.
     double open = pow(sb_ehl_layers_flux(l) / (0.943 * outlet_slope(l)), 2.0 / 3.0);
     elastic = 1.0 + (1.0 - 0.73 * pow(above, -0.36)) * open;
   }
@@ -139,8 +139,8 @@ static double rupture_guess(const SbEhlLayers *l) {
   return 1.0 / sqrt(1.0 / (elastic * elastic) + 1.0 / (rigid * rigid));
 }
 
-// How far behind the edge the least film lies where the edge's slope is given, and where the gap's
-// next term counts beside a slope that end pressures have nearly taken away.
+// Distance of the minimum film from the edge for a given slope at the edge, and position where the
+// gap's next term matters because end pressures have nearly removed the slope.
 static double place_by(double lambda, double slope) {
   double s = -log(slope);
   double thin = exp(-0.916 + 1.25 * s + 0.972 * (1.0 - exp(-1.8 * s)));
@@ -151,7 +151,7 @@ static double place_by(double lambda, double slope) {
 
 static double place_of(double lambda, double slope) {
   enum { ROUNDS = 20 };
-  static const double BENT = 0.041; // of thick films the other way
+  static const double BENT = 0.041; // of thick films, in the opposite direction
   const double thick = (1.0 + BENT) / (1.0 + pow(lambda / 1.5e-4, 0.3268)) - BENT;
   const double next = 0.2439 * exp(-pow(slope / 0.2316, 1.136)) * thick;
   double place = place_by(lambda, slope);
@@ -161,11 +161,11 @@ static double place_of(double lambda, double slope) {
   return place;
 }
 
-// Place of the least film before a flooded outlet, read off our own solutions (M from 1.3 to 1e6,
-// pressures up to 3.05 p_H apart): at rest the layer lies on the edge, higher outlet pressure
-// pushes it out, thick films less. On a half-plane the edges' slopes have the mean 1; another mean
-// K, of a fitted body, scales the pressure: the layers are those of lambda / K^3 (their widths)
-// with the slopes over K.
+// Position of the minimum film before a flooded outlet, from our own solutions (M from 1.3 to 1e6,
+// pressure differences up to 3.05 p_H): without pressure the layer is at the edge, higher outlet
+// pressure moves it outwards, for thick films less. On a half-plane the slopes of the edges have
+// the mean 1. Another mean K, of a fitted body, scales the pressure: the layers are those of
+// lambda/K^3 (their widths) with the slopes divided by K.
 double sb_ehl_layers_outlet(const SbEhlLayers *l) {
   if (l->end != SB_EHL_FULL) {
     return 1.0;
@@ -197,9 +197,9 @@ static void add_outlet(SbEhlMesh *mesh, double unit, double reach, int degree) {
   sb_ehl_mesh_add_far(mesh, 1, mesh->end, 1.125 * (mesh->end - from), degree + 4);
 }
 
-// Elements on the scale of the rigid wedge, up to the rupture. Of a film that is full everywhere
-// they are mirrored about the axis: its pressure is nearly odd and its load the small rest, to
-// which the error of the discretisation must not add.
+// Elements on the scale of the rigid wedge, up to the rupture. For a film without a cavity they are
+// mirrored about the axis: its pressure is nearly odd, and its load is the small remainder, which
+// the discretisation error must not change.
 static void thick_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   static const double broken[] = {-5.0, -2.6, -1.9, -1.3, -0.75, -0.35, -0.1, 0.0};
   static const double mirrored[] = {-4.0, -2.0, -1.2, -0.7, -0.3, 0.3, 0.7, 1.2, 2.0, 4.0};
@@ -292,7 +292,7 @@ static void thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
     double last = theta;
     theta = i <= before ? inner_step(begin, i, before)
                         : M_PI - inner_step(end, inner - i, inner - before - 1);
-    // The widest element lies over the middle; more degrees keep the film between its points.
+    // The widest element is over the middle; a higher degree resolves the film between its points.
     int degree = l->degree + (theta - last > 0.8 ? 6 : 4);
     const int parts = (int)ceil((theta - last) / most);
     for (int k = 1; k <= parts; k++) {
@@ -356,7 +356,7 @@ void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *l, d
     double z = (X - outlet_edge(l)) / out;
     double p = z < -10.0 ? sqrt(-2.0 * z) : interpolate(z, outlet_z, outlet_p, OUTLET_COUNT);
     *pressure = ends + sqrt(out) * p * sqrt(0.5 * (1.0 + fmin(X, 1.0))) * bowed(l, inside);
-    if (l->end == SB_EHL_FULL) { // the layer lies outside the edge: on the dry pressure there
+    if (l->end == SB_EHL_FULL) { // the layer is outside the edge: on the dry pressure there
       double edge = sqrt(2.0 * (1.0 - inside));
       *pressure = sb_ehl_layers_dry_pressure(l, X) + outlet_slope(l) * (sqrt(out) * p - edge);
     }

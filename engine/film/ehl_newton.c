@@ -1,26 +1,26 @@
-// Newton's method of both sets of rows; equations in ehl.h. A gap by the pressure goes into every
-// row; the gap itself is iterated beside the pressure, so that a first guess of its own is made
-// consistent by the first step.
+// Newton's method for both sets of rows; equations in ehl.h. The pressure enters every row through
+// the gap. The gap itself is iterated in addition to the pressure, so an independent initial guess
+// of the gap is made consistent by the first step.
 //
-// Smooth rows (thesis eq. 6.37-6.50): H^3 m P' / lambda - H + H* = 0 at the collocation points, the
-// flux film H* being an unknown, with H = H0 + (X + c)^2 / 2 - (1/pi) integral P ln|X - X'| dX',
-// the load integral P = pi/2, and Swift-Stieber's end p = 0, H = H* (that is p' = 0). The mesh is
-// fixed in X and the axis moves by c: the rupture point is free and the kernel constant, so that
-// the whole system is smooth and Newton's method converges quadratically without a contact search.
-// m holds Barus' viscosity and Eyring's thinning (scale.h) and is 1 without them. A film that
-// begins at a meniscus or forms again behind a cavity has one more free end, where the mesh begins
-// anew: ehl_continuation.c finds its place.
+// Smooth rows (thesis eq. 6.37-6.50): H^3 m P'/lambda - H + H* = 0 at the collocation points, with
+// the flux film H* as an unknown, H = H0 + (X + c)^2/2 - (1/pi) integral P ln|X - X'| dX', the load
+// integral P = pi/2, and Swift-Stieber's end p = 0, H = H* (that is p' = 0). The mesh is fixed in X
+// and the axis moves by c: the rupture point is free and the kernel constant, so the whole system
+// is smooth and Newton's method converges quadratically without a contact search. m contains Barus'
+// viscosity and Eyring's thinning (scale.h) and is 1 without them. A film that begins at a meniscus
+// or re-forms behind a cavity has another free end, where the mesh begins: ehl_continuation.c finds
+// its position.
 //
 // Rough rows: unknowns of the linear system are the total pressures, H0 and kappa; gap, parameter,
 // slope and film pressure follow from them at each node:
 //
-//   dh = K dq + dH0 + r          r: what the linear elastic equation still lacks
+//   dh = K dq + dH0 + r          r: residual of the linear elastic equation
 //   dp = dq + k dh               k = -(dp_a/dt) / (dh/dt), the asperities' stiffness
 //   G ds = -(rho + (dG/dh s - lambda) dh + dG/dp s dp + dkappa)     G = h^3 m
 //
-// so that every step leaves the elastic equation, load and flux linear. The rows are Reynolds'
-// equation from node to node, or p = 0 in the cavity, the end pressures and the load. A step is
-// shortened only where the gap would fall by more than the rough law's parameter can follow.
+// so every step keeps the elastic equation, load and flux linear. The rows are Reynolds' equation
+// from node to node, or p = 0 in the cavity, the end pressures and the load. A step is shortened
+// only where the gap would fall by more than the rough law's parameter can follow.
 #include "engine/film/ehl.h"
 
 #include "engine/numeric/dense.h"
@@ -220,10 +220,10 @@ static bool ready_smooth(Progress *p, SbEhlSolution *s) {
   }
   double residual = assemble_smooth(s);
   s->solver->info->residual = residual;
-  // Done at the tolerance, or where rounding stops the descent not far above it. End pressures that
-  // nearly open the contact magnify rounding: at last what the steps still move the film by
-  // decides, a share of its tolerance so small that the estimate stays that of the mesh. The error
-  // told holds it in the residual's place.
+  // Converged at the tolerance, or where rounding stops the decrease slightly above it. End
+  // pressures that nearly open the contact amplify rounding. Then the remaining change of the film
+  // per step decides, a fraction of its tolerance so small that the error estimate remains that of
+  // the mesh. The reported error includes it instead of the residual.
   static const double LEFT = 0.01;
   const bool stalls = residual > 0.3 * p->before, given = s->solver->base.in_use;
   bool done = !first && residual <= (stalls ? 10.0 : 1.0) * tolerance;
@@ -244,9 +244,9 @@ static bool ready_smooth(Progress *p, SbEhlSolution *s) {
   return done;
 }
 
-// Takes the step, cut where the film would fall by more than half: the flow goes with its cube, and
-// behind a cut to less the iteration goes to and fro in the outlet's layer. Of an independent gap
-// the first step stands as it is.
+// Takes the step, shortened if the film would decrease by more than half: the flow is proportional
+// to its cube, and with a smaller limit the iteration oscillates in the outlet's layer. With an
+// independent gap the first step is taken fully.
 static bool step_smooth(Progress *p, SbEhlSolution *s) {
   SbFilmSolver *solver = s->solver;
   SbEhlState *state = &s->state;
@@ -309,7 +309,7 @@ static int choose(SbEhlSolution *solution, double doubt) {
   int changed = 0;
   // Driven back by the outlet the pressure rises all along: nothing breaks.
   const bool back = state->flow < 0 && solution->c.layers.outlet > 0;
-  // Against the flow, as the end of the film depends on what lies behind.
+  // Against the flow, because the end of the film depends on the positions downstream.
   state->cavity[mesh->dofs - 1] = state->cavity[mesh->dofs - 2];
   for (int i = mesh->dofs - 2; i >= 0; i--) {
     const SbEhlElement *e = &mesh->element[mesh->owner[i]];
@@ -451,10 +451,10 @@ static bool step_rough(Progress *p, SbEhlSolution *s) {
   // Close to the solution the last factors serve again.
   p->factored = !cut && largest < reuse(s, REUSE_ROUGH) * p->before && largest < CLOSE;
   p->before = largest;
-  // A start that is none shows soon: a good one is below 1 after five steps. Only a meniscus takes
-  // its time to find its node, but never comes back from far off. At rest one that serves moves by
-  // no more than 0.65 after four steps (250 solves), with tips that stick by more than 10; where no
-  // flow can pass steps grow without end, to 1e7 and beyond.
+  // A start that does not converge is detected early: a good one is below 1 after five steps. Only
+  // a meniscus needs time to find its node, but it never returns from far away. At rest a good
+  // start moves by at most 0.65 after four steps (250 solves), with adhering tips by more than 10.
+  // Where no flow can pass, steps grow without limit, to 1e7 and beyond.
   const bool rest = !(c->layers.lambda > 0);
   const bool hopeless = rest                  ? p->iteration > 5 && largest > 1e4
                         : isfinite(c->supply) ? p->iteration > 2 && largest > 1e3

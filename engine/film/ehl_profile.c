@@ -1,18 +1,18 @@
-// Profile of a coupled film solution, dense enough that Reynolds' equation, the load and the
-// deflection can be recomputed from its points alone.
+// Profile of a coupled film solution, dense enough to recompute Reynolds' equation, the load and
+// the deflection from its points alone.
 //
-// Points lie evenly in the element's own coordinate, the same number on every element, as elements
-// follow the layers; of an infinite one they are geometric in s, the same number over every factor
-// of GROWTH. A central difference on a geometric grid of ratio 1 + c errs by about 3 c^2 in the far
-// inlet, where p' falls like |x|^-4.
+// Points are evenly spaced in the element's own coordinate, with the same number on every element,
+// because elements follow the layers. On an infinite element they are geometric in s, with the same
+// number per factor of GROWTH. A central difference on a geometric grid of ratio 1 + c has an error
+// of about 3 c^2 in the far inlet, where p' decreases like |x|^-4.
 //
 // Pressure of smooth rows: nodal polynomials satisfy Reynolds' equation at the collocation points
 // only, and their slopes jump at the joints of elements. Collocation at Gauss points is
-// superconvergent at the joints (de Boor and Swartz 1973), and the gap has a degree to spare; so
-// the polynomial takes the integral of what its slope lacks of Reynolds' for the gap interpolated
-// through collocation points and joints. Deep inside a thin film's contact, where that slope is the
-// small difference of gap and flux film, it is the other way round: the polynomial is kept, and its
-// slope gives the film.
+// superconvergent at the joints (de Boor and Swartz 1973), and the gap has a degree to spare. So
+// the integral of the slope's deviation from Reynolds' equation, for the gap interpolated through
+// collocation points and joints, is added to the polynomial. Deep inside the contact of a thin
+// film, where that slope is the small difference of gap and flux film, it is the reverse: the
+// polynomial remains, and its slope gives the film.
 #include "engine/film/ehl.h"
 
 #include <math.h>
@@ -23,10 +23,10 @@ typedef struct {
   double lack; // of the pressure's slope against Reynolds'
 } Point;
 
-// How far a liquid end at `ambient` is followed. Beyond X the pressure gains (4/3) lambda / X^3:
-// the load left out shall be below 1e-6 of the whole and, in a profile to be recomputed from, the
-// friction below some 2e-3 (its remainder goes with lambda^(1/4) / X), as long as steps of the
-// pressure show beside the ambient one.
+// Extent of a liquid end at `ambient`. Beyond X the pressure rises by (4/3) lambda/X^3. The omitted
+// load must be below 1e-6 of the total and, in a profile to be recomputed from, the friction below
+// about 2e-3 (its remainder is proportional to lambda^(1/4)/X), as long as steps of the pressure
+// are resolved against the ambient one.
 static double reach_of(double lambda, double ambient, bool drawn) {
   const double least = 3.0, digits = 1e-11, step = 0.02;
   double load = sqrt(2.0 / 3.0 * lambda / (0.5 * M_PI * 1e-6));
@@ -49,7 +49,7 @@ static int parts_of(double *s, const SbEhlElement *e, const SbEhlCase *c, bool d
   return (int)fmax(1.0, ceil(-log(*s) / log(GROWTH)));
 }
 
-// Films this flat keep their polynomial: see the head of the file.
+// Films this flat use their polynomial: see the top of the file.
 static bool flat_element(const SbEhlSolution *s, const SbEhlElement *e) {
   static const double FLAT = 0.03;
   bool flat = e->side == 0;
@@ -59,8 +59,8 @@ static bool flat_element(const SbEhlSolution *s, const SbEhlElement *e) {
   return flat;
 }
 
-// Towards infinity a thin film's gap grows by many decades: there its excess over the dry gap is
-// interpolated, which stands in solver->gaps.
+// Towards infinity a thin film's gap grows by many decades: there its excess over the dry gap,
+// which is in solver->gaps, is interpolated.
 static Point smooth_point(const SbEhlSolution *s, const SbEhlElement *e, bool flat, double r) {
   const SbEhlLayers *l = &s->c.layers;
   const double flux = s->state.flux;
@@ -143,8 +143,8 @@ void sb_ehl_profile(SbFilm *out, const SbFilmProblem *wanted, const SbEhlSolutio
       thin = begin;
       thin_end = out->points;
     }
-    // What the pressure of a full film has too much at its end is spread over its thinnest element:
-    // there a difference in pressure changes the flux least.
+    // The excess of a full film's pressure at its end is distributed over its thinnest element,
+    // where a difference in pressure changes the flux least.
     bool ends = i + 1 == mesh->count || mesh->element[i + 1].apart;
     for (size_t n = thin; n < out->points && ends; n++) {
       double share = fmin((double)(n - thin + 1) / (double)(thin_end - thin), 1.0);

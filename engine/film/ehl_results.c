@@ -18,8 +18,8 @@ static const SbEhlElement *source(double *r, const SbEhlMesh *old, const SbEhlMe
   return e;
 }
 
-// Gap, slope and choice of rough rows. Overshoot of the polynomials is cut to the range of the
-// nodes beside.
+// Gap, slope and state of rough rows. Overshoot of the polynomials is limited to the range of the
+// adjacent nodes.
 static void carry_rough(SbEhlState *new, const SbEhlState *old, int i, const SbEhlElement *e,
                         double r) {
   const int first = e->first_dof;
@@ -44,7 +44,8 @@ void sb_ehl_carry(SbEhlSolution *to, const SbEhlSolution *from, double scale) {
   for (int i = 0; i < a->targets && !rough; i++) {
     excess[i] = old->gap[i] - sb_ehl_layers_dry_gap(&from->c.layers, a->x[i]);
   }
-  // New end pressures change the dry contact's pressure, unless a cavity holds one of them off.
+  // New end pressures change the pressure of the dry contact, unless a cavity separates it from one
+  // of them.
   const bool whole = b->film_end + 1 == b->count;
   bool same = !rough && a->count == b->count;
   for (int i = 0; i < b->count; i++) {
@@ -95,7 +96,7 @@ static double sampled(double r, const void *context) {
                                : sb_ehl_gap(of->e, state->gap, r);
 }
 
-// Least value over the element of a target and its neighbours, and its place.
+// Returns the smallest value over the element of a target and its neighbours, and its position.
 static double least_about(double *place, const SbEhlSolution *s, int target, bool pressure) {
   enum { SAMPLES = 16 };
   const int around = s->mesh.owner[target];
@@ -135,9 +136,9 @@ double sb_ehl_flat_film(const SbEhlCase *c, double flux, double film, double pre
   return film;
 }
 
-// The film at r of an element; thin ones, which are flat in the contact's middle, hang there on
-// small differences of large deflections between the collocation points, and Reynolds' equation
-// gives them from the slope of the pressure with far less noise.
+// Returns the film at r of an element. Thin films, which are flat in the contact's middle, depend
+// there on small differences of large deflections between the collocation points; Reynolds'
+// equation gives them from the slope of the pressure with far less noise.
 static double film_at(const SbEhlSolution *s, int element, bool middle, double r) {
   const Sample of = {s, &s->mesh.element[element], false};
   double film = sampled(r, &of);

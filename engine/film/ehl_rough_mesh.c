@@ -2,7 +2,7 @@
 //
 // Element sizes grow with the distance from the contact's two edges, where the layers of the film
 // (lambda^0.4, ehl_layers.c) or the tail of the asperities (sigma^(2/3): the dry gap opens with the
-// power 3/2) sit, and with that from the film's ends between asperities.
+// power 3/2) are, and with the distance from the film's ends between asperities.
 #include "engine/film/ehl.h"
 
 #include "engine/numeric/root.h"
@@ -23,8 +23,8 @@ static double edge_width(const SbEhlCase *c, double layer) {
   double width = c->layers.lambda > 0 ? layer : 0;
   if (c->rough.law != NULL) {
     double sigma = c->rough.law->surface.sigma / c->rough.film;
-    // Where the asperities' pressure at the flux film is a small part q of Hertz's, the
-    // film's inlet lies q^2/2 inside the edge.
+    // Where the asperities' pressure at the flux film is a small part q of Hertz's, the film's
+    // inlet is q^2/2 inside the edge.
     double tail = 0.5 * fmin(pow(sigma, 2.0 / 3), sqrt(2 * sigma));
     width = fmax(width, c->layers.lambda > 0 ? fmin(tail, 1 - c->rough.inlet) : tail);
   }
@@ -93,7 +93,7 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
   }
   double film_reach = fmax(3, sqrt(c->layers.lambda * 4e6));
 
-  // The edges: the flux needs the inlet's layer, the least film the outlet's, which is finer.
+  // The edges: the flux needs the inlet's layer, the minimum film the outlet's, which is finer.
   const double outlet = c->layers.lambda > 0 ? sb_ehl_layers_outlet(l) : 1;
   Feature feature[3 + SB_EHL_FRONTS] = {
       {thick ? -0.6 * unit : -1, fmin(edge_width(c, thick ? 0.6 * unit : thin), unit)},
@@ -153,8 +153,8 @@ static double rupture_behind(const Nodes *at, int i) {
   return sb_ehl_position(e, sb_ehl_rough_weights(weight, s, e, i - e->first_dof));
 }
 
-// The film's ends: where it passes 3/2 of the flux film, with the largest slope of its pressure,
-// the least film, with the steepest fall, unless it breaks, and those of its cavity.
+// The film's ends: where it passes 3/2 of the flux film, with the largest slope of its pressure;
+// the minimum film, with the steepest fall, unless it cavitates; and the ends of its cavity.
 static void find_ends(double place[SB_EHL_FRONTS], const SbEhlCase *c, const Nodes *at) {
   static const double DIP = 0.95; // of the flux film; asperities that carry most leave less
   const double steepest = 1.5 * at->flow / c->layers.lambda;
@@ -200,7 +200,7 @@ static bool take_ends(SbEhlCase *c, const double place[SB_EHL_FRONTS], double fl
     bool sharp = layer < 0.5 * inside && p.asperity > 1e-3;
     if (sharp || (k == SB_EHL_FRONT_RUPTURE && p.asperity > 1e-3)) {
       c->rough.front[k].X = place[k];
-      const double finest = k == SB_EHL_FRONT_LEAST ? 0.05 : 1e-3; // a least film is no kink
+      const double finest = k == SB_EHL_FRONT_LEAST ? 0.05 : 1e-3; // a minimum film is not a kink
       c->rough.front[k].width = fmin(fmax(layer, finest * inside), 0.5 * inside);
     }
     follow = follow || sharp;

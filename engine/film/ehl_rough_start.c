@@ -1,27 +1,28 @@
-// A film between asperities marched over the contact at rest, for Newton's method to start from.
+// A film between asperities marched over the contact at rest, as a start for Newton's method.
 //
 // With the total pressure q_r(x) and the gap h_r(x) of a contact, and a local stiffness E of the
-// body in place of its whole compliance, the film is that of one dimension:
+// body instead of its full compliance, the film is one-dimensional:
 //
-//   p = q_r + E (h - h_r) - p_s(h)             p_s what the solids carry
+//   p = q_r + E (h - h_r) - p_s(h)             p_s pressure of the solids
 //   p' = S(h) = (lambda h - kappa)/(h^3 m)     where the film is full; p = 0 in the cavity
 //
-// S rises with h below 3/2 of the flux film kappa/lambda and falls above it: what happens below is
-// decided by what lies behind, what happens above by what lies before (the splitting of Engquist
-// and Osher, Math. Comput. 36 (1981) 321). So a film that the wall drags in is marched against the
-// flow, implicitly below and explicitly above, and a flow that the end pressures drive through gaps
-// above all along with it. Of a wall at rest S rises with h throughout. kappa, of the wall or of
-// the end pressures, is found by the pressure at the other end. Fronts, however sharp,
-// then lie where they belong. Once q_r and h_r are those of a contact sealed with the film's own
-// pressure, E has no effect: the march over it is a solution but for the discretisation.
+// S increases with h below 3/2 of the flux film kappa/lambda and decreases above it: below, the
+// film depends on the downstream side, above on the upstream side (the splitting of Engquist and
+// Osher, Math. Comput. 36 (1981) 321). So a film that the wall transports is marched against the
+// flow, implicitly below and explicitly above; a flow that the end pressures drive through gaps
+// above everywhere is marched along with it. For a wall at rest S increases with h throughout.
+// kappa, of the wall or of the end pressures, is determined by the pressure at the other end.
+// Fronts, however sharp, are then at their positions. Once q_r and h_r are those of a contact
+// sealed with the film's own pressure, E has no effect: the march over it is a solution except for
+// the discretisation.
 #include "engine/film/ehl.h"
 
 #include "engine/numeric/root.h"
 
 #include <math.h>
 
-// E, scaled: deflections cos(k X) have k, and inlet pressure must not blow up gaps beside the
-// contact.
+// E, scaled: deflections cos(k X) have k, and inlet pressure must not enlarge gaps next to the
+// contact without limit.
 static const double STIFFNESS = 50;
 
 // Film pressures beyond these scaled ones are those of a wrong flow.

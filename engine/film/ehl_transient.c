@@ -1,8 +1,8 @@
 // Initial states, time steps and results of the transient film; equations in transient.h.
 //
-// BDF2 on the fluid height m of the cells with uneven steps; the difference to the parabola
-// through the last three heights gives the step's own error (of the third order), whose mean over
-// the contact is held to a share of the tolerance.
+// BDF2 on the fluid height m of the cells with uneven steps. The difference from the parabola
+// through the last three heights gives the local error of the step (third order), whose mean over
+// the contact must be below a fraction of the tolerance.
 #include "engine/film/ehl_transient.h"
 
 #include "engine/numeric/legendre.h"
@@ -13,13 +13,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Of the largest local error of a step against the mean's: the least film is local.
+// Largest local error of a step divided by that of the mean: the minimum film is local.
 static const double LOCAL = 0.3;
 
-// Less film pressure is none, where a profile is laid on the mesh.
+// A smaller film pressure counts as none when a profile is transferred to the mesh.
 static const double NOTHING = 1e-10;
 
-// Way that the fluid goes before a mesh is due [b].
+// Distance that the fluid moves before a new mesh is due [b].
 static const double AHEAD = 0.03;
 
 static bool cancelled(const SbFilmTransient *t) {
@@ -29,8 +29,8 @@ static bool cancelled(const SbFilmTransient *t) {
 
 // ---------------------------------------------------------------- initial states
 
-// The steady state near the present one: at once, or where the active set of the rupture does not
-// settle, by steps of growing length in time.
+// Solves the steady state near the present one: directly, or, if the active set of the rupture does
+// not settle, by time steps of increasing length.
 static SbStatus settle(SbFilmTransient *t) {
   SbTransientState *s = &t->now;
   t->next = *s;
@@ -97,8 +97,8 @@ static SbStatus lay_steady(SbFilmTransient *t, const SbFilm *steady, double spee
                                    "transient film: no steady state on the mesh of finite volumes");
 }
 
-// Contact at rest, parted by the film `rest`: the pressure of the dry contact; the first step finds
-// the mesh's own for that film. Asperities hold what they part further by themselves.
+// Sets a contact at rest, separated by the film `rest`: the pressure of the dry contact. The first
+// step finds the mesh's own pressure for that film. Asperities keep larger gaps by themselves.
 static void lay_rest(SbFilmTransient *t, double rest, const SbFilm *standing) {
   SbTransientState *s = &t->now;
   s->speed = 0.0;
@@ -204,7 +204,7 @@ static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
   return SB_OK;
 }
 
-// The steady films at speed_scale, flooded, and at the start, there unless it is at rest without
+// Solves the steady films at speed_scale, flooded, and at the start, unless that is at rest without
 // asperities.
 typedef struct {
   double speed[2];
@@ -245,7 +245,7 @@ static SbStatus find_scale(SbFilmScale *scale, const SbFilmTransientProblem *pro
   return scaled.compliance != NULL ? sb_film_scale_fitted(scale, &dry, &scaled, report) : SB_OK;
 }
 
-// A film on its way to rest passes every gap: there must be none that the pull closes.
+// A film that comes to rest passes every gap: attraction must close none of them.
 static SbStatus refuse_closing(const SbFilmTransientProblem *problem, SbFilmSolver *solver,
                                SbReport *report) {
   const SbFilmProblem *film = &problem->film;
@@ -419,8 +419,8 @@ static void go_on(SbFilmTransient *t, double h) {
   s->H0 += ratio * (s->H0 - before->H0);
 }
 
-// The end of a film goes from node to node: what it leaves there is no error of the third order and
-// says nothing of the step. It counts in the mean.
+// The end of a film moves from node to node: its error there is not of third order and does not
+// describe the step. It counts in the mean.
 static bool near_cavity(const SbTransientState *s, int i) {
   return s->cavity[i - 2] || s->cavity[i - 1] || s->cavity[i] || s->cavity[i + 1] ||
          s->cavity[i + 2];
@@ -548,8 +548,8 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, SbReport *repo
   return sb_succeed(report);
 }
 
-// Adds the least films at the present way. At rest nothing moves: films of before are no longer
-// compared with.
+// Adds the minimum films at the present distance. At rest nothing moves: earlier films are no
+// longer compared.
 static void trace(SbFilmTransient *t, double way, double fine, double coarse) {
   enum { LAST = SB_TRANSIENT_TRACE - 1 };
   if (t->traced > LAST || !(way > 0.0)) {
@@ -560,10 +560,11 @@ static void trace(SbFilmTransient *t, double way, double fine, double coarse) {
   t->trace[t->traced++] = (SbTransientTrace){t->way, {fine, coarse}};
 }
 
-// Distance of the two histories of the least film at the present instant: the least e for which one
-// was within e of the other's present film, no more than e of the passage through the contact ago
-// (Levy's metric). Where a front leaves the contact, whose place alone is uncertain, a comparison
-// of one instant would take the films before it for errors of those behind.
+// Returns the distance of the two histories of the minimum film at the present instant: the
+// smallest e for which one history was within e of the other's present film at most e of the
+// passage through the contact ago (Levy's metric). Where a front leaves the contact, only its
+// position is uncertain; a comparison at one instant would take the films before it for errors of
+// the films behind it.
 static double trace_apart(const SbFilmTransient *t) {
   const SbTransientTrace *now = &t->trace[t->traced - 1];
   double best = fabs(now->film[1] / now->film[0] - 1.0);
@@ -580,10 +581,10 @@ static double trace_apart(const SbFilmTransient *t) {
   return best;
 }
 
-// Takes the companion along, to the end of a piece that the fluid went `way` in; the difference of
-// the films, or what is left in the contact of the largest before. Of the least film all of the
-// difference, the error of a method of first order: fronts and cavities lie between first and
-// second, of which it is a third. Of the central one half.
+// Advances the companion to the end of a piece in which the fluid moved by `way`, and takes the
+// difference of the films, or what remains in the contact of the largest earlier one. For the
+// minimum film the full difference is the error of a first-order method: fronts and cavities are
+// between first and second order, for which it would be a third. For the central film it is half.
 static SbStatus compare(SbFilmTransient *t, double way) {
   SbFilmTransient *other = t->companion;
   double *error[2] = {&t->result.error_film_min, &t->result.error_film_central};

@@ -1,7 +1,7 @@
-// Heights of the transient film carried along with the fluid, and to another mesh.
+// Transport of the heights of the transient film with the fluid, and to another mesh.
 //
-// The integral of the height over the cells, known at their faces, is interpolated and its
-// differences taken: the mass is kept exactly.
+// The integral of the height over the cells, known at their faces, is interpolated and
+// differentiated: mass is conserved exactly.
 #include "engine/film/ehl_transient.h"
 
 #include "engine/numeric/legendre.h"
@@ -36,7 +36,7 @@ static void integrate(SbTransientCells *out, const double *X, const double *heig
 // harmonic means for slopes, which rises throughout.
 static double integral_to(const SbTransientCells *cells, double X) {
   const double *place = cells->place, *integral = cells->integral;
-  // X lies between faces k and k + 1.
+  // X is between faces k and k + 1.
   const int start = cells->from + SIDE;
   const int k = start + (int)sb_interval(&place[start], (size_t)(cells->to - SIDE - start + 2), X);
   if (sb_transient_front(cells->height + k - SIDE + 2, FACES - 1, 6.0)) {

@@ -15,7 +15,8 @@
 
 static const double BEND = 2e-3;   // of the height between two nodes
 static const double CARRIED = 3.0; // layers
-static const double RAMP = 0.03;   // way within which faces come to move, at the default tolerance
+static const double RAMP =
+    0.03; // distance over which faces begin to move, at the default tolerance
 
 // Smooth part of a fitted body on the nodes, added to the kernel and the known gap, as in
 // ehl_fitted.c. The constant is H0's.
@@ -107,7 +108,7 @@ static bool thin(const SbFilmTransient *t) {
 }
 
 // Lagrange's polynomials at a face, of four nodes and of three with two upstream of it. At an end
-// of the mesh, where there are none, transport is by the mean of the nodes beside.
+// of the mesh, where these are missing, transport uses the mean of the adjacent nodes.
 static void lay_face(SbFilmTransient *t, int i) {
   SbTransientFace *f = &t->face[i];
   const int n = t->nodes;
@@ -134,7 +135,8 @@ static void lay_face(SbFilmTransient *t, int i) {
   f->carried = thin(t) ? ramp * ramp * (3.0 - 2.0 * ramp) : 0.0;
 }
 
-// Spacing that the layers at the edges ask for, at X: a share of the distance to the edge.
+// Returns the spacing that the layers at the edges require at X: a fraction of the distance to the
+// edge.
 static double graded(const SbFilmTransient *t, double X) {
   const double at = fabs(X);
   if (at >= 1.0) {
@@ -231,8 +233,8 @@ void sb_transient_mesh(SbFilmTransient *t, double rest, double least) {
       t->coarseness * cbrt(fmin(fmax(t->problem.film.tolerance, 1e-4), 1e-2) / 1e-3);
   t->share = 0.15 * fine;
   t->inner_share = t->problem.resolve ? 0.10 * fine : t->share;
-  // A film trapped at rest may be much thinner than those of the speeds: its neck lies where the
-  // dry gap, some (X - 1)^(3/2), reaches it.
+  // A film trapped at rest may be much thinner than those of the speeds: its neck is where the dry
+  // gap, about (X - 1)^(3/2), equals it.
   t->finest = 0.5 * width;
   if (least > 0.0) {
     t->finest = fmin(t->finest, 0.3 * pow(least, 2.0 / 3.0));

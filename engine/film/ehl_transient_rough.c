@@ -1,10 +1,10 @@
-// What the surfaces bear in the transient film, and the friction of its state.
+// Pressure of the surfaces in the transient film, and the friction of its state.
 #include "engine/film/ehl_transient.h"
 
 #include <math.h>
 
-// Less than this of Hertz's pressure is none: a cavity beside the contact then has no unknown of
-// it.
+// A smaller fraction of Hertz's pressure counts as none: a cavity next to the contact then has no
+// unknown for it.
 static const double NOTHING = 1e-13;
 
 static void touch(SbEhlRoughPoint *out, const SbFilmTransient *t, double H) {

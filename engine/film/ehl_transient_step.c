@@ -1,12 +1,12 @@
 // The implicit step of the transient film; equations in transient.h.
 //
-// Node values stand for cells between the midpoints. Fluid goes through a face by quadratic upwind
-// interpolation, and with van Albada's limited slope where a front stands, a coarse cell is wider
-// than the layers or the upwind node lies in a cavity, so that fronts stay monotonic; faces that
-// move with the fluid let none through. Unknown of a node is its pressure where the film is full,
-// where its fluid's height is the gap; in a cavity the height, at the rupture pressure. Where the
-// surfaces bear a part, the unknown is the total pressure q = p + p_a(h), and a cavity's node has
-// both: with dh = K dq + dH0 the film's pressure changes by dp = dq - p_a' dh.
+// Node values represent cells between the midpoints. Fluid passes a face by quadratic upwind
+// interpolation. It has van Albada's limited slope at a front, if a coarse cell is wider than the
+// layers, or if the upwind node is in a cavity, so that fronts stay monotonic. No fluid passes
+// faces that move with it. The unknown of a node is its pressure in the full film, where the height
+// of its fluid is the gap; in a cavity it is the height, at the rupture pressure. If the surfaces
+// carry a part, the unknown is the total pressure q = p + p_a(h), and a node in a cavity has both:
+// with dh = K dq + dH0 the film's pressure changes by dp = dq - p_a' dh.
 #include "engine/film/ehl_transient.h"
 
 #include "engine/numeric/dense.h"
@@ -44,8 +44,8 @@ static void limited_height(double *height, SbTransientFace *f, const SbFilmTrans
   *height = m[C] + slope * (f->X - c);
 }
 
-// Flow through the face behind node i. Beside a cavity its gap and the slope of the pressure are
-// those of the two nodes, elsewhere of a cubic through four.
+// Returns the flow through the face behind node i. Next to a cavity its gap and the slope of the
+// pressure are those of the two nodes, elsewhere of a cubic through four.
 static void flow_through(SbFilmTransient *t, const SbTransientState *s, int i) {
   SbTransientFace *f = &t->face[i];
   const double velocity = s->speed - t->carried_rate * f->carried;
@@ -74,7 +74,7 @@ static void flow_through(SbFilmTransient *t, const SbTransientState *s, int i) {
   }
 }
 
-// What a cell's content grows by beside the flows through its faces.
+// Returns the growth of a cell's content, except for the flows through its faces.
 static double residual(const SbFilmTransient *t, const SbTransientState *s, int i) {
   return t->volume[i] * (t->c0 * s->m[i] + t->old[i]) + t->face[i].flow - t->face[i - 1].flow;
 }
@@ -168,8 +168,8 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const double
   }
 }
 
-// Numbers the unknowns: of the nodes, total pressures of cavities between surfaces that touch, H0.
-// *lifted tells that some touch no more. False where there are too many.
+// Numbers the unknowns: of the nodes, total pressures of cavities between surfaces in contact, H0.
+// *lifted: some surfaces are no longer in contact. False if there are too many.
 static bool number(bool *lifted, SbFilmTransient *t, SbTransientState *s) {
   int next = t->nodes - 2;
   for (int i = 0; i < t->nodes; i++) {
@@ -191,9 +191,9 @@ static bool factors_serve(const SbFilmTransient *t, const SbTransientState *s) {
          memcmp(t->factored_extra, t->extra, (size_t)t->nodes * sizeof(int)) == 0;
 }
 
-// Largest error of the balance of mass between the contact's left edge and any node up to its right
-// one, over the larger of the flow's scale and the present flows. The surroundings hold so much
-// more liquid that rounding hides theirs.
+// Returns the largest error of the mass balance between the contact's left edge and any node up to
+// its right one, divided by the larger of the flow's scale and the present flows. The surroundings
+// contain so much more liquid that rounding hides their error.
 static double mass_error(const SbFilmTransient *t, const SbTransientState *s) {
   double sum = 0.0;
   double largest = 0.0;
@@ -208,9 +208,9 @@ static double mass_error(const SbFilmTransient *t, const SbTransientState *s) {
   return largest / flow;
 }
 
-// What rounding leaves of that balance between surfaces that bear: the film's pressure is the
-// difference of the total and the solids', which may both be far larger, and the flow takes its
-// slope.
+// Returns the rounding error of that balance between surfaces that carry load: the film's pressure
+// is the difference of the total and the solids' pressure, which may both be far larger, and the
+// flow uses its slope.
 static double mass_rounding(const SbFilmTransient *t, const SbTransientState *s) {
   static const double SUM = 4.0; // of the faces' and the nodes' roundings against the largest
   double largest = 0.0;
@@ -227,7 +227,8 @@ static double mass_rounding(const SbFilmTransient *t, const SbTransientState *s)
   return SUM * DBL_EPSILON * largest / t->flow;
 }
 
-// Switches nodes with a negative pressure or with more fluid than the gap holds; their number.
+// Switches nodes with a negative pressure, or with more fluid than the gap can contain; returns
+// their number.
 static int switch_nodes(const SbFilmTransient *t, SbTransientState *s) {
   int count = 0;
   for (int i = 1; i + 1 < t->nodes; i++) {
@@ -252,8 +253,9 @@ static void choose_scheme(SbFilmTransient *t, const SbTransientState *s, int i) 
   f->monotonic = f->limited || f->beside_cavity || steep;
 }
 
-// Takes the step in t->right; no film may shrink below a fifth at once, *factor is the share taken.
-// Returns the largest relative change of the fluid's height, NAN where there is no step.
+// Takes the step in t->right; no film may decrease below a fifth in one step. *factor is the
+// fraction taken. Returns the largest relative change of the fluid's height, NaN if there is no
+// step.
 static double take_step(double *factor, SbFilmTransient *t, SbTransientState *s,
                         const double *elastic) {
   const int n = t->nodes;
@@ -291,8 +293,8 @@ static double take_step(double *factor, SbFilmTransient *t, SbTransientState *s,
   return largest;
 }
 
-// Pressure at an end of the mesh, and what is there of fluid: all of the gap's, or of a starved end
-// what the wall brings, or takes away from the node beside.
+// Returns the pressure at an end of the mesh, and the height of fluid there: the gap, or at a
+// starved end what the wall brings, or takes away from the adjacent node.
 static void set_end(const SbFilmTransient *t, SbTransientState *s, int i, int beside) {
   const double supply = t->supply[i > 0];
   s->P[i] = i > 0 ? t->scale.outlet : t->scale.inlet;
@@ -312,7 +314,7 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
   sb_transient_bear(t, s, false);
   bool fresh = false;
   bool settled = false;
-  // H is the gap of P: a whole step makes it so and shorter ones keep it. It then carries more
+  // H is the gap of P: a full step makes it so and shorter ones preserve it. It then has more
   // digits of a thin film than deflections of size one.
   bool elastic_H = false;
   double before_largest = INFINITY;

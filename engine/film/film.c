@@ -59,7 +59,7 @@ void sb_film_problem_init(SbFilmProblem *problem) {
 }
 
 SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
-  *out = malloc(sizeof **out); // of its 20 MB a solve touches few
+  *out = malloc(sizeof **out); // a solve uses few of its 20 MB
   if (*out == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
   }
@@ -91,7 +91,8 @@ static SbSnapWindow snap_gap(const SbRoughLaw *law, const SbFilmProblem *problem
   return sb_rough_snap_in(law, &contact);
 }
 
-// Says that *out is the film without the pull, where with it there is boundary lubrication.
+// Warns that *out is the film without attraction, and that with attraction lubrication is in the
+// boundary regime.
 static void snap_in(SbFilm *out, const SbFilmProblem *problem, double closed) {
   out->valid = false;
   strcpy(out->regime, "boundary");
@@ -115,11 +116,11 @@ static void stick_warnings(SbFilm *out, const SbAsperity *tip) {
   }
 }
 
-// The coupled solver. A pull that would close the film (rough_law.h) is told beforehand: the film
-// without it, and a warning.
+// The coupled solver. Attraction that would close the film (rough_law.h) is reported beforehand:
+// the film without it, and a warning.
 static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                               SbFilmSolver *solver, SbReport *report) {
-  static const double TOUCHING = 1e-6; // least mean share of real contact that counts
+  static const double TOUCHING = 1e-6; // smallest mean fraction of real contact that counts
   const bool tips = problem->work_of_adhesion > 0;
   const SbRoughLaw *law = NULL;
   SbSnapWindow closed = {0, 0};
@@ -146,9 +147,9 @@ static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const S
     return status;
   }
   if (tips && out->real_area < TOUCHING * 2 * scale->half_width) {
-    return SB_OK; // what never touched does not stick
+    return SB_OK; // surfaces without contact do not adhere
   }
-  // Thick enough, unless the pull itself draws it down there; or at rest, pressed together beyond.
+  // Thick enough, unless attraction itself reduces it; or at rest, pressed together beyond.
   const bool rests = tips && problem->speed == 0;
   if (out->film_min > closed.high || (rests && out->film_central < closed.low)) {
     sb_film_begin(out, problem, scale);
@@ -245,7 +246,7 @@ SbFilmScale sb_film_scale(const SbFilmProblem *problem) {
   bool coupled = problem->model == SB_FILM_REYNOLDS && problem->speed != 0.0;
   double rupture = coupled ? problem->rupture_pressure : 0.0;
   if (sb_film_rough(problem) && problem->speed == 0.0) {
-    rupture = fmin(problem->rupture_pressure, 0.0); // nothing breaks at rest, but below ambient
+    rupture = fmin(problem->rupture_pressure, 0.0); // no cavitation at rest, except below ambient
   }
   s.inlet = ((forward ? problem->pressure_left : problem->pressure_right) - rupture) / s.pressure;
   s.outlet = ((forward ? problem->pressure_right : problem->pressure_left) - rupture) / s.pressure;
@@ -322,7 +323,7 @@ void sb_film_begin(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale 
   out->moes_U = scale->U;
   out->moes_W = scale->W;
   out->lambda = scale->lambda;
-  // Moes: below about 0.5 the deformation hardly matters, above about 20 the Hertz contact stands.
+  // Moes: below about 0.5 deformation hardly matters, above about 20 there is a Hertz contact.
   const char *regime = scale->U <= 0.0   ? "dry"
                        : scale->M < 0.5  ? "isoviscous-rigid"
                        : scale->M < 20.0 ? "transition"

@@ -157,7 +157,8 @@ SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const 
     } else {
       evaluate(out, problem, fine, place, steep);
       out->solver.unknowns = fine->size;
-      // The spline's slope is of third order at least: half the points are out by seven times more.
+      // The spline's slope has at least third order: with half the points the error is 8 times as
+      // large.
       double estimate = 0.25 * change + 1e-12;
       out->solver.error_film_min = out->solver.error_film_central = out->solver.error_film_flux =
           estimate;

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-// P* - P*_in at angle t for a flux film of `stretch` least films: sec^2(te) where the film ends at
-// te.
+// Returns P* - P*_in at the angle t for a flux film of `stretch` minimum films: sec^2(te) if the
+// film ends at te.
 static double shape(double t, double stretch) {
   return t / 2 + M_PI / 4 + sin(2 * t) / 4 -
          stretch * (3 * t / 8 + 3 * M_PI / 16 + sin(2 * t) / 4 + sin(4 * t) / 32);
@@ -115,7 +115,7 @@ double sb_wedge_end(double reach) {
   return sb_bisect(end_pressure, &begin, 0, -begin);
 }
 
-// Flux film over the least one, and where the film ends.
+// Computes the flux film divided by the minimum one, and the end of the film.
 static double stretch_of(double *end, SbWedgeEnds ends, double reach) {
   if (ends == SB_WEDGE_REYNOLDS) {
     *end = sb_wedge_end(reach);
@@ -141,8 +141,8 @@ double sb_wedge_load(SbWedgeEnds ends, double reach) {
 
 // ---------------------------------------------------------------- the model "rigid"
 
-// Outlet's pressure above the inlet's with which a film of given load ends at te, less `context`:
-// its least film goes with cos^2(te), and the unit is its P* at te = 0.
+// Returns the outlet pressure minus the inlet pressure with which a film of given load ends at te,
+// minus `context`: its minimum film is proportional to cos^2(te), and the unit is its P* at te = 0.
 static double step_of_end(double te, const void *context) {
   return shape(te, sec2(te)) / pow(cos(te), 3) - *(const double *)context;
 }
@@ -176,7 +176,7 @@ SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const Sb
   }
   double te = sb_bisect(step_of_end, &step, 0, 0.5 * M_PI);
   double c2 = cos(te) * cos(te);
-  double h0 = out->film_min = out->film_central = top * c2; // the throat lies on the axis
+  double h0 = out->film_min = out->film_central = top * c2; // the throat is on the axis
   double root = sqrt(2 * R / h0), unit = 6 * eta_u * root / h0;
   out->film_flux = top;
   out->position_rupture = root * h0 * tan(te);
@@ -188,7 +188,7 @@ SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const Sb
   out->friction_poiseuille = 3 * eta_u * root * (span - (span / 2 + sin(2 * te) / 4) / c2);
   wedge_profile(out, te, root * h0, unit, inlet, outlet);
 
-  // How far the elastic limit says the film really is.
+  // Deviation of the film by the elastic limit.
   double elastic = 3.77334 * R * pow(scale->U, 0.6) * pow(scale->W, -0.2);
   out->expected_error =
       scale->M < 0.5 ? 0.03 : fabs(out->film_flux / fmax(elastic, out->film_flux) - 1);

@@ -12,7 +12,7 @@ struct SbCholesky {
   int *order, *place;        // [n] unknown of each place, and back
   int *parent;               // [n] in the elimination tree, -1: a root
   size_t *first;             // [n + 1] where each column of L begins
-  int *count;                // [n] what it holds so far
+  int *count;                // [n] entries so far
   int *flag, *path;          // [n]
   int *row;                  // [first[n]]
   double *lower;             // [first[n]]

@@ -150,14 +150,14 @@ static SbStatus search_from(double *u, Place *at, const Search *search, double t
     }
     double step[SB_RELIABILITY_DIMENSIONS];
     const double to = (dot(at->gradient, u, n) - at->value) / (at->slope * at->slope);
-    // Not further out than the distance beyond which nothing is looked for.
+    // Not beyond the largest searched distance.
     const double most = SB_SEARCH_FARTHEST / fmax(fabs(to) * at->slope, DBL_MIN);
     for (size_t k = 0; k < n; k++) {
       step[k] = fmin(most, 1) * to * at->gradient[k] - u[k];
     }
     bool moved = false;
     if (most < 1) {
-      // There at once: is it still the median's side?
+      // The full step to the farthest distance: is its end still on the median's side?
       Place there;
       double end[SB_RELIABILITY_DIMENSIONS];
       for (size_t k = 0; k < n; k++) {

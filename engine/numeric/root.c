@@ -28,7 +28,7 @@ double sb_newton_bracketed(SbSlopedFunction f, const void *context, double low, 
     double slope;
     const double value = f(&slope, x, context);
     const double step = value / slope;
-    // Before the bracket is asked: at the root itself a step of nothing stays on its end.
+    // Tested before the bracket: at the root itself a zero step stays on its end.
     if (fabs(step) <= least) {
       return fmin(fmax(x - step, low), high);
     }

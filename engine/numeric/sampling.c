@@ -27,8 +27,8 @@ double sb_normal_quantile(double p) {
   return gsl_cdf_ugaussian_Pinv(p);
 }
 
-// Of a normal variate cut off at l and h: the share p of what lies between, from the nearer tail,
-// where differences of shares keep their digits.
+// Of a normal variate truncated at l and h: the quantile at the fraction p of the probability in
+// between, from the nearer tail, where differences of probabilities keep their digits.
 static double cut_off(double l, double h, double p) {
   if (l > 0) {
     const double Ql = gsl_cdf_ugaussian_Q(l), Qh = isinf(h) ? 0 : gsl_cdf_ugaussian_Q(h);
@@ -77,7 +77,7 @@ double sb_distribution_at_normal(const SbDistribution *of, double z) {
   if (of->kind == SB_DISTRIBUTION_NORMAL && isinf(of->low) && isinf(of->high)) {
     return of->a + of->b * z;
   }
-  // From the nearer end, where shares keep their digits.
+  // From the nearer end, where probabilities keep their digits.
   if (z <= 0 || of->kind == SB_DISTRIBUTION_LEVELS) {
     return sb_distribution_quantile(of, gsl_cdf_ugaussian_P(z));
   }
@@ -138,7 +138,7 @@ SbStatus sb_sample_sobol(double *point, size_t samples, size_t dimensions, uint6
   if (sequence == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for a Sobol sequence");
   }
-  // GSL's digits are 30; the shift keeps how evenly they lie.
+  // GSL has 30 digits; the shift preserves their uniformity.
   enum { DIGITS = 30 };
   for (size_t i = 0; i < samples; i++) {
     double *row = point + i * dimensions;

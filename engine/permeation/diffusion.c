@@ -1,5 +1,5 @@
-// See diffusion.h. Rows of wetted nodes are kept apart: the system is that of the others, and the
-// full matrices give the reactions.
+// See diffusion.h. Rows of wetted nodes are separated: the system has the other nodes, and the full
+// matrices give the reactions.
 #include "engine/permeation/diffusion.h"
 #include "engine/numeric/cholesky.h"
 
@@ -23,14 +23,15 @@ static const double POINT[POINTS][3] = {{0.249286745170910, 0.249286745170910, 0
                                         {0.636502499121399, 0.310352451033784, 0.082851075618374}};
 
 struct SbDiffusion {
-  const SbWettedMesh *section;            // borrowed
-  int n, free;                            // nodes; those that are not wetted
-  int *start, *column;                    // pattern of the whole matrices, [n + 1], [start[n]]
-  double *stiff, *mass;                   // on it
-  int *number;                            // [n] among the free nodes, -1: wetted
-  int *free_start, *free_column, *source; // pattern of the free ones; where they stand in the whole
-  double *value;                          // on it
-  double *field;                          // [n] steady
+  const SbWettedMesh *section; // borrowed
+  int n, free;                 // nodes; those that are not wetted
+  int *start, *column;         // pattern of the whole matrices, [n + 1], [start[n]]
+  double *stiff, *mass;        // on it
+  int *number;                 // [n] among the free nodes, -1: wetted
+  int *free_start, *free_column,
+      *source;   // pattern of the free nodes; their entries in the full one
+  double *value; // on it
+  double *field; // [n] steady
   double conductance, flux_in, flux_out, lag, volume;
 };
 
@@ -61,8 +62,8 @@ static void shapes(double l1, double l2, double n[6], double d1[6], double d2[6]
   }
 }
 
-// Shapes n and their gradients g [1/m] at a point of an element; returns the area's density there,
-// the way round included, [m2] or [m3].
+// Shapes n and their gradients g [1/m] at a point of an element. Returns the density of the area
+// there, including the circumference, [m2] or [m3].
 static double gradients(const SbWettedMesh *s, const int *tri, double l1, double l2, double n[6],
                         double g[6][2]) {
   double d1[6], d2[6], j[2][2] = {{0.0}}, radius = 0.0;
@@ -243,7 +244,7 @@ static SbStatus solve_steady(SbDiffusion *d, SbReport *report) {
   for (int i = 0; i < d->n; i++) {
     d->field[i] = d->section->face[i] == SB_FACE_INSIDE ? 1.0 : 0.0;
   }
-  // The correction is solved once more, so that what rounding leaves does not hang on the mesh.
+  // The correction is solved once more, so that the rounding error does not depend on the mesh.
   for (int pass = 0; status == SB_OK && pass < 2; pass++) {
     for (int i = 0; i < d->n; i++) {
       if (d->number[i] >= 0) {

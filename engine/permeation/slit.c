@@ -8,8 +8,8 @@
 static const double GAS_CONSTANT = 8.314462618; // J/(mol K)
 static const double SLIP = 1.0162;
 
-// By how much Berman's formula lies above Clausing's equation, solved to 1e-6
-// (test_permeation_slit.c solves it again), over ln(L/h); beyond, the last to 0.05 %.
+// Difference of Berman's formula from Clausing's equation, solved to 1e-6 (test_permeation_slit.c
+// solves it again), against ln(L/h); beyond, the last value, accurate to 0.05 %.
 static double above_clausing(double l) {
   static const double at[] = {3, 5, 7, 10, 14, 20, 30, 50, 100, 200, 500};
   static const double by[] = {0.0,     2.0e-4,  5.14e-4, 1.03e-3, 1.64e-3, 2.35e-3,
@@ -29,7 +29,7 @@ static double above_clausing(double l) {
 double sb_slit_transmission(double l) {
   const double root = sqrt(1.0 + l * l), direct = 0.5 * (1.0 + 1.0 / (root + l));
   if (l < 1e-3) {
-    return direct; // the rest is of third order
+    return direct; // the remainder is of third order
   }
   if (l > 1e4) {
     // The difference below is rounding.

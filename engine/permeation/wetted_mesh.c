@@ -54,8 +54,9 @@ static void along(double x[2], const double *place, int a, int m, int b, double 
   }
 }
 
-// The node in the middle between the mid-side node `m` and the vertex `v` of a side whose other
-// vertex is `w`: a side's two lie at known[2 m] (by the lesser vertex) and behind it.
+// Returns the node in the middle between the mid-side node `m` and the vertex `v` of a side whose
+// other vertex is `w`: a side's two such nodes are known[2 m] (at the smaller vertex) and the next
+// one.
 static int half_side(SbWettedMesh *to, const SbWettedMesh *from, int *known, int v, int m, int w) {
   int *node = &known[2 * m + (v > w ? 1 : 0)];
   if (*node < 0) {

@@ -58,8 +58,8 @@ double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t ter
   gsl_matrix_view vectors = gsl_matrix_view_array(vector, n, n);
   gsl_vector_view values = gsl_vector_view_array(value, n);
   unsigned rotations;
-  // Jacobi's rotations keep the small values' digits; what is left beside the diagonal after 60
-  // sweeps is below rounding.
+  // Jacobi's rotations keep the digits of small values; the off-diagonal remainder after 60 sweeps
+  // is below rounding.
   (void)gsl_eigen_jacobi(&matrix.matrix, &values.vector, &vectors.matrix, 60, &rotations);
   // e(recovery) = sum g_j e_j = sum_j sqrt(g_j/tau_j) y_j.
   for (size_t k = 0; k < n; k++) {
@@ -186,7 +186,7 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
             "%.0f K from the reference: the temperature shift holds to about 100 K", away);
   }
 
-  // Relaxation, and what the elements still hold after release.
+  // Relaxation, and the remaining stress of the elements after release.
   double tau[SB_RUBBER_TERMS];
   double longest = 0.0;
   out->relaxation = 1.0;
