@@ -52,7 +52,7 @@ SbStatus sb_assembly_join(SbAssembly *a, SbJointKind kind, size_t i, size_t j,
     return sb_fail(report, SB_ERROR_INPUT, "the joint of '%s' and '%s' needs an axis",
                    a->body[i].name, a->body[j].name);
   }
-  // A frame whose first axis is the joint's, kept in both bodies.
+  // A frame whose first axis is the joint's, stored in the axes of both bodies.
   helper[fabs(axis[0]) < 0.6 * size ? 0 : 1] = 1.0;
   cross(frame[1], axis, helper);
   double across = sqrt(dot(frame[1], frame[1]));
@@ -98,8 +98,8 @@ void sb_assembly_clear_forces(SbAssembly *a) {
 
 // ---- conditions ----
 
-// What a joint allows neither of: its point to leave along the axis, a turn about the axis, the
-// axis to tilt. Across the axis the point is always held.
+// Motions that each kind of joint prevents: of its point along the axis, rotation about the axis,
+// tilt of the axis. The point is always fixed across the axis.
 static const struct {
   const char *name;
   bool along, about, tilt;
@@ -115,7 +115,7 @@ const char *sb_joint_kind_name(SbJointKind kind) {
   return joint_kind[kind].name;
 }
 
-// A joint of bodies i (0) and j (1) as it stands, ground axes.
+// A joint of bodies i (0) and j (1) at its present position, ground axes.
 typedef struct {
   const SbBody *body[2];
   double arm[2][3];     // from the bodies' centres to their points of the joint [m]

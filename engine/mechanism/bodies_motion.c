@@ -198,8 +198,8 @@ SbStatus sb_assembly_tangent(SbAssemblyTangent *t, const SbAssembly *a, size_t b
   return sb_succeed(report);
 }
 
-// Whether the parts lie on their joints, and these have the Jacobian of the last tangent, but for
-// rounding: parts that slide as one. *off is what the joints are violated by [m].
+// Returns whether the parts are on their joints, and these have the Jacobian of the last tangent,
+// except for rounding: parts that slide together. *off is the violation of the joints [m].
 static bool stays_tangent(double *off, const SbAssembly *a, SbAssemblyWork *work) {
   static const double ROUNDING = 1e-13;
   const double length = sb_bodies_extent(a);

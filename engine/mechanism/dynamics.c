@@ -1,5 +1,5 @@
-// What events do in dynamics.h. A segment lasts from one event to the next; dynamics_path.c
-// finds its motion and its end, this file says what the end does.
+// Effects of events in dynamics.h. A segment lasts from one event to the next. dynamics_path.c
+// finds its motion and its end; this file applies the event at its end.
 #include "engine/mechanism/dynamics_internal.h"
 #include "engine/numeric/root.h"
 
@@ -74,7 +74,8 @@ static void update_held(SbDynamics *s) {
   }
 }
 
-// A contact whose deflection changes at once (no damper): the difference is rubbed away.
+// A contact whose deflection changes instantaneously (no damper): the difference is dissipated by
+// friction.
 static void jump_deflection(SbDynamics *s, size_t i, double to) {
   double k = s->model->contact[i].stiffness;
   s->energy.friction += 0.5 * k * (s->at.d[i] - to) * (s->at.d[i] + to);
@@ -103,8 +104,8 @@ static double patch_speed(const SbDynamics *s, size_t i) {
   return p.v - sb_motion_deflection_rate(s, &p, i);
 }
 
-// A sliding contact without a damper has the deflection of its level at once, if that is not more
-// than it has (false).
+// A sliding contact without a damper gets the deflection of its level immediately, if that is not
+// larger than the present one (false).
 static bool spring_back(SbDynamics *s, size_t i) {
   double level = sb_motion_level(&s->loads, i, s->sign[i]);
   level = sb_motion_sliding_level(s, i, level, fabs(s->at.v));
@@ -115,7 +116,7 @@ static bool spring_back(SbDynamics *s, size_t i) {
   return fabs(to) <= fabs(s->at.d[i]);
 }
 
-// Loads have changed at once: which contacts appear, vanish, hold or let go.
+// Loads have changed discontinuously: determines which contacts appear, vanish, stick or slip.
 static void reload(SbDynamics *s) {
   const SbDynamicsModel *m = s->model;
   load_region(s);
@@ -175,7 +176,7 @@ static void turn_rigid(SbDynamics *s) {
   update_held(s);
 }
 
-// Force on a stem at rest at x, less what rigid contacts and stops do to it.
+// Returns the force on a stem at rest at x, without the forces of rigid contacts and stops.
 static double demand_at(const SbDynamics *s, double x) {
   SbDynamicsState z = s->at;
   Point p;
@@ -235,7 +236,7 @@ static void rigid_event(SbDynamics *s, int direction) {
     update_held(s);
     return;
   }
-  // Comes to rest, or turns if the forces are too large to hold it.
+  // Comes to rest, or reverses if the forces exceed the static limits.
   s->energy.friction += 0.5 * s->mass * s->at.v * s->at.v;
   s->at.v = 0.0;
   tell(s, SB_MOTION_STICK, -1, 0);
@@ -351,7 +352,7 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
                          .on = m->drive_bonded || pressed};
   }
   reload(s);
-  // A stem pressed onto a rigid stop rests on it from the start.
+  // A stem pressed onto a rigid stop is at rest on it from the start.
   for (size_t i = 0; i < m->stops; i++) {
     const SbDynamicsStop *p = &m->stop[i];
     bool rests = rigid(p->stiffness) && s->at.x == p->position && s->at.v == 0.0;
@@ -470,7 +471,7 @@ void sb_dynamics_sample(const SbDynamics *s, SbDynamicsSample *out, SbDynamicsEn
   if (m->drive.kind != SB_DRIVE_NONE) {
     out->drive_position = sb_motion_by_force(m) ? z.x : sb_motion_drive_at(s, s->now).value;
   }
-  // What holds a stem at rest: a rigid stop first, else the rigid contacts by their strength.
+  // Reactions on a stem at rest: a rigid stop first, else the rigid contacts by their limits.
   total = s->held ? p.sum.f0 : 0.0;
   for (size_t i = 0; i < m->stops; i++) {
     bool holds = s->wall[i].on && rigid(s->wall[i].stiffness);

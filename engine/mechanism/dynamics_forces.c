@@ -211,7 +211,7 @@ void sb_motion_add_energy(double *term, const SbDynamics *s, const Point *p, con
 
 // ---- event functions ----
 
-// `side` times a force, f0 of which is the rest of terms of `size` [N].
+// Returns `side` times a force, f0 of which is the remainder of terms of `size` [N].
 static SbEventFunction function_of(const Force *f, double side, double size) {
   return (SbEventFunction){.constant = side * f->f0,
                            .rate = side * f->f1,
@@ -254,7 +254,7 @@ static bool wall_function(const SbDynamics *s, const Point *p, size_t w, SbEvent
     return false;
   }
   if (wall->on) {
-    // A rigid stop bears all that presses the stem on it.
+    // A rigid stop carries all of the force that presses the stem on it.
     *g = rigid(wall->stiffness) ? function_of(&p->sum, -wall->push, sum_size(s, p))
                                 : function_of(&p->wall[w], wall->push, wall_size(s, p, w));
   } else if (platen && sb_motion_by_force(m)) {
@@ -262,8 +262,8 @@ static bool wall_function(const SbDynamics *s, const Point *p, size_t w, SbEvent
     sb_motion_wall_force(&force, s, w, p->t, p->z->x);
     *g = function_of(&force, -wall->push, wall_size(s, p, w));
   } else {
-    // Left behind: met again when the gap closes on what is still deflected, a stop also by a stem
-    // that friction holds meanwhile.
+    // Contact lost: met again when the gap closes on the remaining deflection; a stop is also met
+    // by a stem that friction holds in the meantime.
     if (!platen && s->held && wall->residual == 0.0) {
       return false;
     }
@@ -278,7 +278,7 @@ static bool wall_function(const SbDynamics *s, const Point *p, size_t w, SbEvent
   return true;
 }
 
-// Adds what contact i can hold from now on.
+// Adds the largest force that contact i can carry from now on.
 static void add_holding(const SbDynamics *s, const Point *p, size_t i, int direction,
                         SbEventFunction *g) {
   const SbDynamicsContact *c = &s->model->contact[i];
@@ -327,7 +327,8 @@ double sb_motion_holding(const SbDynamics *s, const Point *p, size_t i, int dire
   return value_of(&g, 0.0);
 }
 
-// Speed of a sliding patch in its direction; one that slows down for ever comes to rest.
+// Returns the speed of a sliding patch in its direction; a patch that decelerates for ever comes to
+// rest.
 static SbEventFunction patch_function(const SbDynamics *s, const Point *p, size_t i) {
   const SbDynamicsContact *c = &s->model->contact[i];
   SbEventFunction g = {.constant = s->brisk[i] ? -sb_motion_rest_speed(s->model) : 0.0,
@@ -377,7 +378,8 @@ static bool contact_function(const SbDynamics *s, const Point *p, size_t i, int 
   return true;
 }
 
-// Speed left in the band. It ends at rest only for elastic contacts: a rigid one rests there.
+// Returns the remaining speed in the band. It ends at rest only for elastic contacts: a rigid one
+// comes to rest there.
 static bool speed_function(const SbDynamics *s, int side, SbEventFunction *g) {
   const SbDynamicsBand *band = &s->band;
   bool rests = false;
@@ -429,7 +431,8 @@ double sb_motion_event_value(const SbDynamics *s, int event, const SbEventFuncti
                              double *noise) {
   *noise = 1e-12 * (fabs(g->constant) + g->noise + fabs(g->relax)) +
            fabs(g->of_v) * 10.0 * s->system.tolerance * s->speed_size;
-  // What slows down to the speed of rest is at rest, whatever the tolerance leaves of its speed.
+  // A contact that decelerates to the speed of rest is at rest, whatever speed remains within the
+  // tolerance.
   for (size_t i = 0; i < s->model->contacts; i++) {
     int own = is_rigid(s->model, i) ? EVENT_RIGID_UP : EVENT_CONTACT_UP + (int)i;
     if (event == own && s->brisk[i] && s->state[i] == SB_CONTACT_SLIP) {

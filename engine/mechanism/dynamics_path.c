@@ -1,6 +1,6 @@
-// Motion between two events of dynamics.h, where the next one is, and what the forces do on the
-// way. Every term of energy is integrated by itself, from the motion and the forces; kinetic and
-// stored energy are read from the state. Their balance is a check.
+// Motion between two events of dynamics.h, the time of the next event, and the work of the forces
+// in between. Every term of energy is integrated separately, from the motion and the forces;
+// kinetic and stored energy are computed from the state. Their balance is a check.
 #include "engine/mechanism/dynamics_internal.h"
 #include "engine/numeric/root.h"
 
@@ -8,20 +8,20 @@
 #include <math.h>
 #include <string.h>
 
-// A rest of this length [s] is looked at again; it costs one segment.
+// Longest segment at rest [s]; a longer rest continues in another segment.
 static const double horizon_max = 1e6;
 
 // Force to which the tolerance of the numerical path refers where springs are stiff [N].
 static const double force_size = 400.0;
 
-// Place, speed and deflection to which it refers at least [m, m/s, m].
+// Smallest position, speed and deflection to which the tolerance refers [m, m/s, m].
 static const double place_size = 1e-3, speed_size = 1e-3, deflection_size = 1e-5;
 
 // Stiffness over mass [1/s2] above which rounding outdoes the tolerance: 1e5 rad/s.
 static const double stiff_square = 1e10;
 
 static bool has_closed_form(const SbDynamics *s) {
-  // Loads that vary with the place only do not vary for a stem held at rest.
+  // Loads that vary with the position only are constant for a stem at rest.
   bool still = s->held && (s->model->extra_rate == NULL || s->loads.settled);
   if (!(s->loads.constant || still) || s->piece.curved) {
     return false;
@@ -42,8 +42,9 @@ typedef struct {
   SbEventFunction function[EVENT_COUNT];
 } Live;
 
-// Where friction falls faster with the speed than dampers take up, what swings grows: the events'
-// bounds then hold for the time in which it could do so by a factor of e (oscillator.h).
+// If friction decreases faster with the speed than the dampers dissipate, oscillations grow: the
+// events' bounds are then valid for the time in which they could grow by a factor of e
+// (oscillator.h).
 static void closed_path(SbDynamics *s, const Point *p, Live *live) {
   s->motion = (SbOscillator){0};
   if (!s->held) {
@@ -209,8 +210,9 @@ static void add_unknown(SbDynamics *s, size_t place, double size, double stiffne
   s->system.ceiling[n] = stiffness > 0.0 ? force_size / stiffness : 0.0;
 }
 
-// The unknowns of this segment; the rounding of acceleration [m/s2] and speed [m/s]: a very stiff
-// drive or stop turns that of its own place into them, and less cannot be asked for.
+// Sets the unknowns of this segment, and the rounding errors of acceleration [m/s2] and speed
+// [m/s]: a very stiff drive or stop converts the rounding of its position into them, and no smaller
+// tolerance is possible.
 static void set_system(SbDynamics *s, const Point *p, double *noise, double *speed) {
   enum { X, V, EXTRA, D };
   const SbDynamicsModel *m = s->model;
@@ -242,14 +244,14 @@ static void set_system(SbDynamics *s, const Point *p, double *noise, double *spe
   }
 }
 
-// Steps that end behind an event by no more than this share of them are not taken again: at their
-// end dense output has the solution's slope, so that its error grows with the square of the way
-// from there. They are made a little too long, so that the event lies in them.
+// Steps that end behind an event by at most this fraction of their length are not repeated: at
+// their end dense output has the solution's slope, so its error grows with the square of the
+// distance from there. Steps are made slightly too long, so that the event is inside them.
 static const double near_end = 1e-4, overshoot = 1e-5;
 
-// Steps with error control; one that an event ends is taken again so that it ends there: the event
-// is then as accurate as the solution, not as its dense output, and the step's error that of the
-// way to the event (loads may have a corner behind it).
+// Steps with error control. A step that an event ends is repeated so that it ends there: the event
+// is then as accurate as the solution, not as its dense output, and the error of the step is that
+// up to the event (loads may have a kink behind it).
 static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, SbReport *report) {
   double noise, speed;
   set_system(s, p, &noise, &speed);
@@ -291,7 +293,7 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
     }
     double at = h;
     if (landing == EVENT_NONE) {
-      // A step that had to be shortened is not lengthened at once.
+      // A step that had to be shortened is not lengthened immediately.
       s->h = h * (attempt > 0 ? fmin(factor, 1.0) : factor);
       landing = first_event(s, h, live, &at);
       landings = 0;
@@ -312,7 +314,7 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
       }
     }
     if (landing != EVENT_NONE && (s->t + at <= s->t || at < 1e-14 * h)) {
-      at = s->step[0].h = s->step[1].h = 0.0; // at once
+      at = s->step[0].h = s->step[1].h = 0.0; // immediately
     } else if ((at > h || h - at > near_end * h) && landings < 6) {
       h = (1.0 + overshoot) * at;
       landings++;
@@ -360,7 +362,8 @@ SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report) {
   s->linear = has_closed_form(s);
   sb_motion_point(&p, s, s->t, &s->at);
   for (size_t i = 0; i < s->model->contacts; i++) {
-    // One that was brisk stays so while it slows down to the speed of rest, in however many steps.
+    // A contact that began fast counts as fast while it decelerates to the speed of rest, in any
+    // number of steps.
     double slip = fabs(p.v - sb_motion_deflection_rate(s, &p, i));
     double rest = sb_motion_rest_speed(s->model);
     s->brisk[i] = s->state[i] == SB_CONTACT_SLIP && slip > (s->brisk[i] ? rest : 2.0 * rest);
@@ -391,8 +394,8 @@ static void stretch_to(Stretch *over, const SbDynamics *s, const Point *p, doubl
                     .square = sb_oscillator_square(&s->motion, tau),
                     .ramp = tau * end.travel - end.area};
   if (platen->k > 0.0) {
-    // Where nothing but the platen's spring holds the stem its way is the platen's but for what
-    // swings, to the last digit: a stiff machine's force is what these small differences leave.
+    // If only the platen's spring acts on the stem, its motion is that of the platen plus the
+    // oscillation, to the last digit: a stiff machine's force follows from these small differences.
     const double rate = platen->f1 / platen->k;
     const double pull = s->held ? 0.0 : (p->sum.f1 - p->sum.k * rate) / s->mass;
     over->lag = sb_oscillator_lag(&s->motion, tau, rate, pull);

@@ -1,31 +1,33 @@
-// Stick-slip that repeats itself, for dynamics.h: a stiff machine has millions of cycles, which are
-// not stepped through.
+// Periodic stick-slip, for dynamics.h: a stiff machine has millions of cycles, which are not
+// stepped through.
 //
-// Equal cycles. Where loads and the drive's speed are constant, equal states at two break-aways
-// make equal cycles for ever: the same contacts rest or slide with the same stretch of the drive's
-// spring, deflections, speed and rests. A cycle may have several slips, of contacts that take
-// turns: break-aways are compared with one that is set anew after 1, 2, 4, ... others (Brent 1980).
-// A stem that is thrown off the platen and met by it again has all that in its cycle.
-// Time goes on by a whole number of periods, the stem by as much as the drive, every energy by as
-// many times what it gained in one period. Exact.
+// Equal cycles. If loads and the drive's speed are constant, equal states at two break-aways give
+// equal cycles for ever: the same contacts are at rest or slide, with the same stretch of the
+// drive's spring, deflections, speed and dwells. A cycle may have several slips, of contacts that
+// alternate: break-aways are compared with one that is replaced after 1, 2, 4, ... others (Brent
+// 1980). A stem that leaves the platen and is met by it again has all of that in its cycle. Time
+// advances by a whole number of periods, the stem by as much as the drive, every energy by the same
+// multiple of its gain in one period. Exact.
 //
-// Cycles that change slowly, of rigid contacts: loads change with the place, the drive's speed with
-// the time, what holds with the rest. When the contacts break away the stem rests, and its place
-// follows from the balance of forces alone, so that the motion can be taken up again at any later
-// break-away. Between, every term of energy is the integral of its mean power in a cycle, known at
-// both ends of the group and before it: that of the parabola through the three. Groups are as long
-// as the force that breaks the contacts away, known beforehand, is a parabola to the tolerance
+// Cycles that change slowly, of rigid contacts: loads change with the position, the drive's speed
+// with time, static friction with the dwell. When the contacts break away the stem is at rest, and
+// its position follows from the balance of forces alone, so the motion can be continued at any
+// later break-away. In between, every term of energy is the integral of its mean power in a cycle,
+// known at both ends of the group and before it: that of the parabola through the three. Groups are
+// as long as the break-away force, which is known beforehand, is a parabola to the tolerance
 // (envelope following; Petzold 1981, multirevolution methods). The phase of the oscillation behind
-// a group is not that of stepping, which no tolerance would give after 1e5 cycles either.
+// a group differs from that of stepping, which no tolerance would determine after 1e5 cycles
+// either.
 //
-// Neither passes a time that was asked for, an edge, a stop or the drive's next piece. Leaves out:
-// slow changes with elastic contacts.
+// Neither passes a requested time, an edge, a stop or the drive's next piece. Not available: slow
+// changes with elastic contacts.
 #include "engine/mechanism/dynamics_internal.h"
 
 #include <math.h>
 #include <string.h>
 
-// Cycles that are worth passing over: fewer are stepped through, and told to the listener.
+// Smallest number of cycles that are passed over: fewer are stepped through, and reported to the
+// listener.
 static const double worth = 10.0;
 
 // Break-aways after which cycles under constant loads are taken as slowly changing.
@@ -41,8 +43,8 @@ typedef struct {
   double time, way; // s, m
 } Ahead;
 
-// Nothing has happened since `was` but slips, rests, bands of speed and the platen's leaving and
-// coming again, and the machine presses.
+// Returns whether since `was` there were only slips, sticks, bands of speed and contacts lost and
+// made by the platen, and the machine pushes.
 static bool undisturbed(const SbDynamics *s, const SbDynamicsBreak *was) {
   const SbDynamicsModel *m = s->model;
   const SbDynamicsBreak *now = &s->broke;
@@ -73,7 +75,8 @@ static double drift(const SbDynamics *s) {
 
 static bool equal(const SbDynamics *s, const SbDynamicsBreak *a, const SbDynamicsBreak *b) {
   double noise = 4e-16 * (fabs(a->at.x) + fabs(sb_motion_drive_at(s, s->t).value));
-  // A return spring's force rises along the way, and only stretches the drive's spring further.
+  // The force of a return spring increases along the motion, and only stretches the drive's spring
+  // further.
   const double yield = drift(s) * (a->at.x - b->at.x);
   // Off the platen that force alone acts, another in each cycle.
   const bool pressed = drift(s) == 0.0 || a->platens == b->platens;
@@ -106,7 +109,7 @@ static Ahead look_ahead(const SbDynamics *s, int direction) {
   return ahead;
 }
 
-// Time goes on to `until`, and the stem to x; all else but energies keeps its state.
+// Advances time to `until`, and the stem to x; all else except energies keeps its state.
 static void pass(SbDynamics *s, double until, double x, double cycles) {
   const double before = s->t;
   s->t = until;
@@ -190,8 +193,8 @@ static void close_group(SbDynamics *s, double middle, const double *power) {
   }
 }
 
-// The place of the stem at time t just when its rigid contacts would break away, after a rest that
-// has changed since the last as it did since the group before.
+// Returns the position of the stem at time t just when its rigid contacts would break away, after a
+// dwell that has changed since the last one at the same rate as since the group before.
 static double place_at(const SbDynamics *s, double t, int direction) {
   const SbDynamicsGroup *g = &s->group;
   SbDynamics there = *s;
@@ -240,8 +243,8 @@ static double bend(const SbDynamics *s, double until, int direction) {
   return fmax(off_parabola(force), off_parabola(speed));
 }
 
-// Whether what the contacts hold has settled to what changes slowly: where it grows with the rest,
-// an unlike rest before the first cycle fades from rest to rest.
+// Returns whether static friction changes slowly only: if it grows with the dwell, a different
+// dwell before the first cycle decays from cycle to cycle.
 static bool settled(SbDynamics *s) {
   SbDynamicsGroup *g = &s->group;
   const double noise = 8.0 * sb_motion_time_noise(s->t);

@@ -159,7 +159,7 @@ static double complex faded(double complex rate, double tau) {
 double sb_oscillator_square(const SbOscillator *o, double tau) {
   enum { POINTS = 10 };
   if (o->v0 == 0.0 && o->g0 == 0.0 && o->g1 == 0.0) {
-    return 0.0; // held
+    return 0.0; // fixed
   }
   if (o->stiffness > 0.0 && o->apart) {
     // v is the trend's and two exponentials, conjugate if it swings.
@@ -280,7 +280,7 @@ double sb_event_first(const SbEventFunction *g, const SbOscillator *o, double ho
   if (now.value < -64.0 * now.tiny) {
     return 0.0;
   }
-  // At the limit from the start: look which way it goes.
+  // At the limit from the start: its direction decides.
   if (now.value <= now.tiny) {
     bounds(g, o, &now, horizon, &curvature, &swing);
     double lift = curvature > 0.0 ? 2.0 * fabs(now.rate) / curvature : horizon;

@@ -115,7 +115,7 @@ static double piece_length(const Piece *s) {
   return s->arc ? s->radius * fabs(s->sweep) : hypot(s->x1 - s->x0, s->r1 - s->r0);
 }
 
-// Whether two pieces touch other than where one goes over into the next.
+// Returns whether two pieces have a common point other than where one continues in the next.
 static bool crosses(const SbProfile *p, size_t i, size_t j, double tiny) {
   Piece a, b;
   double at[4][2];
@@ -240,7 +240,7 @@ SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *p, double density, Sb
   if (status != SB_OK) {
     return status;
   }
-  // About the profile's own middle, so that a part far from the origin keeps its digits.
+  // Relative to the profile's middle, so that a part far from the origin keeps its digits.
   double low = INFINITY, high = -INFINITY;
   for (size_t i = 0; i < p->count; i++) {
     low = fmin(low, p->point[i].x);
@@ -266,7 +266,7 @@ SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *p, double density, Sb
 
 // ---- diameters ----
 
-// Least and largest radius of the outline at x; high -1 if there is none.
+// Returns the smallest and largest radius of the outline at x; high -1 if there is none.
 static void radii_at(const SbProfile *p, double x, double *low, double *high) {
   size_t n = pieces_of(p);
   double top = 0.0; // lines count as one by their lengths
@@ -340,7 +340,7 @@ SbStatus sb_profile_diameters(SbProfileDiameters *out, const SbProfile *p, doubl
 
 // ---- outlines ----
 
-// Chords that keep within `sagitta` of a piece.
+// Number of chords that deviate by at most `sagitta` from a piece.
 static size_t divisions(const Piece *s, double sagitta) {
   double step = s->arc ? 2.0 * acos(1.0 - fmin(sagitta / s->radius, 1.0)) : 1.0;
   return (size_t)fmax(1.0, ceil(fabs(s->sweep) / step));

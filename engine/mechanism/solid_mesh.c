@@ -1,5 +1,5 @@
-// Closed triangle meshes. See solid.h. A mesh bounds a body if every edge is run once each way; it
-// is inside out if its signed volume is negative.
+// Closed triangle meshes. See solid.h. A mesh bounds a body if every edge occurs once in each
+// direction; it is inside out if its signed volume is negative.
 #include "engine/mechanism/solid.h"
 #include "engine/mechanism/vector3.h"
 
