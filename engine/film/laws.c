@@ -6,10 +6,10 @@
 //                  grows (docs/verification.md), with the end pressures' factor kappa^-0.8
 //   moes           blend of that limit and the rigid wedge's, for every M
 //
-// The two power laws know one film only, reported as minimum, central and flux film alike. The
-// profile is Hertz's dry pressure and gap raised by the film; friction is that of the flat film.
-// Left out: layers at the edges, so the profile is no solution of Reynolds' equation. The expected
-// error is the distance from a blend of the rigid and the elastic limit.
+// The two power laws have one film, reported as minimum, central and flux film. The profile is
+// Hertz's dry pressure and gap plus the film; friction is that of the flat film. Not modelled:
+// layers at the edges, so the profile is not a solution of Reynolds' equation. The expected error
+// is the distance from a blend of the rigid and the elastic limit.
 #include "engine/film/laws.h"
 
 #include "engine/film/scale.h"

@@ -448,7 +448,7 @@ int sb_ring_contact_update(SbRingContact *contact, bool single) {
       changes++;
     }
   }
-  // Friction follows once the contact is steady: changing both at once does not converge.
+  // Friction follows when the contact is constant: changing both together does not converge.
   return changes > 0 ? changes : update_slip(contact, single);
 }
 

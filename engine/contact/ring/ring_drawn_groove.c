@@ -248,7 +248,7 @@ static SbStatus draw_row(SbGrooveDrawing *out, Row *row, SbReport *report) {
   if (row->at[0].z > row->at[row->count - 1].z) {
     turn_round(row);
   }
-  // Joints of an arc and a line are of both; a joint's flag goes with its point.
+  // A joint of an arc and a line belongs to both; the flag of a joint belongs to its point.
   const int lowest = lowest_of(row);
   double wall[2];
   int top[2] = {0, 0};
