@@ -182,13 +182,13 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
               "load, upright, may exist next to it",
               turn * 180.0 / M_PI);
     }
-    // Of a lip that the fluid nearly lifts: little beside an end of a contact, much along a flat
+    // Error of a lip that the fluid nearly lifts: small at an end of a contact, large along a flat
     // one.
     const double lack = status == SB_OK ? sb_ring_friction_lack(ring) : 0.0;
     if (lack > LACK) {
       result->error.load = fmax(result->error.load, lack);
     }
-    // What single nodes lack of Coulomb's law.
+    // Deviation of single nodes from Coulomb's law.
     result->error.load = fmax(result->error.load, result->friction_excess / result->bore_force);
     result->missed = status == SB_OK && result->error.load > wanted;
   }

@@ -110,9 +110,10 @@ void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id
 // constant difference while it is not given.
 bool sb_param_keeps(SbParamId id, SbParamId giver, int kind);
 
-// Returns the fluid (choice of fluid.name) to which the value of a fluid-dependent parameter
-// applies, if that is not fluid.name: that of fluid.figures, or the one for which the named rubber
-// has this value. Returns -1 if `id` does not depend on the fluid or applies to fluid.name.
+// Returns the fluid (a choice of fluid.name) to which the value of a fluid-dependent parameter
+// applies, if it is not the fluid of fluid.name: the fluid of fluid.figures, or the fluid for which
+// the named rubber has this value. Returns -1 if `id` does not depend on the fluid, or if its value
+// applies to fluid.name.
 int sb_params_other_fluid(const SbParams *params, SbParamId id);
 
 // Returns the number of the fluid-dependent parameter `index` (from 0); -1 after the last one.

@@ -198,8 +198,8 @@ double sb_sliding_starved_speed(const SbSealState *state, const SbSlidingTask *t
                                 const SbSlidingBody *body);
 
 // Divides real area share, boundary_load and friction_viscous of a rolling, jamming or
-// pressure-limited section by the fractions that it bears, so that they are those of a section that
-// bears all.
+// pressure-limited section by the fractions that the section carries. The results are those of a
+// section that carries all of its friction.
 void sb_sliding_whole(SbSealState *state);
 
 // Computes what follows from the films in a task's state for a surface `roughness` times as rough

@@ -101,9 +101,9 @@ struct SbSlidingMemory {
   SbSlidingSolved plane, fitted;            // on the half-plane (or of a law); on the fitted body
   SbSlidingSolved rest;                     // dry rough contact, coupled asperities only
   const SbSlidingSolved *last;              // result of the last evaluation, one of these
-  bool rested;                              // `rest` is that of
-  double rest_left;                         // this pressure on the left [Pa] and
-  const SbSlidingFitment *rest_on;          // this fit
+  bool rested;                              // `rest` is valid, for
+  double rest_left;                         // this pressure on the left [Pa]
+  const SbSlidingFitment *rest_on;          // and this fit
   SbSlidingBody body;                       // of the last film on one
   SbFilmSolver *solver;                     // NULL until a film is solved (laws need none)
   SbFilmSolver *rest_solver;                // of `rest`, apart from a sliding film's solution
