@@ -23,8 +23,7 @@
   X(SB_STUDY_PROPELLANTS, propellants, "propellants", "Propellants over the temperature",          \
     "pressure force, break-away, least return and dose of each propellant in this valve")
 
-// A study.
-// Kinds, in the order of the bits of output.studies.
+// A kind of study, in the order of the bits of output.studies.
 typedef enum {
 #define SB_STUDY_ENUM(code, function, name, title, help) code,
   SB_STUDY_LIST(SB_STUDY_ENUM)
