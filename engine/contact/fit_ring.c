@@ -168,7 +168,7 @@ static void take_errors(SbFit *out, const SbFitProblem *in, bool on_large,
                 fmax(result->error.width, fmax(path->width, large->width)));
 }
 
-// Whether a solved section reaches the groove's wall that its load leaves out.
+// Returns whether a solved section reaches the groove's wall that its load leaves out.
 static bool loses_wall(const SbRingLoad *load, const SbFitProblem *in, const SbRingResult *result) {
   const bool both = isfinite(load->wall_left) && isfinite(load->wall_right);
   return !both && result->axial_right - result->axial_left > in->gland_width;

@@ -36,7 +36,7 @@ static double worst(const SbFilmSolver *solver) {
   return fmax(solver->error[0], solver->error[1]);
 }
 
-// Whether rough rows' film forms again behind its cavity.
+// Returns whether rough rows' film forms again behind its cavity.
 static bool forms_again(const SbEhlSolution *s) {
   bool again = false;
   for (int i = 0; i + 1 < s->mesh.dofs; i++) {

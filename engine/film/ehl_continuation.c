@@ -291,7 +291,7 @@ static SbStatus start_flooded(SbFilmSolver *solver, const SbEhlCase *target) {
   return status;
 }
 
-// Whether the liquid of a flooded outlet would tear.
+// Returns whether the liquid of a flooded outlet would tear.
 static bool torn(const SbEhlSolution *s) {
   if (s->c.layers.end != SB_EHL_FULL || s->c.rough.rows) {
     return false;

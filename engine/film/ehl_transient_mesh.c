@@ -102,7 +102,7 @@ static void build_kernel(SbFilmTransient *t) {
   }
 }
 
-// Whether there is room between the layers for faces that move.
+// Returns whether there is room between the layers for faces that move.
 static bool thin(const SbFilmTransient *t) {
   return 2.0 * CARRIED * t->layer < 0.7;
 }

@@ -184,7 +184,7 @@ static bool number(bool *lifted, SbFilmTransient *t, SbTransientState *s) {
   return t->order <= SB_TRANSIENT_ORDER_MAX;
 }
 
-// Whether the last factors may serve again: the same unknowns and nearly the same step.
+// Returns whether the last factors may serve again: the same unknowns and nearly the same step.
 static bool factors_serve(const SbFilmTransient *t, const SbTransientState *s) {
   return fabs(log(t->c0 / t->factored_c0)) < 0.3 &&
          memcmp(t->factored_cavity, s->cavity, (size_t)t->nodes * sizeof(bool)) == 0 &&

@@ -289,7 +289,7 @@ static void speed_event(SbDynamics *s, int side) {
   s->direction = s->at.v == 0.0 ? -s->direction : s->direction;
 }
 
-// Whether a contact that rested slides from then on.
+// Returns whether a contact that rested slides from then on.
 static bool apply(SbDynamics *s, int event) {
   const bool rigid_one = event == EVENT_RIGID_UP || event == EVENT_RIGID_DOWN;
   const size_t i =

@@ -77,7 +77,7 @@ static double side_of(const double *a, const double *b, const double *c, const d
   return dot(n, ad);
 }
 
-// Whether the open segment pq passes through the inside of triangle abc.
+// Returns whether the open segment pq passes through the inside of triangle abc.
 static bool pierces(const double *p, const double *q, const double *a, const double *b,
                     const double *c) {
   double sp = side_of(a, b, c, p), sq = side_of(a, b, c, q);

@@ -188,7 +188,7 @@ static SbRingMeshPlan first_plan(const SbRing *ring, const SbRingLoad *s, double
   return plan;
 }
 
-// Whether one of the four triangles that an element is drawn as is turned over.
+// Returns whether one of the four triangles that an element is drawn as is turned over.
 static bool turned_over(const SbRing *ring) {
   static const int PART[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
   for (int i = 0; i < 4 * ring->mesh->elements; i++) {

@@ -59,7 +59,7 @@ static int wrap_hull(int *hull, const SbRingMesh *mesh) {
   return count;
 }
 
-// Whether the free section is convex, as a round one is.
+// Returns whether the free section is convex, as a round one is.
 static bool is_convex(const SbRingMesh *mesh) {
   const int n = mesh->loop_count;
   for (int i = 0; i < n; i++) {

@@ -258,7 +258,7 @@ static SbStatus go_near(SbRing *ring, const SbRingLoad *from, const SbRingLoad *
   return status;
 }
 
-// Whether another body's free section is this one's but for its size.
+// Returns whether another body's free section is this one's but for its size.
 static bool same_outline(const SbRing *ring, const SbRingBody *body) {
   SbRingOutline other;
   if (ring->body.profile.kind != body->profile.kind) {

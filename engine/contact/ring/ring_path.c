@@ -174,7 +174,7 @@ static void explain(double done, SbReport *report) {
   report->iteration = reason.iteration;
 }
 
-// Whether a smaller step cannot help either.
+// Returns whether a smaller step cannot help either.
 static bool gives_up(const SbRing *ring, SbStatus status, int iterations) {
   return status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY ||
          ring->state == SB_RING_ROLLS || iterations > ITERATIONS_MOST;

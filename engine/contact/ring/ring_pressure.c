@@ -270,8 +270,8 @@ double sb_ring_profile_place(const SbDryContact *p, int i) {
   return i == SB_RING_PROFILE - 1 ? p->right : p->left + share * (p->right - p->left);
 }
 
-// Whether the curve rises from both ends and nowhere falls below the lower of their pressures;
-// finds its peak.
+// Returns whether the curve rises from both ends and nowhere falls below the lower of their
+// pressures; finds its peak.
 static bool presses(SbDryContact *p) {
   sb_dry_contact_edges(p);
   double low = fmin(p->pressure_left, p->pressure_right);

@@ -31,7 +31,7 @@ static double y_at(const Frame *f, size_t i) {
 
 static const int power_x[TERMS] = {0, 1, 0, 2, 1, 0}, power_y[TERMS] = {0, 0, 1, 0, 1, 2};
 
-// Whether the form has the term; a profile has none in y.
+// Returns whether the form has the term; a profile has none in y.
 static bool has_term(SbForm form, const SbHeights *h, int k) {
   const int order = form == SB_FORM_NONE ? 0 : form == SB_FORM_PLANE ? 1 : 2;
   return power_x[k] + power_y[k] <= order && (h->rows > 1 || power_y[k] == 0);

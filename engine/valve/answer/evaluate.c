@@ -86,7 +86,7 @@ static bool same_plan(const SbPlan *a, const SbPlan *b) {
   return same; // the remaining fields are the model's choices
 }
 
-// Whether the last question's run has solved all that a model and plan want solved.
+// Returns whether the last question's run has solved all that a model and plan want solved.
 static bool has_solved(const SbEvaluator *evaluator, const SbModel *model, const SbPlan *plan) {
   if (!evaluator->answered || !same_plan(plan, sb_run_plan(evaluator->run))) {
     return false;

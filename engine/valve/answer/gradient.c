@@ -231,7 +231,8 @@ static double scale_of(SbParamId id, double x) {
   return x != 0 ? fabs(x) : param->fallback != 0 ? fabs(param->fallback) : param->max - param->min;
 }
 
-// Whether figure `figure`, or every one, has at points up to `points` of a level its base's bits.
+// Returns whether figure `figure`, or every one, has at points up to `points` of a level its base's
+// bits.
 static bool same_bits(const Work *work, int at, int points, size_t figure) {
   for (int i = 0; i < points; i++) {
     if (memcmp(&value_of(work, at, i)[figure], &work->base_value[figure], sizeof(double)) != 0) {
@@ -349,7 +350,7 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
   }
 }
 
-// Whether a parameter enters rings.
+// Returns whether a parameter enters rings.
 static bool enters_rings(Work *work, double x, double scale) {
   work->override[work->question.override_count - 1].value = x + parts[RINGS] * scale;
   return work->start != NULL && !sb_evaluator_has_solved(work->evaluator, &work->question);

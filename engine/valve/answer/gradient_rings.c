@@ -46,8 +46,8 @@ static double scatter_of(const SbFigure *row, double order) {
   return !is_of_film(row) ? SCATTER : order > ORDER_MOST ? SCATTER_ROUGH : SCATTER_FILM;
 }
 
-// Whether a seal's contact, which was to stay, did, for all that it moves otherwise: where the
-// base's films have not converged nothing but the whole state is to be had.
+// Returns whether a seal's contact, which was to stay, did, for all that it moves otherwise: where
+// the base's films have not converged nothing but the whole state is to be had.
 static bool stayed(const Work *work, int seal) {
   const size_t size = sizeof work->up.size[seal];
   return memcmp(work->moved.size[seal], work->up.size[seal], size) != 0 ||

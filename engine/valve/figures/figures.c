@@ -85,9 +85,9 @@ double sb_figure_error(const SbSummary *summary, int index) {
   return error > 0 ? error / fabs(sb_figure_value(summary, index)) : error;
 }
 
-// Whether a solver's own estimate is the figure's error: above 1 it has not converged. Of a figure
-// that follows from solved ones, as a difference or by a steep law, such an error states only that
-// the figure is uncertain.
+// Returns whether a solver's own estimate is the figure's error: above 1 it has not converged. Of a
+// figure that follows from solved ones, as a difference or by a steep law, such an error states
+// only that the figure is uncertain.
 static bool is_solved(const SbFigure *figure) {
   switch (figure->error) {
   case SB_BY_LOAD:

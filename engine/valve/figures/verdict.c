@@ -35,7 +35,7 @@ static double margin(const SbVerdict *of) {
   return isnan(distance) ? INFINITY : distance;
 }
 
-// Whether the same figure without a limit is worse in *next.
+// Returns whether the same figure without a limit is worse in *next.
 static bool lesser(const SbVerdict *worst, const SbVerdict *next) {
   const bool alone = isnan(worst->limit) && isnan(next->limit) && worst->figure == next->figure;
   return alone && sb_figure(next->figure)->better == SB_BETTER_MORE && next->value < worst->value;

@@ -93,7 +93,8 @@ static double film_error(const SbModel *model) {
   return model->fit == SB_FIT_RING ? 6 * fit_error(model) : 0.01 * model->tolerance;
 }
 
-// Whether a seal slides in this state of the chamber; the inner one has left the land in one.
+// Returns whether a seal slides in this state of the chamber; the inner one has left the land in
+// one.
 static bool slides(int seal, int chamber) {
   return seal == SB_OUTER || chamber != (int)SB_CHAMBER_OPEN;
 }

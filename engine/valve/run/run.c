@@ -256,8 +256,8 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   return status;
 }
 
-// Whether what was computed so far is worth going on with: a film or motion that did not converge
-// leaves its best state.
+// Returns whether what was computed so far is worth going on with: a film or motion that did not
+// converge leaves its best state.
 static bool usable(SbStatus status) {
   return status == SB_OK || status == SB_ERROR_NOT_CONVERGED;
 }

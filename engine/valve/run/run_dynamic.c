@@ -541,8 +541,8 @@ static double straight_force(const SbRun *run) {
   return peak > 0 ? run->straight_error * most / peak : 0;
 }
 
-// Whether a motion does work. Work over less than the rounding of places is none: a stem that is
-// pushed and does not move.
+// Returns whether a motion does work. Work over less than the rounding of places is none: a stem
+// that is pushed and does not move.
 static bool does_work(const Recorder *r) {
   const SbModel *model = r->run->model;
   const double pushed = fmax(r->force_peak, fabs(sb_model_push(model, 0)));

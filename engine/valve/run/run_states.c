@@ -447,7 +447,7 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
   return kept != SB_OK ? kept : status;
 }
 
-// Whether a status ends a seal's states.
+// Returns whether a status ends a seal's states.
 static bool fatal(SbStatus status) {
   return status != SB_OK && status != SB_ERROR_NOT_CONVERGED;
 }

@@ -35,7 +35,7 @@ static bool enters_left(const SbModel *model, int direction) {
   return (direction == SB_CYCLE_IN) == (sb_model_way(model) > 0);
 }
 
-// Whether nothing is carried: towards the air out of a room without liquid.
+// Returns whether nothing is carried: towards the air out of a room without liquid.
 static bool is_dry(const SbModel *model, int seal, SbChamber chamber, int direction) {
   return enters_left(model, direction) && !is_wet(model, seal, chamber, true);
 }

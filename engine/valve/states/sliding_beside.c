@@ -107,7 +107,7 @@ static double *input(int i, SbModel *model, SbSlidingTask *task, SbSlidingLaw *l
   return place[i];
 }
 
-// Whether a number enters: the stem's land where the chamfers of its grooves end there.
+// Returns whether a number enters: the stem's land where the chamfers of its grooves end there.
 static bool counts(int i, const SbModel *model) {
   return i != LAND || model->groove_chamfer > 0;
 }
@@ -346,7 +346,7 @@ static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, cons
   return status;
 }
 
-// Whether a number bends: its values at the ends and in the middle of equal steps.
+// Returns whether a number bends: its values at the ends and in the middle of equal steps.
 static bool bends(const double *a, const double *middle, const double *b, double rounding) {
   const double most = fmax(fabs(*a - *middle), fabs(*b - *middle));
   return !(fabs(*a - 2 * *middle + *b) <= BENT * most + rounding * fabs(*middle));
@@ -449,7 +449,8 @@ static const Column *column_of(SbSlidingBeside *beside, Anchor *anchor, int i,
 
 // ---- A state
 
-// Whether a number is near enough to an anchor's; an option that is off has no nearness of its own.
+// Returns whether a number is near enough to an anchor's; an option that is off has no nearness of
+// its own.
 static bool is_near(const Anchor *anchor, int i, double z) {
   const double at = anchor->z[i];
   return z == at || fabs(z - at) <= step_of(i, at, FAR) || (i >= FILMS && !(step_of(i, at, 1) > 0));

@@ -260,7 +260,7 @@ bool sb_sliding_read_film(SbSealState *out, const SbSlidingSolved *solved, SbSta
   return true;
 }
 
-// Whether there is a film: something moves, and the inlet finds liquid.
+// Returns whether there is a film: something moves, and the inlet finds liquid.
 bool sb_sliding_has_film(const SbSlidingTask *task) {
   return task->speed != 0 && !(task->supply.limited && !(task->supply.layer > 0));
 }

@@ -11,7 +11,7 @@ static bool is_ring(const SbSlidingTask *task) {
   return task->model->fit == SB_FIT_RING;
 }
 
-// Whether friction drags this seal's section: the ring's, while it slides.
+// Returns whether friction drags this seal's section: the ring's, while it slides.
 bool sb_sliding_drags(const SbSlidingTask *task) {
   return is_ring(task) && task->speed != 0;
 }

@@ -94,7 +94,7 @@ static bool solve(double value[SB_SPEED_VALUES], SbSpeedStates *states, double s
   return status == SB_OK;
 }
 
-// Whether the supply alone shapes the film at a speed, which then is that of `starved`.
+// Returns whether the supply alone shapes the film at a speed, which then is that of `starved`.
 static bool is_starved(SbSpeedStates *states, double speed) {
   if (!states->task.supply.limited || states->status != SB_OK) {
     return false;

@@ -56,7 +56,7 @@ static double of_fluid(const SbModel *scene, SbParamId id, int fluid, double T) 
   return derived.value;
 }
 
-// Whether cycles with solved rings are compared with closed forms.
+// Returns whether cycles with solved rings are compared with closed forms.
 static bool interpolates(const SbModel *scene) {
   return scene->fit == SB_FIT_RING;
 }
