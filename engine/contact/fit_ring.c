@@ -23,7 +23,7 @@ static int drag_direction(const SbFitProblem *in) {
 // gasket, whose load at 0.4999 is 1 % above that at 0.495 (extrapolated from 0.49 and 0.495).
 static const double GASKET_POISSON_MOST = 0.495, BULK = 2.4;
 
-// What the bulk modulus that is left out may change of the load, relative.
+// Returns the relative effect of the neglected bulk modulus on the load.
 static double bulk_error(const SbFitProblem *in) {
   return in->gasket ? 2.0 * BULK * fmax(0.0, in->poisson_ratio - GASKET_POISSON_MOST) : 0.0;
 }

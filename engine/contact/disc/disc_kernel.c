@@ -24,7 +24,7 @@ SbDiscPoint sb_disc_point_at(double sine) {
   return (SbDiscPoint){.angle = asin(sine), .sin = sine, .cos = sqrt((1.0 - sine) * (1.0 + sine))};
 }
 
-// What does not depend on the logarithm and the jump: a's cosine and sine, and the regular part.
+// Terms without the logarithm and the jump: cosine and sine of a, and the regular part.
 typedef struct {
   double cos_a, sin_a; // of a = theta - phi
   double cross;        // factor of e1 H: m_x n_y - m_y n_x

@@ -62,7 +62,7 @@ static void fill_influence(Work *w, size_t count) {
       for (int side = 0; side < (j > 0 ? 2 : 1); side++) {
         for (int k = 0; k < 2; k++) {
           const SbDiscVector m = inward(w, to, 1.0), n = inward(w, gauss[k], 1.0 / gauss[k].cos);
-          // What the logarithm's factor differs from 1 by leaves nothing singular.
+          // The difference of the logarithm's factor from 1 has no singularity.
           const double apart = fabs(to.sin - gauss[k].sin), factor = m.x * n.x + m.y * n.y - 1.0;
           double kink;
           sum += half *

@@ -279,7 +279,8 @@ static double slip_excess(const SbRingContact *contact) {
 
 // ---- conditions and forces
 
-// What drives a node by its area and by the fluid's force on it, which its sides' nodes move.
+// Adds the dependence of a node's prescribed traction on its area and on the fluid's force on it,
+// which change with the nodes of its sides.
 static void lean_on_sides(const SbRingContact *contact, int i, const SbRingGrip *grip, double share,
                           const double n[2], SbRingCondition *condition) {
   const int first = i - (i % 2 != 0 ? 1 : 2), count = i % 2 != 0 ? 3 : SB_RING_BESIDE;

@@ -61,7 +61,8 @@ void sb_ring_rest_on_wall(SbRing *ring) {
   }
 }
 
-// What rubs on the bore; over it the drag, and the drag of the whole law.
+// Returns the bore's load on which friction acts. Writes the drag, and the drag of the full law,
+// both divided by that load.
 static double bore_load(const SbRingContact *contact, double *drag, double *whole) {
   double sum = 0.0, along = 0.0, most = 0.0;
   for (int i = 0; i < contact->count; i++) {
@@ -189,7 +190,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
         return end_at_limit(ring, SB_RING_ROLLS, most, limit);
       }
       if (length < ARC_LEAST || spent) {
-        // What stops at single nodes of one mesh goes on with another.
+        // A path that stops at single nodes of one mesh continues on another.
         refit = ++meshes <= MESHES && !spent;
         if (!refit && fabs(is->turn - level_turn) > FLAT_TURN) {
           return end_at_limit(ring, SB_RING_ROLLS, most, limit);

@@ -15,7 +15,7 @@
 static const double CHORD = 7.5 * M_PI / 180, APART = 12 * M_PI / 180;
 static const double STEEP = 70 * M_PI / 180 + 1e-9, LEAN = M_PI / 3 + 1e-9;
 
-// What the surfaces may miss a point by, of the lesser of width and depth.
+// Largest deviation of the surfaces from a point, divided by the smaller of width and depth.
 static const double MISSED = 0.02;
 
 enum { POINTS = 512 };

@@ -117,7 +117,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   const double enough = load->bore_slides != 0 ? wanted : tolerance;
   double floor_load = load_floor(body, load);
   double size = sb_ring_fit_size(body, load, tolerance);
-  // What is dragged follows its path on this one.
+  // A dragged ring follows its path on this mesh.
   const double path = first.element_size > 0.0 ? first.element_size : SIZE / RATIO;
   first.element_size = load->bore_slides != 0 ? path : fmin(0.08, fmax(SIZE, size) / RATIO);
   first.fit_mesh = false;

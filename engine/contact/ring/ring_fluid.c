@@ -104,7 +104,7 @@ static void load_node(SbRingContact *contact, int i, const int nodes[3], const d
     }
   }
   const double *n = frame.n, *t = frame.t;
-  // What remains of a force vector v in the balance: P v, all of it, its tangential part, or
+  // Part of a force vector v that remains in the balance: P v, all of it, its tangential part, or
   // nothing.
   for (int r = 0; r < 2; r++) {
     double p[2] = {0.0, 0.0};

@@ -116,7 +116,7 @@ typedef struct {
   double gap, along, length, n[2], t[2];
 } Fold;
 
-// How many nodes along the boundary two are apart.
+// Returns the number of nodes along the boundary between two nodes.
 static int apart(int a, int b, int count) {
   const int way = abs(a - b);
   return way < count - way ? way : count - way;
@@ -139,7 +139,8 @@ static Piece piece_at(const SbRingContact *contact, int k) {
   return p;
 }
 
-// How far x is outside of a piece, and along it as a share of its length.
+// Returns the distance of x from a piece, > 0 outside, and its position along the piece as a
+// fraction of its length.
 static double outside_of(const Piece *p, const double x[2], double *along) {
   const double d[2] = {x[0] - p->a[0], x[1] - p->a[1]};
   *along = (p->t[0] * d[0] + p->t[1] * d[1]) / p->length;
@@ -251,7 +252,8 @@ double sb_ring_fold_apply(SbRingContact *contact) {
   return deepest;
 }
 
-// The same between two places of the section and where they were, `at` and `was` between them.
+// Does the same between two positions of the section and their earlier positions, `at` and `was`
+// between them.
 static double across_over_along(const SbRingContact *contact, const double way[2],
                                 const double was[2], double at, double from) {
   const double along = hypot(way[0], way[1]) / hypot(was[0], was[1]);

@@ -66,7 +66,7 @@ static double wall_recess(const SbRingLoad *load, int wall, double r, double *sl
   return recess;
 }
 
-// What the floor's rounded corners, or its drawn shape, rise above it.
+// Returns the height of the floor's rounded corners, or of its drawn shape, above the floor.
 static double floor_rise(const SbRingLoad *load, double z, double *slope, double *curvature) {
   *slope = *curvature = 0.0;
   if (load->groove != NULL) {

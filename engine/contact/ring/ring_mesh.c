@@ -70,7 +70,8 @@ static void row_depths(double *depth, double first, double total, int m) {
   }
 }
 
-// What surrounds a vertex: its triangles' other corners, their worst shape before and after a move.
+// Surroundings of a vertex: the other corners of its triangles, their worst shape before and after
+// a move.
 typedef struct {
   int spokes;
   double sum[2], worst[2];

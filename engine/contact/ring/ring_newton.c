@@ -107,7 +107,8 @@ static void fail(const SbRingContact *contact, double residual, int changes, int
                 wall ? "above the floor" : "from its middle", residual);
 }
 
-// How far the state is from its place on the path; 0 where the share is given.
+// Returns the distance of the state from its position on the path; 0 if the friction factor is
+// given.
 static double off_path(const SbRing *ring) {
   const SbRingArc *arc = &ring->arc;
   double at[2] = {sb_ring_turn(ring->contact, NULL, NULL, NULL),

@@ -163,8 +163,8 @@ SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report) {
              : sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring's stiffness is singular");
 }
 
-// What the present du leaves of rhs, in `left`; the largest over the largest sum of its terms'
-// sizes, infinite where it is not finite.
+// Computes the residual of rhs for the present du, in `left`. Returns its largest value divided by
+// the largest sum of the magnitudes of its terms; infinite if it is not finite.
 static double leaves(const SbRingFem *fem, double *left) {
   double most = 0.0, scale = 0.0;
   for (int i = 0; i < fem->mesh->nodes; i++) {

@@ -242,7 +242,7 @@ static SbStatus linear(SbRing **out, SbRingTangent *tangent, const SbRingBody *b
   return SB_OK;
 }
 
-// The same on the mesh that follows the other ring's contacts.
+// Does the same on the mesh that follows the other ring's contacts.
 static SbStatus follow(SbRing **out, SbRingTangent *tangent, const SbRingBody *body,
                        const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
   SbRing *other;

@@ -177,7 +177,7 @@ static Lines fit_lines(const double *x, const double *y, size_t n, double a, dou
 static void find_self_affine(SbHeightSpectrum *out, bool surface) {
   // The window widens the longest waves, the form takes some of them.
   enum { SKIP = 2, LEAST = 8 };
-  // What falls by this from one bin to the next was cut off there.
+  // A spectrum that falls by this factor from one bin to the next was cut off there.
   const double CLIFF = 10;
   double x[SB_HEIGHT_BINS_MAX], y[SB_HEIGHT_BINS_MAX];
   out->hurst = out->roll_off = out->cut_off = NAN;

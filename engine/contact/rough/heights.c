@@ -165,7 +165,7 @@ SbStatus sb_heights_fill(SbHeights *h, SbReport *report) {
   for (size_t j = 0; j < h->columns && h->rows > 1; j++) {
     add_nearest(sum + j, weight + j, h->z + j, h->rows, h->stride, h->dy);
   }
-  // What has no measured point in its row and column is far from all: the mean.
+  // Points without a measured point in their row and column get the mean.
   for (size_t i = 0; i < h->rows; i++) {
     for (size_t j = 0; j < h->columns; j++) {
       const size_t at = i * h->stride + j;

@@ -19,7 +19,8 @@ static double moment(double hurst, double n, double a, double b) {
   return 2 * M_PI * (pow(b, power) - pow(a, power)) / power;
 }
 
-// What a spectrum of hurst exponent HURST from 1 to exp(x) lacks of Nayak's breadth wanted.
+// Returns the difference of Nayak's breadth from the wanted one, for a spectrum with the exponent
+// HURST from 1 to exp(x).
 static double missing_breadth(double x, const void *wanted) {
   double ratio = exp(x);
   return *(const double *)wanted - 1.5 * moment(HURST, 4, 1, ratio) * moment(HURST, 0, 1, ratio) /

@@ -225,7 +225,7 @@ static void settle(Work *work, size_t parameter, size_t figure) {
 
 // ---- One parameter
 
-// What its steps are parts of.
+// Returns the scale of a parameter's steps.
 static double scale_of(SbParamId id, double x) {
   const SbParam *param = sb_param(id);
   return x != 0 ? fabs(x) : param->fallback != 0 ? fabs(param->fallback) : param->max - param->min;
@@ -286,7 +286,7 @@ static SbStatus ask_places(Work *work, int at, double x, bool *refused) {
         break;
       }
     }
-    // What the outermost points leave as it was, the inner ones do.
+    // If the outermost points do not change anything, the inner ones do not either.
     if ((i == 2 && all_same(work, at, 2)) || (i == 3 && level->one_sided)) {
       memcpy(value_of(work, at, i), value_of(work, at, i - 1), size);
       continue;
@@ -309,7 +309,7 @@ static SbStatus ask_places(Work *work, int at, double x, bool *refused) {
   return SB_OK;
 }
 
-// The same, on one side where the range or the model has no other.
+// Does the same, on one side if the range or the model does not have the other one.
 static SbStatus ask_level(Work *work, int at, double x, double h, const SbParam *param) {
   bool side[2] = {x + h <= param->max, x - h >= param->min};
   for (int round = 0; round < 2 && (side[0] || side[1]); round++) {

@@ -29,7 +29,8 @@ static bool any_open(const SbSummary *summary) {
          summary->seal[SB_INNER].leak_state == SB_LEAK_OPEN;
 }
 
-// How far a figure is from its limit, relative; without a number as far as can be.
+// Returns the relative distance of a figure from its limit; the largest possible one without a
+// value.
 static double margin(const SbVerdict *of) {
   double distance = fabs(of->value - of->limit) / fmax(fabs(of->limit), 1e-300);
   return isnan(distance) ? INFINITY : distance;
@@ -55,8 +56,8 @@ bool sb_verdict_take_worse(SbVerdict *worst, const SbVerdict *next) {
   return worse;
 }
 
-// What the film models that were computed for the figure's seal differ by, in the figure's unit; 0
-// for a figure that no other model has computed.
+// Returns the largest difference of the film models that were computed for the figure's seal, in
+// the figure's unit; 0 for a figure that no other model has computed.
 static double model_spread(const SbSummary *summary, int index) {
   const SbFigure *figure = sb_figure(index);
   const bool film = figure->error == SB_BY_FILM || figure->error == SB_BY_FILM_LEAST;

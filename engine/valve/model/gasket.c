@@ -28,7 +28,7 @@ void sb_gasket_take(SbModel *model) {
   model->profile = SB_SEAL_PROFILE_RECTANGLE;
   model->profile_axial_height = model->gasket_thickness;
   model->profile_corner_radius = fmax(EDGE * model->gasket_thickness, EDGE_MIN * high);
-  // What storage sees of the squeeze.
+  // Squeeze as the storage model uses it.
   model->radial_space = (1 - model->gasket_crimp) * high;
   model->axial_width = (1 - model->gasket_crimp) * model->gasket_thickness;
   model->bore_diameter = model->stem_diameter;

@@ -258,7 +258,7 @@ static void compile_dose(SbModel *model, SbProblems *problems) {
   }
 }
 
-// What the joints leave free must be the stroke, once.
+// Checks that the joints leave exactly one degree of freedom, the stroke.
 static void check_joints(const SbModel *model, SbAssemblyWork *work, SbProblems *problems) {
   SbAssembly assembly;
   SbMobility mobility;

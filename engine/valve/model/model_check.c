@@ -128,7 +128,7 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
   }
 }
 
-// What only a round section has.
+// Checks options that only a round section has.
 static void check_profile(const SbModel *model, SbProblems *problems) {
   const bool gasket = model->kind == SB_VALVE_GASKET;
   const char *key = gasket ? "valve.kind" : "seal.profile";

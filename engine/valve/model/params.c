@@ -172,7 +172,7 @@ static bool is_kept(SbParamId id) {
   return i < KEEPS;
 }
 
-// What follows from a named fluid's saturated state.
+// Parameters that follow from the saturated state of a named fluid.
 static const struct {
   SbParamId id;
   SbFluidPropertyId property;

@@ -167,7 +167,7 @@ double sb_cycle_force(const SbCycle *cycle, double X, double s) {
   return fmax(cycle->model->stiffness * (X - s), 0);
 }
 
-// The same margin at s for the place's chamber.
+// Returns the same margin at s for the chamber of the position.
 static double reserve_at(double s, const void *context) {
   const Place *p = context;
   return sb_cycle_reserve(p->cycle, p->chamber, s);
@@ -183,7 +183,8 @@ static double excess_force(double s, const void *context) {
 // ---------------------------------------------------------------------------------------------------
 // Evaluation inside a segment
 
-// How far the balance of a stem at s needs the platen beyond X, rising with s.
+// Returns the distance beyond X that the platen would need for the balance of a stem at s;
+// increases with s.
 static double platen_beyond(double *slope, double s, const void *context) {
   const Place *p = context;
   *slope = rate_at(s, p);
@@ -234,7 +235,7 @@ double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, dou
 // ---------------------------------------------------------------------------------------------------
 // Planning
 
-// What the planner carries along.
+// State of the planner.
 typedef struct {
   SbCycle *cycle;
   double X, s;
@@ -275,7 +276,7 @@ static double piece_end(const Planner *p) {
   return nearest_ahead(p, marks, is_gasket(p->cycle) ? 4 : 3);
 }
 
-// The same as reach() of a gasket valve.
+// Does the same as reach() for a gasket valve.
 static int reach_gasket(SbChamber *chamber, const Planner *p, double s) {
   const SbCycle *cycle = p->cycle;
   const bool in = p->direction == SB_CYCLE_IN, open = p->chamber == SB_CHAMBER_OPEN;

@@ -185,7 +185,7 @@ static SbCounters expect(const SbPlan *plan, const SbModel *model) {
   return out;
 }
 
-// How much of the shelf a figure needs.
+// Returns the depth of the shelf that a figure needs.
 static SbShelfDepth shelf_of(const SbFigure *figure) {
   const char *path = figure->path;
   const bool sums = strcmp(path, "shelf.loss_kg") == 0 || strcmp(path, "shelf.moisture_kg") == 0 ||
@@ -207,8 +207,8 @@ static SbShelfDepth shelf_wished(const SbModel *model, unsigned views) {
   return depth;
 }
 
-// What the valve's views and figures need. Profiles over x where they are drawn, and interior
-// fields only where the fitment model has an interior.
+// Plans what the valve's views and figures need: profiles over x if they are drawn, and section
+// fields only if the fit model has a section.
 static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *wishes) {
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED, finds = finds_speed(model);
   const bool gasket = model->kind == SB_VALVE_GASKET; // whose film is a closed form of its pressure
@@ -329,7 +329,7 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
   }
 }
 
-// What the model alone decides.
+// Returns the part of the plan that depends on the model only.
 static SbPlan basis(const SbModel *model, bool life) {
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   const bool gasket = model->kind == SB_VALVE_GASKET;

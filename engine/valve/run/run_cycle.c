@@ -88,7 +88,8 @@ static SbStatus emit_frames(SbRun *run, const SbRunHooks *hooks, SbReport *repor
   return SB_OK;
 }
 
-// What the films' error leaves in the cycle's works, over the greatest external work.
+// Returns the error of the cycle's works that the films' error causes, divided by the largest
+// external work.
 static double error_work(const SbRun *run) {
   double peak = run->summary.force_peak;
   // Static friction does work only over the machine's deflection before the stem slips.
@@ -134,8 +135,8 @@ static SbStatus compute_figures(SbSummary *out, SbRun *run, SbReport *report) {
   return status;
 }
 
-// What the errors of the states make of the cycle's figures: it is built once more with each of
-// them. Leaves the cycle as it was.
+// Computes the errors of the cycle's figures that the states' errors cause: the cycle is built
+// again with each of them. The cycle is unchanged afterwards.
 static SbStatus find_errors(SbRun *run, SbReport *report) {
   static bool (*const wrong[])(SbRun *) = {sb_run_worsen_friction, sb_run_widen_contact};
   struct {

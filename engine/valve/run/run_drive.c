@@ -1,4 +1,4 @@
-// What drives the valve in a run with inertia: the catalogue's drive.* as mechanism/drive.h.
+// The drive of the valve in a run with inertia: the catalogue's drive.* as mechanism/drive.h.
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>

@@ -408,8 +408,8 @@ static void lose_errors(SbRun *run, const SbReport *why) {
           "the motion's error is not known: %s", why->text);
 }
 
-// What the errors of the states make of the motion: it is followed once more, to no more than a
-// coarse tolerance, with all of them.
+// Computes the errors of the motion that the states' errors cause: the motion is repeated with all
+// of them, at most to a coarse tolerance.
 static SbStatus find_state_errors(SbRun *run, const Recorder *fine, double tolerance,
                                   const SbRunHooks *hooks, SbReport *report) {
   struct {
@@ -526,7 +526,7 @@ SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRu
   return status;
 }
 
-// What the straight friction of the bands of speed is off by, over the greatest force.
+// Returns the error of the linear friction in the bands of speed, divided by the largest force.
 static double straight_force(const SbRun *run) {
   double most = 0;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {

@@ -37,7 +37,7 @@ static double film_by(SbRun *run, int seal, const SbSealState *state, SbFilmMode
   return NAN;
 }
 
-// What to change where a seal does not press enough.
+// Returns the parameter to change if a seal's contact pressure is too low.
 static const char *pressed_by(const SbModel *model) {
   return model->kind == SB_VALVE_GASKET ? "gasket.crimp" : "gland.radial_space";
 }
@@ -204,8 +204,8 @@ static double vent_time(const SbRun *run, double low, double high, size_t step) 
   return open ? INFINITY : time;
 }
 
-// What stays in the chamber once it has been vented [kg]. Where a vent is no part of the model it
-// has all the time it takes. From every `step`-th frame.
+// Returns the mass that remains in the chamber after venting [kg]. If the model has no vent,
+// venting has unlimited time. Uses every `step`-th frame.
 static double kept(const SbRun *run, size_t step) {
   const SbModel *model = run->model;
   const bool gasket = model->kind == SB_VALVE_GASKET;
@@ -454,7 +454,7 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
       {!run->plan.film_history, "solver.error_estimate.film_history",
        "models.film_time = steady: no film was followed in time"},
       {well, "solver.error_estimate.film*", "no seal has a film to solve"},
-      // What is left was to come behind the point where the run ended.
+      // The remaining figures would follow after the point where the run ended.
       {status == SB_ERROR_CANCELLED, "*", "the run was stopped before"},
       {well, "solver.error_estimate.permeation", no_loss},
       {!well, "*", report->text[0] != '\0' ? report->text : sb_status_text(status)},

@@ -121,7 +121,7 @@ static double roughness_of(const SbModel *model, long n) {
   return law->end + (law->start - law->end) * exp(-(double)n / law->actuations);
 }
 
-// What a run of actuation n yields.
+// Copies the results of a run of actuation n.
 static void take(Solved *s, const SbRun *run, long n) {
   const SbModel *model = run->model;
   const SbSummary *summary = &run->summary;
@@ -212,9 +212,9 @@ static void between(Solved *s, const long at[3], long n) {
   life[n] = found;
 }
 
-// How far a guess is from what was solved: forces over that of the first slip, which friction makes
-// alone, or the peak; volumes over the carried one or the net one, if that is larger: a gasket's
-// stem carries on its return only.
+// Returns the difference of a guess from the solved actuation: forces divided by that of the first
+// slip, which is due to friction alone, or by the peak; volumes divided by the carried or the net
+// one, whichever is larger, because a gasket valve's stem carries liquid on its return only.
 static double apart(SbLifeActuation *guess, SbLifeActuation *found) {
   const double slip = found->force_breakaway, force = slip > 0 ? slip : found->force_peak;
   const double volume = fmax(found->carried, fabs(found->leakage)); // of a net one that is known

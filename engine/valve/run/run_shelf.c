@@ -119,7 +119,8 @@ SbStatus sb_run_shelf(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   if (status != SB_OK && report != NULL) {
     *report = own;
   }
-  // What the model has no state for is a reason; what was stopped or did not converge is a status.
+  // Quantities for which the model has no state are reasons; a cancel or a solver that did not
+  // converge is a status.
   return status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY ||
                  status == SB_ERROR_NOT_CONVERGED
              ? status

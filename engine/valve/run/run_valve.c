@@ -106,7 +106,7 @@ static void valve_loads(SbDynamicsLoads *loads, double x, size_t region, const d
   loads->constant = settled && (still || !valve->varies[region]);
 }
 
-// What the speed adds to the parts of friction, vented and filled.
+// Contributions of the speed to the parts of friction, vented and filled.
 typedef struct {
   double width[SB_SEAL_COUNT][2], load[SB_SEAL_COUNT][2]; // N
   double level[SB_SEAL_COUNT][2];                         // without a film

@@ -178,7 +178,7 @@ static double add_interval(double sum[QUANTITIES], const SbModel *model, const T
   return mean;
 }
 
-// What is left of a fill, as whole doses; none without a metered volume.
+// Returns the number of complete doses in a remaining mass; 0 without a metered volume.
 static double doses_of(const SbModel *model, double mass) {
   SbDoseSupply supply = model->supply;
   supply.liquid = fmax(mass, 0) / model->density;

@@ -10,7 +10,7 @@
 
 enum { SLIDING, DRY };
 
-// What an ageing contact's law is made of.
+// Data of an ageing contact's law.
 typedef struct {
   const SbModel *model;
   double kinetic;          // friction of sliding, viscous part included [N]

@@ -286,8 +286,8 @@ static SbStatus real_area(SbSealState *out, const SbSlidingTask *task, double ro
   return SB_OK;
 }
 
-// What the surfaces make of a contact that slides, whose load, width and film are known: real area,
-// kinetic friction.
+// Computes real area and kinetic friction of a sliding contact whose load, width and film are
+// known.
 static SbStatus rub(SbSealState *out, const SbSlidingTask *task, double roughness,
                     SbReport *report) {
   const SbModel *model = task->model;

@@ -21,7 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// What the solvers are given: of the fitment, then of the films alone.
+// Inputs of the solvers: of the fit, then of the films only.
 enum {
   SECTION,
   INNER,
@@ -195,7 +195,7 @@ static bool alike(const SbSlidingSolution *a, const SbSlidingSolution *b, bool f
   return same;
 }
 
-// What of a task's choices enters a solver.
+// Choices of a task that affect a solver.
 enum { CHOICES = 8 };
 static void choose(int out[CHOICES], const SbSlidingTask *task) {
   const SbModel *model = task->model;
@@ -293,7 +293,7 @@ void sb_sliding_sum_end(SbSlidingMemory *memory) {
   }
 }
 
-// What of a state is solved.
+// Part of a state that is solved.
 typedef enum { WHOLE, BY_FITMENT, FITMENT_ALONE } Part;
 
 // Solves the state of a task whose numbers are z near an anchor: with the anchor's fit if only

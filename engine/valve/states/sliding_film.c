@@ -94,7 +94,7 @@ static SbStatus solve_supplied(const SbSlidingTask *task, SbSlidingSolved *out,
   return sb_succeed(report);
 }
 
-// What a film's solution is next to another one by.
+// Properties of a film that decide whether another one may be solved next to it.
 static SbSlidingBase base_of(const SbFilmProblem *problem) {
   const bool right = problem->speed > 0; // the bore moves to the right, and the fluid with it
   return (SbSlidingBase){.known = true,
@@ -144,7 +144,7 @@ SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
   lent.cancelled = memory->cancelled;
   lent.cancelled_data = memory->cancelled_data;
   out->fitted = problem->compliance != NULL;
-  // What adhesion closes, or a supply starves, takes several solves.
+  // Films with adhesion or a limited supply take several solves.
   const bool plain = !(lent.hamaker > 0 || lent.work_of_adhesion > 0);
   const bool next = out->beside && *out->own != NULL && !(lent.inlet_film > 0);
   const bool near = out->own == NULL && is_near(memory, out, problem);
@@ -409,8 +409,8 @@ void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSl
   }
 }
 
-// The same of a film in which asperities carry most of the load, of which no law knows: from solved
-// flooded films.
+// Does the same for a film in which asperities carry most of the load, which no law describes: from
+// solved flooded films.
 static double starved_rough(const SbSlidingTask *task, const SbFilmProblem *problem) {
   enum { ROUNDS = 6 };
   static const double TIMES = 4, POWER = 0.6, NEAR = 0.05, FASTEST = 1e3; // m/s

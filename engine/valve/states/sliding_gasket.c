@@ -115,7 +115,7 @@ SbStatus sb_sliding_edge_asperities(double *out, const double *p, size_t count,
   return status;
 }
 
-// What the asperities do over the contact where the gap is no less than `film`.
+// Results of the asperities over the contact, with a gap of at least `film`.
 typedef struct {
   double area, load, shear; // real area, their load and the open part's shear, per length
 } Rough;

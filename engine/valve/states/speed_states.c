@@ -163,8 +163,8 @@ static void interpolate(double out[SB_SPEED_VALUES], const SbSpeedCell *cell, do
   }
 }
 
-// How far guessed values miss the solved ones of a speed: films and friction, relative; *rubs is
-// that of friction alone.
+// Returns the largest relative difference of guessed values from the solved ones at a speed: films
+// and friction; *rubs is that of friction alone.
 static double miss_at(double *rubs, const SbSpeedStates *states, double speed, const double *value,
                       const double *guess) {
   SbSealState solved = states->base, guessed = states->base;
@@ -181,8 +181,8 @@ static double miss_at(double *rubs, const SbSpeedStates *states, double speed, c
   return fmax(miss, *rubs);
 }
 
-// The same of a cell's straight line through its ends, or its parabola through ends and middle, at
-// its quarter.
+// Returns the same difference for a cell's straight line through its ends, or its parabola through
+// ends and middle, at its quarter.
 static double miss_of(double *rubs, const SbSpeedStates *states, const SbSpeedCell *cell,
                       bool parabola) {
   static const double WEIGHT[2][3] = {{0.75, 0, 0.25}, {0.375, 0.75, -0.125}};
@@ -228,8 +228,8 @@ static bool is_beside(double out[SB_SPEED_VALUES], SbSpeedStates *states, double
   return states->beside_usable;
 }
 
-// What the cubic leaves in friction: less than the parabola by half the factor of that to the
-// straight line.
+// Returns the estimated error of the cubic in friction: that of the parabola times twice its ratio
+// to the error of the straight line, if that product is smaller.
 static double left(double straight, double parabola) {
   return parabola * (straight > 0 ? fmin(1, 2 * parabola / straight) : 1);
 }

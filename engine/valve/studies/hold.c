@@ -31,7 +31,7 @@ SbStatus sb_model_hold(SbModel **out, const SbModel *scene, SbHold hold, SbRepor
   const SbOverride machine[] = {
       {SB_P_MODELS_MOTION, SB_MODEL_MOTION_QUASI_STATIC},
       {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_MACHINE},
-      // What only the motion with inertia knows, and this cycle has not.
+      // Options that only the motion with inertia has.
       {SB_P_DRIVE_CYCLES, 1},
       {SB_P_FRICTION_DWELL_GAIN, 0},
       {SB_P_FRICTION_STRIBECK_SPEED, 0},

@@ -301,7 +301,7 @@ void sb_study_note(SbStudy *out, const char *format, ...) {
 
 // ---- asking ----
 
-// What one answer cost, how far it is off, and why it has gaps.
+// Cost of one answer, its errors, and the reason of its gaps.
 typedef struct {
   SbStatus status;
   SbReport report;

@@ -126,7 +126,7 @@ static Regression regress(SbStudyWork *work) {
   return out;
 }
 
-// What a solution of the grid is of a law's.
+// Returns the ratio of a solution of the grid to a law's film.
 static double over_law(const Regression *ours, const Law *law, int i) {
   return ours->H[law->film][i] / sb_film_law(&law->law, ours->U[i], ours->W[i]);
 }

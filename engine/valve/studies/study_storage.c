@@ -1,11 +1,11 @@
-// What storage does: load, sliding friction, squeeze and modulus of both seals against storage
+// Effects of storage: load, sliding friction, squeeze and modulus of both seals against storage
 // time, by the scene's rubber (rubber/rubber_time.h: Prony relaxation, network scission and set,
-// swell) and its own models of fitment, film and surface.
+// swell) and its own models of fit, film and surface.
 //
-// The grid is assets/studies/storage.study. At every time the ring is compiled afresh as the cycle
-// would find it after that storage; nothing is interpolated. Pressures are those of B-C, sliding at
-// the drive's speed. Leaves out what the rubber model leaves out: ageing that depends on the
-// contact, desorption, evaporation.
+// The grid is assets/studies/storage.study. At every time the ring is compiled as the cycle would
+// find it after that storage; nothing is interpolated. Pressures are those of B-C, sliding at the
+// drive's speed. Not modelled, as in the rubber model: ageing that depends on the contact,
+// desorption, evaporation.
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>

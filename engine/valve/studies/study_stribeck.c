@@ -64,7 +64,8 @@ static int places(double at[POINTS + 1], const SbStudyWork *work, double own) {
   return count;
 }
 
-// What the states over the speed leave in films and friction, and where they had no film.
+// Adds the interpolation errors of the states to films and friction, and reports speeds without a
+// film.
 static void account(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbSummary *summary = sb_evaluator_summary(work->evaluator);
