@@ -184,7 +184,7 @@ GPtrArray *sb_reader_scan(const char *text, size_t length, const char *shown, GP
     } else if (skip) {
       // Already told.
     } else if (group == NULL) {
-      sb_issues_add(issues, shown, number, NULL, NULL, "a key stands before the first [group]");
+      sb_issues_add(issues, shown, number, NULL, NULL, "a key is before the first [group]");
     } else {
       char *name = g_strchomp(g_strndup(line, (size_t)(equal - line)));
       char *key = g_strdup_printf("%s.%s", group, name);

@@ -259,7 +259,7 @@ static bool find_dialect(Fit *best, const SbTable *table, const Sample *sample,
     (void)sb_table_number(&value[0], &text, &best->dialect, NULL);
     (void)sb_table_number(&value[1], &text, &rival.dialect, NULL);
     sb_issues_add(issues, table->shown, 0, "decimal", "point, comma",
-                  "reads in two ways: \"%s\" is %g with a decimal %s, %g with a decimal %s", cell,
+                  "is ambiguous: \"%s\" is %g with a decimal %s, %g with a decimal %s", cell,
                   value[0], best->dialect.decimal == '.' ? "point" : "comma", value[1],
                   rival.dialect.decimal == '.' ? "point" : "comma");
     return false;
@@ -410,7 +410,7 @@ static bool refuse_double_comma(const SbTable *table, const Sample *sample, cons
   }
   sb_issues_add(
       issues, table->shown, (int)table->header_lines + 1, "separator", NULL,
-      "reads in two ways: %zu cells a row separated by commas, or %zu numbers with "
+      "is ambiguous: %zu cells a row separated by commas, or %zu numbers with "
       "decimal commas under the %zu names of the header: export it with another separator",
       fit->cells, names, names);
   return true;

@@ -69,7 +69,7 @@ enum { SB_TABLE_ROWS_MAX = 50000000 };
 
 // Reads `count` columns of all rows: value[k][row] of column[k], clocks in seconds (from midnight
 // of the first day), NaN for an empty cell. The arrays are owned by the caller (g_free). A row is
-// `damaged` if a cell of it cannot be read while others can, or if it holds a NUL. Other lines
+// `damaged` if a cell of it cannot be read while others can, or if it contains a NUL. Other lines
 // between rows are `skipped`. Both are left out; the number and text of the first line that is left
 // out (owned by the caller, NULL for none). False with one issue: no memory, too many rows, or days
 // and months that read in two ways.

@@ -73,7 +73,7 @@ bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const
         read = sb_table_number(&row[k], &cell[at], &table->dialect, NULL);
       } else if ((read = sb_table_clock(&clock, &cell[at])) && good &&
                  !add_days(&row[k], &days[k], &clock)) {
-        wrong = "reads in two ways: the date goes on by a day or by a month, write it as "
+        wrong = "is ambiguous: the date advances by a day or by a month, write it as "
                 "2026-02-03";
       }
       any |= read;

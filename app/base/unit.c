@@ -225,7 +225,7 @@ bool sb_quantity_parse(double *out, const char *text, const char *si, const char
     goto done;
   }
   if (strpbrk(unit, "#") != NULL) {
-    fail(error, "\"%s\": a comment must stand on a line of its own", copy);
+    fail(error, "\"%s\": a comment must be on a line of its own", copy);
     goto done;
   }
   if (*unit == '\0' && !plain) {

@@ -89,7 +89,7 @@ static bool read_pair(Reader *reader, GError **error) {
   }
   reader->code = (int)code;
   if (!read_line(reader, &text, &length)) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the file ends behind line %d",
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the file ends after line %d",
                 reader->line);
     return false;
   }
@@ -634,7 +634,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
       cad->unit = g_strdup(unit);
       make_bodies(cad, &drawing, scale, choices);
       if (cad->bodies->len == 0) {
-        g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT, "holds no closed outline%s%s",
+        g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT, "contains no closed outline%s%s",
                     cad->warnings->len > 0 ? "; " : "",
                     cad->warnings->len > 0 ? (const char *)cad->warnings->pdata[0] : "");
         g_clear_pointer(&cad, sb_cad_free);

@@ -234,7 +234,7 @@ static bool place(Placing *placing, const SbDxfInsert *insert, const Affine *out
   }
   if (depth > DEPTH_MAX) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "its blocks are nested more than %d deep, or hold themselves", DEPTH_MAX);
+                "its blocks are nested more than %d deep, or contain themselves", DEPTH_MAX);
     return false;
   }
   for (int row = 0; row < insert->rows; row++) {

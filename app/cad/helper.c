@@ -350,8 +350,9 @@ int main(int argc, char **argv) {
       solids++;
     }
   }
-  check(solids == 0, "it holds no solid body");
-  check(solids > SB_CAD_BODIES_MAX, "it holds more than 200 bodies: export the seal's parts alone");
+  check(solids == 0, "it contains no solid body");
+  check(solids > SB_CAD_BODIES_MAX,
+        "it contains more than 200 bodies: export only the seal's parts");
   Axis axis = {0};
   check(!find_axis(&axis), "it has no face of revolution, so no axis");
   fprintf(out, "axis %.17g %.17g %.17g %.17g %.17g %.17g\n", SCALE * axis.point[0],

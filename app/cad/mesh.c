@@ -51,8 +51,8 @@ static const char *guess_unit(double side, double *scale, GError **error) {
   }
   g_set_error(
       error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-      "an STL file knows no unit, and its longest side of %.4g is %s: specify it with --unit", side,
-      found != NULL ? all->str : "that of a valve's part in none");
+      "an STL file states no unit, and its longest side of %.4g is %s: specify it with --unit",
+      side, found != NULL ? all->str : "that of a valve's part in none");
   return NULL;
 }
 
@@ -209,7 +209,7 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
   cad->unit = g_strdup(unit);
   cad->axis = g_strdup_printf("the file's %c", 'x' + axis);
   if (choices->unit == NULL) {
-    g_ptr_array_add(cad->warnings, g_strdup_printf("an STL file knows no unit: in %s its longest "
+    g_ptr_array_add(cad->warnings, g_strdup_printf("an STL file states no unit: in %s its longest "
                                                    "side is %.4g mm",
                                                    unit, 1e3 * scale * side));
   }
@@ -233,8 +233,9 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
   }
   if (cad->bodies->len == 0) {
     const guint told = cad->warnings->len;
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "its section holds no closed outline%s%s",
-                told > 0 ? "; " : "", told > 0 ? (const char *)cad->warnings->pdata[told - 1] : "");
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "its section contains no closed outline%s%s", told > 0 ? "; " : "",
+                told > 0 ? (const char *)cad->warnings->pdata[told - 1] : "");
     g_clear_pointer(&cad, sb_cad_free);
   }
   return cad;

@@ -159,10 +159,11 @@ static void finish_body(SbCad *cad, SbCadBody *body, GPtrArray *outlines) {
     return;
   }
   if (count > 1) {
-    g_ptr_array_add(cad->warnings,
-                    g_strdup_printf("%s: cut into %u pieces or hollow inside; the largest outline "
-                                    "stands for it",
-                                    body->name, count));
+    g_ptr_array_add(
+        cad->warnings,
+        g_strdup_printf(
+            "%s: cut into %u pieces or hollow inside; the largest outline is used for it",
+            body->name, count));
   }
   g_array_append_vals(body->profile, best->profile->data, best->profile->len);
   body->closed = best->closed;

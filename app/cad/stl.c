@@ -297,7 +297,8 @@ gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *un
   const double *corners = (const double *)(const void *)b.corners->data;
   double tolerance = weld_tolerance(corners, b.corners->len / 3);
   if (ok && b.corners->len > 0 && !isfinite(tolerance)) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: has corners too far out", name);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: has corners too far from the origin",
+                name);
     ok = FALSE;
   }
   if (ok) {

@@ -157,7 +157,7 @@ static void draw_loops(Draw *d, SbRect rect) {
   const SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   const size_t shown = MIN(d->view->loops, LOOPS_MAX);
   g_autofree char *note = g_strdup_printf(
-      _("force on the stem / N; grey: before, blue: after, bands hold 95 %% of the model%s"),
+      _("force on the stem / N; grey: before, blue: after, bands contain 95 %% of the model%s"),
       shown < d->view->loops ? _("; the first three") : "");
   sb_canvas_text(c, _("Measured loops and model"), &title, rect.x, rect.y + 14, SB_LEFT);
   sb_canvas_text_fit(c, note, &label, rect.x, rect.y + 34, rect.width);
@@ -235,8 +235,8 @@ static double draw_sentence(Draw *d, SbRect rect) {
   sb_canvas_color(c, sb_canvas_role(c, all ? SB_ROLE_GRID : SB_ROLE_WARN_GROUND), 1);
   cairo_fill(c->cr);
   sb_canvas_paragraph(c, d->view->sentence, &text, rect.x + 14, rect.y + 30, width);
-  sb_canvas_text(c, all ? _("What these data tell") : _("What these data cannot tell"), &head,
-                 rect.x + 14, rect.y + 20, SB_LEFT);
+  sb_canvas_text(c, all ? _("What these data identify") : _("What these data do not identify"),
+                 &head, rect.x + 14, rect.y + 20, SB_LEFT);
   return height;
 }
 
@@ -370,7 +370,7 @@ static void draw_posterior(Draw *d, SbRect rect) {
   const SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   const SbTextStyle name = sb_canvas_style(c, SB_TYPE_NOTE, 600, SB_ROLE_INK);
   sb_canvas_text(c, _("Posterior"), &title, rect.x, rect.y + 14, SB_LEFT);
-  sb_canvas_text_fit(c, _("pairs; ellipses hold 50 and 95 %, grey: before"), &label, rect.x + 90,
+  sb_canvas_text_fit(c, _("pairs; ellipses contain 50 and 95 %, grey: before"), &label, rect.x + 90,
                      rect.y + 14, rect.width - 90);
   if (view->samples < 10 || rect.height < 160) {
     return;

@@ -33,14 +33,13 @@ char *sb_rig_reasons_text(const SbChartRun *run) {
   GString *out = g_string_new(NULL);
   double bias = of->dynamic_coefficient - of->mean_coefficient;
   if (of->stick_slip) {
-    g_string_append_printf(out,
-                           _("Measured %s is a mean of stick-slip peaks, and peaks lie above the "
-                             "mean force: here by %s, "
-                             "%s over %s.\n"),
-                           sb_format_digits(a, SB_RIG_MEASURED_DYNAMIC, 2),
-                           sb_format_digits(b, bias, 2),
-                           sb_format_digits(d, of->dynamic_coefficient, 3),
-                           sb_format_digits(e, of->mean_coefficient, 3));
+    g_string_append_printf(
+        out,
+        _("Measured %s is a mean of stick-slip peaks, which exceed the mean force: here by %s, "
+          "%s over %s.\n"),
+        sb_format_digits(a, SB_RIG_MEASURED_DYNAMIC, 2), sb_format_digits(b, bias, 2),
+        sb_format_digits(d, of->dynamic_coefficient, 3),
+        sb_format_digits(e, of->mean_coefficient, 3));
   } else {
     g_string_append_printf(out,
                            _("Measured %s is a mean of stick-slip peaks; here the plate slides "

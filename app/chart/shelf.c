@@ -45,7 +45,7 @@ static void fill_losses(SbStudy *study, const SbShelf *shelf) {
 }
 
 static void fill_rest(SbStudy *study, const SbShelf *shelf) {
-  SbStudyPanel *water = sb_study_panel(study, &(SbStudyAxis){"water taken in", "kg", "mg", false},
+  SbStudyPanel *water = sb_study_panel(study, &(SbStudyAxis){"water absorbed", "kg", "mg", false},
                                        "the water is not known");
   SbStudyPanel *left =
       sb_study_panel(study, &(SbStudyAxis){"doses left", "1", "", false}, "the loss is not known");
@@ -72,7 +72,7 @@ static void fill_table(SbStudy *study, const SbShelf *shelf) {
     const char *name, *si, *unit;
   } rows[] = {{"lost a year, as the valve is now", "kg", "mg"},
               {"lost over the shelf time", "kg", "mg"},
-              {"share of that", "1", "%"}};
+              {"fraction of the loss", "1", "%"}};
   g_strlcpy(study->row_heading, "path", sizeof study->row_heading);
   study->column_count = G_N_ELEMENTS(names);
   study->row_count = G_N_ELEMENTS(rows);

@@ -160,8 +160,8 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
   int operands = *argc - 1;
   if (good && (operands < operands_min || operands > operands_max)) {
     sb_cli_fail("%s: usage: sealbench %s %s",
-                operands < operands_min ? "something is missing" : "too many operands",
-                command->name, command->usage);
+                operands < operands_min ? "too few operands" : "too many operands", command->name,
+                command->usage);
     good = false;
   }
   good = good && !has_empty_value(entries) && !has_empty_value(every) && take_common(progress);
@@ -460,7 +460,7 @@ int sb_cli_check_targets(const char *const *targets, size_t count) {
 void sb_cli_kept(const char *folder, const GPtrArray *kept) {
   for (guint i = 0; i < kept->len; i++) {
     g_autofree char *path = g_build_filename(folder, kept->pdata[i], NULL);
-    sb_cli_fail("%s: is of an earlier result and was changed since; it is kept", path);
+    sb_cli_fail("%s: belongs to an earlier result and was changed since; it is not deleted", path);
   }
 }
 

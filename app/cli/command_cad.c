@@ -51,7 +51,8 @@ static int read_options(Options *options) {
     (void)choose(&options->settings, "part", sides[0], sides[1]);
   }
   if ((options->scene == NULL) != (options->output == NULL)) {
-    return sb_cli_fail("--scene and --output go together: the scene, and the copy of it");
+    return sb_cli_fail(
+        "--scene requires --output and the reverse: the scene, and the file for its copy");
   }
   return SB_EXIT_DONE;
 }
@@ -182,8 +183,8 @@ static int write_scene(const SbCad *cad, const int *chosen, const char *path,
     any = any || chosen[i] >= 0;
   }
   if (!any) {
-    return sb_cli_fail("--scene: no body is a part of the valve by its name: say which by --part "
-                       "stem_centre=1");
+    return sb_cli_fail("--scene: no body is named like a part of the valve: specify one with "
+                       "--part stem_centre=1");
   }
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(SbDocument) after = NULL;
@@ -261,7 +262,7 @@ int sb_command_cad(int argc, char **argv) {
       {"angle", 0, 0, G_OPTION_ARG_FILENAME, &options.angle,
        "Half-plane that cuts the bodies of a STEP; default 37.7 deg, off most ports", "ANGLE"},
       {"flip", 0, 0, G_OPTION_ARG_NONE, &options.flip,
-       "x the other way: it points out of the canister", NULL},
+       "Reverses x, which must point out of the canister", NULL},
       {"shift", 0, 0, G_OPTION_ARG_FILENAME, &options.shift, "Added to x afterwards", "LENGTH"},
       {"part", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.parts,
        "Body (number or name) that is a part of the valve; default by names", "NAME=BODY"},

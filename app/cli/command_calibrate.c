@@ -70,9 +70,10 @@ static void print_table(const SbStudyFile *study, const SbCalibration *of) {
            curve->after != NULL ? curve->after->rms : NAN,
            curve->spread > 1 ? "; they are correlated, and counted for less" : "");
     if (curve->measured->force_zero == SB_HOW_ASSUMED) {
-      printf("  %s: the force's zero is not in the data and taken as it is: an offset is fitted as "
-             "pressure\n",
-             curve->name);
+      printf(
+          "  %s: the force's zero is not in the data and is used unchanged: an offset is fitted as "
+          "pressure\n",
+          curve->name);
     }
   }
   printf("  chi2 per degree of freedom %.3g%s\n", of->chi2,
@@ -176,7 +177,7 @@ static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
 static bool asks(const SbStudyFile *study, const char *path, GPtrArray *issues) {
   if (study->data->len == 0) {
     sb_issues_add(issues, path, 0, "data.file", "a file of numbers",
-                  "is missing: what was measured");
+                  "is missing: the measured data");
   }
   return study->data->len > 0;
 }

@@ -57,8 +57,8 @@ static void print_table(const SbStudyFile *study, const SbDesign *design) {
   print_parameters(study, design);
   print_figures(study, design);
   if (design->checked) {
-    printf("  over the tolerances all limits hold with %.6g %% (" SB_INTERVAL_COVERS
-           ", 95 %%: %.6g to %.6g %%; by FORM %.6g "
+    printf("  over the tolerances all limits are met with a probability of %.6g %% "
+           "(" SB_INTERVAL_COVERS ", 95 %%: %.6g to %.6g %%; by FORM %.6g "
            "%%)\n",
            100 * design->holds, 100 * design->interval[0], 100 * design->interval[1],
            100 * design->by_form);
@@ -82,7 +82,7 @@ static void print_table(const SbStudyFile *study, const SbDesign *design) {
 // What must be said besides: an exit code.
 static int judge(const SbStudyFile *study, const SbDesign *design) {
   if (!design->found) {
-    return MAX(sb_cli_fail("from no start the figures have values: no valve is there"),
+    return MAX(sb_cli_fail("no start is feasible: the figures have no values"),
                SB_EXIT_NOT_CONVERGED);
   }
   if (!design->feasible) {
@@ -100,14 +100,14 @@ static int judge(const SbStudyFile *study, const SbDesign *design) {
                         design->starts, sb_figure(limit->figure)->path, bound, value);
     }
   } else if (isfinite(study->design.robust) && !design->met) {
-    (void)sb_cli_fail("all limits hold with %.6g %% only, not with %.6g %%", 100 * design->holds,
-                      100 * study->design.robust);
+    (void)sb_cli_fail("all limits are met with a probability of only %.6g %%, not %.6g %%",
+                      100 * design->holds, 100 * study->design.robust);
   }
   if (!design->converged) {
     return MAX(sb_cli_fail("the search did not converge: %s",
-                           design->feasible ? "no step lessens the objective, and slopes say there "
-                                              "should be one"
-                                            : "it ended at its evaluations"),
+                           design->feasible
+                               ? "no step reduces the objective, although its gradient predicts one"
+                               : "it ended at its evaluations"),
                SB_EXIT_NOT_CONVERGED);
   }
   return SB_EXIT_DONE;
@@ -158,7 +158,7 @@ static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
 static bool asks(const SbStudyFile *study, const char *path, GPtrArray *issues) {
   if (!study->design.asked) {
     sb_issues_add(issues, path, 0, "design", "objective = minimise FIGURE",
-                  "is missing: what a design is to be best at");
+                  "is missing: the objective of the design");
   }
   return study->design.asked;
 }

@@ -94,7 +94,7 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem,
   static const SbFilmModel models[] = {SB_FILM_REYNOLDS,      SB_FILM_ASYMPTOTIC, SB_FILM_MOES,
                                        SB_FILM_KARASZKIEWICZ, SB_FILM_THESIS,     SB_FILM_RIGID};
   SbFilm *other = g_new0(SbFilm, 1);
-  printf("By model                         central      least\n");
+  printf("By model                         central    minimum\n");
   for (size_t i = 0; i < G_N_ELEMENTS(models); i++) {
     SbFilmProblem same = *problem;
     same.model = models[i];
@@ -132,7 +132,7 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem,
   if (film->model == SB_FILM_KARASZKIEWICZ || film->model == SB_FILM_THESIS) {
     puts("Note: the laws take the entrainment speed, half the sliding speed. Tables 7.5 and 7.12 "
          "of the\n"
-         "thesis are thicker: their Karaszkiewicz columns hold the speed times 1000/60, their "
+         "thesis are thicker: their Karaszkiewicz columns use the speed times 1000/60, their "
          "current\n"
          "column of 7.12 the full sliding speed and the load over pi x 6 mm.");
   }
@@ -350,7 +350,7 @@ static SbStatus follow(SbResultsHistory *out, const SbFilmProblem *problem,
 }
 
 static void print_history(const SbResultsHistory *h) {
-  puts("Film by time                        least    central  error estimates");
+  puts("Film by time                      minimum    central  error estimates");
   for (size_t i = 0; i < h->count; i++) {
     printf("  %12.6g s           %9.4g nm %9.4g nm  %.2g, %.2g\n", h->time[i], h->film_min[i] * 1e9,
            h->film_central[i] * 1e9, h->error_min[i], h->error_central[i]);
@@ -460,7 +460,7 @@ int sb_command_film(int argc, char **argv) {
     goto done;
   }
   if ((problem.model == SB_FILM_INVERSE) != (dry != NULL)) {
-    sb_cli_fail(dry != NULL ? "--dry-pressure: only the model inverse takes it"
+    sb_cli_fail(dry != NULL ? "--dry-pressure: only the model inverse uses it"
                             : "--dry-pressure is missing: the model inverse needs it");
     goto done;
   }

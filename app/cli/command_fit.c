@@ -117,7 +117,7 @@ static bool choose_drag(SbFitProblem *problem, bool *limit, const char *text, bo
     return false;
   }
   if (model_given && problem->model != SB_FIT_RING) {
-    sb_cli_fail("--drag: only the ring model knows a dragged ring, not --model %s",
+    sb_cli_fail("--drag: only the ring model computes a dragged ring, not --model %s",
                 sb_fit_model_name(problem->model));
     return false;
   }
@@ -165,11 +165,11 @@ int sb_command_fit(int argc, char **argv) {
   const GOptionEntry entries[] = {
       {"seal", 0, 0, G_OPTION_ARG_FILENAME, &seal, "outer or inner", "NAME"},
       {"pressure", 0, 0, G_OPTION_ARG_FILENAME, &pressure,
-       "Pressure on the left, right at ambient; none unless given", "P"},
+       "Pressure on the left (ambient on the right), default 0", "P"},
       {"model", 0, 0, G_OPTION_ARG_FILENAME, &name, "Model, or MODEL:VARIANT; else the file's",
        "NAME"},
       {"drag", 0, 0, G_OPTION_ARG_FILENAME, &drag,
-       "Friction of the sliding bore, > 0 towards the wall; limit or -limit: the greatest", "MU"},
+       "Friction of the sliding bore, > 0 towards the wall; limit or -limit: the maximum", "MU"},
       {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &tolerance, "Relative error wanted", "T"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"export", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &exports,

@@ -71,7 +71,7 @@ int sb_command_fluid(int argc, char **argv) {
   const GOptionEntry entries[] = {
       {"temperature", 0, 0, G_OPTION_ARG_FILENAME, &temperature_text, "In °C, degC or K", "T"},
       {"ethanol", 0, 0, G_OPTION_ARG_FILENAME, &ethanol_text,
-       "Share of ethanol in the mass, up to 30 %: an estimate", "SHARE"},
+       "Mass fraction of ethanol, up to 30 %: an estimate", "SHARE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
       {0},
   };

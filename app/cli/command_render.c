@@ -80,7 +80,7 @@ static bool parse_film(Request *request, const Options *options) {
   SbRenderMovie *movie = &request->movie;
   bool moves = request->film || request->sequence;
   if (moves && options->at != NULL) {
-    sb_cli_fail("--at: a film shows the whole cycle (--from and --to choose a part)");
+    sb_cli_fail("--at: a movie shows the full cycle (--from and --to select a part)");
     return false;
   }
   if (!moves && (options->fps != NULL || options->duration != NULL || options->speed != NULL ||
@@ -324,7 +324,7 @@ static int compute_pins(Pins *pins, const SbDocument *document, Request *request
   }
   sb_cli_issues(issues);
   if (count > SB_CHART_PINS) {
-    sb_cli_note("of %zu kept designs the first %d are drawn", count, SB_CHART_PINS);
+    sb_cli_note("of %zu saved designs only the first %d are drawn", count, SB_CHART_PINS);
   }
   return code;
 }
@@ -560,13 +560,13 @@ int sb_command_render(int argc, char **argv) {
        "Stage (A to F) or time (\"7.3 s\") of a picture", "STAGE|TIME"},
       {"fps", 0, 0, G_OPTION_ARG_FILENAME, &options.fps, "Pictures per second of a film, 30", "N"},
       {"duration", 0, 0, G_OPTION_ARG_FILENAME, &options.duration,
-       "Time in which a film shows the whole cycle, 10 s", "S"},
+       "Duration of a movie of the full cycle, 10 s", "S"},
       {"speed", 0, 0, G_OPTION_ARG_FILENAME, &options.speed,
        "In place of the duration: how many times faster than real", "FACTOR"},
       {"from", 0, 0, G_OPTION_ARG_FILENAME, &options.from, "Where a film starts", "STAGE|TIME"},
       {"to", 0, 0, G_OPTION_ARG_FILENAME, &options.to, "Where a film ends", "STAGE|TIME"},
       {"backend", 0, 0, G_OPTION_ARG_FILENAME, &options.backend,
-       "What draws the section: osmesa or egl; else the first that works", "NAME"},
+       "Renderer of the section: osmesa or egl; default the first that works", "NAME"},
       {"field", 0, 0, G_OPTION_ARG_FILENAME, &options.field,
        "Colours of solved rings: von-mises, hydrostatic-pressure, shear, contact-pressure, "
        "displacement or permeation (output.field)",
@@ -588,7 +588,7 @@ int sb_command_render(int argc, char **argv) {
       {"measured", 0, 0, G_OPTION_ARG_FILENAME, &options.measured, SB_CLI_MEASURED_HELP, "FILE"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"no-pins", 0, 0, G_OPTION_ARG_NONE, &options.no_pins,
-       "Without the file's kept designs, of which loops and contacts show the first two", NULL},
+       "Omits the file's saved designs; loops and contacts show the first two of them", NULL},
       {"dark", 0, 0, G_OPTION_ARG_NONE, &options.dark, "Dark theme", NULL},
       {0},
   };

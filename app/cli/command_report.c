@@ -157,8 +157,9 @@ static int report_study(const char *path, const Options *options) {
     return sb_cli_fail("--measured: is for a scene, not for a study");
   }
   if (study->design.asked || study->data->len > 0) {
-    return sb_cli_fail("%s: requests a %s: a report takes what `sealbench study` computes", path,
-                       study->design.asked ? "design" : "calibration");
+    return sb_cli_fail(
+        "%s: requests a %s: a report requires a study that `sealbench study` computes", path,
+        study->design.asked ? "design" : "calibration");
   }
   const int code = sb_cli_check_outputs(NULL, NULL, options->output);
   if (code != SB_EXIT_DONE) {

@@ -181,8 +181,9 @@ int sb_command_list(int argc, char **argv) {
       {0},
   };
   int code = SB_EXIT_INPUT;
-  if (!sb_cli_parse(&argc, &argv, entries, 1, 1,
-                    "JSON numbers are SI in \"unit\"; \"display_unit\" is what people see.")) {
+  if (!sb_cli_parse(
+          &argc, &argv, entries, 1, 1,
+          "JSON numbers are SI in \"unit\"; tables and the window use \"display_unit\".")) {
     goto done;
   }
   const char *what = argv[1];

@@ -71,10 +71,11 @@ static int check_store(const Options *options, const char *path, SbStore *store)
     (void)sb_cli_fail("%s", structure->message);
   }
   if (format < 2) {
-    (void)sb_cli_fail("%s: is a store of Sealbench 0.1, whose rows carry no checksums: none of its "
-                      "%" G_GUINT64_FORMAT " rows can be verified; sealbench store export writes "
-                      "what can be read",
-                      path, check.rows);
+    (void)sb_cli_fail(
+        "%s: is a store of Sealbench 0.1, whose rows carry no checksums: none of its "
+        "%" G_GUINT64_FORMAT
+        " rows can be verified; sealbench store export writes the rows that can be read",
+        path, check.rows);
   } else if (check.unnamed > 0) {
     (void)sb_cli_fail(
         "%s: the names of parameters and figures of %" G_GUINT64_FORMAT

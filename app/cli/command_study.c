@@ -308,8 +308,8 @@ static char *shard_path(const char *store, const char *index, size_t count) {
 static int check_scripted(const char *what, const char *text) {
   for (const char *c = text; *c != '\0'; c++) {
     if (g_ascii_iscntrl(*c)) {
-      return sb_cli_fail("--emit-slurm: the %s \"%s\" has a control character; a job script takes "
-                         "names without any",
+      return sb_cli_fail("--emit-slurm: the %s \"%s\" has a control character; names in a job "
+                         "script must have none",
                          what, text);
     }
   }
@@ -324,7 +324,8 @@ static int emit_slurm(const Options *options, const SbStudyFile *study) {
     return sb_cli_error(unusable);
   }
   if (study->path == NULL || store == NULL || options->shard_count == 0) {
-    return sb_cli_fail("--emit-slurm: takes a study's file, and --shard 1/N for how many jobs");
+    return sb_cli_fail(
+        "--emit-slurm: requires a study file, and --shard 1/N for the number of jobs");
   }
   GError *error = NULL;
   g_autofree char *program = g_file_read_link("/proc/self/exe", NULL);
@@ -345,7 +346,7 @@ static int emit_slurm(const Options *options, const SbStudyFile *study) {
     return code;
   }
   if (strpbrk(whole, "\"$`\\") != NULL) {
-    return sb_cli_fail("-o: %s has characters that a shell takes for its own", whole);
+    return sb_cli_fail("-o: %s has characters that a shell interprets", whole);
   }
   GString *settings = g_string_new(NULL);
   for (char **setting = options->settings; setting != NULL && *setting != NULL; setting++) {

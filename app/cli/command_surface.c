@@ -41,7 +41,8 @@ static int read_options(Options *options) {
   }
   options->choices.scan.ignore_mask = options->ignore_mask;
   if ((options->scene == NULL) != (options->output == NULL)) {
-    return sb_cli_fail("--scene and --output go together: the scene, and the copy of it");
+    return sb_cli_fail(
+        "--scene requires --output and the reverse: the scene, and the file for its copy");
   }
   if (options->plot != NULL && !sb_output_ends_in(options->plot, ".png") &&
       !sb_output_ends_in(options->plot, ".svg") && !sb_output_ends_in(options->plot, ".pdf")) {
@@ -83,7 +84,7 @@ static void print_origin(const SbSurface *surface) {
   }
   printf("%s\n", choices);
   if (done->missing + done->outliers > 0) {
-    printf("%zu points missing, %zu taken away, %zu filled\n", done->missing, done->outliers,
+    printf("%zu points missing, %zu removed, %zu filled\n", done->missing, done->outliers,
            done->filled);
   }
   if (isfinite(done->form_radius)) {
@@ -287,7 +288,7 @@ int sb_command_surface(int argc, char **argv) {
   Options options = {0};
   const GOptionEntry entries[] = {
       {"form", 0, 0, G_OPTION_ARG_FILENAME, &options.form,
-       "Form to take away: none, plane (default), quadratic or cylinder", "FORM"},
+       "Form to remove: none, plane (default), quadratic or cylinder", "FORM"},
       {"outliers", 0, 0, G_OPTION_ARG_FILENAME, &options.outliers,
        "Leaves out points beyond so many robust deviations; default all stay", "N"},
       {"missing", 0, 0, G_OPTION_ARG_FILENAME, &options.missing,
@@ -296,11 +297,11 @@ int sb_command_surface(int argc, char **argv) {
       {"cutoff-short", 0, 0, G_OPTION_ARG_FILENAME, &options.cutoff_short,
        "Smooths waves shorter than this away (Gaussian, ISO 16610); default none", "LENGTH"},
       {"cutoff-long", 0, 0, G_OPTION_ARG_FILENAME, &options.cutoff_long,
-       "Takes waves longer than this away; default none", "LENGTH"},
+       "Removes waves longer than this; default none", "LENGTH"},
       {"channel", 0, 0, G_OPTION_ARG_FILENAME, &options.channel,
        "Number or title of a channel (.gwy); default the only one of heights", "NAME"},
       {"ignore-mask", 0, 0, G_OPTION_ARG_NONE, &options.ignore_mask,
-       "Takes masked points as measured (.gwy)", NULL},
+       "Uses masked points as if they were measured (.gwy)", NULL},
       {"spacing", 0, 0, G_OPTION_ARG_FILENAME, &options.spacing,
        "Distance of points, in place of the file's", "LENGTH"},
       {"unit", 0, 0, G_OPTION_ARG_FILENAME, &options.unit, "Unit of a text's heights", "UNIT"},

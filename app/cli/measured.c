@@ -81,9 +81,9 @@ void sb_cli_comparison(const SbComparison *comparison) {
   }
   sb_cli_figure("Difference, root mean square", comparison->rms, "N", "N");
   sb_cli_figure("Difference, mean", comparison->mean, "N", "N");
-  sb_cli_figure("Difference, greatest", comparison->most, "N", "N");
+  sb_cli_figure("Difference, maximum", comparison->most, "N", "N");
   if (comparison->outside > 0) {
-    printf("  %zu of %zu points lie where the run has no force\n", comparison->outside,
+    printf("  %zu of %zu points are outside the run's displacements\n", comparison->outside,
            comparison->count);
   }
 }

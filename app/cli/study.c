@@ -17,7 +17,7 @@ int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model) {
   SbStatus status = sb_study_make(out, kind, model, &hooks, &report);
   sb_progress_end(&progress);
   if (status == SB_OK && !out->complete) {
-    sb_cli_fail("study %s: a solver did not converge at every point; those are left out",
+    sb_cli_fail("study %s: a solver did not converge at every point; such points are omitted",
                 sb_study_name(kind));
     return SB_EXIT_NOT_CONVERGED;
   }

@@ -10,7 +10,8 @@
 #include <string.h>
 #include <unistd.h>
 
-_Static_assert((int)SB_VARY_MAX <= (int)SB_QUESTION_PARAMETERS, "a question takes all that varies");
+_Static_assert((int)SB_VARY_MAX <= (int)SB_QUESTION_PARAMETERS,
+               "a request must have space for all varied parameters");
 
 static const SbAnswerPool *answer_pool;
 
@@ -102,7 +103,7 @@ static int judge(const SbAnswers *answers) {
   const size_t unsolved = count[SB_ERROR_NOT_CONVERGED];
   const size_t impossible = sb_study_failed(answers) - unsolved;
   if (impossible > 0) {
-    sb_cli_note("%zu of %zu samples are infeasible: their values do not go together", impossible,
+    sb_cli_note("%zu of %zu samples are infeasible: their values are inconsistent", impossible,
                 answers->samples);
   }
   if (unsolved > 0) {

@@ -158,8 +158,8 @@ static bool find_column(SbMeasured *m, const SbTable *table, const SbData *data,
       }
       if (found >= 0 && channel != SB_CHANNEL_TIME) {
         sb_data_complain(data, SB_DATA_COLUMNS, NULL, issues,
-                         "column %d \"%s\" and column %zu \"%s\" may both be the %s: say "
-                         "which, as in columns = displacement, force, -",
+                         "column %d \"%s\" and column %zu \"%s\" may both be the %s: specify it, "
+                         "as in columns = displacement, force, -",
                          found + 1, sb_table_column(table, (size_t)found)->name, i + 1,
                          column->name, channels[channel].name);
         return false;
@@ -232,13 +232,14 @@ static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, do
         g_string_append_printf(list, "%s\"%s\"", i > 0 ? ", " : "",
                                sb_table_column(table, i)->name);
       }
-      sb_data_complain(data, SB_DATA_COLUMNS, NULL, issues,
-                       "no column of the %zu (%s) is known as the %s: name them, as in "
-                       "columns = time, displacement, force%s",
-                       sb_table_columns(table), list->str, channels[c].name,
-                       c == SB_CHANNEL_DISPLACEMENT && m->column[SB_CHANNEL_TIME].index >= 0
-                           ? ", or say at which speed the time makes one, as in speed = 20 mm/min"
-                           : "");
+      sb_data_complain(
+          data, SB_DATA_COLUMNS, NULL, issues,
+          "no column of the %zu (%s) is known as the %s: name them, as in "
+          "columns = time, displacement, force%s",
+          sb_table_columns(table), list->str, channels[c].name,
+          c == SB_CHANNEL_DISPLACEMENT && m->column[SB_CHANNEL_TIME].index >= 0
+              ? ", or specify the constant speed of the machine, as in speed = 20 mm/min"
+              : "");
       g_string_free(list, TRUE);
       return false;
     }
@@ -249,7 +250,7 @@ static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, do
     if (!column->clock && !unit_scale(&scale[c], column->unit, channels[c].si)) {
       const bool none = *column->unit == '\0';
       sb_data_complain(data, SB_DATA_UNITS, NULL, issues,
-                       "column %d \"%s\" (%s) has %s%s%s: say which, as in units = mm, N", at + 1,
+                       "column %d \"%s\" (%s) has %s%s%s: specify it, as in units = mm, N", at + 1,
                        column->name, channels[c].name, none ? "no unit" : "the unit \"",
                        column->unit, none ? "" : "\", which is none of its kind");
       return false;
@@ -321,7 +322,7 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     mean += m->force[i] / (double)m->count;
     if (i > 0 && !(m->time[i] >= m->time[i - 1])) {
       sb_data_complain(data, SB_DATA_FILE, NULL, issues,
-                       "its time goes back at row %zu, and nothing else gives the displacement",
+                       "its time decreases at row %zu, and nothing else gives the displacement",
                        i + 1);
       return false;
     }
@@ -350,11 +351,10 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     count++;
   }
   if (turn < LEAST || count < turn + LEAST) {
-    sb_data_complain(
-        data, SB_DATA_FILE, NULL, issues,
-        "its greatest force, where a machine of constant speed turns, is at row %zu of "
-        "%zu: that is not a stroke and return",
-        turn + 1, m->count);
+    sb_data_complain(data, SB_DATA_FILE, NULL, issues,
+                     "its maximum force, where a machine of constant speed reverses, is at row %zu "
+                     "of %zu: that is not a stroke and return",
+                     turn + 1, m->count);
     return false;
   }
   for (size_t i = 0; i < count; i++) {
@@ -363,7 +363,7 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   }
   if (!(m->displacement[turn] <= channels[SB_CHANNEL_DISPLACEMENT].most)) {
     sb_data_complain(data, SB_DATA_SPEED, NULL, issues,
-                     "the machine would go %g m to the greatest force, more than %g m",
+                     "the machine would travel %g m to the maximum force, more than %g m",
                      m->displacement[turn], channels[SB_CHANNEL_DISPLACEMENT].most);
     return false;
   }
@@ -509,7 +509,7 @@ char *sb_measured_keys(const SbMeasured *m) {
 }
 
 char *sb_measured_text(const SbMeasured *m) {
-  static const char *const hows[] = {"not in the data, taken as it is", "found", "as said"};
+  static const char *const hows[] = {"not in the data, used unchanged", "found", "as specified"};
   GString *out = g_string_new(NULL);
   g_string_append_printf(out, "separator %s, decimal %s, %s, %zu header lines\n",
                          separator_name(m->dialect.separator),
@@ -524,14 +524,13 @@ char *sb_measured_text(const SbMeasured *m) {
   }
   if (m->speed > 0) {
     g_autofree char *speed = sb_quantity_format(m->speed, "m/s", "mm/min");
-    g_string_append_printf(out,
-                           "displacement: by the time at %s (%s), out to the greatest force and "
-                           "back\n",
-                           speed, m->speed_how == SB_HOW_SAID ? "as said" : "the drive's, assumed");
+    g_string_append_printf(
+        out, "displacement: by the time at %s (%s), up to the maximum force and back\n", speed,
+        m->speed_how == SB_HOW_SAID ? "as specified" : "the drive's, assumed");
   }
   g_string_append_printf(out, "%zu rows", m->count);
   if (m->behind > 0) {
-    g_string_append_printf(out, ", %zu behind the first cycle left out", m->behind);
+    g_string_append_printf(out, ", %zu after the first cycle left out", m->behind);
   }
   if (m->dropped > 0) {
     g_string_append_printf(out, ", %zu with a cell that is empty or cannot be read dropped",
@@ -544,11 +543,11 @@ char *sb_measured_text(const SbMeasured *m) {
   char digits[3][SB_NUMBER_SIZE];
   g_string_append_printf(out, "\n%u cycles, ", m->cycle->len);
   if (m->first == 0 && m->last + 1 == m->cycle->len) {
-    g_string_append(out, "all taken\n");
+    g_string_append(out, "all used\n");
   } else {
-    g_string_append_printf(out, "number %zu taken\n", m->first + 1);
+    g_string_append_printf(out, "number %zu used\n", m->first + 1);
   }
-  g_string_append_printf(out, "turned round: %s (%s)\nat rest %s mm (%s), without load %s N (%s)\n",
+  g_string_append_printf(out, "reversed: %s (%s)\nat rest %s mm (%s), without load %s N (%s)\n",
                          strcmp(direction_name(m), "as-is") == 0 ? "nothing" : direction_name(m),
                          hows[m->direction], sb_number_round(digits[0], m->at_rest * 1e3, 6),
                          hows[m->zero], sb_number_round(digits[1], m->no_load, 5),

@@ -169,7 +169,7 @@ void sb_data_part(GPtrArray *list, GPtrArray *issues) {
     const guint count = g_strv_length(words);
     if (list->len - 1 + count > SB_DATA_MAX) {
       sb_data_complain(data, SB_DATA_CYCLE, NULL, issues,
-                       "makes more than the %d groups of data there may be", SB_DATA_MAX);
+                       "exceeds the maximum of %d groups of data", SB_DATA_MAX);
       return;
     }
     for (guint k = 0; k < count; k++) {

@@ -487,8 +487,7 @@ char *sb_document_shape_note(const SbDocument *document, SbParamId id) {
   char *says = sb_quantity_format(value, param->si, param->unit);
   char other[SB_NUMBER_SIZE];
   sb_number_round(other, sb_quantity_to_shown(size->value, param->si, param->unit), 5);
-  char *note = g_strdup_printf("%s = %s is in force; %s makes it %s %s, and the section stretches "
-                               "the shape",
+  char *note = g_strdup_printf("%s = %s applies; %s has %s %s, and the shape is scaled to it",
                                param->key, says, size->source, other, param->unit);
   g_free(says);
   return note;

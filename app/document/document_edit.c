@@ -206,7 +206,7 @@ bool sb_document_read_value(double *out, const SbDocument *document, SbParamId i
   }
   if (!(after >= param->min && after <= param->max)) {
     g_autofree char *shown = sb_param_format(id, after);
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s makes it %s, out of range", text,
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s changes it to %s, out of range", text,
                 shown);
     return false;
   }

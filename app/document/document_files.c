@@ -51,10 +51,11 @@ void sb_document_note_drawings(SbDocument *document) {
     const double drawn = document->data->groove.width;
     const double is = sb_document_value(document, SB_P_GLAND_AXIAL_WIDTH);
     if (fabs(drawn - is) > 1e-3 * is) {
-      g_ptr_array_add(document->notes,
-                      g_strdup_printf("gland.profile_file: the walls of %s stand %.4g mm apart; "
-                                      "gland.axial_width = %.4g mm is in force, to which they move",
-                                      document->file[SB_FILE_GROOVE].name, 1e3 * drawn, 1e3 * is));
+      g_ptr_array_add(
+          document->notes,
+          g_strdup_printf("gland.profile_file: the walls of %s are %.4g mm apart; "
+                          "gland.axial_width = %.4g mm applies, and the walls are moved to it",
+                          document->file[SB_FILE_GROOVE].name, 1e3 * drawn, 1e3 * is));
     }
   }
 }

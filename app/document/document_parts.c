@@ -150,7 +150,7 @@ static void set(const Part *part, SbParamId id, double value, const char *source
   SbReport report = {0};
   if (sb_params_set(part->params, id, value, &report) != SB_OK) {
     g_autofree char *range = sb_param_range(id);
-    complain(part, source, range, "makes a %s of %.5g %s, out of range", param->key,
+    complain(part, source, range, "results in a %s of %.5g %s, out of range", param->key,
              sb_quantity_to_shown(value, param->si, param->unit), param->unit);
   }
 }
@@ -179,7 +179,7 @@ static void derive_mass(const Part *part, SbParamId id, double value, const char
     char other[SB_NUMBER_SIZE];
     sb_number_round(other, sb_quantity_to_shown(value, param->si, param->unit), 5);
     g_ptr_array_add(part->notes,
-                    g_strdup_printf("%s: %s = %s is in force; the %s of [%s] makes %s %s",
+                    g_strdup_printf("%s: %s = %s applies; the %s of [%s] results in %s %s",
                                     part->shown, param->key, says, source, part->group, other,
                                     param->unit));
   }
@@ -204,8 +204,8 @@ static void derive_size(const Part *part, SbParamId id, double value, const char
     char other[SB_NUMBER_SIZE];
     sb_number_round(other, sb_quantity_to_shown(value, param->si, param->unit), 5);
     sb_issues_add(part->issues, part->shown, typed != NULL ? typed->line : 0, param->key, NULL,
-                  "is %s, but the %s of [%s] makes it %s %s: the shape takes precedence, leave "
-                  "the key out or mend one of them",
+                  "is %s, but the %s of [%s] results in %s %s: the shape takes precedence, remove "
+                  "the key or correct one of them",
                   says, source, part->group, other, param->unit);
     return;
   }
@@ -294,7 +294,7 @@ static void derive_chamber(const Part *part) {
   double left = outlines->groove_right[SB_INNER], right = outlines->groove_left[SB_OUTER];
   if (!(right > left)) {
     complain(part, "inner_groove", NULL,
-             "must lie before the outer_groove: x points out of the canister");
+             "must be before the outer_groove: x points out of the canister");
     return;
   }
   SbOutlineSurface *s = g_new(SbOutlineSurface, 1);
@@ -376,7 +376,7 @@ static bool solve_mesh(SbSolid *solid, const Part *part, const char *file, const
   const SbEntry *unit = find(part, "unit");
   const SbEntry *along = find(part, "axis");
   if (unit == NULL) {
-    complain(part, "unit", "mm, inch, m", "is missing: an STL file knows no unit");
+    complain(part, "unit", "mm, inch, m", "is missing: an STL file states no unit");
     return false;
   }
   *axis = along == NULL || strcmp(along->value, "x") == 0 ? 0
@@ -540,8 +540,8 @@ static void tell_stem_mass(const SbParams *params, const SbParams *base, const c
   }
   double sum = mass[1] + mass[2] + mass[3];
   if (own && fabs(mass[0] - sum) > 1e-3 * mass[0]) {
-    g_ptr_array_add(notes, g_strdup_printf("%s: stem.mass = %.5g g is in force; the stem's parts "
-                                           "make %.5g g and share it in proportion",
+    g_ptr_array_add(notes, g_strdup_printf("%s: stem.mass = %.5g g applies; the stem's parts add "
+                                           "up to %.5g g and are scaled in proportion",
                                            shown, 1e3 * mass[0], 1e3 * sum));
   }
 }

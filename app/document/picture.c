@@ -123,6 +123,6 @@ char *sb_picture_find_scene(const void *data, size_t length, GError **error) {
     }
     at += chunk + FRAME;
   }
-  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "this PNG holds no scene");
+  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "this PNG contains no scene");
   return NULL;
 }

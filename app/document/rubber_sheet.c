@@ -119,7 +119,7 @@ static void take(SbRubberSheet *out, const GPtrArray *entries, const SbEntry *en
   const char *source = text_of(entries, "source", key);
   if (source == NULL || *source == '\0') {
     sb_issues_add(issues, path, entry->line, key, NULL,
-                  "has no source: [source] must say where it comes from, or \"typical\"");
+                  "has no source: [source] must name its origin, or be \"typical\"");
     return;
   }
   if (strlen(source) >= SB_SOURCE_MAX) {

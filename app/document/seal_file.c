@@ -121,10 +121,10 @@ static GArray *from_drawing(const Source *source, const Wanted *wanted, GError *
   const guint called = count_wanted(cad, wanted, &found);
   if (count != 1 && called != 1) {
     if (count == 0) {
-      fault(error, source->path, "holds no closed outline of %s", wanted->what);
+      fault(error, source->path, "contains no closed outline of %s", wanted->what);
     } else {
       fault(error, source->path,
-            "holds %u closed outlines, not one of them alone on a layer \"%s\"", count,
+            "contains %u closed outlines, none of them the only one on a layer \"%s\"", count,
             wanted->layer[0]);
     }
     return NULL;
@@ -303,7 +303,7 @@ static bool read_section(SbSealDrawing *out, double *height, const Source *sourc
   }
   if (points->len > SB_SEAL_POINTS_MAX) {
     fault(error, path,
-          "has %u pieces, which arcs within %g of its height make no less than %u of, not %d",
+          "has %u pieces; arcs within %g of its height reduce them to %u, more than the allowed %d",
           pieces, NEAR, points->len, SB_SEAL_POINTS_MAX);
     return false;
   }

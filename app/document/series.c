@@ -82,9 +82,9 @@ static bool take_row(Reader *r, size_t row, double *const *value) {
                                                                                 : displacement_max};
   const char *const allowed[COLUMNS] = {r->temperature ? "0 to 3.2e9 s" : "0 to 1e6 s",
                                         r->temperature ? "-100 to 150 degC"
-                                        : r->speed     ? "at most 100 m/s either way"
-                                        : force        ? "at most 1e5 N either way"
-                                                       : "at most 200 mm either way"};
+                                        : r->speed     ? "at most 100 m/s in either direction"
+                                        : force        ? "at most 1e5 N in either direction"
+                                                       : "at most 200 mm in either direction"};
   SbModelSeries *out = r->out;
   double si[COLUMNS];
   for (int i = 0; i < COLUMNS; i++) {

@@ -63,7 +63,7 @@ void sb_study_check_design(SbStudyReader *reader) {
       g_autofree char *key = g_strconcat(GROUP_VARY ".", sb_param(vary->id)->key, NULL);
       sb_issues_add(reader->issues, reader->shown, 0, key,
                     "uniform A .. B, loguniform A .. B, levels A",
-                    "a design takes bounds, or one value");
+                    "a design requires bounds, or one value");
     }
   }
   for (guint i = 0; i < design->tolerances->len; i++) {

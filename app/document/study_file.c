@@ -101,7 +101,7 @@ static void read_correlations(SbStudyReader *reader) {
              (study->method == SB_METHOD_GRID || study->method == SB_METHOD_MORRIS ||
               study->method == SB_METHOD_SOBOL_INDICES)) {
     sb_issues_add(reader->issues, reader->shown, line, GROUP_CORRELATION, NULL,
-                  "the method %s takes its parameters as independent", methods[study->method]);
+                  "the method %s requires independent parameters", methods[study->method]);
   }
   study->root = matrix;
 }
@@ -231,11 +231,11 @@ static void settle_samples(SbStudyReader *reader, bool has_samples) {
                   "is missing: how many samples there are");
   } else if (study->samples < 2 * block && block > 1) {
     sb_issues_add(reader->issues, reader->shown, 0, "study.samples", NULL,
-                  "%s of %zu parameters takes %zu at least, whole blocks of %zu",
+                  "%s of %zu parameters requires at least %zu samples, in full blocks of %zu",
                   methods[study->method], n, 2 * block, block);
   } else if (study->method == SB_METHOD_SOBOL_SEQUENCE && n > SB_SOBOL_DIMENSIONS) {
     sb_issues_add(reader->issues, reader->shown, 0, GROUP_VARY, NULL,
-                  "a Sobol sequence takes at most %d parameters", SB_SOBOL_DIMENSIONS);
+                  "a Sobol sequence has at most %d parameters", SB_SOBOL_DIMENSIONS);
   }
   study->samples -= study->samples % block;
 }
@@ -248,7 +248,7 @@ static void check_reliability(SbStudyReader *reader) {
     if (vary->distribution.kind == SB_DISTRIBUTION_LEVELS && vary->distribution.count > 1) {
       g_autofree char *key = g_strconcat(GROUP_VARY ".", sb_param(vary->id)->key, NULL);
       sb_issues_add(reader->issues, reader->shown, 0, key, "uniform, loguniform, normal, one level",
-                    "the method reliability takes no levels: a study of each");
+                    "the method reliability accepts no levels: write a study for each");
     }
   }
   if (study->limits.count == 0) {
@@ -423,7 +423,8 @@ static void hold_base(SbStudyReader *reader) {
       SbModel *held = NULL;
       SbReport report = {0};
       if (!sb_hold_from_name(&hold, g_strstrip(*word))) {
-        sb_study_complain(reader, entry, sb_hold_names(), "there is nothing to hold like this");
+        sb_study_complain(reader, entry, sb_hold_names(),
+                          "no group of parameters can be fixed by this name");
       } else if (sb_model_hold(&held, study->base, hold, &report) != SB_OK) {
         sb_study_complain(reader, entry, NULL, report.text);
       } else {

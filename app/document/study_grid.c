@@ -259,9 +259,10 @@ void sb_study_take_lines(SbStudyReader *reader) {
     good = fastest(study, grid) != NULL && samples_of(study, grid) > 0;
   }
   if (reader->issues->len == before && (!good || sb_study_grid_points(study) > SB_SAMPLES_MAX)) {
-    sb_issues_add(reader->issues, reader->shown, 0, GROUP_VARY, NULL,
-                  "each group [vary NAME] takes levels of something; at most %d groups, together "
-                  "%d points",
-                  SB_VARY_MAX, SB_SAMPLES_MAX);
+    sb_issues_add(
+        reader->issues, reader->shown, 0, GROUP_VARY, NULL,
+        "each group [vary NAME] requires the levels of a parameter; at most %d groups, together "
+        "%d points",
+        SB_VARY_MAX, SB_SAMPLES_MAX);
   }
 }

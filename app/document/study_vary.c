@@ -118,7 +118,7 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
     }
     // Six deviations out there is one value in 1e9.
     if (of->low > of->a + 6 * of->b || of->high < of->a - 6 * of->b) {
-      return fail(error, "the range lies more than 6 deviations from the mean");
+      return fail(error, "the range is more than 6 deviations from the mean");
     }
   }
   return true;
@@ -200,7 +200,7 @@ static bool read_distribution(SbVary *vary, const char *text, GError **error) {
                  : forms[i].read(vary, text + length, error);
     }
   }
-  return fail(error, "\"%s\" says no distribution", text);
+  return fail(error, "\"%s\" is not a distribution", text);
 }
 
 void sb_study_read_vary(SbStudyReader *reader, const SbEntry *entry, GArray *list, bool offset) {

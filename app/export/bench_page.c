@@ -57,7 +57,7 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
   g_snprintf(version, sizeof version, "Sealbench %s", sb_version());
   SbPageFoot foot = {
       "reynolds, disc, ring; the cases and their known answers: engine/valve/answer/bench.c",
-      "relative, of the worst of the figures that a case knows", version, NULL};
+      "relative, maximum over the figures of a case", version, NULL};
   sb_page_foot_draw(cr, page.whole, theme, &foot);
   cairo_restore(cr);
 }

@@ -106,8 +106,8 @@ static void tell_kept(SbExportJob *job, GPtrArray *kept) {
     g_ptr_array_add(kept, NULL);
     g_autofree char *names = g_strjoinv(", ", (char **)kept->pdata);
     g_autofree char *result = g_steal_pointer(&job->result);
-    job->result =
-        g_strdup_printf(_("%s Kept, because changed since an earlier export: %s."), result, names);
+    job->result = g_strdup_printf(_("%s Not deleted, because changed since an earlier export: %s."),
+                                  result, names);
   }
 }
 

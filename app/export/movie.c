@@ -177,7 +177,7 @@ static SbStatus check_options(const SbMovieOptions *options, SbReport *report) {
                    options->fps_num, options->fps_den, most_fps);
   }
   if (options->frames < 1) {
-    return sb_fail(report, SB_ERROR_RANGE, "a film needs at least one frame");
+    return sb_fail(report, SB_ERROR_RANGE, "a movie needs at least one frame");
   }
   return SB_OK;
 }

@@ -95,13 +95,11 @@ static char *capital(const char *text) {
 // ---- First page ----
 
 static void draw_verdict(SbReportPages *pages, const Scene *scene) {
-  static const SbReportColumn columns[] = {{"Verdict", 1.1, SB_REPORT_WORDS},
-                                           {"", 0.7, SB_REPORT_ANSWER},
-                                           {"What decides", 3.4, SB_REPORT_WORDS},
-                                           {"Value", 1.4, SB_REPORT_NUMBER},
-                                           {"Limit", 1.4, SB_REPORT_NUMBER},
-                                           {"Margin", 1.8, SB_REPORT_NUMBER},
-                                           {"Case", 1, SB_REPORT_WORDS}};
+  static const SbReportColumn columns[] = {
+      {"Verdict", 1.1, SB_REPORT_WORDS},    {"", 0.7, SB_REPORT_ANSWER},
+      {"Decided by", 3.4, SB_REPORT_WORDS}, {"Value", 1.4, SB_REPORT_NUMBER},
+      {"Limit", 1.4, SB_REPORT_NUMBER},     {"Margin", 1.8, SB_REPORT_NUMBER},
+      {"Case", 1, SB_REPORT_WORDS}};
   SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
   for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
     const SbCaseVerdict *verdict = &scene->of->verdict[kind];
@@ -180,8 +178,8 @@ static void draw_notices(SbReportPages *pages, const Scene *scene) {
   if (summary->status == SB_ERROR_CANCELLED) {
     sb_report_notice(pages, "The run was interrupted: pictures and figures are partial.", true);
   } else if (!summary->converged) {
-    sb_report_notice(
-        pages, "A solver did not converge: what is shown goes up to the last good state.", true);
+    sb_report_notice(pages, "A solver did not converge: the results end at the last good state.",
+                     true);
   }
   for (size_t i = 0; i < summary->warnings.count; i++) {
     const SbWarning *warning = &summary->warnings.item[i];
@@ -232,11 +230,10 @@ static void draw_summary(SbReportPages *pages, const Scene *scene) {
       sb_format_text(time, SB_QUANTITY_TIME, frame->time, NAN);
       sb_format_text(place, SB_QUANTITY_LENGTH, frame->displacement, NAN);
       g_autofree char *caption =
-          scene->rig
-              ? g_strdup_printf("The plate at %s, %s on its way.", time, place)
-              : g_strdup_printf("Section at %s, stem at %s, stage %s: where the seals' figures are "
-                                "taken.",
-                                time, place, sb_chart_span(&scene->data.run, frame->stage));
+          scene->rig ? g_strdup_printf("The plate at %s, after a travel of %s.", time, place)
+                     : g_strdup_printf("Section at %s, stem at %s, stage %s: the seals' figures "
+                                       "are those of this state.",
+                                       time, place, sb_chart_span(&scene->data.run, frame->stage));
       sb_report_text(pages, caption, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
     }
   }
@@ -316,7 +313,7 @@ static void draw_measured(SbReportPages *pages, const SbComparison *comparison) 
   g_autofree char *mean = newtons(comparison->mean);
   g_autofree char *sum =
       g_strdup_printf("Differences at equal displacement, measured less model: root mean square "
-                      "%s, mean %s, greatest %s, over %zu points.",
+                      "%s, mean %s, maximum %s, over %zu points.",
                       rms, mean, most, comparison->count - comparison->outside);
   sb_report_skip(pages, 6);
   sb_report_text(pages, sum, SB_TYPE_LABEL, 400, SB_ROLE_INK);
@@ -383,12 +380,12 @@ static void draw_stages(SbReportPages *pages, const SbSummary *summary) {
                                            {"Time", 1, SB_REPORT_NUMBER},
                                            {"Stem", 1, SB_REPORT_NUMBER},
                                            {"Force", 1, SB_REPORT_NUMBER},
-                                           {"What happens", 4, SB_REPORT_WORDS}};
+                                           {"Event", 4, SB_REPORT_WORDS}};
   static const char *const events[SB_STAGE_COUNT] = {"start",
                                                      "first slip, the force at its peak",
                                                      "the land's edge reaches the inner contact",
                                                      "first contact with the stop",
-                                                     "first slip on the way back",
+                                                     "first slip on the return",
                                                      "the inner seal is in the bore again"};
   static const char *const paths[] = {"time_s", "displacement_m", "force_N"};
   SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
@@ -447,7 +444,7 @@ static void draw_figures(SbReportPages *pages, const Scene *scene) {
   static const SbReportColumn columns[] = {{"Figure", 2.5, SB_REPORT_WORDS},
                                            {"Value", 1.4, SB_REPORT_NUMBER},
                                            {"Error estimate", 1.3, SB_REPORT_NUMBER},
-                                           {"What it is", 4.4, SB_REPORT_WORDS}};
+                                           {"Meaning", 4.4, SB_REPORT_WORDS}};
   SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
   const SbSummary *summary = scene->summary;
   sb_report_page(pages, false);
@@ -471,7 +468,7 @@ static void draw_figures(SbReportPages *pages, const Scene *scene) {
 
 static void draw_warnings(SbReportPages *pages, const SbWarnings *warnings,
                           const SbDocument *document) {
-  static const SbReportColumn columns[] = {{"What was found", 6, SB_REPORT_WORDS},
+  static const SbReportColumn columns[] = {{"Finding", 6, SB_REPORT_WORDS},
                                            {"Code", 1.8, SB_REPORT_WORDS},
                                            {"Parameter", 2, SB_REPORT_WORDS}};
   SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
@@ -536,7 +533,7 @@ static void draw_studies(SbReportPages *pages, const Scene *scene) {
     sb_report_page(pages, true);
     sb_report_heading(pages, sb_study_title(study->kind), 400);
     if (!study->complete) {
-      sb_report_notice(pages, "A solver did not converge at every point; those are left out.",
+      sb_report_notice(pages, "A solver did not converge at every point; such points are omitted.",
                        true);
     }
     sb_report_picture(pages, sb_report_left(pages) - 40, draw_study, study);

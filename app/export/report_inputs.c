@@ -113,7 +113,7 @@ static void draw_models(SbReportPages *pages, Sources *sources, const SbDocument
                         const SbModel *model, const SbParams *params) {
   static const SbReportColumn columns[] = {{"Model", 1.4, SB_REPORT_WORDS},
                                            {"Choice", 1.6, SB_REPORT_WORDS},
-                                           {"What it decides", 4.6, SB_REPORT_WORDS},
+                                           {"Meaning", 4.6, SB_REPORT_WORDS},
                                            {"From", 2.2, SB_REPORT_WORDS},
                                            {"Source", 0.9, SB_REPORT_NUMBER}};
   SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};

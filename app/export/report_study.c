@@ -123,8 +123,8 @@ static void draw_limits(SbReportPages *pages, Study *study) {
   }
   sb_report_skip(pages, 6);
   sb_report_text(pages,
-                 independent ? "Shares of the samples that are valves; a sample whose solver did "
-                               "not converge widens the interval."
+                 independent ? "Fractions of the feasible samples; a sample whose solver did not "
+                               "converge widens the interval."
                              : "The points are not independent draws, so they give no probability.",
                  SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
 }
@@ -225,12 +225,12 @@ static void add_varied(SbReportPages *pages, SbReportTable *table, const Study *
 }
 
 static void draw_varied(SbReportPages *pages, const Study *study) {
-  static const SbReportColumn columns[] = {{"What varies", 3.4, SB_REPORT_WORDS},
+  static const SbReportColumn columns[] = {{"Varied parameters", 3.4, SB_REPORT_WORDS},
                                            {"In the scene", 1.6, SB_REPORT_NUMBER},
                                            {"How", 5, SB_REPORT_WORDS}};
   SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
   const SbStudyFile *file = study->study;
-  sb_report_heading(pages, "What varies", 60);
+  sb_report_heading(pages, "Varied parameters", 60);
   // A grid that says more has lines of its own, several of a parameter.
   guint grid = 0;
   for (guint k = 0; k < (file->lines != NULL ? file->lines->len : file->vary->len); k++) {
@@ -318,7 +318,7 @@ static void draw_tornados(SbReportPages *pages, const Study *study) {
   if (study->tornados == 0) {
     return;
   }
-  sb_report_heading(pages, "What they hang on", 200);
+  sb_report_heading(pages, "Sensitivities", 200);
   for (size_t k = 0; k < study->tornados; k += 2) {
     const size_t bars = MIN(study->tornado[k].count, SB_TORNADO_MAX);
     sb_report_pair(pages, 70 + 18 * (double)bars, draw_tornado, &study->tornado[k],
@@ -387,7 +387,7 @@ static void fill_tornado(SbTornado *out, Study *study, size_t k) {
     const SbStatus status =
         sb_sobol_indices(first, total, column, samples / (n + 2), n, file->seed, &report);
     study->status = status != SB_OK ? status : study->status;
-    out->note = "share of the variance with all others; line: 95 % interval";
+    out->note = "fraction of the variance, with interactions; line: 95 % interval";
     for (size_t i = 0; status == SB_OK && i < n; i++) {
       set_bar(out, name[i], 100 * total[i].value, 100 * total[i].low, 100 * total[i].high);
     }
@@ -401,7 +401,7 @@ static void fill_tornado(SbTornado *out, Study *study, size_t k) {
               NAN);
     }
   } else {
-    out->note = "share of the variance along a straight line, with its sign";
+    out->note = "fraction of the variance by linear correlation, with its sign";
     for (size_t i = 0; i < n; i++) {
       const double r = correlation(study, k, i);
       set_bar(out, name[i], 100 * r * fabs(r), NAN, NAN);

@@ -4,14 +4,14 @@
 #include <math.h>
 
 const SbResultRow sb_film_rows[] = {
-    {"film_min_m", "Film, least", "m", "nm", offsetof(SbFilm, film_min),
+    {"film_min_m", "Film, minimum", "m", "nm", offsetof(SbFilm, film_min),
      offsetof(SbFilm, solver.error_film_min)},
     {"film_central_m", "Film, central", "m", "nm", offsetof(SbFilm, film_central),
      offsetof(SbFilm, solver.error_film_central)},
     {"film_flux_m", "Film, of the flow", "m", "nm", offsetof(SbFilm, film_flux),
      offsetof(SbFilm, solver.error_film_flux)},
     {"pressure_max_Pa", "Pressure, largest", "Pa", "MPa", offsetof(SbFilm, pressure_max), 0},
-    {"position_film_min_m", "Place of the least film", "m", "mm",
+    {"position_film_min_m", "Position of the minimum film", "m", "mm",
      offsetof(SbFilm, position_film_min), 0},
     {"position_rupture_m", "Place of rupture", "m", "mm", offsetof(SbFilm, position_rupture), 0},
     {"friction_couette_N_per_m", "Friction, Couette", "N/m", "N/m",
@@ -29,10 +29,10 @@ const SbResultRow sb_film_contact_rows[] = {
 const SbResultRow sb_film_rough_rows[] = {
     {"film_ratio", "Central film over roughness", "1", "", offsetof(SbFilm, film_ratio), 0},
     {"asperity_load_N_per_m", NULL, "", "", offsetof(SbFilm, asperity_load), 0},
-    {"asperity_load_share", "Load on asperities, share", "1", "", offsetof(SbFilm, asperity_share),
-     0},
+    {"asperity_load_share", "Load on asperities, fraction", "1", "",
+     offsetof(SbFilm, asperity_share), 0},
     {"real_area_m", NULL, "", "", offsetof(SbFilm, real_area), 0},
-    {"real_area_share", "Real contact at the axis, share", "1", "",
+    {"real_area_share", "Real contact at the axis, fraction", "1", "",
      offsetof(SbFilm, real_area_share), 0},
     {"friction_boundary_N_per_m", "Friction, boundary", "N/m", "N/m",
      offsetof(SbFilm, friction_boundary), 0},
@@ -41,7 +41,8 @@ const SbResultRow sb_film_rough_rows[] = {
     {0}};
 
 const SbResultRow sb_film_error_rows[] = {
-    {"film_min", "Error estimate, least film", "1", "", offsetof(SbFilm, solver.error_film_min), 0},
+    {"film_min", "Error estimate, minimum film", "1", "", offsetof(SbFilm, solver.error_film_min),
+     0},
     {"film_central", "Error estimate, central film", "1", "",
      offsetof(SbFilm, solver.error_film_central), 0},
     {"film_flux", NULL, "", "", offsetof(SbFilm, solver.error_film_flux), 0},

@@ -190,7 +190,7 @@ static void put_mode(SbJson *json, const SbStudyFile *study, const SbFailureMode
     sb_json_string(json, "importance", NULL);
     sb_json_string(
         json, "importance_reason",
-        "the parameters are correlated: the squared distance is not a sum of their shares");
+        "the parameters are correlated: the squared distance is not a sum of their contributions");
   }
   sb_json_object_end(json);
 }

@@ -85,7 +85,7 @@ char *sb_surface_choices_text(const SbSurface *surface) {
   const SbHeightsChoices *choices = surface->choices;
   GString *text =
       g_string_new(choices->form == SB_FORM_NONE ? "mean" : sb_form_name(choices->form));
-  g_string_append(text, " taken away");
+  g_string_append(text, " removed");
   if (choices->outliers > 0) {
     g_string_append_printf(text, ", points beyond %g robust deviations out", choices->outliers);
   } else {
@@ -254,7 +254,7 @@ static void put_reasons(SbJson *json, const SbSurface *surface, const char *scen
     if (isnan(sb_result_value(row, &figures->figures.neighbours))) {
       sb_json_string(json, row->key,
                      is_surface ? "fewer than two summits"
-                                : "a profile has no summits; asperities.moments takes it as a cut "
+                                : "a profile has no summits; asperities.moments treats it as a cut "
                                   "through an isotropic surface");
     }
   }

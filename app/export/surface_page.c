@@ -32,8 +32,8 @@ static SbStudy *heights_study(const SbSurface *surface) {
     }
   }
   study->x = (SbStudyAxis){"height", "m", "µm", false};
-  SbStudyPanel *panel =
-      sb_study_panel(study, &(SbStudyAxis){"share of heights", "m-1", "1/µm", false}, "no heights");
+  SbStudyPanel *panel = sb_study_panel(
+      study, &(SbStudyAxis){"fraction of heights", "m-1", "1/µm", false}, "no heights");
   SbStudySeries *heights = sb_study_series(panel, SB_STUDY_CURVE, "heights");
   SbStudySeries *gauss = sb_study_series(panel, SB_STUDY_REFERENCE, "Gaussian of Sq");
   for (int k = 0; k < BINS; k++) {

@@ -362,12 +362,13 @@ void sb_html_thesis_begin(FILE *stream, SbThesisItem *const *items, size_t count
       "<ul><li><b>Difference</b>: ours by the thesis' model less printed; a row <b>agrees</b> "
       "where "
       "that is within the printed digits.</li>\n"
-      "<li><b>Reason</b>: the number before a colon is that of a reason below the table, behind it "
-      "stands what it explains, computed, &ldquo;of at most&rdquo; where only a bound is known; "
-      "<b>remains</b> is what is left of the printed value "
-      "behind all of them. Each reason names the command or the test that shows it.</li>\n"
-      "<li><b>To the consistent</b>: in grey, what lies between the thesis' model and the "
-      "consistent set (<code>models.set</code>).</li></ul>\n"
+      "<li><b>Reason</b>: the number before a colon is that of a reason below the table, then "
+      "follows the computed part of the difference that it explains (&ldquo;of at most&rdquo; if "
+      "only a bound is known); "
+      "<b>remains</b> is the difference that no reason explains. Each reason names the command or "
+      "the test that shows it.</li>\n"
+      "<li><b>To the consistent</b>: in grey, the difference between the consistent set and the "
+      "thesis' model (<code>models.set</code>).</li></ul>\n"
       "<nav><table><tr><th>Table or figure</th><th>rows</th></tr>\n",
       style, identity);
   for (size_t i = 0; i < count; i++) {

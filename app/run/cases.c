@@ -62,7 +62,7 @@ SbStatus sb_cases_judge(SbCaseVerdict out[SB_VERDICT_COUNT], const SbRun *run,
     if (worst != SB_ERROR_CANCELLED) {
       status = sb_document_compile_case(document, share.index, &model, issues)
                    ? evaluate(each, model, &own, &report)
-                   : sb_fail(&report, SB_ERROR_INPUT, "its values do not go together");
+                   : sb_fail(&report, SB_ERROR_INPUT, "its values are inconsistent");
     }
     if (status == SB_ERROR_CANCELLED) {
       (void)sb_fail(&report, status, "not computed");

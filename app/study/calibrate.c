@@ -304,7 +304,7 @@ static bool read_actuation(Curve *curve, GPtrArray *issues) {
   }
   if (m->first != m->last) {
     sb_data_complain(curve->data, SB_DATA_CYCLE, NULL, issues,
-                     "takes %zu cycles as one, but each is an actuation of its own: name some, as "
+                     "treats %zu cycles as one, but each is an actuation of its own: name some, as "
                      "in cycle = 1, 10, %u",
                      m->last - m->first + 1, m->cycle->len);
     return false;

@@ -99,18 +99,19 @@ static char *make_sentence(const SbCalibration *out) {
     for (size_t k = j + 1; k < p; k++) {
       const double rho = out->correlation[j * p + k];
       if (fabs(rho) > SB_TOLD_CORRELATION) {
-        g_string_append_printf(
-            text,
-            "%s%s and %s trade against each other (correlation %.2f): these data fix what "
-            "they do together, not each; %s.",
-            text->len > 0 ? " " : "", out->parameter[j].name, out->parameter[k].name, rho,
-            experiment(&out->parameter[j], &out->parameter[k]));
+        g_string_append_printf(text,
+                               "%s%s and %s are correlated (%.2f): these data identify their "
+                               "combined effect, not each of them; %s.",
+                               text->len > 0 ? " " : "", out->parameter[j].name,
+                               out->parameter[k].name, rho,
+                               experiment(&out->parameter[j], &out->parameter[k]));
       }
     }
   }
   for (size_t j = 0; j < p; j++) {
     if (out->parameter[j].told == SB_TOLD_NO) {
-      g_string_append_printf(text, "%s%s is hardly narrower than before: it keeps its value.",
+      g_string_append_printf(text,
+                             "%s%s is hardly narrower than its prior: the value is not changed.",
                              text->len > 0 ? " " : "", out->parameter[j].name);
     }
   }

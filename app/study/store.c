@@ -33,7 +33,8 @@ bool sb_store_fail(SbStore *store, SbAppError code, GError **error) {
                 store->path);
   } else if (result == SQLITE_NOTADB || result == SQLITE_CORRUPT) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "%s is not a store, or is damaged: sealbench store recover saves what can be read, "
+                "%s is not a store, or is damaged: sealbench store recover saves the rows that can "
+                "be read, "
                 "-o chooses another file",
                 store->path);
   } else if (result == SQLITE_READONLY) {

@@ -137,7 +137,7 @@ bool sb_store_visit(SbStore *store, SbStoreVisit visit, void *data, GError **err
   g_hash_table_unref(of.lists);
   if (code != SQLITE_DONE) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "%s is damaged: behind %" G_GUINT64_FORMAT " rows no more can be read (%s)",
+                "%s is damaged: after % " G_GUINT64_FORMAT " rows no more can be read (%s)",
                 store->path, number, sqlite3_errstr(code));
   }
   return code == SQLITE_DONE;
@@ -246,8 +246,8 @@ static void report_difference(Copy *copy, const SbStoreRow *row, const SbStoreRe
     }
   }
   g_set_error(&copy->error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-              "%s and %s answer one question differently%s, %s; nothing was merged", copy->to->path,
-              copy->from, text->str, name);
+              "%s and %s have different results for one request%s, %s; nothing was merged",
+              copy->to->path, copy->from, text->str, name);
   g_string_free(text, TRUE);
 }
 
@@ -361,7 +361,7 @@ bool sb_store_recover(guint64 *saved, SbStore *store, const char *to, GError **e
   if (store->format < 2) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "%s is a store of Sealbench 0.1, whose rows carry no checksums: no row can be "
-                "verified; sealbench store export writes what can be read",
+                "verified; sealbench store export writes the rows that can be read",
                 store->path);
     return false;
   }

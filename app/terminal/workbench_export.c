@@ -47,7 +47,7 @@ static void start(SbBench *bench, const char *path, const char *name, const SbRe
   const bool figures = strcmp(name, "report") == 0;
   if (handle == NULL || (figures && sb_session_is_stale(bench->session, NULL, NULL))) {
     sb_run_handle_unref(handle);
-    sb_bench_say(bench, true, _("No whole run is shown yet."));
+    sb_bench_say(bench, true, _("No complete run is displayed yet."));
     return;
   }
   const SbDocument *document = sb_session_document(bench->session);
@@ -98,7 +98,7 @@ void sb_bench_export(SbBench *bench, const char *text) {
   }
   const bool picture = sb_export_format(path) != NULL;
   if (bench->export != NULL) {
-    sb_bench_say(bench, true, _("An export is under way; c cancels it."));
+    sb_bench_say(bench, true, _("An export is running; c cancels it."));
   } else if (sb_output_ends_in(path, ".txt")) {
     write_screen(bench, path);
   } else if (sb_output_ends_in(path, ".json")) {

@@ -296,9 +296,9 @@ static void undo(SbBench *bench, bool redo) {
 
 static void pin(SbBench *bench) {
   if (!sb_session_may_pin(bench->session)) {
-    sb_bench_say(bench, true, _("A whole run of the present values can be pinned; this is none."));
+    sb_bench_say(bench, true, _("Only a complete run of the present values can be pinned."));
   } else if (sb_session_pin(bench->session)) {
-    sb_bench_say(bench, false, _("pinned; P lets the last one go"));
+    sb_bench_say(bench, false, _("pinned; P removes the last pin"));
   }
 }
 
@@ -308,7 +308,7 @@ static void unpin(SbBench *bench) {
     sb_bench_say(bench, false, _("nothing is pinned"));
     return;
   }
-  sb_bench_say(bench, false, _("let go: %s"), sb_session_pin_name(bench->session, count - 1));
+  sb_bench_say(bench, false, _("pin removed: %s"), sb_session_pin_name(bench->session, count - 1));
   sb_session_unpin(bench->session, count - 1);
 }
 

@@ -36,7 +36,7 @@ void sb_bench_study_start(SbBench *bench) {
   if (bench->job != NULL) {
     sb_bench_say(bench, true, _("A study is being computed; c cancels it."));
   } else if (model == NULL) {
-    sb_bench_say(bench, true, _("The values do not go together."));
+    sb_bench_say(bench, true, _("The values are inconsistent."));
   } else {
     bench->job_kind = bench->study_kind;
     bench->job_hash = sb_document_sha256(sb_session_document(bench->session));
@@ -267,7 +267,7 @@ static const char *const help[] = {
     N_("Tab             main, changed or all parameters; / searches"),
     N_("u  Ctrl-R       undo and redo"),
     N_("space           play and stop; , . a frame, [ ] an event"),
-    N_("p  P            pin the loop, let the last pin go"),
+    N_("p  P            pin the loop, remove the last pin"),
     N_("m               closed form or solved rings"),
     N_("e               the figure whose effects are shown"),
     N_("f  i            field of the section, inset"),
@@ -317,7 +317,7 @@ static char *popup_text(SbBench *bench, const char **title) {
     break;
   case SB_POPUP_QUIT:
     *title = _("Unsaved changes");
-    g_string_assign(text, _("s  save and quit\nd  discard the changes and quit\nEsc  go on"));
+    g_string_assign(text, _("s  save and quit\nd  discard the changes and quit\nEsc  continue"));
     break;
   case SB_POPUP_RESTORE:
     *title = _("Restore unsaved changes?");
@@ -330,13 +330,13 @@ static char *popup_text(SbBench *bench, const char **title) {
                             "m  merge the file's changes and yours, value by value\n"
                             "b  keep both: your version becomes a new file next to it\n"
                             "o  overwrite the file with your version\n"
-                            "Esc  decide later\n\nu takes back a reload or a merge."));
+                            "Esc  decide later\n\nu undoes a reload or a merge."));
     break;
   default:
     *title = "";
   }
   if (text->len == 0) {
-    g_string_assign(text, _("No whole run is shown yet."));
+    g_string_assign(text, _("No complete run is displayed yet."));
   }
   return g_string_free(text, FALSE);
 }

@@ -554,7 +554,7 @@ void sb_bench_draw_status(SbBench *bench, int y) {
   const SbRun *shown = sb_session_run(bench->session);
   const SbModel *model = shown != NULL ? sb_run_model(shown) : sb_session_model(bench->session);
   if (model == NULL) {
-    sb_cells_text(cells, 1, y, room, _("the values do not go together"),
+    sb_cells_text(cells, 1, y, room, _("the values are inconsistent"),
                   sb_bench_pen(bench, SB_ROLE_ERROR, 0));
     return;
   }

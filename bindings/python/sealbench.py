@@ -175,7 +175,7 @@ def _name(value: str) -> bytes:
     if not isinstance(value, str):
         raise TypeError(f"a str is needed, not {type(value).__name__}")
     if "\0" in value:
-        raise Error(1, f"{value!r} holds a NUL", value.partition("\0")[0])
+        raise Error(1, f"{value!r} contains a NUL", value.partition("\0")[0])
     return value.encode()
 
 
@@ -183,7 +183,7 @@ def _path(value: str | os.PathLike[str]) -> bytes:
     """A path for the library."""
     path = os.fsencode(value)
     if b"\0" in path:
-        raise Error(1, f"the path {os.fsdecode(path)!r} holds a NUL")
+        raise Error(1, f"the path {os.fsdecode(path)!r} contains a NUL")
     return path
 
 

@@ -12,7 +12,7 @@ SbStatus sb_check_bounds(const SbBound *bound, size_t count, SbReport *report) {
     } else if (b->high >= DBL_MAX) {
       sb_text(range, sizeof range, b->low == DBL_MIN ? "be above 0" : "not be below %g", b->low);
     } else {
-      sb_text(range, sizeof range, "lie between %g and %g", b->low == DBL_MIN ? 0.0 : b->low,
+      sb_text(range, sizeof range, "be between %g and %g", b->low == DBL_MIN ? 0.0 : b->low,
               b->high);
     }
     return sb_fail_parameter(report, SB_ERROR_RANGE, b->key, "%s must %s, not %g", b->what, range,

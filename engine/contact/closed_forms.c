@@ -93,9 +93,10 @@ static Contact hertz(SbFit *out, const SbFitProblem *in, const Section *section)
   const double t = sb_hertz_width_of_approach(2.0 * section->squeeze,
                                               4.0 * in->modulus / (1.0 - nu * nu) / modulus);
   if (t > WIDTH_MOST) {
-    sb_warn(&out->warnings, "hertz-width", "gland.radial_space",
-            "contact half-width is %.2g of the radius: Hertz theory wants it small (below %g)", t,
-            WIDTH_MOST);
+    sb_warn(
+        &out->warnings, "hertz-width", "gland.radial_space",
+        "contact half-width is %.2g of the radius: Hertz theory requires a small value (below %g)",
+        t, WIDTH_MOST);
   }
   return (Contact){2.0 * t * radius, M_PI * modulus * t * t * radius / 8.0};
 }
@@ -159,18 +160,19 @@ SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report) {
   const Section section = {diameter, (diameter - in->radial_space) / diameter};
   if (!(diameter > in->radial_space)) {
     sb_warn(&out->warnings, "no-contact", "seal.section_diameter",
-            "the ring does not touch the bore (squeeze %.3g %%): load 0", 100.0 * section.squeeze);
+            "the ring has no contact with the bore (squeeze %.3g %%): load 0",
+            100.0 * section.squeeze);
     return sb_succeed(report);
   }
   const Contact c = model[in->model](out, in, &section);
   if (c.width >= diameter && in->model == SB_FIT_HERTZ) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.radial_space",
-                             "a squeeze of %.3g %% makes Hertz's contact wider than the disc",
+                             "at a squeeze of %.3g %% Hertz's contact is wider than the disc",
                              100.0 * section.squeeze);
   }
   if (in->pressure != 0.0 && in->model != SB_FIT_KARASZKIEWICZ) {
     sb_warn(&out->warnings, "pressure-ignored", "canister.pressure",
-            "the model %s knows no fluid pressure: %.3g MPa left out", sb_fit_model_name(in->model),
+            "the model %s has no fluid pressure: %.3g MPa ignored", sb_fit_model_name(in->model),
             1e-6 * in->pressure);
   }
   out->load_per_length = c.load;

@@ -84,7 +84,7 @@ static SbStatus check(const SbFitProblem *in, SbReport *report) {
       {"gland.axial_width", "the gland's width [m]", in->gland_width, SB_ABOVE_ZERO},
       {"bore.diameter", "the bore's diameter [m]", in->bore_diameter, SB_ABOVE_ZERO},
       {"seal.poisson_ratio", "the rubber's Poisson's ratio", in->poisson_ratio, SB_POISSON},
-      {"seal.mooney_share", "the Mooney share", in->mooney_share, 0.0, 0.5},
+      {"seal.mooney_share", "the Mooney fraction", in->mooney_share, 0.0, 0.5},
       {"housing.modulus", "the housing's modulus [Pa]", in->housing_modulus, 0.0, INFINITY},
       {"housing.poisson_ratio", "the housing's Poisson's ratio", in->housing_poisson, 0.0, 0.5},
       {"canister.pressure", "the pressure [Pa]", in->pressure, SB_FINITE},
@@ -97,14 +97,14 @@ static SbStatus check(const SbFitProblem *in, SbReport *report) {
     return status;
   }
   if (in->profile.kind != SB_SEAL_PROFILE_CIRCLE && in->model != SB_FIT_RING) {
-    return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
-                             "only the ring model knows a section that is not a circle "
-                             "(seal.profile = %s), not %s",
-                             sb_seal_profile_name(in->profile.kind), sb_fit_model_name(in->model));
+    return sb_fail_parameter(
+        report, SB_ERROR_INPUT, "models.fit",
+        "only the ring model supports a section that is not a circle (seal.profile = %s), not %s",
+        sb_seal_profile_name(in->profile.kind), sb_fit_model_name(in->model));
   }
   if (in->dragged && in->model != SB_FIT_RING) {
     return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
-                             "only the ring model knows a dragged ring, not %s",
+                             "only the ring model computes a dragged ring, not %s",
                              sb_fit_model_name(in->model));
   }
   if (!in->gasket && !(in->bore_diameter > 2.0 * in->radial_space)) {
@@ -175,7 +175,7 @@ static void judge_stretch(SbFit *out, const SbFitProblem *in) {
           "stretch moves the interference from %.3g to %.3g mm (%+.3g %%): %s %s",
           1e3 * unstretched, 1e3 * out->interference, -100.0 * moved / fabs(unstretched),
           sb_fit_model_name(in->model),
-          disc || in->fitted_section ? "takes a section that shrinks and stays round"
+          disc || in->fitted_section ? "requires a section that shrinks and remains round"
                                      : "ignores it (models.section = fitted does not)");
 }
 

@@ -94,7 +94,7 @@ static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
   if (!slides) {
     sb_warn(&out->warnings, result->state == SB_RING_ROLLS ? "ring-rolls" : "ring-jams",
             "gland.floor_friction",
-            "the ring %s at a drag of %.4g of its load: the figures are those there",
+            "the ring %s at a drag of %.4g of its load: the figures are those at this drag",
             result->state == SB_RING_ROLLS ? "rolls" : "jams", result->drag_limit);
   }
   out->ring.load_steps = (size_t)result->load_steps;

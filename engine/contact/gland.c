@@ -155,13 +155,13 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
     const double size = number(gland, SIZE[i].value), wide = number(gland, SIZE[i].tolerance);
     if (!(size > 0.0 && isfinite(size) && wide >= 0.0 && wide < size)) {
       return sb_fail_parameter(report, SB_ERROR_RANGE, SIZE[i].key,
-                               "size %g m with a tolerance of %g m makes no sense", size, wide);
+                               "size %g m with a tolerance of %g m is not possible", size, wide);
     }
   }
   if (!(gland->poisson_ratio >= 0.0 && gland->poisson_ratio <= 0.5 && gland->volume_swell >= 0.0 &&
         isfinite(gland->volume_swell))) {
     return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.poisson_ratio",
-                             "Poisson's ratio %g or swell %g makes no sense", gland->poisson_ratio,
+                             "Poisson's ratio %g or swell %g is not possible", gland->poisson_ratio,
                              gland->volume_swell);
   }
   if (!(gland->bore_diameter - gland->bore_diameter_tolerance >

@@ -154,11 +154,10 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
     }
     if (problem->speed != 0 && problem->surface != SB_ROUGH_NONE && out->film_ratio < 0.5 &&
         out->asperity_share < 0.99) {
-      sb_warn(
-          &out->warnings, "film-flow-factors", "surface.sigma",
-          "the mean gap is %.2g of the roughness: the flow between touching asperities is taken "
-          "without flow factors or percolation",
-          out->film_ratio);
+      sb_warn(&out->warnings, "film-flow-factors", "surface.sigma",
+              "the mean gap is %.2g of the roughness: the flow between touching asperities is "
+              "computed without flow factors or percolation",
+              out->film_ratio);
     }
     return;
   }
@@ -279,8 +278,8 @@ static SbStatus refuse_smooth(const SbEhlCase *c, const SbFilmScale *scale, doub
   }
   if (scale->M < 0.1 && fabs(rigid_step(&c->layers)) > 4.0) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "canister.pressure",
-                             "film: M = %.3g: end pressures that differ by %.3g times what a "
-                             "rigid wedge bears drive the fluid through so thick a film",
+                             "film: M = %.3g: end pressures that differ by %.3g times the limit of "
+                             "a rigid wedge drive the fluid through so thick a film",
                              scale->M, fabs(rigid_step(&c->layers)) / (M_PI / 16.0));
   }
   SbEhlLayers starved = c->layers;
@@ -322,10 +321,9 @@ static SbStatus solve_cold(SbEhlResults *results, int *levels, SbFilmSolver *sol
       status = climb(results, levels, solver, c, INFINITY);
     }
     if (flows && c->rough.sealed) {
-      sb_warn(
-          warnings, "film-rest-sealed", "surface.sigma",
-          "at rest the gap is closed: no flow passes, and the fluid's pressure between the ends "
-          "is taken as in the smooth dry contact");
+      sb_warn(warnings, "film-rest-sealed", "surface.sigma",
+              "at rest the gap is closed: no flow passes, and the fluid's pressure between the "
+              "ends is assumed to be that of the smooth dry contact");
     }
   } else if (*levels > 0 && isfinite(supply) && !isfinite(solver->now->c.supply)) {
     // Flooded but for a trifle, see starve() in ehl_continuation.c.
@@ -355,9 +353,9 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
     return status;
   }
   if (scale->outlet < 0.0) {
-    sb_warn(&out->warnings, "film-outlet-vapour", "",
-            "the outlet's pressure is below the rupture pressure: it is taken to stay at that "
-            "pressure behind the contact");
+    sb_warn(
+        &out->warnings, "film-outlet-vapour", "",
+        "the outlet's pressure is below the rupture pressure, which is assumed after the contact");
   }
   if (problem->compliance == NULL && scale->half_width > problem->radius) {
     out->valid = false;

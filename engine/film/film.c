@@ -355,11 +355,10 @@ static void warn_common(SbFilm *out, const SbFilmProblem *problem) {
   if (problem->compliance == NULL && problem->speed != 0.0 &&
       out->film_min > SB_FILM_THICK * problem->radius) {
     out->valid = false;
-    sb_warn(
-        &out->warnings, "film-thick", "fluid.viscosity",
-        "minimum film %.3g mm is %.2g of the radius: no parabola stands for the cylinder so far "
-        "away",
-        out->film_min * 1e3, out->film_min / problem->radius);
+    sb_warn(&out->warnings, "film-thick", "fluid.viscosity",
+            "minimum film %.3g mm is %.2g of the radius: a parabola does not approximate the "
+            "cylinder at this distance",
+            out->film_min * 1e3, out->film_min / problem->radius);
   }
   if (problem->speed != 0.0 && out->film_min < 2e-9) {
     sb_warn(&out->warnings, "film-below-continuum", "drive.speed",

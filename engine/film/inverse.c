@@ -173,7 +173,7 @@ SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const 
       if (lambda > 1e-2) {
         out->valid = false;
         sb_warn(&out->warnings, "film-inverse-range", "models.film",
-                "the inverse film holds for lambda below 1e-2, here %.2g: the film changes the "
+                "the inverse film is valid for lambda below 1e-2, here %.2g: the film changes the "
                 "pressure",
                 lambda);
       }

@@ -113,7 +113,7 @@ SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFi
   if ((model == SB_FILM_THESIS || model == SB_FILM_KARASZKIEWICZ) &&
       (scale->inlet > 0.0 || scale->outlet > 0.0)) {
     sb_warn(&out->warnings, "film-law-pressure", "models.film",
-            "the power law knows end pressures only through the load");
+            "in the power law end pressures act only through the load");
   }
 
   dry_profile(out, scale, out->film_flux);

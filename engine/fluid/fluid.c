@@ -142,29 +142,28 @@ static void mix(SbFluidState *out, SbWarnings *warnings, const SbFluidState *eth
       by_rule(exp(logarithm / moles), "Grunberg and Nissan (1949), no interaction");
   out->figure[SB_FLUID_MASS] = by_rule(1.0 / moles, "mean of the liquid");
   out->figure[SB_FLUID_GWP] =
-      by_rule(w[0] * own.figure[SB_FLUID_GWP].value, "the propellant's share of the mass");
+      by_rule(w[0] * own.figure[SB_FLUID_GWP].value, "the propellant's mass fraction");
   out->estimate = true;
-  sb_warn(
-      warnings, "mixture-estimate", "",
-      "mixtures with ethanol deviate from Raoult's law: the pressure lies between this estimate "
-      "and the propellant's own, %.4g kPa",
-      1e-3 * own.figure[SB_FLUID_PRESSURE].value);
+  sb_warn(warnings, "mixture-estimate", "",
+          "mixtures with ethanol deviate from Raoult's law: the pressure is between this estimate "
+          "and the propellant's own, %.4g kPa",
+          1e-3 * own.figure[SB_FLUID_PRESSURE].value);
 }
 
 SbStatus sb_fluid_state(SbFluidState *out, SbWarnings *warnings, const SbFluid *fluid,
                         double temperature, double ethanol, SbReport *report) {
   if (fluid->source[SB_FLUID_FROM_EQUATION] == NULL) {
-    return sb_fail_parameter(report, SB_ERROR_INPUT, "fluid.name",
-                             "%s has no figures of its own: canister.pressure, fluid.viscosity and "
-                             "fluid.density say them",
-                             fluid->name);
+    return sb_fail_parameter(
+        report, SB_ERROR_INPUT, "fluid.name",
+        "%s has no properties of its own: set canister.pressure, fluid.viscosity and fluid.density",
+        fluid->name);
   }
   if (ethanol != 0.0 && !fluid->propellant) {
     return sb_fail(report, SB_ERROR_INPUT, "ethanol is a cosolvent of propellants; %s is none",
                    fluid->name);
   }
   SbStatus status =
-      SB_CHECK(report, {"", "the share of ethanol", ethanol, 0.0, SB_FLUID_ETHANOL_MAX});
+      SB_CHECK(report, {"", "the mass fraction of ethanol", ethanol, 0.0, SB_FLUID_ETHANOL_MAX});
   if (status == SB_OK) {
     status = pure(out, warnings, fluid, temperature, report);
   }

@@ -190,7 +190,7 @@ SbStatus sb_profile_check(const SbProfile *p, SbReport *report) {
       return sb_fail(report, SB_ERROR_INPUT, "point %zu of the profile is not a number", i);
     }
     if (a->r < 0.0) {
-      return sb_fail(report, SB_ERROR_INPUT, "point %zu of the profile lies below the axis", i);
+      return sb_fail(report, SB_ERROR_INPUT, "point %zu of the profile is below the axis", i);
     }
     extent = fmax(extent, hypot(a->x - p->point[0].x, a->r - p->point[0].r));
   }

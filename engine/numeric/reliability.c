@@ -17,7 +17,7 @@ const char *sb_search_text(SbSearchEnd end) {
   case SB_SEARCH_FAR:
     return "the limit is not reached within 8 standard deviations";
   case SB_SEARCH_KINK:
-    return "the figure has a kink on the way to the limit";
+    return "the figure has a kink between the median and the limit";
   case SB_SEARCH_NO_VALUE:
     return "the figure has no value at the median";
   case SB_SEARCH_STALLED:
@@ -34,7 +34,7 @@ const char *sb_failure_text(const SbFailurePoint *found) {
   case SB_SEARCH_FLAT:
     return "the median fails, and nothing that varies changes the figure";
   case SB_SEARCH_FAR:
-    return "the median fails, and no valve that holds the limit was found within 8 standard "
+    return "the median fails, and no valve that meets the limit was found within 8 standard "
            "deviations";
   default:
     return sb_search_text(found->end);
@@ -186,7 +186,7 @@ SbStatus sb_failure_point(SbFailurePoint *out, double *u, size_t dimensions, SbL
                           void *data, double tolerance, SbReport *report) {
   *out = (SbFailurePoint){.end = SB_SEARCH_STALLED, .beta = NAN, .value = NAN, .slope = NAN};
   if (dimensions == 0 || dimensions > SB_RELIABILITY_DIMENSIONS) {
-    return sb_fail(report, SB_ERROR_RANGE, "a search takes 1 to %d dimensions, not %zu",
+    return sb_fail(report, SB_ERROR_RANGE, "a search has 1 to %d dimensions, not %zu",
                    SB_RELIABILITY_DIMENSIONS, dimensions);
   }
   Place at;

@@ -131,7 +131,7 @@ void sb_sample_random(double *point, size_t samples, size_t dimensions, uint64_t
 SbStatus sb_sample_sobol(double *point, size_t samples, size_t dimensions, uint64_t seed,
                          SbReport *report) {
   if (dimensions == 0 || dimensions > SB_SOBOL_DIMENSIONS) {
-    return sb_fail(report, SB_ERROR_RANGE, "a Sobol sequence takes 1 to %d parameters, not %zu",
+    return sb_fail(report, SB_ERROR_RANGE, "a Sobol sequence has 1 to %d parameters, not %zu",
                    SB_SOBOL_DIMENSIONS, dimensions);
   }
   gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)dimensions);

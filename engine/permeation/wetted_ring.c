@@ -41,7 +41,7 @@ SbStatus sb_wetted_ring_create(SbWettedMesh **out, const SbRing *ring, bool insi
     sb_ring_section(ring, &fill);
     if (!wet(*out, loop, side, sides, inside_right)) {
       status = sb_fail(report, SB_ERROR_INFEASIBLE,
-                       "the ring leaves the fluid a way past: nothing to permeate");
+                       "the fluid has an open path past the ring: permeation is not defined");
     }
   }
   if (status != SB_OK) {

@@ -93,7 +93,7 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
        SB_SIZES_TEMPERATURE},
       {"rubber.modulus_slope", "the slope of the modulus [1/K]", r->modulus_slope, -5e-3, 5e-3},
       {"rubber.network_rate", "the network's rate [1/s]", r->network_rate, 0.0, INFINITY},
-      {"rubber.network_rate", "the reformed share", r->network_reform, 0.0, 1.0},
+      {"rubber.network_rate", "the reformed fraction", r->network_reform, 0.0, 1.0},
       {"rubber.swell_mass", "swell by mass", r->swell_mass, SB_NOT_NEGATIVE},
       {"rubber.swell_mass", "diffusion [m2/s]", r->diffusion, SB_NOT_NEGATIVE},
       {"rubber.swell_mass", "the swollen modulus over the dry", r->swell_modulus, SB_NOT_NEGATIVE},
@@ -101,9 +101,9 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
       {"rubber.swell_mass", "the fluid's density [kg/m3]", r->fluid_density, least, INFINITY});
   double sum = 0.0;
   for (size_t i = 0; i < r->terms && i < SB_RUBBER_TERMS && status == SB_OK; i++) {
-    status = SB_CHECK(report,
-                      {"rubber.relaxation_share_1", "a Prony term's share", r->g[i], 0.0, INFINITY},
-                      {"rubber.relaxation_share_1", "its time [s]", r->tau[i], SB_ABOVE_ZERO});
+    status = SB_CHECK(
+        report, {"rubber.relaxation_share_1", "a Prony term's fraction", r->g[i], 0.0, INFINITY},
+        {"rubber.relaxation_share_1", "its time [s]", r->tau[i], SB_ABOVE_ZERO});
     sum += r->g[i];
   }
   if (status != SB_OK) {
@@ -111,13 +111,13 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
   }
   if (r->terms > SB_RUBBER_TERMS || !(sum < 1.0)) {
     return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.relaxation_share_1",
-                             "%zu Prony terms with shares that sum to %g (at most %d, below 1)",
+                             "%zu Prony terms with fractions that sum to %g (at most %d, below 1)",
                              r->terms, sum, SB_RUBBER_TERMS);
   }
   if (in->use_temperature < r->glass_temperature) {
     return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.temperature",
                              "%.4g °C is below the rubber's glass transition at %.4g °C: there it "
-                             "is glass, which no model here knows",
+                             "is glass, for which there is no model",
                              in->use_temperature - 273.15, r->glass_temperature - 273.15);
   }
   if (r->shift == SB_SHIFT_WLF &&
@@ -183,7 +183,7 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
   }
   if (r->shift != SB_SHIFT_NONE && fabs(away) > 100.0) {
     sb_warn(warnings, "shift-range", "storage.temperature",
-            "%.0f K from the reference: the temperature shift holds to about 100 K", away);
+            "%.0f K from the reference: the temperature shift is valid to about 100 K", away);
   }
 
   // Relaxation, and the remaining stress of the elements after release.

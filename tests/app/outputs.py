@@ -205,8 +205,8 @@ def reports():
                    "[cases]\nwide = gland.radial_space = 1.38 mm\n")
     for source, headings in [(limited, ["Summary", "Force, contact and film", "Figures", "Stages",
                                         "Seals", "Storage time", "Inputs", "Models", "Sources"]),
-                             (study, ["Limits", "Figures over the samples", "What varies",
-                                      "How the figures are spread", "What they hang on"])]:
+                             (study, ["Limits", "Figures over the samples", "Varied parameters",
+                                      "How the figures are spread", "Sensitivities"])]:
         names = [path(f"report-{i}.pdf") for i in range(2)]
         dated = dict(os.environ, SOURCE_DATE_EPOCH="86400")
         done(run("report", source, "-o", names[0], env=dated))
@@ -276,8 +276,7 @@ def earlier_results():
     with open(path("results", "study-storage-table.csv"), "a") as file:
         file.write("mine\n")
     result = done(run("run", quick, "-q", "-o", where))
-    expect(result.stderr, "sealbench: %s: is of an earlier result and was changed since; it is "
-           "kept\n" % path("results", "study-storage-table.csv"))
+    expect(result.stderr, "sealbench: %s: belongs to an earlier result and was changed since; it is not deleted\n" % path("results", "study-storage-table.csv"))
     # The tail of a longer sequence.
     for rate, count in [("20", 4), ("10", 2)]:
         done(run("render", quick, "-o", path("frames/"), *film, "--fps", rate))

@@ -394,7 +394,7 @@ static void test_mesh_refused(void) {
   g_assert_true(g_str_has_prefix(cad->warnings->pdata[1], "it is not a body of revolution"));
   g_assert_null(parse_mesh(small, &none, &error));
   g_assert_cmpstr(error->message, ==,
-                  "parts/Stem-centre.stl: an STL file knows no unit, and its longest side of 1.2 "
+                  "parts/Stem-centre.stl: an STL file states no unit, and its longest side of 1.2 "
                   "is in mm 1.2 mm, in inch 30.5 mm: specify it with --unit");
   g_clear_error(&error);
   // A facet is missing: open.
@@ -572,7 +572,7 @@ static void test_refused(void) {
       {"hello\nworld\n", "a.dxf: line 1 is not a group code of a DXF"},
       {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\nfar\n",
        "a.dxf: line 8: 'far' is not a number here"},
-      {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n", "a.dxf: the file ends behind line 7"},
+      {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n", "a.dxf: the file ends after line 7"},
       {"  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n",
        "a.dxf: states no unit ($INSUNITS): specify it with --unit"},
       {"AutoCAD Binary DXF\r\n\x1a", "a.dxf: is a binary DXF: save it as text (ASCII)"},
@@ -594,7 +594,7 @@ static void test_refused(void) {
   GError *error = NULL;
   g_assert_null(sb_cad_parse_dxf(open->str, open->len, "a.dxf", &millimetres, &error));
   g_assert_cmpstr(error->message, ==,
-                  "a.dxf: holds no closed outline; 0: 1 line that closes to no outline");
+                  "a.dxf: contains no closed outline; 0: 1 line that closes to no outline");
   g_clear_error(&error);
   g_assert_null(sb_cad_parse_dxf(open->str, open->len, "a.dxf", &wrong, &error));
   g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);

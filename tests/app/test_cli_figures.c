@@ -66,7 +66,7 @@ static void test_reasons(void) {
   }
   CliResult table = CLI("run", cli.scene, "--all", "--set=surface.gt_product=0.17");
   g_assert_nonnull(
-      strstr(table.out, "Leakage per cycle                    - (the stem does not come"));
+      strstr(table.out, "Leakage per cycle                    - (the stem does not return"));
   cli_clear(&table);
 }
 

@@ -104,7 +104,7 @@ static void test_refused(void) {
                {{scan_path, "--missing", "guess"}, "there is no \"guess\" (allowed leave, fill)"},
                {{scan_path, "--outliers", "-1"}, "a value above 0"},
                {{scan_path, "--unit", "kg"}, "--unit"},
-               {{scan_path, "--unit", "nm"}, "says its units itself"},
+               {{scan_path, "--unit", "nm"}, "states its own units"},
                {{scan_path, "--channel", "7"}, "no channel 7"},
                {{scan_path, "--scene", "x.scene"}, "go together"},
                {{cli.scene}, "thesis-cycle.scene: "}};

@@ -135,7 +135,7 @@ static void test_life(void) {
   JsonNode *root = cli_parse(text);
   SAME(table.out, "Roughness, last actuation", root, "life.roughness_last", 1);
   SAME(table.out, "Return force, last actuation", root, "life.force_return_last_N", 1);
-  SAME(table.out, "Leakage carried, whole life", root, "life.leakage_carried_m3", 1e15);
+  SAME(table.out, "Leakage carried, full life", root, "life.leakage_carried_m3", 1e15);
   g_auto(GStrv) rows = rows_of(out, "life.csv");
   g_assert_cmpuint(g_strv_length(rows), ==, 6);
   double carried = 0;

@@ -69,7 +69,7 @@ static void test_table(void) {
       {VALVE "[seal]\nsection_diameter =\n",
        "x.valve: [seal] section_diameter: no value (allowed 0.2 to 20 mm)"},
       {VALVE "[seal]\nmodulus = 2.5 MPa # soft\n",
-       "x.valve: [seal] modulus: \"2.5 MPa # soft\": a comment must stand on a line of its own "
+       "x.valve: [seal] modulus: \"2.5 MPa # soft\": a comment must be on a line of its own "
        "(allowed 0.1 to 10000 MPa)"},
       // Range and NaN.
       {VALVE "[seal]\nsection_diameter = 21 mm\n",
@@ -88,7 +88,7 @@ static void test_table(void) {
       {VALVE "[seal]\nmodulus = 2 MPa\nmodulus = 3 MPa\n",
        "x.valve: [seal] modulus: is given twice (again on line 6)"},
       {VALVE "[seal]\n[gland]\n[seal]\n", "x.valve: line 6: group [seal] appears twice"},
-      {"kind = valve\n" VALVE, "x.valve: line 1: a key stands before the first [group]"},
+      {"kind = valve\n" VALVE, "x.valve: line 1: a key is before the first [group]"},
       {VALVE "title = a\x1b[31mb\nvalve = y\n",
        "x.valve: [sealbench] valve: only a scene names a valve"},
       // Scenes.

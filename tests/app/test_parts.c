@@ -142,7 +142,7 @@ static void test_weighed(void) {
   g_assert_cmpfloat(sb_document_value(document, SB_P_PART_STEM_CENTRE_MASS), ==, 2e-3);
   const GPtrArray *notes = sb_document_notes(document);
   g_assert_cmpuint(notes->len, ==, 2);
-  g_assert_nonnull(strstr(notes->pdata[0], "part.stem_centre.mass = 2 g is in force; the profile"));
+  g_assert_nonnull(strstr(notes->pdata[0], "part.stem_centre.mass = 2 g applies; the profile"));
   g_assert_nonnull(strstr(notes->pdata[1], "the section does not draw"));
 }
 

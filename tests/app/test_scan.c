@@ -255,7 +255,7 @@ static void test_matrix(void) {
   // Units that are not there are asked for.
   h.dy = h.dx;
   text = matrix(esri, " ", '.', "-9999");
-  assert_refused(text->str, text->len, &plain, "in which unit its heights are: --unit");
+  assert_refused(text->str, text->len, &plain, "the unit of its heights: specify it with --unit");
   assert_text(text, &(SbScanChoices){.unit = 1e-9, .lateral_unit = 1e-6}, &h);
   g_string_free(text, TRUE);
   text = matrix("", "\t", '.', "nan");

@@ -45,9 +45,9 @@ static void test_refused(void) {
       {"time [s],force [N]\n0,0\n1,1\n2,inf\n", "x.csv: line 4: \"2,inf\" is not a row"},
       {"time [s],force [N]\n0,0\n0,1\n", "x.csv: row 2: its time does not come after"},
       {"time [s],displacement [m]\n0,0\n1,3\n",
-       "x.csv: row 2: column 2 is out of range (allowed at most 200 mm either way)"},
+       "x.csv: row 2: column 2 is out of range (allowed at most 200 mm in either direction)"},
       {"time [s];force [N]\n1,250;2,500\n2,750;3,125\n",
-       "x.csv: decimal: reads in two ways: \"1,250\" is 1250 with a decimal point, 1.25 with a "
+       "x.csv: decimal: is ambiguous: \"1,250\" is 1250 with a decimal point, 1.25 with a "
        "decimal comma"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {

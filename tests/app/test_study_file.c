@@ -45,7 +45,7 @@ static void test_refused(void) {
        "more than 6 deviations"},
       {"[vary]\ncanister.temperature = normal 20 °C, 2 °C" STUDY, "canister.temperature"},
       {"[vary]\ngland.radial_space = triangle 1 mm, 2 mm" STUDY,
-       "\"triangle 1 mm, 2 mm\" says no distribution (allowed uniform A .. B[, N]"},
+       "\"triangle 1 mm, 2 mm\" is not a distribution (allowed uniform A .. B[, N]"},
       {"[vary]\nsurface.gt_product = loguniform 0 .. 0.2" STUDY, "surface.gt_product"},
       {"[vary]\nfluid.name = uniform custom .. hfa-134a" STUDY, "only levels suit a choice"},
       {"[vary]\nfluid.name = levels hfa-134b" STUDY, "fluid.name"},
@@ -80,7 +80,7 @@ static void test_refused(void) {
        "is not a correlation (allowed between -1 and 1)"},
       {"[vary]\nfluid.name = levels hfa-134a, hfa-152a" STUDY
        "method = reliability\n[limits]\ncycle.force_breakaway_N = <= 30 N\n",
-       "[vary] fluid.name: the method reliability takes no levels"},
+       "[vary] fluid.name: the method reliability accepts no levels"},
       {"[vary]\ngland.radial_space = uniform 1.3 mm .. 1.4 mm" STUDY "method = reliability\n",
        "limits: the method reliability needs limits"},
 #define SPACE "[vary]\ngland.radial_space = uniform 1.3 mm .. 1.4 mm\n"
@@ -103,7 +103,7 @@ static void test_refused(void) {
        "[tolerances] seal.section_diameter: seal.outer.section_diameter varies, which this does "
        "not"},
       {"[vary]\ngland.radial_space = normal 1.36 mm, 0.01 mm\n" LEAST,
-       "[vary] gland.radial_space: a design takes bounds, or one value"},
+       "[vary] gland.radial_space: a design requires bounds, or one value"},
       {"[vary]\n" LEVELS LEAST, "a design needs bounds: nothing is free"},
       {"[varied]\n" LEVELS STUDY, "unknown group [varied]"},
 #define GRID "\n[study]\nmethod = grid\n"
@@ -120,11 +120,11 @@ static void test_refused(void) {
        "an operator is missing"},
       {"[vary]\nspace = levels 1\ngland.radial_space = by space - 1 N" GRID,
        "is a unit of another kind, expected mm"},
-      {"[vary]\ngland.radial_space = by bore.diameter" GRID, "takes levels of something"},
+      {"[vary]\ngland.radial_space = by bore.diameter" GRID, "requires the levels of a parameter"},
       {"[vary]\ngland.radial_space = uniform 1.3 mm .. 1.4 mm and 1.5 mm" GRID,
        "has no number of points to add levels to"},
       {"[vary]\n" LEVELS GRID "hold = me\n",
-       "there is nothing to hold like this (allowed machine, outer-seal, saturated)"},
+       "no group of parameters can be fixed by this name (allowed machine, outer-seal, saturated)"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GPtrArray) issues = sb_issues_new();

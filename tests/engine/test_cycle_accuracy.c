@@ -130,7 +130,7 @@ static void compare(const SbSummary *coarse, const SbSummary *fine, double bound
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const SbSealState *a = &coarse->seal[i];
     const SbSealState *b = &fine->seal[i];
-    within("least film", a->film_min, b->film_min, film);
+    within("minimum film", a->film_min, b->film_min, film);
     within("central film", a->film_central, b->film_central, film);
     within("viscous friction", a->friction_viscous, b->friction_viscous, film);
     within("boundary friction", a->friction_boundary, b->friction_boundary, bound);

@@ -58,7 +58,7 @@ static SbFilm film, exact;
 // Least, central and flow-rate film and the asperities' figures, which move with the films: share
 // of the load, real area at the axis.
 static void test_mixed(void) {
-  static Tally tally[] = {{.name = "least film"},
+  static Tally tally[] = {{.name = "minimum film"},
                           {.name = "central film"},
                           {.name = "flow-rate film"},
                           {.name = "asperity share"},

@@ -40,7 +40,7 @@ static void test_reference(void) {
     g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
     g_test_message("reference %zu: least film %.6g nm, asperity share %.6g", i, film.film_min * 1e9,
                    film.asperity_share);
-    close_to("least film", film.film_min * 1e9, point[i].film_min, 2e-4);
+    close_to("minimum film", film.film_min * 1e9, point[i].film_min, 2e-4);
     g_assert_cmpfloat(fabs(film.asperity_share - point[i].share), <, 1e-4);
   }
 }
@@ -76,7 +76,7 @@ static void test_smooth_limit(void) {
     g_test_message("smooth limit %zu: min %.3g central %.3g flux %.3g", i,
                    film.film_min / other.film_min - 1, film.film_central / other.film_central - 1,
                    film.film_flux / other.film_flux - 1);
-    close_to("least film", film.film_min, other.film_min, 5e-4);
+    close_to("minimum film", film.film_min, other.film_min, 5e-4);
     close_to("central film", film.film_central, other.film_central, 5e-4);
     close_to("flux film", film.film_flux, other.film_flux, 5e-4);
     close_to("pressure", film.pressure_max, other.pressure_max, 5e-4);
@@ -370,7 +370,7 @@ static void test_starved(void) {
   g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
   problem.surface = SB_ROUGH_NONE;
   g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
-  close_to("least film", film.film_min, other.film_min, 5e-4);
+  close_to("minimum film", film.film_min, other.film_min, 5e-4);
   close_to("central film", film.film_central, other.film_central, 5e-4);
   // More than it takes: flooded.
   problem = rough_seal(1e-2, SB_ROUGH_GREENWOOD_TRIPP);
@@ -650,7 +650,7 @@ static void test_thin_layers(void) {
   g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
   g_test_message("films %.6g and %.6g nm, asperity share %.6g", film.film_min * 1e9,
                  film.film_central * 1e9, film.asperity_share);
-  close_to("least film", film.film_min * 1e9, 0.318010, 1e-3);
+  close_to("minimum film", film.film_min * 1e9, 0.318010, 1e-3);
   close_to("central film", film.film_central * 1e9, 0.400186, 1e-3);
   g_assert_cmpfloat(film.solver.error_film_min, <, 1e-3);
 }

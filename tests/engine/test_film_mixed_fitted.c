@@ -53,7 +53,7 @@ static void test_half_plane(void) {
     const SbSurfaceCompliance c = parabola(problem.modulus, RADIUS, 0.8 * RADIUS, tilt);
     problem.compliance = &c;
     solve(&film, &problem);
-    close_to("least film", film.film_min, other.film_min, 1e-6);
+    close_to("minimum film", film.film_min, other.film_min, 1e-6);
     close_to("central film", film.film_central, other.film_central, 1e-6);
     close_to("asperities' load", film.asperity_load, other.asperity_load, 1e-6);
     close_to("real area", film.real_area, other.real_area, 1e-6);
@@ -76,7 +76,7 @@ static void test_smooth_limit(void) {
     g_test_message("speed %g: least %.2g, central %.2g, place %.2g", speed[i],
                    film.film_min / other.film_min - 1, film.film_central / other.film_central - 1,
                    film.position_film_min / other.position_film_min - 1);
-    close_to("least film", film.film_min, other.film_min, 5e-5);
+    close_to("minimum film", film.film_min, other.film_min, 5e-5);
     close_to("central film", film.film_central, other.film_central, 5e-5);
     close_to("largest pressure", film.pressure_max, other.pressure_max, 5e-5);
     close_to("place of the least film", film.position_film_min, other.position_film_min, 5e-5);
@@ -114,7 +114,7 @@ static void test_mirror(void) {
   problem.pressure_right = problem.pressure_left;
   problem.pressure_left = 0;
   solve(&other, &problem);
-  close_to("least film", other.film_min, film.film_min, 1e-7);
+  close_to("minimum film", other.film_min, film.film_min, 1e-7);
   close_to("its place", other.position_film_min, -film.position_film_min, 1e-7);
   close_to("asperities' load", other.asperity_load, film.asperity_load, 1e-7);
   close_to("boundary friction", other.friction_boundary, -film.friction_boundary, 1e-7);

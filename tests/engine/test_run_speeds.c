@@ -126,7 +126,7 @@ static void test_hand_solved(void) {
           check_identities(sb_run_model(run), seal);
           relative("friction", fabs(seal->friction), sb_sliding_friction(&alone), 1e-3);
           relative("film", seal->film_central, alone.film_central, 1e-3);
-          relative("least film", seal->film_min, alone.film_min, 1e-3);
+          relative("minimum film", seal->film_min, alone.film_min, 1e-3);
           worst = fmax(worst, fabs(seal->film_central / alone.film_central - 1));
           fastest = fmax(fastest, speed);
           seen++;
@@ -225,7 +225,7 @@ static void test_starved_rough(void) {
                  table->starved_from, fabs(quick.film_central / alone.film_central - 1),
                  fabs(quick.film_min / alone.film_min - 1), table->error);
   relative("film", quick.film_central, alone.film_central, 3 * table->error);
-  relative("least film", quick.film_min, alone.film_min, 3 * table->error);
+  relative("minimum film", quick.film_min, alone.film_min, 3 * table->error);
   relative("real area", quick.real_area_share, alone.real_area_share, 3 * table->error);
   g_assert_cmpfloat(quick.film_central, ==, quicker.film_central);
   relative("viscous friction", quicker.friction_viscous, 8 * quick.friction_viscous, 1e-9);
@@ -276,7 +276,7 @@ static void test_sweep(void) {
                         in ? SB_CYCLE_IN : SB_CYCLE_OUT, speeds[i]);
         double friction = sb_sliding_friction(&state);
         relative("film", state.film_central, contact->film_central, 2e-3);
-        relative("least film", state.film_min, contact->film_min, 2e-3);
+        relative("minimum film", state.film_min, contact->film_min, 2e-3);
         relative("friction", friction, contact->friction, 2e-3);
         relative("lambda", state.lambda, state.film_central / sb_run_model(run)->sigma, 1e-12);
         worst = fmax(worst, fabs(state.film_central / contact->film_central - 1));

@@ -83,7 +83,7 @@ static void test_sobol(void) {
   SbReport report = {0};
   g_assert_cmpint(sb_sample_sobol(point, 1, SB_SOBOL_DIMENSIONS + 1, 5, &report), ==,
                   SB_ERROR_RANGE);
-  g_assert_cmpstr(report.text, ==, "a Sobol sequence takes 1 to 40 parameters, not 41");
+  g_assert_cmpstr(report.text, ==, "a Sobol sequence has 1 to 40 parameters, not 41");
 }
 
 // Ishigami and Homma's function (1990), whose indices are known.

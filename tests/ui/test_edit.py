@@ -45,7 +45,7 @@ def values_that_do_not_go_together_are_told_at_their_field(folder):
         app.unfold("Bore")
         app.edit("Bore diameter", "2 mm")
         wait("one value to fix", lambda: app.label(r"to fix"))
-        wait("the sentence", lambda: app.label(r"^Radial space does not go with the other values"))
+        wait("the sentence", lambda: app.label(r"^Radial space is inconsistent with the other values"))
         app.press("push button", "Undo")
         wait("no error", lambda: not app.label(r"to fix"))
 
@@ -224,7 +224,7 @@ def search_finds_parameters(folder):
         # The main ones, what was changed, all.
         app.press("toggle button", re.compile(r"^Main 16$"))
         # All would have the share below the modulus; what is scrolled out of sight does not count.
-        wait("the main ones", lambda: app.has("text", "Axial width") and not app.has("text", "Mooney share"))
+        wait("the main ones", lambda: app.has("text", "Axial width") and not app.has("text", "Mooney fraction"))
         app.edit("Radial space", "1.38 mm")
         app.press("toggle button", re.compile(r"^Changed \d+$"))
         wait("what changed", lambda: app.has("text", "Radial space") and not app.has("text", "Section diameter"))

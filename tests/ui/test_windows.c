@@ -215,7 +215,7 @@ static void test_design_point_goes_with_its_map(void) {
   sb_toast_attach(GTK_WINDOW(window));
   gtk_widget_show_all(window);
   GtkWidget *map = named(window, "Map of the design", GTK_TYPE_WIDGET),
-            *keep = named(window, "Keep design", GTK_TYPE_WIDGET);
+            *keep = named(window, "Save design", GTK_TYPE_WIDGET);
   g_assert_false(gtk_widget_get_sensitive(keep));
   // What a button's tooltip explains is not under it.
   GtkWidget *bounds = named(window, "Bounds", GTK_TYPE_WIDGET);

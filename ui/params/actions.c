@@ -56,7 +56,7 @@ static const SbAction table[] = {
     {"win.cutaway", {"<Primary>d"}, N_("Cutaway or section"), "3d view"},
     {"win.zoom-in", {"<Primary>plus", "<Primary>equal"}, N_("Zoom the section in"), NULL},
     {"win.zoom-out", {"<Primary>minus"}, N_("Zoom out"), NULL},
-    {"win.zoom-fit", {"<Primary>0"}, N_("Whole section"), "zoom reset fit"},
+    {"win.zoom-fit", {"<Primary>0"}, N_("Full section"), "zoom reset fit"},
     {"win.turn-left", {"<Alt>Left"}, NULL, NULL},
     {"win.turn-right", {"<Alt>Right"}, NULL, NULL},
     {"win.turn-up", {"<Alt>Up"}, NULL, NULL},

@@ -145,10 +145,10 @@ GtkWidget *sb_drawing_row_new(SbSession *session, SbDrawingKind kind) {
   row->button = gtk_button_new_with_label("");
   const char *tip =
       kind == SB_DRAWING_SECTION
-          ? _("Takes the section of both seals from points, a DXF or a STEP of the ring, scaled to "
+          ? _("Reads the section of both seals from points, a DXF or a STEP of the ring, scaled to "
               "their section diameter (seal.profile_file)")
-          : _("Takes floor and walls of both grooves from points, a DXF or a STEP of their "
-              "outline, the walls as far apart as the axial width says (gland.profile_file)");
+          : _("Reads floor and walls of both grooves from points, a DXF or a STEP of their "
+              "outline; the distance of the walls is the axial width (gland.profile_file)");
   GtkWidget *chooser = kind == SB_DRAWING_SECTION ? row->button : with_none(row);
   GtkWidget *box = sb_own_row_new(title_of(kind), tip, chooser);
   g_object_set_data_full(G_OBJECT(box), "row", row, (GDestroyNotify)free_row);

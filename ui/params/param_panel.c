@@ -385,9 +385,8 @@ static void sb_param_panel_init(SbParamPanel *panel) {
   g_autofree char *hint = g_strdup_printf(_("Search %d parameters"), SB_PARAM_COUNT);
   gtk_entry_set_placeholder_text(GTK_ENTRY(panel->search), hint);
   sb_style_name(panel->search, _("Search parameters"),
-                _("Shows the parameters whose name, key, symbol, choices or help holds the text, "
-                  "or which are "
-                  "also called that, and the actions"));
+                _("Shows the parameters whose name, other name, key, symbol, choices or help "
+                  "contains the text, and the actions"));
   g_object_set(panel->search, "margin-start", 20, "margin-end", 20, "margin-top", 10,
                "margin-bottom", 6, NULL);
   g_signal_connect(panel->search, "search-changed", G_CALLBACK(on_search), panel);
@@ -404,7 +403,8 @@ static void sb_param_panel_init(SbParamPanel *panel) {
     g_signal_connect(panel->filters[i], "toggled", G_CALLBACK(on_filter), panel);
     gtk_box_pack_start(GTK_BOX(filters), panel->filters[i], TRUE, TRUE, 0);
   }
-  gtk_widget_set_tooltip_text(panel->filters[SB_PARAM_FILTER_MAIN], _("What a design begins with"));
+  gtk_widget_set_tooltip_text(panel->filters[SB_PARAM_FILTER_MAIN],
+                              _("Parameters of a first design"));
   gtk_widget_set_tooltip_text(panel->filters[SB_PARAM_FILTER_CHANGED],
                               _("Values other than their defaults"));
   gtk_box_pack_start(GTK_BOX(panel), filters, FALSE, FALSE, 0);
@@ -417,7 +417,7 @@ static void sb_param_panel_init(SbParamPanel *panel) {
   }
   gtk_combo_box_set_active(GTK_COMBO_BOX(panel->goal), 0);
   sb_style_name(panel->goal, _("Effects"),
-                _("What each main parameter does to a figure, per tolerance or 5 %"));
+                _("Effect of each main parameter on a figure, per tolerance or 5 %"));
   g_object_set(panel->goal, "margin-start", 20, "margin-end", 20, "margin-bottom", 6, NULL);
   g_signal_connect(panel->goal, "changed", G_CALLBACK(on_goal), panel);
   gtk_box_pack_start(GTK_BOX(panel), panel->goal, FALSE, FALSE, 0);

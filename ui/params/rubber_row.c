@@ -70,11 +70,11 @@ GtkWidget *sb_rubber_row_new(SbSession *session) {
   Row *row = g_new0(Row, 1);
   row->session = session;
   row->combo = gtk_combo_box_text_new();
-  GtkWidget *box = row->box = sb_own_row_new(
-      _("Rubber of both rings"),
-      _("Takes modulus, glass transition, expansion and swell from a file of the rubber; values "
-        "that are set stay (rubber.name)"),
-      row->combo);
+  GtkWidget *box = row->box =
+      sb_own_row_new(_("Rubber of both rings"),
+                     _("Reads modulus, glass transition, expansion and swell from a file of the "
+                       "rubber; values that are set are not changed (rubber.name)"),
+                     row->combo);
   g_object_set_data_full(G_OBJECT(box), "row", row, g_free);
   fill(row);
   g_signal_connect(row->combo, "changed", G_CALLBACK(on_choice), row);

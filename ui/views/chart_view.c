@@ -220,7 +220,7 @@ static void describe_contacts(const SbModel *model, const SbFrame *frame, SbChar
                              sb_format_text(a, SB_QUANTITY_PRESSURE, seal->pressure_peak, 0),
                              sb_format_text(b, SB_QUANTITY_LENGTH, width, 0));
     } else if (seal->film_central > 0) {
-      g_string_append_printf(text, _("%s: centre %s, least %s. "), name,
+      g_string_append_printf(text, _("%s: centre %s, minimum %s. "), name,
                              sb_format_text(a, SB_QUANTITY_FILM, seal->film_central, 0),
                              sb_format_text(b, SB_QUANTITY_FILM, seal->film_min, 0));
     } else {
@@ -242,7 +242,7 @@ static void describe_life(SbSession *session, GString *text) {
                          run->life_count,
                          sb_format_text(a, SB_QUANTITY_FORCE, first->force_breakaway, error),
                          sb_format_text(b, SB_QUANTITY_FORCE, last->force_breakaway, error));
-  g_string_append_printf(text, _("least return force %s and %s."),
+  g_string_append_printf(text, _("minimum return force %s and %s."),
                          sb_format_text(a, SB_QUANTITY_FORCE, first->force_return, error),
                          sb_format_text(b, SB_QUANTITY_FORCE, last->force_return, error));
 }
@@ -266,7 +266,7 @@ static void describe_shelf(SbSession *session, GString *text) {
   g_string_append_printf(text, _("Loss of %s mg a year, %s doses left. "), loss.number,
                          doses.number);
   if (shelf->typical) {
-    g_string_append(text, _("It rests on typical figures of the rubber."));
+    g_string_append(text, _("It depends on typical values of the rubber."));
   }
 }
 

@@ -72,7 +72,7 @@ static void take(Notes *notes) {
   }
   const gboolean good = sb_session_put_remark(notes->session, SB_REMARK_NOTE, subject->name,
                                               *text != '\0' ? text : NULL, &error);
-  g_autofree char *problem = good ? NULL : g_strdup_printf(_("Not kept: it %s"), error->message);
+  g_autofree char *problem = good ? NULL : g_strdup_printf(_("Not stored: it %s"), error->message);
   tell(notes, problem);
 }
 

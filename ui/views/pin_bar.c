@@ -148,7 +148,8 @@ static void add_row(Bar *bar, size_t index) {
   GtkWidget *use = gtk_button_new_with_label(_("Use"));
   g_autofree char *using = g_strdup_printf(_("Use %s"), name);
   sb_style_name(use, using, NULL);
-  gtk_widget_set_tooltip_text(use, _("Make these the present values; one undo takes it back"));
+  gtk_widget_set_tooltip_text(
+      use, _("Make these the present values; one undo restores the earlier ones"));
   set_index(use, index);
   g_signal_connect(use, "clicked", G_CALLBACK(on_use), bar);
   gtk_grid_attach(grid, use, 4, row, 1, 1);
@@ -197,7 +198,7 @@ static void refresh(gpointer data) {
   }
   gtk_widget_show_all(bar->chips);
   gtk_widget_show_all(bar->list);
-  g_autofree char *label = g_strdup_printf(_("Kept %zu"), count);
+  g_autofree char *label = g_strdup_printf(_("Saved %zu"), count);
   gtk_label_set_text(GTK_LABEL(bar->kept_label), label);
   gtk_widget_set_visible(bar->kept, count > 0);
   if (count == 0) {
@@ -229,8 +230,8 @@ GtkWidget *sb_pin_bar_new(SbSession *session) {
   bar->kept = sb_style_menu_button();
   bar->kept_label = gtk_label_new("");
   gtk_container_add(GTK_CONTAINER(bar->kept), bar->kept_label);
-  sb_style_name(bar->kept, _("Kept designs"), NULL);
-  gtk_widget_set_tooltip_text(bar->kept, _("All designs that are kept to compare with"));
+  sb_style_name(bar->kept, _("Saved designs"), NULL);
+  gtk_widget_set_tooltip_text(bar->kept, _("All designs that are saved for comparison"));
   gtk_menu_button_set_direction(GTK_MENU_BUTTON(bar->kept), GTK_ARROW_UP);
   GtkWidget *popover = gtk_popover_new(bar->kept);
   bar->list = gtk_grid_new();

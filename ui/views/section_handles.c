@@ -1,6 +1,6 @@
 // See section_handles.h. A handle lies on an edge that its size moves; the edge follows the hand. A
 // drag is one undo step: every motion edits the value in the session, which predicts the loop and
-// solves as for any edit. Where the values do not go together the size stays at the last good one:
+// solves as for any edit. Where the values are inconsistent the size stays at the last good one:
 // the limit is felt, and told.
 #include "ui/views/section_handles.h"
 

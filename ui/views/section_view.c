@@ -559,7 +559,7 @@ static GtkWidget *make_toolbar(View *view) {
     fields[i] = sb_section_field_name((SbField)i);
   }
   view->field_combo = sb_toolbar_combo(GTK_BOX(bar), fields, SB_FIELD_COUNT, _("Field"),
-                                       _("What the colours of solved rings show"));
+                                       _("Quantity that the colours of solved rings show"));
   gtk_widget_set_no_show_all(view->field_combo, TRUE);
   g_signal_connect_swapped(view->field_combo, "changed", G_CALLBACK(on_field), view);
   static const char *const insets[] = {N_("Insets: outer seal"), N_("Insets: inner seal"),
@@ -586,7 +586,7 @@ static GtkWidget *make_toolbar(View *view) {
   GtkWidget *zooms = sb_toolbar_linked();
   sb_toolbar_button(GTK_BOX(zooms), "zoom-out-symbolic", _("Zoom out"), _("Zoom out"),
                     "win.zoom-out");
-  sb_toolbar_button(GTK_BOX(zooms), "zoom-fit-best-symbolic", _("Whole valve"), _("Whole valve"),
+  sb_toolbar_button(GTK_BOX(zooms), "zoom-fit-best-symbolic", _("Full valve"), _("Full valve"),
                     "win.zoom-fit");
   sb_toolbar_button(GTK_BOX(zooms), "zoom-in-symbolic", _("Zoom in"), _("Zoom in"), "win.zoom-in");
   gtk_box_pack_end(GTK_BOX(bar), zooms, FALSE, FALSE, 0);

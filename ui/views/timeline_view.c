@@ -230,7 +230,7 @@ static GtkWidget *make_controls(View *view) {
   gtk_container_add(GTK_CONTAINER(pin),
                     gtk_image_new_from_icon_name("view-pin-symbolic", GTK_ICON_SIZE_BUTTON));
   gtk_actionable_set_action_name(GTK_ACTIONABLE(pin), "win.pin");
-  gtk_widget_set_tooltip_text(pin, _("Keep this run to compare the next ones with (Ctrl+P)"));
+  gtk_widget_set_tooltip_text(pin, _("Pin this run for comparison with later runs (Ctrl+P)"));
   sb_style_name(pin, _("Pin this run"), NULL);
   gtk_container_add(GTK_CONTAINER(row), pin);
   gtk_container_add(GTK_CONTAINER(row), sb_notes_button_new(view->session));

@@ -295,8 +295,9 @@ static void add_toolbar(Page *page) {
   gtk_widget_set_tooltip_text(import, _("A table of force and displacement from a test machine"));
   gtk_actionable_set_action_name(GTK_ACTIONABLE(import), "win.import-measured");
   gtk_box_pack_start(bar, import, FALSE, FALSE, 0);
-  page->recognised = button_of(bar, _("Recognised…"), _("What was read how, and to change it"),
-                               G_CALLBACK(on_recognised), page);
+  page->recognised =
+      button_of(bar, _("Recognised…"), _("How the data were read, with choices to change it"),
+                G_CALLBACK(on_recognised), page);
   GtkWidget *list = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4);
   for (int i = 0; i < CHOICES; i++) {
     page->tick[i] = gtk_check_button_new_with_label(sb_param(choices[i].id)->key);
@@ -318,9 +319,10 @@ static void add_toolbar(Page *page) {
   page->fit = gtk_button_new_with_label(_("Fit again"));
   g_signal_connect_swapped(page->fit, "clicked", G_CALLBACK(fit), page);
   gtk_box_pack_start(bar, page->fit, FALSE, FALSE, 0);
-  page->use = button_of(bar, _("Use estimates"),
-                        _("Puts what the data tell into the valve; the rest keeps its values"),
-                        G_CALLBACK(on_use), page);
+  page->use =
+      button_of(bar, _("Use estimates"),
+                _("Sets the parameters that the data identify; the others keep their values"),
+                G_CALLBACK(on_use), page);
   // The window may be narrower than the bar.
   GtkWidget *room = gtk_scrolled_window_new(NULL, NULL);
   gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(room), GTK_POLICY_AUTOMATIC, GTK_POLICY_NEVER);

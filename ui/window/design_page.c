@@ -103,7 +103,7 @@ static void say(Page *page, const char *text) {
 // "1.47 × 1.32 mm: break-away force 24.8 N, ..." of the picked point.
 static char *picked_text(const Page *page, const SbDesignAnswer *answer) {
   if (answer == NULL || !page->look.picked) {
-    return g_strdup(_("Click a point of the map to read it, to open it or to keep it."));
+    return g_strdup(_("Click a point of the map to read it, to open it or to save it."));
   }
   GString *text = g_string_new(NULL);
   for (int axis = 0; axis < 2; axis++) {
@@ -131,7 +131,7 @@ static char *told_text(Page *page, const SbDesignAnswer *answer) {
     return g_strdup_printf(_("Models: %s"), models);
   }
   GString *text = g_string_new(NULL);
-  g_string_append_printf(text, _("Models: %s. At present, here and in the shown run:"), models);
+  g_string_append_printf(text, _("Models: %s. At present, here and in the displayed run:"), models);
   for (size_t i = 0; i < answer->map.figures; i++) {
     const int figure = g_array_index(answer->study->figures, int, i);
     g_autofree char *label = sb_translation_inside(sb_figure(figure)->label);
@@ -255,9 +255,9 @@ static char *found_text(const SbDesignAnswer *answer) {
   }
   return found->found && !found->feasible
              ? g_strdup(
-                   _("No start meets all limits: shown is the valve that misses the worst least."))
+                   _("No start meets all limits: the valve with the smallest violation is shown."))
          : !found->found
-             ? g_strdup(_("No start makes a valve."))
+             ? g_strdup(_("Every start is infeasible."))
              : g_strdup_printf(_("%zu of %zu starts meet all limits, %zu evaluations."),
                                found->starts_feasible, found->starts, found->evaluations);
 }
@@ -332,7 +332,7 @@ static void asked(Page *page) {
     compute(page, FALSE);
   } else {
     end_job(page);
-    say(page, _("The question has changed: compute the map again."));
+    say(page, _("The inputs have changed: compute the map again."));
     refresh(page);
   }
 }
@@ -517,10 +517,11 @@ static void on_pin(Page *page) {
   SbOverride override[2];
   if (overrides(page, override)) {
     const gboolean kept = sb_session_pin_values(page->session, override, 2);
-    sb_toast_show(GTK_WINDOW(gtk_widget_get_toplevel(page->box)),
-                  kept ? _("The design is kept: its run is computed, and stands on the page Valve.")
-                       : _("No more designs can be kept."),
-                  NULL, NULL, FALSE);
+    sb_toast_show(
+        GTK_WINDOW(gtk_widget_get_toplevel(page->box)),
+        kept ? _("The design is saved: its run is being computed, and appears on the page Valve.")
+             : _("No more designs can be saved."),
+        NULL, NULL, FALSE);
   }
 }
 
@@ -668,11 +669,10 @@ static void add_toolbar(Page *page, GtkBox *to) {
   page->pause = gtk_toggle_button_new_with_label(_("Pause"));
   g_signal_connect(page->pause, "toggled", G_CALLBACK(on_pause), page);
   gtk_box_pack_start(bar, page->pause, FALSE, FALSE, 0);
-  page->stop =
-      add_button(bar, _("Cancel"), _("Stop; what is there stays"), G_CALLBACK(on_stop), page);
-  page->map_again =
-      add_button(bar, _("Compute map"), _("With the valve's own models: takes a while"),
-                 G_CALLBACK(on_map_again), page);
+  page->stop = add_button(bar, _("Cancel"), _("Stop and keep the results so far"),
+                          G_CALLBACK(on_stop), page);
+  page->map_again = add_button(bar, _("Compute map"), _("Uses the valve's own models: slower"),
+                               G_CALLBACK(on_map_again), page);
   page->find = add_button(bar, _("Find best"),
                           _("The best valve within bounds and limits, from eight starts; then "
                             "tolerances and valves drawn from them"),
@@ -711,9 +711,9 @@ static void add_picked(Page *page, GtkBox *to) {
     const char *label, *tip;
     GCallback call;
   } buttons[] = {{&page->open, _("Open design"),
-                  _("Puts the point's two values into the valve (double click, Enter)"),
+                  _("Sets the point's two values in the valve (double click, Enter)"),
                   G_CALLBACK(on_open)},
-                 {&page->pin, _("Keep design"), _("Keeps the point to compare with, as a pin"),
+                 {&page->pin, _("Save design"), _("Saves the point as a pin for comparison"),
                   G_CALLBACK(on_pin)}};
   for (guint i = 0; i < G_N_ELEMENTS(buttons); i++) {
     *buttons[i].button = gtk_button_new_with_label(buttons[i].label);
@@ -745,14 +745,14 @@ static void add_question(Page *page, GtkBox *to) {
                                    ? g_strdup_printf("%s, %s", inside, sb_translation(of->where))
                                    : g_strdup(inside);
       char *name =
-          g_strdup_printf(of->better == SB_BETTER_MORE ? _("most %s") : _("least %s"), named);
+          g_strdup_printf(of->better == SB_BETTER_MORE ? _("maximum %s") : _("minimum %s"), named);
       g_ptr_array_add(names, name);
       label[page->goal_count] = name;
       page->goals[page->goal_count++] = figure[i];
     }
   }
   page->goal = sb_toolbar_combo(bar, label, (int)page->goal_count, _("Goal"),
-                                _("What the search makes least or greatest"));
+                                _("Figure that the search minimises or maximises"));
   gtk_widget_set_hexpand(page->goal, TRUE);
   g_signal_connect(page->goal, "changed", G_CALLBACK(on_goal), page);
   const SbDesignRangesHooks hooks = {on_freed, on_bounded, on_robust, page};
@@ -763,8 +763,9 @@ static void add_question(Page *page, GtkBox *to) {
                                   _("Closed forms of the thesis: milliseconds a valve; or the "
                                     "models that the valve has, seconds where rings are solved"));
   g_signal_connect(page->models, "changed", G_CALLBACK(on_models), page);
-  page->use_best = add_button(bar, _("Use best"), _("Puts the best design found into the valve"),
-                              G_CALLBACK(on_use_best), page);
+  page->use_best =
+      add_button(bar, _("Use best"), _("Sets the values of the best design found in the valve"),
+                 G_CALLBACK(on_use_best), page);
   sb_style_class(GTK_WIDGET(bar), "sb-picked");
   gtk_box_pack_start(to, GTK_WIDGET(bar), FALSE, FALSE, 0);
 }

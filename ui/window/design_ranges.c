@@ -89,8 +89,8 @@ static void make(Ranges *ranges, const SbDesignAsk *ask) {
       gtk_grid_attach(GTK_GRID(grid), entry, 1 + end, (int)i, 1, 1);
     }
   }
-  ranges->robust =
-      gtk_check_button_new_with_label(_("Hold all limits with 99.9 % over the tolerances"));
+  ranges->robust = gtk_check_button_new_with_label(
+      _("Meet all limits with a probability of 99.9 % over the tolerances"));
   g_signal_connect(ranges->robust, "toggled", G_CALLBACK(on_robust), ranges);
   gtk_grid_attach(GTK_GRID(grid), ranges->robust, 0, (int)ask->count, 3, 1);
   gtk_container_add(GTK_CONTAINER(ranges->popover), grid);
@@ -130,6 +130,6 @@ GtkWidget *sb_design_ranges_new(const SbDesignRangesHooks *hooks) {
   ranges->popover = gtk_popover_new(button);
   gtk_menu_button_set_popover(GTK_MENU_BUTTON(button), ranges->popover);
   gtk_container_add(GTK_CONTAINER(button), gtk_label_new(_("Bounds")));
-  gtk_widget_set_tooltip_text(button, _("Which parameters the search moves, and between what"));
+  gtk_widget_set_tooltip_text(button, _("Parameters that the search varies, and their bounds"));
   return button;
 }

@@ -241,7 +241,7 @@ static const Kind measured_kind = {N_("Import measured data"),
 // Scans ------------------------------------------------------------------------------------------
 
 static const Row scan_rows[] = {
-    {"form", N_("Form taken away"), "none|plane|quadratic|cylinder"},
+    {"form", N_("Form removed"), "none|plane|quadratic|cylinder"},
     {"outliers", N_("Outliers beyond, deviations"), NULL},
     {"missing", N_("Missing points"), "leave|fill"},
     {"cutoff-short", N_("Shortest wave"), NULL},
@@ -395,7 +395,7 @@ static char *take_drawing(Dialog *dialog) {
   g_autofree char *scene = any ? drawn_scene(dialog, "drawn.scene", &differences) : NULL;
   if (!any) {
     gtk_label_set_text(GTK_LABEL(dialog->message),
-                       _("Say which body is which part, by its number or name."));
+                       _("Assign the bodies to the parts, by number or name."));
   }
   if (scene != NULL) {
     g_string_append_printf(text, "\n%s",
@@ -502,7 +502,7 @@ static void add_form(Dialog *dialog, GtkBox *box) {
     gtk_grid_attach(grid, dialog->choice[rows], 1, rows, 1, 1);
   }
   GtkWidget *found = gtk_button_new_with_label(_("As found"));
-  gtk_widget_set_tooltip_text(found, _("Takes all choices back"));
+  gtk_widget_set_tooltip_text(found, _("Resets all choices"));
   g_signal_connect(found, "clicked", G_CALLBACK(on_as_found), dialog);
   gtk_grid_attach(grid, found, 1, rows, 1, 1);
   dialog->text = gtk_label_new(NULL);
@@ -510,7 +510,7 @@ static void add_form(Dialog *dialog, GtkBox *box) {
   gtk_label_set_line_wrap(GTK_LABEL(dialog->text), TRUE);
   gtk_label_set_max_width_chars(GTK_LABEL(dialog->text), 48);
   gtk_label_set_selectable(GTK_LABEL(dialog->text), TRUE);
-  sb_style_name(dialog->text, _("What was recognised"), NULL);
+  sb_style_name(dialog->text, _("Recognised"), NULL);
   gtk_grid_attach(grid, dialog->text, 0, rows + 1, 2, 1);
   gtk_box_pack_start(box, GTK_WIDGET(grid), FALSE, FALSE, 0);
 }

@@ -85,7 +85,7 @@ static gboolean show_disk(Strip *strip) {
       state == SB_DISK_CHANGED ? _("%s was changed by another program since it was opened here.")
       : state == SB_DISK_VALVE_CHANGED
           ? _("The valve's file of %s was changed by another program since it was opened here.")
-          : _("%s is no longer in its folder. Saving writes it again."),
+          : _("%s is no longer in its folder. Saving writes the file again."),
       name);
   strip->action = state != SB_DISK_GONE ? "file-changed" : NULL;
   show(strip, "warn", text, strip->action != NULL ? _("Choose…") : NULL);
@@ -121,7 +121,7 @@ static void refresh(Strip *strip) {
     g_autofree char *shown = sb_param_format((SbParamId)wrong, old);
     g_autofree char *label = sb_translation_inside(param->label);
     const char *what = sb_session_rejected(session, (SbParamId)wrong) == NULL
-                           ? _("does not go with the other values")
+                           ? _("is inconsistent with the other values")
                        : strstr(sb_session_error(session, (SbParamId)wrong), "out of range") != NULL
                            ? _("is out of range")
                            : _("cannot be read");

@@ -55,8 +55,8 @@ static void write_report(Review *review, char *path) {
   if (handle == NULL || review->job != NULL) { // another run began while the name was asked
     sb_run_handle_unref(handle);
     g_free(path);
-    sb_toast_show(review->window, _("No report: the values have no whole run yet."), NULL, NULL,
-                  FALSE);
+    sb_toast_show(review->window, _("No report: there is no complete run of these values yet."),
+                  NULL, NULL, FALSE);
     return;
   }
   g_autofree char *folder = g_path_get_dirname(path);

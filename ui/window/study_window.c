@@ -106,12 +106,12 @@ static void judge(Studies *studies) {
   if (studies->job == NULL && studies->study != NULL) {
     if (sb_session_model(studies->session) == NULL) {
       set_status(studies,
-                 _("The values do not go together now; the study shown is of earlier ones."),
+                 _("The values are inconsistent now; the study shown belongs to earlier values."),
                  "sb-warn");
     } else if (is_stale(studies)) {
       set_status(studies, _("Values have changed: the study shown is of earlier ones."), "sb-warn");
     } else if (!studies->study->complete) {
-      set_status(studies, _("A solver did not converge at every point; those are left out."),
+      set_status(studies, _("A solver did not converge at every point; such points are omitted."),
                  "sb-error");
     } else {
       set_status(studies, "", NULL);
@@ -166,7 +166,7 @@ static void compute(Studies *studies) {
   const SbModel *model = sb_session_model(studies->session);
   end_job(studies);
   if (model == NULL) {
-    set_status(studies, _("The values do not go together: mend them first."), "sb-error");
+    set_status(studies, _("The values are inconsistent: correct them first."), "sb-error");
     refresh(studies);
     return;
   }

@@ -188,7 +188,7 @@ static void add_toolbar(Page *page) {
   gtk_label_set_ellipsize(GTK_LABEL(page->message), PANGO_ELLIPSIZE_END);
   gtk_box_pack_start(GTK_BOX(bar), page->message, TRUE, TRUE, 0);
   page->stop = gtk_button_new_with_label(_("Cancel"));
-  gtk_widget_set_tooltip_text(page->stop, _("Stop computing; what is shown stays"));
+  gtk_widget_set_tooltip_text(page->stop, _("Stop computing; the results so far remain"));
   g_signal_connect(page->stop, "clicked", G_CALLBACK(on_stop), page);
   gtk_box_pack_end(GTK_BOX(bar), page->stop, FALSE, FALSE, 0);
   gtk_box_pack_start(GTK_BOX(page->box), bar, FALSE, FALSE, 0);

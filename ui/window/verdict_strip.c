@@ -71,7 +71,7 @@ static void refresh(Strip *strip) {
     g_autofree char *figure =
         summary != NULL ? sb_verdict_figure_text(summary, i, verdict) : g_strdup("");
     g_autofree char *found = summary != NULL ? sb_verdict_why(summary, i, verdict)
-                                             : g_strdup(_("No whole run is shown yet."));
+                                             : g_strdup(_("No complete run is displayed yet."));
     g_autofree char *why =
         predicted != NULL ? g_strdup_printf(_("Predicted, until the new run is solved.\n%s"), found)
                           : g_strdup(found);

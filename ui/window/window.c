@@ -167,7 +167,7 @@ static void refresh_run_state(SbWindow *window) {
   gtk_label_set_text(GTK_LABEL(window->run_label), running ? _("Stop") : _("Run"));
   sb_style_name(window->run_button, running ? _("Stop") : _("Run"), NULL);
   gtk_widget_set_tooltip_text(window->run_button,
-                              running ? _("Stop the run, keeping what is done (Ctrl+R)")
+                              running ? _("Stop the run and keep its results so far (Ctrl+R)")
                                       : _("Run the cycle with these values (Ctrl+R)"));
   set_enabled(window, "run-or-stop", running || (sb_session_model(session) != NULL && errors == 0));
 }
@@ -254,7 +254,7 @@ static void on_event(GSimpleAction *action, GVariant *parameter, gpointer data) 
 
 static void on_pin(GSimpleAction *action, GVariant *parameter, gpointer data) {
   if (sb_session_pin(SB_WINDOW(data)->session)) { // refresh() follows
-    sb_toast_show(GTK_WINDOW(data), _("This run is kept to compare the next ones with."), NULL,
+    sb_toast_show(GTK_WINDOW(data), _("This run is pinned for comparison with later runs."), NULL,
                   NULL, FALSE);
   }
 }

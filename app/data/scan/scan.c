@@ -74,7 +74,7 @@ gboolean sb_scan_parse(SbScan *out, const char *data, gsize length, const SbScan
   const gboolean text = *formats[format].start == '\0', container = format == 0;
   if (!text && (choices->unit > 0 || choices->lateral_unit > 0)) {
     sb_scan_clear(out);
-    return sb_scan_fail(error, name, "says its units itself: --unit is for text");
+    return sb_scan_fail(error, name, "states its own units: --unit applies to text files only");
   }
   if (!container && choices->channel != NULL) {
     sb_scan_clear(out);

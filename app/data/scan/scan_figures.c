@@ -88,15 +88,16 @@ static void warn(SbScanFigures *out, const SbHeights *h, const SbHeightsChoices 
             100 * done->curved_share);
   }
   if (done->suspicious > 0) {
-    sb_warn(list, "surface-outliers", "",
-            "%zu points lie beyond %g robust deviations and count (--outliers %g leaves them out)",
-            done->suspicious, SB_HEIGHTS_SUSPICIOUS, SB_HEIGHTS_SUSPICIOUS);
+    sb_warn(
+        list, "surface-outliers", "",
+        "%zu points are beyond %g robust deviations and are included (--outliers %g excludes them)",
+        done->suspicious, SB_HEIGHTS_SUSPICIOUS, SB_HEIGHTS_SUSPICIOUS);
   }
   const double missing = (double)(done->missing + done->outliers) / points;
   if (missing > 0.05) {
     sb_warn(list, "surface-missing", "",
-            "%.0f %% of the points are missing; the spectrum stands on values between their "
-            "neighbours",
+            "%.0f %% of the points are missing; the spectrum uses values interpolated between "
+            "their neighbours",
             100 * missing);
   }
   const double step = fmax(h->dx, h->rows > 1 ? h->dy : 0);
@@ -121,7 +122,7 @@ static void warn(SbScanFigures *out, const SbHeights *h, const SbHeightsChoices 
   }
   if (fabs(f->ssk) > 1 || fabs(f->sku - 3) > 2) {
     sb_warn(list, "surface-gaussian", "",
-            "skewness %.2g and kurtosis %.2g: the contact laws take Gaussian heights (0 and 3)",
+            "skewness %.2g and kurtosis %.2g: the contact laws assume Gaussian heights (0 and 3)",
             f->ssk, f->sku);
   }
 }

@@ -287,9 +287,10 @@ static gboolean apply_mask(SbScan *out, const Channel *channel, const char *name
     return sb_scan_fail(error, name, "the mask has not the size of its data");
   }
   if (masked > 0) {
-    g_ptr_array_add(out->notes, g_strdup_printf("%" G_GUINT64_FORMAT " masked points are taken as "
-                                                "missing (--ignore-mask)",
-                                                masked));
+    g_ptr_array_add(out->notes,
+                    g_strdup_printf("%" G_GUINT64_FORMAT
+                                    " masked points are treated as missing (--ignore-mask)",
+                                    masked));
   }
   return TRUE;
 }
@@ -330,7 +331,7 @@ gboolean sb_scan_parse_gwy(SbScan *out, SbScanBytes bytes, const SbScanChoices *
     return cut_short(&bytes, error);
   }
   if (strcmp(class, "GwyContainer") != 0) {
-    return sb_scan_fail(error, bytes.name, "holds no GwyContainer");
+    return sb_scan_fail(error, bytes.name, "contains no GwyContainer");
   }
   bytes.end = bytes.at + size;
   g_autoptr(GArray) channels = g_array_new(FALSE, FALSE, sizeof(Channel));

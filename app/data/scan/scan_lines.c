@@ -111,7 +111,7 @@ static char find_decimal(const SbScanBytes *bytes, GError **error) {
   }
   if (others == 0 && commas == lines) {
     sb_scan_fail(error, bytes->name,
-                 "reads in two ways: one column with decimal commas or two "
+                 "is ambiguous: one column with decimal commas or two "
                  "columns of whole numbers; write decimal points, or separate by semicolons");
     return 0;
   }
@@ -244,7 +244,7 @@ static gboolean read_lines(SbScanText *out, SbScanBytes bytes, GError **error) {
       return sb_scan_fail(error, out->name, "has too many numbers");
     }
   }
-  return out->rows > 0 || sb_scan_fail(error, out->name, "is not a scan: it holds no numbers");
+  return out->rows > 0 || sb_scan_fail(error, out->name, "is not a scan: it contains no numbers");
 }
 
 gboolean sb_scan_text_read(SbScanText *out, SbScanBytes bytes, GError **error) {

@@ -47,7 +47,7 @@ gboolean sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *
   }
   if (kind != PROFILE && kind != SURFACE) {
     return sb_scan_fail(error, name,
-                        "holds an object of type %d (allowed 1, a profile, or 2, a "
+                        "contains an object of type %d (allowed 1, a profile, or 2, a "
                         "surface)",
                         kind);
   }
@@ -79,8 +79,9 @@ gboolean sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *
   }
   out->title = field(h + 20, 30);
   if (sb_scan_u16(h + 290) != 0) {
-    g_ptr_array_add(out->notes, g_strdup("the header says that heights were inverted; they are "
-                                         "taken as they stand"));
+    g_ptr_array_add(
+        out->notes,
+        g_strdup("the header says that heights were inverted; they are used unchanged"));
   }
   if (sb_scan_u16(h + 14) > 1) {
     g_ptr_array_add(out->notes,

@@ -95,11 +95,12 @@ static gboolean find_units(Header *h, const SbScanText *text, const SbScanChoice
                : h->lateral > 0          ? h->lateral
                                          : choices->unit;
   if (h->vertical == 0) {
-    return sb_scan_fail(error, text->name, "does not say in which unit its heights are: --unit");
+    return sb_scan_fail(error, text->name,
+                        "does not state the unit of its heights: specify it with --unit");
   }
   if (needs_lateral && h->lateral == 0) {
     return sb_scan_fail(error, text->name,
-                        "does not say in which unit its lengths are: --lateral-unit");
+                        "does not state the unit of its lengths: specify it with --lateral-unit");
   }
   return TRUE;
 }
@@ -131,7 +132,8 @@ static gboolean read_matrix(SbScan *out, SbScanText *text, const SbScanChoices *
   to->dx = lateral * (isnan(h.step_x) ? h.width / (double)to->columns : h.step_x);
   to->dy = lateral * (isnan(h.step_y) ? h.height / (double)to->rows : h.step_y);
   if (!(to->dx > 0 && to->dy > 0) && !(choices->spacing > 0)) {
-    return sb_scan_fail(error, text->name, "does not say how far apart its points are: --spacing");
+    return sb_scan_fail(error, text->name,
+                        "does not state the distance of its points: specify it with --spacing");
   }
   return TRUE;
 }
@@ -170,7 +172,8 @@ static gboolean read_text(SbScan *out, SbScanText *text, const SbScanChoices *ch
     return FALSE;
   }
   if (text->columns == 1 && !(choices->spacing > 0)) {
-    return sb_scan_fail(error, text->name, "does not say how far apart its points are: --spacing");
+    return sb_scan_fail(error, text->name,
+                        "does not state the distance of its points: specify it with --spacing");
   }
   return TRUE;
 }

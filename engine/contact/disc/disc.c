@@ -365,7 +365,8 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
   } else {
     const double most = limit / compliance + both;
     sb_warn(&out->warnings, "disc-opens", "canister.pressure",
-            "the fluid creeps under the disc: no contact holds more than %.3g MPa (linear, %.2g of "
+            "the fluid penetrates under the disc: no contact resists more than %.3g MPa (linear, "
+            "%.2g of "
             "the modulus)",
             1e-6 * most, most / in->modulus);
   }
@@ -394,11 +395,10 @@ static void judge_margin(SbFit *out, const SbFitProblem *in, double both) {
   static const double LEAST = 0.16; // of the modulus: rings part from discs up to 0.157 (measured)
   const double margin = out->pressure_peak - fmax(fabs(in->pressure), both);
   if (margin < LEAST * in->modulus) {
-    sb_warn(
-        &out->warnings, "disc-ring-contact", "models.fit",
-        "the disc presses %.3g MPa more than the fluid, %.2g of the modulus: below %.2g a solved "
-        "ring may not touch (models.fit = ring shows it)",
-        1e-6 * margin, margin / in->modulus, LEAST);
+    sb_warn(&out->warnings, "disc-ring-contact", "models.fit",
+            "the disc presses %.3g MPa more than the fluid, %.2g of the modulus: below %.2g a "
+            "solved ring may have no contact (models.fit = ring shows it)",
+            1e-6 * margin, margin / in->modulus, LEAST);
   }
 }
 
@@ -418,7 +418,7 @@ SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report) {
   out->circumference = M_PI * (in->bore_diameter - in->radial_space);
   if (!(squeeze > hydrostatic_of(in, both))) {
     sb_warn(&out->warnings, "no-contact", "seal.section_diameter",
-            "the disc does not touch the flats (squeeze %.3g %%): load 0", 100.0 * squeeze);
+            "the disc has no contact with the flats (squeeze %.3g %%): load 0", 100.0 * squeeze);
     out->solver.converged = true;
     return sb_succeed(report);
   }

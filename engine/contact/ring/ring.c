@@ -28,7 +28,7 @@ static SbStatus check_body(const SbRingBody *body, SbReport *report) {
        body->plane_strain ? 1.0 : body->inner_diameter, SB_ABOVE_ZERO},
       {"seal.modulus", "the modulus [Pa]", body->modulus, SB_ABOVE_ZERO},
       {"seal.poisson_ratio", "the ring model's Poisson's ratio", body->poisson_ratio, 0.3, 0.49995},
-      {"seal.mooney_share", "the Mooney share", body->mooney_share, 0.0, 0.5});
+      {"seal.mooney_share", "the Mooney fraction", body->mooney_share, 0.0, 0.5});
 }
 
 // The stem in the bore of a ring that seals inwards, and the walls that clamp it.
@@ -64,7 +64,8 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
        load->wall_chamfer > 0.0 ? load->wall_top - load->floor_radius : 1.0},
       {"", "the land's left end [m]", load->land_left, -INFINITY, INFINITY},
       {"", "the land's right end [m]", load->land_right, -INFINITY, INFINITY},
-      {friction, "the friction on the bore, as a share of its law,", load->friction_bore, 0.0, 2.0},
+      {friction, "the friction on the bore, as a fraction of its law,", load->friction_bore, 0.0,
+       2.0},
       {friction, "the coefficient of friction on the floor", load->friction_floor, 0.0, 2.0},
       {friction, "the coefficient of friction on the walls", load->friction_wall, 0.0, 2.0},
       {fluid, "the pressure on the ring [Pa]", load->pressure_left, 0.0, 4.0 * body->modulus},

@@ -307,7 +307,7 @@ SbStatus sb_ring_surface(SbRing *ring, SbSurfaceCompliance *out, SbReport *repor
   *out = (SbSurfaceCompliance){0};
   SbRingPatch patch;
   if (!sb_ring_patch(ring, SB_RING_BORE, &patch)) {
-    return sb_fail(report, SB_ERROR_INFEASIBLE, "the ring does not touch the bore");
+    return sb_fail(report, SB_ERROR_INFEASIBLE, "the ring has no contact with the bore");
   }
   SbStatus status = SB_ERROR_INFEASIBLE;
   for (int i = 0; i < REACHES && status != SB_OK && status != SB_ERROR_MEMORY; i++) {

@@ -179,8 +179,8 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
     const bool spent = ring->count.iterations - first >= ITERATIONS_MOST;
     bool refit = fabs(is->turn - fitted) > (ring->easy && !ring->soft ? EASY_TURN : REFIT_TURN);
     if (status == SB_OK && spent && is->now.friction_bore < aim) {
-      status = sb_fail(report, SB_ERROR_NOT_CONVERGED, "the path takes more than %d iterations",
-                       ITERATIONS_MOST);
+      status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                       "the continuation requires more than %d iterations", ITERATIONS_MOST);
     }
     if (status == SB_ERROR_NOT_CONVERGED) {
       const bool detaches = ring->body.inward && limit > DETACHES;

@@ -110,7 +110,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   double tolerance = first.tolerance > 0.0 ? first.tolerance : 1e-3;
   double wanted = first.wanted > 0.0 ? first.wanted : tolerance;
   if (!(tolerance >= 1e-5 && tolerance <= 0.1)) {
-    return sb_fail(report, SB_ERROR_RANGE, "the ring's tolerance %g lies outside 1e-5 .. 0.1",
+    return sb_fail(report, SB_ERROR_RANGE, "the ring's tolerance %g is outside 1e-5 .. 0.1",
                    tolerance);
   }
   // Beyond its first mesh a sliding ring needs no more than what is wanted: finer ones stumble.
@@ -139,7 +139,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   sb_ring_result(ring, result);
   if (!result->touching) {
     sb_warn(warnings, "no-contact", "bore.diameter",
-            "the fitted ring does not touch the bore%s: radial thickness %.4g mm in %.4g mm",
+            "the fitted ring has no contact with the bore%s: radial thickness %.4g mm in %.4g mm",
             load->pressure_left != 0.0 || load->pressure_right != 0.0 ? " and lets the fluid past"
                                                                       : "",
             1e3 * result->thickness, 1e3 * (load->bore_radius - load->floor_radius));

@@ -100,9 +100,10 @@ static SbStatus take_turn(SbRing *ring, SbReport *report) {
   if (contact->is.now.bore_slides == 0 && fabs(turn) > ROLLED &&
       fabs(turn) > fabs(contact->is.turn)) {
     ring->state = SB_RING_ROLLS;
-    return sb_fail(report, SB_ERROR_NOT_CONVERGED,
-                   "the ring rolls: its section has turned by %.3g rad, where no drag holds it",
-                   fabs(turn));
+    return sb_fail(
+        report, SB_ERROR_NOT_CONVERGED,
+        "the ring rolls: its section has turned by %.3g rad, where no friction force balances it",
+        fabs(turn));
   }
   contact->is.turn = turn;
   ring->state = SB_RING_SLIDES;
@@ -147,7 +148,7 @@ static SbStatus pseudo_transient(SbRing *ring, const SbRingLoad *load, SbReport 
       (void)sb_ring_turn(contact, NULL, NULL, &to);
       if (fabs(to - from) > GONE) {
         return sb_fail(report, SB_ERROR_NOT_CONVERGED,
-                       "the ring leaves its place, nothing holds it axially");
+                       "the ring slides away: no groove wall supports it axially");
       }
       int used = ring->count.iterations - before;
       c *= used <= 6 ? 0.3 : used <= 12 ? 0.6 : 1.0;

@@ -80,7 +80,7 @@ static SbStatus lean(SbRing *ring, const SbRingLoad *s, bool *leaned, SbReport *
   double place = difference > 0.0 ? s->wall_right : s->wall_left;
   if (difference != 0.0 && !isfinite(place) && !holds && !land) {
     return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
-                             "no groove wall holds the ring against the pressure");
+                             "no groove wall supports the ring against the pressure");
   }
   double least = INFINITY;
   for (int i = 0; i < contact->count; i++) {
@@ -162,8 +162,8 @@ static SbStatus press_open(SbRing *ring, const SbRingLoad *target, SbReport *rep
   const SbRingLoad *now = &ring->contact->is.now;
   return sb_fail_parameter(
       report, SB_ERROR_INFEASIBLE, "gland.radial_space",
-      "the fluid passes the ring: without pressure it does not touch the bore, and what %.3g MPa "
-      "presses on it holds up to a radial space of %.5g mm, not %.5g mm",
+      "the fluid passes the ring: without pressure it has no contact with the bore, and %.3g MPa "
+      "presses it against the bore up to a radial space of %.5g mm, not %.5g mm",
       1e-6 * p * ring->stress, 1e3 * l * (now->bore_radius - now->floor_radius),
       1e3 * l * (target->bore_radius - target->floor_radius));
 }

@@ -27,7 +27,7 @@ void sb_asperity_warn(SbWarnings *warnings, const SbAsperity *asperity) {
   if (tabor > SB_TABOR_DMT && tabor < SB_TABOR_JKR) {
     sb_warn(warnings, "adhesion-transition", "surface.work_of_adhesion",
             "Tabor's parameter of the asperities is %.3g, between DMT (below %g) and JKR (above "
-            "%g): %s is taken, its pull-off is out by up to a third",
+            "%g): %s is used, its pull-off is wrong by up to a third",
             tabor, SB_TABOR_DMT, SB_TABOR_JKR, asperity->jkr ? "JKR" : "DMT");
   }
 }

@@ -141,7 +141,7 @@ unsigned char sb_gradient_text(SbGradient *gradient, const char *text) {
   }
   if (at == SB_GRADIENT_TEXTS) {
     sb_text(gradient->text[--at], SB_GRADIENT_TEXT,
-            "one of several reasons: ask for fewer parameters");
+            "one of several reasons: request fewer parameters");
   } else if (at == gradient->text_count) {
     memcpy(gradient->text[gradient->text_count++], own, sizeof own);
   }

@@ -111,7 +111,7 @@ SbStatus sb_leakage_odds(SbLeakageOdds *out, const SbLeakageTest *test, const do
                          SbReport *report) {
   if (samples < PARTS || tests < PARTS || !makes_sense(test, fill)) {
     return sb_fail(report, SB_ERROR_RANGE,
-                   "a leakage test wants at least %d cans and %d tests, and a can with a fill",
+                   "a leakage test requires at least %d cans and %d tests, and a can with a fill",
                    PARTS, PARTS);
   }
   const bool small = fill < test->small_fill;

@@ -73,7 +73,7 @@ const char *sb_figure_reason(const SbSummary *summary, int index) {
     return NULL;
   }
   return reasons->of[index] > 0 ? reasons->text[reasons->of[index] - 1]
-                                : "this run computes nothing that gives it";
+                                : "this run does not compute its inputs";
 }
 
 double sb_figure_error_absolute(const SbSummary *summary, int index) {
@@ -119,7 +119,7 @@ const char *sb_figure_error_reason(const SbSummary *summary, int index) {
     return "uncertain: the place is nearer to the section's centre than its error allows to state";
   }
   if (error > SB_ERROR_USELESS && !is_solved(figure)) {
-    return "uncertain: the errors of what the figure follows from exceed its magnitude";
+    return "uncertain: the errors of the figure's inputs exceed its magnitude";
   }
   return NULL;
 }

@@ -85,7 +85,7 @@ static void doubt(SbVerdict *of, const SbSummary *summary, double bound) {
     of->ok = SB_ANSWER_UNKNOWN;
     sb_message(of->reason, SB_TEXT, "uncertain: the margin of %s is less than %s",
                sb_figure(of->figure)->path,
-               error ? "its estimated error" : "what the computed film models differ by");
+               error ? "its estimated error" : "the difference between the computed film models");
   }
 }
 
@@ -181,7 +181,7 @@ static SbVerdict judge_return(const SbSummary *summary) {
     break;
   case SB_OUTCOME_HELD:
     sb_message(out.reason, SB_TEXT,
-               "the drive holds the stem until its motion ends: there is no return to judge");
+               "the drive restrains the stem until its motion ends: there is no return to judge");
     break;
   case SB_OUTCOME_STUCK:
     out.ok = SB_ANSWER_NO;
@@ -191,7 +191,7 @@ static SbVerdict judge_return(const SbSummary *summary) {
     out.ok = value >= 0 ? SB_ANSWER_YES : SB_ANSWER_NO;
     sb_message(out.reason, SB_TEXT, "%s",
                value >= 0 ? ""
-                          : "where the stem rests on its return, static friction exceeds the force "
+                          : "where the stem stops on its return, static friction exceeds the force "
                             "that pushes it back");
     doubt(&out, summary, 0);
     break;
@@ -224,9 +224,9 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
     sb_message(verdict[SB_VERDICT_PRESSES].reason, SB_TEXT, "%s", sb_figure_reason(summary, press));
   }
   if (summary->dose_mass == 0 && model->canister_pressure > 0) {
-    verdict[SB_VERDICT_DOSES] =
-        (SbVerdict){SB_ANSWER_NO, sb_figure_find("cycle.dose_mass_kg"), 0, NAN,
-                    "the chamber keeps its dose: no port opens it to the outside for long enough"};
+    verdict[SB_VERDICT_DOSES] = (SbVerdict){
+        SB_ANSWER_NO, sb_figure_find("cycle.dose_mass_kg"), 0, NAN,
+        "the chamber retains its dose: no port opens it to the outside for long enough"};
   } else if (summary->dose_mass == 0) {
     verdict[SB_VERDICT_DOSES] =
         (SbVerdict){SB_ANSWER_NO, sb_figure_find("cycle.dose_mass_kg"), 0, NAN,

@@ -62,7 +62,7 @@ void sb_gasket_check(const SbModel *model, SbProblems *problems) {
   }
   if (chamber <= stem || chamber >= model->gasket_outer) {
     sb_model_refuse(problems, "bore.diameter", stem, model->gasket_outer,
-                    "the chamber lies between the stem and the rim that clamps its gaskets");
+                    "the chamber is between the stem and the rim that clamps its gaskets");
   }
   if (model->shape.seal_spacing <= model->gasket_thickness) {
     sb_model_refuse(problems, "stem.seal_spacing", model->gasket_thickness, NAN,

@@ -125,7 +125,7 @@ static void compile_rig(SbModel *model, SbProblems *problems) {
   const double samples = rig->duration * rig->rate;
   if (model->motion == SB_MODEL_MOTION_RIG && !(samples >= 2 && samples <= 2e7)) {
     sb_model_refuse(problems, "rig.duration", 2 / rig->rate, 2e7 / rig->rate,
-                    "makes %.3g samples at %.4g Hz, not between 2 and 20 million", samples,
+                    "results in %.3g samples at %.4g Hz, not between 2 and 20 million", samples,
                     rig->rate);
   }
 }

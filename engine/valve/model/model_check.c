@@ -23,7 +23,7 @@ static void check_sizes(const SbModel *model, SbProblems *problems) {
   } else if (stem <= floor) {
     sb_model_refuse(
         problems, "stem.pressure_diameter", floor, model->bore_diameter,
-        "the stem's land lies below the floor of its groove (%.4g mm): nothing holds the ring",
+        "the stem's land is below the floor of its groove (%.4g mm): nothing retains the ring",
         floor * 1e3);
   } else {
     const double depth = (stem - floor) / 2, corner = fmin(model->axial_width, depth) / 2;
@@ -76,7 +76,7 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
                                        SB_P_FRICTION_STRIBECK_SPEED,
                                        SB_P_FRICTION_TANGENTIAL_STIFFNESS};
   static const char needs_inertia[] =
-      "needs models.motion = dynamic; the quasi-static cycle knows only the machine";
+      "needs models.motion = dynamic; the quasi-static cycle supports only the machine";
   const bool balance = model->motion == SB_MODEL_MOTION_QUASI_STATIC;
   const bool lives = model->life_actuations > 1;
   for (size_t i = 0; i < sizeof largest / sizeof largest[0]; i++) {
@@ -138,7 +138,7 @@ static void check_profile(const SbModel *model, SbProblems *problems) {
   }
   if (model->fit != SB_FIT_RING) {
     sb_model_refuse(problems, "models.fit", NAN, NAN,
-                    "%s knows round sections only: %s = %s needs the ring",
+                    "%s supports round sections only: %s = %s requires the ring",
                     sb_fit_model_name(model->fit), key, name);
   }
   if (model->film != SB_FILM_REYNOLDS) {
@@ -190,7 +190,7 @@ static bool stored_only(const SbModel *model) {
          !model->params.given[SB_P_CANISTER_TEMPERATURE];
 }
 
-static const char stored_only_text[] = "storage.temperature is that of storage alone: the valve is "
+static const char stored_only_text[] = "storage.temperature applies to storage only: the valve is "
                                        "used at canister.temperature, which "
                                        "is not given";
 
@@ -249,7 +249,8 @@ void sb_model_warn_modulus(const SbModel *model, double temperature, SbWarnings 
   if (!model->rubber.entropic && !model->params.given[id] && slope.from == NULL &&
       fabs(temperature - SB_SIZES_TEMPERATURE) > NEAR) {
     sb_warn(warnings, "modulus-temperature", sb_param(id)->key,
-            "the modulus at %.4g °C is taken as that at 20 °C (inferred: no measurement of this "
+            "the modulus at %.4g °C is assumed equal to that at 20 °C (inferred: no measurement of "
+            "this "
             "rubber is known); that of filled nitrile falls by 0.16 %% per kelvin",
             temperature - 273.15);
   }
@@ -270,14 +271,14 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
       (gasket || model->fit != SB_FIT_RING)) {
     sb_warn(warnings, "groove-unused", "gland.profile_file",
             "only solved rings (models.fit = ring) meet the walls of a drawn groove: %s",
-            gasket ? "a gasket's valve has none" : "closed forms take gland.radial_space alone");
+            gasket ? "a gasket's valve has none" : "closed forms use gland.radial_space only");
   }
   SbParamDefault swell;
   sb_params_default(&swell, &model->params, SB_P_RUBBER_SWELL_MASS);
   if (model->params.rubber != NULL && model->storage_time > 0 && swell.from == NULL &&
       !model->params.given[SB_P_RUBBER_SWELL_MASS]) {
     sb_warn(warnings, "swell-unknown", "rubber.swell_mass",
-            "%s has no figure of its swell in this fluid: none is taken",
+            "%s has no value of its swell in this fluid: no swell is computed",
             model->params.rubber->name);
   }
   for (int i = 0; sb_params_of_fluid(i) >= 0; i++) {
@@ -300,8 +301,8 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
   }
   if (model->canister_pressure < 0) {
     sb_warn(warnings, "pressure-below-ambient", "canister.pressure",
-            "the canister is %.4g kPa below ambient: nothing is delivered, and what leaks in or "
-            "flows through ports is air, taken with the liquid's density and viscosity",
+            "the canister is %.4g kPa below ambient: nothing is delivered, and air leaks in and "
+            "flows through ports, computed with the liquid's density and viscosity",
             -1e-3 * model->canister_pressure);
   }
 }

@@ -15,13 +15,14 @@
   X(SB_STUDY_STORAGE, storage, "storage", "Storage time",                                          \
     "load, friction, squeeze and modulus against storage time: relaxation, set, swell")            \
   X(SB_STUDY_LEAK, leak, "leak", "Leak over squeeze",                                              \
-    "leak at rest and leakage per stroke over the squeeze: where too little squeeze leaks")        \
+    "leak at rest and leakage per stroke against the squeeze: below which squeeze the valve "      \
+    "leaks")                                                                                       \
   X(SB_STUDY_STRIBECK, stribeck, "stribeck", "Stribeck curve",                                     \
-    "friction, real contact and film of both seals over the speed, as the cycle takes them")       \
+    "friction, real contact and film of both seals against the speed, as computed in the cycle")   \
   X(SB_STUDY_TOLERANCE, tolerance, "tolerance", "Tolerances",                                      \
     "loads, break-away and return force over the tolerances of the sizes: worst case and RSS")     \
   X(SB_STUDY_PROPELLANTS, propellants, "propellants", "Propellants over the temperature",          \
-    "pressure force, break-away, least return and dose of each propellant in this valve")
+    "pressure force, break-away, minimum return force and dose of each propellant in this valve")
 
 // A kind of study, in the order of the bits of output.studies.
 typedef enum {

@@ -354,7 +354,7 @@ static SbStatus slip_platen(double *out, const Planner *p, int direction, double
     }
   }
   return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "drive.speed",
-                           "the contact ages as fast as the machine loads it: no end of its rest");
+                           "the contact ages as fast as the machine loads it: it never slips");
 }
 
 // Adds a segment; `event` ends one at which the stem does not move, else where it comes to decides.

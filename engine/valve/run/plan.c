@@ -124,7 +124,7 @@ static void plan_rig(SbPlan *plan, const SbModel *model) {
   add(plan, true, "thread force and plate", "rig", (double)samples * SB_COST_SAMPLE, 0,
       "the coefficients come from its %zu samples", samples);
   add(plan, true, "real contact area", "greenwood-tripp", SB_COST_ROUGH, 0,
-      "what the valve's surface model says under the plate's load");
+      "the coefficient by the valve's surface model at the plate's load");
   add(plan, false, "contact load and width", "", 0, 0, "the rig gives its load; there is no valve");
   add(plan, false, "film", "", 0, 0, "the rig's friction is its input");
 }
@@ -260,7 +260,7 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
   sb_message(text[0], sizeof text[0],
              "friction and film need them; %d pressure differences over two seals", fits);
   sb_message(text[1], sizeof text[1], "models.fit = %s already gives load and width", fit);
-  sb_message(text[2], sizeof text[2], "models.film = %s meets what the friction needs", law);
+  sb_message(text[2], sizeof text[2], "models.film = %s is sufficient for the friction", law);
   sb_message(text[3], sizeof text[3], "%d actuations while the roughness runs in; %s",
              model->life_actuations,
              coupled ? "films between coupled asperities are solved at some of them"
@@ -282,12 +282,12 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
        : coupled ? "reynolds with asperities"
                  : law,
        states, film_off,
-       gasket    ? "a gasket's edge lets little in: from the rise of its pressure there"
-       : coupled ? "models.asperities = coupled: film and asperities share the load"
-       : on_body > 0
-           ? "boundary share, viscous friction and leakage need it; on the half-plane and "
-             "on the fitted ring"
-           : "boundary share, viscous friction and leakage need it",
+       gasket        ? "a gasket's edge lets little in: from the rise of its pressure there"
+       : coupled     ? "models.asperities = coupled: film and asperities carry the load together"
+       : on_body > 0 ? "the fraction of boundary friction, viscous friction and leakage require "
+                       "it; on the half-plane and "
+                       "on the fitted ring"
+                     : "the fraction of boundary friction, viscous friction and leakage require it",
        NULL},
       {plan->reynolds, "film over speed", coupled ? "reynolds with asperities" : law,
        (double)n->speed_nodes * at_speed, SB_SPEED_TOLERANCE,
@@ -295,7 +295,7 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
       {plan->reynolds, "reynolds film", "", 0, 0, NULL, gasket ? NULL : text[2]},
       {plan->film_history, "film history", "finite volumes",
        (double)n->film_steps * SB_COST_FILM_STEP, 0.03,
-       "models.film_time = transient; the motion keeps to the steady film's friction",
+       "models.film_time = transient; the motion uses the friction of the steady film",
        model->film_history ? "models.film has no history, only reynolds"
                            : "models.film_time = steady: every frame has the film of its speed"},
       {true, "real contact area", sb_rough_model_name(model->surface), 2.0 * fits * SB_COST_ROUGH,

@@ -242,8 +242,8 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     const SbFrame *last = &run->frames[run->count - 1];
     SbReport cause = own;
     (void)sb_fail_parameter(&own, status, cause.parameter,
-                            "motion (%s), both seals, stage %s, stem at %.4g mm, %.4g s: %s; kept: "
-                            "the seals, the frames and stages before",
+                            "motion (%s), both seals, stage %s, stem at %.4g mm, %.4g s: %s; "
+                            "available: the seals, the frames and stages before",
                             names[run->model->motion], sb_stage_name((SbStage)last->stage),
                             1e3 * last->displacement, last->time, cause.text);
   }
@@ -293,8 +293,8 @@ static void warn_of_outcome(SbSummary *summary) {
   case SB_OUTCOME_RETURNED:
     if (margin < 0) {
       sb_warn(&summary->warnings, "static-hold", "friction.static_ratio",
-              "the stem returns without a rest on its way; where it rests, static friction can "
-              "exceed the pressure force by %.3g N",
+              "the stem returns without stopping; if it stops on the return path, static friction "
+              "can exceed the pressure force by %.3g N",
               -margin);
     }
     break;
@@ -393,7 +393,7 @@ static SbStatus name_spent(const SbRun *run, SbReport *report) {
              ? sb_fail_parameter(report, status, cause.parameter, "%s", cause.text)
              : sb_fail_parameter(report, status, cause.parameter,
                                  "motion (its error estimate), both seals, stage %s, stem at %.4g "
-                                 "mm, %.4g s: %s; kept: the seals and the motion",
+                                 "mm, %.4g s: %s; available: the seals and the motion",
                                  sb_stage_name((SbStage)last->stage), 1e3 * last->displacement,
                                  last->time, cause.text);
 }

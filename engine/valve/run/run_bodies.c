@@ -50,10 +50,10 @@ SbStatus sb_run_bodies_move(double *mass, SbRun *run, double x, double v, SbRepo
     double housing = load == DRIVE ? 0 : tangent->velocity[SB_VALVE_HOUSING][0];
     double travel = tangent->velocity[loaded[load]][0] - housing;
     if (fabs(travel - 1) > 1e-9) {
-      return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "models.motion",
-                               "'%s' moves %.9g times as far as the stem: the parts must move as "
-                               "one",
-                               bodies->assembly.body[loaded[load]].name, travel);
+      return sb_fail_parameter(
+          report, SB_ERROR_INFEASIBLE, "models.motion",
+          "'%s' moves %.9g times as far as the stem: the parts must have one displacement",
+          bodies->assembly.body[loaded[load]].name, travel);
     }
   }
   if (fabs(tangent->mass - bodies->mass) > 1e-9 * bodies->mass) {

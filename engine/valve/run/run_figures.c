@@ -74,7 +74,7 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
                    state->touches
                        ? "the rubber presses the bore no more than the fluid does, or leaves "
                          "it in a state of the cycle: the path is open"
-                       : "the seal does not touch the bore under its pressures: the path is "
+                       : "the seal has no contact with the bore under its pressures: the path is "
                          "open");
     sb_seal_reason(&run->summary, seal, "closing*", "the rubber does not press the bore");
     sb_warn(&run->summary.warnings, "seal-open", pressed_by(model),
@@ -87,8 +87,8 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
   SbStatus status = SB_OK;
   if (model->surface != SB_ROUGH_PERSSON) {
     status = sb_fail_parameter(&report, SB_ERROR_INFEASIBLE, "models.surface",
-                               "Greenwood and Tripp's independent asperities say nothing near full "
-                               "contact (models.surface = persson does)");
+                               "Greenwood and Tripp's independent asperities are not valid near "
+                               "full contact (models.surface = persson does)");
   } else if (isnan(out->rest_area_share)) {
     status = sb_fail(&report, SB_ERROR_INFEASIBLE, "the real contact at rest is not known");
   }
@@ -284,7 +284,7 @@ void sb_run_summarise_seals(SbRun *run) {
   summary->dose_mass = sb_run_dose(run, model->supply.volume * model->density);
   if (summary->filled_share < 1) {
     sb_warn(&summary->warnings, "chamber-not-filled", "drive.speed",
-            "the chamber takes %.3g ms to fill and is open to the canister for %.0f %% of that",
+            "the chamber requires %.3g ms to fill and is open to the canister for %.0f %% of that",
             1e3 * model->filling_time, 100 * summary->filled_share);
   }
 }
@@ -304,19 +304,17 @@ void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore
     if (!isnan(bore->out)) {
       snprintf(carried, sizeof carried, " (%.3g nl)", 1e12 * circumference * bore->out);
     }
-    sb_reason(
-        summary, "cycle.leakage_per_cycle_m3",
-        "the stem does not come back: what the outer seal carried one way%s is not a loss of a "
-        "cycle",
-        carried);
+    sb_reason(summary, "cycle.leakage_per_cycle_m3",
+              "the stem does not return: what the outer seal transported in one direction%s is "
+              "not a loss of a cycle",
+              carried);
     sb_reason(summary, "cycle.leakage_net_all_actuations_m3",
-              "the stem does not come back: there is no second actuation");
+              "the stem does not return: there is no second actuation");
   } else if (fabs(net) < summary->error_film * bore->out) {
-    sb_warn(
-        &summary->warnings, "leakage-uncertain", "output.tolerance",
-        "what a cycle leaks, %.2g nl, is less than the error of what the stem carries each way, "
-        "%.2g nl",
-        1e12 * circumference * net, 1e12 * summary->error_film * circumference * bore->out);
+    sb_warn(&summary->warnings, "leakage-uncertain", "output.tolerance",
+            "the leakage of a cycle, %.2g nl, is less than the error of the transport in each "
+            "direction, %.2g nl",
+            1e12 * circumference * net, 1e12 * summary->error_film * circumference * bore->out);
   }
 }
 
@@ -422,33 +420,34 @@ void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
         {model->fit != SB_FIT_RING, "contact.in_stroke.rotation_deg", still},
         {model->fit != SB_FIT_RING, "contact.return.rotation_deg", still},
         {summary->seal[seal].load == 0, "*",
-         "the seal does not touch the bore under its pressures"},
-        {model->kind == SB_VALVE_GASKET, "gland_fill", "a gasket lies between plates, in no gland"},
+         "the seal has no contact with the bore under its pressures"},
+        {model->kind == SB_VALVE_GASKET, "gland_fill",
+         "a gasket is clamped between plates, not in a gland"},
         {model->profile != SB_SEAL_PROFILE_CIRCLE, "film_by_model*",
          "seal.profile is not a circle: the film laws are those of cylinders"},
         {closed, "film_by_model.reynolds", "models.film is a closed form: no film was solved"},
         {!coupled, "asperity_load_share",
-         "models.asperities = beside: asperities share no load with the film"},
+         "models.asperities = beside: asperities and film do not share the load"},
         {done, "film*", "the fluid opens the contact or carries it alone: no film law applies"},
         {done, "lambda", "there is no film"},
-        {done, "asperity_load_share", "there is no film to share a load with"},
+        {done, "asperity_load_share", "there is no film that could carry a part of the load"},
         {done, "squeeze*", "there is no film to squeeze out"},
-        {done, "real_area_share", "there is no film to tell it"},
-        {done, "friction*", "there is no film to tell it"},
-        {done, "coefficient*", "there is no film to tell the friction"},
-        {done, "leakage_per_stroke_m3", "there is no film to carry it"},
-        {done, "contact.*", "the seal does not touch there, or there is no film to tell it"},
+        {done, "real_area_share", "there is no film"},
+        {done, "friction*", "there is no film"},
+        {done, "coefficient*", "there is no film, so no friction of the contact"},
+        {done, "leakage_per_stroke_m3", "there is no film that could transport it"},
+        {done, "contact.*", "the seal is not in contact there, or there is no film"},
     };
     give(summary, seal, reasons, sizeof reasons / sizeof reasons[0]);
   }
   if (well) {
     const char *outer = sb_figure_reason(summary, sb_figure_find("seals.outer.film_central_m"));
     sb_reason(summary, "cycle.leakage*", "outer seal: %s",
-              outer != NULL ? outer : "it does not touch in all of the cycle's states");
+              outer != NULL ? outer : "it is not in contact in all of the cycle's states");
   }
   // The error is that of the loss, and is missing for the reason of the loss.
   const char *loss = sb_figure_reason(summary, sb_figure_find("shelf.permeation_kg_per_s"));
-  const char *no_loss = loss != NULL ? loss : "a closed form gives what permeates";
+  const char *no_loss = loss != NULL ? loss : "the permeation is a closed form";
   const Reason after[] = {
       {closed, "solver.error_estimate.film", "models.film is a closed form"},
       {!run->plan.film_history, "solver.error_estimate.film_history",

@@ -59,7 +59,7 @@ static void give_reasons(SbSummary *summary, const SbRunEnd *end) {
             summary->outcome == SB_OUTCOME_UNKNOWN ? "not known"
                                                    : sb_outcome_name(summary->outcome));
   sb_reason(summary, "cycle.force_press_N",
-            "the stem does not reach its stop: the force that this takes is not known");
+            "the stem does not reach its stop: the force required for it is not known");
 }
 
 SbStatus sb_run_conclude_motion(SbSummary *summary, SbRun *run, const SbRunEnd *end,

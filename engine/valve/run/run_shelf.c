@@ -54,7 +54,7 @@ static void give_reasons(SbSummary *summary, const SbModel *model, int seal) {
   sb_text(name, sizeof name, "shelf.seals.%s*", sb_seal_name(SB_SEAL_COUNT - 1 - seal));
   sb_reason(summary, name, "there is no pressure difference across this seal at rest");
   if (shelf->seal[seal].state == SB_LEAK_OPEN) {
-    sb_reason(summary, "shelf.*", "the %s seal is open: nothing holds the propellant",
+    sb_reason(summary, "shelf.*", "the %s seal is open: nothing retains the propellant",
               sb_seal_name(seal));
     return;
   }

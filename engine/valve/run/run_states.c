@@ -261,7 +261,7 @@ static void report_failure(const Task *task, SbReport *report) {
   }
   const SbReport cause = *report;
   (void)sb_fail_parameter(report, cause.status, cause.parameter,
-                          "%s (%s), %s seal, stages %s, %s, %s: %s; kept: %s",
+                          "%s (%s), %s seal, stages %s, %s, %s: %s; available: %s",
                           fitted ? "film" : "fitment",
                           !fitted   ? sb_fit_model_name(model->fit)
                           : coupled ? "with asperities"
@@ -735,7 +735,8 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   }
   if (speed == 0 && slips) {
     sb_warn(warnings, "film-speed", "drive.speed",
-            "the stem passes no two stages that would tell its speed: the seals' figures are those "
+            "the stem does not pass two stages, so its speed is not defined: the seals' figures "
+            "are those "
             "at drive.speed, %.3g mm/s",
             1e3 * run->speed);
   }

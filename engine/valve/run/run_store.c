@@ -95,14 +95,14 @@ SbStatus sb_run_pack(void **out, size_t *size, const SbRun *run, SbReport *repor
   *size = 0;
   if (!run->summary.converged || run->summary.bodies.joints > 0) {
     return sb_fail(report, SB_ERROR_INPUT,
-                   "only a run that converged, and has no joints' reactions, can be kept");
+                   "only a run that converged, and has no joints' reactions, can be stored");
   }
   Writer writer = {0};
   put_run(&writer, run);
   *size = writer.size;
   *out = malloc(writer.size);
   if (*out == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a kept run");
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a stored run");
   }
   writer = (Writer){.to = *out};
   put_run(&writer, run);
@@ -269,7 +269,7 @@ SbStatus sb_run_unpack(SbRun **out, const SbModel *model, const SbPlan *plan, co
   Head head;
   *out = NULL;
   if (!take(&head, &reader, sizeof head) || memcmp(&head, &mine, sizeof head) != 0) {
-    return sb_fail(report, SB_ERROR_INPUT, "this kept run is another program's");
+    return sb_fail(report, SB_ERROR_INPUT, "this stored run belongs to another program");
   }
   SbRun *run;
   SbStatus status = sb_run_create(&run, model, plan, report);
@@ -287,7 +287,7 @@ SbStatus sb_run_unpack(SbRun **out, const SbModel *model, const SbPlan *plan, co
   take_summary(run, &reader);
   if (!reader.good || reader.left > 0) {
     sb_run_destroy(run);
-    return sb_fail(report, SB_ERROR_INPUT, "this kept run is not whole");
+    return sb_fail(report, SB_ERROR_INPUT, "this stored run is incomplete");
   }
   sb_run_publish(run, run->count);
   *out = run;

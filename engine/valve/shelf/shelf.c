@@ -24,21 +24,21 @@ const char *sb_shelf_lacks_permeability(const SbModel *model) {
          : !(sb_fluids[model->fluid].mass > 0) || !sb_fluids[model->fluid].propellant
              ? "fluid.name is not a propellant with a vapour pressure"
          : model->ethanol > 0         ? "a mixture's partial pressure is not known (fluid.ethanol)"
-         : !(model->permeability > 0) ? "rubber.permeability is not given: no value, and no rubber "
-                                        "that has this propellant's"
+         : !(model->permeability > 0) ? "rubber.permeability is not set, and no rubber with a "
+                                        "value for this propellant is chosen"
                                       : NULL;
 }
 
 const char *sb_shelf_lacks_water(const SbModel *model) {
   return model->shelf.water_permeability > 0
              ? NULL
-             : "rubber.water_permeability is not given: no value, and no rubber that has it";
+             : "rubber.water_permeability is not set, and no rubber with a value is chosen";
 }
 
 const char *sb_shelf_lacks_interface(const SbModel *model) {
   return model->surface == SB_ROUGH_PERSSON
              ? NULL
-             : "loss along the contact: Greenwood and Tripp's independent asperities say nothing "
+             : "loss along the contact: Greenwood and Tripp's independent asperities are not valid "
                "near full contact (models.surface = persson does)";
 }
 
@@ -249,7 +249,7 @@ const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int 
       strcmp(from.tag, "typical") != 0) {
     return NULL;
   }
-  sb_text(text, size, "the %s rests on a figure typical of %s, no measurement: %s",
+  sb_text(text, size, "the %s depends on a typical value of %s, not on a measurement: %s",
           figures[which].what, from.name != NULL ? from.name : "such rubbers", from.source);
   return sb_param(figures[which].id)->key;
 }

@@ -387,7 +387,7 @@ static SbStatus opened_by_fluid(SbSealState *out, SbStatus status, const SbRepor
   }
   out->opened = true;
   sb_warn(warnings, "film-opened", "canister.pressure",
-          "the fluid's pressure opens the contact of the %s seal: no film lies in it",
+          "the fluid's pressure opens the contact of the %s seal: there is no film in it",
           sb_seal_name(seal));
   return SB_OK;
 }

@@ -88,7 +88,7 @@ static SbStatus solve_supplied(const SbSlidingTask *task, SbSlidingSolved *out,
   film->solver.error_contact += problem->surface != SB_ROUGH_NONE ? error : 0;
   if (error > task->model->tolerance) {
     sb_warn(&film->warnings, "film-starved", "models.inlet",
-            "the bore brings so little that the film at %.3g mm/s stands for that at %.3g mm/s",
+            "the bore supplies so little that the film at %.3g mm/s is used for %.3g mm/s",
             1e3 * fabs(share * speed), 1e3 * fabs(speed));
   }
   return sb_succeed(report);

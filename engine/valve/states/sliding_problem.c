@@ -95,7 +95,7 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
   if (fit->model == SB_FIT_RING && warnings != NULL) {
     sb_warn(warnings, "film-disc-surface", "models.fit",
             "the %s ring's surface next to its contact is too steep for a film on it: the film "
-            "takes the ring's pressure, but gives way like a linear disc",
+            "uses the ring's pressure, but the compliance of a linear disc",
             sb_seal_name(seal));
   }
   double radius = 0.5 * fit->section_diameter_fitted;

@@ -6,12 +6,12 @@
 // Enumerator, name, what is constant.
 #define SB_HOLDS(X)                                                                                \
   X(SB_HOLD_MACHINE, "machine",                                                                    \
-    "the cycle of the test machine, quasi-static, whatever drives the scene")                      \
+    "the quasi-static cycle of the test machine, in place of the scene's drive")                   \
   X(SB_HOLD_OUTER, "outer-seal",                                                                   \
     "the outer ring as storage and temperature left it, from then on without any; the inner one "  \
     "like it, so that no gland suits but one of them; the chamber filled")                         \
   X(SB_HOLD_SATURATED, "saturated",                                                                \
-    "pressure, viscosity and density those of the liquid by its name, whatever the scene gives")
+    "pressure, viscosity and density of the named liquid, in place of the scene's values")
 
 // A set of such conditions.
 typedef enum {

@@ -105,11 +105,11 @@ static Regression regress(SbStudyWork *work) {
       .W_load = 1 / unit,
       .R = seal->radius,
       .laws = {{"ours, central", CENTRAL, {.k = 0}},
-               {"ours, least", LEAST, {.k = 0}},
+               {"ours, minimum", LEAST, {.k = 0}},
                {"thesis, eq. 7.5", CENTRAL, {.k = 1.492, .a = 0.5434, .b = -0.2893}},
                {"Karaszkiewicz, eq. 7.6", CENTRAL, {.k = 4.4, .a = 0.65, .b = -0.21}},
                {"thin-film limit", CENTRAL, {.k = 3.77334, .a = 0.6, .b = -0.2}},
-               {"thin-film limit, least", LEAST, {.k = 3.00434, .a = 0.6, .b = -0.2}}}};
+               {"thin-film limit, minimum", LEAST, {.k = 3.00434, .a = 0.6, .b = -0.2}}}};
   SbReport report;
   for (int i = 0; i < GRID; i++) {
     out.speed[i] = sb_study_place(work, i % SPEEDS, SPEEDS);
@@ -205,7 +205,7 @@ static void make(SbStudyWork *work) {
     put_row(work, &ours, &ours.laws[l]);
   }
   sb_study_row(out, "solved, central")->value[8] = film[CENTRAL];
-  sb_study_row(out, "solved, least")->value[8] = film[LEAST];
+  sb_study_row(out, "solved, minimum")->value[8] = film[LEAST];
   sb_study_mark(work, model->speed, "drive");
   sb_message(out->validity, sizeof out->validity,
              "our law: U %.2g to %.2g, W %.3g to %.3g only; the limit: thin films (M above 100)",

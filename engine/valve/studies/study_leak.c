@@ -64,17 +64,18 @@ static void note_closing(SbStudy *out, const SbStudySeries *series, double closi
   const size_t first = first_at_least(y, series->count, 0);
   const size_t closed = first_at_least(y, series->count, closing);
   if (first == series->count) {
-    sb_study_note(out, "%s: does not touch in this range.", series->name);
+    sb_study_note(out, "%s: no contact in this range.", series->name);
   } else if (closed == series->count) {
     sb_study_note(out, "%s: leaks at rest over the whole range.", series->name);
   } else if (closed > first) {
     // On a straight line from the point before, which has a value.
     const double before = fmin(y[closed - 1], closing); // a gap leaves the place as it is
     const double share = (y[closed] - closing) / (y[closed] - before);
-    sb_study_note(out, "%s: touches from %.1f %% of squeeze, closed from %.1f %%.", series->name,
+    sb_study_note(out, "%s: in contact from %.1f %% of squeeze, closed from %.1f %%.", series->name,
                   100 * x[first], 100 * (x[closed] - share * (x[closed] - x[closed - 1])));
   } else if (first > 0) {
-    sb_study_note(out, "%s: touches from %.1f %% of squeeze and is closed as soon as it touches.",
+    sb_study_note(out,
+                  "%s: in contact from %.1f %% of squeeze, and closed as soon as it is in contact.",
                   series->name, 100 * x[first]);
   } else {
     sb_study_note(out, "%s: closed over the whole range.", series->name);
@@ -206,8 +207,8 @@ const SbStudyDesign sb_study_leak = {
     .logarithmic = {false, true, false},
     .range = offsetof(SbStudyRange, squeeze_min),
     .row_heading = "squeeze, pressure",
-    .validity = "mean contact pressure, liquid without vapour; gaps below 3 \xcf\x83; no figure "
-                "where the ring does not touch by itself",
+    .validity = "mean contact pressure, liquid without vapour; gaps below 3 \xcf\x83; no value "
+                "where the ring has no contact without pressure",
     .grid = true,
     .share = SHARE,
     .is_no_case = is_no_case,

@@ -269,14 +269,13 @@ static void correct_all(SbStudyWork *work, const Ratios ratios[FLUIDS + 1]) {
     }
   }
   if (held[0]) {
-    sb_warn(
-        &work->out->warnings, "friction-held", "study.rings",
-        "some pressures are beyond those at which rings were solved: the friction there is that "
-        "of closed forms times the ratio at the nearest one");
+    sb_warn(&work->out->warnings, "friction-held", "study.rings",
+            "some pressures are outside the range in which rings were solved: the friction there "
+            "is that of closed forms times the ratio at the nearest pressure");
   }
   if (held[1]) {
-    sb_study_note(work->out, "Some parts alone are at a p/E beyond what was solved: their friction "
-                             "has the ratio of the nearest one.");
+    sb_study_note(work->out, "Some samples are outside the solved range of p/E: their friction "
+                             "uses the ratio of the nearest solved one.");
   }
 }
 

@@ -91,7 +91,7 @@ static void make(SbStudyWork *work) {
   }
   if (work->hi > SB_SPEED_MOST) {
     work->hi = SB_SPEED_MOST;
-    sb_study_note(out, "The cycle knows films to %g m/s: the curves end there.", SB_SPEED_MOST);
+    sb_study_note(out, "The cycle has films up to %g m/s: the curves end there.", SB_SPEED_MOST);
   }
   for (int i = 0; i < LINES; i++) {
     path[i] = lines[i].friction;
@@ -100,7 +100,7 @@ static void make(SbStudyWork *work) {
   const SbSummary *summary = sb_evaluator_summary(work->evaluator);
   if (work->status == SB_OK && (summary == NULL || !(summary->seal[SB_OUTER].film_central > 0))) {
     work->status = sb_fail_parameter(work->report, SB_ERROR_INFEASIBLE, "seal.section_diameter",
-                                     "the outer seal bears no load: there is no film to speak of");
+                                     "the outer seal carries no load: there is no film");
   }
   if (work->status != SB_OK) {
     return;
@@ -138,9 +138,9 @@ const SbStudyDesign sb_study_stribeck = {
     .logarithmic = {true, false, true},
     .range = offsetof(SbStudyRange, speed_min),
     .row_heading = "outer seal, in, at",
-    .column = {"central film [nm]", "least film [nm]", "film over roughness",
+    .column = {"central film [nm]", "minimum film [nm]", "film over roughness",
                "boundary friction [N]", "viscous friction [N]", "coefficient",
-               "asperities bear [%]", "real contact [%]"},
+               "load on asperities [%]", "real contact [%]"},
     .value = {CENTRAL, LEAST, RATIO, BOUNDARY, VISCOUS, COEFFICIENT, SHARE, AREA},
     .models = "the scene's own, at the pressures of the cycle",
     .validity =
