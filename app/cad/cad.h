@@ -1,11 +1,14 @@
-// Bodies of drawings: half-sections, volume and moments of the parts in a DXF, STEP or STL file,
-// and the lands, bores and grooves on them.
+// Bodies of drawings: half-sections, volume and moments of inertia of the parts in a DXF, STEP or
+// STL file, and the lands, bores and grooves on them.
 //
-// A STEP file is read by sealbench-cad, a program of its own (gmsh with OpenCASCADE) with limits of
-// time and memory, which finds the axis, cuts the bodies by a half-plane and measures them. A DXF
-// is read here: its closed outlines are bodies; of an STL the mesh is cut. All give half-profiles
-// of straight pieces and arcs as [part.NAME] takes them; other curves become arcs that lie within
-// SB_CAD_TOLERANCE of them.
+// A STEP file is read by the program sealbench-cad (gmsh with OpenCASCADE), which runs with limits
+// of time and memory, finds the axis, cuts the bodies by a half-plane through it and measures them.
+// A DXF is read here: its closed outlines are bodies. The mesh of an STL is cut. All give
+// half-profiles of straight pieces and arcs in the form of the key [part.NAME] profile; other
+// curves are approximated by arcs within SB_CAD_TOLERANCE.
+//
+// Coordinates: x along the axis of the bodies, as in the drawing, then reversed (`flip`) and moved
+// (`shift`); r is the distance from the axis. The valve requires x to point out of the canister.
 #pragma once
 
 #include "app/base/reader.h"
@@ -15,60 +18,72 @@
 #include <glib.h>
 #include <stdbool.h>
 
+// Largest number of bodies of a file.
 enum { SB_CAD_BODIES_MAX = 200 };
 
-// How far arcs may lie from the curve that they stand for [m].
+// Largest distance of an arc from the curve that it approximates [m].
 #define SB_CAD_TOLERANCE 0.1e-6
 
+// A land and a groove are on the outer surface of a body, a bore is an inner surface.
 typedef enum { SB_CAD_LAND, SB_CAD_BORE, SB_CAD_GROOVE } SbCadKind;
 
-// A stretch of a half-section [m]. Groove: between its walls, `diameter` that of its floor.
+// A stretch of a half-section with one diameter.
 typedef struct {
   SbCadKind kind;
-  double x0, x1, diameter;
-  double depth; // of a groove, from the lower of its two shoulders; else 0
+  double x0, x1;   // ends, x0 < x1 [m]; of a groove its walls
+  double diameter; // of the surface [m]; of a groove that of its floor
+  double depth;    // of a groove, from the lower of its two shoulders [m]; else 0
 } SbCadFeature;
 
+// A body of revolution.
 typedef struct {
-  char *name;      // of the body or layer; "body 2" where the file has none
-  GArray *profile; // of SbProfilePoint, as SbProfile; empty: none, and `why` says why
-  bool closed;
-  char *why;
-  SbSolid revolved; // of the half-section at a density of 1 kg/m3
-  bool measured;    // whether the file's own kernel measured the body
-  SbSolid solid;    // what it measured, the axis along x, at 1 kg/m3; else `revolved`
-  GArray *features; // of SbCadFeature, in order of x
+  char *name;       // of the body or layer; "body 2" if the file has none
+  GArray *profile;  // of SbProfilePoint, in the order of SbProfile; empty: no half-section
+  bool closed;      // as SbProfile.closed
+  char *why;        // why the profile is empty; else NULL
+  SbSolid revolved; // of the revolved half-section, with a density of 1 kg/m3
+  bool measured;    // `solid` is from the file's own geometry kernel
+  SbSolid solid;    // of the body with a density of 1 kg/m3, its axis along x; else as `revolved`
+  GArray *features; // of SbCadFeature, in the order of x
 } SbCadBody;
 
+// A drawing. Freed by sb_cad_free().
 typedef struct {
-  const char *format;  // "DXF", "STEP", "STL"
-  char *unit;          // of the file
-  char *axis;          // in words
+  const char *format;  // "DXF", "STEP" or "STL"; static
+  char *unit;          // of the file, such as "mm"
+  char *axis;          // sentence for the user on the axis of revolution
   GPtrArray *bodies;   // of SbCadBody
-  GPtrArray *warnings; // of char *: what was left out
+  GPtrArray *warnings; // of char *: sentences on what was omitted or assumed
 } SbCad;
 
-// unit: of a DXF or STL, in place of the file's; NULL: the file's, or the one in which an STL is as
-// large as a valve's part. axis: "x" or "y", the line of a DXF that bodies are revolved about;
-// NULL: its centre line, else x; of an STL "x", "y" or "z"; NULL: about which its moments are most
-// alike. angle: of the half-plane about the axis of a STEP's bodies [rad]. flip: x the other way,
-// for a valve drawn with the canister on its right. shift: added to x afterwards [m]. section: a
-// DXF's outlines are whole sections, wherever they lie, and no half-sections about an axis.
+// What the caller states about a drawing. All zeros but the angle: as the file states.
 typedef struct {
-  const char *unit, *axis;
-  double angle, shift;
-  bool flip, section;
+  // Unit of the coordinates of a DXF or STL ("mm", "inch"); NULL: the unit that a DXF states, or
+  // the only one in which an STL has the size of a valve's part. Not for STEP.
+  const char *unit;
+  // DXF: "x" or "y", the line of the drawing about which bodies are revolved; NULL: its centre
+  // line, else x. STL: "x", "y" or "z"; NULL: the axis of rotational symmetry by the moments of
+  // inertia.
+  const char *axis;
+  double angle; // STEP: position of the cutting half-plane about the axis [rad]
+  double shift; // added to x after `flip` [m]
+  bool flip;    // reverse x: for a drawing with the canister on its right
+  bool section; // DXF: outlines are full sections anywhere, not half-sections about an axis
 } SbCadChoices;
 
-// Reads `path`; NULL with an error of SB_APP_ERROR. Owned by the caller.
+// Reads the file `path`; its format follows from its content. Returns NULL with an error, mostly
+// SB_APP_ERROR_INPUT: not readable, no bodies, ambiguous unit, refused, no sealbench-cad in this
+// build, or its limits exceeded. A STEP blocks the calling thread for up to a minute.
 SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error);
+
+// Frees a drawing with its bodies; takes NULL.
 void sb_cad_free(SbCad *cad);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbCad, sb_cad_free)
 
-// A DXF from memory; `name` stands for the file in messages.
+// As sb_cad_read(), from the `length` bytes of a DXF; `name` stands for the path in messages.
 SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
                         const SbCadChoices *choices, GError **error);
 
-// The half-profile as the value of a part's `profile` key, in mm; NULL if there is none. Owned by
-// the caller.
+// Returns the half-profile as the value of a part's `profile` key, in mm (app/cad/profile.h); NULL
+// if the profile is empty. Freed by g_free().
 char *sb_cad_profile_text(const SbCadBody *body);

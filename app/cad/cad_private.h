@@ -1,4 +1,4 @@
-// What the parts of app/cad share.
+// Shared by the readers of DXF, STEP and STL.
 #pragma once
 
 #include "app/cad/cad.h"
@@ -6,44 +6,58 @@
 // Processor time that sealbench-cad may use for one file [s].
 enum { SB_CAD_SECONDS_MAX = 60 };
 
-// A straight piece or an arc in the drawing's plane [m]; bulge as in SbProfilePoint.
+// A straight piece or an arc from (x0, y0) to (x1, y1) in the plane of the drawing [m]; `bulge` as
+// in SbProfilePoint: positive turns left, 0 is straight.
 typedef struct {
   double x0, y0, x1, y1, bulge;
 } SbCadPiece;
 
-// A point of a curve at t in [0, 1].
+// Writes the point of a curve at t in [0, 1] to `xy`.
 typedef void (*SbCadCurve)(const void *curve, double t, double xy[2]);
 
-// Appends pieces that follow `curve` within `tolerance`, in its own unit; `steps` parts of it are
-// looked at apart from each other at least. False where it is not finite or needs too many.
+// Appends to `pieces` (of SbCadPiece) a chain of pieces that follow the curve `at(curve, t)` from
+// t = 0 to 1 within `tolerance`, in the unit of `at`. The curve is first divided into `steps` equal
+// intervals of t, at least 1. Returns false if the curve is not finite or needs too many pieces;
+// `pieces` then contains a part of it.
 bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps, double tolerance);
 
-// The piece from one end through `middle` to the other.
+// Returns the arc from `from` through `middle` to `to`; straight if `middle` is on the line.
 SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]);
 
-// Joins pieces to outlines, ends within `gap` being one point, and makes of each a body about the
-// line y = 0 (half-section: what lies at y >= 0, or below where nothing lies above). Appends to
-// cad->bodies; what closes to no outline is told in its warnings.
+// Joins `pieces` (of SbCadPiece) in any order and direction to outlines; ends within `gap` [m] are
+// one point. Each outline becomes a body about the line y = 0 with x as drawn and r = |y|: the part
+// at y >= 0, or below if nothing is above. Appends the bodies to cad->bodies, with the name `name`,
+// and a warning for pieces that close to no outline. The bodies are not settled.
 void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap);
 
-// A body without anything but its name (copied).
+// Returns a body with a copy of `name` and empty arrays. Freed by sb_cad_body_free(), or owned by
+// the drawing that it is added to.
 SbCadBody *sb_cad_body_new(const char *name);
+
+// Frees a body; not NULL.
 void sb_cad_body_free(SbCadBody *body);
 
-// Settles a body whose profile is filled: moved by the choices, counter-clockwise, checked,
-// measured, its features found. A profile that bounds no body is emptied, and `why` tells.
+// Completes a body with a profile: applies `flip` and `shift`, orders the profile
+// counter-clockwise, checks it, and computes `revolved`, `solid` (unless `measured`) and the
+// features. If the profile bounds no body, the profile becomes empty and `why` states the problem.
+// To be called once.
 void sb_cad_body_settle(SbCadBody *body, const SbCadChoices *choices);
 
-// Appends lands, bores and grooves of the body's profile.
+// Appends the lands, bores and grooves of the body's profile to body->features.
 void sb_cad_features(SbCadBody *body);
 
+// Returns a drawing without bodies. `format` is static. Freed by sb_cad_free().
 SbCad *sb_cad_new(const char *format);
 
-// Through sealbench-cad; `shown` stands for the file in messages.
+// Reads a STEP file by sealbench-cad. `shown` is the printable path for messages. Errors as
+// sb_cad_read().
 SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,
                         GError **error);
 
-// Whether bytes are an STL file, by its size or its first word; and its body, of the file's name.
+// Returns whether bytes are an STL file: the size fits its binary header, or the first word is
+// "solid".
 bool sb_cad_is_stl(const char *data, gsize length);
+
+// Reads the bytes of an STL file as one body, named like the file `path`. Errors as sb_cad_read().
 SbCad *sb_cad_parse_stl(const char *data, gsize length, const char *path,
                         const SbCadChoices *choices, GError **error);

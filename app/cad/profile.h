@@ -1,9 +1,10 @@
-// Profiles: their points as text, and which way round they go. A text has a unit, then x,r or
-// x,r,bulge of each point.
+// Half-profiles as text, the value of the key [part.NAME] profile, and their orientation. The text
+// is a unit and then x,r or x,r,bulge of each point:
 //
 //   mm 14,0 14,2.9 8,2.9 8,1.64
 //
-// bulge is that of SbProfilePoint. It closes by repeating its first point.
+// x is axial, r the distance from the axis, bulge as in SbProfilePoint. A text that repeats its
+// first point is closed; another one is closed by the axis.
 #pragma once
 
 #include "engine/mechanism/solid.h"
@@ -11,12 +12,16 @@
 #include <glib.h>
 #include <stdbool.h>
 
-// What such a text may look like, for messages.
+// Example of such a text, for messages.
 #define SB_PROFILE_FORM "mm 0,0 10,0 10,2 0,2"
 
-// Points [m] of a text, SB_PROFILE_MAX at most, the repeated one left out; NULL with an error of
-// SB_APP_ERROR. An array of SbProfilePoint, owned by the caller.
+// Returns the points [m] of a text, 2 to SB_PROFILE_MAX, as an array of SbProfilePoint to be freed
+// by g_array_unref(). *closed is set to whether the text repeats its first point, which the result
+// does not contain twice. NULL with SB_APP_ERROR_INPUT: no unit, not numbers, too few or too many
+// points. Orientation and crossings are not checked (sb_profile_check()).
 GArray *sb_profile_parse(const char *text, bool *closed, GError **error);
 
-// Makes a profile (of SbProfilePoint) counter-clockwise, closed by its last piece or by the axis.
+// Reverses the points (of SbProfilePoint) in place, with their bulges, if they are clockwise in the
+// (x, r) plane. `closed` as in SbProfile: the outline is closed by its last piece, else by the
+// axis.
 void sb_profile_turn(GArray *points, bool closed);

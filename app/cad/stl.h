@@ -1,33 +1,35 @@
 // Triangle meshes from STL files, binary or text, for the mass of a part
 // (engine/mechanism/solid.h).
 //
-// The format knows no unit: the reader asks for one. STL repeats its corners, and rounds each time:
-// corners that differ by at most 1e-5 of the diagonal of the part's box along every axis (or by two
-// units of single precision, far from the origin) become one vertex, the first of them; triangles
-// that lose a corner by that are left out and counted. Volume and moments change by as much.
-// Files are bounded in size, text is read independently of locale, and a file that is not STL, is
-// cut short or holds anything but finite numbers is refused with the place.
+// The format states no unit: the caller states it. STL repeats its corners, and rounds each time.
+// Corners that differ by at most 1e-5 of the diagonal of the part's bounding box along every axis
+// (or by two units of single precision, far from the origin) become one vertex, the first of them.
+// Triangles that lose a corner by that are removed and counted. Volume and moments change by as
+// much. Numbers are read independently of the locale. A file that is not STL, is incomplete, has
+// more than SB_STL_TRIANGLES_MAX triangles or contains a number that is not finite is refused.
 #pragma once
 
 #include <glib.h>
 
 enum { SB_STL_TRIANGLES_MAX = 2000000 };
 
+// A mesh. Freed by sb_stl_clear().
 typedef struct {
-  double *vertices;    // 3 vertex_count, m
-  unsigned *triangles; // 3 triangle_count
-  gsize vertex_count, triangle_count;
-  gsize dropped; // triangles without area because two corners coincide
-  gboolean text; // whether the file was the text form
+  double *vertices;     // [vertex_count][3]: x, y, z in the file's axes [m]
+  unsigned *triangles;  // [triangle_count][3]: vertex indices from 0, in the file's order
+  gsize vertex_count;   //
+  gsize triangle_count; //
+  gsize dropped;        // triangles removed because two corners coincide
+  gboolean text;        // the file was in the text format
 } SbStl;
 
-// Reads `path`, whose numbers are in `unit` ("mm", "inch", ...). On success the arrays are the
-// caller's (sb_stl_clear); on failure *out is empty and the error is of SB_APP_ERROR.
+// Reads the file `path`, whose numbers are in `unit` ("mm", "inch", ...). Returns FALSE with
+// SB_APP_ERROR_INPUT, whose message names the file and the place; `out` is then empty.
 gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **error);
 
-// The same from memory; `name` stands for the file in messages.
+// As sb_stl_read(), from the `length` bytes of a file; `name` stands for the path in messages.
 gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *unit,
                       const char *name, GError **error);
 
-// Frees the arrays; takes an empty or NULL one.
+// Frees the arrays; the mesh is then empty and may be cleared again. Takes NULL.
 void sb_stl_clear(SbStl *stl);

@@ -1,7 +1,9 @@
-// What all commands share: options, messages, exit codes, tables, interrupts, progress.
+// Shared by all commands: options, messages, exit codes, tables, interrupts, progress.
 //
 // Results go to standard output, everything else to standard error as "sealbench: ...". The program
-// never calls setlocale(): numbers and files are the same everywhere.
+// never calls setlocale(): numbers and files are the same everywhere. All functions run in the main
+// thread, except sb_cli_interrupted(). Options, the interrupt flag and the name of the file that
+// messages name are state of the process.
 #pragma once
 
 #include "app/data/compare.h"
@@ -15,28 +17,33 @@
 
 #include <stdio.h>
 
+// Exit codes of the program.
 enum {
   SB_EXIT_DONE = 0,
   SB_EXIT_INPUT = 1,         // bad input or usage; nothing was written
-  SB_EXIT_NOT_CONVERGED = 2, // results are written and flagged
-  SB_EXIT_IO = 3,
-  SB_EXIT_INTERRUPTED = 130 // what was finished is written and flagged
+  SB_EXIT_NOT_CONVERGED = 2, // a solver did not converge; results are written and flagged
+  SB_EXIT_IO = 3,            // a file cannot be read or written, or memory is short
+  SB_EXIT_INTERRUPTED = 130  // Ctrl-C; what was finished is written and flagged
 };
 
+// A command of the program. All texts are static.
 typedef struct {
-  const char *name;
-  const char *usage; // behind the name
-  const char *help;  // one line
-  int (*main)(int argc, char **argv);
+  const char *name;                   // the first argument, such as "run"
+  const char *usage;                  // options and operands after the name, for --help
+  const char *help;                   // one line
+  int (*main)(int argc, char **argv); // argv[0] is the name; returns the exit code
 } SbCommand;
 
-// All commands, ending with a name of NULL.
+// Returns all commands; the last one has the name NULL.
 const SbCommand *sb_commands(void);
 
-// Takes the options that every command has (--quiet, --progress; with `entries` --no-overwrite),
-// and those of `entries` (NULL-terminated; strings as G_OPTION_ARG_FILENAME, so that bytes pass
-// untouched) out of argv, which keeps its name and the operands. Prints a message and returns false
-// for wrong ones or a number of operands outside [min, max]. Handles --help and exits.
+// Removes from *argv, with their values, the options of `entries` (ends with a name of NULL;
+// strings as G_OPTION_ARG_FILENAME, so that bytes are not converted) and those that every command
+// has:
+// --quiet, --progress and, unless `entries` is NULL, --no-overwrite and --overwrite. (*argv)[0]
+// must be the name of a command and stays; the operands follow it. `notes` (NULL: none) are printed
+// at the end of --help. Returns false, with a message, for a wrong option or if the number of
+// operands is outside of [operands_min, operands_max]. --help prints and ends the program.
 bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int operands_min,
                   int operands_max, const char *notes);
 
@@ -44,165 +51,224 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
 #define SB_CLI_SET_HELP                                                                            \
   "Overrides a parameter; a percentage with a sign, +5% or -5%, changes its value in force"
 
-// Help of --jobs; and its number of threads, one a processor without a text. False with a message.
+// Help of --jobs.
 #define SB_CLI_JOBS_HELP "Threads; default one a processor"
+
+// Reads the value of --jobs, 1 to 256 threads; `text` NULL: one per processor. Returns false with a
+// message if it is not such a number.
 bool sb_cli_jobs(int *threads, const char *text);
 
-// Help of --json where there may be several files.
+// Help of --json of a command that takes several files.
 #define SB_CLI_JSON_HELP "JSON to a file or -; of several files an array"
 
-// "sealbench: ..." on standard error; returns SB_EXIT_INPUT.
+// ---- Messages ----
+
+// Prints "sealbench: " and the formatted text on standard error; returns SB_EXIT_INPUT.
 int sb_cli_fail(const char *format, ...) G_GNUC_PRINTF(1, 2);
 
-// Prints and frees an error; returns its exit code.
+// Prints and frees `error`, which must not be NULL; returns the exit code that belongs to it
+// (SB_EXIT_IO for an error of another domain than SB_APP_ERROR).
 int sb_cli_error(GError *error);
 
-// Says `what` ("--view: there is no view") of a mistyped word, the one most like it in the list
-// `names` ("first|second"), and behind that `see`, or where NULL, the list; SB_EXIT_INPUT.
+// Prints that `word` is unknown: `what` ("--view: there is no view"), the word, the most similar
+// one of `names` ("first|second"), and `see` in parentheses, or if it is NULL the list. Returns
+// SB_EXIT_INPUT.
 int sb_cli_unknown(const char *what, const char *word, const char *names, const char *see);
 
-// Such a list of names counted from 0, each by a call. Owned by the caller.
+// Returns a list for sb_cli_unknown(): the names that `name` returns for 0 to count - 1, joined by
+// "|". Freed by g_free().
 char *sb_cli_names(const char *(*name)(int), int count);
 
-// Exit code of an engine's status, with its message printed unless it is SB_OK.
+// Returns the exit code of a status of the engine; prints the message of `report` unless `status`
+// is SB_OK.
 int sb_cli_status(SbStatus status, const SbReport *report);
 
-// Prints each on a line.
+// Prints each SbIssue of the list on a line.
 void sb_cli_issues(const GPtrArray *issues);
 
-// Reads an option's value with unit; prints what is wrong. `text` NULL: `required` decides.
+// Reads the value of an option, a number with unit ("10 mm/s"), to *out [si]. `si` is the SI unit
+// and `shown` the usual unit for messages, as in sb_quantity_parse(). `text` NULL: the option is
+// absent; *out stays unchanged, and the result is true unless `required`. Returns false with a
+// message for an absent required option or a wrong value.
 bool sb_cli_quantity(double *out, const char *option, const char *text, bool required,
                      const char *si, const char *shown);
 
-// --quiet: no table, no notes and no progress, also with --progress.
+// Returns whether --quiet was given: no tables, no notes and no progress are printed.
 bool sb_cli_quiet(void);
 
-// "sealbench: ..." on standard error where progress is shown too.
+// Prints "sealbench: " and the text on standard error if progress is shown there, too: on a
+// terminal or with --progress, without --quiet.
 void sb_cli_note(const char *format, ...) G_GNUC_PRINTF(1, 2);
 
-// Opens a valve or scene ("-": standard input), applies KEY=VALUE settings and compiles; prints
-// every problem and returns NULL if there is any. It and *model are owned by the caller.
+// ---- Inputs ----
+
+// Opens a valve or scene, shipped or a file ("-": standard input), applies the KEY=VALUE `settings`
+// (ends with NULL; NULL: none) and compiles it to *model, which must be NULL before. Prints all
+// problems and notes. Returns NULL if there is any problem. Freed by sb_document_free(); free
+// *model with sb_model_destroy() in any case.
 SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings);
 
-// Opens a study or a shipped study ("-": standard input) with KEY=VALUE settings for its scene;
-// prints every problem and returns NULL if there is any. Owned by the caller (sb_study_file_free).
+// Opens a study, shipped or a file ("-": standard input), with KEY=VALUE settings for its scene.
+// Prints all problems; returns NULL if there is any. Freed by sb_study_file_free().
 SbStudyFile *sb_cli_open_study(const char *path, char **settings);
 
-// Appends a hint to the only issue of an operand that could not be opened: the most similar name
-// among the shipped files of these kinds (shipped.h) and the files in the operand's folder.
+// Appends a hint to the only issue of an operand that does not exist: the most similar name among
+// the shipped files of `kinds` (bits of SbShippedKind, app/document/shipped.h) and the files in the
+// operand's folder. Does nothing if there is another number of issues.
 void sb_cli_add_file_hint(const char *path, unsigned kinds, GPtrArray *issues);
 
-// Full path of the file that an operand names (sb_shipped_resolve()), for results; "-" (standard
-// input) stays. Owned by the caller (g_free).
+// Returns the full path of the file that an operand names (sb_shipped_resolve()); "-" (standard
+// input) stays. Freed by g_free().
 char *sb_cli_full_path(const char *operand, unsigned kinds);
 
-// One operand of a command that takes several.
+// One operand of a command that takes several files.
 typedef struct {
   const char *path;     // as given
   char *full;           // full path of the file that it names; "-" for standard input
-  char *name;           // of its folder below -o
-  char *folder;         // for its results: that of -o, of several files one in it; NULL without -o
-  SbDocument *document; // NULL: has a problem, which was told
-  SbModel *model;       // compiled from it
+  char *name;           // of its folder below -o: its file name without ending
+  char *folder;         // for its results: -o, or with several files -o/name; NULL without -o
+  SbDocument *document; // NULL: it has a problem, which was printed
+  SbModel *model;       // of the document
 } SbCliFile;
 
+// The operands of a command.
 typedef struct {
-  SbCliFile *file;
-  int count, at;   // at: the one being worked on
-  int heads;       // printed so far
-  int code;        // the highest exit code so far
-  GPtrArray *json; // of char *, a document of each file that has one
+  SbCliFile *file; // [count]
+  int count;
+  int at;          // index of the file being worked on; -1 before the first
+  int heads;       // headings printed so far
+  int code;        // highest exit code so far: the result of the command
+  GPtrArray *json; // of char *: the caller adds the JSON document of each file
 } SbCliFiles;
 
+// Largest number of operands.
 enum { SB_CLI_FILES_MAX = 10000 };
 
-// Opens argv[1] and on; prints every problem. False if nothing can be done: none is sound, standard
-// input is named twice, or results of two files would go to one folder. To be closed in any case.
+// Opens argv[1] to argv[argc - 1] as valves or scenes and prints all problems; `folder` is the
+// value of -o or NULL. Returns false if no file is sound, standard input is named twice, or two
+// files would write to one folder; files->code is then the exit code. Call sb_cli_files_close() in
+// any case.
 bool sb_cli_files_open(SbCliFiles *files, int argc, char **argv, char **settings,
                        const char *folder);
+
+// Frees the documents, models and texts of the files.
 void sb_cli_files_close(SbCliFiles *files);
 
-// The next sound file, which progress and messages name from now on if there are several; NULL
-// after the last, and after an interrupt.
+// Returns the next sound file, borrowed; with several files, progress and messages name it from now
+// on. NULL after the last one and after an interrupt.
 SbCliFile *sb_cli_files_next(SbCliFiles *files);
 
-// Prints the name of the file in front of its table, where there are several.
+// Prints the name of the present file as a heading of its table if there are several files.
 void sb_cli_files_head(SbCliFiles *files);
 
-// Takes the exit code of a file into account.
+// Raises files->code to `code` if that is higher.
 void sb_cli_files_done(SbCliFiles *files, int code);
 
-// Writes the documents: that of the only operand, or an array. Nothing where there are none.
+// Writes files->json to `target` (path or "-"; NULL: not wanted): the document of the only operand,
+// or an array of them. Does nothing if there are none. Failures are printed and raise files->code.
 void sb_cli_files_emit(SbCliFiles *files, const char *target);
 
-// Progress and messages name this file (NULL: none); borrowed.
+// Sets the file that progress and messages name (NULL: none). Borrowed until the next call.
 void sb_cli_name_file(const char *path);
 
-// Whether there is memory for the dense solvers of a run of `model` (NULL: of anything), told
-// before the work; prints what is missing.
+// ---- Checks before the work ----
+
+// Returns whether there is memory for the dense solvers of a run of `model` (NULL: of any model);
+// prints a message if not (exit code SB_EXIT_IO).
 bool sb_cli_has_memory(const SbModel *model);
 
-// Whether `names` (NULL-terminated, below `folder`, which will be made as theirs are) and then the
-// file `target` can be written and are no inputs; any may be NULL. To be called when the inputs are
-// read and before the work. An exit code.
+// Checks before the work that the outputs can be written and are none of the inputs that were read:
+// the files `names` (ends with NULL) in `folder`, which is created with the first of them, and then
+// the file `target`. `folder` with `names`, or `target`, may be NULL. Call it when all inputs are
+// read. Returns SB_EXIT_DONE, or another exit code with a message.
 int sb_cli_check_outputs(const char *folder, char *const *names, const char *target);
 
-// The same for files that do not go into a folder; any may be NULL.
+// As sb_cli_check_outputs() for `count` files; an element may be NULL.
 int sb_cli_check_targets(const char *const *targets, size_t count);
 
-// Tells which files of an earlier result (char *) are still in the folder.
+// Prints a message for each file of an earlier result (`kept`, of char *: names in `folder`) that
+// was not deleted because it was changed since.
 void sb_cli_kept(const char *folder, const GPtrArray *kept);
 
-// Writes `json` to standard output ("-") or a file, whole or not at all; returns an exit code.
+// ---- Output ----
+
+// Writes the text `json` to standard output ("-") or atomically to the file `target`. Returns
+// SB_EXIT_DONE, or another exit code with a message.
 int sb_cli_emit(const char *json, const char *target);
 
-// "  Contact width        0.8886 mm": a figure with at most five digits; "-" if it is not finite.
+// Prints a line of a table on standard output, "  Contact width        0.8886 mm": `value` [si] in
+// the unit `shown` with five significant digits; "-" if it is not finite.
 void sb_cli_figure(const char *label, double value, const char *si, const char *shown);
-void sb_cli_rows(const SbResultRow *row, const void *of); // those with a label
+
+// Prints a line for each row that has a label; `row` ends with a key of NULL, and `of` is the
+// structure from which the rows take their values (app/export/results.h).
+void sb_cli_rows(const SbResultRow *row, const void *of);
+
+// Prints a line of a table with a text in place of a number.
 void sb_cli_line(const char *label, const char *text);
+
+// Prints the warnings below a heading on standard output; nothing if there are none.
 void sb_cli_warnings(const SbWarnings *warnings);
 
-// After this Ctrl-C, SIGTERM and, unless it was ignored, SIGHUP only set a flag; a second one ends
-// the program at once, but not between the files of one result.
+// ---- Interrupts and progress ----
+
+// From this call on, Ctrl-C, SIGTERM and, unless it was ignored, SIGHUP set a flag. A second signal
+// ends the program immediately, but not while the files of one result are being replaced.
 void sb_cli_catch_interrupts(void);
+
+// Returns whether such a signal came. Any thread; the parameter is not used, so that this can be a
+// `cancelled` callback.
 bool sb_cli_interrupted(void *unused);
 
-// Progress on standard error: a bar on a terminal, otherwise what --progress asks for: a line every
-// 10 %, or a JSON object every percent.
+// Progress on standard error: a bar on a terminal; otherwise what --progress requests, a line every
+// 10 % or a JSON object every percent; nothing with --quiet.
 typedef struct {
-  const char *what; // "drawing ", in front of the percentage; may be empty
-  int last;         // last percent (bar, JSON) or decile (lines) shown
+  const char *what; // in front of the percentage, such as "drawing "; may be empty; borrowed
+  int last;         // last percent (bar, JSON) or tenth (lines) that was printed
   int width;        // columns of the line that the bar printed last
-  gint64 start;     // [us]
+  gint64 start;     // of the work, by g_get_monotonic_time() [us]
 } SbProgress;
 
+// Begins; nothing is printed yet.
 void sb_progress_start(SbProgress *progress, const char *what);
+
+// Prints the fraction done, 0 to 1, if it differs from what was printed last.
 void sb_progress_update(SbProgress *progress, double fraction);
+
+// Removes the bar.
 void sb_progress_end(SbProgress *progress);
 
-// Computes a study with progress and interrupts; prints what is wrong. SB_EXIT_DONE or
-// SB_EXIT_NOT_CONVERGED (with gaps) leave *out to be written, anything else does not.
+// ---- Work that several commands share ----
+
+// Computes a drawn study with progress and interrupts. Returns SB_EXIT_DONE, or with a message
+// SB_EXIT_NOT_CONVERGED (points are missing); both leave a complete *out. With another exit code,
+// *out is not to be written. Freed as sb_study_make() states.
 int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model);
 
-// Help of --measured; and the measured loop that it names (a file or a shipped example), read as
-// the scene's group [data] of that file says, or without `operand` that of the scene's first group.
-// NULL without either, and with messages where *code is no SB_EXIT_DONE. Owned by the caller.
+// Help of --measured.
 #define SB_CLI_MEASURED_HELP "Force over displacement from a test machine, any table of numbers"
+
+// Reads the measured loop that --measured names (a file or a shipped example), with the keys of the
+// scene's group [data] for this file if there is one. `operand` NULL: the file of the scene's first
+// group. Returns NULL with *code SB_EXIT_DONE if there is neither, or with messages and another
+// code if it cannot be read. Freed by sb_measured_free().
 SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *operand);
 
-// Reads all groups of data and adds their problems to `issues`; prints what was recognised if
-// `print` is set and unless --quiet is given.
+// Reads the files of all groups [data] and appends their problems to `issues`; prints what was
+// recognised if `print` is set, unless --quiet is given.
 void sb_cli_check_data(const SbDocument *document, bool print, GPtrArray *issues);
 
-// Prints what was recognised in a measured table, a line each.
+// Prints what was recognised in a measured table (sb_measured_text()).
 void sb_cli_recognised(const SbMeasured *measured);
 
-// Prints what was recognised, the stages and the differences.
+// Prints what was recognised, the stages and the differences of a comparison.
 void sb_cli_comparison(const SbComparison *comparison);
 
-// Returns the name of the measured loop and its differences from the run in one line. Owned by the
-// caller (g_free).
+// Returns the name of the measured loop and its differences from the run in one line. Freed by
+// g_free().
 char *sb_cli_comparison_brief(const SbComparison *comparison);
+
+// ---- The commands: argv[0] is the command's name; each returns the exit code ----
 
 int sb_command_run(int argc, char **argv);
 int sb_command_check(int argc, char **argv);
@@ -228,57 +294,77 @@ int sb_command_report(int argc, char **argv);
 int sb_command_open(int argc, char **argv);
 int sb_command_tui(int argc, char **argv);
 
-// ---- Commands that need a study file's answers ----
+// ---- Commands that compute the samples of a study file ----
 
-// Who computes them (app/study/answers.h); borrowed. NULL, as at the start: threads of this
-// process. Whether this process only computes what another one's pool asks.
+// Sets what computes the samples (app/study/answers.h); borrowed. NULL, the initial value: threads
+// of this process.
 void sb_cli_set_pool(const SbAnswerPool *pool);
+
+// Returns whether this process only computes samples that another process with a pool requests; it
+// then prints and writes nothing.
 bool sb_cli_answers_elsewhere(void);
 
-// The store's file: `given`, or NAME.store next to the study file; in the current folder if the
-// study belongs to the installed program or its folder cannot be written. NULL for a study from
-// standard input. Owned by the caller.
+// Returns the path of the store: `given`, or if it is NULL, NAME.store next to the study file (in
+// the current folder if the study belongs to the installed program or its folder is not writable).
+// NULL if `given` is NULL and the study is from standard input. Freed by g_free().
 char *sb_cli_store_path(const char *given, const SbStudyFile *study);
 
+// Options of a computation of samples.
 typedef struct {
-  const char *store; // NULL: in memory
-  int threads;
-  size_t shard, shards; // as SbQuestions
+  const char *store;    // path of the store; NULL: in memory
+  int threads;          // number of threads, from 1
+  size_t shard, shards; // only the samples i with i % shards == shard; shards 0: all samples
 } SbCliAsk;
 
-// What there is once they are computed, or interrupted; borrowed.
+// The samples once they are computed, or those that are finished after an interrupt. All is
+// borrowed and valid during the callback.
 typedef struct {
   const SbStudyFile *study;
-  const double *value; // [samples][vary]
-  const SbStudyDrawn *drawn;
-  const SbAnswers *answers;
-  const char *cpus;
-  const char *store; // path, NULL: in memory
+  const double *value;       // [samples][vary]: the parameters [SI; index of a choice]
+  const SbStudyDrawn *drawn; // points of the method (app/study/shares.h)
+  const SbAnswers *answers;  // figures and status of each sample
+  const char *cpus;          // types of CPU that computed them, for the user
+  const char *store;         // path; NULL: in memory
 } SbCliAnswers;
+
+// Prints and writes the results; returns an exit code.
 typedef int (*SbCliAnswered)(void *data, const SbCliAnswers *of);
 
-// Computes them and calls `answered`, whose exit code counts with that of the samples.
+// Computes the samples of `study` that the store does not have, with progress and interrupts, and
+// calls `answered` once, also after an interrupt but not after another error. Returns the highest
+// of the exit codes of the work, of `answered` and of the samples (SB_EXIT_NOT_CONVERGED if a
+// solver did not converge in one). Failures are printed.
 int sb_cli_answer(const SbStudyFile *study, const SbCliAsk *ask, SbCliAnswered answered,
                   void *data);
 
-// ---- Commands that answer a study file with a folder ----
+// ---- Commands that write a folder for a study file: design, calibrate ----
 
+// Options of these commands. Initialised by sb_cli_study_parse(), freed by sb_cli_study_clear().
 typedef struct {
-  char *folder, *jobs, *json;
-  char **settings;
-  int threads;
+  char *folder, *jobs, *json; // values of -o, --jobs, --json; NULL: absent
+  char **settings;            // values of --set, ends with NULL; NULL: none
+  int threads;                // from --jobs
 } SbCliStudyOptions;
 
-// Parses -o, --jobs, --set, --json and one file.
+// Parses -o, --jobs, --set, --json and one operand, as sb_cli_parse(); `folder_help` is the help of
+// -o. Returns false with a message. Clear the options in any case.
 bool sb_cli_study_parse(SbCliStudyOptions *out, int *argc, char ***argv, const char *folder_help);
+
+// Frees the texts of the options.
 void sb_cli_study_clear(SbCliStudyOptions *options);
 
-// What a command makes of a study file: whether it asks for that (else an issue), the names of
-// what is written into the folder, and the work, whose exit code it returns.
+// The work of such a command.
 typedef struct {
+  // Returns whether the study file has the groups that the command needs; else appends an issue.
   bool (*asks)(const SbStudyFile *study, const char *path, GPtrArray *issues);
-  void (*names)(GPtrArray *names, const SbStudyFile *study); // of char *, owned by the array
+  // Appends the names of the files that `solve` writes into the folder (char *, owned by the
+  // array).
+  void (*names)(GPtrArray *names, const SbStudyFile *study);
+  // Computes, prints and writes; returns the exit code.
   int (*solve)(const SbCliStudyOptions *options, const SbStudyFile *study);
 } SbCliStudyWork;
+
+// Opens the study file `path`, checks it and the outputs, and calls work->solve(). Returns the exit
+// code; failures are printed.
 int sb_cli_study_run(const SbCliStudyOptions *options, const char *path,
                      const SbCliStudyWork *work);

@@ -4,15 +4,15 @@
 #include "app/cli/plots.h"
 #include "app/run/cases.h"
 
-// What is printed; everything is borrowed.
+// The run to print; all pointers are borrowed for the call.
 typedef struct {
-  const char *title;
-  const SbRun *run;
-  bool converged;               // sb_results_converged()
-  const SbCaseVerdict *verdict; // [SB_VERDICT_COUNT]
+  const char *title;            // of the scene
+  const SbRun *run;             // finished
+  bool converged;               // sb_results_converged() of the run
+  const SbCaseVerdict *verdict; // [SB_VERDICT_COUNT], of sb_cases_judge()
   const SbComparison *measured; // NULL: no measured loop
   const char *folder;           // that the results were written to; NULL: none
-  const SbCliPlots *plots;
+  const SbCliPlots *plots;      // whether the loop is drawn
 } SbCliRunText;
 
 // Largest number of lines of a summary.
@@ -22,13 +22,15 @@ enum { SB_CLI_SUMMARY_LINES = 24 };
 // errors, the number of warnings and the loop, in at most SB_CLI_SUMMARY_LINES lines that fit the
 // terminal (80 columns elsewhere). Long reasons are wrapped while enough lines remain for the loop,
 // else they end with an ellipsis. A terminal with fewer than 80 columns gets more lines instead.
-// The loop takes the remaining lines; --no-plot leaves it out.
+// The loop takes the remaining lines; --no-plot omits it.
 void sb_cli_run_summary(const SbCliRunText *of);
 
-// Prints all brief figures, the stages, the verdict, the warnings and the solver's state, then the
-// comparison with a measured loop and, where charts are drawn, the loop.
+// Prints all figures of short tables (figures.def), the stages, the verdict, the warnings and the
+// state of the solvers, then the comparison with a measured loop and, if charts are drawn, the
+// loop.
 void sb_cli_run_table(const SbCliRunText *of);
 
-// Returns the answer to the question `kind`, which has a deciding figure: the figure with its
-// limit, the reason and the case. One line in plain ASCII numbers. Owned by the caller (g_free).
+// Returns the answer to question `kind` (of SbVerdictKind), which must have a deciding figure: the
+// figure with its limit, the reason and the case, on one line. `verdict` is the answer of that
+// question. Freed by g_free().
 char *sb_cli_verdict_text(const SbSummary *summary, int kind, const SbCaseVerdict *verdict);

@@ -1,22 +1,22 @@
-// How long a solve takes: the median of 20 after one warm-up, within a time budget.
+// Time of a solve: the median of up to 20 calls after one warm-up, within a time budget.
 #pragma once
 
 #include "engine/base/status.h"
 
 #include <stddef.h>
 
+// Note of commands that print such a time.
 #define SB_TIMING_NOTE                                                                             \
-  "The time shown (wall_s) is the median of up to 20 cold solves after a warm-up; fewer where "    \
-  "they "                                                                                          \
+  "The time shown (wall_s) is the median of up to 20 cold solves after a warm-up; fewer if they "  \
   "would last more than half a second together."
 
-// Median of count > 0 times, which are sorted.
+// Sorts `times` in place and returns their median; count > 0.
 double sb_timing_middle(double *times, size_t count);
 
-// Solves once and reports its time [s].
+// Solves once, from scratch, and writes the time that the solve took to *wall_s [s].
 typedef SbStatus (*SbTimedSolve)(void *data, double *wall_s);
 
-// Calls `solve` once, and while it succeeds and the budget of 0.5 s lasts up to 20 times more.
-// Returns the first status that is not SB_OK; *wall_s is the median of the calls after the first
-// (of the first if there was no other).
+// Calls `solve` once, and while it returns SB_OK and the budget of 0.5 s lasts, up to 20 times
+// more. Returns the first status that is not SB_OK, else SB_OK. *wall_s is the median of the calls
+// after the first (of the first if there was no other) [s].
 SbStatus sb_timing_median(double *wall_s, SbTimedSolve solve, void *data);

@@ -1,21 +1,25 @@
-// Lines that wrap at words, for people at a terminal; files and pipes get every line as it is.
+// Lines that wrap at words on a terminal; files and pipes get every line unchanged.
 #pragma once
 
 #include <glib.h>
 
-// Columns of a terminal, 80 where it does not report them; 0: the descriptor is not a terminal.
+// Returns the number of columns of the terminal `fd` (80 if it does not report them), or 0 if the
+// descriptor is not a terminal.
 int sb_wrap_columns(int fd);
 
-// Columns that a text takes on a terminal.
+// Returns the number of columns that a UTF-8 text takes on a terminal.
 int sb_wrap_width(const char *text);
 
-// `text`, one line without its end, broken at spaces so that each line has at most `columns`
-// columns. Continuation lines are indented to the last column of the line, or by four more spaces
-// than the line. Lines with escape sequences stay as they are, and so do words that are too long.
-// Owned by the caller (g_free).
+// Returns the one line `text` (without newline) broken at spaces, so that each line has at most
+// `columns` columns; unchanged if `columns` is too small (0, for example). Continuation lines are
+// indented to the start of the last column of a table line, else by four more spaces than the line.
+// Lines with escape sequences and words that are too long are not broken. Freed by g_free().
 char *sb_wrap_line(const char *text, int columns);
 
-// From now on standard output wraps its lines if it is a terminal; to be called once, before
-// anything is printed. sb_wrap_end() prints the rest of a line that has no end.
+// Replaces `stdout` by a stream that wraps its lines if standard output is a terminal; does nothing
+// otherwise. Call it once, before anything is printed, in the main thread.
 void sb_wrap_standard_output(void);
+
+// Prints the rest of a line that has no newline and ends the wrapping. To be called before the
+// program ends.
 void sb_wrap_end(void);

@@ -1,43 +1,56 @@
-// A measured loop beside a computed one: the run's force over the stem's displacement, both ways,
-// and what the measurement differs by at equal displacement.
+// Comparison of a measured loop with a computed one: force against stem displacement, on the
+// in-stroke and on the return, and the differences at equal displacement.
 #pragma once
 
 #include "app/data/measured.h"
 
 #include "engine/valve/run/run.h"
 
-// A run's first cycle while the stem slides: from B to D, and from E to the end. Zeroed is empty;
-// memory is kept from one run to the next.
+// The first cycle of a run while the stem slides: index 0 is the in-stroke from stage B to D, index
+// 1 the return from E to the end. Initialise it with zeros, which is an empty loop.
 typedef struct {
-  size_t count[2], room[2];                  // in-stroke, return
-  double *displacement[2], *force[2];        // in the order of time: growing, falling
-  double stage_displacement[SB_STAGE_COUNT]; // NaN where it was not reached
-  double stage_force[SB_STAGE_COUNT];
+  size_t count[2], room[2]; // points; capacity of the arrays
+  // [count], in the order of time: strictly increasing on the in-stroke, decreasing on the return.
+  double *displacement[2];                   // of the stem [m], from rest
+  double *force[2];                          // of the drive on the stem [N]
+  double stage_displacement[SB_STAGE_COUNT]; // just before the event [m]; NaN: not reached
+  double stage_force[SB_STAGE_COUNT];        // [N]
 } SbLoop;
 
-// Takes the loop of a run that has ended; false where it has no stroke.
+// Replaces the content of `loop` with the loop of a finished run, and reuses its memory. Returns
+// false if the in-stroke has fewer than two points; the loop is then not for a comparison, but
+// still to be cleared.
 bool sb_loop_take(SbLoop *loop, const SbRun *run);
+
+// Frees the arrays; the loop is empty afterwards.
 void sb_loop_clear(SbLoop *loop);
 
-// Force at a displacement, straight lines between frames, the first and last one's force up to a
-// hundredth of the stroke beyond; NaN elsewhere.
+// Returns the force of the loop [N] at a displacement [m], linear between points, on the in-stroke
+// (`way` 0) or on the return (1). Up to 1 % of the stroke outside the points it is the force of the
+// nearest one; further outside, and without two points, NaN.
 double sb_loop_force(const SbLoop *loop, int way, double displacement);
 
+// Largest number of points of a comparison.
 enum { SB_COMPARISON_POINTS = 200000 };
 
+// Differences between a measured and a computed loop.
 typedef struct {
   const SbMeasured *measured; // borrowed
-  size_t count, outside;      // outside: where the run has no force
-  SbMeasuredPoint *point;     // rows, or means of them where there are more
-  double *residual;           // measured less model [N]; NaN outside
-  double rms, mean, most;     // of the residuals [N]; NaN without any; most: greatest magnitude
-  double model_displacement[SB_STAGE_COUNT], model_force[SB_STAGE_COUNT]; // NaN: not reached
-  SbMeasuredBand band; // of several cycles; end 0: there is one
+  size_t count;               // points
+  size_t outside;             // of these, points at displacements where the loop has no force
+  SbMeasuredPoint *point;     // [count]: measured rows, or means of neighbouring rows
+  double *residual;           // [count]: measured minus computed force [N]; NaN: outside
+  double rms, mean;           // of the residuals, weighted by rows [N]; NaN without a residual
+  double most;                // largest magnitude of a residual [N]; NaN without a residual
+  double model_displacement[SB_STAGE_COUNT]; // of the loop, just before the event [m]
+  double model_force[SB_STAGE_COUNT];        // [N]; NaN: stage not reached
+  SbMeasuredBand band; // scatter of the measured cycles; `end` is 0 if only one cycle is used
 } SbComparison;
 
-// Compares with a run's loop. Owned by the caller.
+// Compares `measured` with the loop of a run. `measured` is borrowed: it must outlive the result.
+// `loop` is only read. Freed by sb_comparison_free().
 SbComparison *sb_comparison_create(const SbMeasured *measured, const SbLoop *loop);
 
-// Takes NULL.
+// Frees a comparison, not the measured loop; takes NULL.
 void sb_comparison_free(SbComparison *comparison);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbComparison, sb_comparison_free)

@@ -1,7 +1,7 @@
-// A measured loop of force over displacement, from any table of numbers (app/base/table.h), made
-// comparable with a run: SI, compression positive, the in-stroke growing, the stem's own
-// displacement from where it rests. What of that was found in the data, and how, is kept beside it
-// and told; what a group [data NAME] says stands instead:
+// A measured loop of force against displacement, read from a table of numbers (app/base/table.h)
+// and made comparable with a run: SI units, compression positive, displacement increasing on the
+// in-stroke, and the stem's own displacement from its rest position. SbMeasured states what was
+// found in the data and how. Keys of the group [data NAME] replace what would be found:
 //
 //   signal = force over displacement
 //   separator = comma | semicolon | tab | blank     decimal = point | comma
@@ -9,19 +9,18 @@
 //   columns = time, displacement, -, force          in the file's order, - for others
 //   units = s, mm, -, N
 //   speed = 20 mm/min                                of the crosshead, without a displacement
-//   direction = as-is | force | displacement | both  which of them to turn round
+//   direction = as-is | force | displacement | both  columns whose sign is reversed
 //   zero = as-is | 0.31 mm, 0.2 N                    readings at rest and without a load
 //   compliance = none | 0.012 mm/N                   of the machine between crosshead and stem
-//   cycle = all | 2                                  calibrate: 1, 10, 40, a curve each
-//   actuation = 1                                    calibrate: since new, of the file's first
-//   cycle
+//   cycle = all | 2                                  `calibrate` also accepts a list 1, 10, 40
+//   actuation = 1                                    number since new of the file's first cycle
 //
-// Direction: friction takes energy out, so the force is greater on the way in; canister pressure
-// pushes out, so its mean is positive. Compliance: the slope of displacement over force while the
-// stem still rests, before the first slip. Zero: the displacement there, the force of the approach
-// before it. Stages B to F: see measured_find.c. Without a column of displacement, time alone makes
-// it at a constant speed, out to the greatest force and back: that of one cycle, as where the next
-// begins the time does not show.
+// How these are found. Direction: friction dissipates energy, so the force is greater on the
+// in-stroke; the canister's pressure pushes outwards, so the mean force is positive. Compliance:
+// the slope of displacement against force before the first slip, while the stem is at rest. Zero:
+// the displacement of these rows, and the mean force of the approach before them. Stages B to F:
+// see measured_find.c. Without a column of displacement, the displacement is speed times time up to
+// the maximum force and back; then only the first cycle is used.
 #pragma once
 
 #include "app/base/table.h"
@@ -29,104 +28,124 @@
 
 #include "engine/valve/run/frame.h"
 
+// Columns that are used.
 typedef enum { SB_CHANNEL_TIME, SB_CHANNEL_DISPLACEMENT, SB_CHANNEL_FORCE, SB_CHANNELS } SbChannel;
 
-// Borrowed.
+// Returns "time", "displacement" or "force".
 const char *sb_channel_name(SbChannel channel);
 
+// Origin of a value.
 typedef enum {
-  SB_HOW_ASSUMED, // the data do not show it: taken as it is in the file
-  SB_HOW_FOUND,   // in the data
-  SB_HOW_SAID     // by a key
+  SB_HOW_ASSUMED, // the data do not show it: the value of the file is used unchanged
+  SB_HOW_FOUND,   // found in the data
+  SB_HOW_SAID     // specified by a key of the group
 } SbHow;
 
-// Rows of a cycle: the in-stroke from `begin`, the return from `turn` to before `end`.
+// Row indices of a cycle: the in-stroke is from `begin` up to `turn`, the return from `turn` up to,
+// but without, `end`.
 typedef struct {
   size_t begin, turn, end;
 } SbMeasuredCycle;
 
+// Largest number of cycles; further ones are ignored.
 enum { SB_MEASURED_CYCLES_MAX = 100000 };
 
+// A stage of the cycle, B to F, as seen in the data. Without `found` only `reason` has a value.
 typedef struct {
   bool found;
-  double displacement, force; // SI
-  double deviation;           // of the force, by noise and distance of the rows [N]
-  const char *reason;         // why it was not found; static
+  double displacement; // of the stem [m]
+  double force;        // just before the event [N]
+  double deviation;    // standard deviation of the force by noise and distance of the rows [N]
+  const char *reason;  // why it was not found; static. NULL if found
 } SbMeasuredStage;
 
+// A file that was read. The arrays and strings belong to this structure.
 typedef struct {
-  char *name; // of the file, for people
-  // What the file is.
+  char *name; // of the file, without its folder
+  // Format of the file.
   SbTableDialect dialect;
-  size_t header_lines, skipped;
-  int skipped_line;
-  char *skipped_text;
+  size_t header_lines, skipped; // lines before the first row; lines between rows that are none
+  int skipped_line;             // number of the first of these, from 1
+  char *skipped_text;           // its text; NULL: none
   struct {
-    int index; // in the file, from 0; -1: none
-    char *name, *unit;
-    SbHow how;
+    int index;  // in the file, from 0; -1: none
+    char *name; // as the file's header has it
+    char *unit; // as the file has it or a key states it; "clock": time of day
+    SbHow how;  // origin of the assignment
   } column[SB_CHANNELS];
-  // Rows.
-  size_t count, dropped; // dropped: rows with an empty or unreadable cell
-  double *time;          // [s], NULL without
-  double *displacement;  // of the stem [m]
-  double *force;         // [N]
-  double speed;          // that made the displacement of the time [m/s]; 0: a column did
-  SbHow speed_how;       // assumed: the drive's
-  size_t behind;         // rows behind the one cycle of a time, left out
-  // What was found or said.
-  SbHow direction, zero, force_zero, compliance;
-  bool turned_displacement, turned_force;
-  double at_rest;                   // crosshead's reading, in the file's direction turned [m]
-  double no_load;                   // force's reading [N]
-  size_t no_load_row, no_load_rows; // it is the mean of so many from there
-  double no_load_deviation; // its standard deviation by the noise, 0 where it is not found [N]
-  double slope;             // compliance [m/N]
-  GArray *cycle;            // of SbMeasuredCycle
-  size_t first, last;       // cycles in use, last included
-  double noise;             // standard deviation of the force [N]
-  SbMeasuredStage stage[SB_STAGE_COUNT]; // of the first cycle in use
+  // Rows, in the order of the file. Displacement and force are corrected as above.
+  size_t count;         // rows in use
+  size_t dropped;       // rows left out for an empty or unreadable cell
+  double *time;         // [count] [s]; NULL: no such column
+  double *displacement; // [count], of the stem from its rest position, positive inwards [m]
+  double *force;        // [count], on the stem, without load 0, compression positive [N]
+  double speed;         // that converted time to displacement [m/s]; 0: a column gives displacement
+  SbHow speed_how;      // SB_HOW_ASSUMED: the speed of the scene's drive
+  size_t behind;        // with `speed`: rows after the first cycle, left out of `count`
+  // Corrections.
+  SbHow direction, zero, force_zero, compliance; // origin of the values below
+  bool turned_displacement, turned_force;        // the column's sign was reversed
+  double at_rest; // subtracted from the displacement after reversal and compliance [m]
+  double no_load; // subtracted from the force after reversal [N]
+  size_t no_load_row, no_load_rows; // first row and number of rows whose mean `no_load` is
+  double no_load_deviation;         // standard deviation of that mean by noise [N]; 0: not found
+  double slope;                     // compliance: slope times corrected force is subtracted [m/N]
+  GArray *cycle;                    // of SbMeasuredCycle, in the order of time; at least one
+  size_t first, last;               // indices of the cycles in use, `last` included
+  double noise; // standard deviation of the force's noise [N]; NaN: too few rows
+  SbMeasuredStage stage[SB_STAGE_COUNT]; // of cycle `first`
 } SbMeasured;
 
-// Reads a group's file; `speed` is that of the drive beside it [m/s], for a record over time alone
-// (0: the drive has none). NULL with at least one issue. Owned by the caller.
+// Reads the file of the group `data`. `speed` is the speed of the scene's drive [m/s], for a file
+// without displacement (0: the drive has none, see sb_measured_speed()). Returns NULL with at least
+// one issue: the file cannot be read, its format, columns or units are ambiguous or missing, fewer
+// than 8 rows, no stroke, or a value out of range. `data` may be freed afterwards. Freed by
+// sb_measured_free().
 SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues);
 
-// The same from memory.
+// As sb_measured_load(), from the `length` bytes of a file; data->path is used for messages only.
 SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
                               GPtrArray *issues);
 
-// The speed of the drive with these values of drive.kind and drive.speed; 0 but for the machine.
+// Returns the `speed` for sb_measured_load() [m/s] from the values of drive.kind (an SbDriveChoice)
+// and drive.speed [m/s]: the latter for the test machine, 0 for other drives.
 double sb_measured_speed(double kind, double speed);
 
-// Takes NULL.
+// Frees a measured loop; takes NULL.
 void sb_measured_free(SbMeasured *measured);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbMeasured, sb_measured_free)
 
-// What was recognised, a line each, as people read it: "separator  semicolon". Owned by the caller.
+// Returns what was found, for the user, several lines that end with a newline:
+// "separator semicolon, decimal comma, utf-8, 3 header lines". Freed by g_free().
 char *sb_measured_text(const SbMeasured *measured);
 
-// The same as keys of a group [data], which make it what is said. Owned by the caller.
+// Returns what was found as lines "key = value" of a group [data], which fix it for the next time
+// that the file is read. Freed by g_free().
 char *sb_measured_keys(const SbMeasured *measured);
 
-// ---- Rows that can be compared: the stem slides, both ways ----
+// ---- Rows for a comparison: those where the stem slides ----
 
+// A row, or the mean of neighbouring rows.
 typedef struct {
-  double displacement, force; // means
-  double weight;              // rows that they are of
-  int way;                    // 0 in-stroke, 1 return
+  double displacement; // of the stem [m]
+  double force;        // [N]
+  double weight;       // number of rows in the mean
+  int way;             // 0: in-stroke, 1: return
 } SbMeasuredPoint;
 
-// Those of the cycles in use, in order; more than `count_max` become means of as many neighbours.
-// Rows at rest, on the stop and within 1 % of the stroke of either are left out. Owned by the
-// caller (g_free).
+// Returns the rows of the cycles in use, in the order of time, and their number in *count. Rows at
+// rest, on the stop, and within 1 % of the stroke of either are left out. If there are more than
+// `count_max` rows, means of equally many neighbours on one stroke take their place (the result can
+// then have two more points for each cycle). Freed by g_free().
 SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *measured, size_t count_max);
 
-// Least and greatest force of the cycles in use in equal pieces of the stroke up to `end`; NaN in a
-// piece without a row.
+// Scatter of several cycles: the stroke from 0 to `end` [m] is divided into equal pieces.
 enum { SB_MEASURED_BAND = 200 };
 typedef struct {
-  double end;                           // [m]
-  double force[2][SB_MEASURED_BAND][2]; // way; least, greatest [N]
+  double end; // [m]
+  // [way][piece][0 minimum, 1 maximum] of the force in the cycles in use [N]; NaN: no row there
+  double force[2][SB_MEASURED_BAND][2];
 } SbMeasuredBand;
+
+// Computes the scatter of the cycles in use.
 void sb_measured_band(SbMeasuredBand *out, const SbMeasured *measured);

@@ -1,11 +1,14 @@
-// What measured.c leaves to measured_find.c.
+// Interface between measured.c, which reads and scales the rows, and measured_find.c.
 #pragma once
 
 #include "app/data/measured.h"
 
-// Turns, zeroes and cuts the rows as they are in the file (SI), and finds the stages; `data` says
-// what is not to be found. False with an issue.
+// Second half of reading a file. On entry `measured` has its columns and rows in SI as the file has
+// them: count, time, displacement (crosshead reading) and force. Reverses signs, finds cycles,
+// zero, compliance and noise, corrects the rows in place, and finds the stages. Keys of `data`
+// (direction, zero, compliance, cycle) replace what would be found. Returns false with at least one
+// issue; the rows may then be partly corrected.
 bool sb_measured_find(SbMeasured *measured, const SbData *data, GPtrArray *issues);
 
-// A cycle of those found; borrowed.
+// Returns the rows of cycle `index`, from 0, below measured->cycle->len; borrowed.
 const SbMeasuredCycle *sb_measured_cycle(const SbMeasured *measured, size_t index);

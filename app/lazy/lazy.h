@@ -5,16 +5,19 @@
 // library a program is linked with one stub per function (stubs.py generates them from the
 // undefined symbols of engine and app). A stub jumps through a table; at its first call it opens
 // the library and stores the function's address there. If the library or the function is missing,
-// the program prints that and ends with exit code 3, as it would otherwise not start at all. Safe
-// in all threads.
+// the stub prints that to standard error and ends the program with exit code 3. A feature that a
+// program can be without therefore calls sb_lazy_missing() before its first call of the library.
+//
+// All functions here and all stubs may be called from any thread at any time.
 #pragma once
 
-// Libraries that depend on each other; they are opened together. The groups are named in
-// meson.build.
+// A set of libraries that depend on each other; they are opened together and never closed. The
+// groups are named in meson.build.
 typedef struct SbLazyGroup SbLazyGroup;
 
-// Opens a group without a call, for a feature that a program can be without. Returns NULL, or why
-// the group cannot be opened: a text of the calling thread until its next call.
+// Opens a group if it is not open yet. Returns NULL if the group is open, so that its functions can
+// be called. Otherwise returns the reason as a sentence of the dynamic linker; the text belongs to
+// the calling thread and is valid until this thread's next call of sb_lazy_missing() or dlerror().
 const char *sb_lazy_missing(SbLazyGroup *group);
 
 extern SbLazyGroup sb_lazy_algebra; // OpenBLAS and LAPACKE

@@ -1,6 +1,7 @@
-// Headers of libraries that most files of app/ need, compiled once per build (c_pch). Each file
-// still includes what it uses: builds with -Db_pch=false, and ./check's with clang, have no
-// precompiled headers.
+// Headers of libraries that most files of app/ need, compiled once per build (Meson's `c_pch`).
+// The compiler includes this header before each source of app/; it declares nothing itself and no
+// file includes it. Each file still includes the headers that it uses, because builds with
+// -Db_pch=false and builds with clang in ./check have no precompiled headers.
 #include <gio/gio.h>
 #include <glib.h>
 #include <math.h>

@@ -1,24 +1,31 @@
-// The cases of a scene: each is the scene with some values replaced, and the verdict takes the
-// worst answer of the scene and its cases.
+// Verdict of a scene with cases: the worst answer of the scene and of its [cases], each of which is
+// the scene with some values replaced.
 #pragma once
 
 #include "app/document/document.h"
 #include "engine/valve/sealbench.h"
 
-// One question's worst answer, and the case that gives it; NULL: the scene itself. Borrowed from
-// the document.
+// The worst answer to one question of the verdict.
 typedef struct {
-  SbVerdict of;
-  const char *name;
+  SbVerdict of;     // the answer, with its figure, value, limit [SI of the figure] and reason
+  const char *name; // of the case that gives it, borrowed from the document; NULL: the scene itself
 } SbCaseVerdict;
 
-// Answers of `run`, which is finished, and of every case of its document: run one after the other
-// by the same models, but without what no question asks for (profiles, interior fields, studies,
-// the later actuations of a life). A case that fails leaves its questions without an answer, unless
-// the answer is no; `problems` (of char *) gets a sentence that names it. SB_OK, or the last status
-// that is not; cancelled, the cases left are not computed.
+// Computes all cases of `document` one after the other, with their own models but without profiles,
+// interior fields, studies and later actuations of a life, and writes to out[question] (in the
+// order of SbVerdictKind) the worst answer of `run` and of all cases. `run` is the finished run of
+// the scene itself. `hooks` (NULL: none) receives the progress over all cases, 0 to 1, and may
+// cancel.
+//
+// Returns SB_OK, or the status of the last case that did not end with SB_OK: SB_ERROR_INPUT if its
+// values are inconsistent, SB_ERROR_CANCELLED, or the status of sb_run_execute(). `out` is complete
+// in any case. A case that failed makes the answer unknown, with the problem as its reason, unless
+// another answer is no. Each failed case, except one that was cancelled, adds a sentence with its
+// name to `problems` (of char *, with g_free() as its free function). After a cancellation the
+// remaining cases are not computed.
 SbStatus sb_cases_judge(SbCaseVerdict out[SB_VERDICT_COUNT], const SbRun *run,
                         const SbDocument *document, const SbRunHooks *hooks, GPtrArray *problems);
 
-// Adds the cases to the plan of their scene. Nothing where there are none.
+// Appends one item to the plan of the scene: "N cases", with the sum of the costs of all cases [s]
+// and the largest of their errors. Does nothing if there are no cases, or if the plan is full.
 void sb_cases_plan(SbPlan *plan, const SbDocument *document);

@@ -1,77 +1,90 @@
-// The engine's own thread: one run at a time, the newest request wins, results are kept as long as
-// anybody holds them.
+// The engine's own thread: it computes one run at a time, and a newer request replaces an older
+// one. Results are reference counted and live until their last reference is released.
 //
-// Any thread may call any function here. Hand-over is by a mutex and C11 atomics only, so that the
-// thread sanitizer sees all of it.
+// Unlike the general rule, all functions here may be called from any thread at any time, also for
+// one object, except as stated at sb_runner_destroy(). A handle must be referenced by the caller.
 #pragma once
 
 #include "engine/valve/sealbench.h"
 
-// One run, computed or being computed. Reference counted.
+// One run, being computed or computed.
 typedef struct SbRunHandle SbRunHandle;
 
+// Adds a reference and returns `handle`.
 SbRunHandle *sb_run_handle_ref(SbRunHandle *handle);
 
-// Takes NULL. The last one frees the run.
+// Removes a reference; the last one destroys the run. `handle` may be NULL.
 void sb_run_handle_unref(SbRunHandle *handle);
 
-// One of a run that has ended well and that nobody executes; takes it over. NULL if memory is
-// short: the run is gone then.
+// Returns a handle with one reference, status SB_OK and ticket 0 for a run that has ended with
+// SB_OK outside of a runner. The handle owns `run` from now on. NULL if memory is short; then `run`
+// is destroyed.
 SbRunHandle *sb_run_handle_of(SbRun *run);
 
-// The run, whose published frames may be read at any time; NULL if it could not be created (see the
-// report). Borrowed while the handle is held.
+// Returns the run. Its published frames (sb_run_frames()) may be read while it is computed, its
+// summary only when sb_run_handle_is_done(). NULL if the run could not be created: see the status.
+// Borrowed from the handle.
 const SbRun *sb_run_handle_run(const SbRunHandle *handle);
 
-// Number of the request that made it.
+// Returns the ticket of the request that started the run (sb_runner_submit()).
 unsigned sb_run_handle_ticket(const SbRunHandle *handle);
 
-// Fraction done, 0 to 1.
+// Returns the fraction of the run that is computed, 0 to 1.
 double sb_run_handle_fraction(const SbRunHandle *handle);
 
-// True once it has ended in whatever way; only then may its summary, status and report be read.
+// Returns true once the run has ended: converged, failed or cancelled. Only then may the summary,
+// the status and the report be read.
 bool sb_run_handle_is_done(const SbRunHandle *handle);
-SbStatus sb_run_handle_status(const SbRunHandle *handle);
-const SbReport *sb_run_handle_report(const SbRunHandle *handle); // borrowed
 
+// Returns the status of sb_run_create() or sb_run_execute(): SB_ERROR_CANCELLED if the run was
+// cancelled or replaced, SB_ERROR_NOT_CONVERGED with the results up to the last good state.
+SbStatus sb_run_handle_status(const SbRunHandle *handle);
+
+// Returns the sentence that explains a status other than SB_OK. Borrowed from the handle.
+const SbReport *sb_run_handle_report(const SbRunHandle *handle);
+
+// The thread with its request that waits and its latest run.
 typedef struct SbRunner SbRunner;
 
-// Called on the engine's thread when there is something new to look at: a run began, has more
-// frames (at most every 15 ms), or ended. Must return at once; typically it posts one idle callback
-// unless one is pending.
+// Called in the runner's thread when a run has begun, has new frames (at most every 15 ms) or has
+// ended, and when the runner is no longer busy. Must return immediately and must not call
+// sb_runner_destroy(); typically it adds one idle source to the main loop unless one is pending.
 typedef void (*SbRunnerNotify)(void *data);
 
-// Starts the thread; `last`: behind those of other runners, for what nobody waits for. NULL if the
-// system has none left. Owned by the caller.
+// Starts the thread, with the locale "C" and a low priority; `last` lowers the priority further,
+// for results that the user does not wait for. Returns NULL if the thread cannot be started or
+// memory is short. Freed by sb_runner_destroy().
 SbRunner *sb_runner_create(SbRunnerNotify notify, void *data, bool last);
 
-// Cancels, waits for the thread (at most about 50 ms) and frees. After it returned `notify` is not
-// called again. Handles stay valid. Takes NULL. Not from inside `notify`.
+// Cancels what is computed, waits for the end of the thread (typically below 50 ms) and frees the
+// runner; `notify` is not called afterwards. Handles that others hold stay valid. `runner` may be
+// NULL. No other thread may use the runner any more; not to be called by `notify`.
 void sb_runner_destroy(SbRunner *runner);
 
-// What is asked for.
+// A request for a run.
 typedef struct {
-  const SbModel *model; // copied
-  SbPlanWishes wishes;
-  // A run that has ended, a reference is taken: solved rings start from its states
-  // (sb_run_start_from()), if `keep` was asked for with it. NULL: cold, as any other program has
-  // it.
+  const SbModel *model; // to be computed; sb_runner_submit() copies it
+  SbPlanWishes wishes;  // what to compute in addition to the figures
+  // A finished run that was computed with `keep`; sb_runner_submit() adds a reference. Its ring
+  // states are the initial guess (sb_run_start_from()), or with `tangent` the point of
+  // linearisation. NULL: cold start, which gives the results of the command line.
   SbRunHandle *start;
-  bool tangent; // they are not solved, but those of `start` to first order (sb_run_predict_from())
-  bool keep;    // keeps its rings for others to start from
-  bool alone;   // no thread beside the runner's
+  bool tangent; // do not solve rings, but predict them to first order (sb_run_predict_from())
+  bool keep;    // store the ring states, so that later requests can use this run as `start`
+  bool alone;   // use no other threads than the runner's
 } SbRunRequest;
 
-// Asks for a run. What is being computed is cancelled, what was waiting is dropped. Returns the
-// request's ticket; tickets grow from 1.
+// Requests a run. Cancels the run that is being computed and drops a request that waits. Returns
+// the ticket of the request; tickets increase from 1.
 unsigned sb_runner_submit(SbRunner *runner, const SbRunRequest *request);
 
-// Stops what is being computed and drops what waits. May be called at any time, any number of
-// times.
+// Cancels the run that is being computed and drops the request that waits. Does nothing if there
+// are none. The cancelled run ends shortly afterwards, in the runner's thread.
 void sb_runner_cancel(SbRunner *runner);
 
-// True while a request waits or is being computed.
+// Returns true while a request waits or is being computed.
 bool sb_runner_is_busy(SbRunner *runner);
 
-// The latest run that began (done or not), with a reference for the caller; NULL before the first.
+// Returns the run that began last, finished or not, with a reference that the caller releases with
+// sb_run_handle_unref(); NULL before the first.
 SbRunHandle *sb_runner_latest(SbRunner *runner);

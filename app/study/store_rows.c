@@ -137,7 +137,7 @@ bool sb_store_visit(SbStore *store, SbStoreVisit visit, void *data, GError **err
   g_hash_table_unref(of.lists);
   if (code != SQLITE_DONE) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "%s is damaged: after % " G_GUINT64_FORMAT " rows no more can be read (%s)",
+                "%s is damaged: after %" G_GUINT64_FORMAT " rows no more can be read (%s)",
                 store->path, number, sqlite3_errstr(code));
   }
   return code == SQLITE_DONE;

@@ -1,9 +1,10 @@
-// A grid of character cells: what a terminal shows, before anyone sends it. Screens and the charts
-// below the tables of plain commands are both made here.
+// A grid of character cells, as a terminal shows it. The screen of the workbench and the charts
+// below the tables of commands are both drawn into such a grid.
 //
-// A cell holds one character of one column; what is wider, or has none (control characters,
-// combining marks), does not get in. In ASCII every sign has its stand-in, so that whoever writes
-// does not ask.
+// (0, 0) is the top left cell, x counts columns, y rows downwards. A cell contains one character of
+// one column; wider characters and characters without a width (control characters, combining marks)
+// are replaced or omitted. In an ASCII grid every other character is replaced by one of ASCII, so
+// the functions that draw need not care. Drawing outside of the grid is clipped.
 #pragma once
 
 #include "app/base/theme.h"
@@ -14,78 +15,93 @@
 
 enum { SB_CELLS_COLUMNS_MAX = 1000, SB_CELLS_ROWS_MAX = 400 };
 
-// 0xRRGGBB, or the terminal's own colour.
+// Colours are 0xRRGGBB; this value is the terminal's own text or background colour.
 #define SB_CELL_OWN UINT32_MAX
 
+// Bits of SbPen.style.
 enum { SB_CELL_BOLD = 1, SB_CELL_REVERSE = 2, SB_CELL_UNDERLINE = 4 };
 
+// How a character is drawn.
 typedef struct {
-  uint32_t ink, ground;
-  uint8_t style; // of SB_CELL_BOLD, ...
+  uint32_t ink, ground; // colours of the character and of its background
+  uint8_t style;        // SB_CELL_BOLD | ...; 0: plain
 } SbPen;
 
+// One cell.
 typedef struct {
-  uint32_t glyph; // Unicode
+  uint32_t glyph; // Unicode code point
   SbPen pen;
 } SbCell;
 
+// A rectangle of cells: (x, y) is its top left cell.
 typedef struct {
   int x, y, width, height;
 } SbCellRect;
 
+// A grid. Initialised by sb_cells_init(), freed by sb_cells_finish().
 typedef struct {
   int columns, rows;
-  bool ascii;
-  SbCell *cell; // [rows][columns], owned
+  bool ascii;   // only ASCII characters
+  SbCell *cell; // [rows][columns]
 } SbCells;
 
-// All blank in the terminal's own colours. Sizes are clamped to 1 and the maxima.
+// Initialises a grid of blanks in the terminal's own colours. Sizes below 1 become 1, and sizes
+// above the maxima become those.
 void sb_cells_init(SbCells *cells, int columns, int rows, bool ascii);
+
+// Frees the cells.
 void sb_cells_finish(SbCells *cells);
 
-// A theme's colour as cells have it.
+// Returns a colour of a theme as 0xRRGGBB; its opacity is ignored.
 uint32_t sb_cell_color(SbColor color);
 
+// Sets all cells of a rectangle to one character.
 void sb_cells_fill(SbCells *cells, SbCellRect rect, uint32_t glyph, SbPen pen);
 
-// One character; nothing outside the grid.
+// Sets one cell. Does nothing outside of the grid.
 void sb_cells_put(SbCells *cells, int x, int y, uint32_t glyph, SbPen pen);
 
-// The glyph at a place, 0 outside the grid.
+// Returns the character of a cell; 0 outside of the grid.
 uint32_t sb_cells_at(const SbCells *cells, int x, int y);
 
-// Columns that a text takes.
+// Returns the number of columns that a UTF-8 text takes in this grid.
 int sb_cells_width(const SbCells *cells, const char *text);
 
-// Writes a line into at most `width` columns, a longer one with an ellipsis at its end; a pen whose
-// ground is SB_CELL_OWN keeps the grounds. Returns the columns taken.
+// Writes one line of UTF-8 text from (x, y) into at most `width` columns; a longer text ends with
+// an ellipsis. A pen whose ground is SB_CELL_OWN keeps the background of each cell. Returns the
+// number of columns written.
 int sb_cells_text(SbCells *cells, int x, int y, int width, const char *text, SbPen pen);
 
-// The same against the right end of `width`.
+// As sb_cells_text(), aligned to the right end of the columns x to x + width - 1.
 void sb_cells_text_right(SbCells *cells, int x, int y, int width, const char *text, SbPen pen);
 
-// Text broken at words into at most `height` lines; returns the lines used.
+// Writes text that is broken at words into the rectangle, as many lines as fit. Returns the number
+// of lines written.
 int sb_cells_paragraph(SbCells *cells, SbCellRect rect, const char *text, SbPen pen);
 
-// A horizontal bar of `length` eighths of a cell from x on, to the left if negative.
+// Draws a horizontal bar of |length| eighths of a cell: from the left edge of cell x to the right,
+// or if `length` is negative, to the left.
 void sb_cells_bar(SbCells *cells, int x, int y, int length, SbPen pen);
 
-// A frame of lines round a rectangle.
+// Draws a frame of lines in the outermost cells of a rectangle.
 void sb_cells_frame(SbCells *cells, SbCellRect rect, SbPen pen);
 
-// How many colours a terminal has.
+// Number of colours of a terminal.
 typedef enum { SB_COLORS_NONE, SB_COLORS_16, SB_COLORS_256, SB_COLORS_TRUE } SbColors;
 
-// What the environment says (NO_COLOR, COLORTERM, TERM), and whether it takes UTF-8 (LC_ALL,
-// LC_CTYPE, LANG).
+// Returns the number of colours that the environment variables NO_COLOR, COLORTERM and TERM state.
 SbColors sb_colors_of_environment(void);
+
+// Returns true if LC_ALL, LC_CTYPE and LANG state no UTF-8, so that only ASCII may be sent.
 bool sb_cells_ascii_environment(void);
 
-// The nearest of the terminal's first 16 or 256 colours.
+// Returns the index of the terminal's colour that is nearest to `rgb` (0xRRGGBB), among the first
+// 16 or, for SB_COLORS_256, the first 256.
 int sb_colors_nearest(SbColors colors, uint32_t rgb);
 
-// The grid's text, lines without blanks at their ends. Owned by the caller (g_free).
+// Returns the characters as UTF-8 lines that end with a newline, without trailing blanks. Freed by
+// g_free().
 char *sb_cells_to_text(const SbCells *cells);
 
-// The same with colours, for a terminal's scrolling text.
+// Prints the grid as lines with escape sequences for colours, for a terminal that scrolls.
 void sb_cells_print(const SbCells *cells, SbColors colors, FILE *stream);

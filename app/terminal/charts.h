@@ -1,5 +1,6 @@
-// The program's charts in character cells: the loop, profiles of a contact, curves of a study, a
-// histogram. The workbench in a terminal and the plain commands draw by these.
+// The program's charts in character cells: the loop, the profiles of a contact, curves of a study,
+// a histogram. The workbench in a terminal and the commands use them. All functions draw into the
+// rectangle `rect` of a grid and read their data during the call only.
 #pragma once
 
 #include "app/chart/data.h"
@@ -7,58 +8,67 @@
 
 #include "engine/valve/studies/study.h"
 
-// A theme's colours as cells have them.
+// Colours of a theme for cells.
 typedef struct {
-  uint32_t role[SB_ROLE_COUNT];
-  uint32_t ground; // under everything; SB_CELL_OWN: the terminal's
+  uint32_t role[SB_ROLE_COUNT]; // 0xRRGGBB or SB_CELL_OWN, by SbRole
+  uint32_t ground;              // background; SB_CELL_OWN: the terminal's
 } SbCellTheme;
 
-// The dark theme; `own`: on whatever the terminal's ground is, ink in its own colour.
+// Sets the colours of the dark theme. `own`: for a background of unknown colour; text and
+// background then have the terminal's own colours.
 void sb_cell_theme(SbCellTheme *out, bool own);
 
-// Cuts the unit off a formatted number: it stands in the heading.
+// Removes the unit at the end of a formatted number ("1.61 mm" becomes "1.61"), in place.
 void sb_chart_drop_unit(char *text);
 
-// The loop with axes in `rect`: live, behind it earlier, pinned and predicted ones, dots of what
-// was measured, the line of the pressure force, stages with their forces, *now*. Of a rig its force
-// over time. SB_CHART_WHOLE: without *now*.
+// Draws the loop with axes, force [N] against displacement [mm]: the live run; dimmed the earlier,
+// pinned and predicted ones; measured points; the line of the pressure force; stages with their
+// forces; and the playhead. A run of the sliding plate is drawn as force against time. `flags` is 0
+// or SB_CHART_WHOLE (no playhead; app/chart/data.h).
 void sb_chart_loop(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
                    const SbChartData *data, unsigned flags);
 
-// One more loop over a chart's axes, as `compare` sets them beside each other.
+// A run with its name in the legend.
 typedef struct {
   const char *name;
   const SbChartRun *run;
 } SbNamedRun;
+
+// Largest number of loops in one chart.
 enum { SB_LOOPS_MAX = 6 };
 
-// Up to SB_LOOPS_MAX runs in one chart, each in its own colour and dashes, named below.
+// Draws the loops of runs[count] in one chart, each with its own colour and dashes, with a legend
+// below. Runs after the first SB_LOOPS_MAX are omitted. `measured` NULL: no measured points.
 void sb_chart_loops(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
                     const SbNamedRun *runs, size_t count, const SbComparison *measured);
 
-// A curve y over x in units that people read; NaN leaves gaps. `name` heads it.
+// A curve y[count] against x[count], in display units; NaN leaves a gap.
 typedef struct {
-  const char *name;
+  const char *name; // in the legend; empty: none
   const double *x, *y;
   size_t count;
-  SbRole role;
-  bool dots;
+  SbRole role; // of its colour
+  bool dots;   // points in place of a line
 } SbCellCurve;
 
-// Curves with axes; `heading` stands above. A logarithmic axis where it is asked for.
+// Draws curve[count] with axes below the line `heading`. log_x and log_y: logarithmic axes, on
+// which values that are not positive are gaps.
 void sb_chart_curves(SbCells *cells, SbCellRect rect, const SbCellTheme *theme, const char *heading,
                      const SbCellCurve *curve, size_t count, bool log_x, bool log_y);
 
-// A panel of a study.
+// Draws panel `panel` (from 0) of a study.
 void sb_chart_study(SbCells *cells, SbCellRect rect, const SbCellTheme *theme, const SbStudy *study,
                     size_t panel);
 
-// How often values fall where; NaN are left out and counted. `low` and `high` are limits (infinite:
-// none), beyond which bars are in the colour of errors.
+// Draws the histogram of value[count], in display units; values that are not finite are omitted and
+// their number is stated. `low` and `high` are limits in the same unit (infinite: none); bars
+// beyond them have the colour of errors.
 void sb_chart_histogram(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
                         const char *heading, const double *value, size_t count, double low,
                         double high);
 
-// Pressure and film of a contact at the playhead, beside each other or below.
+// Draws contact pressure [MPa] and film thickness [nm] of both seals against x [mm] at the
+// playhead, next to each other or, in a narrow rectangle, one below the other. Draws nothing
+// without a frame.
 void sb_chart_profiles(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
                        const SbChartData *data);

@@ -1,51 +1,57 @@
-// Pictures in a terminal, from the display list that every front end draws: as pixels where the
-// terminal takes them (sixel, kitty, iTerm: by chafa), as half blocks of two colours a cell, or as
-// its lines in Braille where colours are few.
+// Pictures in a terminal, drawn from a display list (app/section/draw_list.h): as pixels if the
+// terminal supports them (sixel, kitty, iTerm; by chafa), as half blocks with two colours a cell,
+// or as lines of Braille dots if there are few colours.
 #pragma once
 
 #include "app/section/draw_list.h"
 #include "app/section/text.h"
 #include "app/terminal/cells.h"
 
+// Kind of pictures.
 typedef enum {
-  SB_PICTURES_AUTO,
+  SB_PICTURES_AUTO, // as the environment states
   SB_PICTURES_SIXEL,
   SB_PICTURES_KITTY,
   SB_PICTURES_ITERM,
-  SB_PICTURES_BLOCKS,
-  SB_PICTURES_LINES,
+  SB_PICTURES_BLOCKS, // half blocks
+  SB_PICTURES_LINES,  // Braille
   SB_PICTURES_NONE,
   SB_PICTURES_COUNT
 } SbPictures;
 
-// "auto", "sixel", ...; borrowed.
+// Returns the option value of an SbPictures: "auto", "sixel", "kitty", "iterm", "blocks", "lines",
+// "none".
 const char *sb_pictures_name(int pictures);
 
-// What the environment tells of the terminal: pixels in a known one, else half blocks where there
-// are 256 colours and UTF-8, else lines.
+// Returns the kind that the environment variables suggest: pixels for a terminal that is known to
+// support them, else half blocks with 256 colours and UTF-8, else lines. Never SB_PICTURES_AUTO.
+// `colors` and `ascii` are those of the terminal.
 SbPictures sb_pictures_of_environment(SbColors colors, bool ascii);
 
+// Returns whether a kind draws pixels.
 static inline bool sb_pictures_are_pixels(SbPictures pictures) {
   return pictures >= SB_PICTURES_SIXEL && pictures <= SB_PICTURES_ITERM;
 }
 
-// The list, scaled to the cells of `rect`, as half blocks; its text in characters over them, where
-// it has room.
+// Draws the list, scaled to the cells of `rect`, as half blocks, and its texts as characters over
+// them where there is space. `text` rasterises texts.
 void sb_picture_blocks(SbCells *cells, SbCellRect rect, const SbDrawList *list, SbText *text);
 
-// Its lines and labels.
+// Draws the lines of the list as Braille dots, and its texts as characters.
 void sb_picture_lines(SbCells *cells, SbCellRect rect, const SbDrawList *list);
 
-// Its labels alone, over what stands there.
+// Draws only the texts of the list as characters; cells without text are not changed.
 void sb_picture_labels(SbCells *cells, SbCellRect rect, const SbDrawList *list);
 
-// Pixels that a picture takes of `rows` cells of `height` pixels: sixels come in bands of six.
+// Returns the height [px] of a picture in `rows` cells of `height` pixels: for sixels a multiple of
+// six, else rows * height.
 int sb_picture_height(SbPictures pictures, int rows, int height);
 
-// Bytes that draw it at the cursor over columns x rows cells of width x height pixels. Owned by the
-// caller.
+// Returns the bytes that draw the list at the cursor over columns x rows cells of width x height
+// pixels; `pictures` is one of the kinds with pixels. Freed by g_string_free().
 GString *sb_picture_pixels(const SbDrawList *list, SbText *text, SbPictures pictures, int columns,
                            int rows, int width, int height);
 
-// Bytes that remove pixels that were drawn before, for terminals in which text does not; borrowed.
+// Returns the bytes that remove pixels that were drawn before; empty for kinds whose pixels
+// disappear when text is written over them. Static.
 const char *sb_picture_removal(SbPictures pictures);

@@ -1,10 +1,10 @@
-// A terminal as a whole screen: raw mode, keys and mouse, size, what changed since the last
-// picture, and the way back to the shell's screen, whatever happens.
+// The terminal as a full screen: raw mode, keys and mouse, size, and the differences from what it
+// shows. The terminal's earlier screen returns at the end, also after a crash or a signal.
 //
-// Text, keys and the terminal's kinds are libtickit's: it has colours of 24 bits without a terminfo
-// entry of their own (ncurses needs one, which few systems have), leaves the main loop to GLib, and
-// hands every byte to a function. So the bytes queue here, are written as the line takes them, and
-// a slow line holds up nothing: while it is behind, no picture is made.
+// Text, keys and types of terminals are handled by libtickit: it supports 24-bit colours without a
+// terminfo entry of their own, runs in GLib's main loop and passes every byte to a function. The
+// bytes are queued here and written as the terminal accepts them, so that a slow line blocks
+// nothing. Main thread; callbacks run in the default main context.
 #pragma once
 
 #include "app/base/error.h"
@@ -12,8 +12,9 @@
 
 typedef struct SbScreen SbScreen;
 
+// Kind of an input.
 typedef enum {
-  SB_KEY_CHARACTER, // `character`
+  SB_KEY_CHARACTER, // SbKey.character
   SB_KEY_UP,
   SB_KEY_DOWN,
   SB_KEY_LEFT,
@@ -28,64 +29,82 @@ typedef enum {
   SB_KEY_BACK_TAB,
   SB_KEY_BACKSPACE,
   SB_KEY_DELETE,
-  SB_KEY_PRESS, // of the mouse, at (x, y)
+  SB_KEY_PRESS, // mouse button pressed at (x, y)
   SB_KEY_WHEEL_UP,
   SB_KEY_WHEEL_DOWN
 } SbKeyKind;
 
+// A key press or a mouse event.
 typedef struct {
   SbKeyKind kind;
-  uint32_t character; // with `control`: a small letter
-  bool control, shift, alt;
-  int x, y;
+  uint32_t character;       // Unicode; with `control` a small letter
+  bool control, shift, alt; // modifiers that were pressed
+  int x, y;                 // cell of a mouse event
 } SbKey;
 
+// Properties of the terminal.
 typedef struct {
   SbColors colors;
-  SbPictures pictures; // SB_PICTURES_AUTO: what the terminal tells
-  bool ascii;
+  SbPictures pictures; // SB_PICTURES_AUTO: the terminal is queried
+  bool ascii;          // send only ASCII characters
 } SbScreenWishes;
 
+// Callbacks; the structure is copied, `data` is passed to each.
 typedef struct {
-  void (*key)(void *data, const SbKey *key);
-  void (*draw)(void *data); // the size has changed, or the screen is the program's again
-  void (*end)(void *data);  // the terminal is gone, or somebody asks the program to end
+  void (*key)(void *data, const SbKey *key); // a key or mouse event
+  void (*draw)(void *data); // draw everything: the size has changed, or the program continues
+  void (*end)(void *data);  // the program should end: the terminal is gone, or a signal came
   void *data;
 } SbScreenClient;
 
-// Whether the terminal's type (TERM) has what the workbench needs; SB_APP_ERROR_INPUT if not. Call
-// it before there are threads: a child process tries.
+// Returns whether libtickit can drive a terminal of this type (TERM). FALSE with SB_APP_ERROR_INPUT
+// if not. A child process tries it: call it before other threads are started. True if there is no
+// terminal; sb_screen_open() then fails.
 bool sb_screen_is_possible(GError **error);
 
-// Takes over the terminal of standard input and output. SB_APP_ERROR_IO where there is none. One at
-// a time. Owned by the caller.
+// Takes over the terminal of standard input and output and shows an empty screen. Returns NULL with
+// SB_APP_ERROR_IO if they are no terminal. One screen at a time. Freed by sb_screen_close().
 SbScreen *sb_screen_open(const SbScreenWishes *wishes, const SbScreenClient *client,
                          GError **error);
 
-// Gives it back as it was. Takes NULL.
+// Restores the terminal as it was and frees the screen. Takes NULL.
 void sb_screen_close(SbScreen *screen);
 
+// Returns the width of the screen in columns.
 int sb_screen_columns(const SbScreen *screen);
-int sb_screen_rows(const SbScreen *screen);
-bool sb_screen_ascii(const SbScreen *screen);
-SbColors sb_screen_colors(const SbScreen *screen);
-SbPictures sb_screen_pictures(const SbScreen *screen);
-void sb_screen_cell_size(const SbScreen *screen, int *width, int *height); // [px]
 
-// Whether what was sent is not taken yet; and whether pictures that move should be left out because
-// the line took long for the last ones.
+// Returns the height of the screen in rows.
+int sb_screen_rows(const SbScreen *screen);
+
+// Returns whether only ASCII characters are sent.
+bool sb_screen_ascii(const SbScreen *screen);
+
+// Returns the number of colours in use.
+SbColors sb_screen_colors(const SbScreen *screen);
+
+// Returns the kind of pictures in use, never SB_PICTURES_AUTO.
+SbPictures sb_screen_pictures(const SbScreen *screen);
+
+// Writes the size of a cell [px], as far as the terminal reports it.
+void sb_screen_cell_size(const SbScreen *screen, int *width, int *height);
+
+// Returns whether bytes are queued that the terminal has not accepted. The caller then draws later.
 bool sb_screen_is_behind(const SbScreen *screen);
+
+// Returns whether the terminal accepted the last pictures slowly; the caller then omits animations.
 bool sb_screen_is_slow(const SbScreen *screen);
 
-// Shows the grid: sends the cells that differ from what is shown. `pixels` (may be NULL) is a
-// picture over the cells of `rect`, sent where its bytes differ from the last ones.
+// Shows a grid: sends the cells that differ from the ones shown. `pixels` (NULL: none) are the
+// bytes of a picture over the cells of `rect` (sb_picture_pixels()), sent if they or `rect` differ
+// from the last ones. A grid of another size than the screen's is ignored.
 void sb_screen_show(SbScreen *screen, const SbCells *cells, const GString *pixels, SbCellRect rect);
 
-// Where the cursor stands and blinks; x < 0: nowhere.
+// Sets the cell in which the cursor blinks from the next sb_screen_show() on; x < 0 hides it.
 void sb_screen_cursor(SbScreen *screen, int x, int y);
 
-// Stops the program as Ctrl-Z does; it goes on here.
+// Restores the terminal and stops the program as Ctrl-Z does. Returns when the shell continues it,
+// after the screen was taken over again and `draw` was called.
 void sb_screen_suspend(SbScreen *screen);
 
-// Sends everything again.
+// Calls `draw` and sends all cells, whatever the terminal shows.
 void sb_screen_redraw(SbScreen *screen);

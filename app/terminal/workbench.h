@@ -3,13 +3,15 @@
 
 #include "app/terminal/screen.h"
 
+// What to open, and how.
 typedef struct {
-  const char *path; // valve or scene; NULL: the one that ships
-  SbScreenWishes screen;
-  GPtrArray *issues; // of SbIssue: receives the errors of the file; borrowed
+  const char *path;      // valve or scene; NULL: the shipped start scene
+  SbScreenWishes screen; // properties of the terminal
+  GPtrArray *issues;     // of SbIssue, borrowed: the errors of the file are appended
 } SbWorkbenchOptions;
 
-// Runs until the user leaves it, or the terminal goes. On failure either the file has errors, which
-// are added to `issues`, or *error is SB_APP_ERROR_IO (no terminal; this build has no workbench) or
-// SB_APP_ERROR_INPUT (a type of terminal that cannot show it).
+// Runs the workbench in the main thread and returns when the user leaves it or the terminal is
+// closed; then true. Returns false if it cannot start: either the file has errors, which are
+// appended to options->issues (*error is not set), or *error is SB_APP_ERROR_IO (no terminal, or
+// this build has no workbench) or SB_APP_ERROR_INPUT (a type of terminal that cannot show it).
 bool sb_workbench_run(const SbWorkbenchOptions *options, GError **error);

@@ -1,6 +1,6 @@
-// Inside of the workbench in a terminal, shared by workbench.c (life, drawing), workbench_valve.c
-// and workbench_pages.c (what the pages show), workbench_params.c (the list of parameters) and
-// workbench_keys.c (keys and mouse).
+// Shared by the files of the workbench in a terminal: workbench.c (start, end, drawing),
+// workbench_valve.c and workbench_pages.c (content of the pages), workbench_params.c (list of
+// parameters), workbench_export.c and workbench_keys.c (keys and mouse). Main thread only.
 #pragma once
 
 #include "app/export/export_job.h"
@@ -13,6 +13,7 @@
 #include "app/terminal/charts.h"
 #include "app/terminal/workbench.h"
 
+// Pages, chosen by a tab each.
 typedef enum {
   SB_PAGE_VALVE,
   SB_PAGE_DESIGN,
@@ -21,9 +22,10 @@ typedef enum {
   SB_PAGE_COUNT
 } SbPage;
 
+// Which parameters are listed: the main ones, those that differ from the default, all.
 typedef enum { SB_LIST_MAIN, SB_LIST_CHANGED, SB_LIST_ALL, SB_LIST_COUNT } SbListKind;
 
-// What a line of text is being typed for.
+// Purpose of the line of text that the user types.
 typedef enum {
   SB_INPUT_NONE,
   SB_INPUT_VALUE,
@@ -33,6 +35,7 @@ typedef enum {
   SB_INPUT_OPEN
 } SbInput;
 
+// What covers the page.
 typedef enum {
   SB_POPUP_NONE,
   SB_POPUP_HELP,
@@ -43,98 +46,140 @@ typedef enum {
   SB_POPUP_DISK // another program has changed the file
 } SbPopup;
 
-enum { SB_HEADING_ROW = -1, SB_PLAY_S = 10 }; // the latter: one cycle
+// SbListRow.id of a heading; duration of one played cycle [s].
+enum { SB_HEADING_ROW = -1, SB_PLAY_S = 10 };
 
 // A line of the list: a parameter, or the heading of those that follow.
 typedef struct {
-  int id; // SB_HEADING_ROW
-  const char *title;
+  int id;            // SbParamId, or SB_HEADING_ROW
+  const char *title; // of a heading; static
 } SbListRow;
 
+// The workbench. Objects are owned unless stated otherwise.
 typedef struct {
   SbSession *session;
   SbAutosave *autosave;
   SbScreen *screen;
   GMainLoop *loop;
-  guint tick, draw;  // sources, 0 if none
-  bool begun, ended; // begun: a screen was sent
+  guint tick, draw;  // GLib sources of animation and of the next drawing; 0: none
+  bool begun, ended; // a screen was sent; the user leaves
 
   SbCellTheme theme;
-  SbCells cells;
+  SbCells cells; // the picture that is drawn
   SbPage page;
   SbPopup popup;
-  int popup_scroll;
-  char *message; // of the last action; NULL: none
-  bool message_fails;
-  gint64 looked;    // at the file on disk [us]
-  SbDiskState disk; // as the user was last asked about it
-  char *orphan;     // unsaved changes of another process, that are asked about
+  int popup_scroll;   // lines above the first visible one
+  char *message;      // result of the last action; NULL: none
+  bool message_fails; // the message states an error
+  gint64 looked;      // time of the last check of the file on disk, g_get_monotonic_time() [us]
+  SbDiskState disk;   // state for which the user was last asked to decide
+  char *orphan;       // path of unsaved changes of a process that ended, offered to be restored
 
   // The list.
   SbListKind list;
-  GString *search;
-  GArray *rows; // of SbListRow
-  int selected; // parameter
-  int scroll;
-  SbCellRect list_at, timeline_at; // where the last picture has them, for the mouse
+  GString *search;                 // text that listed parameters must contain; empty: none
+  GArray *rows;                    // of SbListRow, by sb_bench_list()
+  int selected;                    // SbParamId of the selected parameter
+  int scroll;                      // rows above the first visible one
+  SbCellRect list_at, timeline_at; // position in the last picture, for the mouse
 
-  // The line that is typed.
+  // The line that the user types.
   SbInput input;
-  GString *typed;
-  int caret; // in characters
+  GString *typed; // UTF-8
+  int caret;      // characters before the caret
 
   // The section.
   SbSectionSource *source;
   SbDrawList drawing;
   SbText *text;
-  SbField field;
+  SbField field; // shown by the colours of the rings
   SbSectionZoom zoom;
-  bool solved;     // the last picture has fields in its rings
-  GString *pixels; // for the terminal; NULL: none
-  SbCellRect pixels_at;
+  bool solved;          // the last picture has fields in its rings
+  GString *pixels;      // picture for the terminal; NULL: none
+  SbCellRect pixels_at; // its cells
 
-  SbEffectWatch *effects; // what parameters do to the goal
-  int goal;
+  SbEffectWatch *effects; // effect of each parameter on the goal
+  int goal;               // index of a figure (sb_figure())
 
   // Studies.
-  SbStudyKind study_kind; // chosen
-  SbStudyJob *job;
-  SbStudyKind job_kind;
-  SbStudy *study; // shown, NULL: none yet
-  char *study_hash, *job_hash;
+  SbStudyKind study_kind;      // chosen by the user
+  SbStudyJob *job;             // being computed; NULL: none
+  SbStudyKind job_kind;        // of `job`
+  SbStudy *study;              // displayed; NULL: none yet
+  char *study_hash, *job_hash; // sb_document_sha256() of the values of `study` and `job`
 
-  SbExportJob *export; // under way; NULL: none
-  SbCasesJob *cases;   // of the shown run, where the scene has cases; NULL: none
+  SbExportJob *export; // running; NULL: none
+  SbCasesJob *cases;   // of the displayed run if the scene has cases; NULL: none
 } SbBench;
 
-// workbench.c
-void sb_bench_changed(SbBench *bench); // draws soon
+// ---- workbench.c ----
+
+// Requests a new drawing from the main loop; several requests become one.
+void sb_bench_changed(SbBench *bench);
+
+// Shows a message in the status line; `fails`: as an error. Replaces the earlier one.
 void sb_bench_say(SbBench *bench, bool fails, const char *format, ...) G_GNUC_PRINTF(3, 4);
+
+// Ends the workbench: sb_workbench_run() returns.
 void sb_bench_end(SbBench *bench);
+
+// Returns a pen with the colour of a role on the present background; `style` of SB_CELL_BOLD, ...
 SbPen sb_bench_pen(const SbBench *bench, SbRole role, uint8_t style);
 
-// workbench_params.c
-void sb_bench_list(SbBench *bench); // what is listed
+// ---- workbench_params.c ----
+
+// Fills bench->rows with the parameters that `list` and `search` select.
+void sb_bench_list(SbBench *bench);
+
+// Draws the list of parameters into `rect`.
 void sb_bench_draw_list(SbBench *bench, SbCellRect rect);
-void sb_bench_move(SbBench *bench, int rows); // the selection
+
+// Moves the selection by a number of parameters, down if positive; stops at the ends.
+void sb_bench_move(SbBench *bench, int rows);
+
+// Selects parameter `id` (SbParamId).
 void sb_bench_select(SbBench *bench, int id);
 
-// workbench_valve.c
-// An answer of the verdict over all cases and the case that gives it (NULL name: the scene itself).
+// ---- workbench_valve.c ----
+
+// Returns the answer to question `kind` (of SbVerdictKind) of the displayed run, the worst over all
+// cases once these are computed, and the case that gives it (name NULL: the scene itself).
 SbCaseVerdict sb_bench_verdict(SbBench *bench, int kind);
+
+// Draws the title and the tabs into the first rows.
 void sb_bench_draw_header(SbBench *bench);
+
+// Draws the verdict into row `y`.
 void sb_bench_draw_verdict(SbBench *bench, int y);
+
+// Draws the page Valve into `rect`.
 void sb_bench_draw_valve(SbBench *bench, SbCellRect rect);
+
+// Draws the status line into row `y`.
 void sb_bench_draw_status(SbBench *bench, int y);
 
-// workbench_pages.c
+// ---- workbench_pages.c ----
+
+// Draws the present page, other than Valve, into `rect`.
 void sb_bench_draw_page(SbBench *bench, SbCellRect rect);
+
+// Draws the popup over the page if there is one.
 void sb_bench_draw_popup(SbBench *bench);
+
+// Starts to compute the chosen study with the present values; shows a message if they are
+// inconsistent.
 void sb_bench_study_start(SbBench *bench);
+
+// Cancels the study that is computed; does nothing if there is none.
 void sb_bench_study_stop(SbBench *bench);
 
-// workbench_export.c
-void sb_bench_export(SbBench *bench, const char *text); // "loop.png hysteresis"
+// ---- workbench_export.c ----
 
-// workbench_keys.c
+// Starts an export from a line that the user typed: a path and a view, "loop.png hysteresis". Shows
+// a message if the line is wrong or an export is running.
+void sb_bench_export(SbBench *bench, const char *text);
+
+// ---- workbench_keys.c ----
+
+// Acts on a key or mouse event.
 void sb_bench_key(SbBench *bench, const SbKey *key);

@@ -1,16 +1,17 @@
 // Scans of surfaces from files: heights on a grid or along a line, in metres.
 //
-//   text      a matrix, x z or x y z on a grid; headers of ESRI, SPIP, Gwyddion ("Width: 5 µm"),
-//             names with units ("x [mm], z [µm]")
-//   .gwy      Gwyddion's container (gwyddion.net, "Format of Gwyddion Files"); masked points
-//   missing .sur      Digital Surf's surface and profile, format 2.00, 16 or 32 bits .x3p      ISO
-//   25178-72 (ISO 5436-2): a zip of main.xml and binary data, where libzip was there
+//   text   a matrix; columns x z; or columns x y z on a grid. Headers of ESRI, SPIP and Gwyddion
+//          ("Width: 5 µm"), or names with units ("x [mm], z [µm]").
+//   .gwy   Gwyddion's container (gwyddion.net, "Format of Gwyddion Files"); masked points are
+//          missing points.
+//   .sur   Digital Surf's surface and profile, format 2.00, 16 or 32 bits.
+//   .x3p   ISO 25178-72 (ISO 5436-2): a zip of main.xml and binary data; only if the build found
+//          libzip.
 //
-// The kind follows from the first bytes. Numbers are read independently of locale. What a file does
-// not say, units and distances of a bare matrix, must be in the choices: nothing is assumed. Bytes
-// and points are bounded (SB_SCAN_BYTES_MAX, SB_HEIGHTS_POINTS_MAX), and memory by the file's size
-// times what its packing allows. A file that is cut short, or reads in two ways, is refused with
-// the place.
+// The format follows from the first bytes, not from the name. Numbers are read independently of the
+// locale. Units and distances that the file does not state must be in the choices: nothing is
+// assumed. A file that is larger than SB_SCAN_BYTES_MAX, has more than SB_HEIGHTS_POINTS_MAX
+// points, is incomplete or is ambiguous is refused, with the place in the message.
 #pragma once
 
 #include "engine/contact/rough/heights.h"
@@ -19,29 +20,34 @@
 
 #define SB_SCAN_BYTES_MAX ((gsize)1 << 30)
 
-// What the file need not say; zeroed: nothing.
+// What the caller states about the file. Initialise with zeros: the file states everything.
 typedef struct {
-  const char *channel; // number or title of one of several
-  double spacing;      // of points, in place of the file's [m]
-  double unit;         // of heights, and of lengths unless the next says otherwise [m]
-  double lateral_unit; // of x and y
-  gboolean ignore_mask;
+  // Number (as the file has it) or title of a channel of a .gwy; NULL: its only channel of heights.
+  const char *channel;
+  double spacing; // distance of the points in x and y, in place of the file's [m]; 0: the file's
+  // For text files only; another format that states its units is refused if one of these is set.
+  double unit;          // metres per unit of the heights, e.g. 1e-6; 0: as the file states
+  double lateral_unit;  // metres per unit of x and y; 0: as the file states, else `unit`
+  gboolean ignore_mask; // use masked points of a .gwy as if they were measured
 } SbScanChoices;
 
+// A scan. Freed by sb_scan_clear().
 typedef struct {
-  SbHeights heights;  // z: g_free
-  const char *format; // "Gwyddion"; static
+  SbHeights heights;  // heights [m], a row after the other, NaN: missing; z is owned by the scan
+  const char *format; // for the user, such as "Gwyddion"; static
   char *title;        // of the channel or object; NULL: none
-  char *sha256;       // of the file, hex; NULL from memory
-  GPtrArray *notes;   // of char *: what was taken how
+  char *sha256;       // of the file, 64 hexadecimal digits; NULL after sb_scan_parse()
+  GPtrArray *notes;   // of char *: sentences on how the file was read; may be empty
 } SbScan;
 
-// Reads `path`. FALSE with one sentence of SB_APP_ERROR that names the file, *out empty.
+// Reads the file `path`. Returns FALSE with SB_APP_ERROR_INPUT (the file cannot be read, is
+// refused, or lacks a unit or distance) or SB_APP_ERROR_IO (no memory); the message names the file,
+// and `out` is then empty.
 gboolean sb_scan_read(SbScan *out, const char *path, const SbScanChoices *choices, GError **error);
 
-// The same from memory; `name` stands for the file.
+// As sb_scan_read(), from the `length` bytes of a file; `name` stands for the path in messages.
 gboolean sb_scan_parse(SbScan *out, const char *data, gsize length, const SbScanChoices *choices,
                        const char *name, GError **error);
 
-// Takes an empty one.
+// Frees what a scan owns; it is then empty (all zeros), which may be cleared again.
 void sb_scan_clear(SbScan *scan);

@@ -1,5 +1,5 @@
-// All that is said of a scan: its heights made ready, the figures of the whole and of its parts,
-// the spectrum, the asperities and how they hang on the cut-offs.
+// Results of a scan: the prepared heights, the figures of the full scan and of its parts, the
+// spectrum, the asperities, and their dependence on the cut-offs of the filters.
 #pragma once
 
 #include "app/data/scan/scan.h"
@@ -9,33 +9,42 @@
 
 enum { SB_SCAN_PARTS_MAX = 9, SB_SCAN_CUTOFFS_MAX = 24 };
 
-// A row of the table of cut-offs: the waves that the filters pass, by the spectrum.
+// A row of the table of cut-offs: results for the waves that Gaussian filters with these cut-offs
+// pass, computed from the spectrum.
 typedef struct {
-  double cutoff_short, cutoff_long; // [m], 0: none
-  double moment[3];
-  SbAsperityFigures asperities; // of the closed forms, sigma that of heights
+  double cutoff_short, cutoff_long; // wavelengths [m]; 0: no such filter
+  double moment[3];                 // m0 [m2], m2 [1], m4 [1/m2]
+  SbAsperityFigures asperities;     // that follow from the moments
 } SbScanCutoff;
 
+// Freed by sb_scan_figures_clear().
 typedef struct {
-  SbHeightsReport done;
-  SbHeightFigures figures;
+  SbHeightsReport done;    // how the heights were prepared
+  SbHeightFigures figures; // of the prepared heights
   SbHeightSpectrum spectrum;
-  SbAsperityFigures scene;     // what surface.gt_product, .sigma, .sigma_over_beta mean
-  int part_rows, part_columns; // 0: too small to be parted
-  SbHeightFigures part[SB_SCAN_PARTS_MAX];
+  SbAsperityFigures scene; // for surface.gt_product, surface.sigma and surface.sigma_over_beta
+  // The scan is divided into part_rows x part_columns equal parts; 0: it is too small.
+  int part_rows, part_columns;
+  SbHeightFigures part[SB_SCAN_PARTS_MAX]; // [part_rows][part_columns]
   int cutoff_count;
-  SbScanCutoff cutoff[SB_SCAN_CUTOFFS_MAX];
-  SbWarnings warnings;
+  SbScanCutoff cutoff[SB_SCAN_CUTOFFS_MAX]; // [cutoff_count], the first without filters
+  SbWarnings warnings;                      // limits of validity
 } SbScanFigures;
 
-// Makes the heights ready in place; *out is to be cleared in any case.
+// Prepares `heights` in place (form, outliers, filters: `choices`) and computes all results.
+// Returns SB_OK or the status of sb_heights_prepare(), sb_height_figures() or sb_height_spectrum():
+// RANGE, INFEASIBLE, NOT_CONVERGED. Call sb_scan_figures_clear() in any case.
 SbStatus sb_scan_figures(SbScanFigures *out, SbHeights *heights, const SbHeightsChoices *choices,
                          SbReport *report);
+
+// Frees what the results own; the heights belong to the caller.
 void sb_scan_figures_clear(SbScanFigures *figures);
 
-// Mean and standard deviation of a figure over the parts that have it; NaN of fewer than two.
+// Scatter of a figure over the parts, in the figure's unit; NaN if fewer than two parts have it.
 typedef struct {
-  double mean, deviation;
+  double mean, deviation; // arithmetic mean, sample standard deviation
 } SbScanScatter;
+
+// Returns the scatter of the figure that `value` returns for a part (NaN: the part has none).
 SbScanScatter sb_scan_scatter(const SbScanFigures *figures,
                               double (*value)(const SbHeightFigures *part));

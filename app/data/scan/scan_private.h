@@ -1,4 +1,4 @@
-// What the readers of scans share. Each gets bytes that begin as its format does.
+// Shared by the readers of scan formats.
 #pragma once
 
 #include "app/base/error.h"
@@ -6,29 +6,39 @@
 
 #include <string.h>
 
-// Bytes of a file to be taken one after the other.
+// The bytes of a file that are not read yet.
 typedef struct {
-  const guchar *at, *end;
-  const char *name; // of the file, in messages
+  const guchar *at, *end; // first byte, and the one after the last
+  const char *name;       // of the file, for messages
 } SbScanBytes;
 
+// Reads one format. The caller has checked that `bytes` begin with the format's signature, and
+// passes `out` with all zeros but an empty list of notes. Returns FALSE with SB_APP_ERROR whose
+// message names the file; the caller clears `out` then. Sets the heights, their dx and dy (0 or
+// NaN: the file states none), the format and the title; the caller applies choices->spacing.
 typedef gboolean SbScanReader(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
                               GError **error);
-SbScanReader sb_scan_parse_text, sb_scan_parse_gwy, sb_scan_parse_sur, sb_scan_parse_x3p;
+SbScanReader sb_scan_parse_text;
+SbScanReader sb_scan_parse_gwy;
+SbScanReader sb_scan_parse_sur;
+SbScanReader sb_scan_parse_x3p;
 
-// "NAME: what is wrong"; always FALSE.
+// Sets SB_APP_ERROR_INPUT with "NAME: " and the formatted text. Always returns FALSE.
 gboolean sb_scan_fail(GError **error, const char *name, const char *format, ...)
     G_GNUC_PRINTF(3, 4);
 
-// Memory for a grid, once its bytes are known to be there. FALSE for too many points.
+// Allocates out->heights.z for a grid and sets columns, rows and stride. To be called once it is
+// known that the file has bytes for so many points. Returns FALSE with an error if there are no
+// points, more than SB_HEIGHTS_POINTS_MAX, or no memory.
 gboolean sb_scan_allocate(SbScan *out, guint64 columns, guint64 rows, const char *name,
                           GError **error);
 
-// Metres of a unit of length as files write it ("nm", "µm", "um", "mkm", "[nm]"); 0 for anything
-// else.
+// Returns the metres of a unit of length as files write it ("nm", "µm", "um", "mkm", "[nm]"); 0 for
+// any other text.
 double sb_scan_length(const char *unit);
 
-// Integers and floats as files have them. At least so many bytes must be left.
+// The little-endian integers and IEEE floats at `p`. The caller checks that enough bytes are left:
+// 2, 4, 4 and 8.
 static inline guint16 sb_scan_u16(const guchar *p) {
   guint16 value;
   memcpy(&value, p, sizeof value);
@@ -59,32 +69,39 @@ static inline double sb_scan_double(const guchar *p) {
 
 // ---- Text ----
 
-// A header's line "key = value unit", key in small letters and digits alone.
+// A header line "key = value unit".
 typedef struct {
-  char *key, *value, *unit; // owned; unit from brackets in the key or behind a number, or empty
+  char *key;   // only its small letters and digits: "Z Unit" is "zunit"
+  char *value; // as it is in the file
+  char *unit;  // from brackets in the key or after a number; empty: none
 } SbScanEntry;
 
-// A text file taken apart: its header's entries and all its numbers, NaN where missing.
+// A text file split into the entries of its header and all its numbers.
 typedef struct {
-  const char *name;   // of the file, borrowed
-  GPtrArray *entries; // of SbScanEntry
-  GPtrArray *units;   // of char *: those of the line above the numbers, a column each, or none
-  GArray *numbers;    // of double, row after row
-  gsize rows, columns;
-  int ragged; // first line of another number of columns; 0: none
+  const char *name;    // of the file, borrowed
+  GPtrArray *entries;  // of SbScanEntry
+  GPtrArray *units;    // of char *: units of the line above the numbers, one a column; or empty
+  GArray *numbers;     // of double, row after row; NaN: missing
+  gsize rows, columns; // of the numbers
+  int ragged;          // number of the first line with another count of numbers; 0: none
 } SbScanText;
 
+// Splits a file. Returns FALSE with an error if it is not text or contains no numbers. Call
+// sb_scan_text_clear() in any case.
 gboolean sb_scan_text_read(SbScanText *out, SbScanBytes bytes, GError **error);
+
+// Frees what a split file owns.
 void sb_scan_text_clear(SbScanText *text);
 
-// Points x y z to a grid; FALSE with an error where they lie on none. Numbers times `lateral` and
-// `vertical` are metres.
+// Writes points with columns x, y, z to the grid that they form. `lateral` is the metres per unit
+// of x and y, `vertical` those of z. Returns FALSE with an error if the points form no grid.
 gboolean sb_scan_grid(SbScan *out, const SbScanText *text, double lateral, double vertical,
                       GError **error);
 
-// Whether the first two of three columns are coordinates of a grid.
+// Returns whether the first two of three columns are the coordinates of a grid.
 gboolean sb_scan_is_grid(const SbScanText *text);
 
-// Rows x z to a profile of even steps; a single column is one of heights, and dx stays open.
+// Writes columns x, z (or z alone, which leaves dx unset) to a profile. `lateral` is the metres per
+// unit of x, `vertical` those of z. Returns FALSE with an error if the steps of x are unequal.
 gboolean sb_scan_profile(SbScan *out, const SbScanText *text, double lateral, double vertical,
                          GError **error);
