@@ -1,46 +1,53 @@
-// Bodies of a drawing as a valve's parts: groups [part.NAME] of a scene, with the stretches that
-// give its sizes, and how those differ from what a scene has in force.
+// Bodies of a drawing as parts of a valve: assigns bodies to parts, writes the groups [part.NAME]
+// of a scene with their profiles and the stretches that give sizes, and lists how these sizes
+// differ from the values in force.
 #pragma once
 
 #include "app/cad/cad.h"
 #include "app/document/document.h"
 #include "app/document/document_parts.h"
 
-// The parts are the valve's first ones, in its order: SB_VALVE_HOUSING to SB_VALVE_STEM_BOTTOM.
+// Number of parts that a drawing can shape: SB_VALVE_HOUSING to SB_VALVE_STEM_BOTTOM, in this
+// order.
 enum { SB_CAD_PART_COUNT = SB_VALVE_STEM_BOTTOM + 1 };
 
-// The part of that name ("housing", "Stem centre", "stem-top"), or -1.
+// Returns the index of the part with this name ("housing", "Stem centre", "stem-top"); -1: none.
 int sb_cad_part_of(const char *name);
 
-// What somebody chose, as texts by the names of the command's options.
+// Choices of the user. Initialised by sb_cad_settings_init(), freed by sb_cad_settings_clear().
 typedef struct {
-  SbCadChoices read;             // its texts are owned below
-  char *unit, *axis;             // NULL: as found
+  SbCadChoices read;             // for sb_cad_read(); its strings are `unit` and `axis` below
+  char *unit, *axis;             // NULL: not chosen
   double density;                // of the parts [kg/m3]
-  char *part[SB_CAD_PART_COUNT]; // number from 1 or name of the body; NULL: by names
+  char *part[SB_CAD_PART_COUNT]; // number (from 1) or name of the body; NULL: found by its name
 } SbCadSettings;
 
+// Sets the defaults: a density of 1410 kg/m3 (acetal) and an angle of 37.7 degrees.
 void sb_cad_settings_init(SbCadSettings *settings);
+
+// Frees the strings.
 void sb_cad_settings_clear(SbCadSettings *settings);
 
-// name: "unit", "axis", "angle", "flip" ("yes", "no"), "shift", "density" or a part's. False with
-// an error of SB_APP_ERROR.
+// Sets one choice from text. `name` is an option of `sealbench cad` without dashes: "unit", "axis",
+// "angle", "flip" ("yes", "no"), "shift", "density" or a part's name. Returns false with
+// SB_APP_ERROR_INPUT for an unknown name or a wrong text.
 bool sb_cad_choose(SbCadSettings *settings, const char *name, const char *text, GError **error);
 
-// Which body (index into cad->bodies, -1: none) stands for each part: as chosen, else those whose
-// names are the part's, in any case and with blanks or hyphens for the underscore. False with an
-// error where a chosen one is none.
+// Writes the index into cad->bodies for each part (-1: none): the chosen body, else the body whose
+// name is the part's, ignoring case and with blanks or hyphens for the underscore. Returns false
+// with SB_APP_ERROR_INPUT if a chosen body does not exist.
 bool sb_cad_parts(int body[SB_CAD_PART_COUNT], const SbCad *cad, const SbCadSettings *settings,
                   GError **error);
 
-// A scene that is `base` with those parts shaped by the drawing: the text of a file to be written
-// to `path`. Sizes that follow from the shapes give way to them. density: of the parts [kg/m3].
-// *after is that document as it would be read. Both are owned by the caller; NULL for both with
-// issues.
+// Returns the text of a scene or valve file, to be written to `path`: `base` with the parts shaped
+// by the bodies (`body` as sb_cad_parts() writes it). Own sizes of `base` that follow from these
+// shapes are removed. `density` of the parts [kg/m3]; `drawing` is the path of the drawing, for
+// messages and for a mesh. *after receives the document as it would be read from `path`, freed by
+// sb_document_free(). Returns NULL, with *after = NULL, if there are issues. Freed by g_free().
 char *sb_cad_scene(SbDocument **after, const SbCad *cad, const int body[SB_CAD_PART_COUNT],
                    double density, const SbDocument *base, const char *drawing, const char *path,
                    GPtrArray *issues);
 
-// Lines of the values in force that differ: "stem.chamber_depth: 0.85 mm → 0.847 mm"; empty where
-// none does. Owned by the caller.
+// Returns a line for each value in force that differs: "stem.chamber_depth: 0.85 mm → 0.847 mm";
+// empty if none does. Freed by g_free().
 char *sb_cad_differences(const SbDocument *before, const SbDocument *after);

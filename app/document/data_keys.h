@@ -1,5 +1,6 @@
-// The groups [data] and [data NAME] of scenes and studies: measured files, and what of their
-// reading is said rather than found. Texts as they stand in the file; app/data reads them.
+// The groups [data] and [data NAME] of scenes and studies: a measured file each, and keys that
+// state what would otherwise be found in the data (app/data/measured.h explains the keys and reads
+// them). Here they are texts as in the file.
 #pragma once
 
 #include "app/base/issue.h"
@@ -23,6 +24,7 @@
   X(SB_DATA_SET, "set")                                                                            \
   X(SB_DATA_OWN, "own")
 
+// The keys of a group.
 typedef enum {
 #define SB_DATA_KEY_ENUM(code, name) code,
   SB_DATA_KEYS(SB_DATA_KEY_ENUM)
@@ -30,44 +32,53 @@ typedef enum {
       SB_DATA_KEY_COUNT
 } SbDataKey;
 
+// Largest number of groups of a file.
 enum { SB_DATA_MAX = 64 };
 
-// One group.
+// One group. Freed by sb_data_free().
 typedef struct {
-  char *name;                    // behind "data "; empty of [data] alone
-  char *path;                    // of its file, to open
-  char *text[SB_DATA_KEY_COUNT]; // NULL: not said
-  char *shown;                   // the file that has the group
-  int line;
+  char *name;                    // after "data "; empty for [data]
+  char *path;                    // of the measured file, ready to be opened; NULL: no key `file`
+  char *text[SB_DATA_KEY_COUNT]; // value of each key as in the file; NULL: absent
+  char *shown;                   // the file that contains the group, for messages
+  int line;                      // of the group in that file, from 1; 0: none
 } SbData;
 
-// Borrowed.
+// Returns the name of a key ("columns").
 const char *sb_data_key_name(SbDataKey key);
 
-// "data" or "data NAME".
+// Returns whether the name of a group is "data" or "data NAME".
 bool sb_data_is_group(const char *group);
 
-// Reads those of a scanned file (of SbEntry); what `directory` is to the files' names (NULL: the
-// current one). A list that frees its SbData, owned by the caller.
+// Returns the groups among the entries (of SbEntry, app/base/reader.h) of a file as an array of
+// SbData that owns its elements, in the order of the file. Relative file names start in `directory`
+// (NULL: the current one); `shown` names the file in issues. Freed by g_ptr_array_unref().
 GPtrArray *sb_data_read(const GPtrArray *entries, const char *directory, const char *shown,
                         GPtrArray *issues);
 
-// Makes of each group with several cycles, `cycle = 1, 10, 40`, one for each cycle: "lot 1",
-// "lot 10", "lot 40".
+// Replaces in `list` (of SbData) each group that names several cycles, `cycle = 1, 10, 40`, by one
+// group for each of them: "lot 1", "lot 10", "lot 40". Appends an issue if there are then more than
+// SB_DATA_MAX.
 void sb_data_part(GPtrArray *list, GPtrArray *issues);
 
-// One of a file that no group names; owned by the caller.
+// Returns a group for the file `path` without any other key, as if a scene contained it. Freed by
+// sb_data_free().
 SbData *sb_data_of_file(const char *path);
-void sb_data_free(gpointer data); // takes NULL
+
+// Frees a group (SbData *); takes NULL. The type fits GDestroyNotify.
+void sb_data_free(gpointer data);
+
+// Returns a copy. Freed by sb_data_free().
 SbData *sb_data_copy(const SbData *data);
 
-// Whether both say the same of one file, or are both NULL.
+// Returns whether both groups name the same file with the same keys, or are both NULL.
 bool sb_data_same(const SbData *a, const SbData *b);
 
-// The keys of a group as lines "key = value" of a text (sb_measured_keys()), in place of those
-// that the text has; unknown ones are passed over.
+// Sets keys from `text`, lines "key = value" as sb_measured_keys() returns them. Keys that `text`
+// does not contain keep their values; unknown keys and `file` are ignored.
 void sb_data_take_keys(SbData *data, const char *text);
 
-// "[data lot-2] columns: TEXT" as an issue.
+// Appends an issue on a key of the group, "[data lot-2] columns: TEXT". `allowed` is the allowed
+// range or NULL.
 void sb_data_complain(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,
                       const char *format, ...) G_GNUC_PRINTF(5, 6);

@@ -1,41 +1,44 @@
 // A document and the file on disk that it was read from or saved to: whether another program has
-// changed that file since, and what then becomes of both versions. On the thread of the document.
+// changed that file since, and how both versions are merged.
 #pragma once
 
 #include "app/document/document.h"
 
+// State of the files, compared with the last time that they were read or saved.
 typedef enum {
-  SB_DISK_SAME,          // the files are as they were read or written, or the document has none
-  SB_DISK_CHANGED,       // the document's own file has other bytes
-  SB_DISK_VALVE_CHANGED, // only the file of the scene's valve has other bytes
-  SB_DISK_GONE           // the document's own file is not there any more
+  SB_DISK_SAME,          // the files have the same content, or the document has none
+  SB_DISK_CHANGED,       // the document's own file has another content
+  SB_DISK_VALVE_CHANGED, // only the file of the scene's valve has another content
+  SB_DISK_GONE           // the document's own file does not exist any more
 } SbDiskState;
 
-// Compares size, time and identity of the files with those at the last reading or saving, and their
-// bytes only where these differ.
+// Returns the state. Compares size, time and identity of the files, and their content only if these
+// differ.
 SbDiskState sb_document_disk_state(const SbDocument *document);
 
-// Text of the document's file when it was last read or saved; borrowed until the next save.
+// Returns the text of the document's file when it was last read or saved. Borrowed until the next
+// save.
 const char *sb_document_file_text(const SbDocument *document);
 
-// Three-way merge of key files: returns `theirs` with the changes that lead from `base` to `mine`,
-// key by key, in the user's line order and with the comments of `theirs`. Where both sides changed
-// one key to different values, `mine` is used and a line "group.key: VALUE (in the file: VALUE)" is
-// added to `conflicts` (of char *; may be NULL). Owned by the caller (g_free()).
+// Merges three versions of a key file: returns `theirs` with the changes from `base` to `mine`, key
+// by key, with the order of lines and the comments of `theirs`. If both sides changed a key to
+// different values, `mine` is used and a line "group.key: VALUE (in the file: VALUE)" is appended
+// to `conflicts` (of char *; may be NULL). Freed by g_free().
 char *sb_document_merge_texts(const char *base, const char *mine, const char *theirs,
                               GPtrArray *conflicts);
 
-// Reads `path` again and returns a document that differs from that file by what leads from `base`
-// to `mine`, which sb_document_is_modified() then reports. `base` NULL: it has all that `mine`
-// says. `path` NULL: an untitled document with the changes of `mine`. NULL with at least one issue
-// if either cannot be read. Owned by the caller (sb_document_free()).
+// Reads the file `path` again and returns a document with the changes from `base` to `mine` (texts
+// of key files) applied, which sb_document_is_modified() then reports. `base` NULL: the document
+// has all values of `mine`. `path` NULL: an untitled document with the changes of `mine`.
+// `conflicts` as in sb_document_merge_texts(). Returns NULL with at least one issue if the file or
+// `mine` cannot be read. Freed by sb_document_free().
 SbDocument *sb_document_load_with(const char *path, const char *base, const char *mine,
                                   GPtrArray *conflicts, GPtrArray *issues);
 
-// Puts all of `other` (taken over) in the place of what the document is: values, pins, notes, path
-// and the state of its file. One step that can be undone, and then everything is as before.
+// Replaces everything in `document` (values, pins, notes, path and the state of its file) by
+// `other`, which it owns from now on. One step for undo, which restores everything.
 void sb_document_become(SbDocument *document, SbDocument *other);
 
-// A path next to the document's that no file has: "NAME (2).scene", "NAME (3).scene" and so on.
-// Owned by the caller (g_free()).
+// Returns a path next to the document's that no file has: "NAME (2).scene", "NAME (3).scene" and so
+// on. The document must have a path. Freed by g_free().
 char *sb_document_free_path(const SbDocument *document);

@@ -1,5 +1,6 @@
-// Inside of a document, shared by document.c (reading, values), document_edit.c (edits)
-// and document_write.c (files).
+// Shared by the files of documents: document.c (reading, values), document_edit.c (edits),
+// document_write.c (files) and those for single groups and keys. None of these functions is called
+// from outside of app/document.
 #pragma once
 
 #include "app/document/document_parts.h"
@@ -16,243 +17,314 @@
 #define SB_CASES_GROUP  "cases"
 #define SB_PINS_GROUP   "pins"
 
-// Keys that name a file and no value: a measured series, a shelf's temperatures, a seal's section,
-// a groove's outline. The last ones, from SB_FILE_SECTION on, are drawings, which edits change.
+// Keys that name a file. Those from SB_FILE_SECTION on are drawings, which edits can change.
 typedef enum {
-  SB_FILE_DRIVE,
-  SB_FILE_SHELF,
-  SB_FILE_SECTION,
-  SB_FILE_GROOVE,
+  SB_FILE_DRIVE,   // measured series of the drive
+  SB_FILE_SHELF,   // temperatures of a shelf
+  SB_FILE_SECTION, // drawing of the seals' section
+  SB_FILE_GROOVE,  // drawing of the groove
   SB_FILE_COUNT
 } SbFileKey;
 
-// "drive.file"...: the key of sb_document_text_keys().
+// Returns the key of an SbFileKey ("drive.file"). Static.
 const char *sb_document_file_key(int key);
 
-// One of them in force; name NULL: none.
+// A file in force.
 typedef struct {
-  char *name, *path; // as it is written; to open
-  bool in_valve;     // the scene's valve gives it, not the document itself
+  char *name;    // as the document has it; NULL: none
+  char *path;    // to open
+  bool in_valve; // the scene's valve names it, not the document itself
 } SbNamedFile;
 
-// A drawing, for the edits that change it: of a section with its height [m], or of a groove.
+// A drawing for the edits that change it. Freed by sb_named_drawing_free().
 typedef struct {
-  SbFileKey key;
-  SbNamedFile file; // name NULL: none
-  SbSealDrawing section;
-  double height;
-  SbGrooveDrawing groove;
+  SbFileKey key;          // SB_FILE_SECTION or SB_FILE_GROOVE
+  SbNamedFile file;       // name NULL: no drawing
+  SbSealDrawing section;  // for SB_FILE_SECTION
+  double height;          // of the section as its file draws it [m]
+  SbGrooveDrawing groove; // for SB_FILE_GROOVE
 } SbNamedDrawing;
 
-// The one that names a rubber (rubber_sheet.h).
+// The key that names a rubber (rubber_sheet.h).
 #define SB_RUBBER_KEY "rubber.name"
 
-// A rubber as a document names it, shared by the edits that change it.
+// A rubber as a document names it. Reference counted: the edits that change it share it.
 typedef struct {
-  char *name, *path; // as it is written; to open
+  char *name; // as the document has it
+  char *path; // of its file
   SbRubberSheet sheet;
 } SbNamedRubber;
 
-// A file as it was when it was last read or written (document_disk.c). All zero: there was none.
+// State of a file when it was last read or written (document_disk.c). All zero: there was none.
 typedef struct {
-  char *sha256; // of its bytes
-  bool seen;    // the rest is known
+  char *sha256; // of its bytes, hexadecimal
+  bool seen;    // the members below are known
   dev_t device;
   ino_t inode;
   off_t size;
   struct timespec time; // of the last change
 } SbFileStamp;
 
+// One edit: what it changes, [0] before and [1] after it.
 typedef struct {
-  int id;        // of a parameter, or SB_DOCUMENT_RUBBER and on
-  bool joined;   // one step with the edit before
-  bool given[2]; // before, after
-  double value[2];
-  SbNamedRubber *rubber[2];   // held; NULL: none of its own
+  int id;                     // SbParamId, or SB_DOCUMENT_RUBBER and on
+  bool joined;                // belongs to the same step as the edit before it
+  bool given[2];              // the document itself gives the value
+  double value[2];            // [SI]
+  SbNamedRubber *rubber[2];   // a reference each; NULL: no own rubber
   SbData *measured[2];        // owned; NULL: none
   SbNamedDrawing *drawing[2]; // owned
-  SbDocument *whole;          // owned: what takes the place of the document's content, and back
+  SbDocument *whole;          // SB_DOCUMENT_WHOLE: the other content, exchanged by undo and redo
 } Edit;
 
 struct SbDocument {
   SbDocumentKind kind;
   char *path;                         // NULL before the first save
-  char *name;                         // stands for it in messages then
-  char *title;                        //
+  char *name;                         // for messages if there is no path
+  char *title;                        // see sb_document_title()
   char *valve_path;                   // scenes: path to open, else NULL
   char *valve_name;                   // scenes: as the file has it
-  SbNamedFile file[SB_FILE_COUNT];    //
-  double section_height;              // as its file draws it [m]
-  bool valve_draws;                   // its valve names a groove, which a scene cannot do without
-  char *saved_drawing[SB_FILE_COUNT]; // paths of its own ones in its file, or NULL
-  GPtrArray *measured;                // of SbData, its own [data] groups
-  SbData *saved_measured;             // the first of them in its file, or NULL
-  SbNamedRubber *base_rubber, *own_rubber, *saved_rubber; // as the params; NULL: none
-  SbModelData *data;                  // what files brought, and rubber, for its models; NULL: none
+  SbNamedFile file[SB_FILE_COUNT];    // in force, of the valve or the document
+  double section_height;              // of the drawn section as its file has it [m]
+  bool valve_draws;                   // the valve names a groove, which its scene cannot remove
+  char *saved_drawing[SB_FILE_COUNT]; // paths of the own drawings in the file; NULL: none
+  GPtrArray *measured;                // of SbData, the own groups [data]; NULL: none
+  SbData *saved_measured;             // the first of them in the file; NULL: none
+  // Rubber of the valve, own rubber, own rubber in the file; a reference each, NULL: none.
+  SbNamedRubber *base_rubber, *own_rubber, *saved_rubber;
+  SbModelData *data;                  // content of the files and of the rubber; NULL: none
   char *text;                         // of the file as last read or written
-  SbFileStamp disk, valve_disk;       // its file, and that of its valve
-  GPtrArray *entries;                 // of that text
-  SbParams base;                      // what the valve gives (scenes)
-  SbParams own;                       // what the document gives
-  SbParams saved;                     // what its file gives
-  SbLimits limits;                    // on figures: the valve's, and its own in their place
-  GPtrArray *cases;                   // in the same way (document_cases.c)
-  GPtrArray *pins;                    // its own alone, see document_pins.c
-  GHashTable *pins_broken;            // names of its lines that are no design; they stay
+  SbFileStamp disk, valve_disk;       // of the file, and of the valve's file
+  GPtrArray *entries;                 // of SbEntry, of `text`
+  SbParams base;                      // values that the valve gives (scenes)
+  SbParams own;                       // values that the document itself gives
+  SbParams saved;                     // values that its file gives
+  SbLimits limits;                    // of the valve, replaced by the own ones
+  GPtrArray *cases;                   // of SbCase, of the valve, replaced by the own ones
+  GPtrArray *pins;                    // only the own ones (document_pins.c)
+  GHashTable *pins_broken;            // names of lines of [pins] that cannot be read; they stay
   bool pins_changed;                  // since the file was read or written
-  GPtrArray *remark[SB_REMARK_KINDS]; // what a review adds (document_review.c)
-  bool remarks_changed;               // in the same way
+  GPtrArray *remark[SB_REMARK_KINDS]; // bookmarks and notes (document_review.c)
+  bool remarks_changed;               // since the file was read or written
   SbShapes *shapes;                   // of the parts
-  GPtrArray *notes;                   // of char *, what shapes say against given values
-  GPtrArray *all_notes;               // these and those of sizes that stay: sb_document_notes()
-  GPtrArray *faults;                  // of SbIssue: errors of the files, see document_faults.c
-  GArray *edits;                      // Edit
-  guint done;                         // edits before this one are in force
-  bool mergeable;                     // the last edit may swallow the next one of its key
-  unsigned serial;
+  GPtrArray *notes;                   // of char *: differences between shapes and values, ...
+  GPtrArray *all_notes;               // result of the last sb_document_notes()
+  GPtrArray *faults;                  // of SbIssue: errors of the files (document_faults.c)
+  GArray *edits;                      // of Edit
+  guint done;                         // number of edits in force; later ones can be repeated
+  bool mergeable;                     // the next edit of the same key may join the last one
+  unsigned serial;                    // see sb_document_serial()
 };
 
-// Notes that the bytes of `path` are `text`; call it right after they were read or written. Frees
-// what a stamp holds.
+// Records the present state of the file `path`, whose bytes are `text`. Call it immediately after
+// the file was read or written.
 void sb_file_stamp_set(SbFileStamp *stamp, const char *path, const char *text, size_t length);
+
+// Frees what a stamp owns; it is then all zero.
 void sb_file_stamp_finish(SbFileStamp *stamp);
 
-// Swaps everything but the edits of two documents.
+// Exchanges the content of two documents, except their edits.
 void sb_document_exchange(SbDocument *a, SbDocument *b);
 
-// Records the issues from `first` on as faults of the document's files.
+// ---- Faults ----
+
+// Copies the issues from index `first` on to the faults of the document.
 void sb_document_add_faults(SbDocument *document, const GPtrArray *issues, guint first);
 
-// Whether every line of [cases] can be read; adds the errors. Unlike sb_document_check_cases(), for
-// documents that do not compile.
-bool sb_document_check_case_lines(const SbDocument *document, GPtrArray *issues);
-
-// Whether the case of this name compiles with the values in force; false if there is none.
-bool sb_document_case_is_good(const SbDocument *document, const char *name);
-
-// Forgets faults that edits have corrected; to be called when they are saved.
+// Removes the faults that edits have corrected. Call it when they are saved.
 void sb_document_faults_saved(SbDocument *document);
 
-// The key's index, or -1.
+// Returns whether every line of [cases] can be read; appends the issues of others. Also for
+// documents that do not compile, unlike sb_document_check_cases().
+bool sb_document_check_case_lines(const SbDocument *document, GPtrArray *issues);
+
+// Returns whether the case `name` compiles with the values in force; false if there is none.
+bool sb_document_case_is_good(const SbDocument *document, const char *name);
+
+// ---- Files and drawings ----
+
+// Returns the SbFileKey of a key ("drive.file"); -1: none.
 int sb_document_find_file(const char *key);
 
-// Reads the file of a key, `name` from `directory` (NULL: the current one), and puts it in force.
-// False with an issue about line `line` of `shown`.
+// Reads the file that a key names, `name` relative to `directory` (NULL: the current folder), and
+// puts its content in force. `in_valve`: the scene's valve names it. Returns false with an issue on
+// line `line` of the file `shown`.
 bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name,
                            const char *directory, bool in_valve, const char *shown, int line,
                            GPtrArray *issues);
 
-// A copy of a drawing in force, to be freed; puts a copy of one in force; the path of the
-// document's own one, NULL: none.
+// Returns a copy of the drawing in force. Freed by sb_named_drawing_free().
 SbNamedDrawing *sb_document_drawing_now(const SbDocument *document, SbFileKey key);
+
+// Puts a copy of `drawing` in force, without an edit.
 void sb_document_put_drawing(SbDocument *document, const SbNamedDrawing *drawing);
+
+// Frees a drawing; takes NULL.
 void sb_named_drawing_free(SbNamedDrawing *drawing);
+
+// Returns the path of the document's own drawing; NULL: none. Borrowed.
 const char *sb_document_own_drawing(const SbDocument *document, SbFileKey key);
 
-// Makes `drawing` (taken over) the document's; a section as one step with seal.profile = file.
+// Makes `drawing`, which the document owns from now on, its own by an edit; a section in one step
+// with seal.profile = file.
 void sb_document_edit_drawing(SbDocument *document, SbNamedDrawing *drawing);
 
-// Keeps which drawings its file has.
+// Records that the file has the document's present drawings.
 void sb_document_drawings_saved(SbDocument *document);
+
+// Returns whether the document's own drawings differ from those in its file.
 bool sb_document_drawings_differ(const SbDocument *document);
 
-// Notes a drawn section that is not as high as the seals, and a drawn groove of another width.
+// Appends notes on a drawn section whose height differs from the seals', and on a drawn groove
+// whose width differs from gland.axial_width.
 void sb_document_note_drawings(SbDocument *document);
 
-// Sets the title anew from the text or the path.
+// Sets the title from `text` or `path`.
 void sb_document_refresh_title(SbDocument *document);
 
-// ", do you mean KEY?" of the catalogue's key most like `key`, or an empty text. Owned by the
-// caller.
+// Returns ", do you mean KEY?" with the key of the catalogue that is most similar to `key`; empty:
+// none is similar. Freed by g_free().
 char *sb_document_key_hint(const char *key);
 
-// Adds the [limits] of a scanned file; later ones take the place of earlier ones
-// (document_limits.c).
+// ---- Limits and cases ----
+
+// Reads the [limits] among `entries` (of SbEntry) of the file `shown` into `limits`; they replace
+// earlier ones on the same figure. Appends issues (document_limits.c).
 void sb_document_read_limits(SbLimits *limits, const GPtrArray *entries, const char *shown,
                              GPtrArray *issues);
 
-// Appends them as a group; nothing where there are none.
+// Appends `limits` to `text` as a group; nothing if there are none.
 void sb_document_append_limits(GString *text, const SbLimits *limits);
 
-// The same for a group of cases, whose values are looked at when they are compiled
-// (document_cases.c).
+// Largest number of cases, and of pins.
 enum { SB_CASES_MAX = 100 };
+
+// A line of [cases] or [pins], not yet interpreted (document_cases.c).
 typedef struct {
-  char *name, *settings;
-  char *shown; // the file that has it
+  char *name, *settings; // NAME = KEY=VALUE; KEY=VALUE
+  char *shown;           // the file that contains it
 } SbCase;
+
+// Returns an empty list of SbCase that owns its elements. Freed by g_ptr_array_unref().
 GPtrArray *sb_document_cases_new(void);
+
+// Reads the lines of `group` among `entries` (of SbEntry) into `cases`; they replace earlier ones
+// of the same name. Appends issues.
 void sb_document_read_cases(GPtrArray *cases, const char *group, const GPtrArray *entries,
                             const char *shown, GPtrArray *issues);
+
+// Appends the cases to `text` as group [cases]; nothing if there are none.
 void sb_document_append_cases(GString *text, const GPtrArray *cases);
 
-// The values of one, and its rubber where it names one (owned, NULL: the document's); issues name
-// `path`. Then the model of them.
+// Writes the values in force with those of a case in their place to *params, and a reference to the
+// rubber that it names to *rubber (NULL: none; released by sb_named_rubber_release()). Returns
+// false with issues on the key `path`.
 bool sb_document_case_params(const SbDocument *document, const SbCase *one, const char *path,
                              SbParams *params, SbNamedRubber **rubber, GPtrArray *issues);
+
+// Compiles such values to a model, freed by sb_model_destroy(). `rubber` (NULL: the document's)
+// stays the caller's. Returns false with issues on the key `path` of the file `shown`.
 bool sb_document_case_model(const SbDocument *document, SbParams params, SbNamedRubber *rubber,
                             const char *shown, const char *path, SbModel **out, GPtrArray *issues);
 
-// The kept designs of a file that was read (document_pins.c); what saving changes of its group.
+// ---- Pins ----
+
+// Returns an empty list of pins that owns its elements. Freed by g_ptr_array_unref().
 GPtrArray *sb_document_pins_new(void);
+
+// Reads the [pins] among `entries` (of SbEntry) of the file `shown`. Appends issues.
 void sb_document_read_pins(SbDocument *document, const GPtrArray *entries, const char *shown,
                            GPtrArray *issues);
+
+// Appends the changes (of SbChange) of group [pins] with which saving makes the file state the
+// pins.
 void sb_document_change_pins(GArray *changes, const SbDocument *document);
 
-// The groups of bookmarks and notes (document_review.c).
+// ---- Bookmarks and notes ----
+
+// Returns whether a group is [bookmarks] or [notes].
 bool sb_document_is_remark_group(const char *group);
+
+// Creates the empty lists of a new document.
 void sb_document_remarks_init(SbDocument *document);
+
+// Frees the lists.
 void sb_document_remarks_clear(SbDocument *document);
+
+// Reads both groups from document->entries; `shown` names the file in issues.
 void sb_document_remarks_read(SbDocument *document, const char *shown, GPtrArray *issues);
 
-// Adds the lines that differ from the file's (of SbChange).
+// Appends the changes (of SbChange) of both groups with which saving makes the file state them.
 void sb_document_change_remarks(GArray *changes, const SbDocument *document);
 
-// Range of a problem in the parameter's unit, "at least 5.79 mm"; NULL: none. Owned by the caller.
+// ---- Values ----
+
+// Returns the allowed range of a problem in the parameter's unit, "at least 5.79 mm"; NULL: none.
+// Freed by g_free().
 char *sb_document_problem_range(const SbProblem *problem, const SbParam *param);
 
-// A value with unit, or a change of the value in force ("+5 %").
+// Reads a value with unit, or a percentage of the value in force ("+5 %"), to *out [SI]. Returns
+// false with SB_APP_ERROR_INPUT.
 bool sb_document_read_value(double *out, const SbDocument *document, SbParamId id, const char *text,
                             GError **error);
 
-// Reads the rubber of a name or path beside the files of `directory`; `shown` and `line` are where
-// that stands. NULL with an issue (document_rubber.c).
+// ---- Rubbers ----
+
+// Reads the rubber `name` as sb_rubber_sheet_read(). Returns it with one reference, released by
+// sb_named_rubber_release(); NULL with at least one issue.
 SbNamedRubber *sb_named_rubber_read(const char *name, const char *directory, const char *shown,
                                     int line, GPtrArray *issues);
+
+// Adds a reference and returns `rubber`; takes NULL.
 SbNamedRubber *sb_named_rubber_hold(SbNamedRubber *rubber);
-void sb_named_rubber_release(SbNamedRubber *rubber); // takes NULL
+
+// Removes a reference; the last one frees the rubber. Takes NULL.
+void sb_named_rubber_release(SbNamedRubber *rubber);
+
+// Returns whether both have the same name and path, or are both NULL.
 bool sb_named_rubber_same(const SbNamedRubber *a, const SbNamedRubber *b);
 
-// Puts a rubber (taken over, NULL: none) into the document's base_rubber or own_rubber, and what is
-// in force then into its data; data with another one in its place, for the caller to release.
+// Sets *place, which is &document->base_rubber or &document->own_rubber, to `rubber` (NULL: none),
+// whose reference the document takes over, and updates document->data, without an edit.
 void sb_document_put_rubber(SbDocument *document, SbNamedRubber **place, SbNamedRubber *rubber);
+
+// Returns a copy of document->data with another rubber (NULL: none). Released by
+// sb_model_data_release().
 SbModelData *sb_document_data_with(const SbDocument *document, const SbNamedRubber *rubber);
 
-// The rubber in force, NULL: none; borrowed.
+// Returns the rubber in force; NULL: none. Borrowed.
 SbNamedRubber *sb_document_rubber_in_force(const SbDocument *document);
 
-// Of an Edit.
-void sb_document_clear_edit(gpointer edit);
-
-// Whether the first group of measured data is not the file's; from now on it is.
-bool sb_document_data_differs(const SbDocument *document);
-void sb_document_data_saved(SbDocument *document);
-
-// An undoable edit of the document's own rubber, which it takes over.
+// Makes `rubber` (NULL: none), whose reference the document takes over, its own by an edit.
 void sb_document_edit_rubber(SbDocument *document, SbNamedRubber *rubber);
 
-// What a document in `directory` must call its own rubber; NULL: it has none. Owned by the caller.
+// Returns the name that a document in the folder `directory` must use for this document's own
+// rubber; NULL: it has none. Freed by g_free().
 char *sb_document_rubber_name_at(const SbDocument *document, const char *directory);
 
-// Adds to `notes`: size `id` stays at `value` [SI], as `file` gives it, while `giver`, with which a
-// drawing would change it, goes from `before` to `now`.
+// ---- Edits ----
+
+// Frees what an Edit owns; the clear function of document->edits.
+void sb_document_clear_edit(gpointer edit);
+
+// Returns whether the first group of measured data differs from that in the file.
+bool sb_document_data_differs(const SbDocument *document);
+
+// Records that the file has the present first group of measured data.
+void sb_document_data_saved(SbDocument *document);
+
+// ---- Notes ----
+
+// Appends a sentence to `notes` (of char *): size `id` stays at `value` [SI], given by the file
+// that `file` names for the user, while `giver`, with which a drawing would change it, changes from
+// `before` to `now` [SI].
 void sb_document_note_size(GPtrArray *notes, const char *file, SbParamId id, double value,
                            SbParamId giver, double before, double now);
 
-// Adds a note to the document that states the modulus and the relation if `text`, the value of
-// `key`, is a hardness.
+// Appends a note that states the modulus and the relation if `text`, the value of `key`, is a
+// hardness.
 void sb_document_note_hardness(SbDocument *document, const char *key, const char *text);
 
-// Adds to the notes that a value in force is not what a shape makes it; `shown` names who says so.
-// Nothing where they agree.
+// Appends a note that a value in force differs from the size of a shape (sb_document_shape_note());
+// `shown` names the file that gives the value. Does nothing if they agree.
 void sb_document_note_override(SbDocument *document, SbParamId id, const char *shown);

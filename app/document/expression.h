@@ -1,11 +1,11 @@
-// Values of a study's lines that hang on others: "floor + 2 * space", "gland.radial_space / 2",
+// Expressions in a study file's values: "floor + 2 * space", "gland.radial_space / 2",
 // "seal.section_diameter + 0.02 mm".
 //
-// + - * / with their usual precedence, parentheses and functions over names and numbers. A number
-// with a unit is a quantity of the dimension that the whole has; the others have none. Functions,
-// whose arguments semicolons part:
-//   min(A; B) max(A; B) pow(A; B) sin cos tan asin atan exp ln round(A), single(A): A in single
-//   precision; and closed forms of the engine:
+// + - * / with their usual precedence, parentheses and functions, over names and numbers. A number
+// with a unit must have the dimension of the result; a number without a unit has no dimension.
+// Semicolons separate the arguments of functions:
+//   min(A; B) max(A; B) pow(A; B) sin cos tan asin atan exp ln round(A), single(A): A rounded to
+//   single precision; and closed forms of the engine:
 //   column(pressure; height; modulus; poisson) half_space(x; half-width; radius)
 //   panel(distance; width) flamant(x; load; datum; modulus; poisson)
 //   disc(load; half-width; radius; modulus; poisson)           engine/contact/deflection.h
@@ -17,9 +17,11 @@
 #include <glib.h>
 #include <stdbool.h>
 
-// The value of a name [SI]; false: there is none.
+// Writes the value of a name [SI] to *out. Returns false if there is no such name.
 typedef bool (*SbExpressionName)(double *out, const char *name, void *data);
 
-// False with SB_APP_ERROR_INPUT and a sentence that names the place.
+// Computes the expression `text` whose result has the SI unit `si` ("m", "1"); `shown` is the usual
+// unit, for messages. `name` returns the values of names. Returns false with SB_APP_ERROR_INPUT and
+// a sentence that names the place, also if the result is not finite (a division by 0).
 bool sb_expression_value(double *out, const char *text, const char *si, const char *shown,
                          SbExpressionName name, void *data, GError **error);

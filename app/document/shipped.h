@@ -67,9 +67,9 @@ char *sb_shipped_name(const char *path, SbShippedKind kind);
 char *sb_shipped_study(const char *name);
 
 // Folder of the thesis' tables and figures (app/study/thesis_item.h); NULL if there is none. Owned
-// by the caller.
+// by the caller (g_free).
 char *sb_shipped_thesis(void);
 
-// Folder of runs that were solved when the program was built (app/session/stored_run.h); NULL if
-// there is none. Owned by the caller.
+// Folder of runs that were computed when the program was built (app/session/stored_run.h); NULL if
+// there is none. Owned by the caller (g_free).
 char *sb_shipped_runs(void);

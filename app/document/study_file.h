@@ -1,17 +1,19 @@
-// A study file: the scene that is asked, the parameters that vary and how, what is asked for.
+// A study file: the scene, the parameters that vary and how, and the requested results.
 //
-// GKeyFile text like a scene's: [sealbench] with kind = study and scene = FILE; [vary] a line a
-// parameter; [correlation]; [study]; [limits]; [design] and [tolerances] of `sealbench design`,
-// which takes the ranges of [vary] as bounds; [data] of `sealbench calibrate`, which takes them as
-// priors; [leakage_test], whose cans are the samples (engine/valve/answer/leakage_test.h).
+// GKeyFile text like a scene's. [sealbench] has kind = study and scene = FILE; [vary] has a line
+// for each parameter; [correlation]; [study] has the method, samples, seed and figures; [limits];
+// [design] and [tolerances] are for `sealbench design`, which uses the ranges of [vary] as bounds;
+// [data] is for `sealbench calibrate`, which uses them as priors; [leakage_test] simulates tests
+// whose cans are the samples (engine/valve/leakage_test.h).
 //
-// A grid may say more. Each group [vary NAME] is a grid of its own beside the others, with the
-// lines of [vary] added; samples stand in the order of the groups, the last line runs fastest. A
-// name without a dot is a variable, which overrides nothing; `KEY = by EXPRESSION` follows from
+// A grid can be extended. Each group [vary NAME] is an additional grid, of its own lines and those
+// of [vary]; samples are in the order of the groups, and the last line varies fastest. A name
+// without a dot is a variable, which sets no parameter. `KEY = by EXPRESSION` is computed from
 // variables and from the scene's values, which keys in an expression mean (expression.h). A
-// variable that a group leaves out is 0. Ends of ranges and levels may be expressions of the
-// scene's values; `uniform A .. B, N and C, D` adds levels behind the N. `hold` in [study] names
-// what of the scene is held (SB_HOLDS of engine/valve/studies/hold.h).
+// variable that a group does not have is 0. Ends of ranges and levels can be expressions of the
+// scene's values; `uniform A .. B, N and C, D` adds levels after the N of the range. `hold` in
+// [study] names groups of the scene's parameters that are fixed (SB_HOLDS of
+// engine/valve/studies/hold.h).
 #pragma once
 
 #include "app/document/document.h"
@@ -28,6 +30,7 @@
   X(SB_METHOD_SOBOL_INDICES, "sobol-indices")                                                      \
   X(SB_METHOD_RELIABILITY, "reliability")
 
+// How the samples are chosen.
 typedef enum {
 #define SB_STUDY_METHOD_ENUM(code, name) code,
   SB_STUDY_METHODS(SB_STUDY_METHOD_ENUM)
@@ -35,110 +38,125 @@ typedef enum {
       SB_METHOD_COUNT
 } SbStudyMethod;
 
-// Borrowed, static.
+// Returns the name of a method as the file has it ("monte-carlo").
 const char *sb_study_method_name(SbStudyMethod method);
 
+// Largest numbers of varied parameters, of samples and of simulated leakage tests.
 enum { SB_VARY_MAX = 64, SB_SAMPLES_MAX = 10000000, SB_LEAKAGE_TESTS = 1000 };
 
 // One line of [vary], or of [tolerances].
 typedef struct {
-  SbParamId id;
-  bool offset;                 // a tolerance: what is added to the parameter's value
-  SbDistribution distribution; // its levels are owned by the file
-  double *levels;
-  const SbModel *base; // whose values expressions name; borrowed
-  // Of lines of a grid that says more:
-  char *name; // of a variable, whose id is SB_VARY_VARIABLE; owned
-  char *by;   // expression, instead of a distribution; owned
-  int line;   // in the file
-  guint grid; // the how-many-th [vary NAME], from 1; 0: [vary]
-  guint column;
+  SbParamId id;                // the parameter, or SB_VARY_VARIABLE
+  bool offset;                 // a tolerance: added to the parameter's value
+  SbDistribution distribution; // of the values [SI]; its levels are `levels`
+  double *levels;              // freed by g_free(); NULL: no levels
+  const SbModel *base;         // whose values expressions use; borrowed
+  // Only for lines of an extended grid:
+  char *name;   // of a variable; NULL: a parameter
+  char *by;     // the expression; NULL: a distribution
+  int line;     // number of the line in the file, from 1
+  guint grid;   // number of the group [vary NAME], from 1; 0: [vary]
+  guint column; // index of its value in a row of values
 } SbVary;
 
+// SbVary.id of a variable.
 #define SB_VARY_VARIABLE ((SbParamId)-1)
 
-// Key or variable's name; its SI unit. Borrowed.
+// Returns the parameter's key or the variable's name. Borrowed.
 const char *sb_vary_name(const SbVary *vary);
+
+// Returns the SI unit of its values ("m"); "1" for a variable or a choice. Borrowed.
 const char *sb_vary_si(const SbVary *vary);
 
 // [design] and [tolerances].
 typedef struct {
-  bool asked;         // there is a [design]
-  bool maximise;      // else minimise
-  int figure;         // the objective, figures.def
-  double robust;      // probability that all limits hold over the tolerances; NaN: not asked
-  size_t starts;      // of the search
-  GArray *tolerances; // of SbVary, offsets: normal or uniform
+  bool asked;         // there is a group [design]
+  bool maximise;      // the objective is maximised, else minimised
+  int figure;         // the objective, an index of sb_figure(); negative: none
+  double robust;      // required probability that all limits hold over the tolerances; NaN: none
+  size_t starts;      // number of starts of the search
+  GArray *tolerances; // of SbVary with `offset`: normal or uniform
 } SbDesignWish;
 
+// A study. Freed by sb_study_file_free(), with everything in it.
 typedef struct {
-  char *path;        // NULL: standard input
+  char *path;        // NULL: standard input or memory
   char *title;       // of [sealbench], else the file's name
-  SbDocument *scene; //
-  SbModel *base;     // the scene, --set included
-  char *base_sha256; // hex, of the scene's values and of what it reads beside them
-  GArray *vary;      // of SbVary: what there are values of
-  GArray *lines;     // of SbVary, of a grid that says more; NULL: `vary`
-  guint grids;       // groups [vary NAME]
-  double *root;      // [vary][vary] lower root of the normal variates' correlation; NULL: none
+  SbDocument *scene; // NULL: read by sb_study_file_of_model()
+  SbModel *base;     // the compiled scene, with --set and `hold` applied
+  char *base_sha256; // hash (hexadecimal) of the scene's values and of the files that it reads
+  GArray *vary;      // of SbVary: one for each column of a row of values
+  GArray *lines;     // of SbVary: all lines of an extended grid; NULL: no extended grid
+  guint grids;       // number of groups [vary NAME]
+  double *root; // [vary][vary] lower Cholesky factor of the normal variates' correlation; NULL:
+                // independent
   SbStudyMethod method;
-  size_t samples; // points of the method, rounded down to whole trajectories or blocks; 0: not said
-                  // (a design's)
+  size_t samples; // number of samples, rounded down to full trajectories or blocks; 0: not given
   guint64 seed;
-  GArray *figures; // of int, figures.def: those named (default all), then those of limits
-  SbLimits limits; // the scene's, its own in their place
+  GArray *figures; // of int, indices of sb_figure(): the requested ones (default all), then those
+                   // of the objective and the limits
+  SbLimits limits; // the scene's, replaced by its own
   SbDesignWish design;
   SbLeakageTest leakage; // of [leakage_test]
-  size_t leakage_tests;  // simulated; 0: not asked for
+  size_t leakage_tests;  // number of simulated tests; 0: none
   GPtrArray *data;       // of SbData
-  bool borrowed;         // all but the lists is another study's
+  bool borrowed;         // all members but the arrays belong to another study
 } SbStudyFile;
 
-// Reads a study ("-": standard input) and its scene, with KEY=VALUE settings upon that. NULL with
-// at least one issue. Owned by the caller.
+// Reads the study file `path` ("-": standard input) and its scene, and applies the KEY=VALUE
+// settings (ends with NULL; NULL: none) to the scene. Returns NULL with at least one issue.
 SbStudyFile *sb_study_file_load(const char *path, char **settings, GPtrArray *issues);
 
-// The same from memory; `name` stands in messages, `directory` is where the scene is looked for
-// (NULL: the current one). A `scene` that is not NULL is taken in place of that which the text
-// names, and owned from then on.
+// As sb_study_file_load(), from the `length` bytes of a file. `name` stands for the path in
+// messages; the scene is looked for in `directory` (NULL: the current folder). If `scene` is not
+// NULL, it is used in place of the scene that the text names and is owned by the study, also after
+// a failure.
 SbStudyFile *sb_study_file_parse(const char *text, size_t length, const char *name,
                                  const char *directory, char **settings, SbDocument *scene,
                                  GPtrArray *issues);
 
-// The same of a file for another scene, which is copied: that of the file is not looked at.
+// Reads the study file `path` for another scene, `scene`, which is copied. The scene that the file
+// names is not read. Returns NULL with at least one issue.
 SbStudyFile *sb_study_file_of_model(const char *path, const SbModel *scene, GPtrArray *issues);
 
-// The study of a design's scatter, `reliability` with so many samples: what varies are the
-// tolerances about these values [vary], or about the scene's of parameters that [vary] has not. It
-// borrows from `study` and lives no longer. Owned by the caller.
+// Returns the study of a design's scatter, method `reliability` with `samples` samples: the
+// tolerances of `study` vary about value[vary] (SI, in the order of study->vary) or, for other
+// parameters, about the scene's values. It borrows from `study`, which must outlive it.
 SbStudyFile *sb_study_file_about(const SbStudyFile *study, const double *value, size_t samples);
 
-// Takes NULL.
+// Frees a study; takes NULL.
 void sb_study_file_free(SbStudyFile *study);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbStudyFile, sb_study_file_free)
 
-// Values [vary] in SI at independent standard normal variates u[vary], and where `slope` is not
-// NULL the derivative [vary][vary] of each value by each variate.
+// ---- Samples. Values are [SI], of a choice its index, in the order of study->vary ----
+
+// Writes value[vary] at the independent standard normal variates u[vary]. If `slope` is not NULL,
+// writes slope[vary][vary], the derivative of each value (row) by each variate (column).
 void sb_study_file_place(double *value, double *slope, const SbStudyFile *study, const double *u);
 
-// Values [samples][vary] of all points in SI (the index of a choice), and where `unit` is not NULL,
-// the points in the unit cube [samples][vary] that the method's estimates need. Those of
-// `reliability` are in app/study/reliability.h. SB_ERROR_MEMORY.
+// Writes the values [samples][vary] of all samples to *value and, if `unit` is not NULL, the points
+// [samples][vary] in the unit cube, which the method's estimates need, to *unit (zeros for a grid).
+// Both are freed by free(). Not for the method `reliability` (app/study/reliability.h). Returns
+// SB_ERROR_MEMORY, or the error of the sampling (engine/numeric/sampling.h); both are then NULL.
 SbStatus sb_study_file_points(double **value, double **unit, const SbStudyFile *study,
                               SbReport *report);
 
-// Samples of the how-many-th group [vary NAME], from 1; those of the groups before it come first.
+// Returns the number of samples of the `grid`-th group [vary NAME], from 1. The samples of the
+// groups before it come first.
 size_t sb_study_grid_samples(const SbStudyFile *study, guint grid);
 
-// Of a grid that says more: the combination of all but the last line that a sample has, counted
-// through the file from 0, and the last line's value.
+// Only for an extended grid. A line of samples is a combination of the levels of all lines but the
+// fastest. Writes the number of the line to which `sample` belongs, counted over all groups from 0,
+// and the value of the fastest line at the sample.
 void sb_study_grid_place(size_t *line, double *x, const SbStudyFile *study, size_t sample);
 
-// Fills what follows in a row [vary] of values, NaN elsewhere for what it has not, of a group [vary
-// NAME] (0: of none). A value that is none, such as a quotient by 0, is NaN.
+// Only for an extended grid. Computes the expressions of group `grid` (0: of [vary] only) in the
+// row of values row[vary], which contains the levels, with NaN for what the group does not have. An
+// expression without a finite value gives NaN.
 void sb_study_grid_follow(double *row, const SbStudyFile *study, guint grid);
 
-// The row of a line of the grid at its first level, what follows left out; its group, and the
-// column of its last parameter.
+// Only for an extended grid. Writes row[vary] of line number `line` (see sb_study_grid_place()) at
+// the first level of the fastest parameter, without expressions (NaN); its group to *grid; and the
+// column of the fastest parameter to *column.
 void sb_study_grid_row(double *row, guint *grid, guint *column, const SbStudyFile *study,
                        size_t line);
