@@ -42,7 +42,7 @@ void sb_document_note_drawings(SbDocument *document) {
     if (fabs(height - is) > 1e-3 * is) {
       g_ptr_array_add(document->notes,
                       g_strdup_printf("seal.profile_file: the section of %s is %.4g mm high; %s = "
-                                      "%.4g mm is in force, to which it is scaled",
+                                      "%.4g mm applies, and the section is scaled to it",
                                       document->file[SB_FILE_SECTION].name, 1e3 * height,
                                       sb_param(section[i])->key, 1e3 * is));
     }

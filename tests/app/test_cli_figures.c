@@ -36,7 +36,7 @@ static void test_reasons(void) {
         "--set=seal.inner_diameter=2.476mm", "--quiet", "--quiet"},
        0,
        "cycle.leakage_per_cycle_m3",
-       "does not touch"},
+       "has no contact"},
       {{"--set=models.fit=ring", "--set=output.work_limit=10", "--quiet", "--quiet", "--quiet"},
        2,
        "cycle.returns",
@@ -48,7 +48,7 @@ static void test_reasons(void) {
       {{"--set=surface.gt_product=0.17", "--quiet", "--quiet", "--quiet", "--quiet"},
        0,
        "cycle.leakage_net_all_actuations_m3",
-       "does not come back"},
+       "does not return"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     CliResult run =

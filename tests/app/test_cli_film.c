@@ -45,7 +45,7 @@ static void test_film_digits(void) {
   const double error = cli_number(root, "solver.error_estimate.film_min");
   char digits[SB_NUMBER_SIZE];
   sb_number_with_error(digits, film, 5, error);
-  g_autofree char *line = g_strdup_printf("  Film, least                          %s nm\n", digits);
+  g_autofree char *line = g_strdup_printf("  Film, minimum                        %s nm\n", digits);
   if (strstr(table.out, line) == NULL) {
     g_error("%s is not in\n%s", line, table.out);
   }

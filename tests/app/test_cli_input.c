@@ -87,7 +87,7 @@ static void test_percent(void) {
                                  load_of("seal.poisson_ratio=0.48"), 1e-9);
   const char *scene = cli.scene;
   SAYS(1, "another kind", "plan", scene, "--set", "seal.modulus=5 %");
-  SAYS(1, "makes it 50 MPa, out of range", "plan", scene, "--set", "canister.pressure=0.5 MPa",
+  SAYS(1, "changes it to 50 MPa, out of range", "plan", scene, "--set", "canister.pressure=0.5 MPa",
        "--set", "canister.pressure=+9900%");
   SAYS(1, "no percentage changes", "plan", scene, "--set", "storage.swell_mass=0 %", "--set",
        "rubber.thermal_expansion=0 1/K", "--set", "rubber.thermal_expansion=+5%");

@@ -80,7 +80,7 @@ static void test_table(void) {
   g_assert_cmpint(result.code, ==, 0);
   static const char *const wanted[] = {
       "960 x 960 points 0.5 µm x 0.5 µm apart",
-      "quadratic taken away, no outliers sought, missing points left out, Gaussian long cut-off",
+      "quadratic removed, no outliers sought, missing points left out, Gaussian long cut-off",
       "80 µm\n",
       "Sq, standard deviation",
       "by neighbours",
@@ -106,7 +106,7 @@ static void test_refused(void) {
                {{scan_path, "--unit", "kg"}, "--unit"},
                {{scan_path, "--unit", "nm"}, "states its own units"},
                {{scan_path, "--channel", "7"}, "no channel 7"},
-               {{scan_path, "--scene", "x.scene"}, "go together"},
+               {{scan_path, "--scene", "x.scene"}, "requires --output"},
                {{cli.scene}, "thesis-cycle.scene: "}};
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     const char *arguments[8] = {"surface"};

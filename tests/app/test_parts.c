@@ -99,11 +99,11 @@ static void test_clash(void) {
       {"[bore]\ndiameter = 6.1 mm\n[gland]\nradial_space = 1.4 mm\n[stem]\nmass = 3 g\n", NULL,
        NULL},
       {"[bore]\ndiameter = 6 mm\n", "bore.diameter",
-       "is 6 mm, but the bore of [part.housing] makes it 6.1 mm"},
+       "is 6 mm, but the bore of [part.housing] results in 6.1 mm"},
       {"[gland]\nradial_space = 1.36 mm\n", "gland.radial_space",
-       "is 1.36 mm, but the groove of [part.stem_centre] makes it 1.4 mm"},
+       "is 1.36 mm, but the groove of [part.stem_centre] results in 1.4 mm"},
       {"[stem]\npressure_diameter = 5.794 mm\n", "stem.pressure_diameter",
-       "is 5.794 mm, but the land of [part.stem_centre] makes it 5.8 mm"},
+       "is 5.794 mm, but the land of [part.stem_centre] results in 5.8 mm"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GPtrArray) issues = sb_issues_new();
@@ -191,7 +191,7 @@ static void test_weighed_below(void) {
   bool told = false;
   for (guint i = 0; i < notes->len; i++) {
     // 1000 kg/m3 pi (2 mm)^2 10 mm = 0.12566 g beside 1.47 and 1.14 g.
-    told = told || strstr(notes->pdata[i], "stem.mass = 3.73 g is in force; the stem's parts make "
+    told = told || strstr(notes->pdata[i], "stem.mass = 3.73 g applies; the stem's parts add up to "
                                            "2.7357 g") != NULL;
   }
   g_assert_true(told);
@@ -270,7 +270,7 @@ static void test_refused(void) {
       {"profile = mm 10,0 10,2 0,2 0,0\nland = 20 mm .. 30 mm\n", "land", "does not reach"},
       {"profile = mm 10,0 10,2 0,2 0,0\nland = 20 mm\n", "land", "not a stretch"},
       {"stl = nowhere.stl\nunit = mm\n", "stl", "nowhere.stl"},
-      {"stl = nowhere.stl\n", "unit", "knows no unit"},
+      {"stl = nowhere.stl\n", "unit", "states no unit"},
       {"stl = a.stl\nunit = mm\nprofile = mm 0,0 1,1 1,0\n", "stl", "not both"},
       {"land = 1 mm .. 2 mm\n", "land", "needs a profile"},
   };

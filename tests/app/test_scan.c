@@ -340,7 +340,7 @@ static void test_refused(void) {
   assert_refused("", 0, &plain, "no numbers");
   assert_refused("hello\nworld\n", 12, &plain, "no numbers");
   assert_refused("\0\1\2", 3, &plain, "not a scan that is known");
-  assert_refused("0,5\n0,6\n0,7\n", 12, &plain, "reads in two ways");
+  assert_refused("0,5\n0,6\n0,7\n", 12, &plain, "is ambiguous");
   assert_refused("ncols 100000\nnrows 100000\ncellsize 1\n1 2 3\n", 43,
                  &(SbScanChoices){.unit = 1e-9}, "3 numbers where the header announces");
   SbScan scan;

@@ -294,7 +294,7 @@ static void test_document(void) {
                                   "groove.txt\n");
   g_autoptr(SbDocument) grooved = load(grooved_path, 0);
   g_assert_cmpuint(sb_document_notes(grooved)->len, ==, 1);
-  g_assert_nonnull(strstr(sb_document_notes(grooved)->pdata[0], "stand 2.2 mm apart"));
+  g_assert_nonnull(strstr(sb_document_notes(grooved)->pdata[0], "are 2.2 mm apart"));
   g_autoptr(SbModel) with_groove = NULL;
   g_assert_true(sb_document_compile(grooved, &with_groove, issues));
   g_assert_cmpint(sb_model_groove(with_groove)->count, ==, 4);

@@ -310,7 +310,7 @@ static void test_one_way(void) {
     g_assert_cmpfloat(s->returned, ==, 0);
     g_assert_true(isnan(s->leakage_per_cycle) && isnan(s->leakage_net));
     g_assert_true(isnan(s->leakage_carried)); // there is no second actuation
-    g_assert_nonnull(strstr(reason_at(s, "cycle.leakage_per_cycle_m3"), "one way"));
+    g_assert_nonnull(strstr(reason_at(s, "cycle.leakage_per_cycle_m3"), "in one direction"));
     g_assert_cmpint(s->verdict[SB_VERDICT_RETURNS].ok, ==, SB_ANSWER_NO);
     sb_run_destroy(run);
   }
