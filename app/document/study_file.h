@@ -4,7 +4,7 @@
 // for each parameter; [correlation]; [study] has the method, samples, seed and figures; [limits];
 // [design] and [tolerances] are for `sealbench design`, which uses the ranges of [vary] as bounds;
 // [data] is for `sealbench calibrate`, which uses them as priors; [leakage_test] simulates tests
-// whose cans are the samples (engine/valve/leakage_test.h).
+// whose cans are the samples (engine/valve/answer/leakage_test.h).
 //
 // A grid can be extended. Each group [vary NAME] is an additional grid, of its own lines and those
 // of [vary]; samples are in the order of the groups, and the last line varies fastest. A name
