@@ -218,14 +218,14 @@ static void draw_table(Draw *d, SbRect rect) {
     sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_SECOND), 1);
     cairo_fill(c->cr);
     const SbTextStyle told = sb_canvas_style(c, SB_TYPE_LABEL, 600, row->role);
-    sb_canvas_text(c, row->told, &told, right, base, SB_RIGHT);
+    sb_canvas_text(c, row->identifiable, &told, right, base, SB_RIGHT);
   }
 }
 
 // The sentence in its box; its height.
 static double draw_sentence(Draw *d, SbRect rect) {
   SbCanvas *c = &d->canvas;
-  const bool all = d->view->all_told;
+  const bool all = d->view->all_identifiable;
   const SbTextStyle head =
       sb_canvas_style(c, SB_TYPE_LABEL, 700, all ? SB_ROLE_PASS : SB_ROLE_WARN);
   const SbTextStyle text = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);

@@ -1,5 +1,5 @@
-// The page of a calibration: measured loops with the model before and after, what is left of them,
-// the fitted parameters, what the data cannot tell, the posterior in pairs.
+// The page of a calibration: measured loops with the model before and after the fit, residuals, the
+// fitted parameters, what the data identify, and the posterior in pairs of parameters.
 #pragma once
 
 #include "app/base/canvas.h"
@@ -7,38 +7,42 @@
 
 #include "engine/numeric/sampling.h"
 
+// A fitted parameter. Values are [SI].
 typedef struct {
-  const char *name, *symbol; // key; may be empty
-  const char *texts[3];      // before, estimate, interval, with the unit in the first
-  double before, estimate, low, high, prior_low, prior_high; // SI
+  const char *name, *symbol;    // key; symbol, may be empty
+  const char *texts[3];         // before, estimate and interval as text; the first has the unit
+  double before, estimate;      // value of the scene; fitted value
+  double low, high;             // 95 % interval of the posterior
+  double prior_low, prior_high; // 95 % interval of the prior
   const SbDistribution *prior;
-  const char *told; // "yes", "only with m", "no, as before"
-  SbRole role;      // colour of that
+  const char *identifiable; // "yes", "only with m", "no, as before"
+  SbRole role;              // colour of `identifiable`
 } SbCalibrationRow;
 
+// A curve.
 typedef struct {
   const char *name;
-  const SbLoop *before, *after;
-  const SbMeasuredBand *prior, *posterior; // 95 % of the model's loops; end 0: not known
+  const SbLoop *before, *after;            // of the model with the scene's and the fitted values
+  const SbMeasuredBand *prior, *posterior; // contain 95 % of the model's loops; end 0: none
   const SbComparison *comparison;          // NULL: the fitted stem does not slide
-  double before_rms;
+  double before_rms;                       // root mean square difference before the fit [N]
 } SbCalibrationLoop;
 
-// Everything is borrowed.
+// The page; everything is borrowed.
 typedef struct {
   const char *title, *subtitle, *sentence, *foot;
-  bool all_told; // the sentence says nothing that is missing
+  bool all_identifiable; // all parameters are identifiable: `sentence` is good news
   size_t rows, loops, samples;
-  const SbCalibrationRow *row;
-  const SbCalibrationLoop *loop;
-  const double *sample;      // [samples][rows], SI
-  const double *correlation; // [rows][rows]
+  const SbCalibrationRow *row;   // [rows]
+  const SbCalibrationLoop *loop; // [loops]
+  const double *sample;          // [samples][rows], of the posterior [SI]
+  const double *correlation;     // [rows][rows], of the posterior
 } SbCalibrationView;
 
-// Size that it is made for.
+// Size for which the page is designed [px].
 #define SB_CALIBRATION_WIDTH  1600.0
 #define SB_CALIBRATION_HEIGHT 960.0
 
-// Draws the page into `rect`, its ground included.
+// Draws the page with its background into `rect` [px].
 void sb_calibration_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                          const SbCalibrationView *view);

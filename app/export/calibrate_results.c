@@ -20,10 +20,10 @@ static void put_parameter(SbJson *json, const SbCalibration *of, size_t j) {
   sb_json_number(json, "standard_deviation", one->deviation);
   sb_json_numbers(json, "interval_95", one->interval, 2);
   sb_json_numbers(json, "prior_95", one->prior, 2);
-  sb_json_string(json, "identifiable", of->samples > 0 ? sb_told_name(one->told) : NULL);
+  sb_json_string(json, "identifiable", of->samples > 0 ? sb_identifiable_name(one->identifiable) : NULL);
   sb_json_array(json, "with");
   for (size_t k = 0; k < of->parameters; k++) {
-    if (k != j && fabs(of->correlation[j * of->parameters + k]) > SB_TOLD_CORRELATION) {
+    if (k != j && fabs(of->correlation[j * of->parameters + k]) > SB_IDENTIFIABLE_CORRELATION) {
       sb_json_string(json, NULL, of->parameter[k].name);
     }
   }
@@ -188,8 +188,8 @@ static char *told_text(const SbCalibration *of, size_t j) {
   if (of->samples == 0) {
     return g_strdup("-");
   }
-  if (one->told != SB_TOLD_WITH_OTHER) {
-    return g_strdup(one->told == SB_TOLD_YES ? "yes" : "no, as before");
+  if (one->identifiable != SB_IDENTIFIABLE_WITH_OTHER) {
+    return g_strdup(one->identifiable == SB_IDENTIFIABLE_YES ? "yes" : "no, as before");
   }
   size_t most = j == 0 ? 1 : 0;
   for (size_t k = 0; k < of->parameters; k++) {
@@ -205,7 +205,7 @@ void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *of,
   g_autoptr(GPtrArray) texts = g_ptr_array_new_with_free_func(g_free);
   SbCalibrationRow *row = g_new0(SbCalibrationRow, of->parameters + 1);
   SbCalibrationLoop *loop = g_new0(SbCalibrationLoop, of->curves + 1);
-  bool all_told = true;
+  bool all_identifiable = true;
   for (size_t j = 0; j < of->parameters; j++) {
     const SbCalibrated *one = &of->parameter[j];
     const double values[] = {one->before, one->estimate};
@@ -218,10 +218,10 @@ void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *of,
                                 .prior_low = one->prior[0],
                                 .prior_high = one->prior[1],
                                 .prior = &one->distribution,
-                                .role = one->told == SB_TOLD_YES          ? SB_ROLE_PASS
-                                        : one->told == SB_TOLD_WITH_OTHER ? SB_ROLE_WARN
+                                .role = one->identifiable == SB_IDENTIFIABLE_YES          ? SB_ROLE_PASS
+                                        : one->identifiable == SB_IDENTIFIABLE_WITH_OTHER ? SB_ROLE_WARN
                                                                           : SB_ROLE_SECOND};
-    all_told = all_told && one->told == SB_TOLD_YES;
+    all_identifiable = all_identifiable && one->identifiable == SB_IDENTIFIABLE_YES;
     for (int i = 0; i < 3; i++) {
       g_autofree char *low = value_text(one, one->interval[0], false);
       g_autofree char *high = value_text(one, one->interval[1], false);
@@ -232,7 +232,7 @@ void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *of,
     }
     char *told = told_text(of, j);
     g_ptr_array_add(texts, told);
-    row[j].told = told;
+    row[j].identifiable = told;
   }
   for (size_t c = 0; c < of->curves; c++) {
     const SbCalibratedCurve *curve = &of->curve[c];
@@ -254,7 +254,7 @@ void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *of,
                                   .subtitle = sb_document_title(study->scene),
                                   .sentence = of->sentence,
                                   .foot = foot,
-                                  .all_told = all_told,
+                                  .all_identifiable = all_identifiable,
                                   .rows = of->parameters,
                                   .loops = of->curves,
                                   .samples = of->samples,

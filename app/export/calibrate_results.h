@@ -1,4 +1,4 @@
-// A calibration as JSON and as a table.
+// The results of a calibration as JSON, as a table of samples, and as a page.
 #pragma once
 
 #include "app/chart/calibration.h"
@@ -6,16 +6,22 @@
 
 #include <stdio.h>
 
-// Owned by the caller.
+// Returns the JSON document of `sealbench calibrate`. `study` is the file that `calibration` was
+// made from. Freed by g_free().
 char *sb_calibration_json(const SbCalibration *calibration, const SbStudyFile *study);
 
-// The samples, a row each: "key [SI unit]" in the header. Owned by the caller.
+// Returns the samples of the posterior as comma-separated values: `sample` (number from 0), then a
+// column "key [SI unit]" for each parameter. The heading alone if nothing was sampled. Freed by
+// g_free().
 char *sb_calibration_csv(const SbCalibration *calibration);
 
-// Draws the page of a calibration into `rect`.
+// Draws the page of a calibration into `rect` [pixels]; made for SB_CALIBRATION_WIDTH by
+// SB_CALIBRATION_HEIGHT. `dark`: theme. Texts are in the language of the calling thread.
 void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *calibration,
                               const SbStudyFile *study, bool dark);
 
-// The same into a stream, as `ending` says (still.h).
+// Writes the page in the light theme into `stream` in the format of `ending` (".png", ".svg",
+// ".pdf"). Returns false as sb_still_put() (still.h); errors of writing are left in the stream
+// (ferror()).
 bool sb_calibration_put(FILE *stream, const SbCalibration *calibration, const SbStudyFile *study,
                         const char *ending, GError **error);

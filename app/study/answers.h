@@ -1,8 +1,8 @@
-// Answers to many questions about one base: those that a store has are taken from it, the others
-// are computed side by side on threads and put there.
+// Results of many samples of one model: those that a store has are read from it; the others are
+// computed on threads and stored.
 //
-// Every sample's answer depends on the base and on the sample alone
-// (engine/valve/answer/evaluate.h), not on threads, shards, other samples or interruptions.
+// The result of a sample depends only on the base and on the sample (engine/valve/answer/evaluate.h), not
+// on threads, shards, other samples or interruptions.
 #pragma once
 
 #include "app/study/store.h"
@@ -11,83 +11,100 @@
 
 #include <stdint.h>
 
+// Largest number of parameters; the parameter of a variable, which overrides nothing.
 enum { SB_QUESTION_PARAMETERS = 96, SB_QUESTION_NONE = -1 };
 
+// Who computes samples (see below).
 typedef struct SbAnswerPool SbAnswerPool;
 
-// What is asked. Everything is borrowed.
+// The request. Everything is borrowed for the call.
 typedef struct {
   const SbModel *base;
-  const char *base_sha256;    // of the base's values, for the key
-  const SbParamId *parameter; // [parameters]; SB_QUESTION_NONE: a variable that overrides nothing
+  const char *base_sha256;    // hash of the base's values, part of the key in the store
+  const SbParamId *parameter; // [parameters]; SB_QUESTION_NONE: a variable
   size_t parameters;          // at most SB_QUESTION_PARAMETERS
-  const int *figure;          // [figures], figures.def
+  const int *figure;          // [figures]: indices of sb_figure()
   size_t figures;
-  const double *value; // [samples][parameters], SI; NaN: as in the base
+  const double *value; // [samples][parameters] [SI; index of a choice]; NaN: the base's value
   size_t samples;
-  size_t shard, shards;     // samples of this number modulo `shards` alone, from 0; shards 0: all
-  int jobs;                 // threads, at least 1
+  size_t shard, shards;     // compute only the samples i with i % shards == shard; shards 0: all
+  int jobs;                 // number of threads, at least 1
   const SbAnswerPool *pool; // who computes; NULL: threads of this process
-  SbStore *store;           // NULL: nothing is kept
-  // What the samples start from, instead of the base's answer. `cold`: from nothing.
+  SbStore *store;           // NULL: nothing is stored
+  // Ring states for the warm start of every sample; NULL: those of the base. `cold`: no warm start.
   const SbEvaluator *start;
   bool cold;
-  // Told each answer on the thread that computed it, several at the same time; may be NULL. The
-  // evaluator has the model and the summary.
+  // Receives each computed result in the thread that computed it, also of several threads at the
+  // same time; may be NULL. `evaluator` has the sample's model and summary.
   void (*seen)(void *data, size_t sample, SbStatus status, const SbReport *report,
                const SbEvaluator *evaluator);
-  void (*progress)(void *data, size_t done, size_t of); // from the calling thread
-  bool (*cancelled)(void *data);                        // the same
+  void (*progress)(void *data, size_t done, size_t of); // in the calling thread; may be NULL
+  bool (*cancelled)(void *data);                        // in the calling thread; may be NULL
   void *data;
 } SbQuestions;
 
-enum { SB_ANSWER_MISSING = 255 }; // not computed: of another shard, or cancelled
+// SbAnswers.status of a sample that was not computed: of another shard, or cancelled.
+enum { SB_ANSWER_MISSING = 255 };
 
+// The results. Freed by sb_answers_release().
 typedef struct {
   size_t samples, figures;
-  uint8_t *status;      // [samples], SbStatus or SB_ANSWER_MISSING
-  double *value;        // [samples][figures], NaN: none
-  GHashTable *reason;   // sample -> char *, of those that failed
-  GHashTable *warnings; // sample -> char *, codes of validity separated by ";", of those with any
-  size_t computed;      // of this call
-  double seconds;       // it took for them
+  uint8_t *status;      // [samples]: SbStatus or SB_ANSWER_MISSING
+  double *value;        // [samples][figures] [SI]; NaN: none
+  GHashTable *reason;   // GSIZE_TO_POINTER(sample) -> char *, of samples that failed
+  GHashTable *warnings; // the same -> char *, validity codes separated by ";", of samples with any
+  size_t computed;      // samples that this call computed
+  double seconds;       // time that they took [s]
 } SbAnswers;
 
-// The base's answer, from whose rings the samples' start; NULL where it has none that are solved.
-// Owned; the same in every process.
-SbEvaluator *sb_answer_start(const SbQuestions *asked);
+// Computes or reads the results. Call sb_answers_release() in any case. Returns false with
+// SB_APP_ERROR_IO (the store), SB_APP_ERROR_CANCELLED (what was finished is in *out and in the
+// store) or SB_APP_ERROR_INPUT (too many samples for the memory). A sample that fails is no error:
+// its status states it.
+bool sb_answers_get(SbAnswers *out, const SbQuestions *questions, GError **error);
 
-// The codes of warnings, each once, in their order; NULL without any. Owned by the caller:
-// g_free().
+// Frees what the results own.
+void sb_answers_release(SbAnswers *answers);
+
+// Returns the validity codes of warnings, each once, in their order; NULL if there are none. Freed
+// by g_free().
 char *sb_warning_codes(const SbWarnings *warnings, const char *separator);
 
-// Answers one sample into out->value[figures], which the caller has set, and fills the other
-// members; the strings are owned by the caller.
+// ---- For pools: how sb_answers_get() distributes the work ----
+
+// Computes the base and returns an evaluator with its ring states, for the warm start of the
+// samples; the same in every process. NULL if no warm start is used (no solved rings, `cold`,
+// `start` is given, or the base failed). Freed by sb_evaluator_destroy().
+SbEvaluator *sb_answer_start(const SbQuestions *asked);
+
+// Computes one sample: writes its figures to out->value[figures], which the caller has set, and
+// fills the other members, whose strings are freed by g_free(). `start` is the warm start or NULL;
+// `cancelled` (may be NULL) is called with `data`. Returns out->status.
 SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestions *asked,
                    const SbEvaluator *start, size_t sample, bool (*cancelled)(void *data),
                    void *data);
 
-// Where a pool puts its answers, from the one thread that has the store.
+// Receives the results of a pool, in the thread that called sb_answers_get(), which has the store.
 typedef struct SbAnswerSink SbAnswerSink;
 
-// Place of a sample's figures [figures].
+// Returns where the figures of a sample are to be written, [figures]. Any thread; each sample is
+// written by one thread.
 double *sb_answer_place(SbAnswerSink *sink, size_t sample);
 
-// Takes the answer to a sample, whose figures are in their place. Takes over its strings; its
-// `value` is not used.
+// Records and stores the result of a sample, whose figures were written before. The sink owns the
+// strings of `answer` from now on; answer.value is not used.
 void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStoredAnswer answer);
 
-// Whether to go on: no failure of the store, nobody cancelled. Tells the progress.
+// Reports the progress and commits the store about once a second. Returns false if the pool must
+// stop: the store failed, or the request was cancelled.
 bool sb_answer_goes_on(SbAnswerSink *sink);
 
+// A pool. Both functions belong to the process that calls sb_answers_get().
 struct SbAnswerPool {
-  // Computes samples until all are taken or it need not go on.
+  // Computes the samples todo[count], passes each to sb_answer_take(), and calls
+  // sb_answer_goes_on() regularly. Returns when all are done or it must stop.
   void (*compute)(SbAnswerSink *sink, const SbQuestions *asked, const uint32_t *todo, size_t count);
-  // Not NULL: this process answers what another one's pool asks, and has no store.
+  // Not NULL: this process computes samples that the pool of another process requests, until that
+  // one ends; it has no store.
   void (*serve)(const SbQuestions *asked);
 };
-
-// Fills *out, to be released in any case. False with SB_APP_ERROR_IO (store), _CANCELLED (what was
-// finished is in the store), _INPUT (too large for the memory).
-bool sb_answers_get(SbAnswers *out, const SbQuestions *questions, GError **error);
-void sb_answers_release(SbAnswers *answers);

@@ -532,7 +532,7 @@ static void take_best(SbCalibration *out, Work *work, SbInference *found) {
   work->ending = true;
   found->samples = 0;
   keep_samples(out, work, found);
-  sb_calibration_tell(out);
+  sb_calibration_identify(out);
   out->partial =
       sb_calibrate_evaluate(work, found->residual, found->z) && compare_curves(out, work, found);
 }
@@ -588,7 +588,7 @@ static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
     out->converged = found.converged;
     out->accepted = found.accepted;
     keep_samples(out, work, &found);
-    sb_calibration_tell(out);
+    sb_calibration_identify(out);
     // Priors of what is solved hold valves that no ring fits into, and take long.
     const bool runs = (out->tangent || sb_calibrate_draws(out, work, &found, true)) &&
                       (found.samples == 0 || sb_calibrate_draws(out, work, &found, false));

@@ -1,47 +1,57 @@
 // The best design within bounds and limits: NLopt's SLSQP (Kraft 1994) on the figures and their
 // gradients, from several starts on threads.
 //
-// Variables are the free parameters of [vary], each from 0 to 1 between its bounds (in the
-// logarithm for loguniform). A start that breaks a limit first lessens the worst breach; where no
-// start gets rid of it, nothing feasible was found. A search follows slopes: it finds the best near
-// each start, and says nothing of what lies elsewhere.
+// Variables are the free parameters of [vary], each scaled to 0 .. 1 between its bounds
+// (logarithmically for loguniform). A start that violates a limit first minimises the worst
+// violation; if no start removes it, no feasible design was found. The search is local: it finds
+// the best design near each start.
 //
-// Robust: each limit is drawn in by a multiple of its figure's scatter over the tolerances, until
-// the probability that all limits hold, by the most probable failure of each side (FORM, at least
-// the sum of their probabilities), is what was asked for; then samples check it, and correct it
-// once where FORM is off.
+// Robust design: each limit is tightened by a multiple of its figure's scatter over the tolerances,
+// until the probability that all limits are met, by the most probable failure of each side (FORM,
+// at least the sum of their probabilities), is the required one. Samples then check it, and correct
+// it once if FORM is inaccurate.
 #pragma once
 
 #include "app/study/shares.h"
 
+// The result. Freed by sb_design_release().
 typedef struct {
-  bool found, feasible, converged;
-  double *value;        // [vary], SI
-  double *figure;       // [study's figures]
-  SbWarnings *warnings; // of validity, of the design's figures; NULL without a design
-  double optimality; // least |gradient of the objective + multipliers x those of what is active|,
-                     // of the objective's own; multipliers at least 0
-  bool limit_active[2 * SB_LIMITS_MAX]; // lower side, upper side of each limit
-  int bound_active[SB_VARY_MAX];        // -1 at its lower end, 1 at its upper one
-  size_t evaluations;
-  double breach; // as of a start
-  size_t starts, starts_feasible;
-  // Over the tolerances, where there are any and limits.
-  bool checked, met;         // met: `holds` is at least the probability that was requested
-  double by_form;            // probability that all limits hold, by FORM
-  double holds, interval[2]; // by samples
+  bool found;           // there is a design; else `value`, `figure` and `warnings` are NULL
+  bool feasible;        // it meets all limits
+  bool converged;       // the search ended by its tolerances
+  double *value;        // [vary]: parameters, in the order of study->vary [SI]
+  double *figure;       // [figures]: in the order of study->figures [SI]
+  SbWarnings *warnings; // limits of validity of the figures; NULL: no design
+  // min |gradient of the objective + multipliers x gradients of the active limits and bounds|
+  // divided by |gradient of the objective|, with multipliers >= 0; 0 at an optimum.
+  double optimality;
+  bool limit_active[2 * SB_LIMITS_MAX]; // [2 i]: lower side of limit i, [2 i + 1]: upper side
+  int bound_active[SB_VARY_MAX];        // [vary]: -1 at the lower bound, 1 at the upper one, else 0
+  size_t evaluations;                   // of all starts
+  double breach; // largest violation of a limit, relative to its scale (at most 1e-7: feasible)
+  size_t starts, starts_feasible; // starts; those that ended with a feasible design
+  // Robustness, if there are tolerances and limits:
+  bool checked;       // the members below are set
+  bool met;           // `holds` is at least the required probability
+  double by_form;     // probability that all limits are met, by FORM
+  double holds;       // the same by samples
+  double interval[2]; // 95 % interval of `holds`
   size_t samples;
 } SbDesign;
 
-// Searches; *out is to be released in any case. `cancelled` is called from any thread.
-// SB_ERROR_CANCELLED, _MEMORY.
+// Searches the best design of `study`, which must have a group [design], on `jobs` threads.
+// `cancelled` (may be NULL) is called from any thread. Returns SB_OK (also if no feasible design
+// was found), SB_ERROR_CANCELLED or SB_ERROR_MEMORY. Release *out in any case.
 SbStatus sb_design_search(SbDesign *out, const SbStudyFile *study, int jobs,
                           bool (*cancelled)(void *data), void *data, SbReport *report);
+
+// Frees what the result owns.
 void sb_design_release(SbDesign *design);
 
-// The variables that are at an end of their bounds, "gland.radial_space (upper), ..."; NULL without
-// any. Owned by the caller: g_free().
+// Returns the variables that are at a bound, "gland.radial_space (upper), ..."; NULL: none. Freed
+// by g_free().
 char *sb_design_bounds(const SbDesign *design, const SbStudyFile *study);
 
-// How far a figure is within its limit, negative beyond it; NaN: no value.
+// Returns the distance of a figure from the nearer end of limit number `limit` of study->limits
+// [SI of the figure], negative if the limit is violated; NaN: the figure has no value.
 double sb_design_margin(const SbDesign *design, const SbStudyFile *study, size_t limit);

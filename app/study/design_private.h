@@ -1,57 +1,69 @@
-// What the design's search (design.c) and its robustness (design_robust.c) share.
+// Shared by the search for a design (design.c) and its robustness (design_robust.c).
 #pragma once
 
 #include "app/study/design.h"
 
 #include "app/base/error.h"
 
+// Largest numbers of sides of limits, and of figures (the objective and those of the limits).
 enum { SIDES_MAX = 2 * SB_LIMITS_MAX, FIGURES_MAX = SB_LIMITS_MAX + 1 };
 
-// Of a breach, relative to its scale: what a search may end with, by which the bounds are drawn in
-// so that a design keeps its limits to the last digit.
+// Relative violation with which a search may end. Limits are tightened by it, so that a design
+// meets them to the last digit.
 #define BREACH_NONE 1e-7
 
-// A side of a limit: c = (bound - figure)/scale or (figure - bound)/scale, at most 0.
+// One side of a limit, as the constraint c <= 0. Upper side: c = (figure - bound + shift)/scale;
+// lower side: c = (bound - figure + shift)/scale; BREACH_NONE is added to both.
 typedef struct {
-  size_t limit;
-  bool upper;
-  double bound, scale;
-  double shift; // by which the bound is drawn in, SI
-  size_t column;
+  size_t limit;  // index in study->limits
+  bool upper;    // the upper side
+  double bound;  // [SI]
+  double scale;  // [SI], positive
+  double shift;  // by which the bound is tightened [SI]
+  size_t column; // of its figure
 } Side;
 
+// The problem of a search.
 typedef struct {
-  const SbStudyFile *study;
-  size_t n; // [vary]
-  SbParamId parameter[SB_VARY_MAX];
-  bool fixed[SB_VARY_MAX];
-  size_t free, at[SB_VARY_MAX]; // at: place in [vary] of a variable
-  size_t figures;               // 0 is the objective
-  int figure[FIGURES_MAX];
+  const SbStudyFile *study;         // borrowed
+  size_t n;                         // number of parameters [vary]
+  SbParamId parameter[SB_VARY_MAX]; // [n]
+  bool fixed[SB_VARY_MAX];          // [n]: has one value, is not a variable
+  size_t free;                      // number of variables
+  size_t at[SB_VARY_MAX];           // [free]: index in [vary] of a variable
+  size_t figures;                   // columns; column 0 is the objective
+  int figure[FIGURES_MAX];          // [figures]: indices of sb_figure()
   size_t sides;
   Side side[SIDES_MAX];
-  double sign, scale; // of the objective
-  bool (*cancelled)(void *data);
+  double sign, scale;            // minimised is sign * objective / scale; sign is 1 or -1
+  bool (*cancelled)(void *data); // from any thread; NULL: never
   void *data;
 } Problem;
 
-// What one start came to.
+// One start of a search and its result.
 typedef struct {
-  bool found;   // figures had values at its beginning
-  bool stopped; // by its tolerances, not by an error or too many evaluations
-  double v[SB_VARY_MAX];
-  double objective, breach; // signed so that less is better; the worst side's c
+  bool found;            // the figures have values at its beginning
+  bool stopped;          // ended by its tolerances, not by an error or too many evaluations
+  double v[SB_VARY_MAX]; // [free]: variables, 0 to 1 between the bounds
+  double objective;      // as it is minimised
+  double breach;         // largest c of all sides
   size_t evaluations;
 } Start;
 
-// The present design, where it lies in the bounds, then points of a Sobol sequence.
+// Writes the starts start[study->design.starts]: the present design if it is within the bounds,
+// then points of a Sobol sequence.
 SbStatus sb_design_lay_starts(Start *start, const Problem *problem, SbReport *report);
-// Runs them all; *best becomes the best. SB_ERROR_CANCELLED, _MEMORY.
+
+// Searches from start[count] on `jobs` threads. *best becomes the best result, and out->starts,
+// starts_feasible and evaluations are set. Returns SB_ERROR_CANCELLED or SB_ERROR_MEMORY.
 SbStatus sb_design_run_starts(Start *best, SbDesign *out, const Problem *problem, Start *start,
                               size_t count, int jobs, SbReport *report);
-// Writes the best start's values, figures and what is active.
+
+// Writes parameters, figures, active limits and bounds and the optimality of *best to *out.
 SbStatus sb_design_take_optimum(SbDesign *out, const Problem *problem, const Start *best,
                                 SbReport *report);
-// Draws the bounds in until the design is as robust as was asked for, and checks it by samples.
+
+// Tightens the limits until the design is as robust as required, and checks it by samples. *best
+// and *out become the robust design.
 SbStatus sb_design_over_tolerances(SbDesign *out, Problem *problem, Start *best, int jobs,
                                    SbReport *report);

@@ -1,17 +1,18 @@
-// What figures do as parameters move by what is usual of each, for people.
+// Effects of parameters on a figure, each for a usual change of the parameter.
 #pragma once
 
 #include "engine/valve/answer/gradient.h"
 
-// A figure's change as a parameter moves by its tolerance, or by 5 % where it has none.
+// Change of a figure if a parameter increases by its tolerance, or by 5 % if it has none.
 typedef struct {
-  size_t parameter; // of the gradient
-  double step;      // by which it moves [SI], > 0
-  bool tolerance;   // its own; else 5 % of what it is
-  double change;    // of the figure [SI]
-  double error;     // estimate of the change's error [SI], > 0
+  size_t parameter; // index of the parameter in the gradient
+  double step;      // increase of the parameter [SI], > 0
+  bool tolerance;   // `step` is the parameter's tolerance; else 5 % of its value
+  double change;    // of the figure [SI], with its sign
+  double error;     // estimate of the error of `change` [SI], > 0
 } SbEffect;
 
-// Those of the parameters by which the figure has a derivative that is not 0, the greatest change
-// first. Returns their number; writes as many as there are parameters at most.
+// Writes the effects on figure `figure` (index in the gradient) to out[parameters of the gradient],
+// the largest first, and returns their number. Parameters whose derivative is 0 or unknown have
+// none. `model` is the one at which the gradient was computed.
 size_t sb_effects(SbEffect *out, const SbGradient *gradient, size_t figure, const SbModel *model);

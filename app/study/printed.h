@@ -1,27 +1,31 @@
-// A printed table as a file of comma-separated text: comment lines (#) with its source, a heading,
-// rows. Cells stay text, for a number's digits tell how far it was rounded.
+// A printed table as a file of comma-separated text: comment lines (#) with its source, a heading
+// and rows. Cells are texts, because the digits of a number show how it was rounded.
 #pragma once
 
 #include <glib.h>
 #include <stdbool.h>
 
+// A table. Freed by sb_printed_free().
 typedef struct {
-  char **name;         // of the columns
-  GPtrArray *rows;     // of char **, a cell a column
-  GPtrArray *comments; // of char *, without the mark
+  char **name;         // of the columns, ends with NULL
+  GPtrArray *rows;     // of char **: a cell for each column, ends with NULL
+  GPtrArray *comments; // of char *: comment lines without the mark
 } SbPrinted;
 
+// Largest number of rows.
 enum { SB_PRINTED_ROWS_MAX = 10000 };
 
-// NULL with an issue. Owned by the caller.
+// Reads the file `path`. Returns NULL with an issue.
 SbPrinted *sb_printed_load(const char *path, GPtrArray *issues);
 
-// Takes NULL.
+// Frees a table; takes NULL.
 void sb_printed_free(SbPrinted *printed);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbPrinted, sb_printed_free)
 
-// Cell of a row; NULL: there is no such column. Borrowed.
+// Returns the cell of row `row` (from 0) in the column of this name; NULL: there is no such column.
+// Borrowed.
 const char *sb_printed_cell(const SbPrinted *printed, guint row, const char *column);
 
-// A cell's number, and half a unit of its last digit; false: it is none.
+// Reads the number of a cell to *out, and half of the unit of its last digit to *half, in the
+// cell's unit. Returns false if the cell is not a number.
 bool sb_printed_number(double *out, double *half, const char *cell);

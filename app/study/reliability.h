@@ -1,36 +1,41 @@
-// The method `reliability` of a study: the most probable failure of each limit, and points about
-// them (engine/numeric/reliability.h).
+// The method `reliability` of a study: the most probable failure of each limit, and samples about
+// these points (engine/numeric/reliability.h).
 //
-// The searches hang on the study alone: every shard and every process repeats them and has the same
-// points, whose answers go through the store like any study's.
+// The searches depend only on the study, so that every shard and every process finds the same
+// samples, whose results can be stored like those of any study.
 #pragma once
 
 #include "app/document/study_file.h"
 
 #include "engine/numeric/reliability.h"
 
-// Of one side of one limit.
+// The most probable failure of one side of a limit.
 typedef struct {
-  size_t limit; // of the study
-  bool upper;   // its highest value, else its lowest
+  size_t limit; // index in study->limits
+  bool upper;   // the side of the maximum; else of the minimum
   SbFailurePoint found;
-  double *u, *value; // [vary]: where the search ended, in normal variates and in SI
+  double *u;     // [vary]: where the search ended, in independent standard normal variates
+  double *value; // [vary]: the same point in values [SI]
 } SbFailureMode;
 
+// All failures. Freed by sb_reliability_release().
 typedef struct {
   size_t count;
   SbFailureMode *mode; // [count]
-  size_t centres;
-  double *centre; // [centres][vary]: of those that were found and are no failures at the median
-  double *memory;
+  size_t centres;      // failures that were found and are not at the median
+  double *centre;      // [centres][vary]: their points in standard normal variates
+  double *memory;      // of `u`, `value` and `centre`
 } SbReliability;
 
-// Searches, on `jobs` threads. *out is to be released in any case. `cancelled` is called from any
-// thread.
+// Searches the failures of all limits on `jobs` threads. `cancelled` (may be NULL) is called from
+// any thread. Returns SB_OK, SB_ERROR_CANCELLED or the error of a search. Release *out in any case.
 SbStatus sb_reliability_search(SbReliability *out, const SbStudyFile *study, int jobs,
                                bool (*cancelled)(void *data), void *data, SbReport *report);
+
+// Frees what the failures own.
 void sb_reliability_release(SbReliability *reliability);
 
-// Values [samples][vary] in SI and the normal variates behind them. Owned by the caller.
+// Writes the values [samples][vary] of all samples [SI] to *value, and their standard normal
+// variates [samples][vary] to *u; both are freed by free().
 SbStatus sb_reliability_points(double **value, double **u, const SbStudyFile *study,
                                const SbReliability *reliability, SbReport *report);

@@ -1,29 +1,32 @@
-// How many of a study's valves are beyond its limits.
+// Probabilities of failure: fractions of a study's samples that violate its limits.
 #pragma once
 
 #include "app/study/answers.h"
 #include "app/study/reliability.h"
 
-// What the method drew: points, and where `reliability` looked for failures.
+// The points of the study's method. Borrowed.
 typedef struct {
-  const double *unit;               // of sb_study_file_points() or sb_reliability_points()
-  const SbReliability *reliability; // NULL: of another method
+  const double *unit;               // from sb_study_file_points() or sb_reliability_points()
+  const SbReliability *reliability; // NULL: another method
 } SbStudyDrawn;
 
-// Probability of values beyond a limit, among valves, with an interval that covers the sampling
-// alone: samples that are none are left out, those of which a solver did not converge widen the
-// interval. NaN where samples about failures are missing.
+// Probability that a valve violates a limit, with an interval that covers only the sampling.
+// Infeasible samples are omitted; samples whose solver did not converge widen the interval. NaN if
+// samples about failures are missing.
 typedef struct {
-  size_t beyond, of;
-  double probability, interval[2], beta; // beta: normal quantile of the probability
-  bool certain;                          // every sample with an answer is beyond the limit
-  char reason[SB_TEXT];                  // why it is 0 or certain, or nothing
+  size_t beyond, of;    // samples that violate the limit, of all samples that count
+  double probability;   // 0 to 1
+  double interval[2];   // 95 % interval of the probability
+  double beta;          // reliability index: -(normal quantile of the probability)
+  bool certain;         // every sample with a result violates the limit
+  char reason[SB_TEXT]; // why the probability is 0 or 1; empty: neither
 } SbLimitShare;
 
-// `limit` of the study, or one past them: any of them. SB_ERROR_MEMORY.
+// Computes the probability for limit `limit` of study->limits, or for limit == study->limits.count
+// the probability that any limit is violated. Returns SB_OK or SB_ERROR_MEMORY.
 SbStatus sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study,
                               const SbStudyDrawn *drawn, const SbAnswers *answers, size_t limit,
                               SbReport *report);
 
-// Column of a figure among the answers', -1: not asked.
+// Returns the column of a figure (index of sb_figure()) in the results; -1: it was not requested.
 int sb_study_column_of(const SbStudyFile *study, int figure);

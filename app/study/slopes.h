@@ -1,5 +1,5 @@
-// Figures with their slopes at points of a parameter space, and tasks that ask for them side by
-// side.
+// Figures with their derivatives at points of a parameter space, and tasks that compute them on
+// threads.
 #pragma once
 
 #include "engine/valve/sealbench.h"
@@ -7,30 +7,31 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+// Largest number of parameters.
 enum { SB_SLOPES_PARAMETERS = 64 };
 
-// What is asked; everything is borrowed.
+// The request; everything is borrowed.
 typedef struct {
-  const SbModel *base;
+  const SbModel *base;        // values of all other parameters
   const SbParamId *parameter; // [parameters]
-  const bool *fixed;          // [parameters]: does not move, its slope is 0; others are real
-  size_t parameters;
-  const int *figure; // [figures], figures.def
+  const bool *fixed;          // [parameters]: no derivative is computed (0); others must be real
+  size_t parameters;          // at most SB_SLOPES_PARAMETERS
+  const int *figure;          // [figures]: indices of sb_figure()
   size_t figures;
-  bool (*cancelled)(void *data); // from any thread; may be NULL
+  bool (*cancelled)(void *data); // called from any thread; NULL: never
   void *data;
 } SbSlopesAsked;
 
-// Figures value[figures] at x[parameters], NaN: none, and where `slope` is not NULL their slopes
-// [figures][parameters] (engine/valve/answer/gradient.h), NaN: none. Values that make no valve, or
-// are out of range, and solvers that do not converge are no errors but figures without a value.
-// SB_ERROR_CANCELLED, _MEMORY.
+// Writes value[figures] [SI] at x[parameters] [SI] and, if `slope` is not NULL, the derivatives
+// slope[figures][parameters] (engine/valve/answer/gradient.h). Infeasible values, values out of range and
+// solvers that do not converge are no errors: the figures are then NaN. So is a derivative that is
+// not defined. Returns SB_OK, SB_ERROR_CANCELLED or SB_ERROR_MEMORY.
 SbStatus sb_slopes(double *value, double *slope, SbEvaluator *evaluator, const SbSlopesAsked *asked,
                    const double *x, SbReport *report);
 
-// Task number `index`, with the evaluator of its thread.
+// Does task number `index` with the evaluator of its thread. Called from several threads.
 typedef SbStatus (*SbTask)(void *data, SbEvaluator *evaluator, size_t index, SbReport *report);
 
-// Does tasks 0 to count - 1 on up to `jobs` threads. The error of the first that failed, by number;
-// none is begun after an error.
+// Does tasks 0 to count - 1 on up to `jobs` threads and waits for all. Returns SB_OK, or the error
+// of the failed task with the lowest number; no task is begun after an error.
 SbStatus sb_tasks(SbTask task, void *data, size_t count, int jobs, SbReport *report);

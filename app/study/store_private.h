@@ -1,4 +1,4 @@
-// What store.c and store_rows.c share: the open file.
+// The open file, shared by store.c and store_rows.c.
 #pragma once
 
 #include "app/study/store.h"
@@ -7,54 +7,63 @@
 
 #include <sqlite3.h>
 
+// Present format; length of a checksum [bytes].
 enum { SB_STORE_FORMAT = 2, SB_STORE_SUM = 16 };
 
 struct SbStore {
   sqlite3 *file;
-  sqlite3_stmt *get, *put;
-  char *path;
-  int format;
-  gint64 list;                        // of the answers that are put
-  char *parameter_names, *figures_of; // of that list, "\n" between; NULL before it is set
-  size_t parameters, figures;
-  bool writable, open_transaction;
+  sqlite3_stmt *get, *put;    // prepared statements
+  char *path;                 // ":memory:" in memory
+  int format;                 // 1 or 2
+  gint64 list;                // number of the present list
+  char *parameter_names;      // of the present list, separated by newlines; NULL: not set
+  char *figures_of;           // its figures, separated by newlines; NULL: not set
+  size_t parameters, figures; // their numbers
+  bool writable;              // the file is open for writing
+  bool open_transaction;      // there are changes to commit
 };
 
-// A row as it is stored.
+// A row as it is stored. `..._size` are bytes.
 typedef struct {
-  const void *key, *parameters, *figures, *sum; // sum NULL in format 1
+  const void *key, *parameters, *figures; // blobs; the latter two of double
+  const void *sum;                        // the checksum; NULL in format 1
   int key_size, parameters_size, figures_size, sum_size;
   gint64 list, status;
-  const char *reason, *warnings;
+  const char *reason, *warnings; // NULL: none
 } SbStoreRecord;
 
-// Reads the columns key, list, status, reason, warnings, parameters, figures, sum of a statement's
-// row; borrowed until its next step.
+// Reads the columns key, list, status, reason, warnings, parameters, figures and sum, in this
+// order, of the present row of a statement. Borrowed until its next step.
 void sb_store_record(SbStoreRecord *out, sqlite3_stmt *row);
 
-// Writes the checksum of a row's content.
+// Writes the checksum of a row's content, without its own.
 void sb_store_sum(guint8 sum[SB_STORE_SUM], const SbStoreRecord *record);
 
-// Whether the checksum matches.
+// Returns whether the stored checksum matches the content.
 bool sb_store_is_sound(const SbStoreRecord *record);
 
-// The number of a list: the beginning of a hash of its content, so that stores agree on it and a
-// damaged list is found.
+// Returns the number of a list: the first 60 bits of a hash of its content, so that stores agree on
+// it and a damaged list is detected. Names are separated by newlines.
 gint64 sb_store_list_number(const char *parameters, const char *figures, const char *engine);
 
-// Sets *error from SQLite's last error, by `code` where SQLite's own code does not decide; false.
+// Sets *error from SQLite's last error; `code` is used if that does not determine the code. Always
+// returns false.
 bool sb_store_fail(SbStore *store, SbAppError code, GError **error);
 
+// Executes an SQL statement without results. Returns false with SB_APP_ERROR_IO.
 bool sb_store_run(SbStore *store, const char *statement, GError **error);
 
-// Opens the file in a transaction that locks it for other processes, and writes nothing.
+// Opens the file in a transaction that locks it for other processes, and writes nothing. Returns
+// false with an error.
 bool sb_store_lock(SbStore *store, GError **error);
 
-// Opens the file that now has the store's name, without what was not committed.
+// Opens the file that now has the store's path, without uncommitted changes. Returns false with an
+// error.
 bool sb_store_reopen(SbStore *store, GError **error);
 
-// Opens a transaction, and the file for writing, unless that was done.
+// Opens the file for writing and begins a transaction, unless that was done. Returns false with an
+// error.
 bool sb_store_begin(SbStore *store, GError **error);
 
-// Writes a row as it is.
+// Writes a row unchanged, within a transaction. Returns false with an error.
 bool sb_store_put_record(SbStore *store, const SbStoreRecord *record, GError **error);

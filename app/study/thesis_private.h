@@ -1,4 +1,5 @@
-// Inside of the thesis' items: what is read, and values of expressions.
+// State of computing an item of the thesis, shared by the files thesis_*.c. "Reports an issue"
+// means: appends it to work->issues, with the group and key that are passed.
 #pragma once
 
 #include "app/study/thesis_item.h"
@@ -7,93 +8,101 @@
 
 #include "engine/valve/run/run.h"
 
-// A grid of the study, computed when first asked for.
+// A grid of the study, computed when it is first needed.
 typedef struct {
   char *name;
-  size_t first, samples; // among the study's points
-  bool done;
-  bool *wanted;       // [samples], those that rows and curves ask for; others have no value
-  GArray *figures;    // of int, what expressions name of it
-  double *value;      // [samples][figures]
-  GHashTable *reason; // sample -> char *, why one failed
-  GHashTable *models; // sample -> SbModel *, whose parameters were asked for
+  size_t first, samples; // its samples are first to first + samples - 1 of the study's points
+  bool done;             // the members below are computed
+  bool *wanted;          // [samples]: requested by rows or curves; others have no values
+  GArray *figures;       // of int: indices of sb_figure() that expressions use
+  double *value;         // [samples][figures] [SI]
+  GHashTable *reason;    // sample -> char *: why one failed
+  GHashTable *models;    // sample -> SbModel *, created when parameters are requested
 } SbThesisGrid;
 
+// The item that is being computed.
 typedef struct {
-  const char *path;
+  const char *path; // of the study file
   SbStudyFile *study;
-  GPtrArray *entries; // of SbEntry
-  SbPrinted *printed; // NULL: none
-  double *point;      // [samples][vary]
-  GPtrArray *grids;   // of SbThesisGrid *
-  SbThesisRuns *runs; // borrowed
-  int jobs;
-  bool (*cancelled)(void *data);
+  GPtrArray *entries;            // of SbEntry: lines of the file
+  SbPrinted *printed;            // NULL: nothing is printed
+  double *point;                 // [samples][vary] [SI]
+  GPtrArray *grids;              // of SbThesisGrid *
+  SbThesisRuns *runs;            // borrowed
+  int jobs;                      // threads
+  bool (*cancelled)(void *data); // from any thread; NULL: never
   void *data;
-  bool stopped;
-  GPtrArray *issues;
+  bool stopped;      // it was cancelled
+  GPtrArray *issues; // of SbIssue
 } SbThesisWork;
 
+// SbThesisPlace.row without a printed row.
 enum { SB_THESIS_NO_ROW = -1 };
 
-// Where an expression is evaluated.
+// Where an expression is evaluated: the values of names.
 typedef struct {
   SbThesisWork *work;
-  int row;            // printed row, SB_THESIS_NO_ROW
-  SbThesisGrid *grid; // NULL: none
-  size_t sample;      // of the grid
-  double printed, thesis, consistent, ours;
-  // Of a run: names are those of a frame, or of a point of a profile.
+  int row;                                  // printed row, from 0, or SB_THESIS_NO_ROW
+  SbThesisGrid *grid;                       // NULL: none
+  size_t sample;                            // of the grid, from 0
+  double printed, thesis, consistent, ours; // [SI]; NaN: not known
+  // For curves over a run; NULL: none.
   const SbFrame *frame;
   const SbContactProfile *profile;
-  size_t point;
+  size_t point; // of the profile
 } SbThesisPlace;
 
-// The value of a frame's or a profile's quantity; false: there is none of the name.
+// Writes the quantity `name` of the frame or profile point at a place [SI]. Returns false if there
+// is no such name.
 bool sb_thesis_run_value(double *out, const char *name, const SbThesisPlace *at);
 
-// The value of a key in a group, NULL: it has none. Borrowed.
+// Returns the value of key `name` in `group`; NULL: absent. Borrowed.
 const char *sb_thesis_key(const SbThesisWork *work, const char *group, const char *name);
 
-// Value of "EXPRESSION" at a place; false, told with the group and key, where it has none.
+// Writes the value of the expression `text` at a place [SI]. Returns false and reports an issue if
+// it has none.
 bool sb_thesis_value(double *out, const SbThesisPlace *at, const char *text, const char *group,
                      const char *key);
 
-// The grid of "GRID: EXPRESSION", NULL without; *expression is what is behind it. False, told, for
-// an unknown one.
+// Splits "GRID: EXPRESSION": *grid is the grid (NULL: `text` names none), *expression the part of
+// `text` after it. Returns false and reports an issue if the grid does not exist.
 bool sb_thesis_grid(SbThesisGrid **grid, const char **expression, SbThesisWork *work,
                     const char *text, const char *group, const char *key);
 
-// Whether it was cancelled.
+// Returns whether the computation was cancelled; asks `cancelled`.
 bool sb_thesis_stopped(SbThesisWork *work);
 
-// Answers all figures of all grids that expressions of rows and series name.
+// Computes all figures of all grids that expressions of rows and series use. Returns false if that
+// failed (with an issue) or was cancelled.
 bool sb_thesis_answer(SbThesisWork *work);
 
-// A text with [COLUMN] replaced by the row's cell. Owned by the caller.
+// Returns `text` with each [COLUMN] replaced by the text of the row's cell. Freed by g_free().
 char *sb_thesis_with_cells(const SbThesisPlace *at, const char *text);
 
-// A text with the values of {COLUMN}, {COLUMN:FROM:TO} and {= GRID: EXPRESSION, SI shown} in it.
-// Owned by the caller.
+// Returns `text` with each {COLUMN}, {COLUMN:FROM:TO} and {= GRID: EXPRESSION, SI DISPLAY} replaced
+// by its value. Freed by g_free().
 char *sb_thesis_filled(const SbThesisPlace *at, const char *text, const char *group,
                        const char *key);
 
-// What is behind "within " and "about " of a step's third part, and which of them it has (NULL: not
-// asked).
+// Returns the third part of a step without a leading "within " or "about ", and writes whether it
+// had them (each may be NULL). Borrowed from `text`.
 const char *sb_thesis_bound(bool *within, bool *about, const char *text);
 
 // Marks the samples of a grid that belong to the rows of a group [rows NAME].
 void sb_thesis_want(SbThesisWork *work, SbThesisGrid *grid, const char *group);
 
-// The model of a sample; owned by the caller, NULL with an issue.
+// Returns the model of a sample, freed by sb_model_destroy(); NULL with an issue.
 SbModel *sb_thesis_model(SbThesisWork *work, const SbThesisGrid *grid, size_t sample);
 
-// Whether a printed row is meant by "COLUMN = TEXT; COLUMN != TEXT" (NULL: each is).
+// Returns whether a printed row satisfies "COLUMN = TEXT; COLUMN != TEXT" (NULL: every row does).
 bool sb_thesis_is_meant(const SbThesisWork *work, guint row, const char *where);
 
-// The rows of one group, added to the item; the chart.
+// Computes the rows of a group [rows NAME] and appends them to the item.
 void sb_thesis_rows(SbThesisItem *item, SbThesisWork *work, const char *group);
+
+// Computes the chart of the item.
 void sb_thesis_chart(SbThesisItem *item, SbThesisWork *work);
 
+// Reports an issue on a key of a group, with a formatted sentence.
 void sb_thesis_complain(SbThesisWork *work, const char *group, const char *key, const char *format,
                         ...) G_GNUC_PRINTF(4, 5);

@@ -151,7 +151,7 @@ static void test_recovers(void) {
                    one->deviation);
     g_assert_cmpint(one->id, ==, truth[j].id);
     g_assert_cmpfloat_with_epsilon(one->estimate, truth[j].value, 3 * one->deviation);
-    g_assert_cmpint(one->told, ==, SB_TOLD_YES);
+    g_assert_cmpint(one->identifiable, ==, SB_IDENTIFIABLE_YES);
   }
   g_assert_true(found.curve[0].measured->turned_force &&
                 found.curve[0].measured->turned_displacement);
@@ -199,9 +199,9 @@ static void test_inseparable(void) {
                "set = stem.pressure_diameter = 5.81 mm; bore.land_edge = 3.05 mm\n");
   SbCalibration found;
   calibrate(&found, study);
-  g_assert_cmpint(found.parameter[0].told, ==, SB_TOLD_WITH_OTHER);
-  g_assert_cmpint(found.parameter[1].told, ==, SB_TOLD_WITH_OTHER);
-  g_assert_cmpint(found.parameter[2].told, ==, SB_TOLD_NO);
+  g_assert_cmpint(found.parameter[0].identifiable, ==, SB_IDENTIFIABLE_WITH_OTHER);
+  g_assert_cmpint(found.parameter[1].identifiable, ==, SB_IDENTIFIABLE_WITH_OTHER);
+  g_assert_cmpint(found.parameter[2].identifiable, ==, SB_IDENTIFIABLE_NO);
   g_assert_cmpfloat(found.correlation[1], <, -0.9);
   g_assert_nonnull(
       strstr(found.sentence, "friction.load_coefficient and surface.gt_product trade"));

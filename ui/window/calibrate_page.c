@@ -67,7 +67,7 @@ static char *describe(const Page *page) {
     g_autofree char *low = sb_param_format(one->id, one->interval[0]);
     g_autofree char *high = sb_param_format(one->id, one->interval[1]);
     g_string_append_printf(text, "%s: %s, %s - %s, %s\n", one->name, value, low, high,
-                           sb_told_name(one->told));
+                           sb_identifiable_name(one->identifiable));
   }
   g_string_append(text, page->found.sentence);
   return g_string_free(text, FALSE);
@@ -225,7 +225,7 @@ static void on_use(GtkButton *button, Page *page) {
   for (size_t j = 0; j < page->found.parameters; j++) {
     const SbCalibrated *one = &page->found.parameter[j];
     // Without a posterior every parameter has the best value so far.
-    const gboolean known = page->found.samples == 0 || one->told != SB_TOLD_NO;
+    const gboolean known = page->found.samples == 0 || one->identifiable != SB_IDENTIFIABLE_NO;
     if (known && one->curve < 0) {
       sb_session_edit_value(page->session, one->id, one->estimate);
     }

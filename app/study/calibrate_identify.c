@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *sb_told_name(SbTold told) {
+const char *sb_identifiable_name(SbIdentifiable identifiable) {
   static const char *const names[] = {"yes", "with-other", "no"};
-  return names[told];
+  return names[identifiable];
 }
 
 static int compare_doubles(const void *a, const void *b) {
@@ -56,12 +56,12 @@ static void find_moments(SbCalibration *out) {
   }
   for (size_t j = 0; j < p; j++) {
     SbCalibrated *of = &out->parameter[j];
-    of->told = of->interval[1] - of->interval[0] < SB_TOLD_SHARE * (of->prior[1] - of->prior[0])
-                   ? SB_TOLD_YES
-                   : SB_TOLD_NO;
+    of->identifiable = of->interval[1] - of->interval[0] < SB_IDENTIFIABLE_FRACTION * (of->prior[1] - of->prior[0])
+                   ? SB_IDENTIFIABLE_YES
+                   : SB_IDENTIFIABLE_NO;
     for (size_t k = 0; k < p; k++) {
-      if (k != j && fabs(out->correlation[j * p + k]) > SB_TOLD_CORRELATION) {
-        of->told = SB_TOLD_WITH_OTHER;
+      if (k != j && fabs(out->correlation[j * p + k]) > SB_IDENTIFIABLE_CORRELATION) {
+        of->identifiable = SB_IDENTIFIABLE_WITH_OTHER;
       }
     }
   }
@@ -98,7 +98,7 @@ static char *make_sentence(const SbCalibration *out) {
   for (size_t j = 0; j < p; j++) {
     for (size_t k = j + 1; k < p; k++) {
       const double rho = out->correlation[j * p + k];
-      if (fabs(rho) > SB_TOLD_CORRELATION) {
+      if (fabs(rho) > SB_IDENTIFIABLE_CORRELATION) {
         g_string_append_printf(text,
                                "%s%s and %s are correlated (%.2f): these data identify their "
                                "combined effect, not each of them; %s.",
@@ -109,7 +109,7 @@ static char *make_sentence(const SbCalibration *out) {
     }
   }
   for (size_t j = 0; j < p; j++) {
-    if (out->parameter[j].told == SB_TOLD_NO) {
+    if (out->parameter[j].identifiable == SB_IDENTIFIABLE_NO) {
       g_string_append_printf(text,
                              "%s%s is hardly narrower than its prior: the value is not changed.",
                              text->len > 0 ? " " : "", out->parameter[j].name);
@@ -121,7 +121,7 @@ static char *make_sentence(const SbCalibration *out) {
   return g_string_free(text, FALSE);
 }
 
-void sb_calibration_tell(SbCalibration *out) {
+void sb_calibration_identify(SbCalibration *out) {
   find_moments(out);
   out->sentence = make_sentence(out);
 }
@@ -131,7 +131,7 @@ void sb_calibration_tell(SbCalibration *out) {
 // Whether a fitted parameter replaces the value of the scene. Without a posterior the best values
 // found so far do.
 static bool replaces(const SbCalibration *of, const SbCalibrated *fitted) {
-  return of->samples == 0 || fitted->told != SB_TOLD_NO;
+  return of->samples == 0 || fitted->identifiable != SB_IDENTIFIABLE_NO;
 }
 
 // The parameter that has this value of a curve; NULL: the curve's `set` has it. The last override
@@ -158,7 +158,7 @@ static void add_origin(GString *origin, const SbCalibration *of, const SbCalibra
   g_autofree char *low = sb_param_format(fitted->id, fitted->interval[0]);
   g_autofree char *high = sb_param_format(fitted->id, fitted->interval[1]);
   g_string_append_printf(origin, "# %s: %s (95 %%: %s to %s), identifiable: %s\n", key, estimate,
-                         low, high, sb_told_name(fitted->told));
+                         low, high, sb_identifiable_name(fitted->identifiable));
 }
 
 // Sets a curve's values in a document and adds to `origin` where they come from; without `set`
