@@ -1,39 +1,48 @@
-// Unsaved changes of a session, kept in a file of the user's data folder while there are any: after
-// a crash the next start offers them. Nothing is written over the user's own file.
+// Unsaved changes of a session, stored in a file of the user's data folder as long as there are
+// any. After a crash the next start offers to restore them. The user's own file is never written.
 #pragma once
 
 #include "app/session/session.h"
 
 typedef struct SbAutosave SbAutosave;
 
-// Follows `session`; its file is written at most SB_AUTOSAVE_DELAY ms after a change, by way of a
-// temporary one, and removed once there is nothing to save. Owned by the caller.
+// Delay between a change and writing [ms].
 enum { SB_AUTOSAVE_DELAY = 1000 };
+
+// Follows `session` (borrowed; must outlive the result): SB_AUTOSAVE_DELAY after a change its file
+// is written atomically, and it is removed once there is nothing to save. Failures to write are
+// ignored. Freed by sb_autosave_free().
 SbAutosave *sb_autosave_new(SbSession *session);
 
-// Writes what is to be saved now.
+// Writes unsaved changes immediately.
 void sb_autosave_write(SbAutosave *autosave);
 
-// The same, and leaves the file behind: nobody is there to be asked.
+// Writes unsaved changes immediately and keeps the file after sb_autosave_free(): for a program
+// that must end without asking the user.
 void sb_autosave_leave(SbAutosave *autosave);
 
-// The session has ended in good order: removes its file. NULL is allowed.
+// Removes the file, because the session ends as the user wants, and frees `autosave`. Takes NULL.
 void sb_autosave_free(SbAutosave *autosave);
 
-// A file that a process which no longer runs has left behind, or NULL. Owned by the caller.
+// Returns the path of a file of a process that does not run any more; NULL: there is none. Freed by
+// g_free().
 char *sb_autosave_find(void);
 
-// What such a file holds. Release with sb_unsaved_clear().
+// Content of such a file. Freed by sb_unsaved_clear().
 typedef struct {
   char *path; // of the document; NULL: it was never saved
-  char *base; // text of that file when the document was read; NULL: none, or not known
+  char *base; // text of that file when the document was read or saved; NULL: none, or not known
   char *text; // of the document with its unsaved changes
 } SbUnsaved;
 
-// FALSE, and nothing in *out, where `file` cannot be read or is not such a file.
+// Reads the file `file` of sb_autosave_find(). Returns FALSE, with *out empty, if it cannot be read
+// or is not such a file.
 gboolean sb_autosave_read(SbUnsaved *out, const char *file);
+
+// Frees the strings; `unsaved` is then empty.
 void sb_unsaved_clear(SbUnsaved *unsaved);
 G_DEFINE_AUTO_CLEANUP_CLEAR_FUNC(SbUnsaved, sb_unsaved_clear)
 
-// Returns whether the document's file is not `base` any more: another program has changed it since.
+// Returns whether the document's file differs from `base` or is gone: another program has changed
+// it since. FALSE if `path` or `base` is NULL.
 gboolean sb_unsaved_is_outdated(const SbUnsaved *unsaved);

@@ -1,4 +1,4 @@
-// The verdict over all cases of a scene, computed on a thread beside the workbench.
+// The verdict over all cases of a scene (app/run/cases.h), computed in a thread of its own.
 #pragma once
 
 #include "app/run/cases.h"
@@ -6,16 +6,18 @@
 
 typedef struct SbCasesJob SbCasesJob;
 
-// Starts it for a whole run of the document's values; takes over the reference `handle`. `done` is
-// called once on the main thread unless the job was freed before. Owned by the caller.
+// Starts the computation for a finished run of the document's values. The job takes over the
+// caller's reference `handle`; `document` is copied. done(data) is called once in the main thread
+// at the end, unless the job was freed before. Freed by sb_cases_job_free().
 SbCasesJob *sb_cases_job_start(SbRunHandle *handle, const SbDocument *document,
                                void (*done)(void *data), void *data);
 
-// The worst answers and the cases that give them; NULL before `done`. Borrowed.
+// Returns the worst answers and the cases that give them, [SB_VERDICT_COUNT]; NULL before `done`.
+// Borrowed.
 const SbCaseVerdict *sb_cases_job_verdict(const SbCasesJob *job);
 
-// The run that they are of.
+// Returns the run of the scene itself, from the start on. Borrowed.
 const SbRun *sb_cases_job_run(const SbCasesJob *job);
 
-// Cancels, waits, frees. Takes NULL.
+// Cancels, waits for the thread and frees the job. Takes NULL.
 void sb_cases_job_free(SbCasesJob *job);

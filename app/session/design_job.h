@@ -1,9 +1,9 @@
-// A design question answered on a thread of its own, a part after the other: the map of two
-// parameters (coarse, then fine), the search for the best, what tolerances do to figures at the
-// present and at the best design, and valves drawn from the tolerances about both.
+// A search for a design in a thread of its own, one part after the other: the map of two parameters
+// (coarse, then fine), the search for the best design, the effects of tolerances at the present and
+// at the best design, and valves drawn from the tolerances about both. Solver and studies are those
+// of `sealbench design` and `study` (app/study).
 //
-// What is there can be looked at meanwhile, under the lock. Solver and studies are those of
-// `sealbench design` and `study` (app/study).
+// Functions are called in the main thread. Results can be read while the job runs, under its lock.
 #pragma once
 
 #include "app/session/design_answer.h"
@@ -11,6 +11,7 @@
 
 typedef struct SbDesignJob SbDesignJob;
 
+// Parts, in their order.
 typedef enum {
   SB_DESIGN_PART_MAP,
   SB_DESIGN_PART_SEARCH,
@@ -18,28 +19,37 @@ typedef enum {
   SB_DESIGN_PART_VALVES
 } SbDesignPart;
 
-// Starts it on a study made from `ask` (sb_design_ask_study()), which it takes over. `store` keeps
-// the map's answers and the valves'; borrowed, of one job at a time. Without `search` the map and
-// the present design alone. `done` is called once on the main thread unless the job was freed
-// before. Owned by the caller.
+// Starts the job. It owns `study`, which sb_design_ask_study() made from `ask` (copied). `store`
+// stores the evaluations of the map and of the valves; it is borrowed, and only one job may use it
+// at a time. Without `search`, only the map and the present design are computed. done(data) is
+// called once in the main thread at the end, unless the job was freed before. Freed by
+// sb_design_job_free().
 SbDesignJob *sb_design_job_start(SbStudyFile *study, const SbDesignAsk *ask, SbStore *store,
                                  bool search, void (*done)(void *data), void *data);
 
-// The answer so far; borrowed, to be read between lock and unlock only.
+// Locks the results and returns them as far as they are computed. Borrowed until
+// sb_design_job_unlock(), which must follow soon: the job waits meanwhile.
 const SbDesignAnswer *sb_design_job_lock(SbDesignJob *job);
+
+// Unlocks the results.
 void sb_design_job_unlock(SbDesignJob *job);
 
-// Which part is under way; share of all that is done, 0 to 1.
+// Returns the part that is being computed.
 SbDesignPart sb_design_job_part(SbDesignJob *job);
+
+// Returns the fraction of all parts that is done, 0 to 1.
 double sb_design_job_progress(SbDesignJob *job);
 
-// Holds it between two valves, or goes on; asks it to end. Return at once.
+// Pauses the job between two valves (`on`), or continues it. Returns immediately.
 void sb_design_job_pause(SbDesignJob *job, bool on);
+
+// Asks the job to end. Returns immediately; `done` follows.
 void sb_design_job_cancel(SbDesignJob *job);
 
-// Only after `done`: the answer, as far as it came, for the caller to free. *why says what ended it
-// early (owned by the caller), NULL: it is whole. Once.
+// To be called once, after `done`: returns the results as far as they were computed, freed by
+// sb_design_answer_free(). *why is the reason if the job ended early (freed by g_free()); NULL: the
+// results are complete.
 SbDesignAnswer *sb_design_job_take(SbDesignJob *job, char **why);
 
-// Cancels, waits, frees. Takes NULL.
+// Cancels, waits for the thread and frees the job. Takes NULL.
 void sb_design_job_free(SbDesignJob *job);

@@ -1,6 +1,6 @@
-// A run as the window holds it: the engine's run, its thinned trace for drawing, and the view of
-// both that charts take. Counted references, so that the shown, the earlier and the pinned run may
-// be the same.
+// A run as the window displays it: the engine's run, its reduced trace for drawing, and the view of
+// both that charts receive. Reference counted, because the displayed, the earlier and a pinned run
+// may be the same. Main thread.
 #pragma once
 
 #include "app/chart/data.h"
@@ -9,50 +9,54 @@
 
 #include <glib.h>
 
-// How a run was solved.
+// How a run was computed.
 typedef enum {
-  SB_GRADE_CLOSED, // by closed forms in place of solved rings
-  SB_GRADE_COARSE, // its rings to a tolerance of 1 %, with fewer frames
-  SB_GRADE_NEAR,   // its rings started from those of a whole run of other values
-  SB_GRADE_STORED, // read from a file: a whole run, of the same engine, but nothing starts from it
-  SB_GRADE_WHOLE   // cold: the figures of `sealbench run`, to the bit
+  SB_GRADE_CLOSED, // with closed forms in place of solved rings
+  SB_GRADE_COARSE, // rings to a tolerance of 1 %, with fewer frames
+  SB_GRADE_NEAR,   // rings by a warm start from those of a converged run of other values
+  SB_GRADE_STORED, // read from a file: a converged run of the same engine, without a warm start
+  SB_GRADE_WHOLE   // cold start: the figures of `sealbench run`, to the bit
 } SbRunGrade;
 
-// Slopes of a run by a parameter (tangent.h).
+// Derivatives of a run's frames and profiles by a parameter (app/session/tangent.h).
 typedef struct SbTangent SbTangent;
 
+// A displayed run. Members may be read; the arrays of derivatives are filled by session_slope.c.
 typedef struct SbDisplayedRun SbDisplayedRun;
 struct SbDisplayedRun {
   int references;
-  SbRunHandle *handle; // owned reference
-  const SbRun *run;    // the handle's
+  SbRunHandle *handle; // a reference
+  const SbRun *run;    // of the handle
   SbTrace *trace;      // owned
-  SbChartRun chart;    // refers to both
-  SbParams params;     // the values it was made from
+  SbChartRun chart;    // refers to `run` and `trace`
+  SbParams params;     // values from which the run was computed
   SbRunGrade grade;
-  char *date; // of a stored one, "2026-11-23"; else NULL. Owned
-  // Its slopes so far, owned, found in the background (session_slope.c); whether they were sought
-  // at all; the run of no change that they are found with, owned.
-  SbTangent *tangent[SB_PARAM_COUNT];
-  bool sought[SB_PARAM_COUNT];
-  // Derivatives of all its figures by one parameter each, with the engine's acceptance test; NULL:
-  // not known so far. Owned. Whether they were computed.
-  SbGradient *gradient[SB_PARAM_COUNT];
-  bool differentiated[SB_PARAM_COUNT];
-  SbDisplayedRun *level;
+  char *date;                           // of a stored run, "2026-11-23"; else NULL
+  SbTangent *tangent[SB_PARAM_COUNT];   // owned; NULL: not known
+  bool sought[SB_PARAM_COUNT];          // `tangent` was computed, perhaps without a result
+  SbGradient *gradient[SB_PARAM_COUNT]; // of all figures by one parameter; owned; NULL: not known
+  bool differentiated[SB_PARAM_COUNT];  // `gradient` was computed, perhaps without a result
+  SbDisplayedRun
+      *level; // run without a change with which `tangent` is computed; a reference or NULL
 };
 
-// Takes the reference over; the handle's run must exist.
+// Returns a displayed run with one reference. It takes over the caller's reference `handle`, whose
+// run must exist. `params` is copied.
 SbDisplayedRun *sb_displayed_run_new(SbRunHandle *handle, const SbParams *params, SbRunGrade grade);
 
-// Takes over how the handle's run has ended: summary, actuations and state. Only once it is done.
+// Sets summary, actuations and state of `chart` from the end of the run. Call it once the handle is
+// done (sb_run_handle_is_done()).
 void sb_displayed_run_end(SbDisplayedRun *shown);
 
+// Adds a reference and returns `shown`; takes NULL.
 SbDisplayedRun *sb_displayed_run_ref(SbDisplayedRun *shown);
-void sb_displayed_run_unref(SbDisplayedRun *shown); // takes NULL
 
-// Reads frames that were published since; at most `limit` of them. True if there were any.
+// Removes a reference; the last one frees the run. Takes NULL.
+void sb_displayed_run_unref(SbDisplayedRun *shown);
+
+// Adds to the trace the frames that were published since the last call, at most `limit` of them.
+// Returns whether there were any.
 bool sb_displayed_run_update(SbDisplayedRun *shown, size_t limit);
 
-// True if the trace has caught up with the frames.
+// Returns whether the trace contains all published frames.
 bool sb_displayed_run_complete(const SbDisplayedRun *shown);

@@ -1,5 +1,5 @@
-// What the main parameters do to the figures that a design is about, computed on a thread beside
-// what the user does.
+// Effects of the main parameters on the figures that a design is about, computed in a thread of its
+// own.
 #pragma once
 
 #include "engine/valve/sealbench.h"
@@ -8,25 +8,29 @@
 
 typedef struct SbEffectJob SbEffectJob;
 
+// Number of goals: figures whose effects are computed.
 enum { SB_EFFECT_GOALS = 5 };
 
-// Goal `index`, a figure of figures.def, and its short name; borrowed.
+// Returns the figure of goal `index`, 0 to SB_EFFECT_GOALS - 1, as an index of sb_figure().
 int sb_effect_goal(int index);
+
+// Returns the short name of goal `index`, translated.
 const char *sb_effect_goal_name(int index);
 
-// By how much each goal changes as a parameter moves by its tolerance, or by 5 % where it has none;
-// NaN: not known, or no main real parameter.
+// Change of each goal if a parameter increases by its tolerance, or by 5 % if it has none.
 typedef struct {
-  double change[SB_EFFECT_GOALS][SB_PARAM_COUNT]; // SI of the figure
-  double step[SB_PARAM_COUNT];                    // SI of the parameter
+  // [goal][SbParamId]: signed change [SI of the figure]; NaN: not known, or not a main parameter.
+  double change[SB_EFFECT_GOALS][SB_PARAM_COUNT];
+  double step[SB_PARAM_COUNT]; // [SbParamId]: change of the parameter [SI]; NaN: not known
 } SbEffects;
 
-// Starts it on a copy of `model`. `done` is called once on the main thread unless the job was freed
-// before. Owned by the caller.
+// Starts the computation for a copy of `model`. done(data) is called once in the main thread at the
+// end, unless the job was freed before. Freed by sb_effect_job_free().
 SbEffectJob *sb_effect_job_start(const SbModel *model, void (*done)(void *data), void *data);
 
-// Only after `done`; false where it was cancelled or failed.
+// To be called only after `done`: copies the effects to *out. Returns false if the job was
+// cancelled or failed; *out is then not valid.
 bool sb_effect_job_take(const SbEffectJob *job, SbEffects *out);
 
-// Cancels, waits, frees. Takes NULL.
+// Cancels, waits for the thread and frees the job. Takes NULL; may be called by `done`.
 void sb_effect_job_free(SbEffectJob *job);

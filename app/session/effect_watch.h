@@ -1,5 +1,6 @@
-// The effects of a session's main parameters kept up with its values: found anew once they have
-// stood for a moment and their run is there. The former ones stay until then.
+// The effects of a session's main parameters (effect_job.h), recomputed when its values have
+// changed: once they have not changed for a moment and their run has ended. Until then the earlier
+// effects remain available.
 #pragma once
 
 #include "app/session/effect_job.h"
@@ -7,19 +8,24 @@
 
 typedef struct SbEffectWatch SbEffectWatch;
 
-// Begins at once. `changed` is called on the main thread when there are new ones. `is_busy`, which
-// may be NULL, says what else goes first. The session is borrowed; owned by the caller.
+// Starts to follow `session`, which is borrowed and must outlive the result. changed(data) is
+// called in the main thread when new effects are available or their computation failed. The
+// computation waits while is_busy(data) returns true (NULL: never). Freed by
+// sb_effect_watch_free().
 SbEffectWatch *sb_effect_watch_new(SbSession *session, void (*changed)(void *data),
                                    bool (*is_busy)(const void *data), void *data);
 
-// Cancels, waits, frees. Takes NULL.
+// Cancels, waits for the thread and frees `watch`. Takes NULL.
 void sb_effect_watch_free(SbEffectWatch *watch);
 
-// What there is: NULL before the first; whether it is of other values.
+// Returns the effects computed last; NULL: none yet. *former is set to whether they belong to other
+// values than the present ones. Borrowed until `changed`.
 const SbEffects *sb_effect_watch_effects(const SbEffectWatch *watch, bool *former);
 
-// A parameter's effect over the largest one of that goal, -1 to 1; NaN: not known. Takes NULL.
+// Returns the effect of parameter `id` on goal `goal` (0 to SB_EFFECT_GOALS - 1) divided by the
+// largest effect of any parameter on it, -1 to 1; NaN: not known. `effects` may be NULL.
 double sb_effect_share(const SbEffects *effects, int goal, int id);
 
-// "Return −0.97 N per 0.02 mm"; NULL: not known. Takes NULL. Owned by the caller.
+// Returns the effect as text, "Return −0.97 N per 0.02 mm"; NULL: not known. `effects` may be NULL.
+// Freed by g_free().
 char *sb_effect_text(const SbEffects *effects, int goal, SbParamId id);

@@ -1,10 +1,11 @@
-// The store of answers that stays from one session to the next: in the user's cache folder, one for
-// this engine's sources.
+// The store of evaluations that persists between sessions: a file in the user's cache folder, one
+// for each version of the engine's sources.
 #pragma once
 
 #include "app/study/store.h"
 
-// Opens it, or one in memory where that cannot be: another process or window has it, the folder
-// cannot be written, the file is damaged (it is made anew the next time). Files of other engines,
-// and one that has grown beyond 200 MB, are removed first. NULL only without memory.
+// Opens this store. Opens one in memory instead if another process or window uses the file, the
+// folder is not writable, or the file is damaged (then a new one is created the next time). Files
+// of other engines, and a file of more than 200 MB, are deleted first. Returns NULL only if memory
+// is short. Closed by sb_store_close() or sb_store_discard().
 SbStore *sb_kept_store_open(void);

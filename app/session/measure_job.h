@@ -1,20 +1,22 @@
-// Reads a measured loop on a thread beside the window.
+// Reads a measured loop (app/data/measured.h) in a thread of its own.
 #pragma once
 
 #include "app/data/measured.h"
 
 typedef struct SbMeasureJob SbMeasureJob;
 
-// `data` is taken over; `speed` as sb_measured_load(). `done` is called once on the main thread
-// unless the job is freed before.
+// Starts to read the file of `data`, which the job owns from now on. `speed` as in
+// sb_measured_load(). done(user) is called once in the main thread at the end, unless the job was
+// freed before. Freed by sb_measure_job_free().
 SbMeasureJob *sb_measure_job_start(SbData *data, double speed, void (*done)(void *data),
                                    void *user);
 
-// What was asked; borrowed.
+// Returns the group that is read. Borrowed.
 const SbData *sb_measure_job_data(const SbMeasureJob *job);
 
-// Once it is done: the loop (owned by the caller), or NULL and why in *why (owned by the caller).
+// To be called once, after `done`: returns the loop, freed by sb_measured_free(). NULL: it could
+// not be read; *why is then the reason, freed by g_free().
 SbMeasured *sb_measure_job_take(SbMeasureJob *job, char **why);
 
-// Waits for the thread; takes NULL.
+// Waits until the file is read and frees the job. Takes NULL.
 void sb_measure_job_free(SbMeasureJob *job);

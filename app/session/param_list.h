@@ -1,30 +1,36 @@
-// How parameters are listed for people, the same in every front end: groups with headings, which
-// ones are changed, what a search finds, and a step of a value.
+// How parameters are listed for the user, the same in every front end: groups with headings,
+// changed parameters, search, and steps of a value.
 #pragma once
 
 #include "app/session/session.h"
 
-// A group of keys that begin alike. Strings are static, to be translated.
+// A group of keys with a common prefix. Strings are static and untranslated (sb_translation()).
 typedef struct {
-  const char *prefix, *title, *note; // note: NULL for none
-  gboolean unfolded;                 // at first
+  const char *prefix; // of the keys, "gland."
+  const char *title;  // heading
+  const char *note;   // sentence below the heading; NULL: none
+  gboolean unfolded;  // the group is open at first
 } SbParamHeading;
 
-// The group that a key belongs to; borrowed.
+// Returns the group to which a key of the catalogue belongs. Static.
 const SbParamHeading *sb_param_heading(const char *key);
 
-// Whether a value in force is another than the default, which may follow from other values.
+// Returns whether the value in force differs from the default, which may follow from other values.
 gboolean sb_param_is_changed(const SbParams *params, SbParamId id);
 
-// "Outer seal: " of a parameter of one part among several alike; "" for most. Borrowed.
+// Returns a translated prefix for a parameter that several parts have, such as "Outer seal: "; ""
+// for others. Static.
 const char *sb_param_owner(const SbParam *param);
 
-// The allowed range as sb_param_range() has it, in the language of the window. Owned by the caller.
+// Returns the allowed range as sb_param_range(), translated. Freed by g_free().
 char *sb_param_range_shown(SbParamId id);
 
-// Whether name, key, symbol, help, choices or other words of a parameter hold a text (casefolded).
+// Returns whether name, key, symbol, help, choices or synonyms of a parameter contain `needle`,
+// which must be folded by g_utf8_casefold().
 gboolean sb_param_matches(SbParamId id, const char *needle);
 
-// Moves a value by `count` steps: a hundredth of it, rounded down to a power of ten in the shown
-// unit; at least 1 for whole numbers; choices one after the other. One undo step with the next.
+// Changes a value by `count` steps, within its range, as an edit of the session that joins an
+// immediately following one. A step of a real number is a hundredth of it, rounded down to a power
+// of ten in the display unit (|count| < 1: a tenth of that); of an integer 1; of a choice the next
+// one, whatever |count| is. Flags do not change.
 void sb_param_step(SbSession *session, SbParamId id, double count);

@@ -1,8 +1,8 @@
-// What a kept design is called.
+// Names of saved designs (pins) for the user.
 #pragma once
 
 #include "app/document/document.h"
 
-// The name that somebody gave it, else what it differs in from the document's values, "section
-// diameter 1.63 mm"; in the user's language. Owned by the caller (g_free).
+// Returns the name of pin `index` of the document, or if it has none, how it differs from the
+// values in force ("section diameter 1.63 mm"), translated. Freed by g_free().
 char *sb_pin_name(const SbDocument *document, size_t index);

@@ -1,6 +1,6 @@
-// What the section view draws: the session's frame with a section made for its run and for scales
-// that hold over the whole of it. Before the first run it is the valve at rest, from a run of the
-// closed forms with two frames that takes a fraction of a millisecond.
+// What the section view draws: the displayed frame of a session, with a section whose scales hold
+// for the full run. Before the first run it is the valve at rest, from a run with closed forms and
+// two frames, which takes less than a millisecond.
 #pragma once
 
 #include "app/section/section.h"
@@ -8,23 +8,24 @@
 
 typedef struct SbSectionSource SbSectionSource;
 
-// All borrowed until the session's next signal or the source's next call.
+// What to draw. All is borrowed until the session's next signal or the source's next call.
 typedef struct {
-  SbSection *section;
-  const SbRun *run;     // of the session, or of the resting valve
+  SbSection *section;   // with scales for `run`
+  const SbRun *run;     // of the session, or of the valve at rest
   const SbFrame *frame; // of that run
 } SbSectionSourceNow;
 
-// The session is borrowed and must outlive the source. Owned by the caller.
+// Returns a source for `session`, which is borrowed and must outlive it. Freed by
+// sb_section_source_free().
 SbSectionSource *sb_section_source_new(SbSession *session);
 
-// Takes NULL.
+// Frees the source; takes NULL.
 void sb_section_source_free(SbSectionSource *source);
 
-// To be called when another run is shown, or when values change while none is: what was made so far
-// belongs to the past (a new run may even stand at an old one's address).
+// Discards the section and the valve at rest. Must be called when another run is displayed, or when
+// values change while no run is displayed.
 void sb_section_source_forget(SbSectionSource *source);
 
-// Fills `out` with what to draw now; false if there is nothing, because the values do not go
-// together and nothing has run.
+// Writes what to draw now to *out. Returns FALSE if there is nothing, because there is no run and
+// the values are inconsistent.
 gboolean sb_section_source_now(SbSectionSource *source, SbSectionSourceNow *out);

@@ -1,12 +1,15 @@
-// What a window works on: one document, the run that belongs to it, and the playhead. Widgets read
-// it and listen to it; they never talk to each other.
+// The state of a window: one document, the run of its values, and the playhead. Widgets read the
+// session and connect to its signals; they do not call each other.
 //
-// Signals (all on the main thread):
-//   "params-changed"    a value, a field error, or the document's name or edited state changed
-//   "run-changed"       the state of the run, or which run is shown, changed
-//   "frames-changed"    the shown run has more frames (at most once per drawn frame)
-//   "progress-changed"  a run is on its way of which nothing new is shown (once per drawn frame)
-//   "playhead-changed"  the shown frame, or whether it plays, changed
+// Signals, without arguments, emitted in the main thread:
+//   "params-changed"    a value, a field error, the document's name, or whether it is edited,
+//   changed "run-changed"       the state of the run, or which run is displayed, changed
+//   "frames-changed"    the displayed run has more frames (at most once per drawn frame)
+//   "progress-changed"  a run that displays nothing new has progressed (once per drawn frame)
+//   "playhead-changed"  the displayed frame changed, or playing started or stopped
+//
+// All functions are called in the main thread. Pointers that they return are borrowed until the
+// session's next signal unless stated otherwise. Edits emit signals before they return.
 #pragma once
 
 #include "app/chart/data.h"
@@ -21,285 +24,355 @@
 #define SB_TYPE_SESSION (sb_session_get_type())
 G_DECLARE_FINAL_TYPE(SbSession, sb_session, SB, SESSION, GObject)
 
+// State of the run.
 typedef enum {
-  SB_SESSION_EMPTY,   // nothing has run
-  SB_SESSION_RUNNING, // a run is under way (or about to start)
-  SB_SESSION_DONE,    // the shown run is complete and belongs to the values
-  SB_SESSION_PARTIAL, // the shown run was cancelled: its frames so far stand. A run cancelled
-                      // before its first frame leaves the shown run, and its state, as they are
-  SB_SESSION_FAILED   // the last run failed; the last good state is shown
+  SB_SESSION_EMPTY,   // no run yet
+  SB_SESSION_RUNNING, // a run is being computed, or about to start
+  SB_SESSION_DONE,    // the displayed run is complete and belongs to the present values
+  SB_SESSION_PARTIAL, // the displayed run was cancelled; its frames so far remain. A run that was
+                      // cancelled before its first frame changes neither the displayed run nor this
+  SB_SESSION_FAILED   // the last run failed; the last good state is displayed
 } SbSessionState;
 
-// An untitled valve with all defaults, nothing run.
+// Returns a session with an untitled valve with all defaults, without a run. Freed by
+// g_object_unref().
 SbSession *sb_session_new(void);
 
-// The document -----------------------------------------------------------------------------------
+// ---- The document ----
 
-// Borrowed; read only. Edits go through the session.
+// Returns the document, for reading only: edits are made by the functions below.
 const SbDocument *sb_session_document(SbSession *session);
 
-// Opens a file in place of the present document. On failure nothing changes and `issues` (of
-// SbIssue) says why; issues of a file that opened all the same are added as well.
+// Opens a valve or scene file in place of the document. Returns FALSE without a change, with at
+// least one issue (SbIssue), if it cannot be read. The issues of a file that was opened are
+// appended, too (sb_session_is_faulty()).
 gboolean sb_session_open(SbSession *session, const char *path, GPtrArray *issues);
 
-// Whether the files of the document have errors: nothing is computed from them, and
-// sb_session_failure() names the errors.
+// Returns whether the files of the document have errors: then nothing is computed, and
+// sb_session_failure() states the errors.
 gboolean sb_session_is_faulty(const SbSession *session);
 
-// Restores unsaved changes of an earlier process: opens `path` (NULL: an untitled valve) and makes
-// the changes that lead from `base`, the text of that file at the time, to `text`. `base` NULL: the
-// document becomes `text`. The changes are to be saved and can be undone. Where the file has
-// changed since and both changed one key, the restored value is used and a line is added to
-// `conflicts` (of char *; may be NULL). FALSE with issues if a text cannot be read; the session
-// stays as it is.
+// Restores unsaved changes of an earlier process: opens `path` (NULL: an untitled valve) and
+// applies the changes from `base`, the text of that file at that time, to `text`. `base` NULL: the
+// document becomes `text`. The changes count as unsaved and can be undone. If the file has changed
+// since and both changed one key, the restored value is used and a line is appended to `conflicts`
+// (of char *; may be NULL). Returns FALSE without a change, with issues, if a text cannot be read.
 gboolean sb_session_restore(SbSession *session, const char *path, const char *base,
                             const char *text, GPtrArray *conflicts, GPtrArray *issues);
 
-// Writes the document to `path` (NULL: where it came from). SB_APP_ERROR_CHANGED, and nothing is
-// written, where that is the document's own file and another program has changed it since it was
-// read or saved: the user decides (sb_session_reload() and on). SB_APP_ERROR_IO.
+// Writes the document to `path` (NULL: to its own file). Returns FALSE, with nothing written:
+// SB_APP_ERROR_CHANGED if that is the document's own file and another program has changed it since
+// it was read or saved (the user decides, see sb_session_reload()); SB_APP_ERROR_IO if it fails.
 gboolean sb_session_save(SbSession *session, const char *path, GError **error);
 
-// The document's file on disk (app/document/document_disk.h): as the last check found it; checks it
-// now and emits "params-changed" where the state is another than before.
+// Returns the state of the document's file on disk as the last check found it.
 SbDiskState sb_session_disk_state(SbSession *session);
+
+// Checks the document's file on disk and returns its state; emits "params-changed" if that changed.
 SbDiskState sb_session_check_disk(SbSession *session);
 
-// What the user can do about a file that another program changed. Each but the last is one step
-// that can be undone. FALSE: nothing has changed here, and issues or the error say why.
-//   reload:    the document becomes what the file says
-//   merge:     the same with the unsaved changes made in it, key by key; conflicts as above
-//   keep both: writes this version to a new file next to it, with which the document goes on; the
-//              file keeps the other version
-//   save over: writes this version over the other one
+// The four functions below are what the user can do about a file that another program changed. All
+// but the last are one step for undo. They return FALSE without a change of the document, with
+// issues or an error, if they fail. The document must have a path.
+
+// Replaces the document by the content of its file.
 gboolean sb_session_reload(SbSession *session, GPtrArray *issues);
+
+// Replaces the document by the content of its file with the unsaved changes applied, key by key;
+// `conflicts` as in sb_session_restore().
 gboolean sb_session_merge(SbSession *session, GPtrArray *conflicts, GPtrArray *issues);
+
+// Writes the document to a new file next to its own, which becomes its path; its former file keeps
+// the other version.
 gboolean sb_session_keep_both(SbSession *session, GError **error);
+
+// Writes the document over the version of its file.
 gboolean sb_session_save_over(SbSession *session, GError **error);
 
-// A fresh untitled valve.
+// Replaces the document by an untitled valve.
 void sb_session_reset(SbSession *session);
 
-// Puts measured data (taken over; NULL: none) in place of the document's, and reads them.
+// Replaces the document's measured data by `data`, which the session owns from now on (NULL: none),
+// and reads its file in the background. Can be undone.
 void sb_session_set_data(SbSession *session, SbData *data);
 
-// The loop that was read, NULL: none, or not yet; and why its file could not be. Borrowed.
+// Returns the measured loop; NULL: none, not read yet, or not readable.
 const SbMeasured *sb_session_measured(SbSession *session);
+
+// Returns why the measured data could not be read; NULL: no failure.
 const char *sb_session_measured_failure(SbSession *session);
 
-// Of the drive at present, for records over time alone [m/s]; 0: it has no constant one.
+// Returns the speed of the present drive for sb_measured_load() [m/s]; 0: not constant.
 double sb_session_drive_speed(SbSession *session);
 
-// Adds, changes or (`text` NULL) takes away what a review keeps with the document, as
-// sb_document_put_remark(); a bookmark of the shown frame; shows the frame of a time [s].
+// Adds, changes or (`text` NULL) removes a bookmark or note, as sb_document_put_remark().
 gboolean sb_session_put_remark(SbSession *session, SbRemarkKind kind, const char *name,
                                const char *text, GError **error);
+
+// Adds a bookmark `name` at the time of the displayed frame. Returns FALSE with SB_APP_ERROR_INPUT.
 gboolean sb_session_put_bookmark(SbSession *session, const char *name, GError **error);
+
+// Moves the playhead to the frame that is nearest to a time [s].
 void sb_session_show_time(SbSession *session, double time);
 
+// Returns whether the document differs from its file.
 gboolean sb_session_is_modified(SbSession *session);
 
-// Where the cutaway is seen from in this window [rad]; the scene's own at first. No signal.
+// Sets the direction from which this window shows the cutaway [rad]. Emits no signal.
 void sb_session_set_camera(SbSession *session, double azimuth, double elevation);
+
+// Writes this direction [rad].
 void sb_session_camera(SbSession *session, double *azimuth, double *elevation);
 
-// Edits a value by text as people type it (app/document/typed.h). A text that cannot be taken stays
-// as the field's error, and the value in force stays as it was.
+// ---- Edits: each can be undone and leads to a new run if automatic runs are on ----
+
+// Sets a value from text that the user typed (app/document/typed.h). Returns FALSE if the text is
+// wrong: the value in force does not change, and the text and its error are stored for the field
+// (sb_session_error()).
 gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text);
 
-// The same by value; successive calls merge into one undo step.
+// Sets a value [SI]. Successive calls for the same parameter are one step for undo, until
+// sb_session_end_merge(). Returns FALSE if it is out of range.
 gboolean sb_session_edit_value(SbSession *session, SbParamId id, double value);
 
-// Several values as one undo step; FALSE where one was out of range and left out.
+// Sets override[count] as one step for undo. Returns FALSE if one was out of range and therefore
+// not set.
 gboolean sb_session_edit_values(SbSession *session, const SbOverride *override, size_t count);
 
-// The next edit by value is a step of its own.
+// Ends a series of sb_session_edit_value(): the next one is a step of its own.
 void sb_session_end_merge(SbSession *session);
 
-// Names the rubber of both rings (NULL: the valve's again); false with an issue.
+// Sets the rubber of both rings by name (NULL: that of the valve). Returns FALSE with an issue if
+// there is none.
 gboolean sb_session_set_rubber(SbSession *session, const char *name, GPtrArray *issues);
 
-// Takes a section that was read from a file for both seals: seal.profile = file.
+// Sets the section of both seals as sb_document_set_section().
 void sb_session_set_section(SbSession *session, const char *path, const SbSealDrawing *section,
                             double height);
 
-// Takes a groove's outline that was read from a file; path NULL: none.
+// Sets the groove's outline as sb_document_set_groove(); `path` NULL: none.
 void sb_session_set_groove(SbSession *session, const char *path, const SbGrooveDrawing *groove);
 
-// The value of the valve, the parent or the catalogue again; clears the field's error.
+// Removes the document's own value, so that that of the valve, the parent or the catalogue is in
+// force again, and the field's error.
 void sb_session_unset(SbSession *session, SbParamId id);
 
-// Each returns the parameter that changed, -1 if none did.
+// Reverts the last step. Returns the SbParamId that changed; -1 if none or something else changed.
 int sb_session_undo(SbSession *session);
+
+// Repeats the step that was reverted last. Returns as sb_session_undo().
 int sb_session_redo(SbSession *session);
 
-// What is wrong with a field: the sentence and the rejected text; NULL if nothing is. Borrowed
-// until the next change.
+// Returns why the text of a field was rejected, a sentence; NULL: it was not. Borrowed until the
+// next change.
 const char *sb_session_error(SbSession *session, SbParamId id);
+
+// Returns the rejected text of a field; NULL: none. Borrowed until the next change.
 const char *sb_session_rejected(SbSession *session, SbParamId id);
 
-// Number of fields with an error, and the one to name: the last edited if it has one, else the
-// first
-// (-1 if none).
+// Returns the number of fields with an error.
 int sb_session_error_count(SbSession *session);
+
+// Returns the SbParamId of the field with an error to show: the last edited one if it has an error,
+// else the first; -1: none.
 int sb_session_first_error(SbSession *session);
 
-// Drops a field's rejected text, so that the value in force stands again.
+// Removes a field's rejected text and error; the field then shows the value in force.
 void sb_session_clear_error(SbSession *session, SbParamId id);
 
-// The model of the present values; NULL while they do not go together. Borrowed until the next
-// change.
+// Returns the model of the present values; NULL while they are inconsistent. Borrowed until the
+// next change.
 const SbModel *sb_session_model(SbSession *session);
 
-// Why a parameter is locked now (it would have no effect, or a run holds it); NULL if it is not.
+// Returns why a parameter is locked (the chosen models do not use it, or a shape gives it), a
+// translated sentence; NULL: it is not locked. Static.
 const char *sb_session_lock(SbSession *session, SbParamId id);
 
-// The run
-// ------------------------------------------------------------------------------------------
+// ---- The run ----
 
+// Returns the state of the run.
 SbSessionState sb_session_state(SbSession *session);
 
-// Share of the run under way that is done, 0 to 1.
+// Returns the fraction of the run that is being computed, 0 to 1; 0: none.
 double sb_session_progress(SbSession *session);
 
-// How long the last edit took until its run was predicted, and until a run of its values was
-// shown, whatever its grade [s]; NaN: it was not, or not yet.
+// Times from the last edit until its run was predicted, and until a run of its values was
+// displayed, whatever its grade [s]; NaN: not, or not yet.
 typedef struct {
   double predicted, shown;
 } SbEditLatency;
+
+// Returns these times.
 SbEditLatency sb_session_latency(SbSession *session);
 
-// Starts a run of the present values now (without the delay that edits wait for).
+// Starts a run of the present values immediately, without the delay after an edit.
 void sb_session_start(SbSession *session);
 
-// Cancels the run under way; its frames so far stay. Does nothing if none is.
+// Cancels the run that is being computed; its frames so far remain. Does nothing if there is none.
 void sb_session_stop(SbSession *session);
 
-// Whether edits start runs by themselves.
+// Sets whether edits start runs (initially they do).
 void sb_session_set_auto_run(SbSession *session, gboolean on);
 
-// The shown run and how many of its frames are there; NULL if nothing is shown. Borrowed until the
-// next "run-changed".
+// Returns the displayed run; NULL: none. Borrowed until the next "run-changed".
 const SbRun *sb_session_run(SbSession *session);
+
+// Returns the frames of the displayed run that are available, in the order of time, and their
+// number in *count; NULL and 0: none. Borrowed until the next "run-changed".
 const SbFrame *sb_session_frames(SbSession *session, size_t *count);
 
-// How the shown run was solved, and that in words for the user (g_free()): NULL of a whole run,
-// whose figures are those of `sealbench run`.
+// Returns how the displayed run was computed.
 SbRunGrade sb_session_grade(SbSession *session);
+
+// Returns the same as a translated text; NULL for SB_GRADE_WHOLE, whose figures are those of
+// `sealbench run`. Freed by g_free().
 char *sb_session_grade_text(SbSession *session);
 
-// Whether the shown run may be exported: it has ended and is a whole one.
+// Returns whether the displayed run can be exported: it has ended, with the grade SB_GRADE_WHOLE.
 gboolean sb_session_may_keep(SbSession *session);
 
-// An edit of a parameter is about to begin: what its run will be is made ready in the background,
-// before that of other parameters, where runs take long.
+// States that the user is about to edit a parameter: its derivatives are computed in the background
+// before those of others, if runs take long.
 void sb_session_prepare(SbSession *session, SbParamId id);
 
-// The shown run for others to keep, once it may be kept: a reference for the caller; NULL before.
+// Returns a reference to the displayed run, released by sb_run_handle_unref(); NULL unless
+// sb_session_may_keep().
 SbRunHandle *sb_session_handle(SbSession *session);
 
-// The shown run's summary; NULL while it is computed.
+// Returns the summary of the displayed run; NULL while it is computed.
 const SbSummary *sb_session_summary(SbSession *session);
 
-// That of the present values as predicted, figures and verdict, while the shown run is of others
-// (prediction.h); NULL where nothing is predicted. Loop and contacts are in sb_session_chart().
+// Returns the predicted summary of the present values, with figures and verdict, while the
+// displayed run belongs to other values (prediction.h); NULL: no prediction. The predicted loop and
+// contacts are in sb_session_chart().
 const SbSummary *sb_session_predicted(SbSession *session);
 
-// Designs that are kept to compare with ----------------------------------------------------------
+// ---- Pins: saved designs for comparison ----
 //
 // They are saved with the document ([pins]), each with all its values. At most SB_CHART_PINS are
-// drawn beside the live run (SbChartData.pin), all are in tables. Signals: "run-changed" when one
-// comes, goes, or has its run; "params-changed" as well where there is something to save.
+// drawn with the live run (SbChartData.pin); all are in tables. "run-changed" is emitted when a pin
+// is added or removed or has its run; "params-changed" as well if there is something to save.
+// Indices count from 0.
 
-// Keeps the shown run, which must be a whole one of the present values; FALSE where it is not.
+// Returns whether the displayed run can be pinned: sb_session_may_keep() and it belongs to the
+// present values.
 gboolean sb_session_may_pin(SbSession *session);
+
+// Pins the displayed run. Returns FALSE if it cannot be pinned or there are too many pins.
 gboolean sb_session_pin(SbSession *session);
 
-// Keeps the present design with other values in place of some, whose run is then computed; FALSE
-// where one is out of range.
+// Pins the present values with override[count] replacing some of them; its run is computed in the
+// background. Returns FALSE if a value is out of range or there are too many pins.
 gboolean sb_session_pin_values(SbSession *session, const SbOverride *override, size_t count);
 
+// Returns the number of pins.
 size_t sb_session_pin_count(SbSession *session);
+
+// Removes pin `index`; later ones move up.
 void sb_session_unpin(SbSession *session, size_t index);
 
-// Its own name, else what it differs in from the present values ("section diameter 1.63 mm").
-// Borrowed until the next change. An empty name gives it up.
+// Returns the name of pin `index`, else how it differs from the present values ("section diameter
+// 1.63 mm"). Borrowed until the next change.
 const char *sb_session_pin_name(SbSession *session, size_t index);
+
+// Sets the name of pin `index`; empty: none (see sb_document_name_pin()).
 void sb_session_rename_pin(SbSession *session, size_t index, const char *name);
 
-// The look it is drawn with, 0 to SB_CHART_PINS - 1; -1: it is not. Drawing one more than there are
-// looks takes that of the oldest.
+// Returns the drawing style of pin `index`, 0 to SB_CHART_PINS - 1; -1: it is not drawn.
 int sb_session_pin_slot(SbSession *session, size_t index);
+
+// Sets whether pin `index` is drawn. If all styles are used, it takes that of the first drawn pin,
+// which is then not drawn.
 void sb_session_draw_pin(SbSession *session, size_t index, gboolean on);
 
-// Its run, name as pictures have it, look and the frame that stands where the playhead does; FALSE
-// while there is no run. Borrowed until the next signal.
+// Writes the run of pin `index` for charts: its view, name, style and the frame at the position of
+// the playhead. Returns FALSE while there is no run.
 gboolean sb_session_pin_chart(SbSession *session, size_t index, SbChartPin *out);
 
-// The run itself for others to keep: a reference for the caller, NULL while there is none.
+// Returns a reference to the run of pin `index`, released by sb_run_handle_unref(); NULL while
+// there is no run.
 SbRunHandle *sb_session_pin_handle(SbSession *session, size_t index);
 
-// NULL while its run is computed, or if there is none (`failed`).
+// Returns the summary of the run of pin `index`; NULL while it is computed or if it failed.
 const SbSummary *sb_session_pin_summary(SbSession *session, size_t index);
+
+// Returns whether the run of pin `index` failed.
 gboolean sb_session_pin_failed(SbSession *session, size_t index);
 
-// Makes its values the present ones, as one step that can be undone; its run is shown at once.
+// Sets the values of the document to those of pin `index`, as one step for undo; its run is
+// displayed immediately.
 void sb_session_use_pin(SbSession *session, size_t index);
 
-// True if the shown run is not of the present values; then `*id` is a parameter in which it differs
-// (-1 if several do) and `*value` the shown run's value [SI].
+// ---- Displayed runs of earlier values ----
+
+// Returns whether the displayed run belongs to other values than the present ones. Then *id (may be
+// NULL) is the SbParamId in which it differs, -1 if several do, and *value (may be NULL) the
+// displayed run's value [SI].
 gboolean sb_session_is_stale(SbSession *session, int *id, double *value);
 
-// True while the pictures are of former values and no run is about to replace them: views then show
-// them paler. The text names that run, "run with modulus 2.5 MPa" (g_free), and is NULL otherwise.
+// Returns whether the displayed run belongs to earlier values and no run is about to replace it:
+// views then draw it paler.
 gboolean sb_session_shows_former(SbSession *session);
 
-// True while they are and a run of the present values is computed: what is new in a picture but the
-// prediction can wait for it, which needs the processors.
+// Returns whether the displayed run belongs to earlier values while a run of the present values is
+// computed. Views then postpone expensive drawing, except of the prediction.
 gboolean sb_session_awaits(SbSession *session);
+
+// Returns a translated description of the displayed run of earlier values, "run with modulus
+// 2.5 MPa"; NULL unless sb_session_shows_former(). Freed by g_free().
 char *sb_session_former_text(SbSession *session);
 
-// The same as a sentence for pictures: "stale: this run is with modulus 2.5 MPa"; NULL if the shown
-// run is of the present values. Owned by the caller (g_free).
+// Returns a sentence in English for pictures, "stale: this run is with modulus 2.5 MPa"; NULL
+// unless sb_session_is_stale(). Freed by g_free().
 char *sb_session_stale_text(SbSession *session);
 
-// All that views of app/chart are given. Borrowed; its pointers hold until the next signal.
+// Returns everything that the views of app/chart draw.
 const SbChartData *sb_session_chart(SbSession *session);
 
-// What went wrong in the last run, one sentence with residual, time and parameter; NULL if nothing
-// did.
+// Returns the problem of the last run or of the files, one sentence with residual, time and
+// parameter; NULL: none.
 const char *sb_session_failure(SbSession *session);
 
-// The playhead -----------------------------------------------------------------------------------
+// ---- The playhead ----
 
-// Shows a frame by its index, or the last one.
+// Moves the playhead to frame `frame`, at most the last one.
 void sb_session_set_playhead(SbSession *session, size_t frame);
 
-// Shows the instant at a share of the way from a stage of the first cycle to what follows it; stays
-// where it is if the run does not reach it.
+// Moves the playhead to a fraction `share`, 0 to 1, of the time from a stage of the first cycle to
+// the next event. Does nothing if the run does not reach the stage.
 void sb_session_show_stage(SbSession *session, SbStage stage, double share);
 
-// The shown frame, or NULL.
+// Returns the displayed frame; NULL: none.
 const SbFrame *sb_session_frame(SbSession *session);
 
-// Moves by frames, or to the next or previous event.
+// Moves the playhead by a number of frames, back if negative; stops at the ends.
 void sb_session_step(SbSession *session, int frames);
+
+// Moves the playhead to the next event (direction > 0) or the one before (direction < 0).
 void sb_session_step_event(SbSession *session, int direction);
 
+// Returns whether the playhead moves with time.
 gboolean sb_session_is_playing(SbSession *session);
+
+// Starts or stops playing.
 void sb_session_play(SbSession *session, gboolean on);
+
+// Returns whether playing starts again at the end.
 gboolean sb_session_loops(SbSession *session);
+
+// Sets whether playing starts again at the end.
 void sb_session_set_loops(SbSession *session, gboolean on);
 
-// How long one cycle takes to play [s].
+// Sets the playing time of one cycle [s].
 void sb_session_set_play_duration(SbSession *session, double seconds);
 
-// To be called once per drawn frame with the frame clock's time [us]: takes over what the runner
-// has published and moves the playhead.
+// Takes over the frames that the runner has published, and moves the playhead. To be called once
+// per drawn frame with the frame clock's time [us], while sb_session_wants_ticks().
 void sb_session_tick(SbSession *session, gint64 now);
 
-// True while sb_session_tick() has something to do.
+// Returns whether sb_session_tick() has something to do.
 gboolean sb_session_wants_ticks(SbSession *session);
 
-// "stage C, 3.30 mm, 27.4 N" of the shown frame, "" if there is none. Owned by the caller.
+// Returns the position of the displayed frame, "stage C, 3.30 mm, 27.4 N"; empty: no frame. Freed
+// by g_free().
 char *sb_session_where(SbSession *session);

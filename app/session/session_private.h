@@ -1,6 +1,7 @@
-// The inside of a session, shared by session.c (document), session_run.c (runs), session_pins.c
-// (designs kept to compare with), session_shown.c
-// (what is shown of them), session_slope.c (what is predicted) and session_playhead.c (playhead).
+// Shared by the files of the session: session.c (document), session_disk.c (its file),
+// session_measured.c, session_remarks.c, session_run.c (runs), session_pins.c (saved designs),
+// session_shown.c (the displayed run), session_slope.c (predictions) and session_playhead.c. Main
+// thread only, except sb_session_notify().
 #pragma once
 
 #include "app/session/displayed_run.h"
@@ -12,6 +13,7 @@
 #include "app/session/slope_job.h"
 #include "app/session/tangent.h"
 
+// The signals of session.h, in its order.
 typedef enum {
   SB_SIGNAL_PARAMS,
   SB_SIGNAL_RUN,
@@ -21,158 +23,213 @@ typedef enum {
   SB_SIGNAL_COUNT
 } SbSessionSignal;
 
+// Where the runners' threads leave their notifications (session_run.c).
 typedef struct SbSessionInbox SbSessionInbox;
 
 struct _SbSession {
   GObject parent_instance;
 
-  // The document and what is wrong with its fields.
-  SbDocument *document; // owned
-  SbDiskState disk;     // as sb_session_check_disk() last found it
-  char *rejected[SB_PARAM_COUNT];
-  char *error[SB_PARAM_COUNT];
-  int last_edited; // parameter, or -1
-  SbModel *model;  // of the present values, owned; NULL: they do not go together
+  // The document and the errors of its fields.
+  SbDocument *document;           // owned
+  SbDiskState disk;               // as sb_session_check_disk() last found it
+  char *rejected[SB_PARAM_COUNT]; // text of a field that was rejected; NULL: none
+  char *error[SB_PARAM_COUNT];    // why; NULL: no error
+  int last_edited;                // SbParamId; -1: none
+  SbModel *model;                 // of the present values, owned; NULL: they are inconsistent
 
-  // Runs. `fresh` is what the runner computes; `shown` is what the pictures show: `fresh` as soon
-  // as it is worth it, else the run before.
+  // Runs. `fresh` is being computed by the runner; `shown` is displayed: `fresh` as soon as it has
+  // enough frames, until then the run before. References; NULL: none.
   SbRunner *runner; // owned
   SbSessionInbox *inbox;
-  unsigned ticket;         // of the request under way; 0 if none is
-  SbParams asked;          // its values
-  uint64_t asked_drawings; // and what files draw
-  SbRunGrade grade;        // its
+  unsigned ticket;         // of the request that is computed; 0: none
+  SbParams asked;          // values of this request
+  uint64_t asked_drawings; // sb_model_drawings() of this request
+  SbRunGrade grade;        // of this request
   SbDisplayedRun *fresh, *shown, *earlier;
   SbSessionState state;
-  char *failure;
-  gboolean faulty; // it is of the document's files, which have errors
-  gboolean auto_run;
-  guint debounce;  // source of the delayed start
-  guint later;     // source of the whole run after a near one
-  gboolean heavy;  // runs of the present values come in grades
-  gboolean former; // the displayed run is of former values, and stays
+  char *failure;     // see sb_session_failure()
+  gboolean faulty;   // `failure` states errors of the document's files
+  gboolean auto_run; // edits start runs
+  guint debounce;    // GLib source of the delayed start; 0: none
+  guint later;       // GLib source of the converged run after a preview; 0: none
+  gboolean heavy;    // runs of the present values are computed in several grades
+  gboolean former;   // see sb_session_shows_former()
   SbRunCache *cache;
-  char *runs; // folder of kept runs, owned; NULL: those that ship
+  char *runs; // folder of stored runs; NULL: the shipped ones
 
-  // What other values' rings start from, and what is predicted of their runs.
-  SbDisplayedRun *base; // the last whole run of solved rings, NULL: none
-  SbPrediction *prediction;
-  gboolean predicted;       // it is of the present values
-  SbRunner *slopes;         // owned, NULL until it is needed
-  unsigned slope_ticket;    // of the run beside the base under way; 0 if none is
-  int slope_id;             // its parameter, SB_SLOPE_LEVEL of no change
+  // Warm start and prediction.
+  SbDisplayedRun *base;     // the last converged run with solved rings, a reference; NULL: none
+  SbPrediction *prediction; // owned
+  gboolean predicted;       // `prediction` is for the present values
+  SbRunner *slopes;         // for perturbed runs, owned; NULL until it is needed
+  unsigned slope_ticket;    // of the perturbed run that is computed; 0: none
+  int slope_id;             // its SbParamId, SB_SLOPE_LEVEL or SB_SLOPE_NONE
   SbParams slope_params;    // its values
-  SbDisplayedRun *slope_up; // that to the one side, while the other is under way; NULL: none
-  bool slope_down;          // the other side is what is under way
-  SbSlopeJob *slope_job;    // derivatives of the base's figures, owned; NULL: none so far
-  int slope_first;          // parameter that is edited: the first whose slopes are found; -1: none
+  SbDisplayedRun *slope_up; // run at p0 + h while that at p0 - h is computed; NULL: none
+  bool slope_down;          // the run at p0 - h is computed
+  SbSlopeJob *slope_job;    // derivatives of the base's figures, owned; NULL: none yet
+  int slope_first;          // SbParamId whose derivatives are computed first; -1: none
 
-  // Kept designs, one a pin of the document.
-  GPtrArray *pins;             // see session_pins.c
-  size_t drawn[SB_CHART_PINS]; // those in `chart`
-  SbRunner *pin_runner;        // owned, NULL until it is needed
-  unsigned pin_ticket;         // of the one that is computed; 0 if none is
-  size_t pin_index;
+  // Saved designs.
+  GPtrArray *pins;             // one for each pin of the document (session_pins.c)
+  size_t drawn[SB_CHART_PINS]; // index of each pin in `chart`
+  SbRunner *pin_runner;        // owned; NULL until it is needed
+  unsigned pin_ticket;         // of the pin's run that is computed; 0: none
+  size_t pin_index;            // that pin
 
-  // What was measured, and what it differs by from a run (held; NULL: not compared).
-  SbMeasureJob *measuring;
-  SbMeasured *measured;
-  SbComparison *comparison;
-  SbRunHandle *compared;
-  char *measured_failure;
+  // Measured data, and the comparison with the displayed run.
+  SbMeasureJob *measuring;  // reading; NULL: none
+  SbMeasured *measured;     // owned; NULL: none
+  SbComparison *comparison; // with `compared`, owned; NULL: none
+  SbRunHandle *compared;    // a reference
+  char *measured_failure;   // why the data could not be read; NULL: no failure
 
-  gint64 started; // [us]
-  gint64 edited;  // when the values last changed [us], 0 once their run is shown
-  bool lone;      // that one was not one of several at a time
+  gint64 started; // time at which the run was requested [us]
+  gint64 edited;  // time of the last edit [us]; 0 once its run is displayed
+  bool lone;      // at the last edit no run of an earlier edit was awaited
   SbEditLatency latency;
 
   double azimuth, elevation; // of the cutaway's camera [rad]
 
   SbPlayhead playhead;
-  SbChartData chart;      // what views are given
-  SbChartMarker *markers; // owned: the document's bookmarks, for the chart
-  char *hash;
+  SbChartData chart;      // see sb_session_chart()
+  SbChartMarker *markers; // the document's bookmarks, for the chart
+  char *hash;             // sb_document_sha256() of the present values
 };
 
-// Takes another document (taken over) in the place of the present one, whose history ends.
+// ---- The document ----
+
+// Replaces the document by `document`, which the session owns from now on. Not an edit: undo starts
+// again.
 void sb_session_replace_document(SbSession *session, SbDocument *document);
 
-// All of the document is another, by a step that can be undone.
+// Updates everything after a step that changed the full document (SB_DOCUMENT_WHOLE).
 void sb_session_whole_changed(SbSession *session);
 
+// Emits a signal.
 void sb_session_emit(SbSession *session, SbSessionSignal signal);
 
-// After each change of values: asks for a run soon.
+// Called after each change of values: requests a run after a short delay.
 void sb_session_values_changed(SbSession *session);
 
-// Tells the views and listeners that the playhead, or whether it plays, is another.
-void sb_session_playhead_changed(SbSession *session);
-
-// Another set of values has come from elsewhere: refused texts go, a run follows.
+// Called after the values were changed by something else than a field: removes rejected texts,
+// compiles and requests a run.
 void sb_session_document_changed(SbSession *session);
 
-// The kept designs: makes them those of the document; names them by the present values; computes
-// what is missing, once nothing else is wanted; gives them to the charts, and their frames; a run
-// of theirs that answers values (NULL: none).
+// ---- Saved designs (session_pins.c) ----
+
+// Creates the empty list.
 void sb_session_init_pins(SbSession *session);
+
+// Frees the list and the runner.
 void sb_session_dispose_pins(SbSession *session);
+
+// Replaces the list by the pins of the document, without runs.
 void sb_session_load_pins(SbSession *session);
+
+// Updates the names that state differences from the present values.
 void sb_session_name_pins(SbSession *session);
+
+// Takes over the run that was computed, and starts the next missing one unless another run is
+// wanted.
 void sb_session_poll_pins(SbSession *session);
+
+// Sets the pins of session->chart.
 void sb_session_chart_pins(SbSession *session);
+
+// Sets the frame of each pin of session->chart to the position of the playhead.
 void sb_session_place_pins(SbSession *session);
+
+// Returns the run of a pin with these values and the present drawings; NULL: none. Borrowed.
 SbDisplayedRun *sb_session_pinned_answer(SbSession *session, const SbParams *params);
 
-// Whether all values are equal.
+// ---- Runs ----
+
+// Returns whether all values of two sets are equal.
 bool sb_session_same_values(const SbParams *a, const SbParams *b);
 
-// Of the present model, sb_model_drawings(); 0: there is none. And whether a run is of these values
-// and drawings.
+// Returns sb_model_drawings() of the present model; 0: there is none.
 uint64_t sb_session_drawings(const SbSession *session);
+
+// Returns whether a run belongs to these values and drawings.
 bool sb_session_run_is_of(const SbDisplayedRun *run, const SbParams *params, uint64_t drawings);
 
-// Forgets runs and the playhead (another document).
+// Initialises the members for runs.
+void sb_session_init_runs(SbSession *session);
+
+// Ends the threads and releases all runs.
+void sb_session_dispose_runs(SbSession *session);
+
+// Releases all runs and resets the playhead, for another document.
 void sb_session_clear_runs(SbSession *session);
 
-// Takes a reference to `value` (NULL: none) in place of the one in *run.
+// Replaces the reference in *run by a new reference to `value` (NULL: none).
 void sb_session_hold(SbDisplayedRun **run, SbDisplayedRun *value);
 
-// What the displayed run is; whether it is of the present values is another question.
-SbSessionState sb_session_shown_state(const SbSession *session);
-gboolean sb_session_is_former(SbSession *session);
-void sb_session_refresh_chart(SbSession *session);
-void sb_session_refresh_markers(SbSession *session);
-void sb_session_run_changed(SbSession *session);
-
-// Reads the document's data anew; what is compared with the shown run, NULL: nothing; forgets both.
-void sb_session_read_measured(SbSession *session);
-const SbComparison *sb_session_compare(SbSession *session);
-void sb_session_clear_measured(SbSession *session);
-
-// SbRunnerNotify; `data` is the session's inbox.
+// An SbRunnerNotify, called in the runners' threads; `data` is the session's inbox.
 void sb_session_notify(void *data);
 
-// Predicts the run of the present values, if the shown one is not theirs; turns it to the playhead.
-void sb_session_predict(SbSession *session);
-void sb_session_place_predicted(SbSession *session);
+// ---- What is displayed ----
 
-// Takes a complete run as the base, if it is one.
-void sb_session_set_base(SbSession *session, SbDisplayedRun *run);
-void sb_session_drop_base(SbSession *session);
+// Returns the state of the displayed run, whether or not it belongs to the present values.
+SbSessionState sb_session_shown_state(const SbSession *session);
 
-// Looks whether a run beside the base is there; goes on with what is wanted of them now.
-enum { SB_SLOPE_LEVEL = -1, SB_SLOPE_NONE = -2 };
-void sb_session_poll_slope(SbSession *session);
-void sb_session_find_slopes(SbSession *session);
+// Returns whether the displayed run belongs to earlier values and will not be replaced soon.
+gboolean sb_session_is_former(SbSession *session);
 
-// The frame of a run that stands where the playhead does in the displayed one.
+// Sets all members of session->chart.
+void sb_session_refresh_chart(SbSession *session);
+
+// Sets the bookmarks of session->chart.
+void sb_session_refresh_markers(SbSession *session);
+
+// Called after the displayed run or its state changed: updates prediction and chart, and emits
+// "run-changed".
+void sb_session_run_changed(SbSession *session);
+
+// Called after the playhead moved, or started or stopped: updates the chart and emits
+// "playhead-changed".
+void sb_session_playhead_changed(SbSession *session);
+
+// Returns the frame of `run` at the position of the playhead in the displayed run; 0: none.
 size_t sb_session_frame_of(SbSession *session, const SbDisplayedRun *run);
 
-// The window shows everything: the views of the scene do not limit it.
+// ---- Measured data (session_measured.c) ----
+
+// Starts to read the document's measured data.
+void sb_session_read_measured(SbSession *session);
+
+// Returns the comparison with the displayed run; NULL: none. Borrowed.
+const SbComparison *sb_session_compare(SbSession *session);
+
+// Frees data and comparison.
+void sb_session_clear_measured(SbSession *session);
+
+// ---- Predictions and derivatives (session_slope.c) ----
+
+// Predicts the run of the present values unless the displayed run belongs to them.
+void sb_session_predict(SbSession *session);
+
+// Moves the prediction to the position of the playhead.
+void sb_session_place_predicted(SbSession *session);
+
+// Makes a complete run the base for warm start and predictions, if it is suitable.
+void sb_session_set_base(SbSession *session, SbDisplayedRun *run);
+
+// Releases the base and what was computed from it.
+void sb_session_drop_base(SbSession *session);
+
+// slope_id of the run without a change, and without a run.
+enum { SB_SLOPE_LEVEL = -1, SB_SLOPE_NONE = -2 };
+
+// Takes over a perturbed run that has ended.
+void sb_session_poll_slope(SbSession *session);
+
+// Starts the next perturbed run or derivatives that are missing, unless another run is computed.
+void sb_session_find_slopes(SbSession *session);
+
+// Views that are computed: all that the window shows, whatever the scene selects.
 #define SB_SESSION_VIEWS (SB_VIEW_HYSTERESIS | SB_VIEW_PROFILES | SB_VIEW_SECTION)
 
-// A run that lasts longer is shown while it grows [us].
+// A run that takes longer is displayed while it grows [us].
 enum { SB_SESSION_WATCH_US = 120000 };
-
-void sb_session_init_runs(SbSession *session);
-void sb_session_dispose_runs(SbSession *session);

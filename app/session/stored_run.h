@@ -1,7 +1,7 @@
-// Runs kept in files, so that what takes seconds to solve is there when the window opens. A file
-// says of which values (their hash), by which engine (the hash of its sources) and when it was
-// computed, and has a checksum: one that does not fit is as good as none, so that no result is
-// shown that this program would not compute itself.
+// Runs stored in files, so that results which take seconds are available when the window opens. A
+// file contains the hash of its values, the hash of the engine's sources, the date and a checksum.
+// A file whose hashes or checksum do not match is ignored, so that only results are displayed that
+// this program would compute itself.
 #pragma once
 
 #include "app/base/error.h"
@@ -10,16 +10,18 @@
 
 #include <glib.h>
 
-// What a run that is to be kept is planned for: everything that the window shows.
+// Returns what a run must compute in order to be stored: everything that the window displays.
 SbPlanWishes sb_stored_run_wishes(void);
 
-// Writes a run of the document's values, which has ended well, with the present date
-// (SOURCE_DATE_EPOCH if that is set).
+// Writes a run of the document's values, which has ended with SB_OK, to the file `path`, with the
+// present date (SOURCE_DATE_EPOCH if that is set). Returns false with an error if the run cannot be
+// stored or the file not be written.
 SB_CHECKED bool sb_stored_run_write(const char *path, const SbDocument *document, const SbRun *run,
                                     GError **error);
 
-// Reads the run of these values (`hash`: sb_document_sha256(); `model`: theirs) from the files
-// NAME.run of a folder, NULL if none fits. A reference for the caller, with the day it was computed
-// ("2026-11-23", g_free()) in *date.
+// Returns the run of the values with this `hash` (sb_document_sha256(); `model` is their model)
+// from the files NAME.run in `folder`, with one reference for the caller, released by
+// sb_run_handle_unref(). *date is the day on which it was computed ("2026-11-23"), freed by
+// g_free(). NULL if no file matches; *date is then not changed.
 SbRunHandle *sb_stored_run_find(char **date, const char *folder, const char *hash,
                                 const SbModel *model);

@@ -1,4 +1,4 @@
-// One study on a thread of its own: a model goes in, a finished study comes out.
+// One drawn study (engine/valve/studies/study.h) in a thread of its own.
 #pragma once
 
 #include "engine/valve/studies/study.h"
@@ -7,20 +7,20 @@
 
 typedef struct SbStudyJob SbStudyJob;
 
-// Starts it on a copy of `model`. `done` is called once on the main thread unless the job was freed
-// before. Owned by the caller.
+// Starts to compute a study of a copy of `model`. done(data) is called once in the main thread at
+// the end, unless the job was freed before. Freed by sb_study_job_free().
 SbStudyJob *sb_study_job_start(SbStudyKind kind, const SbModel *model, void (*done)(void *data),
                                void *data);
 
-// Share done, 0 to 1.
+// Returns the fraction done, 0 to 1.
 double sb_study_job_progress(SbStudyJob *job);
 
-// Asks it to end; returns at once, the job ends within one solve.
+// Asks the job to end and returns immediately; `done` follows within one solve.
 void sb_study_job_cancel(SbStudyJob *job);
 
-// Only after `done`: the study for the caller to keep (g_free), or NULL with a sentence in `*why`
-// (borrowed). Once.
+// To be called once, after `done`: returns the study, freed by g_free(). NULL: it was cancelled or
+// failed; *why is then a sentence, borrowed from the job.
 SbStudy *sb_study_job_take(SbStudyJob *job, const char **why);
 
-// Cancels, waits, frees. Takes NULL.
+// Cancels, waits for the thread and frees the job. Takes NULL.
 void sb_study_job_free(SbStudyJob *job);

@@ -1,26 +1,31 @@
-// The six questions of the verdict in words, as every front end shows them.
+// The questions of the verdict as text, the same in every front end. `kind` is an SbVerdictKind, 0
+// to SB_VERDICT_COUNT - 1. Texts are translated unless stated otherwise.
 #pragma once
 
 #include "app/session/session.h"
 
-// The summary whose verdict is shown: what is predicted of the present values, else the shown
-// run's; NULL while that is computed.
+// Returns the summary whose verdict is displayed: that of the prediction for the present values,
+// else that of the displayed run; NULL while that is computed. Borrowed until the session's next
+// signal.
 const SbSummary *sb_verdict_summary(SbSession *session);
 
-// "Seals", "Presses", ...; borrowed.
+// Returns the name of a question: "Seals", "Presses", ... Static.
 const char *sb_verdict_word(int kind);
 
-// "yes", "no", "not known"; borrowed.
+// Returns "yes", "no" or "not known". Static.
 const char *sb_verdict_answer(SbAnswer answer);
 
-// What decides, in a few words: "26 N of 30 N", "1.2 MPa over 0.55 MPa". Owned by the caller.
+// Returns the figure that decides, with its limit: "26 N of 30 N", "1.2 MPa over 0.55 MPa"; empty
+// or "not known" without one. `summary` is the run's, `verdict` its answer to the question. Freed
+// by g_free().
 char *sb_verdict_figure_text(const SbSummary *summary, int kind, const SbVerdict *verdict);
 
-// The same text with numbers in plain ASCII, for standard output. Owned by the caller (g_free).
+// As sb_verdict_figure_text(), with numbers in ASCII, for standard output. Freed by g_free().
 char *sb_verdict_figure_plain(const SbSummary *summary, int kind, const SbVerdict *verdict);
 
-// The whole answer, some lines. Owned by the caller.
+// Returns the answer with figure, limit and reason on several lines. Freed by g_free().
 char *sb_verdict_why(const SbSummary *summary, int kind, const SbVerdict *verdict);
 
-// Shows the instant that an answer is of, where the run has it.
+// Moves the playhead to the position in the cycle at which the answer is evaluated, if the run
+// reaches it.
 void sb_verdict_show(SbSession *session, int kind);

@@ -1,35 +1,42 @@
-// A thread that makes one thing beside the window: its progress, its cancelling, and the call back
-// on the main thread when it is done. What it makes is the owner's affair.
+// A thread that computes one thing in the background of the window: progress, cancellation, and a
+// callback in the main thread when it has ended. Input and result belong to the owner of the
+// worker.
 #pragma once
 
 #include <glib.h>
 #include <stdbool.h>
 
+// A worker, a member of its owner's structure. All members are for worker.c.
 typedef struct {
-  void (*work)(void *owner); // on the thread
-  void *owner;
-  void (*done)(void *data); // on the main thread
-  void *data;
+  void (*work)(void *owner); // called in the thread
+  void *owner;               // passed to `work`
+  void (*done)(void *data);  // called in the main thread
+  void *data;                // passed to `done`
   GThread *thread;
   GMutex lock;    // guards `source`
-  guint source;   // posted by the thread as its last act
-  gint cancel;    // atomic
+  guint source;   // idle source that the thread adds at its end; 0: none
+  gint cancel;    // atomic: the thread is to end
   gint per_mille; // atomic: progress
 } SbWorker;
 
-// Starts the thread. `done` is called once on the main thread unless the worker is finished before.
+// Initialises the worker and starts its thread, which calls work(owner) with a low priority. `name`
+// names the thread. Once `work` has returned, also after a cancellation, done(data) is called once
+// in the main thread, unless sb_worker_finish() was called before. Main thread.
 void sb_worker_start(SbWorker *worker, const char *name, void (*work)(void *owner), void *owner,
                      void (*done)(void *data), void *data);
 
-// From the thread: the share done, 0 to 1, and whether to end.
+// Called by `work`: sets the fraction done, 0 to 1.
 void sb_worker_tell(SbWorker *worker, double share);
+
+// Called by `work`: returns whether it is to end. Any thread.
 bool sb_worker_cancelled(SbWorker *worker);
 
-// Share done, 0 to 1.
+// Returns the fraction done, 0 to 1. Any thread.
 double sb_worker_progress(SbWorker *worker);
 
-// Asks the thread to end; returns at once.
+// Asks the thread to end and returns immediately. Any thread.
 void sb_worker_cancel(SbWorker *worker);
 
-// Cancels and waits; `done` is not called any more.
+// Cancels, waits for the thread and releases the worker; `done` is not called afterwards. To be
+// called once for each started worker, in the main thread, also after `done`.
 void sb_worker_finish(SbWorker *worker);
