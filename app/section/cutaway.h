@@ -1,5 +1,5 @@
 // The valve in three dimensions with a quarter cut away: housing, stem and both rings turned about
-// the axis, and on the two cut faces what the section shows, field colours included.
+// the axis; the two cut faces show what the section shows, including field colours.
 #pragma once
 
 #include "app/section/revolve.h"
@@ -7,15 +7,17 @@
 
 typedef struct SbCutaway SbCutaway;
 
-// For the frames of one model, whose inner contact begins there (see sb_valve_make()). Owned by the
-// caller; one picture after the other.
+// Returns a cutaway for the frames of `model` (read only during the call). `inner_contact_left` as
+// in sb_valve_outline_make(). It draws one picture after the other. Freed by sb_cutaway_destroy().
 SbCutaway *sb_cutaway_create(const SbModel *model, double inner_contact_left);
 
-// NULL is allowed.
+// Frees a cutaway; takes NULL.
 void sb_cutaway_destroy(SbCutaway *cutaway);
 
-// Draws the section's instant as its view asks; rings must have their shapes. In sb_section_draw().
+// Adds the cutaway at the section's present instant to the section's display list, with the camera
+// of its view. Called by sb_section_draw(), after it has set the shapes of the rings.
 void sb_cutaway_draw(SbCutaway *cutaway, SbSection *section);
 
-// The cutaway of a section's last picture; NULL before there was one.
+// Returns the cutaway of a section; NULL before its first picture with SbSectionView.cutaway.
+// Borrowed.
 const SbCutaway *sb_section_cutaway(const SbSection *section);

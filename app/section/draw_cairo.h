@@ -1,5 +1,5 @@
-// The display list on a cairo context: the vector path for SVG and PDF, and a picture where no GL
-// is to be had.
+// Draws display lists with cairo: as vectors for SVG and PDF, and as pixels where OpenGL is not
+// available.
 #pragma once
 
 #include "app/section/draw_list.h"
@@ -7,6 +7,6 @@
 
 #include <cairo.h>
 
-// Draws the list at the context's current origin and scale, one logical pixel per user unit.
-// Meshes become flat triangles of their mean colour on a vector surface.
+// Draws the list at the origin and scale of `cr`, one logical pixel per user unit. `text` lays out
+// its texts. On a vector surface, meshes become triangles with their mean colour each.
 void sb_draw_list_to_cairo(const SbDrawList *list, SbText *text, cairo_t *cr);

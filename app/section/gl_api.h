@@ -8,7 +8,7 @@
 
 #include <stdbool.h>
 
-// pointer type's middle part, name
+// X(middle part of the pointer's type, name of the function without gl)
 #define SB_GL_FUNCTIONS(X)                                                                         \
   X(ACTIVETEXTURE, ActiveTexture)                                                                  \
   X(ATTACHSHADER, AttachShader)                                                                    \
@@ -69,15 +69,18 @@
   X(VERTEXATTRIBPOINTER, VertexAttribPointer)                                                      \
   X(VIEWPORT, Viewport)
 
+// The table: one member for each function, such as `ActiveTexture`. All functions belong to the
+// context from which they were loaded, and to its thread.
 typedef struct {
 #define SB_GL_MEMBER(type, name) PFNGL##type##PROC name;
   SB_GL_FUNCTIONS(SB_GL_MEMBER)
 #undef SB_GL_MEMBER
 } SbGlApi;
 
-// Address of a GL function by name, or NULL.
+// Returns the address of the GL function `name` ("glClear"); NULL: there is none.
 typedef void *(*SbGlGetProc)(void *data, const char *name);
 
-// Fills the table. False, with *missing naming the first function not found, if one is missing.
+// Fills the table by calls of get_proc(data, name), with a context current. Returns false if a
+// function is missing; *missing is then its name (static).
 SB_CHECKED bool sb_gl_api_load(SbGlApi *api, SbGlGetProc get_proc, void *data,
                                const char **missing);

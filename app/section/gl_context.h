@@ -1,44 +1,51 @@
-// An OpenGL 3.3 core context without a window: OSMesa or EGL surfaceless, or whatever context the
-// caller (GtkGLArea) has made current, behind one table.
+// An OpenGL 3.3 core context without a window (OSMesa, or EGL surfaceless), or the context that the
+// caller has made current (GtkGLArea).
 //
-// A context belongs to the thread that made it. The libraries are opened at run time, OSMesa with
-// RTLD_LOCAL so that its GL symbols do not meet those of a window's GL; the program links neither.
+// A context is used only in the thread that created it. The libraries are opened at run time;
+// OSMesa with RTLD_LOCAL, so that its GL symbols do not conflict with those of a window's GL. The
+// program links neither.
 #pragma once
 
 #include "app/section/gl_api.h"
 #include "engine/base/status.h"
 
+// Library that provides a context; SB_GL_AUTO: the first that works.
 typedef enum { SB_GL_AUTO, SB_GL_OSMESA, SB_GL_EGL } SbGlBackend;
 
 typedef struct SbGlContext SbGlContext;
 
-// Index of "osmesa" or "egl" (SbGlBackend), -1 for another name.
+// Returns the SbGlBackend with the name "osmesa" or "egl"; -1: another name.
 int sb_gl_backend_find(const char *name);
 
-// Makes a context and makes it current on this thread. SB_GL_AUTO takes the first that works,
-// OSMesa before EGL (where both exist they draw the same picture, and OSMesa needs no driver).
-// SB_ERROR_IO with the reasons if none works. *out is owned by the caller.
+// Creates a context and makes it current in this thread. SB_GL_AUTO tries OSMesa before EGL (both
+// draw the same picture, and OSMesa needs no driver). Returns SB_ERROR_IO with the reasons if none
+// works. Freed by sb_gl_context_destroy().
 SbStatus sb_gl_context_create(SbGlContext **out, SbGlBackend backend, SbReport *report);
 
-// Wraps the context that is current now. `get_proc` finds functions in it.
+// Creates an object for the context that is current now; get_proc(data, name) finds its functions,
+// and `description` (copied) becomes its name. Returns SB_ERROR_IO if it lacks a function of
+// OpenGL 3.3.
 SbStatus sb_gl_context_wrap(SbGlContext **out, SbGlGetProc get_proc, void *data,
                             const char *description, SbReport *report);
 
-// Ends it; a wrapped context stays with its owner. NULL is allowed. On its own thread.
+// Destroys a created context, or only the object for a wrapped one. In the context's thread. Takes
+// NULL.
 void sb_gl_context_destroy(SbGlContext *context);
 
-// Makes it current on this thread again (nothing to do for a wrapped one).
+// Makes a created context current in its thread; returns whether that worked. True for a wrapped
+// one, whose owner makes it current.
 bool sb_gl_context_make_current(SbGlContext *context);
 
-// Leaves this thread without a context (nothing to do for a wrapped one). Where a toolkit has GL of
-// its own on the thread this has to follow each use: Mesa's libraries share what is current.
+// Leaves the thread without a current context; does nothing for a wrapped one. If a toolkit uses GL
+// in the same thread, this must follow each use, because Mesa's libraries share the current
+// context.
 void sb_gl_context_release(SbGlContext *context);
 
-// The functions; borrowed.
+// Returns the functions of the context. Borrowed.
 const SbGlApi *sb_gl_context_api(const SbGlContext *context);
 
-// "osmesa" , "egl" or the wrapped one's description.
+// Returns "osmesa", "egl", or the description of a wrapped context. Borrowed.
 const char *sb_gl_context_name(const SbGlContext *context);
 
-// One sentence on which back end was taken and why: "osmesa (llvmpipe ...), first that works".
+// Returns which library is used and why, "osmesa (llvmpipe ...), first that works". Borrowed.
 const char *sb_gl_context_reason(const SbGlContext *context);

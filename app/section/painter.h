@@ -1,44 +1,48 @@
-// The section as one part of a page: draws the frame under a chart's playhead into a rectangle of
-// any cairo context, by OpenGL on pictures, as vectors on SVG and PDF.
+// The section as a part of a page: draws the frame at a chart's playhead into a rectangle of any
+// cairo context, by OpenGL for pictures and as vectors for SVG and PDF.
 #pragma once
 
 #include "app/chart/dashboard.h"
 #include "app/section/gl_context.h"
 #include "app/section/section.h"
 
+// A painter is used in the thread that created it.
 typedef struct SbSectionPainter SbSectionPainter;
 
-// How the section is shown; zero is the default view.
+// How the section is shown; all zeros is the default view. Members as in SbSectionView.
 typedef struct {
-  int inset_seal; // SB_OUTER or SB_INNER
-  SbSectionZoom zoom;
-  bool hide_insets, hide_forces, hide_labels;
-  bool full, undeformed, cutaway; // as in SbSectionView
-  double azimuth, elevation;      // of the cutaway's camera [rad]
-  SbField field;
-  double field_max; // [Pa], 0: automatic
+  int inset_seal;                             // SB_OUTER or SB_INNER: seal of the insets
+  SbSectionZoom zoom;                         // full valve or one seal
+  bool hide_insets, hide_forces, hide_labels; // omit these parts
+  bool full, undeformed, cutaway;             // both halves; free outlines; three dimensions
+  double azimuth, elevation;                  // of the cutaway's camera [rad]
+  SbField field;                              // shown by the colours of solved rings
+  double field_max;                           // end of the colours [Pa]; 0: automatic
 } SbSectionStyle;
 
-// What a scene says about it.
+// Returns the style that a scene specifies.
 SbSectionStyle sb_section_style_of(const SbModel *model);
 
-// A painter for this thread. With `use_gl` it opens a context (SB_ERROR_IO if an explicitly asked
-// back end does not work; with SB_GL_AUTO it falls back to cairo and says so in its reason).
+// Creates a painter. With `use_gl` it creates a context of `backend`: SB_ERROR_IO if a named one
+// does not work; SB_GL_AUTO then uses cairo, which its reason states. Freed by
+// sb_section_painter_destroy().
 SbStatus sb_section_painter_create(SbSectionPainter **out, bool use_gl, SbGlBackend backend,
                                    SbReport *report);
 
-// On the thread that made it. NULL is allowed.
+// Frees a painter; takes NULL.
 void sb_section_painter_destroy(SbSectionPainter *painter);
 
-// "osmesa (llvmpipe ...): why", or "cairo: why"; borrowed.
+// Returns what draws and why: "osmesa (llvmpipe ...): why", or "cairo: why". Borrowed.
 const char *sb_section_painter_reason(const SbSectionPainter *painter);
 
-// Seconds spent so far in waiting for GL and reading its pictures back.
+// Returns the time spent so far in waiting for GL and reading its pictures [s].
 double sb_section_painter_read_back(const SbSectionPainter *painter);
 
+// Sets the style of the next pictures (copied).
 void sb_section_painter_style(SbSectionPainter *painter, const SbSectionStyle *style);
 
-// Draws into `rect` (an SbSectionDraw; `user` is the SbSectionPainter). Nothing where there is no
-// frame or no model yet. Colours follow the theme's darkness.
+// Draws the section at the playhead of `data` into `rect` [px], with light or dark colours as
+// `theme`. Draws nothing without a frame or a model. It has the type SbSectionDraw
+// (app/chart/dashboard.h); `user` is the SbSectionPainter.
 void sb_section_painter_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                              const SbChartData *data, void *user);

@@ -1,11 +1,14 @@
-// Bodies of revolution with a quarter cut away, seen by an orbiting camera, in painter's order.
+// Bodies of revolution with a quarter cut away, seen by an orbiting camera, in the order in which
+// they must be painted (back to front).
 //
-// Outlines (z along the axis, r from it) turn about the axis from 45 to 315 degrees; the quarter
-// about angle 0 is open and shows two cut faces. The projection is orthographic. The order is
-// exact between sectors, not guessed from depths: all sight lines are parallel, so seen along the
-// axis they move only towards the camera's own angle, and a sector hides what is at a larger angle
-// from it. Within a sector (5 degrees) only the outlines' plane matters, and there each piece is
-// painted after all that it hides.
+// Outlines (z along the axis, r from it) are revolved about the axis from 45 to 315 degrees; the
+// quarter about angle 0 is open and shows two cut faces. The projection is orthographic. The order
+// between sectors is exact: all lines of sight are parallel, so seen along the axis they only
+// approach the camera's own angle, and a sector hides what is at a larger angle from it. Within a
+// sector (5 degrees) only the plane of the outlines matters; there each piece is painted after all
+// that it hides.
+//
+// Usage: sb_revolve_begin(), sb_revolve_add() for each body, sb_revolve_build(), then paint `step`.
 #pragma once
 
 #include "app/section/valve.h"
@@ -17,17 +20,19 @@ enum {
   SB_REVOLVE_FACES = 2     // at +45 and -45 degrees
 };
 
-// The camera. Components of each vector: along the axis, towards the middle of the open quarter,
-// and a quarter turn on from that.
+// The camera: unit vectors of the picture to the right, up, and towards the camera. Components: [0]
+// along the axis, [1] towards the middle of the open quarter, [2] at angle +90 degrees from that.
 typedef struct {
-  double right[3], up[3], toward[3]; // unit vectors of the picture; `toward` the camera
+  double right[3], up[3], toward[3];
 } SbOrbit;
 
-// Azimuth about the picture's vertical from the front, positive towards the rod's end; elevation
-// above the horizontal [rad]. At 0, 0 the axis lies across the picture, canister left, and the
-// open quarter points to the front and somewhat up.
+// Returns the camera with this azimuth about the picture's vertical, from the front and positive
+// towards the end of the rod, and this elevation above the horizontal [rad]. At 0, 0 the axis is
+// horizontal in the picture, with the canister on the left, and the open quarter faces the front
+// and somewhat up.
 SbOrbit sb_orbit(double azimuth, double elevation);
 
+// The bodies of a valve.
 typedef enum {
   SB_REVOLVE_HOUSING,
   SB_REVOLVE_STEM,
@@ -36,61 +41,72 @@ typedef enum {
   SB_REVOLVE_COUNT
 } SbRevolveBody;
 
-// A visible piece of surface: four corners in the picture [px, y down], how near each is [m] and
-// its brightness from 0 to 1.
+// A visible piece of surface with four corners.
 typedef struct {
-  float x[4], y[4], depth[4], shade[4];
+  float x[4], y[4]; // in the picture [px], y downwards
+  float depth[4];   // position towards the camera [m]
+  float shade[4];   // brightness, 0 to 1
   SbRevolveBody solid;
 } SbRevolveCell;
 
-// A piece of an edge [px]. Of a silhouette also the unit vector away from its body, on which side
-// its line has to be: later cells of the body may begin a pixel beside it. Otherwise zero.
+// A piece of an edge, from (x[0], y[0]) to (x[1], y[1]) [px]. (out_x, out_y) is for a silhouette
+// the unit vector away from its body: the line must be on that side, because later cells of the
+// body may begin a pixel next to it. For other edges it is zero.
 typedef struct {
   float x[2], y[2], out_x, out_y;
 } SbRevolveEdge;
 
+// What a step paints.
 typedef enum { SB_REVOLVE_CELLS, SB_REVOLVE_EDGES, SB_REVOLVE_FACE } SbRevolveKind;
 
-// One step of painting: `count` cells or edges from `first`, or the cut face number `first`.
+// One step of painting: `count` elements of `cell` or `edge` from index `first` on, or the cut face
+// number `first`.
 typedef struct {
   SbRevolveKind kind;
   size_t first, count;
 } SbRevolveStep;
 
-// Owns its arrays and reuses them from picture to picture.
+// A picture. Initialised by sb_revolve_init(), freed by sb_revolve_finish(); the arrays are reused.
 typedef struct {
   SbOrbit orbit;
-  double scale, x0, y0;           // px per m, and the pixel of the origin
-  GArray *segment;                // of outlines
+  double scale, x0, y0;           // [px/m], and the pixel of the origin
+  GArray *segment;                // of the outlines; private
   GArray *cell;                   // SbRevolveCell
   GArray *edge;                   // SbRevolveEdge
   GArray *step;                   // SbRevolveStep, back to front
   GArray *facing, *piece, *place; // work space
 } SbRevolve;
 
+// Initialises an empty picture.
 void sb_revolve_init(SbRevolve *revolve);
+
+// Frees the arrays.
 void sb_revolve_finish(SbRevolve *revolve);
 
-// Starts a picture without bodies.
+// Starts a picture without bodies, with `scale` pixels per metre and the origin at pixel (x0, y0).
 void sb_revolve_begin(SbRevolve *revolve, const SbOrbit *orbit, double scale, double x0, double y0);
 
-// Adds a body: an outline counterclockwise with r up (r >= 0, m), closed by its first point.
-// A smooth outline is shaded round, others have edges.
+// Adds a body by its outline point[count]: x is z along the axis, y is r >= 0 [m],
+// counter-clockwise with r upwards, closed by its first point. A smooth outline is shaded
+// continuously; others have edges at their corners.
 void sb_revolve_add(SbRevolve *revolve, SbRevolveBody solid, const SbValvePoint *point,
                     size_t count, bool smooth);
 
-// Makes cells, edges and steps of all bodies.
+// Computes cells, edges and steps of all bodies.
 void sb_revolve_build(SbRevolve *revolve);
 
-// Angle of boundary k of the sectors, 0 to SB_REVOLVE_SECTORS [rad], and of a cut face.
+// Returns the angle of boundary k of the sectors, k = 0 to SB_REVOLVE_SECTORS [rad].
 double sb_revolve_angle(int k);
+
+// Returns the angle of a cut face, 0 or 1 [rad].
 double sb_revolve_face_angle(int face);
 
-// Place of a point (z, r) at an angle: x and y [px], nearness [m].
+// Writes the position of the point (z, r) [m] at `angle` [rad]: out[0], out[1] in the picture [px],
+// and out[2] towards the camera [m].
 void sb_revolve_place(const SbRevolve *revolve, double z, double r, double angle, double out[3]);
 
-// Whether a cut face is turned to the camera.
+// Returns whether a cut face, 0 or 1, faces the camera.
 bool sb_revolve_face_shows(const SbRevolve *revolve, int face);
 
-// Volume that the turned body encloses with its cut faces, as its surface is divided [m3].
+// Returns the volume that the surface cells of a body enclose with its cut faces [m3], for tests.
 double sb_revolve_volume(const SbRevolve *revolve, SbRevolveBody solid);

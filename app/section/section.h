@@ -1,10 +1,10 @@
-// The axial section of the valve at one instant, as a display list: what engine numbers look like.
+// The axial section of the valve at one instant, as a display list.
 //
-// Canister on the left, axis at the bottom, housing at rest. The valve strip is to scale in both
-// directions; the two insets zoom onto one seal's contact (pressure over the bore; film on a scale
-// of nanometres with the exaggeration written on it). Without a ring mesh the rings are the
-// schematic shapes of ring_shape.h and say so. In place of the strip it shows the valve in three
-// dimensions (cutaway.h).
+// The canister is on the left, the axis at the bottom, the housing at rest. The strip with the
+// valve is to scale in both directions. Two insets enlarge the contact of one seal: pressure on the
+// bore, and film on a scale of nanometres with the exaggeration written on it. Without a ring mesh
+// the rings have the schematic shapes of ring_shape.h, which a label states. In place of the strip
+// the valve can be shown in three dimensions (cutaway.h).
 #pragma once
 
 #include "app/section/draw_list.h"
@@ -14,83 +14,94 @@
 
 typedef struct SbSection SbSection;
 
-// What stays the same over a whole film.
+// Scales that are the same for all frames of a run.
 typedef struct {
-  double inner_contact_left; // of the inner seal when it reaches the land edge [m]
+  double inner_contact_left; // left end of the inner contact when it reaches the land edge [m]
   double pressure_max;       // largest contact pressure, for the inset's scale [Pa]
   double film_max;           // largest central film, for the inset's scale [m]
-  double force_max;          // largest of drive and canister, for the bars' scale [N]
-  double contact_left[SB_SEAL_COUNT], contact_right[SB_SEAL_COUNT]; // outermost, for the inset [m]
-  double field_min[SB_FIELD_COUNT], field_max[SB_FIELD_COUNT]; // of the solved rings, for the map
+  double force_max;          // largest force of drive and canister, for the scale of the bars [N]
+  // Smallest left and largest right end of each contact, in the seal's frame, for the inset [m].
+  double contact_left[SB_SEAL_COUNT], contact_right[SB_SEAL_COUNT];
+  // [SbField]: ends of the colour maps for solved rings [SI of the field].
+  double field_min[SB_FIELD_COUNT], field_max[SB_FIELD_COUNT];
 } SbSectionLimits;
 
+// What the strip shows.
 typedef enum {
-  SB_SECTION_WHOLE,      // the valve strip with insets
-  SB_SECTION_ZOOM_INNER, // the strip shows one seal's surroundings
-  SB_SECTION_ZOOM_OUTER
+  SB_SECTION_WHOLE,      // the full valve, with insets
+  SB_SECTION_ZOOM_INNER, // the surroundings of the inner seal
+  SB_SECTION_ZOOM_OUTER  // the surroundings of the outer seal
 } SbSectionZoom;
 
+// How the picture is drawn. All zeros but the size is the default view.
 typedef struct {
-  double width, height; // logical pixels
-  double margin;        // kept free all round
-  bool dark;
-  bool read_outs; // stage, time, stroke and force in place of a title, where no page has them
-  bool hide_insets, hide_forces, hide_labels;
+  double width, height;                       // of the picture [px]
+  double margin;                              // free space at all sides [px]
+  bool dark;                                  // dark colours
+  bool read_outs;                             // stage, time, stroke and force in place of a title
+  bool hide_insets, hide_forces, hide_labels; // omit these parts
   bool bare;      // the valve or a seal fills the picture: no title, legends, scale or insets
-  int inset_seal; // SB_OUTER or SB_INNER
+  int inset_seal; // SB_OUTER or SB_INNER: seal of the insets
   SbSectionZoom zoom;
-  bool full;    // both halves; not when zoomed
-  bool cutaway; // in three dimensions with a quarter cut away; neither zoomed nor with insets
-  double azimuth, elevation; // of its camera, see sb_orbit() [rad]
-  double magnify;            // of the cutaway, 0 counts as 1
-  SbField field;             // shown on solved rings
-  double field_max;          // end of its colours [Pa], 0: the limits'; not for displacement
-  bool undeformed;           // the rings' outline before fitting, dashed
-  bool mesh;                 // the elements' edges of solved rings
+  bool full;    // draw both halves; not when zoomed
+  bool cutaway; // three dimensions with a quarter cut away; neither zoomed nor with insets
+  double azimuth, elevation; // of the cutaway's camera, see sb_orbit() [rad]
+  double magnify;            // of the cutaway; 0 counts as 1
+  SbField field;             // shown by the colours of solved rings
+  double field_max;          // end of the colours [Pa]; 0: that of the limits; not for displacement
+  bool undeformed;           // draw the rings' outlines before fitting, dashed
+  bool mesh;                 // draw the edges of the elements of solved rings
 } SbSectionView;
 
-// The instant to draw; everything borrowed. profile and ring may hold NULL; without a solved shape
-// a ring is drawn schematically.
+// The instant to draw; everything is borrowed for the call. `profile` (NULL: none) is for the
+// insets; a ring without a solved shape (`ring` NULL) is drawn schematically.
 typedef struct {
   const SbFrame *frame;
   const SbContactProfile *profile[SB_SEAL_COUNT];
   const SbSealShape *ring[SB_SEAL_COUNT];
 } SbSectionInstant;
 
-// Prepares the drawing of one model's frames (the model is copied). Owned by the caller; for one
-// thread at a time.
+// Returns a section for the frames of `model` (copied, as `limits`). Freed by sb_section_destroy().
 SbSection *sb_section_create(const SbModel *model, const SbSectionLimits *limits);
+
+// Frees a section; takes NULL.
 void sb_section_destroy(SbSection *section);
 
-// Reads the limits off frames.
+// Sets the limits, except those of fields, from frames[count]; the other members must be zero
+// before.
 void sb_section_limits_of_frames(SbSectionLimits *limits, const SbFrame *frames, size_t count);
 
-// Widens the field limits by one solved ring (NULL: nothing). The highest fiftieth of the nodes is
-// left out, so that a contact's corner does not bleach the rest.
+// Extends the limits of fields by one solved ring (NULL: none). The highest 2 % of the nodes are
+// ignored, so that the corner of a contact does not compress the colours of the rest.
 void sb_section_limits_add_shape(SbSectionLimits *limits, const SbSealShape *shape);
 
-// The same for every solved ring of a run.
+// Extends the limits of fields by every solved ring of a run.
 void sb_section_limits_add_run(SbSectionLimits *limits, const SbRun *run);
 
-// "von Mises stress" and "MPa" of a field, and what its SI values are multiplied by to be in that
-// unit.
+// Returns the name of a field, "von Mises stress", untranslated.
 const char *sb_section_field_name(SbField field);
+
+// Returns the display unit of a field, "MPa".
 const char *sb_section_field_unit(SbField field);
+
+// Returns the factor that converts SI values of a field to its display unit.
 double sb_section_field_scale(SbField field);
 
-// Fills `list` (cleared first) with the picture.
+// Clears `list` and fills it with the picture. The colour maps that the list refers to are static.
 void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *view,
                      const SbSectionInstant *instant);
 
-// Height that the strip of the valve would have in such a picture [px].
+// Returns the height that the strip has in such a picture [px].
 double sb_section_strip_height(SbSection *section, const SbSectionView *view,
                                const SbSectionInstant *instant);
 
-// What sb_section_draw() made of seal i: the ring's outline in the housing's frame, for checks and
-// hit tests. Valid after a draw; borrowed.
+// Returns the outline of a ring in the last picture, in the frame of ring_shape.h, for tests and
+// for finding what is under the pointer. Borrowed until the next sb_section_draw().
 const SbRingShape *sb_section_ring(const SbSection *section, int seal);
+
+// Returns the outlines of the valve. Borrowed from the section.
 const SbValveOutline *sb_section_valve(const SbSection *section);
 
-// Logical pixels per metre and the place of the housing frame's origin (land edge on the axis) of
-// the last picture.
+// Writes the scale of the last picture [px/m] and the pixel of the origin of the housing's frame
+// (the land edge, on the axis).
 void sb_section_transform(const SbSection *section, double *scale, double *x0, double *y0);

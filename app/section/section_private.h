@@ -1,13 +1,14 @@
-// What the files of the section share: the state of one drawing and the helpers for labels.
+// Shared by the files of the section: the state of one picture, and helpers for labels.
 #pragma once
 
 #include "app/section/palette.h"
 #include "app/section/section.h"
 #include "app/section/text.h"
 
+// Largest number of reserved rectangles.
 enum { SB_SECTION_PLACED_MAX = 64 };
 
-// Of the parts [px].
+// Hatch of the parts [px].
 #define SB_HATCH_PITCH 11.0
 #define SB_HATCH_WIDTH 0.7
 
@@ -19,113 +20,149 @@ struct SbSection {
   SbValveOutline valve;
   SbText *text;
   SbRingShape ring[SB_SEAL_COUNT];
-  size_t scratch_size; // of a mesh's corners
-  SbPoint *scratch;
-  float *scratch_scalar;
-  SbCutaway *cutaway; // NULL before the first
-  // The drawing in hand.
+  size_t scratch_size;   // capacity of the two arrays below
+  SbPoint *scratch;      // corners of a mesh
+  float *scratch_scalar; // their scalars
+  SbCutaway *cutaway;    // NULL before the first
+  // The picture that is being drawn; borrowed.
   SbDrawList *list;
   const SbSectionView *view;
   const SbSectionInstant *instant;
   const SbPalette *palette;
-  SbRect strip;
-  double scale, x0, y0; // px per m, px of the housing frame's origin (land edge, axis)
+  SbRect strip;         // of the valve [px]
+  double scale, x0, y0; // [px/m], and the pixel of the housing frame's origin (land edge, axis)
   size_t placed_count;
-  SbRect placed[SB_SECTION_PLACED_MAX]; // labels that later ones must not cover
+  SbRect placed[SB_SECTION_PLACED_MAX]; // reserved: later labels must not cover them [px]
 };
 
-// Pixel of a point of the housing's frame.
+// Returns the pixel of the point (x, y) [m] in the housing's frame.
 SbPoint sb_section_at(const SbSection *section, double x, double y);
 
-// Stem displacement of the instant [m].
+// Returns the stem's displacement at the instant [m].
 double sb_section_displacement(const SbSection *section);
 
-// x of seal i's origin in the housing's frame [m].
+// Returns x of the origin of a seal's frame in the housing's frame [m].
 double sb_section_origin(const SbSection *section, int seal);
 
+// Style of a label.
 typedef struct {
-  double size;
-  int weight;
+  double size; // [px]
+  int weight;  // 400 normal, 700 bold
   SbAlign align;
   SbColor color;
-  const SbColor *plate; // ground of the body below, or NULL
+  const SbColor *plate; // colour of a plate behind it; NULL: none
 } SbSectionLabel;
 
-// Draws a label with its plate at the baseline and reserves its place. Returns its width.
+// Draws a label with its plate, its anchor on the baseline at (x, y) [px], and reserves its
+// rectangle. Returns its width [px].
 double sb_section_label(SbSection *section, double x, double y, const SbSectionLabel *style,
                         const char *string);
 
-// Whether a label at this place would cover one that is there or leave the rectangle `within`.
+// Returns whether a label at (x, y) would neither cover a reserved rectangle nor leave `within`.
 bool sb_section_label_fits(SbSection *section, double x, double y, const SbSectionLabel *style,
                            const char *string, const SbRect *within);
 
-// Reserves a rectangle.
+// Reserves a rectangle [px].
 void sb_section_reserve(SbSection *section, double x, double y, double width, double height);
 
-// Newtons of an arrow [px/N].
+// Length of force arrows [px/N].
 #define SB_SECTION_PX_PER_NEWTON 3.4
 
-// Radius drawn above the axis [m per m of the valve's size].
+// Radius that is drawn above the axis, divided by SbValveOutline.size.
 #define SB_SECTION_TOP 0.79
 
-// Parts of the picture.
+// Draws the strip: housing, stem, fluid and rings.
 void sb_section_draw_strip(SbSection *section);
+
+// Draws the labels of the strip.
 void sb_section_draw_strip_labels(SbSection *section);
+
+// Draws the lines from the contact in the strip to the insets.
 void sb_section_draw_leader(SbSection *section, const SbRect *pressure, const SbRect *film);
+
+// Draws the insets into these rectangles [px].
 void sb_section_draw_insets(SbSection *section, const SbRect *pressure, const SbRect *film);
+
+// Draws the legends of the colours with their top left corner at (x, y) [px].
 void sb_section_draw_legends(SbSection *section, double x, double y, double width);
 
-// Where the housing's frame lies in a picture: pixel of its origin, pixels per metre, and the
-// pixels beyond which nothing shows.
+// Position of the housing's frame in a picture.
 typedef struct {
-  double x0, y0, scale, left, top, right, bottom;
+  double x0, y0;                   // pixel of its origin
+  double scale;                    // [px/m]
+  double left, top, right, bottom; // visible range [px]
 } SbSectionFrameMap;
 
-// The map for a picture that shows `rect`.
+// Returns the position for a picture that shows `rect` [px].
 SbSectionFrameMap sb_section_frame_map(double x0, double y0, double scale, const SbRect *rect);
 
+// Draws the housing.
 void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map);
+
+// Draws the stem.
 void sb_section_draw_stem(SbSection *section, const SbSectionFrameMap *map);
 
-// First of the candidate places (pairs x, y) in the strip where a label fits; false: none did.
+// Draws a label at the first of the positions at[count] (x, y) [px] in the strip where it fits.
+// Returns false if it fits at none.
 bool sb_section_place(SbSection *section, const double (*at)[2], size_t count,
                       const SbSectionLabel *style, const char *string);
 
-// A Catmull-Rom curve through at most SB_SECTION_KNOTS knots, its points into `out` of
-// SB_SECTION_WAY, whose count is returned; and the liquid's way along such points, an arrow in the
-// strip.
+// Largest number of knots of a curve, and of its points.
 enum { SB_SECTION_KNOTS = 7, SB_SECTION_WAY = 73 };
+
+// Writes the points of a Catmull-Rom curve through knot[knots] to out[SB_SECTION_WAY] and returns
+// their number.
 size_t sb_section_curve(SbValvePoint *out, const SbValvePoint *knot, int knots);
+
+// Draws the path of the liquid along way[count] [m] as an arrow in the strip.
 void sb_section_draw_way(SbSection *section, const SbValvePoint *way, size_t count);
 
-// A bold name with its pressure behind or below; gives way.
+// Draws the bold name of a space with its pressure [Pa] after it, or `below` it, at (x, y) [px],
+// unless it would cover another label.
 void sb_section_name_pressure(SbSection *section, double x, double y, const char *name,
                               double pressure, bool below);
 
-// Names, regions and the liquid's way of a gasket valve (section_gasket.c).
+// Draws the labels of a gasket valve (section_gasket.c); `whole`: all of them.
 void sb_section_gasket_labels(SbSection *section, bool whole);
 
-// Limits of a field's colour map, in its SI unit.
+// Writes the ends of a field's colour map [SI of the field].
 void sb_section_field_limits(const SbSection *section, SbField field, double *least,
                              double *greatest);
 
-// A plane of the picture: point (x, y) [m] lies at pixel x0 + xx x + xy y, y0 + yx x + yy y.
+// A plane in the picture: the point (x, y) [m] is at pixel (x0 + xx x + xy y, y0 + yx x + yy y).
 typedef struct {
   double x0, xx, xy, y0, yx, yy;
 } SbSectionPlane;
 
+// Returns the pixel of a point of a plane.
 SbPoint sb_section_plane_at(const SbSectionPlane *plane, double x, double y);
 
-// Seal i's ring, its own frame in `plane`.
+// Draws the ring of a seal, whose own frame is `plane`.
 void sb_section_draw_ring(SbSection *section, int seal, const SbSectionPlane *plane);
 
-// Numbers as the look wants them: three digits (two below ten for forces), true minus, thin-space
-// thousands, "0" for zero; with the unit. The buffer holds at least SB_SECTION_NUMBER bytes.
+// Size of the buffers of the functions below [bytes].
 enum { SB_SECTION_NUMBER = 64 };
+
+// The functions below write a number to `buffer` with three digits (forces below ten with two), a
+// minus sign, thin spaces between thousands, "0" for zero, and its unit. They return `buffer`.
+
+// Writes a force [N] in N.
 const char *sb_section_force(char *buffer, double newtons);
+
+// Writes a pressure [Pa] in MPa.
 const char *sb_section_megapascal(char *buffer, double pascals);
+
+// Writes a length [m] in mm.
 const char *sb_section_millimetre(char *buffer, double metres);
+
+// Writes a film thickness [m] in nm or µm.
 const char *sb_section_film(char *buffer, double metres);
+
+// Writes a number without a unit with `decimals` decimals.
 const char *sb_section_fixed(char *buffer, double value, int decimals);
+
+// Writes a number without a unit with two significant digits.
 const char *sb_section_two_digits(char *buffer, double value);
-const char *sb_section_significant(char *buffer, double value); // as short as three digits allow
+
+// Writes a number without a unit with at most three significant digits.
+const char *sb_section_significant(char *buffer, double value);

@@ -1,8 +1,8 @@
-// Text by Pango: measuring for the layout of labels, and layouts for whoever draws them.
+// Text by Pango: widths for the placement of labels, and layouts for drawing.
 //
-// One SbText belongs to one thread. Sizes are in pixels of the target (logical pixels times the
-// scale), the family is Inter with the look's fallbacks, figures are tabular. Hinting is off, so
-// that widths scale and pictures do not depend on the screen's settings.
+// Sizes are in pixels of the target (logical pixels times its scale); `weight` is 400 for normal
+// and 700 for bold text. The family is Inter with fallbacks, digits have equal widths. Hinting is
+// off, so that widths scale and pictures do not depend on the screen's settings.
 #pragma once
 
 #include <cairo.h>
@@ -10,12 +10,16 @@
 
 typedef struct SbText SbText;
 
+// Returns a new object. Freed by sb_text_destroy().
 SbText *sb_text_create(void);
+
+// Frees it; takes NULL.
 void sb_text_destroy(SbText *text);
 
-// Advance width of a line [px]; remembered, so that asking every frame costs a look-up.
+// Returns the advance width of one line of UTF-8 text [px]. Widths are cached.
 double sb_text_width(SbText *text, const char *string, double size, int weight);
 
-// A layout of the line, borrowed until the next call. *baseline and *width [px] may be NULL.
+// Returns a Pango layout of the line, borrowed until the next call. Writes the distance of its
+// baseline from its top, and its width [px]; either pointer may be NULL.
 PangoLayout *sb_text_layout(SbText *text, const char *string, double size, int weight,
                             double *baseline, double *width);
