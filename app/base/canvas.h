@@ -1,5 +1,6 @@
-// Drawing on a cairo context in the look's terms: text by pango, thinned polylines, arrowheads,
-// dots, panels. One SbCanvas serves one drawing call.
+// Drawing on a cairo context in the style of the theme: text by Pango, thinned polylines,
+// arrowheads, dots, panels. Coordinates are logical pixels, y downwards. An SbCanvas is used for
+// one drawing call.
 #pragma once
 
 #include "app/base/geometry.h"
@@ -8,93 +9,110 @@
 #include <pango/pangocairo.h>
 #include <stddef.h>
 
+// A canvas. Initialised by sb_canvas_init(), freed by sb_canvas_finish().
 typedef struct {
-  cairo_t *cr;
-  const SbTheme *theme;
-  PangoLayout *layout; // owned, reused for every text
+  cairo_t *cr;          // borrowed
+  const SbTheme *theme; // borrowed
+  PangoLayout *layout;  // owned, reused for every text
 } SbCanvas;
 
+// Style of a text.
 typedef struct {
-  double size;   // [px]
-  int weight;    // 400, 600, 700
-  SbColor color; //
-  double alpha;  // 0 counts as 1
+  double size; // [px]
+  int weight;  // 400 normal, 600 semibold, 700 bold
+  SbColor color;
+  double alpha; // opacity, 0 to 1; 0 counts as 1
 } SbTextStyle;
 
-// Starts drawing; sb_canvas_finish() frees what it made. Text is laid out without hinting, so that
-// a picture has the same shape at every scale and on every surface.
+// Starts drawing. Text is laid out without hinting, so that a picture has the same shape at every
+// scale and on every surface.
 void sb_canvas_init(SbCanvas *canvas, cairo_t *cr, const SbTheme *theme);
+
+// Frees the layout.
 void sb_canvas_finish(SbCanvas *canvas);
 
+// Returns the theme's colour for a role.
 SbColor sb_canvas_role(const SbCanvas *canvas, SbRole role);
+
+// Sets the colour of cairo's source, with its opacity times `alpha`.
 void sb_canvas_color(SbCanvas *canvas, SbColor color, double alpha);
 
-// Sets width, dash (NULL: solid), butt caps and round joins.
+// Sets the line width [px], the dash (NULL: solid), butt caps and round joins.
 void sb_canvas_pen(SbCanvas *canvas, double width, const SbDash *dash);
 
-// A style in one expression.
+// Returns a style with the theme's colour for a role.
 SbTextStyle sb_canvas_style(const SbCanvas *canvas, double size, int weight, SbRole role);
 
-// Width of a text; ink box around it when drawn with its baseline at (x, y).
+// Returns the advance width of one line of text [px].
 double sb_canvas_text_width(SbCanvas *canvas, const char *text, const SbTextStyle *style);
+
+// Returns the ink rectangle of a text with its anchor on the baseline at (x, y); `align` states
+// which end of the text the anchor is.
 SbRect sb_canvas_text_box(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
                           double y, SbAlign align);
 
-// Draws a text with its baseline at y. Returns its advance width. Tabular figures.
+// Draws one line of text with its anchor on the baseline at (x, y). Returns its advance width [px].
+// Digits have equal widths.
 double sb_canvas_text(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
                       double y, SbAlign align);
 
-// The same over a halo of 3 px in the panel colour.
+// As sb_canvas_text(), over a halo of 3 px in the panel colour.
 double sb_canvas_text_halo(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
                            double y, SbAlign align);
 
-// The same on a plate of `ground`, for text on a hatch.
+// As sb_canvas_text(), on a plate of colour `ground`, for text on a hatch.
 double sb_canvas_text_plate(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
                             double y, SbAlign align, SbColor ground);
 
-// As sb_canvas_text(), shortened with an ellipsis at the end to fit `width`.
+// As sb_canvas_text() with SB_LEFT, shortened with an ellipsis at the end to fit `width`.
 double sb_canvas_text_fit(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
                           double y, double width);
 
-// The same, cut in the middle: both ends tell one name from another.
+// As sb_canvas_text_fit(), with the ellipsis in the middle, so that both ends of a name are
+// visible.
 double sb_canvas_text_fit_ends(SbCanvas *canvas, const char *text, const SbTextStyle *style,
                                double x, double y, double width);
 
-// A paragraph broken at words to fit `width`, its top at y. Returns its height.
+// Draws text broken at words to lines of `width`, its top left corner at (x, y). Returns its
+// height.
 double sb_canvas_paragraph(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
                            double y, double width);
 
-// The same with its lines set to a side.
+// As sb_canvas_paragraph(), with lines aligned to a side.
 double sb_canvas_paragraph_aligned(SbCanvas *canvas, const char *text, const SbTextStyle *style,
                                    double x, double y, double width, SbAlign align);
 
-// That height without drawing it.
+// Returns the height of such a paragraph without drawing it.
 double sb_canvas_paragraph_height(SbCanvas *canvas, const char *text, const SbTextStyle *style,
                                   double width);
 
-// Background of a panel: rounded, hairline.
+// Draws the background of a panel: a rounded rectangle with a hairline.
 void sb_canvas_panel(SbCanvas *canvas, SbRect rect);
+
+// Adds a rounded rectangle to cairo's current path.
 void sb_canvas_rounded(SbCanvas *canvas, SbRect rect, double radius);
 
-// Horizontal or vertical line of one logical pixel, on the pixel grid.
+// Draws a horizontal or vertical line one logical pixel wide, aligned with the pixel grid.
 void sb_canvas_hairline(SbCanvas *canvas, double x0, double y0, double x1, double y1,
                         SbColor color);
 
-// Strokes a polyline, dropping points within half a device pixel of the last one kept (first and
-// last always stay), in runs of about 500. Points that are not finite break the line. The line
-// width and dash are those set; dashes go on from run to run.
+// Strokes the polyline point[count] with the present pen and colour. Omits points within half a
+// device pixel of the last one drawn, except the first and last. Points that are not finite
+// interrupt the line.
 void sb_canvas_polyline(SbCanvas *canvas, const SbPoint *point, size_t count);
 
-// The name of predicted curves behind a piece of one, up to `right` on the line y. Returns its
-// width.
+// Draws the legend of predicted curves, a piece of the line and its name, so that it ends at x =
+// right on the line y. Returns its width.
 double sb_canvas_predicted(SbCanvas *canvas, double right, double y);
 
-// Adds the thinned polyline to the current path without stroking.
+// Adds the thinned polyline to cairo's current path without stroking it.
 void sb_canvas_path(SbCanvas *canvas, const SbPoint *point, size_t count);
 
-// An arrowhead of 11 x 9 (times `size`) whose tip is at (x, y), pointing along (dx, dy).
+// Fills an arrowhead of 11 x 9 px (times `size`) with its tip at (x, y) and the direction (dx, dy).
 void sb_canvas_arrowhead(SbCanvas *canvas, double x, double y, double dx, double dy, double size);
 
-// A ringed dot: 3.4 px in the panel colour inside a ring of `ring`.
+// Draws a dot of 3.4 px in the panel colour inside a ring of colour `ring`.
 void sb_canvas_ringed_dot(SbCanvas *canvas, double x, double y, SbColor ring);
+
+// Fills a dot.
 void sb_canvas_dot(SbCanvas *canvas, double x, double y, double radius, SbColor color);

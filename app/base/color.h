@@ -1,4 +1,5 @@
-// Colours: OKLCh to sRGB with a gamut clip, and contrast.
+// Colours: sRGB, OKLab and OKLCh with a gamut clip, mixing and contrast. Pure functions of their
+// arguments; any thread.
 #pragma once
 
 // Gamma-encoded sRGB and opacity (straight, not premultiplied), each 0 to 1. The functions below
@@ -12,19 +13,21 @@ typedef struct {
   double l, a, b;
 } SbOklab;
 
-// 0xRRGGBB.
+// Returns the opaque colour 0xRRGGBB.
 SbColor sb_color_hex(unsigned rgb);
 
-// Ottosson's OKLab of a colour and back; the way back may leave the gamut.
+// Returns Ottosson's OKLab of a colour; its opacity is ignored.
 SbOklab sb_color_to_oklab(SbColor color);
+
+// Returns the colour of an OKLab; components can be outside of 0 to 1.
 SbColor sb_color_from_oklab(SbOklab lab);
 
-// Lightness 0-1, chroma, hue in degrees. Outside sRGB the chroma is lowered at fixed lightness and
-// hue until the colour fits, so that lightness keeps its order.
+// Returns the colour with this lightness (0 to 1), chroma and hue [degrees]. Outside of sRGB the
+// chroma is reduced at constant lightness and hue until the colour fits.
 SbColor sb_color_oklch(double lightness, double chroma, double hue_degrees);
 
-// `a` where t = 0, `b` where t = 1; opacity too.
+// Returns the linear mixture of sRGB components and opacity: `a` at t = 0, `b` at t = 1.
 SbColor sb_color_mix(SbColor a, SbColor b, double t);
 
-// WCAG 2 contrast ratio, 1 to 21.
+// Returns the WCAG 2 contrast ratio, 1 to 21.
 double sb_color_contrast(SbColor a, SbColor b);

@@ -1,19 +1,21 @@
-// The one error domain of app.
+// The error domain of app.
 #pragma once
 
 #include <glib.h>
 
-// How messages and exit codes are sorted. INPUT is the user's, IO the system's.
+// Codes of errors; each has its exit code.
 typedef enum {
-  SB_APP_ERROR_INPUT,
-  SB_APP_ERROR_IO,
-  SB_APP_ERROR_CANCELLED,
-  SB_APP_ERROR_NOT_CONVERGED,
-  SB_APP_ERROR_CHANGED // another program has changed the file
+  SB_APP_ERROR_INPUT,         // the user's input is wrong
+  SB_APP_ERROR_IO,            // a file cannot be read or written, or memory is short
+  SB_APP_ERROR_CANCELLED,     // the user interrupted the work
+  SB_APP_ERROR_NOT_CONVERGED, // a solver did not converge
+  SB_APP_ERROR_CHANGED        // another program has changed the file
 } SbAppError;
 #define SB_APP_ERROR (sb_app_error_quark())
+
+// Returns the quark of the domain.
 GQuark sb_app_error_quark(void);
 
-// Sets SB_APP_ERROR_INPUT with words of a file that nobody vouches for, made printable
-// (sb_printable()).
+// Sets SB_APP_ERROR_INPUT with a formatted sentence that can contain text of an untrusted file; it
+// is made printable (sb_printable()).
 void sb_app_error_input(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);

@@ -1,7 +1,7 @@
-// Figures of a run (engine/valve/figures/figures.h) as text. Every surface that prints a figure
-// uses these functions, so that one figure is one number everywhere: table, terminal, window,
-// report, verdict, chart labels. They choose the unit and, by the rounding rule of
-// sb_format_decimals(), the digits.
+// Figures of a run (engine/valve/figures/figures.h) as text. Every output that prints a figure uses
+// these functions, so that a figure is the same number everywhere: table, terminal, window, report,
+// verdict, chart labels. They choose the unit and, by the rounding rule of sb_format_decimals(),
+// the digits. `index` is an index of sb_figure(). Any thread.
 #pragma once
 
 #include "app/base/format.h"
@@ -9,39 +9,43 @@
 
 #include "engine/valve/figures/figures.h"
 
-// Number and unit of figure `index` with SI `value` and `error`, an estimate of its relative error
-// (0: exact, an input; NaN: not known). True minus and thin spaces. "yes" or "no" for a question;
-// an en dash where the value is not a number.
+// Writes number and unit of a figure with the value `value` [SI] and `error`, an estimate of its
+// relative error (0: exact, an input; NaN: not known), with a minus sign and thin spaces. "yes" or
+// "no" for a figure without a unit that is 0 or 1; an en dash if the value is NaN.
 void sb_figure_parts(SbFormatted *out, int index, double value, double error);
 
-// The parts with a no-break space between them, into `out` of SB_FORMAT_MAX bytes; returns `out`.
+// Writes sb_figure_parts() with a no-break space between number and unit to out[SB_FORMAT_MAX] and
+// returns `out`.
 char *sb_figure_text(char *out, int index, double value, double error);
 
-// sb_figure_text() of a run's own value and error estimate.
+// As sb_figure_text(), with the value and error estimate of a run.
 char *sb_format_figure(char *out, const SbSummary *summary, int index);
 
-// The same number in plain ASCII for tables of a terminal and files: "-4.1 N"; "-" where the value
-// is not a number. Owned by the caller (g_free).
+// Returns the same number in ASCII, for terminals and files: "-4.1 N"; "-" if the value is NaN.
+// Freed by g_free().
 char *sb_figure_format(int index, double value, double error);
 
-// The absolute error [SI] of a figure with SI `value`, in the unit of the value and in plain ASCII,
-// with its first digit, or its first two if the first one is 1 or 2: "0.02 N" for 27.40 N. "-"
-// where one of the two is not a number. Owned by the caller (g_free).
+// Returns the absolute error `error` [SI] of a figure with the value `value` [SI], in the display
+// unit of the value and in ASCII, with its first digit, or its first two if the first one is 1 or
+// 2: "0.02 N" for 27.40 N. "-" if one of the two is NaN. Freed by g_free().
 char *sb_figure_error_format(int index, double value, double error);
 
-// A limit of a figure, which is an input, in the unit of the figure: all its digits. A limit with
-// more than 9 digits was computed (a saturation pressure); it has the digits of the figure. Owned
-// by the caller (g_free).
+// Returns a limit on a figure [SI] in the figure's unit with all its digits. A limit with more than
+// 9 digits was computed (a saturation pressure) and has the digits of the figure. Freed by
+// g_free().
 char *sb_figure_given(int index, double value);
 
-// A limit on a figure, an open end infinite: ">= 2 N", "8 % .. 25 %". Owned by the caller.
+// Returns the limit low .. high [SI] on a figure as in a file: ">= 2 N", "8 % .. 25 %"; an infinite
+// end is open. Freed by g_free().
 char *sb_limit_format(int figure, double low, double high);
 
-// The label of a figure with its seal or stage: "Load, outer seal". Owned by the caller.
+// Returns the label of a figure with its seal or stage, untranslated: "Load, outer seal". Freed by
+// g_free().
 char *sb_figure_label(int index);
 
-// Writes a number in plain ASCII by the rounding rule, with at most `digits` significant digits;
-// `error` is relative, 0: exact. Zeros at the end are written where the number is rounded there.
+// Writes the number `shown` in ASCII by the rounding rule, with at most `digits` significant
+// digits; `error` is its relative error (0: exact). Trailing zeros up to the rounding place are
+// written.
 void sb_number_with_error(char out[SB_NUMBER_SIZE], double shown, int digits, double error);
 
 // One figure of one of several designs that are compared.
@@ -56,7 +60,7 @@ typedef struct {
 // first design supports (sb_figure_difference_error()), and no more than the figure's digits.
 int sb_figure_compared_decimals(int index, const SbFigureCompared *design, size_t count);
 
-// Unit of all values of a comparison whose first one is `value`. Borrowed.
+// Returns the unit of all values of a comparison whose first one is `value` [SI]. Static.
 const char *sb_figure_compared_unit(int index, double value);
 
 // Writes the value of design `at` of `count`, and its difference from the first design with a sign

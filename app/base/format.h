@@ -1,12 +1,14 @@
-// Numbers as a person reads them: magnitude, digits, unit; the same in every locale.
+// Numbers for the user: magnitude, digits, unit; the same in every locale. Any thread.
 //
 // Three significant digits, or as many as the error estimate supports up to four (the rounding rule
-// is that of sb_format_decimals()); true minus, thin space in thousands, always the unit, zero as
-// "0". Figures of a run have a module of their own, figure_text.h.
+// is that of sb_format_decimals()); a minus sign, thin spaces between thousands, always the unit,
+// zero as "0". Figures of a run have their own module, figure_text.h. Functions that write to `out`
+// need SB_FORMAT_MAX bytes and return `out`.
 #pragma once
 
 #include <stddef.h>
 
+// A quantity with its display unit.
 typedef enum {
   SB_QUANTITY_NUMBER,   // no unit
   SB_QUANTITY_FORCE,    // N
@@ -21,36 +23,36 @@ typedef enum {
   SB_QUANTITY_COUNT
 } SbQuantity;
 
-// The quantity that people read in `unit` ("nm": SB_QUANTITY_FILM); SB_QUANTITY_NUMBER for what is
-// none of these.
+// Returns the quantity with the display unit `unit` ("nm": SB_QUANTITY_FILM); SB_QUANTITY_NUMBER if
+// there is none.
 SbQuantity sb_quantity_of_unit(const char *unit);
 
-// Unit in which people read `value` [SI] of a quantity: "nm" or "µm" by its size. Borrowed.
+// Returns the display unit of `value` [SI] of a quantity, "nm" or "µm" by its size. Static.
 const char *sb_quantity_unit(SbQuantity quantity, double value);
 
+// Size of a buffer for a formatted number [bytes].
 enum { SB_FORMAT_MAX = 48 };
 
-// A number and its unit apart, for read-outs that set the unit smaller.
+// A number and its unit, for displays that draw the unit smaller.
 typedef struct {
   char number[SB_FORMAT_MAX];
   char unit[16];
 } SbFormatted;
 
-// Splits an SI value. `relative_error` is an estimate of the value's relative error; 0 or NaN when
-// there is none. NaN and Inf become an en dash with the unit.
+// Writes number and unit of `value` [SI]. `relative_error` is an estimate of its relative error; 0
+// or NaN: none. NaN and infinity become an en dash with the unit.
 void sb_format(SbFormatted *out, SbQuantity quantity, double value, double relative_error);
 
-// "27.4 N" into `out` (of SB_FORMAT_MAX bytes), which is returned. No break inside.
+// Writes number and unit with a no-break space, "27.4 N".
 char *sb_format_text(char *out, SbQuantity quantity, double value, double relative_error);
 
-// As sb_format_text() for a given value rather than a computed one: no trailing zeros.
+// As sb_format_text(), for a value that was given, not computed: without trailing zeros.
 char *sb_format_given(char *out, SbQuantity quantity, double value);
 
-// A plain number with a fixed number of decimals, true minus and thin-space thousands; "0" for
-// zero.
+// Writes a number without unit with `decimals` decimals; "0" for zero.
 char *sb_format_fixed(char *out, double value, int decimals);
 
-// A plain number with `digits` significant digits.
+// Writes a number without unit with `digits` significant digits.
 char *sb_format_digits(char *out, double value, int digits);
 
 // Returns the number of decimals with which a value displayed as `shown` is printed: the rounding
@@ -60,8 +62,9 @@ char *sb_format_digits(char *out, double value, int digits);
 // `relative_error` 0 or NaN: no error, `digits` alone decides. Negative: tens, hundreds, ...
 int sb_format_decimals(double shown, int digits, double relative_error);
 
-// Mark of a logarithmic length axis [m]: "1 nm", "100 nm", "10 um".
+// Writes the label of a tick of a logarithmic length axis, `length` in m: "1 nm", "100 nm", "10
+// µm".
 char *sb_format_film_tick(char *out, double length);
 
-// 10 to a whole power, the exponent raised: "10^-3" with superscript digits.
+// Writes 10 to the power `exponent` with superscript digits.
 char *sb_format_power(char *out, int exponent);

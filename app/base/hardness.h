@@ -16,16 +16,16 @@
 #include <glib.h>
 #include <stdbool.h>
 
-// Whether parameter `id` is a modulus of a seal's rubber, which may be given by its hardness.
+// Returns whether parameter `id` is a modulus of a seal's rubber, which can be given as a hardness.
 bool sb_hardness_applies(SbParamId id);
 
-// Whether `unit` is a unit of hardness: "Shore A", "ShA", "IRHD" in any case.
+// Returns whether `unit` is a unit of hardness: "Shore A", "ShA", "IRHD" in any case.
 bool sb_hardness_is_unit(const char *unit);
 
-// Reads "60 Shore A". Returns false, *error unset, where the text has no unit of hardness; false
-// with *error where the hardness is outside the range of its relation. *modulus in Pa.
+// Reads "60 Shore A" and writes Young's modulus [Pa]. Returns false without setting *error if the
+// text has no unit of hardness; false with SB_APP_ERROR_INPUT if the hardness is out of range.
 bool sb_hardness_parse(double *modulus, const char *text, GError **error);
 
-// A sentence that states the modulus of such a text, the relation and its scatter; NULL for any
-// other text. Owned by the caller (g_free).
+// Returns a sentence with the modulus of such a text, the relation and its scatter; NULL for any
+// other text. Freed by g_free().
 char *sb_hardness_note(const char *text);

@@ -1,36 +1,39 @@
-// One thing wrong with what the user gave: where it stands and what would be allowed.
+// One problem of an input: its place, and what would be allowed.
 #pragma once
 
 #include <glib.h>
 
+// A problem. Strings are owned by the issue.
 typedef struct {
-  char *file;    // file (or "--set"), as the user named it; NULL if none
-  int line;      // of the file, from 1; 0 where it does not apply
-  char *key;     // catalogue key or "sealbench.kind"; NULL where it does not apply
-  char *text;    // one sentence part, no full stop, printable
-  char *allowed; // "1.2 to 2.2 mm"; NULL where it does not apply
+  char *file;    // file (or "--set"), as the user named it; NULL: none
+  int line;      // of the file, from 1; 0: unknown
+  char *key;     // catalogue key or "sealbench.kind"; NULL: none
+  char *text;    // the problem, a part of a sentence without full stop, printable
+  char *allowed; // allowed range, "1.2 to 2.2 mm"; NULL: none
 } SbIssue;
 
-// A list that frees its issues. Owned by the caller (g_ptr_array_unref).
+// Returns an empty list of SbIssue that frees its elements. Freed by g_ptr_array_unref().
 GPtrArray *sb_issues_new(void);
 
-// Adds one; every text is copied and made printable. Issues beyond SB_ISSUES_MAX are counted in a
-// last one, so that a hostile file cannot flood anyone.
+// Largest number of issues in a list; further ones are counted in a last one.
 enum { SB_ISSUES_MAX = 100 };
+
+// Appends an issue with a formatted text. All texts are copied and made printable (sb_printable()).
 void sb_issues_add(GPtrArray *issues, const char *file, int line, const char *key,
                    const char *allowed, const char *format, ...) G_GNUC_PRINTF(6, 7);
 
-// Adds a copy of an issue.
+// Appends a copy of an issue.
 void sb_issues_add_copy(GPtrArray *issues, const SbIssue *issue);
 
-// Splits an issue's key: returns the name behind its group, borrowed, and the length of the group,
-// which the key begins with; 0: the key has no group. NULL without a key.
+// Returns the name in an issue's key, the part after its group ("radial_space"), borrowed; NULL:
+// the issue has no key. *group_length is the length of the group at the start of the key; 0: no
+// group.
 const char *sb_issue_key(const SbIssue *issue, int *group_length);
 
-// "piston.valve: [gland] radial_space: 9 m is out of range (allowed 0.1 to 20 mm)". Owned by the
-// caller.
+// Returns the issue as a line, "piston.valve: [gland] radial_space: 9 m is out of range (allowed
+// 0.1 to 20 mm)". Freed by g_free().
 char *sb_issue_line(const SbIssue *issue);
 
-// `text` with control characters and invalid UTF-8 replaced; of a text of more than 8 KiB the start
-// and the end. Owned by the caller.
+// Returns the `length` bytes of a text with control characters and invalid UTF-8 replaced; of a
+// text of more than 8 KiB only its start and end. Freed by g_free().
 char *sb_printable(const char *text, size_t length);

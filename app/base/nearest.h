@@ -1,17 +1,21 @@
-// "do you mean": of a list of names the one most like a mistyped word.
+// "do you mean": the name of a list that is most similar to a mistyped word.
 #pragma once
 
+// The search. The names are borrowed: they must be valid until sb_nearest_hint().
 typedef struct {
-  const char *word, *best; // best: borrowed, NULL while no name is like the word
-  int least;               // edits between them
+  const char *word; // borrowed
+  const char *best; // most similar name so far; NULL: none is similar
+  int least;        // number of edits between both
 } SbNearest;
 
-// Starts with no name; `word` is borrowed.
+// Returns a search for `word` without a name.
 SbNearest sb_nearest(const char *word);
 
-// Offers one name, or those of a list "first|second".
+// Compares one name.
 void sb_nearest_try(SbNearest *nearest, const char *name);
+
+// Compares the names of a list "first|second".
 void sb_nearest_try_list(SbNearest *nearest, const char *names);
 
-// ", do you mean NAME?", or an empty text. Owned by the caller.
+// Returns ", do you mean NAME?", or an empty text if no name is similar. Freed by g_free().
 char *sb_nearest_hint(const SbNearest *nearest);

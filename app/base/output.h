@@ -1,11 +1,13 @@
-// The one writer of everything that the programs write: a file appears whole or not at all.
+// Writes all files of the programs atomically: a file appears complete or not at all.
 //
-// It is written without a name in its target's folder (O_TMPFILE; where the file system has none,
-// under a random hidden name that is locked while its writer lives), synced, then given its name. A
-// symbolic link is followed and stays. What is replaced passes on its mode and ownership; where
-// that cannot be (a file with several names, another's file, an access list) the complete new bytes
-// are copied into the old file, which is the one case that a crash or a failing disk can tear.
-// Devices, pipes and "-" (standard output) get the complete bytes at the end.
+// A file is written without a name in its folder (O_TMPFILE; if the file system does not support
+// it, with a random hidden name that is locked while its process runs), synced, and then given its
+// name. A symbolic link is followed and stays. The new file gets mode and owner of the one that it
+// replaces; if that is impossible (a file with several names, another user's file, an access list),
+// the complete new bytes are copied into the old file, the only case in which a crash can leave an
+// incomplete file. Devices, pipes and "-" (standard output) receive the complete bytes at the end.
+//
+// Functions that return bool return false with an error, mostly SB_APP_ERROR_IO.
 #pragma once
 
 #include "app/base/error.h"
@@ -15,91 +17,103 @@
 
 struct stat;
 
-// ---- What a program may write to; set once at its start ----
+// ---- Which files may be written; set once at the start of the program ----
 
-// From now on files that were read (sb_output_note_input) are refused as outputs.
+// Refuses from now on to write files that were read (sb_output_note_input()).
 void sb_output_protect_inputs(void);
+
+// Records a file that was read, by its device and inode.
 void sb_output_note_input(const struct stat *info);
 
-// Whether files that exist are refused as outputs.
+// Sets whether existing files are refused as outputs.
 void sb_output_keep_existing(bool keep);
 
-// True while files get their names, which takes no time to speak of; a signal handler may ask.
+// Returns whether files are being given their names at the moment, which takes very little time.
+// May be called by a signal handler.
 bool sb_output_is_committing(void);
 
-// In capitals or not, as all writers take them.
+// Returns whether `path` has the ending ".png" or the like, ignoring case.
 bool sb_output_ends_in(const char *path, const char *ending);
 
 // ---- One file ----
 
+// A file that is being written. After a successful sb_output_begin() it must be committed or
+// aborted.
 typedef struct {
   char *path;       // as given, for messages
   char *name;       // in the folder; NULL for a device or pipe
   char *temporary;  // in the folder; NULL while it has no name
-  char *written_at; // a path at which others can open the bytes now
-  FILE *stream;     // to write to; NULL when finished. Writers may ignore errors until commit
-  int folder;       // descriptor, or that of a device or pipe
-  bool own_way;     // a manifest, which no policy forbids
+  char *written_at; // path at which other code can open the unfinished file
+  FILE *stream;     // to write to; errors may be ignored until the commit; NULL when finished
+  int folder;       // descriptor of the folder, or of a device or pipe
+  bool own_way;     // a manifest, which is never refused
 } SbOutput;
 
-// Begins a file. SB_APP_ERROR_INPUT for an input or, if those are kept, a file that exists;
-// SB_APP_ERROR_IO for what cannot be written. *out needs no clean-up then.
+// Begins a file. Fails with SB_APP_ERROR_INPUT if it is an input or an existing file that is
+// refused, or with SB_APP_ERROR_IO; *out then owns nothing.
 bool sb_output_begin(SbOutput *out, const char *path, GError **error);
 
-// Flushes and syncs: the step that finds a full disk. On failure everything is removed.
+// Flushes and syncs, which detects a full disk. After a failure the unfinished file is removed.
 bool sb_output_seal(SbOutput *out, GError **error);
 
-// Seals, then gives the file its name. On failure nothing of it remains and an earlier file is
-// intact.
+// Flushes, syncs and gives the file its name. After a failure the unfinished file is removed and an
+// earlier file is intact.
 bool sb_output_commit(SbOutput *out, GError **error);
 
-// Removes what was not committed. Does nothing afterwards, nor to a zeroed struct.
+// Removes a file that was not committed. Does nothing for one that was, and for all zeros.
 void sb_output_abort(SbOutput *out);
 
-// All of that for a text in memory.
+// Writes `length` bytes to the file `path` atomically.
 bool sb_output_write(const char *path, const void *text, size_t length, GError **error);
 
-// The same for a file that others can tell is in use: *lock is a descriptor that keeps it locked
-// (flock) until it is closed, by the process' end at the latest.
+// As sb_output_write(), with a lock (flock) on the file. *lock is the descriptor that holds the
+// lock until the caller closes it or the process ends.
 bool sb_output_write_locked(int *lock, const char *path, const void *text, size_t length,
                             GError **error);
+
+// Returns whether a process holds such a lock on the file.
 bool sb_output_is_locked(const char *path);
 
 // ---- Several files of one result in a folder ----
 
-// The folder is locked (flock, which ends with its process) from opening to closing, so that its
-// files come from one run. With a command's name a hidden manifest (".sealbench-COMMAND.manifest":
-// a SHA-256 and a name a line) says which files are that command's: those of an earlier result that
+// A folder that is being written. It is locked (flock) from opening to closing, so that its files
+// come from one run. With a command's name, a hidden manifest (".sealbench-COMMAND.manifest": a
+// SHA-256 and a name on each line) lists the files of that command: files of an earlier result that
 // the new one does not have are removed, unless they were changed since.
 typedef struct SbOutputFolder SbOutputFolder;
 
-// Makes the folder if needed, and waits up to 10 s for its lock. SB_APP_ERROR_IO. `command` may be
-// NULL: no manifest.
+// Creates the folder if needed and waits up to 10 s for its lock. `command` NULL: no manifest.
+// Closed by sb_output_folder_close().
 bool sb_output_folder_open(SbOutputFolder **out, const char *path, const char *command,
                            GError **error);
 
-// Begins a file of the folder; the stream is borrowed and written to before the next call.
+// Begins the file `name` in the folder. *stream is borrowed; write to it before the next call of a
+// function of the folder.
 bool sb_output_folder_add(FILE **stream, SbOutputFolder *folder, const char *name, GError **error);
 
-// Seals all that were added, then gives all their names.
+// Flushes and syncs all files that were added, and then gives all their names.
 bool sb_output_folder_commit(SbOutputFolder *folder, GError **error);
 
-// The result is complete: removes files of the former one. Names of those kept because they were
-// changed are added to `kept` (char *; NULL: nobody asks).
+// To be called when the result is complete: removes the files of the earlier result. The names of
+// those that were changed and therefore not removed are appended to `kept` (of char *; NULL: not
+// wanted).
 bool sb_output_folder_finish(SbOutputFolder *folder, GPtrArray *kept, GError **error);
 
-// Unlocks; without a finish the former files stay and are remembered. Takes NULL.
+// Unlocks and frees the folder. Without sb_output_folder_finish() the earlier files stay and remain
+// in the manifest. Takes NULL.
 void sb_output_folder_close(SbOutputFolder *folder);
 
 // ---- Before the work ----
 
-// Targets of a command, tested before it computes. A zeroed struct is empty.
+// Targets of a command, checked before it computes. Initialise with zeros.
 typedef struct {
-  GPtrArray *targets; // identities seen
+  GPtrArray *targets; // identities of the targets checked so far
 } SbOutputCheck;
 
-// Whether `path` can be written: not an input (SB_APP_ERROR_INPUT), not the same as one checked
-// before, its folder writable (SB_APP_ERROR_IO). `makes_folder`: missing folders will be made. NULL
-// and "-" are fine.
+// Returns whether `path` can be written. Fails with SB_APP_ERROR_INPUT if it is an input or a
+// target that was checked before, and with SB_APP_ERROR_IO if its folder is not writable.
+// `makes_folder`: missing folders will be created. NULL and "-" can always be written.
 bool sb_output_check(SbOutputCheck *check, const char *path, bool makes_folder, GError **error);
+
+// Frees what the checks own.
 void sb_output_check_clear(SbOutputCheck *check);

@@ -1,21 +1,25 @@
-// Inside of the writer, shared by output.c (one file) and output_folder.c (several).
+// Shared by output.c (one file) and output_folder.c (several files).
 #pragma once
 
 #include "app/base/output.h"
 
+// Sets an error with the path and `text`, or if that is NULL the text of errno. Always returns
+// false.
 bool sb_output_fail(GError **error, SbAppError kind, const char *path, const char *text);
 
+// Returns whether existing files are refused as outputs (sb_output_keep_existing()).
 bool sb_output_keeps_existing(void);
 
-// As sb_output_begin(); `own_way` is free of the policy, `sweep` looks for what killed processes
-// left in the folder.
+// As sb_output_begin(). `own_way`: existing files and inputs are not refused (a manifest). `sweep`:
+// first removes temporary files of killed processes from the folder.
 bool sb_output_begin_at(SbOutput *out, const char *path, bool own_way, bool sweep, GError **error);
 
-// The second half of sb_output_commit().
+// Gives a sealed file its name: the second half of sb_output_commit(). Returns false with
+// SB_APP_ERROR_IO.
 bool sb_output_commit_sealed(SbOutput *out, GError **error);
 
-// Removes temporary files whose writer does not live any more.
+// Removes from the folder (a descriptor) temporary files whose process does not exist any more.
 void sb_output_sweep(int folder);
 
-// A random one. Owned by the caller.
+// Returns a random hidden file name. Freed by g_free().
 char *sb_output_temporary_name(void);

@@ -1,5 +1,5 @@
-// Key files as lines: what stands where, so that every problem can be told with its line and an
-// edit touches no other line. The format is GKeyFile's: [group], key = value, # comment.
+// Key files as lines, so that every problem can be reported with its line and an edit changes no
+// other line. The format is GKeyFile's: [group], key = value, # comment.
 #pragma once
 
 #include "app/base/issue.h"
@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+// A line of a key file. Strings are owned by the entry.
 typedef struct {
   char *group; // "seal.outer"
   char *name;  // "modulus"; NULL for the line of the group itself
@@ -14,22 +15,26 @@ typedef struct {
   int line;    // from 1
 } SbEntry;
 
-// Lets this process read pipes where it reads files (`<(command)` of a shell): for programs that
-// read each file once and may wait for its writer. To be called at the start of the program.
+// Lets this process read pipes in place of files (`<(command)` of a shell): for programs that read
+// each file once and may wait for its writer. To be called at the start of the program.
 void sb_reader_read_pipes(void);
+
+// Returns whether this process reads pipes in place of files.
 bool sb_reader_reads_pipes(void);
 
-// Reads a complete regular file, or pipe where the process reads them, of at most `bytes_max` bytes
-// without ever blocking on something else. NULL with one issue otherwise. Owned by the caller, with
-// a terminating NUL beyond *length.
+// Returns the content of the regular file `path` (or pipe, see sb_reader_read_pipes()) of at most
+// `bytes_max` bytes, *length bytes and a terminating 0; freed by g_free(). Never blocks on anything
+// else. NULL with one issue, in which `shown` names the file, if it cannot be read or is too large.
 char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t bytes_max,
                      GPtrArray *issues);
 
-// The same from an open descriptor of any kind to its end; it stays open.
+// As sb_reader_load(), from the open descriptor `fd` of any kind to its end; the descriptor stays
+// open.
 char *sb_reader_load_stream(size_t *length, int fd, const char *shown, size_t bytes_max,
                             GPtrArray *issues);
 
-// All groups and keys of `text` in order. Lines that are none, text that is not UTF-8, duplicate
-// keys and groups become issues under the name `shown`; a duplicate is left out. Owned by the
-// caller (g_ptr_array_unref frees the entries).
+// Returns all groups and keys of the `length` bytes of a text, in their order, as a list of SbEntry
+// that owns its elements; freed by g_ptr_array_unref(), never NULL. Other lines, text that is not
+// UTF-8 and duplicate keys and groups become issues in which `shown` names the file; a duplicate is
+// omitted.
 GPtrArray *sb_reader_scan(const char *text, size_t length, const char *shown, GPtrArray *issues);

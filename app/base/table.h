@@ -1,16 +1,17 @@
-// Tables of numbers in text files, as test machines and loggers export them: what separates cells,
-// which mark is decimal, which encoding, where the numbers begin, what their columns are called and
-// in which units. Recognised from the file, told, and replaced by what the caller wishes.
+// Tables of numbers in text files, as test machines and loggers export them. Separator, decimal
+// mark, encoding, first row, names and units of the columns are recognised from the file; the
+// caller can specify them instead.
 //
-// Cells are separated by tab, semicolon, comma or blanks, and may stand in double quotes. Numbers
+// Cells are separated by tab, semicolon, comma or blanks, and may be in double quotes. Numbers
 // have a decimal point or comma, may have the other one (or an apostrophe) between thousands, and
-// are rounded once: the same digits give the same double in every dialect. A time may be a clock's,
-// 10:15:00.25, with or without a date. Lines that begin with # are comments, anything else before
-// the first row is a header; its last lines with as many cells as the rows give names and units.
+// are rounded once: the same digits give the same double in every dialect. A time can be a time of
+// day, 10:15:00.25, with or without a date. Lines that begin with # are comments, anything else
+// before the first row is a header; its last lines with as many cells as the rows give names and
+// units.
 //
-// A file that reads in two ways (all commas before three digits: decimals or thousands?) is
-// refused with both readings named. The file stays open and is read a piece at a time, so that
-// memory is what the columns that are asked for take; one that is cut short meanwhile is refused.
+// An ambiguous file (all commas before three digits: decimals or thousands?) is refused with both
+// interpretations in the message. The file stays open and is read piece by piece, so that memory is
+// used only for the requested columns; a file that is truncated meanwhile is refused.
 #pragma once
 
 #include "app/base/issue.h"
@@ -18,69 +19,87 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+// Encoding of the text.
 typedef enum {
-  SB_TABLE_ANY_ENCODING, // to be found
+  SB_TABLE_ANY_ENCODING, // to be recognised
   SB_TABLE_UTF8,
-  SB_TABLE_LATIN1, // Windows' superset of it too, as far as letters and µ go
+  SB_TABLE_LATIN1, // also Windows-1252, for letters and µ
   SB_TABLE_UTF16LE,
   SB_TABLE_UTF16BE,
   SB_TABLE_ENCODING_COUNT
 } SbTableEncoding;
 
-// "utf-8", "latin-1", "utf-16le", "utf-16be"; borrowed.
+// Returns "utf-8", "latin-1", "utf-16le" or "utf-16be". Static.
 const char *sb_table_encoding_name(SbTableEncoding encoding);
 
+// Format of a table.
 typedef struct {
   SbTableEncoding encoding;
-  char separator; // '\t', ';', ',' or ' ' for blanks; 0: to be found
-  char decimal;   // '.' or ','; 0: to be found
-  char thousands; // found: '.', ',', '\'' or 0 for none
+  char separator; // '\t', ';', ',', or ' ' for blanks; 0: to be recognised
+  char decimal;   // '.' or ','; 0: to be recognised
+  char thousands; // only recognised: '.', ',', '\''; 0: none
 } SbTableDialect;
 
+// Largest number of columns.
 enum { SB_TABLE_COLUMNS_MAX = 64 };
 
+// A column.
 typedef struct {
-  char *name; // without its unit; empty where the file has none
-  char *unit; // as the file has it; empty where it has none
-  bool numeric, clock;
+  char *name;   // without its unit; empty: none
+  char *unit;   // as the file has it; empty: none
+  bool numeric; // its cells are numbers
+  bool clock;   // its cells are times of day
 } SbTableColumn;
 
 typedef struct SbTable SbTable;
 
-// Recognises a file, or bytes that are copied; `wish` (may be NULL) says what is known already,
-// `name` stands in messages. NULL with one issue. Owned by the caller.
+// Opens the file `path` and recognises its format; `wish` (NULL: nothing) specifies what is known.
+// Returns NULL with one issue if it cannot be read or is not a table. Freed by sb_table_free().
 SbTable *sb_table_open(const char *path, const SbTableDialect *wish, GPtrArray *issues);
+
+// As sb_table_open(), from the `length` bytes of a file, which are copied; `name` stands for the
+// path in messages.
 SbTable *sb_table_parse(const void *bytes, size_t length, const SbTableDialect *wish,
                         const char *name, GPtrArray *issues);
 
-// Takes NULL.
+// Frees a table and closes its file; takes NULL.
 void sb_table_free(SbTable *table);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbTable, sb_table_free)
 
+// Returns the format. Borrowed.
 const SbTableDialect *sb_table_dialect(const SbTable *table);
-size_t sb_table_columns(const SbTable *table);
-const SbTableColumn *sb_table_column(const SbTable *table, size_t index); // borrowed
-size_t sb_table_header_lines(const SbTable *table);                       // before the first row
 
-// Names a column, in place of what its header says (NULL: as it is).
+// Returns the number of columns.
+size_t sb_table_columns(const SbTable *table);
+
+// Returns column `index`, from 0. Borrowed.
+const SbTableColumn *sb_table_column(const SbTable *table, size_t index);
+
+// Returns the number of lines before the first row.
+size_t sb_table_header_lines(const SbTable *table);
+
+// Replaces name and unit of a column (each copied; NULL: unchanged).
 void sb_table_rename(SbTable *table, size_t index, const char *name, const char *unit);
 
+// Largest number of rows.
 enum { SB_TABLE_ROWS_MAX = 50000000 };
 
-// Reads `count` columns of all rows: value[k][row] of column[k], clocks in seconds (from midnight
-// of the first day), NaN for an empty cell. The arrays are owned by the caller (g_free). A row is
-// `damaged` if a cell of it cannot be read while others can, or if it contains a NUL. Other lines
-// between rows are `skipped`. Both are left out; the number and text of the first line that is left
-// out (owned by the caller, NULL for none). False with one issue: no memory, too many rows, or days
-// and months that read in two ways.
+// What was read.
 typedef struct {
-  size_t rows, damaged, skipped;
-  int left_line;
-  char *left_text;
+  size_t rows;     // rows in the arrays
+  size_t damaged;  // rows left out: a cell cannot be read while others can, or contains a NUL
+  size_t skipped;  // other lines between rows, left out
+  int left_line;   // number of the first line that was left out, from 1
+  char *left_text; // its text, freed by g_free(); NULL: no line was left out
 } SbTableRows;
+
+// Reads the columns column[count] (indices) of all rows: value[k] becomes an array [rows] of the
+// numbers of column[k], freed by g_free(); times of day in seconds from midnight of the first day;
+// NaN for an empty cell. Numbers are in the file's units. Returns false with one issue: no memory,
+// too many rows, or dates in which day and month are ambiguous.
 bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const size_t *column,
                    size_t count, GPtrArray *issues);
 
-// A text that is one number with this decimal mark and nothing between thousands; false, *out
-// untouched, where it is none.
+// Reads a text of `length` bytes that is one number with this decimal mark and no mark between
+// thousands. Returns false, with *out not changed, if it is not.
 bool sb_table_number_of(double *out, const char *text, size_t length, char decimal);

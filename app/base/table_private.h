@@ -3,80 +3,90 @@
 
 #include "app/base/table.h"
 
-// Where a table's bytes are: in memory, or in a file that is read a piece at a time. A mapping
-// would end the program where the file is cut short meanwhile.
+// The bytes of a table: in memory, or in a file that is read piece by piece. (A memory map would
+// crash if another program truncates the file.)
 typedef struct {
-  int file;      // -1: in memory
-  guint8 *bytes; // [length] there
+  int file;      // descriptor; -1: in memory
+  guint8 *bytes; // [length] in memory; NULL: a file
   size_t length;
 } SbTableBytes;
 
+// Longest line [bytes].
 enum { SB_TABLE_LINE_MAX = 1 << 24 };
 
-// Reads a text of any of the encodings line by line.
+// Reads a text in any of the encodings line by line. Initialised by sb_table_lines_init(), freed by
+// sb_table_lines_clear().
 typedef struct {
   const SbTableBytes *bytes;
-  const guint8 *at, *end; // what is at hand
-  size_t left;            // bytes of the file behind that
-  guint8 *piece;          // of a file; NULL in memory
-  size_t room;
+  const guint8 *at, *end; // bytes that are available
+  size_t left;            // bytes of the file after those
+  guint8 *piece;          // buffer for a file; NULL in memory
+  size_t room;            // its size
   SbTableEncoding encoding;
-  char line_end;     // '\n', or '\r' of files that have no other
+  char line_end;     // '\n', or '\r' for files without newlines
   int number;        // of the line last read, from 1
-  GString *wide;     // a line of UTF-16 in UTF-8; NULL elsewhere
-  const char *wrong; // why lines ended before the file did; NULL: they did not
+  GString *wide;     // a line of UTF-16 converted to UTF-8; else NULL
+  const char *wrong; // why reading ended before the end of the file; NULL: it did not; static
 } SbTableLines;
 
-// Begins at byte `from`.
+// Starts to read at byte `from`. `bytes` is borrowed.
 void sb_table_lines_init(SbTableLines *lines, const SbTableBytes *bytes, size_t from,
                          SbTableEncoding encoding);
+
+// Frees the buffers.
 void sb_table_lines_clear(SbTableLines *lines);
 
-// The next line without its end; borrowed until the next one. In UTF-16's files UTF-8, elsewhere
-// the bytes of the file. False at the end, and with `wrong` where a file cannot be read on.
+// Writes the next line without its end, borrowed until the next call: for UTF-16 converted to
+// UTF-8, else the bytes of the file. Returns false at the end, or with `wrong` set if the file
+// cannot be read.
 bool sb_table_next(SbTableLines *lines, const char **text, size_t *length);
 
-// Bytes in front of the next line.
+// Returns the offset of the next line [bytes].
 size_t sb_table_lines_place(const SbTableLines *lines);
 
+// A cell; borrowed from its line, not terminated by 0.
 typedef struct {
   const char *text;
   size_t length;
 } SbTableCell;
 
-// Splits a line; at most SB_TABLE_COLUMNS_MAX cells, those behind are dropped. Blanks around a cell
-// and the quotes of one go.
+// Splits a line into cell[SB_TABLE_COLUMNS_MAX] and returns their number; further cells are
+// ignored. Blanks and quotes around a cell are removed.
 size_t sb_table_split(SbTableCell *cell, const char *line, size_t length, char separator);
 
-// What numbers showed of their marks.
+// Bits that state which marks numbers have.
 enum {
   SB_TABLE_SAW_DECIMAL = 1,
   SB_TABLE_SAW_GROUPS = 2, // a mark between thousands
   SB_TABLE_SAW_LONG = 4    // four digits or more and no mark between them
 };
 
-// A cell as a number; false, *out untouched, where it is none. `saw` (may be NULL) is added to.
+// Reads a cell as a number in this dialect. Returns false, with *out not changed, if it is none.
+// Sets bits of *saw (may be NULL).
 bool sb_table_number(double *out, const SbTableCell *cell, const SbTableDialect *dialect,
                      unsigned *saw);
 
-// A time of day, with the three numbers of a date (0 without) and what stands between those.
+// A time of day, with a date.
 typedef struct {
-  double seconds;
-  int date[3];
-  char mark;
+  double seconds; // since midnight [s]
+  int date[3];    // the three numbers of the date in their order; 0: no date
+  char mark;      // character between them
 } SbTableClock;
+
+// Reads a cell as a time of day. Returns false if it is none.
 bool sb_table_clock(SbTableClock *out, const SbTableCell *cell);
 
-// Days of a date since an arbitrary one; false where day and month may be either.
+// Writes the number of days of a date since a fixed one. Returns false if it is ambiguous which
+// number is the day and which the month.
 bool sb_table_days(long *days, const SbTableClock *clock);
 
 struct SbTable {
-  char *shown;
+  char *shown; // the file, for messages
   SbTableBytes bytes;
   SbTableDialect dialect;
   size_t columns, header_lines;
   SbTableColumn column[SB_TABLE_COLUMNS_MAX];
 };
 
-// A piece of a line as printable UTF-8; owned by the caller.
+// Returns a piece of a line as printable UTF-8. Freed by g_free().
 char *sb_table_utf8(const char *text, size_t length, SbTableEncoding encoding);

@@ -1,30 +1,30 @@
-// The language of the window. Its words and what it draws, on the screen and as a picture, are in
-// the language of the locale, which only the window and the terminal's workbench set: tables,
-// reports and pictures of the command line are English. Files are English everywhere, so that they
-// say the same wherever they are made. The engine and the tables of studies know nothing of
-// languages: their names are translated here, where they are shown. Names of choices ("reynolds")
-// are what stands in the files and are never translated.
+// The language of the window. Its texts and pictures are in the language of the locale, which only
+// the window and the workbench in a terminal set: tables, reports and pictures of the command line
+// are in English. Files are in English everywhere, so that they are the same on every computer.
+// Texts of the engine and of studies are translated here, where they are displayed. Names of
+// choices ("reynolds") are those of the files and are never translated.
 #pragma once
 
 #include <glib.h>
 #include <locale.h>
 
-// Finds the translations for the program's locale, which is set before. Once.
+// Loads the translations for the program's locale, which must be set before. To be called once.
 void sb_translation_begin(void);
 
-// A parameter's label, a study's title or help, a view's, a size's, a field's or a band's name in
-// the user's language; the text itself where it has no translation. Borrowed; NULL gives "".
+// Returns the translation of a text of the engine or of a table (label, title, help, name); `text`
+// itself if it has none; "" for NULL. Borrowed from `text`, or static.
 const char *sb_translation(const char *text);
 
-// Of a name with a value after it, "as designed, 15.5 %", what stands before the comma; all of it
-// where all has a translation. Owned by the caller (g_free).
+// Returns a name that is followed by a comma and a value, "as designed, 15.5 %", with the name
+// translated, or the translation of the full text if there is one. Freed by g_free().
 char *sb_translation_of_case(const char *text);
 
-// English on this thread until it is resumed: for what goes into a file and is made of words that
-// are drawn elsewhere. Resume with what pause gave.
+// Switches this thread to English, for texts of a file that are otherwise displayed. Returns the
+// value for sb_translation_resume(), which must follow in the same thread.
 locale_t sb_translation_pause(void);
+
+// Ends sb_translation_pause().
 void sb_translation_resume(locale_t paused);
 
-// A label as it stands inside a sentence: small in English, as it is in a translation (German nouns
-// keep their capitals). Owned by the caller (g_free).
+// Returns a label as a part of a sentence: translated, else in lower case. Freed by g_free().
 char *sb_translation_inside(const char *label);

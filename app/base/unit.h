@@ -3,8 +3,11 @@
 // "1.61mm", "1.61 mm", "0.211mPa.s", "20 mm/min", "2.8 1/GPa" and "1 µm" are read by udunits-2; a
 // value whose unit is a power of ten of the SI unit is scaled in decimal, so that "1.61 mm" is
 // exactly the double 1.61e-3. A bare number is an error unless the quantity has no unit. A quantity
-// that people read in °C is a point of the scale of temperature and takes °C, degC, K and the like;
-// one in K is a difference. No locale plays a role. Safe to call from any thread.
+// with the display unit °C is a point on the temperature scale and accepts °C, degC and K; one with
+// K is a difference. Independent of the locale. Any thread.
+//
+// Parameters: `si` is the SI unit of a quantity ("m", "Pa.s", "1"), `shown` its display unit ("mm";
+// "" if it has none).
 #pragma once
 
 #include "app/base/error.h"
@@ -14,38 +17,40 @@
 
 #include <glib.h>
 
-// Reads `text` as a quantity of the dimension of `si` ("m", "Pa.s", "1"). `shown` is the unit that
-// error messages propose. Returns false with SB_APP_ERROR_INPUT and one sentence that names the
-// expected unit; *out is untouched then.
+// Reads `text` as a quantity of the dimension of `si` to *out [si]. Returns false with
+// SB_APP_ERROR_INPUT and a sentence that proposes the unit `shown`; *out is then not changed.
 SB_CHECKED bool sb_quantity_parse(double *out, const char *text, const char *si, const char *shown,
                                   GError **error);
 
-// Whether the unit that people read makes a quantity a point of a scale, not a difference.
+// Returns whether the display unit makes a quantity a point on a scale (°C), not a difference.
 bool sb_quantity_is_point(const char *shown);
 
-// `value` [SI] in unit `shown` with the fewest digits that read back to the same double; the number
-// alone if `shown` is empty. Falls back to the SI unit where `shown` cannot express the value
-// exactly. Owned by the caller.
+// Returns `value` [si] in the unit `shown` with the fewest digits that read back to the same
+// double, and the unit. In the SI unit if `shown` cannot express the value exactly. Freed by
+// g_free().
 char *sb_quantity_format(double value, const char *si, const char *shown);
 
-// The number alone, for a spin button or a table whose heading has the unit: value / (shown in SI).
+// Returns the number that `value` [si] has in the unit `shown`.
 double sb_quantity_to_shown(double value, const char *si, const char *shown);
+
+// Returns the value [si] of a number in the unit `shown`.
 double sb_quantity_from_shown(double number, const char *si, const char *shown);
 
-// The value that lies `count` steps of 10^power in unit `shown` from the step nearest to `value`:
-// exactly what its short decimal text reads as.
+// Returns the value [si] that is `count` steps of 10^power in the unit `shown` from the multiple of
+// the step that is nearest to `value` [si]; exactly the double of its short decimal text.
 double sb_quantity_step(double value, const char *si, const char *shown, int power, double count);
 
-// A catalogue value as text: with its unit, or the name of a choice, the names of flags with ';',
-// or a whole number. Owned by the caller.
+// Returns a value of parameter `id` [SI] as text of a file: with its unit, or the name of a choice,
+// the names of flags with ';', or an integer. Freed by g_free().
 char *sb_param_format(SbParamId id, double value);
 
-// Text of a catalogue value, checked for kind, unit and range. On failure the sentence does not
-// repeat the key or the range.
+// Reads text of a file as a value of parameter `id` to *out [SI; index of a choice; bits of flags]
+// and checks kind, unit and range. Returns false with SB_APP_ERROR_INPUT, whose sentence does not
+// contain the key or the range; *out is then not changed.
 SB_CHECKED bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error);
 
-// Allowed range of a parameter for people: "0.2 to 20 mm", "thesis, reynolds". Owned by the caller.
+// Returns the allowed range of a parameter: "0.2 to 20 mm", "thesis, reynolds". Freed by g_free().
 char *sb_param_range(SbParamId id);
 
-// Its ends, of a number: "0.2", "20 mm". Both owned by the caller.
+// Writes the ends of the range of a number: "0.2", "20 mm". Each is freed by g_free().
 void sb_param_range_ends(SbParamId id, char *end[2]);

@@ -1,16 +1,18 @@
-// Changes to a key file's text that leave every other line as it stands.
+// Changes of a key file's text that leave every other line unchanged.
 #pragma once
 
 #include <glib.h>
 #include <stddef.h>
 
+// One change.
 typedef struct {
-  const char *group;
-  const char *name;
-  const char *value; // NULL removes the key
+  const char *group; // "seal.outer"
+  const char *name;  // "modulus"
+  const char *value; // with unit, as in the file; NULL removes the key
 } SbChange;
 
-// `text` (as scanned to `entries`) with the changes made: a key in place, a new key at the end of
-// its group, a new group at the end. Owned by the caller.
+// Returns `text`, whose entries (of SbEntry) are `entries` (sb_reader_scan()), with changes[count]
+// applied in their order: an existing key in its line, a new key at the end of its group, a new
+// group at the end. Freed by g_free().
 char *sb_writer_apply(const char *text, const GPtrArray *entries, const SbChange *changes,
                       size_t count);
