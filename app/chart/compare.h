@@ -1,17 +1,18 @@
-// The live run beside those it is compared with: a table of figures, each pin's with what it
-// differs by from the live run, and the measured forces.
+// Table that compares the live run with the pinned runs (figures and their differences from the
+// live run) and with measured forces.
 #pragma once
 
 #include "app/base/canvas.h"
 #include "app/chart/data.h"
 
-// Height that all rows take.
+// Returns the height of all rows [px].
 double sb_compare_height(void);
 
-// The first rows are the forces at the playhead's displacement, either way. A pin's percentage is
-// left out where the live force is below 0.5 N. Figures that were not computed are a dash.
+// Draws the table into `rect` [px]. The first rows are the forces at the playhead's displacement on
+// the in-stroke and on the return; a pin's percentage is omitted if the live force is below 0.5 N.
+// A figure that was not computed is a dash. `flags` of SB_CHART_PANEL, ... (data.h).
 void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                      unsigned flags);
 
-// The same as text: a line each, columns behind tabs. Owned by the caller.
+// Returns the table as lines with tab-separated columns. Freed by g_free().
 char *sb_compare_text(const SbChartData *data);

@@ -1,28 +1,35 @@
-// The curve of a contact for drawing, in SI: the profile that the run kept, or, where it kept none,
-// the shape of Hertz from the frame's peak, width and central film.
+// The curve of a contact for drawing: the profile that the run stored, or if it stored none,
+// Hertz's shape from the frame's peak pressure, width and central film.
 #pragma once
 
 #include "app/chart/data.h"
 
+// A curve. Initialised by sb_contact_curve_init(), freed by sb_contact_curve_finish().
 typedef struct {
   size_t count;
-  double *x, *pressure, *film, *asperity; // one block, owned through x
-  bool asperities;                        // any share of the pressure is known to be theirs
-  const char *model;                      // who made it; NULL: schematic
+  double *x;         // [count], in the seal's frame [m]
+  double *pressure;  // [count], contact pressure [Pa]
+  double *film;      // [count], film thickness [m]
+  double *asperity;  // [count], pressure of the asperities [Pa]
+  bool asperities;   // `asperity` is known
+  const char *model; // name of the model that computed it, static; NULL: Hertz's shape
 } SbContactCurve;
 
-// Whether the seal of a frame has a loaded contact; NULL has none.
+// Returns whether the seal of a frame (NULL: no) has a loaded contact.
 bool sb_contact_touches(const SbSealFrame *seal);
 
-// Curve of a seal (SB_OUTER, SB_INNER) that touches, at a frame of the run.
+// Sets the curve of seal `index` (SB_OUTER, SB_INNER), which must be in contact, at the frame of
+// `run` to which `seal` belongs.
 void sb_contact_curve_init(SbContactCurve *out, const SbChartRun *run, const SbSealFrame *seal,
                            int index);
+
+// Frees the arrays.
 void sb_contact_curve_finish(SbContactCurve *curve);
 
-// Moves the ends of the part to draw outwards to where the pressure has come down to the fluid's: a
-// solved film spreads a little beyond the dry contact that the frame's width tells.
+// Moves the ends *left and *right [m] of the part that is drawn outwards to where the pressure
+// equals the fluid's: a solved film extends a little beyond the dry contact of the frame.
 void sb_contact_curve_extend(const SbContactCurve *curve, const SbSealFrame *seal, double *left,
                              double *right);
 
-// One of the curve's arrays at x, linear between its points.
+// Returns the value of one of the curve's arrays at x [m], linear between its points.
 double sb_contact_curve_at(const SbContactCurve *curve, const double *value, double x);

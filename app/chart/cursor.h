@@ -1,9 +1,10 @@
-// A read-out over a finished chart: a line across the plot, dots where it meets the curves, and the
-// values on a plate beside it.
+// A read-out over a finished chart: a vertical line, dots where it meets the curves, and a plate
+// with the values.
 #pragma once
 
 #include "app/base/canvas.h"
 
-// The line stands at pixel x; a dot of NaN is left out. The plate stays within `bounds`.
+// Draws the line at pixel x in the rectangle `plot`, dots at the pixels dot[dots] of y (NaN: none),
+// and `text` on a plate next to the line, inside of `bounds`.
 void sb_cursor_draw(cairo_t *cr, const SbTheme *theme, SbRect plot, SbRect bounds, double x,
                     const double *dot, int dots, const char *text);

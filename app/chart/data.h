@@ -1,5 +1,5 @@
-// What a view is given: a run so far, where the playhead stands, what to compare with, and in which
-// state the program is. Views are pure functions of this, a rectangle and a theme.
+// What a view draws: a run so far, the playhead, runs and data for comparison, and the state of the
+// program. A view is a function of this, a rectangle and a theme only, without state of its own.
 #pragma once
 
 #include "app/base/theme.h"
@@ -7,152 +7,166 @@
 #include "app/data/compare.h"
 #include "engine/valve/sealbench.h"
 
+// State of a run.
 typedef enum {
   SB_CHART_EMPTY,   // no run yet
-  SB_CHART_RUNNING, // frames still come
-  SB_CHART_DONE,    //
-  SB_CHART_PARTIAL, // cancelled: what there is can be played
-  SB_CHART_FAILED   // a solver gave up: the last good state stays
+  SB_CHART_RUNNING, // more frames will follow
+  SB_CHART_DONE,    // complete
+  SB_CHART_PARTIAL, // cancelled; its frames so far can be played
+  SB_CHART_FAILED   // a solver did not converge; the run ends at the last good state
 } SbChartState;
 
 // One run as charts see it. All pointers are borrowed.
 typedef struct {
   SbChartState state;
-  const SbFrame *frames;       // `count` of them may be read
-  size_t count;                //
-  const SbTrace *trace;        // of the same frames; may lag behind count
+  const SbFrame *frames;       // [count], in the order of time
+  size_t count;                // frames that are available
+  const SbTrace *trace;        // of the same frames; may contain fewer of them
   const SbModel *model;        // may be NULL
   const SbSummary *summary;    // NULL until the run has ended
-  const SbLifeActuation *life; // of `life_count` actuations; likewise
+  const SbLifeActuation *life; // [life_count] actuations; NULL until the run has ended
   size_t life_count;
-  // Contact profile of a frame's seal by its index; NULL function or NULL answer: none was kept.
+  // Returns the contact profile with the index SbSealFrame.profile; a NULL function or result: the
+  // run stored none. `source` is passed to it.
   const SbContactProfile *(*profile)(const void *source, uint32_t index);
-  // Solved shape of a frame's ring, likewise.
+  // Returns the solved ring with the index SbSealFrame.shape, as `profile`.
   const SbSealShape *(*shape)(const void *source, uint32_t index);
   const void *source;
 } SbChartRun;
 
-// A loop in `count` points: displacement [m] and force [N].
+// A loop.
 typedef struct {
   size_t count;
-  const double *displacement, *force;
+  const double *displacement; // [count], of the stem [m]
+  const double *force;        // [count], of the drive [N]
 } SbChartCurve;
 
-// What is predicted of a run that is not solved yet: its loop, and a run of one frame, that which
-// stands where the playhead does, with its contacts' profiles and all figures.
+// The prediction of a run that is not solved yet: its loop, and a run with one frame at the
+// position of the playhead, with its contacts' profiles and all figures.
 typedef struct {
   SbChartCurve loop;
   SbChartRun run;
 } SbChartPredicted;
 
-// A run that is kept to compare with.
+// A pinned run for comparison.
 typedef struct {
   const SbChartRun *run;
-  const char *name; // what it differs in: "section diameter 1.63 mm"
-  int look;         // of SB_CHART_PINS: its colour and dashes
-  size_t frame;     // that stands where the playhead does
+  const char *name; // its name or difference: "section diameter 1.63 mm"
+  int look;         // drawing style, 0 to SB_CHART_PINS - 1: colour and dashes
+  size_t frame;     // frame of `run` at the position of the playhead
 } SbChartPin;
 
+// Largest number of pins that are drawn.
 enum { SB_CHART_PINS = 2 };
 
-// The role of its colour, and its dashes.
+// Returns the role of the colour of a drawing style.
 SbRole sb_chart_pin_role(int look);
+
+// Returns the dashes of a drawing style. Static.
 const SbDash *sb_chart_pin_dash(int look);
 
-// Part of a loop's plot that is enlarged over it: displacements [mm] and forces [N].
+// Range of a loop's plot: displacements x0 to x1 [mm] and forces y0 to y1 [N].
 typedef struct {
   double x0, x1, y0, y1;
 } SbChartZoom;
 
-// A bookmark of the user's.
+// A bookmark of the user.
 typedef struct {
-  double time;
+  double time; // of the run [s]
   const char *name;
 } SbChartMarker;
 
+// Everything that views draw. All pointers are borrowed.
 typedef struct {
-  SbChartRun run;
-  const SbChartRun *earlier;     // shown at 45 % while `run` is being computed; NULL: none
-  SbChartPin pin[SB_CHART_PINS]; // to compare with, `pin_count` of them
+  SbChartRun run;                // the live run
+  const SbChartRun *earlier;     // drawn at 45 % opacity while `run` is computed; NULL: none
+  SbChartPin pin[SB_CHART_PINS]; // [pin_count]
   size_t pin_count;
-  // What `run`, which is then of former values, will be at the present ones; NULL: not known.
+  // Prediction at the present values, while `run` belongs to earlier ones; NULL: none.
   const SbChartPredicted *predicted;
-  const SbComparison *measured; // of `run`; NULL: nothing was measured
-  const SbChartZoom *zoom;      // of the loop; NULL: all of it
-  size_t playhead;              // frame shown
-  bool playing;                 // no effect on layout
-  double progress;              // of a running run, 0 to 1
-  const SbChartMarker *marker;  // `marker_count` of them
+  const SbComparison *measured; // comparison with `run`; NULL: no measured data
+  const SbChartZoom *zoom;      // range of the loop's plot; NULL: the full loop
+  size_t playhead;              // index of the displayed frame
+  bool playing;                 // the playhead moves with time
+  double progress;              // fraction of a running run that is computed, 0 to 1
+  const SbChartMarker *marker;  // [marker_count]
   size_t marker_count;
   const char *title;    // "Piston valve, one actuation"
   const char *subtitle; // names of the files; the header adds the run's conditions
-  const char *hash;     // of the parameters; the first eight digits are shown
-  const char *stale;    // sentence of the amber strip; NULL: the run fits the parameters
+  const char *hash;     // of the parameters; the first eight digits are drawn
+  const char *stale;    // sentence of the amber strip; NULL: the run belongs to the parameters
   const char *failure;  // sentence of the red strip; NULL: none
 } SbChartData;
 
-// Flags of every view.
+// Bits of the parameter `flags` of views.
 enum {
-  SB_CHART_PANEL = 1 << 0,   // with the panel's ground, hairline and padding
-  SB_CHART_COMPACT = 1 << 1, // the window's column: smaller title, no explaining lines
-  SB_CHART_WHOLE = 1 << 2    // no playhead: the whole run is shown as played
+  SB_CHART_PANEL = 1 << 0,   // draw the panel's background, border and padding
+  SB_CHART_COMPACT = 1 << 1, // for the window's column: smaller title, no explanations
+  SB_CHART_WHOLE = 1 << 2    // no playhead: the full run is drawn as played
 };
 
-// The frame under the playhead; NULL if there is none, or if it has no finite time, place and force
-// (an engine's defect: the views then show the run without *now*).
+// Returns the frame at the playhead; NULL if there is none, or if its time, position or force is
+// not finite (views then draw the run without the playhead).
 const SbFrame *sb_chart_frame(const SbChartData *data);
 
-// Frame nearest to a time [s]; the run must have frames.
+// Returns the index of the frame nearest to a time [s]; the run must have frames.
 size_t sb_chart_nearest(const SbChartRun *run, double time);
 
-// Whether the run (NULL: no) is of the sliding-plate rig rather than of a valve.
+// Returns whether a run (NULL: no) is of the sliding-plate rig, not of a valve.
 bool sb_chart_is_rig(const SbChartRun *run);
 
-// The whole run is readable: done, and the trace has caught up.
+// Returns whether the live run is complete and its trace contains all frames.
 bool sb_chart_complete(const SbChartData *data);
 
-// The same of a gasket valve, whatever has run: "chamber fills past the neck".
+// Returns what happens in a gasket valve after stage `stage` until the next one, translated:
+// "chamber fills past the neck". Static.
 const char *sb_chart_gasket_phase(int stage);
 
-// What a seal of a model (NULL: of the piston valve) is called, "Inner seal"; translated.
+// Returns the name of a seal of a model (NULL: of the piston valve), translated: "Inner seal".
+// Static.
 const char *sb_chart_seal_name(const SbModel *model, int seal);
 
-// A force on the stem with what it is called and the colour it has.
+// A force on the stem with its name and colour.
 typedef struct {
   const char *name; // translated
   double force;     // as in SbFrame [N]
   SbRole role;
 } SbChartForce;
 
+// Largest number of forces.
 enum { SB_CHART_FORCES_MAX = 5 };
 
-// The drive, and what it works against while the stem meets no stop: pressure, the spring of a
-// valve that has one, friction of both seals. Returns how many.
+// Writes the drive and the forces against it, without the stops, to force[SB_CHART_FORCES_MAX]:
+// pressure, the spring of a valve that has one, friction of both seals. Returns their number.
 size_t sb_chart_forces(SbChartForce *force, const SbModel *model, const SbFrame *frame);
 
-// What happens after stage `stage` until the next: "both seals slide".
+// Returns what happens in a run after stage `stage` until the next one, translated: "both seals
+// slide". Static.
 const char *sb_chart_phase(const SbChartRun *run, int stage);
 
-// "actuation 400" or "cycle 2" of a run that shows several, counted from 0; "" where there is one.
-// Written to `out` of SB_FORMAT_MAX bytes, which is returned.
+// Writes "actuation 400" or "cycle 2" for cycle number `cycle` (from 0) of a run with several, and
+// "" for a run with one, to out[SB_FORMAT_MAX]. Returns `out`.
 const char *sb_chart_cycle_name(char *out, const SbChartRun *run, int cycle);
 
-// "B-C" with an en dash: the stage a frame is in and the next; "B" where none follows. `run` may be
-// NULL: a valve.
+// Returns "B–C", a stage and the next one; "B" if none follows. `run` NULL: a valve. Static.
 const char *sb_chart_span(const SbChartRun *run, int stage);
 
-// State of a run that has ended.
+// Returns the state of a run that has ended.
 SbChartState sb_chart_state_of(const SbSummary *summary);
 
-// Fills a view of a run that the caller keeps. The trace is the caller's; the summary is read only
-// once the run has ended.
+// Sets the view of a run; `run` and `trace` are borrowed as long as it is used. The summary is set
+// only if `state` is that of a run that has ended.
 void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace, SbChartState state);
 
-// The force of a stage's mark as text, into `out` of SB_FORMAT_MAX bytes, which is returned: once
-// the run has ended, the figure "cycle.stages.X.force_N" as every other surface prints it.
+// Writes the force of a stage [N] as text to out[SB_FORMAT_MAX] and returns `out`. Once the run has
+// ended, it is the figure "cycle.stages.X.force_N" as every other output prints it.
 char *sb_chart_stage_force(char *out, const SbChartRun *run, SbStage stage, double force);
 
-// Relative error to quote for forces and films: the run's estimate, or 0 when unknown.
+// Returns the run's estimate of the relative error of forces; 0: unknown.
 double sb_chart_error_force(const SbChartRun *run);
+
+// Returns the run's estimate of the relative error of films; 0: unknown.
 double sb_chart_error_film(const SbChartRun *run);
+
+// Returns the run's estimate of the relative error of contact loads; 0: unknown.
 double sb_chart_error_load(const SbChartRun *run);

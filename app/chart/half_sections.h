@@ -1,4 +1,4 @@
-// The bodies of a drawing beside each other on one axis: half-sections to scale with their names
+// The bodies of a drawing next to each other on one axis: half-sections to scale with their names
 // and the diameters of lands, bores and grooves.
 #pragma once
 
@@ -8,6 +8,7 @@
 
 #include <cairo.h>
 
-// `part`: which body stands for each part of the valve, as in parts.h; those are in its colours.
+// Draws the bodies of `cad` into `rect` [px]. part[i] is the index of the body that is part i of
+// the valve (sb_cad_parts(); -1: none); these bodies have the colours of the parts.
 void sb_half_sections_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCad *cad,
                            const int part[SB_CAD_PART_COUNT]);

@@ -1,13 +1,14 @@
-// Force on the stem against its displacement: the loop, its stages, what was played of it.
+// The loop: force on the stem against its displacement, with stages and the part that was played.
+// Rectangles and points are in pixels of the picture; `flags` of SB_CHART_PANEL, ... (data.h).
 #pragma once
 
 #include "app/base/canvas.h"
 #include "app/chart/axis.h"
 #include "app/chart/data.h"
 
-// Where the chart puts things in a rectangle.
+// Positions in the chart.
 typedef struct {
-  SbRect plot;
+  SbRect plot;  // area of the curves
   SbScale x, y; // displacement [mm], force [N]
   SbTicks x_ticks, y_ticks;
 } SbHysteresisLayout;
@@ -16,34 +17,37 @@ typedef struct {
 void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                         unsigned flags);
 
-// The same layout that drawing uses.
+// Writes the positions with which sb_hysteresis_draw() draws.
 void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartData *data,
                           unsigned flags);
 
-// Whether a pixel is in the plot.
+// Returns whether a pixel is in the plot.
 bool sb_hysteresis_in_plot(const SbHysteresisLayout *at, SbPoint p);
 
-// What is shown when the plot is enlarged by `factor` about a point of the picture, from what
-// `data` shows; a factor of 1 keeps it. False: all of it.
+// Largest enlargement.
 enum { SB_HYSTERESIS_ZOOM_MAX = 200 };
+
+// Writes the range of the plot after enlarging that of `data` by `factor` (below 1: reducing) about
+// the pixel (x, y). Returns false if that is the full loop; *out is then not needed.
 bool sb_hysteresis_zoom(SbChartZoom *out, SbRect rect, const SbChartData *data, unsigned flags,
                         double factor, double x, double y);
 
-// Nearest frame to a point of the picture, within `reach` px; false if the curve is further off.
+// Writes the frame of the live run that is nearest to the pixel (x, y). Returns false if the curve
+// is more than `reach` px away.
 bool sb_hysteresis_hit(size_t *frame, SbRect rect, const SbChartData *data, unsigned flags,
                        double x, double y, double reach);
 
-// Forces of the loop at a displacement [m], on the way in and on the way back [N]; NaN where it
-// does not pass.
+// Writes the forces of the loop at a displacement [m], out[0] on the in-stroke and out[1] on the
+// return [N]; NaN: it does not reach the displacement.
 void sb_hysteresis_forces(double out[2], const SbChartRun *run, double displacement);
 
-// "2.00 mm  in 25.0 N  back 4.0 N". Owned by the caller.
+// Returns these forces as text: "2.00 mm  in 25.0 N  back 4.0 N". Freed by g_free().
 char *sb_hysteresis_cursor_text(const SbChartRun *run, double displacement);
 
-// The displacement under a point of the picture; false where that is not in the plot.
+// Writes the displacement [m] at the pixel (x, y). Returns false if that is outside of the plot.
 bool sb_hysteresis_cursor(double *displacement, SbRect rect, const SbChartData *data,
                           unsigned flags, double x, double y);
 
-// Draws a line there with the forces, over the finished chart.
+// Draws a line at a displacement [m] with its forces over the finished chart.
 void sb_hysteresis_cursor_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                                const SbChartData *data, unsigned flags, double displacement);

@@ -1,5 +1,5 @@
-// What the two halves of the hysteresis chart share: curves (hysteresis.c), labels
-// (hysteresis_labels.c).
+// The chart that is being drawn, shared by hysteresis.c (curves), hysteresis_labels.c (labels) and
+// hysteresis_measured.c.
 #pragma once
 
 #include "app/base/label.h"
@@ -8,27 +8,33 @@
 typedef struct {
   SbCanvas canvas;
   SbHysteresisLayout at;
-  SbLabels *labels;
-  const SbChartData *data;
-  unsigned flags;
+  SbLabels *labels;        // occupied by the labels so far
+  const SbChartData *data; // borrowed
+  unsigned flags;          // SB_CHART_PANEL, ...
 } SbHysteresisView;
 
-// Pixel of a displacement [m] and a force [N].
+// Returns the pixel of a displacement [m] and a force [N].
 SbPoint sb_hysteresis_pixel(const SbHysteresisLayout *at, double displacement, double force);
 
-// Dots and letters of the stages reached.
+// Draws dots and letters of the stages that were reached.
 void sb_hysteresis_marks(SbHysteresisView *v);
 
-// *Now*: its dashed line down to the axis (`line`), or its dot.
+// Draws the playhead: its dashed line down to the axis (`line`), or its dot.
 void sb_hysteresis_now(SbHysteresisView *v, bool line);
+
+// Draws the label of the playhead.
 void sb_hysteresis_label_now(SbHysteresisView *v);
 
-// What the lines are: stop, pressure force, loss, least return, directions, pinned run.
+// Draws the labels of the lines: stop, pressure force, loss, minimum return, directions, pinned
+// run.
 void sb_hysteresis_notes(SbHysteresisView *v);
 
-// What was measured: ranges to show; dots, band and the strip below the plot, whose height the
-// layout leaves free [px].
+// Height of the strip below the plot for measured residuals, normal and SB_CHART_COMPACT [px].
 #define SB_HYSTERESIS_STRIP         136.0
 #define SB_HYSTERESIS_STRIP_COMPACT 104.0
+
+// Extends the ranges of the plot, largest displacement [mm] and forces [N], to the measured points.
 void sb_hysteresis_measured_range(const SbComparison *measured, double *x1, double *y0, double *y1);
+
+// Draws measured points, their band, and the strip of residuals into the rectangle `in` [px].
 void sb_hysteresis_measured(SbHysteresisView *v, SbRect in);

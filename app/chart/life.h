@@ -1,8 +1,8 @@
-// A life over its actuations: forces, film over roughness, leakage.
+// A life against its actuations: forces, film divided by roughness, leakage.
 #pragma once
 
 #include "app/base/canvas.h"
 #include "app/chart/data.h"
 
-// Draws the panels into `rect`, each on a ground of its own.
+// Draws the panels of data->run.life into `rect` [px], each with its own background.
 void sb_life_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data);

@@ -1,5 +1,5 @@
-// What stands around the views of an exported picture: title and key figures above; models, errors
-// and warnings below.
+// The frame of an exported picture: title and key figures above the views; models, errors and
+// warnings below them.
 #pragma once
 
 #include "app/base/canvas.h"
@@ -9,43 +9,45 @@
 #define SB_PAGE_HEADER 88.0
 #define SB_PAGE_FOOTER 56.0
 
-// A page begun: its whole and the body between header and footer, in the page's own units.
+// A page: its full rectangle, and the body between header and footer, in the page's own units.
 typedef struct {
   SbRect whole, body;
 } SbPage;
 
-// Saves the context, moves and scales it so that a page that likes `width` x `height` fills `rect`,
-// and paints the ground. A small page is not shrunk below what is still readable; then the body is
-// less than it likes. The caller restores the context.
+// Saves the context, moves and scales it so that a page designed for `width` x `height` fills
+// `rect` [px], and paints the background. A small page is not scaled below a readable size; its
+// body is then smaller than designed. The caller ends the page with cairo_restore().
 SbPage sb_page_begin(cairo_t *cr, SbRect rect, double width, double height, const SbTheme *theme);
 
-// Height of the footer on this page: a narrow one gives the warnings a line of their own.
+// Returns the height of the footer of the page `rect`: on a narrow page warnings have their own
+// line.
 double sb_page_footer_height(SbRect rect);
 
-// Title, state, subtitle with the run's conditions behind it, and (unless SB_CHART_WHOLE) the
-// read-outs of the frame, inside the page margins of `rect` (the whole page).
+// Draws title, state, subtitle with the run's conditions, and (unless SB_CHART_WHOLE) the values of
+// the frame at the playhead, inside the margins of the page `rect`.
 void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                          unsigned flags);
 
-// Models, error estimates, warnings, version, run and frame at the foot of `rect`.
+// Draws models, error estimates, warnings, version, run and frame at the foot of the page `rect`.
 void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                          unsigned flags);
 
-// The foot of a page whose texts are already known.
+// The foot of a page with given texts.
 typedef struct {
   const char *models, *errors;
-  const char *version;        // and what run or frame this is
+  const char *version;        // and run or frame
   const SbWarnings *warnings; // NULL: none
 } SbPageFoot;
 
-// Draws it at the foot of `rect`, with the height that sb_page_footer_height() tells.
+// Draws such a foot in the page `rect`, with the height of sb_page_footer_height().
 void sb_page_foot_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbPageFoot *foot);
 
-// "fit karaszkiewicz . film thesis . surface greenwood-tripp . motion quasi-static", into `out`.
+// Writes the models of a run to out[size]: "fit karaszkiewicz · film thesis · ...".
 void sb_page_models_text(char *out, size_t size, const SbChartRun *run);
 
-// "canister 0.55 MPa . 20 mm/min . chamber-filled", into `out`; empty without a model.
+// Writes the conditions of a run to out[size]: "canister 0.55 MPa · 20 mm/min · chamber-filled";
+// empty without a model.
 void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run);
 
-// "load 0.17 %, film 0.3 %; energy closure: rounding only (discretisation, ...)", into `out`.
+// Writes the error estimates of a run to out[size]: "load 0.17 %, film 0.3 %; energy closure: ...".
 void sb_page_errors_text(char *out, size_t size, const SbChartRun *run);

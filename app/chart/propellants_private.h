@@ -1,4 +1,4 @@
-// What the swap page's charts (propellants.c) and cards (propellants_cards.c) share.
+// Shared by the charts (propellants.c) and the cards (propellants_cards.c) of the page Propellants.
 #pragma once
 
 #include "app/base/format.h"
@@ -9,35 +9,47 @@
 // 0 degC [K].
 #define ZERO 273.15
 
+// Whether the stem returns.
 typedef enum {
-  SB_PROPELLANT_UNKNOWN,
-  SB_PROPELLANT_STUCK,
-  SB_PROPELLANT_WEAKLY,
+  SB_PROPELLANT_UNKNOWN, // the return force is not known
+  SB_PROPELLANT_STUCK,   // it is below 0
+  SB_PROPELLANT_WEAKLY,  // it is below sb_propellants_weak_below()
   SB_PROPELLANT_RETURNS
 } SbPropellantsAnswer;
 
-// A propellant's curve in a panel, NULL: there is none; its value at T; where it rises through a
-// level, NAN: nowhere.
+// Returns a propellant's curve in a panel of the study; NULL: none. Borrowed.
 const SbStudySeries *sb_propellants_series(const SbStudy *study, int panel, int propellant);
+
+// Returns the value of a curve at T [K], linear between its points; NaN: none.
 double sb_propellants_value(const SbStudySeries *series, double T);
+
+// Returns the temperature at which a curve rises through a level [K]; NaN: nowhere.
 double sb_propellants_rises(const SbStudySeries *series, double level);
 
-// Below this a return is weak [N]: the scene's limit, or 2 N.
+// Returns the return force below which a return is weak [N]: the scene's limit, else 2 N.
 double sb_propellants_weak_below(const SbStudy *study);
+
+// Returns the answer for a return force [N].
 SbPropellantsAnswer sb_propellants_answer(const SbStudy *study, double force);
+
+// Returns the role of the colour of an answer.
 SbRole sb_propellants_role(SbPropellantsAnswer answer);
 
-// Both in `out`, of SB_FORMAT_MAX bytes: a force of a panel as its figure of a run is printed, with
-// the digits that the error of the study supports, a dash where there is none; whole degrees
-// Celsius, with a tenth where they have one.
+// Writes a force of a panel [N] to out[SB_FORMAT_MAX] as its figure of a run is printed, with the
+// digits that the error of the study supports; a dash for NaN. Returns `out`.
 const char *sb_propellants_force(char *out, const SbStudy *study, int panel, double force);
+
+// Writes the temperature T [K] in degrees Celsius to out[SB_FORMAT_MAX], with a tenth only if it is
+// not 0. Returns `out`.
 const char *sb_propellants_degrees(char *out, double T);
 
-// The modulus at T [K] against that at 20 degC, and the tag of where this comes from (g_free).
+// Returns a text on the modulus at T [K] compared with that at 20 °C, and the origin of this value.
+// Freed by g_free().
 char *sb_propellants_modulus(const SbModel *model, double T);
 
-// A stretch of a propellant's line.
+// Draws a piece of the line of propellant k, `width` long, from (x, y).
 void sb_propellants_sample(SbCanvas *c, int k, double x, double y, double width);
 
+// Draws the card of propellant k.
 void sb_propellants_card(SbCanvas *c, const SbPropellantsLayout *layout, const SbStudy *study,
                          const SbModel *model, const SbPropellantsLook *look, int k);

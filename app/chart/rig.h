@@ -1,27 +1,31 @@
-// The sliding-plate rig: its figures beside the thesis', and the plate itself.
+// The sliding-plate rig: its coefficients compared with the thesis, and the plate itself. All
+// functions draw the live run of `data` into `rect` [px]; `flags` of SB_CHART_PANEL, ... (data.h).
 #pragma once
 
 #include "app/base/canvas.h"
 #include "app/chart/data.h"
 
-// The coefficients on one scale, ours and those of thesis table 7.8, and in words why they differ.
+// Draws the coefficients on one scale, ours and those of thesis table 7.8, and the reasons for the
+// differences.
 void sb_rig_figures_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                          unsigned flags);
 
-// The same in two parts for the window: the scale alone, the words alone.
+// Draws only the scale.
 void sb_rig_scale_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                        unsigned flags);
+
+// Draws only the reasons.
 void sb_rig_reasons_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                          unsigned flags);
 
-// The plate on its rings at the playhead, the thread and its motor; no scale but the
-// displacement's.
+// Draws the plate on its rings at the playhead, the thread and its motor; only the displacement is
+// to scale.
 void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                        unsigned flags);
 
-// The page of figures: signal, scale and reasons.
+// Draws the page: signal, scale and reasons.
 void sb_rig_page_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                       unsigned flags);
 
-// The reasons as sentences, one a line, with this run's figures. Owned by the caller (g_free).
+// Returns the reasons as sentences, one a line, with the figures of this run. Freed by g_free().
 char *sb_rig_reasons_text(const SbChartRun *run);

@@ -1,35 +1,39 @@
-// What the samples of a study say of one figure: how its values are spread against its limits, and
-// which parameters they hang on.
+// Charts of the samples of a study for one figure: the distribution of its values with its limits,
+// and the parameters on which it depends.
 #pragma once
 
 #include "app/base/canvas.h"
 
 #include <stddef.h>
 
-// Values of a figure [SI]; NaN ones are left out. Borrowed.
+// A histogram; everything is borrowed.
 typedef struct {
   const char *title;
-  const char *si, *unit;
-  const double *value; // [count], `stride` apart
-  size_t count, stride;
-  double low, high; // the limit on it; infinite: open
+  const char *si, *unit; // SI unit and display unit
+  const double *value;   // value[i * stride] is the value of sample i [si]; NaN: omitted
+  size_t count, stride;  // samples; distance of their values
+  double low, high;      // limit on the figure [si]; infinite: open
 } SbHistogram;
 
-// Bars of the values' shares; those beyond the limit are red, and the share of them is said.
+// Draws the histogram into `rect` [px]; bars beyond the limit are red, and their fraction is
+// stated.
 void sb_histogram_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbHistogram *of);
 
+// Largest number of bars that are drawn.
 enum { SB_TORNADO_MAX = 16 };
 
-// What a figure changes by with each parameter; the greatest are drawn, from the top.
+// Effects of parameters on a figure; the largest are drawn, from the top.
 typedef struct {
-  const char *title, *note; // note: what the bars are; NULL: none
-  const char *unit;         // of the values; "" without
-  size_t count;
+  const char *title;
+  const char *note; // meaning of the bars; NULL: none
+  const char *unit; // of the values; "" without
+  size_t count;     // of `bar`
   struct {
     const char *name;
-    double value;     // signed; NaN: not known, left out
-    double low, high; // its interval; NaN: none
+    double value;     // signed; NaN: unknown, omitted
+    double low, high; // interval of the value; NaN: none
   } bar[SB_TORNADO_MAX * 4];
 } SbTornado;
 
+// Draws the effects into `rect` [px].
 void sb_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbTornado *of);

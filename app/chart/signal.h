@@ -1,15 +1,16 @@
-// The sliding-plate rig's signal: force in the thread against time, its peaks, and the levels that
-// the coefficients are made of.
+// The signal of the sliding-plate rig: force in the thread against time, its peaks, and the levels
+// from which the coefficients are computed.
 #pragma once
 
 #include "app/base/canvas.h"
 #include "app/chart/axis.h"
 #include "app/chart/data.h"
 
-// Draws the chart into `rect`.
+// Draws the chart of the live run into `rect` [px]; `flags` of SB_CHART_PANEL, ... (data.h).
 void sb_signal_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                     unsigned flags);
 
-// Nearest frame in time to a point of the picture; false off the plot or without frames.
+// Writes the frame whose time is nearest to the pixel (x, y). Returns false outside of the plot or
+// without frames.
 bool sb_signal_hit(size_t *frame, SbRect rect, const SbChartData *data, unsigned flags, double x,
                    double y);

@@ -1,72 +1,88 @@
-// A run's frames boiled down to what a picture of the whole cycle needs: a thinned polyline, ranges
-// and events. Grows with the run, reading each frame once, so that a chart of two million frames
-// costs the same as one of two thousand.
+// A run's frames reduced to what a picture of the full cycle needs: a thinned polyline, ranges and
+// events. A trace grows with the run and reads each frame once, so that a chart of two million
+// frames costs the same as one of two thousand.
 #pragma once
 
 #include "engine/valve/sealbench.h"
 
 typedef struct SbTrace SbTrace;
 
-// Thinned: neighbours differ by more than 1/4000 of a range in displacement, force or time, and
-// every event is kept.
+// A point of the polyline. Neighbours differ by more than 1/4000 of a range in displacement, force
+// or time; every event is a point.
 typedef struct {
-  double time, displacement, force;
-  size_t frame;
+  double time;         // [s]
+  double displacement; // of the stem [m]
+  double force;        // of the drive [N]
+  size_t frame;        // index of its frame
 } SbTracePoint;
 
-// `model` (may be NULL) tells the ranges to expect. Owned by the caller.
+// Returns an empty trace. `model` (NULL: unknown) determines the expected ranges; it is read only
+// during the call. Freed by sb_trace_destroy().
 SbTrace *sb_trace_create(const SbModel *model);
+
+// Frees a trace; takes NULL.
 void sb_trace_destroy(SbTrace *trace);
 
-// Reads frames from where it stopped up to `count`, at most `limit` of them (0: all). True if some
-// are left to read.
+// Reads the frames that were not read yet, up to index `count`, at most `limit` of them (0: all).
+// `frames` are all frames from the first on. Returns whether some are left to read.
 bool sb_trace_extend(SbTrace *trace, const SbFrame *frames, size_t count, size_t limit);
 
-// Points so far; borrowed until the next extend.
+// Returns the points so far and their number in *count. Borrowed until the next sb_trace_extend().
 const SbTracePoint *sb_trace_points(const SbTrace *trace, size_t *count);
 
-// Frames read.
+// Returns the number of frames that were read.
 size_t sb_trace_frames(const SbTrace *trace);
 
-// Least and largest so far; 0 without frames.
+// Ranges of all frames that were read; 0 without frames.
 typedef struct {
-  double time_max;
-  double displacement_min, displacement_max;
-  double force_min, force_max;
-  double pressure_peak_max;           // of both seals
-  double film_max, film_min;          // of sliding contacts; 0 if none slid
-  double contact_left, contact_right; // outermost ends of all contacts; equal if there were none
+  double time_max;                           // [s]
+  double displacement_min, displacement_max; // [m]
+  double force_min, force_max;               // [N]
+  double pressure_peak_max;                  // contact pressure of both seals [Pa]
+  double film_max, film_min;                 // of sliding contacts [m]; 0: none slid
+  double contact_left, contact_right; // smallest left and largest right end of all contacts in
+                                      // their seals' frames [m]; equal: no contact
 } SbTraceRange;
 
+// Returns the ranges.
 SbTraceRange sb_trace_range(const SbTrace *trace);
 
-// Events of the first cycle met so far, just before each event.
+// Returns the events of the first cycle, [SB_STAGE_COUNT] by SbStage; `reached` is false for those
+// that were not read yet. Borrowed.
 const SbStageMark *sb_trace_marks(const SbTrace *trace);
 
-// Events of every cycle met so far, in their order, the first of each stage in each cycle; at most
-// SB_TRACE_EVENTS_MAX. Borrowed until the next extend.
+// An event: the first of a stage in a cycle.
 typedef struct {
   SbStageMark mark;
   SbStage stage;
   int cycle; // from 0
 } SbTraceEvent;
 
+// Largest number of events.
 enum { SB_TRACE_EVENTS_MAX = 600 };
+
+// Returns the events of all cycles that were read, in their order, and their number in *count.
+// Borrowed until the next sb_trace_extend().
 const SbTraceEvent *sb_trace_events(const SbTrace *trace, size_t *count);
 
-// A stage's event in a cycle, NULL if it is not met yet; and the frame where the stage ends: that
-// of the next event, or the last of `count` frames.
+// Returns the event of a stage in a cycle (from 0); NULL: not read yet. Borrowed until the next
+// sb_trace_extend().
 const SbStageMark *sb_trace_mark(const SbTrace *trace, SbStage stage, int cycle);
+
+// Returns the frame at which a stage of a cycle ends: that of the next event, or the last of
+// `count` frames.
 size_t sb_trace_stage_end(const SbTrace *trace, SbStage stage, int cycle, size_t count);
 
-// Index of the event whose stage a frame is in: the last at or before it, but an event's own frame
-// still belongs to the stage before. -1 without events.
+// Returns the index of the event whose stage contains a frame: the last event before it (the frame
+// of an event belongs to the stage before). -1: no events.
 int sb_trace_event_of(const SbTrace *trace, const SbFrame *frames, size_t frame);
 
-// Peaks of a rig's force met so far, the first peak first, at most SB_TRACE_PEAKS_MAX; borrowed
-// until the next extend.
+// Largest number of peaks.
 enum { SB_TRACE_PEAKS_MAX = 20000 };
+
+// Returns the peaks of the force of a sliding-plate rig that were read, in the order of time, and
+// their number in *count. Borrowed until the next sb_trace_extend().
 const SbTracePoint *sb_trace_peaks(const SbTrace *trace, size_t *count);
 
-// Index of the last point at or before a frame; 0 without points.
+// Returns the index of the last point at or before a frame; 0: no points.
 size_t sb_trace_find(const SbTrace *trace, size_t frame);
