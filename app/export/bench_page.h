@@ -1,4 +1,5 @@
-// The bench as a picture: error against time for every solver, and the table behind it.
+// The results of `sealbench bench` as a picture: a chart of error over time for every solver, above
+// a table of the cases.
 #pragma once
 
 #include "app/base/unit.h"
@@ -6,6 +7,7 @@
 
 #include <stdio.h>
 
-// Draws `count` finished cases into `stream` as a PNG (see sb_still_put() for errors). Cases
-// without an error (their solver failed) are rows without figures.
+// Draws `count` cases into `stream` as a PNG, 1280 pixels wide. A case whose error estimate is NaN
+// (closed form, or its solver failed) is only in the table. Returns false as sb_still_put()
+// (still.h); errors of writing are left in the stream (ferror()).
 bool sb_bench_put(FILE *stream, const SbBenchCase *cases, size_t count, GError **error);

@@ -1,39 +1,47 @@
 // Tables of a run as comma-separated values: a heading with units, then numbers that read back
-// exactly, the same bytes in every locale. Errors show in the stream (ferror).
+// exactly, the same bytes in every locale. Numbers that are not known (NaN) are empty cells. Errors
+// of writing are left in the stream (ferror()). `run` has ended.
 #pragma once
 
 #include "engine/valve/run/run.h"
 
 #include <stdio.h>
 
-// Returns a text as a cell: in quotes where it has a separator, a quote or a line end, and with an
-// apostrophe in front where a spreadsheet would compute it as a formula. NULL: empty. Owned by the
-// caller: g_free().
+// Returns a text as a cell: in quotes if it contains a separator, a quote or a line end, and with
+// an apostrophe in front if a spreadsheet would compute it as a formula. NULL: an empty cell. Freed
+// by g_free().
 char *sb_csv_cell(const char *text);
 
-// Writes that cell.
+// Writes sb_csv_cell(text), without a separator.
 void sb_csv_text(FILE *stream, const char *text);
 
-// One row per frame: time, displacement, velocity, force, ...
+// Writes one row per frame: time, displacement, velocity, forces, films, pressures, reactions.
 void sb_csv_cycle(FILE *stream, const SbRun *run);
 
-// One row per figure of the catalogue: value in SI, error estimate, or why there is none.
+// Writes one row per figure of the catalogue: path, value in SI, unit, relative error estimate,
+// label, and the reason if there is no value.
 void sb_csv_figures(FILE *stream, const SbRun *run);
 
-// What a life's table says of each actuation, and its JSON without what has no unit (NULL: a bool);
-// the last has a name of NULL.
+// A column of the table of a life.
 typedef struct {
-  const char *name, *unit;
-  size_t offset;
+  const char *name;
+  const char *unit; // SI; NULL: the value is 1 (yes), 0 (no)
+  size_t offset;    // of a double in SbLifeActuation
 } SbLifeColumn;
+
+// The columns in their order; the last element has a name of NULL. The table of sb_csv_life() and
+// the JSON of a run use the same.
 extern const SbLifeColumn sb_life_columns[];
+
+// Returns the value of one column for one actuation [unit of the column]; NaN: not known.
 double sb_life_value(const SbLifeActuation *of, const SbLifeColumn *column);
 
-// One row per actuation of a life: roughness, forces, leakage and its sum; the heading alone
-// without a life.
+// Writes one row per actuation of a life, numbered from 1: the columns above, then the sums of
+// leakage and carried leakage so far. The heading alone if the run has no life.
 void sb_csv_life(FILE *stream, const SbRun *run);
 
-// Contact profiles: frame, seal, x, pressure of the contact, film, asperity pressure, and the
-// pressure that the film's own solution has (empty where no film was solved). A seal's profile is
-// written for the first frame that has it and again whenever it changes; it holds until then.
+// Writes contact profiles: frame (from 0), seal, x, contact pressure, film thickness, asperity
+// pressure, and the pressure of the film's own solution (empty where no film was solved). A seal's
+// profile is written for the first frame that has it and again whenever it changes; it is valid
+// until then.
 void sb_csv_profiles(FILE *stream, const SbRun *run);

@@ -1,32 +1,42 @@
-// A design question drawn: the map of two parameters with lines of figures and what breaks limits
-// hatched, the figure's change with each tolerance, and the scatter of valves against limits.
+// Drawings of the results of a search for a design: a map over two parameters with contour lines of
+// figures and hatching where limits are violated, the effects of tolerances as bars, and samples of
+// valves with the limits. Rectangles are in pixels of the drawing; texts are translated.
 #pragma once
 
 #include "app/base/canvas.h"
 #include "app/session/design_answer.h"
 
-// Figures whose lines have a look of their own.
+// Number of styles of contour lines.
 enum { SB_DESIGN_LINES = 4 };
 
+// What the map shows.
 typedef struct {
-  unsigned lines; // bit i: lines of figure i
-  bool picked;    // a point is picked
-  double pick[2]; // SI
+  unsigned lines; // bit i: contour lines of column i of answer->study->figures
+  bool picked;    // mark a point
+  double pick[2]; // that point: across, up [SI]
 } SbDesignLook;
 
-// The plot inside the rectangle that the map is drawn into.
+// Returns the plot area (the map without titles and axis texts) for the same `rect` as
+// sb_design_map_draw().
 SbRect sb_design_map_plot(SbRect rect);
+
+// Draws the map, also while it is being computed.
 void sb_design_map_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                         const SbDesignAnswer *answer, const SbDesignLook *look);
 
-// How figure `figure` changes with each parameter's tolerance about a place's value.
+// Draws how a figure (index of sb_figure()) changes with the tolerance of each parameter, at the
+// best design if its effects are known, else at the present one.
 void sb_design_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                             const SbDesignAnswer *answer, int figure);
-// The samples of figures with a limit, as many side by side as there is room for.
+
+// Draws the samples of the figures that have a limit, those nearest to their limit on the left, as
+// many as `rect` has room for.
 void sb_design_scatter_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                             const SbDesignAnswer *answer);
 
-// "24.8 N" of a figure of the catalogue. Owned by the caller.
+// Returns "24.8 N": a value [SI] of a figure (index of sb_figure()) in its display unit. Freed by
+// g_free().
 char *sb_design_value_text(int figure, double value);
-// All of it in words, for who does not see it. Owned by the caller.
+
+// Returns the content of the drawings as text, for screen readers. Freed by g_free().
 char *sb_design_text(const SbDesignAnswer *answer);

@@ -1,10 +1,11 @@
-// What a search for a design found, as JSON.
+// The results of `sealbench design` as JSON.
 #pragma once
 
 #include "app/study/design.h"
 
-// The limit that is missed by the least part of itself, -1: none is.
+// Returns the index (in study->limits) of the violated limit with the smallest violation relative
+// to the larger magnitude of bound and figure; -1: no limit is violated.
 int sb_design_least_missed(const SbDesign *design, const SbStudyFile *study);
 
-// The contract's JSON. Owned by the caller.
+// Returns the JSON document of `sealbench design`. Freed by g_free().
 char *sb_design_json(const SbStudyFile *study, const SbDesign *design);

@@ -1,4 +1,5 @@
-// One export on a thread of its own: a picture or a film of a finished run.
+// One export of a finished run on a thread of its own: a picture, a film, a sequence of pictures, a
+// report, or the figures as JSON. All functions of this header run in the main thread.
 #pragma once
 
 #include "app/chart/data.h"
@@ -9,54 +10,61 @@
 
 #include <glib.h>
 
-// What to make. Texts are owned by whoever holds the struct.
+// What to export. Texts, `measured`, `pin`, `pin_name` and `marker` are owned by the struct; zero
+// it, then fill it. NULL and 0: as the comment states, else none.
 typedef struct {
-  char *stale;          // why the run no longer fits the values, NULL if it does
-  char *path;           // with an ending of formats.h, or the pattern of a sequence
-  char *view;           // name in sb_render_views(), or "report": the pages, .json the figures
-  double width, height; // pixels
-  gboolean dark;
+  char *stale;          // why the run no longer matches the values; NULL: it matches
+  char *path;           // with an ending of formats.h, or of a sequence (render_movie.h)
+  char *view;           // name of sb_render_views(), or "report": .json has the figures, any other
+                        // ending the pages as PDF
+  double width, height; // [logical pixels]; 0: the size of the view
+  gboolean dark;        // theme
   SbSectionStyle style; // of views that show the section
-  char *at;             // of a picture: "C" or "7.27 s"
-  int fps;              // of a film
-  double duration;      // of a film: the whole range in this time [s]
-  double speed;         // or, if above 0, seconds of the run per second of film
-  char *from, *to;      // of a film: "B" or "2 s"; NULL: the start or end
-  char *title, *subtitle, *hash, *scene;
-  SbData *measured;   // drawn beside the run, owned; NULL: none
-  double drive_speed; // for it, as sb_measured_load()
-  // Kept designs drawn beside, by their looks, NULL: none; and bookmarks. Both are owned.
-  SbRunHandle *pin[SB_CHART_PINS];
-  char *pin_name[SB_CHART_PINS]; // as pictures have it
-  SbChartMarker *marker;         // `marker_count` of them, with names of their own
+  char *at;             // instant of a picture: "C" or "7.27 s"; NULL: as sb_render_frame_at()
+  int fps;              // of a film: pictures per second; 0: 30
+  double duration;      // of a film: it shows the whole range in this time [s]; 0: 10
+  double speed;         // of a film: if above 0, seconds of the run per second of film
+  char *from, *to;      // of a film: "B" or "2 s"; NULL: the start and end of the run
+  char *title, *subtitle, *hash, *scene; // as SbRenderOptions (render.h)
+  SbData *measured;                      // drawn together with the run; NULL: none
+  double drive_speed;                    // for `measured`, as sb_measured_load() [m/s]
+  SbRunHandle *pin[SB_CHART_PINS];       // kept designs, by their look; NULL: none
+  char *pin_name[SB_CHART_PINS];         // their names in pictures
+  SbChartMarker *marker;                 // bookmarks, [marker_count], owned with their names
   size_t marker_count;
-  // Of a report or .json: the document's file (NULL: it has none), and its text where that differs.
-  char *file, *document;
+  char *file;     // of a report or .json: the document's file; NULL: not saved
+  char *document; // and its text if it differs from the file; NULL: it does not
 } SbExportRequest;
 
-// Adds the designs that a session draws beside its run, and its bookmarks.
+// Adds the kept designs that a session draws together with its run, and its bookmarks, to a request
+// that has none.
 void sb_export_request_beside(SbExportRequest *request, SbSession *session);
 
+// Frees the content of a request that was not started, and sets its pointers to NULL.
 void sb_export_request_clear(SbExportRequest *request);
 
 typedef struct SbExportJob SbExportJob;
 
-// Starts it; takes over the texts of `request` and the reference `handle`. `done` is called once on
-// the main thread unless the job was freed before. Owned by the caller.
+// Starts the export of the finished run `handle`. Takes over the reference `handle` and the content
+// of `request`, which is zeroed. `done` is called once in the main thread when the export has ended
+// (also after failure or cancellation), unless the job was freed before. Never NULL; freed by
+// sb_export_job_free().
 SbExportJob *sb_export_job_start(SbRunHandle *handle, SbExportRequest *request,
                                  void (*done)(void *data), void *data);
 
-// Share done, 0 to 1; a picture goes from 0 to 1 at once.
+// Returns the fraction done, 0 to 1; that of a picture is 0 until it is finished.
 double sb_export_job_progress(SbExportJob *job);
 
-// Seconds it will still take at the pace so far; negative as long as that cannot be said.
+// Returns the estimated remaining time [s]; negative: there is no estimate yet.
 double sb_export_job_left(SbExportJob *job);
 
-// Asks it to end; returns immediately. An MP4 keeps the pictures done so far, playable.
+// Requests cancellation and returns immediately; `done` follows. An MP4 keeps the pictures done so
+// far and can be played; pictures of a sequence stay; anything else is not written.
 void sb_export_job_cancel(SbExportJob *job);
 
-// Only after `done`: a sentence about the result, and whether it is a good one. Borrowed.
+// Only after `done`: returns a sentence about the result, translated; `*good` is set to whether the
+// export succeeded. Borrowed from the job.
 const char *sb_export_job_result(SbExportJob *job, gboolean *good);
 
-// Cancels, waits, frees. Takes NULL.
+// Cancels, waits for the thread and frees. Takes NULL.
 void sb_export_job_free(SbExportJob *job);

@@ -1,33 +1,34 @@
-// The file formats of pictures and films: the one table that `render`, the terminal and the export
-// dialog read.
+// The file formats of pictures and films. `render`, the terminal and the export dialog use this
+// table.
 #pragma once
 
 #include "app/export/movie.h"
 
+// What a format contains.
 typedef enum {
   SB_FORMAT_PICTURE, // pixels
   SB_FORMAT_DRAWING, // vectors
-  SB_FORMAT_FILM     // moves
+  SB_FORMAT_FILM     // moving pictures
 } SbFormatKind;
 
 // One row; strings are static.
 typedef struct {
   const char *ending; // ".png"
-  const char *label;  // "Picture, PNG", to be translated
+  const char *label;  // "Picture, PNG"; translate it to show it
   SbFormatKind kind;
-  SbMovieFormat film; // of a film
+  SbMovieFormat film; // of SB_FORMAT_FILM only
 } SbExportFormat;
 
-// Returns the table of `*count` rows; static.
+// Returns the table; `*count` is set to the number of rows. Static.
 const SbExportFormat *sb_export_formats(size_t *count);
 
-// Returns the row whose ending `path` has, in either case; NULL if there is none.
+// Returns the row whose ending `path` has, regardless of upper and lower case; NULL: none has.
 const SbExportFormat *sb_export_format(const char *path);
 
-// Returns the endings of the formats whose bit 1 << kind is set in `kinds`, without the first
-// `skip` bytes of each, in a list: "png, svg, pdf or mp4". `between` separates them, and `last`
-// separates the last one. Owned by the caller (g_free).
+// Returns a list of endings: "png, svg, pdf or mp4". `kinds`: bit 1 << kind for each kind of format
+// to list; `skip`: bytes that are left out at the start of each ending (1: the dot); `between`:
+// the separator (", "); `last`: the separator before the last ending (" or "). Freed by g_free().
 char *sb_export_endings(unsigned kinds, size_t skip, const char *between, const char *last);
 
-// All kinds.
+// `kinds` of all formats.
 enum { SB_FORMAT_ALL = 1 << SB_FORMAT_PICTURE | 1 << SB_FORMAT_DRAWING | 1 << SB_FORMAT_FILM };

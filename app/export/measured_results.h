@@ -1,16 +1,20 @@
-// Measured loops as JSON: what was recognised, what they differ by from a run, the stages.
+// The comparison of measured loops with runs, as JSON.
 #pragma once
 
 #include "app/data/compare.h"
 #include "app/export/json.h"
 
-// The object `key` of a comparison.
+// Writes the object `key`: differences between measurement and run, how the file was read, stages.
 void sb_json_comparison(SbJson *json, const char *key, const SbComparison *comparison);
 
-// The object "stages" of it alone.
+// Writes the object "stages": for the stages B to F the measured and computed force and
+// displacement and their difference.
 void sb_json_measured_stages(SbJson *json, const SbComparison *comparison);
 
-// Runs side by side; `scene` is [runs] full paths of their files ("-": standard input), `figure` is
-// [runs][SB_FIGURE_COUNT], the first measured one's `comparison` may be NULL. Owned by the caller.
+// Returns the JSON document of `sealbench compare`: the figures of each run, their differences from
+// the first run, and the comparison of the first run with its measurement. All arrays have `runs`
+// elements: `name` of the runs, `scene` the full paths of their files ("-": standard input),
+// `figure[i]` is [SB_FIGURE_COUNT] [SI], `comparison[i]` is NULL for a run without a measurement.
+// Freed by g_free().
 char *sb_results_compare(size_t runs, const char *const *name, const char *const *scene,
                          double *const *figure, SbComparison *const *comparison);

@@ -1,5 +1,5 @@
 // The pictures of a movie of a finished run, in order: which instant each shows, and its drawing.
-// What becomes of them, a movie or files, is the caller's.
+// The caller writes them into a movie or into files.
 #pragma once
 
 #include "app/export/movie.h"
@@ -7,9 +7,9 @@
 
 // Which part of the run and how fast. Zeros and NULLs are the defaults.
 typedef struct {
-  double fps;         // pictures per second; 0 counts as 30
-  double duration;    // of the movie [s]; 0 counts as 10 unless there is a speed
-  double speed;       // seconds of the run per second of movie; 0: the duration decides
+  double fps;         // pictures per second, 0.1 to 1000; 0: 30
+  double duration;    // of the movie [s]; 0: 10; ignored if `speed` is above 0
+  double speed;       // seconds of the run per second of movie; 0: by `duration`
   const char *from;   // "B" or "2 s", see sb_render_frame_at(); NULL: the start
   const char *to;     // likewise; NULL: the end
   SbMovieHooks hooks; // progress and cancelling
@@ -17,21 +17,27 @@ typedef struct {
 
 typedef struct SbMoviePictures SbMoviePictures;
 
-// Prepares the movie of `run`; everything is borrowed until sb_movie_pictures_close(). Fails with
-// SB_APP_ERROR_INPUT (unknown view, no frames, impossible range, rate or size).
+// Prepares the movie of `run`. `run`, `options` and what they point to are borrowed until
+// sb_movie_pictures_close(); `movie` is only read. Fails with SB_APP_ERROR_INPUT (unknown view, no
+// frames, impossible range or rate, more than a million pictures).
 bool sb_movie_pictures_open(SbMoviePictures **out, const SbRun *run, const SbRenderOptions *options,
                             const SbRenderMovie *movie, GError **error);
 
-// NULL is allowed.
+// Frees it. Takes NULL.
 void sb_movie_pictures_close(SbMoviePictures *film);
 
-// How many pictures, their size in pixels, and the rate as a fraction.
+// Returns the number of pictures, at least 1.
 size_t sb_movie_pictures_count(const SbMoviePictures *film);
+
+// Sets the size of each picture [pixels].
 void sb_movie_pictures_size(const SbMoviePictures *film, int *width, int *height);
+
+// Sets the pictures per second as a fraction.
 void sb_movie_pictures_rate(const SbMoviePictures *film, int *numerator, int *denominator);
 
-// "Models: ...", for metadata; borrowed.
+// Returns "Models: ... Parameters: HASH", for metadata; borrowed from `film`.
 const char *sb_movie_pictures_comment(const SbMoviePictures *film);
 
-// Draws picture `index` (below sb_movie_pictures_count()) at the movie's size.
+// Draws picture `index` (from 0, below sb_movie_pictures_count()) at the movie's size. It shows the
+// frame nearest to its time; the first picture is the start of the range, the last one its end.
 void sb_movie_pictures_draw(SbMoviePictures *film, size_t index, cairo_t *cr);

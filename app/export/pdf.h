@@ -1,5 +1,6 @@
-// A PDF in memory: its surface with the document's texts, and its bytes. Equal drawings make equal
-// bytes: no time, but the one that the environment asks for (SOURCE_DATE_EPOCH).
+// A PDF in memory: a cairo surface with the document's texts, and its bytes. Equal drawings make
+// equal bytes: the file has no time other than that of the environment variable SOURCE_DATE_EPOCH.
+// Use: sb_pdf_begin(), draw on `surface`, sb_pdf_finish() in every case.
 #pragma once
 
 #include "app/base/error.h"
@@ -8,26 +9,28 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-// Points of paper to a logical pixel: 72 per inch over 96.
+// Points of paper per logical pixel: 72 per inch over 96.
 #define SB_PDF_POINTS 0.75
 
+// A PDF that is being drawn.
 typedef struct {
-  cairo_surface_t *surface;
-  GByteArray *bytes;
+  cairo_surface_t *surface; // in points; the caller scales by SB_PDF_POINTS and shows the pages
+  GByteArray *bytes;        // internal
 } SbPdf;
 
-// Texts of the document; each may be NULL.
+// Texts of the document (title, subject, keywords); each may be NULL.
 typedef struct {
   const char *title, *comment, *hash;
 } SbPdfTexts;
 
-// Begins one whose first page has this size in logical pixels. To be finished in any case.
+// Begins a PDF whose first page is width by height logical pixels. A failure is reported by
+// sb_pdf_finish().
 void sb_pdf_begin(SbPdf *out, double width, double height, const SbPdfTexts *texts);
 
-// Writes it into `stream` (NULL: nowhere) if everything was drawn (SB_APP_ERROR_IO), and frees it.
-// Failures to write show in the stream.
+// Writes the PDF into `stream` (NULL: discards it) and frees it. False with SB_APP_ERROR_IO if
+// the drawing failed; errors of writing are left in the stream (ferror()).
 bool sb_pdf_finish(SbPdf *pdf, FILE *stream, GError **error);
 
-// The day that SOURCE_DATE_EPOCH asks for, by `format` of g_date_time_format(); "" without one.
-// Owned by the caller.
+// Returns the UTC time of SOURCE_DATE_EPOCH in the `format` of g_date_time_format(); "" if the
+// variable is not set. Freed by g_free().
 char *sb_pdf_date(const char *format);

@@ -11,13 +11,16 @@
 
 typedef struct SbQuantiser SbQuantiser;
 
-// Returns a quantiser without a palette. Freed with sb_quantiser_destroy(), which takes NULL.
+// Returns a quantiser without a palette. Freed by sb_quantiser_destroy().
 SbQuantiser *sb_quantiser_create(void);
+
+// Frees a quantiser; takes NULL.
 void sb_quantiser_destroy(SbQuantiser *of);
 
-// Writes a picture (cairo's ARGB32, opaque) as indices of the palette. The palette of the pictures
-// before is used while it is close to the colours of this one; else the palette is made from this
-// picture. Returns the 256 entries as 0xFFRRGGBB, borrowed until the next call; the last entry is
-// not used by any picture.
+// Converts a picture of width by height pixels (`pixels`: rows of `stride` bytes, cairo's ARGB32,
+// opaque) into indices of the palette in `out`, one byte a pixel, rows of `out_stride` bytes (may
+// be negative). The palette of the earlier pictures is used as long as it is close to the colours
+// of this one; otherwise a new palette is made from this picture. Returns the 256 entries of the
+// palette as 0xFFRRGGBB, borrowed until the next call; entry 255 is not used by any picture.
 const uint32_t *sb_quantise(SbQuantiser *of, uint8_t *out, int out_stride, const uint8_t *pixels,
                             size_t stride, int width, int height);

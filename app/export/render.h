@@ -7,94 +7,101 @@
 #include "app/document/document.h"
 #include "engine/valve/run/run.h"
 
-// One view of the table.
+// One view of the table; strings are static.
 typedef struct {
   const char *name;     // "hysteresis"
-  const char *label;    // "Force and displacement"
-  double width, height; // size it is made for
-  bool section;         // needs the section's drawing function
-  bool compares;        // draws kept designs beside the run
+  const char *label;    // "Force and displacement"; translate it to show it
+  double width, height; // size it is designed for [logical pixels]
+  bool section;         // needs the function that draws the section
+  bool compares;        // draws kept designs together with the run
 } SbRenderView;
 
-// The table, `*count` rows; static.
+// Returns the table; `*count` is set to the number of rows. Static.
 const SbRenderView *sb_render_views(size_t *count);
 
-// A row by name; NULL if there is none.
+// Returns the row of a name; NULL: there is none. Static.
 const SbRenderView *sb_render_view(const char *name);
 
-// Sizes with a name.
+// A size with a name; strings are static.
 typedef struct {
   const char *name;  // "1080p"
-  const char *label; // "Full HD, 1920 × 1080"
-  int width, height; // pixels
+  const char *label; // "1080p, 1920 × 1080"; translate it to show it
+  int width, height; // [pixels]
 } SbRenderSize;
 
-// The table, `*count` rows; static.
+// Returns the table; `*count` is set to the number of rows. Static.
 const SbRenderSize *sb_render_sizes(size_t *count);
 
-// A kept design's run to draw beside.
+// The run of a kept design. Borrowed.
 typedef struct {
   const SbRun *run;
   const char *name;
-  int look; // of SB_CHART_PINS
+  int look; // its style, from 0, below SB_CHART_PINS
 } SbRenderPin;
 
-// What a picture takes beside the run. Pointers are borrowed; zero is a good default everywhere but
-// `view`.
+// What a picture shows in addition to the run. Pointers are borrowed during the call (or as the
+// function states); all members but `view` may be zero.
 typedef struct {
   const char *view;     // name in the table
-  double width, height; // logical pixels; 0: the view's own size
-  double scale;         // PNG pixels per logical pixel; 0 counts as 1
-  bool dark;            //
-  const char *at;       // "C" or "7.27 s"; NULL: see sb_render_frame_at()
+  double width, height; // [logical pixels]; 0: the view's size
+  double scale;         // of a PNG: device pixels per logical pixel; 0: 1
+  bool dark;            // theme
+  const char *at;       // "C" or "7.27 s"; NULL: as sb_render_frame_at()
   const char *title;    // of the scene
   const char *subtitle; // names of the files; the header adds the run's conditions
-  const char *hash;     // of the parameters
-  const char *scene;    // text that restores the scene, for PNG and SVG
-  const char *ending;   // of a file whose path has none; NULL: the path's
-  const char *stale;    // why the run no longer fits the scene, said on the page; NULL: it does
-  const SbComparison *measured; // of the run; NULL: nothing
+  const char *hash;     // SHA-256 of the parameters
+  const char *scene;    // text of the scene, stored in PNG and SVG so that they can be opened
+  const char *ending;   // format of a `path` without an ending, ".png"; NULL: by the path
+  const char *stale;    // why the run no longer matches the scene, for the page; NULL: it matches
+  const SbComparison *measured; // measured data compared with the run; NULL: none
   SbRenderPin pin[SB_CHART_PINS];
   size_t pin_count;
-  const SbChartMarker *marker; // bookmarks on timelines, `marker_count` of them
+  const SbChartMarker *marker; // bookmarks on time axes, [marker_count]
   size_t marker_count;
   SbSectionDraw section; // draws the section; NULL: views that need it are refused
-  void *section_data;
+  void *section_data;    // passed to `section`
 } SbRenderOptions;
 
-// Whether a run has what a view shows; false with SB_APP_ERROR_INPUT if not.
+// Returns whether `run` has what `view` shows; false with SB_APP_ERROR_INPUT if not.
 bool sb_render_view_fits(const SbRenderView *view, const SbRun *run, GError **error);
 
-// Draws one page of the view: ground, header, the view, footer. For films call it once per frame on
-// an image surface. `data` may be of a run that is still going.
+// Draws one page of the view into `rect` [logical pixels]: ground, header, the view, footer.
+// `flags`: bits SB_CHART_... of app/chart/data.h. `data` may be of a run that has not ended.
+// `section` (may be NULL: nothing is drawn in its place) is called with `user`.
 void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                     unsigned flags, const SbRenderView *view, SbSectionDraw section, void *user);
 
-// What the options add to a run's chart data: texts, measured data, bookmarks and kept designs,
-// each at the frame that stands where the playhead does.
+// Memory for the kept designs in chart data; see sb_render_beside_begin().
 typedef struct {
   SbTrace *trace[SB_CHART_PINS];
   SbChartRun run[SB_CHART_PINS];
 } SbRenderBeside;
 
-// The bookmarks of a document for SbRenderOptions; how many. The array is the caller's (g_free),
-// its names are the document's.
+// Sets `*out` to an array of the bookmarks of a document, for SbRenderOptions, and returns their
+// number. The array is freed by g_free(); the names in it are borrowed from the document.
 size_t sb_render_markers(SbChartMarker **out, const SbDocument *document);
 
-// Fills all of `data` but its run and playhead; both are borrowed until sb_render_beside_end().
+// Fills the members of `data` that come from the options: texts, measured data, bookmarks and kept
+// designs. Does not set `run` and `playhead`. `beside` and the content of `options` are borrowed by
+// `data` until sb_render_beside_end().
 void sb_render_beside_begin(SbRenderBeside *beside, SbChartData *data,
                             const SbRenderOptions *options);
 
-// After the playhead has moved.
+// Sets the frame of each kept design to the position of data->playhead; to be called after `run`
+// and `playhead` were set or changed.
 void sb_render_beside_place(SbChartData *data);
+
+// Frees the memory of sb_render_beside_begin().
 void sb_render_beside_end(SbRenderBeside *beside);
 
-// Renders a finished run (done, cancelled or failed) into PNG, SVG or PDF by the ending of `path`.
-// Fails with SB_APP_ERROR_INPUT (unknown view, stage not reached, size, ending) or SB_APP_ERROR_IO.
+// Draws a finished run (done, cancelled or failed) into the file `path` as PNG, SVG or PDF by its
+// ending. False with SB_APP_ERROR_INPUT (unknown view, a view that the run has not, stage not
+// reached, size, ending) or SB_APP_ERROR_IO; an earlier file is intact then.
 bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const char *path,
                      GError **error);
 
-// Frame of "A" to "F" (just before the event) or of a time with unit (nearest frame). NULL: the
-// middle of B-C, where the run's figures are defined, or the last frame of a run that has no C.
-// False with an error if the stage was not reached or the text is neither.
+// Sets `*frame` (from 0) to the frame that `at` names: "A" to "F" (just before the event) or a time
+// with its unit (nearest frame; s without a unit). NULL or "": the middle of B-C, where the run's
+// figures are defined, or the last frame of a run without B or C. False with SB_APP_ERROR_INPUT if
+// the run has no frame, the stage was not reached, or the text is neither.
 bool sb_render_frame_at(size_t *frame, const SbRun *run, const char *at, GError **error);

@@ -1,8 +1,8 @@
-// The report of a scene or a study as pages (PDF): what went in and from where, pictures, figures
+// The report of a scene or of a study as pages (PDF): inputs and their origin, pictures, figures
 // with their error estimates, the verdict with its margins, warnings, models and sources.
 //
-// Equal inputs make equal bytes: nothing of it is a time, but the day that SOURCE_DATE_EPOCH asks
-// for. Like all exports it speaks English.
+// Equal inputs make equal bytes: the file has no time other than the day of SOURCE_DATE_EPOCH. Like
+// all exports it is in English.
 #pragma once
 
 #include "app/data/compare.h"
@@ -12,50 +12,61 @@
 #include "app/study/shares.h"
 #include "engine/valve/studies/study.h"
 
-// What a scene's report is made of; borrowed. The run has ended, whatever became of it.
+// The content of a scene's report. Borrowed during the call. The run has ended, also by failure or
+// cancellation.
 typedef struct {
   const SbDocument *document;
   const SbRun *run;
-  const SbCaseVerdict *verdict; // of SB_VERDICT_COUNT
-  const SbComparison *measured; // NULL: nothing was
-  const SbStudy *studies;       // `study_count` of them
+  const SbCaseVerdict *verdict; // [SB_VERDICT_COUNT], from sb_cases_judge()
+  const SbComparison *measured; // measured data compared with the run; NULL: none
+  const SbStudy *studies;       // [study_count]
   size_t study_count;
 } SbReportScene;
 
-// The views whose fields the pages show, for the plan of the run (SbPlanWishes).
+// Returns the views whose fields the report of a scene shows, bits SB_VIEW_..., for the plan of the
+// run (SbPlanWishes): a run computes only what is wished.
 unsigned sb_report_views(const SbModel *model);
 
+// Writes the report of a scene into `stream`. `hooks` may be NULL. False with SB_APP_ERROR_IO (not
+// drawn) or SB_APP_ERROR_CANCELLED; errors of writing are left in the stream (ferror()).
 bool sb_report_scene(FILE *stream, const SbReportScene *scene, const SbReportHooks *hooks,
                      GError **error);
 
-// The same of a study's answers; borrowed.
+// The content of a study's report. Borrowed during the call.
 typedef struct {
   const SbStudyFile *study;
-  const double *value; // [samples][vary]
-  const SbStudyDrawn *drawn;
-  const SbAnswers *answers;
+  const double *value;       // [samples][study->vary]: parameters of the samples [SI]
+  const SbStudyDrawn *drawn; // points of the method
+  const SbAnswers *answers;  // results of the samples
 } SbReportStudy;
 
+// Writes the report of a study into `stream`; as sb_report_scene().
 bool sb_report_study(FILE *stream, const SbReportStudy *study, const SbReportHooks *hooks,
                      GError **error);
 
-// ---- Parts of both ----
+// ---- Parts of both reports, for app/export/report*.c only ----
 
-// "piston.valve . thesis-cycle.scene". Owned by the caller.
+// Returns the file names of valve and scene, "piston.valve · thesis-cycle.scene". Freed by
+// g_free().
 char *sb_report_files(const SbDocument *document);
 
-// Foot of all pages: program, day, hash and files. Owned by the caller.
+// Returns the foot of all pages: version of program and engine, `files`, day, start of `hash`
+// (SHA-256 of the parameters). Freed by g_free().
 char *sb_report_foot(const char *files, const char *hash);
 
-// A figure's value, its unit and no more digits than its error estimate supports; that estimate.
-// Owned by the caller.
+// Returns the value of a figure (index of sb_figure()) with its unit and the digits that its error
+// estimate supports; a dash if there is none. Freed by g_free().
 char *sb_report_value(const SbSummary *summary, int index);
+
+// Returns the error estimate of a figure in per cent, "rounding" if below 1e-9, "" if there is no
+// estimate. Freed by g_free().
 char *sb_report_error(const SbSummary *summary, int index);
 
-// How far a value lies within a limit, "1.4 N (5 %)"; negative beyond it. "" where either is none.
-// Owned by the caller.
+// Returns the margin of a value to the nearer bound, "1.4 N (5 %)"; negative if the limit is
+// violated; "" if it is not finite. `value`, `low`, `high` (may be infinite) in SI units of
+// `figure` (index of sb_figure()), `error` relative. Freed by g_free().
 char *sb_report_margin(int figure, double value, double error, double low, double high);
 
-// The parameters in force with their tolerances and where they come from, the models, the sources
-// that these name, and the defaults of the rest (report_inputs.c).
+// Draws the chapter "Inputs": the parameters in force with tolerances and origin, the models, the
+// sources that these name, and the other defaults (report_inputs.c).
 void sb_report_inputs(SbReportPages *pages, const SbDocument *document, const SbModel *model);

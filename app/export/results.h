@@ -1,4 +1,5 @@
-// Results as JSON documents, with stable keys, the unit in each.
+// Results as JSON documents, with stable keys that contain the unit. Numbers that do not exist are
+// null. docs/results.md describes the documents.
 #pragma once
 
 #include "app/data/compare.h"
@@ -13,47 +14,66 @@
 
 #include <glib.h>
 
-// What a run's document needs beyond the run.
+// What the document of a run contains in addition to the run. Borrowed during the call.
 typedef struct {
   const char *scene;      // full path of the file, "-" for standard input; or a title
   const char *sha256;     // of the parameters
-  bool partial;           // interrupted
-  const SbStudy *studies; // `study_count` of them, what output.studies asked for
+  bool partial;           // the run was interrupted
+  const SbStudy *studies; // [study_count], as output.studies requests
   size_t study_count;
-  const SbCaseVerdict *verdict; // of SB_VERDICT_COUNT
-  const SbComparison *measured; // NULL: nothing was
+  const SbCaseVerdict *verdict; // [SB_VERDICT_COUNT], from sb_cases_judge()
+  const SbComparison *measured; // measured data compared with the run; NULL: none
 } SbResultsInfo;
 
-// Whether a run and every point of its studies have converged, as the exit status states.
+// Returns whether a run and every point of its studies have converged (solver.converged; if not,
+// the exit status reports it).
 bool sb_results_converged(const SbSummary *summary, const SbResultsInfo *info);
 
-// A film through a series of speeds, one value a row; NAN where it was not reached.
+// A film through a series of speeds; each array has `count` values, NaN where it was not computed.
 typedef struct {
   size_t count;
   const double *time;                // [s]
   double *film_min, *film_central;   // [m]
-  double *error_min, *error_central; // estimates, relative
+  double *error_min, *error_central; // error estimates, relative
 } SbResultsHistory;
 
-// Rows of SbFilm: what was found, what the contact's problem alone gives, what asperities do, error
-// estimates; of SbFit: what was found, with the ring model, error estimates. Each ends with a key
-// of NULL.
+// Rows (sb_result_value()) of SbFilm: the results; what the contact alone determines; the
+// asperities; the error estimates. Of SbFit: the results; those with a contact; those of the ring
+// model; those of a dragged ring; the error estimates. Each list ends with a key of NULL.
 extern const SbResultRow sb_film_rows[], sb_film_contact_rows[], sb_film_rough_rows[],
     sb_film_error_rows[], sb_fit_rows[], sb_fit_contact_rows[], sb_fit_ring_rows[],
     sb_fit_drag_rows[], sb_fit_error_rows[];
 
-// All of these return a text owned by the caller. Numbers that do not exist are null.
+// Returns the document of a run that has ended. Freed by g_free().
 char *sb_results_run(const SbRun *run, const SbResultsInfo *info);
-char *sb_results_film(const SbFilm *film, const SbResultsHistory *history); // NULL: none
-// Whether the solver has a contact, perhaps above its tolerance; else there is none to tell of.
+
+// Returns the document of a film. `history`: of a series of speeds; NULL: none. Freed by g_free().
+char *sb_results_film(const SbFilm *film, const SbResultsHistory *history);
+
+// Returns whether the solver found a contact, also one whose residual is above the tolerance. If
+// false, the results of the contact are null.
 bool sb_results_fit_found(const SbFit *fit);
 
-// With the figures of a dragged ring; the greatest drag if that was looked for. `file` is the full
-// path of the valve or scene, "-" for standard input.
+// Returns the document of a fitment. `problem` is what `fit` solves; if it is dragged, the document
+// has the results of dragging. `limit`: the largest drag was computed too. `seal`: name of the
+// seal. `gland`: [SB_GLAND_COUNT] compression, stretch and fill of the groove, NULL: the seal is in
+// no groove; `storage`: state of the rubber after storage; `file`: full path of the valve or scene,
+// "-" for standard input. Freed by g_free().
 char *sb_results_fit(const SbFit *fit, const SbFitProblem *problem, bool limit, const char *seal,
                      const SbGlandReadout *gland, const SbRubberState *storage, const char *file);
-char *sb_results_plan(const SbPlan *plan, const char *scene); // full path
+
+// Returns the document of a plan: what a run would compute. `scene`: full path of its file, "-" for
+// standard input. Freed by g_free().
+char *sb_results_plan(const SbPlan *plan, const char *scene);
+
+// Returns the catalogue of parameters, an array of objects. Freed by g_free().
 char *sb_results_params(void);
+
+// Returns the catalogue of figures, an array of objects. Freed by g_free().
 char *sb_results_figures(void);
+
+// Returns the choices of all parameters "models.*", an array of objects. Freed by g_free().
 char *sb_results_models(void);
+
+// Returns the table of propellants, an array of objects. Freed by g_free().
 char *sb_results_fluids(void);

@@ -1,4 +1,4 @@
-// A folder of results: results.json, cycle.csv, profiles.csv, figures.csv, life.csv where there is
+// A folder of results: results.json, cycle.csv, profiles.csv, figures.csv, life.csv if the run has
 // a life, and two tables for each study; all or none.
 #pragma once
 
@@ -6,12 +6,14 @@
 
 #include "app/base/output.h"
 
-// Names of the files that a run with these studies (a bit mask) writes. Free with g_strfreev().
+// Returns the names of the files that a run writes, ends with NULL. `studies`: bit 1 << SbStudyKind
+// for each study; `life`: the run has a life. Freed by g_strfreev().
 char **sb_results_folder_names(unsigned studies, bool life);
 
-// Makes the folder if needed and writes `json`, the tables of `run` and of `count` studies
-// (study-NAME.csv with the curves, study-NAME-table.csv). Nothing of it appears under its final
-// name unless all of it is on the disk; files of an earlier run that this one does not have go,
-// `kept` (of char *) gets the names of those that were changed since. SB_APP_ERROR_IO.
+// Creates the folder `path` if needed and writes `json` (results.json), the tables of `run` and of
+// `count` studies (study-NAME.csv with the curves, study-NAME-table.csv). No file appears under its
+// final name before all are on the disk. Files of an earlier run that this one does not have are
+// deleted; the names (char *) of those that were changed since are appended to `kept` (may be NULL)
+// and they stay. False with SB_APP_ERROR_IO.
 bool sb_results_folder_write(const char *path, const SbRun *run, const char *json,
                              const SbStudy *studies, size_t count, GPtrArray *kept, GError **error);

@@ -1,4 +1,5 @@
-// Studies outside the program: a page as PNG, SVG or PDF, tables as CSV, the JSON document's part.
+// A study (engine/valve/studies/study.h) as a page in PNG, SVG or PDF, as tables in CSV, and as a
+// part of JSON documents. In CSV errors of writing are left in the stream (ferror()).
 #pragma once
 
 #include "app/base/canvas.h"
@@ -8,43 +9,48 @@
 
 #include <stdio.h>
 
-// What stands around a study on its page; borrowed, all may be NULL but `model`.
+// What the page of a study shows in addition to the study. Borrowed; all members but `model` may be
+// zero.
 typedef struct {
-  const SbModel *model;
+  const SbModel *model; // that the study was made from
   const char *title;    // of the scene
   const char *subtitle; // names of the files
   const char *hash;     // of the parameters
   const char *scene;    // text that restores the scene, for PNG and SVG
-  const char *ending;   // see SbStill
-  const char *stale;    // why the study no longer fits the scene
-  bool dark;
-  double width, height; // logical pixels; 0: the size it is made for
-  double scale;         // PNG pixels per logical pixel; 0 counts as 1
+  const char *ending;   // as SbStill (still.h)
+  const char *stale;    // why the study no longer matches the scene; NULL: it matches
+  bool dark;            // theme
+  double width, height; // [logical pixels]; 0: as sb_study_page_size()
+  double scale;         // of a PNG: device pixels per logical pixel; 0: 1
 } SbStudyPage;
 
-// Size that the page is made for: wide enough for the table, high enough for panels and table.
+// Sets the size that the page is designed for [logical pixels]: wide enough for the table, high
+// enough for panels and table.
 void sb_study_page_size(double *width, double *height, const SbStudy *study);
 
-// Draws the page: header, study, footer with models, errors and warnings. As other pages it shrinks
-// as a whole down to 0.8, then its parts get less room.
+// Draws the page into `rect` [logical pixels]: header, study, footer with models, errors and
+// warnings. In a smaller `rect` the page is scaled down to 0.8; below that its parts get less room.
 void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const SbStudyPage *page);
 
-// Writes the page by the ending of `path`. SB_APP_ERROR_INPUT (size, ending) or SB_APP_ERROR_IO.
+// Writes the page into the file `path`, in the format of page->ending or of the ending of `path`.
+// False with SB_APP_ERROR_INPUT (size, ending) or SB_APP_ERROR_IO.
 bool sb_study_still(const SbStudy *study, const SbStudyPage *page, const char *path,
                     GError **error);
 
-// Every point of every curve: panel, unit, series, abscissa, value; SI. Gaps are left out.
+// Writes a heading and a row for each point of each curve: panel, unit, series, abscissa, value
+// [SI]. Points without a value are left out.
 void sb_csv_study(FILE *stream, const SbStudy *study);
 
-// The table, SI, a line per row; a row with a unit of its own names it.
+// Writes the study's table: a heading with SI units, then its rows; the column "unit of the row" is
+// filled for rows with a unit of their own.
 void sb_csv_study_table(FILE *stream, const SbStudy *study);
 
-// An object with the whole study, for the key "studies".
+// Writes the study as an object, an element of the open array "studies".
 void sb_json_study(SbJson *json, const SbStudy *study);
 
-// Puts why values of study `index` in "studies" are null, by their paths, into the object
-// "reasons".
+// Writes into the open object "reasons" why values are null: members whose key is the path of the
+// values, "studies[INDEX].panels[0].series[0].y". `index`: of the study in "studies", from 0.
 void sb_json_study_reasons(SbJson *json, const SbStudy *study, size_t index);
 
-// Its abscissa and panels alone, the keys "x" and "panels" of the open object.
+// Writes the members "x" (abscissa) and "panels" of the open object.
 void sb_json_study_curves(SbJson *json, const SbStudy *study);

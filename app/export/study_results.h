@@ -1,4 +1,5 @@
-// What a study's answers say: a table of all samples, statistics as JSON and for people.
+// The results of a study file (many samples of a scene): a table of all samples, statistics as
+// JSON and as texts. `answers` are the results of the samples of `study`, complete or not.
 #pragma once
 
 #include "app/document/study_file.h"
@@ -7,47 +8,54 @@
 
 #include <stdio.h>
 
-// Samples with an answer, and those of them that failed.
+// Returns the number of samples that are computed, those that failed included.
 size_t sb_study_done(const SbAnswers *answers);
-// The odds of the leakage test that the study asks for; NaN without a sample that has a loss. A can
-// that has none is open. SB_ERROR_RANGE, SB_ERROR_MEMORY.
+
+// Returns the number of samples that are computed and failed.
+size_t sb_study_failed(const SbAnswers *answers);
+
+// Computes the probability that the leakage test of the study fails. A sample that is open has an
+// infinite loss. study->leakage_tests must be above 0. Without a sample that has a loss the
+// probability is NaN and SB_OK is returned. SB_ERROR_RANGE as sb_leakage_odds().
 SbStatus sb_study_leakage(SbLeakageOdds *out, const SbStudyFile *study, const SbAnswers *answers,
                           SbReport *report);
 
-size_t sb_study_failed(const SbAnswers *answers);
-
-// "ok", "not-converged", "infeasible", "refused", "not-computed"; borrowed.
+// Returns the contract's name of a sample's status (SbStatus or SB_ANSWER_MISSING): "ok",
+// "not-converged", "infeasible", "not-computed", else "refused". Static.
 const char *sb_study_status_name(uint8_t status);
 
-// What intervals of probabilities from samples cover: neither the models' errors nor those of the
-// distributions.
+// What the intervals of probabilities account for: the errors of sampling, neither those of the
+// models nor those of the distributions.
 #define SB_INTERVAL_COVERS "sampling alone"
 
-// Samples with a warning of validity.
+// A code of a warning and the number of samples that have it.
 typedef struct {
   char code[48];
   size_t count;
 } SbCodeCount;
 
-// Returns how many samples carry each code of validity, *count of them, sorted by code. Owned by
-// the caller: g_free().
+// Returns the validity warnings of all samples, sorted by code; `*count` is set to their number.
+// Freed by g_free().
 SbCodeCount *sb_study_warnings(size_t *count, const SbAnswers *answers);
 
-// A row for each sample: number from 1, parameters, figures (empty: none), status, codes of
-// validity
-// (";" between). The bytes depend on the answers alone; errors show in the stream.
+// Writes comma-separated values, a row for each sample: number from 1, varied parameters [SI],
+// figures [SI] (empty: none), status, codes of validity warnings separated by ";". `value`:
+// [samples][study->vary] parameters of the samples [SI]; NaN: as in the scene. The bytes depend on
+// the arguments alone; errors of writing are left in the stream (ferror()).
 void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
                   const SbAnswers *answers);
 
-// What the study's figures of the shelf rest on that is typical of such rubbers and not measured,
-// of propellant (0) or water (1); owned by the caller, NULL: nothing, or the samples have their
-// own.
+// Returns a sentence if the study's figures of storage use a typical value of permeation that was
+// not measured for this rubber; `which`: 0 of propellant, 1 of water. NULL: they do not, or the
+// study varies that parameter. Freed by g_free().
 char *sb_study_typical(const SbStudyFile *study, int which);
 
-// Puts the title "study" and the full paths "file" of the study and "scene" of its scene; "-" is
-// standard input.
+// Writes the members "study" (title), "file" (full path of the study) and "scene" (full path of its
+// scene) of the open object; "-" is standard input.
 void sb_json_study_files(SbJson *json, const SbStudyFile *study);
 
-// The contract's JSON. Owned by the caller; NULL without memory.
+// Returns the JSON document of `sealbench study`. `drawn`: the points of the method (shares.h);
+// `cpus`: name and number of processors, for the document. Freed by g_free(). NULL with `report`
+// if a statistic could not be computed.
 char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const SbAnswers *answers,
                     const char *cpus, SbReport *report);

@@ -1,4 +1,5 @@
-// What a scan says, as JSON and for people.
+// The figures of a scan of a surface, as JSON, as texts and as a page; and the choices of how a
+// scan is read and evaluated.
 #pragma once
 
 #include "app/data/scan/scan_figures.h"
@@ -6,52 +7,66 @@
 
 #include <cairo.h>
 
-// Where the figures come from.
+// A scan with its figures. Borrowed.
 typedef struct {
   const char *path; // of the file
   const SbScan *scan;
-  const SbHeightsChoices *choices;
+  const SbHeightsChoices *choices; // that the figures were computed with
   const SbScanFigures *figures;
 } SbSurface;
 
-// The contract's JSON. Owned by the caller.
+// Returns the JSON document of `sealbench surface`. Freed by g_free().
 char *sb_surface_json(const SbSurface *surface);
 
-// Figures with a label, of SbHeightFigures and SbAsperityFigures, up to a key of NULL.
+// Rows of SbHeightFigures and of SbAsperityFigures (sb_result_value()), each list ends with a key
+// of NULL.
 extern const SbResultRow sb_surface_heights[], sb_surface_asperities[];
 
-// A figure of the parts and its scatter, up to a key of NULL.
+// A figure that is compared between the parts of a scan.
 typedef struct {
-  const char *key, *label, *si, *shown;
-  double (*value)(const SbHeightFigures *part);
+  const char *key;                              // in JSON
+  const char *label;                            // in the table
+  const char *si;                               // unit of the value
+  const char *shown;                            // display unit
+  double (*value)(const SbHeightFigures *part); // of one part [si]
 } SbSurfaceScatter;
+
+// Those figures; the list ends with a key of NULL.
 extern const SbSurfaceScatter sb_surface_scatter[];
 
-// How a scan is read and what is made of it.
+// How a scan is read and evaluated.
 typedef struct {
   SbScanChoices scan;
   SbHeightsChoices heights;
-  char *channel; // owned, scan.channel
+  char *channel; // owned; scan.channel points to it
 } SbSurfaceChoices;
 
-void sb_surface_choices_init(SbSurfaceChoices *choices); // a plane is taken away
+// Sets the defaults: a plane is subtracted, all else as in the file.
+void sb_surface_choices_init(SbSurfaceChoices *choices);
+
+// Frees the content and zeroes it.
 void sb_surface_choices_clear(SbSurfaceChoices *choices);
 
-// A choice by the name that the command line's option has, "cutoff-long": true, or SB_APP_ERROR
-// with what is wrong ("a value above 0 is needed").
+// Sets one choice by the name of its command line option: "form", "missing", "channel", "outliers",
+// "cutoff-short", "cutoff-long", "spacing" (a number with unit; without: µm), "unit",
+// "lateral-unit" (a unit of length). `text` is the value. False with SB_APP_ERROR_INPUT whose
+// message does not contain the name ("a value above 0 is needed").
 bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *text,
                        GError **error);
 
-// "plane taken away, all points kept, no cut-off": the choices in force. Owned by the caller.
+// Returns the choices in force as text: "plane removed, no outliers sought, missing points left
+// out, no cut-off". Freed by g_free().
 char *sb_surface_choices_text(const SbSurface *surface);
 
-// "surface.gt_product=0.1289" and the like, NULL-terminated, where a scene can take the surface;
-// else NULL and why not (static). Owned by the caller (g_strfreev).
+// Returns the settings of a scene for this surface, "surface.gt_product=0.1289" and so on, ends
+// with NULL; `*reason` is NULL then. If a scene cannot have it, returns NULL, and `*reason`
+// (static) states why. Freed by g_strfreev().
 char **sb_surface_settings(const char **reason, const SbSurface *surface);
 
-// Draws map, spectrum, heights and asperities as one page.
+// Draws map, spectrum, heights and asperities as one page of width by height logical pixels.
+// `dark`: theme.
 void sb_surface_draw(cairo_t *cr, double width, double height, const SbSurface *surface, bool dark);
 
-// The same into a file, by the ending .png, .svg or .pdf. FALSE
-// as sb_still_write().
+// Writes the page in the light theme into the file `path`, by its ending .png, .svg or .pdf. False
+// as sb_still_write() (still.h).
 bool sb_surface_still(const SbSurface *surface, const char *path, GError **error);

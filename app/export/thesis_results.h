@@ -1,5 +1,5 @@
-// Items of the thesis outside the program: JSON, a table of comma-separated values, a part of the
-// index page, and the part of docs/thesis.md.
+// Recomputed tables and figures of the thesis (app/study/thesis_item.h) as text, JSON,
+// comma-separated values, HTML and Markdown. Errors of writing are left in the stream (ferror()).
 #pragma once
 
 #include "app/export/json.h"
@@ -7,41 +7,51 @@
 
 #include <stdio.h>
 
-// Title, rows, reasons and notes as lines. Owned by the caller.
+// Returns an item as lines of text: title, rows, reasons and notes. Freed by g_free().
 char *sb_thesis_table(const SbThesisItem *item);
 
-// An object: item, title, rows, chart, notes.
+// Writes an item as an object, an element of the open array or the outermost value: engine, item,
+// title, source, rows, chart, notes, fails.
 void sb_json_thesis(SbJson *json, const SbThesisItem *item);
 
-// A line a row, SI.
+// Writes a heading and a line for each row of an item [SI].
 void sb_csv_thesis(FILE *stream, const SbThesisItem *item);
 
-// The item as HTML below a heading; `picture` is the chart's file, NULL: none. The page around.
+// Writes an item as HTML: heading, picture, table, reasons, notes. `picture`: the chart's file
+// relative to the page; NULL: none. Between sb_html_thesis_begin() and sb_html_thesis_end().
 void sb_html_thesis(FILE *stream, const SbThesisItem *item, const char *picture);
+
+// Writes the start of the page: title, explanation, and a list of `count` items.
 void sb_html_thesis_begin(FILE *stream, SbThesisItem *const *items, size_t count);
+
+// Writes the end of the page.
 void sb_html_thesis_end(FILE *stream);
 
-// A text with {ITEM | LABEL OF A ROW | WHAT} replaced by that row's value: printed, thesis,
-// consistent, or ratio, printed over the thesis' model; "?" where there is none. Owned by the
-// caller.
+// Returns `text` with {ITEM | LABEL OF A ROW | WHAT} replaced by a value of that row with its unit.
+// WHAT: printed, thesis, consistent, or ratio (printed divided by the thesis' model). "?" if there
+// is no such item or row. Freed by g_free().
 char *sb_thesis_introduction(const char *text, SbThesisItem *const *items, size_t count);
 
-// The item as Markdown.
+// Writes an item as Markdown, a part of docs/thesis.md.
 void sb_markdown_thesis(FILE *stream, const SbThesisItem *item);
 
-// The chart into a stream, by the ending ".svg", ".png" or ".pdf". SB_APP_ERROR_IO.
+// Draws the item's chart (not NULL) into `stream` in the format of `ending` (".svg", ".png",
+// ".pdf"). False as sb_still_put() (still.h).
 bool sb_thesis_still(FILE *stream, const SbThesisItem *item, const char *ending, GError **error);
 
-// A row's value with its unit, four digits; "-" without. Owned by the caller.
+// Returns a value of a row [row->si] in its display unit, with the unit and at most five
+// significant digits; "-" for NaN. Freed by g_free().
 char *sb_thesis_text(const SbThesisRow *row, double value);
 
-// The reasons of a row in a sentence, with what each explains; NULL: none. Owned by the caller.
+// Returns the reasons of a row as one sentence, with the part of the difference that each explains
+// and what remains; NULL: it has no reasons. Freed by g_free().
 char *sb_thesis_reason(const SbThesisRow *row);
 
-// All reasons of an item, each once, those of its rows before those of the consistent set: char *,
-// "TEXT (COMMAND)". Owned by the caller.
+// Returns all reasons of an item, each once: those of its rows, then those of the consistent set.
+// Elements are char *, "TEXT (COMMAND)".
 GPtrArray *sb_thesis_reasons(const SbThesisItem *item);
 
-// How a row stands, in the numbers of that list from 1: "agrees", "1: +3 nm, 2: -1 nm; remains
-// 0.1 nm"; `models`: of the consistent set. Owned by the caller.
+// Returns the state of a row in terms of the numbers (from 1) of `reasons`, the list of
+// sb_thesis_reasons(): "agrees", or "1: +3 nm, 2: -1 nm; remains 0.1 nm". `models`: the steps to
+// the consistent set instead, "" without any. Freed by g_free().
 char *sb_thesis_standing(const SbThesisRow *row, const GPtrArray *reasons, bool models);
