@@ -1,21 +1,25 @@
-// What the window does by name: one table for keys, and for the search over parameters, which
-// offers actions too.
+// The actions of the window: one table for keyboard shortcuts and for the search in the parameter
+// panel, which finds actions, too.
 #pragma once
 
 #include <gtk/gtk.h>
 
+// An action. Strings are static.
 typedef struct {
-  const char *name;      // detailed: "win.page::design"
-  const char *accels[3]; // NULL: none, or no more
-  const char *title;     // to be translated; may hold a mnemonic; NULL: by key alone
-  const char *words;     // what else it is called
+  const char *name;      // detailed name of a GAction: "win.page::design"
+  const char *accels[3]; // shortcuts as gtk_accelerator_parse(), ends with NULL
+  const char *title;     // untranslated, may contain a mnemonic (_); NULL: only by shortcut
+  const char *words;     // untranslated synonyms, separated by blanks; NULL: none
 } SbAction;
 
+// Returns the table of *count actions. Static.
 const SbAction *sb_actions(size_t *count);
 
-// A box of buttons for the actions that match, none at first.
+// Returns a new widget (floating reference), a box of buttons for the actions that were found,
+// empty at first.
 GtkWidget *sb_action_finder_new(void);
 
-// Shows the actions whose title or other words hold `needle`, case-folded, at most a few; none for
-// an empty text. Returns how many.
+// Shows in `finder`, of sb_action_finder_new(), a button for each action whose translated title or
+// synonyms contain `needle` (folded by g_utf8_casefold()), at most a few; none for an empty text.
+// Returns their number.
 int sb_action_finder_search(GtkWidget *finder, const char *needle);

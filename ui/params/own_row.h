@@ -1,11 +1,12 @@
-// A row of the parameter panel that is of no parameter: a title, what chooses, and below it what is
-// wrong with the choice.
+// A row of the parameter panel for a choice that is no parameter of the catalogue: a title, a
+// widget that chooses, and below them a line for an error.
 #pragma once
 
 #include <gtk/gtk.h>
 
-// `chooser` is named by the title; `tip` says what the row does.
+// Returns a new row (floating reference). `title` and `tip` (the tooltip) are translated and
+// copied. The row takes `chooser` as a child; its accessible name is the title.
 GtkWidget *sb_own_row_new(const char *title, const char *tip, GtkWidget *chooser);
 
-// Says what is wrong; NULL: nothing.
+// Shows `text`, a translated sentence, as the error of the choice; NULL removes it.
 void sb_own_row_complain(GtkWidget *row, const char *text);

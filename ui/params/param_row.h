@@ -1,5 +1,5 @@
-// One row of the parameter panel: label and range, a field with unit, the symbol, a reset button,
-// and an error line. Generated from the catalogue.
+// One row of the parameter panel: label and range, a field with its unit, the symbol, a button that
+// resets the value, and a line for an error. Generated from the catalogue.
 #pragma once
 
 #include "app/session/session.h"
@@ -9,19 +9,24 @@
 #define SB_TYPE_PARAM_ROW (sb_param_row_get_type())
 G_DECLARE_FINAL_TYPE(SbParamRow, sb_param_row, SB, PARAM_ROW, GtkBox)
 
-// A row for parameter `id` of the session's document. The label columns of all rows in `labels`
-// get one width.
+// Returns a new row (floating reference) that edits parameter `id` of the document of `session`,
+// which is borrowed and must outlive the row. The field is added to the size group `fields`, so
+// that all fields of the group have one width.
 GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fields);
 
-// Shows the value in force, the error, and what may be edited.
+// Shows the value in force, the error, and whether it can be edited. To be called after
+// "params-changed".
 void sb_param_row_refresh(SbParamRow *row);
 
-// Moves the keyboard focus into the row's field.
+// Moves the keyboard focus to the row's field.
 void sb_param_row_focus(SbParamRow *row);
 
-// Shows the help page of the row that `widget`, which may be NULL, lies in; FALSE: in none.
+// Shows the help page of the row that contains `widget` (NULL: none). Returns FALSE if no row
+// contains it.
 gboolean sb_param_row_help(GtkWidget *widget);
 
-// Draws what the parameter does to a figure: -1 to 1 of the largest, NaN where that is not known;
-// paler where it is of `former` values. `text`, which may be NULL, tells it in words.
+// Draws the effect of the parameter on a figure: `share` is the effect divided by the largest
+// effect of any parameter, -1 to 1; NaN: not known. `former`: the effect belongs to earlier values
+// and is drawn paler. `text` (translated, copied; NULL: none) is the effect in words, for the
+// tooltip.
 void sb_param_row_show_effect(SbParamRow *row, double share, gboolean former, const char *text);

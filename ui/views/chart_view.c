@@ -332,7 +332,7 @@ static void describe(gpointer data) {
   sb_style_name(view->area, name, text->str);
 }
 
-char *sb_chart_view_table(SbSession *session) {
+char *sb_chart_view_stage_table(SbSession *session) {
   const SbChartData *data = sb_session_chart(session);
   GString *text = g_string_new("stage\ttime [s]\tdisplacement [m]\tforce [N]\n");
   if (data->run.count > 0) {

@@ -1,22 +1,27 @@
-// A widget around one chart of app/chart: draws it, moves the playhead, says what it shows.
+// A widget around one chart of app/chart: it draws the chart, moves the playhead, and describes the
+// chart in its accessible description.
 #pragma once
 
 #include "app/session/session.h"
 
 #include <gtk/gtk.h>
 
+// Which chart.
 typedef enum {
-  SB_CHART_VIEW_LOOP,     // of the sliding-plate rig: the thread's force over time
-  SB_CHART_VIEW_PRESSURE, // of the rig: its coefficients
-  SB_CHART_VIEW_FILM,     // not of the rig
-  SB_CHART_VIEW_COMPARE,  // not of the rig
-  SB_CHART_VIEW_LIFE,     // only where a scene has more than one actuation
-  SB_CHART_VIEW_SHELF,    // only where a scene shows it
-  SB_CHART_VIEW_REASONS   // only of the rig
+  SB_CHART_VIEW_LOOP,     // force against displacement; of the sliding plate force against time
+  SB_CHART_VIEW_PRESSURE, // contact pressure of both seals; of the sliding plate its coefficients
+  SB_CHART_VIEW_FILM,     // film thickness of both seals; hidden for the sliding plate
+  SB_CHART_VIEW_COMPARE,  // table of the pinned runs; hidden for the sliding plate
+  SB_CHART_VIEW_LIFE,     // results over the actuations; hidden with a single actuation
+  SB_CHART_VIEW_SHELF,    // losses on the shelf; hidden unless the scene requests it
+  SB_CHART_VIEW_REASONS   // why coefficients differ; only for the sliding plate
 } SbChartViewKind;
 
-// A chart; it hides itself while the session's run has nothing of its kind.
+// Returns a new chart (floating reference) of the displayed run of `session`, which is borrowed and
+// must outlive it. The chart is hidden while the run has nothing of its kind.
 GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind);
 
-// The chart's numbers as tab-separated text with a heading line. Owned by the caller.
-char *sb_chart_view_table(SbSession *session);
+// Returns the stages of the displayed run of `session` (time [s], displacement [m], force [N]) as
+// tab-separated text with a heading line, followed by the comparison with pinned runs and measured
+// data if there is one. Numbers have a decimal point. Freed by g_free().
+char *sb_chart_view_stage_table(SbSession *session);

@@ -1,25 +1,28 @@
-// A drawing area whose picture is kept: drawn anew only when it has changed, and not more often
-// than wanted.
+// A drawing area with a stored picture: it is drawn again only when it has changed, and not more
+// often than requested.
 #pragma once
 
 #include <gtk/gtk.h>
 
+// The stored picture of one area.
 typedef struct SbDrawCache SbDrawCache;
 
-// Draws the whole picture of `width` x `height` logical pixels.
+// Draws the full picture of `width` x `height` logical pixels; the origin is its top left corner.
 typedef void (*SbDrawCacheDraw)(cairo_t *cr, double width, double height, void *data);
 
-// Makes `area` (a drawing area) show what `draw` draws, with a focus ring. Lives as long as the
-// widget.
+// Makes `area`, a GtkDrawingArea, show what `draw` draws, with a focus ring. The result belongs to
+// the widget and must not be used after its destruction; `data` must live as long.
 SbDrawCache *sb_draw_cache_attach(GtkWidget *area, SbDrawCacheDraw draw, void *data);
 
-// The picture has changed: draws it with the next frame, or, if it was drawn less than `interval`
-// ms ago, that long after.
+// States that the picture has changed. It is drawn with the next frame, or, if it was drawn less
+// than `interval` ms ago, when `interval` ms have passed since then.
 void sb_draw_cache_change(SbDrawCache *cache, int interval);
 
-// The picture has changed by little, and more is to come: draws it `ms` from now, unless it changes
-// at once before; meanwhile the area shows the picture of before.
+// States that the picture has changed slightly and will change again soon. It is drawn `ms` ms from
+// now, unless sb_draw_cache_change() causes it to be drawn earlier; until then the area shows the
+// earlier picture.
 void sb_draw_cache_change_later(SbDrawCache *cache, int ms);
 
-// For the picture of a former run while one of the present values is on its way [ms].
+// Value of `ms` for the picture of an earlier run while a run of the present values is computed
+// [ms].
 enum { SB_DRAW_LATER = 250 };

@@ -1,4 +1,4 @@
-// The balance of forces on the stem, as a row below the section.
+// The balance of forces on the stem, as a row of bars below the section.
 #pragma once
 
 #include "app/base/canvas.h"
@@ -7,5 +7,6 @@
 // Height of the row [px].
 #define SB_FORCE_BALANCE_HEIGHT 44.0
 
-// "Drive 22.5 N = pressure 14.5 N + outer 8.0 N" as bars to one scale, in `rect`.
+// Draws "Drive 22.5 N = pressure 14.5 N + outer 8.0 N" as bars with one scale into `rect` [px], for
+// the frame at the playhead; nothing without a frame.
 void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data);

@@ -1,8 +1,9 @@
-// Calls that the main loop makes later for a widget, and that end with the widget.
+// Delayed calls by the main loop for a widget, which end with the widget.
 //
-// A call never runs after its owner was destroyed, whatever else holds a reference to the owner:
-// destroying a widget removes its pending calls. All of ui/ adds its idle and timeout sources here;
-// tests/layers.py refuses any other (g_idle_add(), g_timeout_add()). All on the main thread.
+// A call never runs after its owner was destroyed, even if something else has a reference to the
+// owner: destroying a widget removes its pending calls. All of ui/ adds its idle and timeout
+// sources here; tests/layers.py refuses others (g_idle_add(), g_timeout_add()). `owner` is a
+// GtkWidget.
 #pragma once
 
 #include <gtk/gtk.h>

@@ -1,22 +1,22 @@
-// The section drawn by the window's own GL: a GtkGLArea that shows a display list.
+// The section drawn by the window's own OpenGL: a GtkGLArea that shows a display list.
 //
-// Whether that works is known only when the widget is realized. Elsewhere (no GLX, a GL before 3.3)
-// it hides itself, and the window shows the picture of a context without a window. So it does by
-// choice where the window's GL is a software one: that is no faster, and every part of the window
-// would have to go through it (half of the time of a playing frame, measured).
-// SEALBENCH_SECTION=window or =picture overrides the choice.
+// Whether that works is known only when the widget is realized. Without GLX or with an OpenGL
+// before 3.3 the widget hides itself, and the window shows a picture that a context without a
+// window draws. It does the same if the window's OpenGL is a software renderer, because then every
+// part of the window would be drawn by it (half of the time of a playing frame). The environment
+// variable SEALBENCH_SECTION=window or =picture overrides this decision.
 #pragma once
 
 #include "app/section/draw_list.h"
 
 #include <gtk/gtk.h>
 
-// A widget that draws `list`, which is borrowed and outlives it. `decided` is called once, when the
-// choice is made.
+// Returns a new widget (floating reference) that draws `list`, which is borrowed and must outlive
+// it. decided(data) is called once, when the widget is realized and the decision is made.
 GtkWidget *sb_section_gl_new(const SbDrawList *list, void (*decided)(void *data), void *data);
 
-// Whether the widget draws. False before it is realized.
+// Returns whether the widget draws; FALSE before it is realized.
 gboolean sb_section_gl_works(GtkWidget *widget);
 
-// One sentence on the choice and why; borrowed.
+// Returns a sentence on the decision and its reason. Borrowed from the widget.
 const char *sb_section_gl_reason(GtkWidget *widget);

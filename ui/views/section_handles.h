@@ -1,5 +1,8 @@
-// Sizes of the valve under the hand: handles on the drawn section that are dragged, moved by arrow
-// keys or typed over. A press without a drag names the parameter to whoever listens.
+// Handles on the drawn section for sizes of the valve: the user drags them, moves them with arrow
+// keys, or types a value. A press without a drag selects the parameter.
+//
+// Positions are in logical pixels of the picture's widget. Functions that return gboolean return
+// whether the event was used.
 #pragma once
 
 #include "app/base/geometry.h"
@@ -10,25 +13,39 @@
 
 typedef struct SbSectionHandles SbSectionHandles;
 
-// `chosen` is told which parameter a press means; `typed` is the text that was begun, NULL: none.
+// Called when a handle selects parameter `id`. `typed` is the text with which the user began to
+// type a value; NULL: none.
 typedef void (*SbSectionChosen)(void *data, SbParamId id, const char *typed);
 
-// A layer for the picture's overlay, without events of its own; owned by the widget.
+// Adds a layer that draws the handles, without events of its own, to the overlay of the picture.
+// The result belongs to the layer's widget. `session` is borrowed and must outlive it.
 SbSectionHandles *sb_section_handles_new(SbSession *session, GtkOverlay *overlay);
+
+// Sets the function that is called when a handle is selected; NULL: none.
 void sb_section_handles_listen(SbSectionHandles *handles, SbSectionChosen chosen, void *data);
 
-// After each drawing: the section that was drawn, its instant, and the pixel of the picture's
-// corner. NULL: there is none to take hold of.
+// Sets the handles for the section that was drawn, at the instant `frame` of a run of `model`;
+// `corner` is the position of the picture's top left corner. To be called after each drawing.
+// `section` NULL: there are no handles. Everything is read only during the call.
 void sb_section_handles_follow(SbSectionHandles *handles, const SbSection *section,
                                const SbModel *model, const SbFrame *frame, SbPoint corner);
 
-// The pointer, in the picture's widget. Each tells whether it took the event.
+// The pointer was pressed at (x, y).
 gboolean sb_section_handles_press(SbSectionHandles *handles, double x, double y);
+
+// The pointer moved to (x, y); `state` are the modifiers (GdkModifierType). Edits the value while a
+// handle is dragged.
 gboolean sb_section_handles_motion(SbSectionHandles *handles, double x, double y, guint state);
+
+// The pointer was released.
 gboolean sb_section_handles_release(SbSectionHandles *handles);
+
+// The pointer entered the picture.
 void sb_section_handles_enter(SbSectionHandles *handles);
+
+// The pointer left the picture.
 void sb_section_handles_leave(SbSectionHandles *handles);
 
-// Arrows move the chosen size by 0.01 mm (Shift: 0.001 mm), Escape takes a drag back or lets go, a
-// digit begins to type.
+// A key was pressed. Arrows change the selected size by 0.01 mm (with Shift by 0.001 mm), Escape
+// reverts a drag or ends the selection, and a digit starts to type a value.
 gboolean sb_section_handles_key(SbSectionHandles *handles, const GdkEventKey *event);

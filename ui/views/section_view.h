@@ -5,26 +5,29 @@
 
 #include <gtk/gtk.h>
 
-// The toolbar and the picture in one column.
+// Returns a new view (floating reference): toolbar and picture in one column. `session` is borrowed
+// and must outlive it. The functions below take this widget.
 GtkWidget *sb_section_view_new(SbSession *session);
 
-// Zoom by one step (positive: in), or back to the whole valve (0).
+// Zooms by one step, in (direction > 0) or out (< 0), or back to the full valve (0).
 void sb_section_view_zoom(GtkWidget *view, int direction);
 
 // Shows the cutaway in place of the section, or the section again.
 void sb_section_view_toggle_cutaway(GtkWidget *view);
 
-// Turns the cutaway's camera by steps to the right and up. Nothing while the section shows.
+// Turns the camera of the cutaway by a number of steps to the right and upwards. Does nothing while
+// the section is shown.
 void sb_section_view_turn(GtkWidget *view, int right, int up);
 
-// Tells `chosen` which parameter a handle on the section means, with what was typed (NULL:
-// nothing).
+// Sets the function that is called when a handle on the section selects parameter `id`; `typed` is
+// the text with which the user began to type a value (NULL: none).
 void sb_section_view_listen(GtkWidget *view,
                             void (*chosen)(void *data, SbParamId id, const char *typed),
                             void *data);
 
-// A key while the picture has the focus; TRUE if a handle took it.
+// A key was pressed while the picture has the focus. Returns whether a handle used it.
 gboolean sb_section_view_key(GtkWidget *view, const GdkEventKey *event);
 
-// Puts a widget below what stands over the picture while nothing has run.
+// Adds the widget `start` below the text that is shown over the picture while there is no run. The
+// view takes the widget as a child.
 void sb_section_view_add_start(GtkWidget *view, GtkWidget *start);

@@ -1,35 +1,40 @@
-// Look of the widgets: the style sheet, and light or dark.
+// Appearance of the widgets: the style sheet, light or dark, and small helpers.
 #pragma once
 
 #include "app/base/theme.h"
 
 #include <gtk/gtk.h>
 
+// The user's choice: as the desktop, light, or dark.
 typedef enum { SB_STYLE_SYSTEM, SB_STYLE_LIGHT, SB_STYLE_DARK } SbStyleTheme;
 
-// Loads the style sheet for the whole display and follows `theme`. Call again to change it.
+// Loads the style sheet for the default screen with this theme, and follows changes of the desktop.
+// May be called again to change the theme.
 void sb_style_apply(SbStyleTheme theme);
 
-// True if the dark palette is on (of a theme of its own or because the desktop asks for it).
+// Returns whether the dark palette is in use.
 gboolean sb_style_is_dark(void);
 
-// Gives `widget` an accessible name; `description` may be NULL.
+// Sets the accessible name of `widget`, and its accessible description unless `description` is
+// NULL. Texts are translated.
 void sb_style_name(GtkWidget *widget, const char *name, const char *description);
 
-// A menu button whose tooltip does not lie over its popover.
+// Returns a new GtkMenuButton (floating reference) whose tooltip is hidden while its popover is
+// open.
 GtkWidget *sb_style_menu_button(void);
 
-// Shows a picture of former values paler than one of the present values.
+// Shows a picture of earlier values (`former`) paler than one of the present values.
 void sb_style_former(GtkWidget *picture, gboolean former);
 
-// Adds a style class.
+// Adds a style class to `widget`.
 void sb_style_class(GtkWidget *widget, const char *name);
 
-// A visible label with a style class, its text at `align` (0 left, 1 right).
+// Returns a new label (floating reference), visible, with the style class `name`. `text` (NULL:
+// empty) is translated; `align` is its horizontal alignment, 0 left to 1 right.
 GtkWidget *sb_style_label(const char *text, const char *name, float align);
 
-// Fills with the panels' ground; the theme in force.
+// Fills the clip region of `cr` with the background of panels and returns the theme in use. Static.
 const SbTheme *sb_style_ground(cairo_t *cr);
 
-// The look of a window: its ground, and its font where the desktop names none of its own.
+// Sets the background of a window, and its font if the desktop names none.
 void sb_style_window(GtkWidget *window);

@@ -1,16 +1,18 @@
-// The pieces of toolbars, with names for those who do not see them. Texts come translated.
+// Parts of toolbars, with accessible names. All texts are translated and copied, unless stated
+// otherwise.
 #pragma once
 
 #include <gtk/gtk.h>
 
-// A box whose buttons touch.
+// Returns a new horizontal box (floating reference) whose buttons are joined without gaps.
 GtkWidget *sb_toolbar_linked(void);
 
-// A button with an icon that does `action` ("win.zoom-in").
+// Appends to `box` a button with the icon `icon` (name in the icon theme) that activates `action`
+// ("win.zoom-in"). `name` is its accessible name, `tip` its tooltip.
 void sb_toolbar_button(GtkBox *box, const char *icon, const char *name, const char *tip,
                        const char *action);
 
-// A combo box of `count` items, which it translates (sb_translation); the first is active. It may
-// be narrower than its longest item.
+// Appends to `box` a combo box with items[count], which are untranslated (sb_translation()); the
+// first is active. It may be narrower than its longest item. Returns the combo box, owned by `box`.
 GtkWidget *sb_toolbar_combo(GtkBox *box, const char *const *items, int count, const char *name,
                             const char *tip);

@@ -311,7 +311,7 @@ static void on_turn(GSimpleAction *action, GVariant *parameter, gpointer data) {
 }
 
 static void on_copy_table(GSimpleAction *action, GVariant *parameter, gpointer data) {
-  g_autofree char *text = sb_chart_view_table(SB_WINDOW(data)->session);
+  g_autofree char *text = sb_chart_view_stage_table(SB_WINDOW(data)->session);
   gtk_clipboard_set_text(gtk_clipboard_get(GDK_SELECTION_CLIPBOARD), text, -1);
   sb_toast_show(GTK_WINDOW(data), _("The data table is in the clipboard."), NULL, NULL, FALSE);
 }
