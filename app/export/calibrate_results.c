@@ -20,7 +20,8 @@ static void put_parameter(SbJson *json, const SbCalibration *of, size_t j) {
   sb_json_number(json, "standard_deviation", one->deviation);
   sb_json_numbers(json, "interval_95", one->interval, 2);
   sb_json_numbers(json, "prior_95", one->prior, 2);
-  sb_json_string(json, "identifiable", of->samples > 0 ? sb_identifiable_name(one->identifiable) : NULL);
+  sb_json_string(json, "identifiable",
+                 of->samples > 0 ? sb_identifiable_name(one->identifiable) : NULL);
   sb_json_array(json, "with");
   for (size_t k = 0; k < of->parameters; k++) {
     if (k != j && fabs(of->correlation[j * of->parameters + k]) > SB_IDENTIFIABLE_CORRELATION) {
@@ -218,9 +219,10 @@ void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *of,
                                 .prior_low = one->prior[0],
                                 .prior_high = one->prior[1],
                                 .prior = &one->distribution,
-                                .role = one->identifiable == SB_IDENTIFIABLE_YES          ? SB_ROLE_PASS
-                                        : one->identifiable == SB_IDENTIFIABLE_WITH_OTHER ? SB_ROLE_WARN
-                                                                          : SB_ROLE_SECOND};
+                                .role = one->identifiable == SB_IDENTIFIABLE_YES ? SB_ROLE_PASS
+                                        : one->identifiable == SB_IDENTIFIABLE_WITH_OTHER
+                                            ? SB_ROLE_WARN
+                                            : SB_ROLE_SECOND};
     all_identifiable = all_identifiable && one->identifiable == SB_IDENTIFIABLE_YES;
     for (int i = 0; i < 3; i++) {
       g_autofree char *low = value_text(one, one->interval[0], false);

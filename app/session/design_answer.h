@@ -2,9 +2,9 @@
 // parameters, the best design, and for the present and the best design the effects of tolerances
 // and a sample of valves.
 //
-// Every point of the map is an evaluation (engine/valve/answer/evaluate.h) at two parameters; the others
-// have the values of the scene. Between points figures are linear in triangles. Around a point
-// without figures (infeasible, or not converged) the map has none.
+// Every point of the map is an evaluation (engine/valve/answer/evaluate.h) at two parameters; the
+// others have the values of the scene. Between points figures are linear in triangles. Around a
+// point without figures (infeasible, or not converged) the map has none.
 #pragma once
 
 #include "app/study/design.h"

@@ -56,9 +56,10 @@ static void find_moments(SbCalibration *out) {
   }
   for (size_t j = 0; j < p; j++) {
     SbCalibrated *of = &out->parameter[j];
-    of->identifiable = of->interval[1] - of->interval[0] < SB_IDENTIFIABLE_FRACTION * (of->prior[1] - of->prior[0])
-                   ? SB_IDENTIFIABLE_YES
-                   : SB_IDENTIFIABLE_NO;
+    of->identifiable =
+        of->interval[1] - of->interval[0] < SB_IDENTIFIABLE_FRACTION * (of->prior[1] - of->prior[0])
+            ? SB_IDENTIFIABLE_YES
+            : SB_IDENTIFIABLE_NO;
     for (size_t k = 0; k < p; k++) {
       if (k != j && fabs(out->correlation[j * p + k]) > SB_IDENTIFIABLE_CORRELATION) {
         of->identifiable = SB_IDENTIFIABLE_WITH_OTHER;
