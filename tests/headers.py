@@ -17,7 +17,7 @@ import sys
 
 build, source, *layers = sys.argv[1:]
 # Folders whose headers must have a comment for each function.
-COMMENTED = ('engine', 'include')
+COMMENTED = ('engine', 'include', 'app', 'ui')
 # The installed header stands alone as C and as C++, with no flags at all.
 
 # How a layer is compiled: compiler, places of headers and definitions of the file that has most of

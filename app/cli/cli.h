@@ -270,28 +270,73 @@ char *sb_cli_comparison_brief(const SbComparison *comparison);
 
 // ---- The commands: argv[0] is the command's name; each returns the exit code ----
 
+// run: computes the cycle of scenes.
 int sb_command_run(int argc, char **argv);
+
+// check: reports every problem of valves, scenes, studies, rubbers, sections and grooves.
 int sb_command_check(int argc, char **argv);
+
+// list: prints parameters, figures, models, views, fluids, or files that ship.
 int sb_command_list(int argc, char **argv);
+
+// fit: fits one seal into its gland.
 int sb_command_fit(int argc, char **argv);
+
+// film: computes the film of a sliding line contact.
 int sb_command_film(int argc, char **argv);
+
+// asperity: prints Greenwood and Tripp's integrals F2 and F5/2.
 int sb_command_asperity(int argc, char **argv);
+
+// fluid: prints the properties of a propellant, ethanol or a silicone oil.
 int sb_command_fluid(int argc, char **argv);
+
+// plan: prints what scenes would compute, and why.
 int sb_command_plan(int argc, char **argv);
+
+// render: draws a view of scenes.
 int sb_command_render(int argc, char **argv);
+
+// bench: measures error against time for every solver.
 int sb_command_bench(int argc, char **argv);
+
+// study: computes figures of many valves: grids, samples, sensitivities.
 int sb_command_study(int argc, char **argv);
+
+// merge: joins stores of studies.
 int sb_command_merge(int argc, char **argv);
+
+// store: verifies the rows of a store, saves the sound ones, or writes them as a table.
 int sb_command_store(int argc, char **argv);
+
+// calibrate: fits parameters to measured loops and reports which are identifiable.
 int sb_command_calibrate(int argc, char **argv);
+
+// compare: compares runs with each other and with a measured loop.
 int sb_command_compare(int argc, char **argv);
+
+// design: finds the best valve within bounds and limits.
 int sb_command_design(int argc, char **argv);
+
+// sensitivity: computes the derivatives of figures with respect to parameters, with their errors.
 int sb_command_sensitivity(int argc, char **argv);
+
+// surface: computes roughness, asperities and spectrum of a measured surface.
 int sb_command_surface(int argc, char **argv);
+
+// cad: lists the bodies of a drawing, and writes a scene whose parts have their shapes.
 int sb_command_cad(int argc, char **argv);
+
+// thesis: recomputes a table or figure of the thesis and compares it with the printed values.
 int sb_command_thesis(int argc, char **argv);
+
+// report: writes inputs, pictures, figures with their errors and the verdict as pages.
 int sb_command_report(int argc, char **argv);
+
+// open: starts the window.
 int sb_command_open(int argc, char **argv);
+
+// tui: starts the workbench in a terminal.
 int sb_command_tui(int argc, char **argv);
 
 // ---- Commands that compute the samples of a study file ----

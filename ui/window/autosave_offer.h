@@ -1,9 +1,11 @@
-// Asks in a dialog what to do with unsaved changes that a process which no longer runs has left.
+// A dialog about unsaved changes of a process that has ended without saving them.
 #pragma once
 
 #include "app/session/autosave.h"
 
 #include <gtk/gtk.h>
 
-// Once the window stands, the first time in a process; never after the window's end. All borrowed.
+// Shows the dialog for each such file 300 ms later, unless the document was edited by then. Only
+// the first call in a process does so, and never after `window` is destroyed. All arguments are
+// borrowed until `window` is destroyed.
 void sb_autosave_offer(SbSession *session, SbAutosave *autosave, GtkWindow *window);

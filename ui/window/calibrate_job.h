@@ -1,24 +1,27 @@
-// One calibration on a thread of its own: a study goes in, what it found comes out.
+// One calibration on a thread of its own. All functions of this header run in the main thread.
 #pragma once
 
 #include "app/study/calibrate.h"
 
 typedef struct SbCalibrateJob SbCalibrateJob;
 
-// Starts it; takes the study over. `done` is called once on the main thread unless the job was
-// freed before. Owned by the caller.
+// Starts the calibration of `study`, which the job takes over. `done` is called once in the main
+// thread when it has ended, also after failure or cancellation, unless the job was freed before.
+// Never NULL; freed by sb_calibrate_job_free().
 SbCalibrateJob *sb_calibrate_job_start(SbStudyFile *study, void (*done)(void *data), void *data);
 
-// Share done, 0 to 1.
+// Returns the fraction done, 0 to 1.
 double sb_calibrate_job_progress(SbCalibrateJob *job);
 
-// Asks it to end; returns at once.
+// Requests cancellation and returns immediately; `done` follows.
 void sb_calibrate_job_cancel(SbCalibrateJob *job);
 
-// Only after `done`: what was found, to be released by the caller, and its study, for the caller
-// to free. False with a sentence in *why (owned by the caller). Once.
+// Once, after `done`: moves the result to the caller: `out`, freed by sb_calibration_release(), and
+// its study, freed by sb_study_file_free() after `out`. Returns true also if the fit has not
+// converged, or if it was cancelled and has estimates (out->partial). Otherwise returns false and
+// sets `*why` to a sentence, freed by g_free().
 bool sb_calibrate_job_take(SbCalibrateJob *job, SbCalibration *out, SbStudyFile **study,
                            char **why);
 
-// Cancels, waits, frees. Takes NULL.
+// Cancels, waits for the thread and frees. Takes NULL.
 void sb_calibrate_job_free(SbCalibrateJob *job);

@@ -1,10 +1,11 @@
-// The page of the window on which the valve is fitted to measured loops.
+// The page of the window that fits parameters of the valve to measured loops.
 #pragma once
 
 #include "app/session/session.h"
 
 #include <gtk/gtk.h>
 
-// Fits the document's parameters that are ticked to its own data, or to a file that is imported;
-// what was recognised of that can be said otherwise. Estimates go into the document on request.
+// Returns a new page (floating reference), which holds a reference to `session`. It fits the
+// parameters that the user ticks to the measured data of the document, or of a file that is
+// imported in the page. Estimates are written to the document only on request.
 GtkWidget *sb_calibrate_page_new(SbSession *session);

@@ -1,5 +1,5 @@
-// The table of limits on the page Design: what a figure may be, what it is now and at the best
-// design found, and how far that is from the limit over its scatter.
+// The table of limits on the page Design: for each figure its range, its present value, that of the
+// best design, and their margins in standard deviations.
 #pragma once
 
 #include "app/export/design_map.h"
@@ -7,16 +7,20 @@
 
 #include <gtk/gtk.h>
 
+// What the user does in the table. `figure`: index of sb_figure(). Both functions must be set.
 typedef struct {
-  // A limit was set or taken away (both ends open).
+  // The limit of a figure is now low .. high [SI]; infinite ends are open, both open: removed.
   void (*limited)(void *data, int figure, double low, double high);
-  // A figure's row was chosen.
+  // The row of a figure was selected.
   void (*chosen)(void *data, int figure);
   void *data;
 } SbDesignLimitsHooks;
 
+// Returns an empty table (floating reference). `hooks` is copied.
 GtkWidget *sb_design_limits_new(const SbDesignLimitsHooks *hooks);
 
-// Shows the question's limits with what is known of them; `answer` may be NULL.
+// Shows the limits of `ask` in `limits`, a widget of sb_design_limits_new(), with the results
+// `answer` (NULL: none yet), and selects the row of the figure `chosen` (index of sb_figure(); -1:
+// no row). Both are only read; the hooks are not called.
 void sb_design_limits_show(GtkWidget *limits, const SbDesignAsk *ask, const SbDesignAnswer *answer,
                            int chosen);

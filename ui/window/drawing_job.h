@@ -1,25 +1,28 @@
-// Reads a drawing (DXF, STEP) on a thread beside the window.
+// Reads a drawing (DXF, STEP) on a thread of its own. All functions of this header run in the main
+// thread.
 #pragma once
 
 #include "app/document/cad_parts.h"
 
 typedef struct SbDrawingJob SbDrawingJob;
 
-// What was read; `part` as in parts.h. Belongs to the job.
+// A drawing that was read. Owned by the job.
 typedef struct {
   const char *path;
-  SbCad *cad;
-  SbCadSettings settings;
-  int part[SB_CAD_PART_COUNT];
+  SbCad *cad;                  // the bodies
+  SbCadSettings settings;      // how it was read
+  int part[SB_CAD_PART_COUNT]; // body of each part of the valve: index of cad->bodies; -1: none
 } SbDrawing;
 
-// `choices` are lines "name = value" by the names of sb_cad_choose(). `done` is called once on the
-// main thread unless the job is freed before.
+// Starts reading `path`. `choices` are lines "name = value" with the names of sb_cad_choose(). Both
+// are copied. `done` is called once with `user` in the main thread when it has ended, also after a
+// failure, unless the job was freed before. Never NULL; freed by sb_drawing_job_free().
 SbDrawingJob *sb_drawing_job_start(const char *path, const char *choices, void (*done)(void *data),
                                    void *user);
 
-// Once it is done: what was read, or NULL and why. Both belong to the job.
+// After `done`: returns the drawing, and sets `*why` to NULL; or returns NULL, and sets `*why` to a
+// sentence. Both are borrowed from the job.
 const SbDrawing *sb_drawing_job_drawing(const SbDrawingJob *job, const char **why);
 
-// Waits for the thread; takes NULL.
+// Cancels, waits for the thread and frees. Takes NULL.
 void sb_drawing_job_free(SbDrawingJob *job);

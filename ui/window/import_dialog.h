@@ -1,19 +1,22 @@
-// Dialogs that import a file with a preview of what was recognised, each choice of which may be
-// changed: a measured loop beside the document's runs, a scan into its surface, the bodies of a
-// drawing as its valve's parts.
+// Dialogs that import a file. They show a preview of how it is read, and the user can change each
+// choice: a measured loop that is compared with the runs of the document, a scan of its surface,
+// and the bodies of a drawing as the parts of its valve.
+//
+// Each function opens its dialog over `parent` and returns; the dialog destroys itself. `path` is
+// copied; NULL: the user is asked for a file first.
 #pragma once
 
 #include "app/session/session.h"
 
 #include <gtk/gtk.h>
 
-// A loop from `path`, with what the document's data say of it already; NULL asks for a file. The
-// group [data] of the document has it afterwards.
+// Imports a measured loop as the first entry of the document's measured data (group [data]). If the
+// document has this file already, its choices are shown.
 void sb_import_measured(GtkWindow *parent, SbSession *session, const char *path);
 
-// A scan in the same way, which becomes surface.gt_product, .sigma and .sigma_over_beta.
+// Imports a scan; it sets surface.gt_product, surface.sigma and surface.sigma_over_beta.
 void sb_import_scan(GtkWindow *parent, SbSession *session, const char *path);
 
-// A drawing in the same way: asks for a file, a copy of the document with the valve's parts shaped
-// by the bodies, writes that and opens it in `parent` (an SbWindow).
+// Imports a drawing: writes a copy of the document whose parts have the shape of the bodies to a
+// file that the user chooses, and opens that file in `parent` (an SbWindow).
 void sb_import_drawing(GtkWindow *parent, SbSession *session, const char *path);

@@ -1,11 +1,11 @@
-// The window's three columns: parameters, section, charts. Their borders can be dragged; the places
-// are remembered. In a window narrower than the look's the outer columns start narrower too; in one
-// too narrow for all three the charts give way to the section, and a toggle in the header brings
-// them back.
+// The window's three columns: parameters, section, charts. The user can drag their borders, whose
+// positions are remembered (preferences.h). In a narrow window the outer columns are narrower; if
+// it is too narrow for all three, the charts are hidden, and a toggle in the header shows them.
 #pragma once
 
 #include <gtk/gtk.h>
 
-// `columns` holds the left column and `views`; `views` holds the centre and the right column.
-// `charts` is the toggle.
+// Places the borders now and whenever the width changes. `columns` has the left column and `views`
+// as its children; `views` has the centre and the right column. `charts` is the toggle (a widget
+// with a property "active"). All live as long as `columns`.
 void sb_paned_layout_attach(GtkPaned *columns, GtkPaned *views, GtkWidget *charts);

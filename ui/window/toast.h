@@ -1,16 +1,18 @@
-// One line at the foot of a window about what is done: "pages.pdf is written". It goes by itself;
-// it stands over the foot of the pictures, not over the timeline or the status.
+// A line above the bottom of a window that reports what was done: "pages.pdf is written". It hides
+// itself after some seconds. It covers neither the timeline nor the status bar.
 #pragma once
 
 #include <gtk/gtk.h>
 
-// Gives a window its line, over all that it holds now.
+// Gives a window its line, above its present content. To be called once for a window, before the
+// other functions; the line is freed with the window.
 void sb_toast_attach(GtkWindow *window);
 
-// Shows a text in place of the one before, with a button for an action if `action` is not NULL. It
-// goes after some seconds unless it `stays`.
+// Shows `text` in place of the earlier one. `action`: detailed name of an action
+// ("win.show-report") for a button with the label `button`; NULL: no button. `stays`: the line is
+// shown until it is hidden or replaced.
 void sb_toast_show(GtkWindow *window, const char *text, const char *button, const char *action,
                    gboolean stays);
 
-// Takes it away.
+// Hides the line.
 void sb_toast_hide(GtkWindow *window);

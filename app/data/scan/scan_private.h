@@ -37,20 +37,21 @@ gboolean sb_scan_allocate(SbScan *out, guint64 columns, guint64 rows, const char
 // any other text.
 double sb_scan_length(const char *unit);
 
-// The little-endian integers and IEEE floats at `p`. The caller checks that enough bytes are left:
-// 2, 4, 4 and 8.
+// Returns the little-endian integer at `p`; the caller checks that 2 bytes are left.
 static inline guint16 sb_scan_u16(const guchar *p) {
   guint16 value;
   memcpy(&value, p, sizeof value);
   return GUINT16_FROM_LE(value);
 }
 
+// Returns the little-endian integer at `p`; the caller checks that 4 bytes are left.
 static inline guint32 sb_scan_u32(const guchar *p) {
   guint32 value;
   memcpy(&value, p, sizeof value);
   return GUINT32_FROM_LE(value);
 }
 
+// Returns the little-endian IEEE float at `p`; the caller checks that 4 bytes are left.
 static inline double sb_scan_float(const guchar *p) {
   const guint32 bits = sb_scan_u32(p);
   float value;
@@ -58,6 +59,7 @@ static inline double sb_scan_float(const guchar *p) {
   return (double)value;
 }
 
+// Returns the little-endian IEEE double at `p`; the caller checks that 8 bytes are left.
 static inline double sb_scan_double(const guchar *p) {
   guint64 bits;
   double value;
