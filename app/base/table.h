@@ -57,7 +57,7 @@ typedef struct SbTable SbTable;
 // Returns NULL with one issue if it cannot be read or is not a table. Freed by sb_table_free().
 SbTable *sb_table_open(const char *path, const SbTableDialect *wish, GPtrArray *issues);
 
-// As sb_table_open(), from the `length` bytes of a file, which are copied; `name` stands for the
+// As sb_table_open(), from the `length` bytes of a file, which are copied; `name` is used as the
 // path in messages.
 SbTable *sb_table_parse(const void *bytes, size_t length, const SbTableDialect *wish,
                         const char *name, GPtrArray *issues);

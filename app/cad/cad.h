@@ -80,7 +80,7 @@ SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error
 void sb_cad_free(SbCad *cad);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbCad, sb_cad_free)
 
-// As sb_cad_read(), from the `length` bytes of a DXF; `name` stands for the path in messages.
+// As sb_cad_read(), from the `length` bytes of a DXF; `name` is used as its path in messages.
 SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
                         const SbCadChoices *choices, GError **error);
 

@@ -27,7 +27,7 @@ typedef struct {
 // SB_APP_ERROR_INPUT, whose message names the file and the place; `out` is then empty.
 gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **error);
 
-// As sb_stl_read(), from the `length` bytes of a file; `name` stands for the path in messages.
+// As sb_stl_read(), from the `length` bytes of a file; `name` is used as its path in messages.
 gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *unit,
                       const char *name, GError **error);
 

@@ -1,5 +1,5 @@
 // Charts of characters below the tables of commands, on standard output. They appear on a terminal,
-// or where --plot requests them; the caller asks sb_cli_plots() first.
+// or where --plot requests them; the caller calls sb_cli_plots() first.
 #pragma once
 
 #include "app/data/compare.h"

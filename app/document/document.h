@@ -58,7 +58,7 @@ bool sb_document_faults(const SbDocument *document, GPtrArray *issues);
 // values and without a path.
 SbDocument *sb_document_load(const char *path, GPtrArray *issues);
 
-// As sb_document_load(), from the `length` bytes of a file. `name` stands for the path in messages;
+// As sb_document_load(), from the `length` bytes of a file. `name` is used as its path in messages;
 // `directory` is the folder in which the valve and other files are looked for (NULL: the current
 // one). The document has no path.
 SbDocument *sb_document_parse(const char *text, size_t length, const char *name,

@@ -29,7 +29,7 @@ enum { SB_RUBBER_BYTES_MAX = 1 << 16 };
 char *sb_rubber_sheet_read(SbRubberSheet *out, const char *name, const char *directory,
                            const char *shown, int line, GPtrArray *issues);
 
-// Reads a rubber from the `length` bytes of a file; `shown` stands for its path in messages.
+// Reads a rubber from the `length` bytes of a file; `shown` is used as its path in messages.
 // Returns false with at least one issue.
 bool sb_rubber_sheet_parse(SbRubberSheet *out, const char *text, size_t length, const char *shown,
                            GPtrArray *issues);

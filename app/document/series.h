@@ -26,6 +26,6 @@ SB_CHECKED bool sb_series_read_speed(SbModelSeries *out, const char *path, GPtrA
 // the values are in K. out->quantity is not changed.
 bool sb_series_read_temperature(SbModelSeries *out, const char *path, GPtrArray *issues);
 
-// As sb_series_read(), from the `length` bytes of a file; `name` stands for the path in messages.
+// As sb_series_read(), from the `length` bytes of a file; `name` is used as its path in messages.
 SB_CHECKED bool sb_series_parse(SbModelSeries *out, const char *text, size_t length,
                                 const char *name, GPtrArray *issues);

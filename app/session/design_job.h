@@ -43,7 +43,7 @@ double sb_design_job_progress(SbDesignJob *job);
 // Pauses the job between two valves (`on`), or continues it. Returns immediately.
 void sb_design_job_pause(SbDesignJob *job, bool on);
 
-// Asks the job to end. Returns immediately; `done` follows.
+// Requests the end of the job. Returns immediately; `done` follows.
 void sb_design_job_cancel(SbDesignJob *job);
 
 // To be called once, after `done`: returns the results as far as they were computed, freed by

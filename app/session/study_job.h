@@ -15,7 +15,7 @@ SbStudyJob *sb_study_job_start(SbStudyKind kind, const SbModel *model, void (*do
 // Returns the fraction done, 0 to 1.
 double sb_study_job_progress(SbStudyJob *job);
 
-// Asks the job to end and returns immediately; `done` follows within one solve.
+// Requests the end of the job and returns immediately; `done` follows within one solve.
 void sb_study_job_cancel(SbStudyJob *job);
 
 // To be called once, after `done`: returns the study, freed by g_free(). NULL: it was cancelled or

@@ -34,7 +34,7 @@ bool sb_worker_cancelled(SbWorker *worker);
 // Returns the fraction done, 0 to 1. Any thread.
 double sb_worker_progress(SbWorker *worker);
 
-// Asks the thread to end and returns immediately. Any thread.
+// Requests the end of the thread and returns immediately. Any thread.
 void sb_worker_cancel(SbWorker *worker);
 
 // Cancels, waits for the thread and releases the worker; `done` is not called afterwards. To be

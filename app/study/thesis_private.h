@@ -69,7 +69,7 @@ bool sb_thesis_value(double *out, const SbThesisPlace *at, const char *text, con
 bool sb_thesis_grid(SbThesisGrid **grid, const char **expression, SbThesisWork *work,
                     const char *text, const char *group, const char *key);
 
-// Returns whether the computation was cancelled; asks `cancelled`.
+// Returns whether the computation was cancelled; calls `cancelled`.
 bool sb_thesis_stopped(SbThesisWork *work);
 
 // Computes all figures of all grids that expressions of rows and series use. Returns false if that

@@ -45,7 +45,7 @@ typedef struct {
 // and `out` is then empty.
 gboolean sb_scan_read(SbScan *out, const char *path, const SbScanChoices *choices, GError **error);
 
-// As sb_scan_read(), from the `length` bytes of a file; `name` stands for the path in messages.
+// As sb_scan_read(), from the `length` bytes of a file; `name` is used as its path in messages.
 gboolean sb_scan_parse(SbScan *out, const char *data, gsize length, const SbScanChoices *choices,
                        const char *name, GError **error);
 
