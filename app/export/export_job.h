@@ -59,7 +59,8 @@ double sb_export_job_progress(SbExportJob *job);
 double sb_export_job_left(SbExportJob *job);
 
 // Requests cancellation and returns immediately; `done` follows. An MP4 keeps the pictures done so
-// far and can be played; pictures of a sequence stay; anything else is not written.
+// far and can be played; pictures of a sequence stay; a single picture is completed; animations,
+// reports and .json are not written.
 void sb_export_job_cancel(SbExportJob *job);
 
 // Only after `done`: returns a sentence about the result, translated; `*good` is set to whether the
