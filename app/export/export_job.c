@@ -24,7 +24,7 @@ struct SbExportJob {
   gboolean good;
 };
 
-void sb_export_request_beside(SbExportRequest *request, SbSession *session) {
+void sb_export_request_add_compared(SbExportRequest *request, SbSession *session) {
   for (size_t i = 0; i < sb_session_pin_count(session); i++) {
     const int look = sb_session_pin_slot(session, i);
     SbChartPin pin;
@@ -62,7 +62,7 @@ void sb_export_request_clear(SbExportRequest *request) {
 
 static void on_film_progress(void *user, size_t done, size_t total) {
   SbExportJob *job = user;
-  sb_worker_tell(&job->worker, (double)done / (double)MAX(total, 1));
+  sb_worker_set_progress(&job->worker, (double)done / (double)MAX(total, 1));
 }
 
 static bool film_cancelled(void *user) {
@@ -72,7 +72,7 @@ static bool film_cancelled(void *user) {
 
 static bool on_report_page(void *data, int done, int count) {
   SbExportJob *job = data;
-  sb_worker_tell(&job->worker, (double)done / MAX(count, 1));
+  sb_worker_set_progress(&job->worker, (double)done / MAX(count, 1));
   return sb_worker_cancelled(&job->worker);
 }
 
@@ -111,7 +111,7 @@ static void tell_kept(SbExportJob *job, GPtrArray *kept) {
   }
 }
 
-// What was measured, read anew for this thread; NULL where it can no longer be.
+// What was measured, read again for this thread; NULL where it can no longer be.
 static SbMeasured *read_measured(const SbExportRequest *request) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   return request->measured != NULL
@@ -175,7 +175,7 @@ static void make(SbExportJob *job, SbSectionPainter *painter) {
     job->result = job->good ? g_strdup_printf(_("%s is written."), name)
                             : g_strdup_printf(_("Nothing was written: %s."), error->message);
   }
-  sb_worker_tell(&job->worker, 1);
+  sb_worker_set_progress(&job->worker, 1);
 }
 
 // The studies that the scene asks for; how many.

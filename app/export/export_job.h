@@ -38,7 +38,7 @@ typedef struct {
 
 // Adds the kept designs that a session draws together with its run, and its bookmarks, to a request
 // that has none.
-void sb_export_request_beside(SbExportRequest *request, SbSession *session);
+void sb_export_request_add_compared(SbExportRequest *request, SbSession *session);
 
 // Frees the content of a request that was not started, and sets its pointers to NULL.
 void sb_export_request_clear(SbExportRequest *request);

@@ -18,7 +18,7 @@ struct SbMoviePictures {
   int width, height, fps_num, fps_den;
   SbTrace *trace;
   SbChartData data;
-  SbRenderBeside beside;
+  SbRenderCompared compared;
   char *comment;
 };
 
@@ -89,7 +89,7 @@ bool sb_movie_pictures_open(SbMoviePictures **out, const SbRun *run, const SbRen
   film->pictures = sb_movie_frames(duration, film->fps_num, film->fps_den);
   film->trace = sb_trace_create(sb_run_model(run));
   sb_trace_extend(film->trace, film->frames, film->count, 0);
-  sb_render_beside_begin(&film->beside, &film->data, options);
+  sb_render_compared_begin(&film->compared, &film->data, options);
   SbStatus ended = sb_run_summary(run)->status;
   sb_chart_run_init(&film->data.run, run, film->trace,
                     ended == SB_OK                ? SB_CHART_DONE
@@ -109,7 +109,7 @@ void sb_movie_pictures_close(SbMoviePictures *film) {
   if (film == NULL) {
     return;
   }
-  sb_render_beside_end(&film->beside);
+  sb_render_compared_end(&film->compared);
   sb_trace_destroy(film->trace);
   g_free(film->comment);
   g_free(film);
@@ -149,7 +149,7 @@ static size_t nearest(const SbMoviePictures *film, double time) {
 void sb_movie_pictures_draw(SbMoviePictures *film, size_t index, cairo_t *cr) {
   double share = film->pictures > 1 ? (double)index / (double)(film->pictures - 1) : 0;
   film->data.playhead = nearest(film, film->begin + share * (film->end - film->begin));
-  sb_render_beside_place(&film->data);
+  sb_render_compared_place(&film->data);
   const SbRenderOptions *options = film->options;
   sb_render_draw(cr, (SbRect){0, 0, film->width, film->height}, sb_theme(options->dark),
                  &film->data, 0, film->view, options->section, options->section_data);

@@ -89,7 +89,7 @@ void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChar
   }
   SbPage frame = sb_page_begin(cr, rect, view->width, view->height, theme);
   SbRect page = frame.whole, body = frame.body;
-  // A narrow page has no room for read-outs beside its title; the view's own labels say the same.
+  // A narrow page has no room for read-outs next to its title; the view's own labels say the same.
   unsigned header = page.width < 1000 ? flags | SB_CHART_WHOLE : flags;
   sb_page_header_draw(cr, page, theme, data, header);
   flags |= SB_CHART_PANEL;
@@ -181,9 +181,9 @@ size_t sb_render_markers(SbChartMarker **out, const SbDocument *document) {
   return count;
 }
 
-void sb_render_beside_begin(SbRenderBeside *beside, SbChartData *data,
-                            const SbRenderOptions *options) {
-  *beside = (SbRenderBeside){0};
+void sb_render_compared_begin(SbRenderCompared *compared, SbChartData *data,
+                              const SbRenderOptions *options) {
+  *compared = (SbRenderCompared){0};
   data->title = options->title;
   data->subtitle = options->subtitle;
   data->hash = options->hash;
@@ -197,25 +197,25 @@ void sb_render_beside_begin(SbRenderBeside *beside, SbChartData *data,
     size_t count;
     const SbFrame *frames = sb_run_frames(pin->run, &count);
     if (count > 0) {
-      beside->trace[i] = sb_trace_create(sb_run_model(pin->run));
-      sb_trace_extend(beside->trace[i], frames, count, 0);
-      sb_chart_run_init(&beside->run[i], pin->run, beside->trace[i],
+      compared->trace[i] = sb_trace_create(sb_run_model(pin->run));
+      sb_trace_extend(compared->trace[i], frames, count, 0);
+      sb_chart_run_init(&compared->run[i], pin->run, compared->trace[i],
                         sb_chart_state_of(sb_run_summary(pin->run)));
       data->pin[data->pin_count++] =
-          (SbChartPin){.run = &beside->run[i], .name = pin->name, .look = pin->look};
+          (SbChartPin){.run = &compared->run[i], .name = pin->name, .look = pin->look};
     }
   }
 }
 
-void sb_render_beside_place(SbChartData *data) {
+void sb_render_compared_place(SbChartData *data) {
   for (size_t i = 0; i < data->pin_count; i++) {
     data->pin[i].frame = sb_playhead_same_place(&data->run, data->playhead, data->pin[i].run);
   }
 }
 
-void sb_render_beside_end(SbRenderBeside *beside) {
+void sb_render_compared_end(SbRenderCompared *compared) {
   for (int i = 0; i < SB_CHART_PINS; i++) {
-    sb_trace_destroy(beside->trace[i]);
+    sb_trace_destroy(compared->trace[i]);
   }
 }
 
@@ -257,10 +257,10 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
   SbTrace *trace = sb_trace_create(sb_run_model(run));
   sb_trace_extend(trace, frames, count, 0);
   SbChartData data = {.playhead = frame};
-  SbRenderBeside beside;
-  sb_render_beside_begin(&beside, &data, options);
+  SbRenderCompared compared;
+  sb_render_compared_begin(&compared, &data, options);
   sb_chart_run_init(&data.run, run, trace, sb_chart_state_of(summary));
-  sb_render_beside_place(&data);
+  sb_render_compared_place(&data);
 
   // Models, errors and warnings also go into the file's own texts.
   char models[256], errors[256];
@@ -292,7 +292,7 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
                    .user = &page};
   bool good = sb_still_write(&still, path, error);
   g_string_free(comment, TRUE);
-  sb_render_beside_end(&beside);
+  sb_render_compared_end(&compared);
   sb_trace_destroy(trace);
   return good;
 }

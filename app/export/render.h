@@ -71,28 +71,28 @@ bool sb_render_view_fits(const SbRenderView *view, const SbRun *run, GError **er
 void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                     unsigned flags, const SbRenderView *view, SbSectionDraw section, void *user);
 
-// Memory for the kept designs in chart data; see sb_render_beside_begin().
+// Memory for the kept designs in chart data; see sb_render_compared_begin().
 typedef struct {
   SbTrace *trace[SB_CHART_PINS];
   SbChartRun run[SB_CHART_PINS];
-} SbRenderBeside;
+} SbRenderCompared;
 
 // Sets `*out` to an array of the bookmarks of a document, for SbRenderOptions, and returns their
 // number. The array is freed by g_free(); the names in it are borrowed from the document.
 size_t sb_render_markers(SbChartMarker **out, const SbDocument *document);
 
 // Fills the members of `data` that come from the options: texts, measured data, bookmarks and kept
-// designs. Does not set `run` and `playhead`. `beside` and the content of `options` are borrowed by
-// `data` until sb_render_beside_end().
-void sb_render_beside_begin(SbRenderBeside *beside, SbChartData *data,
-                            const SbRenderOptions *options);
+// designs. Does not set `run` and `playhead`. `compared` and the content of `options` are borrowed
+// by `data` until sb_render_compared_end().
+void sb_render_compared_begin(SbRenderCompared *compared, SbChartData *data,
+                              const SbRenderOptions *options);
 
 // Sets the frame of each kept design to the position of data->playhead; to be called after `run`
 // and `playhead` were set or changed.
-void sb_render_beside_place(SbChartData *data);
+void sb_render_compared_place(SbChartData *data);
 
-// Frees the memory of sb_render_beside_begin().
-void sb_render_beside_end(SbRenderBeside *beside);
+// Frees the memory of sb_render_compared_begin().
+void sb_render_compared_end(SbRenderCompared *compared);
 
 // Draws a finished run (done, cancelled or failed) into the file `path` as PNG, SVG or PDF by its
 // ending. False with SB_APP_ERROR_INPUT (unknown view, a view that the run has not, stage not

@@ -57,7 +57,7 @@ static bool is_cancelled(void *data) {
 
 static void begin(SbDesignJob *job, SbDesignPart part, double share) {
   g_atomic_int_set(&job->part, (gint)part);
-  sb_worker_tell(&job->worker, share);
+  sb_worker_set_progress(&job->worker, share);
 }
 
 // The map -----------------------------------------------------------------------------------------
@@ -92,7 +92,7 @@ static void on_point(void *data, size_t sample, SbStatus status, const SbReport 
   const SbDesignMap *map = &job->answer->map;
   const double share = (double)map->done / (double)(map->n * map->n);
   unlock(job);
-  sb_worker_tell(&job->worker, (job->search ? 0.4 : 0.9) * share);
+  sb_worker_set_progress(&job->worker, (job->search ? 0.4 : 0.9) * share);
   (void)is_cancelled(job); // a job that is held stays here
 }
 

@@ -16,7 +16,7 @@ struct SbStudyJob {
 
 static void on_progress(void *data, double fraction) {
   SbStudyJob *job = data;
-  sb_worker_tell(&job->worker, fraction);
+  sb_worker_set_progress(&job->worker, fraction);
 }
 
 static bool is_cancelled(void *data) {

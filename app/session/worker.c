@@ -29,7 +29,7 @@ void sb_worker_start(SbWorker *worker, const char *name, void (*work)(void *owne
   worker->thread = g_thread_new(name, run, worker);
 }
 
-void sb_worker_tell(SbWorker *worker, double share) {
+void sb_worker_set_progress(SbWorker *worker, double share) {
   g_atomic_int_set(&worker->per_mille, (gint)(1000 * share));
 }
 

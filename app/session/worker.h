@@ -26,7 +26,7 @@ void sb_worker_start(SbWorker *worker, const char *name, void (*work)(void *owne
                      void (*done)(void *data), void *data);
 
 // Called by `work`: sets the fraction done, 0 to 1.
-void sb_worker_tell(SbWorker *worker, double share);
+void sb_worker_set_progress(SbWorker *worker, double share);
 
 // Called by `work`: returns whether it is to end. Any thread.
 bool sb_worker_cancelled(SbWorker *worker);

@@ -76,7 +76,7 @@ static void start(SbBench *bench, const char *path, const char *name, const SbRe
       .document =
           sb_session_is_modified(bench->session) ? sb_document_to_text(document, NULL) : NULL,
   };
-  sb_export_request_beside(&request, bench->session);
+  sb_export_request_add_compared(&request, bench->session);
   request.style.field = bench->field;
   request.style.cutaway = strcmp(name, "cutaway") == 0;
   bench->export = sb_export_job_start(handle, &request, on_export, bench);

@@ -15,7 +15,7 @@ struct SbCalibrateJob {
 
 static void on_progress(void *data, double fraction) {
   SbCalibrateJob *job = data;
-  sb_worker_tell(&job->worker, fraction);
+  sb_worker_set_progress(&job->worker, fraction);
 }
 
 static bool is_cancelled(void *data) {

@@ -344,7 +344,7 @@ static void start(gpointer data) {
       .scene = sb_document_to_flat_text(document),
       .stale = sb_session_stale_text(dialog->session),
   };
-  sb_export_request_beside(&request, dialog->session);
+  sb_export_request_add_compared(&request, dialog->session);
   set_status(dialog, _("Exporting…"), "sb-pass");
   gtk_style_context_remove_class(gtk_widget_get_style_context(dialog->result), "sb-pass");
   set_busy(dialog, TRUE);
