@@ -247,7 +247,7 @@ static void popup_key(SbBench *bench, const SbKey *key) {
 
 // Pages ------------------------------------------------------------------------------------------
 
-static void choose_page(SbBench *bench, SbPage page) {
+static void choose_page(SbBench *bench, SbBenchPage page) {
   bench->page = page;
   if (page == SB_PAGE_PROPELLANTS) {
     bench->study_kind = SB_STUDY_PROPELLANTS;
@@ -410,7 +410,7 @@ static bool common_key(SbBench *bench, const SbKey *key) {
   case '2':
   case '3':
   case '4':
-    choose_page(bench, (SbPage)(key->character - '1'));
+    choose_page(bench, (SbBenchPage)(key->character - '1'));
     return true;
   case '?':
     open_popup(bench, SB_POPUP_HELP);

@@ -20,7 +20,7 @@ typedef enum {
   SB_PAGE_CALIBRATE,
   SB_PAGE_PROPELLANTS,
   SB_PAGE_COUNT
-} SbPage;
+} SbBenchPage;
 
 // Which parameters are listed: the main ones, those that differ from the default, all.
 typedef enum { SB_LIST_MAIN, SB_LIST_CHANGED, SB_LIST_ALL, SB_LIST_COUNT } SbListKind;
@@ -66,7 +66,7 @@ typedef struct {
 
   SbCellTheme theme;
   SbCells cells; // the picture that is drawn
-  SbPage page;
+  SbBenchPage page;
   SbPopup popup;
   int popup_scroll;   // lines above the first visible one
   char *message;      // result of the last action; NULL: none
