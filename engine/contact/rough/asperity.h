@@ -19,8 +19,8 @@
 //
 // Means are taken over Gaussian heights while the surfaces separate (K.N.G. Fuller & D. Tabor,
 // Proc. R. Soc. Lond. A 345 (1975) 327 with JKR; D. Maugis, J. Adhes. Sci. Technol. 10 (1996) 161
-// with DMT): a contact remains until it is torn off. The weaker attraction on approach (hysteresis)
-// is not modelled. Asperities are independent.
+// with DMT): a contact remains until it is torn off. Not modelled: approaching surfaces, which
+// attract each other less (hysteresis). Asperities are independent.
 #pragma once
 
 #include "engine/base/status.h"
@@ -35,34 +35,41 @@
 
 // An asperity, set by sb_asperity_init().
 typedef struct {
-  double radius; // R [m]
+  double radius; // R of the paraboloid that replaces the two tips [m]
   double K;      // 4 E*/3 [Pa]
   double work;   // w [J/m2]; 0: no adhesion (Hertz)
   double tabor;  // Tabor's parameter
   bool jkr;      // the law: JKR or DMT
-  double least;  // contact radius at which the contact separates [m]
+  double least;  // contact radius a at which the contact separates [m]; 0 with DMT or Hertz
 } SbAsperity;
 
-// Sets an asperity of `radius` R [m] and `work` of adhesion w [J/m2]. `modulus` is E' with 2/E' =
-// sum (1 - nu^2)/E [Pa].
+// Sets all fields of an asperity. `radius` is R [m] > 0: the tip radius against a flat, half of it
+// for two equal tips. `modulus` is E' with 2/E' = sum (1 - nu^2)/E [Pa] > 0. `work` is the work of
+// adhesion w [J/m2] >= 0.
 void sb_asperity_init(SbAsperity *out, double radius, double modulus, double work);
 
 // Adds a warning if Tabor's parameter is between SB_TABOR_DMT and SB_TABOR_JKR.
 void sb_asperity_warn(SbWarnings *warnings, const SbAsperity *asperity);
 
-// State at a contact radius; the load is elastic - pull.
+// State at a contact radius. The load on the asperity is elastic - pull.
 typedef struct {
-  double elastic, pull;            // [N]
-  double approach, approach_slope; // [m]; derivative with respect to the contact radius [1]
+  double elastic;                  // Hertz's load K a^3/R [N]
+  double pull;                     // attraction [N], >= 0
+  double approach, approach_slope; // approach [m], < 0 of a stretched tip; d(approach)/da [1]
 } SbAsperityPoint;
 
-// Computes the state at `contact_radius` [m].
+// Computes the state at `contact_radius` a [m], which must be >= asperity->least; with JKR > 0.
 void sb_asperity_at(SbAsperityPoint *out, const SbAsperity *asperity, double contact_radius);
 
-// Computes the means per asperity of elastic load [N], pull [N] and contact area [m2] into out[3].
-// Heights are Gaussian with standard deviation `sigma` [m]; the flat is `lambda` sigma above their
-// mean plane. With `pairs` the means are those of two rough surfaces (Greenwood and Tripp): their
-// integrals over the overlap lost by misalignment, divided by sigma. The negative derivative of the
-// latter with respect to lambda is the former.
+// Computes means over Gaussian heights: out[0] elastic load [N], out[1] pull [N], out[2] contact
+// area [m2]. `sigma` [m] > 0 is the standard deviation of the heights, `lambda` sigma the distance
+// of the undeformed mean planes.
+//
+// `pairs` false: one rough surface and a flat; the means are per asperity. `pairs` true: two rough
+// surfaces (Greenwood and Tripp), `sigma` is the combined standard deviation of both, and
+// `asperity` has R = beta/2 of two tips of radius beta. Each value, multiplied by 4 pi zeta^2 beta
+// sigma (zeta: asperities per area of one surface), is then a load or contact area per nominal
+// area. The derivative of these values with respect to lambda is the negative of the values without
+// `pairs`.
 void sb_asperity_sums(double out[3], const SbAsperity *asperity, double sigma, double lambda,
                       bool pairs);

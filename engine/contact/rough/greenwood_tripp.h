@@ -22,13 +22,14 @@
 
 // The integrals at one lambda.
 typedef struct {
-  double lambda;  // mean gap over sigma
+  double lambda;  // h/sigma
   double F2;      // F_2(lambda)
   double F5_2;    // F_5/2(lambda)
   bool underflow; // lambda > SB_GT_LAMBDA_MAX: both integrals are 0
 } SbGtIntegrals;
 
-// Writes ln F_n(lambda) for n = 1, 3/2, 2, 5/2 to out[4]. F_n' = -n F_(n-1).
+// Writes ln F_n(lambda) for n = 1, 3/2, 2, 5/2 to out[4]; `lambda` >= SB_GT_LAMBDA_MIN. F_n' = -n
+// F_(n-1).
 void sb_gt_log_integrals(double out[4], double lambda);
 
 // Computes the integrals at `lambda`. SB_ERROR_INPUT: it is not finite. SB_ERROR_RANGE: it is below
@@ -36,9 +37,9 @@ void sb_gt_log_integrals(double out[4], double lambda);
 SbStatus sb_gt_integrals(SbGtIntegrals *out, double lambda, SbReport *report);
 
 // Returns the fraction of real contact area at `lambda`, at most 1; NaN where sb_gt_integrals()
-// fails. `product` is zeta beta sigma.
+// fails. `product` is zeta beta sigma [1].
 double sb_gt_area_share(double product, double lambda);
 
-// Returns the pressure on the asperities [Pa] at `lambda`; NaN where sb_gt_integrals() fails.
-// `modulus` is E' of thesis equation 5.8 [Pa].
+// Returns p_a [Pa] at `lambda`; NaN where sb_gt_integrals() fails. `product` is zeta beta sigma
+// [1], `modulus` is E' of thesis equation 5.8 [Pa], 2/E' = sum (1 - nu^2)/E.
 double sb_gt_pressure(double product, double sigma_over_beta, double modulus, double lambda);

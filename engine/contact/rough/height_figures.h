@@ -7,9 +7,9 @@
 //   z'  = (z3 - 9 z2 + 45 z1 - 45 z-1 + 9 z-2 - z-3)/(60 d)
 //   z'' = (2 z3 - 27 z2 + 270 z1 - 490 z0 + 270 z-1 - 27 z-2 + 2 z-3)/(180 d^2)
 //
-// They find 99.3 % and 99.9 % of a wave of 6 points, 93 and 98 % of one of 4 points. Sdq^2 =
-// <z_x^2> + <z_y^2>. The moments of the surface's profiles (P.R. Nayak, Trans. ASME J. Lubr.
-// Technol. 93 (1971) 398) are
+// Of a sine wave with 6 points per wavelength they compute 99.3 % of the slope and 99.9 % of the
+// curvature; with 4 points 93 % and 98 %. Sdq^2 = <z_x^2> + <z_y^2>. The moments of the surface's
+// profiles (P.R. Nayak, Trans. ASME J. Lubr. Technol. 93 (1971) 398) are
 //
 //   m0 = <z^2>,  m2 = (<z_x^2> + <z_y^2>)/2,  m4 = (<z_xx^2> + <z_yy^2>)/2.
 //
@@ -36,23 +36,24 @@ typedef struct {
 // Parameters of a surface or profile. NaN: not available.
 typedef struct {
   double sq, sa;                // rms and mean absolute height [m]
-  double ssk, sku, sdq;         // skewness, kurtosis, rms slope [1]
+  double ssk, sku, sdq;         // skewness, kurtosis (3 for Gaussian heights), rms slope [1]
   double moment[3];             // m0 [m2], m2 [1], m4 [1/m2]
-  size_t summits;               // counted
-  SbAsperityFigures neighbours; // from counted summits (surfaces with at least two)
-  SbAsperityFigures moments;    // from the moments (a profile is taken as a section of a surface)
-  double breadth;               // alpha; the moments need alpha > 1.5
+  size_t summits;               // number of counted summits; 0 of a profile
+  SbAsperityFigures neighbours; // from counted summits; NaN with fewer than two
+  SbAsperityFigures moments;    // from the moments (a profile is taken as a section of a surface);
+                                // sigma is that of the summits, NaN if breadth <= 1.5
+  double breadth;               // alpha = m0 m4/m2^2
 } SbHeightFigures;
 
-// Computes the parameters. The mean of the heights need not be 0. SB_ERROR_INFEASIBLE: fewer than
-// two heights.
+// Computes the parameters. The mean of the heights need not be 0; missing points are left out.
+// SB_ERROR_INFEASIBLE: fewer than two heights are measured.
 SbStatus sb_height_figures(SbHeightFigures *out, const SbHeights *heights, SbReport *report);
 
-// Returns the asperities that follow from moment[3] = m0, m2, m4; NaN if alpha <= 1.5. `sigma` is
-// McCool's of summits if `of_summits`, else that of all heights, as both contact laws use it
-// (greenwood_tripp.h, persson.h).
+// Returns the asperities that follow from moment[3] = m0, m2, m4; NaN if alpha <= 1.5. With
+// `of_summits` the field sigma is sigma_s, the standard deviation of the summits. Without, it is
+// sqrt(m0), that of all heights, which greenwood_tripp.h and persson.h require.
 SbAsperityFigures sb_asperities_of_moments(const double moment[3], bool of_summits);
 
-// Returns part (i, j) of a surface divided into m by n parts (rows by columns). It shares the
-// heights of `heights`.
+// Divides a surface into m by n parts (rows by columns) and returns the part (i, j), i = 0 to m -
+// 1, j = 0 to n - 1. Its `z` points into heights->z: changes appear in both.
 SbHeights sb_heights_part(const SbHeights *heights, size_t i, size_t m, size_t j, size_t n);

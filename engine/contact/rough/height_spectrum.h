@@ -10,8 +10,8 @@
 // (heights.h).
 //
 // The moments are sums over all resolved waves, m2 and m4 with (qx^n + qy^n)/2 as in
-// height_figures.h. Unlike differences they include short waves fully, with noise and aliasing. If
-// both disagree, the spacing of the points determines the value.
+// height_figures.h. Unlike the differences there, they include the shortest waves fully, with noise
+// and aliasing. If the moments of both headers disagree, the spacing of the points determines them.
 //
 // Self-affine range: C ~ q^-2(H+1) (profile q^-(2H+1)) between the roll-off, below which C is
 // constant, and the cut-off, above which it falls more steeply. Straight lines with these two
@@ -24,36 +24,38 @@
 // Largest number of bins.
 enum { SB_HEIGHT_BINS_MAX = 128 };
 
-// A ring of wave numbers with the powers of its waves.
+// The waves within a range of wave numbers (a ring in the plane of qx and qy).
 typedef struct {
-  double waves, q;  // number of waves; their mean wave number [1/m]
-  double moment[3]; // their contribution to m0, m2, m4
+  double waves;     // number of waves; may be 0
+  double q;         // mean wave number of the waves [rad/m]
+  double moment[3]; // contribution of the waves to m0 [m2], m2 [1], m4 [1/m2]
 } SbSpectrumRing;
 
 // A spectrum; owns `ring`.
 typedef struct {
-  size_t columns, rows; // points that were transformed
+  size_t columns, rows; // size of the transformed part of the grid, its first columns and rows
   size_t ring_count;
   SbSpectrumRing *ring; // [ring_count], by increasing wave number
   double moment[3];     // m0 [m2], m2 [1], m4 [1/m2]
-  // Means of the rings in bins of equal ratio.
+  // Means over bins of rings. The ratio of upper to lower wave number is equal for all bins.
   size_t count;                 // bins in use
-  double q[SB_HEIGHT_BINS_MAX]; // [1/m]
-  double c[SB_HEIGHT_BINS_MAX]; // C [m4], profile [m3]
-  // Hurst exponent H [1], roll-off and cut-off wave numbers [1/m]; NaN: not found, for the reasons
-  // below (static).
-  double hurst, roll_off, cut_off;
-  const char *reason, *roll_off_reason; // of hurst and cut_off; of roll_off; NULL if found
+  double q[SB_HEIGHT_BINS_MAX]; // mean wave number, increasing [rad/m]
+  double c[SB_HEIGHT_BINS_MAX]; // C of the bin [m4], of a profile [m3]
+  double hurst;                 // H [1]; NaN: not found
+  double roll_off;              // wave number of the roll-off [rad/m]; NaN: not found
+  double cut_off;     // wave number of the cut-off [rad/m]; NaN: not found, or beyond the last bin
+  const char *reason; // why hurst, roll_off and cut_off are NaN, static; NULL: H was found
+  const char *roll_off_reason; // why roll_off is NaN, static; NULL: the roll-off was found
 } SbHeightSpectrum;
 
 // Computes the spectrum. Call sb_height_spectrum_finish() also after an error. SB_ERROR_INFEASIBLE:
 // too few heights are measured.
 SbStatus sb_height_spectrum(SbHeightSpectrum *out, const SbHeights *heights, SbReport *report);
 
-// Frees the rings and sets all fields to zero.
+// Frees spectrum->ring and sets all fields to zero.
 void sb_height_spectrum_finish(SbHeightSpectrum *spectrum);
 
 // Computes m0, m2, m4 of the waves that Gaussian filters with the cut-off wavelengths [m] transmit
-// (0: no filter): `cutoff_short` removes shorter waves, `cutoff_long` longer ones.
+// (0: no filter): `cutoff_short` removes shorter waves, `cutoff_long` longer ones (heights.h).
 void sb_height_spectrum_moments(double out[3], const SbHeightSpectrum *spectrum,
                                 double cutoff_short, double cutoff_long);

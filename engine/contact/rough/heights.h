@@ -21,12 +21,12 @@
 // Heights on a grid. One row: a profile.
 typedef struct {
   size_t columns, rows;
-  size_t stride; // elements from one row to the next, at least `columns`
-  double dx, dy; // spacing of columns and of rows [m]
+  size_t stride; // elements of z from one row to the next, at least `columns`
+  double dx, dy; // distance of adjacent columns and of adjacent rows [m]; dy of a profile is unused
   double *z;     // [rows][stride] heights [m], NaN: missing; owned by the caller
 } SbHeights;
 
-// Smallest number of points on a side, and largest number of points.
+// Smallest number of columns (and of rows, unless 1), and largest number of points.
 enum { SB_HEIGHTS_SIDE_MIN = 16 };
 #define SB_HEIGHTS_POINTS_MAX ((size_t)1 << 26)
 
@@ -45,31 +45,31 @@ typedef enum {
       SB_FORM_COUNT
 } SbForm;
 
-// Returns the name of a form ("plane"); static.
+// Returns the name of a form (SbForm), such as "plane"; static.
 const char *sb_form_name(int form);
 
-// Steps of the preparation.
+// Steps of the preparation, in their order. The long cut-off is applied before the short one.
 typedef struct {
   SbForm form;
-  double outliers;     // robust deviations beyond which a point becomes missing; 0: none
-  bool fill;           // missing points get a value from their neighbours
+  double outliers;     // robust deviations beyond which a point becomes missing; 0: no removal
+  bool fill;           // missing points get a value, as by sb_heights_fill()
   double cutoff_short; // of the S filter, wavelength [m]; 0: none
   double cutoff_long;  // of the L filter, wavelength [m]; 0: none
 } SbHeightsChoices;
 
-// Robust deviations beyond which a remaining point is counted as suspicious.
+// Robust deviations beyond which a point is counted as suspicious if outliers are not removed.
 #define SB_HEIGHTS_SUSPICIOUS 8.0
 
 // Result of the preparation.
 typedef struct {
-  size_t points;       // of the grid
-  size_t missing;      // in the measured data
-  size_t outliers;     // made missing
-  size_t suspicious;   // beyond SB_HEIGHTS_SUSPICIOUS, not removed
-  size_t filled;       // missing points that got a value
+  size_t points;       // number of points of the grid
+  size_t missing;      // number of missing points in the measured data
+  size_t outliers;     // number of points that were made missing
+  size_t suspicious;   // number of points beyond SB_HEIGHTS_SUSPICIOUS; 0 if outliers are removed
+  size_t filled;       // number of missing points that got a value
   double form_share;   // fraction of the variance about the mean that the form explains
   double curved_share; // fraction of the variance about the plane that a quadratic form explains
-  double form_radius;  // of the cylinder, > 0 if convex [m]; NaN for other forms
+  double form_radius;  // radius of the cylinder, > 0 if convex [m]; NaN for other forms
 } SbHeightsReport;
 
 // Prepares the heights in place. SB_ERROR_RANGE: grid too small, too large or without spacing, a
@@ -84,9 +84,9 @@ SbStatus sb_heights_prepare(SbHeightsReport *out, SbHeights *heights,
 SbStatus sb_heights_level(double *radius, SbHeights *heights, SbForm form, SbReport *report);
 
 // Applies a Gaussian filter of wavelength `cutoff` [m] in place: with `keep` the heights become the
-// filtered surface, else the remainder.
+// filtered surface (waves longer than `cutoff`), else the remainder (shorter waves).
 SbStatus sb_heights_filter(SbHeights *heights, double cutoff, bool keep, SbReport *report);
 
 // Replaces missing points by the mean of the nearest measured ones in their row and column,
-// weighted by the inverse distance; by the mean of all if there are none.
+// weighted by the inverse distance; by 0, the mean of levelled heights, if there are none.
 SbStatus sb_heights_fill(SbHeights *heights, SbReport *report);

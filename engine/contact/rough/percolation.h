@@ -2,10 +2,11 @@
 // constriction. The functions have no state and may be called concurrently.
 //
 // Source: B.N.J. Persson & C. Yang, J. Phys.: Condens. Matter 20 (2008) 315011. With increasing
-// magnification the fraction of real contact A(q)/A0 decreases. Where it reaches the percolation
-// threshold (0.42; Dapp et al., Phys. Rev. Lett. 108 (2012) 244301) the first open channel crosses
-// the contact, through a constriction of lateral size 2 pi/q_c and height u_c. The full pressure
-// drop is there, and there is one per square:
+// magnification (wave number q) the fraction of real contact A(q)/A0 decreases. At the wave number
+// q_c it reaches the percolation threshold (0.42; Dapp et al., Phys. Rev. Lett. 108 (2012) 244301),
+// and the first open channel crosses the contact, through a constriction of lateral size 2 pi/q_c
+// and height u_c. The full pressure drop dp acts across the constriction, and each square of the
+// contact has one constriction:
 //
 //   Q = (u_c^3/(12 eta)) dp L_y/L_x
 //
@@ -38,16 +39,16 @@ typedef struct {
 // Leakage of a contact.
 typedef struct {
   bool percolates;         // an open channel exists
-  double real_share;       // A/A0 with all roughness
+  double real_share;       // fraction of real contact with all roughness, A(q1)/A0
   double constriction_q;   // q_c [1/m]; 0 if closed
-  double constriction_gap; // u_c [m]
-  double leak_rate;        // Q [m3/s]
-  double sensitivity;      // d ln Q/d ln contact_pressure, negative; 0 if closed
+  double constriction_gap; // u_c [m]; 0 if closed
+  double leak_rate;        // Q [m3/s], with the sign of pressure_drop; 0 if closed
+  double sensitivity;      // d ln Q/d ln contact_pressure, negative; 0 if leak_rate is not positive
   double closing_pressure; // contact pressure above which no channel is open [Pa]
 } SbPercolation;
 
-// Computes the leakage. SB_ERROR_RANGE: modulus, viscosity or width is not positive, or the contact
-// pressure is negative.
+// Computes the leakage. problem->spectrum is set by sb_spectrum_from_asperities(). SB_ERROR_RANGE:
+// modulus, viscosity or width is not positive, or the contact pressure is negative.
 SbStatus sb_percolation_solve(SbPercolation *out, const SbPercolationProblem *problem,
                               SbReport *report);
 

@@ -7,11 +7,11 @@
 // C. Yang, ibid. 315011 (leakage). Power spectrum C(q) ~ q^(-2(H+1)) between q0 and q1, H = 0.8.
 //
 //   A(q)/A0 = erf(sqrt 2 p/(E* h'(q))),  h'(q)^2 = 2 pi int_q0^q k^3 C dk,  1/E* = sum (1 - nu^2)/E
-//   u(p) = sqrt(pi) int q^2 C w dq int_p [gamma + 3 (1 - gamma) P^2] exp(-(w p'/E*)^2) dp'/p'
-//   P = erf(w p'/E*),  w = (pi int k^3 C dk)^(-1/2)
+//   u(p) = sqrt(pi) int_q^q1 k^2 C(k) w(k) dk int_p^inf [gamma + 3 (1 - gamma) P^2] exp(-(w
+//   p'/E*)^2) dp'/p' P = erf(w p'/E*),  w(k) = (pi int_q^k k'^3 C dk')^(-1/2)
 //
-// Area and separation use one P; the work int p |du| of closing the gap equals the elastic energy
-// at full contact, (pi/2) E* int q^2 C dq. E* = E'/2.
+// E* = E'/2. The work int p |du| of closing the gap equals the elastic energy at full contact,
+// (pi/2) E* int q^2 C dq.
 //
 // The spectrum follows from the parameters of Greenwood and Tripp by Nayak's moments (McCool 1986):
 // tip radius beta = 3 sqrt(pi/m4)/8, density zeta = m4/(6 pi sqrt 3 m2), m0 = sigma^2. Valid for an
@@ -24,25 +24,27 @@
 typedef struct {
   double sigma;     // rms height h [m]
   double slope;     // rms slope of the full surface, h'(q1) [1]
-  double q0, q1;    // roll-off and cut-off wave numbers [1/m]
+  double q0, q1;    // roll-off and cut-off wave numbers, 2 pi divided by the wavelength [1/m]
   double hurst;     // H
   double amplitude; // C(q) = amplitude q^(-2(H+1)) [m^(2-2H)]
 } SbSpectrum;
 
-// Computes the spectrum from `sigma` [m], sigma/beta and the product zeta beta sigma.
+// Computes the spectrum from `sigma` [m], sigma divided by beta [1] and `product` zeta beta sigma
+// [1]; of two rough surfaces sigma is the combined rms height.
 // SB_ERROR_RANGE: one of them is not positive. SB_ERROR_INFEASIBLE: no random surface has this
 // product; it must exceed about 0.0250 (alpha > 1.5).
 SbStatus sb_spectrum_from_asperities(SbSpectrum *out, double sigma, double sigma_over_beta,
                                      double product, SbReport *report);
 
-// Returns the mean-square slope of the components up to the wave number q [1/m].
+// Returns h'(q)^2, the mean-square slope of the components up to the wave number q [1/m]. Here and
+// below, q is limited to the range from q0 to q1.
 double sb_spectrum_slope2(const SbSpectrum *spectrum, double q);
 
 // Returns the fraction of real contact at the mean `pressure` p [Pa] at the wave number q;
 // `modulus` is E' with 2/E' = sum (1 - nu^2)/E [Pa].
 double sb_persson_area_share(const SbSpectrum *spectrum, double q, double modulus, double pressure);
 
-// Returns the pressure [Pa] at which that fraction is `share`; INFINITY for 1.
+// Returns the mean pressure [Pa] at which sb_persson_area_share() is `share`; INFINITY for 1.
 double sb_persson_pressure(const SbSpectrum *spectrum, double q, double modulus, double share);
 
 // Returns the mean separation [m] in the area of contact at the wave number q (q0: the full area)
@@ -54,16 +56,16 @@ double sb_persson_separation(const SbSpectrum *spectrum, double q, double modulu
 enum { SB_PERSSON_INNER = 240, SB_PERSSON_PANELS = 240 };
 
 // The separation as a function of pressure, prepared for one wave number; plain data, read by any
-// thread.
+// thread. G(a) is the inner integral of u(p), a = w p/E*.
 typedef struct {
-  double begin, step;                                         // of ln a in the inner table
+  double begin, step; // first ln a and step of ln a in the table of G
   double value[SB_PERSSON_INNER], slope[SB_PERSSON_INNER];    // ln G, d ln G/d ln a
-  double log_w[SB_PERSSON_PANELS], weight[SB_PERSSON_PANELS]; // ln w; [m]
+  double log_w[SB_PERSSON_PANELS], weight[SB_PERSSON_PANELS]; // u = sum weight [m] G(w p/E*); ln w
 } SbPerssonGap;
 
-// Prepares the separation for the wave number q [1/m].
+// Sets all fields for the wave number q [1/m].
 void sb_persson_gap_init(SbPerssonGap *gap, const SbSpectrum *spectrum, double q);
 
-// Returns the separation [m] at `log_p` = ln(p/E*), p the pressure on the area in contact, and
-// writes its derivative with respect to log_p to *slope.
+// Returns the separation [m] at `log_p` = ln(p/E*), with the pressure p on the area that is in
+// contact at q, and writes the derivative of the separation with respect to log_p to *slope.
 double sb_persson_gap_at(double *slope, const SbPerssonGap *gap, double log_p);

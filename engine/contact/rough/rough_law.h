@@ -12,8 +12,8 @@
 // h_T), within 0.1 % of lambda sigma above lambda = 2.5. The real area pi^2 (zeta beta sigma)^2 F_2
 // is limited to 1.
 //   With `work` > 0 their tips adhere (asperity.h, radius beta/2, surfaces separating). p is then
-// Hertz's pressure; the attraction ("pull") is tabulated separately. Both vanish at a gap that
-// depends on the stretch of a tip.
+// the elastic pressure; the attraction ("pull") is tabulated separately, so the load is p - pull.
+// Both vanish at a gap that depends on the stretch of a tip.
 //   Persson (persson.h): mean separation and real area against the pressure.
 //
 // All are tabulated against a parameter t that decreases as the surfaces close: t = lambda, or p =
@@ -39,7 +39,7 @@ typedef struct {
   double sigma;           // combined standard deviation of heights [m] > 0
   double sigma_over_beta; // sigma divided by the tip radius, > 0
   double modulus;         // E', 2/E' = sum (1 - nu^2)/E [Pa] > 0
-  double work;            // of adhesion of the tips [J/m2] >= 0; GREENWOOD_TRIPP only
+  double work; // work of adhesion of the tips [J/m2] >= 0; 0: no adhesion; GREENWOOD_TRIPP only
 } SbRoughSurface;
 
 // Capacity of the tables, and number of tabulated quantities.
@@ -52,7 +52,7 @@ enum { SB_ROUGH_NODES_MAX = 448, SB_ROUGH_QUANTITIES = 4 };
 // Tables of one surface; plain data, may be copied.
 typedef struct {
   SbRoughSurface surface;
-  SbAsperity tip;     // of a pair of tips, if they adhere
+  SbAsperity tip;     // sb_rough_tip(surface) if work > 0, else zero
   int count;          // nodes
   double begin, step; // t of the first node; spacing
   // ln(h/sigma), -ln(p/E'), ln of the real area fraction (not limited), -ln(pull/E'); derivatives
@@ -77,8 +77,9 @@ SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbRep
 // Returns whether all parameters of two surfaces are equal.
 bool sb_rough_same_surface(const SbRoughSurface *a, const SbRoughSurface *b);
 
-// Computes the tables like sb_rough_law_init(), or copies those of `known` (NULL: none; may be
-// `law` itself) if it has the same heights and no adhesion; the modulus may differ.
+// Computes the tables like sb_rough_law_init(), with its errors. Copies the tables of `known`
+// instead (NULL: none; may be `law` itself) if both surfaces have equal model, product, sigma and
+// sigma_over_beta, and no adhesion; the modulus may differ.
 SbStatus sb_rough_law_like(SbRoughLaw *law, const SbRoughSurface *surface, const SbRoughLaw *known,
                            SbReport *report);
 
@@ -118,16 +119,17 @@ double sb_vdw_work(double hamaker);
 // share). Writes its derivative with respect to t to *slope.
 double sb_rough_pull(double *slope, const SbRoughPoint *at, double hamaker);
 
-// A lubricated contact with attraction.
+// A lubricated contact with attraction. Length, load and pressures are not needed.
 typedef struct {
   double hamaker;   // A_H [J]; 0: none
   double modulus;   // E' [Pa]
   double width;     // 2 b [m]
   double viscosity; // [Pa s]
-  double speed;     // of sliding [m/s]; 0: at rest
+  double speed;     // magnitude of the sliding speed u [m/s]; 0: at rest
 } SbSnapContact;
 
-// Range of mean gaps [m] in which attraction closes a film. high 0: none; low 0: down to contact.
+// Range of mean gaps [m] in which attraction closes a film. `high` 0: there is no such gap; `low`
+// 0: the range extends down to contact.
 typedef struct {
   double low, high;
 } SbSnapWindow;
