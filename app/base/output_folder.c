@@ -1,6 +1,6 @@
-// Several files of one result. See output.h. Lines of a manifest are added before the files they
-// name get their names, and the whole is written anew at the end: a file is known at any moment,
-// whatever ends the process, by one of the lines with its name.
+// Several files of one result. See output.h. The line of a file is added to the manifest before the
+// file gets its final name, and the manifest is rewritten at the end. Therefore each file has a
+// line in the manifest at any time, also if the process is killed.
 #include "app/base/output_private.h"
 
 #include <errno.h>

@@ -73,7 +73,7 @@ char *sb_reader_load_stream(size_t *length, int fd, const char *shown, size_t by
 
 char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t bytes_max,
                      GPtrArray *issues) {
-  // Not to hang on a pipe, nor to read what is too large anyway.
+  // O_NONBLOCK: a pipe without a writer must not block the program.
   int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   struct stat info;
   char *text = NULL;

@@ -89,7 +89,7 @@ static void keep(SbTrace *trace, const SbFrame *frame, size_t index) {
   g_array_append_val(trace->points, point);
 }
 
-// A cycle begins anew where the stage falls back from the stroke's end or the return to A or B; a
+// A new cycle begins where the stage changes from the end of the stroke or the return to A or B; a
 // stem that rebounds from the stop stays in its cycle.
 static void mark(SbTrace *trace, int stage, const SbFrame *frame, size_t index) {
   if (stage < 0 || stage >= SB_STAGE_COUNT) {

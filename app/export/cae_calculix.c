@@ -120,7 +120,7 @@ static Start start_of(const SbCaeMesh *mesh, double drift, double wall, int firs
   return start;
 }
 
-// The boundary's nodes hang on weak springs whose other ends stand where the nodes were found.
+// Connects the nodes of the boundary by weak springs to their equilibrium positions.
 static void put_springs(GString *out, const SbCaeMesh *mesh, const Start *start, double drift) {
   const int count = 2 * mesh->sides;
   double radius = 0.0;

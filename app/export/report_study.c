@@ -1,5 +1,5 @@
-// A study's pages: what was varied and how, probabilities of the limits, statistics, a histogram a
-// figure, what each figure hangs on, curves of a grid; then the scene's inputs.
+// The report of a study: the varied parameters, probabilities of the limits, statistics, a
+// histogram and the sensitivities of each figure, curves of a grid; then the inputs of the scene.
 #include "app/export/report.h"
 
 #include "app/base/figure_text.h"
@@ -326,7 +326,7 @@ static void draw_tornados(SbReportPages *pages, const Study *study) {
   }
 }
 
-// ---- What a figure hangs on ----
+// ---- Sensitivities ----
 
 // Correlation of a column of values with a parameter's; NaN without scatter.
 static double correlation(const Study *study, size_t figure, size_t parameter) {

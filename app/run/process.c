@@ -70,8 +70,8 @@ void sb_process_set_up(void) {
   use_one_thread();
   // A special function outside its domain must not end the program; the engine checks results.
   gsl_set_error_handler_off();
-  // A ring's factors are some 100 kB, made anew at each of its steps. By default their pages go
-  // back to the system each time, which costs a fifth of a run with rings.
+  // The factors of a ring take about 100 kB and are allocated at each of its steps. By default
+  // their pages are returned to the system each time, which costs a fifth of a run with rings.
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
 }

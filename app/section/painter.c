@@ -95,7 +95,7 @@ void sb_section_painter_style(SbSectionPainter *painter, const SbSectionStyle *s
   painter->style = *style;
 }
 
-// The section for this run, made anew when the model changed, its limits when frames were added.
+// Rebuilds the section for this run if the model changed, and its limits if frames were added.
 static void prepare(SbSectionPainter *painter, const SbChartRun *run) {
   bool same_model = painter->section != NULL && sb_model_same(painter->model, run->model);
   bool same_frames = painter->frames == run->frames && painter->count == run->count;

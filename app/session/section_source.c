@@ -1,5 +1,5 @@
-// A section for the session's frame (section_source.h). Scales widen while a run grows, which makes
-// the section anew; frames that the scales have seen are not read again.
+// A section for the session's frame (section_source.h). The scales widen while a run grows, and the
+// section is then rebuilt; frames that are included in the scales are not read again.
 #include "app/session/section_source.h"
 
 #include <math.h>

@@ -1,24 +1,23 @@
-// Runs of a session. An edit starts a run, a heavy one shortly after; a newer edit cancels it and
-// starts again with the newest values. The new run replaces the shown one when it is complete, or
-// once it has lasted long enough to be watched while it grows; the run before then stays behind it,
-// paler, until the new one is complete, and comes back if the new one fails. Values that were
-// solved before have their run back at once (run_cache.h).
+// Runs of a session. An edit starts a run, after a short delay if the run is expensive; a newer
+// edit cancels it and starts again with the newest values. The new run replaces the displayed one
+// when it is complete, or when it has lasted so long that it is displayed while it grows. The
+// earlier run is then drawn paler behind it until the new one is complete, and is displayed again
+// if the new one fails. The run of values that were solved before is reused (run_cache.h).
 //
-// Solved rings take seconds. Where the plan expects more than HEAVY_S, runs come in grades, each
-// shown when it is complete, one at a time, the one before paler until then:
-//   - a run of these values that was kept in a file (stored_run.h), at once;
-//   - else, as long as nothing is shown, one by closed forms: milliseconds, so that no picture
-//   waits
-//     empty;
-//   - with a whole run of other values at hand, a coarse one whose rings start from that run's
-//     (near); its figures are a cold run's within the told errors, and hang on these two sets of
-//     values alone;
-//   - without, one to a coarse tolerance, where the plan expects that to take less than half;
-//   - then the whole run, cold: at once after a coarse or a stored one, after IDLE_MS without an
-//   edit
-//     after a near one. Its figures are those of `sealbench run`: it alone is exported, pinned, and
-//     what rings of other values start from.
-// A grade that fails is left out: the whole run then tells why.
+// Solved rings take seconds. If the plan expects more than HEAVY_S, the runs below are computed one
+// after the other, and each is displayed when it is complete:
+//
+//   - the run of these values that is stored in a file (stored_run.h);
+//   - otherwise, while nothing is displayed, a run by closed forms, which takes milliseconds;
+//   - if there is a full run of other values, a coarse run whose rings start from that run's (near
+//     run); its figures differ from those of a cold run by at most the reported errors, and depend
+//     on these two sets of values only;
+//   - otherwise a run with a coarse tolerance, if the plan expects less than half of the time;
+//   - the full run with a cold start: immediately after a coarse or stored run, IDLE_MS after the
+//     last edit if there was a near run. Its figures are those of `sealbench run`. Only this run is
+//     exported, pinned, and used as the start of rings of other values.
+//
+// If an earlier one of these runs fails, it is omitted: the full run reports the reason.
 #include "app/session/session_private.h"
 
 #include "app/base/format.h"
@@ -287,7 +286,7 @@ static void finish(SbSession *session) {
     display_fresh(session);
     // A short run is read at once; a long one goes on being read by the ticks.
     sb_displayed_run_update(fresh, FRAMES_PER_TICK);
-    // Where a growing run placed it by a stage of unknown length, it is placed anew.
+    // If a growing run placed it by a stage of unknown length, it is placed again.
     if (!watched || session->playhead.follows || session->playhead.waits ||
         session->playhead.frame == session->playhead.placed) {
       place_playhead(session);
@@ -567,7 +566,7 @@ void sb_session_tick(SbSession *session, gint64 now) {
     sb_session_refresh_chart(session);
     sb_session_emit(session, SB_SIGNAL_FRAMES);
   } else if (session->ticket != 0) {
-    // The run before stays as it is: nothing is drawn anew, the processors are the run's.
+    // The earlier run is unchanged: nothing is redrawn, so that the run has the processors.
     sb_session_emit(session, SB_SIGNAL_PROGRESS);
   }
   size_t count = 0;

@@ -12,7 +12,7 @@
 typedef SbCalibrateCurve Curve;
 typedef SbCalibrateWork Work;
 
-// What stands for a force where values make no valve, or one that does not run [N].
+// Force that is used if the values are infeasible or the run fails [N].
 static const double no_force = 1000;
 
 static const SbVary *vary_of(const Work *work, size_t k) {
@@ -44,9 +44,9 @@ static bool is_cancelled(void *data) {
          work->hooks->cancelled(work->hooks->data);
 }
 
-// Runs a curve's valve at some overrides into `run`, which is made or made anew; rings are those of
-// `base` to first order where there is one. The loop is empty where it makes no valve. False:
-// cancelled or no memory.
+// Runs a curve's valve with overrides into `run`, which is created or replaced; if `base` is not
+// NULL, the rings are linearised about those of `base`. The loop is empty if the values are
+// infeasible. Returns false if cancelled or without memory.
 static bool run_at(Work *work, Curve *curve, SbRun **run, const SbRun *base,
                    const SbOverride *override, size_t overrides) {
   const SbModel *model = NULL;

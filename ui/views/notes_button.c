@@ -1,6 +1,6 @@
-// See notes_button.h. A note is taken a moment after the last key and when the popover closes. The
-// lists are made anew, when idle, after what they show has changed: never while a button of theirs
-// is being served.
+// See notes_button.h. A note is stored shortly after the last key and when the popover closes. The
+// lists are rebuilt in an idle callback after their content has changed, so that no button is
+// destroyed while its signal is handled.
 #include "ui/views/notes_button.h"
 
 #include "ui/views/later.h"
