@@ -15,25 +15,27 @@ typedef struct {
 // Returns an empty list of SbIssue that frees its elements. Freed by g_ptr_array_unref().
 GPtrArray *sb_issues_new(void);
 
-// Largest number of issues in a list; further ones are counted in a last one.
+// Largest number of issues in a list. Further ones are only counted: the list then has one more
+// element, SB_ISSUES_MAX, whose text is "and 12 more".
 enum { SB_ISSUES_MAX = 100 };
 
-// Appends an issue with a formatted text. All texts are copied and made printable (sb_printable()).
+// Appends an issue with a formatted text. `file`, `key` and `allowed` may be NULL and `line` 0, as
+// in SbIssue. All texts are copied and made printable (sb_printable()).
 void sb_issues_add(GPtrArray *issues, const char *file, int line, const char *key,
                    const char *allowed, const char *format, ...) G_GNUC_PRINTF(6, 7);
 
 // Appends a copy of an issue.
 void sb_issues_add_copy(GPtrArray *issues, const SbIssue *issue);
 
-// Returns the name in an issue's key, the part after its group ("radial_space"), borrowed; NULL:
+// Returns the name in an issue's key, the part after its group ("radial_space"); NULL:
 // the issue has no key. *group_length is the length of the group at the start of the key; 0: no
 // group.
 const char *sb_issue_key(const SbIssue *issue, int *group_length);
 
 // Returns the issue as a line, "piston.valve: [gland] radial_space: 9 m is out of range (allowed
-// 0.1 to 20 mm)". Freed by g_free().
+// 0.1 to 20 mm)".
 char *sb_issue_line(const SbIssue *issue);
 
-// Returns the `length` bytes of a text with control characters and invalid UTF-8 replaced; of a
-// text of more than 8 KiB only its start and end. Freed by g_free().
+// Returns the `length` bytes of a text, terminated by 0, with control characters and invalid UTF-8
+// replaced by "?"; of a text of more than 8 KiB only its start and end.
 char *sb_printable(const char *text, size_t length);

@@ -21,7 +21,8 @@
 // points. Orientation and crossings are not checked (sb_profile_check()).
 GArray *sb_profile_parse(const char *text, bool *closed, GError **error);
 
-// Reverses the points (of SbProfilePoint) in place, with their bulges, if they are clockwise in the
-// (x, r) plane. `closed` as in SbProfile: the outline is closed by its last piece, else by the
-// axis.
+// Orders the points (of SbProfilePoint) counter-clockwise in the (x, r) plane, as SbProfile
+// requires: reverses them in place, with their bulges, if they are clockwise. `closed`, as
+// sb_profile_parse() sets it: a piece from the last point to the first closes the outline; else the
+// axis closes it.
 void sb_profile_turn(GArray *points, bool closed);

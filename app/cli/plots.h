@@ -1,5 +1,6 @@
-// Charts of characters below the tables of commands, on standard output. They appear on a terminal,
-// or where --plot requests them; the caller calls sb_cli_plots() first.
+// Charts of characters below the tables of commands. The functions sb_cli_plot_...() print on
+// standard output, a blank line first. They print unconditionally: the caller calls sb_cli_plots()
+// first.
 #pragma once
 
 #include "app/data/compare.h"
@@ -8,7 +9,7 @@
 
 #include <glib.h>
 
-// Whether --plot and --no-plot were given. Initialise with zeros.
+// Whether the options --plot (`on`) and --no-plot (`off`) were given. Initialise with zeros.
 typedef struct {
   gboolean on, off;
 } SbCliPlots;
@@ -18,19 +19,21 @@ typedef struct {
   "Draws a chart below the table where standard output is not a terminal, too"
 #define SB_CLI_NO_PLOT_HELP "Draws none on a terminal"
 
-// Returns whether charts are to be printed: --plot, or standard output is a terminal; not with
-// --no-plot or --quiet.
+// Returns whether charts are to be printed: --plot was given or standard output is a terminal, and
+// neither --no-plot nor --quiet was given.
 bool sb_cli_plots(const SbCliPlots *plots);
 
-// Usual number of lines of a chart with its heading; a blank line precedes them.
+// Usual value of `rows`: lines of a chart with its heading, without the blank line.
 enum { SB_CLI_PLOT_ROWS = 18 };
 
 // Prints the loop of a finished run (force against displacement, of the sliding plate against time)
-// with the measured points (NULL: none), in `rows` lines. Prints nothing if the run has no frames.
+// in `rows` lines, with the points of `measured` (NULL: none). Prints nothing if the run has no
+// frames.
 void sb_cli_plot_run(const SbRun *run, const SbComparison *measured, int rows);
 
-// Prints the loops of `count` runs with their names in one chart; further runs than the chart has
-// room for (SB_LOOPS_MAX) are omitted.
+// Prints the loops of the finished runs run[count] with their names name[count] in one chart, with
+// the points of `measured` (NULL: none). Runs after the first SB_LOOPS_MAX
+// (app/terminal/charts.h) are omitted.
 void sb_cli_plot_runs(SbRun *const *run, const char *const *name, size_t count,
                       const SbComparison *measured);
 
@@ -38,7 +41,8 @@ void sb_cli_plot_runs(SbRun *const *run, const char *const *name, size_t count,
 // values that are not positive are omitted) against x[count] [m].
 void sb_cli_plot_profile(const double *x, const double *pressure, const double *film, size_t count);
 
-// Prints the histogram of a figure (index of sb_figure()) of `count` samples, whose values are
-// value[i * stride] (SI; NaN: none), with the limits on it.
+// Prints the histogram of a figure (index of sb_figure()) of `count` samples. value[i * stride] is
+// the value of sample i (SI; NaN: the sample has none and is omitted). The limit on this figure
+// among `limits`, if there is one, is shown.
 void sb_cli_plot_histogram(int figure, const double *value, size_t count, size_t stride,
                            const SbLimits *limits);

@@ -12,7 +12,7 @@
 //   direction = as-is | force | displacement | both  columns whose sign is reversed
 //   zero = as-is | 0.31 mm, 0.2 N                    readings at rest and without a load
 //   compliance = none | 0.012 mm/N                   of the machine between crosshead and stem
-//   cycle = all | 2                                  `calibrate` also accepts a list 1, 10, 40
+//   cycle = all | 2                                  from 1; a list 1, 10, 40 only for `calibrate`
 //   actuation = 1                                    number since new of the file's first cycle
 //
 // How these are found. Direction: friction dissipates energy, so the force is greater on the
@@ -41,8 +41,8 @@ typedef enum {
   SB_HOW_SAID     // specified by a key of the group
 } SbHow;
 
-// Row indices of a cycle: the in-stroke is from `begin` up to `turn`, the return from `turn` up to,
-// but without, `end`.
+// A cycle: rows `begin` to turn - 1 are the in-stroke, rows `turn` to end - 1 the return. `turn` is
+// the row of the largest displacement.
 typedef struct {
   size_t begin, turn, end;
 } SbMeasuredCycle;
@@ -55,7 +55,7 @@ typedef struct {
   bool found;
   double displacement; // of the stem [m]
   double force;        // just before the event [N]
-  double deviation;    // standard deviation of the force by noise and distance of the rows [N]
+  double deviation;    // standard deviation of `force` by noise and by the distance of the rows [N]
   const char *reason;  // why it was not found; static. NULL if found
 } SbMeasuredStage;
 
@@ -64,11 +64,12 @@ typedef struct {
   char *name; // of the file, without its folder
   // Format of the file.
   SbTableDialect dialect;
-  size_t header_lines, skipped; // lines before the first row; lines between rows that are none
-  int skipped_line;             // number of the first of these, from 1
-  char *skipped_text;           // its text; NULL: none
+  // Numbers of lines before the first row, and of later lines that are not rows of the table.
+  size_t header_lines, skipped;
+  int skipped_line;   // number of the first skipped line in the file, from 1
+  char *skipped_text; // its text; NULL: no line was skipped
   struct {
-    int index;  // in the file, from 0; -1: none
+    int index;  // of the file's column; -1: the file has no such column
     char *name; // as the file's header has it
     char *unit; // as the file has it or a key states it; "clock": time of day
     SbHow how;  // origin of the assignment
@@ -79,15 +80,15 @@ typedef struct {
   double *time;         // [count] [s]; NULL: no such column
   double *displacement; // [count], of the stem from its rest position, positive inwards [m]
   double *force;        // [count], on the stem, without load 0, compression positive [N]
-  double speed;         // that converted time to displacement [m/s]; 0: a column gives displacement
+  double speed;         // of the crosshead, if it gives the displacement [m/s]; 0: a column does
   SbHow speed_how;      // SB_HOW_ASSUMED: the speed of the scene's drive
-  size_t behind;        // with `speed`: rows after the first cycle, left out of `count`
+  size_t behind;        // if `speed` > 0: rows after the first cycle; `count` does not include them
   // Corrections.
   SbHow direction, zero, force_zero, compliance; // origin of the values below
   bool turned_displacement, turned_force;        // the column's sign was reversed
   double at_rest; // subtracted from the displacement after reversal and compliance [m]
   double no_load; // subtracted from the force after reversal [N]
-  size_t no_load_row, no_load_rows; // first row and number of rows whose mean `no_load` is
+  size_t no_load_row, no_load_rows; // first row and number of the rows whose mean force is no_load
   double no_load_deviation;         // standard deviation of that mean by noise [N]; 0: not found
   double slope;                     // compliance: slope times corrected force is subtracted [m/N]
   GArray *cycle;                    // of SbMeasuredCycle, in the order of time; at least one
@@ -100,7 +101,7 @@ typedef struct {
 // without displacement (0: the drive has none, see sb_measured_speed()). Returns NULL with at least
 // one issue: the file cannot be read, its format, columns or units are ambiguous or missing, fewer
 // than 8 rows, no stroke, or a value out of range. `data` may be freed afterwards. Freed by
-// sb_measured_free().
+// sb_measured_free(). A list of cycles is an issue: sb_data_part() divides such a group first.
 SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues);
 
 // As sb_measured_load(), from the `length` bytes of a file; data->path is used for messages only.

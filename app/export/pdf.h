@@ -9,25 +9,28 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-// Points of paper per logical pixel: 72 per inch over 96.
+// Points of paper (1/72 inch) per logical pixel (1/96 inch).
 #define SB_PDF_POINTS 0.75
 
 // A PDF that is being drawn.
 typedef struct {
-  cairo_surface_t *surface; // in points; the caller scales by SB_PDF_POINTS and shows the pages
-  GByteArray *bytes;        // internal
+  // To draw on, with cairo_create(); its user unit is a point. The caller scales by SB_PDF_POINTS
+  // to draw in logical pixels, and ends each page by cairo_show_page(). Owned by the SbPdf.
+  cairo_surface_t *surface;
+  GByteArray *bytes; // internal
 } SbPdf;
 
-// Texts of the document (title, subject, keywords); each may be NULL.
+// Texts of the document's metadata, copied; each may be NULL.
 typedef struct {
-  const char *title, *comment, *hash;
+  const char *title, *comment, *hash; // title (NULL: "Sealbench"), subject, keywords
 } SbPdfTexts;
 
 // Begins a PDF whose first page is width by height logical pixels. A failure is reported by
 // sb_pdf_finish().
 void sb_pdf_begin(SbPdf *out, double width, double height, const SbPdfTexts *texts);
 
-// Writes the PDF into `stream` (NULL: discards it) and frees it. False with SB_APP_ERROR_IO if
+// Writes the PDF into `stream` (NULL: discards it) and frees it; the caller has destroyed its cairo
+// contexts. False with SB_APP_ERROR_IO if
 // the drawing failed; errors of writing are left in the stream (ferror()).
 bool sb_pdf_finish(SbPdf *pdf, FILE *stream, GError **error);
 

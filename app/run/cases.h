@@ -7,22 +7,25 @@
 
 // The worst answer to one question of the verdict.
 typedef struct {
-  SbVerdict of;     // the answer, with its figure, value, limit [SI of the figure] and reason
-  const char *name; // of the case that gives it, borrowed from the document; NULL: the scene itself
+  SbVerdict
+      of; // the answer: figure, value and limit [SI of the figure], reason (copied, no pointer)
+  // Name of the case that gives the answer; NULL: the scene itself. Borrowed from the document
+  // until it changes.
+  const char *name;
 } SbCaseVerdict;
 
-// Computes all cases of `document` one after the other, with their own models but without profiles,
-// interior fields, studies and later actuations of a life, and writes to out[question] (in the
-// order of SbVerdictKind) the worst answer of `run` and of all cases. `run` is the finished run of
-// the scene itself. `hooks` (NULL: none) receives the progress over all cases, 0 to 1, and may
-// cancel.
+// Computes all cases of `document` one after the other, each with its own values and models, but
+// only the figures: no profiles, interior fields, studies or later actuations of a life. Writes to
+// out[kind] (kind: SbVerdictKind) the worst answer of `run` and of all cases. `run` is the finished
+// run of the scene itself. `hooks` (NULL: none) receives the progress over all cases, 0 to 1, and
+// may cancel.
 //
 // Returns SB_OK, or the status of the last case that did not end with SB_OK: SB_ERROR_INPUT if its
 // values are inconsistent, SB_ERROR_CANCELLED, or the status of sb_run_execute(). `out` is complete
-// in any case. A case that failed makes the answer unknown, with the problem as its reason, unless
-// another answer is no. Each failed case, except one that was cancelled, adds a sentence with its
-// name to `problems` (of char *, with g_free() as its free function). After a cancellation the
-// remaining cases are not computed.
+// in any case. A case that failed makes every answer unknown, with the problem as its reason,
+// unless the scene or another case answers no. Each failed case, except one that was cancelled,
+// appends a sentence with its name to `problems`, a list of char * that the caller creates with
+// g_free() as its free function. After a cancellation the remaining cases are not computed.
 SbStatus sb_cases_judge(SbCaseVerdict out[SB_VERDICT_COUNT], const SbRun *run,
                         const SbDocument *document, const SbRunHooks *hooks, GPtrArray *problems);
 

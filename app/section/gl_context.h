@@ -28,24 +28,25 @@ SbStatus sb_gl_context_create(SbGlContext **out, SbGlBackend backend, SbReport *
 SbStatus sb_gl_context_wrap(SbGlContext **out, SbGlGetProc get_proc, void *data,
                             const char *description, SbReport *report);
 
-// Destroys a created context, or only the object for a wrapped one. In the context's thread. Takes
-// NULL.
+// Destroys a created context, or of a wrapped one only this object. Call it in the context's
+// thread.
 void sb_gl_context_destroy(SbGlContext *context);
 
-// Makes a created context current in its thread; returns whether that worked. True for a wrapped
-// one, whose owner makes it current.
+// Makes a created context current in its thread; returns whether that worked. Does nothing for a
+// wrapped one, whose owner makes it current, and returns true. Needed before GL functions are
+// called if sb_gl_context_release() or other code changed the current context since the creation.
 bool sb_gl_context_make_current(SbGlContext *context);
 
 // Leaves the thread without a current context; does nothing for a wrapped one. If a toolkit uses GL
-// in the same thread, this must follow each use, because Mesa's libraries share the current
-// context.
+// in the same thread, call it after sb_gl_context_create() and after each later use, because Mesa's
+// libraries share the current context.
 void sb_gl_context_release(SbGlContext *context);
 
-// Returns the functions of the context. Borrowed.
+// Returns the functions of the context, to be called while it is current.
 const SbGlApi *sb_gl_context_api(const SbGlContext *context);
 
-// Returns "osmesa", "egl", or the description of a wrapped context. Borrowed.
+// Returns "osmesa", "egl", or the description of a wrapped context.
 const char *sb_gl_context_name(const SbGlContext *context);
 
-// Returns which library is used and why, "osmesa (llvmpipe ...), first that works". Borrowed.
+// Returns which library is used and why: "osmesa (llvmpipe ...): first that works".
 const char *sb_gl_context_reason(const SbGlContext *context);

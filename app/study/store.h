@@ -38,9 +38,10 @@ typedef struct SbStore SbStore;
 // sb_store_close() or sb_store_discard().
 SbStore *sb_store_open(const char *path, GError **error);
 
-// Opens a store of this format or of format 1 (Sealbench 0.1, without checksums) only for reading
-// its rows (sb_store_visit()). sb_store_get() and all functions that write fail. Errors and closing
-// as sb_store_open().
+// Opens an existing store of this format or of format 1 (Sealbench 0.1, without checksums) only for
+// reading its rows: sb_store_visit(), sb_store_health(), sb_store_count(), sb_store_recover().
+// sb_store_get() and all functions that write must not be called. Errors and closing as
+// sb_store_open().
 SbStore *sb_store_open_rows(const char *path, GError **error);
 
 // Returns whether `path` can be the name of a store; false with SB_APP_ERROR_INPUT.
@@ -49,31 +50,33 @@ bool sb_store_check_name(const char *path, GError **error);
 // Opens the file for writing, so that a failure appears before results are computed.
 bool sb_store_open_for_writing(SbStore *store, GError **error);
 
-// Commits and closes; frees the store in any case. Returns false if the commit failed. Takes NULL.
+// Commits and closes; frees the store in any case. Returns false if the commit failed. `store` may
+// be NULL.
 bool sb_store_close(SbStore *store, GError **error);
 
-// Closes without the changes since the last commit, and frees the store. Takes NULL.
+// Closes without the changes since the last commit, and frees the store. `store` may be NULL.
 void sb_store_discard(SbStore *store);
 
 // ---- Results ----
 
 // Sets the names of the parameters and figures (each ends with NULL) of the results that are read
 // and written from now on, in their order. They are stored, so that the file can be read without
-// its study. To be called before sb_store_get() and sb_store_put().
+// its study. To be called before sb_store_get() and sb_store_put(); again for another list.
 bool sb_store_set_list(SbStore *store, const char *const *parameters, const char *const *figures,
                        GError **error);
 
 // Reads the result with this key: writes the figures to out->value, an array of the caller, and
-// sets the other members, whose strings are freed by g_free(). Returns false if the store has no
-// such row for the present list, or it is damaged; *out is then not changed.
+// sets the other members; the caller frees the strings by g_free(). Returns false, with *out not
+// changed, if the store has no such row for the present list or the row is damaged.
 bool sb_store_get(SbStore *store, const guint8 key[SB_STORE_KEY], SbStoredAnswer *out);
 
-// Adds or replaces a result. `parameter` are the values of the list's parameters [SI]. `answer`
-// stays the caller's.
+// Adds a result, or replaces that with the same key. parameter[parameters of the list] are values
+// [SI]; answer->value has a value for each figure of the list. `answer` is only read. The change is
+// visible to sb_store_get() immediately, and in the file after sb_store_commit().
 bool sb_store_put(SbStore *store, const guint8 key[SB_STORE_KEY], const double *parameter,
                   const SbStoredAnswer *answer, GError **error);
 
-// Commits the changes since the last commit.
+// Commits the changes since the last commit; true if there are none. After an error they are lost.
 bool sb_store_commit(SbStore *store, GError **error);
 
 // Returns the number of rows.
@@ -108,7 +111,8 @@ typedef struct {
 // Receives a row; returns false to end.
 typedef bool (*SbStoreVisit)(void *data, const SbStoreRow *row);
 
-// Calls `visit` for every row, in the order of the file, until it returns false. Returns false with
+// Calls `visit` for every row, in the order of the file, until it returns false (which is not an
+// error). `visit` calls no function of the store except sb_store_row_name(). Returns false with
 // SB_APP_ERROR_INPUT if the file is damaged so that further rows cannot be read.
 bool sb_store_visit(SbStore *store, SbStoreVisit visit, void *data, GError **error);
 
@@ -134,13 +138,19 @@ void sb_store_health(SbStoreHealth *out, SbStore *store);
 // Frees the strings.
 void sb_store_health_release(SbStoreHealth *health);
 
-// Writes all sound rows to the new store `to`, also those that can be read from the end of a
-// damaged file; *saved is their number.
+// Copies all sound rows to the new store `to`, also those that can be read from the end of a
+// damaged file; *saved is their number. There must be no file `to`. Fails with SB_APP_ERROR_INPUT
+// for a store of format 1. After an error the file `to` does not exist; `store` is unchanged in any
+// case.
 bool sb_store_recover(guint64 *saved, SbStore *store, const char *to, GError **error);
 
-// Replaces the damaged file of an open store by one with its sound rows.
+// Replaces the damaged file of an open store by one with its sound rows. Changes since the last
+// commit are lost. Afterwards the store is open and its list is still set. After an error only
+// sb_store_discard() may be called; the file is then the damaged one or the complete new one.
 bool sb_store_repair(SbStore *store, GError **error);
 
-// Adds the rows of the store `from` without a commit. A damaged row, and a result that differs from
-// this store's result for the same request, are errors (SB_APP_ERROR_INPUT) that name both.
+// Adds the rows of the existing store `from` without a commit. A damaged row, and a result that
+// differs from this store's result for the same request, are errors (SB_APP_ERROR_INPUT) that name
+// both. After an error the rows added so far are uncommitted changes: call sb_store_discard(), so
+// that nothing is merged.
 bool sb_store_merge(SbStore *store, const char *from, GError **error);

@@ -14,7 +14,7 @@ G_DECLARE_FINAL_TYPE(SbParamPanel, sb_param_panel, SB, PARAM_PANEL, GtkBox)
 GtkWidget *sb_param_panel_new(SbSession *session);
 
 // Opens the group of parameter `id`, scrolls to its row and moves the keyboard focus to its field.
-// The filter changes if it does not list the parameter.
+// Empties the search; if the filter does not list the parameter, it becomes SB_PARAM_FILTER_ALL.
 void sb_param_panel_reveal(SbParamPanel *panel, SbParamId id);
 
 // As sb_param_panel_reveal(), but highlights the row for a moment in place of moving the focus.
@@ -27,7 +27,7 @@ void sb_param_panel_search(SbParamPanel *panel);
 // all.
 typedef enum { SB_PARAM_FILTER_MAIN, SB_PARAM_FILTER_CHANGED, SB_PARAM_FILTER_ALL } SbParamFilter;
 
-// Sets which parameters are listed.
+// Sets which parameters are listed; initially SB_PARAM_FILTER_ALL.
 void sb_param_panel_set_filter(SbParamPanel *panel, SbParamFilter filter);
 
 // Returns which parameters are listed.
