@@ -21,8 +21,18 @@
 // rough law; t and the slope s = p' are iterated in addition to q. On a smooth case these rows cost
 // three to ten times as much and leave 1e-6 of the minimum film near the rupture.
 //
-// A solver is used by one thread at a time. Functions report errors by their status only, except
-// sb_ehl_solve().
+// Films, pressures and positions of this header are scaled, in the flow frame, and pressures are
+// relative to the rupture pressure unless stated otherwise. Positions X have their origin at the
+// middle of the window |X| < 1 of the mesh; the axis is at X = -shift.
+//
+// Sequence for a solution `s`: set s->solver and s->c; for rough rows complete s->c with
+// sb_ehl_rough_case(). Build the mesh (sb_ehl_layers_mesh() or sb_ehl_rough_mesh()), then set the
+// initial guess (sb_ehl_layers_guess(), sb_ehl_rough_guess() or sb_ehl_carry()), then call
+// sb_ehl_newton(), then sb_ehl_results(). sb_ehl_start(), _refine(), _follow() and _beside() do all
+// of this; the solver's `problem`, `info` and `tolerance` must be set before.
+//
+// A solver is used by one thread at a time. Functions without an SbReport report errors by their
+// status only.
 #pragma once
 
 #include "engine/contact/rough/rough_law.h"
@@ -47,8 +57,8 @@ typedef struct {
   double inlet, outlet; // end pressures minus the rupture pressure, scaled
   double starvation;    // flux divided by the flooded flux, 1 if flooded
   double meniscus;      // X at which the film begins; -infinity if flooded
-  double reform;        // X at which the film re-forms
-  double moved;         // shift of a flooded outlet's layer from its estimate, in its widths
+  double reform;        // X at which the film re-forms; only with SB_EHL_REFORM
+  double moved;         // shift of a flooded outlet's layer from its estimate, divided by its width
   SbEhlEnd end;
   int degree; // polynomial degree of the elements
   // Fitted body (scale.h), 0 on a half-plane: middle of the contact, deviation of the dry pressure.
@@ -60,13 +70,15 @@ typedef struct {
 typedef struct {
   double nodal[SB_EHL_DOFS_MAX];  // pressure q
   double gap[SB_EHL_TARGETS_MAX]; // h at all targets (smooth rows)
-  double H0, shift, flux;         // shift of the axis; flux film (smooth rows)
+  double H0;                      // constant of the gap, H0 in the equation of h
+  double shift;                   // x from the axis = X + shift
+  double flux;                    // flux film (smooth rows)
   // Rough rows, at the nodes:
-  double t[SB_EHL_DOFS_MAX];     // parameter of the gap
+  double t[SB_EHL_DOFS_MAX];     // parameter t of the rough law, which gives the gap
   double s[SB_EHL_DOFS_MAX];     // slope of the film pressure
   bool cavity[SB_EHL_DOFS_MAX];  // the node is cavitated
   double given[SB_EHL_DOFS_MAX]; // prescribed film pressure of a sealed contact
-  double flow;                   // kappa
+  double flow;                   // kappa of the equation of h^3 m p' (rough rows)
 } SbEhlState;
 
 // Positions in a rough film that may need small elements: inlet, minimum film, rupture, and
@@ -85,7 +97,7 @@ typedef struct {
   const SbRoughLaw *law; // borrowed; NULL: smooth
   double film;           // unit of the law's gap [m]
   double pressure;       // unit of the law's pressure [Pa]
-  double smooth_gap;     // unit of t without a law
+  double smooth_gap;     // scale of the gap as a function of t without a law
   double hamaker;        // A_H [J]; 0: off
   bool sealed;        // no flow: prescribed film pressure of the dry contact, all nodes cavitated
   bool coarse;        // larger elements, so that two levels fit into the mesh
@@ -104,7 +116,7 @@ typedef struct {
   SbEhlRough rough;
 } SbEhlCase;
 
-// A case with its mesh and state.
+// A case with its mesh and state. `dofs` and `targets` of arrays are s->mesh.dofs and targets.
 typedef struct {
   SbFilmSolver *solver; // the solver that contains it, with its work memory
   SbEhlCase c;
@@ -114,7 +126,7 @@ typedef struct {
 
 // Quantities at a node of rough rows, scaled.
 typedef struct {
-  double h, h_t;   // gap, dh/dt
+  double h, h_t;   // gap; its derivative dh/dt
   double solid;    // p_a - p_v
   double solid_t;  // d solid/dt
   double asperity; // p_a
@@ -143,12 +155,13 @@ typedef struct {
 // Samples per node, and capacity, of a march.
 enum { SB_EHL_PARTS = 4, SB_EHL_SAMPLES_MAX = SB_EHL_PARTS * SB_EHL_DOFS_MAX };
 
-// A rough film integrated against the flow over samples of a mesh (ehl_rough_start.c), scaled.
+// A rough film, found by integrating Reynolds' equation from the outlet to the inlet over samples
+// of a mesh (ehl_rough_start.c), scaled.
 typedef struct {
   int count;                         // samples
   double flow;                       // kappa
   double x[SB_EHL_SAMPLES_MAX];      // positions, increasing
-  double offset[SB_EHL_SAMPLES_MAX]; // q of the contact minus stiffness times gap
+  double offset[SB_EHL_SAMPLES_MAX]; // q of the solution minus a constant stiffness times its gap
   double t[SB_EHL_SAMPLES_MAX];      // parameter of the gap
   double p[SB_EHL_SAMPLES_MAX];      // film pressure
   bool cavity[SB_EHL_SAMPLES_MAX];   // the sample is cavitated
@@ -163,7 +176,7 @@ struct SbFilmSolver {
   double matrix[SB_EHL_ORDER_MAX * SB_EHL_ORDER_MAX], factors[SB_EHL_ORDER_MAX * SB_EHL_ORDER_MAX];
   double right[SB_EHL_ORDER_MAX];
   int pivot[SB_EHL_ORDER_MAX];
-  // At all targets: gap, its derivative with respect to the shift, its change by a step.
+  // At all targets: gap, its derivative with respect to `shift`, its change by a Newton step.
   double gaps[SB_EHL_TARGETS_MAX], by_shift[SB_EHL_TARGETS_MAX], change[SB_EHL_TARGETS_MAX];
   const double *by_nodal; // [targets][dofs] derivative of the gap with respect to `nodal`, borrowed
   // [targets][dofs] kernel of a fitted body: half-plane and smooth part.
@@ -190,13 +203,14 @@ struct SbFilmSolver {
 
   // The last converged solution as the base of SB_FILM_NEAR and SB_FILM_BESIDE (ehl_beside.c).
   struct {
-    // It exists; is stored below; its factors and kernel are in the solver.
-    bool solved, held, ready;
+    bool solved;          // there is a base
+    bool held;            // the base is stored in the fields below
+    bool ready;           // factors and kernel of the base are in the solver
     bool in_use;          // factors and kernel must not be overwritten
     double error_contact; // SbFilmSolverInfo.error_contact of that solution
     SbEhlCase c;
     SbEhlState state;
-    double gap_known[SB_EHL_TARGETS_MAX], load_known;
+    double gap_known[SB_EHL_TARGETS_MAX], load_known; // of SbEhlMesh
   } base;
 
   // Whether the last solution may be used for a warm start, and the relative tolerance that it met.
@@ -227,14 +241,15 @@ double sb_ehl_layers_flux(const SbEhlLayers *layers);
 // Returns the scaled width of the inlet layer, about lambda^0.4.
 double sb_ehl_layers_width(const SbEhlLayers *layers);
 
-// Returns the length scale of a thick film, that of the rigid wedge between the end pressures, at
-// least the contact's; 0 if the film is thin.
+// Returns the length scale of a thick film: that of the rigid wedge between the end pressures, at
+// least 1. Returns 0 if the film is thin.
 double sb_ehl_layers_wedge(const SbEhlLayers *layers);
 
 // Returns the slope factor of the dry pressure at the inlet edge; 1 for Hertz's.
 double sb_ehl_layers_inlet_slope(const SbEhlLayers *layers);
 
-// Returns the X of the minimum film before a flooded outlet if the film is thin; else 1, the edge.
+// Returns the X of the minimum film before a flooded outlet if the film is thin; else 1, the edge
+// of the contact.
 double sb_ehl_layers_outlet(const SbEhlLayers *layers);
 
 // Returns the dry contact pressure at X, and the end pressures outside the contact.
@@ -248,7 +263,7 @@ double sb_ehl_layers_dry_gap(const SbEhlLayers *layers, double X);
 void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *layers, double flux,
                          double X);
 
-// Builds the mesh of smooth rows for s->c. Returns false if it does not fit into the arrays.
+// Builds s->mesh with smooth rows for s->c. Returns false if it does not fit into the arrays.
 SB_CHECKED bool sb_ehl_layers_mesh(SbEhlSolution *s);
 
 // Sets the initial guess of smooth rows on the mesh of `s`.
@@ -257,8 +272,8 @@ void sb_ehl_layers_guess(SbEhlSolution *s);
 // Returns the X at which the film re-forms, by Reynolds' equation on the dry gap.
 double sb_ehl_layers_reform(const SbEhlLayers *layers);
 
-// Solves for the state by Newton's method; the present state is the initial guess, in which `gap`
-// is independent of the pressures. SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED.
+// Solves for s->state by Newton's method. The present state is the initial guess; its `gap` need
+// not be the deflection by its pressures. SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED.
 SbStatus sb_ehl_newton(SbEhlSolution *s);
 
 // Factorises the Jacobian at the state of `s` into the solver's `factors`. SB_ERROR_NOT_CONVERGED:
@@ -282,20 +297,21 @@ static inline double sb_ehl_tolerance(const SbEhlSolution *s) {
 // shift).
 void sb_ehl_fitted(const SbEhlSolution *s);
 
-// Returns the load above the ambient step minus pi/2.
+// Returns the residual of the load: integral (q - ambient) dX - pi/2.
 double sb_ehl_load(const SbEhlSolution *s);
 
-// Interpolates the state of `from` on the mesh of `to`: by element if both have the same sequence
-// of elements, else by position. The film is multiplied by `scale`.
+// Writes to to->state the state of `from`, interpolated on the mesh of `to`, both in one solver: by
+// element if both meshes have the same sequence of elements, else by position. The film is
+// multiplied by `scale`.
 void sb_ehl_carry(SbEhlSolution *to, const SbEhlSolution *from, double scale);
 
 // Computes the results of a solution.
 void sb_ehl_results(SbEhlResults *out, const SbEhlSolution *s);
 
 // Writes the relative changes of minimum, central and flux film between two levels of degree, whose
-// results are `coarse` and `fine`; `fine` is that of the last solution. With `paired` the other
-// solution of the solver is the coarse one. If both have the same elements, the first two changes
-// are then root mean squares over the elements near the minimum and the centre.
+// results are `coarse` and `fine`. `fine` has the results of solver->now. With `paired`, `coarse`
+// has those of sb_ehl_other(solver); if both solutions have the same elements, the first two
+// changes are root mean squares over the elements near the minimum and the centre.
 void sb_ehl_change(double change[3], SbFilmSolver *solver, const SbEhlResults *fine,
                    const SbEhlResults *coarse, bool paired);
 
@@ -304,27 +320,29 @@ void sb_ehl_change(double change[3], SbFilmSolver *solver, const SbEhlResults *f
 double sb_ehl_flat_film(const SbEhlCase *c, double flux, double film, double pressure,
                         double slope);
 
-// Writes the profile of a solution to `out` in SI, in the flow frame, with the number of points
-// that `wanted` requests.
+// Writes the profile of a solution to `out` in SI with gauge pressures, in the flow frame, with the
+// number of points that wanted->profile_points requests. Does nothing if wanted->profile is NULL.
 void sb_ehl_profile(SbFilm *out, const SbFilmProblem *wanted, const SbEhlSolution *s,
                     const SbFilmScale *scale);
 
-// Cold start: solves `c` with its degree, directly or by continuation from an easier case, and
-// determines cavity and meniscus. `supply` is the supplied flux film, infinite: flooded.
+// Cold start: solves `c` with its degree as solver->now, directly or by continuation from an easier
+// case, and determines cavity and meniscus (c->supply and c->layers.meniscus are those of a flooded
+// inlet). `supply` is the supplied flux film, infinite: flooded.
 // SB_ERROR_NOT_CONVERGED; SB_ERROR_CANCELLED; SB_ERROR_INFEASIBLE: a starved inlet together with a
 // cavity before a flooded outlet.
 SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply);
 
-// Solves the last case again with another degree. SB_ERROR_RANGE: the mesh of rough rows does not
-// fit. SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED.
+// Solves the case of solver->now again with another degree; the result is the new solver->now.
+// SB_ERROR_RANGE: the mesh of rough rows does not fit. SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED.
 SbStatus sb_ehl_refine(SbFilmSolver *solver, int degree);
 
 // Warm start: solves `c` from the last solution with the same degree. After any error but
 // SB_ERROR_CANCELLED the caller makes a cold start.
 SbStatus sb_ehl_follow(SbFilmSolver *solver, const SbEhlCase *c);
 
-// Returns in *law the rough law of the problem: that of problem->law if it has the same surface,
-// else the solver's own, recomputed if needed. Borrowed until the next call.
+// Sets *law to the rough law of the problem's surface: solver->law, borrowed until the next call.
+// Its tables are computed only if the surface has changed, and copied from problem->law if possible
+// (sb_rough_law_like()). The errors are those of sb_rough_law_init().
 SbStatus sb_ehl_rough_law(const SbRoughLaw **law, SbFilmSolver *solver,
                           const SbFilmProblem *problem, SbReport *report);
 
@@ -333,12 +351,12 @@ SbStatus sb_ehl_rough_law(const SbRoughLaw **law, SbFilmSolver *solver,
 // W - `solid`, `solid` = A - V. If the integral F is negative, the fraction is 1.
 double sb_ehl_asperity_share(double asperity, double solid, double load);
 
-// Completes c->rough for the solver's problem; all other fields of `c` must be set. Errors of
-// sb_ehl_rough_law().
+// Sets all fields of c->rough for solver->problem, with rough rows and no fronts; all other fields
+// of `c` must be set. Errors of sb_ehl_rough_law().
 SbStatus sb_ehl_rough_case(SbEhlCase *c, SbFilmSolver *solver, const SbFilmScale *scale,
                            SbReport *report);
 
-// Estimates c->rough.flux and c->rough.inlet.
+// Estimates c->rough.flux and c->rough.inlet from the other fields (done by sb_ehl_rough_case()).
 void sb_ehl_rough_flux(SbEhlCase *c);
 
 // Returns whether asperities close the gap in the middle of the contact, so that nothing flows.
@@ -351,34 +369,38 @@ void sb_ehl_rough_guess(SbEhlSolution *s);
 // Returns false if it does not fit into the arrays.
 SB_CHECKED bool sb_ehl_rough_mesh(SbEhlSolution *s);
 
-// Finds the fronts of a solution, where film and asperities exchange the load, and their widths;
-// writes c->rough.front for the mesh of `c`. Returns false if no front needs small elements.
+// Finds the fronts of the solution `s`, where film and asperities exchange the load, and their
+// widths, and writes them to c->rough.front for the next mesh of `c`. Returns false if no front
+// needs small elements.
 bool sb_ehl_rough_fronts(SbEhlCase *c, const SbEhlSolution *s);
 
-// Does the same as sb_ehl_rough_fronts() for a march.
+// Does the same as sb_ehl_rough_fronts() for the film of a march.
 bool sb_ehl_march_fronts(SbEhlCase *c, const SbEhlMarch *march);
 
-// Integrates the rough film over the contact of a solution (sealed or not) into solver->march.
+// Integrates the rough film over the contact of a solution (sealed or not) into s->solver->march.
 // Returns false if no flow satisfies both end pressures.
 SB_CHECKED bool sb_ehl_march(const SbEhlSolution *s);
 
-// Sets the state of `s`, on any mesh, from its solver's march: a flowing film, or with `sealed` the
-// contact without flow and the film's pressure as given.
+// Sets the state of `s`, on any mesh, from s->solver->march: a flowing film, or with `sealed` a
+// contact without flow whose film pressure state.given is that of the march.
 void sb_ehl_march_state(SbEhlSolution *s, bool sealed);
 
-// Computes gap and solid pressures at the parameter t.
+// Sets h, h_t, solid, solid_t, asperity and share at the parameter t; the coefficients of a Newton
+// step are not set.
 void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t);
 
 // Returns the parameter t of a scaled gap.
 double sb_ehl_rough_of_gap(const SbEhlCase *c, double gap);
 
-// Writes to weight[degree + 1] the weights of the nodal slopes in the increase of film pressure
-// from node j of element `e` to the next one, or to the root of the slope if the film ends between
-// them. Returns the element coordinate of that end.
+// Writes to weight[degree + 1] the weights of the nodal slopes state.s in the increase of film
+// pressure from node j of element `e` (of s->mesh) to node j + 1, or to the root of the slope if
+// the film ends between the two nodes. The increase in the element coordinate r is to be multiplied
+// by dX/dr. Returns the r at which the step ends.
 double sb_ehl_rough_weights(double *weight, const SbEhlSolution *s, const SbEhlElement *e, int j);
 
-// Solves `problem` by the coupled solver: continuation or warm start, refinement until the
-// tolerance is met, results and errors in *out (without the profile). *out must have been prepared
-// by sb_film_begin(). Errors as for sb_film_solve().
+// Solves the checked `problem` by the coupled solver: continuation or warm start, refinement until
+// the tolerance is met, results and error estimates in *out, in the flow frame and without the
+// profile. `scale` is that of sb_film_scale(), or of sb_film_scale_fitted() for a fitted body. *out
+// must have been prepared by sb_film_begin(). Errors as for sb_film_solve().
 SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                       SbFilmSolver *solver, SbReport *report);

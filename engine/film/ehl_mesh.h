@@ -36,7 +36,7 @@ typedef enum {
 typedef struct {
   int degree;
   double node[SB_EHL_DEGREE_MAX + 1]; // Lobatto nodes
-  double bary[SB_EHL_DEGREE_MAX + 1]; // their barycentric weights
+  double bary[SB_EHL_DEGREE_MAX + 1]; // barycentric weights of the Lobatto nodes
   // Gauss rules for collocation: [0] with `degree` points, [1] with degree + 1.
   double gauss[2][SB_EHL_DEGREE_MAX + 1];
   double weight[2][SB_EHL_DEGREE_MAX + 1];
@@ -53,7 +53,7 @@ typedef struct {
   double node_slope[SB_EHL_DEGREE_MAX + 1][SB_EHL_DEGREE_MAX + 1]; // [node][basis]
   double step[SB_EHL_DEGREE_MAX]
              [SB_EHL_DEGREE_MAX + 1]; // integral of a basis function from node j to j + 1
-  bool stepped;                       // these two are set
+  bool stepped;                       // node_slope and step are set
 } SbEhlTable;
 
 // Quadrature rule and tables of all degrees, computed when first used.
@@ -67,7 +67,7 @@ typedef struct {
 // element touches its neighbour has the full pressure as nodal value.
 typedef struct {
   SbEhlMap map;
-  int side; // of infinity: -1 left, 1 right, 0: a finite element
+  int side; // -1: extends to minus infinity, 1: to infinity, 0: a finite element
   int degree;
   const SbEhlTable *table; // borrowed
   int points;              // collocation points
@@ -75,10 +75,10 @@ typedef struct {
   int first_row; // first collocation row
   int gap_target[SB_EHL_DEGREE_MAX + 2]; // targets from which the gap is interpolated
   bool apart;                            // separated from the previous element by a cavity
-  double x0, x1;                         // ends; that at infinity is not used
-  double m, h, A, B;                     // constants of the map
-  double far_pressure;                   // at infinity
-  int modes;                             // largest Legendre mode of the projected weight
+  double x0, x1;       // X of the ends; of an infinite element both the finite end
+  double m, h, A, B;   // constants of the map (SbEhlMap)
+  double far_pressure; // pressure at infinity
+  int modes;           // largest Legendre mode of the projected weight
   // Kernel integrals: projected weights; positions and weighted basis functions at the fine rule.
   double project[SB_EHL_PROJECT + 1][SB_EHL_DEGREE_MAX + 1];
   double fine_x[SB_EHL_QUAD];
@@ -86,11 +86,12 @@ typedef struct {
   // Finite elements: integrals with -((X - middle)/half)^(m + 1)/(m + 1).
   double middle, half;
   double multipole[SB_EHL_MULTIPOLES][SB_EHL_DEGREE_MAX + 1];
-  double integral[SB_EHL_DEGREE_MAX + 1]; // of the pressure minus the far pressure over X
-  double log_s[SB_EHL_DEGREE_MAX + 1];    // infinite elements: integral with ln s
+  double integral[SB_EHL_DEGREE_MAX + 1]; // integral of the pressure minus the far pressure over X
+  double log_s[SB_EHL_DEGREE_MAX + 1];    // infinite elements: this integral with the factor ln s
 } SbEhlElement;
 
-// Coefficients of the nodal values in the pressure at a point and in its derivative dp/dX.
+// Coefficients of the nodal values in the pressure at a point (`value`) and in its derivative dp/dX
+// (`slope`).
 typedef struct {
   double value[SB_EHL_DEGREE_MAX + 1], slope[SB_EHL_DEGREE_MAX + 1];
 } SbEhlLocal;
@@ -106,9 +107,11 @@ typedef struct {
   bool apart;          // while adding elements: a cavity follows
   int film_end;        // last element before the cavity, or of the mesh
   SbEhlElement element[SB_EHL_ELEMENTS_MAX];
-  int dofs, rows, targets;
-  double inlet_pressure, outlet_pressure; // constant pressures beyond the ends of the mesh
-  double left_end, right_end;             // X where these begin
+  int dofs;                               // nodal pressures
+  int rows;                               // collocation points
+  int targets;                            // points of the gap
+  double inlet_pressure, outlet_pressure; // constant pressures left and right of the mesh
+  double left_end, right_end;             // X of the left and right end of the mesh
   double x[SB_EHL_TARGETS_MAX];           // X of the targets
   int owner[SB_EHL_TARGETS_MAX];          // element of each target
   // [targets][dofs] -(1/pi) integral of the basis functions times ln|X - X'|; gap of the known
@@ -121,26 +124,30 @@ typedef struct {
   double load[SB_EHL_DOFS_MAX], load_known; // integrals of the basis functions and known pressures
 } SbEhlMesh;
 
-// Computes the fine rule. *tables must be zero.
+// Computes the fine rule; *tables must be zero before. Tables of a degree are computed by the
+// functions below when first used.
 void sb_ehl_tables_init(SbEhlTables *tables);
 
 // Returns the tables of a degree, including integration from node to node; borrowed.
 const SbEhlTable *sb_ehl_steps(SbEhlTables *tables, int degree);
 
-// Writes to weight[degree + 1] the integrals over r of the basis functions from node j to r.
+// Writes to weight[degree + 1] the integrals over r of the basis functions from node j to r;
+// `table` is the result of sb_ehl_steps().
 void sb_ehl_partial(double *weight, const SbEhlTable *table, int j, double r);
 
-// Empties the mesh; mesh->tables must be set. The first element begins at `start`. The pressures
-// are those beyond the ends.
+// Empties the mesh; mesh->tables must be set. The first element begins at X = `start` (not used if
+// it is an infinite element). The pressures are those beyond the ends. Then add the elements from
+// left to right, and call sb_ehl_mesh_build().
 void sb_ehl_mesh_begin(SbEhlMesh *mesh, double start, double inlet_pressure,
                        double outlet_pressure);
 
-// Appends a finite element from the present end to `end`. Set mesh->apart before to leave a cavity
-// in between. If it does not fit, mesh->fits becomes false.
+// Appends a finite element of map SB_EHL_AFFINE or SB_EHL_COSINE (within |X| <= 1) from the present
+// end mesh->end to X = `end`. To leave a cavity before the element, set mesh->apart to true and
+// mesh->end to its start. If the element does not fit, mesh->fits becomes false.
 void sb_ehl_mesh_add(SbEhlMesh *mesh, SbEhlMap map, double end, int degree);
 
-// Appends an infinite element: from minus infinity to X = x (side -1), or from x to infinity (side
-// 1). B is the length scale of its map.
+// Appends an infinite element: from minus infinity to X = x (side -1, the first element), or from x
+// to infinity (side 1, the last element). B > 0 is the length scale of its map.
 void sb_ehl_mesh_add_far(SbEhlMesh *mesh, int side, double x, double B, int degree);
 
 // Returns the gap at X due to the constant pressures `inlet` (X < left) and `outlet` (X > right),
@@ -148,13 +155,14 @@ void sb_ehl_mesh_add_far(SbEhlMesh *mesh, int side, double x, double B, int degr
 double sb_ehl_ambient_gap(double X, double left, double right, double inlet, double outlet);
 
 // Numbers the unknowns and computes all operators. `nodal`: the targets are the nodes; only for
-// affine elements without cavities. Returns false if the elements did not fit.
+// affine elements without cavities. Returns false if the elements did
+// not fit.
 SB_CHECKED bool sb_ehl_mesh_build(SbEhlMesh *mesh, bool nodal);
 
 // Sets other pressures beyond the ends of a built mesh.
 void sb_ehl_mesh_ends(SbEhlMesh *mesh, double inlet_pressure, double outlet_pressure);
 
-// Returns the X of node k of an element; for the node at infinity a distant X.
+// Returns the X of node k (0 to degree) of an element; for the node at infinity a distant X.
 double sb_ehl_node(const SbEhlElement *e, int k);
 
 // Returns the nodal value of node k for which the pressure at sb_ehl_node() is `pressure`.
@@ -163,7 +171,7 @@ double sb_ehl_nodal(const SbEhlElement *e, int k, double pressure);
 // Returns the element that contains X; a cavity belongs to the element after it.
 int sb_ehl_find(const SbEhlMesh *mesh, double X);
 
-// Returns the coordinate r of X in an element.
+// Returns the coordinate r of X in an element, X within the element.
 double sb_ehl_coordinate(const SbEhlElement *e, double X);
 
 // Returns at r the polynomial through value[degree + 1] at the nodes.
@@ -192,8 +200,8 @@ double sb_ehl_sum(double *slope, const SbEhlLocal *local, const SbEhlElement *e,
 // Computes the parts of an element's kernel integrals that are independent of the target.
 void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables);
 
-// Adds to row[degree + 1] the integrals of the columns times ln|X - X'|. Requires
-// sb_ehl_kernel_prepare().
+// Adds to row[degree + 1] the integrals over X' of the element's basis functions times ln|X - X'|.
+// Requires sb_ehl_kernel_prepare() for the element.
 void sb_ehl_kernel_row(double *row, const SbEhlElement *e, const SbEhlTables *tables, double X);
 
 // Returns X at the element coordinate r.

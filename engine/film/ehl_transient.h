@@ -10,10 +10,10 @@ enum { SB_TRANSIENT_NODES_MAX = 1000, SB_TRANSIENT_ORDER_MAX = 1400 };
 // State at one time, scaled by b, p_H and b^2/R of the steady problem; time in seconds. Nodes are
 // at x = middle + X, in units of b, in the seal's frame.
 typedef struct {
-  double time;   // [s]
-  double speed;  // v = u/(2 b) [1/s]
-  double travel; // integral of v over time: distance that the fluid has moved
-  double H0;
+  double time;                         // [s]
+  double speed;                        // v = u/(2 b) [1/s]
+  double travel;                       // integral of v over time: distance that the fluid has moved
+  double H0;                           // constant of the gap (sb_transient_gap())
   double P[SB_TRANSIENT_NODES_MAX];    // film pressure minus rupture pressure
   double Q[SB_TRANSIENT_NODES_MAX];    // total pressure, including asperities and adhesion
   double H[SB_TRANSIENT_NODES_MAX];    // gap
@@ -30,7 +30,7 @@ typedef struct {
   double upwind[2][4];       // upwind interpolation of m, for flow to the right and to the left
   bool limited;              // the cell is larger than the layers: limited interpolation
   bool monotonic;            // a front is here at the start of the step: monotonic interpolation
-  bool beside_cavity;        // adjacent to the cavity at the start of the step: the same
+  bool beside_cavity;        // adjacent to the cavity at the start of the step: also monotonic
   double flow;               // v m - kappa H^3 P', relative to the face
   double by_m[4], by_H[4], by_P[4]; // derivatives of `flow` with respect to the nodes
 } SbTransientFace;
@@ -42,9 +42,10 @@ enum { SB_TRANSIENT_SAMPLES = 2000 };
 // slightly before the requested range, because the surroundings hold much more liquid than the
 // contact.
 typedef struct {
-  int from, to;                                                           // first and last face
-  const double *height;                                                   // of the cells, borrowed
-  double place[SB_TRANSIENT_NODES_MAX], integral[SB_TRANSIENT_NODES_MAX]; // X of faces; integral
+  int from, to;                            // first and last face in use
+  const double *height;                    // liquid height of the cells, borrowed
+  double place[SB_TRANSIENT_NODES_MAX];    // X of the faces
+  double integral[SB_TRANSIENT_NODES_MAX]; // integral of `height` up to the faces
 } SbTransientCells;
 
 // Desired spacing at samples of the core, with smaller distances near its ends, and the accumulated
@@ -58,7 +59,8 @@ enum { SB_TRANSIENT_TRACE = 64 };
 
 // Minimum films of the film and of its companion, at a distance that the fluid has moved.
 typedef struct {
-  double way, film[2];
+  double way;     // distance that the fluid has moved, divided by b
+  double film[2]; // minimum films of the film and of its companion, scaled
 } SbTransientTrace;
 
 // The transient film (SbFilmTransient of transient.h).
@@ -109,12 +111,12 @@ struct SbFilmTransient {
   // The step: dm/dt = c0 m + old (0 if steady); face velocity divided by `carried`.
   double c0, carried_rate;
   double old[SB_TRANSIENT_NODES_MAX];
-  double guess[SB_TRANSIENT_NODES_MAX]; // of m, extrapolated in time
+  double guess[SB_TRANSIENT_NODES_MAX]; // m extrapolated in time, the initial guess
   double work[2][SB_TRANSIENT_NODES_MAX];
   SbTransientCells cells;     // work memory
   SbTransientSpacing spacing; // work memory
   double old_X[SB_TRANSIENT_NODES_MAX];
-  SbTransientState next, now, before, earlier; // times in decreasing order
+  SbTransientState next, now, before, earlier; // state of the step, present and two earlier states
   int known_times;                             // valid states from `now` on, 1 to 3
   double way, apart[2], apart_way[2]; // distance moved by the fluid; largest difference to the
                                       // companion, and `way` then
@@ -124,16 +126,17 @@ struct SbFilmTransient {
   SbFilmTransientResult result;               // except films and friction
 };
 
-// Builds mesh and kernel for gaps at rest up to `rest` and trapped films down to `least` (0: none),
-// scaled.
+// Builds mesh and kernel for initial gaps at rest up to `rest` and films that come to rest down to
+// `least`, both scaled, 0: none. The fields of `t` up to `solver` must be set.
 void sb_transient_mesh(SbFilmTransient *t, double rest, double least);
 
 // Builds a new mesh in the core and transfers the states, if the transported film needs another
-// spacing. The new spacing should last for the distance `ahead`. Returns whether the mesh changed.
+// spacing. The new spacing is chosen so that it suffices while the fluid moves by `ahead` (divided
+// by b). Returns whether the mesh changed.
 bool sb_transient_adapt(SbFilmTransient *t, double ahead);
 
-// Transfers the states from the nodes old_X[nodes] to the present mesh; the side nodes are the
-// same.
+// Transfers the states `now`, `before` and `earlier` from the nodes t->old_X[nodes] to the present
+// mesh; the side nodes of both meshes are equal.
 void sb_transient_remap(SbFilmTransient *t, int nodes);
 
 // Returns whether height[count] contains a front: largest and smallest differ by more than
@@ -150,12 +153,13 @@ void sb_transient_rub(SbFilmTransientResult *out, const SbFilmTransient *t);
 // Writes the elastic gap due to Q at all nodes to out[nodes].
 void sb_transient_gap(double *out, const SbFilmTransient *t, const SbTransientState *s);
 
-// Writes to out[nodes] the means over the cells of height[nodes] transported by the distance `way`
-// (times `carried` of the faces). Conserves mass.
+// Transports the liquid height[nodes] by the signed distance `way` (divided by b, times `carried`
+// at the faces) and writes its means over the cells to out[nodes]. Conserves mass. Uses t->cells.
 void sb_transient_carry(double *out, SbFilmTransient *t, const double *height, double way);
 
-// Solves the implicit step described in `t` by Newton's method from the guess `s`, in which H and P
-// may be inconsistent. SB_ERROR_NOT_CONVERGED.
+// Solves the implicit step described in `t` (c0, carried_rate, old, guess) by Newton's method from
+// the guess `s`, in which H need not be the gap of P; s->time and speed are those of the end of the
+// step. SB_ERROR_NOT_CONVERGED.
 SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s);
 
 // Computes t->next from t->now by one step of length h [s] to `speed` (as in SbTransientState).
@@ -163,5 +167,5 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s);
 // infinite while unknown. SB_ERROR_NOT_CONVERGED.
 SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, double speed);
 
-// Makes t->next the present state and adds `error` of that step to the estimates.
+// Makes t->next the present state and adds `error` of sb_transient_advance() to the estimates.
 void sb_transient_accept(SbFilmTransient *t, double error);

@@ -53,96 +53,106 @@ typedef struct {
 // of the film; warning "film-thick".
 #define SB_FILM_THICK 0.1
 
-// Relation of a problem to the last one that this solver solved with SB_FILM_ALONE. NEAR and BESIDE
-// use that problem's mesh and error estimate. They fail with SB_ERROR_NOT_CONVERGED if the problems
-// differ too much.
+// Relation of a problem to the base: the last problem that the same solver solved with
+// SB_FILM_ALONE. NEAR and BESIDE use mesh and error estimate of the base. They fail with
+// SB_ERROR_NOT_CONVERGED if there is no base or the problems differ too much.
 typedef enum {
   SB_FILM_ALONE, // independent: own mesh and error estimate
-  SB_FILM_NEAR,  // its solution is the initial guess
-  SB_FILM_BESIDE // in addition, its factorised Jacobian is reused (finite differences)
+  SB_FILM_NEAR,  // the solution of the base is the initial guess
+  SB_FILM_BESIDE // as NEAR, and the factorised Jacobian of the base is reused; for perturbations of
+                 // the base by finite differences
 } SbFilmPlace;
 
-// A problem. Initialise with sb_film_problem_init(), then set model, load, speed, radius, modulus
-// and viscosity. The ranges are those of sb_film_ranges().
+// A problem. Initialise with sb_film_problem_init(), then set load, speed, radius, modulus and
+// viscosity, and other fields as needed. The ranges are those of sb_film_ranges().
 typedef struct {
-  SbFilmModel model;
+  SbFilmModel model; // initially SB_FILM_REYNOLDS
   // Integral of p - ambient [N/m], > 0; ambient is the left pressure for x < 0, else the right one.
   double load;
   double speed;          // of the wall, signed [m/s]; 0: dry contact
   double radius;         // R [m] > 0
   double modulus;        // reduced modulus E' [Pa] > 0
   double viscosity;      // eta [Pa s] > 0
-  double pressure_left;  // of the fluid on the left [Pa]
-  double pressure_right; // of the fluid on the right [Pa]
-  double tolerance;      // relative error of the films, 1e-8 to 0.1
+  double pressure_left;  // pressure of the fluid on the left of the contact, gauge [Pa]
+  double pressure_right; // pressure of the fluid on the right of the contact, gauge [Pa]
+  double tolerance;      // relative error of the films, 1e-8 to 0.1; initially 1e-3
 
-  // Options of the model reynolds; 0: off.
-  double pressure_viscosity; // Barus' alpha [1/Pa]: eta exp(alpha p)
-  double eyring_stress;      // tau_0 of Eyring's shear thinning [Pa]
+  // Options of the model reynolds; the other models ignore them.
+  double pressure_viscosity; // Barus' alpha [1/Pa]: eta exp(alpha p), p gauge; 0: constant eta
+  double eyring_stress;      // Eyring's stress of shear thinning [Pa]; 0: no shear thinning
   double inlet_film;         // thickness of the layer on the incoming wall [m]; 0: flooded inlet
-  double rupture_pressure;   // pressure at which the film cavitates, such as a vapour pressure [Pa]
+  // Gauge pressure at which the film cavitates [Pa]: 0 is ambient, a vapour pressure may be
+  // negative. The film can always cavitate; to prevent it, set a low value such as -1e6.
+  double rupture_pressure;
 
-  // Roughness in the model reynolds: asperities carry a part of the load. Film, pressure and
-  // profile are then those of the total.
-  SbRoughModel surface;    // roughness model (rough_law.h); SB_ROUGH_NONE: smooth
-  double gt_product;       // zeta beta sigma [1]
-  double sigma;            // combined standard deviation of heights [m]
-  double sigma_over_beta;  // sigma divided by the tip radius of the asperities [1]
-  double hamaker;          // A_H of the van der Waals attraction across the gap [J]; 0: off
-  double work_of_adhesion; // of asperity tips [J/m2], greenwood-tripp without `hamaker`; 0: off
-  double shear_strength;   // tau_0 of the real contact area [Pa]
+  // Roughness in the model reynolds: asperities carry a part of the load. The pressures of result
+  // and profile are then the sum of film and asperities minus attraction, the film is the mean gap.
+  SbRoughModel surface;   // roughness model (rough_law.h); SB_ROUGH_NONE: smooth
+  double gt_product;      // zeta beta sigma [1], > 0 if rough
+  double sigma;           // combined standard deviation of heights [m], > 0 if rough
+  double sigma_over_beta; // sigma divided by the tip radius of the asperities [1], > 0 if rough
+  double hamaker;         // A_H of the van der Waals attraction across the gap [J]; 0: off
+  // Work of adhesion of asperity tips [J/m2]; 0: off. Only with SB_ROUGH_GREENWOOD_TRIPP and
+  // `hamaker` 0.
+  double work_of_adhesion;
+  double shear_strength;   // tau_s, shear strength of the real contact area [Pa]
   double load_coefficient; // friction coefficient m of the asperity load [1]
   // Tables of a rough law that are reused if its surface is the same (sb_rough_law_like());
   // borrowed during the call. NULL: computed.
   const SbRoughLaw *law;
 
   // Compliance and shape of a fitted body, which replaces half-plane and parabola in the model
-  // reynolds and in its dry contact; borrowed during the call. NULL: none. `radius` and `modulus`
-  // then only determine the regime.
+  // reynolds and in its dry contact; borrowed during the call. NULL: half-plane and parabola.
+  // `modulus` must equal that of the body; `radius` then only determines the regime.
   const SbSurfaceCompliance *compliance;
 
-  // Dry pressure of the model inverse: dry_x[dry_count] increasing, smooth; borrowed during the
-  // call.
-  const double *dry_x;        // [m]
-  const double *dry_pressure; // [Pa]
-  size_t dry_count;
+  // Dry pressure of the model inverse, the other models ignore it; borrowed during the call. Its
+  // slope determines the film; it must be smooth, without square-root edges. The fields
+  // pressure_left and pressure_right are not added. A warning is given if the integral of
+  // dry_pressure differs from `load` by more than 1 %.
+  const double *dry_x;        // [dry_count] x in the frame of this header [m], increasing
+  const double *dry_pressure; // [dry_count] contact pressure at dry_x, gauge [Pa]
+  size_t dry_count;           // at least 9
 
-  // SB_FILM_ALONE unless the same solver has solved a similar problem before.
+  // Model reynolds: SB_FILM_ALONE (initially), or another value if the solver passed to
+  // sb_film_solve() has solved a similar problem before.
   SbFilmPlace place;
 
   SbFilmProfile *profile; // memory for the profile, borrowed by the result; NULL: no profile
-  size_t profile_points;  // approximate number of points (coupled solver); 0: as its accuracy needs
+  size_t profile_points;  // approximate number of points (model reynolds); 0: as accuracy requires
 
-  // Called between Newton steps; true stops with SB_ERROR_CANCELLED. NULL: never.
+  // Called with cancelled_data between Newton steps (model reynolds); true stops the solve with
+  // SB_ERROR_CANCELLED. NULL: never stopped.
   bool (*cancelled)(void *data);
   void *cancelled_data;
 } SbFilmProblem;
 
-// How a result was found. Errors are relative.
+// How a result was found. Errors are relative. 0 where a model does not set a field.
 typedef struct {
   bool converged;
-  size_t unknowns;
+  size_t unknowns;           // number of unknowns of the last solve
   int newton_iterations;     // sum over all continuation steps
   int continuation_steps;    // number of solves by Newton's method: continuation, then refinement
-  double residual;           // last one, scaled, maximum norm
-  double error_film_min;     // estimate: discretisation and iteration
-  double error_film_central; // estimate
-  double error_film_flux;    // estimate
-  double error_contact;      // estimate for real area and asperity load; 0 if smooth
+  double residual;           // residual of the last Newton step, scaled, maximum norm
+  double error_film_min;     // estimated error of film_min: discretisation and iteration
+  double error_film_central; // estimated error of film_central
+  double error_film_flux;    // estimated error of film_flux
+  double error_contact;      // estimated error of real area and asperity load; 0 if smooth
   double load_error;         // |integral of p - load|/load
   double flux_error;         // largest |flux(x)/flux - 1| in the full film
   double wall_s;             // elapsed time of the solve [s]
 } SbFilmSolverInfo;
 
 // Result. Owns nothing: the profile is in the buffer of the problem, so a copy is valid until that
-// buffer is freed or used by another solve.
+// buffer is freed or used by another solve. At speed 0 the film thicknesses of smooth surfaces are
+// 0.
 typedef struct {
   SbFilmModel model;
   double film_min;          // minimum film [m]
-  double film_central;      // at x = 0, or in the middle of a fitted body's contact [m]
+  double film_central;      // film at x = 0, or in the middle of a fitted body's contact [m]
   double film_flux;         // flow-rate film thickness: flow/(speed/2) [m]
-  double flow;              // volume flow, signed as the speed [m2/s]
-  double pressure_max;      // [Pa]
+  double flow;              // volume flow per circumference, signed as the speed [m2/s]
+  double pressure_max;      // maximum of the total pressure, gauge [Pa]
   double position_film_min; // x of the minimum film [m]
   double position_rupture;  // x at which the film cavitates [m]; edge of the contact if it does not
   bool ruptured;            // the film cavitates
@@ -153,17 +163,17 @@ typedef struct {
   double friction_couette;    // integral of eta speed/h over the full film [N/m]
   double friction_poiseuille; // integral of (h/2) dp/dx over the full film [N/m]
   double friction_cavity;     // shear of the cavitated film, see ehl.c [N/m]
-  double friction_boundary;   // tau_0 real_area + m asperity_load [N/m]
+  double friction_boundary;   // tau_s real_area + m asperity_load [N/m]
   double asperity_load;       // integral of the asperity pressure [N/m]
-  double asperity_share;      // asperity_load divided by the load of film and asperities
+  double asperity_share;      // asperity_load divided by the load of film and asperities [1]
   double real_area;           // integral over x of the fraction of real contact area [m]
-  double real_area_share;     // fraction of real contact area at the axis
+  double real_area_share;     // fraction of real contact area at x = 0
   double film_ratio;          // film_central/sigma; NAN if smooth
   double moes_M;              // W/sqrt(2 U)
   double moes_U;              // U = eta |speed|/(2 E' R)
   double moes_W;              // W = load/(E' R)
   double lambda;              // 3 pi^2 U/(4 W^2) = (3 pi^2/8)/M^2
-  double expected_error;      // relative error of the model in film_flux; 0: exact
+  double expected_error; // expected relative error of the model in film_flux; 0: no model error
   char regime[48]; // "dry", "isoviscous-rigid", "transition", "isoviscous-elastic", "boundary"
   bool valid;      // false: outside the range of the model, see `warnings`
   SbWarnings warnings;
@@ -179,7 +189,7 @@ typedef struct {
   double *asperity_pressure; // [points] part of `pressure` carried by asperities [Pa]
 } SbFilm;
 
-// Work memory of the coupled solver (20 MB reserved), and its last solution, from which later
+// Work memory of the model reynolds (20 MB reserved), and its last solution, from which later
 // solves start. Use one for each thread and each seal.
 typedef struct SbFilmSolver SbFilmSolver;
 
@@ -204,19 +214,22 @@ typedef struct {
 // Returns the allowed ranges, an array of *count; static.
 const SbFilmRange *sb_film_ranges(size_t *count);
 
-// Sets the model reynolds, tolerance 1e-3, and 0 for all other fields: options off, no pressures,
-// sizes still to be set.
+// Sets the model reynolds, tolerance 1e-3, and 0 or NULL for all other fields: options off, ambient
+// pressure on both sides, cavitation at ambient pressure, sizes still to be set.
 void sb_film_problem_init(SbFilmProblem *problem);
 
 // Solves `problem` with its model. `memory` is used by the model reynolds; NULL: allocated for the
 // call. Warnings are in out->warnings. Errors:
-// SB_ERROR_RANGE, SB_ERROR_INPUT, SB_ERROR_INFEASIBLE: nothing is solved; films and pressures are
-// 0. SB_ERROR_NOT_CONVERGED: *out is the best state found (films 0 if there is none).
+// SB_ERROR_RANGE: a field is outside sb_film_ranges(). SB_ERROR_INPUT: options that exclude each
+// other, a rough surface with a model other than reynolds, or an invalid table or body.
+// SB_ERROR_INFEASIBLE: the pressures open the contact, or the inlet is below the rupture pressure,
+// or starved while the outlet cavitates and re-forms. After these errors films and pressures are 0.
+// SB_ERROR_NOT_CONVERGED: *out is the best state found (films 0 if there is none).
 // SB_ERROR_CANCELLED, SB_ERROR_MEMORY: *out must not be used.
 SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *memory,
                        SbReport *report);
 
-// Returns the gap of the dry Hertz line contact at X half-widths from its middle, in units of
+// Returns the gap of the dry Hertz line contact at the distance X b from its middle, divided by
 // b^2/R; 0 for |X| <= 1 (Johnson, Contact Mechanics, section 4.2).
 double sb_film_dry_gap(double X);
 
@@ -226,6 +239,6 @@ const char *sb_film_model_name(SbFilmModel model);
 // Returns one line of help for a model; "" for an invalid one.
 const char *sb_film_model_help(SbFilmModel model);
 
-// Finds the model with this name (NULL allowed). Returns false if there is none; *out is unchanged
-// then.
+// Finds the model with this name, such as "reynolds". Returns false if there is none or `name` is
+// NULL; *out is unchanged then.
 SB_CHECKED bool sb_film_model_from_name(SbFilmModel *out, const char *name);

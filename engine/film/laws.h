@@ -15,7 +15,7 @@ typedef struct {
   double k_confidence, a_confidence, b_confidence;
 } SbFilmLaw;
 
-// Returns h/R by a law.
+// Returns h/R by a law, with U > 0 and W > 0 as above.
 double sb_film_law(const SbFilmLaw *law, double U, double W);
 
 // A point of Greenwood's chart of regimes (1969; Johnson 1970; thesis figure 7.10): g_E =
@@ -24,7 +24,7 @@ double sb_film_law(const SbFilmLaw *law, double U, double W);
 // contacts, except the isoviscous-elastic one, which is our exact limit 3.00434 g_E^0.8
 // (usually 3.10).
 typedef struct {
-  double g_E, g_V;
+  double g_E, g_V;    // elasticity and viscosity parameters [1]
   const char *regime; // "isoviscous-rigid", "piezoviscous-elastic", ...; static
 } SbChartPoint;
 
@@ -34,10 +34,10 @@ typedef struct {
 SbChartPoint sb_regime_chart(double load, double entrainment, double radius, double modulus,
                              double viscosity, double pressure_viscosity);
 
-// Returns the g_V above which the viscosity increase by pressure determines the regime, at g_E > 0.
+// Returns the g_V above which the regime is piezoviscous, at g_E > 0: a border line of the chart.
 double sb_regime_viscous_border(double g_E);
 
-// Returns the g_E above which the elastic deformation determines the regime, at g_V > 0.
+// Returns the g_E above which the regime is elastic, at g_V > 0: a border line of the chart.
 double sb_regime_elastic_border(double g_V);
 
 // Returns the regime by lambda = h/sigma: "boundary" below 1, "mixed" below 3, else "full film"
@@ -50,9 +50,10 @@ const char *sb_regime_of_lambda(double lambda);
 double sb_taper_factor(double ratio);
 
 // Returns the volume [m3] that a stroke transports through the contact, with the sign of `length`
-// [m] (thesis equations 5.19 to 5.21). `diameter` of the bore [m], central `film` thickness [m]: q
-// = (1/2) pi D h L. The net leakage of a cycle is the volume that one stroke carries out
-// minus the volume that the other one brings back. Valid for a flooded inlet and a full film.
+// [m] of the stroke (thesis equations 5.19 to 5.21): q = (1/2) pi D h L, with the `diameter` D of
+// the bore [m] and the central `film` thickness h [m]. The net leakage of a cycle is the volume
+// that one stroke carries out minus the volume that the other one brings back. Valid for a flooded
+// inlet and a full film.
 static inline double sb_leak_stroke(double diameter, double film, double length) {
   return M_PI * diameter * film * length / 2;
 }

@@ -8,12 +8,13 @@
 //
 // The mean pressure P on the strip is carried by fluid and asperities, P = p_f + p_a(h):
 //
-//   d(1/h^2)/dt = k p_f/(eta b^2), k = 1/2      1/h^2 - 1/h_0^2 = k P t/(eta b^2) without
-//   asperities
+//   d(1/h^2)/dt = p_f/(2 eta b^2)
+//   1/h^2 - 1/h_0^2 = P t/(2 eta b^2) without asperities
 //
 // With asperities the film approaches the gap at which p_a(h) = P; p_a is that of a rough law
 // (contact/rough). Sources: Reynolds (1886); with p_a Persson and Scaraggi, J. Phys.: Condens.
-// Matter 21 (2009) 185002, without flow factors. Valid for an isoviscous fluid. Not modelled: the
+// Matter 21 (2009) 185002, without flow factors. Adhesion of the law is subtracted from p_a. Valid
+// for an isoviscous fluid. Not modelled: the
 // fluid pocket in the middle of a soft body (its film closes later), fluid pressure at the ends.
 #pragma once
 
@@ -34,8 +35,8 @@ typedef struct {
 
 // Prepares a film of initial gap `film` [m] between rough surfaces of `law` (borrowed; NULL:
 // smooth), with the mean `pressure` P [Pa] > 0 on a strip of half-width `half_width` b [m] > 0 and
-// the `viscosity` [Pa s] > 0. A film that is not thicker than the final gap of the asperities
-// remains constant.
+// the `viscosity` [Pa s] > 0. The pressure is relative to the ambient pressure at the ends. A film
+// that is not thicker than the final gap of the asperities remains constant.
 void sb_squeeze_init(SbSqueeze *out, double film, double pressure, double half_width,
                      double viscosity, const SbRoughLaw *law);
 
@@ -43,5 +44,5 @@ void sb_squeeze_init(SbSqueeze *out, double film, double pressure, double half_w
 double sb_squeeze_film(const SbSqueeze *squeeze, double time);
 
 // Returns the time [s] after which the gap is `film` [m], between the final gap (excluded) and the
-// initial one.
+// initial gap. Returns 0 for a film that remains constant.
 double sb_squeeze_time(const SbSqueeze *squeeze, double film);

@@ -1,6 +1,6 @@
 // Transient film: start, stop and reversal of a sliding seal with a prescribed speed history.
 //
-//   dm/dt + d/dx (u m/2 - h^3/(12 eta) dp/dx) = 0,   int (p - ambient) dx = W
+//   dm/dt + d/dx (u m/2 - h^3/(12 eta) dp/dx) = 0,   int (p - ambient) dx = W = film.load
 //
 // with the gap h of film.h (half-plane and parabola, or the compliance of a fitted body). m = h
 // where the film is full and p > rupture pressure; m < h and p = rupture pressure in a cavity. Mass
@@ -15,25 +15,31 @@
 // is exact for parabolic pressures. Time: BDF2 with error control; Newton's method with the cavity
 // as an active set. Between the edge layers the cells move with the fluid at u/2, so transported
 // films keep their shape; with `resolve` the nodes follow them. A companion with twice the spacing
-// and time step estimates the errors: for the minimum film the largest difference that the fluid in
-// the contact has seen, for the central film half of it, plus the mesh error in steady sliding. If
-// a film leaves the contact of the companion at another time, that estimate is large for an
-// instant; error_history separates errors of film from errors of time.
+// and time step estimates the errors. The error of the minimum film is the largest difference of
+// both since the fluid now in the contact entered it, plus the mesh error in steady sliding; that
+// of the central film has half of the difference. If a film leaves the contact of the companion at
+// another time, that estimate is large for an instant; error_history separates errors of film from
+// errors of time.
 //
 // Asperities and adhesion are those of film.h: q = p + p_a(h) - p_v(h) deforms the body and carries
-// the load, also in a cavity. Refused: adhesion that closes gaps at rest (film-snap-in), Barus' and
-// Eyring's options. Range: M >= 1 of the smooth film, and a pressure of one contact.
+// the load, also in a cavity. Refused: adhesion that closes gaps at rest (film-snap-in), models
+// other than reynolds, and the options pressure_viscosity, eyring_stress and inlet_film of
+// SbFilmProblem. Range: M >= 1 of the smooth film; the body has one contact, not two.
 #pragma once
 
 #include "engine/film/film.h"
 
-// A problem. Initialise `film` with sb_film_problem_init().
+// A problem. Initialise `film` with sb_film_problem_init(). Set film.load, radius, modulus,
+// viscosity, speed (at the start), tolerance (of the film history), and other fields as needed;
+// model, place and profile stay as initialised.
 typedef struct {
-  SbFilmProblem film; // sizes, load, and speed at the start; tolerance of the film history
-  double speed_scale; // largest |speed| that will occur [m/s]; determines the mesh
-  double rest_film;   // initial gap at rest [m], or more if asperities carry the load; 0: steady
-                      // state of film.speed
-  double least_film;  // thinnest film that will come to rest [m]; determines the mesh; 0: rest_film
+  SbFilmProblem film;
+  double speed_scale; // largest |speed| that will occur [m/s] > 0; determines the mesh
+  // Start at rest: film.speed is 0 and rest_film > 0 is the initial gap [m], or the gap at which
+  // asperities carry the load if that is larger. Start in motion: film.speed is not 0, rest_film is
+  // 0, and the initial state is the steady film.
+  double rest_film;
+  double least_film; // thinnest film that will come to rest [m]; determines the mesh; 0: rest_film
   // Layer on the wall that comes from the left and from the right [m]; 0: flooded. The pressure at
   // a starved end must not exceed that at the other one.
   double inlet_film[2];
@@ -73,9 +79,10 @@ SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientPr
 // Frees the film. Takes NULL.
 void sb_film_transient_destroy(SbFilmTransient *transient);
 
-// Advances by `dt` [s] > 0 while the speed changes linearly to `speed` [m/s], in as many steps as
-// the tolerance needs. SB_ERROR_RANGE: `dt` or `speed` is out of range; nothing is done.
-// SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED: the state is at the last completed step.
+// Advances by `dt` [s] > 0 while the speed changes linearly from its present value to `speed`
+// [m/s], |speed| <= speed_scale, in as many steps as the tolerance needs. SB_ERROR_RANGE: `dt` or
+// `speed` is out of range; nothing is done. SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED: the state
+// is at the last completed step.
 SbStatus sb_film_transient_step(SbFilmTransient *transient, double dt, double speed,
                                 SbReport *report);
 

@@ -23,7 +23,7 @@
 // to 6.7).
 typedef enum {
   SB_WEDGE_FULL_SOMMERFELD, // p = 0 as far behind the minimum gap as it begins before it; p is odd
-  SB_WEDGE_HALF_SOMMERFELD, // the same with negative pressures set to zero
+  SB_WEDGE_HALF_SOMMERFELD, // as FULL_SOMMERFELD, with negative pressures set to zero
   SB_WEDGE_REYNOLDS,        // p = 0 with zero gradient
 } SbWedgeEnds;
 
@@ -31,28 +31,37 @@ typedef enum {
 // flooded. 0 outside the film.
 double sb_wedge_pressure(SbWedgeEnds ends, double t, double reach);
 
-// Returns the dimensionless load w h0/(eta u_m R) of that wedge, u_m = U/2. For an infinite reach:
-// 0, 4 and 4.894968 (Martin).
+// Returns the dimensionless load w h0/(eta u_m R), u_m = U/2, of a wedge that begins at tan t =
+// -reach. For an infinite reach: 0, 4 and 4.894968 (Martin), in the order of SbWedgeEnds.
 double sb_wedge_load(SbWedgeEnds ends, double reach);
 
-// Returns the angle te at which the Reynolds film ends [rad]; 25.41 degrees for an infinite reach.
+// Returns the angle te at which the film of SB_WEDGE_REYNOLDS ends [rad]; 25.41 degrees for an
+// infinite reach.
 double sb_wedge_end(double reach);
 
-// A wedge between two pools of liquid, scaled: h = film + x^2/2, h^3 p' = lambda (h - flux). End
-// pressures are relative to the rupture pressure. Where p would become negative, the film cavitates
-// with zero gradient; it re-forms where the outlet's pressure reaches. A full film has an odd
-// pressure, which carries no load by itself. Its load is, to first order, int p' v' dx with the
-// slope v' of the elastic deflection. For equal end pressures that is lambda^2 pi/(48 film^3), so
-// film = (lambda^2/24)^(1/3).
+// A wedge between two pools of liquid, scaled as in scale.h (x by b, p by p_H, h by b^2/R): h =
+// film
+// + x^2/2, h^3 p' = lambda (h - flux), tan t = x/length. End pressures are relative to the rupture
+// pressure, so p >= 0. Where p would become negative, the film cavitates with zero gradient; it
+// re-forms where the liquid of the outlet, under its pressure, fills the gap. A full film has an
+// odd pressure, which carries no load by itself. Its load is, to first order, int p' v' dx with the
+// slope v' of the elastic deflection. For equal end pressures this load is lambda^2 pi/(48 film^3),
+// so film = (lambda^2/24)^(1/3).
 typedef struct {
-  double lambda, inlet, outlet; // lambda; end pressures, scaled
-  double film, stretch, length; // minimum film; flux film divided by it; sqrt(2 film)
-  double end, reform;           // angles t of rupture and re-formation [rad], pi/2: none
-  bool full;                    // does not cavitate; `end` is then the angle of minimum pressure
+  double lambda;  // 3 pi^2 U/(4 W^2) of scale.h
+  double inlet;   // pressure at x = -infinity
+  double outlet;  // pressure at x = +infinity
+  double film;    // minimum film, at x = 0
+  double stretch; // flux film divided by the minimum film
+  double length;  // sqrt(2 film)
+  double end;     // angle t of rupture [rad]; of the minimum pressure if `full`
+  double reform;  // angle t of re-formation [rad]; pi/2: none
+  bool full;      // the film does not cavitate
 } SbWedgePools;
 
-// Returns the wedge that carries the load pi/2, for the scaled end pressures `inlet` and `outlet`.
+// Returns the wedge that carries the load pi/2 above the end pressures, for `lambda` > 0 and the
+// scaled end pressures `inlet` >= 0 and `outlet` >= 0.
 SbWedgePools sb_wedge_pools(double lambda, double inlet, double outlet);
 
-// Returns the scaled pressure of the wedge at x.
+// Returns the scaled pressure of the wedge at the scaled x.
 double sb_wedge_pools_pressure(const SbWedgePools *wedge, double x);

@@ -7,8 +7,8 @@
 // C. Yang, ibid. 315011 (leakage). Power spectrum C(q) ~ q^(-2(H+1)) between q0 and q1, H = 0.8.
 //
 //   A(q)/A0 = erf(sqrt 2 p/(E* h'(q))),  h'(q)^2 = 2 pi int_q0^q k^3 C dk,  1/E* = sum (1 - nu^2)/E
-//   u(p) = sqrt(pi) int_q^q1 k^2 C(k) w(k) dk int_p^inf [gamma + 3 (1 - gamma) P^2] exp(-(w
-//   p'/E*)^2) dp'/p' P = erf(w p'/E*),  w(k) = (pi int_q^k k'^3 C dk')^(-1/2)
+//   u(p) = sqrt(pi) int_q^q1 k^2 C(k) w(k) G(w(k) p/E*) dk,  w(k) = (pi int_q^k k'^3 C dk')^(-1/2)
+//   G(a) = int_a^inf [gamma + 3 (1 - gamma) erf(b)^2] exp(-b^2) db/b
 //
 // E* = E'/2. The work int p |du| of closing the gap equals the elastic energy at full contact,
 // (pi/2) E* int q^2 C dq.
@@ -56,7 +56,7 @@ double sb_persson_separation(const SbSpectrum *spectrum, double q, double modulu
 enum { SB_PERSSON_INNER = 240, SB_PERSSON_PANELS = 240 };
 
 // The separation as a function of pressure, prepared for one wave number; plain data, read by any
-// thread. G(a) is the inner integral of u(p), a = w p/E*.
+// thread. a = w p/E*.
 typedef struct {
   double begin, step; // first ln a and step of ln a in the table of G
   double value[SB_PERSSON_INNER], slope[SB_PERSSON_INNER];    // ln G, d ln G/d ln a
