@@ -2,7 +2,7 @@
 //
 // Newton-Euler equations of each body with the joints' conditions as Lagrange multipliers l (thesis
 // ch. 4, eq. 4.2, 4.16, 4.17; unit quaternions replace its Euler angles, whose momenta 4.11-4.13
-// are misprinted):
+// are misprinted). J' is the transpose of J; J' l are the forces of the joints on the bodies:
 //
 //   [ M  J' ] [ a  ]   [ applied - gyroscopic ]
 //   [ J  0  ] [ -l ] = [ -(dJ/dt) velocity    ]
@@ -64,11 +64,13 @@ enum {
 
 // The joints' conditions at the present positions and velocities, one row each.
 typedef struct {
-  size_t rows;
-  double jacobian[SB_ASSEMBLY_ROWS][SB_ASSEMBLY_COLUMNS]; // by body: velocity, length x spin
-  double rate[SB_ASSEMBLY_ROWS];                          // second time derivative minus J a [m/s2]
-  double error[SB_ASSEMBLY_ROWS];                         // violation of the position condition [m]
-  bool turns[SB_ASSEMBLY_ROWS];   // a condition on rotation, not on the joint's point
+  size_t rows; // number of conditions
+  // [rows][6 * bodies]: coefficients of the velocity (3) and of the length times the spin (3) of
+  // each body; the length is that of sb_bodies_conditions().
+  double jacobian[SB_ASSEMBLY_ROWS][SB_ASSEMBLY_COLUMNS];
+  double rate[SB_ASSEMBLY_ROWS];  // second time derivative minus J a [m/s2]
+  double error[SB_ASSEMBLY_ROWS]; // violation of the position condition [m]
+  bool turns[SB_ASSEMBLY_ROWS];   // true: condition on rotation; false: on the joint's point
   size_t joint[SB_ASSEMBLY_ROWS]; // number of the joint
 } SbAssemblyConditions;
 
@@ -91,9 +93,10 @@ typedef struct {
   char text[SB_TEXT]; // one clause: the counts, and what is over- or under-constrained
 } SbMobility;
 
-// Reaction of a joint on its first body, at the joint's point; the second body gets the opposite.
+// Reaction of a joint on its first body (`i` of sb_assembly_join()); the second body gets the
+// opposite. The torque is about the joint's point.
 typedef struct {
-  double force[3], torque[3]; // [N], [N m]
+  double force[3], torque[3]; // ground frame [N], [N m]
 } SbReaction;
 
 // Accelerations of the bodies and reactions of the joints.
@@ -127,9 +130,9 @@ void sb_assembly_apply(SbAssembly *assembly, size_t body, const double force[3],
 // Sets the applied forces and torques of all bodies to zero.
 void sb_assembly_clear_forces(SbAssembly *assembly);
 
-// Counts the degrees of freedom. SB_ERROR_INFEASIBLE, with mobility->text in the report: redundant
-// conditions, or another number than `expected` (< 0: any number). *mobility is also set after this
-// error.
+// Counts the degrees of freedom at the present positions. SB_ERROR_INFEASIBLE, with mobility->text
+// in the report: redundant conditions, or another number than `expected` (< 0: any number).
+// *mobility is also set after this error.
 SbStatus sb_assembly_mobility(SbMobility *mobility, const SbAssembly *assembly, int expected,
                               SbAssemblyWork *work, SbReport *report);
 
@@ -196,8 +199,8 @@ typedef struct {
 
 // Inertia of all parts, and the kinds of the joints.
 typedef struct {
-  SbValvePart part[SB_VALVE_PARTS];
-  int joint[SB_VALVE_JOINTS]; // SbJointKind, or SB_JOINT_NONE
+  SbValvePart part[SB_VALVE_PARTS]; // by SB_VALVE_HOUSING, ...
+  int joint[SB_VALVE_JOINTS]; // by SB_VALVE_HOUSING_GROUND, ...: SbJointKind, or SB_JOINT_NONE
 } SbValveParts;
 
 // Creates the valve's bodies (thesis table 4.1) and joints; the axis is x, positive into the

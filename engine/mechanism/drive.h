@@ -22,16 +22,18 @@ typedef enum {
   SB_DRIVE_OF_FORCE     // force on the stem [N]
 } SbDriveQuantity;
 
-// A drive. Values below have the unit of `quantity`, m or N.
+// A drive. Values have the unit of `quantity`, m or N. Fields that are marked with another kind are
+// not used and may be 0.
 typedef struct {
   SbDriveKind kind;
   SbDriveQuantity quantity;
-  double start, end;                  // value at rest; value when pressed
-  double rise, hold, fall;            // PRESS [s]; hold INFINITY: no return
+  double start;                       // PRESS: value at rest; SINE: mean value; else 0
+  double end;                         // PRESS: value when pressed
+  double rise, hold, fall;            // PRESS [s], rise and fall > 0; hold INFINITY: no return
   int cycles;                         // PRESS: number of presses, at least 1
   double pause;                       // PRESS: time between presses [s]
-  double amplitude, frequency, phase; // SINE: [m] or [N], [Hz], [rad]
-  const double *time, *value;         // TABLE: [count], strictly increasing [s]; borrowed
+  double amplitude, frequency, phase; // SINE: [m] or [N], [Hz] > 0, [rad]
+  const double *time, *value;         // TABLE: [count], time strictly increasing [s]; borrowed
   size_t count;                       // TABLE: points, at least 2
 } SbDrive;
 
@@ -52,10 +54,10 @@ typedef struct {
   size_t cursor;      // TABLE: next point
 } SbDriveState;
 
-// The drive in an interval of time: value + rate (t - at), or a sinusoid.
+// The drive in an interval of time: value + rate (t - at) from `at` to `until`, or a sinusoid.
 typedef struct {
   double at, until;   // reference time and end of the interval [s]
-  double value, rate; // at `at`: value, and its derivative [1/s]
+  double value, rate; // value at `at` [m] or [N], and its time derivative [m/s] or [N/s]
   bool curved;        // sinusoid: value and rate are those at `at`, see sb_drive_sine()
   double step;        // sinusoid: recommended upper limit of time steps [s]
 } SbDrivePiece;
@@ -68,8 +70,8 @@ void sb_drive_start(SbDriveState *state, const SbDrive *drive);
 
 // Writes to *piece the interval that contains the time t [s]; its `until` is after t, possibly
 // INFINITY. *state advances: t must not decrease from call to call. `drive` must have passed
-// sb_drive_check().
+// sb_drive_check(), with a kind other than SB_DRIVE_NONE.
 void sb_drive_piece(SbDrivePiece *piece, SbDriveState *state, const SbDrive *drive, double t);
 
-// Writes value and derivative of a drive of kind SB_DRIVE_SINE at time t [s].
+// Writes value and time derivative of a drive of kind SB_DRIVE_SINE at time t [s].
 void sb_drive_sine(const SbDrive *drive, double t, double *value, double *rate);

@@ -9,10 +9,11 @@
 // Largest number of pieces.
 enum { SB_DWELL_PIECES = 64 };
 
-// A piece: value + gain ln(1 + (t - from)/time) from the dwell t = `from` on.
+// A piece: value + gain ln(1 + (t - from)/time) from the dwell t = `from` to that of the next
+// piece.
 typedef struct {
   double from, time;  // [s]; time > 0
-  double value, gain; // unit of the law; gain >= 0
+  double value, gain; // value at `from`, and increase; unit of the law; gain >= 0
 } SbDwellPiece;
 
 // A tabulated law. Pieces in increasing order; the first begins at 0.
@@ -21,14 +22,15 @@ typedef struct {
   SbDwellPiece piece[SB_DWELL_PIECES];
 } SbDwellLaw;
 
-// Tabulates the non-decreasing function `law` of the dwell [s], with its `context`. Pieces between
-// 1e-3 `first` and 1e6 `last` [s] are halved until their error is below 1e-4 of the value or all
-// pieces are used. After the last piece the law continues linearly in ln(t).
+// Tabulates the non-decreasing, positive function `law` of the dwell [s], with its `context`.
+// `first` and `last` [s] are the shortest and the longest dwell of interest, 0 < first <= last:
+// pieces between 1e-3 first and 1e6 last are halved until their error is below 1e-4 of the value or
+// all pieces are used. In the last piece the law continues linearly in ln(t).
 void sb_dwell_table(SbDwellLaw *out, double (*law)(double dwell, const void *context),
                     const void *context, double first, double last);
 
-// Returns the piece that contains the `dwell` [s], borrowed from `law`, and writes the dwell at
-// which it ends to *until (INFINITY for the last).
+// Returns the piece that contains the `dwell` [s] >= 0, borrowed from `law`, and writes the dwell
+// at which the piece ends to *until (INFINITY for the last one).
 const SbDwellPiece *sb_dwell_piece(double *until, const SbDwellLaw *law, double dwell);
 
 // Returns the value of the law at `dwell` [s].

@@ -52,7 +52,8 @@ typedef struct {
   double stribeck_speed;    // [m/s]; 0: friction is L from the first slip on
   double stribeck_exponent; // > 0 if stribeck_speed > 0
   double stiffness;         // of the tangential spring, > 0 [N/m]; INFINITY: rigid
-  double damping;           // of the tangential spring, >= 0 [N s/m]; not used if rigid
+  double damping; // of the tangential spring, >= 0 [N s/m]; > 0 if stribeck_speed is used; not used
+                  // if rigid
 } SbDynamicsContact;
 
 // A stop.
@@ -83,8 +84,9 @@ typedef struct {
   double slope[SB_DYNAMICS_CONTACTS]; // [N s/m], of either sign
 } SbDynamicsBand;
 
-// A mechanism. Callbacks get `user` and must not call functions with the SbDynamics that calls
-// them. `extra` is one additional state of the caller, such as the pressure of the dose chamber.
+// A mechanism. Start with {0} and set what is needed; `mass` must be > 0. Callbacks get `user` and
+// must not call functions with the SbDynamics that calls them. `extra` is one additional state of
+// the caller, such as the pressure of the dose chamber.
 typedef struct {
   double mass;    // [kg], > 0
   double damping; // of the stem against ground [N s/m]
@@ -93,7 +95,9 @@ typedef struct {
   size_t contacts, stops, edges; // numbers in use
   SbDynamicsContact contact[SB_DYNAMICS_CONTACTS];
   SbDynamicsStop stop[SB_DYNAMICS_STOPS];
-  double edge[SB_DYNAMICS_EDGES]; // increasing [m]; region r is from edge[r-1] to edge[r]
+  // Positions at which the loads change [m], increasing. Region r is from edge[r-1] to edge[r];
+  // region 0 is below edge[0], region `edges` above the last one.
+  double edge[SB_DYNAMICS_EDGES];
   // Writes the loads at x in a region; *loads is zeroed before. If they are constant it is called
   // once for each visit of a region. NULL: no loads.
   void (*loads)(SbDynamicsLoads *loads, double x, size_t region, const double *extra, void *user);
@@ -109,7 +113,8 @@ typedef struct {
   // no extra state.
   void (*extra_rate)(double *rate, double x, double v, size_t region, const double *extra,
                      void *user);
-  double extra_start, extra_scale; // value at the start, and typical size > 0, for the tolerance
+  double extra_start, extra_scale; // `extra` at the start; its typical size, for the tolerance, > 0
+                                   // if extra_rate is set
   // Called once in each segment; true ends the motion with SB_ERROR_CANCELLED. NULL: never.
   bool (*poll)(void *data);
   void *poll_data;
@@ -117,14 +122,15 @@ typedef struct {
   // the motion. NULL: `mass`.
   SbStatus (*mass_at)(double *mass, double x, double v, void *user, SbReport *report);
   void *user;
-  SbDrive drive; // its arrays are borrowed
-  // Between the platen and the stem [N/m], [N s/m]. A drive of force has no stiffness; its force is
-  // reduced by drive_damping times the speed and ends when the drive's force is 0.
+  SbDrive drive; // {0}: no drive; its arrays are borrowed
+  // Spring and damper between the platen and the stem [N/m] > 0, [N s/m] >= 0. A drive of force
+  // ignores the stiffness; its force is reduced by drive_damping times the speed and ends when the
+  // drive's force is 0.
   double drive_stiffness, drive_damping;
   bool drive_bonded;                  // the drive also pulls
   double start_position, start_speed; // [m], [m/s]
   double start_dwell;                 // time at rest before the start [s]
-  double tolerance;                   // of the numerical integration, relative, <= 1e-5; 0: 1e-9
+  double tolerance;  // relative tolerance of the numerical integration, <= 1e-5; 0: 1e-9
   double rest_speed; // speed [m/s] below which a decelerating contact comes to rest; 0: 1e-9
 } SbDynamicsModel;
 
@@ -183,11 +189,13 @@ typedef enum {
 // State and forces at one time. Forces on the stem are positive into the canister.
 typedef struct {
   double time, position, speed, acceleration; // [s], [m], [m/s], [m/s2]
-  double drive_position; // of the platen; of the stem with a drive of force [m]
-  double drive_force, loads_force, spring_force; // on the stem [N]
-  double stop_force[SB_DYNAMICS_STOPS];          // magnitude of the reaction, >= 0 [N]
-  double friction[SB_DYNAMICS_CONTACTS];         // on the stem [N]
-  double deflection[SB_DYNAMICS_CONTACTS];       // of the tangential spring [m]
+  double drive_position; // position of the platen; of the stem with a drive of force [m]
+  double drive_force, loads_force, spring_force; // forces of drive, SbDynamicsLoads.force and
+                                                 // return spring on the stem [N]
+  double stop_force[SB_DYNAMICS_STOPS];    // magnitude of the reaction, >= 0 [N]
+  double friction[SB_DYNAMICS_CONTACTS];   // friction force on the stem [N]
+  double deflection[SB_DYNAMICS_CONTACTS]; // of the tangential spring [m], > 0 if the stem has
+                                           // moved to +x relative to the patch
   SbContactState contact[SB_DYNAMICS_CONTACTS];
   double extra; // extra state of the caller
   size_t region;

@@ -26,8 +26,9 @@ enum {
   EVENT_COUNT = EVENT_CONTACT_DOWN + SB_DYNAMICS_CONTACTS,
 };
 
-// Force on the stem near a point of its motion: f0 + f1 tau - k (x - x0) - c v, with tau the time
-// since that point.
+// Force on the stem, positive to +x, near a point of its motion where the stem is at x0: f0 + f1
+// tau
+// - k (x - x0) - c v, with tau the time since that point and v the speed.
 typedef struct {
   double f0, f1, k, c; // [N], [N/s], [N/m], [N s/m]
 } Force;
@@ -41,17 +42,18 @@ typedef struct {
   SbDynamicsLoads loads;
   Force wall[SB_DYNAMICS_WALLS], contact[SB_DYNAMICS_CONTACTS]; // 0 without contact
   Force beside[SB_DYNAMICS_CONTACTS]; // speed-dependent part of a sliding contact's friction
-  Force sum;                          // of all of these, loads, return spring and damping
+  Force sum;    // sum of wall, contact and beside, loads, return spring and damping
   double rigid; // part of sum.f0 due to sliding rigid contacts [N]; rigid walls and contacts at
                 // rest count 0
 } Point;
 
-// Integrals over a stretch of the motion; with time = 1, their time derivatives at its start.
+// Integrals over a stretch of the motion, x and v of the stem, d of SbDynamicsState. If `time` is 1
+// and the other fields are rates, all are time derivatives at the start of the stretch.
 typedef struct {
   double time, travel; // integrals of 1 [s] and v [m]
   double square, ramp; // integrals of v^2 [m2/s] and tau v [m s]
-  double lag;          // integral of x minus the position of the platen [m s]
-  // Integrals of d' [m], d'^2 [m2/s].
+  double lag;          // integral of x - x0 minus the travel of the platen since the start [m s]
+  // By contact: integrals of d' [m] and d'^2 [m2/s], d' the rate of the deflection.
   double shift[SB_DYNAMICS_CONTACTS], fade[SB_DYNAMICS_CONTACTS];
 } Stretch;
 
@@ -97,11 +99,12 @@ typedef struct {
 // Returns the drive at time t [s].
 Moving sb_motion_drive_at(const SbDynamics *s, double t);
 
-// Returns the position of wall w at time t [s]; of SB_DYNAMICS_PLATEN the drive.
+// Returns the position of wall w at time t [s]; for SB_DYNAMICS_PLATEN the drive
+// (sb_motion_drive_at()).
 Moving sb_motion_wall_at(const SbDynamics *s, size_t w, double t);
 
-// Returns the deflection [m] of wall w at time t and position x; after contact was lost, the
-// remaining one.
+// Returns the deflection [m] of wall w at time t for a stem at x: position of the wall minus x.
+// After contact was lost it is the remaining deflection, which relaxes. 0 without a spring.
 double sb_motion_deflection(const SbDynamics *s, size_t w, double t, double x);
 
 // Returns the level L [N] of contact i for sliding in `direction`.
@@ -115,7 +118,7 @@ double sb_motion_sliding_level(const SbDynamics *s, size_t i, double level, doub
 // Returns whether contact i has a Stribeck factor, so that its law is not linear within a band.
 bool sb_motion_speed_dependent(const SbDynamicsModel *m, size_t i);
 
-// Writes the force of wall w as if it had contact with a stem at x.
+// Writes the force of wall w at time t as if it had contact with a stem at x.
 void sb_motion_wall_force(Force *force, const SbDynamics *s, size_t w, double t, double x);
 
 // Computes the point at time t with the state z, in the present contact states. `z` is borrowed by
@@ -132,16 +135,16 @@ static inline double sb_motion_time_noise(double t) {
   return 8.0 * DBL_EPSILON * fabs(t);
 }
 
-// Returns the time [s] until a resting contact reaches the next piece of its dwell law, at p;
-// INFINITY if none does.
+// Returns the time [s] from p until the first of the resting contacts reaches the next piece of its
+// dwell law; INFINITY if none does.
 double sb_motion_rest_ends(const SbDynamics *s, const Point *p);
 
-// Returns the largest static friction [N] of contact i at p against motion of the stem in
-// `direction`.
+// Returns the largest static friction [N] >= 0 of contact i at p against motion of the stem in
+// `direction` (+1 or -1).
 double sb_motion_holding(const SbDynamics *s, const Point *p, size_t i, int direction);
 
-// Returns the time derivative of the deflection of contact i at p [m/s]; the stem's speed minus it
-// is the patch's.
+// Returns the time derivative of the deflection of contact i at p [m/s]: the speed of the stem
+// minus that of the patch.
 double sb_motion_deflection_rate(const SbDynamics *s, const Point *p, size_t i);
 
 // Returns the deflection [m] of contact i at `tau` and `travel` after the start of the segment, in
@@ -149,40 +152,45 @@ double sb_motion_deflection_rate(const SbDynamics *s, const Point *p, size_t i);
 double sb_motion_deflection_at(const SbDynamics *s, size_t i, double tau, double travel,
                                double *rate);
 
-// Writes the event function of `event` near p. Returns false if the event is impossible in the
-// present contact states.
+// Writes to *g the function of `event` (EVENT_...), whose argument is the time since p; the event
+// occurs when g becomes negative (oscillator.h). Returns false if the event is impossible in the
+// present contact states; *g is unspecified then.
 bool sb_motion_event_function(const SbDynamics *s, const Point *p, int event, SbEventFunction *g);
 
-// Returns the value of g at its point, where the speed is v. *noise receives the size below which
-// its sign is not significant in the numerical path.
+// Returns g(0) of a function g of sb_motion_event_function(), at whose point the speed is v. *noise
+// receives the magnitude below which the sign is not significant in the numerical path.
 double sb_motion_event_value(const SbDynamics *s, int event, const SbEventFunction *g, double v,
                              double *noise);
 
-// Finds the motion in the segment that begins at s->t, its end s->t_end and the event s->event that
-// ends it. SB_ERROR_NOT_CONVERGED: no step of the numerical path converges.
+// Finds the motion in the segment that begins at s->t with the state s->at, and sets its end
+// s->t_end and the event s->event that ends it. SB_ERROR_NOT_CONVERGED: no step of the numerical
+// path converges.
 SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report);
 
 // Called after `event`, a break-away at the start of the segment. If cycles of stick-slip repeat,
 // advances by a number of full cycles; if they change slowly, by a group of cycles.
 void sb_motion_repeat(SbDynamics *s, int event);
 
-// Writes the state at `tau` [s] after the start of the segment, within it.
+// Writes to *z the state at `tau` [s] after the start of the segment, 0 <= tau <= t_end - t, after
+// sb_motion_find_path().
 void sb_motion_state_at(const SbDynamics *s, double tau, SbDynamicsState *z);
 
-// Returns the largest force of the drive in the present segment [N], at least `known`.
+// Returns the largest force of the drive in the present segment, or `known` if that is larger [N].
 double sb_motion_force_peak(const SbDynamics *s, double known);
 
 // Returns the energy in tangential springs, stops, return spring and drive [J] at time t and state
 // z.
 double sb_motion_stored_energy(const SbDynamics *s, double t, const SbDynamicsState *z);
 
-// Returns the energy [J] dissipated by the damper of wall w from t0 to t1, after contact was lost.
+// Returns the energy [J] dissipated by the damper of wall w from the time t0 to t1 [s] after
+// contact was lost; 0 while the wall has contact.
 double sb_motion_relaxed(const SbDynamics *s, size_t w, double t0, double t1);
 
-// Adds to term[SB_DYNAMICS_TERMS] the work of the forces at p over the stretch `over`, which begins
-// there.
+// Adds to term[SB_DYNAMICS_TERMS] (SbDynamicsEnergy.term) the work of the forces at p over the
+// stretch `over`, which begins at p.
 void sb_motion_add_energy(double *term, const SbDynamics *s, const Point *p, const Stretch *over);
 
-// Computes all energies up to `tau` [s] after the start of the segment, where the state is z.
+// Computes all energies from the start of the motion to `tau` [s] after the start of the segment,
+// where the state is z.
 void sb_motion_energy_at(const SbDynamics *s, double tau, const SbDynamicsState *z,
                          SbDynamicsEnergy *e);

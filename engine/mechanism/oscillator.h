@@ -49,7 +49,8 @@ double sb_oscillator_square(const SbOscillator *o, double tau);
 // Largest number of logarithms of an event function.
 enum { SB_EVENT_LOGS = 4 };
 
-// An event function g(tau), in any unit. The event is the first tau at which g becomes negative:
+// An event function g(tau), in any unit, with u, u' of an oscillator; {0}: g = 0. The event is the
+// first tau at which g becomes negative:
 //   g = constant + rate tau + of_x u + of_v u' + relax exp(-relax_rate tau)
 //       + sum over `logs` terms of gain ln(1 + (start + tau)/time)        (gain >= 0, time > 0)
 typedef struct {
@@ -59,7 +60,8 @@ typedef struct {
   struct {
     double gain, start, time; // start, time in s
   } log[SB_EVENT_LOGS];
-  double noise; // sum of the magnitudes of terms that cancelled in `constant`, for rounding errors
+  double noise; // sum of the magnitudes of the terms that were added to `constant`, to estimate its
+                // rounding error; 0: `constant` is exact
 } SbEventFunction;
 
 // Returns the first tau in [0, horizon] [s] at which g becomes negative, and sets *found. Without

@@ -15,19 +15,21 @@
 enum { SB_RADAU_MAX = 7, SB_RADAU_POWERS = 7, SB_RADAU_STAGES = 3 };
 
 // Computes the rates dz[n] of the unknowns z[n] at time t and, unless `power` is NULL, the
-// integrands power[powers] of quadratures, on which the rates do not depend. z and dz have
-// SB_RADAU_MAX elements. `user` is that of SbRadauSystem.
+// integrands power[powers] of quadratures; the rates must not depend on the quadratures. z and dz
+// have SB_RADAU_MAX elements. `user` is SbRadauSystem.user.
 typedef void (*SbRadauRates)(double *dz, double *power, double t, const double *z, void *user);
 
-// A system and its tolerances. n <= SB_RADAU_MAX, powers <= SB_RADAU_POWERS.
+// A system and its tolerances.
 typedef struct {
-  size_t n, powers;
+  size_t n;      // number of unknowns, <= SB_RADAU_MAX
+  size_t powers; // number of quadratures, <= SB_RADAU_POWERS; 0: none
   SbRadauRates rates;
   void *user;                   // passed to `rates`
   double tolerance;             // relative, per step
   double floor[SB_RADAU_MAX];   // added to |z|: the error of z is scaled by tolerance (|z| + floor)
   double ceiling[SB_RADAU_MAX]; // upper limit of |z| + floor; 0: none
-  double noise[SB_RADAU_MAX];   // rounding error of dz, below which Newton's iteration stops
+  double noise[SB_RADAU_MAX]; // rounding error of dz, below which Newton's iteration stops; 0: not
+                              // known
 } SbRadauSystem;
 
 // A completed step.
@@ -40,7 +42,7 @@ typedef struct {
 
 // Steps from (t, z[n]) over h > 0 in two steps of h/2, which are pair[0] and pair[1]. Compares them
 // with one step of h: local[n] is the difference of each unknown divided by 31, *error the largest
-// of these divided by its tolerance. Accept the pair if *error < 1. Adds the number of Newton
+// |local| divided by its tolerance. Accept the pair if *error < 1. Adds the number of Newton
 // iterations to *iterations. Returns false if Newton's method did not converge: try a smaller h.
 SB_CHECKED bool sb_radau_pair(SbRadauStep pair[2], double *error, double *local,
                               const SbRadauSystem *system, double t, const double *z, double h,

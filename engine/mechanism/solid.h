@@ -18,7 +18,8 @@ typedef struct {
   double bulge;
 } SbProfilePoint;
 
-// A half-section in the (x, r) plane, counter-clockwise, with the material on the left. The last
+// A half-section in the (x, r) plane, counter-clockwise, so the material is on the left of the
+// direction of travel. The last
 // point is connected to the first one by a piece, which is not listed as a point. If first and last
 // point are on the axis, the axis closes the outline, and the last bulge must be 0.
 typedef struct {
@@ -32,7 +33,8 @@ typedef struct {
 typedef struct {
   double volume, mass;  // [m3], [kg]
   double centre[3];     // of mass [m]; profile: x is the axis
-  double inertia[3][3]; // tensor about the centre, axes of the coordinates [kg m2]
+  double inertia[3][3]; // tensor about the centre of mass, axes of the coordinates [kg m2]; off the
+                        // diagonal minus the products of inertia
 } SbSolid;
 
 // Checks an outline. SB_ERROR_INPUT: it does not bound a body (open, crosses itself, clockwise,
@@ -46,8 +48,9 @@ SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *profile, double densi
 
 // Diameters of a revolved part within a range of x [m].
 typedef struct {
-  double smallest, largest; // of the outer surface, such as groove floor and land
-  double bore;              // smallest one of the inner surface; 0 if the part is solid there
+  double smallest, largest; // smallest and largest diameter of the outer surface, such as groove
+                            // floor and land
+  double bore;              // smallest diameter of the inner surface; 0 if the part is solid there
 } SbProfileDiameters;
 
 // Computes the diameters between x0 and x1 [m]. SB_ERROR_RANGE: x1 <= x0, or the part is not in

@@ -46,7 +46,7 @@ static inline void turn_back(double out[3], const double r[9], const double a[3]
   out[2] = z;
 }
 
-// Writes the quaternion product a b.
+// Writes the quaternion product a b: the rotation b, followed by the rotation a.
 static inline void multiply(double out[4], const double a[4], const double b[4]) {
   double q[4] = {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
                  a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
