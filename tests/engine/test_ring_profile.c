@@ -478,7 +478,7 @@ static void random_slice(void) {
   random_rings(1, 4, false);
   random_rings(183, 1, false); // fluid above the contact's pressure behind a lip that holds it
   random_rings(235, 1, false);
-  random_rings(378, 1, false); // creases
+  random_rings(378, 1, false); // no guess has a balance: from the free ring
   random_rings(1, 4, true);
 }
 

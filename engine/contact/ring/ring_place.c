@@ -168,9 +168,11 @@ static SbStatus press_open(SbRing *ring, const SbRingLoad *target, SbReport *rep
       1e3 * l * (target->bore_radius - target->floor_radius));
 }
 
-// Solves at a load from the guess of another.
+// Solves at a load from the guess of another. A failure restores the state before: Newton's last
+// iterate has no balance of forces, and must not be judged as a state (sb_ring_crease()).
 static SbStatus start(SbRing *ring, const SbRingLoad *load, const SbRingLoad *guessed, double share,
                       SbReport *report) {
+  sb_ring_save(ring->contact, SB_RING_BEFORE);
   ring->contact->is.now = *load;
   if (ring->body.inward) {
     guess_clamped(ring, guessed);
@@ -178,7 +180,31 @@ static SbStatus start(SbRing *ring, const SbRingLoad *load, const SbRingLoad *gu
     guess(ring, guessed, share);
   }
   sb_ring_contact_detect(ring->contact);
-  return sb_ring_newton(ring, SB_RING_FOLLOW, report);
+  const SbStatus status = sb_ring_newton(ring, SB_RING_FOLLOW, report);
+  if (status != SB_OK) {
+    sb_ring_restore(ring->contact, SB_RING_BEFORE);
+  }
+  return status;
+}
+
+// Follows the free ring, which has no contact, over a stem that grows to the groove floor, then
+// under a bore that closes, then under the ends of the land. It needs no guess, and ends at an
+// equilibrium: the wanted one, or the last before the path is lost.
+static SbStatus stretch_and_squeeze(SbRing *ring, const SbRingLoad *dry, SbReport *report) {
+  static const double APART = 0.01; // gap of the free ring, in section diameters
+  SbRingLoad wide = *dry;
+  wide.land_right = fmax(dry->land_right, SB_RING_REACH);
+  wide.land_left = fmin(dry->land_left, -SB_RING_REACH);
+  wide.bore_radius = fmax(dry->bore_radius, dry->floor_radius + 1.0 + APART);
+  SbRingLoad free = wide;
+  free.floor_radius = fmin(dry->floor_radius, ring->centre - 0.5 - APART);
+  free.bore_radius = fmax(wide.bore_radius, ring->centre + 0.5 + APART);
+  SbRingLoad squeezed = wide;
+  squeezed.bore_radius = dry->bore_radius;
+  SbStatus status = start(ring, &free, &free, 0.0, report);
+  status = status == SB_OK ? sb_ring_advance(ring, &wide, SB_RING_FOLLOW, report) : status;
+  status = status == SB_OK ? sb_ring_advance(ring, &squeezed, SB_RING_FOLLOW, report) : status;
+  return status == SB_OK ? sb_ring_advance(ring, dry, SB_RING_FOLLOW, report) : status;
 }
 
 // The greatest contact pressure on a surface.
@@ -258,11 +284,13 @@ SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport 
     return clamp_and_press(ring, smooth, report);
   }
   // Guesses with different shares of the squeeze, then a small squeeze that grows, and the ends of
-  // the land that come in from outside.
+  // the land that come in from outside. Where no guess has led to an equilibrium, the ring is
+  // followed from its free state.
   SbStatus status = start(ring, &dry, &dry, 0.4, report);
   if (status == SB_ERROR_NOT_CONVERGED) {
     status = start(ring, &dry, &dry, 0.0, report);
   }
+  bool balanced = false; // a guess has led to an equilibrium, from which no path has led on
   static const double SPACE[] = {0.85, 0.97};
   for (int i = 0; i < 2 && status == SB_ERROR_NOT_CONVERGED; i++) {
     SbRingLoad wide = dry;
@@ -271,6 +299,7 @@ SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport 
     wide.land_right = fmax(dry.land_right, SB_RING_REACH);
     wide.land_left = fmin(dry.land_left, -SB_RING_REACH);
     status = start(ring, &wide, &guessed, 0.4, report);
+    balanced = balanced || status == SB_OK;
     wide.bore_radius = dry.bore_radius;
     if (status == SB_OK) {
       status = sb_ring_advance(ring, &wide, SB_RING_FOLLOW, report);
@@ -287,8 +316,12 @@ SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport 
     SbRingLoad flat = wide;
     flat.groove_share = 0.0;
     status = start(ring, &flat, &flat, 0.4, report);
+    balanced = balanced || status == SB_OK;
     status = status == SB_OK ? sb_ring_advance(ring, &wide, SB_RING_FOLLOW, report) : status;
     status = status == SB_OK ? sb_ring_advance(ring, &dry, SB_RING_FOLLOW, report) : status;
+  }
+  if (status == SB_ERROR_NOT_CONVERGED && !balanced && !ring->body.inward) {
+    status = stretch_and_squeeze(ring, &dry, report);
   }
   if (status != SB_OK) {
     return status;
