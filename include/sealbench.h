@@ -46,7 +46,7 @@
 #define SB_LIBRARY_VERSION_MINOR 2
 #define SB_LIBRARY_VERSION_MICRO 0
 
-// Whether the header has at least this version.
+// True if this header has at least the version major.minor.micro; for #if.
 #define SB_LIBRARY_AT_LEAST(major, minor, micro)                                                   \
   (SB_LIBRARY_VERSION_MAJOR > (major) ||                                                           \
    (SB_LIBRARY_VERSION_MAJOR == (major) && SB_LIBRARY_VERSION_MINOR > (minor)) ||                  \
@@ -91,7 +91,7 @@ typedef struct {
                         // flags; else NULL
   const char *label;    // "Radial space"
   const char *help;     // one line
-  double low, high;     // allowed range, SI, inclusive; 0 for choices
+  double low, high;     // allowed range, SI, inclusive; both 0 for choices
   double default_value; // SI
 } SbParameterInfo;
 
@@ -135,7 +135,7 @@ void sb_scene_close(SbScene *scene);
 // Returns the message of the last call that failed; "" if none has failed.
 const char *sb_scene_message(const SbScene *scene);
 
-// Returns the key of the parameter at fault in that call; "" if there is none.
+// Returns the key of the parameter at fault in the last call that failed; "" if there is none.
 const char *sb_scene_message_key(const SbScene *scene);
 
 // Returns issue number `index` (from 0) of the scene's file as one line with file, line, key and
@@ -186,8 +186,8 @@ void sb_scene_callbacks(SbScene *scene, void (*progress)(void *data, double frac
 // _NOT_CONVERGED, _INFEASIBLE and _CANCELLED the completed part can be read.
 SbSceneStatus sb_scene_run(SbScene *scene);
 
-// Writes a figure of the last run to *value, in SI; NaN if it was not computed. _INPUT: unknown
-// path, or no run yet.
+// Writes the figure with the key `path` of the last run to *value, in SI; NaN if it was not
+// computed. _INPUT: unknown path, or no run yet.
 SbSceneStatus sb_scene_figure(SbScene *scene, const char *path, double *value);
 
 // Returns why a figure of the last run is NaN, one sentence; NULL if it has a value, or if the path
@@ -197,8 +197,8 @@ const char *sb_scene_reason(const SbScene *scene, const char *path);
 // Returns the sentence of warning number `index` (from 0) of the last run; NULL after the last one.
 const char *sb_scene_warning(const SbScene *scene, size_t index);
 
-// Returns the code of that warning, stable between versions ("karaszkiewicz-squeeze"); NULL after
-// the last one.
+// Returns the code of warning number `index` of the last run, stable between versions
+// ("karaszkiewicz-squeeze"); NULL after the last one.
 const char *sb_scene_warning_code(const SbScene *scene, size_t index);
 
 // Returns the number of frames of the last run; 0 before the first run.
@@ -210,11 +210,11 @@ SbSceneStatus sb_scene_frames(SbScene *scene, const char *quantity, double *out)
 
 // Pressure and film in a seal's contact; arrays of `count`, borrowed until the next run or close.
 typedef struct {
-  size_t count;           // 0: no contact
-  const double *x;        // in the seal's frame, increasing [m]
-  const double *pressure; // of the contact, minus the lower one of the two fluid pressures [Pa]
-  const double *film;     // thickness [m]; 0 at rest
-  const double *asperity_pressure; // carried by asperities at this film [Pa]
+  size_t count;           // number of points; 0: no contact
+  const double *x;        // position in the seal's frame, increasing [m]
+  const double *pressure; // contact pressure minus the lower one of the two fluid pressures [Pa]
+  const double *film;     // film thickness [m]; 0 at rest
+  const double *asperity_pressure; // part of the pressure that asperities carry at this film [Pa]
   const char *model;               // name of the model that computed it
 } SbSceneProfile;
 
@@ -228,7 +228,7 @@ SbSceneStatus sb_scene_profile(SbScene *scene, size_t frame, const char *seal, S
 // that scene to the bit, but only what the figures need is computed. The scene's parameters and the
 // frames of its last run do not change.
 //   keys, values   [count] parameters and their values in SI; the last one of a key applies
-//   figures        [figure_count] paths
+//   figures        [figure_count] keys of figures
 //   out            [figure_count] values in SI; NaN: sb_scene_evaluation_reason()
 // `keys` and `values` may be NULL if `count` is 0. After _INPUT and _RANGE all of `out` is NaN, and
 // the message names key and range. After other errors `out` has the values that were computed.
@@ -241,7 +241,8 @@ SbSceneStatus sb_scene_evaluate(SbScene *scene, const char *const *keys, const d
 // evaluation.
 const char *sb_scene_evaluation_warning(const SbScene *scene, size_t index);
 
-// Returns the code of that warning; NULL under the same conditions.
+// Returns the code of warning number `index` of the last evaluation; NULL if
+// sb_scene_evaluation_warning() returns NULL.
 const char *sb_scene_evaluation_warning_code(const SbScene *scene, size_t index);
 
 // Returns why a figure of the last evaluation is NaN; NULL if it has a value, or if the path is

@@ -118,12 +118,12 @@ void sb_warn(SbWarnings *list, const char *code, const char *parameter, const ch
     SB_PRINTF(4, 5);
 
 // Formats a new text into each warning of `list` that has this code and this subject ("": no
-// subject). Does nothing if there is none. `list` must not be NULL.
+// subject). Does nothing if there is no such warning. `list` must not be NULL.
 void sb_warn_replace(SbWarnings *list, const char *code, const char *subject, const char *format,
                      ...) SB_PRINTF(4, 5);
 
-// Sets the subject of the warnings that are added from now on; borrowed until the next call, NULL:
-// none. `list` may be NULL.
+// Sets the subject of the warnings that are added from now on; `subject` is borrowed until the next
+// call of this function with `list`. NULL: no subject. `list` may be NULL.
 void sb_warn_about(SbWarnings *list, const char *subject);
 
 // Returns whether a warning with this code reports a defect of the valve, or a model or picture
@@ -131,6 +131,6 @@ void sb_warn_about(SbWarnings *list, const char *subject);
 // reduce the confidence in a result, may be shown as a count only.
 bool sb_warning_is_serious(const char *code);
 
-// Adds copies of all warnings of `from` to `list` (NULL: does nothing), and its number of dropped
-// warnings. A warning without a subject gets the current subject of `list`.
+// Adds copies of all warnings of `from` to `list` (NULL: does nothing), and adds from->dropped to
+// list->dropped. A warning without a subject gets the current subject of `list`.
 void sb_warnings_merge(SbWarnings *list, const SbWarnings *from);

@@ -15,8 +15,8 @@
 // Mixtures of a propellant with ethanol, by mass: pressure by Raoult's law, viscosity by Grunberg
 // and Nissan (1949) without interaction, ln eta = sum x_i ln eta_i, ideal volumes. This is an
 // estimate: hydrofluoroalkanes with ethanol deviate from Raoult's law to higher pressures (Gavtash
-// et al., Drug Delivery to the Lungs 26, 2015). The pressure is between the estimate and that of
-// the propellant.
+// et al., Drug Delivery to the Lungs 26, 2015). The true pressure is between the estimate and the
+// saturation pressure of the pure propellant.
 //
 // Nothing is extrapolated beyond a fluid's range of temperature, except the viscosity below
 // `viscosity_min` (with a warning). Not modelled: dissolved air, drug, surfactants.
@@ -25,6 +25,7 @@
 #include "engine/fluid/viscosity.h"
 
 // X(constant, name, suffix of the JSON key, SI unit, display unit, label, origin): the properties.
+// PRESSURE is the absolute saturation pressure.
 #define SB_FLUID_PROPERTY_LIST(X)                                                                  \
   X(PRESSURE, "pressure_saturation", "_Pa", "Pa", "kPa", "Saturation pressure", EQUATION)          \
   X(LIQUID, "density_liquid", "_kg_per_m3", "kg/m3", "kg/m3", "Density, liquid", EQUATION)         \
@@ -71,7 +72,7 @@ typedef struct {
   bool propellant;                         // may be mixed with ethanol
   double mass;                             // molar mass [kg/mol]
   double gwp100;                           // global warming potential; NAN: not listed
-  const SbHelmholtz *equation;             // NULL: a silicone oil, or `custom`
+  const SbHelmholtz *equation;             // equation of state; NULL: a silicone oil, or `custom`
   const SbViscosity *viscosity;            // NULL: by `corresponding`, or a silicone oil
   double viscosity_min; // lower end of the viscosity correlation [K]; 0: temperature_min
   const SbCorresponding *corresponding;        // used if `viscosity` is NULL
@@ -110,11 +111,11 @@ typedef struct {
 // Largest mass fraction of ethanol in a mixture.
 #define SB_FLUID_ETHANOL_MAX 0.3
 
-// Computes the properties of `fluid` at `temperature` [K], mixed with the mass fraction `ethanol`
-// (0: pure). Warnings: "mixture-estimate", "viscosity-extrapolated". SB_ERROR_RANGE: `temperature`
-// is outside the fluid's range or `ethanol` outside 0 to SB_FLUID_ETHANOL_MAX. SB_ERROR_INPUT:
-// `fluid` is `custom`, or ethanol with a fluid that is not a propellant. SB_ERROR_NOT_CONVERGED: no
-// equilibrium of liquid and vapour was found.
+// Computes the properties at saturation of `fluid` at `temperature` [K], mixed with the mass
+// fraction `ethanol` (0: pure). Warnings: "mixture-estimate", "viscosity-extrapolated".
+// SB_ERROR_RANGE: `temperature` is outside the fluid's range or `ethanol` outside 0 to
+// SB_FLUID_ETHANOL_MAX. SB_ERROR_INPUT: `fluid` is `custom`, or ethanol with a fluid that is not a
+// propellant. SB_ERROR_NOT_CONVERGED: no equilibrium of liquid and vapour was found.
 SbStatus sb_fluid_state(SbFluidState *out, SbWarnings *warnings, const SbFluid *fluid,
                         double temperature, double ethanol, SbReport *report);
 

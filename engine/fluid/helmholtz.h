@@ -42,7 +42,7 @@ typedef struct {
 } SbResidual;
 
 // Returns alpha and its derivatives at the reduced density `delta` and the inverse reduced
-// temperature `tau`.
+// temperature `tau`, both > 0.
 SbResidual sb_helmholtz(const SbHelmholtz *equation, double delta, double tau);
 
 // Returns the pressure [Pa] at a density [mol/m3] and a temperature [K].
@@ -52,8 +52,8 @@ double sb_helmholtz_pressure(const SbHelmholtz *equation, double density, double
 typedef struct {
   double pressure;         // [Pa]
   double liquid, vapour;   // molar densities [mol/m3]
-  double enthalpy;         // of vaporisation, > 0 [J/mol]
-  SbResidual liquid_state; // alpha of the liquid, for sb_helmholtz_conformal()
+  double enthalpy;         // molar enthalpy of vaporisation, > 0 [J/mol]
+  SbResidual liquid_state; // sb_helmholtz() of the liquid, for sb_helmholtz_conformal()
 } SbSaturation;
 
 // Computes the saturation state at `temperature` [K], clearly below the critical one.

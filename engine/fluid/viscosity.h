@@ -24,8 +24,8 @@
 
 // Coefficients of a correlation; symbols as above.
 typedef struct {
-  double epsilon; // epsilon/k of Lennard and Jones [K]
-  double sigma;   // of Lennard and Jones [nm]
+  double epsilon; // epsilon/k of the Lennard-Jones potential [K]
+  double sigma;   // sigma of the Lennard-Jones potential [nm]
   // eta_0 = chapman sqrt(mass T)/(sigma^2 exp(sum a_i ln^i (kT/epsilon))), mass in g/mol
   double chapman, mass;
   double collision[5];         // a_i
@@ -40,22 +40,22 @@ typedef struct {
 
 // Coefficients for corresponding states.
 typedef struct {
-  double epsilon, sigma;        // of the fluid, Lennard and Jones [K], [nm]
-  double psi[3], density;       // psi = sum psi_i (rho/density)^i, density in mol/m3
+  double epsilon, sigma;  // Lennard-Jones parameters epsilon/k [K] and sigma [nm] of the fluid
+  double psi[3], density; // psi = sum psi_i (rho/density)^i, density in mol/m3
   const SbHelmholtz *reference; // equation of state of the reference fluid, borrowed
   const SbViscosity *viscosity; // correlation of the reference fluid, borrowed
   double mass;                  // molar mass of the reference fluid [kg/mol]
 } SbCorresponding;
 
-// Returns the viscosity [Pa.s] at a density [mol/m3] and temperature [K]. Writes eta - eta_0 to
-// *residual (NULL: not wanted).
+// Returns the viscosity eta [Pa.s] at a molar density [mol/m3] and temperature [K]. Writes eta -
+// eta_0 [Pa.s] to *residual (NULL: not wanted).
 double sb_viscosity(double *residual, const SbViscosity *viscosity, double density,
                     double temperature);
 
 // Computes the viscosity *out [Pa.s] by corresponding states, for a fluid with the molar mass
-// `mass` [kg/mol] and the equation of state `equation`. `state` is its alpha at `density` [mol/m3]
-// and `temperature` [K] (SbSaturation.liquid_state). SB_ERROR_NOT_CONVERGED: no conformal state was
-// found.
+// `mass` [kg/mol] and the equation of state `equation`. `state` is the result of sb_helmholtz() for
+// `equation` at `density` [mol/m3] and `temperature` [K] (of a saturated liquid:
+// SbSaturation.liquid_state). SB_ERROR_NOT_CONVERGED: no conformal state was found.
 SbStatus sb_viscosity_corresponding(double *out, const SbCorresponding *corresponding,
                                     const SbHelmholtz *equation, double mass,
                                     const SbResidual *state, double density, double temperature,

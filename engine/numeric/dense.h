@@ -21,8 +21,8 @@ enum { SB_ELIMINATE_MAX = 256 };
 // if A is singular: `b` is unchanged then.
 SB_CHECKED bool sb_eliminate(double *a, double *b, size_t n);
 
-// Replaces b[n] by A^-1 b by LAPACK. `a` [n*n] is A by rows. With `factor` the function first
-// replaces `a` by its factors and writes the row exchanges to pivot[n]. Without it, `a` and `pivot`
-// must be those of an earlier call with `factor`. Returns false if A is singular: `b` is unchanged
-// then.
+// Replaces b[n] by A^-1 b by LAPACK. With `factor` true, a[n*n] is A by rows; the function replaces
+// it by its factors and writes the row exchanges to pivot[n] before it solves. With `factor` false,
+// `a` and `pivot` must be those of an earlier call with `factor` true. Returns false if A is
+// singular: `b` is unchanged then.
 SB_CHECKED bool sb_factor_solve(double *a, int *pivot, double *b, int n, bool factor);

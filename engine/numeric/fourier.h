@@ -16,8 +16,8 @@ size_t sb_fourier_length_above(size_t n);
 // Returns the largest length <= n whose only prime factors are 2, 3 and 5; n >= 1.
 size_t sb_fourier_length_below(size_t n);
 
-// Tables and work memory for transforms of n complex numbers. The functions below use the work
-// memory also through a const pointer: one thread at a time.
+// Tables and work memory for transforms of n complex numbers, set by sb_fourier_init(). The
+// functions below use the work memory also through a const pointer: one thread at a time.
 typedef struct {
   size_t n; // complex numbers of a transform
   gsl_fft_complex_wavetable *table;
@@ -40,8 +40,9 @@ void sb_fourier_inverse(const SbFourier *fourier, double *line);
 
 // Calls `act` once for every column of the complex matrix[rows][columns], rows <= n. `act` gets the
 // column as line[2*n], padded with zeros from `rows` on. It may transform and change `line` in
-// place; the first `rows` numbers that it leaves replace the column. `act` must not call
-// sb_fourier_columns() with the same `fourier`.
+// place; the first `rows` numbers that it leaves replace the column. `act` may call
+// sb_fourier_forward() and sb_fourier_inverse() with the same `fourier`, but not
+// sb_fourier_columns().
 void sb_fourier_columns(const SbFourier *fourier, double *matrix, size_t rows, size_t columns,
                         void (*act)(const SbFourier *fourier, double *line, void *data),
                         void *data);

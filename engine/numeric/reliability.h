@@ -23,8 +23,8 @@
 enum { SB_RELIABILITY_DIMENSIONS = 64 };
 
 // Computes *value = g(u) and gradient[dimensions] = dg/du at u[dimensions]. *value is NaN if g is
-// not defined at u. A component of `gradient` is NaN if g is not differentiable there. A status
-// other than SB_OK ends the search.
+// not defined at u. A component of `gradient` is NaN if g is not differentiable there. `dimensions`
+// and `data` are arguments of sb_failure_point(). A status other than SB_OK ends the search.
 typedef SbStatus (*SbLimitState)(double *value, double *gradient, const double *u, void *data);
 
 // How a search ended.

@@ -13,7 +13,8 @@ typedef double (*SbFunction)(double x, const void *context);
 // larger one; neither is evaluated.
 double sb_bisect(SbFunction f, const void *context, double above, double below);
 
-// Returns the value of a function at x and writes its derivative to *slope.
+// A function that returns its value at x and writes its derivative to *slope. `context` is the
+// pointer that the caller passed to the solver.
 typedef double (*SbSlopedFunction)(double *slope, double x, const void *context);
 
 // Returns the root of an increasing f in [low, high], to 2 DBL_EPSILON times the larger magnitude
@@ -33,11 +34,12 @@ size_t sb_interval(const double *x, size_t count, double at);
 
 // Returns the cubic Hermite polynomial at the fraction f (0 to 1) of an interval, and writes its
 // derivative with respect to the coordinate to *slope. `width` is the length of the interval,
-// `value` has the values and `end` the derivatives at its two ends.
+// `value` has the values and `end` the derivatives with respect to the coordinate at its two ends.
 double sb_hermite(double *slope, double f, double width, const double value[2],
                   const double end[2]);
 
-// Computes the residuals r[n] at x[n]. Returns false if they are not defined there.
+// Computes the residuals r[n] at x[n], n of sb_solve_system(). Returns false if they are not
+// defined there.
 typedef bool (*SbSystem)(double *r, const double *x, void *context);
 
 // Largest number of unknowns of sb_solve_system().

@@ -40,11 +40,13 @@ double sb_distribution_quantile(const SbDistribution *distribution, double p);
 // Phi(z) rounds to 0 or 1.
 double sb_distribution_at_normal(const SbDistribution *distribution, double z);
 
-// Returns the derivative of sb_distribution_at_normal() with respect to z; 0 for LEVELS.
+// Returns the derivative of sb_distribution_at_normal() with respect to z, in the unit of the
+// parameter; 0 for LEVELS.
 double sb_distribution_slope(const SbDistribution *distribution, double z);
 
-// Returns point `index` of a grid of `count` points: the level; for UNIFORM and LOGUNIFORM (count
-// >= 2) equal steps of probability from a to b, both included. Not defined for NORMAL.
+// Returns point `index` (from 0) of a grid of distribution->count points: level[index] for LEVELS;
+// for UNIFORM and LOGUNIFORM (count >= 2) equal steps of probability from a to b, both included.
+// Not defined for NORMAL.
 double sb_distribution_grid(const SbDistribution *distribution, size_t index);
 
 // Returns the standard normal distribution function Phi(z).
@@ -76,6 +78,6 @@ void sb_sample_morris(double *point, size_t samples, size_t dimensions, uint64_t
 // Writes Saltelli's design to point[base (dimensions + 2)][dimensions]: `base` rows A, `base` rows
 // B, then for each dimension k the rows A with coordinate k of B. A and B are the two halves of a
 // Sobol sequence in 2 dimensions (of random points if that exceeds SB_SOBOL_DIMENSIONS). Input of
-// sb_sobol_indices().
+// sb_sobol_indices(). SB_ERROR_MEMORY is its only error.
 SbStatus sb_sample_saltelli(double *point, size_t base, size_t dimensions, uint64_t seed,
                             SbReport *report);

@@ -5,9 +5,10 @@
 //   transient:  dp/dt = D div grad p, D = P/S
 //   (Crank, The Mathematics of Diffusion, 2nd ed. 1975, 1.2 and 10.1)
 //
-// P is the permeability, S the solubility, D the diffusivity; they are constant. p is the partial
-// pressure divided by that at the inside face: 1 at inside faces, 0 at outside faces. The results
-// depend on the geometry only; the caller multiplies them by P, S, D and the pressure:
+// P is the permeability, S the solubility, D the diffusivity; they are constant. p is the scaled
+// partial pressure (partial pressure - p_out)/(p_in - p_out), with the partial pressures p_in at
+// inside faces and p_out at outside faces: p = 1 at inside faces, 0 at outside faces. The results
+// depend on the geometry only; the caller multiplies them by P, S, D and p_in - p_out:
 //
 //   flux = P S_g (p_in - p_out), S_g = conductance: A/L of a slab, 2 pi H/ln(r2/r1) of a tube
 //   time lag = l2/D, l2 = int p (1 - p) dV/S_g: L^2/6 of a slab
@@ -32,15 +33,16 @@ typedef struct SbDiffusion SbDiffusion;
 typedef struct {
   double conductance; // S_g, mean of flux_in and flux_out [m]
   double flux_in;     // into the section through the inside faces, divided by P (p_in - p_out) [m]
-  double flux_out; // out of the outside faces, divided likewise; equals flux_in up to rounding [m]
-  double lag;      // l2, the time lag multiplied by D [m2]
-  double volume;   // [m3]
+  double flux_out;    // out of the outside faces, divided by P (p_in - p_out); equals flux_in up to
+                      // rounding [m]
+  double lag;         // l2, the time lag multiplied by D [m2]
+  double volume;      // volume of the section [m3]
 } SbDiffusionSteady;
 
 // Assembles and solves the steady state of `section`, which is borrowed and must not change until
 // sb_diffusion_destroy(). SB_ERROR_INPUT: an element has a negative or zero area, a triangle has an
 // invalid node number, or no node is wetted from inside or from outside. SB_ERROR_NOT_CONVERGED: a
-// part of the section has no wetted face.
+// part of the section has no wetted face (the matrix is singular).
 SbStatus sb_diffusion_create(SbDiffusion **out, const SbWettedMesh *section, SbReport *report);
 
 // Frees the object. Takes NULL.
@@ -61,13 +63,14 @@ SbStatus sb_diffusion_gradient(double *out, const SbDiffusion *diffusion, SbRepo
 // State at one time after the inside faces of a dry section were wetted.
 typedef struct {
   double time;     // D t [m2]
-  double flux_in;  // flux through the inside faces, divided by P (p_in - p_out) [m]
-  double flux_out; // flux through the outside faces, divided by P (p_in - p_out) [m]
+  double flux_in;  // flux into the section at the inside faces, divided by P (p_in - p_out) [m]
+  double flux_out; // flux out of the section at the outside faces, divided by P (p_in - p_out) [m]
   double sorbed;   // amount in the section, divided by S (p_in - p_out) [m3]
 } SbDiffusionInstant;
 
 // Computes the transient from a dry section whose inside faces are wetted at t = 0. Writes
-// out[count]: the last has D t = `last` [m2], each earlier one half the time of its successor.
+// out[count], in the order of time: the last has D t = `last` [m2] > 0, each earlier one half the
+// time of its successor.
 // `steps` is the number of time steps between two of them (0: 16). SB_ERROR_NOT_CONVERGED: the
 // system matrix is not positive definite.
 SbStatus sb_diffusion_approach(SbDiffusionInstant *out, int count, double last, int steps,

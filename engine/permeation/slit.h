@@ -31,7 +31,7 @@ typedef struct {
 double sb_slit_transmission(double length_over_height);
 
 // Returns the dimensionless flow rate Q at the inverse Knudsen number d = `rarefaction` >= 0, for a
-// slit with L/h = `length_over_height`.
+// slit with L/h = `length_over_height` > 0.
 double sb_slit_rate(double rarefaction, double length_over_height);
 
 // Returns the mass flow per width of the slit [kg/(m s)] from the absolute pressure `high` to `low`
@@ -46,5 +46,6 @@ double sb_slit_mass_flow(const SbSlit *slit, double high, double low);
 double sb_slit_liquid_drive(double difference, double tension, double contact_angle, double height);
 
 // Returns whether a plug of condensed liquid stays in the slit: the gas pressure `difference` [Pa]
-// is below the capillary pressure 2 tension cos(contact_angle)/height. Units as above.
+// (the side of higher gas pressure minus the other one) is below the capillary pressure 2 tension
+// cos(contact_angle)/height. `tension` [N/m], `contact_angle` [rad], `height` [m].
 bool sb_slit_plugged(double difference, double tension, double contact_angle, double height);

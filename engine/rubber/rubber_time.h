@@ -45,7 +45,8 @@ typedef enum {
   SB_SHIFT_ARRHENIUS // relaxation_energy
 } SbShift;
 
-// Constants of a rubber. {.reference_temperature = T_r} is a rubber that never changes.
+// Constants of a rubber. {.reference_temperature = T_r} is a rubber that never changes: a group of
+// constants that are 0 switches its effect off.
 typedef struct {
   double reference_temperature; // T_r, to which the times and rates below apply [K]
   // Stress relaxation.
@@ -56,44 +57,46 @@ typedef struct {
   double wlf_c1, wlf_c2;    // C1 [1], C2 [K]; universal 17.44, 51.6 K if T_r = T_g
   double relaxation_energy; // Q [J/mol]
   // Temperature.
-  bool entropic;               // modulus proportional to T; modulus_slope is ignored
-  double modulus_slope;        // beta, dE/dT divided by E at T_0 [1/K]; 0: constant
-  double slope_from, slope_to; // range of temperatures in which beta was measured [K]
-  double glass_temperature;    // T_g [K], below T_0; 0: no glass transition
-  double thermal_expansion;    // alpha, linear [1/K]
+  bool entropic;        // modulus proportional to T; modulus_slope is ignored
+  double modulus_slope; // beta, dE/dT divided by E at T_0 [1/K]; 0: constant
+  // Range of temperatures in which beta was measured [K]; used outside it (and outside T_0), the
+  // warning "modulus-extrapolated" is given if beta is not 0.
+  double slope_from, slope_to;
+  double glass_temperature; // T_g [K], below T_0; 0: no glass transition
+  double thermal_expansion; // alpha, linear [1/K]
   // Network.
-  double network_rate;   // k at T_r [1/s]
+  double network_rate;   // k at T_r [1/s]; 0: the network does not change
   double network_energy; // activation energy of k [J/mol]
   double network_reform; // beta, 0 to 1
   // Swell.
   double swell_mass;       // m, mass of absorbed fluid at equilibrium divided by dry mass; 0: none
   double rubber_density;   // of the dry rubber [kg/m3]
   double fluid_density;    // of the absorbed fluid [kg/m3]
-  double diffusion;        // D at T_r [m2/s]
+  double diffusion;        // D at T_r [m2/s]; 0: no uptake
   double diffusion_energy; // activation energy of D [J/mol]
   double swell_modulus;    // modulus at equilibrium divided by the dry modulus; 0: ideal network
 } SbRubber;
 
 // The dry, new ring, and its history.
 typedef struct {
-  double section_diameter, inner_diameter; // free ring at T_0 [m]
+  double section_diameter, inner_diameter; // sizes of the free ring at T_0 [m]
   double radial_space;                     // space into which the section is squeezed [m]
   double modulus;                          // E at T_0 when new [Pa]
   double storage_time;                     // time in storage, fitted and wetted [s]
-  double temperature;                      // of storage [K]
-  double use_temperature;                  // after storage [K]
+  double temperature;                      // temperature of storage [K]
+  double use_temperature;                  // temperature of use, after storage [K]
   double recovery_time;                    // time between release and measurement of the set [s]
 } SbRubberStorage;
 
 // The ring after storage.
 typedef struct {
   double section_diameter, inner_diameter; // free ring, swollen, at the temperature of use [m]
-  double modulus;           // of the fitted ring: relaxed, swollen, at the temperature of use [Pa]
-  double shift;             // a_T at the storage temperature
-  double stiffening;        // sb_rubber_stiffening()
-  double relaxation;        // E(t)/E_0 by the Prony series alone
-  double network;           // f
-  double compression_set;   // set divided by the squeeze, after recovery_time [1]
+  double modulus;         // E of the fitted ring: relaxed, swollen, at the temperature of use [Pa]
+  double shift;           // a_T at the storage temperature
+  double stiffening;      // sb_rubber_stiffening()
+  double relaxation;      // E(t)/E_0 by the Prony series alone
+  double network;         // f
+  double compression_set; // set divided by the squeeze, after recovery_time [1]
   double section_after_set; // free section after release and recovery [m]
   double uptake;            // M/M_inf
   double volume_swell;      // v
