@@ -127,6 +127,18 @@ def sources_of_the_loop(source):
                       open(path, encoding='utf-8').read())]
 
 
+# Decisions by the text of a figure's columns: figures.def has enumerations for them.
+FIGURE_TEXT = re.compile(r'\bstr(?:n?cmp|str|n?casecmp)\([^;]*(?:->|\b)(?:path|si|shown|where)\b')
+
+
+def lines_with(source, folders, pattern, allowed=()):
+    """Places of lines in C files that match a pattern."""
+    return [f'{os.path.relpath(path, source)}: {line.strip()}'
+            for folder in folders for path, text in sources_below(f'{source}/{folder}')
+            if os.path.relpath(path, source) not in allowed
+            for line in text.split('\n') if pattern.search(line)]
+
+
 def visible(path):
     """What a shared library lets others see, but for the linker's own marks."""
     out = subprocess.run(['nm', '-D', '--defined-only', path], capture_output=True, text=True, check=True)
@@ -150,6 +162,13 @@ checks = [
     ('no layer includes one above it, no room one beside or above it', arrows_up(source)),
     ('no room of the valve includes one to its right, or a private header of another', arrows_right(source)),
     ('each wrong include of a room of the valve is found', lines_of_rooms_that_pass()),
+    ('no code of the valve decides by the text of a figure\'s path or unit',
+     lines_with(source, [f'engine/valve/{room}' for room in VALVE_ROOMS[1:]], FIGURE_TEXT,
+                ['engine/valve/figures/figures.c'])),
+    ('that test finds such a line', [] if FIGURE_TEXT.search('if (strncmp(figure->path, "solver.", 7) == 0) {')
+     and FIGURE_TEXT.search('strcmp(row->si, "J") == 0') else ['it does not']),
+    ('the result of every copy of a model is used',
+     lines_with(source, ['engine', 'app', 'ui'], re.compile(r'\(void\) ?sb_model_copy\('))),
     ('the library shows what its header declares and nothing else', sorted(visible(library) ^ declared)),
     ('the library needs GLib, GIO, udunits and the engine\'s libraries alone',
      [name for name in needed if not re.match(LIBRARY_MAY_NEED, name)]),

@@ -2,6 +2,7 @@
 // to which everything is void, so that a late cancel can never hit the next request.
 #include "app/run/runner.h"
 
+#include "app/base/own_model.h"
 #include "app/run/process.h"
 #include "engine/base/clock.h"
 
@@ -245,9 +246,7 @@ void sb_runner_destroy(SbRunner *runner) {
 
 unsigned sb_runner_submit(SbRunner *runner, const SbRunRequest *request) {
   SbRunRequest own = *request;
-  SbModel *copy;
-  (void)sb_model_copy(&copy, request->model);
-  own.model = copy;
+  own.model = sb_own_model(request->model);
   own.start = own.start != NULL ? sb_run_handle_ref(own.start) : NULL;
   pthread_mutex_lock(&runner->mutex);
   atomic_store_explicit(&runner->void_up_to, runner->ticket, memory_order_relaxed);

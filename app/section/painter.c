@@ -3,6 +3,7 @@
 // lines are then made at the device's resolution.
 #include "app/section/painter.h"
 
+#include "app/base/own_model.h"
 #include "app/section/draw_cairo.h"
 #include "app/section/gl_renderer.h"
 
@@ -117,7 +118,7 @@ static void prepare(SbSectionPainter *painter, const SbChartRun *run) {
   painter->section = sb_section_create(run->model, &limits);
   painter->limits = limits;
   sb_model_destroy(painter->model);
-  (void)sb_model_copy(&painter->model, run->model);
+  painter->model = sb_own_model(run->model);
 }
 
 // The list through GL onto the context; false if GL cannot (size).

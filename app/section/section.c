@@ -1,6 +1,7 @@
 // The section's layout, its rings and its parts in order, back to front. Labels of the strip are in
 // section_labels.c, the insets in section_insets.c, the legends in section_frame.c, rings in
 // section_ring.c, the valve in three dimensions in cutaway.c.
+#include "app/base/own_model.h"
 #include "app/section/cutaway.h"
 #include "app/section/section_private.h"
 
@@ -14,7 +15,7 @@ static const double RIGHT_ROOM = 0.26;
 
 SbSection *sb_section_create(const SbModel *model, const SbSectionLimits *limits) {
   SbSection *section = g_new0(SbSection, 1);
-  (void)sb_model_copy(&section->model, model);
+  section->model = sb_own_model(model);
   section->limits = *limits;
   section->text = sb_text_create();
   double top = 2 * sb_model_value(model, SB_P_BORE_DIAMETER);

@@ -1,6 +1,7 @@
 // Effects of the main parameters. See effect_job.h. Derivatives are the engine's (gradient.h).
 #include "app/session/effect_job.h"
 
+#include "app/base/own_model.h"
 #include "app/run/process.h"
 #include "app/session/worker.h"
 #include "app/study/effects.h"
@@ -83,7 +84,7 @@ static void work(void *owner) {
 
 SbEffectJob *sb_effect_job_start(const SbModel *model, void (*done)(void *data), void *data) {
   SbEffectJob *job = g_new0(SbEffectJob, 1);
-  (void)sb_model_copy(&job->model, model);
+  job->model = sb_own_model(model);
   sb_worker_start(&job->worker, "effects", work, job, done, data);
   return job;
 }

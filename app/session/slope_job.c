@@ -1,6 +1,7 @@
 // See the header.
 #include "app/session/slope_job.h"
 
+#include "app/base/own_model.h"
 #include "app/session/worker.h"
 
 #include <glib.h>
@@ -48,7 +49,7 @@ static void work(void *owner) {
 
 SbSlopeJob *sb_slope_job_new(const SbModel *model) {
   SbSlopeJob *job = g_new0(SbSlopeJob, 1);
-  (void)sb_model_copy(&job->model, model);
+  job->model = sb_own_model(model);
   return job;
 }
 

@@ -1,6 +1,7 @@
 // The thread of a study. It owns the study until it is done; only two atomic numbers are shared.
 #include "app/session/study_job.h"
 
+#include "app/base/own_model.h"
 #include "app/session/worker.h"
 #include "app/study/view.h"
 #include "engine/valve/sealbench.h"
@@ -34,7 +35,7 @@ SbStudyJob *sb_study_job_start(SbStudyKind kind, const SbModel *model, void (*do
                                void *data) {
   SbStudyJob *job = g_new0(SbStudyJob, 1);
   job->kind = kind;
-  (void)sb_model_copy(&job->model, model);
+  job->model = sb_own_model(model);
   job->study = g_new(SbStudy, 1);
   sb_worker_start(&job->worker, "study", work, job, done, data);
   return job;

@@ -4,6 +4,7 @@
 // export writes.
 #include "ui/window/study_window.h"
 
+#include "app/base/own_model.h"
 #include "app/base/translation.h"
 #include "app/chart/study.h"
 #include "app/export/studies.h"
@@ -173,7 +174,7 @@ static void compute(Studies *studies) {
   const SbDocument *document = sb_session_document(studies->session);
   studies->asked = chosen(studies);
   sb_model_destroy(studies->asked_model);
-  (void)sb_model_copy(&studies->asked_model, model);
+  studies->asked_model = sb_own_model(model);
   g_free(studies->asked_hash);
   g_free(studies->asked_scene);
   studies->asked_hash = sb_document_sha256(document);
