@@ -32,10 +32,24 @@ static void put_value(SbJson *json, const char *key, int index, double value) {
 }
 
 // What sliding makes of a seal's contact, beside the figures of its stroke.
-static void put_section(SbJson *json, const SbSummary *summary, const char *path) {
-  const SbContacts *of = &summary->contact[strstr(path, ".inner.") != NULL ? SB_INNER : SB_OUTER];
-  const SbContact *contact = strstr(path, ".return.") != NULL ? &of->back : &of->in_stroke;
+static void put_section(SbJson *json, const SbSummary *summary, const SbFigure *figure) {
+  const SbContacts *of = &summary->contact[figure->seal];
+  const SbContact *contact = figure->direction == SB_DIRECTION_OUT ? &of->back : &of->in_stroke;
   sb_json_string(json, "state", contact->known ? sb_ring_state_name(contact->section) : NULL);
+}
+
+// Adds the states that the JSON has after a figure: that of a section after its turn, and that of a
+// leak on the shelf after the moisture that passes the seal.
+static void put_states(SbJson *json, const SbSummary *summary, const SbFigure *figure) {
+  if (figure->direction != SB_DIRECTION_NONE && figure->quantity == SB_FIGURE_QUANTITY_ANGLE) {
+    put_section(json, summary, figure);
+  }
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    if (figure->offset ==
+        offsetof(SbSummary, shelf.seal[0].moisture) + (size_t)seal * sizeof(SbShelfSeal)) {
+      sb_json_string(json, "leak_state", sb_leak_state_name(summary->shelf.seal[seal].state));
+    }
+  }
 }
 
 // The catalogue's figures whose paths begin with `scope`, as objects; inside the scope's own
@@ -63,13 +77,7 @@ static void put_figures(SbJson *json, const SbSummary *summary, const char *scop
     }
     if (i < SB_FIGURE_COUNT) {
       put_value(json, name, i, sb_figure_value(summary, i));
-      if (g_str_has_suffix(path, ".rotation_deg")) {
-        put_section(json, summary, path);
-      } else if (g_str_has_prefix(path, "shelf.seals.") &&
-                 g_str_has_suffix(path, ".moisture_kg_per_s")) {
-        const int seal = strstr(path, ".inner.") != NULL ? SB_INNER : SB_OUTER;
-        sb_json_string(json, "leak_state", sb_leak_state_name(summary->shelf.seal[seal].state));
-      }
+      put_states(json, summary, sb_figure(i));
     }
   }
 }
@@ -284,7 +292,7 @@ static void put_reasons(SbJson *json, const SbRun *run, const SbResultsInfo *inf
           g_strdup_printf("%.*s.regime", (int)(strrchr(path, '.') - path), path);
       sb_json_string(json, regime, reason);
     }
-    if (g_str_has_suffix(path, ".contact_width_m") && strstr(path, ".contact.") != NULL) {
+    if (sb_figure(i)->error == SB_BY_WIDTH && sb_figure(i)->direction != SB_DIRECTION_NONE) {
       g_autofree char *state =
           g_strdup_printf("%.*s.state", (int)(strrchr(path, '.') - path), path);
       sb_json_string(json, state, reason);

@@ -68,9 +68,9 @@ void sb_gradient_contacts(SbGradientContacts *out, const SbSummary *summary) {
 double sb_gradient_size(const SbSummary *summary, int figure) {
   const double value = fabs(sb_figure_value(summary, figure));
   const SbFigure *row = sb_figure(figure);
-  const bool energy = strcmp(row->si, "J") == 0;
-  const bool leak =
-      row->verdict == SB_VERDICT_LEAK && row->seal == SB_SEAL_COUNT && strcmp(row->si, "m3") == 0;
+  const bool energy = row->quantity == SB_FIGURE_QUANTITY_ENERGY;
+  const bool leak = row->verdict == SB_VERDICT_LEAK && row->seal == SB_SEAL_COUNT &&
+                    row->quantity == SB_FIGURE_QUANTITY_VOLUME;
   const bool closure = row->offset == offsetof(SbSummary, energy.closure);
   const double whole = energy    ? summary->energy.external_max
                        : leak    ? summary->leakage_carried

@@ -9,34 +9,40 @@
 #include <stdio.h>
 #include <string.h>
 
-// From a row's unit on the columns are those of SbFigure.
-#define COLUMNS(si, shown, digits, better, error, needs, verdict, brief, label, help)              \
-  si, shown, digits, SB_BETTER_##better, SB_BY_##error, SB_DEPTH_##needs, SB_VERDICT_##verdict,    \
-      brief, label, help
-#define CONTACT_COLUMNS(si, shown, digits, better, error, needs, ...)                              \
-  COLUMNS(si, shown, digits, better, error, WHOLE, __VA_ARGS__)
+// The SI unit of each quantity.
+#define SI_UNIT(quantity, si) static const char SI_##quantity[] = si;
+SB_FIGURE_QUANTITY_LIST(SI_UNIT)
+#undef SI_UNIT
+
+// From a row's quantity on the columns are those of SbFigure.
+#define COLUMNS(quantity, shown, digits, better, error, needs, part, verdict, brief, label, help)  \
+  SB_FIGURE_QUANTITY_##quantity, SI_##quantity, shown, digits, SB_BETTER_##better, SB_BY_##error,  \
+      SB_DEPTH_##needs, SB_PART_##part, SB_VERDICT_##verdict, brief, label, help
+#define CONTACT_COLUMNS(quantity, shown, digits, better, error, needs, ...)                        \
+  COLUMNS(quantity, shown, digits, better, error, WHOLE, __VA_ARGS__)
 #define SEAL(name, index, path, member, ...)                                                       \
-  {"seals." name "." path, offsetof(SbSummary, seal[index].member), name " seal", index, false,    \
-   COLUMNS(__VA_ARGS__)},
+  {"seals." name "." path, offsetof(SbSummary, seal[index].member),                                \
+   name " seal",           index,                                                                  \
+   SB_DIRECTION_NONE,      COLUMNS(__VA_ARGS__)},
 #define CONTACT_IN(name, index, path, member, ...)                                                 \
   {"seals." name ".contact.in_stroke." path,                                                       \
    offsetof(SbSummary, contact[index].in_stroke.member),                                           \
    name " seal, in-stroke",                                                                        \
    index,                                                                                          \
-   false,                                                                                          \
+   SB_DIRECTION_IN,                                                                                \
    COLUMNS(__VA_ARGS__)},
 #define CONTACT_OUT(name, index, path, member, ...)                                                \
   {"seals." name ".contact.return." path,                                                          \
    offsetof(SbSummary, contact[index].back.member),                                                \
    name " seal, return",                                                                           \
    index,                                                                                          \
-   true,                                                                                           \
+   SB_DIRECTION_OUT,                                                                               \
    CONTACT_COLUMNS(__VA_ARGS__)},
 static const SbFigure figures[SB_FIGURE_COUNT] = {
 #define SB_FIGURE(path, member, ...)                                                               \
-  {path, offsetof(SbSummary, member), "", SB_SEAL_COUNT, false, COLUMNS(__VA_ARGS__)},
+  {path, offsetof(SbSummary, member), "", SB_SEAL_COUNT, SB_DIRECTION_NONE, COLUMNS(__VA_ARGS__)},
 #define SB_FIGURE_AT(path, place, where, ...)                                                      \
-  {path, offsetof(SbSummary, place), where, SB_SEAL_COUNT, false, COLUMNS(__VA_ARGS__)},
+  {path, offsetof(SbSummary, place), where, SB_SEAL_COUNT, SB_DIRECTION_NONE, COLUMNS(__VA_ARGS__)},
 #include "engine/valve/figures/figures.def"
 #define SB_SEAL_FIGURE(...)    SEAL("outer", SB_OUTER, __VA_ARGS__)
 #define SB_CONTACT_FIGURE(...) CONTACT_IN("outer", SB_OUTER, __VA_ARGS__)

@@ -54,18 +54,65 @@ typedef enum {
   SB_BY_SHELF_PRESSURE, // mean contact pressure at rest
 } SbErrorSource;
 
+// X(quantity, SI unit): the quantities of figures.
+#define SB_FIGURE_QUANTITY_LIST(X)                                                                 \
+  X(NUMBER, "1")                                                                                   \
+  X(FRACTION, "1") /* a part of a total, 0 to 1 */                                                 \
+  X(LENGTH, "m")                                                                                   \
+  X(VOLUME, "m3")                                                                                  \
+  X(TIME, "s")                                                                                     \
+  X(SPEED, "m/s")                                                                                  \
+  X(FLOW, "m3/s")                                                                                  \
+  X(ANGLE, "degree")                                                                               \
+  X(MASS, "kg")                                                                                    \
+  X(MASS_FLOW, "kg/s")                                                                             \
+  X(MASS_PER_YEAR, "kg/(365 day)")                                                                 \
+  X(FORCE, "N")                                                                                    \
+  X(LINE_LOAD, "N/m")                                                                              \
+  X(PRESSURE, "Pa")                                                                                \
+  X(ENERGY, "J")                                                                                   \
+  X(TEMPERATURE, "K")
+
+// Quantity of a figure.
+typedef enum {
+#define SB_FIGURE_QUANTITY_ENUM(quantity, si) SB_FIGURE_QUANTITY_##quantity,
+  SB_FIGURE_QUANTITY_LIST(SB_FIGURE_QUANTITY_ENUM)
+#undef SB_FIGURE_QUANTITY_ENUM
+} SbFigureQuantity;
+
+// Part of a run that a figure belongs to. The plan computes a part if one of its figures is needed.
+typedef enum {
+  SB_PART_CYCLE,            // states of the seals and the cycle, to the depth of its seal
+  SB_PART_ENERGY,           // energy balance of the cycle
+  SB_PART_LAWS,             // films by laws other than the model's own
+  SB_PART_SHELF,            // rates on the shelf
+  SB_PART_SHELF_TIME,       // sums over the time on the shelf
+  SB_PART_ESTIMATE,         // from here on error estimates of a solver; here of the cycle
+  SB_PART_ESTIMATE_HISTORY, // of the transient films
+  SB_PART_ESTIMATE_SHELF    // of the permeation
+} SbFigurePart;
+
+// Direction of sliding that a figure is about.
+typedef enum {
+  SB_DIRECTION_NONE, // not of one stroke
+  SB_DIRECTION_IN,   // in-stroke
+  SB_DIRECTION_OUT   // return
+} SbDirection;
+
 // One row of figures.def (for each seal if it is a seal's). Strings are static.
 typedef struct {
   const char *path;  // "seals.outer.load_N"
   size_t offset;     // of its value in SbSummary
   const char *where; // "outer seal", "stage B": distinguishes figures with the same label; or ""
   int seal;          // SB_OUTER, SB_INNER; SB_SEAL_COUNT: not of one seal
-  bool back;         // of the seal's return stroke; else of the in-stroke
+  SbDirection direction;
+  SbFigureQuantity quantity;
   const char *si, *shown; // SI unit; display unit
   int digits;             // significant digits in tables; 0: yes or no (1 or 0)
   SbBetter better;
-  SbErrorSource error;   // source of its error estimate
-  SbSealDepth needs;     // depth that its seal needs; of the outer one for a figure of no seal
+  SbErrorSource error; // source of its error estimate
+  SbSealDepth needs;   // depth that its seal needs; of the outer one for a figure of no seal
+  SbFigurePart part;
   SbVerdictKind verdict; // criterion that a limit on it decides
   bool brief;            // listed in short tables
   const char *label, *help;
@@ -73,6 +120,11 @@ typedef struct {
 
 // Returns the row of figure `index`, 0 to SB_FIGURE_COUNT - 1; static.
 const SbFigure *sb_figure(int index);
+
+// Returns whether a figure is an error estimate of a solver.
+static inline bool sb_figure_is_estimate(const SbFigure *figure) {
+  return figure->part >= SB_PART_ESTIMATE;
+}
 
 // Returns the index of a path ("seals.outer.load_N"), or -1.
 int sb_figure_find(const char *path);

@@ -5,7 +5,6 @@
 #include "engine/valve/model/model.h"
 
 #include <math.h>
-#include <string.h>
 
 // Rounding of a sum of forces, relative and absolute [N].
 static const double rounding = 1e-6, rounding_force = 1e-9;
@@ -77,17 +76,14 @@ static bool motion_contradicts(const Check *check) {
   return false;
 }
 
-// Fractions outside 0 to 1. The catalogue names them so.
+// Fractions outside 0 to 1.
 static bool fraction_contradicts(const Check *check) {
-  static const char END[] = "_share";
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
-    const char *path = sb_figure(i)->path;
-    const size_t length = strlen(path);
-    const bool fraction = (length > strlen(END) && strcmp(path + length - strlen(END), END) == 0) ||
-                          strncmp(path, "people.", strlen("people.")) == 0;
     const double value = sb_figure_value(check->summary, i);
-    if (fraction && (value < -1e-9 || value > 1 + 1e-7)) {
-      sb_text(check->text, check->size, "%s = %.9g is not between 0 and 1", path, value);
+    if (sb_figure(i)->quantity == SB_FIGURE_QUANTITY_FRACTION &&
+        (value < -1e-9 || value > 1 + 1e-7)) {
+      sb_text(check->text, check->size, "%s = %.9g is not between 0 and 1", sb_figure(i)->path,
+              value);
       return true;
     }
   }

@@ -187,13 +187,15 @@ static SbCounters expect(const SbPlan *plan, const SbModel *model) {
 
 // Returns the depth of the shelf that a figure needs.
 static SbShelfDepth shelf_of(const SbFigure *figure) {
-  const char *path = figure->path;
-  const bool sums = strcmp(path, "shelf.loss_kg") == 0 || strcmp(path, "shelf.moisture_kg") == 0 ||
-                    strcmp(path, "shelf.mass_left_kg") == 0 ||
-                    strcmp(path, "shelf.doses_left") == 0;
-  const bool rates =
-      strncmp(path, "shelf.", 6) == 0 || strcmp(path, "solver.error_estimate.permeation") == 0;
-  return sums ? SB_SHELF_OVER_TIME : rates ? SB_SHELF_RATES : SB_SHELF_NOTHING;
+  switch (figure->part) {
+  case SB_PART_SHELF_TIME:
+    return SB_SHELF_OVER_TIME;
+  case SB_PART_SHELF:
+  case SB_PART_ESTIMATE_SHELF:
+    return SB_SHELF_RATES;
+  default:
+    return SB_SHELF_NOTHING;
+  }
 }
 
 // Depth of the shelf that views and limits require.
@@ -349,16 +351,16 @@ void sb_plan_figures(SbPlan *out, const SbModel *model, const int *figures, size
   bool errors = false; // of films at the frames' speeds, too
   for (size_t i = 0; i < count; i++) {
     const SbFigure *figure = sb_figure(figures[i]);
-    int seal = strncmp(figure->where, "inner seal", 10) == 0 ? SB_INNER : SB_OUTER;
+    const int seal = figure->seal == SB_INNER ? SB_INNER : SB_OUTER;
     // Friction drags a solved ring: its contact depends on the film.
     SbSealDepth needs =
         out->ring && figure->needs == SB_DEPTH_FITMENT ? SB_DEPTH_SLIDING : figure->needs;
     out->seal[seal] = needs > out->seal[seal] ? needs : out->seal[seal];
-    out->film_laws = out->film_laws || strstr(figure->path, ".film_by_model.") != NULL;
-    errors = errors || strncmp(figure->path, "solver.", 7) == 0;
+    out->film_laws = out->film_laws || figure->part == SB_PART_LAWS;
+    errors = errors || sb_figure_is_estimate(figure);
     const SbShelfDepth shelf = shelf_of(figure) < most ? shelf_of(figure) : most;
     out->shelf = shelf > out->shelf ? shelf : out->shelf;
-    if (strcmp(figure->path, "solver.error_estimate.film_history") == 0) {
+    if (figure->part == SB_PART_ESTIMATE_HISTORY) {
       out->film_history = out->reynolds && model->film_history;
     }
   }

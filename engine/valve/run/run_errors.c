@@ -114,7 +114,8 @@ static double leak_error(const SbSealState *state) {
 static double relative_of_state(const SbRun *run, const SbFigure *figure,
                                 const SbSealState *state) {
   const double film = positive(state->central_error);
-  const double speed = run->speed_error[figure->back ? SB_CYCLE_OUT : SB_CYCLE_IN];
+  const double speed =
+      run->speed_error[figure->direction == SB_DIRECTION_OUT ? SB_CYCLE_OUT : SB_CYCLE_IN];
   switch ((int)figure->error) {
   case SB_BY_LOAD:
     return state->load_error;
@@ -157,8 +158,10 @@ static double relative_of_state(const SbRun *run, const SbFigure *figure,
 // Absolute error of a seal's figure.
 static double of_seal(const SbRun *run, const SbFigure *figure, double value) {
   const int seal = figure->seal;
-  const SbSealState *state = &run->shown[seal][figure->back ? SB_CYCLE_OUT : SB_CYCLE_IN];
-  const double speed = run->speed_error[figure->back ? SB_CYCLE_OUT : SB_CYCLE_IN];
+  const SbSealState *state =
+      &run->shown[seal][figure->direction == SB_DIRECTION_OUT ? SB_CYCLE_OUT : SB_CYCLE_IN];
+  const double speed =
+      run->speed_error[figure->direction == SB_DIRECTION_OUT ? SB_CYCLE_OUT : SB_CYCLE_IN];
   const double friction = sb_sliding_friction(state);
   switch ((int)figure->error) {
   case SB_BY_INPUT:
@@ -264,13 +267,13 @@ static double of_shelf(const SbRun *run, const SbFigure *figure, double value) {
 
 static double of_rig(const SbRun *run, const SbFigure *figure) {
   const SbRig *rig = &run->model->rig;
-  if (strcmp(figure->si, "s") == 0) {
+  if (figure->quantity == SB_FIGURE_QUANTITY_TIME) {
     return 1 / rig->rate;
   }
   // Between two samples the thread is wound up by speed/rate: the largest sample misses the peak by
   // half of that on average.
   const double force = 0.5 * rig->thread_stiffness * rig->speed / rig->rate;
-  return strcmp(figure->si, "N") == 0 ? force : force / rig->load;
+  return figure->quantity == SB_FIGURE_QUANTITY_FORCE ? force : force / rig->load;
 }
 
 static double error_of(const SbRun *run, int index) {
@@ -334,7 +337,7 @@ static int largest(const SbSummary *summary, double *error, int *count) {
   *error = 0;
   *count = 0;
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
-    const bool group = strncmp(sb_figure(i)->path, "solver.error_estimate.", 22) == 0;
+    const bool group = sb_figure_is_estimate(sb_figure(i));
     const double own = group                                        ? sb_figure_value(summary, i)
                        : sb_figure_error_reason(summary, i) == NULL ? sb_figure_error(summary, i)
                                                                     : NAN;

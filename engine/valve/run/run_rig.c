@@ -11,7 +11,6 @@
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
-#include <string.h>
 
 static SbSealFrame no_seal(void) {
   return (SbSealFrame){.profile = UINT32_MAX, .shape = UINT32_MAX};
@@ -88,7 +87,7 @@ static void rig_errors(SbRun *run) {
   const SbSummary *summary = &run->summary;
   sb_run_begin_errors(run);
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
-    if (strncmp(sb_figure(i)->path, "cycle.energy", 12) == 0) {
+    if (sb_figure(i)->part == SB_PART_ENERGY) {
       run->motion_error[i] = summary->error_energy * summary->energy.external_max;
     } else if (i == sb_figure_find("cycle.force_peak_N")) {
       run->motion_error[i] = summary->error_force * summary->force_peak;
