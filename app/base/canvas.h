@@ -101,8 +101,8 @@ void sb_canvas_hairline(SbCanvas *canvas, double x0, double y0, double x1, doubl
 // interrupt the line.
 void sb_canvas_polyline(SbCanvas *canvas, const SbPoint *point, size_t count);
 
-// Draws the legend of predicted curves, a piece of the line and its name, so that it ends at x =
-// right on the line y. Returns its width.
+// Draws the legend of predicted curves, a piece of the line and its name. It ends at x = `right`;
+// the baseline of the name is y. Returns its width [px].
 double sb_canvas_predicted(SbCanvas *canvas, double right, double y);
 
 // Adds the thinned polyline to cairo's current path without stroking it.
@@ -114,5 +114,5 @@ void sb_canvas_arrowhead(SbCanvas *canvas, double x, double y, double dx, double
 // Draws a dot of 3.4 px in the panel colour inside a ring of colour `ring`.
 void sb_canvas_ringed_dot(SbCanvas *canvas, double x, double y, SbColor ring);
 
-// Fills a dot.
+// Fills a dot of this radius [px] with its centre at (x, y).
 void sb_canvas_dot(SbCanvas *canvas, double x, double y, double radius, SbColor color);

@@ -53,11 +53,12 @@ typedef struct {
 // refused, or with SB_APP_ERROR_IO; *out then owns nothing.
 bool sb_output_begin(SbOutput *out, const char *path, GError **error);
 
-// Flushes and syncs, which detects a full disk. After a failure the unfinished file is removed.
+// Flushes and syncs, which detects a full disk; the file has no name yet. After a failure the
+// unfinished file is removed and *out owns nothing.
 bool sb_output_seal(SbOutput *out, GError **error);
 
-// Flushes, syncs and gives the file its name. After a failure the unfinished file is removed and an
-// earlier file is intact.
+// Flushes, syncs and gives the file its name. *out owns nothing afterwards. After a failure the
+// unfinished file is removed and an earlier file is intact.
 bool sb_output_commit(SbOutput *out, GError **error);
 
 // Removes a file that was not committed. Does nothing for one that was, and for all zeros.
@@ -91,12 +92,13 @@ bool sb_output_folder_open(SbOutputFolder **out, const char *path, const char *c
 // function of the folder.
 bool sb_output_folder_add(FILE **stream, SbOutputFolder *folder, const char *name, GError **error);
 
-// Flushes and syncs all files that were added, and then gives all their names.
+// Flushes and syncs all files that were added since the last commit, and then gives all their
+// names. After a failure the files without a name are removed. The streams are closed in any case.
 bool sb_output_folder_commit(SbOutputFolder *folder, GError **error);
 
-// To be called when the result is complete: removes the files of the earlier result. The names of
-// those that were changed and therefore not removed are appended to `kept` (of char *; NULL: not
-// wanted).
+// To be called once after the last commit, when the result is complete: removes the files of the
+// earlier result. The names of those that were changed and therefore not removed are appended to
+// `kept` (of char * with g_free() as its free function; NULL: not wanted).
 bool sb_output_folder_finish(SbOutputFolder *folder, GPtrArray *kept, GError **error);
 
 // Unlocks and frees the folder. Without sb_output_folder_finish() the earlier files stay and remain

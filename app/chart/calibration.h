@@ -28,7 +28,8 @@ typedef struct {
   double before_rms;                       // root mean square difference before the fit [N]
 } SbCalibrationLoop;
 
-// The page; everything is borrowed.
+// The page; everything is borrowed. Texts: title and subtitle of the header (each may be NULL),
+// what the data identify, and the line at the foot.
 typedef struct {
   const char *title, *subtitle, *sentence, *foot;
   bool all_identifiable; // all parameters are identifiable: `sentence` is good news

@@ -31,5 +31,6 @@ void sb_contact_curve_finish(SbContactCurve *curve);
 void sb_contact_curve_extend(const SbContactCurve *curve, const SbSealFrame *seal, double *left,
                              double *right);
 
-// Returns the value of one of the curve's arrays at x [m], linear between its points.
+// Returns the value of `value`, one of the curve's arrays, at x [m]: linear between its points,
+// outside of them that of the nearer end.
 double sb_contact_curve_at(const SbContactCurve *curve, const double *value, double x);

@@ -4,7 +4,8 @@
 
 #include "app/base/canvas.h"
 
-// Draws the line at pixel x in the rectangle `plot`, dots at the pixels dot[dots] of y (NaN: none),
-// and `text` on a plate next to the line, inside of `bounds`.
+// Draws the line at pixel x in the rectangle `plot` of the curves, dots on it at the pixels
+// dot[dots] of y (NaN: none), and the one line `text` on a plate next to the line, inside of
+// `bounds`, the rectangle of the chart. All in pixels of the picture.
 void sb_cursor_draw(cairo_t *cr, const SbTheme *theme, SbRect plot, SbRect bounds, double x,
                     const double *dot, int dots, const char *text);

@@ -16,12 +16,12 @@ typedef enum {
   SB_CHART_FAILED   // a solver did not converge; the run ends at the last good state
 } SbChartState;
 
-// One run as charts see it. All pointers are borrowed.
+// One run as charts see it. All pointers are borrowed. All zeros is SB_CHART_EMPTY without frames.
 typedef struct {
   SbChartState state;
   const SbFrame *frames;       // [count], in the order of time
   size_t count;                // frames that are available
-  const SbTrace *trace;        // of the same frames; may contain fewer of them
+  const SbTrace *trace;        // of the same frames; may contain fewer of them; NULL: no frames
   const SbModel *model;        // may be NULL
   const SbSummary *summary;    // NULL until the run has ended
   const SbLifeActuation *life; // [life_count] actuations; NULL until the run has ended
@@ -59,10 +59,10 @@ typedef struct {
 // Largest number of pins that are drawn.
 enum { SB_CHART_PINS = 2 };
 
-// Returns the role of the colour of a drawing style.
+// Returns the role of the colour of a drawing style (SbChartPin.look).
 SbRole sb_chart_pin_role(int look);
 
-// Returns the dashes of a drawing style. Static.
+// Returns the dashes of a drawing style (SbChartPin.look). Static.
 const SbDash *sb_chart_pin_dash(int look);
 
 // Range of a loop's plot: displacements x0 to x1 [mm] and forces y0 to y1 [N].
@@ -76,7 +76,7 @@ typedef struct {
   const char *name;
 } SbChartMarker;
 
-// Everything that views draw. All pointers are borrowed.
+// Everything that views draw. All pointers are borrowed; each may be NULL. Initialise with zeros.
 typedef struct {
   SbChartRun run;                // the live run
   const SbChartRun *earlier;     // drawn at 45 % opacity while `run` is computed; NULL: none
@@ -86,7 +86,7 @@ typedef struct {
   const SbChartPredicted *predicted;
   const SbComparison *measured; // comparison with `run`; NULL: no measured data
   const SbChartZoom *zoom;      // range of the loop's plot; NULL: the full loop
-  size_t playhead;              // index of the displayed frame
+  size_t playhead;              // index of the displayed frame; beyond the last: the last one
   bool playing;                 // the playhead moves with time
   double progress;              // fraction of a running run that is computed, 0 to 1
   const SbChartMarker *marker;  // [marker_count]
@@ -148,7 +148,8 @@ const char *sb_chart_phase(const SbChartRun *run, int stage);
 // "" for a run with one, to out[SB_FORMAT_MAX]. Returns `out`.
 const char *sb_chart_cycle_name(char *out, const SbChartRun *run, int cycle);
 
-// Returns "B–C", a stage and the next one; "B" if none follows. `run` NULL: a valve. Static.
+// Returns "B–C", the stage `stage` (SbStage) and the next one; "B" if none follows; "" for another
+// number. `run` NULL: a valve. Static.
 const char *sb_chart_span(const SbChartRun *run, int stage);
 
 // Returns the state of a run that has ended.

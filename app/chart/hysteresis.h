@@ -1,5 +1,6 @@
 // The loop: force on the stem against its displacement, with stages and the part that was played.
-// Rectangles and points are in pixels of the picture; `flags` of SB_CHART_PANEL, ... (data.h).
+// Rectangles and points are in pixels of the picture; `flags` of SB_CHART_PANEL, ... (data.h). For
+// the picture of sb_hysteresis_draw() the other functions take the same `rect`, `data` and `flags`.
 #pragma once
 
 #include "app/base/canvas.h"
@@ -32,8 +33,8 @@ enum { SB_HYSTERESIS_ZOOM_MAX = 200 };
 bool sb_hysteresis_zoom(SbChartZoom *out, SbRect rect, const SbChartData *data, unsigned flags,
                         double factor, double x, double y);
 
-// Writes the frame of the live run that is nearest to the pixel (x, y). Returns false if the curve
-// is more than `reach` px away.
+// Writes the index of the frame of the live run that is nearest to the pixel (x, y). Returns false,
+// with *frame not changed, if the curve is more than `reach` px away or there are no frames.
 bool sb_hysteresis_hit(size_t *frame, SbRect rect, const SbChartData *data, unsigned flags,
                        double x, double y, double reach);
 

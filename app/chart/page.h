@@ -32,7 +32,7 @@ void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
 void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                          unsigned flags);
 
-// The foot of a page with given texts.
+// The foot of a page with given texts, none of them NULL.
 typedef struct {
   const char *models, *errors;
   const char *version;        // and run or frame

@@ -27,8 +27,9 @@ typedef struct {
   SbPoint at;      // the pixel of the value
 } SbProfileReading;
 
-// Reads the panel of the films (`film`) or of the pressures in `rect` at the pixel (x, y). Returns
-// false if there is no curve.
+// Reads the panel of the films (`film`: sb_profiles_film_draw()) or of the pressures
+// (sb_profiles_pressure_draw()), drawn with the same `rect`, `data` and `flags`, at the pixel
+// (x, y). Returns false outside of the plots and where there is no curve.
 bool sb_profiles_read(SbProfileReading *out, SbRect rect, const SbChartData *data, unsigned flags,
                       bool film, double x, double y);
 

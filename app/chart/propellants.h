@@ -39,8 +39,8 @@ SbPropellantsLook sb_propellants_look(const SbModel *model);
 void sb_propellants_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbStudy *study,
                          const SbModel *model, const SbPropellantsLook *look);
 
-// Returns the temperature at the pixel (x, y) of a chart [K], within the study's range; NaN: there
-// is no chart.
+// Returns the temperature at the pixel (x, y) of a chart or near it [K], within the study's range;
+// NaN: there is no chart, or the study has no results.
 double sb_propellants_at(const SbPropellantsLayout *layout, const SbStudy *study, double x,
                          double y);
 

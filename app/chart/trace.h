@@ -23,8 +23,9 @@ SbTrace *sb_trace_create(const SbModel *model);
 // Frees a trace; takes NULL.
 void sb_trace_destroy(SbTrace *trace);
 
-// Reads the frames that were not read yet, up to index `count`, at most `limit` of them (0: all).
-// `frames` are all frames from the first on. Returns whether some are left to read.
+// Reads the frames that were not read yet of frames[count], at most `limit` of them (0: all).
+// `frames` begins with the first frame of the run in every call. Returns whether some are left to
+// read.
 bool sb_trace_extend(SbTrace *trace, const SbFrame *frames, size_t count, size_t limit);
 
 // Returns the points so far and their number in *count. Borrowed until the next sb_trace_extend().

@@ -17,11 +17,12 @@ SbAutosave *sb_autosave_new(SbSession *session);
 // Writes unsaved changes immediately.
 void sb_autosave_write(SbAutosave *autosave);
 
-// Writes unsaved changes immediately and keeps the file after sb_autosave_free(): for a program
-// that must end without asking the user.
+// Writes unsaved changes immediately; sb_autosave_free(), which must still follow, then does not
+// remove the file. For a program that must end without asking the user.
 void sb_autosave_leave(SbAutosave *autosave);
 
-// Removes the file, because the session ends as the user wants, and frees `autosave`. Takes NULL.
+// Frees `autosave` and removes the file, because the session ends as the user wants; not after
+// sb_autosave_leave(). Call it before the session is freed.
 void sb_autosave_free(SbAutosave *autosave);
 
 // Returns the path of a file of a process that does not run any more; NULL: there is none. Freed by

@@ -12,8 +12,8 @@ typedef struct SbCasesJob SbCasesJob;
 SbCasesJob *sb_cases_job_start(SbRunHandle *handle, const SbDocument *document,
                                void (*done)(void *data), void *data);
 
-// Returns the worst answers and the cases that give them, [SB_VERDICT_COUNT]; NULL before `done`.
-// Borrowed.
+// Returns the worst answers and the cases that give them, [SB_VERDICT_COUNT]; NULL before `done`,
+// or if the document could not be read again. Names in it are valid as long as the job.
 const SbCaseVerdict *sb_cases_job_verdict(const SbCasesJob *job);
 
 // Returns the run of the scene itself, from the start on. Borrowed.

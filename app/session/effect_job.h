@@ -32,5 +32,5 @@ SbEffectJob *sb_effect_job_start(const SbModel *model, void (*done)(void *data),
 // cancelled or failed; *out is then not valid.
 bool sb_effect_job_take(const SbEffectJob *job, SbEffects *out);
 
-// Cancels, waits for the thread and frees the job. Takes NULL; may be called by `done`.
+// Cancels, waits for the thread and frees the job.
 void sb_effect_job_free(SbEffectJob *job);

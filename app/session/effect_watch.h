@@ -9,9 +9,9 @@
 typedef struct SbEffectWatch SbEffectWatch;
 
 // Starts to follow `session`, which is borrowed and must outlive the result. changed(data) is
-// called in the main thread when new effects are available or their computation failed. The
-// computation waits while is_busy(data) returns true (NULL: never). Freed by
-// sb_effect_watch_free().
+// called in the main thread when new effects are available or their computation failed; it may call
+// sb_effect_watch_effects(), but not sb_effect_watch_free(). The computation waits while
+// is_busy(data) returns true (NULL: never). Freed by sb_effect_watch_free().
 SbEffectWatch *sb_effect_watch_new(SbSession *session, void (*changed)(void *data),
                                    bool (*is_busy)(const void *data), void *data);
 

@@ -32,8 +32,8 @@ bool sb_prediction_make(SbPrediction *prediction, const SbDisplayedRun *base,
 // parent in both.
 bool sb_prediction_differs(const SbParams *a, const SbParams *b, int id);
 
-// Predicts the frame and the contacts at index `frame` of the base, for sb_prediction_chart(). Only
-// after sb_prediction_make() returned true.
+// Predicts the frame and the contacts at index `frame` of the base (at most its last one), for
+// sb_prediction_chart(). Only after sb_prediction_make() returned true.
 void sb_prediction_show(SbPrediction *prediction, size_t frame);
 
 // Returns the prediction for charts. Borrowed; its content changes with the next call of

@@ -17,7 +17,8 @@ void sb_run_cache_free(SbRunCache *cache);
 // too large is not stored.
 void sb_run_cache_put(SbRunCache *cache, const char *hash, SbDisplayedRun *run);
 
-// Returns the run of a hash; NULL: there is none. Borrowed until the next sb_run_cache_put().
+// Returns the run of a hash; NULL: there is none. Borrowed until the next sb_run_cache_put() or
+// sb_run_cache_clear().
 SbDisplayedRun *sb_run_cache_get(SbRunCache *cache, const char *hash);
 
 // Removes all runs.

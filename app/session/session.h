@@ -9,7 +9,8 @@
 //   "playhead-changed"  the displayed frame changed, or playing started or stopped
 //
 // All functions are called in the main thread. Pointers that they return are borrowed until the
-// session's next signal unless stated otherwise. Edits emit signals before they return.
+// session's next signal unless stated otherwise. Edits emit signals before they return. A handler
+// of a signal may call all functions of the session; what it changes emits further signals.
 #pragma once
 
 #include "app/chart/data.h"
@@ -109,10 +110,12 @@ double sb_session_drive_speed(SbSession *session);
 gboolean sb_session_put_remark(SbSession *session, SbRemarkKind kind, const char *name,
                                const char *text, GError **error);
 
-// Adds a bookmark `name` at the time of the displayed frame. Returns FALSE with SB_APP_ERROR_INPUT.
+// Adds a bookmark `name` at the time of the displayed frame. Returns FALSE with SB_APP_ERROR_INPUT
+// if there is no frame, or as sb_session_put_remark().
 gboolean sb_session_put_bookmark(SbSession *session, const char *name, GError **error);
 
-// Moves the playhead to the frame that is nearest to a time [s].
+// Stops playing and moves the playhead to the frame that is nearest to a time [s]. Does nothing
+// without frames.
 void sb_session_show_time(SbSession *session, double time);
 
 // Returns whether the document differs from its file.
@@ -239,7 +242,7 @@ void sb_session_prepare(SbSession *session, SbParamId id);
 // sb_session_may_keep().
 SbRunHandle *sb_session_handle(SbSession *session);
 
-// Returns the summary of the displayed run; NULL while it is computed.
+// Returns the summary of the displayed run; NULL while it is computed and without a run.
 const SbSummary *sb_session_summary(SbSession *session);
 
 // Returns the predicted summary of the present values, with figures and verdict, while the
@@ -363,7 +366,7 @@ gboolean sb_session_loops(SbSession *session);
 // Sets whether playing starts again at the end.
 void sb_session_set_loops(SbSession *session, gboolean on);
 
-// Sets the playing time of one cycle [s].
+// Sets the playing time of the full run [s].
 void sb_session_set_play_duration(SbSession *session, double seconds);
 
 // Takes over the frames that the runner has published, and moves the playhead. To be called once

@@ -13,9 +13,10 @@
 // Returns what a run must compute in order to be stored: everything that the window displays.
 SbPlanWishes sb_stored_run_wishes(void);
 
-// Writes a run of the document's values, which has ended with SB_OK, to the file `path`, with the
-// present date (SOURCE_DATE_EPOCH if that is set). Returns false with an error if the run cannot be
-// stored or the file not be written.
+// Writes a run of the document's values, which has ended with SB_OK, atomically to the file `path`,
+// with the present date (SOURCE_DATE_EPOCH if that is set). Returns false with SB_APP_ERROR_INPUT
+// if the run has not what sb_stored_run_wishes() requests, and with SB_APP_ERROR_IO if the file
+// cannot be written.
 SB_CHECKED bool sb_stored_run_write(const char *path, const SbDocument *document, const SbRun *run,
                                     GError **error);
 

@@ -21,7 +21,8 @@ typedef struct {
 
 // Initialises the worker and starts its thread, which calls work(owner) with a low priority. `name`
 // names the thread. Once `work` has returned, also after a cancellation, done(data) is called once
-// in the main thread, unless sb_worker_finish() was called before. Main thread.
+// in the main thread, unless sb_worker_finish() was called before. `done` may call
+// sb_worker_finish() and free the worker. The fields need not be initialised before. Main thread.
 void sb_worker_start(SbWorker *worker, const char *name, void (*work)(void *owner), void *owner,
                      void (*done)(void *data), void *data);
 

@@ -12,7 +12,8 @@ typedef struct {
   double error;     // estimate of the error of `change` [SI], > 0
 } SbEffect;
 
-// Writes the effects on figure `figure` (index in the gradient) to out[parameters of the gradient],
-// the largest first, and returns their number. Parameters whose derivative is 0 or unknown have
-// none. `model` is the one at which the gradient was computed.
+// Writes the effects on figure `figure` (index in the gradient's list of figures) to
+// out[sb_gradient_parameters(gradient)], the largest magnitude first, and returns their number.
+// Parameters whose derivative is 0 or unknown are omitted. `model` is the one at which the gradient
+// was computed.
 size_t sb_effects(SbEffect *out, const SbGradient *gradient, size_t figure, const SbModel *model);

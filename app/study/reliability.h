@@ -36,6 +36,7 @@ SbStatus sb_reliability_search(SbReliability *out, const SbStudyFile *study, int
 void sb_reliability_release(SbReliability *reliability);
 
 // Writes the values [samples][vary] of all samples [SI] to *value, and their standard normal
-// variates [samples][vary] to *u; both are freed by free().
+// variates [samples][vary] to *u; both are freed by free(). `reliability` is the result of
+// sb_reliability_search() for this study. Returns SB_OK, or SB_ERROR_MEMORY with both NULL.
 SbStatus sb_reliability_points(double **value, double **u, const SbStudyFile *study,
                                const SbReliability *reliability, SbReport *report);

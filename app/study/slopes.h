@@ -32,6 +32,7 @@ SbStatus sb_slopes(double *value, double *slope, SbEvaluator *evaluator, const S
 // Does task number `index` with the evaluator of its thread. Called from several threads.
 typedef SbStatus (*SbTask)(void *data, SbEvaluator *evaluator, size_t index, SbReport *report);
 
-// Does tasks 0 to count - 1 on up to `jobs` threads and waits for all. Returns SB_OK, or the error
-// of the failed task with the lowest number; no task is begun after an error.
+// Does tasks 0 to count - 1 on up to `jobs` threads, one of them the calling thread, and waits for
+// all. Each call of `task` receives `data` and the evaluator of its thread. Returns SB_OK, or the
+// error of the failed task with the lowest number; no task is begun after an error.
 SbStatus sb_tasks(SbTask task, void *data, size_t count, int jobs, SbReport *report);

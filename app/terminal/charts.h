@@ -56,7 +56,7 @@ typedef struct {
 void sb_chart_curves(SbCells *cells, SbCellRect rect, const SbCellTheme *theme, const char *heading,
                      const SbCellCurve *curve, size_t count, bool log_x, bool log_y);
 
-// Draws panel `panel` (from 0) of a study.
+// Draws panel `panel`, below study->panel_count, of a study.
 void sb_chart_study(SbCells *cells, SbCellRect rect, const SbCellTheme *theme, const SbStudy *study,
                     size_t panel);
 

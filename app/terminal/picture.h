@@ -33,18 +33,23 @@ static inline bool sb_pictures_are_pixels(SbPictures pictures) {
   return pictures >= SB_PICTURES_SIXEL && pictures <= SB_PICTURES_ITERM;
 }
 
-// Draws the list, scaled to the cells of `rect`, as half blocks, and its texts as characters over
-// them where there is space. `text` rasterises texts.
+// The functions below scale the full picture of the list to the cells, in both directions. `text`
+// (sb_text_create()) lays out texts.
+
+// Draws the list into the cells of `rect` as half blocks, and its texts as characters over them
+// where there is space.
 void sb_picture_blocks(SbCells *cells, SbCellRect rect, const SbDrawList *list, SbText *text);
 
-// Draws the lines of the list as Braille dots, and its texts as characters.
+// Draws the lines of the list into the cells of `rect` as Braille dots, and its texts as
+// characters.
 void sb_picture_lines(SbCells *cells, SbCellRect rect, const SbDrawList *list);
 
-// Draws only the texts of the list as characters; cells without text are not changed.
+// Draws only the texts of the list into the cells of `rect` as characters; cells without text are
+// not changed.
 void sb_picture_labels(SbCells *cells, SbCellRect rect, const SbDrawList *list);
 
-// Returns the height [px] of a picture in `rows` cells of `height` pixels: for sixels a multiple of
-// six, else rows * height.
+// Returns the height [px] of a picture in `rows` cells that are `height` pixels high each: for
+// sixels a multiple of six, else rows * height.
 int sb_picture_height(SbPictures pictures, int rows, int height);
 
 // Returns the bytes that draw the list at the cursor over columns x rows cells of width x height
@@ -52,6 +57,6 @@ int sb_picture_height(SbPictures pictures, int rows, int height);
 GString *sb_picture_pixels(const SbDrawList *list, SbText *text, SbPictures pictures, int columns,
                            int rows, int width, int height);
 
-// Returns the bytes that remove pixels that were drawn before; empty for kinds whose pixels
-// disappear when text is written over them. Static.
+// Returns the bytes, a string, that remove pixels that were drawn before; empty for kinds whose
+// pixels disappear when text is written over them. Static.
 const char *sb_picture_removal(SbPictures pictures);

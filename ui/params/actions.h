@@ -20,6 +20,6 @@ const SbAction *sb_actions(size_t *count);
 GtkWidget *sb_action_finder_new(void);
 
 // Shows in `finder`, of sb_action_finder_new(), a button for each action whose translated title or
-// synonyms contain `needle` (folded by g_utf8_casefold()), at most a few; none for an empty text.
-// Returns their number.
+// synonyms contain `needle` (folded by g_utf8_casefold()), at most a few; none for a text of one or
+// no character. Hides `finder` if there is none. Returns their number.
 int sb_action_finder_search(GtkWidget *finder, const char *needle);

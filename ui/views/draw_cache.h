@@ -10,8 +10,9 @@ typedef struct SbDrawCache SbDrawCache;
 // Draws the full picture of `width` x `height` logical pixels; the origin is its top left corner.
 typedef void (*SbDrawCacheDraw)(cairo_t *cr, double width, double height, void *data);
 
-// Makes `area`, a GtkDrawingArea, show what `draw` draws, with a focus ring. The result belongs to
-// the widget and must not be used after its destruction; `data` must live as long.
+// Makes `area`, a GtkDrawingArea, show what draw(cr, width, height, data) draws, with a focus ring.
+// To be called once for an area. The result belongs to the widget and must not be used after its
+// destruction; `data` must live as long.
 SbDrawCache *sb_draw_cache_attach(GtkWidget *area, SbDrawCacheDraw draw, void *data);
 
 // States that the picture has changed. It is drawn with the next frame, or, if it was drawn less

@@ -12,11 +12,13 @@
 #include <gtk/gtk.h>
 
 // Returns a new widget (floating reference) that draws `list`, which is borrowed and must outlive
-// it. decided(data) is called once, when the widget is realized and the decision is made.
+// it. decided(data) is called when the widget is realized and the decision is made; it may call the
+// functions below.
 GtkWidget *sb_section_gl_new(const SbDrawList *list, void (*decided)(void *data), void *data);
 
 // Returns whether the widget draws; FALSE before it is realized.
 gboolean sb_section_gl_works(GtkWidget *widget);
 
-// Returns a sentence on the decision and its reason. Borrowed from the widget.
+// Returns a sentence on the decision and its reason; valid until the widget is realized or
+// destroyed.
 const char *sb_section_gl_reason(GtkWidget *widget);

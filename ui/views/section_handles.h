@@ -18,7 +18,8 @@ typedef struct SbSectionHandles SbSectionHandles;
 typedef void (*SbSectionChosen)(void *data, SbParamId id, const char *typed);
 
 // Adds a layer that draws the handles, without events of its own, to the overlay of the picture.
-// The result belongs to the layer's widget. `session` is borrowed and must outlive it.
+// The result belongs to the layer's widget and is freed with it. `session` is borrowed and must
+// outlive it.
 SbSectionHandles *sb_section_handles_new(SbSession *session, GtkOverlay *overlay);
 
 // Sets the function that is called when a handle is selected; NULL: none.

@@ -15,8 +15,8 @@ void sb_section_view_zoom(GtkWidget *view, int direction);
 // Shows the cutaway in place of the section, or the section again.
 void sb_section_view_toggle_cutaway(GtkWidget *view);
 
-// Turns the camera of the cutaway by a number of steps to the right and upwards. Does nothing while
-// the section is shown.
+// Turns the camera of the cutaway by a number of steps of 5 degrees to the right and upwards;
+// negative: to the left and downwards. Does nothing while the section is shown.
 void sb_section_view_turn(GtkWidget *view, int right, int up);
 
 // Sets the function that is called when a handle on the section selects parameter `id`; `typed` is
@@ -25,7 +25,8 @@ void sb_section_view_listen(GtkWidget *view,
                             void (*chosen)(void *data, SbParamId id, const char *typed),
                             void *data);
 
-// A key was pressed while the picture has the focus. Returns whether a handle used it.
+// To be called when a key is pressed in the window. Returns whether a handle used it; FALSE if the
+// picture does not have the focus.
 gboolean sb_section_view_key(GtkWidget *view, const GdkEventKey *event);
 
 // Adds the widget `start` below the text that is shown over the picture while there is no run. The

@@ -23,7 +23,7 @@ void sb_style_name(GtkWidget *widget, const char *name, const char *description)
 // open.
 GtkWidget *sb_style_menu_button(void);
 
-// Shows a picture of earlier values (`former`) paler than one of the present values.
+// Draws the widget `picture` paler if it shows earlier values (`former`), else normally.
 void sb_style_former(GtkWidget *picture, gboolean former);
 
 // Adds a style class to `widget`.

@@ -7,7 +7,8 @@
 
 #include <gtk/gtk.h>
 
-// What the user does in the table. `figure`: index of sb_figure(). Both functions must be set.
+// What the user does in the table. `figure`: index of sb_figure(). Both functions must be set and
+// may call sb_design_limits_show().
 typedef struct {
   // The limit of a figure is now low .. high [SI]; infinite ends are open, both open: removed.
   void (*limited)(void *data, int figure, double low, double high);

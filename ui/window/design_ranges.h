@@ -5,7 +5,8 @@
 
 #include <gtk/gtk.h>
 
-// What the user changes. `index`: of ask->range. All functions must be set.
+// What the user changes. `index`: of ask->range. All functions must be set and may call
+// sb_design_ranges_show().
 typedef struct {
   void (*freed)(void *data, size_t index, gboolean free); // the search varies it, or no longer
   void (*bounded)(void *data, size_t index, double low, double high); // new bounds [SI]

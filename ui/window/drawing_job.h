@@ -14,14 +14,16 @@ typedef struct {
   int part[SB_CAD_PART_COUNT]; // body of each part of the valve: index of cad->bodies; -1: none
 } SbDrawing;
 
-// Starts reading `path`. `choices` are lines "name = value" with the names of sb_cad_choose(). Both
-// are copied. `done` is called once with `user` in the main thread when it has ended, also after a
-// failure, unless the job was freed before. Never NULL; freed by sb_drawing_job_free().
+// Starts reading `path`. `choices` are lines "name = value" with the names of sb_cad_choose(); "":
+// the defaults. Both are copied. `done` is called once with `user` in the main thread when the job
+// has ended, also after a failure, unless the job was freed before. Never NULL; freed by
+// sb_drawing_job_free().
 SbDrawingJob *sb_drawing_job_start(const char *path, const char *choices, void (*done)(void *data),
                                    void *user);
 
-// After `done`: returns the drawing, and sets `*why` to NULL; or returns NULL, and sets `*why` to a
-// sentence. Both are borrowed from the job.
+// From the call of `done` on: returns the drawing, and sets `*why` to NULL; or returns NULL, and
+// sets
+// `*why` to a sentence. Both are borrowed from the job until it is freed.
 const SbDrawing *sb_drawing_job_drawing(const SbDrawingJob *job, const char **why);
 
 // Cancels, waits for the thread and frees. Takes NULL.

@@ -7,5 +7,6 @@
 
 // Places the borders now and whenever the width changes. `columns` has the left column and `views`
 // as its children; `views` has the centre and the right column. `charts` is the toggle (a widget
-// with a property "active"). All live as long as `columns`.
+// with a property "active", which is bound to the visibility of the right column). All are borrowed
+// as long as `columns` lives.
 void sb_paned_layout_attach(GtkPaned *columns, GtkPaned *views, GtkWidget *charts);

@@ -8,9 +8,9 @@
 // other functions; the line is freed with the window.
 void sb_toast_attach(GtkWindow *window);
 
-// Shows `text` in place of the earlier one. `action`: detailed name of an action
-// ("win.show-report") for a button with the label `button`; NULL: no button. `stays`: the line is
-// shown until it is hidden or replaced.
+// Shows `text` (translated) in place of the earlier one. `action`: name of an action
+// ("win.show-report") for a button with the label `button` (translated); NULL: no button, `button`
+// is not used. `stays`: the line is shown until it is hidden or replaced.
 void sb_toast_show(GtkWindow *window, const char *text, const char *button, const char *action,
                    gboolean stays);
 
