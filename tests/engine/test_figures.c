@@ -356,7 +356,7 @@ static void test_failure(void) {
   const SbSummary *s = sb_run_summary(run);
   check_reasons(s);
   static const char *const words[] = {"fitment (ring)", "outer seal", "stages A to C", "MPa",
-                                      "kept:"};
+                                      "available:"};
   for (size_t i = 0; i < G_N_ELEMENTS(words); i++) {
     g_assert_nonnull(strstr(report.text, words[i]));
   }

@@ -74,7 +74,7 @@ static void ends(void) {
         g_assert_nonnull(strstr(cut.report.text, cases[i].solver));
         g_assert_true(strstr(cut.report.text, " mm") || strstr(cut.report.text, " MPa"));
         g_assert_nonnull(strstr(cut.report.text, "stage"));
-        g_assert_nonnull(strstr(cut.report.text, "kept: "));
+        g_assert_nonnull(strstr(cut.report.text, "available: "));
       }
       for (int figure = 0; figure < SB_FIGURE_COUNT; figure++) {
         const char *reason = sb_figure_reason(summary, figure);
