@@ -52,19 +52,22 @@ enum { SB_SEAL_EDGE_POINTS = 33 };
 // One seal in a steady state, sliding or at rest.
 //
 // Each SB_SEAL_FIGURE of figures.def declares a member; NaN: not computed. sb_sliding_solve() sets
-//   contact_left, contact_right   ends of the contact, x from the section's centre [m]
-//   load, load_per_length         contact load [N], [N/m], with the fluid's part
-//   pressure_peak                 maximum of the contact pressure above the lower fluid pressure
-//   [Pa] film_min, film_central        film thickness [m]; 0 at rest lambda film_central divided by
-//   the rms roughness [1] real_area_share               real contact area divided by contact area,
-//   sliding [1] rest_area_share               the same ratio at rest [1] asperity_share asperities'
-//   part of the load [1]; NaN unless asperities are coupled friction_viscous              friction
-//   of the film, a magnitude [N] friction_static               static friction after the dwell
-//   drive.rest, a magnitude [N] squeeze_out_time              [s]
-// Kinetic friction is boundary_area + boundary_load + friction_viscous, sb_sliding_friction(). Only
-// a run's summary has the other members of figures.def (sizes, contact_width, contact_pressure,
-// friction_boundary, other film laws, leakage). SbSummary.seal is the state in the middle of B-C
-// (or of the stroke if a stage is not reached), with friction_static at stage B.
+//   contact_left, contact_right  ends of the contact, x from the section's centre [m]
+//   load, load_per_length        contact load with the fluid's part [N], [N/m]
+//   pressure_peak                largest contact pressure above the lower fluid pressure [Pa]
+//   film_min, film_central       film thickness [m]; 0 at rest
+//   lambda                       film_central divided by the rms roughness [1]
+//   real_area_share              real contact area divided by contact area, sliding [1]
+//   rest_area_share              real contact area divided by contact area, at rest [1]
+//   asperity_share               fraction of the load on asperities [1]; NaN if not coupled
+//   friction_viscous             friction of the film, a magnitude [N]
+//   friction_static              static friction after the rest before stage A, a magnitude [N]
+//   squeeze_out_time             time at rest in which half of the film is squeezed out [s]
+//
+// Kinetic friction is boundary_area + boundary_load + friction_viscous, sb_sliding_friction(). The
+// other members of figures.def (sizes, contact_width, contact_pressure, friction_boundary, other
+// film laws, leakage) are set only in SbSummary.seal, which is the state in the middle of B-C, with
+// friction_static at stage B.
 typedef struct {
 #define SB_SEAL_FIGURE(path, member, ...) double member;
 #include "engine/valve/figures/figures.def"
