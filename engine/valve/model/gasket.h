@@ -16,16 +16,21 @@
 
 #include "engine/valve/model/model.h"
 
-// Sets the fields of rings, gland and bore from the gaskets' sizes; before temperature and storage.
+// Sets the fields of *model that describe rings, gland and bore (section, profile, radial_space,
+// axial_width, bore_diameter, wall friction) from the gasket.* parameters and stem_diameter. The
+// first step of sb_model_compile() for this kind, before thermal expansion and storage.
 void sb_gasket_take(SbModel *model);
 
-// Sets the derived sizes of a seal whose storage is known; those of rings only are NaN.
+// Sets squeeze, stretch_inner and interference of a seal whose sizes after storage are set;
+// stretch_mean, section_fitted and gland_fill, which only rings have, are set to NaN.
 void sb_gasket_derive(SbSealModel *seal, const SbModel *model);
 
-// Adds the problems of the gaskets' sizes.
+// Adds the problems of the gaskets' sizes, and of models that gaskets do not support, to
+// `problems`.
 void sb_gasket_check(const SbModel *model, SbProblems *problems);
 
-// Returns the volume of the chamber between the gaskets [m3].
+// Returns the volume of the chamber between the gaskets [m3]. This and the next two functions need
+// a compiled model.
 double sb_gasket_volume(const SbModel *model);
 
 // Returns the flow area past the neck into the chamber [m2].

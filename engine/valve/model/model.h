@@ -1,5 +1,5 @@
-// The fields of a model, for engine/valve only; all others use valve.h. A model is constant after
-// its creation.
+// The fields of SbModel and functions on them, for engine/valve only; all others use valve.h. A
+// model is constant after its creation.
 #pragma once
 
 #include "engine/contact/fit.h"
@@ -7,16 +7,16 @@
 #include "engine/mechanism/chamber.h"
 #include "engine/valve/model/valve.h"
 
-// Roughness before actuation n (0: the first) divided by the given one: end + (start - end)
-// exp(-n/actuations).
+// Roughness before actuation n (0: the first) divided by the scene's roughness:
+// end + (start - end) exp(-n/actuations).
 typedef struct {
-  double start, end; // new; run in; > 0
+  double start, end; // of a new surface; of a fully run-in surface; > 0
   double actuations; // e-folding number, > 0
 } SbRunningIn;
 
-// Ranges of the drawn studies.
+// Ranges of the abscissas of the drawn studies (study.* parameters).
 typedef struct {
-  double squeeze_min, squeeze_max;         // of the free section
+  double squeeze_min, squeeze_max;         // squeeze of the free section [1]
   double speed_min, speed_max;             // of sliding [m/s]
   double load_min, load_max;               // net load per length [N/m]
   double time_min, time_max;               // in storage [s]
@@ -42,14 +42,16 @@ typedef struct {
   double humidity;         // relative, of the ambient air
   double vapour_viscosity; // of the propellant [Pa s]
   double contact_angle;    // of the liquid on seal and bore [rad]
-  bool vapour;             // the seals are in contact with vapour; else with liquid
+  bool vapour;             // vapour is in contact with the seals; false: liquid
   double time;             // on the shelf [s]
   SbShelfHistory history;
   double season, day; // amplitudes of the two sines [K]
 } SbShelfInput;
 
-// A model. Fields of parameters are declared by params.def: one field for each row, of the type and
-// in the unit of the row.
+// A model. Each row of params.def with OWN declares a member with the name in its third (SB_CHOICE:
+// fourth) column and the row's type, in SI: for example radial_space, bore_diameter [m],
+// canister_pressure [Pa], viscosity [Pa s], shear_strength [Pa], fit (SbFitModel). After
+// compilation sizes are those at the temperature of use, and options that are switched off are 0.
 struct SbModel {
   SbParams params; // values from which the model was compiled
 #define SB_REAL(id, where, place, ...)         SB_DECLARE_##where(double, place)
@@ -57,56 +59,59 @@ struct SbModel {
 #define SB_CHOICE(id, type, where, place, ...) SB_DECLARE_##where(type, place)
 #define SB_FLAGS(id, where, place, ...)        SB_DECLARE_##where(unsigned, place)
 #include "engine/valve/model/params.def"
-  SbSealModel seal[SB_SEAL_COUNT];
-  SbRubber rubber;           // law of the rubber's change in storage
-  double bore_circumference; // pi D, length of the friction area [m]
-  SbDoseSupply supply;       // of the dose chamber between the two seals
-  double
-      filling_time; // time to fill the chamber past the land's edge [s]; NaN: no driving pressure
-  double pressure_force; // p pi D_p^2/4, pushes the stem out [N]
-  SbValveParts parts;    // the stem has the mass stem_mass
-  double moving_mass;    // stem, seals and block [kg]
-  SbRoughModel surface;
-  SbRunningIn running_in; // factor on the roughness
-  SbRig rig;              // models.motion = rig
-  SbSectionLook look;     // for drawing only
-  SbValveShape shape;     // for drawing only
-  SbStudyRange study;
-  SbShelfInput shelf;      // parameters of the loss on the shelf
-  const SbModelData *data; // borrowed; NULL: no series, drawn section or outlines
-  SbLimits limits;         // set by the reader of a scene; else empty
+  SbSealModel seal[SB_SEAL_COUNT]; // by SB_OUTER, SB_INNER
+  SbRubber rubber;                 // law of the rubber's change in storage
+  double bore_circumference;       // pi D, length of the friction area [m]
+  SbDoseSupply supply;             // of the dose chamber between the two seals
+  double filling_time;             // to fill the chamber past the land's edge [s]; NaN: no pressure
+  double pressure_force;           // p pi D_p^2/4, > 0 pushes the stem out [N]
+  SbValveParts parts;              // the stem has the mass stem_mass
+  double moving_mass;              // stem, seals and block [kg]
+  SbRoughModel surface;            // model of the rough contact
+  SbRunningIn running_in;          // factor on the roughness
+  SbRig rig;                       // models.motion = rig
+  SbSectionLook look;              // for drawing only
+  SbValveShape shape;              // for drawing only
+  SbStudyRange study;              // ranges of the drawn studies
+  SbShelfInput shelf;              // parameters of the loss on the shelf
+  const SbModelData *data;         // borrowed; NULL: no series, drawn section or outlines
+  SbLimits limits;                 // set by the reader of a scene; else empty
 };
 
-// Adds a problem with `key`, a formatted reason, and the valid range (NaN: no limit). Does nothing
-// if the list is full.
+// Adds a problem to `problems` (may be NULL): the parameter `key` to change, a formatted reason,
+// and the range [min, max] in SI that would be valid (NaN: no limit). Does nothing if the list is
+// full.
 void SB_PRINTF(5, 6) sb_model_refuse(SbProblems *problems, const char *key, double min, double max,
                                      const char *format, ...);
 
 // Takes a reference to `data`, which sb_model_data_release() releases. Any thread.
 void sb_model_data_hold(const SbModelData *data);
 
-// Adds the problems of a compiled model: sizes, profiles, grooves, combinations, fluid.
+// Adds the problems of a model whose parameters are set (model.c calls it before it derives sizes):
+// sizes, profiles, grooves, combinations of models, fluid.
 void sb_model_check(const SbModel *model, SbProblems *problems);
 
-// Compiles parameters into *out, without limits; `data` is borrowed. Errors as for
-// sb_model_create(); *out is unchanged then.
+// Compiles parameters into *out, without limits; `data` (NULL: none) is borrowed. SB_ERROR_INPUT:
+// inconsistent values; `problems` (NULL: not wanted) lists them. *out is unchanged after an error.
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, const SbModelData *data,
                           SbProblems *problems);
 
-// Does the same as sb_model_derive() in memory of the caller. *out borrows the data, may be `base`,
-// and is unchanged after an error. Changes made to fields of `base` are not carried over; only its
-// parameters are.
+// Compiles the parameters of `base` with overrides[count] into *out, in memory of the caller, like
+// sb_model_derive() and with its errors. *out borrows the data of `base`, needs no destroy, may be
+// `base` itself, and is unchanged after an error. Only base->params and limits are used: fields of
+// `base` that were changed directly are computed again.
 SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *overrides,
                            size_t count, SbReport *report);
 
-// Returns the friction law of a contact by the friction.* parameters, without its viscous part.
-// `mass` [kg] oscillates on its tangential spring with drive.damping_ratio.
+// Returns the friction law of a contact from the friction.* parameters, without its viscous part.
+// `static_ratio` is static friction divided by sliding friction (1 is used if contacts age). `mass`
+// [kg] is the mass on the contact's tangential spring, whose damping is drive.damping_ratio of
+// critical.
 SbDynamicsContact sb_model_contact(const SbModel *model, double static_ratio, double mass);
 
-// Pressures on the two sides of a seal [Pa]: left the canister side (x < 0), right the ambient
-// side.
+// Pressures on the two sides of a seal.
 typedef struct {
-  double left, right;
+  double left, right; // canister side (x < 0), ambient side [Pa], gauge
 } SbSealPressure;
 
 // Returns the rough surface of a seal on the bore, with the model's roughness multiplied by
@@ -119,12 +124,13 @@ static inline double sb_model_way(const SbModel *model) {
   return model->kind == SB_VALVE_GASKET ? -1 : 1;
 }
 
-// Returns the force that pushes the stem out at the displacement s [m]: canister pressure and
-// return spring [N].
+// Returns the force of canister pressure and return spring on the stem at the displacement s [m], >
+// 0 out of the canister [N].
 static inline double sb_model_push(const SbModel *model, double s) {
   return model->pressure_force + model->spring_preload + model->spring_stiffness * s;
 }
 
-// Returns the pressures of a seal for a state of the chamber. With ports, AT_REST means vented,
-// CLOSED full.
+// Returns the pressures of `seal` in a state of the chamber. With canister.pressure_map = ports,
+// SB_CHAMBER_AT_REST is the vented and SB_CHAMBER_CLOSED the full chamber; in a gasket valve
+// AT_REST is full and CLOSED vented.
 SbSealPressure sb_model_seal_pressure(const SbModel *model, int seal, SbChamber chamber);

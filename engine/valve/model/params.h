@@ -1,13 +1,15 @@
-// The parameter catalogue, and a set of parameter values.
+// The parameter catalogue (params.def), and a set of parameter values.
 //
-// SbParams has one double for each parameter (SI; an index for a choice, a bit mask for flags) and
-// whether it was given. The value of a parameter that was not given follows from the first source
-// that has one: the value for both seals; a choice with SB_DEFAULT rows (models.set); another size;
-// a named fluid at the canister's temperature (fluid.name); a named rubber (rubber.name); the
-// catalogue. It is resolved whenever it is requested, so it follows changes of its sources. The
-// catalogue has ranges and texts; model.h defines which combinations are valid.
+// SbParams has one double for each parameter, and whether the user gave it: a number in SI, the
+// index of a choice, or a bit mask of flags. The value of a parameter that was not given follows
+// from the first of these sources that has one: seal.X for seal.outer.X and seal.inner.X; a choice
+// with SB_DEFAULT rows (models.set); another size (SB_KEEPS); the named fluid at the canister's
+// temperature (fluid.name); the named rubber (rubber.name); the catalogue. sb_params_get() resolves
+// it at each call, so it follows changes of its sources. The catalogue has the range of each
+// parameter; sb_model_create() checks combinations.
 //
-// The catalogue is constant, and functions with `const SbParams *` may be called concurrently.
+// The catalogue is constant. Functions with `const SbParams *` may be called concurrently for one
+// set.
 #pragma once
 
 #include "engine/base/status.h"
@@ -15,8 +17,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// Number of a parameter, SB_P_... by the first column of params.def. A parameter of a seal has
-// three: for both seals, the outer and the inner one.
+// Number of a parameter: SB_P_ID for each row of params.def with this ID. A row SB_SEAL has three,
+// SB_P_SEAL_ID (both seals), SB_P_SEAL_OUTER_ID and SB_P_SEAL_INNER_ID.
 typedef enum {
 #define SB_REAL(id, ...) SB_P_##id,
 #define SB_INT           SB_REAL
@@ -34,7 +36,7 @@ typedef enum { SB_PARAM_REAL, SB_PARAM_INT, SB_PARAM_CHOICE, SB_PARAM_FLAGS } Sb
 // One row of the catalogue. All strings are static.
 typedef struct {
   const char *key;     // "gland.radial_space": group, dot, name
-  SbParamKind kind;    //
+  SbParamKind kind;    // number, choice or flags
   const char *symbol;  // short symbol for panels, UTF-8; "" if none
   const char *si;      // SI unit in the notation of udunits, "1" if dimensionless
   const char *unit;    // preferred unit for display and files, "" if none
@@ -45,18 +47,19 @@ typedef struct {
   const char *help;    // one line
   const char *source;  // where the default is from
   const char *tag;     // "thesis", "inferred", "ours", "published" or "typical"
-  int parent; // seal.outer.X, seal.inner.X: number of seal.X, whose value applies when it is not
-              // given; else -1
+  int parent; // of seal.outer.X and seal.inner.X: number of seal.X, whose value applies to a seal
+              // without its own; of all other parameters -1
 } SbParam;
 
-// Returns whether it is one of the few parameters with which a design of this kind of valve
-// (valve.kind) begins.
+// Returns whether `id` is one of the few parameters with which a design of a valve of `kind` (an
+// SbValveKind, valve.kind) begins.
 bool sb_param_is_main(SbParamId id, int kind);
 
 // Returns synonyms of a parameter in lower case, for searches; "" for most. Static.
 const char *sb_param_words(SbParamId id);
 
-// Returns the number of the parameter that is its tolerance; -1 if there is none.
+// Returns the SbParamId of the tolerance of size `id` (key with "_tolerance" appended); -1 if there
+// is none.
 int sb_param_tolerance(SbParamId id);
 
 // Largest number of values of a rubber, and bytes of a source.
@@ -89,15 +92,15 @@ const SbParam *sb_param(SbParamId id);
 // Returns the number of a key, or -1.
 int sb_param_find(const char *key);
 
-// Sets all parameters to not given, and no rubber.
+// Sets all parameters to not given, and `rubber` to NULL.
 void sb_params_init(SbParams *params);
 
 // The default of a parameter and its source. Strings are static, or borrowed from the rubber.
 typedef struct {
-  double value;       // SI; NAN: a fluid outside the range of its properties
-  const char *from;   // key from which it follows; NULL: the catalogue
-  int giver;          // number of that key's parameter; -1: it is not a parameter
-  const char *name;   // value of that key as text; NULL: see the parameter
+  double value;       // SI; NAN: the fluid has no such property at the canister's temperature
+  const char *from;   // key from which the value follows; NULL: the catalogue
+  int giver;          // SbParamId of `from`; -1: `from` is not a parameter (rubber.name)
+  const char *name;   // value of `from` as text, if it is not a parameter; else NULL
   const char *source; // reference of the value
   const char *tag;    // as SbParam.tag
 } SbParamDefault;
@@ -110,13 +113,14 @@ void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id
 // constant difference while it is not given.
 bool sb_param_keeps(SbParamId id, SbParamId giver, int kind);
 
-// Returns the fluid (a choice of fluid.name) to which the value of a fluid-dependent parameter
-// applies, if it is not the fluid of fluid.name: the fluid of fluid.figures, or the fluid for which
-// the named rubber has this value. Returns -1 if `id` does not depend on the fluid, or if its value
-// applies to fluid.name.
+// Returns the fluid (a choice of fluid.name) for which the value of the fluid-dependent
+// parameter `id` is meant, if this is not the fluid of fluid.name: the fluid of fluid.figures, or
+// the fluid for which the named rubber has the same value. Returns -1 if the value is meant for
+// fluid.name, if the parameter is 0, or if `id` does not depend on the fluid.
 int sb_params_other_fluid(const SbParams *params, SbParamId id);
 
-// Returns the number of the fluid-dependent parameter `index` (from 0); -1 after the last one.
+// Returns the SbParamId of the fluid-dependent parameter number `index` (from 0); -1 after the last
+// one.
 int sb_params_of_fluid(int index);
 
 // Sets fluid.figures of `params` to the fluid of `base`, if the two have different fluids, share a
@@ -135,19 +139,23 @@ double sb_params_get(const SbParams *params, SbParamId id);
 // Copies `given` to *effective with all values resolved; `given` flags are unchanged.
 void sb_params_resolve(SbParams *effective, const SbParams *given);
 
-// Returns the default number `index` (from 0) that a choice has for parameter `id`: out->giver is
-// the choosing parameter, *choice its choice. Returns false after the last one.
+// Enumerates the SB_DEFAULT rows of `id`. Writes row number `index` (from 0) to *out, with the
+// choosing parameter in out->giver and the index of its choice in *choice. Returns false, and
+// leaves both, after the last one.
 bool sb_params_brought(SbParamDefault *out, int *choice, SbParamId id, int index);
 
-// Sets a value [SI] as given. After SB_ERROR_INPUT (not finite, not an integer) or SB_ERROR_RANGE
-// nothing has changed; the report has key and range in SI.
+// Sets the value of `id` (SI, index of a choice, or bit mask) and marks it as given.
+// SB_ERROR_INPUT: not finite, or not an integer where one is required; SB_ERROR_RANGE: outside min
+// to max, or no such choice. *params is unchanged after an error, and the report has key and range
+// in SI.
 SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *report);
 
-// Returns the index of the choice whose name is the first `length` bytes of `name`, or -1.
+// Returns the index of the choice whose name equals the first `length` bytes of `name` (which needs
+// no NUL there); -1 if there is none.
 int sb_param_choice(const SbParam *param, const char *name, size_t length);
 
-// Writes the name of choice `index` to name[size]; "" if there is none.
+// Writes the name of choice or flag `index` to name[size]; "" if there is none.
 void sb_param_choice_name(const SbParam *param, int index, char *name, size_t size);
 
-// Returns the number of choices; 0 for numbers.
+// Returns the number of choices or flags; 0 for numbers.
 int sb_param_choice_count(const SbParam *param);

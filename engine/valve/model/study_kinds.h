@@ -1,9 +1,10 @@
-// The kinds of drawn studies, which output.studies and the command line name.
+// The kinds of drawn studies (charts with a table, studies/study.h), as named in output.studies and
+// on the command line.
 #pragma once
 
 #include "engine/base/status.h"
 
-// Enumerator, suffix of the function, name, title, help.
+// X(enumerator, identifier of the SbStudyDesign sb_study_..., name, title, help): all kinds.
 #define SB_STUDY_LIST(X)                                                                           \
   X(SB_STUDY_SQUEEZE, squeeze, "squeeze", "Load over squeeze",                                     \
     "load, peak and width of every fitment model over the squeeze, compared with the solved ring") \
@@ -24,7 +25,7 @@
   X(SB_STUDY_PROPELLANTS, propellants, "propellants", "Propellants over the temperature",          \
     "pressure force, break-away, minimum return force and dose of each propellant in this valve")
 
-// A kind of study, in the order of the bits of output.studies.
+// A kind of study; bit i of output.studies is kind i.
 typedef enum {
 #define SB_STUDY_ENUM(code, function, name, title, help) code,
   SB_STUDY_LIST(SB_STUDY_ENUM)

@@ -1,5 +1,6 @@
 // The model of a valve as seen outside engine/valve: a checked, immutable set of physical
-// quantities, compiled from parameters. model.h has its fields.
+// quantities, compiled from parameters (params.h). Code outside engine/valve reads it by the
+// functions below; its fields are private (model.h).
 //
 // A model never changes after its creation, so any number of threads may read it at the same time.
 #pragma once
@@ -48,8 +49,8 @@ enum { SB_PROBLEMS_MAX = 32 };
 
 // A problem of a parameter set.
 typedef struct {
-  char key[64];       // parameter to change
-  char text[SB_TEXT]; // reason
+  char key[64];       // catalogue key of the parameter to change
+  char text[SB_TEXT]; // one sentence: what is wrong
   double min, max;    // range that would be valid, SI; NaN: no limit on this side
 } SbProblem;
 
@@ -136,7 +137,7 @@ typedef enum {
   SB_VERDICT_LEAK,    // leakage is within limits
   SB_VERDICT_FITS,    // sizes of seals and glands are within limits
   SB_VERDICT_COUNT,
-  SB_VERDICT_NONE = SB_VERDICT_COUNT // of a figure: no limit may be set on it
+  SB_VERDICT_NONE = SB_VERDICT_COUNT // SbFigure.verdict: no limit may be set on this figure
 } SbVerdictKind;
 
 // Capacity of SbLimits.
@@ -144,8 +145,8 @@ enum { SB_LIMITS_MAX = 64 };
 
 // A limit on a figure.
 typedef struct {
-  int figure;       // index of figures.h
-  double low, high; // SI; -INFINITY, INFINITY: no limit
+  int figure;       // index from sb_figure_find()
+  double low, high; // allowed range, SI; -INFINITY, INFINITY: no limit on this side
 } SbLimit;
 
 // Limits on figures (group [limits] of a scene).
@@ -155,6 +156,8 @@ typedef struct {
 } SbLimits;
 
 // State of the dose chamber in the cycle, which determines the seals' pressures (docs/thesis.md).
+// In a gasket valve AT_REST is the full chamber, OPEN the chamber open to the canister before C and
+// after F, and CLOSED the vented one.
 typedef enum {
   SB_CHAMBER_AT_REST, // A to C: filled or vented before the stroke
   SB_CHAMBER_OPEN,    // C to F: open to the canister, the inner seal has no contact
@@ -162,8 +165,8 @@ typedef enum {
 } SbChamber;
 
 // Sizes for the drawing of the section [m]; the thesis does not state them. Some determine the
-// metered volume and, with ports, the chamber pressure. Their meaning is that of the parameters of
-// the same name in the catalogue.
+// metered volume and, with ports, the chamber pressure. Each is the parameter bore.NAME (housing)
+// or stem.NAME of its name, whose help text describes it.
 typedef struct {
   double entry_diameter, entry_length, land_length, vent_position, vent_diameter; // housing
   // Stem.
@@ -174,9 +177,10 @@ typedef struct {
 // stem parts share one; both point out of the canister.
 typedef struct {
   SbOutline part[SB_VALVE_STEM_BOTTOM + 1]; // by SB_VALVE_HOUSING, ...; count 0: not drawn
-  bool housing, stem;                       // the sizes below are known
-  double land_edge, bore;                   // x of the bore land's beginning; its radius [m]
+  bool housing, stem;                       // the sizes below of housing, of stem are defined
+  double land_edge, bore;                   // housing: x of the land's edge; radius of the land [m]
   // Stem: x of the groove walls; radii of groove floor and land [m].
+  // Grooves by SB_OUTER, SB_INNER.
   double groove_left[SB_SEAL_COUNT], groove_right[SB_SEAL_COUNT], floor, land;
 } SbValveOutlines;
 
@@ -193,10 +197,10 @@ typedef struct {
   double mass;               // moved mass [kg]
   double coefficient;        // sliding friction divided by load, before effects of speed and dwell
   SbDynamicsContact contact; // friction law of one ring
-  double speed;              // of winding [m/s]
-  double thread_stiffness, thread_damping; // [N/m], [N s/m]
+  double speed;              // speed at which the motor winds the thread [m/s]
+  double thread_stiffness, thread_damping; // of thread and load cell [N/m], [N s/m]
   double rest;                             // time at rest before the motor starts [s]
-  double duration;                         // of the record [s]
+  double duration;                         // length of the record [s]
   double rate;                             // samples per second [1/s]
 } SbRig;
 
@@ -225,19 +229,21 @@ typedef enum {
 #define SB_DECLARE_OWN(type, name) type name;
 #define SB_DECLARE_IN(...)
 
-// A ring and the quantities that follow from its size and gland. Sizes and modulus are those after
-// storage, at the temperature of use.
+// A ring (or gasket) and the quantities that follow from its size and gland. Sizes and modulus are
+// those after storage, at the temperature of use. The SB_SEAL rows of params.def declare the
+// members poisson_ratio, mooney_share [1], section_diameter_tolerance and inner_diameter_tolerance
+// [m].
 typedef struct {
-  SbRubberStorage stored; // the new ring and its history
+  SbRubberStorage stored; // the new ring (section and inner diameter, modulus) and its history
   SbRubberState storage;  // result of the storage
 #define SB_SEAL(id, where, place, ...) SB_DECLARE_##where(double, place)
 #include "engine/valve/model/params.def"
-  double section_diameter; // d, free [m]
-  double inner_diameter;   // free [m]
-  double modulus;          // E [Pa]
+  double section_diameter; // d, diameter of the free section [m]
+  double inner_diameter;   // of the free ring [m]
+  double modulus;          // Young's modulus E [Pa]
   double reduced_modulus;  // E' of thesis equation 5.8: 2/E' = sum (1 - nu^2)/E [Pa]
   double radius;           // R_x = d/2 [m]
-  double squeeze;          // (d - g)/d
+  double squeeze;          // (d - g)/d with the radial space g [1]
   double stretch_mean;     // of the mean diameter, (D_fitted - D_free)/D_free
   double stretch_inner;    // of the inner diameter
   double section_fitted;   // section diameter after stretch, d (1 - nu stretch_mean) [m]
@@ -257,19 +263,20 @@ typedef struct {
   SbRubberSheet rubber; // borrowed by the parameters of the model
 } SbModelData;
 
-// Creates empty data with one reference. There is no report.
+// Creates empty data with one reference, which the caller releases with sb_model_data_release().
+// Then fill the fields except `holders`. SB_ERROR_MEMORY is the only error; there is no report.
 SbStatus sb_model_data_create(SbModelData **out);
 
 // Releases a reference; the last one frees the data. Any thread. Takes NULL.
 void sb_model_data_release(const SbModelData *data);
 
-// Returns a hash (FNV-1a) of the drawn section and groove; 0: neither is drawn.
+// Returns a hash (FNV-1a) of the drawn section and groove; 0 if neither is drawn.
 uint64_t sb_model_data_drawings(const SbModelData *data);
 
-// Compiles parameters into a model. It takes a reference to `data` (NULL: no series, drawings and
-// outlines) and copies `limits` (NULL: none). The rubber of `params` is borrowed and must live as
-// long as the model (usually data->rubber). SB_ERROR_INPUT: inconsistent values; `problems` (NULL:
-// not wanted) lists all of them. SB_ERROR_MEMORY.
+// Compiles parameters into a model; free it with sb_model_destroy(). The model takes a reference of
+// its own to `data` (NULL: no series, drawings and outlines) and copies `limits` (NULL: none).
+// params->rubber is borrowed and must exist as long as the model (usually &data->rubber).
+// SB_ERROR_INPUT: inconsistent values; `problems` (NULL: not wanted) lists all of them.
 SbStatus sb_model_create(SbModel **out, const SbParams *params, const SbModelData *data,
                          const SbLimits *limits, SbProblems *problems);
 
@@ -285,17 +292,19 @@ SbStatus sb_model_copy(SbModel **out, const SbModel *model);
 // Frees a model and its reference to the data. Takes NULL.
 void sb_model_destroy(const SbModel *model);
 
-// Returns whether two models have equal values and the same data; NULL equals NULL only.
+// Returns whether two models have equal values and limits and share the same data object. Both may
+// be NULL; NULL equals NULL only.
 bool sb_model_same(const SbModel *a, const SbModel *b);
 
-// Returns the value of a parameter of the model, SI.
+// Returns the value of a parameter of the model as given or by its default, SI. It is the input:
+// sizes at 20 degC, before storage.
 double sb_model_value(const SbModel *model, SbParamId id);
 
-// Returns the value of an integer, choice or flags.
+// Returns the value of an integer parameter, the index of a choice, or the bit mask of flags.
 int sb_model_number(const SbModel *model, SbParamId id);
 
-// Computes the default of a parameter. Returns whether the model's value is that default and
-// follows from another parameter; false: it is given, or from the catalogue.
+// Computes the default of a parameter. Returns true if the model uses this default and it follows
+// from another parameter or the named rubber; false if the value is given, or the catalogue's.
 bool sb_model_default(SbParamDefault *out, const SbModel *model, SbParamId id);
 
 // Returns a number that two models share if and only if they use the same numerical methods: kind
@@ -339,7 +348,7 @@ double sb_model_sigma(const SbModel *model);
 // Returns the number (from 1) of the actuation whose frames are shown.
 int sb_model_shown_actuation(const SbModel *model);
 
-// Returns the measured series of the drive; NULL: none.
+// Returns the measured series of the drive; NULL if the model has none.
 const SbModelSeries *sb_model_measured(const SbModel *model);
 
 // Returns the outlines of drawn parts; NULL: the model has no data.
@@ -355,8 +364,8 @@ typedef struct {
   const char *source; // reference
 } SbModulusChange;
 
-// Computes the effect on the outer seal's modulus of `temperature` [K]. Strings are static or
-// borrowed from the model's rubber.
+// Computes the effect of `temperature` [K] on the modulus of the outer seal. The strings are
+// static, or borrowed from the model's rubber.
 void sb_model_modulus(SbModulusChange *out, const SbModel *model, double temperature);
 
 // Adds the warning "modulus-temperature" if the modulus is assumed to be independent of temperature
@@ -383,10 +392,12 @@ void sb_model_gland(SbGland *out, const SbModel *model, int seal);
 // `pressure` [Pa] (> 0: higher on the left). It borrows the model's drawn groove.
 void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure);
 
-// Counters of solves; they are only incremented.
+// Counters of solver calls. Initialise with {0}; functions only add to them.
 typedef struct {
+  // Fits of any model; fits of discs; fits of rings; films by Reynolds' equation; Newton
+  // iterations.
   size_t fit_solves, disc_solves, ring_solves, reynolds_solves, newton_iterations;
-  size_t film_steps;                             // time steps of film histories, all seals
+  size_t film_steps;                             // time steps of film histories of both seals
   size_t speed_nodes;                            // states solved for interpolation over the speed
   size_t field_evaluations, profile_evaluations; // section fields; contact profiles
 } SbCounters;

@@ -1,18 +1,19 @@
-// Static friction of a seal after a dwell (time at rest): one law for the quasi-static cycle, the
-// motion with inertia, each actuation of a life, and figures. The functions have no state.
+// Static friction of a seal after a dwell (time at rest). The quasi-static cycle, the motion with
+// inertia, each actuation of a life, and figures use these functions, which have no state.
 //
-// friction.breakaway = ratio: friction of the dry contact times a ratio that may grow with the
-// dwell,
+// tau_0 is friction.shear_strength, m friction.load_coefficient, A the real contact area, W the
+// load, t the dwell. friction.breakaway = ratio: friction of the dry contact times a ratio that may
+// grow with the dwell,
 //
 //   F_s(t) = [static_ratio + dwell_gain ln(1 + t/dwell_time)] [tau_0 A_dry + m W_dry]
 //
-// friction.breakaway = ageing: the contact of the last sliding, whose film is squeezed out and
-// which ages,
+// friction.breakaway = ageing: the film of the last sliding is squeezed out, and the contact ages,
 //
 //   F_s(t) = tau_0 A(t) [1 + B ln(1 + t/t_c)] + m W(t),   at least the kinetic friction
 //
-// The real area A(t) and (coupled asperities) the asperities' load W(t) change from those of
-// sliding to the dry ones while the film is squeezed out (film/squeeze.h) by the mean net pressure.
+// While the mean net pressure squeezes the film out (film/squeeze.h), the real area A(t) and, with
+// coupled asperities, the asperities' load W(t) change from their values in sliding to those of the
+// dry contact.
 // A(t) is that of Greenwood and Tripp's model at the film, or of the rough law at its mean gap if
 // asperities share the load. Persson's area only ages. A dwell much shorter than the squeeze-out
 // gives no peak, a long one the full static friction and a logarithmic increase.
@@ -28,15 +29,16 @@
 #include "engine/valve/figures/summary.h"
 #include "engine/valve/model/model.h"
 
-// Tabulates the static friction [N] of a seal's solved state against the dwell (values NaN if the
-// state lacks a quantity), and writes the dwell after which half of the film is squeezed out [s] to
-// *squeeze_time (NaN without a film). `known` is a law of the seal's surface as in
-// sb_rough_law_like(), or NULL.
+// Tabulates the static friction [N] of a solved sliding state against the dwell; read the table
+// with sb_dwell_at(). Its values are NaN if `state` lacks a quantity of the law. Writes the dwell
+// after which half of the film is squeezed out [s] to *squeeze_time (NaN without a film). `known`
+// is a rough law already computed for this seal's surface, which saves time, or NULL. Errors of
+// sb_rough_law_like().
 SbStatus sb_breakaway_law(SbDwellLaw *out, double *squeeze_time, const SbModel *model, int seal,
                           const SbSealState *state, const SbRoughLaw *known, SbReport *report);
 
-// Computes *out, the static friction of a seal's state after a `dwell` [s], in N: by that law, or
-// the largest sliding friction of a section that rolls or jams; 0 without contact. SB_ERROR_MEMORY
-// is its only error.
+// Computes *out, the static friction of a solved sliding state after the time `dwell` [s], a
+// magnitude [N]: by sb_breakaway_law(); of a section that rolls or jams the kinetic friction; 0
+// without contact. SB_ERROR_MEMORY is its only error.
 SbStatus sb_breakaway_after(double *out, const SbModel *model, int seal, const SbSealState *state,
                             double dwell, SbReport *report);

@@ -1,14 +1,17 @@
 // Steady states of one sliding contact as a function of speed: film, lambda, real area and friction
 // at any speed, from few solved states.
 //
+// Use: sb_speed_states_init() with a solved state, then sb_speed_state() for each speed.
+//
 // A film of a power law is scaled by its power of the speed. Solved films are tabulated over
-// ln(speed) in cells, two decades wide from 10 m/s down, each solved (sliding.h) when a speed in it
-// is first requested. A cell is the cubic through both ends, a quarter and the middle. If the
+// ln(speed) in cells, two decades wide from 10 m/s down. A cell is solved (sliding.h) when a speed
+// in it is first requested. A cell is the cubic through both ends, a quarter and the middle. If the
 // parabola without the quarter point deviates from it by more than SB_SPEED_TOLERANCE in film or
-// friction, the cell is halved; the deviation is the error estimate. Logarithms of films are
-// interpolated and, with coupled asperities, real area, load and viscous friction; all else follows
-// by the functions of a solved state. Above the speed at which the supply alone determines the
-// film, one state applies, with viscous friction proportional to speed.
+// friction, the cell is halved; the deviation is the error estimate. The interpolated values
+// are the logarithms of film_min, film_central and layer and, with coupled asperities, real area,
+// boundary_load and viscous friction; sb_sliding_refilm() computes all else. Above the speed at
+// which the supply alone determines the film, one state applies, with viscous friction proportional
+// to speed.
 //
 // If only speeds near the reference speed are requested (`near`), two states at 10 % lower and
 // higher speed and the reference state form a parabola, whose curvature is the error estimate;
@@ -44,12 +47,13 @@ typedef struct {
   double value[4][SB_SPEED_VALUES];
 } SbSpeedCell;
 
-// The states of a contact, in memory of the caller; owns nothing. Set `near`, read solves, error,
+// The states of a contact, in memory of the caller; owns nothing. sb_speed_states_init() sets all
+// fields. After it the caller may set `near` and `roughness`, and reads solves, error,
 // friction_error and status; all other fields are private.
 typedef struct {
   SbSlidingTask task; // of the reference state, with its speed and direction
   SbSealState base;   // the reference state
-  double roughness;   // divided by the model's
+  double roughness;   // roughness divided by the model's; 1 after the initialisation
   bool on_body;       // the film is on `body`
   SbSlidingBody body;
   bool near; // only speeds near the reference will be requested; cells are half a decade wide
@@ -58,9 +62,9 @@ typedef struct {
   double power;                      // exponent of a power law film, else NAN
   double starved_from; // speed from which on `starved` applies [m/s]; NAN: not yet known
   double starved[SB_SPEED_VALUES];
-  size_t solves; // number of states solved
-  // Largest relative deviation of a used cell; part of it that remains in friction with the cubic.
-  double error, friction_error;
+  size_t solves;         // number of states solved
+  double error;          // largest relative deviation in a used cell
+  double friction_error; // relative error of the friction that remains with the cubic
   // SB_ERROR_CANCELLED or _MEMORY: ended early; later results use what is available.
   SbStatus status;
   size_t nodes, cells;
@@ -68,12 +72,15 @@ typedef struct {
   SbSpeedCell cell[SB_SPEED_CELLS];
 } SbSpeedStates;
 
-// Initialises the states from `at`, the solved state of `task` (its speed is not 0). The task's
-// memory, counters and warnings are borrowed as long as states are requested. `body` (NULL:
-// half-plane) is that of the state's film and is copied.
+// Initialises the states. `task` is a sliding task (speed not 0; copied) and `at` its state, solved
+// by sb_sliding_solve(). The pointers in the task are borrowed as long as states are requested;
+// solves and warnings are added to its counters and warnings. `body` is sb_sliding_body() after
+// that solve (NULL: half-plane); it is copied.
 void sb_speed_states_init(SbSpeedStates *out, const SbSlidingTask *task, const SbSealState *at,
                           const SbSlidingBody *body);
 
-// Computes the state at `speed` [m/s] of either sign; it solves states if needed. Only film, area
-// and friction differ from the reference state; a reference without a film is returned unchanged.
+// Computes the state at the speed |speed| [m/s] in the direction of the reference state; the sign
+// of `speed` is ignored. Solves states if needed. Only film, real area and friction differ from the
+// reference state; a reference without a film is returned unchanged. A failed solve is not reported
+// here: see `status`, and the extrapolation at the top.
 void sb_speed_state(SbSealState *out, SbSpeedStates *states, double speed);

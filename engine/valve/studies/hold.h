@@ -1,9 +1,13 @@
-// Conditions that a study keeps constant while it varies others.
+// Conditions that a study keeps constant while it varies other quantities.
 #pragma once
 
 #include "engine/valve/model/valve.h"
 
-// Enumerator, name, what is constant.
+// X(enumerator, name in study files, text for people): all conditions.
+//   machine     quasi-static cycle of the test machine; ports become a vented chamber
+//   outer-seal  both seals have the sizes and modulus of the scene's outer ring after storage, and
+//               no further storage; the chamber is filled; not for gaskets
+//   saturated   canister pressure, viscosity and density follow from fluid.name
 #define SB_HOLDS(X)                                                                                \
   X(SB_HOLD_MACHINE, "machine",                                                                    \
     "the quasi-static cycle of the test machine, in place of the scene's drive")                   \
@@ -13,7 +17,7 @@
   X(SB_HOLD_SATURATED, "saturated",                                                                \
     "pressure, viscosity and density of the named liquid, in place of the scene's values")
 
-// A set of such conditions.
+// A condition.
 typedef enum {
 #define SB_HOLD_ENUM(code, name, help) code,
   SB_HOLDS(SB_HOLD_ENUM)
@@ -21,12 +25,13 @@ typedef enum {
       SB_HOLD_COUNT
 } SbHold;
 
-// Returns all names, for messages; static.
+// Returns all names separated by ", ", for messages; static.
 const char *sb_hold_names(void);
 
-// Finds a set by its name. Returns false, and leaves *out, if there is none.
+// Finds a condition by its name. Returns false, and leaves *out, if there is none.
 SB_CHECKED bool sb_hold_from_name(SbHold *out, const char *name);
 
-// Creates the model of `scene` with these conditions; owned by the caller, sb_model_destroy().
-// Errors of sb_model_derive().
+// Creates the model of `scene` under the condition `hold`; free it with sb_model_destroy().
+// SB_ERROR_INPUT with the key valve.kind: SB_HOLD_OUTER of a gasket valve; other errors of
+// sb_model_derive().
 SbStatus sb_model_hold(SbModel **out, const SbModel *scene, SbHold hold, SbReport *report);
