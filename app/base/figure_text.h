@@ -22,25 +22,22 @@ char *sb_figure_text(char *out, int index, double value, double error);
 char *sb_format_figure(char *out, const SbSummary *summary, int index);
 
 // Returns the same number in ASCII, for terminals and files: "-4.1 N"; "-" if the value is NaN.
-// Freed by g_free().
 char *sb_figure_format(int index, double value, double error);
 
 // Returns the absolute error `error` [SI] of a figure with the value `value` [SI], in the display
 // unit of the value and in ASCII, with its first digit, or its first two if the first one is 1 or
-// 2: "0.02 N" for 27.40 N. "-" if one of the two is NaN. Freed by g_free().
+// 2: "0.02 N" for 27.40 N. "-" if one of the two is NaN.
 char *sb_figure_error_format(int index, double value, double error);
 
 // Returns a limit on a figure [SI] in the figure's unit with all its digits. A limit with more than
-// 9 digits was computed (a saturation pressure) and has the digits of the figure. Freed by
-// g_free().
+// 9 digits was computed (a saturation pressure) and has the digits of the figure.
 char *sb_figure_given(int index, double value);
 
 // Returns the limit low .. high [SI] on a figure as in a file: ">= 2 N", "8 % .. 25 %"; an infinite
-// end is open. Freed by g_free().
+// end is open.
 char *sb_limit_format(int figure, double low, double high);
 
-// Returns the label of a figure with its seal or stage, untranslated: "Load, outer seal". Freed by
-// g_free().
+// Returns the label of a figure with its seal or stage, untranslated: "Load, outer seal".
 char *sb_figure_label(int index);
 
 // Writes the number `shown` in ASCII by the rounding rule, with at most `digits` significant

@@ -27,5 +27,5 @@ bool sb_hardness_is_unit(const char *unit);
 bool sb_hardness_parse(double *modulus, const char *text, GError **error);
 
 // Returns a sentence with the modulus of such a text, the relation and its scatter; NULL for any
-// other text. Freed by g_free().
+// other text.
 char *sb_hardness_note(const char *text);

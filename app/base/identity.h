@@ -2,5 +2,5 @@
 #pragma once
 
 // Returns "Sealbench 0.2.0, engine SOURCE, commit COMMIT" with the hashes in full, without the
-// commit outside of a repository (engine/base/version.h). Freed by g_free().
+// commit outside of a repository (engine/base/version.h).
 char *sb_identity_text(void);

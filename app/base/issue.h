@@ -12,7 +12,7 @@ typedef struct {
   char *allowed; // allowed range, "1.2 to 2.2 mm"; NULL: none
 } SbIssue;
 
-// Returns an empty list of SbIssue that frees its elements. Freed by g_ptr_array_unref().
+// Returns an empty list of SbIssue that frees its elements.
 GPtrArray *sb_issues_new(void);
 
 // Largest number of issues in a list. Further ones are only counted: the list then has one more

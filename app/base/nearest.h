@@ -17,5 +17,5 @@ void sb_nearest_try(SbNearest *nearest, const char *name);
 // Compares the names of a list "first|second".
 void sb_nearest_try_list(SbNearest *nearest, const char *names);
 
-// Returns ", do you mean NAME?", or an empty text if no name is similar. Freed by g_free().
+// Returns ", do you mean NAME?", or an empty text if no name is similar.
 char *sb_nearest_hint(const SbNearest *nearest);

@@ -21,5 +21,5 @@ bool sb_output_commit_sealed(SbOutput *out, GError **error);
 // Removes from the folder (a descriptor) temporary files whose process does not exist any more.
 void sb_output_sweep(int folder);
 
-// Returns a random hidden file name. Freed by g_free().
+// Returns a random hidden file name.
 char *sb_output_temporary_name(void);

@@ -62,17 +62,17 @@ SbTable *sb_table_open(const char *path, const SbTableDialect *wish, GPtrArray *
 SbTable *sb_table_parse(const void *bytes, size_t length, const SbTableDialect *wish,
                         const char *name, GPtrArray *issues);
 
-// Frees a table and closes its file; takes NULL.
+// Frees a table and closes its file.
 void sb_table_free(SbTable *table);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbTable, sb_table_free)
 
-// Returns the format. Borrowed.
+// Returns the format.
 const SbTableDialect *sb_table_dialect(const SbTable *table);
 
 // Returns the number of columns.
 size_t sb_table_columns(const SbTable *table);
 
-// Returns column `index`, from 0. Borrowed.
+// Returns column `index`, from 0.
 const SbTableColumn *sb_table_column(const SbTable *table, size_t index);
 
 // Returns the number of lines before the first row.

@@ -88,5 +88,5 @@ struct SbTable {
   SbTableColumn column[SB_TABLE_COLUMNS_MAX];
 };
 
-// Returns a piece of a line as printable UTF-8. Freed by g_free().
+// Returns a piece of a line as printable UTF-8.
 char *sb_table_utf8(const char *text, size_t length, SbTableEncoding encoding);

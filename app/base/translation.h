@@ -16,7 +16,7 @@ void sb_translation_begin(void);
 const char *sb_translation(const char *text);
 
 // Returns a name that is followed by a comma and a value, "as designed, 15.5 %", with the name
-// translated, or the translation of the full text if there is one. Freed by g_free().
+// translated, or the translation of the full text if there is one.
 char *sb_translation_of_case(const char *text);
 
 // Switches this thread to English, for texts of a file that are otherwise displayed. Returns the
@@ -26,5 +26,5 @@ locale_t sb_translation_pause(void);
 // Ends sb_translation_pause().
 void sb_translation_resume(locale_t paused);
 
-// Returns a label as a part of a sentence: translated, else in lower case. Freed by g_free().
+// Returns a label as a part of a sentence: translated, else in lower case.
 char *sb_translation_inside(const char *label);

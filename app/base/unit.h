@@ -26,8 +26,7 @@ SB_CHECKED bool sb_quantity_parse(double *out, const char *text, const char *si,
 bool sb_quantity_is_point(const char *shown);
 
 // Returns `value` [si] in the unit `shown` with the fewest digits that read back to the same
-// double, and the unit. In the SI unit if `shown` cannot express the value exactly. Freed by
-// g_free().
+// double, and the unit. In the SI unit if `shown` cannot express the value exactly.
 char *sb_quantity_format(double value, const char *si, const char *shown);
 
 // Returns the number that `value` [si] has in the unit `shown`.
@@ -41,7 +40,7 @@ double sb_quantity_from_shown(double number, const char *si, const char *shown);
 double sb_quantity_step(double value, const char *si, const char *shown, int power, double count);
 
 // Returns a value of parameter `id` [SI] as text of a file: with its unit, or the name of a choice,
-// the names of flags with ';', or an integer. Freed by g_free().
+// the names of flags with ';', or an integer.
 char *sb_param_format(SbParamId id, double value);
 
 // Reads text of a file as a value of parameter `id` to *out [SI; index of a choice; bits of flags]
@@ -49,7 +48,7 @@ char *sb_param_format(SbParamId id, double value);
 // contain the key or the range; *out is then not changed.
 SB_CHECKED bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error);
 
-// Returns the allowed range of a parameter: "0.2 to 20 mm", "thesis, reynolds". Freed by g_free().
+// Returns the allowed range of a parameter: "0.2 to 20 mm", "thesis, reynolds".
 char *sb_param_range(SbParamId id);
 
 // Writes the ends of the range of a number: "0.2", "20 mm". Each is freed by g_free().

@@ -76,7 +76,7 @@ typedef struct {
 // build, or its limits exceeded. A STEP blocks the calling thread for up to a minute.
 SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error);
 
-// Frees a drawing with its bodies; takes NULL.
+// Frees a drawing with its bodies.
 void sb_cad_free(SbCad *cad);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbCad, sb_cad_free)
 
@@ -85,5 +85,5 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
                         const SbCadChoices *choices, GError **error);
 
 // Returns the half-profile as the value of a part's `profile` key, in mm (app/cad/profile.h); NULL
-// if the profile is empty. Freed by g_free().
+// if the profile is empty.
 char *sb_cad_profile_text(const SbCadBody *body);

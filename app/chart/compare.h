@@ -14,5 +14,5 @@ double sb_compare_height(void);
 void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                      unsigned flags);
 
-// Returns the table as lines with tab-separated columns. Freed by g_free().
+// Returns the table as lines with tab-separated columns.
 char *sb_compare_text(const SbChartData *data);

@@ -42,7 +42,7 @@ bool sb_hysteresis_hit(size_t *frame, SbRect rect, const SbChartData *data, unsi
 // return [N]; NaN: it does not reach the displacement.
 void sb_hysteresis_forces(double out[2], const SbChartRun *run, double displacement);
 
-// Returns these forces as text: "2.00 mm  in 25.0 N  back 4.0 N". Freed by g_free().
+// Returns these forces as text: "2.00 mm  in 25.0 N  back 4.0 N".
 char *sb_hysteresis_cursor_text(const SbChartRun *run, double displacement);
 
 // Writes the displacement [m] at the pixel (x, y). Returns false if that is outside of the plot.

@@ -33,7 +33,7 @@ typedef struct {
 bool sb_profiles_read(SbProfileReading *out, SbRect rect, const SbChartData *data, unsigned flags,
                       bool film, double x, double y);
 
-// Returns a reading as text: "0.210 mm  1.18 MPa". Freed by g_free().
+// Returns a reading as text: "0.210 mm  1.18 MPa".
 char *sb_profiles_cursor_text(const SbProfileReading *reading, const SbChartData *data, bool film);
 
 // Draws a reading over the finished panel.

@@ -50,7 +50,6 @@ int sb_propellants_fluid(int propellant);
 // Returns the name of a propellant. Static.
 const char *sb_propellants_name(int propellant);
 
-// Returns a translated sentence on each propellant at the cursor, for accessibility. Freed by
-// g_free().
+// Returns a translated sentence on each propellant at the cursor, for accessibility.
 char *sb_propellants_text(const SbStudy *study, const SbModel *model,
                           const SbPropellantsLook *look);

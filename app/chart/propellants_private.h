@@ -17,7 +17,7 @@ typedef enum {
   SB_PROPELLANT_RETURNS
 } SbPropellantsAnswer;
 
-// Returns a propellant's curve in a panel of the study; NULL: none. Borrowed.
+// Returns a propellant's curve in a panel of the study; NULL: none.
 const SbStudySeries *sb_propellants_series(const SbStudy *study, int panel, int propellant);
 
 // Returns the value of a curve at T [K], linear between its points; NaN: none.
@@ -44,7 +44,6 @@ const char *sb_propellants_force(char *out, const SbStudy *study, int panel, dou
 const char *sb_propellants_degrees(char *out, double T);
 
 // Returns a text on the modulus at T [K] compared with that at 20 °C, and the origin of this value.
-// Freed by g_free().
 char *sb_propellants_modulus(const SbModel *model, double T);
 
 // Draws a piece of the line of propellant k, `width` long, from (x, y).

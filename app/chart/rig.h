@@ -27,5 +27,5 @@ void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
 void sb_rig_page_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                       unsigned flags);
 
-// Returns the reasons as sentences, one a line, with the figures of this run. Freed by g_free().
+// Returns the reasons as sentences, one a line, with the figures of this run.
 char *sb_rig_reasons_text(const SbChartRun *run);

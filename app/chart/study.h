@@ -25,5 +25,5 @@ void sb_study_table_draw(SbCanvas *canvas, SbRect rect, const SbStudy *study);
 double sb_study_table_height(const SbStudy *study);
 
 // Returns the table, or without one the curves, as tab-separated lines, for the clipboard and for
-// accessibility. Freed by g_free().
+// accessibility.
 char *sb_study_text(const SbStudy *study);

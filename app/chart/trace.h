@@ -20,7 +20,7 @@ typedef struct {
 // during the call. Freed by sb_trace_destroy().
 SbTrace *sb_trace_create(const SbModel *model);
 
-// Frees a trace; takes NULL.
+// Frees a trace.
 void sb_trace_destroy(SbTrace *trace);
 
 // Reads the frames that were not read yet of frames[count], at most `limit` of them (0: all).
@@ -49,7 +49,7 @@ typedef struct {
 SbTraceRange sb_trace_range(const SbTrace *trace);
 
 // Returns the events of the first cycle, [SB_STAGE_COUNT] by SbStage; `reached` is false for those
-// that were not read yet. Borrowed.
+// that were not read yet.
 const SbStageMark *sb_trace_marks(const SbTrace *trace);
 
 // An event: the first of a stage in a cycle.

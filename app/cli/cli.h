@@ -76,7 +76,7 @@ int sb_cli_error(GError *error);
 int sb_cli_unknown(const char *what, const char *word, const char *names, const char *see);
 
 // Returns a list for sb_cli_unknown(): the names that `name` returns for 0 to count - 1, joined by
-// "|". Freed by g_free().
+// "|".
 char *sb_cli_names(const char *(*name)(int), int count);
 
 // Returns the exit code of a status of the engine; prints the message of `report` unless `status`
@@ -118,7 +118,7 @@ SbStudyFile *sb_cli_open_study(const char *path, char **settings);
 void sb_cli_add_file_hint(const char *path, unsigned kinds, GPtrArray *issues);
 
 // Returns the full path of the file that an operand names (sb_shipped_resolve()); "-" (standard
-// input) stays. Freed by g_free().
+// input) stays.
 char *sb_cli_full_path(const char *operand, unsigned kinds);
 
 // One operand of a command that takes several files.
@@ -264,8 +264,7 @@ void sb_cli_recognised(const SbMeasured *measured);
 // Prints what was recognised, the stages and the differences of a comparison.
 void sb_cli_comparison(const SbComparison *comparison);
 
-// Returns the name of the measured loop and its differences from the run in one line. Freed by
-// g_free().
+// Returns the name of the measured loop and its differences from the run in one line.
 char *sb_cli_comparison_brief(const SbComparison *comparison);
 
 // ---- The commands: argv[0] is the command's name; each returns the exit code ----
@@ -351,7 +350,7 @@ bool sb_cli_answers_elsewhere(void);
 
 // Returns the path of the store: `given`, or if it is NULL, NAME.store next to the study file (in
 // the current folder if the study belongs to the installed program or its folder is not writable).
-// NULL if `given` is NULL and the study is from standard input. Freed by g_free().
+// NULL if `given` is NULL and the study is from standard input.
 char *sb_cli_store_path(const char *given, const SbStudyFile *study);
 
 // Options of a computation of samples.

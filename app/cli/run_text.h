@@ -32,5 +32,5 @@ void sb_cli_run_table(const SbCliRunText *of);
 
 // Returns the answer to question `kind` (of SbVerdictKind), which must have a deciding figure: the
 // figure with its limit, the reason and the case, on one line. `verdict` is the answer of that
-// question. Freed by g_free().
+// question.
 char *sb_cli_verdict_text(const SbSummary *summary, int kind, const SbCaseVerdict *verdict);

@@ -13,7 +13,7 @@ int sb_wrap_width(const char *text);
 // Returns the one line `text` (without newline) broken at spaces, so that each line has at most
 // `columns` columns; unchanged if `columns` is too small (0, for example). Continuation lines are
 // indented to the start of the last column of a table line, else by four more spaces than the line.
-// Lines with escape sequences and words that are too long are not broken. Freed by g_free().
+// Lines with escape sequences and words that are too long are not broken.
 char *sb_wrap_line(const char *text, int columns);
 
 // Replaces `stdout` by a stream that wraps its lines if standard output is a terminal; does nothing

@@ -51,6 +51,6 @@ typedef struct {
 // `loop` is only read. Freed by sb_comparison_free().
 SbComparison *sb_comparison_create(const SbMeasured *measured, const SbLoop *loop);
 
-// Frees a comparison, not the measured loop; takes NULL.
+// Frees a comparison, not the measured loop.
 void sb_comparison_free(SbComparison *comparison);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbComparison, sb_comparison_free)

@@ -112,16 +112,16 @@ SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *byte
 // and drive.speed [m/s]: the latter for the test machine, 0 for other drives.
 double sb_measured_speed(double kind, double speed);
 
-// Frees a measured loop; takes NULL.
+// Frees a measured loop.
 void sb_measured_free(SbMeasured *measured);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbMeasured, sb_measured_free)
 
-// Returns what was found, for the user, several lines that end with a newline:
-// "separator semicolon, decimal comma, utf-8, 3 header lines". Freed by g_free().
+// Returns what was found, for the user, several lines that end with a newline: "separator
+// semicolon, decimal comma, utf-8, 3 header lines".
 char *sb_measured_text(const SbMeasured *measured);
 
 // Returns what was found as lines "key = value" of a group [data], which fix it for the next time
-// that the file is read. Freed by g_free().
+// that the file is read.
 char *sb_measured_keys(const SbMeasured *measured);
 
 // ---- Rows for a comparison: those where the stem slides ----

@@ -43,11 +43,11 @@ bool sb_cad_parts(int body[SB_CAD_PART_COUNT], const SbCad *cad, const SbCadSett
 // by the bodies (`body` as sb_cad_parts() writes it). Own sizes of `base` that follow from these
 // shapes are removed. `density` of the parts [kg/m3]; `drawing` is the path of the drawing, for
 // messages and for a mesh. *after receives the document as it would be read from `path`, freed by
-// sb_document_free(). Returns NULL, with *after = NULL, if there are issues. Freed by g_free().
+// sb_document_free(). Returns NULL, with *after = NULL, if there are issues.
 char *sb_cad_scene(SbDocument **after, const SbCad *cad, const int body[SB_CAD_PART_COUNT],
                    double density, const SbDocument *base, const char *drawing, const char *path,
                    GPtrArray *issues);
 
 // Returns a line for each value in force that differs: "stem.chamber_depth: 0.85 mm → 0.847 mm";
-// empty if none does. Freed by g_free().
+// empty if none does.
 char *sb_cad_differences(const SbDocument *before, const SbDocument *after);

@@ -52,7 +52,7 @@ bool sb_data_is_group(const char *group);
 
 // Returns the groups among the entries (of SbEntry, app/base/reader.h) of a file as an array of
 // SbData that owns its elements, in the order of the file. Relative file names start in `directory`
-// (NULL: the current one); `shown` names the file in issues. Freed by g_ptr_array_unref().
+// (NULL: the current one); `shown` names the file in issues.
 GPtrArray *sb_data_read(const GPtrArray *entries, const char *directory, const char *shown,
                         GPtrArray *issues);
 
@@ -65,7 +65,7 @@ void sb_data_part(GPtrArray *list, GPtrArray *issues);
 // sb_data_free().
 SbData *sb_data_of_file(const char *path);
 
-// Frees a group (SbData *); takes NULL. The type fits GDestroyNotify.
+// Frees a group (SbData *). The type fits GDestroyNotify.
 void sb_data_free(gpointer data);
 
 // Returns a copy. Freed by sb_data_free().

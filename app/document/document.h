@@ -64,7 +64,7 @@ SbDocument *sb_document_load(const char *path, GPtrArray *issues);
 SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
                               const char *directory, GPtrArray *issues);
 
-// Frees a document; takes NULL.
+// Frees a document.
 void sb_document_free(SbDocument *document);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbDocument, sb_document_free)
 
@@ -88,12 +88,12 @@ const char *sb_document_valve_path(const SbDocument *document);
 const GPtrArray *sb_document_notes(const SbDocument *document);
 
 // Returns which shape of the document's own file gives the size `id`, such as "the bore of
-// [part.housing]": there it is edited. NULL: no shape gives it. Borrowed.
+// [part.housing]": there it is edited. NULL: no shape gives it.
 const char *sb_document_shape_source(const SbDocument *document, SbParamId id);
 
 // Returns a sentence on the difference between the value in force of `id` and the size of a part's
 // shape in the layers below: "bore.diameter = 6.1 mm applies; the bore of [part.housing] has 6 mm,
-// ...". NULL if there is no difference, or no shape gives this size. Freed by g_free().
+// ...". NULL if there is no difference, or no shape gives this size.
 char *sb_document_shape_note(const SbDocument *document, SbParamId id);
 
 // Returns the title: `title` of group [sealbench], else the file's name, else "Untitled". Borrowed
@@ -109,7 +109,7 @@ SbParams sb_document_params(const SbDocument *document);
 // Returns the value in force of a parameter [SI]; of a choice its index.
 double sb_document_value(const SbDocument *document, SbParamId id);
 
-// Returns the value in force as text with its unit ("1.61 mm"). Freed by g_free().
+// Returns the value in force as text with its unit ("1.61 mm").
 char *sb_document_text(const SbDocument *document, SbParamId id);
 
 // Compiles the values in force to a model, freed by sb_model_destroy(). Returns false, with at
@@ -123,7 +123,7 @@ G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbModel, sb_model_destroy)
 // Returns the number of the document's own groups [data].
 size_t sb_document_data_count(const SbDocument *document);
 
-// Returns group `index`, from 0. Borrowed.
+// Returns group `index`, from 0.
 const SbData *sb_document_data(const SbDocument *document, size_t index);
 
 // Replaces the first group by `data`, which the document owns from now on (NULL: removes the
@@ -133,13 +133,13 @@ void sb_document_put_data(SbDocument *document, SbData *data);
 
 // ---- Limits and cases ----
 
-// Returns the [limits] on figures: those of its valve, replaced by its own. Borrowed.
+// Returns the [limits] on figures: those of its valve, replaced by its own.
 const SbLimits *sb_document_limits(const SbDocument *document);
 
 // Returns the number of [cases]; each is the document with some values replaced.
 size_t sb_document_case_count(const SbDocument *document);
 
-// Returns the name of case `index`, from 0. Borrowed.
+// Returns the name of case `index`, from 0.
 const char *sb_document_case_name(const SbDocument *document, size_t index);
 
 // As sb_document_compile(), for case `index`; issues name it ("[cases] cold: gland.radial_space:
@@ -157,7 +157,7 @@ bool sb_document_check_cases(const SbDocument *document, GPtrArray *issues);
 // Returns the number of [pins].
 size_t sb_document_pin_count(const SbDocument *document);
 
-// Returns the name of pin `index`, from 0; NULL: it has none. Borrowed.
+// Returns the name of pin `index`, from 0; NULL: it has none.
 const char *sb_document_pin_name(const SbDocument *document, size_t index);
 
 // Returns all values of pin `index` [SI]. Borrowed until pins are removed or replaced.
@@ -226,7 +226,7 @@ void sb_document_take_remarks(SbDocument *document, const SbDocument *other);
 void sb_document_remarks(const SbDocument *document, const SbModel *model, GPtrArray *issues);
 
 // Returns the SHA-256 (64 hexadecimal digits) of all values in force and of the measured series and
-// drawings that files give. Freed by g_free().
+// drawings that files give.
 char *sb_document_sha256(const SbDocument *document);
 
 // ---- Edits ----
@@ -274,7 +274,7 @@ bool sb_document_is_modified(const SbDocument *document);
 
 // ---- The rubber ----
 
-// Returns the name of the rubber in force, as the file names it; NULL: none. Borrowed.
+// Returns the name of the rubber in force, as the file names it; NULL: none.
 const char *sb_document_rubber(const SbDocument *document);
 
 // Sets the document's own rubber by name or path; NULL: that of the valve is in force again. Can be
@@ -291,7 +291,6 @@ char **sb_document_rubbers(const SbDocument *document);
 // ---- Drawings of the seals' section and of the groove ----
 
 // Returns the name of the file that draws the seals' section, as the document has it; NULL: none.
-// Borrowed.
 const char *sb_document_section(const SbDocument *document);
 
 // Sets the seals' section to `section` with its radial height [m], as sb_seal_file_read() read them
@@ -299,7 +298,7 @@ const char *sb_document_section(const SbDocument *document);
 void sb_document_set_section(SbDocument *document, const char *path, const SbSealDrawing *section,
                              double height);
 
-// Returns the name of the file that draws the groove, as the document has it; NULL: none. Borrowed.
+// Returns the name of the file that draws the groove, as the document has it; NULL: none.
 const char *sb_document_groove(const SbDocument *document);
 
 // Returns whether the document has a drawn groove that it can remove: not if its valve draws one.
@@ -343,12 +342,11 @@ unsigned sb_document_serial(const SbDocument *document);
 
 // ---- Writing ----
 
-// Returns the text that saving to `path` would write (NULL: to the present path). Freed by
-// g_free().
+// Returns the text that saving to `path` would write (NULL: to the present path).
 char *sb_document_to_text(const SbDocument *document, const char *path);
 
 // Returns the text of a valve with every value in force, which needs no other valve file (for a
-// picture that can be opened again). Freed by g_free().
+// picture that can be opened again).
 char *sb_document_to_flat_text(const SbDocument *document);
 
 // Writes the file atomically. Afterwards nothing differs from it, and `path` is the document's

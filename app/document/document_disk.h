@@ -23,7 +23,7 @@ const char *sb_document_file_text(const SbDocument *document);
 // Merges three versions of a key file: returns `theirs` with the changes from `base` to `mine`, key
 // by key, with the order of lines and the comments of `theirs`. If both sides changed a key to
 // different values, `mine` is used and a line "group.key: VALUE (in the file: VALUE)" is appended
-// to `conflicts` (of char *; may be NULL). Freed by g_free().
+// to `conflicts` (of char *; may be NULL).
 char *sb_document_merge_texts(const char *base, const char *mine, const char *theirs,
                               GPtrArray *conflicts);
 
@@ -40,5 +40,5 @@ SbDocument *sb_document_load_with(const char *path, const char *base, const char
 void sb_document_become(SbDocument *document, SbDocument *other);
 
 // Returns a path next to the document's that no file has: "NAME (2).scene", "NAME (3).scene" and so
-// on. The document must have a path. Freed by g_free().
+// on. The document must have a path.
 char *sb_document_free_path(const SbDocument *document);

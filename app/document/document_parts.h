@@ -41,11 +41,11 @@ SbShapes *sb_shapes_new(void);
 void sb_shapes_free(SbShapes *shapes);
 
 // Returns the size that a shape gives `id`, of the document's own shape before its valve's; NULL:
-// none. Borrowed.
+// none.
 const SbShapeSize *sb_shapes_size(const SbShapes *shapes, SbParamId id);
 
 // Returns the size, mass or moment of inertia that a shape of the valve (`in_valve`) or of the
-// document itself gives `id`; NULL: none. Borrowed.
+// document itself gives `id`; NULL: none.
 const SbShapeSize *sb_shapes_own(const SbShapes *shapes, SbParamId id, bool in_valve);
 
 // Computes masses, moments of inertia and sizes from the shapes among `entries` (of SbEntry) of one

@@ -159,10 +159,10 @@ SbNamedDrawing *sb_document_drawing_now(const SbDocument *document, SbFileKey ke
 // Puts a copy of `drawing` in force, without an edit.
 void sb_document_put_drawing(SbDocument *document, const SbNamedDrawing *drawing);
 
-// Frees a drawing; takes NULL.
+// Frees a drawing.
 void sb_named_drawing_free(SbNamedDrawing *drawing);
 
-// Returns the path of the document's own drawing; NULL: none. Borrowed.
+// Returns the path of the document's own drawing; NULL: none.
 const char *sb_document_own_drawing(const SbDocument *document, SbFileKey key);
 
 // Makes `drawing`, which the document owns from now on, its own by an edit; a section in one step
@@ -183,7 +183,7 @@ void sb_document_note_drawings(SbDocument *document);
 void sb_document_refresh_title(SbDocument *document);
 
 // Returns ", do you mean KEY?" with the key of the catalogue that is most similar to `key`; empty:
-// none is similar. Freed by g_free().
+// none is similar.
 char *sb_document_key_hint(const char *key);
 
 // ---- Limits and cases ----
@@ -205,7 +205,7 @@ typedef struct {
   char *shown;           // the file that contains it
 } SbCase;
 
-// Returns an empty list of SbCase that owns its elements. Freed by g_ptr_array_unref().
+// Returns an empty list of SbCase that owns its elements.
 GPtrArray *sb_document_cases_new(void);
 
 // Reads the lines of `group` among `entries` (of SbEntry) into `cases`; they replace earlier ones
@@ -229,7 +229,7 @@ bool sb_document_case_model(const SbDocument *document, SbParams params, SbNamed
 
 // ---- Pins ----
 
-// Returns an empty list of pins that owns its elements. Freed by g_ptr_array_unref().
+// Returns an empty list of pins that owns its elements.
 GPtrArray *sb_document_pins_new(void);
 
 // Reads the [pins] among `entries` (of SbEntry) of the file `shown`. Appends issues.
@@ -260,7 +260,6 @@ void sb_document_change_remarks(GArray *changes, const SbDocument *document);
 // ---- Values ----
 
 // Returns the allowed range of a problem in the parameter's unit, "at least 5.79 mm"; NULL: none.
-// Freed by g_free().
 char *sb_document_problem_range(const SbProblem *problem, const SbParam *param);
 
 // Reads a value with unit, or a percentage of the value in force ("+5 %"), to *out [SI]. Returns
@@ -299,7 +298,7 @@ SbNamedRubber *sb_document_rubber_in_force(const SbDocument *document);
 void sb_document_edit_rubber(SbDocument *document, SbNamedRubber *rubber);
 
 // Returns the name that a document in the folder `directory` must use for this document's own
-// rubber; NULL: it has none. Freed by g_free().
+// rubber; NULL: it has none.
 char *sb_document_rubber_name_at(const SbDocument *document, const char *directory);
 
 // ---- Edits ----

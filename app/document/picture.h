@@ -15,5 +15,4 @@
 
 // Returns the text of the scene in the `length` bytes of a PNG that sb_still_write() wrote. NULL
 // with SB_APP_ERROR_INPUT if the bytes are not a PNG, contain no scene, or the scene is damaged.
-// Freed by g_free().
 char *sb_picture_find_scene(const void *data, size_t length, GError **error);

@@ -35,7 +35,6 @@ bool sb_rubber_sheet_parse(SbRubberSheet *out, const char *text, size_t length, 
                            GPtrArray *issues);
 
 // Returns the path of the rubber that sb_rubber_sheet_read() would read; NULL if there is none.
-// Freed by g_free().
 char *sb_rubber_sheet_find(const char *name, const char *directory);
 
 // Returns the names of all rubbers that are found from `directory` (NULL: of no file), sorted, ends

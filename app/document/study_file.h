@@ -62,10 +62,10 @@ typedef struct {
 // SbVary.id of a variable.
 #define SB_VARY_VARIABLE ((SbParamId)-1)
 
-// Returns the parameter's key or the variable's name. Borrowed.
+// Returns the parameter's key or the variable's name.
 const char *sb_vary_name(const SbVary *vary);
 
-// Returns the SI unit of its values ("m"); "1" for a variable or a choice. Borrowed.
+// Returns the SI unit of its values ("m"); "1" for a variable or a choice.
 const char *sb_vary_si(const SbVary *vary);
 
 // [design] and [tolerances].
@@ -124,7 +124,7 @@ SbStudyFile *sb_study_file_of_model(const char *path, const SbModel *scene, GPtr
 // parameters, about the scene's values. It borrows from `study`, which must outlive it.
 SbStudyFile *sb_study_file_about(const SbStudyFile *study, const double *value, size_t samples);
 
-// Frees a study; takes NULL.
+// Frees a study.
 void sb_study_file_free(SbStudyFile *study);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbStudyFile, sb_study_file_free)
 

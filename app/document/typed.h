@@ -10,5 +10,5 @@
 
 // Returns the text for sb_param_parse(); `value` is the value in force [SI]. A text that is none of
 // the forms above is returned unchanged, so that sb_param_parse() reports what is wrong. Never
-// NULL. Freed by g_free().
+// NULL.
 char *sb_typed_text(SbParamId id, double value, const char *typed);

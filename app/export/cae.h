@@ -25,6 +25,5 @@
 bool sb_cae_check(const char *path, const SbFitProblem *problem, GError **error);
 
 // Returns the content of the file `path` (only its ending is used; nothing is written) for `ring`,
-// the converged solution of `problem`. `path` and `problem` have passed sb_cae_check(). Freed by
-// g_free().
+// the converged solution of `problem`. `path` and `problem` have passed sb_cae_check().
 char *sb_cae_text(const char *path, const SbRing *ring, const SbFitProblem *problem);

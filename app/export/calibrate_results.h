@@ -7,12 +7,11 @@
 #include <stdio.h>
 
 // Returns the JSON document of `sealbench calibrate`. `study` is the file that `calibration` was
-// made from. Freed by g_free().
+// made from.
 char *sb_calibration_json(const SbCalibration *calibration, const SbStudyFile *study);
 
 // Returns the samples of the posterior as comma-separated values: `sample` (number from 0), then a
-// column "key [SI unit]" for each parameter. The heading alone if nothing was sampled. Freed by
-// g_free().
+// column "key [SI unit]" for each parameter. The heading alone if nothing was sampled.
 char *sb_calibration_csv(const SbCalibration *calibration);
 
 // Draws the page of a calibration into `rect` [pixels]; made for SB_CALIBRATION_WIDTH by

@@ -8,8 +8,7 @@
 #include <stdio.h>
 
 // Returns a text as a cell: in quotes if it contains a separator, a quote or a line end, and with
-// an apostrophe in front if a spreadsheet would compute it as a formula. NULL: an empty cell. Freed
-// by g_free().
+// an apostrophe in front if a spreadsheet would compute it as a formula. NULL: an empty cell.
 char *sb_csv_cell(const char *text);
 
 // Writes sb_csv_cell(text), without a separator.

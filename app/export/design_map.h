@@ -34,9 +34,8 @@ void sb_design_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
 void sb_design_scatter_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                             const SbDesignAnswer *answer);
 
-// Returns "24.8 N": a value [SI] of a figure (index of sb_figure()) in its display unit. Freed by
-// g_free().
+// Returns "24.8 N": a value [SI] of a figure (index of sb_figure()) in its display unit.
 char *sb_design_value_text(int figure, double value);
 
-// Returns the content of the drawings as text, for screen readers. Freed by g_free().
+// Returns the content of the drawings as text, for screen readers.
 char *sb_design_text(const SbDesignAnswer *answer);

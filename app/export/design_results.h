@@ -7,5 +7,5 @@
 // to the larger magnitude of bound and figure; -1: no limit is violated.
 int sb_design_least_missed(const SbDesign *design, const SbStudyFile *study);
 
-// Returns the JSON document of `sealbench design`. Freed by g_free().
+// Returns the JSON document of `sealbench design`.
 char *sb_design_json(const SbStudyFile *study, const SbDesign *design);

@@ -67,5 +67,5 @@ void sb_export_job_cancel(SbExportJob *job);
 // export succeeded. Borrowed from the job.
 const char *sb_export_job_result(SbExportJob *job, gboolean *good);
 
-// Cancels, waits for the thread and frees. Takes NULL.
+// Cancels, waits for the thread and frees.
 void sb_export_job_free(SbExportJob *job);

@@ -26,8 +26,8 @@ const SbExportFormat *sb_export_formats(size_t *count);
 const SbExportFormat *sb_export_format(const char *path);
 
 // Returns a list of endings: "png, svg, pdf or mp4". `kinds`: bit 1 << kind for each kind of format
-// to list; `skip`: bytes that are left out at the start of each ending (1: the dot); `between`:
-// the separator (", "); `last`: the separator before the last ending (" or "). Freed by g_free().
+// to list; `skip`: bytes that are left out at the start of each ending (1: the dot); `between`: the
+// separator (", "); `last`: the separator before the last ending (" or ").
 char *sb_export_endings(unsigned kinds, size_t skip, const char *between, const char *last);
 
 // `kinds` of all formats.

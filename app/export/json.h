@@ -29,7 +29,7 @@ void sb_json_document(SbJson *json);
 // object: for objects that are elements of an array of documents.
 void sb_json_engine(SbJson *json);
 
-// Ends the writer and returns its text with a final line end. Freed by g_free().
+// Ends the writer and returns its text with a final line end.
 char *sb_json_finish(SbJson *json);
 
 // Opens an object.

@@ -15,6 +15,5 @@ void sb_json_measured_stages(SbJson *json, const SbComparison *comparison);
 // the first run, and the comparison of the first run with its measurement. All arrays have `runs`
 // elements: `name` of the runs, `scene` the full paths of their files ("-": standard input),
 // `figure[i]` is [SB_FIGURE_COUNT] [SI], `comparison[i]` is NULL for a run without a measurement.
-// Freed by g_free().
 char *sb_results_compare(size_t runs, const char *const *name, const char *const *scene,
                          double *const *figure, SbComparison *const *comparison);

@@ -22,5 +22,5 @@ SbStatus sb_movie_encoder_add(SbMovieEncoder *encoder, const uint8_t *pixels, si
 // SB_ERROR_IO as above.
 SbStatus sb_movie_encoder_finish(SbMovieEncoder *encoder, const char *comment, SbReport *report);
 
-// Frees the encoder and closes its file in any state; the file itself stays. Takes NULL.
+// Frees the encoder and closes its file in any state; the file itself stays.
 void sb_movie_encoder_destroy(SbMovieEncoder *encoder);

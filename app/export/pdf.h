@@ -35,5 +35,5 @@ void sb_pdf_begin(SbPdf *out, double width, double height, const SbPdfTexts *tex
 bool sb_pdf_finish(SbPdf *pdf, FILE *stream, GError **error);
 
 // Returns the UTC time of SOURCE_DATE_EPOCH in the `format` of g_date_time_format(); "" if the
-// variable is not set. Freed by g_free().
+// variable is not set.
 char *sb_pdf_date(const char *format);

@@ -14,7 +14,7 @@ typedef struct SbQuantiser SbQuantiser;
 // Returns a quantiser without a palette. Freed by sb_quantiser_destroy().
 SbQuantiser *sb_quantiser_create(void);
 
-// Frees a quantiser; takes NULL.
+// Frees a quantiser.
 void sb_quantiser_destroy(SbQuantiser *of);
 
 // Converts a picture of width by height pixels (`pixels`: rows of `stride` bytes, cairo's ARGB32,

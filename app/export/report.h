@@ -46,25 +46,24 @@ bool sb_report_study(FILE *stream, const SbReportStudy *study, const SbReportHoo
 
 // ---- Parts of both reports, for app/export/report*.c only ----
 
-// Returns the file names of valve and scene, "piston.valve · thesis-cycle.scene". Freed by
-// g_free().
+// Returns the file names of valve and scene, "piston.valve · thesis-cycle.scene".
 char *sb_report_files(const SbDocument *document);
 
 // Returns the foot of all pages: version of program and engine, `files`, day, start of `hash`
-// (SHA-256 of the parameters). Freed by g_free().
+// (SHA-256 of the parameters).
 char *sb_report_foot(const char *files, const char *hash);
 
 // Returns the value of a figure (index of sb_figure()) with its unit and the digits that its error
-// estimate supports; a dash if there is none. Freed by g_free().
+// estimate supports; a dash if there is none.
 char *sb_report_value(const SbSummary *summary, int index);
 
 // Returns the error estimate of a figure in per cent, "rounding" if below 1e-9, "" if there is no
-// estimate. Freed by g_free().
+// estimate.
 char *sb_report_error(const SbSummary *summary, int index);
 
 // Returns the margin of a value to the nearer bound, "1.4 N (5 %)"; negative if the limit is
 // violated; "" if it is not finite. `value`, `low`, `high` (may be infinite) in SI units of
-// `figure` (index of sb_figure()), `error` relative. Freed by g_free().
+// `figure` (index of sb_figure()), `error` relative.
 char *sb_report_margin(int figure, double value, double error, double low, double high);
 
 // Draws the chapter "Inputs": the parameters in force with tolerances and origin, the models, the

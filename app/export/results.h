@@ -44,10 +44,10 @@ extern const SbResultRow sb_film_rows[], sb_film_contact_rows[], sb_film_rough_r
     sb_film_error_rows[], sb_fit_rows[], sb_fit_contact_rows[], sb_fit_ring_rows[],
     sb_fit_drag_rows[], sb_fit_error_rows[];
 
-// Returns the document of a run that has ended. Freed by g_free().
+// Returns the document of a run that has ended.
 char *sb_results_run(const SbRun *run, const SbResultsInfo *info);
 
-// Returns the document of a film. `history`: of a series of speeds; NULL: none. Freed by g_free().
+// Returns the document of a film. `history`: of a series of speeds; NULL: none.
 char *sb_results_film(const SbFilm *film, const SbResultsHistory *history);
 
 // Returns whether the solver found a contact, also one whose residual is above the tolerance. If
@@ -58,22 +58,22 @@ bool sb_results_fit_found(const SbFit *fit);
 // has the results of dragging. `limit`: the largest drag was computed too. `seal`: name of the
 // seal. `gland`: [SB_GLAND_COUNT] compression, stretch and fill of the groove, NULL: the seal is in
 // no groove; `storage`: state of the rubber after storage; `file`: full path of the valve or scene,
-// "-" for standard input. Freed by g_free().
+// "-" for standard input.
 char *sb_results_fit(const SbFit *fit, const SbFitProblem *problem, bool limit, const char *seal,
                      const SbGlandReadout *gland, const SbRubberState *storage, const char *file);
 
 // Returns the document of a plan: what a run would compute. `scene`: full path of its file, "-" for
-// standard input. Freed by g_free().
+// standard input.
 char *sb_results_plan(const SbPlan *plan, const char *scene);
 
-// Returns the catalogue of parameters, an array of objects. Freed by g_free().
+// Returns the catalogue of parameters, an array of objects.
 char *sb_results_params(void);
 
-// Returns the catalogue of figures, an array of objects. Freed by g_free().
+// Returns the catalogue of figures, an array of objects.
 char *sb_results_figures(void);
 
-// Returns the choices of all parameters "models.*", an array of objects. Freed by g_free().
+// Returns the choices of all parameters "models.*", an array of objects.
 char *sb_results_models(void);
 
-// Returns the table of propellants, an array of objects. Freed by g_free().
+// Returns the table of propellants, an array of objects.
 char *sb_results_fluids(void);

@@ -4,5 +4,5 @@
 #include "engine/valve/answer/gradient.h"
 
 // Returns the JSON document of `sealbench sensitivity`. `scene` is the full path of its file, "-"
-// for standard input. Freed by g_free().
+// for standard input.
 char *sb_sensitivity_json(const SbGradient *gradient, const char *scene);

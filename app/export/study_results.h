@@ -47,7 +47,7 @@ void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
 
 // Returns a sentence if the study's figures of storage use a typical value of permeation that was
 // not measured for this rubber; `which`: 0 of propellant, 1 of water. NULL: they do not, or the
-// study varies that parameter. Freed by g_free().
+// study varies that parameter.
 char *sb_study_typical(const SbStudyFile *study, int which);
 
 // Writes the members "study" (title), "file" (full path of the study) and "scene" (full path of its
@@ -55,7 +55,7 @@ char *sb_study_typical(const SbStudyFile *study, int which);
 void sb_json_study_files(SbJson *json, const SbStudyFile *study);
 
 // Returns the JSON document of `sealbench study`. `drawn`: the points of the method (shares.h);
-// `cpus`: name and number of processors, for the document. Freed by g_free(). NULL with `report`
-// if a statistic could not be computed.
+// `cpus`: name and number of processors, for the document. NULL with `report` if a statistic could
+// not be computed.
 char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const SbAnswers *answers,
                     const char *cpus, SbReport *report);

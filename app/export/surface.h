@@ -15,7 +15,7 @@ typedef struct {
   const SbScanFigures *figures;
 } SbSurface;
 
-// Returns the JSON document of `sealbench surface`. Freed by g_free().
+// Returns the JSON document of `sealbench surface`.
 char *sb_surface_json(const SbSurface *surface);
 
 // Rows of SbHeightFigures and of SbAsperityFigures (sb_result_value()), each list ends with a key
@@ -55,7 +55,7 @@ bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *
                        GError **error);
 
 // Returns the choices in force as text: "plane removed, no outliers sought, missing points left
-// out, no cut-off". Freed by g_free().
+// out, no cut-off".
 char *sb_surface_choices_text(const SbSurface *surface);
 
 // Returns the settings of a scene for this surface, "surface.gt_product=0.1289" and so on, ends

@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-// Returns an item as lines of text: title, rows, reasons and notes. Freed by g_free().
+// Returns an item as lines of text: title, rows, reasons and notes.
 char *sb_thesis_table(const SbThesisItem *item);
 
 // Writes an item as an object, an element of the open array or the outermost value: engine, item,
@@ -29,7 +29,7 @@ void sb_html_thesis_end(FILE *stream);
 
 // Returns `text` with {ITEM | LABEL OF A ROW | WHAT} replaced by a value of that row with its unit.
 // WHAT: printed, thesis, consistent, or ratio (printed divided by the thesis' model). "?" if there
-// is no such item or row. Freed by g_free().
+// is no such item or row.
 char *sb_thesis_introduction(const char *text, SbThesisItem *const *items, size_t count);
 
 // Writes an item as Markdown, a part of docs/thesis.md.
@@ -40,11 +40,11 @@ void sb_markdown_thesis(FILE *stream, const SbThesisItem *item);
 bool sb_thesis_still(FILE *stream, const SbThesisItem *item, const char *ending, GError **error);
 
 // Returns a value of a row [row->si] in its display unit, with the unit and at most five
-// significant digits; "-" for NaN. Freed by g_free().
+// significant digits; "-" for NaN.
 char *sb_thesis_text(const SbThesisRow *row, double value);
 
 // Returns the reasons of a row as one sentence, with the part of the difference that each explains
-// and what remains; NULL: it has no reasons. Freed by g_free().
+// and what remains; NULL: it has no reasons.
 char *sb_thesis_reason(const SbThesisRow *row);
 
 // Returns all reasons of an item, each once: those of its rows, then those of the consistent set.
@@ -53,5 +53,5 @@ GPtrArray *sb_thesis_reasons(const SbThesisItem *item);
 
 // Returns the state of a row in terms of the numbers (from 1) of `reasons`, the list of
 // sb_thesis_reasons(): "agrees", or "1: +3 nm, 2: -1 nm; remains 0.1 nm". `models`: the steps to
-// the consistent set instead, "" without any. Freed by g_free().
+// the consistent set instead, "" without any.
 char *sb_thesis_standing(const SbThesisRow *row, const GPtrArray *reasons, bool models);

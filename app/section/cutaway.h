@@ -11,7 +11,7 @@ typedef struct SbCutaway SbCutaway;
 // in sb_valve_outline_make(). It draws one picture after the other. Freed by sb_cutaway_destroy().
 SbCutaway *sb_cutaway_create(const SbModel *model, double inner_contact_left);
 
-// Frees a cutaway; takes NULL.
+// Frees a cutaway.
 void sb_cutaway_destroy(SbCutaway *cutaway);
 
 // Adds the cutaway at the section's present instant to the section's display list, with the camera
@@ -19,5 +19,4 @@ void sb_cutaway_destroy(SbCutaway *cutaway);
 void sb_cutaway_draw(SbCutaway *cutaway, SbSection *section);
 
 // Returns the cutaway of a section; NULL before its first picture with SbSectionView.cutaway.
-// Borrowed.
 const SbCutaway *sb_section_cutaway(const SbSection *section);

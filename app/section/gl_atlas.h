@@ -21,7 +21,7 @@ typedef struct {
 // sb_gl_atlas_destroy().
 SbGlAtlas *sb_gl_atlas_create(const SbGlApi *gl);
 
-// Frees the atlas and its texture, with its context current. Takes NULL.
+// Frees the atlas and its texture, with its context current.
 void sb_gl_atlas_destroy(SbGlAtlas *atlas);
 
 // Finds a line of text, or draws it into the atlas. `size` is in device pixels, `weight` as in

@@ -18,7 +18,7 @@ typedef struct SbGlRenderer SbGlRenderer;
 // refuses them. Freed by sb_gl_renderer_destroy().
 SbStatus sb_gl_renderer_create(SbGlRenderer **out, SbGlContext *context, SbReport *report);
 
-// Frees the renderer. Takes NULL.
+// Frees the renderer.
 void sb_gl_renderer_destroy(SbGlRenderer *renderer);
 
 // Draws a list into the renderer's framebuffer of width x height device pixels; `scale` is device

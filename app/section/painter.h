@@ -29,10 +29,10 @@ SbSectionStyle sb_section_style_of(const SbModel *model);
 SbStatus sb_section_painter_create(SbSectionPainter **out, bool use_gl, SbGlBackend backend,
                                    SbReport *report);
 
-// Frees a painter; takes NULL.
+// Frees a painter.
 void sb_section_painter_destroy(SbSectionPainter *painter);
 
-// Returns what draws and why: "osmesa (llvmpipe ...): why", or "cairo: why". Borrowed.
+// Returns what draws and why: "osmesa (llvmpipe ...): why", or "cairo: why".
 const char *sb_section_painter_reason(const SbSectionPainter *painter);
 
 // Returns the time spent so far in waiting for GL and reading its pictures [s].

@@ -64,7 +64,7 @@ typedef struct {
 // Returns a section for the frames of `model` (copied, as `limits`). Freed by sb_section_destroy().
 SbSection *sb_section_create(const SbModel *model, const SbSectionLimits *limits);
 
-// Frees a section; takes NULL.
+// Frees a section.
 void sb_section_destroy(SbSection *section);
 
 // Sets the limits, except those of fields, from frames[count]; the other members must be zero

@@ -13,7 +13,7 @@ typedef struct SbText SbText;
 // Returns a new object. Freed by sb_text_destroy().
 SbText *sb_text_create(void);
 
-// Frees it; takes NULL.
+// Frees it.
 void sb_text_destroy(SbText *text);
 
 // Returns the advance width of one line of UTF-8 text [px]. Widths are cached.

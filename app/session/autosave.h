@@ -25,8 +25,7 @@ void sb_autosave_leave(SbAutosave *autosave);
 // sb_autosave_leave(). Call it before the session is freed.
 void sb_autosave_free(SbAutosave *autosave);
 
-// Returns the path of a file of a process that does not run any more; NULL: there is none. Freed by
-// g_free().
+// Returns the path of a file of a process that does not run any more; NULL: there is none.
 char *sb_autosave_find(void);
 
 // Content of such a file. Freed by sb_unsaved_clear().

@@ -16,8 +16,8 @@ SbCasesJob *sb_cases_job_start(SbRunHandle *handle, const SbDocument *document,
 // or if the document could not be read again. Names in it are valid as long as the job.
 const SbCaseVerdict *sb_cases_job_verdict(const SbCasesJob *job);
 
-// Returns the run of the scene itself, from the start on. Borrowed.
+// Returns the run of the scene itself, from the start on.
 const SbRun *sb_cases_job_run(const SbCasesJob *job);
 
-// Cancels, waits for the thread and frees the job. Takes NULL.
+// Cancels, waits for the thread and frees the job.
 void sb_cases_job_free(SbCasesJob *job);

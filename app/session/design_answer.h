@@ -58,7 +58,7 @@ typedef struct {
   SbDesignPlace place[SB_DESIGN_PLACES];
 } SbDesignAnswer;
 
-// Frees the results; takes NULL.
+// Frees the results.
 void sb_design_answer_free(SbDesignAnswer *answer);
 
 // Returns the column (from 0) of a figure (index of sb_figure()) in value, figure and sample; -1:

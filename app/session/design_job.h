@@ -51,5 +51,5 @@ void sb_design_job_cancel(SbDesignJob *job);
 // results are complete. Afterwards the job has no results: sb_design_job_lock() returns NULL.
 SbDesignAnswer *sb_design_job_take(SbDesignJob *job, char **why);
 
-// Cancels, waits for the thread and frees the job. Takes NULL.
+// Cancels, waits for the thread and frees the job.
 void sb_design_job_free(SbDesignJob *job);

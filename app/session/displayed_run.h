@@ -51,7 +51,7 @@ void sb_displayed_run_end(SbDisplayedRun *shown);
 // Adds a reference and returns `shown`; takes NULL.
 SbDisplayedRun *sb_displayed_run_ref(SbDisplayedRun *shown);
 
-// Removes a reference; the last one frees the run. Takes NULL.
+// Removes a reference; the last one frees the run.
 void sb_displayed_run_unref(SbDisplayedRun *shown);
 
 // Adds to the trace the frames that were published since the last call, at most `limit` of them.

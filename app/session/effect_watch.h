@@ -15,7 +15,7 @@ typedef struct SbEffectWatch SbEffectWatch;
 SbEffectWatch *sb_effect_watch_new(SbSession *session, void (*changed)(void *data),
                                    bool (*is_busy)(const void *data), void *data);
 
-// Cancels, waits for the thread and frees `watch`. Takes NULL.
+// Cancels, waits for the thread and frees `watch`.
 void sb_effect_watch_free(SbEffectWatch *watch);
 
 // Returns the effects computed last; NULL: none yet. *former is set to whether they belong to other
@@ -27,5 +27,4 @@ const SbEffects *sb_effect_watch_effects(const SbEffectWatch *watch, bool *forme
 double sb_effect_share(const SbEffects *effects, int goal, int id);
 
 // Returns the effect as text, "Return −0.97 N per 0.02 mm"; NULL: not known. `effects` may be NULL.
-// Freed by g_free().
 char *sb_effect_text(const SbEffects *effects, int goal, SbParamId id);

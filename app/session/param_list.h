@@ -22,7 +22,7 @@ gboolean sb_param_is_changed(const SbParams *params, SbParamId id);
 // for others. Static.
 const char *sb_param_owner(const SbParam *param);
 
-// Returns the allowed range as sb_param_range(), translated. Freed by g_free().
+// Returns the allowed range as sb_param_range(), translated.
 char *sb_param_range_shown(SbParamId id);
 
 // Returns whether name, key, symbol, help, choices or synonyms of a parameter contain `needle`,

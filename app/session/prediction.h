@@ -19,7 +19,7 @@ typedef struct SbPrediction SbPrediction;
 // Returns an empty prediction. Freed by sb_prediction_free().
 SbPrediction *sb_prediction_new(void);
 
-// Frees a prediction; takes NULL.
+// Frees a prediction.
 void sb_prediction_free(SbPrediction *prediction);
 
 // Predicts the run of the values `params`, whose model is `model`, from `base`, which is borrowed

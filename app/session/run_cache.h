@@ -9,7 +9,7 @@ typedef struct SbRunCache SbRunCache;
 // Returns an empty cache. Freed by sb_run_cache_free().
 SbRunCache *sb_run_cache_new(void);
 
-// Frees the cache and its references; takes NULL.
+// Frees the cache and its references.
 void sb_run_cache_free(SbRunCache *cache);
 
 // Stores a reference to a complete run under `hash` (sb_document_sha256(), copied), in place of an

@@ -19,7 +19,7 @@ typedef struct {
 // sb_section_source_free().
 SbSectionSource *sb_section_source_new(SbSession *session);
 
-// Frees the source; takes NULL.
+// Frees the source.
 void sb_section_source_free(SbSectionSource *source);
 
 // Discards the section and the valve at rest. Must be called when another run is displayed, or when

@@ -228,7 +228,7 @@ const SbFrame *sb_session_frames(SbSession *session, size_t *count);
 SbRunGrade sb_session_grade(SbSession *session);
 
 // Returns the same as a translated text; NULL for SB_GRADE_WHOLE, whose figures are those of
-// `sealbench run`. Freed by g_free().
+// `sealbench run`.
 char *sb_session_grade_text(SbSession *session);
 
 // Returns whether the displayed run can be exported: it has ended, with the grade SB_GRADE_WHOLE.
@@ -321,12 +321,12 @@ gboolean sb_session_shows_former(SbSession *session);
 // computed. Views then postpone expensive drawing, except of the prediction.
 gboolean sb_session_awaits(SbSession *session);
 
-// Returns a translated description of the displayed run of earlier values, "run with modulus
-// 2.5 MPa"; NULL unless sb_session_shows_former(). Freed by g_free().
+// Returns a translated description of the displayed run of earlier values, "run with modulus 2.5
+// MPa"; NULL unless sb_session_shows_former().
 char *sb_session_former_text(SbSession *session);
 
 // Returns a sentence in English for pictures, "stale: this run is with modulus 2.5 MPa"; NULL
-// unless sb_session_is_stale(). Freed by g_free().
+// unless sb_session_is_stale().
 char *sb_session_stale_text(SbSession *session);
 
 // Returns everything that the views of app/chart draw.
@@ -376,6 +376,5 @@ void sb_session_tick(SbSession *session, gint64 now);
 // Returns whether sb_session_tick() has something to do.
 gboolean sb_session_wants_ticks(SbSession *session);
 
-// Returns the position of the displayed frame, "stage C, 3.30 mm, 27.4 N"; empty: no frame. Freed
-// by g_free().
+// Returns the position of the displayed frame, "stage C, 3.30 mm, 27.4 N"; empty: no frame.
 char *sb_session_where(SbSession *session);

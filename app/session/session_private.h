@@ -199,7 +199,7 @@ size_t sb_session_frame_of(SbSession *session, const SbDisplayedRun *run);
 // Starts to read the document's measured data.
 void sb_session_read_measured(SbSession *session);
 
-// Returns the comparison with the displayed run; NULL: none. Borrowed.
+// Returns the comparison with the displayed run; NULL: none.
 const SbComparison *sb_session_compare(SbSession *session);
 
 // Frees data and comparison.

@@ -22,5 +22,5 @@ bool sb_slope_job_is_busy(const SbSlopeJob *job);
 // sb_gradient_destroy().
 SbGradient *sb_slope_job_take(SbSlopeJob *job, SbParamId *id);
 
-// Cancels, waits for the thread and frees the job. Takes NULL.
+// Cancels, waits for the thread and frees the job.
 void sb_slope_job_free(SbSlopeJob *job);

@@ -22,5 +22,5 @@ void sb_study_job_cancel(SbStudyJob *job);
 // failed; *why is then a sentence, borrowed from the job.
 SbStudy *sb_study_job_take(SbStudyJob *job, const char **why);
 
-// Cancels, waits for the thread and frees the job. Takes NULL.
+// Cancels, waits for the thread and frees the job.
 void sb_study_job_free(SbStudyJob *job);

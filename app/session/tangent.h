@@ -31,7 +31,7 @@ typedef struct {
 // are only read and not needed afterwards. Freed by sb_tangent_free().
 SbTangent *sb_tangent_new(const SbDisplayedRun *base, const SbTangentRuns *runs, SbParamId id);
 
-// Frees the derivatives; takes NULL.
+// Frees the derivatives.
 void sb_tangent_free(SbTangent *tangent);
 
 // Adds to *out, a copy of frame number `frame` of the base, its change if the parameter changes by

@@ -16,14 +16,13 @@ const char *sb_verdict_word(int kind);
 const char *sb_verdict_answer(SbAnswer answer);
 
 // Returns the figure that decides, with its limit: "26 N of 30 N", "1.2 MPa over 0.55 MPa"; empty
-// or "not known" without one. `summary` is the run's, `verdict` its answer to the question. Freed
-// by g_free().
+// or "not known" without one. `summary` is the run's, `verdict` its answer to the question.
 char *sb_verdict_figure_text(const SbSummary *summary, int kind, const SbVerdict *verdict);
 
-// As sb_verdict_figure_text(), with numbers in ASCII, for standard output. Freed by g_free().
+// As sb_verdict_figure_text(), with numbers in ASCII, for standard output.
 char *sb_verdict_figure_plain(const SbSummary *summary, int kind, const SbVerdict *verdict);
 
-// Returns the answer with figure, limit and reason on several lines. Freed by g_free().
+// Returns the answer with figure, limit and reason on several lines.
 char *sb_verdict_why(const SbSummary *summary, int kind, const SbVerdict *verdict);
 
 // Moves the playhead to the position in the cycle at which the answer is evaluated, if the run

@@ -67,8 +67,7 @@ bool sb_answers_get(SbAnswers *out, const SbQuestions *questions, GError **error
 // Frees what the results own.
 void sb_answers_release(SbAnswers *answers);
 
-// Returns the validity codes of warnings, each once, in their order; NULL if there are none. Freed
-// by g_free().
+// Returns the validity codes of warnings, each once, in their order; NULL if there are none.
 char *sb_warning_codes(const SbWarnings *warnings, const char *separator);
 
 // ---- For pools: how sb_answers_get() distributes the work ----

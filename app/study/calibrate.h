@@ -114,11 +114,11 @@ void sb_calibration_identify(SbCalibration *calibration);
 // Returns the text of the scene of curve `curve` (from 0) with the fitted values, comments on their
 // origin, and the curve's data, for a file at `path`. Parameters that the data do not identify keep
 // the scene's values; without a posterior every parameter has the best value so far. NULL with
-// SB_APP_ERROR. Freed by g_free().
+// SB_APP_ERROR.
 char *sb_calibration_scene(const SbCalibration *calibration, const SbStudyFile *study, size_t curve,
                            const char *path, GError **error);
 
 // As sb_calibration_scene(), for the valve of the scene. Values of the curve's `set` are conditions
-// of the measurement and are omitted. Freed by g_free().
+// of the measurement and are omitted.
 char *sb_calibration_valve(const SbCalibration *calibration, const SbStudyFile *study, size_t curve,
                            const char *path, GError **error);

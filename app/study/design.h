@@ -48,8 +48,7 @@ SbStatus sb_design_search(SbDesign *out, const SbStudyFile *study, int jobs,
 // Frees what the result owns.
 void sb_design_release(SbDesign *design);
 
-// Returns the variables that are at a bound, "gland.radial_space (upper), ..."; NULL: none. Freed
-// by g_free().
+// Returns the variables that are at a bound, "gland.radial_space (upper), ..."; NULL: none.
 char *sb_design_bounds(const SbDesign *design, const SbStudyFile *study);
 
 // Returns the distance of a figure from the nearer end of limit number `limit` of study->limits

@@ -18,12 +18,11 @@ enum { SB_PRINTED_ROWS_MAX = 10000 };
 // Reads the file `path`. Returns NULL with an issue.
 SbPrinted *sb_printed_load(const char *path, GPtrArray *issues);
 
-// Frees a table; takes NULL.
+// Frees a table.
 void sb_printed_free(SbPrinted *printed);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbPrinted, sb_printed_free)
 
 // Returns the cell of row `row` (from 0) in the column of this name; NULL: there is no such column.
-// Borrowed.
 const char *sb_printed_cell(const SbPrinted *printed, guint row, const char *column);
 
 // Reads the number of a cell to *out, and half of the unit of its last digit to *half, in the

@@ -82,7 +82,7 @@ bool sb_store_commit(SbStore *store, GError **error);
 // Returns the number of rows.
 guint64 sb_store_count(SbStore *store);
 
-// Returns the types of CPU that computed the rows, separated by "; ". Freed by g_free().
+// Returns the types of CPU that computed the rows, separated by "; ".
 char *sb_store_cpus(SbStore *store);
 
 // ---- Rows ----
@@ -119,8 +119,7 @@ bool sb_store_visit(SbStore *store, SbStoreVisit visit, void *data, GError **err
 // Returns the format: 2; 1 for a store of Sealbench 0.1, whose rows have no checksums.
 int sb_store_format(const SbStore *store);
 
-// Returns a name of a row for messages: "row 3 (key 0a1b2c3d, gland.radial_space = 0.00136)". Freed
-// by g_free().
+// Returns a name of a row for messages: "row 3 (key 0a1b2c3d, gland.radial_space = 0.00136)".
 char *sb_store_row_name(const SbStoreRow *row);
 
 // State of a store. Freed by sb_store_health_release().

@@ -99,7 +99,7 @@ typedef struct SbThesisRuns SbThesisRuns;
 // Returns an empty set of runs. Freed by sb_thesis_runs_free().
 SbThesisRuns *sb_thesis_runs_new(void);
 
-// Frees the runs; takes NULL.
+// Frees the runs.
 void sb_thesis_runs_free(SbThesisRuns *runs);
 
 // Computes the shipped item `name` on `jobs` threads. `runs` (NULL: none) is extended. `cancelled`
@@ -112,6 +112,6 @@ SbThesisItem *sb_thesis_compute(const char *name, int jobs, SbThesisRuns *runs,
 SbThesisItem *sb_thesis_compute_file(const char *path, int jobs, SbThesisRuns *runs,
                                      bool (*cancelled)(void *data), void *data, GPtrArray *issues);
 
-// Frees an item; takes NULL.
+// Frees an item.
 void sb_thesis_item_free(SbThesisItem *item);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbThesisItem, sb_thesis_item_free)

@@ -56,7 +56,7 @@ typedef struct {
 // is no such name.
 bool sb_thesis_run_value(double *out, const char *name, const SbThesisPlace *at);
 
-// Returns the value of key `name` in `group`; NULL: absent. Borrowed.
+// Returns the value of key `name` in `group`; NULL: absent.
 const char *sb_thesis_key(const SbThesisWork *work, const char *group, const char *name);
 
 // Writes the value of the expression `text` at a place [SI]. Returns false and reports an issue if
@@ -76,11 +76,11 @@ bool sb_thesis_stopped(SbThesisWork *work);
 // failed (with an issue) or was cancelled.
 bool sb_thesis_answer(SbThesisWork *work);
 
-// Returns `text` with each [COLUMN] replaced by the text of the row's cell. Freed by g_free().
+// Returns `text` with each [COLUMN] replaced by the text of the row's cell.
 char *sb_thesis_with_cells(const SbThesisPlace *at, const char *text);
 
 // Returns `text` with each {COLUMN}, {COLUMN:FROM:TO} and {= GRID: EXPRESSION, SI DISPLAY} replaced
-// by its value. Freed by g_free().
+// by its value.
 char *sb_thesis_filled(const SbThesisPlace *at, const char *text, const char *group,
                        const char *key);
 

@@ -99,8 +99,7 @@ bool sb_cells_ascii_environment(void);
 // 16 or, for SB_COLORS_256, the first 256.
 int sb_colors_nearest(SbColors colors, uint32_t rgb);
 
-// Returns the characters as UTF-8 lines that end with a newline, without trailing blanks. Freed by
-// g_free().
+// Returns the characters as UTF-8 lines that end with a newline, without trailing blanks.
 char *sb_cells_to_text(const SbCells *cells);
 
 // Prints the grid as lines with escape sequences for colours, for a terminal that scrolls.

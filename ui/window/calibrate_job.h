@@ -24,5 +24,5 @@ void sb_calibrate_job_cancel(SbCalibrateJob *job);
 bool sb_calibrate_job_take(SbCalibrateJob *job, SbCalibration *out, SbStudyFile **study,
                            char **why);
 
-// Cancels, waits for the thread and frees. Takes NULL.
+// Cancels, waits for the thread and frees.
 void sb_calibrate_job_free(SbCalibrateJob *job);

@@ -26,5 +26,5 @@ SbDrawingJob *sb_drawing_job_start(const char *path, const char *choices, void (
 // `*why` to a sentence. Both are borrowed from the job until it is freed.
 const SbDrawing *sb_drawing_job_drawing(const SbDrawingJob *job, const char **why);
 
-// Cancels, waits for the thread and frees. Takes NULL.
+// Cancels, waits for the thread and frees.
 void sb_drawing_job_free(SbDrawingJob *job);

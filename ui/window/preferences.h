@@ -7,7 +7,6 @@
 #include <glib.h>
 
 // Returns the value of `key`, or a copy of `fallback` (may be NULL, then NULL) if there is none.
-// Freed by g_free().
 char *sb_preferences_string(const char *key, const char *fallback);
 
 // Stores a text.

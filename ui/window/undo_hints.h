@@ -6,7 +6,7 @@
 #include <gtk/gtk.h>
 
 // Returns the edit that undo (or redo) would change: "Outer seal: section diameter 1.7 → 1.58 mm".
-// NULL: there is none. Translated. Freed by g_free().
+// NULL: there is none. Translated.
 char *sb_undo_hints_text(const SbDocument *document, bool redo);
 
 // Keeps the tooltips of both buttons up to date until `undo` is destroyed. `session` and `redo` are

@@ -14,7 +14,7 @@ typedef struct SbWindowFiles SbWindowFiles;
 SbWindowFiles *sb_window_files_new_for(GtkWindow *window, SbSession *session,
                                        GtkMenuButton *recent);
 
-// Frees it; takes NULL.
+// Frees it.
 void sb_window_files_free(SbWindowFiles *files);
 
 // Shows the dialog that opens a file, after the call, from the main loop. Asks first if changes
