@@ -1,6 +1,9 @@
 // A seal's steady state at one pressure and one sliding speed: fit, film, rough contact and the
 // friction that follows, by the models that the scene chooses.
 //
+// Use: create an SbSlidingMemory for each seal, fill an SbSlidingTask, call sb_sliding_solve().
+// Call sb_sliding_memory_forget() before a task of another model.
+//
 //   boundary  F_b = tau_0 A_a + m W    thesis eq. 5.14; m acts on the whole load W
 //             F_b = tau_0 A_a          models.friction = shear, tau_0(p) = tau_0
 //   viscous   F_v = tau (A - A_a)      thesis eq. 5.15 and 5.16, tau = min(eta |u|/h, tau_0)
@@ -15,13 +18,13 @@
 // only, F_v follows from the open part of the gap, and at rest the dry rough contact applies, with
 // m W of the whole net load.
 //
-// The fluid at the inlet is liquid without limit, or (models.inlet = carried) what the stroke
-// before left on the bore, or nothing. With nothing there is no film, and the state is that at rest
-// without the static ratio.
+// The supply at the inlet is flooded (unlimited liquid), or with models.inlet = carried starved
+// (the layer that the previous stroke left on the bore) or dry (layer 0). If it is dry there is no
+// film, and kinetic friction is that of the dry contact.
 //
-// Values that were not computed are NaN: all of a fit that failed; the film and what follows from
-// it if the film failed, if the fluid alone carries the seal, or without contact. Without contact
-// width, load and friction are 0.
+// Values that were not computed are NaN: all values if the fit failed; film and all that depends on
+// it if the film failed, if the fluid alone carries the load, or without contact. Without contact
+// contact width, load and friction are 0.
 #pragma once
 
 #include "engine/contact/fit.h"
@@ -30,27 +33,27 @@
 #include "engine/valve/model/model.h"
 #include "engine/valve/states/perturbed.h"
 
-// Friction of a state as a local law: the shear stress that the bore exerts on a ring at a contact
-// pressure p [Pa],
-//   tau(p) = m p + min(tau_0 A_a/A + F_v/A, p).
-// The second part is at most p. With coupled asperities m is multiplied by the asperities' share of
-// the load.
+// Friction of a state as a local law: the magnitude of the shear stress that the bore exerts on a
+// ring at a contact pressure p [Pa],
+//   tau(p) = m p + min(tau_0 A_a/A + F_v/A, p)
+// With coupled asperities m is multiplied by the asperities' fraction of the load.
 typedef struct {
   double coefficient; // m [1]
   double shear;       // tau_0 A_a/A + F_v/A [Pa]
 } SbSlidingLaw;
 
-// Computes the law of a state.
+// Computes the law of a solved state.
 void sb_sliding_law(SbSlidingLaw *out, const SbModel *model, const SbSealState *state);
 
-// Returns tau(p) [Pa] of the SbSlidingLaw `law`, and writes d tau/dp to *slope; SbFitProblem.shear.
+// Returns tau(p) [Pa] of the SbSlidingLaw `law` at p = `pressure`, and writes d tau/dp to *slope.
+// It is a callback for SbFitProblem.shear.
 double sb_sliding_shear(double pressure, double *slope, const void *law);
 
 // Largest magnitude of the exponent of the load in a film law (thesis eq. 7.5: -0.2893, eq. 7.6:
 // -0.21; asymptotic: -0.2).
 #define SB_FILM_LAW_LOAD_POWER 0.3
 
-// Returns the kinetic friction of a whole contact, all of it on the land [N].
+// Returns the kinetic friction of a state whose full contact is on the land, a magnitude [N].
 double sb_sliding_friction(const SbSealState *state);
 
 // Work memory of one seal's evaluations, with its last solutions. Used by one thread at a time.
@@ -62,62 +65,67 @@ SbStatus sb_sliding_memory_create(SbSlidingMemory **out, SbReport *report);
 // Frees the memory. Takes NULL.
 void sb_sliding_memory_destroy(SbSlidingMemory *memory);
 
-// Discards the last solutions, so that later results do not depend on them. Required when anything
-// but pressure and speed has changed. Stored rings (below) remain.
+// Discards the last solutions, so that later results do not depend on them. Required before a task
+// in which anything but pressure, speed and supply has changed. Stored rings (below) remain.
 void sb_sliding_memory_forget(SbSlidingMemory *memory);
 
-// Stores the states of rings solved from now on, in addition to those stored before, so that others
-// can start from them.
+// Starts storing: from now on the memory stores the states of the rings that it solves, in addition
+// to those stored before. After sb_sliding_memory_end() other memories can start from them.
 void sb_sliding_memory_keep(SbSlidingMemory *memory);
 
-// Stores the rings of the last evaluations too, and ends storing. The memory must not evaluate any
-// task afterwards.
+// Stores the last solved ring of each direction too, and ends storing. The memory must not evaluate
+// tasks afterwards until sb_sliding_memory_forget(); it may be the `from` of other memories, in any
+// number of threads.
 void sb_sliding_memory_end(SbSlidingMemory *memory);
 
-// Computes what the first tasks that start from the stored rings would wait for, until `stop` (not
-// NULL; called with `data`) returns true. Any thread, also while others start from them.
+// Computes in advance what the first tasks that start from the stored rings need. Returns early if
+// `stop` (not NULL; called with `data`) returns true. Any thread, also while others start from
+// them.
 void sb_sliding_memory_prepare(const SbSlidingMemory *memory, bool (*stop)(void *), void *data);
 
-// Lets rings start from the stored states of `from`, borrowed: those of the same direction whose
-// ratio of pressure difference to modulus is nearest. NULL: cold start. Results then depend on that
-// memory and the task only. `tangent`: rings are not solved but linearised about the stored state
-// (sb_ring_tangent_at()), with the friction that follows; all else is solved.
-// SB_ERROR_NOT_CONVERGED of a task that has no stored state then. If profiles are not `drawn`,
-// films near the first requested state are linearised too (sliding_beside.c).
+// Lets rings of later tasks start from the stored states of `from` (borrowed): from the one with
+// the same direction and the same sign of the pressure difference whose pressure difference divided
+// by modulus is closest. NULL: cold start. The results depend on `from` and the task only. With
+// `tangent` (and `from`) rings are not solved but linearised about the stored state
+// (sb_ring_tangent_at()), together with the friction that drags them; all else is solved. A task
+// without a stored state then fails with SB_ERROR_NOT_CONVERGED. `drawn`: profiles or sections are
+// needed; if it is false, films near the first requested state are linearised too
+// (sliding_beside.c).
 void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *from, bool tangent,
                              bool drawn);
 
-// Sets how rings are evaluated that are linearised and not drawn; see sb_run_rings_beside().
+// Sets how rings are evaluated with `tangent`; SB_RINGS_FOLLOW by default.
 void sb_sliding_memory_beside(SbSlidingMemory *memory, SbRingsBeside how);
 
 // Sets a function that is polled while a fit or film is solved, with `data`; true ends the solver
 // with SB_ERROR_CANCELLED. NULL: none.
 void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data);
 
-// Returns the fit of the last evaluation; borrowed, overwritten by the next one.
+// Returns the fit of the last evaluated task; borrowed, overwritten by the next task.
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory);
 
-// Returns the ring of the last evaluation, NULL for other fit models; borrowed as above.
+// Returns the ring of the last task, NULL for other fit models; borrowed until the next task.
 const SbRing *sb_sliding_ring(const SbSlidingMemory *memory);
 
-// Returns the film of the last evaluation; borrowed as above.
+// Returns the film of the last task, meaningful if the state's film_central > 0; borrowed until the
+// next task.
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory);
 
-// Returns the speed at which that film was solved divided by the task's: below 1 if the supply
-// alone determines the film.
+// Returns the speed at which the film of the last task was solved divided by the task's speed: 1,
+// or below 1 if the supply alone determines the film.
 double sb_sliding_film_share(const SbSlidingMemory *memory);
 
-// Surface of a fitted body for films on it.
+// Surface of a fitted disc or ring, on which films are solved; sb_sliding_surface() computes it.
 typedef struct {
-  double load; // net load that belongs to it [N/m]
-  SbSurfaceCompliance compliance;
+  double load; // net load under which the dry surface has the fit's pressure [N/m]
+  SbSurfaceCompliance compliance; // deflection of the surface under pressure
 } SbSlidingBody;
 
-// Returns the body on which the film of the last evaluation was solved; NULL: on the half-plane.
-// Borrowed as above.
+// Returns the body on which the film of the last task was solved; NULL: on the half-plane. Borrowed
+// until the next task.
 const SbSlidingBody *sb_sliding_body(const SbSlidingMemory *memory);
 
-// Initialises a state as not computed: its figures are NaN.
+// Initialises a state as not computed: all its figures are NaN.
 void sb_sliding_clear(SbSealState *out);
 
 // Fluid on the bore in front of the inlet. {0}: liquid without limit.
@@ -129,97 +137,115 @@ typedef struct {
 // One evaluation. All pointers are borrowed during the call.
 typedef struct {
   const SbModel *model;
-  int seal; // SB_OUTER, SB_INNER
-  SbSealPressure pressure;
-  double speed; // of sliding [m/s]; > 0: the bore moves to +x (in-stroke); 0: at rest
-  SbSlidingMemory *memory;
-  SbCounters *counts;   // solves are added
-  SbWarnings *warnings; // warnings are added; NULL: none
-  SbSupply supply;
+  int seal;                // SB_OUTER, SB_INNER
+  SbSealPressure pressure; // on both sides of the seal
+  // Sliding speed [m/s]; > 0: the surface under the seal moves to +x, which is the in-stroke of a
+  // ring (sb_model_way()); 0: at rest.
+  double speed;
+  SbSlidingMemory *memory; // of this seal
+  SbCounters *counts;      // solves are added; not NULL
+  SbWarnings *warnings;    // warnings are added; NULL: not wanted
+  SbSupply supply;         // {0}: flooded
 } SbSlidingTask;
 
-// Returns the ring solved for the task's seal, pressure difference and direction, borrowed; NULL if
-// the memory has none.
+// Returns the ring that task->memory has solved for the task's seal, pressure difference and
+// direction; NULL if there is none. Borrowed until the next task.
 const SbRing *sb_sliding_ring_of(const SbSlidingTask *task);
 
-// Evaluates a task. The fit of the last call is reused if the pressure is the same.
+// Evaluates a task. The fit of the last task in this direction is reused if the pressures are
+// equal.
 //
-// A sliding ring (SB_FIT_RING) is dragged by its own friction: ring and film are solved in turns
-// until they agree, from the ring of another speed if one is known, else cold. So a state depends
-// on earlier ones by at most half the model's tolerance of its friction. A ring that rolls or jams
-// is a result (`section`, with a warning); its figures are those at the greatest drag. At rest a
-// ring is fitted and pressed without drag. A seal without contact has touches = false.
+// The friction of a sliding ring (SB_FIT_RING) drags its section: ring and film are solved
+// alternately until the friction agrees to half of output.tolerance, from the ring of the last task
+// in this direction if the pressures are equal, else from a stored state or cold. So a state
+// depends on earlier tasks within that tolerance. A ring that rolls or jams is a result (`section`,
+// with a warning); its values are those at the largest drag that it carries. A seal without contact
+// is a result, too: touches is false.
 //
-// SB_ERROR_NOT_CONVERGED: what was computed is set, all else is NaN; the report names solver and
-// cause.
+// SB_ERROR_NOT_CONVERGED: a solver failed; values computed before are set, all others are NaN, and
+// the report names solver and cause. SB_ERROR_CANCELLED: the polled function returned true. Other
+// errors of sb_fit_solve().
 SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
-// Solves the first ring of a task into the task's memory, which must be new, as sb_sliding_solve()
-// would with the memory `like`. Does nothing if that ring depends on earlier solutions. Errors are
-// not reported: the ring is then missing.
+// Prefetch: solves the ring that sb_sliding_solve() with the memory `like` would solve first for
+// this task, and stores it in task->memory, which must be newly created. Does nothing if that ring
+// would depend on earlier solutions of `like`. Errors are not reported; task->memory then has no
+// ring. `like` is only read, so another thread may use it meanwhile if it does not change its
+// start.
 void sb_sliding_solve_ahead(const SbSlidingTask *task, const SbSlidingMemory *like);
 
-// Lets `memory` take rings from `ahead` (borrowed; filled by sb_sliding_solve_ahead()) when it
-// needs them; NULL: none.
+// Lets the next task of `memory` take its first ring from `ahead` (borrowed), the task->memory of
+// sb_sliding_solve_ahead(). NULL: it solves all rings itself.
 void sb_sliding_memory_ahead(SbSlidingMemory *memory, SbSlidingMemory *ahead);
 
-// Computes the fit only: contact, loads and peak, as sb_sliding_solve() computes them except for a
-// sliding ring. All else is NaN, or 0 without contact.
+// Computes the fit only: ends of the contact, loads and peak pressure. They equal those of
+// sb_sliding_solve(), except for a sliding ring, which is computed without drag by friction. All
+// other figures are NaN; friction is 0 without contact. Errors of sb_sliding_solve().
 SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
-// Computes the surface of a fitted body for films: compliance (of a ring by static condensation,
-// ring.h; else of a disc) and the gap whose dry contact has the pressure of `fit`. If a ring's
-// cannot be used the disc's replaces it, with the warning "film-disc-surface". Writes the net load
-// that belongs to it to *load [N/m]. `warnings` may be NULL. SB_ERROR_INPUT: other fit models, or a
+// Computes the surface of the fitted body `fit` (SB_FIT_DISC, SB_FIT_RING) for films: its
+// compliance (of a ring by static condensation, ring.h) and the gap for which the dry contact has
+// the pressure of `fit`. If the compliance of a ring cannot be used, that of a disc replaces it,
+// with the warning "film-disc-surface". Writes the net load of this dry contact to *load [N/m].
+// `pressure` is that of the fit. `warnings` may be NULL. SB_ERROR_INPUT: other fit models, or a
 // contact that is too wide.
 SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit *fit,
                             const SbModel *model, int seal, SbSealPressure pressure,
                             SbWarnings *warnings, SbReport *report);
 
-// Computes film and kinetic friction of a solved state for the speed of the task, on the `body` of
-// the state's film (NULL: half-plane). The relative errors of the film are not changed, and
-// warnings about it are not given. SB_ERROR_NOT_CONVERGED: no film.
+// Replaces film and kinetic friction of *state, solved by sb_sliding_solve() for a task that
+// differs in the magnitude of the speed only, by those at task->speed. `body` is sb_sliding_body()
+// after that solve (NULL: half-plane). The relative errors of the film are not changed, and no
+// warnings about it are added. SB_ERROR_NOT_CONVERGED: the film was not solved; *state is then
+// unspecified.
 SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
                             const SbSlidingBody *body, SbReport *report);
 
-// Sets the film problem of `state` at the task's speed, on `body` (NULL: half-plane).
+// Sets *out to the film problem of the solved `state` at task->speed, on `body` (NULL: half-plane),
+// with asperities if they are coupled. It borrows from body and task->memory.
 void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSlidingTask *task,
                         const SbSlidingBody *body);
 
-// Replaces the film of a task's state, and updates what follows from it as sb_sliding_refilm()
-// does. `fitted`: `film` was solved on the fitted body.
+// Replaces the film of the solved `state` of `task` by `film`, and updates lambda, real area and
+// kinetic friction by sb_sliding_refilm() with `roughness`. `fitted`: the film was solved on the
+// fitted body.
 void sb_sliding_take(SbSealState *state, const SbSlidingTask *task, const SbFilm *film, bool fitted,
                      double roughness);
 
-// Returns the speed [m/s] above which the supply alone determines the film of a state: higher
-// speeds have the film at this speed, and viscous friction in proportion to speed. INFINITY without
-// a limited supply.
+// Returns the speed [m/s], > 0, above which the supply alone determines the film of a solved state:
+// at higher speeds the film is that at this speed, and viscous friction is proportional to the
+// speed. INFINITY if the supply is not limited.
 double sb_sliding_starved_speed(const SbSealState *state, const SbSlidingTask *task,
                                 const SbSlidingBody *body);
 
-// Divides real area share, boundary_load and friction_viscous of a rolling, jamming or
-// pressure-limited section by the fractions that the section carries. The results are those of a
-// section that carries all of its friction.
+// Converts real_area_share, boundary_load and friction_viscous of a state from the part that the
+// section carries to the full friction, by dividing them by area_cut and borne_share. No effect
+// where these are 1 or NaN.
 void sb_sliding_whole(SbSealState *state);
 
-// Computes what follows from the films in a task's state for a surface `roughness` times as rough
-// as the model's: lambda, real area, kinetic friction. With coupled asperities `roughness` must be
-// 1, and the values that sb_sliding_whole() gives must be set with the films.
+// Computes lambda, real area and kinetic friction of a state from its film_central, which the
+// caller has set, for a surface `roughness` times as rough as the model's. With coupled asperities
+// `roughness` must be 1, and the caller sets real_area_share, boundary_load and friction_viscous
+// too, in the full form that sb_sliding_whole() gives. Values at rest are not changed.
 SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double roughness,
                            SbReport *report);
 
-// Changes the surface of a task's solved state to one `roughness` times as rough as the model's.
-// Solves nothing, because fit and film do not depend on it.
+// Changes a solved state to a surface `roughness` times as rough as the model's: real area, kinetic
+// and static friction. Solves nothing, because fit and film do not depend on roughness; not for
+// coupled asperities, whose film does.
 SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report);
 
-// Computes out[count] [Pa]: the part of the pressures p[count] (above the fluid's) that asperities
-// under a gasket carry where its film is at least `film` [m] thick (sliding_gasket.c).
+// Computes out[count] [Pa]: the part of the contact pressures p[count] [Pa] (above the fluid
+// pressure) that asperities under a gasket carry, where the film is at least `film` [m] thick
+// (sliding_gasket.c). `out` may be `p`.
 SbStatus sb_sliding_edge_asperities(double *out, const double *p, size_t count,
                                     const SbModel *model, int seal, double film, SbReport *report);
 
-// Sets the film problem of a seal: net load, reduced modulus, radius, pressures (thesis sections
-// 5.2 and 7.1; the entrainment speed is half the sliding speed). `model` of the problem is the
-// default of sb_film_problem_init().
+// Sets *out to the film problem of a seal on the half-plane without asperities (thesis sections 5.2
+// and 7.1): from the net load `load_net` [N/m], the sliding speed `speed` [m/s] (sign as
+// SbSlidingTask; the entrainment speed is half of it), the pressures, and the model's reduced
+// modulus, radius and fluid. out->model, the film model, is the default of sb_film_problem_init();
+// the caller may change it.
 void sb_sliding_film_problem(SbFilmProblem *out, const SbModel *model, int seal,
                              SbSealPressure pressure, double load_net, double speed);

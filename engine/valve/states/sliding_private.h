@@ -1,5 +1,17 @@
-// Shared by the parts of a steady sliding state. Private to sliding*.c. "Way" is an index of
-// SB_RUN_MOTIONS: SB_CYCLE_IN and SB_CYCLE_OUT if friction drags the seal, else at rest.
+// Shared by the files sliding*.c, which compute a steady sliding state.
+//
+// sb_sliding_solve_with() computes a state in the order fit, film, rough contact, friction; each
+// step reads its input from the SbSealState and adds its results to it. For a sliding ring
+// sb_sliding_drag() repeats this, each time with the friction of the last film as the law that
+// drags the ring, until both agree. With a `start` and linearisation (sb_sliding_memory_start(),
+// tangent) sb_sliding_sum() first computes the results of the solvers as a linear function of their
+// inputs, with slopes stored in SbSlidingBeside; sb_sliding_solve_once() then copies them instead
+// of solving.
+//
+// A "way" is an index below SB_RUN_MOTIONS: 0 (speed > 0) and 1 (speed < 0) if friction drags the
+// seal (sb_sliding_drags()), else 2. All functions have a task whose memory is not NULL, set *out
+// or the memory, and return SB_ERROR_NOT_CONVERGED with the last values set if a solver stops
+// early.
 #pragma once
 
 #include "engine/valve/states/sliding.h"
@@ -8,45 +20,46 @@
 typedef struct {
   SbFilm film;
   SbFilmProfile profile;
-  bool fitted;        // on the fitted body, not on the half-plane
-  double speed;       // [m/s]
-  double share;       // fraction of that speed at which it was solved
+  bool fitted;        // solved on the fitted body; false: on the half-plane, or by a law
+  double speed;       // sliding speed of the task, with its sign [m/s]
+  double share;       // speed at which it was solved divided by `speed`, <= 1
   bool fresh;         // solved since this flag was last cleared
-  SbFilmSolver **own; // borrowed: its own solver; NULL: the memory's
-  bool beside;        // solve it next to the solution of `own` if possible
+  SbFilmSolver **own; // borrowed: solver of this film only; NULL: the memory's solver
+  bool beside;        // solve it on the mesh of the last solution of `own` if possible
 } SbSlidingSolved;
 
-// A fit, with its ring, in one way of sliding.
+// The last fit of one way, with its ring.
 typedef struct {
   SbFit fit;
-  SbRing *ring; // owned; NULL for other models
-  bool known;
-  SbReport why;    // status SB_ERROR_NOT_CONVERGED: there is no fit without friction
-  double pressure; // pressure difference of the fit [Pa]
-  double modulus;  // of its rubber [Pa]
-  int seal;
-  SbSlidingLaw law; // of the friction that drags it
-  double jump; // relative difference between its film's friction and that law's, if they cannot
-               // agree; else 0
-  SbSlidingLaw found; // law of the film on the dragged ring
-  SbSlidingLaw guess; // law of the closed forms
+  SbRing *ring;     // owned; NULL for other fit models
+  bool known;       // `fit` is valid for `seal` and `pressure`
+  SbReport why;     // why the fit without drag failed; status SB_OK: it did not fail
+  double pressure;  // pressure difference of the fit, left minus right [Pa]
+  double modulus;   // Young's modulus of the rubber in the fit [Pa]
+  int seal;         // SB_OUTER, SB_INNER
+  SbSlidingLaw law; // law of the friction that drags the ring in `fit`
+  double jump; // relative difference between the friction of `found` and of `law`, if they cannot
+               // agree because the friction jumps; else 0
+  SbSlidingLaw found; // law of the friction of the film on this ring
+  SbSlidingLaw guess; // law of the friction by closed forms
 } SbSlidingFitment;
 
 // Number of films of a state: on the half-plane, on the fitted body, at rest.
-enum { SB_SLIDING_FILMS = 3 }; // on the half-plane, on the fitted body, at rest
+enum { SB_SLIDING_FILMS = 3 };
 
-// Results of the solvers for a state (sliding_beside.c).
+// Results of the solvers for a state, solved or linearised (sliding_beside.c).
 typedef struct {
   SbFit fit;
   SbSlidingBody body;
   struct {
-    bool solved, fitted;
-    double share;
-    SbFilm film; // without its profile
+    bool solved, fitted; // there is such a film; SbSlidingSolved.fitted
+    double share;        // SbSlidingSolved.share
+    SbFilm film;         // without its profile
   } on[SB_SLIDING_FILMS];
 } SbSlidingSolution;
 
-// Linearised states near that of a stored ring. Several threads may use it at the same time.
+// Slopes of the solvers' results near the state of a stored ring. It is filled when slopes are
+// first needed, and has a lock: several threads may use it at the same time.
 typedef struct SbSlidingBeside SbSlidingBeside;
 
 // Returns an object without states; NULL: no memory.
@@ -55,68 +68,70 @@ SbSlidingBeside *sb_sliding_beside_create(void);
 // Frees the object. Takes NULL.
 void sb_sliding_beside_destroy(SbSlidingBeside *beside);
 
-// Which part of a state is linearised, not solved: nothing, the fit, or fit and films.
+// Which part of a state is linearised instead of solved: nothing, the fit, or fit and films.
 typedef enum { SB_SUM_NOTHING, SB_SUM_FITMENT, SB_SUM_ALL } SbSumDepth;
 
 // State of a ring that others start from (SbSlidingMemory.kept).
 typedef struct {
-  SbFitStart start;
-  SbRing *ring;            // owned; the ring of `start`
-  SbRingGuide *guide;      // owned; of the ring
-  SbRingTangent *tangent;  // owned; of the ring
-  SbSlidingBeside *beside; // owned; states near it
-  int way;                 // index of SbSlidingMemory.fitment
-  double strain;           // pressure difference divided by modulus
-  SbSlidingLaw law, found; // that drags it; of its film
-  SbSlidingLaw guess;      // of the closed forms
+  SbFitStart start;        // for SbFitProblem.start
+  SbRing *ring;            // owned; the ring of `start`; NULL: this state has no contact
+  SbRingGuide *guide;      // owned; predictor of the ring
+  SbRingTangent *tangent;  // owned; linearisation of the ring
+  SbSlidingBeside *beside; // owned; slopes near this state
+  int way;                 // index in SbSlidingMemory.fitment
+  double strain;           // pressure difference (left minus right) divided by the modulus [1]
+  SbSlidingLaw law, found; // as in SbSlidingFitment
+  SbSlidingLaw guess;      // as in SbSlidingFitment
 } SbSlidingStart;
 
-// A solved film, next to which others may be solved.
+// The film whose mesh the memory's solver holds. Films with nearly equal values are solved on this
+// mesh.
 typedef struct {
-  bool known, fitted;
-  double inlet, outlet; // pressures [Pa]
-  double speed, load;   // [m/s], >= 0; [N/m]
+  bool known, fitted;   // there is such a film; SbSlidingSolved.fitted
+  double inlet, outlet; // fluid pressures at inlet and outlet [Pa]
+  double speed, load;   // magnitude of the sliding speed [m/s]; net load [N/m]
 } SbSlidingBase;
 
 // Capacity of stored states; a run has at most three chamber states in each way.
-enum { SB_SLIDING_STARTS = 64 }; // of a run at most three chamber states each way
+enum { SB_SLIDING_STARTS = 64 };
 
 // The memory of sliding.h.
 struct SbSlidingMemory {
-  bool keeps; // solved states are stored for others
-  SbSlidingStart kept[SB_SLIDING_STARTS];
-  int kept_count;
-  const struct SbSlidingMemory *from; // rings start from its states, borrowed; NULL: cold
-  bool tangent;                       // rings are linearised about these states
-  bool summed;                        // films too
-  SbRingsBeside beside;               // how these rings are evaluated
-  bool bare;                          // surfaces of rings are not needed
-  SbSumDepth sums;                    // linearised part of the present state
-  SbSlidingSolution sum;              // its values
-  SbSlidingMemory *ahead;             // may have the next ring, borrowed
-  SbSlidingBeside *lender;            // owner of the solvers that its films use; NULL: none
+  bool keeps;                             // solved states are stored for others
+  SbSlidingStart kept[SB_SLIDING_STARTS]; // the stored states
+  int kept_count;                         // number of stored states
+  const struct SbSlidingMemory *from; // rings start from its stored states, borrowed; NULL: cold
+  bool tangent;                       // rings are linearised about the states of `from`
+  bool summed;                        // films are linearised too
+  SbRingsBeside beside;               // how linearised rings are evaluated
+  bool bare;                          // surfaces of rings for films are not computed
+  SbSumDepth sums;                    // part of the present state that is linearised
+  SbSlidingSolution sum;              // values of this part
+  SbSlidingMemory *ahead;  // may have the next ring (sb_sliding_memory_ahead()), borrowed
+  SbSlidingBeside *lender; // object whose film solvers the films use; NULL: own solvers
 
   SbSlidingFitment fitment[SB_RUN_MOTIONS]; // by way
-  SbSlidingFitment *now;                    // of the last evaluation
-  SbSlidingSolved plane, fitted;            // on the half-plane (or of a law); on the fitted body
-  SbSlidingSolved rest;                     // dry rough contact, coupled asperities only
-  const SbSlidingSolved *last;              // result of the last evaluation, one of these
-  bool rested;                              // `rest` is valid, for
-  double rest_left;                         // this pressure on the left [Pa]
-  const SbSlidingFitment *rest_on;          // and this fit
-  SbSlidingBody body;                       // of the last film on one
-  SbFilmSolver *solver;                     // NULL until a film is solved (laws need none)
-  SbFilmSolver *rest_solver;                // of `rest`, apart from a sliding film's solution
-  SbRoughLaw law;                           // of the surface; count 0: not yet needed
-  SbSlidingBase base;                       // film that `solver` last solved without another
-  bool near;                                // films near that one may be solved next to it
-  bool rest_waits;                          // values at rest of a sliding state are left out
-  SbWarnings warnings;                      // of one round of a ring's friction
-  bool (*cancelled)(void *);                // NULL: never
-  void *cancelled_data;
+  SbSlidingFitment *now;                    // fit of the last task, in `fitment`
+  SbSlidingSolved plane, fitted;   // film on the half-plane or by a law; on the fitted body
+  SbSlidingSolved rest;            // dry rough contact, only with coupled asperities
+  const SbSlidingSolved *last;     // film of the last task: plane, fitted or rest
+  bool rested;                     // `rest` is valid for rest_left and rest_on
+  double rest_left;                // pressure on the left in `rest` [Pa]
+  const SbSlidingFitment *rest_on; // fit of `rest`
+  SbSlidingBody body;              // body of the last film on a fitted body
+  SbFilmSolver *solver;            // NULL until a film is solved (laws need none)
+  SbFilmSolver *rest_solver;       // solver of `rest`; keeps the other one's solution
+  SbRoughLaw law;                  // law of the rough surface; count 0: not yet computed
+  SbSlidingBase base;              // film that `solver` last solved on a mesh of its own
+  bool near;                       // films close to `base` may be solved on its mesh
+  bool rest_waits;                 // the values at rest of a sliding state are omitted
+  SbWarnings warnings;             // work memory: warnings of one round of sb_sliding_drag()
+  bool (*cancelled)(void *);       // NULL: never
+  void *cancelled_data;            // argument of `cancelled`
 };
 
-// Moves the solved ring of a way to the stored ones, if the memory stores rings and there is one.
+// Moves the solved ring of `way` to memory->kept, if memory->keeps and there is one in contact and
+// sliding. Does nothing if there is no space or memory.
 void sb_sliding_keep(SbSlidingMemory *memory, int way);
 
 // Returns whether friction drags this seal's section: that of a ring while it slides.
@@ -126,46 +141,51 @@ bool sb_sliding_drags(const SbSlidingTask *task);
 // seal; borrowed. NULL if there is none.
 const SbRoughLaw *sb_sliding_rough_law(const SbSlidingTask *task);
 
-// Returns whether a solver's figures count: SB_OK, or SB_ERROR_NOT_CONVERGED (its last solution,
-// with its error).
+// Returns whether the results of a solver with this status are used: SB_OK, or
+// SB_ERROR_NOT_CONVERGED (its last solution, with its error estimate).
 bool sb_sliding_usable(SbStatus status);
 
-// Computes contact and loads of a task, of a ring dragged by `law` (NULL: as it is known). *known:
-// there is a contact.
+// Clears *out and sets contact and loads from the fit. A ring is dragged by `law`; NULL: reuse the
+// fit of the memory if seal and pressure are equal, else fit without drag. *known: there is a
+// contact; if false the state is complete.
 SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *law,
                                 SbSealState *out, bool *known, SbReport *report);
 
-// Finds which part of a task is linearised about a stored state, and its values: memory->sums and
-// memory->sum. SB_ERROR_CANCELLED, SB_ERROR_MEMORY.
+// Determines which part of the task is linearised about the stored state of `beside`, a ring
+// dragged by `law` (NULL: none), and computes its values: sets memory->sums and memory->sum.
+// Missing slopes are solved. SB_ERROR_CANCELLED.
 SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
                         SbSlidingBeside *beside);
 
-// Ends the use of these values, after the state.
+// Resets memory->sums, after the state of sb_sliding_sum() is computed.
 void sb_sliding_sum_end(SbSlidingMemory *memory);
 
-// Returns whether a film, on the fitted body or not, is linearised.
+// Returns whether the film `which` (plane, fitted or rest of the memory), on the fitted body if
+// `fitted`, is available from memory->sum.
 bool sb_sliding_film_summed(const SbSlidingMemory *memory, const SbSlidingSolved *which,
                             bool fitted);
 
-// Copies a linearised film.
+// Copies the film for *out (plane, fitted or rest of the memory) from memory->sum.
 void sb_sliding_take_film(SbSlidingSolved *out, SbSlidingMemory *memory);
 
-// Returns the stored state that a task's ring starts from; NULL: none.
+// Returns the state of memory->from from which the task's ring starts (sb_sliding_memory_start());
+// NULL: none. Borrowed from memory->from.
 const SbSlidingStart *sb_sliding_start_of(const SbSlidingTask *task);
 
-// Discards the fit of the task's way.
+// Discards the memory's fit of the task's way.
 void sb_sliding_forget_fitment(const SbSlidingTask *task);
 
-// Computes fit, film and friction of a task whose linearised part is set; a ring is dragged by
-// `law` (NULL: as it is known).
+// Computes fit, film and friction of a task; solves what memory->sums does not have. `law` as for
+// sb_sliding_fit_contact().
 SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
                                SbReport *report);
 
-// Does the same for any task, including the linearised part.
+// Calls sb_sliding_sum() if the task can be linearised, then sb_sliding_solve_once() with `law`.
 SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
                                SbReport *report);
 
-// Computes the values at rest of a coupled state for which they were left out (rest_waits).
+// Computes the values at rest of a sliding state with coupled asperities, for which they were
+// omitted (rest_waits).
 SbStatus sb_sliding_rest(const SbSlidingTask *task, SbSealState *out, SbReport *report);
 
 // ---- The film (sliding_film.c)
@@ -173,43 +193,46 @@ SbStatus sb_sliding_rest(const SbSlidingTask *task, SbSealState *out, SbReport *
 // Returns whether a task has a film: speed is not 0, and there is liquid at the inlet.
 bool sb_sliding_has_film(const SbSlidingTask *task);
 
-// Computes the film of a state whose contact is known, without asperities in it.
+// Computes the film of a state whose contact and loads are set, without coupled asperities.
 SbStatus sb_sliding_solve_film(const SbSlidingTask *task, SbSealState *out, SbReport *report);
 
 // Computes the film with asperities in it under a net load [N/m] at a speed [m/s] (0: dry contact),
-// on the fitted body, or on the half-plane if that fails.
+// into *out, on the fitted body, or on the half-plane if that fails.
 SbStatus sb_sliding_solve_rough(const SbSlidingTask *task, SbSlidingSolved *out, double load_net,
                                 double speed, SbReport *report);
 
-// Sets the film figures of a state from a solved film on a fit. Returns false, and leaves them NaN,
-// if the solver stopped before its first solution.
+// Sets film_min, film_central, layer, and their errors in *out from `solved`, whose solver returned
+// `status`. Returns false, and leaves them NaN, if the solver has no solution.
 bool sb_sliding_read_film(SbSealState *out, const SbSlidingSolved *solved, SbStatus status,
                           const SbFit *fit);
 
-// Sets the layer of a film law to half the film (thesis eq. 5.20), at most the supply's, and limits
-// the film accordingly.
+// For a film by a law: sets `layer` to half of film_central (thesis eq. 5.20), but at most the
+// supply's layer, and reduces film_min and film_central accordingly.
 void sb_sliding_limit_law(SbSealState *out, const SbSlidingTask *task);
 
-// Sets the errors of a film by a law, from the error of the load; NaN if the load is exact.
+// Sets film_error and central_error of a film by a law from load_error; NaN if the load is exact.
 void sb_sliding_law_error(SbSealState *out);
 
-// Sets static_error: the parts of the dry contact by the errors of real area, width and load.
+// Sets static_error from the errors of real area at rest, width and load.
 void sb_sliding_static_error(SbSealState *out);
 
-// Sets the errors of kinetic friction: its parts by the errors of real area, width, load and film.
-// `borne`: relative error of the asperities' share of the load, 0 if they carry all of it.
+// Sets boundary_error, viscous_error and friction_error from the errors of real area, width, load
+// and film. `borne`: relative error of the asperities' fraction of the load, 0 if they carry all of
+// it.
 void sb_sliding_kinetic_errors(SbSealState *out, double borne);
 
-// Solves a film problem into *out: by linearisation, next to an earlier film, or alone.
+// Solves `problem` into *out: from memory->sum, on the mesh of memory->base, or on a mesh of its
+// own.
 SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
                              const SbFilmProblem *problem, SbReport *report);
 
-// Computes real area and friction (kinetic and static) of a contact whose load, width and film are
-// known.
+// Computes lambda, real area and friction (kinetic and static) of a state whose load, width and
+// film are set, for a surface `roughness` times as rough as the model's.
 SbStatus sb_sliding_rough_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
                                   SbReport *report);
 
-// Reduces the friction of a law to what the section bears, by borne_share and area_cut.
+// Multiplies the friction of a dragged ring by the fractions that its section carries, borne_share
+// and area_cut, which must be set; NaN: does nothing.
 SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
 // Computes the state of a sliding ring: ring and film in turns, until the friction that drags the
@@ -218,10 +241,10 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
 
 // ---- A gasket (sliding_gasket.c)
 
-// Sets the pressures of a state from its fit.
+// Sets edge_pressure of a state from its fit.
 void sb_sliding_take_edges(SbSealState *out, const SbFit *fit);
 
-// Computes the film of a gasket's state with known pressures, at the task's speed.
+// Computes the film of a gasket's state, whose edge_pressure is set, at the task's speed.
 void sb_sliding_edge_film(SbSealState *out, const SbSlidingTask *task);
 
 // Computes real area, kinetic friction and the dry contact (without static friction) of a gasket's
