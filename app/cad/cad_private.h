@@ -25,7 +25,8 @@ bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps, d
 SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]);
 
 // Joins `pieces` (of SbCadPiece) in any order and direction to outlines; ends within `gap` [m] are
-// one point. Each outline becomes a body about the line y = 0 with x as drawn and r = |y|: the part
+// one point, and pieces on the line y = 0 are ignored. Each closed chain, and each open one that
+// ends on that line, becomes a body about the line y = 0 with x as drawn and r = |y|: the part
 // at y >= 0, or below if nothing is above. Appends the bodies to cad->bodies, with the name `name`,
 // and a warning for pieces that close to no outline. The bodies are not settled.
 void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap);

@@ -18,7 +18,8 @@ typedef struct {
   bool mirrored;            // the insert is on the back of the plane: x is reversed at the end
 } SbDxfInsert;
 
-// Receives what is placed, in the order of the drawing.
+// Receives what is placed, in the order of the drawing. Both functions must be set; `data` is
+// passed to them.
 typedef struct {
   // Adds the pieces (of SbCadPiece, in drawing units, valid during the call) of a layer; `centre`:
   // they are a centre line. Returns false with an error to stop.
@@ -41,7 +42,7 @@ void sb_dxf_blocks_free(SbDxfBlocks *blocks);
 // sb_dxf_blocks_end() belongs to it. A block of the same name is replaced.
 void sb_dxf_blocks_begin(SbDxfBlocks *blocks, const char *name, double base_x, double base_y);
 
-// Ends the definition of a block.
+// Ends the definition of a block; does nothing outside of one.
 void sb_dxf_blocks_end(SbDxfBlocks *blocks);
 
 // Returns whether a definition has begun and not ended.

@@ -242,7 +242,7 @@ void sb_progress_end(SbProgress *progress);
 
 // Computes a drawn study with progress and interrupts. Returns SB_EXIT_DONE, or with a message
 // SB_EXIT_NOT_CONVERGED (points are missing); both leave a complete *out. With another exit code,
-// *out is not to be written. Freed as sb_study_make() states.
+// *out is not to be written. An SbStudy owns nothing; it is too large for a stack.
 int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model);
 
 // Help of --measured.

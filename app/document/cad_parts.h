@@ -43,7 +43,8 @@ bool sb_cad_parts(int body[SB_CAD_PART_COUNT], const SbCad *cad, const SbCadSett
 // by the bodies (`body` as sb_cad_parts() writes it). Own sizes of `base` that follow from these
 // shapes are removed. `density` of the parts [kg/m3]; `drawing` is the path of the drawing, for
 // messages and for a mesh. *after receives the document as it would be read from `path`, freed by
-// sb_document_free(). Returns NULL, with *after = NULL, if there are issues.
+// sb_document_free(). `issues` must be empty; returns NULL, with *after = NULL, if there are
+// issues.
 char *sb_cad_scene(SbDocument **after, const SbCad *cad, const int body[SB_CAD_PART_COUNT],
                    double density, const SbDocument *base, const char *drawing, const char *path,
                    GPtrArray *issues);

@@ -57,8 +57,8 @@ GPtrArray *sb_data_read(const GPtrArray *entries, const char *directory, const c
                         GPtrArray *issues);
 
 // Replaces in `list` (of SbData) each group that names several cycles, `cycle = 1, 10, 40`, by one
-// group for each of them: "lot 1", "lot 10", "lot 40". Appends an issue if there are then more than
-// SB_DATA_MAX.
+// group for each of them: "lot 1", "lot 10", "lot 40". A group whose division would exceed
+// SB_DATA_MAX groups stays undivided and becomes an issue.
 void sb_data_part(GPtrArray *list, GPtrArray *issues);
 
 // Returns a group for the file `path` without any other key, as if a scene contained it. Freed by

@@ -35,8 +35,8 @@ char *sb_document_merge_texts(const char *base, const char *mine, const char *th
 SbDocument *sb_document_load_with(const char *path, const char *base, const char *mine,
                                   GPtrArray *conflicts, GPtrArray *issues);
 
-// Replaces everything in `document` (values, pins, notes, path and the state of its file) by
-// `other`, which it owns from now on. One step for undo, which restores everything.
+// Replaces everything in `document` (values, pins, notes, path and the state of its file) by that
+// of `other`, which `document` owns from now on. One step for undo, which restores everything.
 void sb_document_become(SbDocument *document, SbDocument *other);
 
 // Returns a path next to the document's that no file has: "NAME (2).scene", "NAME (3).scene" and so

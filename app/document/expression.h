@@ -21,7 +21,8 @@
 typedef bool (*SbExpressionName)(double *out, const char *name, void *data);
 
 // Computes the expression `text` whose result has the SI unit `si` ("m", "1"); `shown` is the usual
-// unit, for messages. `name` returns the values of names. Returns false with SB_APP_ERROR_INPUT and
-// a sentence that names the place, also if the result is not finite (a division by 0).
+// unit, for messages. `name` is called with `data` for each name and writes its value. Returns
+// false with SB_APP_ERROR_INPUT and a sentence that names the place, also if the result is not
+// finite (a division by 0); *out is then not changed.
 bool sb_expression_value(double *out, const char *text, const char *si, const char *shown,
                          SbExpressionName name, void *data, GError **error);

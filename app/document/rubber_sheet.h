@@ -23,9 +23,10 @@
 // Largest size of a file [bytes].
 enum { SB_RUBBER_BYTES_MAX = 1 << 16 };
 
-// Reads the rubber `name`, or the file if `name` has a folder or the ending. `directory` is the
-// folder of the file that names it (NULL: none); `shown` and `line` are that file and line, for
-// messages. Returns the path of the rubber's file, freed by g_free(); NULL with at least one issue.
+// Reads the rubber `name` to *out, or the file if `name` has a folder or the ending. `directory` is
+// the folder of the file that names it (NULL: none); `shown` and `line` are that file and line, for
+// messages. Returns the path of the rubber's file; NULL with at least one issue. An SbRubberSheet
+// owns nothing.
 char *sb_rubber_sheet_read(SbRubberSheet *out, const char *name, const char *directory,
                            const char *shown, int line, GPtrArray *issues);
 

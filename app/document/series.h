@@ -6,7 +6,7 @@
 //
 // All functions return false with at least one issue (file, line, column, allowed range) if the
 // file is not such a series, is larger than SB_SERIES_BYTES_MAX or has a value out of range; *out
-// is then empty.
+// is then empty. An SbModelSeries owns nothing.
 #pragma once
 
 #include "app/base/issue.h"

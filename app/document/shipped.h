@@ -25,51 +25,50 @@ enum {
   SB_SHIPPED_ANY = (1 << SB_SHIPPED_KINDS) - 1
 };
 
-// Name of a kind in the plural and of its folder ("scenes"). Static.
+// Returns the name of a kind in the plural and of its folder ("scenes"). Static.
 const char *sb_shipped_kind_name(SbShippedKind kind);
 
 // Makes sb_shipped_folder() search relative to a shared library at `path` in place of the program,
 // which is another one's (an interpreter, for example). Call it once, before the other functions.
 void sb_shipped_set_library(const char *path);
 
-// Folder that holds scenes/, valves/, studies/, rubbers/, examples/ and series/; NULL if there is
-// none. Owned by the caller (g_free).
+// Returns the folder that holds scenes/, valves/, studies/, rubbers/, examples/ and series/; NULL
+// if there is none.
 char *sb_shipped_folder(void);
 
-// Path of the shipped file of one of the `wanted` kinds that has this name without ending
-// ("thesis-cycle"), or of the example of this name ("valve.dxf"); NULL if there is none. Owned by
-// the caller (g_free).
+// Returns the path of the shipped file of one of the `wanted` kinds (bits 1 << SbShippedKind) that
+// has this name without ending ("thesis-cycle"), or of the example of this name ("valve.dxf"); NULL
+// if there is none.
 char *sb_shipped_find(const char *name, unsigned wanted);
 
-// Whether a file name has the ending of one of these kinds. Examples have no common ending.
+// Returns whether a file name has the ending of one of the `wanted` kinds. Examples have no common
+// ending.
 bool sb_shipped_has_ending(const char *name, unsigned wanted);
 
-// Path that an operand of a command names: a file that exists under `operand`, or "-", is used as
-// it is. Otherwise the shipped file of that name (see sb_shipped_find()) is used. If there is
-// neither, the result is a copy of `operand`, which cannot be opened. Owned by the caller (g_free).
+// Returns the path that an operand of a command names: a file that exists under `operand`, or "-",
+// is used as it is. Otherwise the shipped file of that name (see sb_shipped_find()) is used. If
+// there is neither, the result is a copy of `operand`, which cannot be opened.
 char *sb_shipped_resolve(const char *operand, unsigned wanted);
 
-// Paths of all files of a kind that ship, sorted by name. Owned by the caller (g_ptr_array_unref);
-// never NULL.
+// Returns the paths (char *) of all files of a kind that ship, sorted by name. Never NULL.
 GPtrArray *sb_shipped_files(SbShippedKind kind);
 
-// Title of a shipped file: of a key file [sealbench] title, of an example that of
-// examples/titles.ini; without one its name. Owned by the caller (g_free).
+// Returns the title of a shipped file: of a key file [sealbench] title, of an example that of
+// examples/titles.ini; without one its name.
 char *sb_shipped_title(const char *path);
 
-// Name by which a path of sb_shipped_files() is given to a command: without folder and ending
-// (examples with their ending).
-// Owned by the caller (g_free).
+// Returns the name by which a path of sb_shipped_files() is given to a command: without folder and
+// ending (examples with their ending).
 char *sb_shipped_name(const char *path, SbShippedKind kind);
 
-// Path of the study file NAME.study that ships; NULL if there is none. Unlike sb_shipped_find() it
-// also works in the programs of the tests. Owned by the caller (g_free).
+// Returns the path of the study file NAME.study that ships; NULL if there is none. Unlike
+// sb_shipped_find() it also works in the programs of the tests.
 char *sb_shipped_study(const char *name);
 
-// Folder of the thesis' tables and figures (app/study/thesis_item.h); NULL if there is none. Owned
-// by the caller (g_free).
+// Returns the folder of the thesis' tables and figures (app/study/thesis_item.h); NULL if there is
+// none.
 char *sb_shipped_thesis(void);
 
-// Folder of runs that were computed when the program was built (app/session/stored_run.h); NULL if
-// there is none. Owned by the caller (g_free).
+// Returns the folder of runs that were computed when the program was built
+// (app/session/stored_run.h); NULL if there is none.
 char *sb_shipped_runs(void);

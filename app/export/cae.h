@@ -5,7 +5,7 @@
 // boundary pressure [Pa] at the nodes. .dxf: polylines in millimetres, x axial, y radial, on the
 // layers FREE and DEFORMED (closed), FLOOR and BORE (open lines; a gasket has no FLOOR).
 // .stl: text, millimetres, x axial, the deformed section revolved in 72 steps with the corners on
-// the surface; .free.stl: the free section likewise.
+// the surface; .free.stl: the same with the free section.
 // .inp (CalculiX, millimetres, newtons, megapascals): a wedge of two degrees, so that forces are
 // those of 1/180 of the ring. It has the free mesh, the rubber, groove and bore as rigid rings that
 // move to their positions, and the fluid's pressure on the faces that this program found wetted. A

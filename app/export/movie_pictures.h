@@ -11,7 +11,7 @@ typedef struct {
   double duration;    // of the movie [s]; 0: 10; ignored if `speed` is above 0
   double speed;       // seconds of the run per second of movie; 0: by `duration`
   const char *from;   // "B" or "2 s", see sb_render_frame_at(); NULL: the start
-  const char *to;     // likewise; NULL: the end
+  const char *to;     // in the same form; NULL: the end
   SbMovieHooks hooks; // progress and cancelling
 } SbRenderMovie;
 

@@ -50,7 +50,8 @@ void sb_surface_choices_clear(SbSurfaceChoices *choices);
 // Sets one choice by the name of its command line option: "form", "missing", "channel", "outliers",
 // "cutoff-short", "cutoff-long", "spacing" (a number with unit; without: µm), "unit",
 // "lateral-unit" (a unit of length). `text` is the value. False with SB_APP_ERROR_INPUT whose
-// message does not contain the name ("a value above 0 is needed").
+// message does not contain the name ("a value above 0 is needed"); the choices are then not to be
+// used, but still to be cleared.
 bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *text,
                        GError **error);
 

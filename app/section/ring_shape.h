@@ -19,7 +19,8 @@ typedef struct {
   double wall_left, wall_right; // groove walls, x
   double area;                  // of the section [m2]
   double section;               // fitted section diameter, for the free shape [m]
-  // Returns y of the housing at x [m]; used only if a part of the contact is not on the land.
+  // Returns y of the housing at x [m]; used only if a part of the contact is not on the land. NULL:
+  // no housing.
   double (*housing)(void *data, double x);
   void *data;
 } SbRingRoom;

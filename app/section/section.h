@@ -102,6 +102,6 @@ const SbRingShape *sb_section_ring(const SbSection *section, int seal);
 // Returns the outlines of the valve. Borrowed from the section.
 const SbValveOutline *sb_section_valve(const SbSection *section);
 
-// Writes the scale of the last picture [px/m] and the pixel of the origin of the housing's frame
-// (the land edge, on the axis).
+// Writes the scale of the last picture of sb_section_draw() [px/m] and the pixel (*x0, *y0) of the
+// origin of the housing's frame (the land edge, on the axis). Not for a cutaway.
 void sb_section_transform(const SbSection *section, double *scale, double *x0, double *y0);

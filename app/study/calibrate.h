@@ -90,7 +90,7 @@ typedef struct {
   SbWarnings *warnings; // limits of validity of the runs at the fit; NULL: no run
 } SbCalibration;
 
-// How the work is done. Both callbacks may be NULL.
+// How the work is done. Both callbacks may be NULL; `data` is passed to them.
 typedef struct {
   int jobs;                      // number of threads, from 1
   bool (*cancelled)(void *data); // returns true to interrupt; called from any thread
@@ -98,9 +98,11 @@ typedef struct {
   void *data;
 } SbCalibrateHooks;
 
-// Fits the parameters and samples the posterior. Call sb_calibration_release() in any case. Returns
-// SB_OK; SB_ERROR_INPUT with issues on the files or on [vary]; SB_ERROR_CANCELLED (out->partial if
-// the fit had begun); or the error of the first run.
+// Fits the parameters and samples the posterior. `study` must have groups [vary] and [data]; it is
+// only read, but must outlive *out. Call sb_calibration_release() in any case. Returns SB_OK;
+// SB_ERROR_INPUT with issues on the files or on [vary]; SB_ERROR_CANCELLED (out->partial if the fit
+// had begun); SB_ERROR_NOT_CONVERGED (the fit has not converged, the result is complete); or the
+// error of the first run.
 SbStatus sb_calibrate(SbCalibration *out, const SbStudyFile *study, const SbCalibrateHooks *hooks,
                       GPtrArray *issues, SbReport *report);
 

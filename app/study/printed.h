@@ -25,6 +25,7 @@ G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbPrinted, sb_printed_free)
 // Returns the cell of row `row` (from 0) in the column of this name; NULL: there is no such column.
 const char *sb_printed_cell(const SbPrinted *printed, guint row, const char *column);
 
-// Reads the number of a cell to *out, and half of the unit of its last digit to *half, in the
-// cell's unit. Returns false if the cell is not a number.
+// Reads the number of a cell to *out, and half of the unit of its last digit to *half, both in the
+// cell's unit. Returns false, with both not changed, if the cell is not a number. `cell` may be
+// NULL, which is not a number.
 bool sb_printed_number(double *out, double *half, const char *cell);
