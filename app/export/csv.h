@@ -14,7 +14,7 @@ char *sb_csv_cell(const char *text);
 // Writes sb_csv_cell(text), without a separator.
 void sb_csv_text(FILE *stream, const char *text);
 
-// Writes one row per frame: time, displacement, velocity, forces, films, pressures, reactions.
+// Writes one row per frame: time, displacement, velocity, forces, films, pressures, reactions [SI].
 void sb_csv_cycle(FILE *stream, const SbRun *run);
 
 // Writes one row per figure of the catalogue: path, value in SI, unit, relative error estimate,

@@ -15,6 +15,7 @@
 #include <glib.h>
 
 // What the document of a run contains in addition to the run. Borrowed during the call.
+// sb_results_converged() uses only the studies.
 typedef struct {
   const char *scene;      // full path of the file, "-" for standard input; or a title
   const char *sha256;     // of the parameters

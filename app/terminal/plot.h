@@ -43,8 +43,8 @@ void sb_plot_axes(SbPlot *plot, SbCells *cells, SbCellRect rect, const SbScale *
 void sb_plot_curve(SbPlot *plot, const double *x, const double *y, size_t count,
                    const SbPlotLine *line);
 
-// Writes the cell of the point (x, y) to *column and *row, in the coordinates of the grid. Returns
-// false if the point is not in the plot.
+// Writes the cell of the point (x, y), in the units of the scales, to *column and *row, in the
+// coordinates of the grid. Returns false if the point is not in the plot.
 bool sb_plot_cell(const SbPlot *plot, double x, double y, int *column, int *row);
 
 // Writes the dots to the cells and frees the memory of the plot; sb_plot_cell() still works.

@@ -6,7 +6,7 @@
 // What to open, and how.
 typedef struct {
   const char *path;      // valve or scene; NULL: the shipped start scene
-  SbScreenWishes screen; // properties of the terminal
+  SbScreenWishes screen; // requests to the terminal (screen.h)
   GPtrArray *issues;     // of SbIssue, borrowed: the errors of the file are appended
 } SbWorkbenchOptions;
 

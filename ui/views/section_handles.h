@@ -1,8 +1,8 @@
 // Handles on the drawn section for sizes of the valve: the user drags them, moves them with arrow
 // keys, or types a value. A press without a drag selects the parameter.
 //
-// Positions are in logical pixels of the picture's widget. Functions that return gboolean return
-// whether the event was used.
+// Positions are in logical pixels of the picture's widget. The widget calls the functions for its
+// events below; those that return gboolean return whether the event was used.
 #pragma once
 
 #include "app/base/geometry.h"

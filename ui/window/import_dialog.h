@@ -2,8 +2,8 @@
 // choice: a measured loop that is compared with the runs of the document, a scan of its surface,
 // and the bodies of a drawing as the parts of its valve.
 //
-// Each function opens its dialog over `parent` and returns; the dialog destroys itself. `path` is
-// copied; NULL: the user is asked for a file first.
+// Each function opens its dialog over `parent` and returns; the dialog destroys itself and holds a
+// reference to `session`. `path` is copied; NULL: the user is asked for a file first.
 #pragma once
 
 #include "app/session/session.h"
