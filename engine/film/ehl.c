@@ -26,10 +26,13 @@ enum { LEVELS = 6, DEGREE_FIRST = 4, DEGREE_LAST = 14, DEGREE_LAST_ROUGH = 8 };
 static const double RESIDUAL = 1e-11;
 static const double LEVEL_RESIDUAL[] = {1e-7, 1e-9};
 
+// What no finer level removes from rough rows, relative: what the parts of the law's tables and
+// the places of the film's ends leave.
+static const double ROUGH_LEFT = 3e-9;
+
 // Rounding in the films, relative: deflections of size one against the film.
 static double rounding(const SbEhlResults *r, bool rough) {
-  return rough ? 1e-15 / fmin(1.0, r->film_min + SB_EHL_CLOSED) + 3e-9
-               : 3e-16 / fmin(1.0, r->film_min);
+  return rough ? r->film_rounding + ROUGH_LEFT : 3e-16 / fmin(1.0, r->film_min);
 }
 
 static double worst(const SbFilmSolver *solver) {
@@ -87,7 +90,7 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
     // The minimum film is between nodes.
     static const double BETWEEN[] = {5e-8, 4e-7};
     solver->error[0] += c->layers.degree < DEGREE_LAST_ROUGH ? BETWEEN[c->rough.coarse] : 0.0;
-    info->error_contact = noise + RATE_FLOW * change[levels - 1][2];
+    info->error_contact = now->contact_rounding + ROUGH_LEFT + RATE_FLOW * change[levels - 1][2];
     if (c->rough.law != NULL) {
       double area = RATE * fabs(now->real_area - before->real_area) + now->area_error;
       double load = RATE * fabs(now->asperity_load - before->asperity_load);

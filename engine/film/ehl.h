@@ -131,6 +131,7 @@ typedef struct {
   double solid_t;  // d solid/dt
   double asperity; // p_a
   double share;    // fraction of real contact area
+  double share_t;  // d share/dt
   // Coefficients of a Newton step:
   double p;                    // film pressure
   double k, r;                 // dp = dq + k dh; r: residual of the linearised elastic equation
@@ -149,6 +150,9 @@ typedef struct {
   double solid_load;                              // integral of p_a - p_v
   double area_error; // error of real_area where the share reaches 1 between two nodes
   double load_error, flux_error;
+  // Relative changes of film_min and film_central, and sum of those of real_area and asperity_load,
+  // by the rounding of the deflections (rough rows).
+  double film_rounding, contact_rounding;
   bool ruptured;
 } SbEhlResults;
 

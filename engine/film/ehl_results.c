@@ -220,6 +220,28 @@ static void weigh_steps(SbEhlResults *out, double *whole, double *film, const Sb
   }
 }
 
+// Changes of rough rows' films, real area and asperity load by the rounding of the deflections. A
+// node's gap is H0 + the dry gap + the deflection; where this sum is wrong by e, Newton's method
+// moves the node's parameter t by e / (h_t + K |p_t|): h_t is the slope of the gap, p_t that of the
+// asperities' pressure, and K the deflection of the node's own interval under its own pressure,
+// about the interval's length (half-plane; its logarithm, above 1, is left out). A closed gap is
+// thus known by its pressure, not by the difference of the deflections. The signs are taken at
+// their worst.
+static void find_rounding(SbEhlResults *out, const SbEhlRoughPoint *point, const double *weight,
+                          int count) {
+  static const double DEFLECTION = 1e-15;
+  double area = 0.0, load = 0.0;
+  for (int i = 0; i < count; i++) {
+    const SbEhlRoughPoint *at = &point[i];
+    const double dt = DEFLECTION / (at->h_t + fabs(weight[i] * at->solid_t));
+    out->film_rounding = fmax(out->film_rounding, at->h_t * dt / (at->h + SB_EHL_CLOSED));
+    area += fabs(weight[i] * at->share_t) * dt;
+    load += fabs(weight[i] * at->solid_t) * dt;
+  }
+  out->contact_rounding = (out->real_area > 0.0 ? area / out->real_area : 0.0) +
+                          (out->asperity_load > 0.0 ? load / out->asperity_load : 0.0);
+}
+
 void sb_ehl_results(SbEhlResults *out, const SbEhlSolution *s) {
   const SbEhlMesh *mesh = &s->mesh;
   const SbEhlState *state = &s->state;
@@ -294,5 +316,6 @@ void sb_ehl_results(SbEhlResults *out, const SbEhlSolution *s) {
     sb_ehl_rough_point(&at, &s->c, out->film_central);
     out->film_central = at.h;
     out->central_share = at.share;
+    find_rounding(out, point, whole, mesh->rows);
   }
 }

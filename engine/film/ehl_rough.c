@@ -25,7 +25,8 @@ void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t) {
                            .asperity = p.pressure / rough->pressure,
                            .solid = (p.pressure - pull) / rough->pressure,
                            .solid_t = (p.pressure_slope - pull_slope) / rough->pressure,
-                           .share = p.share};
+                           .share = p.share,
+                           .share_t = p.share_slope};
 }
 
 double sb_ehl_asperity_share(double asperity, double solid, double load) {
