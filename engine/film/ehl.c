@@ -14,6 +14,7 @@
 // roughness; factors are near 1 above h = 2 sigma), and the ranges of the rough law.
 #include "engine/film/ehl.h"
 
+#include <gsl/gsl_sf_legendre.h>
 #include <math.h>
 #include <string.h>
 
@@ -48,17 +49,62 @@ static bool forms_again(const SbEhlSolution *s) {
   return again;
 }
 
+// Returns the rate at which the changes of a solution decrease with the next two degrees, from its
+// own spectrum: root mean square of the two highest Legendre coefficients of the pressure divided
+// by that of the two below them, at most 1. Each coefficient is weighted by the length of its
+// element, because the deflection is proportional to it. Lobatto quadrature at the nodes gives the
+// coefficients of the element's polynomial.
+static double spectral_rate(const SbEhlSolution *s) {
+  double high = 0.0, low = 0.0;
+  for (int i = 0; i < s->mesh.count; i++) {
+    const SbEhlElement *e = &s->mesh.element[i];
+    const int n = e->degree;
+    double sum[SB_EHL_DEGREE_MAX + 1] = {0};
+    for (int k = 0; k <= n && e->side == 0; k++) {
+      double P[SB_EHL_DEGREE_MAX + 1];
+      (void)gsl_sf_legendre_Pl_array(n, e->table->node[k], P);
+      for (int m = n - 3; m <= n; m++) {
+        sum[m] += s->state.nodal[e->first_dof + k] * P[m] / (P[n] * P[n]);
+      }
+    }
+    const double length = e->side == 0 ? e->x1 - e->x0 : 0.0;
+    for (int m = n - 3; m <= n; m++) {
+      // (2 m + 1) / 2, of the highest one n / 2, times the weights 2 / (n (n + 1) P_n^2).
+      const double of = length * (m < n ? 2.0 * m + 1.0 : n) / (n * (n + 1.0)) * sum[m];
+      *(m < n - 1 ? &low : &high) += of * of;
+    }
+  }
+  return low > 0.0 ? fmin(sqrt(high / low), 1.0) : 1.0;
+}
+
+// Returns the relative error of the contact of rough rows: the larger of the errors of real area
+// and asperity load, plus the flow's error, on which both depend.
+static double contact_error(const SbEhlResults *now, const SbEhlResults *before, double rate,
+                            double flow) {
+  const double area = fabs(now->real_area - before->real_area) / now->real_area;
+  const double load = fabs(now->asperity_load - before->asperity_load) / now->asperity_load;
+  return rate * (fmax(area, load) + flow) + now->contact_rounding + ROUGH_LEFT;
+}
+
 // Estimates the errors of the last level: its change from the previous level times the rate at
-// which changes decrease. The rate is not assumed to be better than the rates found over the range
-// of M and end pressures. Changes are those of the surroundings of the films (sb_ehl_change). The
-// flux depends on the inlet only; the centre has the inlet's error and its own; the minimum has
-// both and the outlet's.
+// which changes decrease. The rate is the larger of the last two changes' ratio (from the third
+// level on) and the rate of the solution's spectrum. Changes are those of the surroundings of the
+// films (sb_ehl_change). The flux depends on the inlet only; the centre has the inlet's error and
+// its own; the minimum has both and the outlet's.
 static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
                      const SbEhlResults *results) {
-  static const double SLOWEST[LEVELS] = {1.0, 0.13, 0.06, 0.1, 0.1, 0.1};
+  // Safety factor for rates that differ from level to level, as for the disc (contact/disc).
+  static const double SURE = 2.0;
   // At least half of the best error of a level, whatever the changes are: finally the rounding of
   // the kernel and of Newton's method; of rough rows the error near the rupture.
   static const double FINEST[LEVELS] = {1.0, 2e-8, 1.5e-10, 1e-10, 1e-10, 1e-10};
+  // Without asperities the kinks where the film cavitates and re-forms are not rounded, and are
+  // anywhere between nodes: determined from films of smooth rows (M from 0.3 to 1e3, end pressures
+  // up to p_H).
+  static const double KINK = 0.4, BROKEN[] = {5e-7, 1e-7, 1e-7}, FORMED = 1e-5;
+  // The minimum film of rough rows is near the rupture, where the slope of the pressure jumps: its
+  // changes decrease more slowly than the spectrum of the full contact (campaign estimates).
+  static const double RUPTURE = 2.5;
   SbFilmSolverInfo *info = solver->info;
   const SbEhlCase *c = &solver->now->c;
   const bool rough = c->rough.rows;
@@ -66,36 +112,26 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
   const SbEhlResults *now = &results[levels - 1], *before = &results[levels - 2];
   double noise = rounding(now, rough) + (rough ? 0.0 : info->residual);
   double *last = change[levels - 1];
+  const double flow = last[2];
   last[2] = fmax(last[2], 0.05 * last[1]);
   last[1] = fmax(last[1], last[2]);
   last[0] = fmax(last[0], last[1]);
+  const double spectrum = spectral_rate(solver->now);
   for (int i = 0; i < 3; i++) {
-    // A level of rough rows has about a hundredth of its change as error, near the rupture's kink
-    // more; two levels of one degree give no rate.
-    static const double ROUGH[2][3] = {{0.05, 0.02, 0.05}, {0.12, 0.05, 0.12}};
-    // Without asperities the kinks where the film cavitates and re-forms are not rounded, and are
-    // anywhere between nodes: determined from films of smooth rows (M from 0.3 to 1e3, end
-    // pressures up to p_H).
-    static const double KINK = 0.4, BROKEN[] = {5e-7, 1e-7, 1e-7}, FORMED = 1e-5;
     const bool sharp = rough && c->rough.law == NULL;
     const double left = sharp ? again ? FORMED : BROKEN[i] : 0.0;
-    double rate = levels > 2 ? last[i] / fmax(change[levels - 2][i], 1e-300) : 0.0;
-    rate = sharp   ? KINK
-           : rough ? ROUGH[c->rough.coarse][i]
-                   : fmin(fmax(rate, SLOWEST[levels - 1]), 1.0);
+    const double seen = levels > 2 ? last[i] / fmax(change[levels - 2][i], 1e-300) : 0.0;
+    double rate = sharp   ? KINK
+                  : rough ? (i == 0 ? RUPTURE : 1.0) * SURE * spectrum
+                          : SURE * fmin(fmax(seen, spectrum), 1.0);
     solver->error[i] = fmax(rate * last[i] + noise + left, FINEST[levels - 1]);
   }
   if (rough) {
-    static const double RATE = 0.05, RATE_FLOW = 0.02;
     // The minimum film is between nodes.
     static const double BETWEEN[] = {5e-8, 4e-7};
     solver->error[0] += c->layers.degree < DEGREE_LAST_ROUGH ? BETWEEN[c->rough.coarse] : 0.0;
-    info->error_contact = now->contact_rounding + ROUGH_LEFT + RATE_FLOW * change[levels - 1][2];
-    if (c->rough.law != NULL) {
-      double area = RATE * fabs(now->real_area - before->real_area) + now->area_error;
-      double load = RATE * fabs(now->asperity_load - before->asperity_load);
-      info->error_contact += area / now->real_area + load / now->asperity_load;
-    }
+    info->error_contact =
+        c->rough.law != NULL ? contact_error(now, before, SURE * spectrum, flow) : noise;
   }
 }
 

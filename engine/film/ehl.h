@@ -148,7 +148,6 @@ typedef struct {
   double couette, poiseuille, cavity;
   double real_area, asperity_load, central_share; // integrals of share and p_a; share at the axis
   double solid_load;                              // integral of p_a - p_v
-  double area_error; // error of real_area where the share reaches 1 between two nodes
   double load_error, flux_error;
   // Relative changes of film_min and film_central, and sum of those of real_area and asperity_load,
   // by the rounding of the deflections (rough rows).

@@ -178,10 +178,7 @@ void sb_ehl_change(double change[3], SbFilmSolver *solver, const SbEhlResults *f
     return;
   }
   int thinnest = sb_ehl_find(mesh, fine->position_min - now->state.shift);
-  change[0] = 0.0;
-  for (int i = thinnest > 0 ? thinnest - 1 : 0; i <= thinnest + 1 && i < mesh->count; i++) {
-    change[0] = fmax(change[0], element_change(now, before, i, false));
-  }
+  change[0] = fmax(change[0], element_change(now, before, thinnest, false));
   int axis = sb_ehl_find(mesh, now->c.layers.middle - now->state.shift);
   change[1] = element_change(now, before, axis, true);
 }
@@ -203,11 +200,6 @@ static void weigh_steps(SbEhlResults *out, double *whole, double *film, const Sb
         out->ruptured = true;
       }
     }
-    // The kink's error, measured: below 0.03 of the rectangle that it crosses.
-    double here = point[i].share, next = point[i + 1].share;
-    if ((here < 1) != (next < 1)) {
-      out->area_error += 0.05 * e->h * (rule->node[j + 1] - rule->node[j]) * fabs(next - here);
-    }
     double lack = point[i + 1].p - point[i].p; // of the integrated equation
     for (int k = 0; k <= rule->degree; k++) {
       whole[first + k] += e->h * rule->step[j][k];
@@ -218,6 +210,69 @@ static void weigh_steps(SbEhlResults *out, double *whole, double *film, const Sb
       out->flux_error = fmax(out->flux_error, fabs(lack));
     }
   }
+}
+
+static bool is_kinked(const SbEhlElement *e, const SbEhlRoughPoint *point) {
+  bool full = false, open = false;
+  for (int k = e->first_dof; k <= e->first_dof + e->degree; k++) {
+    full = full || point[k].share >= 1.0;
+    open = open || point[k].share < 1.0;
+  }
+  return full && open;
+}
+
+// The real area's share at r of an element.
+static double share_at(const SbEhlSolution *s, const SbEhlElement *e, double r) {
+  SbEhlRoughPoint at;
+  sb_ehl_rough_point(&at, &s->c, sb_ehl_interpolate(e->table, &s->state.t[e->first_dof], r));
+  return at.share;
+}
+
+static double is_full(double r, const void *context) {
+  const Sample *of = context;
+  return share_at(of->s, of->e, r) < 1.0 ? -1.0 : 1.0;
+}
+
+// Integral of the real area's share from a to b of an element, where it has no kink.
+static double smooth_area(const SbEhlSolution *s, const SbEhlElement *e, double a, double b) {
+  const SbEhlTables *rule = s->mesh.tables;
+  double sum = 0.0;
+  for (int q = 0; q < SB_EHL_QUAD && b > a; q++) {
+    const double r = 0.5 * (a + b + (b - a) * rule->fine[q]);
+    sum += 0.5 * (b - a) * rule->fine_weight[q] * e->h * share_at(s, e, r);
+  }
+  return sum;
+}
+
+// Real area over the elements in which the share reaches its limit of 1, less what the rule from
+// node to node makes of them: the law is smooth up to the limit, so that the parameter t has a
+// polynomial, but the limited share has none. It is integrated on both sides of the limit.
+static double kinked_area(const SbEhlSolution *s, const SbEhlRoughPoint *point) {
+  double more = 0.0;
+  for (int i = 0; i < s->mesh.count; i++) {
+    const SbEhlElement *e = &s->mesh.element[i];
+    const double *node = e->table->node;
+    if (!is_kinked(e, point)) {
+      continue;
+    }
+    // Nodes at the ends have weights of both neighbours: the element's own are those of its steps.
+    for (int k = 0; k <= e->degree; k++) {
+      double own = 0.0;
+      for (int j = 0; j < e->degree; j++) {
+        own += e->h * e->table->step[j][k];
+      }
+      more -= own * point[e->first_dof + k].share;
+    }
+    const Sample of = {.s = s, .e = e};
+    for (int j = 0; j < e->degree; j++) {
+      const double a = node[j], b = node[j + 1];
+      const double from = is_full(a, &of), to = is_full(b, &of);
+      const double kink =
+          from == to ? b : sb_bisect(is_full, &of, from > to ? a : b, from > to ? b : a);
+      more += smooth_area(s, e, a, kink) + smooth_area(s, e, kink, b);
+    }
+  }
+  return more;
 }
 
 // Changes of rough rows' films, real area and asperity load by the rounding of the deflections. A
@@ -301,6 +356,9 @@ void sb_ehl_results(SbEhlResults *out, const SbEhlSolution *s) {
     peak = fmax(peak, at->p + at->solid);
   }
 
+  if (rough) {
+    out->real_area += kinked_area(s, point);
+  }
   double place;
   out->film_min = least_about(&place, s, thinnest, false);
   out->position_min = place + shift;

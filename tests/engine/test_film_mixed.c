@@ -395,6 +395,29 @@ static void test_starved(void) {
   g_assert_cmpint(film.solver.newton_iterations, <, 100);
 }
 
+// A contact at rest whose gap is closed is known by its pressure: the deflections' rounding, which
+// is larger than the gap, is no error of real area and load, and a small tolerance is met. Real
+// areas that reach the whole of the nominal one have a kink between nodes, which leaves no more.
+static void test_closed_errors(void) {
+  static const SbRoughModel surface[] = {SB_ROUGH_PERSSON, SB_ROUGH_GREENWOOD_TRIPP};
+  for (size_t i = 0; i < G_N_ELEMENTS(surface); i++) {
+    SbFilmProblem problem = rough_seal(0, surface[i]);
+    problem.sigma = 0.2e-6;
+    problem.gt_product = i == 0 ? problem.gt_product : 0.3;
+    problem.tolerance = 1e-6;
+    g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
+    problem.tolerance = 0.1;
+    g_assert_cmpint(solve(&film, &problem), ==, SB_OK);
+    const double estimate = film.solver.error_contact;
+    const double area = fabs(film.real_area / other.real_area - 1);
+    const double load = fabs(film.asperity_load / other.asperity_load - 1);
+    g_test_message("least gap %.3g m, share %.6f, contact %.2g, area %.2g, load %.2g",
+                   other.film_min, other.real_area_share, estimate, area, load);
+    g_assert_cmpfloat(fmax(area, load), <=, 3 * estimate);
+    g_assert_cmpfloat(estimate, <=, fmax(30 * fmax(area, load), 1e-7));
+  }
+}
+
 // Films near a solved one on its mesh: another speed, load and supply; none that is starved, and
 // at rest none of another flow.
 static void test_near(void) {
@@ -683,6 +706,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/mixed/ends", test_ends);
   g_test_add_func("/film/mixed/starved", test_starved);
   g_test_add_func("/film/mixed/near", test_near);
+  g_test_add_func("/film/mixed/closed-errors", test_closed_errors);
   g_test_add_func("/film/mixed/adhesion", test_adhesion);
   g_test_add_func("/film/mixed/sticking", test_sticking);
   g_test_add_func("/film/mixed/snap-in", test_snap_in);
