@@ -138,7 +138,6 @@ static SbStatus compute_figures(SbSummary *out, SbRun *run, SbReport *report) {
 // Computes the errors of the cycle's figures that the states' errors cause: the cycle is built
 // again with each of them. The cycle is unchanged afterwards.
 static SbStatus find_errors(SbRun *run, SbReport *report) {
-  static bool (*const wrong[])(SbRun *) = {sb_run_worsen_friction, sb_run_widen_contact};
   struct {
     SbCycle cycle;
     SbSummary right, other;
@@ -148,8 +147,8 @@ static SbStatus find_errors(SbRun *run, SbReport *report) {
   }
   own->cycle = run->cycle;
   SbStatus status = compute_figures(&own->right, run, report);
-  for (size_t i = 0; i < sizeof wrong / sizeof *wrong && status == SB_OK; i++) {
-    if (wrong[i](run)) {
+  for (int i = 0; i < SB_RUN_WRONG && status == SB_OK; i++) {
+    if (sb_run_worsen(run, i)) {
       if (sb_cycle_build(&run->cycle, NULL) == SB_OK &&
           compute_figures(&own->other, run, NULL) == SB_OK) {
         sb_run_add_errors(run, &own->right, &own->other, 1);

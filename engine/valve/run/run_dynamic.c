@@ -408,8 +408,8 @@ static void lose_errors(SbRun *run, const SbReport *why) {
           "the motion's error is not known: %s", why->text);
 }
 
-// Computes the errors of the motion that the states' errors cause: the motion is repeated with all
-// of them, at most to a coarse tolerance.
+// Computes the errors of the motion that the states' errors cause: the motion is repeated with each
+// kind of them, at most to a coarse tolerance.
 static SbStatus find_state_errors(SbRun *run, const Recorder *fine, double tolerance,
                                   const SbRunHooks *hooks, SbReport *report) {
   struct {
@@ -422,16 +422,21 @@ static SbStatus find_state_errors(SbRun *run, const Recorder *fine, double toler
   SbReport why = {0};
   SbStatus status = compute_figures(&own->right, fine, &why);
   own->cycle = run->cycle;
-  const bool rubs = sb_run_worsen_friction(run), widens = sb_run_widen_contact(run);
-  if (status == SB_OK && (rubs || widens)) {
+  const double coarse = fmax(tolerance, fmin(10 * tolerance, 1e-5));
+  bool known = true;
+  for (int i = 0; i < SB_RUN_WRONG && status == SB_OK && known; i++) {
+    run->cycle = own->cycle;
+    if (!sb_run_worsen(run, i)) {
+      continue;
+    }
     Recorder other;
-    const double coarse = fmax(tolerance, fmin(10 * tolerance, 1e-5));
     status = run_motion(&other, run, false, coarse, hooks, &why);
     status = status == SB_OK ? compute_figures(&own->other, &other, &why) : status;
     if (status == SB_OK) {
       add_errors(run, fine, &own->right, &other, &own->other, 1);
     } else if (status == SB_ERROR_NOT_CONVERGED) {
       lose_errors(run, &why);
+      known = false;
       status = SB_OK;
     }
   }

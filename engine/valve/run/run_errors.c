@@ -3,10 +3,10 @@
 // A seal's figures have the errors of their state: those of its fit (ring, disc), of its film and
 // of the dry contact, which the solvers estimate, in the proportions in which the figure depends on
 // them. Figures of the motion depend on every state together. The motion is therefore repeated with
-// states perturbed by their errors, all frictions increased together and the inner contact widened
-// (equal contributions to a difference cancel, others add), and with coarser steps if it is
-// integrated. The sum of the differences is the error. Everything that follows from inputs by
-// closed forms has the error 0.
+// states perturbed by their errors: once with all kinetic frictions larger, once with all static
+// ones, once with the ends of the inner contact off; and with coarser steps if it is integrated. The
+// sum of the differences is the error. Everything that follows from inputs by closed forms has the
+// error 0.
 //
 // The errors of the terms are added at their worst. They include discretisation and iteration, not
 // the choice of the model.
@@ -44,45 +44,63 @@ void sb_run_add_errors(SbRun *run, const SbSummary *one, const SbSummary *other,
   }
 }
 
-// A friction that is larger by its error.
-static void worsen(SbSealState *state) {
-  const double slides = sb_sliding_friction(state), rests = state->friction_static;
-  if (state->friction_error > 0 && slides > 0) {
-    const double times = 1 + state->friction_error / slides;
-    state->boundary_area *= times;
-    state->boundary_load *= times;
-    state->friction_viscous *= times;
-  }
-  if (state->static_error > 0 && rests > 0) {
-    const double times = 1 + state->static_error / rests;
-    state->friction_static *= times;
-    state->rest_area *= times;
-    state->rest_load *= times;
-  }
-}
-
-bool sb_run_worsen_friction(SbRun *run) {
-  SbSealState *state = &run->cycle.state[0][0][0];
+// Larger by their errors: kinetic friction and static friction each by itself, since a jump of the
+// stem depends on their difference. False: none has an error.
+static bool worsen_kinetic(SbRun *run) {
+  SbSealState *all = &run->cycle.state[0][0][0];
   bool any = false;
   for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
-    any = any || state[i].friction_error > 0 || state[i].static_error > 0;
-    worsen(&state[i]);
-  }
-  return any;
-}
-
-bool sb_run_widen_contact(SbRun *run) {
-  SbSealState *state = &run->cycle.state[SB_INNER][0][0];
-  bool any = false;
-  for (int i = 0; i < SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
-    const double by = state[i].width_error * (state[i].contact_right - state[i].contact_left);
-    if (by > 0) {
-      state[i].contact_left -= by;
-      state[i].contact_right += by;
+    const double slides = sb_sliding_friction(&all[i]);
+    if (all[i].friction_error > 0 && slides > 0) {
+      const double times = 1 + all[i].friction_error / slides;
+      all[i].boundary_area *= times;
+      all[i].boundary_load *= times;
+      all[i].friction_viscous *= times;
       any = true;
     }
   }
   return any;
+}
+
+static bool worsen_static(SbRun *run) {
+  SbSealState *all = &run->cycle.state[0][0][0];
+  bool any = false;
+  for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
+    if (all[i].static_error > 0 && all[i].friction_static > 0) {
+      const double times = 1 + all[i].static_error / all[i].friction_static;
+      all[i].friction_static *= times;
+      all[i].rest_area *= times;
+      all[i].rest_load *= times;
+      any = true;
+    }
+  }
+  return any;
+}
+
+// The ends of the inner contact off by its width's error, the worst together: where a ring meets
+// the land's edge on the way back is a sum of widths of both directions, where a gasket leaves the
+// shoulder their difference (sb_cycle_edge_begin()).
+static bool widen_contact(SbRun *run) {
+  const bool gasket = run->model->kind == SB_VALVE_GASKET;
+  SbSealState *all = &run->cycle.state[SB_INNER][0][0];
+  bool any = false;
+  for (int i = 0; i < SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
+    SbSealState *state = &all[i];
+    const double by = state->width_error * (state->contact_right - state->contact_left);
+    if (by > 0) {
+      const double out = gasket && i % SB_RUN_MOTIONS == SB_CYCLE_OUT ? -by : by;
+      state->contact_left -= out;
+      state->contact_right += out;
+      any = true;
+    }
+  }
+  return any;
+}
+
+bool sb_run_worsen(SbRun *run, int index) {
+  static bool (*const wrong[SB_RUN_WRONG])(SbRun *) = {worsen_kinetic, worsen_static,
+                                                       widen_contact};
+  return wrong[index](run);
 }
 
 void sb_run_leak_error(SbRun *run) {
@@ -93,8 +111,10 @@ void sb_run_leak_error(SbRun *run) {
       error[way] = fmax(error[way], run->cycle.state[SB_OUTER][chamber][way].central_error);
     }
   }
+  // A gasket's stem carries liquid out on its way back.
+  const int out = sb_model_way(run->model) > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT;
   run->leak_error += run->model->bore_circumference *
-                     (error[SB_CYCLE_IN] * run->bore.out + error[SB_CYCLE_OUT] * run->bore.back);
+                     (error[out] * run->bore.out + error[1 - out] * run->bore.back);
 }
 
 // ---- A seal's state
@@ -146,13 +166,19 @@ static double relative_of_state(const SbRun *run, const SbFigure *figure,
     return state->leak_sensitivity != 0 ? leak_error(state) / fabs(state->leak_sensitivity) : 0;
   case SB_BY_SPEED:
     return speed;
-  case SB_BY_TURN:
-    // Of a section that rubs it scatters more than the load does (1.6 to 7 % where loads scatter by
-    // 0.1 %).
-    return 5 * (state->load_error + state->width_error);
   default:
     return NAN;
   }
+}
+
+// Error of the turn of a section [degrees]. Of a section that rubs it scatters more than the load
+// does (1.6 to 7 % where loads scatter by 0.1 %). A section that hardly turns is known as well as
+// the angle by which the contact shears it, about its mean pressure over the modulus.
+static double turn_error(const SbRun *run, int seal, const SbSealState *state, double value) {
+  const double width = state->contact_right - state->contact_left;
+  const double strain =
+      width > 0 ? state->load_per_length / width / run->model->seal[seal].modulus : 0;
+  return (state->load_error + state->width_error) * (5 * fabs(value) + strain * 180 / M_PI);
 }
 
 // Absolute error of a seal's figure.
@@ -175,6 +201,8 @@ static double of_seal(const SbRun *run, const SbFigure *figure, double value) {
                                                : positive(state->central_error));
   case SB_BY_BOUNDARY:
     return state->boundary_error;
+  case SB_BY_TURN:
+    return turn_error(run, seal, state, value);
   case SB_BY_VISCOUS:
     return state->viscous_error + speed * fabs(value);
   case SB_BY_FRICTION:

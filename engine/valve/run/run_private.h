@@ -312,13 +312,11 @@ void sb_run_lose_errors(SbRun *run);
 // Adds `share` times the differences between the figures of two motions to the motion's errors.
 void sb_run_add_errors(SbRun *run, const SbSummary *one, const SbSummary *other, double share);
 
-// Increases the frictions of the cycle's states by their errors. Returns false, and changes
-// nothing, if they have none.
-bool sb_run_worsen_friction(SbRun *run);
-
-// Widens the inner contact of the cycle's states by its error. Returns false, and changes nothing,
-// if it has none.
-bool sb_run_widen_contact(SbRun *run);
+// Perturbs the cycle's states by their errors of one kind, `index` below SB_RUN_WRONG: kinetic
+// friction larger, static friction larger, the ends of the inner contact off. Returns false, and
+// changes nothing, if they have no error of this kind.
+enum { SB_RUN_WRONG = 3 };
+bool sb_run_worsen(SbRun *run, int index);
 
 // Adds the error of the last motion's leakage that its films cause.
 void sb_run_leak_error(SbRun *run);
