@@ -27,8 +27,8 @@ enum { LEVELS = 6, DEGREE_FIRST = 4, DEGREE_LAST = 14, DEGREE_LAST_ROUGH = 8 };
 static const double RESIDUAL = 1e-11;
 static const double LEVEL_RESIDUAL[] = {1e-7, 1e-9};
 
-// What no finer level removes from rough rows, relative: what the parts of the law's tables and
-// the places of the film's ends leave.
+// Relative error of rough rows that finer levels do not reduce: tables of the law and places of the
+// film's ends.
 static const double ROUGH_LEFT = 3e-9;
 
 // Rounding in the films, relative: deflections of size one against the film.

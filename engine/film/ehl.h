@@ -149,8 +149,8 @@ typedef struct {
   double real_area, asperity_load, central_share; // integrals of share and p_a; share at the axis
   double solid_load;                              // integral of p_a - p_v
   double load_error, flux_error;
-  // Relative changes of film_min and film_central, and sum of those of real_area and asperity_load,
-  // by the rounding of the deflections (rough rows).
+  // Relative changes due to the rounding of the deflections (rough rows): the larger one of
+  // film_min and film_central; the sum of those of real_area and asperity_load.
   double film_rounding, contact_rounding;
   bool ruptured;
 } SbEhlResults;

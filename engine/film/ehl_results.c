@@ -212,6 +212,7 @@ static void weigh_steps(SbEhlResults *out, double *whole, double *film, const Sb
   }
 }
 
+// Returns whether the fraction of real area reaches its limit of 1 inside an element.
 static bool is_kinked(const SbEhlElement *e, const SbEhlRoughPoint *point) {
   bool full = false, open = false;
   for (int k = e->first_dof; k <= e->first_dof + e->degree; k++) {
@@ -221,19 +222,21 @@ static bool is_kinked(const SbEhlElement *e, const SbEhlRoughPoint *point) {
   return full && open;
 }
 
-// The real area's share at r of an element.
+// Returns the fraction of real contact area at r of an element.
 static double share_at(const SbEhlSolution *s, const SbEhlElement *e, double r) {
   SbEhlRoughPoint at;
   sb_ehl_rough_point(&at, &s->c, sb_ehl_interpolate(e->table, &s->state.t[e->first_dof], r));
   return at.share;
 }
 
+// Returns 1 where the fraction of real area is at its limit, else -1; for sb_bisect().
 static double is_full(double r, const void *context) {
   const Sample *of = context;
   return share_at(of->s, of->e, r) < 1.0 ? -1.0 : 1.0;
 }
 
-// Integral of the real area's share from a to b of an element, where it has no kink.
+// Returns the integral of the fraction of real area from a to b of an element, without a kink
+// inside.
 static double smooth_area(const SbEhlSolution *s, const SbEhlElement *e, double a, double b) {
   const SbEhlTables *rule = s->mesh.tables;
   double sum = 0.0;
@@ -244,9 +247,10 @@ static double smooth_area(const SbEhlSolution *s, const SbEhlElement *e, double 
   return sum;
 }
 
-// Real area over the elements in which the share reaches its limit of 1, less what the rule from
-// node to node makes of them: the law is smooth up to the limit, so that the parameter t has a
-// polynomial, but the limited share has none. It is integrated on both sides of the limit.
+// Returns the correction of the real area in elements in which its fraction reaches the limit of 1.
+// The law is smooth up to the limit, so that the parameter t is a polynomial; the limited fraction
+// is not, and the rule from node to node does not integrate it. It is integrated on both sides of
+// the limit.
 static double kinked_area(const SbEhlSolution *s, const SbEhlRoughPoint *point) {
   double more = 0.0;
   for (int i = 0; i < s->mesh.count; i++) {
@@ -255,7 +259,7 @@ static double kinked_area(const SbEhlSolution *s, const SbEhlRoughPoint *point) 
     if (!is_kinked(e, point)) {
       continue;
     }
-    // Nodes at the ends have weights of both neighbours: the element's own are those of its steps.
+    // Shared nodes have the weights of both elements; those of this element are its steps.
     for (int k = 0; k <= e->degree; k++) {
       double own = 0.0;
       for (int j = 0; j < e->degree; j++) {
@@ -275,13 +279,13 @@ static double kinked_area(const SbEhlSolution *s, const SbEhlRoughPoint *point) 
   return more;
 }
 
-// Changes of rough rows' films, real area and asperity load by the rounding of the deflections. A
-// node's gap is H0 + the dry gap + the deflection; where this sum is wrong by e, Newton's method
-// moves the node's parameter t by e / (h_t + K |p_t|): h_t is the slope of the gap, p_t that of the
-// asperities' pressure, and K the deflection of the node's own interval under its own pressure,
-// about the interval's length (half-plane; its logarithm, above 1, is left out). A closed gap is
-// thus known by its pressure, not by the difference of the deflections. The signs are taken at
-// their worst.
+// Sets the relative changes of the films, the real area and the asperity load of rough rows that
+// the rounding of the deflections causes. The gap at a node is the sum of H0, the dry gap and the
+// deflection. If this sum is wrong by e, Newton's method changes the node's parameter t by
+// e/(h_t + K |p_t|): h_t is the slope of the gap, p_t that of the asperities' pressure, and K the
+// deflection of the node's interval under its own pressure, about the interval's length (half-plane
+// without its logarithmic factor above 1). The pressure thus determines a closed gap, not the
+// difference of large deflections. The changes are added at their worst.
 static void find_rounding(SbEhlResults *out, const SbEhlRoughPoint *point, const double *weight,
                           int count) {
   static const double DEFLECTION = 1e-15;

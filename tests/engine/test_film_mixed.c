@@ -395,9 +395,9 @@ static void test_starved(void) {
   g_assert_cmpint(film.solver.newton_iterations, <, 100);
 }
 
-// A contact at rest whose gap is closed is known by its pressure: the deflections' rounding, which
-// is larger than the gap, is no error of real area and load, and a small tolerance is met. Real
-// areas that reach the whole of the nominal one have a kink between nodes, which leaves no more.
+// A closed contact at rest is determined by its pressure: the rounding of the deflections, which is
+// larger than the gap, is no error of real area and load, and a small tolerance is met. The kink of
+// a real area that reaches the nominal one between two nodes adds no error.
 static void test_closed_errors(void) {
   static const SbRoughModel surface[] = {SB_ROUGH_PERSSON, SB_ROUGH_GREENWOOD_TRIPP};
   for (size_t i = 0; i < G_N_ELEMENTS(surface); i++) {

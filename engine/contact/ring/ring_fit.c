@@ -168,8 +168,9 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
       status = SB_OK;
     }
     if (load->bore_slides != 0) {
-      // Its last two meshes may have the same node at the peak, which the friction of the path has
-      // left there. The path's mesh is as fine as they are: no less than the full change is known.
+      // The last two meshes may have the same node at the peak, whose pressure the friction along
+      // the path determines. The path's mesh is as fine as they are, so that the full change is the
+      // error.
       const double moved = change(result->pressure_peak, path_end.pressure_peak);
       result->error.peak = fmax(result->error.peak, moved);
     }

@@ -4,9 +4,9 @@
 // of the dry contact, which the solvers estimate, in the proportions in which the figure depends on
 // them. Figures of the motion depend on every state together. The motion is therefore repeated with
 // states perturbed by their errors: once with all kinetic frictions larger, once with all static
-// ones, once with the ends of the inner contact off; and with coarser steps if it is integrated. The
-// sum of the differences is the error. Everything that follows from inputs by closed forms has the
-// error 0.
+// ones, once with the ends of the inner contact off; and with coarser steps if it is integrated.
+// The sum of the differences is the error. Everything that follows from inputs by closed forms has
+// the error 0.
 //
 // The errors of the terms are added at their worst. They include discretisation and iteration, not
 // the choice of the model.
@@ -44,8 +44,9 @@ void sb_run_add_errors(SbRun *run, const SbSummary *one, const SbSummary *other,
   }
 }
 
-// Larger by their errors: kinetic friction and static friction each by itself, since a jump of the
-// stem depends on their difference. False: none has an error.
+// Increases the kinetic friction of all states by its error; worsen_static() does so with static
+// friction, separately, because a jump of the stem depends on their difference. Returns false if no
+// state has an error.
 static bool worsen_kinetic(SbRun *run) {
   SbSealState *all = &run->cycle.state[0][0][0];
   bool any = false;
@@ -77,9 +78,10 @@ static bool worsen_static(SbRun *run) {
   return any;
 }
 
-// The ends of the inner contact off by its width's error, the worst together: where a ring meets
-// the land's edge on the way back is a sum of widths of both directions, where a gasket leaves the
-// shoulder their difference (sb_cycle_edge_begin()).
+// Moves the ends of the inner contact by the error of its width, with the signs that add up: the
+// position where a ring meets the land's edge on the return is a sum of widths of both directions,
+// the position where a gasket leaves the shoulder is their difference (sb_cycle_edge_begin()).
+// Returns false if no state has an error.
 static bool widen_contact(SbRun *run) {
   const bool gasket = run->model->kind == SB_VALVE_GASKET;
   SbSealState *all = &run->cycle.state[SB_INNER][0][0];
@@ -171,9 +173,10 @@ static double relative_of_state(const SbRun *run, const SbFigure *figure,
   }
 }
 
-// Error of the turn of a section [degrees]. Of a section that rubs it scatters more than the load
-// does (1.6 to 7 % where loads scatter by 0.1 %). A section that hardly turns is known as well as
-// the angle by which the contact shears it, about its mean pressure over the modulus.
+// Returns the error of a section's rotation [degrees]. The rotation of a rubbing section scatters
+// more than its load (1.6 to 7 % where loads scatter by 0.1 %). A section with little rotation is
+// known to the same fraction of the angle by which its contact shears it, about mean pressure over
+// modulus.
 static double turn_error(const SbRun *run, int seal, const SbSealState *state, double value) {
   const double width = state->contact_right - state->contact_left;
   const double strain =
