@@ -1,5 +1,6 @@
 // The gasket valve: its cycle balances in every frame, and its figures answer to interference,
 // crimp and port the way a valve's do.
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/run/cycle.h"
 #include "engine/valve/studies/hold.h"
 #include "tests/engine/models.h"
@@ -71,6 +72,13 @@ static void cycle(void) {
     g_assert_cmpfloat(summary->energy.closure, <, 1e-9);
     g_assert_true(summary->returns);
     g_assert_cmpfloat(summary->leakage_per_cycle, >=, 0);
+    // The stem carries liquid out on its return: the leak has at least the error of that film.
+    const char *const path = "seals.outer.contact.return.film_central_m";
+    const double film = sb_figure_error(summary, sb_figure_find(path));
+    const double leak =
+        sb_figure_error_absolute(summary, sb_figure_find("cycle.leakage_per_cycle_m3"));
+    g_assert_true(dynamic || leak >= 0.99 * film * summary->leakage_per_cycle);
+    g_assert_cmpfloat(leak, >, 0);
     sb_run_destroy(run);
   }
 }
