@@ -93,7 +93,8 @@ static double contact_error(const SbEhlResults *now, const SbEhlResults *before,
 // its own; the minimum has both and the outlet's.
 static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
                      const SbEhlResults *results) {
-  // Safety factor for rates that differ from level to level, as for the disc (contact/disc).
+  // Safety factor where the spectrum alone gives the rate: on the second level, and for the
+  // minimum, whose neighbourhood at the outlet is a small part of that spectrum.
   static const double SURE = 2.0;
   // At least half of the best error of a level, whatever the changes are: finally the rounding of
   // the kernel and of Newton's method; of rough rows the error near the rupture.
@@ -123,7 +124,7 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
     const double seen = levels > 2 ? last[i] / fmax(change[levels - 2][i], 1e-300) : 0.0;
     double rate = sharp   ? KINK
                   : rough ? (i == 0 ? RUPTURE : 1.0) * SURE * spectrum
-                          : SURE * fmin(fmax(seen, spectrum), 1.0);
+                          : (i == 0 || levels == 2 ? SURE : 1.0) * fmin(fmax(seen, spectrum), 1.0);
     solver->error[i] = fmax(rate * last[i] + noise + left, FINEST[levels - 1]);
   }
   if (rough) {
