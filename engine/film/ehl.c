@@ -96,7 +96,7 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
   // Safety factors on the second level, where the spectrum alone gives the rate, and from the third
   // level on: of the minimum, whose neighbourhood at the outlet is a small part of the spectrum, of
   // the centre and of the flux (test_film_reynolds.c, campaign films).
-  static const double SURE = 2.0, SEEN[] = {1.6, 1.0, 1.0};
+  static const double SURE[] = {2.0, 1.7, 2.0}, SEEN[] = {1.5, 1.0, 1.5};
   // At least half of the best error of a level, whatever the changes are: finally the rounding of
   // the kernel and of Newton's method; of rough rows the error near the rupture.
   static const double FINEST[LEVELS] = {1.0, 2e-8, 1.5e-10, 1e-10, 1e-10, 1e-10};
@@ -106,7 +106,7 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
   static const double KINK = 0.4, BROKEN[] = {5e-7, 1e-7, 1e-7}, FORMED = 1e-5;
   // The minimum film of rough rows is near the rupture, where the slope of the pressure jumps: its
   // changes decrease more slowly than the spectrum of the full contact (campaign estimates).
-  static const double RUPTURE = 2.5;
+  static const double ROUGH = 2.0, RUPTURE = 2.5;
   SbFilmSolverInfo *info = solver->info;
   const SbEhlCase *c = &solver->now->c;
   const bool rough = c->rough.rows;
@@ -124,8 +124,8 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
     const double left = sharp ? again ? FORMED : BROKEN[i] : 0.0;
     const double seen = levels > 2 ? last[i] / fmax(change[levels - 2][i], 1e-300) : 0.0;
     double rate = sharp   ? KINK
-                  : rough ? (i == 0 ? RUPTURE : 1.0) * SURE * spectrum
-                          : (levels == 2 ? SURE : SEEN[i]) * fmin(fmax(seen, spectrum), 1.0);
+                  : rough ? (i == 0 ? RUPTURE : 1.0) * ROUGH * spectrum
+                          : (levels == 2 ? SURE : SEEN)[i] * fmin(fmax(seen, spectrum), 1.0);
     solver->error[i] = fmax(rate * last[i] + noise + left, FINEST[levels - 1]);
   }
   if (rough) {
@@ -133,7 +133,7 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
     static const double BETWEEN[] = {5e-8, 4e-7};
     solver->error[0] += c->layers.degree < DEGREE_LAST_ROUGH ? BETWEEN[c->rough.coarse] : 0.0;
     info->error_contact =
-        c->rough.law != NULL ? contact_error(now, before, SURE * spectrum, flow) : noise;
+        c->rough.law != NULL ? contact_error(now, before, ROUGH * spectrum, flow) : noise;
   }
 }
 
