@@ -1,9 +1,10 @@
 // Derivatives of figures with respect to real parameters, at a model with overrides.
 //
-// The differentiated function is the answer of evaluate.h: closed forms, located events, and
-// equations solved to rounding. Derivatives are central differences at two or more steps with
-// Richardson extrapolation, one-sided at an end of the parameter's range. Each has an error
-// estimate: the last change by extrapolation, and the rounding that the step amplifies.
+// Use: sb_gradient_create() with a question of evaluate.h, then read slopes or call
+// sb_gradient_predict(). The differentiated function is the answer to this question: closed forms,
+// located events, and equations solved to rounding. Derivatives are central differences at two or
+// more steps with Richardson extrapolation, one-sided at an end of the parameter's range. Each has
+// an error estimate: the last change by extrapolation, and the rounding that the step amplifies.
 //
 // Solved rings are linearised about the base (SbQuestion.tangent): two back-substitutions with a
 // constant active set, on a mesh that follows the contacts (ring_ends.c), and films linearised on
@@ -16,11 +17,12 @@
 // that depend on it have no derivative. Parameters that do not affect the contacts
 // (sb_evaluator_has_solved()) need no ring.
 //
-// A slope smaller than its error is not known (reason "uncertain"). If a figure is bit-identical on
-// both sides, or changes by rounding only, its derivative is exactly 0. A derivative does not exist
-// (NaN with a reason) if the figure has no value, at a kink (one-sided differences disagree at the
-// smallest step), at a jump (differences grow as the step shrinks: an event, stage or outcome
-// changes), or if no step has values. A yes or no that does not change has the derivative 0.
+// A slope smaller than its error is NaN with the reason "uncertain". If a figure is bit-identical
+// on both sides, or changes by rounding only, its derivative is exactly 0. A derivative does not
+// exist (NaN with a reason) if the figure has no value, at a kink (one-sided differences disagree
+// at the smallest step), at a jump (differences grow as the step shrinks: an event, stage or
+// outcome changes), or if no step has values. A figure that is yes or no has the derivative 0 if it
+// does not change.
 //
 // A parameter changes like an override: values that follow from it change too. Not available:
 // derivatives with respect to integers, choices and flags; second derivatives.
@@ -35,12 +37,16 @@ typedef struct SbGradient SbGradient;
 // sb_gradient_create().
 typedef void (*SbGradientProgress)(void *data, size_t done, size_t count);
 
-// Computes the derivatives of the question's figures with respect to parameter[count], which must
-// be real. `evaluator` is work memory; it has no last question afterwards. `start` of the question
-// (borrowed during the call) is an evaluator whose last question is the same with `keep`; NULL: the
-// rings are solved first. `progress` (NULL: none) gets question->data. SB_ERROR_INPUT: a parameter
-// is not real. SB_ERROR_NOT_CONVERGED: *out is created nevertheless, some figures are NaN. Other
-// errors as for sb_evaluator_ask().
+// Computes the derivatives of the figures of `question` with respect to parameter[count], at the
+// model of the question with its overrides. All parameters must be real (sb_gradient_wants()).
+// `evaluator` is work memory; afterwards it has no solved contacts, and its last answer is
+// meaningless. question->start is NULL, or an evaluator to which the same question with `keep` was
+// asked last (borrowed during the call; saves solving the rings of the base); keep, tangent and
+// rings must be 0. `progress` (NULL: none) gets question->data. Free *out with
+// sb_gradient_destroy().
+//   SB_ERROR_INPUT           a parameter is not real
+//   SB_ERROR_NOT_CONVERGED   *out is created nevertheless; figures without a value have no
+//   derivative other errors as for sb_evaluator_ask()
 SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQuestion *question,
                             const SbParamId *parameter, size_t count, SbGradientProgress progress,
                             SbReport *report);
@@ -54,35 +60,40 @@ size_t sb_gradient_figures(const SbGradient *gradient);
 // Returns the number of parameters.
 size_t sb_gradient_parameters(const SbGradient *gradient);
 
-// Returns the index in figures.h of figure number `figure`, in the order of the question.
+// Returns the index for sb_figure() of figure number `figure`, from 0 in the order of
+// question->figure. All functions below count figures and parameters in this way.
 int sb_gradient_figure(const SbGradient *gradient, size_t figure);
 
-// Returns the parameter number `parameter`, in the order of the call.
+// Returns the parameter number `parameter`, from 0 in the order of the call.
 SbParamId sb_gradient_parameter(const SbGradient *gradient, size_t parameter);
 
 // Returns the value of parameter number `parameter` at the base, SI.
 double sb_gradient_at(const SbGradient *gradient, size_t parameter);
 
-// Returns the value of figure number `figure` at the base, SI; NaN: none.
+// Returns the value of figure number `figure` at the base, SI; NaN if it was not computed.
 double sb_gradient_value(const SbGradient *gradient, size_t figure);
 
-// Returns the derivative of a figure with respect to a parameter, SI; NaN: see
-// sb_gradient_reason().
+// Returns the derivative of a figure with respect to a parameter: SI unit of the figure per SI unit
+// of the parameter. NaN: sb_gradient_reason() returns why.
 double sb_gradient_slope(const SbGradient *gradient, size_t figure, size_t parameter);
 
-// Returns the estimated absolute error of that derivative, SI; NaN if there is none.
+// Returns the estimated absolute error of sb_gradient_slope(), in its unit; NaN if the slope is
+// NaN.
 double sb_gradient_error(const SbGradient *gradient, size_t figure, size_t parameter);
 
 // Returns why a figure has no derivative with respect to a parameter; NULL if it has one. Borrowed.
 const char *sb_gradient_reason(const SbGradient *gradient, size_t figure, size_t parameter);
 
-// Returns whether the derivative is a difference of full solves (gradient_rings.c).
+// Returns whether the derivative is a difference of full solves instead of a linearisation
+// (gradient_rings.c).
 bool sb_gradient_is_solved(const SbGradient *gradient, size_t figure, size_t parameter);
 
-// Computes value[figures] in SI for other values of some parameters, override[count] (the last one
-// of a parameter applies), to first order; takes microseconds. NaN: no derivative with respect to a
-// changed parameter. SB_ERROR_INPUT: a parameter without derivatives; SB_ERROR_RANGE: a value out
-// of range; nothing is written then. Events between base and new values are not detected.
+// Computes value[figures] in SI to first order for the parameter values override[count], in SI; if
+// a parameter is listed twice, its last element applies, and parameters that are not listed keep
+// their base values. Takes microseconds. NaN: the figure has no derivative with respect to a
+// changed parameter. Events between base and new values are not detected. SB_ERROR_INPUT: a
+// parameter that is not among those of sb_gradient_create(); SB_ERROR_RANGE: a value out of range.
+// Nothing is written after an error.
 SbStatus sb_gradient_predict(double *value, const SbGradient *gradient, const SbOverride *override,
                              size_t count, SbReport *report);
 

@@ -16,12 +16,13 @@
 // The rules of a test.
 typedef struct {
   char edition[96];     // source of the numbers
-  double duration;      // T [s]
-  double temperature;   // [K]
+  double duration;      // storage time T between the weighings [s]
+  double temperature;   // of the storage [K]; informative, not used by sb_leakage_odds()
   int containers, more; // number in the first stage; added in the second stage
-  // Allowed number above `single`: to enter the second stage; in both stages together.
+  // Largest number of containers above `single` (single_share): in the first stage, with which a
+  // second stage is allowed; in both stages together, with which the lot passes.
   int beyond, beyond_all;
-  double small_fill; // net fill below which the limits are masses [kg]
+  double small_fill; // net fill below which the limits are masses, else fractions [kg]
   // Limits of the mean, of one container, and of each container in any stage [kg per 365 days].
   double mean, single, most;
   // The same limits for larger fills [fraction of the fill per 365 days].
@@ -43,17 +44,17 @@ enum { SB_LEAKAGE_CONTAINERS_MAX = 1000 };
 
 // Result of the simulation.
 typedef struct {
-  size_t tests, passed, second; // simulated; passed; that had a second stage
-  double probability;           // of passing
-  double interval[2];           // 95 % interval, lower and upper end
+  size_t tests, passed, second; // number of tests simulated; passed; with a second stage
+  double probability;           // passed divided by tests
+  double interval[2];           // lower and upper end of its 95 % confidence interval
   bool dealt;                   // each can is a different sample; false: drawn with replacement
 } SbLeakageOdds;
 
-// Simulates `tests` tests of cans with the losses loss[samples] [kg per year] (INFINITY: open) and
-// the net fill `fill` [kg]. With enough samples each can is a different one and the interval is
-// Clopper and Pearson's; else cans are drawn with replacement and the interval follows from ten
-// subsets. Equal seeds give equal results. SB_ERROR_RANGE: fewer than ten samples or tests, or
-// invalid rules.
+// Simulates `tests` (>= 10) tests of cans with the losses loss[samples] (>= 10) [kg per 365 days]
+// (INFINITY: open can) and the net fill `fill` [kg]. With enough samples each can is a different
+// one and the interval is Clopper and Pearson's; else cans are drawn with replacement and the
+// interval follows from ten subsets. Equal seeds give equal results. SB_ERROR_RANGE: fewer than ten
+// samples or tests, or invalid rules.
 SbStatus sb_leakage_odds(SbLeakageOdds *out, const SbLeakageTest *test, const double *loss,
                          size_t samples, double fill, size_t tests, uint64_t seed,
                          SbReport *report);

@@ -34,12 +34,13 @@ static inline double sb_cost_fit(SbFitModel model) {
                                                                : SB_COST_CLOSED;
 }
 
-// Returns the time of a ring's fit at a relative tolerance divided by that at 1e-3.
+// Returns the time of a ring's fit at the relative `tolerance` (output.tolerance) divided by its
+// time at 1e-3.
 static inline double sb_cost_ring_share(double tolerance) {
   return pow(1e-3 / tolerance, tolerance < 1e-3 ? 0.27 : 0.1);
 }
 
-// Returns the time of one film of a film model on the half-plane [s].
+// Returns the time of one film by a film model, on the half-plane [s].
 static inline double sb_cost_film(SbFilmModel model) {
   return model == SB_FILM_REYNOLDS ? SB_COST_FILM : SB_COST_CLOSED;
 }

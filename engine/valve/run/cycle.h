@@ -6,14 +6,16 @@
 //
 //   in-stroke  k (X - s) = F_p + f(s)      return  k (X - s) = F_p - f(s) >= 0
 //
-// X is the platen's position, s the stem's displacement, f the seals' friction, F_p the force that
-// pushes the stem out: canister pressure, and F_0 + k_r s of a return spring with preload F_0 and
-// stiffness k_r. f changes while the inner seal passes the edge of the bore land: its contact
-// [l, r] then extends over x > x_e only, x_e = l_in + (s - s_C), with the left edge l_in of the
-// contact on the in-stroke and the displacement s_C of stage C. The part of friction proportional
-// to the width falls linearly, that proportional to the load as the integral of an elliptic
-// pressure. The stem sticks up to the static friction after the rest before A, and up to the
-// kinetic friction where it stops during a stroke (without dwell the contact keeps its film).
+// Use: set SbCycle.model and state, sb_cycle_build(), then the functions that evaluate. X is the
+// platen's position (> 0 into the canister, 0 at the start), s the stem's displacement, f the
+// seals' friction (a magnitude), F_p the force that pushes the stem out: canister pressure, and F_0
+// + k_r s of a return spring with preload F_0 and stiffness k_r. f changes while the inner seal
+// passes the edge of the bore land: its contact [l, r] then extends over x > x_e only, x_e = l_in +
+// (s - s_C), with the left edge l_in of the contact on the in-stroke and the displacement s_C of
+// stage C. The part of friction proportional to the width falls linearly, that proportional to the
+// load as the integral of an elliptic pressure. The stem sticks up to the static friction after the
+// rest before A, and up to the kinetic friction where it stops during a stroke (without dwell the
+// contact keeps its film).
 //
 // On the return the stem sticks permanently at the first position where the static friction after
 // the dwell at the end stop reaches F_p, because so slow a motion can come to rest anywhere. While
@@ -45,21 +47,24 @@ typedef enum {
 typedef struct {
   SbCycleMode mode;
   int direction;           // of sliding, SB_CYCLE_IN or SB_CYCLE_OUT; STICK: of the last sliding
-  int platen;              // +1 advancing, -1 returning
+  int platen;              // +1: the platen advances, -1: it returns
   SbChamber chamber;       // during the segment
   SbStage stage;           // last event passed
   double platen0, platen1; // X at start and end [m]
   double stem0, stem1;     // s at start and end [m]
-  double friction0;        // STICK: friction on the stem at the start [N]
-  int event;               // SbStage of the event at its end, -1: none
+  double friction0; // STICK: friction on the stem at the start, > 0 against the in-stroke [N]
+  int event;        // SbStage of the event at its end, -1: none
 } SbCycleSegment;
 
-// A cycle. The caller sets `model` and `state` before sb_cycle_build().
+// A cycle. The caller sets `model` and `state` before sb_cycle_build(), which sets all other
+// fields.
 typedef struct {
   const SbModel *model; // borrowed
-  // Steady states of the seals by chamber and motion (SB_CYCLE_IN, SB_CYCLE_OUT, at rest).
+  // Steady states by seal, SbChamber and motion (SB_CYCLE_IN, SB_CYCLE_OUT, 2 at rest). A cycle
+  // needs those of sliding, in all chamber states that it can reach, except of the inner seal in
+  // SB_CHAMBER_OPEN.
   SbSealState state[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_RUN_MOTIONS];
-  size_t count;
+  size_t count; // number of segments
   SbCycleSegment segment[SB_CYCLE_SEGMENTS_MAX];
   // Static friction of a full contact on the return, after the dwell at the end stop [N]; set by
   // sb_cycle_rest().
@@ -70,42 +75,47 @@ typedef struct {
   double dwell;      // time between the end of the in-stroke and the first reverse slip [s]
 } SbCycle;
 
-// Computes the segments from `model` and the states that the cycle needs. SB_ERROR_NOT_CONVERGED:
-// more than SB_CYCLE_SEGMENTS_MAX segments.
+// Computes the segments, the static friction after the dwell (`hold`), and the positions. They do
+// not depend on the fields that it sets. SB_ERROR_NOT_CONVERGED: more than SB_CYCLE_SEGMENTS_MAX
+// segments.
 SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report);
 
-// Fractions of a seal's contact width and load on the land.
+// The part of a seal's contact that is on the land: fractions of its width and of its load.
 typedef struct {
-  double width, load; // 0 to 1
+  double width, load; // 0 (off the land) to 1 (all of it)
 } SbLandShare;
 
-// Returns these fractions at the stem displacement s [m], for sliding in `direction`.
+// Returns these fractions of `seal` at the stem displacement s [m], for the state of `chamber` and
+// `direction` (SB_CYCLE_IN, SB_CYCLE_OUT).
 SbLandShare sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
                                 double s);
 
-// Returns the magnitude of the kinetic friction of one seal at s [N].
+// Returns the magnitude of the kinetic friction of one seal at the stem displacement s [m], for the
+// state of `chamber` and `direction` [N].
 double sb_cycle_seal_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
                               double s);
 
-// Returns the magnitude of the kinetic friction of both seals at s [N].
+// Returns the sum of sb_cycle_seal_friction() of both seals [N].
 double sb_cycle_friction(const SbCycle *cycle, SbChamber chamber, int direction, double s);
 
 // Returns the stem displacement [m] at the platen position X [m] in `segment`.
 double sb_cycle_stem(const SbCycle *cycle, const SbCycleSegment *segment, double X);
 
-// Returns ds/dX at the stem displacement s in `segment`.
+// Returns ds/dX at the stem displacement s [m] in `segment`; 0 in STICK and JUMP; at most 1000.
 double sb_cycle_stem_rate(const SbCycle *cycle, const SbCycleSegment *segment, double s);
 
 // Returns the force of the platen on the stem, k (X - s), at least 0 [N].
 double sb_cycle_force(const SbCycle *cycle, double X, double s);
 
-// Returns the friction force on the stem at a point of a segment, > 0 against the in-stroke [N]. In
-// a STICK segment it is what the balance needs within the static limits; a stop carries the
-// remainder, *stop_force, > 0 if it pushes the stem out.
+// Returns the friction force on the stem at the platen position X [m] and the stem displacement s
+// [m] in `segment`, > 0 against the in-stroke [N]. In a STICK segment it is the value that balances
+// the other forces; at a stop it remains friction0, and the stop carries the remaining force,
+// written to *stop_force, > 0 if it pushes the stem out [N], else 0.
 double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, double X, double s,
                         double *stop_force);
 
-// Returns the static friction limit of one seal at s [N].
+// Returns the static friction limit of one seal at the stem displacement s [m] after the rest
+// before A, a magnitude [N].
 double sb_cycle_static_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
                                 double s);
 
@@ -117,22 +127,26 @@ double sb_cycle_edge_begin(const SbCycle *cycle, SbChamber chamber, int directio
 // (chamber at rest), or reaches it on the return (chamber closed) [m].
 double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction);
 
-// Sets `hold` for a `dwell` [s] at the end stop. The states of both seals must be set.
+// Sets cycle->hold for a `dwell` [s] at the end stop, for motions other than sb_cycle_build(),
+// which calls it itself. `model` and `state` must be set. Errors of sb_breakaway_after().
 SbStatus sb_cycle_rest(SbCycle *cycle, double dwell, SbReport *report);
 
-// Returns F_p minus the friction that a stem at rest at s must overcome to slide back [N]: the
-// larger one of sb_cycle_rest()'s static and the kinetic friction.
+// Returns F_p minus the friction that a stem at rest at s [m] must overcome to slide back [N]; < 0:
+// it sticks. The friction is the larger one of static friction (cycle->hold, set by
+// sb_cycle_rest()) and kinetic friction, for each seal.
 double sb_cycle_reserve(const SbCycle *cycle, SbChamber chamber, double s);
 
-// Returns the same at the beginning of the return from the displacement `top` [N].
+// Returns sb_cycle_reserve() at the beginning of the return from the displacement `top` [m], for
+// the chamber state there [N].
 double sb_cycle_first_reserve(const SbCycle *cycle, double top);
 
-// Returns the minimum of F_p - f with kinetic friction over the return from `top` to 0 [N].
+// Returns the minimum of F_p - f with kinetic friction over the return from `top` [m] to 0 [N].
 double sb_cycle_sliding_margin(const SbCycle *cycle, double top);
 
-// Returns the minimum of sb_cycle_reserve() over that path [N], the return margin of every motion.
-// With ports the chamber states of both vented and full count.
+// Returns the minimum of sb_cycle_reserve() over the return from `top` [m] to 0 [N]: the return
+// margin of every motion model. With ports both the vented and the full chamber are considered.
 double sb_cycle_return_margin(const SbCycle *cycle, double top);
 
-// Computes the energies of the cycle, each by its own quadrature; `kinetic` is 0.
+// Computes the energies of a built cycle, each by its own quadrature, so that `closure` checks the
+// motion; `kinetic` and `stop` are 0.
 void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out);

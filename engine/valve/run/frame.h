@@ -8,7 +8,7 @@
 
 // One seal at one instant.
 typedef struct {
-  float land_fraction;  // fraction of the contact width on the land: 1 fully on it, 0 off
+  float land_fraction;  // fraction of the contact width on the land: 1 all of it, 0 none of it
   float pressure_left;  // fluid pressure on the canister side [Pa]
   float pressure_right; // fluid pressure on the ambient side [Pa]
   uint32_t profile;     // index for sb_run_profile(), UINT32_MAX: none
@@ -19,11 +19,11 @@ typedef struct {
   double pressure_peak; // peak contact pressure minus the lower fluid pressure [Pa]
   double film_min;     // minimum film [m]; 0 at rest unless the film history is solved; NaN without
                        // contact
-  double film_central; // [m]; as film_min
-  double lambda;       // film_central/sigma
-  double real_area_share;   // fraction of real contact area while sliding; NaN like the film
-  double friction_boundary; // part of `friction` due to asperities [N]
-  double friction_viscous;  // part of `friction` due to the film [N]
+  double film_central; // film in the middle of the contact [m]; 0 and NaN as film_min
+  double lambda;       // film_central divided by the rms roughness [1]
+  double real_area_share; // real contact area divided by contact area, sliding [1]; NaN as the film
+  double friction_boundary; // part of `friction` due to asperities, with its sign [N]
+  double friction_viscous;  // part of `friction` due to the film, with its sign [N]
   double friction;          // force on the stem, > 0 if it pushes the stem out [N]
 } SbSealFrame;
 
@@ -49,10 +49,10 @@ typedef struct {
   double velocity;         // of the stem, > 0 into the canister [m/s]
   double platen;           // displacement of the machine's platen [m]
   double force;            // of the drive on the stem, > 0 into the canister [N]
-  double pressure_force;   // pushes the stem out [N]
+  double pressure_force;   // of the canister pressure on the stem, > 0 pushes it out [N]
   double stop_force;       // end stop > 0 (pushes out), rest stop < 0 [N]
   double chamber_pressure; // in the dose chamber [Pa]
-  double spring_force;     // of a return spring, pushes the stem out [N]
+  double spring_force;     // of the return spring, > 0 pushes the stem out [N]; 0 without spring
   uint8_t stage;           // SbStage of the last event passed
   uint8_t chamber;         // SbChamber
   uint8_t on_event;        // 1: the frame is exactly at an event, just before it
@@ -84,15 +84,15 @@ typedef enum {
   SB_FIELD_SHEAR,        // axial-radial shear stress [Pa]
   SB_FIELD_CONTACT,      // contact or fluid pressure on the surface, 0 inside [Pa]
   SB_FIELD_DISPLACEMENT, // magnitude, from the free ring [m]
-  SB_FIELD_PERMEATION,   // permeation flux divided by P and the pressure difference [1/m]; 0 if not
-                         // planned
+  SB_FIELD_PERMEATION,   // permeation flux divided by permeability and pressure difference [1/m];
+                         // 0 unless SbPlan.permeation
   SB_FIELD_COUNT
 } SbField;
 
 // Deformed section of a solved ring, shared by all frames in the same state. Arrays owned by the
 // run.
 typedef struct {
-  size_t nodes, triangles, outline;
+  size_t nodes, triangles, outline; // numbers of nodes, triangles and boundary nodes
   // [nodes][2]: x in the seal's frame; y above the groove floor, or of a gasket above the stem [m].
   const double *place;
   const float *field[SB_FIELD_COUNT]; // [nodes] each

@@ -1,9 +1,10 @@
-// Rings solved ahead by the thread whose own seal is finished.
+// Prefetch of rings: a thread that has finished its own seal solves rings of the other seal.
 //
-// The states of one seal are solved one after the other, because films start from each other; the
-// first ring of each state depends on nothing before it. So a thread that has finished its own seal
-// solves those that the other has not yet reached, and a seal's thread takes what is there or waits
-// for what is in work. Results do not depend on which thread solved what.
+// The states of one seal are solved one after the other, because films start from each other, but
+// the first ring of each state has no predecessor. Order: create; add() for all states of both
+// seals; then each seal's thread calls take() before it solves a state and, when its own states are
+// finished, work(). take() returns a ring that another thread has solved, or waits for one in work.
+// Results do not depend on which thread solved a ring.
 #pragma once
 
 #include "engine/valve/run/run_work.h"
@@ -12,22 +13,26 @@
 // The queue of rings.
 typedef struct SbRunAhead SbRunAhead;
 
-// Returns an empty queue, owned by the caller; NULL: no memory.
+// Creates an empty queue; NULL: no memory. Free it with sb_run_ahead_destroy().
 SbRunAhead *sb_run_ahead_create(void);
 
-// Frees the queue when no thread uses it any more. Takes NULL.
+// Frees the queue and the rings that were not taken. No thread may use it any more. Takes NULL.
 void sb_run_ahead_destroy(SbRunAhead *ahead);
 
-// Adds the ring of a task (copied) in the order in which its seal reaches it; `slot` identifies it,
-// `work` is the budget for solving it. Only before threads use the queue.
+// Adds the first ring of a task. The task is copied, and its pointers are borrowed until the queue
+// is destroyed. `slot` is any number that identifies the state in sb_run_ahead_take(). `work`
+// (copied) is the budget for solving it. Rings are solved in the order in which they are added, so
+// add them in the order in which the seals reach them. Only before threads use the queue.
 void sb_run_ahead_add(SbRunAhead *ahead, const SbSlidingTask *task, int slot, const SbWork *work);
 
-// Solves rings that no thread has begun, until there are none or `cancelled` (not NULL; called with
-// `data`) returns true. Any thread.
+// Solves rings that no thread has begun or taken, until there are none or `cancelled` (not NULL;
+// called with `data` at least at each solver step) returns true. Any thread.
 void sb_run_ahead_work(SbRunAhead *ahead, bool (*cancelled)(void *), void *data);
 
-// Returns the ring of a slot, owned by the caller; waits if it is in work. NULL: no thread has
-// begun it, and none will. Its steps are added to `work`. `cancelled` is called at least every 10
-// ms while it waits. Any thread.
+// Takes the ring of a slot and adds its steps to `work`. Waits while another thread solves it; then
+// `cancelled` (not NULL) is called with `data` at least every 10 ms, to pass a cancel on; its
+// result is ignored. Returns a memory for sb_sliding_memory_ahead(), which the caller frees with
+// sb_sliding_memory_destroy(). NULL: no thread has begun the ring (and none will), there is no such
+// slot, or the budget is exhausted; the caller then solves the ring itself. Any thread.
 SbSlidingMemory *sb_run_ahead_take(SbRunAhead *ahead, int slot, SbWork *work,
                                    bool (*cancelled)(void *), void *data);
