@@ -1,6 +1,16 @@
-// Shared by the files of a run: its state, and the steps that sb_run_execute() takes in order.
-// Private to engine/valve/run. "Way" is SB_CYCLE_IN, SB_CYCLE_OUT; "motion" is a way, or
-// SB_RUN_REST. `hooks` are never NULL here.
+// Shared by the files of a run: its state, and the steps of sb_run_execute().
+//
+// sb_run_execute() clears the summary, then solves the steady states of both seals
+// (sb_run_solve_states()), moves the stem through the cycle with friction interpolated from these
+// states (sb_run_move(), which fills frames and stages), solves transient films, sets the figures
+// of the seals, computes the shelf and the actuations of a life, and at the end reasons, errors and
+// the verdict. Error estimates come from repeating the motion with states perturbed by their
+// errors.
+//
+// "Way" and `direction` are SB_CYCLE_IN or SB_CYCLE_OUT; "motion" is a way, or SB_RUN_REST;
+// `chamber` is an SbChamber; `seal` SB_OUTER or SB_INNER. `hooks` are never NULL here. Functions
+// that can fail return SB_ERROR_CANCELLED if the hooks or the budget cancel, and the status of the
+// failing solver.
 #pragma once
 
 #include "engine/mechanism/chamber.h"
@@ -21,11 +31,13 @@ enum {
 
 // A stored profile.
 typedef struct {
-  SbContactProfile view;
-  double *data; // owned: SB_PROFILE_ROWS rows
+  SbContactProfile view; // what sb_run_profile() returns; points into `data`
+  double *data;          // owned: SB_PROFILE_ROWS rows of view.count numbers; NULL: none
 } SbRunProfile;
 
-// Indices of a seal's shapes: of its steady states, over the land's edge (both ways), free.
+// Indices of a seal's shapes: from 0 those of its steady states (chamber x SB_RUN_MOTIONS +
+// motion); from SB_RUN_SHAPE_EDGE those over the land's edge, SB_RUN_EDGES for each way; the free
+// shape.
 enum {
   SB_RUN_SHAPE_EDGE = SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS,
   SB_RUN_SHAPE_FREE = SB_RUN_SHAPE_EDGE + 2 * SB_RUN_EDGES,
@@ -38,8 +50,8 @@ _Static_assert((int)SB_RUN_SHAPES <= (int)SB_RUN_SHAPES_MAX,
 
 // A stored shape.
 typedef struct {
-  SbSealShape view;
-  void *data; // owned: all its arrays
+  SbSealShape view; // what sb_run_shape() returns; nodes = 0: none
+  void *data;       // owned: all arrays of `view`
 } SbRunShape;
 
 // Range of positions of the land's edge, in the inner ring's frame [m], in which it deforms the
@@ -57,13 +69,13 @@ typedef struct {
   double layer; // thickness [m]
 } SbBoreLayer;
 
-// Layers that a seal has left on the bore by stem displacement, and the volumes that it has
-// carried, per length of circumference.
+// Layers that a seal has left on the bore, by stem displacement, and the transported volumes per
+// length of circumference.
 typedef struct {
-  double start;     // of the first layer [m]
-  double out, back; // carried out, and taken back [m2]
-  size_t count;
-  SbBoreLayer item[SB_BORE_LAYERS];
+  double start;                     // stem displacement at which the first layer begins [m]
+  double out, back;                 // volume transported out and back so far, >= 0 [m2]
+  size_t count;                     // number of layers
+  SbBoreLayer item[SB_BORE_LAYERS]; // with increasing `end`
 } SbBore;
 
 // The constrained parts of a run whose plan has `bodies` (run_bodies.c).
@@ -72,37 +84,39 @@ typedef struct SbRunBodies SbRunBodies;
 // Frees them. Takes NULL.
 void sb_run_bodies_destroy(SbRunBodies *bodies);
 
-// Copies the reactions of the first `count` frames of another run to the frames of this one from
-// index `at`.
+// Copies the reactions of the first `count` frames of `from` to the frames of `run` from index
+// `at`. Does nothing if one of them has no bodies.
 void sb_run_bodies_show(SbRun *run, size_t at, const SbRun *from, size_t count);
 
-// Friction in a band of speed, linear in speed: rise + slope times speed.
+// A part of the friction in a band of speed: rise + slope |speed|.
 typedef struct {
-  double rise, slope; // N, N s/m
+  double rise, slope; // [N], [N s/m]
 } SbBandPart;
 
-// A band of speed in which friction is linear: what it adds to the parts proportional to the
-// contact's width and load, of each seal, with vented (or the chamber's only state) and filled
-// chamber.
+// A band of speed in which friction is linear in speed.
 typedef struct {
-  double low, high; // m/s
+  double low, high; // range of |speed| [m/s]
+  // Friction minus that of the dry contact, by seal and chamber (0 vented, or the only state; 1
+  // filled): part proportional to the contact's width, part proportional to its load.
   SbBandPart width[SB_SEAL_COUNT][2], load[SB_SEAL_COUNT][2];
 } SbValveBand;
 
 // Capacity of bands.
 enum { SB_VALVE_BANDS = 48 };
 
-// Bands of one chamber state and way, increasing.
+// Bands of one chamber state and way, in increasing order of speed.
 typedef struct {
-  size_t count;
+  size_t count; // 0: not yet computed
   SbValveBand item[SB_VALVE_BANDS];
 } SbValveBands;
 
 // Solved states of the seals, and their part of the summary, for a model with the same states
 // (sb_run_renew_same()).
 typedef struct {
-  bool stand;  // they are used: nothing is solved
-  bool solved; // what follows is known, and no solver has failed
+  bool stand;  // this execution uses the stored states and solves none
+  bool solved; // the fields below are stored, and no solver has failed
+  // Copies of SbRun.cycle, friction_error, static_error, of the summary's error_film, error_load,
+  // error_width, of SbRun.lacks, and of the counters and warnings of the solves.
   SbCycle cycle;
   double friction_error, static_error, error_film, error_load, error_width;
   SbReport lacks;
@@ -112,88 +126,91 @@ typedef struct {
 
 // The run (SbRun of run.h).
 struct SbRun {
-  // Reused for the next model; all from `model` on belongs to one execution.
+  // Fields before `model` are reused for the next model; `model` and all later ones are cleared
+  // when the run is renewed.
   SbSlidingMemory *memory[SB_SEAL_COUNT]; // owned
-  bool predicted;                         // rings are linearised about another run's
-  // The budget of this execution: own_work, or that of the run for which this one finds a speed.
-  // Each later actuation of a life has its own.
+  bool predicted;                         // rings are linearised (sb_run_predict_from())
+  // `work` is the budget of this execution: &own_work, or that of the run for which this run finds
+  // a speed. Each later actuation of a life has a budget of its own.
   SbWork *work, own_work;
-  SbFrame *frames; // [room], owned
-  size_t room;
+  SbFrame *frames; // [room], owned; the first `count` are complete
+  size_t room;     // allocated number of frames
   // Reused if the next model's seals have the same states. States by speed, owned; NULL: not used
   // yet.
   SbSpeedStates *speeds[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_RUN_REST];
   SbRunSolved solved;
   const SbModel *model; // owned
-  SbPlan plan;
-  size_t capacity;   // largest possible number of frames
-  SbCycle cycle;     // its states serve every motion model
-  double speed;      // sliding speed of the cycle's states [m/s]
-  double mid_speed;  // of the stem in the middle of B-C, for the seals' figures [m/s]
-  double back_speed; // in the middle of F-A, > 0 [m/s]
-  // Static friction of ageing contacts over the dwell, divided by their level.
+  SbPlan plan;          // copy of the caller's
+  size_t capacity;      // largest possible number of frames
+  SbCycle cycle;        // its states are used by every motion model
+  double speed;         // sliding speed at which the cycle's states are solved, > 0 [m/s]
+  double mid_speed;     // stem speed in the middle of B-C, for the seals' figures, > 0 [m/s]
+  double back_speed;    // stem speed in the middle of F-A, a magnitude [m/s]
+  // Static friction of ageing contacts against the dwell, divided by their kinetic friction.
   SbDwellLaw rest[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS];
-  double roughness;   // of the states, divided by the model's
+  double roughness;   // roughness of the states divided by the model's [1]
   bool out_of_memory; // one of `speeds` could not be allocated
-  double
-      straight_error; // error of linear bands of friction, divided by the friction without a film
+  // Error of the linear bands of friction, divided by the friction without a film [1].
+  double straight_error;
   SbValveBands bands[SB_CYCLE_CHAMBERS][SB_RUN_REST]; // computed when first needed
   SbSummary summary;
-  SbFilm history_film;      // of the present frame of the film history
+  SbFilm history_film;      // work memory: film of the present frame of the film history
   SbWarnings before_states; // the summary's, before the last states of sb_run_solve_states()
-  // Errors (run_errors.c): of the motion's figures, absolute; of the sliding speeds by way,
+  // Errors (run_errors.c): of the motion's figures, absolute in SI; of the sliding speeds by way,
   // relative; of a cycle's leakage [m3]; of the mass that remains in the chamber [kg].
   double motion_error[SB_FIGURE_COUNT], speed_error[2], leak_error, kept_error;
-  double compared_error[SB_SEAL_COUNT]; // of the film solved for comparison, relative
-  SbSealState shown[SB_SEAL_COUNT][2];  // states of the seals' figures: in-stroke and return
-  SbBore bore;                          // of the last motion, under the outer seal
-  SbFilm film;                          // work memory for films apart from the states
-  double friction_error, static_error;  // largest error of a state's friction [N]
-  SbRunProfile profile[SB_RUN_PROFILE_SLOTS];
-  SbRunShape shape[SB_RUN_SHAPES];
-  SbRunEdge edge[2];     // of the inner ring, by way
-  SbReport lacks;        // why no motion can be computed; SB_OK: it can
-  double before_frames;  // fraction of the work before the first frame
+  double compared_error[SB_SEAL_COUNT]; // relative error of the film solved for comparison
+  SbSealState shown[SB_SEAL_COUNT][2];  // states for the seals' figures, by way
+  SbBore bore;                          // layers of the last motion under the outer seal
+  SbFilm film;                          // work memory for films that belong to no state
+  double friction_error, static_error;  // largest error of a state's kinetic, static friction [N]
+  SbRunProfile profile[SB_RUN_PROFILE_SLOTS]; // by sb_run_profile_slot()
+  SbRunShape shape[SB_RUN_SHAPES];            // seal x SB_RUN_SEAL_SHAPES + index
+  SbRunEdge edge[2];                          // range over the inner ring, by way
+  SbReport lacks;                             // why no motion can be computed; SB_OK: it can
+  double before_frames;                       // fraction of the work before the first frame
   double after_frames;   // fraction after the last frame: the later actuations of a life
   SbRunBodies *bodies;   // owned; NULL: not computed
-  bool follows;          // a later actuation of a life: it uses the errors of the first
+  bool follows;          // this run is a later actuation of a life: it has the errors of the first
   SbLifeActuation *life; // [model.life_actuations], owned; NULL without a life
   size_t count;          // complete frames
   bool hold;             // frames are not published before their film history is known
-  atomic_size_t published;
+  atomic_size_t published; // number of frames that readers may use
 };
 
-// Starts a budget of the model's work_limit steps (run.c).
+// Sets run->own_work to a new budget of output.work_limit steps that the hooks can cancel (run.c).
 void sb_run_begin_work(SbRun *run, const SbRunHooks *hooks);
 
-// Solves all steady sliding states that the cycle can need, and the profiles of the plan, at the
-// machine's speed, or with another drive at the stem's own speed in the middle of B-C
-// (run_states.c).
+// Solves all steady states that the plan needs, and its profiles and shapes: at the machine's
+// speed, or with another drive at the stem's speed in the middle of B-C, which it finds first. Sets
+// cycle.state, speed, mid_speed, errors and lacks (run_states.c).
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
-// Stores the states just solved with `status` in run->solved (run_states.c).
+// Stores the solved states in run->solved, if `status`, that of sb_run_solve_states(), is SB_OK and
+// the plan allows their reuse (run_states.c).
 void sb_run_keep_states(SbRun *run, SbStatus status);
 
-// Uses the stored states instead of solving (run_states.c).
+// Copies the states of run->solved to the run, instead of sb_run_solve_states() (run_states.c).
 void sb_run_take_states(SbRun *run);
 
 // Adds *more to *sum.
 void sb_run_add_counters(SbCounters *sum, const SbCounters *more);
 
-// Stores a seal's solved section for drawing as its shape `index` (run_shapes.c).
+// Stores the section of the solved `ring` of a seal, for drawing, as the seal's shape `index`
+// (run_shapes.c).
 SbStatus sb_run_keep_shape(SbRun *run, int seal, int index, const SbRing *ring, SbReport *report);
 
-// Solves and stores the shapes of the inner ring over the land's edge for a way in which its state
-// is `from`, and its free shape (run_shapes.c).
+// Solves and stores the shapes of the inner ring over the land's edge for a way, and its free
+// shape. `from` is the inner ring solved for this way; solves are added to *counts (run_shapes.c).
 SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *counts,
                            const SbRingOptions *options, SbReport *report);
 
-// Returns the shape of a seal in a frame by its chamber and motion, with its whole contact on the
-// land; UINT32_MAX: none.
+// Returns the index for sb_run_shape() of a seal's shape in a chamber state and motion, with its
+// full contact on the land; UINT32_MAX: none.
 uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int motion);
 
-// Returns the shape of the inner seal at or beyond the land's edge by way and stem displacement s
-// [m]; UINT32_MAX: none.
+// Returns the index for sb_run_shape() of the inner seal's shape at or beyond the land's edge, by
+// way and stem displacement s [m]; UINT32_MAX: none.
 uint32_t sb_run_shape_over_edge(const SbRun *run, int way, double s);
 
 // Number of rows of a stored profile.
@@ -203,7 +220,7 @@ enum { SB_PROFILE_ROWS = 5 };
 // asperity pressure, film pressure (NaN: no film was solved). `rows` and `model` are borrowed.
 SbContactProfile sb_run_profile_view(const double *rows, size_t count, const char *model);
 
-// Returns the index of the profile of a seal in a chamber state and motion.
+// Returns the index in run->profile of the profile of a seal in a chamber state and motion.
 uint32_t sb_run_profile_slot(int seal, int chamber, int motion);
 
 // Returns the first chamber state in which the seal has contact and the same pressures as in
@@ -213,8 +230,9 @@ int sb_run_first_alike(const SbRun *run, int seal, int chamber);
 // Largest allowed closure of the energy balance; a larger one means that the motion is not solved.
 #define SB_RUN_CLOSURE 1e-6
 
-// Computes the motion of the model, if its states are known. After an early end the frames and the
-// stages reached remain; the report says where it ended (run.c).
+// Computes the motion of the model (quasi-static, or with inertia by the plan). If run->lacks is an
+// error it only sets the reasons of missing figures and returns SB_OK. After an early end the
+// complete frames and the stages reached remain, and the report names the place (run.c).
 SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // End of a motion, for its outcome; forces in N, displacements in m.
@@ -231,9 +249,9 @@ typedef struct {
   double sliding_least;
 } SbRunEnd;
 
-// Sets outcome, figures of the return and press force in `summary`, that of the run or of a motion
-// compared with it, and the reasons of missing ones. Its stages and peak force, and the states of
-// the run's cycle, must be known. SB_ERROR_MEMORY (run_outcome.c).
+// Sets outcome, figures of the return, press force, and reasons of missing ones in `summary`: the
+// run's own, or that of a perturbed motion. Before the call stages and peak force of `summary`, and
+// the states of run->cycle, must be set. SB_ERROR_MEMORY is its only error (run_outcome.c).
 SbStatus sb_run_conclude_motion(SbSummary *summary, SbRun *run, const SbRunEnd *end,
                                 SbReport *report);
 
@@ -244,16 +262,17 @@ bool sb_run_delivers(const SbRun *run);
 // Computes frames, stages, energies and leakage of the quasi-static cycle (run_cycle.c).
 SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
-// Does the same for the motion with inertia (run_dynamic.c).
+// Computes frames, stages, energies and leakage of the motion with inertia (run_dynamic.c).
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // Sets energies and step counts of a motion with inertia in the summary (run_dynamic.c).
 void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
                         const SbDynamicsCounters *counters);
 
-// Computes the speed of the stem in the middle of B-C [m/s]. If it does not get there: the mean
-// speed from B to D, else from E to F, else from E to rest; of a sinusoid that passes none of
-// these, its mean speed. 0 if there is none. *slips: the stem slides (run_dynamic.c).
+// Computes *speed, that of the stem in the middle of B-C, a magnitude [m/s], by a motion with
+// inertia. If the stem does not get there it is the mean speed from B to D, else from E to F, else
+// from E to rest; of a sinusoid that passes none of these stages its mean speed; else 0. *slips:
+// the stem slides (run_dynamic.c).
 SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRunHooks *hooks,
                               SbReport *report);
 
@@ -272,23 +291,25 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
 // it, in the order of profile indices, must be solved (run_supply.c).
 SbSupply sb_run_supply(const SbRun *run, int seal, SbChamber chamber, int motion);
 
-// Returns the layer that a seal sliding at `speed` [m/s] leaves on the bore, or can take from it
-// [m].
+// Returns the thickness of the layer that a seal sliding at |speed| [m/s] leaves on the bore on the
+// in-stroke, or can take back on the return [m]. May solve states, as sb_run_state_at().
 double sb_run_layer(SbRun *run, int seal, SbChamber chamber, int direction, double speed);
 
-// Starts an empty bore with the stem at s [m].
+// Initialises *bore without layers, with the stem at the displacement s [m].
 void sb_bore_start(SbBore *bore, double s);
 
-// Moves the stem from `from` to `to` [m] with a film that carries `layer` [m]: it leaves layers
-// when it moves in, and takes them back when it moves out.
+// Moves the stem from the displacement `from` to `to` [m] with a film that carries the thickness
+// `layer` [m]. If to > from (in-stroke) it leaves layers; else it takes layers back, each at most
+// to the thickness `layer`.
 void sb_bore_move(SbBore *bore, double from, double to, double layer);
 
-// Sets the leakage of the motion that has left `bore`; NaN with the reason if the stem never moved,
-// or does not come `back` to its start. The outcome must be known (run_figures.c).
+// Sets leakage_per_cycle from the volumes of `bore`. It is NaN with a reason if the stem never
+// moved, or if `back` (the stem has returned to its start) is false. The outcome must be set
+// (run_figures.c).
 void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore, bool back);
 
-// Sets the reasons of figures that are missing because of the chosen models or of what happened;
-// the last step of a run (run_figures.c).
+// Sets the reasons of all missing figures, by the chosen models, the outcome, and the `status` and
+// `report` of the run. All figures must be set before (run_figures.c).
 void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report);
 
 // Sets the figures of each seal in the middle of B-C (run_figures.c).
@@ -297,8 +318,8 @@ void sb_run_summarise_seals(SbRun *run);
 // Computes the can on the shelf, as far as the plan needs it (run_shelf.c).
 SbStatus sb_run_shelf(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
-// Returns the fraction of the chamber that is filled in the time from C to F; NaN if they are not
-// reached.
+// Returns the fraction of the chamber that fills in the time from C to F, 0 to 1; NaN if C or F is
+// not reached, and in a gasket valve.
 double sb_run_filled_share(const SbSummary *summary, const SbModel *model);
 
 // ---- Errors (run_errors.c)
@@ -309,7 +330,8 @@ void sb_run_begin_errors(SbRun *run);
 // Sets the motion's errors to NaN, after a motion whose errors are not known.
 void sb_run_lose_errors(SbRun *run);
 
-// Adds `share` times the differences between the figures of two motions to the motion's errors.
+// Adds `share` times the absolute differences between the figures of the summaries `one` and
+// `other` of two motions to run->motion_error.
 void sb_run_add_errors(SbRun *run, const SbSummary *one, const SbSummary *other, double share);
 
 // Perturbs the cycle's states by their errors of one kind, `index` below SB_RUN_WRONG: kinetic
@@ -321,7 +343,7 @@ bool sb_run_worsen(SbRun *run, int index);
 // Adds the error of the last motion's leakage that its films cause.
 void sb_run_leak_error(SbRun *run);
 
-// Sets the errors of all figures.
+// Sets summary.error of all figures; the figures and the motion's errors must be set.
 void sb_run_fill_errors(SbRun *run);
 
 // Warns of errors above SB_ERROR_LARGE. Returns SB_ERROR_NOT_CONVERGED instead of SB_OK for an
@@ -331,26 +353,28 @@ SbStatus sb_run_judge_errors(SbRun *run, SbStatus status, SbReport *report);
 // Sets the fractions of users who are weaker than the summary's forces (run.c).
 void sb_run_weigh_users(SbSummary *summary, const SbModel *model);
 
-// Returns the mass that the last motion delivers of a metered mass [kg]: less the part for which
-// there is no time to fill, and what remains in the emptied chamber. NaN if sb_run_delivers() is
-// false; 0 without canister pressure.
+// Returns the mass that the last motion delivers [kg], >= 0: the `metered` mass [kg] multiplied by
+// sb_run_filled_share() (by 1 if that is NaN), minus the mass that remains in the vented chamber.
+// NaN if sb_run_delivers() is false; 0 if the canister's pressure is not above ambient.
 double sb_run_dose(const SbRun *run, double metered);
 
-// Computes the range of stem displacements in which the dose chamber is open to the vent; returns
-// false if it never is.
+// Computes the range *low to *high of stem displacements [m] in which the dose chamber is open to
+// the vent. Returns false if it never is.
 bool sb_run_vent(double *low, double *high, const SbRun *run);
 
-// Publishes the first `count` frames.
+// Sets run->count, and publishes the first `count` frames to readers unless run->hold is true.
 void sb_run_publish(SbRun *run, size_t count);
 
-// Stores the first time at which a stage is reached.
+// Stores the stage in the summary, from `frame`, whose index is `index`, unless it was reached
+// before.
 void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t index);
 
-// Returns the error of the cycle's forces that the states' errors cause, of both seals, divided by
-// the largest force.
+// Returns the error of the cycle's forces due to the errors of friction of both seals, divided by
+// the peak force [1]; 0 without a peak force.
 double sb_run_error_friction(const SbRun *run);
 
-// Reports progress: `fraction` of the work before the frames, or of the frames once there are any.
+// Calls hooks->progress. `fraction` is 0 to 1 of the work before the first frame if frames = 0,
+// else of the frames; `frames` is the number of published frames.
 void sb_run_progress(const SbRun *run, const SbRunHooks *hooks, double fraction, size_t frames);
 
 // Returns whether the hooks cancel the run, and fills the report then.
@@ -377,15 +401,17 @@ typedef struct {
 typedef struct {
   SbRun *run;
   bool both_alike;   // both ways have the same friction at speed 0
-  SbChamber chamber; // at the present instant
+  SbChamber chamber; // state of the chamber at the present instant
   bool touches;      // the inner seal has contact
-  // Stem displacements [m]: the chamber opens on the in-stroke beyond edge_open, and closes on the
-  // return below edge_closed; a gasket valve's closes and opens.
+  // Stem displacements [m]: the chamber opens to the canister on the in-stroke beyond edge_open,
+  // and closes on the return below edge_closed. The chamber of a gasket valve closes and opens
+  // there.
   double edge_open;
   double edge_closed;
-  double port;   // of a gasket valve: the chamber empties beyond it [m]
-  double middle; // middle of B-C, and of F-A [m]
-  // Fractions of the inner contact on the land at the displacement last requested.
+  double port;   // of a gasket valve: stem displacement beyond which the chamber empties [m]
+  double middle; // stem displacement of the middle of B-C and of F-A [m]
+  // Cache by chamber state: displacement last requested, and fractions of the inner contact on the
+  // land.
   double land_at[SB_CYCLE_CHAMBERS];
   SbLandShare land[SB_CYCLE_CHAMBERS];
   bool varies[SB_DYNAMICS_EDGES + 1]; // regions in which the land's edge is under the contact
@@ -396,78 +422,85 @@ typedef struct {
   SbDoseChamber dose;
 } SbValve;
 
-// Creates the mechanism. The valve must exist as long as `out` is used. SB_ERROR_INFEASIBLE: ports
-// contradict each other.
+// Sets *valve and *out, the mechanism of the run's model for dynamics.h. *valve is its user data
+// and must exist as long as *out is used. SB_ERROR_INFEASIBLE: ports contradict each other.
 SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbReport *report);
 
-// States of contact that apply at an instant.
+// Which steady states apply at an instant, as indices of SbCycle.state.
 typedef struct {
   SbChamber chamber;
-  int direction;
-  int land; // way whose state determines the fraction of the inner seal on the land
+  int direction; // a way
+  int land;      // way whose state determines the fraction of the inner seal on the land
 } SbSolvedState;
 
-// Computes the steady state of a sliding seal at `speed` [m/s] of either sign; solves states if
-// needed. The summary gets their counts and warnings (run_speeds.c).
+// Computes the steady state of a sliding seal at |speed| [m/s] in `direction`; the sign of `speed`
+// is ignored. Interpolates between states by speed and solves missing ones; their counts and
+// warnings are added to the summary. Failures are reported by sb_run_close_speeds() (run_speeds.c).
 void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int direction,
                      double speed);
 
-// Does the same between the vented (`filled` = 0) and the filled chamber (1), by interpolation.
+// Computes the state as sb_run_state_at() for a chamber of ports with the pressure `filled` of the
+// canister's, 0 (vented) to 1 (full), by linear interpolation between both.
 void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled, int direction,
                           double speed);
 
-// Updates what follows from the films of such a state; sb_sliding_refilm().
+// Computes lambda, real area and friction of `state`, whose film the caller has changed, at |speed|
+// [m/s] by sb_sliding_refilm().
 void sb_run_refilm(SbSealState *state, SbRun *run, int seal, int chamber, int direction,
                    double speed);
 
-// Sets the problem of the film of a sliding state, and returns the body of that film; NULL:
-// half-plane.
+// Sets *out to the problem of the film of the state in run->cycle at run->speed, and returns the
+// body of that film, borrowed from the run; NULL: half-plane.
 const SbSlidingBody *sb_run_film_of(SbFilmProblem *out, SbRun *run, int seal, int chamber,
                                     int direction);
 
-// Replaces the film of a state; sb_sliding_take().
+// Replaces the film of `state` at |speed| [m/s] by `film` with sb_sliding_take().
 void sb_run_take(SbSealState *state, SbRun *run, int seal, int chamber, int direction, double speed,
                  const SbFilm *film, bool fitted);
 
-// Stores the body of the film of a state just solved, for films at other speeds; NULL: half-plane.
-// SB_ERROR_MEMORY.
+// Creates the states by speed of the state just solved in run->cycle, with a copy of `body`, that
+// of its film (NULL: half-plane). SB_ERROR_MEMORY is its only error.
 SbStatus sb_run_keep_body(SbRun *run, int seal, int chamber, int direction,
                           const SbSlidingBody *body, SbReport *report);
 
-// Gives `one` those states by speed of `run` that it lacks, and gives all of them the surface and
-// states of `one`. Solved states remain, because films do not depend on roughness. SB_ERROR_MEMORY.
+// Copies the states by speed that `one` lacks from `run`, and sets roughness and reference state of
+// all of them to those of `one`. Solved films remain valid, because without coupled asperities they
+// do not depend on roughness. SB_ERROR_MEMORY is its only error.
 SbStatus sb_run_copy_speeds(SbRun *one, const SbRun *run, SbReport *report);
 
-// Returns the chamber state whose pressures apply in the middle of a way.
+// Returns the chamber state (an SbChamber) whose pressures apply in the middle of a stroke in this
+// way.
 int sb_run_asked_chamber(int way);
 
-// Solves what a state will need at speeds near the run's, in the thread of its seal. Best directly
-// after that state, while the film solver has its film.
+// Prefetch: solves the states at speeds near run->speed for a state just solved, in the thread of
+// its seal, because the film solver still has that film. Counts and warnings are added to *counters
+// and *warnings.
 void sb_run_ask_beside(SbRun *run, int seal, int chamber, int way, SbCounters *counters,
                        SbWarnings *warnings);
 
-// Adds the errors of interpolation by speed to the run's errors. SB_ERROR_CANCELLED,
-// SB_ERROR_MEMORY, SB_ERROR_NOT_CONVERGED (budget) if it was ended early.
+// Adds the errors of the interpolation by speed, and its counts, to the run. SB_ERROR_CANCELLED,
+// SB_ERROR_MEMORY, SB_ERROR_NOT_CONVERGED (budget): a solve of a state by speed was ended early.
 SbStatus sb_run_close_speeds(SbRun *run, SbReport *report);
 
-// Frees the states by speed.
+// Frees all states by speed.
 void sb_run_free_speeds(SbRun *run);
 
 // Returns the states that apply to the valve's present chamber, with the stem's last `direction` of
 // sliding (a way) and the chamber's pressure [Pa].
 SbSolvedState sb_valve_solved(const SbValve *valve, int direction, double pressure);
 
-// Returns the chamber pressure [Pa] in a frame from the mechanism's extra state.
+// Returns the chamber pressure [Pa] from the mechanism's extra state `extra`; without ports from
+// the state of the chamber.
 double sb_valve_chamber_pressure(const SbValve *valve, double extra);
 
 // One instant of a motion.
 typedef struct {
-  SbDynamicsSample sample; // acceleration, deflections and region may be unknown
-  SbStage stage;           // last one passed
-  SbChamber chamber;
-  SbSolvedState solved;
-  bool moving;     // the stem slides
-  double pressure; // in the chamber [Pa]
+  SbDynamicsSample sample; // acceleration, deflections and region may be unset
+  SbStage stage;           // last stage passed
+  SbChamber chamber;       // state of the chamber
+  SbSolvedState solved;    // steady states that apply
+  bool moving;             // the stem slides
+  double pressure;         // pressure in the chamber [Pa]
 } SbInstant;
 
 // Sets the frame of an instant. Forces of the drive are those of the sample; contact, load, film
@@ -475,30 +508,33 @@ typedef struct {
 // chamber's pressure.
 void sb_run_fill_frame(SbFrame *out, SbRun *run, const SbInstant *at);
 
-// Replaces the film of a seal in a frame, and updates what follows from it. `fitted`: solved on the
-// fitted body.
+// Replaces the film of a seal in a frame by `film`, and updates lambda, real area and friction
+// there. `fitted`: it was solved on the fitted body.
 void sb_run_frame_film(SbFrame *frame, SbRun *run, int seal, const SbFilm *film, bool fitted);
 
-// Publishes the first `count` frames and reports progress from time to time; returns true if the
-// run is cancelled.
+// To be called after each frame: every 64 frames it publishes the first `count` frames, and reports
+// progress (`fraction` 0 to 1 of the frames) less often. Returns true if the run is cancelled, with
+// the report set.
 bool sb_run_poll(SbRun *run, const SbRunHooks *hooks, size_t count, double fraction,
                  SbReport *report);
 
-// Assembles the constrained parts, counts their degrees of freedom, and allocates the reactions of
-// all frames (run_bodies.c).
+// Creates run->bodies: assembles the constrained parts, counts their degrees of freedom, allocates
+// the reactions of all frames, and initialises summary.bodies. run->bodies must be NULL
+// (run_bodies.c).
 SbStatus sb_run_bodies_create(SbRun *run, SbReport *report);
 
-// Returns the effective mass of the stroke as assembled [kg].
+// Returns the effective mass of the stroke at the assembly [kg].
 double sb_run_bodies_mass(const SbRunBodies *bodies);
 
 // Moves the parts to the stem displacement x [m] at the stem speed v [m/s], and computes the
 // effective mass there [kg]. SB_ERROR_INFEASIBLE: the parts do not move together.
 SbStatus sb_run_bodies_move(double *mass, SbRun *run, double x, double v, SbReport *report);
 
-// Computes the reactions of the joints for the frame `index`, and adds to the summary. Moves the
-// parts there.
+// Moves the parts to `sample`, the instant of the frame `index`, computes the reactions of the
+// joints there for sb_run_reactions(), and updates the extremes in summary.bodies. Errors of
+// sb_run_bodies_move() and sb_assembly_forces().
 SbStatus sb_run_bodies_frame(SbRun *run, size_t index, const SbDynamicsSample *sample,
                              SbReport *report);
 
-// Sets drive, start position and the drive's times.
+// Sets drive and start position in *out, and *times.
 void sb_valve_set_drive(SbDynamicsModel *out, SbDriveTimes *times, const SbRun *run);

@@ -1,5 +1,10 @@
-// Shared by the studies: a study as data, questions, and functions that respect the capacities of
-// SbStudy. Private to engine/valve/studies.
+// Shared by the studies (study_*.c).
+//
+// sb_study_view() creates an SbStudyWork, adds axes, panels and columns of the SbStudyDesign to the
+// result, computes the grid's rows if there is a grid, and calls design->make(), which adds curves,
+// rows, marks and notes. Values are stored by place: a line (a curve's number, >= 0, or any other
+// number that the study chooses) and an abscissa x; sb_study_at() reads them. Without a grid
+// design->solve() computes a place when it is first read.
 #pragma once
 
 #include "engine/contact/fit.h"
@@ -10,7 +15,7 @@
 #include "engine/valve/run/cost.h"
 #include "engine/valve/studies/study.h"
 
-// Capacities: values of a line at one x, stored answers, points of a law.
+// Capacities: values of one place, stored places, points of a law.
 enum { SB_STUDY_VALUES = 20, SB_STUDY_ANSWERS = 1024, SB_STUDY_LAW_POINTS = 400 };
 
 // State of a computation (below).
@@ -19,56 +24,57 @@ typedef struct SbStudyWork SbStudyWork;
 // A study as data; its make() adds what depends on the scene. Quantities are texts with the display
 // unit: "central film [nm]".
 typedef struct {
-  const char *x, *panel[SB_STUDY_PANELS];
-  bool x_logarithmic, logarithmic[SB_STUDY_PANELS];
-  size_t range;            // offset in SbStudyRange of the lowest x; the highest follows it
+  const char *x, *panel[SB_STUDY_PANELS]; // quantities of the abscissa and the ordinates; NULL: end
+  bool x_logarithmic, logarithmic[SB_STUDY_PANELS]; // scales of the axes
+  size_t range;            // offset in SbStudyRange of the lowest x; the highest is the next member
   const char *row_heading; // of the table; NULL: none, or make() sets it
-  const char *column[SB_STUDY_COLUMNS];
-  int digits[SB_STUDY_COLUMNS];                        // 0: three
-  int line[SB_STUDY_COLUMNS], value[SB_STUDY_COLUMNS]; // of each column, for sb_study_cells()
-  const char *models, *validity;                       // NULL: make() sets it
-  // Whether it has the grid of assets/studies/NAME.study. The values of a line are its figures,
-  // followed by what derive() (may be NULL) adds. `share`: fraction of the progress for the grid,
-  // 0: all.
-  bool grid;
-  double share;
-  bool (*asks_grid)(const SbModel *scene); // NULL: always; false: make() requests single places
-  const SbParamId *extra;                  // [extras] columns after those of the file
+  const char *column[SB_STUDY_COLUMNS];                // quantities of the columns; NULL: end
+  int digits[SB_STUDY_COLUMNS];                        // significant digits; 0: three
+  int line[SB_STUDY_COLUMNS], value[SB_STUDY_COLUMNS]; // cells show this value of this line
+  const char *models, *validity;                       // as in SbStudy; NULL: make() sets them
+  bool grid;    // it has the grid of assets/studies/NAME.study (SbStudyGrid)
+  double share; // fraction of the progress for the grid's samples; 0: all
+  // Returns whether all samples of the grid are computed before make(). NULL: always. If false
+  // make() requests places by sb_study_more().
+  bool (*asks_grid)(const SbModel *scene);
+  const SbParamId *extra; // [extras] result of sb_study_extra()
   size_t extras;
+  // With a grid: value[] has the figures of the place, in the grid's order; the function adds
+  // further values after them, or changes them. NULL: nothing to do.
   void (*derive)(double value[SB_STUDY_VALUES], SbStudyWork *work, int line, double x);
-  // Returns whether a place of a line has no values, whatever was answered. Earlier lines are known
-  // then.
+  // With a grid: returns true if the place has no values (they become NaN) in spite of its figures.
+  // Values of lines before it can be read. NULL: never.
   bool (*is_no_case)(SbStudyWork *work, int line, double x);
-  bool forces; // its error includes that of the forces
-  // Without a grid: sets the values of a line at x, those of the panels first; they are NaN before.
+  bool forces; // SbStudy.error includes that of the forces
+  // Without a grid: sets the values of a place, which are NaN before; value p is that of panel p.
   void (*solve)(double value[SB_STUDY_VALUES], SbStudyWork *work, int line, double x);
-  void (*make)(SbStudyWork *work);
+  void (*make)(SbStudyWork *work); // adds all that depends on the scene to work->out
 } SbStudyDesign;
 
 // State of a computation. An error that ends the study remains in `status`; all later questions
 // give NaN without computation, so that loops need no check.
 struct SbStudyWork {
-  SbStudy *out;
+  SbStudy *out; // the result
   const SbStudyDesign *design;
-  const SbModel *scene;
-  SbModel base;            // for questions: the scene with what the study keeps constant
-  const SbStudyGrid *grid; // NULL: none
-  double lo, hi;           // ends of the abscissa: the scene's range, or the study's own
-  double load;             // net, of films that the study solves at one load [N/m]
-  SbEvaluator *evaluator;
-  const SbEvaluator *start; // rings of the grid start from its states; NULL: cold start
-  SbFilmSolver *solver;     // of films that are solved apart from questions
-  SbFilm film;              // the last of them
-  SbStudyHooks hooks;
-  SbReport *report;
-  SbStatus status;
+  const SbModel *scene; // the caller's model
+  SbModel base; // base model of questions: SbStudyGrid.base, or SB_HOLD_MACHINE of the scene
+  const SbStudyGrid *grid;     // NULL: none
+  double lo, hi;               // ends of the abscissa: the scene's range, or the study's own
+  double load;                 // net load of films that the study solves at one load [N/m]
+  SbEvaluator *evaluator;      // of sb_study_ask()
+  const SbEvaluator *start;    // rings of the grid start from its states; NULL: cold start
+  SbFilmSolver *solver;        // of sb_study_film()
+  SbFilm film;                 // last result of sb_study_film()
+  SbStudyHooks hooks;          // {0} if the caller has none
+  SbReport *report;            // the caller's; may be NULL
+  SbStatus status;             // SB_OK, or the error that ends the study
   double spent, total;         // predicted cost of questions so far, and of the study [s]
-  double error[2], largest[2]; // of loads [N] and contact widths [m]: largest errors and values
-  int line[SB_STUDY_COLUMNS], value[SB_STUDY_COLUMNS]; // of the table's columns
-  size_t answers;
+  double error[2], largest[2]; // largest error and largest value of loads [N] and widths [m]
+  int line[SB_STUDY_COLUMNS], value[SB_STUDY_COLUMNS]; // of the columns, as in SbStudyDesign
+  size_t answers;                                      // number of stored places
   struct {
     int line;
-    bool answered; // by the grid
+    bool answered; // the grid has computed this place
     double x, value[SB_STUDY_VALUES];
   } answer[SB_STUDY_ANSWERS];
 };
@@ -78,41 +84,45 @@ struct SbStudyWork {
 SB_STUDY_LIST(SB_STUDY_DECLARE)
 #undef SB_STUDY_DECLARE
 
-// Computes value[paths] (SI) of figures of the base with overrides, and reports progress. If a
-// solver fails or values are inconsistent, the figures are NaN with a warning; `complete` is
-// cleared in the first case. Warnings of models are not copied, because a study leaves their
-// validity intentionally. The evaluator has the model and the summary afterwards.
+// Computes value[paths] (SI), at most eight figures with the given paths, of work->base with
+// override[overrides], and reports progress. If a solver fails or the values are inconsistent, the
+// figures are NaN, with a warning in work->out; SbStudy.complete becomes false if a solver failed.
+// Warnings of models are not copied, because a study leaves their validity intentionally.
+// Afterwards work->evaluator has model and summary of the question.
 void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, size_t paths,
                   const SbOverride *override, size_t overrides);
 
-// Returns the net load per length of the scene's outer seal at rest under its pressures [N/m]; NaN:
-// none.
+// Returns the net load per length of the outer seal of work->base without friction, under its
+// pressures [N/m]; NaN if it was not computed.
 double sb_study_net_load(SbStudyWork *work);
 
-// Returns value[SB_STUDY_VALUES] of a line at x; the design's solve() is called once for each
-// place. Borrowed until the next answer.
+// Returns value[SB_STUDY_VALUES] of a place. Without a grid design->solve() computes a new place;
+// with a grid a place that was not computed has NaN. Borrowed until the next place is stored.
 const double *sb_study_at(SbStudyWork *work, int line, double x);
 
 // A place that the grid does not have.
 typedef struct {
   int line;
   double x;
-  // Sets row[columns] of a line that the grid does not have, except what follows from its
-  // variables; NULL: a line of the grid.
+  // For a line that the grid does not have: sets elements of row[columns], all NaN before (as in
+  // the base), except those that follow from variables. NULL: a line of the grid.
   void (*fill)(double *row, const SbStudyWork *work, int line, double x);
 } SbStudyPlace;
 
-// Computes place[count], if not known, for sb_study_at(). Reports progress from `from` to `to`.
+// Computes place[count], those that are not stored, by the grid's answer(), for sb_study_at().
+// Reports progress from the fraction `from` to `to`.
 void sb_study_more(SbStudyWork *work, const SbStudyPlace *place, size_t count, double from,
                    double to);
 
-// Returns value[SB_STUDY_VALUES] of a line at x, for the caller to set.
+// Returns value[SB_STUDY_VALUES] of a place, new ones NaN, for the caller to set. Borrowed until
+// the next place is stored.
 double *sb_study_put(SbStudyWork *work, int line, double x);
 
-// Returns the index of a grid column by its name, which must exist.
+// Returns the index of the grid's column with this name, which must exist (asserted).
 int sb_study_grid_column(const SbStudyWork *work, const char *name);
 
-// Returns abscissa `index` of `count` from lo to hi, evenly spaced on its axis.
+// Returns abscissa `index` (from 0) of `count` from work->lo to work->hi, evenly spaced on the
+// axis, linear or logarithmic.
 double sb_study_place(const SbStudyWork *work, int index, int count);
 
 // Adds a curve of a line to every panel: panel p gets the line's value p at `count` abscissas,
@@ -127,7 +137,8 @@ void sb_study_film_problem(SbFilmProblem *out, const SbStudyWork *work, double l
 // Solves a film problem into work->film, starting from the last film, and reports progress.
 SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport *report);
 
-// Stores the status of work that is not a question. Returns whether the study continues.
+// Stores `status` and `report` of work other than sb_study_ask(), if it is the first error. Returns
+// whether the study continues: work->status is SB_OK.
 bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report);
 
 // Adds a table row with a formatted name and values NaN, and returns it, borrowed. Does not fail,
@@ -137,13 +148,15 @@ SbStudyRow *sb_study_row(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);
 // Adds a formatted note. Does not fail, as sb_study_panel().
 void sb_study_note(SbStudy *out, const char *format, ...) SB_PRINTF(2, 3);
 
-// Adds a table column; its cells show value number `value` of `line`.
+// Adds a table column; `quantity` is its name with the display unit, "load [N]", `digits` the
+// significant digits (0: three). Its cells show value number `value` of `line`.
 void sb_study_column(SbStudyWork *work, const char *quantity, int digits, int line, int value);
 
-// Computes value[columns] at x, of lines whose number is larger by `shift` than the columns' own.
+// Computes the cells value[columns] of a table row at `x`. `shift` is added to the line of each
+// column.
 void sb_study_cells(double *value, SbStudyWork *work, double x, int shift);
 
-// Adds a reference curve with one value over the whole abscissa.
+// Adds a reference curve with the constant value `y` (SI) from work->lo to work->hi.
 void sb_study_level(SbStudyWork *work, SbStudyPanel *panel, const char *name, double y);
 
 // Adds a mark at x with a formatted text, if x is inside the abscissa.
