@@ -8,9 +8,9 @@
 // Karaszkiewicz (regression to experiments of 1979-1990, s = 0.07 to 0.25; thesis 5.1-5.7)
 //   cwl   = d {(2 s + 0.13) + [0.39/(1 - s) - (2 s + 0.13)/2] [1 - exp(-4.6 p/E)]}    width (5.2)
 //   sigma = (pi/6)(2 s + 0.13) E + nu/(1 - nu) p                                 pressure (5.4)
-//   w = sigma cwl  (5.6, 5.7; the printed second factor pi of the load is an error), peak 4/pi
-// sigma
-//   p is the magnitude of the fluid pressure. Without squeeze the width is 0.13 d: a formal result.
+//   w = sigma cwl  (5.6, 5.7; the printed second factor pi of the load is an error)
+//   peak 4 sigma/pi; p is the magnitude of the fluid pressure. Without squeeze the width is 0.13 d:
+//   a formal result.
 // Lindley (1967; thesis section 2.2) and Kuran, Gracie and Metcalfe (1995)
 //   F = pi d D E (1.25 s^1.5)                     initial, error 0.7 % at s = 0.15   (2.7)
 //   F = pi d D E (1.25 s^1.5 + 50 s^6)            extended, to s = 0.25              (2.8)
@@ -68,14 +68,15 @@ double sb_reduced_modulus(double modulus_a, double poisson_a, double modulus_b, 
 double sb_hertz_half_width(double load_per_length, double radius, double reduced_modulus);
 
 // Returns the ratio b/R of the half-width to the radius of Hertz's disc between flats. `approach`
-// is the approach of the flats divided by the radius, > 0; `stiffness` is 4 E_d/E'. Returns 1 if b
-// would exceed R.
+// is the approach of the two flats (2 R minus their distance) divided by R, > 0; `stiffness` is 4
+// E_d/E'. Returns 1 if b would exceed R.
 double sb_hertz_width_of_approach(double approach, double stiffness);
 
 // Returns the diametral interference with the bore [m] of a stretched round ring, whose section
 // shrinks and is flattened on the groove floor by the hoop tension:
 //   d (1 - nu e) - delta - g,  e = (D - g)/(ID + d) - 1, D the bore diameter
 //   delta = w/(pi E_d) [2 ln(4 R/b) - 1],  w = E e A/((D - g)/2),  A = (pi/4) d^2 (1 - 2 nu e)
-// delta is half of Hertz's approach on a rigid floor; b and R are those of the shrunk section.
-// Negative: the ring has no contact with the bore. An estimate for e below about 0.25.
+// delta is half of Hertz's approach on a rigid floor; b and R are those of the shrunk section. Of
+// `problem` only the sizes of ring and gland, modulus and poisson_ratio are used. Negative: the
+// ring has no contact with the bore. An estimate for e below about 0.25.
 double sb_interference_on_floor(const SbFitProblem *problem);

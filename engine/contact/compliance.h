@@ -8,9 +8,10 @@
 //
 // over a window that contains the contact and its surroundings. g and S are sums of Chebyshev
 // polynomials over the window, z = -1 to 1. In this equation p is relative to the lower ambient
-// pressure. In the logarithm the ambient pressures extend to infinity; their tilt is fixed so that
-// the step p_left (1/2 - asin(z)/pi) + p_right (1/2 + asin(z)/pi) over the window leaves the
-// surface flat. S acts inside the window only.
+// pressure; pressures in structures and parameters are gauge. In the logarithm the ambient
+// pressures extend to infinity; their tilt is fixed so that the step p_left (1/2 - asin(z)/pi) +
+// p_right (1/2 + asin(z)/pi) over the window leaves the surface flat. S acts inside the window
+// only.
 //
 // Source: Johnson, Contact Mechanics, sections 2.7 and 5.6. Linear about the fitted state: valid
 // for pressures close to the dry contact's, as under a thin film.
@@ -51,8 +52,9 @@ double sb_compliance_half_plane(const SbSurfaceCompliance *c);
 // continues as a parabola with the slope `beyond`.
 double sb_compliance_gap(const SbSurfaceCompliance *c, double x, double *slope);
 
-// Returns the displacement at x [m] due to S, for a pressure with the moments moment[modes], m_l =
-// int p T_l(z) ds [N/m]. Writes its slope to *slope (NULL: not wanted).
+// Returns the contribution of S to the gap at x [m], int S p ds, for a pressure with the moments
+// moment[modes], m_l = int p T_l(z) ds [N/m], p relative to the lower ambient pressure. Writes its
+// slope to *slope (NULL: not wanted).
 double sb_compliance_smooth(const SbSurfaceCompliance *c, double x, const double *moment,
                             double *slope);
 
@@ -64,7 +66,8 @@ void sb_compliance_modes(const SbSurfaceCompliance *c, double x, double *value, 
 enum { SB_COMPLIANCE_TOGETHER = 8 };
 
 // Does the same as sb_compliance_modes() for x[SB_COMPLIANCE_TOGETHER], with bit-identical results
-// and faster: value[k][i] = T_k at x[i]; `slope` likewise (NULL: not wanted).
+// and faster: value[k][i] = T_k at x[i], slope[k][i] = dT_k/dx at x[i], k < modes (`slope` NULL:
+// not wanted).
 void sb_compliance_modes_together(const SbSurfaceCompliance *c, const double *x,
                                   double (*value)[SB_COMPLIANCE_TOGETHER],
                                   double (*slope)[SB_COMPLIANCE_TOGETHER]);
@@ -73,8 +76,9 @@ void sb_compliance_modes_together(const SbSurfaceCompliance *c, const double *x,
 // [m].
 void sb_compliance_integrals(const SbSurfaceCompliance *c, double from, double to, double *out);
 
-// A dry frictionless contact: p = ambient step + sqrt(1 - z^2) sum a_k U_k(z), z = -1 to 1 over the
-// contact, U_k Chebyshev polynomials of the second kind.
+// A dry frictionless contact: p = p_left (1/2 - asin(z)/pi) + p_right (1/2 + asin(z)/pi) + sqrt(1 -
+// z^2) sum a_k U_k(z), with z = -1 to 1 over the contact (not the window), U_k Chebyshev
+// polynomials of the second kind.
 typedef struct {
   double left, right;                   // edges of the contact, x [m]
   double pressure_left, pressure_right; // ambient pressures [Pa]
@@ -82,16 +86,17 @@ typedef struct {
   double peak;                          // largest pressure [Pa]
   int count;                            // coefficients in use
   double a[SB_COMPLIANCE_PRESSURES];    // [Pa]
-  double moment[SB_COMPLIANCE_MODES];   // int p T_l(z) ds over the window [N/m]
+  double moment[SB_COMPLIANCE_MODES];   // m_l of sb_compliance_smooth() [N/m]
   // Edge coefficients: p - ambient tends to edge sqrt(1 - z^2) at the left and right edge [Pa].
   double edge_left, edge_right;
   double residual; // last residual of Newton's method, scaled
 } SbDryContact;
 
 // Solves the unilateral contact with unknown edges: zero gap inside, no tension, no penetration
-// outside. `load` [N/m] > 0. Spectral method; Newton's method for coefficients and edges; about 0.1
-// ms. SB_ERROR_INPUT: the gap is not convex or the load not positive. SB_ERROR_INFEASIBLE: the
-// contact leaves the window, needs tension, or would have two parts. SB_ERROR_NOT_CONVERGED.
+// outside. `load` [N/m] > 0 is SbDryContact.load. Spectral method; Newton's method for coefficients
+// and edges; about 0.1 ms. SB_ERROR_INPUT: the gap is not convex or the load not positive.
+// SB_ERROR_INFEASIBLE: the contact leaves the window, needs tension, or would have two parts.
+// SB_ERROR_NOT_CONVERGED.
 SbStatus sb_dry_contact(SbDryContact *out, const SbSurfaceCompliance *c, double load,
                         double pressure_left, double pressure_right, SbReport *report);
 
@@ -101,17 +106,20 @@ double sb_dry_contact_pressure(const SbDryContact *dry, double x);
 // Returns the gap [m] at x; 0 in the contact. `c` is the surface that was solved.
 double sb_dry_contact_gap(const SbDryContact *dry, const SbSurfaceCompliance *c, double x);
 
-// Sets edge_left and edge_right from the coefficients and ambient pressures.
+// Sets dry->edge_left and edge_right from left, right, the ambient pressures and a[count].
 void sb_dry_contact_edges(SbDryContact *dry);
 
-// Replaces c->gap by the gap whose dry contact has the given pressure (edges, ambient pressures,
-// and at most modes - 2 coefficients); the window, modulus and S of `c` must be set.
+// Replaces c->gap and c->beyond by those of the surface whose dry contact has the given pressure:
+// of *pressure the fields left, right, pressure_left, pressure_right, count (at most modes - 2) and
+// a are used. modes, window, modulus and S of `c` must be set.
 void sb_compliance_of_pressure(SbSurfaceCompliance *c, const SbDryContact *pressure);
 
-// Sets c->gap so that the dry contact has the pressure profile p[n] at x[n]: from one edge of the
-// contact to the other, relative to the lower ambient pressure. `order` coefficients (1 to 12)
-// smooth the profile. For fit models without a gap of their own: edges and edge slopes are then
-// correct, with S = 0. SB_ERROR_INPUT: the profile is too short or not increasing in x.
+// Sets c->gap and c->beyond so that the dry contact has the pressure profile p[n] at x[n]: from the
+// left edge of the contact to the right one, relative to the lower ambient pressure. `order`
+// coefficients (1 to 12, at most modes - 2) smooth the profile. modes, window (wider than the
+// contact) and modulus of `c` must be set, and S, which is 0 for fit models without a gap of their
+// own. SB_ERROR_INPUT: fewer than order + 2 points, the contact is not inside the window, or
+// `order` or modes do not match.
 SbStatus sb_compliance_match(SbSurfaceCompliance *c, int order, size_t n, const double *x,
                              const double *p, double pressure_left, double pressure_right,
                              SbReport *report);

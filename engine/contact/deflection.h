@@ -3,13 +3,11 @@
 // functions have no state and may be called concurrently.
 //
 // Columns (6.45): independent laterally constrained columns of height d, v = p d/M,
-//   M = E (1 - nu)/((1 + nu)(1 - 2 nu)). Too stiff near nu = 1/2; no deflection outside the
-// contact.
+//   M = E (1 - nu)/((1 + nu)(1 - 2 nu)). Too stiff near nu = 1/2; no deflection outside contact.
 // Half-space (6.46): under Hertz's pressure p0 sqrt(1 - X^2), X = x/b, the surface is the parabola
 //   x^2/2R in the contact and is above it by (b^2/2R)(|X| sqrt(X^2 - 1) - arcosh|X|) outside
 //   (Johnson, Contact Mechanics, 1985, section 4.3). Only differences of deflections are defined.
-// Panel (6.55 to 6.66): integral of -ln|x - x'| over a strip, the influence coefficient of a
-// uniform
+// Panel (6.55 to 6.66): integral of -ln|x - x'| over a strip: influence coefficient of a uniform
 //   mesh.
 // Flamant (6.3.4): a line load w on the half-space deflects it by -(2 w/(pi E_d)) ln|x/datum|,
 //   E_d = E/(1 - nu^2). Two opposite loads on a disc, distributed as Hertz's, move the middle of
@@ -25,12 +23,12 @@ double sb_deflection_column(double pressure, double height, double modulus, doub
 double sb_deflection_half_space(double x, double half_width, double radius);
 
 // Returns the influence coefficient of a panel of `width` > 0 at `distance` from its middle, both
-// divided by the same length. Multiply it by that length, the pressure and 2/(pi E_d) for the
-// deflection.
+// divided by a reference length of the caller's choice. Multiply it by the reference length, the
+// pressure and 2/(pi E_d) for the deflection.
 double sb_deflection_panel(double distance, double width);
 
-// Returns the deflection at x != 0 minus that at `datum` > 0 [m] under the line `load` [N/m] at x =
-// 0 on the half-space.
+// Returns the deflection at x != 0 minus that at `datum` > 0 [m], positive into the half-space,
+// under the line `load` w [N/m] at x = 0. `modulus` is E [Pa].
 double sb_deflection_flamant(double x, double load, double datum, double modulus,
                              double poisson_ratio);
 

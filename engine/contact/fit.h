@@ -4,7 +4,7 @@
 // The ring (free section d, free inner diameter ID) is in a groove whose floor has the diameter D -
 // 2 g, in a bore of diameter D. The fitted mean diameter is D - g. Definitions (docs/results.md):
 //   squeeze (d - g)/d; stretch_mean ((D - g) - (ID + d))/(ID + d); stretch_inner (D - 2 g)/ID - 1;
-//   section_diameter_fitted d (1 - nu stretch_mean); interference = that - g, diametral;
+//   section_diameter_fitted d (1 - nu stretch_mean); interference section_diameter_fitted - g;
 //   gland_fill = free ring volume/gland volume = (pi/4) d^2 (ID + d)/(g (D - g) gland width).
 // Of a gasket, squeeze is its crimp, stretch_inner that of its bore, and interference the stem's
 // diameter minus the bore's; the other values are NaN.
@@ -91,9 +91,9 @@ typedef struct {
   // pressure). Floor and walls have friction too.
   bool dragged;
   double drag, floor_friction, wall_friction; // coefficients
-  SbRingShear shear;  // friction law of the bore, of which |drag| is then the factor; NULL: Coulomb
-  const void *law;    // data of `shear`, borrowed as long as the ring exists
-  bool start_at_wall; // before sliding the ring is at the wall; else in the middle of the groove
+  SbRingShear shear;   // friction law of the bore, multiplied by |drag|; NULL: Coulomb with |drag|
+  const void *law;     // data of `shear`, borrowed as long as the ring exists
+  bool start_at_wall;  // before sliding the ring is at the wall; else in the middle of the groove
   bool surface_wanted; // ring model: also compute `surface`
   // Warm start, borrowed during the call: continue from a solved ring of a similar problem if
   // possible, with its error estimates. NULL: cold start.
@@ -107,10 +107,10 @@ typedef struct {
 
 // A solved ring from which another fit starts.
 typedef struct SbFitStart {
-  double error_load, error_peak, error_width; // relative error estimates of that ring
-  const SbRing *ring;
-  SbRingGuide *guide; // predictor of that ring; NULL: none
-  // Linearisation at that ring, from which the fit is evaluated; NULL: solve.
+  double error_load, error_peak, error_width; // relative error estimates of `ring`
+  const SbRing *ring;                         // the solved ring
+  SbRingGuide *guide;                         // predictor of `ring`; NULL: none
+  // Linearisation at `ring`, from which the fit is evaluated; NULL: solve.
   SbRingTangent *tangent;
   bool beside; // with `tangent`: solve from the linearised state (sb_ring_tangent_solve())
 } SbFitStart;
@@ -129,12 +129,12 @@ enum { SB_FIT_PROFILE_MAX = 512 };
 typedef struct {
   SbFitModel model;
   int variant;
-  double squeeze;                 // definitions above
-  double stretch_mean;            //
-  double stretch_inner;           //
+  double squeeze;                 // defined at the top of this header, like the next five [1]
+  double stretch_mean;            // [1]
+  double stretch_inner;           // [1]
   double section_diameter_fitted; // [m]
   double interference;            // diametral [m]
-  double gland_fill;              //
+  double gland_fill;              // [1]
   double circumference;           // [m]
   double contact_width;           // [m]
   double contact_left;            // x of the left edge [m]
@@ -150,13 +150,13 @@ typedef struct {
     double floor_load;      // radial force on the groove floor [N]
     double wall_load;       // axial force on the groove wall, the larger one [N]
     double thickness;       // radial extent of the fitted section [m]
-    double volume_change;   // of the ring, relative to the free one
+    double volume_change;   // change of the ring's volume divided by its free volume
     double axial_imbalance; // sum of all axial forces divided by the largest one
     double drag;            // axial force of the bore on the ring, signed as SbFitProblem.drag [N]
     double drag_limit; // largest drag/load of steady sliding if the ring rolls or jams; else NAN
     double fault;      // SbRingResult.fault
     double order;      // SbRingResult.order
-    double turn;       // rotation of the section, signed as SbFitProblem.drag [rad]
+    double turn;       // rotation of the section, > 0 as drag > 0 drives it [rad]
     SbRingState state;
     size_t load_steps, rejected_steps;
   } ring;

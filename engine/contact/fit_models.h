@@ -17,10 +17,10 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report);
 // Number of profile points that sb_fit_contact() sets.
 enum { SB_FIT_POINTS = 257 };
 
-// Sets contact edges `left` and `right` [m], width, load (from load_per_length and circumference,
-// which must be set), and SB_FIT_POINTS profile positions with zero pressure, denser near the
-// edges.
+// Sets contact_left = `left`, contact_right = `right` [m], contact_width, load (from
+// load_per_length and circumference, which must be set), and SB_FIT_POINTS profile positions with
+// zero pressure, denser near the edges.
 void sb_fit_contact(SbFit *out, double left, double right);
 
-// Sets the relative error estimates of load, peak pressure and width.
+// Sets out->solver.error_estimate: relative errors of load, peak pressure and width.
 void sb_fit_errors(SbFit *out, double load, double peak, double width);

@@ -79,17 +79,19 @@ const SbGlandRow *sb_gland_row(double section_diameter);
 // Sizes of ring and gland, each with the half-width of its tolerance band [m].
 typedef struct {
   SbGlandUse use;        // selects the bands; 0: reciprocating
-  SbSealProfile profile; // of the section; if not a circle, section_diameter is its radial height
+  SbSealProfile profile; // shape of the section; if not a circle, section_diameter is its radial
+                         // height
   double section_diameter, section_diameter_tolerance;
   double inner_diameter, inner_diameter_tolerance;
   double radial_space, radial_space_tolerance;
-  double axial_width, axial_width_tolerance; // at the floor
-  double draft, corner_radius;               // of the walls [rad], of the corners at the floor [m]
+  double axial_width, axial_width_tolerance; // width of the groove at the floor
+  double draft, corner_radius; // opening angle of each wall [rad]; radius of the corners at the
+                               // floor [m]
   // Replaces draft and corner_radius, borrowed during the call; NULL: none.
   const SbGrooveDrawing *groove;
   double bore_diameter, bore_diameter_tolerance;
-  double land_diameter, land_diameter_tolerance; // of the stem next to the groove
-  double poisson_ratio;                          // of the rubber
+  double land_diameter, land_diameter_tolerance; // diameter of the stem next to the groove
+  double poisson_ratio;                          // Poisson's ratio of the rubber
   double volume_swell;                           // v of rubber_time.h, 0: dry
 } SbGland;
 
@@ -117,7 +119,7 @@ typedef struct {
   double nominal;
   double worst_low, worst_high; // minimum and maximum over all corners of the tolerances
   double rss_low, rss_high;     // nominal minus and plus the root of the sum of squares
-  double band_low, band_high;   // -INFINITY, INFINITY: open
+  double band_low, band_high;   // ends of the band; -INFINITY, INFINITY: open
   SbBand band;                  // of the nominal value
   SbBand band_worst;            // of the worst cases: WITHIN only if both are inside
 } SbGlandReadout;

@@ -55,11 +55,13 @@ SbDiscPoint sb_disc_point_at(double sine);
 double sb_disc_kernel_value(const SbDiscKernel *kernel, SbDiscPoint to, SbDiscVector m,
                             SbDiscPoint from, SbDiscVector n);
 
-// Returns the same displacement due to the force and its mirror image below the horizontal axis.
+// Returns the displacement of sb_disc_kernel_value() due to the force n at `from` and to its mirror
+// image: the force (n.x, -n.y) at the mirror image of `from` below the horizontal axis.
 double sb_disc_kernel_pair(const SbDiscKernel *kernel, SbDiscPoint to, SbDiscVector m,
                            SbDiscPoint from, SbDiscVector n);
 
-// Returns the same displacement due to the mirror image below the horizontal axis only.
+// Returns the displacement of sb_disc_kernel_pair() that is due to the mirror image only; `from`
+// and n are those of the force on the upper half.
 double sb_disc_kernel_mirror(const SbDiscKernel *kernel, SbDiscPoint to, SbDiscVector m,
                              SbDiscPoint from, SbDiscVector n);
 

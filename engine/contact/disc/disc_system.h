@@ -27,8 +27,8 @@ typedef struct {
   SbDiscKernel kernel;
   bool radial;        // contact forces are radial; else vertical
   double half_space;  // g/(2 R), g the distance of the flats
-  double pressure;    // p C of the fluid on the left; not 0: the wall is there
-  double hydrostatic; // inward radial displacement by a pressure on both sides
+  double pressure;    // p C of the fluid on the left, >= 0; > 0: the disc is at the groove wall
+  double hydrostatic; // inward radial displacement divided by R by a pressure on both sides
   // Quadrature with n points; weights of the logarithm and of the kink, [n][n] by rows.
   size_t n;
   double tau[SB_DISC_POINTS_MAX]; // points in [-1, 1]
@@ -58,9 +58,9 @@ SB_CHECKED bool sb_disc_system_solve(double *residual, const double *edges, void
 // vertical projection.
 typedef enum { SB_DISC_NORMAL, SB_DISC_HORIZONTAL, SB_DISC_HEIGHT } SbDiscAction;
 
-// Returns the displacement at `to` in the direction m due to unit pressure on the arc of `length`
-// [rad] from the angle `from` (negative: to the left), and on its mirror image below. Cubic grading
-// resolves the logarithm at `from`.
+// Returns the displacement (C = R = 1) at `to` in the direction m due to unit pressure on the arc
+// that begins at the angle `from` and has the signed `length` [rad] (negative: to the left), and on
+// its mirror image below the horizontal axis. Cubic grading resolves the logarithm at `from`.
 double sb_disc_system_arc(const SbDiscSystem *system, SbDiscPoint to, SbDiscVector m, double from,
                           double length, SbDiscAction action);
 

@@ -1,7 +1,7 @@
 // The seal ring in its groove: axisymmetric finite-strain finite elements with unilateral contact
 // and friction (public interface of the ring model).
 //
-// x is axial, with its origin at the centre of the section before pressure; radii are measured from
+// x is axial, with its origin at the centre of the free section; radii are measured from
 // the valve's axis. Forces are those of the full ring; with `plane_strain` they are per metre. A
 // ring that seals inwards (`inward`) has negative radii and radial displacements: the stem is its
 // bore. It has no floor; the groove walls clamp it, and the fluid of the higher pressure ends at
@@ -46,21 +46,25 @@ typedef double (*SbRingShear)(double pressure, double *slope, const void *law);
 // Positions of the rigid surfaces, and loads. Initialise with SB_RING_LOAD_INIT, then set at least
 // floor_radius and bore_radius.
 typedef struct {
-  double floor_radius, bore_radius; // of groove floor (stem) and bore [m]; floor -INFINITY: none
+  double floor_radius, bore_radius; // radii of groove floor (stem) and bore [m]; floor -INFINITY:
+                                    // no floor. Inward ring: bore_radius is minus the stem's radius
   double wall_left, wall_right;     // x of the groove walls at the floor [m]; +-INFINITY: none
   double wall_draft;                // angle by which each wall opens away from the floor [rad]
   double floor_corner;              // radius of the corners between floor and walls [m]
-  double wall_chamfer, wall_top;    // size of 45 degree chamfers; radius of the walls' edges [m]
-  // Drawn groove instead of draft, corner, chamfer, borrowed; NULL: none.
+  double wall_chamfer;              // size of 45 degree chamfers at the walls' edges [m]
+  double wall_top; // radius (from the valve's axis) of the walls' edges [m]; used with wall_chamfer
+  // Drawn groove instead of draft, corner, chamfer, borrowed as long as the ring has this load;
+  // NULL: none.
   const SbGrooveDrawing *groove;
-  // Unit of its lengths [m]; factor of its deviations from a flat groove.
-  double groove_unit, groove_share;
+  double groove_unit;  // unit of the lengths of `groove` [m], normally 1
+  double groove_share; // factor of the deviations of `groove` from a flat groove, normally 1
   double land_left, land_right; // x of the ends of the bore's land [m]; +-INFINITY: none
   double chamfer_angle;         // angle at which the bore opens beyond an end of the land [rad]
   double edge_length;           // axial length of the transition to the chamfer [m]
   double pressure_left;         // of the fluid left of the contacts with bore and floor [Pa]
   double pressure_right;        // of the fluid on their right [Pa]
-  double bore_position;         // x of a point of the bore's surface [m]; its changes drag the ring
+  double bore_position;         // x of a material point of the bore [m]; with bore_slides 0 its
+                                // changes drag the ring by friction
   double friction_bore;         // factor of the bore's law, or Coulomb coefficient, 0 to 2
   double friction_floor;        // Coulomb coefficient, 0 to 2
   double friction_wall;         // Coulomb coefficient, 0 to 2
@@ -89,7 +93,7 @@ typedef struct {
   double element_size;      // element side in the contact divided by the section diameter [0.05]
   bool fit_mesh;            // after the first solution, remesh with nodes at the contact edges
   bool drawn;               // for drawing only: residual forces 1e-7 of their scale
-  bool quick;               // dragged ring: a faster continuation path
+  bool quick;               // dragged ring: a faster, less accurate continuation path
   bool alone;               // no fluid pressure unless the ring touches the bore without it
   double tolerance;         // sb_ring_fit(): relative error of the load, 1e-5 to 0.1 [1e-3]
   double wanted;            // sb_ring_fit(): error estimate above which `missed` is set [tolerance]
@@ -118,14 +122,14 @@ typedef struct {
   double drag_limit;  // drag/load of the limit of steady sliding, if it rolls or jams; else 0
   double share_limit; // friction_bore at that limit; else 0
   double bore_force, bore_drag;   // radial (compression > 0); axial on the ring, > 0 to +x [N]
-  double floor_force, floor_drag; // the same at the groove floor [N]
+  double floor_force, floor_drag; // forces of the groove floor, signed like those of the bore [N]
   double wall_right_force, wall_left_force; // axial, compression > 0 [N]
   double contact_left, contact_right;       // x of the ends of the bore contact [m]
-  double pressure_peak;                     // of the bore contact [Pa]
+  double pressure_peak;                     // largest pressure of the bore contact [Pa]
   double thickness;                         // radial extent of the deformed section [m]
   double axial_left, axial_right;           // axial extent of the deformed section [m]
-  double volume_change;                     // relative to the free ring
-  double penetration;                       // largest penetration of a boundary node [m]
+  double volume_change;   // change of the ring's volume divided by its free volume
+  double penetration;     // largest penetration of a boundary node [m]
   double pressure_least;  // smallest nodal contact pressure minus the fluid's [Pa]
   double friction_excess; // deviation from Coulomb's law at nodes whose state oscillates [N]
   double axial_imbalance; // sum of all axial forces divided by the largest one
@@ -229,9 +233,9 @@ const SbRingLoad *sb_ring_load(const SbRing *ring);
 // Computes the results of the present state.
 void sb_ring_result(const SbRing *ring, SbRingResult *out);
 
-// Writes the pressure of the bore contact to x[capacity] [m] and pressure[capacity] [Pa], from its
-// left to its right end, where it equals the fluid's. Returns the number of points of the full
-// profile (0 without contact); at most `capacity` are written.
+// Writes the pressure of the bore contact to x[capacity] [m] and pressure[capacity] [Pa], from the
+// left to the right end of the contact; at the ends it equals the fluid's pressure. Returns the
+// number of points of the full profile (0 without contact); at most `capacity` are written.
 int sb_ring_profile(const SbRing *ring, double *x, double *pressure, int capacity);
 
 // Returns sizes for SbRingFields: number of nodes, triangles, and outline points.
@@ -278,9 +282,9 @@ void sb_ring_section_sizes(const SbRing *ring, int *nodes, int *elements, int *s
 // moved there.
 void sb_ring_section(const SbRing *ring, const SbRingSection *out);
 
-// Computes the bore contact's surface for film solvers (compliance.h): the half-plane with the
-// modulus of the squeezed rubber, a smooth part that is exact for the discrete ring, and the gap
-// whose dry contact has the present pressure, in a window of 1.4 contact widths. Loads are per
+// Writes the bore contact's surface for film solvers (compliance.h) to *out: the half-plane with
+// the modulus of the squeezed rubber, a smooth part that is exact for the discrete ring, and the
+// gap whose dry contact has the present pressure, in a window of 1.4 contact widths. Loads are per
 // length of the bore's circumference. Linearised at the present state, frictionless on the bore.
 // SB_ERROR_INFEASIBLE: no contact, or the surface turns away within the window.
 SbStatus sb_ring_surface(SbRing *ring, SbSurfaceCompliance *out, SbReport *report);

@@ -5,7 +5,12 @@
 // diameters, stresses in initial shear moduli. A boundary node in contact ("held") is exactly on
 // the surface and can only be pushed. The fluid loads every side of the boundary that is not closed
 // by contact; a node is released if the contact pushes less than the fluid would. So the fluid
-// extends to the first node in contact, and the contact pressure begins there at the fluid's.
+// extends to the first node in contact, where the contact pressure equals the fluid's. Vectors and
+// positions are (r, z), z = x of ring.h. Boundary nodes ("loop nodes") are those of
+// SbRingMesh.loop.
+//
+// One iteration: sb_ring_fem_assemble(), sb_ring_contact_apply(), sb_ring_fem_solve(),
+// sb_ring_fem_advance(), sb_ring_contact_update(); at convergence sb_ring_contact_forces().
 #pragma once
 
 #include "engine/contact/ring/ring.h"
@@ -60,7 +65,7 @@ typedef struct {
   SbRingContactState is, saved[3]; // present state; saved states
   bool *closed;                    // [count / 2] boundary sides closed by contact
   double *share;   // [count][2] fluid force that the contact force of a node must exceed
-  double *pressed; // [count][2] part of it due to open sides
+  double *pressed; // [count][2] part of `share` that is due to open sides
   double *fluid;   // [count][2] fluid force on nodes of open sides
   double *weight;  // [count] present area of the boundary nodes
   double *wet;     // [count / 2] fluid pressure at the sides, closed or not
@@ -73,7 +78,7 @@ typedef struct {
   double onset;    // range over which friction under fluid develops, divided by the usual one
   double slid;     // distance that sliding nodes may go back before they stick
   double slip_excess; // deviation from Coulomb's law at nodes whose state oscillates
-  double force_scale; // for tolerances
+  double force_scale; // typical force, to which tolerances are relative
   double folded;      // largest depth of self-penetration
   unsigned folds;     // hash of the nodes that penetrate another part of the section
   double stress;      // unit of stress [Pa]
@@ -135,8 +140,8 @@ SbRingLoad sb_ring_load_between(const SbRingLoad *a, const SbRingLoad *b, double
 // self-contact is not modelled.
 bool sb_ring_crosses_itself(const SbRingContact *contact);
 
-// Adds the self-contact of concavities to residual and tangent, after assembly. Returns the largest
-// penetration.
+// Adds the self-contact of concavities to residual and tangent of contact->fem, after assembly
+// (called by sb_ring_contact_apply()). Returns the largest penetration.
 double sb_ring_fold_apply(SbRingContact *contact);
 
 // Critical value of sb_ring_crease() for creases of a neo-Hookean surface: Hong, Zhao and Suo,
@@ -148,8 +153,8 @@ double sb_ring_fold_apply(SbRingContact *contact);
 // lambda_1 along the section's outline and lambda_3 around the ring.
 double sb_ring_crease(const SbRingContact *contact);
 
-// Adds the fluid pressure to residual and tangent; recomputes `closed`, `wet`, `weight`, `share`,
-// `pressed`, `fluid`.
+// Adds the fluid pressure to residual and tangent of contact->fem (called by
+// sb_ring_contact_apply()); recomputes `closed`, `wet`, `weight`, `share`, `pressed`, `fluid`.
 void sb_ring_contact_load_fluid(SbRingContact *contact);
 
 // Returns whether the right fluid is at a boundary side, according to `crest`.
@@ -173,7 +178,7 @@ void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressur
 void sb_ring_side_area_slope(const SbRingContact *contact, int side, int a, double slope[3][2]);
 
 // Friction force of a node by the full law of a surface (Coulomb with coefficient 1), and its
-// derivatives.
+// derivatives with respect to normal force, area and fluid force of the node.
 typedef struct {
   double force, by_normal, by_area, by_fluid;
 } SbRingGrip;
@@ -195,12 +200,12 @@ void sb_ring_contact_detect(SbRingContact *contact);
 // Resets the counters of slip changes before a solve.
 void sb_ring_contact_begin(SbRingContact *contact);
 
-// Adds the fluid to residual and tangent and sets the nodes' conditions, after assembly. Returns
-// the largest gap or penetration of a node in contact.
+// Adds fluid and self-contact to residual and tangent of contact->fem and sets the nodes'
+// conditions, after assembly. Returns the largest gap or penetration of a node in contact.
 double sb_ring_contact_apply(SbRingContact *contact);
 
-// Returns the largest factor of the correction du that nodes in contact may take on curved
-// surfaces, where the linear model becomes inaccurate; after a solve.
+// Returns the largest factor, at most 1, by which the correction fem->du may be applied: nodes in
+// contact with curved surfaces must not move too far for the linear model. Call it after a solve.
 double sb_ring_contact_limit(const SbRingContact *contact);
 
 // Updates contact pairs and slip states from the reactions of the linear model, after a solve and
@@ -219,8 +224,8 @@ double sb_ring_contact_fault(const SbRingContact *contact);
 // after failed attempts to continue from it.
 void sb_ring_contact_settle(SbRingContact *contact);
 
-// Saves the full state, with displacements, in one of the places above.
+// Saves the full state, with displacements, in the place SB_RING_START or SB_RING_BEFORE.
 void sb_ring_save(SbRingContact *contact, int place);
 
-// Restores the full state from one of these places.
+// Restores the full state from the place SB_RING_START or SB_RING_BEFORE.
 void sb_ring_restore(SbRingContact *contact, int place);

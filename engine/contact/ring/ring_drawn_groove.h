@@ -20,9 +20,10 @@ typedef struct {
   SbGrooveBend bend[SB_GROOVE_BENDS_MAX];
 } SbGrooveLine;
 
-// A drawn groove [m]. [0] is the left side, [1] the right one. Floor: height above its lowest point
-// against the axial distance from the wall (> 0 behind it); constant far from the wall. Walls:
-// recess behind their narrowest position against the height above the lowest point of the floor.
+// A drawn groove [m]. [0] is the left side, [1] the right one. Floor line: height above the lowest
+// point of the floor against the axial distance from the narrowest position of the wall (< 0 inside
+// the groove, > 0 behind the wall); constant far from the wall. Wall line: recess of the wall
+// behind its narrowest position against the height above the lowest point of the floor.
 typedef struct {
   // Distance of the walls at the narrowest position; height of the edges above the floor.
   double width, depth;
@@ -37,8 +38,8 @@ typedef struct {
 // [m], bulge counter-clockwise in (z, r) (SbSealPoint), into a groove. The floor is what inclines
 // by at most 70 degrees around its lowest point. Walls are steeper, and higher up incline by at
 // most 60 degrees from the radial direction; flatter parts at the edges are omitted. Arcs are
-// divided by 7.5 degrees (0.2 % of their radius). SB_ERROR_INPUT: no such floor or wall, or the
-// surfaces deviate by more than 2 % of width or depth from a point.
+// divided into chords of 7.5 degrees (error 0.2 % of the radius). SB_ERROR_INPUT: no such floor or
+// wall, or the surfaces deviate by more than 2 % of width or depth from a point.
 SbStatus sb_groove_draw(SbGrooveDrawing *out, const SbSealPoint *points, int count,
                         SbReport *report);
 

@@ -24,7 +24,8 @@ SbRingFactor *sb_ring_factor_create(int nodes, const int *start, const int *colu
 // Frees the solver. Takes NULL.
 void sb_ring_factor_destroy(SbRingFactor *factor);
 
-// Creates another solver for the same pattern, which both share. NULL: no memory. Any thread.
+// Creates another solver, without factors, for the pattern of `factor`, which both solvers share;
+// they may be freed in any order. NULL: no memory. Any thread may call it.
 SbRingFactor *sb_ring_factor_like(const SbRingFactor *factor);
 
 // Factorises A: value[4 k] to value[4 k + 3] is block k of the pattern by rows. Returns false if a

@@ -48,7 +48,7 @@ struct SbRingFem {
   SbRingMaterial material;
   double axial_spring;  // stiffness per node against a mean axial displacement; 0: none
   double axial_rest;    // mean axial displacement since saved state 1 at which the spring is free
-  double axial_damping; // the same against axial motion within an iteration
+  double axial_damping; // stiffness per node against mean axial motion within an iteration; 0: none
   double viscosity;     // resistance per reference volume against motion since saved state 1
 
   double *u;        // [nodes][2] displacement (r, z)
@@ -97,7 +97,8 @@ void sb_ring_hollows(int *hollow, const SbRingMesh *mesh);
 SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report);
 
 // Assembles residual and condensed tangent of the elements at the present state; the caller then
-// adds external terms. Returns false if det F <= 0 at some point.
+// adds external terms (sb_ring_contact_apply()) and sets fem->condition. Returns false if det F <=
+// 0 at some point.
 SB_CHECKED bool sb_ring_fem_assemble(SbRingFem *fem);
 
 // Adds k to the tangent entry of row (node a, component i) and column (node b, component j).
@@ -115,7 +116,8 @@ SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report);
 // ones.
 SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, SbReport *report);
 
-// Writes the reaction R + K du of a conditioned node after the step, by the linear model.
+// Writes the reaction R + K du of a node with a condition after the step fem->du, by the linear
+// model; `force` is that of the rigid surface on the node (r, z). Requires sb_ring_fem_solve().
 void sb_ring_fem_reaction(const SbRingFem *fem, int node, double force[2]);
 
 // Adds `step` times du to the displacement, with the corresponding bubble and pressure.
@@ -124,8 +126,8 @@ void sb_ring_fem_advance(SbRingFem *fem, double step);
 // Returns the largest residual of the rows without conditions.
 double sb_ring_fem_free_residual(const SbRingFem *fem);
 
-// Saves the state in place 0 (Newton's method), 1 (start of a load step) or 2 (before
-// pseudo-transient continuation).
+// Saves the state in `place`: 0 (Newton's method), 1 (SB_RING_START: start of a load step) or 2
+// (SB_RING_BEFORE: before an attempt of several steps).
 void sb_ring_fem_save(SbRingFem *fem, int place);
 
 // Restores the state from one of these places.

@@ -55,7 +55,7 @@ struct SbRing {
   SbRingContact *contact;
   SbRingCount count;
   SbRingArc arc;
-  bool at_once; // a transfer to another mesh must succeed in one step, with its slip
+  bool at_once; // a transfer to another mesh must succeed in one step, with its slip states
   bool passing; // nodes whose state oscillates stay in contact against a small tension
   bool easy;    // path with softer friction under fluid and fewer meshes
   bool soft;    // fitted by such a path although floor and walls have friction
@@ -126,7 +126,7 @@ SbStatus sb_ring_check_apart(const SbRing *ring, SbReport *report);
 // (sb_ring_try) if that fails. After an error the state before remains.
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
 
-// Does the same with one size only.
+// Does the same as sb_ring_refit(), but with one element size only.
 SbStatus sb_ring_refit_once(SbRing *ring, double element_size, SbReport *report);
 
 // Factors of the element size that are tried in turn when a solve fails on one mesh.

@@ -40,8 +40,8 @@ typedef struct {
   SbSealPoint point[SB_SEAL_POINTS_MAX];
 } SbSealDrawing;
 
-// A section. {0}: a circle. Lengths are in the unit of the section's radial height, which the
-// caller knows.
+// A section. {0}: a circle. Lengths are in any unit; functions get the radial height in this unit.
+// With SbRingBody, SbFitProblem and SbGland the unit is 1 m and the height their section_diameter.
 typedef struct {
   SbSealProfileKind kind;
   double axial_height; // axial extent; not of circle and x, whose extent is their height
@@ -82,9 +82,9 @@ typedef struct {
   double half;     // half of the axial extent
 } SbRingOutline;
 
-// Computes the outline of a section with the radial height `height` (unit of the section's
-// lengths). SB_ERROR_RANGE, SB_ERROR_INFEASIBLE: the sizes are inconsistent, with the catalogue
-// key.
+// Computes the outline of a section. `height` is the radial height in the unit of the lengths of
+// `profile` (1 if these are divided by the radial height). SB_ERROR_RANGE, SB_ERROR_INFEASIBLE: the
+// sizes are inconsistent, with the catalogue key.
 SbStatus sb_ring_outline_of_profile(SbRingOutline *out, const SbSealProfile *profile, double height,
                                     SbReport *report);
 
