@@ -59,18 +59,21 @@ double sb_ring_mesh_arc(const SbRingMesh *mesh, double from, double to);
 // vertices 1 and 2 of each triangle are exchanged.
 SbStatus sb_ring_mesh_mirror(SbRingMesh **out, const SbRingMesh *mesh, SbReport *report);
 
-// Creates a copy moved by `shift` in r.
+// Creates a copy whose nodes are moved by `shift` [L] in r.
 SbStatus sb_ring_mesh_copy(SbRingMesh **out, const SbRingMesh *mesh, double shift,
                            SbReport *report);
 
-// Returns an empty mesh with space for so many vertices, triangles and boundary nodes, or NULL; for
-// tests with other bodies. Free it with sb_ring_mesh_destroy().
+// Returns an empty mesh with space for `vertices` vertices with their mid-sides, `triangles`
+// triangles and `loop` boundary nodes (vertices and mid-sides), or NULL: no memory. The caller sets
+// x of the vertices and `nodes` to their number, adds the triangles, then the mid-sides, then sets
+// loop, angle, loop_count and arc. Free it with sb_ring_mesh_destroy().
 SbRingMesh *sb_ring_mesh_allocate(int vertices, int triangles, int loop);
 
 // Adds a triangle of the vertices a, b, c, counter-clockwise in (r, z); returns its number.
 int sb_ring_mesh_add(SbRingMesh *mesh, int a, int b, int c);
 
-// Adds straight mid-side nodes to all triangles.
+// Adds straight mid-side nodes to all triangles, numbered after the vertices; `nodes` increases.
+// Call it once, after all sb_ring_mesh_add().
 SbStatus sb_ring_mesh_add_midsides(SbRingMesh *mesh, SbReport *report);
 
 // Frees the mesh and its arrays. Takes NULL.

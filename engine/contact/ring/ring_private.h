@@ -19,7 +19,7 @@ typedef struct SbRingRecovery SbRingRecovery;
 SbRingRecovery *sb_ring_recovery_create(void);
 
 // Arc-length condition of the path of steady sliding, in the plane of the section's rotation and
-// friction_bore: direction . ((turn, unit friction) - base) = length.
+// friction_bore: direction . ((turn, unit * friction_bore) - base) = length.
 typedef struct {
   bool free;                                  // friction_bore is an unknown; else it is given
   double direction[2], base[2], length, unit; // unit: scale of friction_bore
@@ -205,8 +205,9 @@ SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
                      const SbRingLoad *load, const SbRingOptions *options, const SbRingShift *shift,
                      SbReport *report);
 
-// Returns an estimate of the change of floor friction if another load moves the wall to which
-// friction has dragged the ring; 0 if the ring was at that wall initially.
+// Returns an estimate of the change of the floor's friction force if the load `target` (in the
+// units of the element solver) moves the wall to which friction has dragged the ring; 0 if the ring
+// was at that wall before it slid.
 double sb_ring_travel_fault(const SbRing *ring, const SbRingLoad *target);
 
 // Method of load steps.

@@ -119,7 +119,7 @@ double sb_vdw_work(double hamaker);
 // share). Writes its derivative with respect to t to *slope.
 double sb_rough_pull(double *slope, const SbRoughPoint *at, double hamaker);
 
-// A lubricated contact with attraction. Length, load and pressures are not needed.
+// A lubricated contact with attraction.
 typedef struct {
   double hamaker;   // A_H [J]; 0: none
   double modulus;   // E' [Pa]
