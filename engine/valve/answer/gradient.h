@@ -44,9 +44,10 @@ typedef void (*SbGradientProgress)(void *data, size_t done, size_t count);
 // asked last (borrowed during the call; saves solving the rings of the base); keep, tangent and
 // rings must be 0. `progress` (NULL: none) gets question->data. Free *out with
 // sb_gradient_destroy().
-//   SB_ERROR_INPUT           a parameter is not real
-//   SB_ERROR_NOT_CONVERGED   *out is created nevertheless; figures without a value have no
-//   derivative other errors as for sb_evaluator_ask()
+//   SB_ERROR_INPUT          a parameter is not real
+//   SB_ERROR_NOT_CONVERGED  *out is created; figures without a value have no derivative
+//
+// Other errors as for sb_evaluator_ask(), with *out = NULL.
 SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQuestion *question,
                             const SbParamId *parameter, size_t count, SbGradientProgress progress,
                             SbReport *report);

@@ -179,8 +179,7 @@ typedef struct {
   SbOutline part[SB_VALVE_STEM_BOTTOM + 1]; // by SB_VALVE_HOUSING, ...; count 0: not drawn
   bool housing, stem;                       // the sizes below of housing, of stem are defined
   double land_edge, bore;                   // housing: x of the land's edge; radius of the land [m]
-  // Stem: x of the groove walls; radii of groove floor and land [m].
-  // Grooves by SB_OUTER, SB_INNER.
+  // Stem: x of the groove walls, by SB_OUTER and SB_INNER; radii of groove floor and land [m].
   double groove_left[SB_SEAL_COUNT], groove_right[SB_SEAL_COUNT], floor, land;
 } SbValveOutlines;
 
