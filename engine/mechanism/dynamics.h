@@ -192,8 +192,8 @@ typedef struct {
   double drive_position; // position of the platen; of the stem with a drive of force [m]
   double drive_force, loads_force, spring_force; // forces of drive, SbDynamicsLoads.force and
                                                  // return spring on the stem [N]
-  double stop_force[SB_DYNAMICS_STOPS];    // magnitude of the reaction, >= 0 [N]
-  double friction[SB_DYNAMICS_CONTACTS];   // friction force on the stem [N]
+  double stop_force[SB_DYNAMICS_STOPS];          // magnitude of the reaction, >= 0 [N]
+  double friction[SB_DYNAMICS_CONTACTS];         // friction force on the stem [N]
   double deflection[SB_DYNAMICS_CONTACTS]; // of the tangential spring [m], > 0 if the stem has
                                            // moved to +x relative to the patch
   SbContactState contact[SB_DYNAMICS_CONTACTS];

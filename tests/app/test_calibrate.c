@@ -204,7 +204,7 @@ static void test_inseparable(void) {
   g_assert_cmpint(found.parameter[2].identifiable, ==, SB_IDENTIFIABLE_NO);
   g_assert_cmpfloat(found.correlation[1], <, -0.9);
   g_assert_nonnull(
-      strstr(found.sentence, "friction.load_coefficient and surface.gt_product trade"));
+      strstr(found.sentence, "friction.load_coefficient and surface.gt_product are correlated"));
   g_assert_nonnull(strstr(found.sentence, "a loop at another squeeze"));
   g_assert_nonnull(strstr(found.sentence, "fluid.viscosity is hardly narrower than before"));
   g_autofree char *path = g_build_filename(folder, "kept.scene", NULL);

@@ -185,7 +185,7 @@ def a_better_design_is_found(folder):
         first = float(re.search(r"best found.*Break-away force ([\d.]+)", chart.description).group(1))
         assert app.label(r"^8 of 8 starts meet all limits")
         # A stricter limit costs break-away force.
-        app.edit("Least Squeeze, outer seal", "12")
+        app.edit("Minimum Squeeze, outer seal", "12")
         wait("the map again", lambda: "best found" not in chart.description
              and app.has("push button", "Find best"))
         app.press("push button", "Find best")

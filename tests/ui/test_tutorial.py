@@ -45,7 +45,7 @@ def see_where_good_valves_are(app, folder):
 
 
 def say_what_the_valve_must_keep(app, folder):
-    app.edit("Least Squeeze, outer seal", "10")
+    app.edit("Minimum Squeeze, outer seal", "10")
     app.press("toggle button", "Bounds")
     app.press("check box", "Meet all limits with a probability of 99.9 % over the tolerances")
     app.key("Escape")

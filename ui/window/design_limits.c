@@ -179,7 +179,7 @@ static void add_row(Table *table, int figure) {
     gtk_entry_set_width_chars(GTK_ENTRY(row->end[end]), 5);
     gtk_entry_set_max_width_chars(GTK_ENTRY(row->end[end]), 5);
     gtk_entry_set_alignment(GTK_ENTRY(row->end[end]), 1);
-    g_autofree char *what = g_strdup_printf(end == 0 ? _("Minimum %s") : _("Most %s"), name);
+    g_autofree char *what = g_strdup_printf(end == 0 ? _("Minimum %s") : _("Maximum %s"), name);
     sb_style_name(row->end[end], what, NULL);
     g_signal_connect(row->end[end], "activate", G_CALLBACK(on_end), table);
     g_signal_connect(row->end[end], "focus-out-event", G_CALLBACK(on_focus_out), table);
