@@ -383,6 +383,19 @@ static bool compute(SbAnswerSink *sink, const uint32_t *todo) {
   return sink->taken == sink->todo;
 }
 
+bool sb_answers_set_list(const SbQuestions *asked, GError **error) {
+  g_autofree const char **parameter = g_new0(const char *, asked->parameters + 1);
+  g_autofree const char **figure = g_new0(const char *, asked->figures + 1);
+  for (size_t i = 0; i < asked->parameters; i++) {
+    const int id = (int)asked->parameter[i];
+    parameter[i] = id == SB_QUESTION_NONE ? "variable" : sb_param((SbParamId)id)->key;
+  }
+  for (size_t i = 0; i < asked->figures; i++) {
+    figure[i] = sb_figure(asked->figure[i])->path;
+  }
+  return sb_store_set_list(asked->store, parameter, figure, error);
+}
+
 bool sb_answers_get(SbAnswers *out, const SbQuestions *asked, GError **error) {
   *out = (SbAnswers){.samples = asked->samples, .figures = asked->figures};
   out->reason = g_hash_table_new_full(NULL, NULL, NULL, g_free);

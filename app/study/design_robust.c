@@ -68,8 +68,7 @@ static SbStatus check_by_samples(SbDesign *out, const SbStudyFile *about, int jo
                              .data = problem->data};
   const SbStudyDrawn drawn = {u, reliability};
   SbLimitShare share;
-  static const char *const none[] = {NULL};
-  if (store == NULL || !sb_store_set_list(store, none, none, &error) ||
+  if (store == NULL || !sb_answers_set_list(&asked, &error) ||
       !sb_answers_get(&answers, &asked, &error)) {
     status = error->code == SB_APP_ERROR_CANCELLED
                  ? sb_fail(report, SB_ERROR_CANCELLED, "cancelled")

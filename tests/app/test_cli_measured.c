@@ -32,7 +32,7 @@ static void set_up(void) {
   write_text(scene, text);
 }
 
-// The very run: no difference; what was said is told.
+// The very run: no difference; what was specified is reported.
 static void test_same(void) {
   CliResult result = CLI("run", scene, "--json", "-");
   g_assert_cmpint(result.code, ==, 0);
@@ -101,7 +101,7 @@ static void test_shown(void) {
   CliResult result = CLI("compare", scene);
   g_assert_cmpint(result.code, ==, 0);
   static const char *const lines[] = {"separator comma, decimal point, utf-8",
-                                      "displacement: column 2 \"displacement\" in m (as said)",
+                                      "displacement: column 2 \"displacement\" in m (as specified)",
                                       "Stage B", "Difference, root mean square"};
   for (size_t i = 0; i < G_N_ELEMENTS(lines); i++) {
     g_assert_nonnull(strstr(result.out, lines[i]));
@@ -153,7 +153,8 @@ static void test_refused(void) {
   cli_clear(&result);
   result = CLI("check", scene);
   g_assert_cmpint(result.code, ==, 0);
-  g_assert_nonnull(strstr(result.out, "displacement: column 2 \"displacement\" in m (as said)"));
+  g_assert_nonnull(
+      strstr(result.out, "displacement: column 2 \"displacement\" in m (as specified)"));
   cli_clear(&result);
   g_unlink(path);
   g_unlink(bad);

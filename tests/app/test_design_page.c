@@ -29,10 +29,10 @@ static void on_done(void *data) {
   *(gboolean *)data = TRUE;
 }
 
-static SbDesignAnswer *answer(const SbDesignAsk *ask, const SbDocument *document, bool search) {
+static SbDesignAnswer *answer_of(SbStore *store, const SbDesignAsk *ask, const SbDocument *document,
+                                 bool search) {
   gboolean done = FALSE;
   char *why = NULL;
-  SbStore *store = sb_store_open(NULL, NULL);
   SbDesignJob *job = sb_design_job_start(make(ask, document), ask, store, search, on_done, &done);
   while (!done) {
     g_main_context_iteration(NULL, TRUE);
@@ -40,8 +40,36 @@ static SbDesignAnswer *answer(const SbDesignAsk *ask, const SbDocument *document
   SbDesignAnswer *out = sb_design_job_take(job, &why);
   g_assert_cmpstr(why, ==, NULL);
   sb_design_job_free(job);
+  return out;
+}
+
+static SbDesignAnswer *answer(const SbDesignAsk *ask, const SbDocument *document, bool search) {
+  SbStore *store = sb_store_open(NULL, NULL);
+  SbDesignAnswer *out = answer_of(store, ask, document, search);
   g_assert_true(sb_store_close(store, NULL));
   return out;
+}
+
+// A second request reads its figures from the store of the first.
+static void test_stored(void) {
+  g_autoptr(SbDocument) document = load("thesis-cycle.scene");
+  SbDesignAsk ask;
+  sb_design_ask_init(&ask, document);
+  SbStore *store = sb_store_open(NULL, NULL);
+  SbDesignAnswer *first = answer_of(store, &ask, document, false);
+  SbDesignAnswer *second = answer_of(store, &ask, document, false);
+  const SbDesignMap *a = &first->map, *b = &second->map;
+  g_assert_cmpuint(a->done, ==, b->done);
+  g_assert_cmpuint(a->figures, >, 0);
+  size_t values = 0;
+  for (size_t i = 0; i < a->n * a->n * a->figures; i++) {
+    g_assert_true(a->value[i] == b->value[i] || (isnan(a->value[i]) && isnan(b->value[i])));
+    values += !isnan(a->value[i]);
+  }
+  g_assert_cmpuint(values, >, 0);
+  sb_design_answer_free(second);
+  sb_design_answer_free(first);
+  g_assert_true(sb_store_close(store, NULL));
 }
 
 // A scene of rings that are solved is asked by closed forms; points are those of an evaluator.
@@ -207,5 +235,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/design-page/best", test_best);
   g_test_add_func("/design-page/limits", test_limits);
   g_test_add_func("/design-page/held", test_held);
+  g_test_add_func("/design-page/stored", test_stored);
   return g_test_run();
 }

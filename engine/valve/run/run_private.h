@@ -334,10 +334,11 @@ void sb_run_lose_errors(SbRun *run);
 // `other` of two motions to run->motion_error.
 void sb_run_add_errors(SbRun *run, const SbSummary *one, const SbSummary *other, double share);
 
-// Perturbs the cycle's states by their errors of one kind, `index` below SB_RUN_WRONG: kinetic
-// friction larger, static friction larger, the ends of the inner contact off. Returns false, and
-// changes nothing, if they have no error of this kind.
-enum { SB_RUN_WRONG = 3 };
+enum { SB_RUN_WRONG = 3 }; // kinds of errors of states, for sb_run_worsen()
+
+// Perturbs the cycle's states by their errors of one kind, `index` below SB_RUN_WRONG: 0 kinetic
+// friction larger, 1 static friction larger, 2 the ends of the inner contact moved. Returns false,
+// and changes nothing, if the states have no error of this kind.
 bool sb_run_worsen(SbRun *run, int index);
 
 // Adds the error of the last motion's leakage that its films cause.
