@@ -206,7 +206,7 @@ static void test_inseparable(void) {
   g_assert_nonnull(
       strstr(found.sentence, "friction.load_coefficient and surface.gt_product are correlated"));
   g_assert_nonnull(strstr(found.sentence, "a loop at another squeeze"));
-  g_assert_nonnull(strstr(found.sentence, "fluid.viscosity is hardly narrower than before"));
+  g_assert_nonnull(strstr(found.sentence, "fluid.viscosity is hardly narrower than its prior"));
   g_autofree char *path = g_build_filename(folder, "kept.scene", NULL);
   g_autofree char *text = sb_calibration_scene(&found, study, 0, path, NULL);
   g_assert_null(strstr(text, "\nviscosity = "));
