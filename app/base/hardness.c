@@ -59,10 +59,6 @@ bool sb_hardness_applies(SbParamId id) {
   return id == SB_P_SEAL_MODULUS || sb_param(id)->parent == SB_P_SEAL_MODULUS;
 }
 
-bool sb_hardness_is_unit(const char *unit) {
-  return scale_of(unit) != NULL;
-}
-
 bool sb_hardness_parse(double *modulus, const char *text, GError **error) {
   double hardness = 0;
   const Scale *scale = read_hardness(&hardness, text);

@@ -19,9 +19,6 @@
 // Returns whether parameter `id` is a modulus of a seal's rubber, which can be given as a hardness.
 bool sb_hardness_applies(SbParamId id);
 
-// Returns whether `unit` is a unit of hardness: "Shore A", "ShA", "IRHD" in any case.
-bool sb_hardness_is_unit(const char *unit);
-
 // Reads "60 Shore A" and writes Young's modulus [Pa]. Returns false without setting *error if the
 // text has no unit of hardness; false with SB_APP_ERROR_INPUT if the hardness is out of range.
 bool sb_hardness_parse(double *modulus, const char *text, GError **error);

@@ -146,10 +146,6 @@ static const char *percent_text(char *out, const Row *row, double value) {
   return out;
 }
 
-double sb_compare_height(void) {
-  return HEAD + ROW * ROWS + 6;
-}
-
 // A sample of the line and its name, cut to end at `right`.
 static void draw_head(SbCanvas *c, double left, double right, double y, SbRole role, double width,
                       const SbDash *dash, const char *name) {

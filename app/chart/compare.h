@@ -5,9 +5,6 @@
 #include "app/base/canvas.h"
 #include "app/chart/data.h"
 
-// Returns the height of all rows [px].
-double sb_compare_height(void);
-
 // Draws the table into `rect` [px]. The first rows are the forces at the playhead's displacement on
 // the in-stroke and on the return; a pin's percentage is omitted if the live force is below 0.5 N.
 // A figure that was not computed is a dash. `flags` of SB_CHART_PANEL, ... (data.h).

@@ -133,22 +133,3 @@ void sb_shelf_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChart
   sb_study_draw(cr, rect, theme, study);
   g_free(study);
 }
-
-char *sb_shelf_text(const SbShelf *shelf) {
-  GString *text =
-      g_string_new("time [s]\ttemperature [K]\tpermeated [kg]\tinterface [kg]\tplastic [kg]"
-                   "\tmoisture [kg]\tdoses\n");
-  for (size_t i = 0; i < shelf->points; i++) {
-    const double row[] = {shelf->point[i].time,      shelf->point[i].temperature,
-                          shelf->point[i].permeated, shelf->point[i].passed,
-                          shelf->point[i].plastic,   shelf->point[i].moisture,
-                          shelf->point[i].doses};
-    for (size_t k = 0; k < G_N_ELEMENTS(row); k++) {
-      char digits[G_ASCII_DTOSTR_BUF_SIZE];
-      g_string_append(text,
-                      isnan(row[k]) ? "" : g_ascii_formatd(digits, sizeof digits, "%.9g", row[k]));
-      g_string_append_c(text, k + 1 < G_N_ELEMENTS(row) ? '\t' : '\n');
-    }
-  }
-  return g_string_free(text, FALSE);
-}

@@ -8,6 +8,3 @@
 // Draws the panels into `rect` [px], each with its own background; nothing without a history.
 // Typical values of a rubber, which are not measured, are named at the foot.
 void sb_shelf_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data);
-
-// Returns the history as tab-separated lines with a heading.
-char *sb_shelf_text(const SbShelf *shelf);

@@ -26,10 +26,6 @@ SbMeasureJob *sb_measure_job_start(SbData *data, double speed, void (*done)(void
   return job;
 }
 
-const SbData *sb_measure_job_data(const SbMeasureJob *job) {
-  return job->data;
-}
-
 SbMeasured *sb_measure_job_take(SbMeasureJob *job, char **why) {
   *why = job->measured == NULL ? sb_issue_line(job->issues->pdata[0]) : NULL;
   return g_steal_pointer(&job->measured);

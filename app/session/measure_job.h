@@ -11,9 +11,6 @@ typedef struct SbMeasureJob SbMeasureJob;
 SbMeasureJob *sb_measure_job_start(SbData *data, double speed, void (*done)(void *data),
                                    void *user);
 
-// Returns the group that is read.
-const SbData *sb_measure_job_data(const SbMeasureJob *job);
-
 // To be called once, after `done`: returns the loop, freed by sb_measured_free(). NULL: it could
 // not be read; *why is then the reason, freed by g_free().
 SbMeasured *sb_measure_job_take(SbMeasureJob *job, char **why);

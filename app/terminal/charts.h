@@ -66,9 +66,3 @@ void sb_chart_study(SbCells *cells, SbCellRect rect, const SbCellTheme *theme, c
 void sb_chart_histogram(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
                         const char *heading, const double *value, size_t count, double low,
                         double high);
-
-// Draws contact pressure [MPa] and film thickness [nm] of both seals against x [mm] at the
-// playhead, next to each other or, in a narrow rectangle, one below the other. Draws nothing
-// without a frame.
-void sb_chart_profiles(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
-                       const SbChartData *data);

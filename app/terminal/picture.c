@@ -9,12 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-const char *sb_pictures_name(int pictures) {
-  static const char *const names[SB_PICTURES_COUNT] = {"auto",   "sixel", "kitty", "iterm",
-                                                       "blocks", "lines", "none"};
-  return names[pictures];
-}
-
 SbPictures sb_pictures_of_environment(SbColors colors, bool ascii) {
   // A multiplexer passes no pixels on unless it says so itself.
   const bool nested = g_getenv("TMUX") != NULL || g_getenv("STY") != NULL;

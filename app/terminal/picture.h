@@ -19,10 +19,6 @@ typedef enum {
   SB_PICTURES_COUNT
 } SbPictures;
 
-// Returns the option value of an SbPictures: "auto", "sixel", "kitty", "iterm", "blocks", "lines",
-// "none".
-const char *sb_pictures_name(int pictures);
-
 // Returns the kind that the environment variables suggest: pixels for a terminal that is known to
 // support them, else half blocks with 256 colours and UTF-8, else lines. Never SB_PICTURES_AUTO.
 // `colors` and `ascii` are those of the terminal.

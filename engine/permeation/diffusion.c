@@ -8,7 +8,7 @@
 #include <string.h>
 
 // Dunavant's rule of degree 6 (Int. J. Numer. Meth. Engng 21 (1985) 1129).
-enum { POINTS = 12, STAGES = 5 };
+enum { POINTS = 12 };
 static const double POINT[POINTS][3] = {{0.249286745170910, 0.249286745170910, 0.116786275726379},
                                         {0.501426509658179, 0.249286745170910, 0.116786275726379},
                                         {0.249286745170910, 0.501426509658179, 0.116786275726379},
@@ -203,12 +203,10 @@ static bool find_free(SbDiffusion *d) {
   return true;
 }
 
-// Factor of mass + share stiff among the free nodes; of stiff alone where `steady`.
-static SbStatus factorise(SbCholesky *factor, const SbDiffusion *d, bool steady, double share,
-                          SbReport *report) {
+// Factorises the stiffness matrix of the free nodes.
+static SbStatus factorise(SbCholesky *factor, const SbDiffusion *d, SbReport *report) {
   for (int i = 0; i < d->free_start[d->free]; i++) {
-    const int at = d->source[i];
-    d->value[i] = steady ? d->stiff[at] : d->mass[at] + share * d->stiff[at];
+    d->value[i] = d->stiff[d->source[i]];
   }
   return sb_cholesky_compute(factor, d->value)
              ? sb_succeed(report)
@@ -216,20 +214,21 @@ static SbStatus factorise(SbCholesky *factor, const SbDiffusion *d, bool steady,
                        "the section's equations are singular: a part of it has no wetted face");
 }
 
-static double row_times(const SbDiffusion *d, const double *matrix, int row, const double *u) {
+// Returns a row of K u; K is the stiffness matrix.
+static double row_times(const SbDiffusion *d, int row, const double *u) {
   double sum = 0.0;
   for (int at = d->start[row]; at < d->start[row + 1]; at++) {
-    sum += matrix[at] * u[d->column[at]];
+    sum += d->stiff[at] * u[d->column[at]];
   }
   return sum;
 }
 
-// Reactions K u + M u' of a face's nodes; `rate` may be NULL.
-static double reaction(const SbDiffusion *d, SbFace face, const double *u, const double *rate) {
+// Returns the sum of the reactions K u of a face's nodes in the steady state.
+static double reaction(const SbDiffusion *d, SbFace face) {
   double sum = 0.0;
   for (int i = 0; i < d->n; i++) {
     if (d->section->face[i] == face) {
-      sum += row_times(d, d->stiff, i, u) + (rate != NULL ? row_times(d, d->mass, i, rate) : 0.0);
+      sum += row_times(d, i, d->field);
     }
   }
   return sum;
@@ -240,7 +239,7 @@ static SbStatus solve_steady(SbDiffusion *d, SbReport *report) {
   double *b = calloc((size_t)d->free + 1, sizeof *b);
   SbStatus status = factor == NULL || b == NULL
                         ? sb_fail(report, SB_ERROR_MEMORY, "no memory for a section's equations")
-                        : factorise(factor, d, true, 0.0, report);
+                        : factorise(factor, d, report);
   for (int i = 0; i < d->n; i++) {
     d->field[i] = d->section->face[i] == SB_FACE_INSIDE ? 1.0 : 0.0;
   }
@@ -248,7 +247,7 @@ static SbStatus solve_steady(SbDiffusion *d, SbReport *report) {
   for (int pass = 0; status == SB_OK && pass < 2; pass++) {
     for (int i = 0; i < d->n; i++) {
       if (d->number[i] >= 0) {
-        b[d->number[i]] = -row_times(d, d->stiff, i, d->field);
+        b[d->number[i]] = -row_times(d, i, d->field);
       }
     }
     sb_cholesky_solve(factor, b);
@@ -272,8 +271,8 @@ static void take_figures(SbDiffusion *d) {
     held += d->field[i] * of_rest;
     d->volume += whole;
   }
-  d->flux_in = reaction(d, SB_FACE_INSIDE, d->field, NULL);
-  d->flux_out = -reaction(d, SB_FACE_OUTSIDE, d->field, NULL);
+  d->flux_in = reaction(d, SB_FACE_INSIDE);
+  d->flux_out = -reaction(d, SB_FACE_OUTSIDE);
   d->conductance = 0.5 * (d->flux_in + d->flux_out);
   d->lag = held / d->conductance;
 }
@@ -330,10 +329,6 @@ void sb_diffusion_steady(SbDiffusionSteady *out, const SbDiffusion *d) {
                              .flux_out = d->flux_out,
                              .lag = d->lag,
                              .volume = d->volume};
-}
-
-const double *sb_diffusion_field(const SbDiffusion *d) {
-  return d->field;
 }
 
 // Size of the gradient at corner or mid-side `a` of an element.
@@ -417,128 +412,4 @@ SbStatus sb_diffusion_converge(SbDiffusionConverged *out, const SbWettedMesh *se
   out->steady.conductance = extrapolated(fine.conductance, coarse.conductance);
   out->steady.lag = extrapolated(fine.lag, coarse.lag);
   return sb_succeed(report);
-}
-
-// The approach ---------------------------------------------------------------------------------
-
-// Hairer and Wanner's SDIRK method of order 4: stiffly accurate, its last stage is the step's end.
-static const double STAGE[STAGES][STAGES] = {
-    {1.0 / 4},
-    {1.0 / 2, 1.0 / 4},
-    {17.0 / 50, -1.0 / 25, 1.0 / 4},
-    {371.0 / 1360, -137.0 / 2720, 15.0 / 544, 1.0 / 4},
-    {25.0 / 24, -49.0 / 48, 125.0 / 16, -85.0 / 12, 1.0 / 4}};
-
-// What a march through time needs; v is what is left to the steady state, 0 at wetted nodes.
-typedef struct {
-  const SbDiffusion *d;
-  SbCholesky *factor;
-  double *v, *point, *b; // [n]
-  double *stage[STAGES]; // [n] dv/dt
-} March;
-
-// b of the free nodes = -K u
-static void load_of(March *m, const double *u) {
-  for (int i = 0; i < m->d->n; i++) {
-    if (m->d->number[i] >= 0) {
-      m->b[m->d->number[i]] = -row_times(m->d, m->d->stiff, i, u);
-    }
-  }
-}
-
-static void spread(const March *m, double *to) {
-  for (int i = 0; i < m->d->n; i++) {
-    to[i] = m->d->number[i] >= 0 ? m->b[m->d->number[i]] : 0.0;
-  }
-}
-
-static void step(March *m, double h) {
-  const SbDiffusion *d = m->d;
-  for (int k = 0; k < STAGES; k++) {
-    memcpy(m->point, m->v, sizeof *m->v * (size_t)d->n);
-    for (int j = 0; j < k; j++) {
-      for (int i = 0; i < d->n; i++) {
-        m->point[i] += h * STAGE[k][j] * m->stage[j][i];
-      }
-    }
-    load_of(m, m->point);
-    sb_cholesky_solve(m->factor, m->b);
-    spread(m, m->stage[k]);
-  }
-  for (int i = 0; i < d->n; i++) {
-    m->v[i] = m->point[i] + h * STAGE[STAGES - 1][STAGES - 1] * m->stage[STAGES - 1][i];
-  }
-}
-
-// The dry body, its inner face wetted: p is orthogonal to all functions that vanish at the faces.
-static SbStatus begin(March *m, SbReport *report) {
-  const SbDiffusion *d = m->d;
-  SbStatus status = factorise(m->factor, d, false, 0.0, report);
-  for (int i = 0; i < d->n; i++) {
-    m->point[i] = d->section->face[i] == SB_FACE_INSIDE ? 1.0 : 0.0;
-  }
-  for (int i = 0; i < d->n; i++) {
-    if (d->number[i] >= 0) {
-      m->b[d->number[i]] = -row_times(d, d->mass, i, m->point);
-    }
-  }
-  if (status == SB_OK) {
-    sb_cholesky_solve(m->factor, m->b);
-    for (int i = 0; i < d->n; i++) {
-      m->v[i] = d->number[i] >= 0 ? m->b[d->number[i]] - d->field[i] : 0.0;
-    }
-  }
-  return status;
-}
-
-static void note(SbDiffusionInstant *out, March *m, double time) {
-  const SbDiffusion *d = m->d;
-  double sorbed = 0.0;
-  for (int i = 0; i < d->n; i++) {
-    m->point[i] = d->field[i] + m->v[i];
-  }
-  for (int i = 0; i < d->n; i++) {
-    sorbed += row_times(d, d->mass, i, m->point);
-  }
-  *out = (SbDiffusionInstant){
-      .time = time,
-      .flux_in = reaction(d, SB_FACE_INSIDE, m->point, m->stage[STAGES - 1]),
-      .flux_out = -reaction(d, SB_FACE_OUTSIDE, m->point, m->stage[STAGES - 1]),
-      .sorbed = sorbed};
-}
-
-SbStatus sb_diffusion_approach(SbDiffusionInstant *out, int count, double last, int steps,
-                               const SbDiffusion *d, SbReport *report) {
-  enum { ARRAYS = STAGES + 3, STEPS = 16 };
-  const int each = steps > 0 ? steps : STEPS;
-  const size_t n = (size_t)d->n + 1;
-  double *memory = calloc(ARRAYS * n, sizeof *memory);
-  March march = {
-      .d = d, .factor = sb_cholesky_create(d->free, d->free_start, d->free_column), .v = memory};
-  SbStatus status = memory == NULL || march.factor == NULL
-                        ? sb_fail(report, SB_ERROR_MEMORY, "no memory for the approach in time")
-                        : SB_OK;
-  if (status == SB_OK) {
-    march.point = memory + n;
-    march.b = memory + 2 * n;
-    for (size_t k = 0; k < STAGES; k++) {
-      march.stage[k] = memory + (3 + k) * n;
-    }
-    status = begin(&march, report);
-  }
-  double time = 0.0;
-  for (int i = 0; status == SB_OK && i < count; i++) {
-    const double end = ldexp(last, i + 1 - count), h = (end - time) / each;
-    status = factorise(march.factor, d, false, h * STAGE[0][0], report);
-    for (int k = 0; status == SB_OK && k < each; k++) {
-      step(&march, h);
-    }
-    time = end;
-    if (status == SB_OK) {
-      note(&out[i], &march, time);
-    }
-  }
-  sb_cholesky_destroy(march.factor);
-  free(memory);
-  return status;
 }

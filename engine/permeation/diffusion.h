@@ -1,8 +1,7 @@
 // Fick's diffusion of one species through a meshed section. Wetted faces are in equilibrium with
 // the fluids by Henry's law: c = S p.
 //
-//   steady:     div (P grad p) = 0
-//   transient:  dp/dt = D div grad p, D = P/S
+//   steady:  div (P grad p) = 0; D = P/S
 //   (Crank, The Mathematics of Diffusion, 2nd ed. 1975, 1.2 and 10.1)
 //
 // P is the permeability, S the solubility, D the diffusivity; they are constant. p is the scaled
@@ -16,9 +15,7 @@
 //
 // Method: finite elements with quadratic shape functions. The flux of a face is the sum of its
 // nodal reactions; it converges with h^4 where the solution is smooth (h: size of an element; ends
-// of faces: wetted_mesh.h). Time steps: L-stable Runge-Kutta method of order 4 with five stages
-// (Hairer and Wanner, Solving ODEs II, table IV.6.5). Not modelled: changes of P and D by stretch,
-// swell and concentration.
+// of faces: wetted_mesh.h). Not modelled: changes of P and D by stretch, swell and concentration.
 //
 // Integrals over an axisymmetric section are those of the full ring. Those over a plane section are
 // per metre of depth, so their unit has one m less than stated below.
@@ -51,30 +48,11 @@ void sb_diffusion_destroy(SbDiffusion *diffusion);
 // Returns the steady results in *out.
 void sb_diffusion_steady(SbDiffusionSteady *out, const SbDiffusion *diffusion);
 
-// Returns the steady p of each node, field[section->nodes]; borrowed until sb_diffusion_destroy().
-const double *sb_diffusion_field(const SbDiffusion *diffusion);
-
 // Writes |grad p| [1/m] of the steady state to out[section->nodes], averaged over the elements of
 // each node. Multiply it by P (p_in - p_out) for the flux per area. At ends of faces, where the
 // gradient is unbounded, the mean over the other nodes of the adjacent elements is written.
 // SB_ERROR_MEMORY is the only error.
 SbStatus sb_diffusion_gradient(double *out, const SbDiffusion *diffusion, SbReport *report);
-
-// State at one time after the inside faces of a dry section were wetted.
-typedef struct {
-  double time;     // D t [m2]
-  double flux_in;  // flux into the section at the inside faces, divided by P (p_in - p_out) [m]
-  double flux_out; // flux out of the section at the outside faces, divided by P (p_in - p_out) [m]
-  double sorbed;   // amount in the section, divided by S (p_in - p_out) [m3]
-} SbDiffusionInstant;
-
-// Computes the transient from a dry section whose inside faces are wetted at t = 0. Writes
-// out[count], in the order of time: the last has D t = `last` [m2] > 0, each earlier one half the
-// time of its successor.
-// `steps` is the number of time steps between two of them (0: 16). SB_ERROR_NOT_CONVERGED: the
-// system matrix is not positive definite.
-SbStatus sb_diffusion_approach(SbDiffusionInstant *out, int count, double last, int steps,
-                               const SbDiffusion *diffusion, SbReport *report);
 
 // Steady results with an error estimate. Two meshes are solved, the section and its elements split
 // into four, both with quarter-point elements at ends of faces. Their error is proportional to h

@@ -297,44 +297,26 @@ static void test_kink(void) {
   clear(&valve);
 }
 
-// What is predicted where nothing changes is the base, to the bit.
-static void same_at_base(const SbGradient *gradient) {
-  double value[FIGURES];
-  for (size_t k = 0; k < sb_gradient_parameters(gradient); k++) {
-    const SbOverride same = {sb_gradient_parameter(gradient, k), sb_gradient_at(gradient, k)};
-    g_assert_cmpint(sb_gradient_predict(value, gradient, &same, 1, NULL), ==, SB_OK);
-    for (size_t i = 0; i < FIGURES; i++) {
-      const double base = sb_gradient_value(gradient, i);
-      g_assert_cmpmem(&value[i], sizeof value[i], &base, sizeof base);
-    }
-  }
-}
-
-// Predictions meet the valve to second order; unknown and impossible changes are refused.
+// The derivatives predict the valve with two changed parameters to second order.
 static void test_predict(void) {
   static const SbParamId parameter[] = {SB_P_GLAND_RADIAL_SPACE, SB_P_SEAL_MODULUS};
-  const SbOverride change[] = {
-      {SB_P_SEAL_MODULUS, 5e6}, {SB_P_GLAND_RADIAL_SPACE, 1.361e-3}, {SB_P_SEAL_MODULUS, 2.505e6}};
-  const SbOverride unknown = {SB_P_FLUID_VISCOSITY, 1e-3}, beyond = {SB_P_SEAL_MODULUS, -1};
-  double value[FIGURES], predicted[FIGURES];
+  const SbOverride change[] = {{SB_P_GLAND_RADIAL_SPACE, 1.361e-3}, {SB_P_SEAL_MODULUS, 2.505e6}};
+  double value[FIGURES];
   Valve valve;
-  SbReport report;
   set_up(&valve, NULL, 0);
   SbGradient *gradient = gradient_of(&valve, parameter, G_N_ELEMENTS(parameter));
   valve.question.override = change;
   valve.question.override_count = G_N_ELEMENTS(change);
   g_assert_cmpint(sb_evaluator_ask(value, valve.evaluator, &valve.question, NULL), ==, SB_OK);
-  g_assert_cmpint(sb_gradient_predict(predicted, gradient, change, 3, NULL), ==, SB_OK);
   for (size_t i = 0; i < FIGURES; i++) {
     const double was = sb_gradient_value(gradient, i);
-    g_assert_true(fabs(predicted[i] - value[i]) <= 2e-2 * fabs(value[i] - was));
+    double predicted = was;
+    for (size_t k = 0; k < G_N_ELEMENTS(change); k++) {
+      predicted +=
+          sb_gradient_slope(gradient, i, k) * (change[k].value - sb_gradient_at(gradient, k));
+    }
+    g_assert_true(fabs(predicted - value[i]) <= 2e-2 * fabs(value[i] - was));
   }
-  same_at_base(gradient);
-  g_assert_cmpint(sb_gradient_predict(predicted, gradient, &unknown, 1, &report), ==,
-                  SB_ERROR_INPUT);
-  g_assert_cmpstr(report.parameter, ==, "fluid.viscosity");
-  g_assert_cmpint(sb_gradient_predict(predicted, gradient, &beyond, 1, &report), ==,
-                  SB_ERROR_RANGE);
   sb_gradient_destroy(gradient);
   clear(&valve);
 }
@@ -523,7 +505,6 @@ static void hold_rings(const SbOverride *change, size_t changes) {
       g_assert_cmpfloat(fabs(slope - solved), <=, error + 0.03 * fabs(solved));
     }
   }
-  same_at_base(gradient);
   sb_gradient_destroy(gradient);
   sb_evaluator_destroy(start);
   clear(&valve);

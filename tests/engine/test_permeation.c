@@ -207,46 +207,6 @@ static void test_gradient(void) {
   sb_wetted_mesh_destroy(s);
 }
 
-// Crank's half-space: what has gone in after t is 2 sqrt(D t/pi), the flux sqrt(1/(pi D t)), as
-// long as the other side of a slab is far: its distance is 8 times 2 sqrt(D t), where erfc is nil.
-static void test_half_space(void) {
-  const Rectangle r = {0.0, 1.6, 0.5, 2.0};
-  SbWettedMesh *s = create_grid(&(Grid){60, 1, in_rectangle, &r, false});
-  SbDiffusion *d;
-  SbDiffusionInstant at[16];
-  const double last = 0.01;
-  solve(&d, s);
-  g_assert_cmpint(sb_diffusion_approach(at, 16, last, 32, d, NULL), ==, SB_OK);
-  g_assert_cmpfloat(at[15].time, ==, last);
-  g_test_message("sorbed %.2e, flux %.2e", at[15].sorbed / (r.y1 * 2.0 * sqrt(last / M_PI)) - 1.0,
-                 at[15].flux_in / (r.y1 / sqrt(M_PI * last)) - 1.0);
-  assert_close(at[15].sorbed, r.y1 * 2.0 * sqrt(last / M_PI), 1e-6);
-  assert_close(at[15].flux_in, r.y1 / sqrt(M_PI * last), 1e-6);
-  g_assert_cmpfloat(fabs(at[15].flux_out), <, 1e-12);
-  sb_diffusion_destroy(d);
-  sb_wetted_mesh_destroy(s);
-}
-
-// A slab's approach: flux out over the steady one, 1 + 2 sum (-1)^n exp(-n^2 pi^2 D t/L^2) (Crank,
-// 4.3.3), and what has come out lags behind by the time lag in the end.
-static void test_approach(void) {
-  const Rectangle r = {0.0, 1.0, 1.0, 1.0};
-  SbWettedMesh *s = create_grid(&(Grid){40, 1, in_rectangle, &r, false});
-  SbDiffusion *d;
-  SbDiffusionInstant at[12];
-  solve(&d, s);
-  g_assert_cmpint(sb_diffusion_approach(at, 12, 0.8, 0, d, NULL), ==, SB_OK);
-  for (int i = 8; i < 12; i++) {
-    double out = 1.0;
-    for (int n = 1; n < 30; n++) {
-      out += 2.0 * (n % 2 ? -1.0 : 1.0) * exp(-n * n * M_PI * M_PI * at[i].time);
-    }
-    g_assert_cmpfloat(fabs(at[i].flux_out - out), <, 1e-6);
-  }
-  sb_diffusion_destroy(d);
-  sb_wetted_mesh_destroy(s);
-}
-
 static void test_refused(void) {
   const Rectangle r = {0.0, 1.0, 1.0, 1.0};
   SbWettedMesh *s = create_grid(&(Grid){2, 2, in_rectangle, &r, false});
@@ -277,8 +237,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/permeation/curved", test_curved);
   g_test_add_func("/permeation/disc", test_disc);
   g_test_add_func("/permeation/gradient", test_gradient);
-  g_test_add_func("/permeation/half-space", test_half_space);
-  g_test_add_func("/permeation/approach", test_approach);
   g_test_add_func("/permeation/refused", test_refused);
   return g_test_run();
 }

@@ -99,7 +99,3 @@ void sb_toast_show(GtkWindow *window, const char *text, const char *button, cons
   gtk_revealer_set_reveal_child(GTK_REVEALER(toast->revealer), TRUE);
   wait(toast);
 }
-
-void sb_toast_hide(GtkWindow *window) {
-  hide(toast_of(window));
-}

@@ -13,6 +13,3 @@ void sb_toast_attach(GtkWindow *window);
 // is not used. `stays`: the line is shown until it is hidden or replaced.
 void sb_toast_show(GtkWindow *window, const char *text, const char *button, const char *action,
                    gboolean stays);
-
-// Hides the line.
-void sb_toast_hide(GtkWindow *window);

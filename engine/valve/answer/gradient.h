@@ -89,14 +89,5 @@ const char *sb_gradient_reason(const SbGradient *gradient, size_t figure, size_t
 // (gradient_rings.c).
 bool sb_gradient_is_solved(const SbGradient *gradient, size_t figure, size_t parameter);
 
-// Computes value[figures] in SI to first order for the parameter values override[count], in SI; if
-// a parameter is listed twice, its last element applies, and parameters that are not listed keep
-// their base values. Takes microseconds. NaN: the figure has no derivative with respect to a
-// changed parameter. Events between base and new values are not detected. SB_ERROR_INPUT: a
-// parameter that is not among those of sb_gradient_create(); SB_ERROR_RANGE: a value out of range.
-// Nothing is written after an error.
-SbStatus sb_gradient_predict(double *value, const SbGradient *gradient, const SbOverride *override,
-                             size_t count, SbReport *report);
-
 // Returns whether a parameter may be differentiated: it is real.
 bool sb_gradient_wants(SbParamId id);

@@ -1,4 +1,4 @@
-// Contents of a gradient, and its predictions.
+// Memory and results of a gradient.
 #include "engine/valve/answer/gradient_private.h"
 
 #include <stdlib.h>
@@ -61,44 +61,6 @@ bool sb_gradient_is_solved(const SbGradient *gradient, size_t figure, size_t par
 
 bool sb_gradient_wants(SbParamId id) {
   return sb_param(id)->kind == SB_PARAM_REAL;
-}
-
-// Place of a parameter, the number of parameters if it has not got it.
-static size_t place_of(const SbGradient *gradient, SbParamId id) {
-  size_t at = 0;
-  while (at < gradient->parameters && gradient->parameter[at] != id) {
-    at++;
-  }
-  return at;
-}
-
-SbStatus sb_gradient_predict(double *value, const SbGradient *gradient, const SbOverride *override,
-                             size_t count, SbReport *report) {
-  for (size_t i = 0; i < count; i++) {
-    const SbParam *param = sb_param(override[i].id);
-    if (place_of(gradient, override[i].id) == gradient->parameters) {
-      return sb_fail_parameter(report, SB_ERROR_INPUT, param->key, "no derivative by it is known");
-    }
-    if (!(override[i].value >= param->min && override[i].value <= param->max)) {
-      return sb_fail_parameter(report, SB_ERROR_RANGE, param->key, "%g is outside %g to %g (%s)",
-                               override[i].value, param->min, param->max, param->si);
-    }
-  }
-  for (size_t f = 0; f < gradient->figures; f++) {
-    value[f] = gradient->value[f];
-  }
-  for (size_t i = 0; i < count; i++) {
-    const size_t at = place_of(gradient, override[i].id);
-    bool last = true;
-    for (size_t k = i + 1; k < count; k++) {
-      last = last && override[k].id != override[i].id;
-    }
-    const double by = override[i].value - gradient->at[at];
-    for (size_t f = 0; f < gradient->figures && last && by != 0; f++) {
-      value[f] += by * sb_gradient_slope(gradient, f, at);
-    }
-  }
-  return sb_succeed(report);
 }
 
 SbGradient *sb_gradient_make(const SbQuestion *question, const SbParamId *parameter, size_t count) {
