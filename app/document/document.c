@@ -303,32 +303,22 @@ void sb_document_refresh_title(SbDocument *document) {
   }
 }
 
-void sb_document_note_size(GPtrArray *notes, const char *file, SbParamId id, double value,
-                           SbParamId giver, double before, double now) {
-  g_autofree char *stays = sb_param_format(id, value);
-  g_autofree char *first = sb_param_format(giver, before);
-  g_autofree char *second = sb_param_format(giver, now);
-  g_ptr_array_add(notes, g_strdup_printf("%s stays at the %s of the %s while %s changes from "
-                                         "%s to %s; set it too if the drawing changes both",
-                                         sb_param(id)->key, stays, file, sb_param(giver)->key,
-                                         first, second));
-}
-
-// Adds a note for each size that a drawing would change with `giver`, which the document changes
-// from the value of its valve's file, while the file's value of that size stays.
-static void note_kept(GPtrArray *notes, const SbDocument *document, SbParamId giver) {
-  const SbParams *own = &document->own, *base = &document->base;
-  if (!own->given[giver]) {
-    return;
-  }
-  const SbParams all = sb_document_params(document);
-  const int kind = (int)sb_params_get(&all, SB_P_VALVE_KIND);
-  const double before = sb_params_get(base, giver), now = sb_params_get(&all, giver);
-  for (int id = 0; id < SB_PARAM_COUNT && now != before; id++) {
-    if (sb_param_keeps((SbParamId)id, giver, kind) && base->given[id] && !own->given[id]) {
-      sb_document_note_size(notes, "valve's file", (SbParamId)id, base->value[id], giver, before,
-                            now);
+void sb_document_note_sizes(GPtrArray *notes, const char *file, const SbParams *given,
+                            const bool set[SB_PARAM_COUNT], SbParamId giver, double before,
+                            const SbParams *now) {
+  const int kind = (int)sb_params_get(now, SB_P_VALVE_KIND);
+  const double after = sb_params_get(now, giver);
+  for (int id = 0; id < SB_PARAM_COUNT && after != before; id++) {
+    if (!sb_param_keeps((SbParamId)id, giver, kind) || !given->given[id] || set[id]) {
+      continue;
     }
+    g_autofree char *stays = sb_param_format((SbParamId)id, given->value[id]);
+    g_autofree char *first = sb_param_format(giver, before);
+    g_autofree char *second = sb_param_format(giver, after);
+    g_ptr_array_add(notes, g_strdup_printf("%s stays at the %s of the %s while %s changes from "
+                                           "%s to %s; set it too if the drawing changes both",
+                                           sb_param((SbParamId)id)->key, stays, file,
+                                           sb_param(giver)->key, first, second));
   }
 }
 
@@ -465,8 +455,13 @@ const GPtrArray *sb_document_notes(const SbDocument *document) {
   for (guint i = 0; i < document->notes->len; i++) {
     g_ptr_array_add(all, g_strdup(document->notes->pdata[i]));
   }
-  for (int id = 0; id < SB_PARAM_COUNT; id++) {
-    note_kept(all, document, (SbParamId)id);
+  const SbParams now = sb_document_params(document);
+  for (int giver = 0; giver < SB_PARAM_COUNT; giver++) {
+    if (document->own.given[giver]) {
+      sb_document_note_sizes(all, "valve's file", &document->base, document->own.given,
+                             (SbParamId)giver, sb_params_get(&document->base, (SbParamId)giver),
+                             &now);
+    }
   }
   return all;
 }

@@ -254,35 +254,6 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
   return good;
 }
 
-// Whether one of the KEY=VALUE settings sets a parameter.
-static bool names_parameter(char *const *settings, SbParamId id) {
-  for (char *const *setting = settings; setting != NULL && *setting != NULL; setting++) {
-    g_autofree char *key = g_strndup(*setting, strcspn(*setting, "="));
-    if (sb_param_find(g_strstrip(key)) == (int)id) {
-      return true;
-    }
-  }
-  return false;
-}
-
-// Adds a note for each size of the document's own file that a drawing would change with a size that
-// settings have changed, while the file's value stays.
-static void note_sizes(SbDocument *document, const SbParams *before, char *const *settings) {
-  const SbParams now = sb_document_params(document);
-  const int kind = (int)sb_params_get(&now, SB_P_VALVE_KIND);
-  for (int giver = 0; giver < SB_PARAM_COUNT; giver++) {
-    const double old = sb_params_get(before, (SbParamId)giver);
-    const double changed = sb_params_get(&now, (SbParamId)giver);
-    for (int id = 0; id < SB_PARAM_COUNT && changed != old; id++) {
-      if (sb_param_keeps((SbParamId)id, (SbParamId)giver, kind) && document->own.given[id] &&
-          !names_parameter(settings, (SbParamId)id)) {
-        sb_document_note_size(document->notes, "file", (SbParamId)id, document->own.value[id],
-                              (SbParamId)giver, old, changed);
-      }
-    }
-  }
-}
-
 void sb_document_set_options(SbDocument *document, char *const *settings, GPtrArray *issues) {
   const SbParams before = sb_document_params(document);
   for (char *const *setting = settings; setting != NULL && *setting != NULL; setting++) {
@@ -296,7 +267,20 @@ void sb_document_set_options(SbDocument *document, char *const *settings, GPtrAr
                                             kept.value[SB_P_FLUID_FIGURES], false, NULL);
     g_assert(good);
   }
-  note_sizes(document, &before, settings);
+  // Sizes of the document's own file that a changed size leaves as they are.
+  bool set[SB_PARAM_COUNT] = {false};
+  for (char *const *setting = settings; setting != NULL && *setting != NULL; setting++) {
+    g_autofree char *key = g_strndup(*setting, strcspn(*setting, "="));
+    const int id = sb_param_find(g_strstrip(key));
+    if (id >= 0) {
+      set[id] = true;
+    }
+  }
+  const SbParams after = sb_document_params(document);
+  for (int giver = 0; giver < SB_PARAM_COUNT; giver++) {
+    sb_document_note_sizes(document->notes, "file", &document->own, set, (SbParamId)giver,
+                           sb_params_get(&before, (SbParamId)giver), &after);
+  }
 }
 
 void sb_document_unset(SbDocument *document, SbParamId id) {

@@ -314,11 +314,12 @@ void sb_document_data_saved(SbDocument *document);
 
 // ---- Notes ----
 
-// Appends a sentence to `notes` (of char *): size `id` stays at `value` [SI], given by the file
-// that `file` names for the user, while `giver`, with which a drawing would change it, changes from
-// `before` to `now` [SI].
-void sb_document_note_size(GPtrArray *notes, const char *file, SbParamId id, double value,
-                           SbParamId giver, double before, double now);
+// Adds a note for each size that a drawing would change with `giver`, whose value was `before`
+// [SI] and is now that of `now`, while the value of that size that `file` gives (`given`) stays. No
+// notes if the value of `giver` did not change, and none for the sizes in `set`.
+void sb_document_note_sizes(GPtrArray *notes, const char *file, const SbParams *given,
+                            const bool set[SB_PARAM_COUNT], SbParamId giver, double before,
+                            const SbParams *now);
 
 // Appends a note that states the modulus and the relation if `text`, the value of `key`, is a
 // hardness.

@@ -154,8 +154,7 @@ struct SbRun {
   double straight_error;
   SbValveBands bands[SB_CYCLE_CHAMBERS][SB_RUN_REST]; // computed when first needed
   SbSummary summary;
-  SbFilm history_film;      // work memory: film of the present frame of the film history
-  SbWarnings before_states; // the summary's, before the last states of sb_run_solve_states()
+  SbFilm history_film; // work memory: film of the present frame of the film history
   // Errors (run_errors.c): of the motion's figures, absolute in SI; of the sliding speeds by way,
   // relative; of a cycle's leakage [m3]; of the mass that remains in the chamber [kg].
   double motion_error[SB_FIGURE_COUNT], speed_error[2], leak_error, kept_error;

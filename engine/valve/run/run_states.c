@@ -718,9 +718,8 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   if (own && run->plan.ring && model->profile == SB_SEAL_PROFILE_CIRCLE) {
     status = proxy_speed(run, hooks, report);
   }
-  // The warnings before these states: too large for a small stack.
-  SbWarnings *before = &run->before_states;
-  *before = *warnings;
+  // The states only append warnings (sb_warnings_merge()).
+  const size_t before = warnings->count, dropped = warnings->dropped;
   status = status == SB_OK ? solve_states(run, hooks, report) : status;
   run->mid_speed = run->back_speed = run->speed;
   if (!own || (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) || run->lacks.status != SB_OK) {
@@ -744,7 +743,8 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   run->mid_speed = speed > 0 ? speed : run->speed;
   if (!run->plan.ring && run->mid_speed != run->speed) {
     run->speed = run->mid_speed;
-    *warnings = *before;
+    warnings->count = before;
+    warnings->dropped = dropped;
     status = solve_states(run, hooks, report);
   }
   return status;
