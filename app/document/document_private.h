@@ -314,9 +314,9 @@ void sb_document_data_saved(SbDocument *document);
 
 // ---- Notes ----
 
-// Adds a note for each size that a drawing would change with `giver`, whose value was `before`
-// [SI] and is now that of `now`, while the value of that size that `file` gives (`given`) stays. No
-// notes if the value of `giver` did not change, and none for the sizes in `set`.
+// Appends a sentence to `notes` (of char *) for each size that stays at the value of `given` while
+// `giver`, with which a drawing would change it, changes from `before` [SI] to its value in `now`.
+// `file` names the file of the given values for the user. Sizes in `set` get no note.
 void sb_document_note_sizes(GPtrArray *notes, const char *file, const SbParams *given,
                             const bool set[SB_PARAM_COUNT], SbParamId giver, double before,
                             const SbParams *now);

@@ -15,6 +15,7 @@
 #include "app/base/translation.h"
 #include "app/session/verdict_text.h"
 #include "engine/valve/figures/figures.h"
+#include "ui/views/signals.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -222,10 +223,6 @@ static void panel_free(gpointer data) {
   g_free(panel);
 }
 
-static void on_destroy(GtkWidget *widget, Panel *panel) {
-  g_signal_handlers_disconnect_by_data(panel->session, panel);
-}
-
 GtkWidget *sb_derived_panel_new(SbSession *session) {
   Panel *panel = g_new0(Panel, 1);
   panel->session = session;
@@ -260,7 +257,7 @@ GtkWidget *sb_derived_panel_new(SbSession *session) {
     gtk_grid_attach(GTK_GRID(grid), panel->verdict[i], 4, i + 1, 1, 1);
   }
   g_object_set_data_full(G_OBJECT(grid), "panel", panel, panel_free);
-  g_signal_connect(grid, "destroy", G_CALLBACK(on_destroy), panel);
+  sb_signals_end_with(grid, panel->session, panel);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), panel);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), panel);
   gtk_widget_show_all(grid);

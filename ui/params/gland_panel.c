@@ -7,6 +7,7 @@
 
 #include "app/base/format.h"
 #include "app/base/translation.h"
+#include "ui/views/signals.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -177,10 +178,6 @@ static void refresh(Panel *panel) {
   }
 }
 
-static void on_destroy(GtkWidget *widget, Panel *panel) {
-  g_signal_handlers_disconnect_by_data(panel->session, panel);
-}
-
 GtkWidget *sb_gland_panel_new(SbSession *session) {
   Panel *panel = g_new0(Panel, 1);
   panel->session = session;
@@ -213,7 +210,7 @@ GtkWidget *sb_gland_panel_new(SbSession *session) {
   sb_style_class(expander, "sb-panel");
   gtk_container_add(GTK_CONTAINER(expander), grid);
   g_object_set_data_full(G_OBJECT(expander), "panel", panel, g_free);
-  g_signal_connect(expander, "destroy", G_CALLBACK(on_destroy), panel);
+  sb_signals_end_with(expander, panel->session, panel);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), panel);
   refresh(panel);
   gtk_widget_show(grid);

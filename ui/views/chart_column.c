@@ -3,6 +3,7 @@
 #include "ui/views/chart_column.h"
 
 #include "ui/views/chart_view.h"
+#include "ui/views/signals.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -23,10 +24,6 @@ static void on_change(Column *column) {
     gtk_stack_set_visible_child_name(GTK_STACK(column->stack), "curves");
   }
   column->pins = pins;
-}
-
-static void on_destroy(GtkWidget *widget, Column *column) {
-  g_signal_handlers_disconnect_by_data(column->session, column);
 }
 
 void sb_chart_column_add(GtkBox *box, SbSession *session, SbChartViewKind kind, gboolean expands) {
@@ -65,7 +62,7 @@ void sb_chart_column_fill(GtkBox *box, SbSession *session) {
   gtk_box_pack_start(box, column->row, FALSE, FALSE, 0);
   gtk_box_pack_start(box, column->stack, FALSE, TRUE, 0);
   g_object_set_data_full(G_OBJECT(column->stack), "column", column, g_free);
-  g_signal_connect(column->stack, "destroy", G_CALLBACK(on_destroy), column);
+  sb_signals_end_with(column->stack, column->session, column);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_change), column);
   on_change(column);
 }

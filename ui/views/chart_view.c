@@ -19,6 +19,7 @@
 #include "ui/views/canvas_area.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/later.h"
+#include "ui/views/signals.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -106,7 +107,7 @@ static SbChartData data_of(const View *view) {
 
 static void draw(cairo_t *cr, double width, double height, void *user) {
   View *view = user;
-  const SbTheme *theme = sb_style_ground(cr);
+  const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   const SbChartData shown = data_of(view), *data = &shown;
   SbRect rect = inside(width, height);
   bool rig = sb_chart_is_rig(&data->run);
@@ -573,10 +574,6 @@ static void on_params(View *view) {
   show_change(view, sb_session_awaits(view->session) && shown_prediction(view) == NULL);
 }
 
-static void on_destroy(GtkWidget *widget, View *view) {
-  g_signal_handlers_disconnect_by_data(view->session, view);
-}
-
 GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   View *view = g_new0(View, 1);
   view->session = session;
@@ -600,7 +597,7 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_scroll), view);
   g_signal_connect(view->area, "key-press-event", G_CALLBACK(on_key), view);
   g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
-  g_signal_connect(view->area, "destroy", G_CALLBACK(on_destroy), view);
+  sb_signals_end_with(view->area, view->session, view);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_run), view);
   g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_run), view);
   g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(on_change), view);

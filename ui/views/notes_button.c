@@ -4,6 +4,7 @@
 #include "ui/views/notes_button.h"
 
 #include "ui/views/later.h"
+#include "ui/views/signals.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -310,10 +311,6 @@ static void notes_free(gpointer data) {
   g_free(notes);
 }
 
-static void on_destroy(GtkWidget *widget, Notes *notes) {
-  g_signal_handlers_disconnect_by_data(notes->session, notes);
-}
-
 static GtkWidget *scrolled(GtkWidget *child, int width, int least, int most) {
   GtkWidget *scroller = gtk_scrolled_window_new(NULL, NULL);
   gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
@@ -384,7 +381,7 @@ GtkWidget *sb_notes_button_new(SbSession *session) {
   gtk_container_add(GTK_CONTAINER(notes->popover), make_content(notes));
   gtk_menu_button_set_popover(GTK_MENU_BUTTON(notes->button), notes->popover);
   g_signal_connect_swapped(notes->popover, "closed", G_CALLBACK(take), notes);
-  g_signal_connect(notes->button, "destroy", G_CALLBACK(on_destroy), notes);
+  sb_signals_end_with(notes->button, notes->session, notes);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_change), notes);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_change), notes);
   refresh(notes);

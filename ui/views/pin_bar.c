@@ -5,6 +5,7 @@
 #include "app/base/canvas.h"
 #include "app/base/figure_text.h"
 #include "ui/views/later.h"
+#include "ui/views/signals.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -216,10 +217,6 @@ static void bar_free(gpointer data) {
   g_free(bar);
 }
 
-static void on_destroy(GtkWidget *widget, Bar *bar) {
-  g_signal_handlers_disconnect_by_data(bar->session, bar);
-}
-
 GtkWidget *sb_pin_bar_new(SbSession *session) {
   Bar *bar = g_new0(Bar, 1);
   bar->session = session;
@@ -251,7 +248,7 @@ GtkWidget *sb_pin_bar_new(SbSession *session) {
   gtk_widget_show_all(bar->box);
   gtk_widget_set_no_show_all(bar->kept, TRUE);
   gtk_widget_hide(bar->kept);
-  g_signal_connect(bar->box, "destroy", G_CALLBACK(on_destroy), bar);
+  sb_signals_end_with(bar->box, bar->session, bar);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_change), bar);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_change), bar);
   refresh(bar);

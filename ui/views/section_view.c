@@ -15,6 +15,7 @@
 #include "ui/views/later.h"
 #include "ui/views/section_gl.h"
 #include "ui/views/section_handles.h"
+#include "ui/views/signals.h"
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
 
@@ -166,7 +167,7 @@ static gboolean asks_field(View *view) {
 
 static void draw(cairo_t *cr, double area_width, double area_height, void *user) {
   View *view = user;
-  const SbTheme *theme = sb_style_ground(cr);
+  const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   const SbChartData *data = sb_session_chart(view->session);
   if (sb_chart_is_rig(&data->run)) {
     // No valve to cut: the plate itself.
@@ -481,10 +482,6 @@ static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) 
 
 // Life -------------------------------------------------------------------------------------------
 
-static void on_destroy(GtkWidget *widget, View *view) {
-  g_signal_handlers_disconnect_by_data(view->session, view);
-}
-
 static void view_free(gpointer data) {
   View *view = data;
   if (view->renderer != NULL) {
@@ -701,7 +698,7 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   gtk_box_pack_start(GTK_BOX(view->box), overlay, TRUE, TRUE, 0);
 
   g_signal_connect_swapped(view->area, "size-allocate", G_CALLBACK(clamp_pan), view);
-  g_signal_connect(view->box, "destroy", G_CALLBACK(on_destroy), view);
+  sb_signals_end_with(view->box, view->session, view);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_params_changed), view);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_run_changed), view);
   g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_change), view);

@@ -90,9 +90,9 @@ GtkWidget *sb_style_label(const char *text, const char *name, float align) {
   return label;
 }
 
-const SbTheme *sb_style_ground(cairo_t *cr) {
+const SbTheme *sb_style_ground(cairo_t *cr, SbRole role) {
   const SbTheme *theme = sb_theme(sb_style_is_dark());
-  SbColor ground = theme->role[SB_ROLE_PANEL];
+  const SbColor ground = theme->role[role];
   cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
   cairo_paint(cr);
   return theme;

@@ -10,6 +10,7 @@
 #include "ui/views/later.h"
 #include "ui/views/notes_button.h"
 #include "ui/views/pin_bar.h"
+#include "ui/views/signals.h"
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
 
@@ -40,7 +41,7 @@ static SbRect whole(GtkWidget *widget) {
 
 static void draw(cairo_t *cr, double width, double height, void *user) {
   View *view = user;
-  const SbTheme *theme = sb_style_ground(cr);
+  const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   sb_timeline_draw(cr, inside(width, height), theme, sb_session_chart(view->session),
                    SB_CHART_COMPACT);
 }
@@ -242,10 +243,6 @@ static GtkWidget *make_controls(View *view) {
   return rows;
 }
 
-static void on_destroy(GtkWidget *widget, View *view) {
-  g_signal_handlers_disconnect_by_data(view->session, view);
-}
-
 GtkWidget *sb_timeline_view_new(SbSession *session) {
   View *view = g_new0(View, 1);
   view->session = session;
@@ -271,7 +268,7 @@ GtkWidget *sb_timeline_view_new(SbSession *session) {
   g_signal_connect(view->area, "query-tooltip", G_CALLBACK(on_tooltip), view);
   gtk_box_pack_start(GTK_BOX(box), view->area, TRUE, TRUE, 0);
 
-  g_signal_connect(box, "destroy", G_CALLBACK(on_destroy), view);
+  sb_signals_end_with(box, view->session, view);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_frames), view);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_frames), view);
   g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_frames), view);

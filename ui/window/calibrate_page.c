@@ -48,9 +48,7 @@ static void draw(cairo_t *cr, double width, double height, void *data) {
     sb_calibration_page_draw(cr, (SbRect){0, 0, width, height}, &page->found, page->study,
                              sb_style_is_dark());
   } else {
-    const SbColor ground = sb_theme(sb_style_is_dark())->role[SB_ROLE_BACKGROUND];
-    cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
-    cairo_paint(cr);
+    (void)sb_style_ground(cr, SB_ROLE_BACKGROUND);
   }
 }
 

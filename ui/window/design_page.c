@@ -71,7 +71,7 @@ static gboolean is_former(const Page *page) {
 }
 
 static void draw(Page *page, Area area, cairo_t *cr, double width, double height) {
-  const SbTheme *theme = sb_style_ground(cr);
+  const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   const SbDesignAnswer *answer = look_at(page);
   const SbRect all = {0, 0, width, height};
   if (answer != NULL && area == AREA_MAP) {

@@ -211,7 +211,7 @@ static char *take_measured(Dialog *dialog) {
 
 static void draw_measured(cairo_t *cr, double width, double height, void *user) {
   Dialog *dialog = user;
-  const SbTheme *theme = sb_style_ground(cr);
+  const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   if (dialog->comparison != NULL) {
     SbChartData data = *sb_session_chart(dialog->session);
     data.measured = dialog->comparison;
@@ -288,7 +288,7 @@ static char *take_scan(Dialog *dialog) {
 
 static void draw_scan(cairo_t *cr, double width, double height, void *user) {
   Dialog *dialog = user;
-  (void)sb_style_ground(cr);
+  (void)sb_style_ground(cr, SB_ROLE_PANEL);
   // The page's columns need this width; on less it is drawn smaller.
   const double least = 1150, scale = fmin(width / least, 1);
   if (dialog->surface != NULL) {
@@ -407,7 +407,7 @@ static char *take_drawing(Dialog *dialog) {
 
 static void draw_drawing(cairo_t *cr, double width, double height, void *user) {
   Dialog *dialog = user;
-  const SbTheme *theme = sb_style_ground(cr);
+  const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   if (dialog->drawn != NULL) {
     sb_half_sections_draw(cr, (SbRect){0, 0, width, height}, theme, dialog->drawn->cad,
                           dialog->drawn->part);

@@ -3,6 +3,7 @@
 
 #include "app/base/translation.h"
 #include "ui/views/later.h"
+#include "ui/views/signals.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -180,10 +181,6 @@ static void on_button(GtkButton *button, Strip *strip) {
   }
 }
 
-static void on_destroy(GtkWidget *widget, Strip *strip) {
-  g_signal_handlers_disconnect_by_data(strip->session, strip);
-}
-
 GtkWidget *sb_message_strip_new(SbSession *session) {
   Strip *strip = g_new0(Strip, 1);
   strip->session = session;
@@ -204,7 +201,7 @@ GtkWidget *sb_message_strip_new(SbSession *session) {
   gtk_container_add(GTK_CONTAINER(strip->revealer), strip->box);
   gtk_widget_show_all(strip->revealer);
   g_signal_connect(strip->button, "clicked", G_CALLBACK(on_button), strip);
-  g_signal_connect(strip->revealer, "destroy", G_CALLBACK(on_destroy), strip);
+  sb_signals_end_with(strip->revealer, strip->session, strip);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), strip);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), strip);
   refresh(strip);

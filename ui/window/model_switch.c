@@ -1,6 +1,7 @@
 // Follows the document: another fitment than these two (of `list models`) presses neither button.
 #include "ui/window/model_switch.h"
 
+#include "ui/views/signals.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -43,10 +44,6 @@ static void on_toggled(GtkToggleButton *button, Switch *self) {
   refresh(self); // what is pressed stays so
 }
 
-static void on_destroy(GtkWidget *widget, Switch *self) {
-  g_signal_handlers_disconnect_by_data(self->session, self);
-}
-
 GtkWidget *sb_model_switch_new(SbSession *session) {
   Switch *self = g_new0(Switch, 1);
   self->session = session;
@@ -61,7 +58,7 @@ GtkWidget *sb_model_switch_new(SbSession *session) {
   }
   sb_style_name(box, _("Model of the rings"), NULL);
   g_object_set_data_full(G_OBJECT(box), "switch", self, g_free);
-  g_signal_connect(box, "destroy", G_CALLBACK(on_destroy), self);
+  sb_signals_end_with(box, self->session, self);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), self);
   gtk_widget_show_all(box);
   refresh(self);

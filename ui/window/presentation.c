@@ -183,7 +183,7 @@ static double draw_note(cairo_t *cr, const char *text, double x, double y, doubl
 
 static void draw(cairo_t *cr, double width, double height, void *user) {
   Presentation *self = user;
-  const SbTheme *theme = sb_style_ground(cr);
+  const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   const SbChartData data = shown(self);
   const double big = fmax(fmin(width / 1280, height / 720), 0.5);
   const double band = BAND * big, pad = PAD * big;

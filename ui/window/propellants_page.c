@@ -73,10 +73,7 @@ static void layout_of(Page *page, SbPropellantsLayout *out) {
 
 static void draw(cairo_t *cr, double width, double height, void *data) {
   Page *page = data;
-  const SbTheme *theme = sb_theme(sb_style_is_dark());
-  const SbColor ground = theme->role[SB_ROLE_BACKGROUND];
-  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
-  cairo_paint(cr);
+  const SbTheme *theme = sb_style_ground(cr, SB_ROLE_BACKGROUND);
   if (page->study != NULL) {
     sb_propellants_draw(cr, inside(width, height), theme, page->study, shown_model(page),
                         &page->look);

@@ -4,6 +4,7 @@
 
 #include "app/base/format.h"
 #include "ui/views/later.h"
+#include "ui/views/signals.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -216,10 +217,6 @@ static GtkWidget *add_pair(GtkBox *box, const char *key, const char *name) {
   return value;
 }
 
-static void on_destroy(GtkWidget *widget, Bar *bar) {
-  g_signal_handlers_disconnect_by_data(bar->session, bar);
-}
-
 GtkWidget *sb_status_bar_new(SbSession *session) {
   Bar *bar = g_new0(Bar, 1);
   bar->session = session;
@@ -249,7 +246,7 @@ GtkWidget *sb_status_bar_new(SbSession *session) {
   gtk_box_pack_end(box, bar->warnings, FALSE, FALSE, 0);
   gtk_widget_show_all(widget);
 
-  g_signal_connect(widget, "destroy", G_CALLBACK(on_destroy), bar);
+  sb_signals_end_with(widget, bar->session, bar);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), bar);
   g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(refresh_soon), bar);
   g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(refresh_soon), bar);

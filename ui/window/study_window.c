@@ -62,10 +62,7 @@ static void draw(cairo_t *cr, double width, double height, void *data) {
     sb_study_page_draw(cr, rect, studies->study, &page);
     return;
   }
-  const SbTheme *theme = sb_theme(sb_style_is_dark());
-  SbColor ground = theme->role[SB_ROLE_BACKGROUND];
-  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
-  cairo_paint(cr);
+  (void)sb_style_ground(cr, SB_ROLE_BACKGROUND);
 }
 
 // State to widgets -------------------------------------------------------------------------------

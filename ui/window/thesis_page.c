@@ -53,10 +53,7 @@ static void compute(GTask *task, gpointer source, gpointer data, GCancellable *c
 
 static void draw(cairo_t *cr, double width, double height, void *data) {
   const Page *page = data;
-  const SbTheme *theme = sb_theme(sb_style_is_dark());
-  const SbColor ground = theme->role[SB_ROLE_BACKGROUND];
-  cairo_set_source_rgb(cr, ground.r, ground.g, ground.b);
-  cairo_paint(cr);
+  const SbTheme *theme = sb_style_ground(cr, SB_ROLE_BACKGROUND);
   if (page->shown != NULL && page->shown->chart != NULL) {
     sb_study_draw(cr, (SbRect){12, 12, width - 24, height - 24}, theme, page->shown->chart);
   }

@@ -1,7 +1,7 @@
 // The tooltips of the undo and redo buttons: which edit they would undo or redo.
 #pragma once
 
-#include "app/session/session.h"
+#include "app/document/document.h"
 
 #include <gtk/gtk.h>
 
@@ -9,6 +9,5 @@
 // NULL: there is none. Translated.
 char *sb_undo_hints_text(const SbDocument *document, bool redo);
 
-// Keeps the tooltips of both buttons up to date until `undo` is destroyed. `session` and `redo` are
-// borrowed until then.
-void sb_undo_hints_attach(SbSession *session, GtkWidget *undo, GtkWidget *redo);
+// Sets the tooltip and the accessible description of an undo (or redo) button to its next edit.
+void sb_undo_hints_show(GtkWidget *button, const SbDocument *document, bool redo);

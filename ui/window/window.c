@@ -178,6 +178,8 @@ static void refresh(SbWindow *window) {
   refresh_run_state(window);
   set_enabled(window, "undo", sb_document_can_undo(document));
   set_enabled(window, "redo", sb_document_can_redo(document));
+  sb_undo_hints_show(window->undo_button, document, false);
+  sb_undo_hints_show(window->redo_button, document, true);
   set_enabled(window, "previous-event", sb_session_run(window->session) != NULL);
   set_enabled(window, "next-event", sb_session_run(window->session) != NULL);
   set_enabled(window, "export", sb_session_may_keep(window->session));
@@ -555,7 +557,6 @@ static void sb_window_init(SbWindow *window) {
   sb_paned_layout_attach(GTK_PANED(window->columns), GTK_PANED(window->views), charts);
   window->model_switch = sb_model_switch_new(window->session);
   gtk_header_bar_pack_end(GTK_HEADER_BAR(window->header), window->model_switch);
-  sb_undo_hints_attach(window->session, window->undo_button, window->redo_button);
   GtkWidget *verdicts = sb_verdict_strip_new(window->session);
   gtk_box_pack_start(GTK_BOX(window->valve_page), verdicts, FALSE, FALSE, 0);
   gtk_box_reorder_child(GTK_BOX(window->valve_page), verdicts, 0);
