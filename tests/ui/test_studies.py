@@ -213,7 +213,7 @@ def a_better_design_is_found(folder):
         app.key("Up")
         wait("the point", lambda: app.label(r"^inner diameter 2\.84\d* mm, radial space 1\.3"))
         app.press("push button", "Save design")
-        wait("it is told", lambda: app.label(r"^The design is kept"))
+        wait("it is told", lambda: app.label(r"^The design is saved"))
         app.press("push button", "Open design")
         app.key("ctrl+1")
         wait("its value", lambda: app.value("Radial space") != before)
