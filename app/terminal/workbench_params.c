@@ -213,7 +213,7 @@ static void draw_row(SbBench *bench, SbCellRect rect, const SbListRow *row, int 
   sb_cells_text(cells, rect.x + MARGIN, y, value + room - rect.x - MARGIN - 1,
                 sb_translation(sb_param(id)->label), pen);
   if (selected && bench->input == SB_INPUT_VALUE) {
-    draw_typed(bench, value + columns - VALUE, y, VALUE);
+    draw_typed(bench, value, y, columns);
     return;
   }
   if (rejected != NULL) {

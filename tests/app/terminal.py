@@ -420,9 +420,9 @@ def test_changed_file():
         terminal.start('piston.valve')
         terminal.see(r'│ C +\d')
         terminal.keys('Enter')
-        terminal.see('Section diame')  # cut where bars of effects are shown
+        terminal.see('Section diameter')
         terminal.keys('C-u', '1.6', 'Enter')
-        terminal.see(r'Section diame\w* *1.6 mm')
+        terminal.see(r'Section diameter +1.6 mm')
         with open(path, encoding='utf-8') as file:
             text = file.read()
         theirs = re.sub(r'(?m)^radial_space = .*', 'radial_space = 1.37 mm', text)
@@ -435,7 +435,7 @@ def test_changed_file():
             same(file.read(), theirs, 'the file of the other program')
         terminal.keys('m')
         terminal.see(r'Radial space +1.37 mm')
-        terminal.see(r'Section diame\w* *1.6 mm')
+        terminal.see(r'Section diameter +1.6 mm')
         terminal.keys('u')
         terminal.see(r'Radial space +1.36 mm')
         terminal.keys('s')
