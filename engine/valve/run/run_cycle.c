@@ -147,8 +147,8 @@ static SbStatus find_errors(SbRun *run, SbReport *report) {
   }
   own->cycle = run->cycle;
   SbStatus status = compute_figures(&own->right, run, report);
-  for (int i = 0; i < SB_RUN_WRONG && status == SB_OK; i++) {
-    if (sb_run_worsen(run, i)) {
+  for (int i = 0; i < SB_RUN_PERTURBATIONS && status == SB_OK; i++) {
+    if (sb_run_perturb(run, i)) {
       if (sb_cycle_build(&run->cycle, NULL) == SB_OK &&
           compute_figures(&own->other, run, NULL) == SB_OK) {
         sb_run_add_errors(run, &own->right, &own->other, 1);

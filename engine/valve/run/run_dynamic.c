@@ -408,32 +408,37 @@ static void lose_errors(SbRun *run, const SbReport *why) {
           "the motion's error is not known: %s", why->text);
 }
 
+// Up to this tolerance motions that only measure an error are integrated.
+static double coarse_of(double tolerance) {
+  return fmax(tolerance, fmin(10 * tolerance, 1e-5));
+}
+
 // Computes the errors of the motion that the states' errors cause: the motion is repeated with each
-// kind of them, at most to a coarse tolerance.
-static SbStatus find_state_errors(SbRun *run, const Recorder *fine, double tolerance,
+// kind of them, at the coarse tolerance, and compared with `same`, the motion without them at that
+// tolerance, so that the steps' error is not part of the difference.
+static SbStatus find_state_errors(SbRun *run, const Recorder *same, double tolerance,
                                   const SbRunHooks *hooks, SbReport *report) {
   struct {
     SbCycle cycle;
-    SbSummary right, other;
+    SbSummary same, other;
   } *own = calloc(1, sizeof *own);
   if (own == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the motion's errors");
   }
   SbReport why = {0};
-  SbStatus status = compute_figures(&own->right, fine, &why);
+  SbStatus status = compute_figures(&own->same, same, &why);
   own->cycle = run->cycle;
-  const double coarse = fmax(tolerance, fmin(10 * tolerance, 1e-5));
   bool known = true;
-  for (int i = 0; i < SB_RUN_WRONG && status == SB_OK && known; i++) {
+  for (int i = 0; i < SB_RUN_PERTURBATIONS && status == SB_OK && known; i++) {
     run->cycle = own->cycle;
-    if (!sb_run_worsen(run, i)) {
+    if (!sb_run_perturb(run, i)) {
       continue;
     }
     Recorder other;
-    status = run_motion(&other, run, false, coarse, hooks, &why);
+    status = run_motion(&other, run, false, coarse_of(tolerance), hooks, &why);
     status = status == SB_OK ? compute_figures(&own->other, &other, &why) : status;
     if (status == SB_OK) {
-      add_errors(run, fine, &own->right, &other, &own->other, 1);
+      add_errors(run, same, &own->same, &other, &own->other, 1);
     } else if (status == SB_ERROR_NOT_CONVERGED) {
       lose_errors(run, &why);
       known = false;
@@ -453,36 +458,39 @@ static SbStatus find_state_errors(SbRun *run, const Recorder *fine, double toler
 // fine motion. Half of the difference is reported, three times that error, and at least the
 // tolerance: the coarse motion may be accurate by chance. If it takes as many steps its errors are
 // those of the fine one, and a motion at a tenth of the tolerance gives them: twice the difference.
-static SbStatus estimate_error(const Recorder *fine, double tolerance, double *force, double *work,
-                               const SbRunHooks *hooks, SbReport *report) {
+// *coarse is the motion at the coarse tolerance.
+static SbStatus estimate_error(Recorder *coarse, const Recorder *fine, double tolerance,
+                               double *force, double *work, const SbRunHooks *hooks,
+                               SbReport *report) {
   SbRun *run = fine->run;
-  Recorder other;
+  Recorder finer;
+  const Recorder *other = coarse;
   const double peak = fine->force_peak;
-  const double coarse = fmax(tolerance, fmin(10 * tolerance, 1e-5));
-  SbStatus status = run_motion(&other, run, false, coarse, hooks, report);
-  double share = 0.5 * fmax(1, tolerance * 10 / coarse);
-  if (status == SB_OK && other.motion.counters.steps >= fine->motion.counters.steps &&
+  SbStatus status = run_motion(coarse, run, false, coarse_of(tolerance), hooks, report);
+  double share = 0.5 * fmax(1, tolerance * 10 / coarse_of(tolerance));
+  if (status == SB_OK && coarse->motion.counters.steps >= fine->motion.counters.steps &&
       tolerance > 10 * least_tolerance) {
-    status = run_motion(&other, run, false, 0.1 * tolerance, hooks, report);
+    status = run_motion(&finer, run, false, 0.1 * tolerance, hooks, report);
+    other = &finer;
     share = 2;
   }
   if (status != SB_OK) {
     return status;
   }
-  *force = relative(peak, other.force_peak, peak);
+  *force = relative(peak, other->force_peak, peak);
   for (int stage = 0; stage < SB_STAGE_COUNT; stage++) {
-    *force = fmax(*force, relative(fine->mark[stage].force, other.mark[stage].force, peak));
+    *force = fmax(*force, relative(fine->mark[stage].force, other->mark[stage].force, peak));
   }
-  if (isfinite(fine->return_least) && isfinite(other.return_least)) {
-    *force = fmax(*force, relative(fine->return_least, other.return_least,
+  if (isfinite(fine->return_least) && isfinite(other->return_least)) {
+    *force = fmax(*force, relative(fine->return_least, other->return_least,
                                    fmax(peak, fabs(run->model->pressure_force))));
   }
   *force = fmax(share * *force, tolerance);
-  status = compare_motions(run, fine, &other, share, report);
+  status = compare_motions(run, fine, other, share, report);
   if (status != SB_OK) {
     return status;
   }
-  const SbDynamicsEnergy *one = &fine->energy, *two = &other.energy;
+  const SbDynamicsEnergy *one = &fine->energy, *two = &other->energy;
   *work = fmax(tolerance, share * fmax(relative(one->drive, two->drive, one->largest),
                                        relative(one->friction, two->friction, one->largest)));
   return SB_OK;
@@ -657,10 +665,12 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   // Closed form throughout: rounding only.
   double force = 1e-12;
   double work = 1e-12;
+  Recorder coarse;
+  const Recorder *same = &r; // a closed form does not depend on the tolerance
   if (status == SB_OK && counters.steps > 0 && !run->follows) {
     SbReport own = {0};
     SbWork part, *whole = begin_part(run, &part);
-    SbStatus estimate = estimate_error(&r, tolerance, &force, &work, hooks, &own);
+    SbStatus estimate = estimate_error(&coarse, &r, tolerance, &force, &work, hooks, &own);
     end_part(run, whole, &part);
     if (estimate == SB_ERROR_NOT_CONVERGED) {
       // The motion itself is valid.
@@ -668,11 +678,13 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
       lose_errors(run, &own);
     } else if (estimate != SB_OK) {
       status = sb_fail(report, estimate, "%s", own.text);
+    } else {
+      same = &coarse;
     }
   }
   if (status == SB_OK && !run->follows) {
     SbWork part, *whole = begin_part(run, &part);
-    status = find_state_errors(run, &r, tolerance, hooks, report);
+    status = find_state_errors(run, same, tolerance, hooks, report);
     end_part(run, whole, &part);
   }
   SbStatus speeds = sb_run_close_speeds(run, status == SB_OK ? report : NULL);

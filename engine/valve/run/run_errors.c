@@ -44,10 +44,10 @@ void sb_run_add_errors(SbRun *run, const SbSummary *one, const SbSummary *other,
   }
 }
 
-// Increases the kinetic friction of all states by its error; worsen_static() does so with static
+// Increases the kinetic friction of all states by its error; perturb_static() does so with static
 // friction, separately, because a jump of the stem depends on their difference. Returns false if no
 // state has an error.
-static bool worsen_kinetic(SbRun *run) {
+static bool perturb_kinetic(SbRun *run) {
   SbSealState *all = &run->cycle.state[0][0][0];
   bool any = false;
   for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
@@ -63,7 +63,7 @@ static bool worsen_kinetic(SbRun *run) {
   return any;
 }
 
-static bool worsen_static(SbRun *run) {
+static bool perturb_static(SbRun *run) {
   SbSealState *all = &run->cycle.state[0][0][0];
   bool any = false;
   for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
@@ -82,7 +82,7 @@ static bool worsen_static(SbRun *run) {
 // position where a ring meets the land's edge on the return is a sum of widths of both directions,
 // the position where a gasket leaves the shoulder is their difference (sb_cycle_edge_begin()).
 // Returns false if no state has an error.
-static bool widen_contact(SbRun *run) {
+static bool perturb_contact(SbRun *run) {
   const bool gasket = run->model->kind == SB_VALVE_GASKET;
   SbSealState *all = &run->cycle.state[SB_INNER][0][0];
   bool any = false;
@@ -99,10 +99,10 @@ static bool widen_contact(SbRun *run) {
   return any;
 }
 
-bool sb_run_worsen(SbRun *run, int index) {
-  static bool (*const wrong[SB_RUN_WRONG])(SbRun *) = {worsen_kinetic, worsen_static,
-                                                       widen_contact};
-  return wrong[index](run);
+bool sb_run_perturb(SbRun *run, int index) {
+  static bool (*const perturb[SB_RUN_PERTURBATIONS])(SbRun *) = {perturb_kinetic, perturb_static,
+                                                                 perturb_contact};
+  return perturb[index](run);
 }
 
 void sb_run_leak_error(SbRun *run) {
@@ -125,6 +125,11 @@ static double positive(double error) {
   return error > 0 ? error : 0; // NaN: a closed form
 }
 
+// Returns the motion, an index of the cycle's states, whose state a figure describes.
+static int motion_of(const SbFigure *figure) {
+  return figure->direction == SB_DIRECTION_OUT ? SB_CYCLE_OUT : SB_CYCLE_IN;
+}
+
 static double leak_error(const SbSealState *state) {
   const double share = state->leak_area_share;
   // Near full contact the pressure changes as the open part does.
@@ -136,8 +141,7 @@ static double leak_error(const SbSealState *state) {
 static double relative_of_state(const SbRun *run, const SbFigure *figure,
                                 const SbSealState *state) {
   const double film = positive(state->central_error);
-  const double speed =
-      run->speed_error[figure->direction == SB_DIRECTION_OUT ? SB_CYCLE_OUT : SB_CYCLE_IN];
+  const double speed = run->speed_error[motion_of(figure)];
   switch ((int)figure->error) {
   case SB_BY_LOAD:
     return state->load_error;
@@ -187,10 +191,8 @@ static double turn_error(const SbRun *run, int seal, const SbSealState *state, d
 // Absolute error of a seal's figure.
 static double of_seal(const SbRun *run, const SbFigure *figure, double value) {
   const int seal = figure->seal;
-  const SbSealState *state =
-      &run->shown[seal][figure->direction == SB_DIRECTION_OUT ? SB_CYCLE_OUT : SB_CYCLE_IN];
-  const double speed =
-      run->speed_error[figure->direction == SB_DIRECTION_OUT ? SB_CYCLE_OUT : SB_CYCLE_IN];
+  const SbSealState *state = &run->shown[seal][motion_of(figure)];
+  const double speed = run->speed_error[motion_of(figure)];
   const double friction = sb_sliding_friction(state);
   switch ((int)figure->error) {
   case SB_BY_INPUT:

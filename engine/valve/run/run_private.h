@@ -333,12 +333,12 @@ void sb_run_lose_errors(SbRun *run);
 // `other` of two motions to run->motion_error.
 void sb_run_add_errors(SbRun *run, const SbSummary *one, const SbSummary *other, double share);
 
-enum { SB_RUN_WRONG = 3 }; // kinds of errors of states, for sb_run_worsen()
+enum { SB_RUN_PERTURBATIONS = 3 }; // kinds, for sb_run_perturb()
 
-// Perturbs the cycle's states by their errors of one kind, `index` below SB_RUN_WRONG: 0 kinetic
-// friction larger, 1 static friction larger, 2 the ends of the inner contact moved. Returns false,
-// and changes nothing, if the states have no error of this kind.
-bool sb_run_worsen(SbRun *run, int index);
+// Perturbs the cycle's states by their errors of one kind, `index` below SB_RUN_PERTURBATIONS: 0
+// kinetic friction larger, 1 static friction larger, 2 the ends of the inner contact moved. Returns
+// false, and changes nothing, if the states have no error of this kind.
+bool sb_run_perturb(SbRun *run, int index);
 
 // Adds the error of the last motion's leakage that its films cause.
 void sb_run_leak_error(SbRun *run);
