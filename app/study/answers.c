@@ -387,8 +387,7 @@ bool sb_answers_set_list(const SbQuestions *asked, GError **error) {
   g_autofree const char **parameter = g_new0(const char *, asked->parameters + 1);
   g_autofree const char **figure = g_new0(const char *, asked->figures + 1);
   for (size_t i = 0; i < asked->parameters; i++) {
-    const int id = (int)asked->parameter[i];
-    parameter[i] = id == SB_QUESTION_NONE ? "variable" : sb_param((SbParamId)id)->key;
+    parameter[i] = sb_param(asked->parameter[i])->key;
   }
   for (size_t i = 0; i < asked->figures; i++) {
     figure[i] = sb_figure(asked->figure[i])->path;

@@ -57,8 +57,9 @@ typedef struct {
   double seconds;       // time that they took [s]
 } SbAnswers;
 
-// Sets the list of the store of `questions` (sb_store_set_list()): the keys of their parameters
-// ("variable" for a variable) and the paths of their figures. Returns false with SB_APP_ERROR_IO.
+// Sets the list of the store of `questions` (sb_store_set_list()): the keys of their parameters,
+// none of them SB_QUESTION_NONE, and the paths of their figures. Returns false with
+// SB_APP_ERROR_IO.
 bool sb_answers_set_list(const SbQuestions *questions, GError **error);
 
 // Computes or reads the results, and commits the store. The caller has set the list of the store to

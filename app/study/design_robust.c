@@ -52,7 +52,6 @@ static SbStatus check_by_samples(SbDesign *out, const SbStudyFile *about, int jo
     parameter[k] = g_array_index(about->vary, SbVary, k).id;
   }
   g_autoptr(GError) error = NULL;
-  SbStore *store = sb_store_open(NULL, &error);
   SbAnswers answers = {0};
   const SbQuestions asked = {.base = about->base,
                              .base_sha256 = about->base_sha256,
@@ -63,13 +62,11 @@ static SbStatus check_by_samples(SbDesign *out, const SbStudyFile *about, int jo
                              .value = value,
                              .samples = about->samples,
                              .jobs = jobs,
-                             .store = store,
                              .cancelled = problem->cancelled,
                              .data = problem->data};
   const SbStudyDrawn drawn = {u, reliability};
   SbLimitShare share;
-  if (store == NULL || !sb_answers_set_list(&asked, &error) ||
-      !sb_answers_get(&answers, &asked, &error)) {
+  if (!sb_answers_get(&answers, &asked, &error)) {
     status = error->code == SB_APP_ERROR_CANCELLED
                  ? sb_fail(report, SB_ERROR_CANCELLED, "cancelled")
                  : sb_fail(report, SB_ERROR_MEMORY, "%s", error->message);
@@ -84,7 +81,6 @@ static SbStatus check_by_samples(SbDesign *out, const SbStudyFile *about, int jo
     out->interval[1] = 1 - share.interval[0];
   }
   sb_answers_release(&answers);
-  (void)sb_store_close(store, NULL);
   free(value);
   free(u);
   return status;

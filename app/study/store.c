@@ -323,10 +323,16 @@ static bool write_list(SbStore *store, GError **error) {
 
 bool sb_store_set_list(SbStore *store, const char *const *parameters, const char *const *figures,
                        GError **error) {
+  g_autofree char *names = g_strjoinv("\n", (char **)parameters),
+                  *of = g_strjoinv("\n", (char **)figures);
+  if (store->writable && g_strcmp0(names, store->parameter_names) == 0 &&
+      g_strcmp0(of, store->figures_of) == 0) {
+    return true; // it has this list
+  }
   g_free(store->parameter_names);
   g_free(store->figures_of);
-  store->parameter_names = g_strjoinv("\n", (char **)parameters);
-  store->figures_of = g_strjoinv("\n", (char **)figures);
+  store->parameter_names = g_steal_pointer(&names);
+  store->figures_of = g_steal_pointer(&of);
   store->list =
       sb_store_list_number(store->parameter_names, store->figures_of, sb_engine_identity()->source);
   store->parameters = g_strv_length((char **)parameters);

@@ -81,8 +81,11 @@ static double spectral_rate(const SbEhlSolution *s) {
 // and asperity load, plus the flow's error, on which both depend.
 static double contact_error(const SbEhlResults *now, const SbEhlResults *before, double rate,
                             double flow) {
-  const double area = fabs(now->real_area - before->real_area) / now->real_area;
-  const double load = fabs(now->asperity_load - before->asperity_load) / now->asperity_load;
+  const double area =
+      now->real_area > 0.0 ? fabs(now->real_area - before->real_area) / now->real_area : 0.0;
+  const double load = now->asperity_load > 0.0
+                          ? fabs(now->asperity_load - before->asperity_load) / now->asperity_load
+                          : 0.0;
   return rate * (fmax(area, load) + flow) + now->contact_rounding + ROUGH_LEFT;
 }
 

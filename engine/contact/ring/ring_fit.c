@@ -86,8 +86,9 @@ double sb_ring_fit_size(const SbRingBody *body, const SbRingLoad *load, double t
 }
 
 // The state of an easy path may be far from the one that is fitted: by another path where there is
-// one, fitted to its contacts too.
-static SbStatus slowly(SbRing **ring, double size, const SbRingOptions *options, SbReport *report) {
+// one, fitted to its contacts too. *path_end is the result of that path on its mesh.
+static SbStatus slowly(SbRing **ring, SbRingResult *path_end, double size,
+                       const SbRingOptions *options, SbReport *report) {
   SbRingOptions slow = *options;
   SbRing *other;
   slow.quick = false;
@@ -95,6 +96,7 @@ static SbStatus slowly(SbRing **ring, double size, const SbRingOptions *options,
   if (status == SB_OK) {
     sb_ring_destroy(*ring);
     *ring = other;
+    sb_ring_result(other, path_end);
     status = sb_ring_refit(other, size, report);
   }
   return status;
@@ -132,7 +134,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   sb_ring_result(ring, &path_end);
   status = sb_ring_refit(ring, size / RATIO, report);
   if (status == SB_ERROR_NOT_CONVERGED && ring->soft) {
-    status = slowly(&ring, size / RATIO, &first, report);
+    status = slowly(&ring, &path_end, size / RATIO, &first, report);
   }
   const bool edges = load->wall_chamfer > 0.0 || load->groove != NULL;
   const double off = edges ? UNFITTED_CHAMFER : UNFITTED;
