@@ -67,7 +67,7 @@ bool sb_hardness_parse(double *modulus, const char *text, GError **error) {
   }
   if (!(hardness >= scale->low && hardness <= scale->high)) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "the relation between modulus and %s holds from %g to %g %s: give the modulus",
+                "the relation between modulus and %s is valid from %g to %g %s: give the modulus",
                 scale->name, scale->low, scale->high, scale->name);
     return false;
   }

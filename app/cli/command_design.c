@@ -82,7 +82,7 @@ static void print_table(const SbStudyFile *study, const SbDesign *design) {
 // What must be said besides: an exit code.
 static int judge(const SbStudyFile *study, const SbDesign *design) {
   if (!design->found) {
-    return MAX(sb_cli_fail("no start is feasible: the figures have no values"),
+    return MAX(sb_cli_fail("the figures could not be computed at any start (inconsistent values)"),
                SB_EXIT_NOT_CONVERGED);
   }
   if (!design->feasible) {

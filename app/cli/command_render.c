@@ -86,7 +86,7 @@ static bool parse_film(Request *request, const Options *options) {
   if (!moves && (options->fps != NULL || options->duration != NULL || options->speed != NULL ||
                  options->from != NULL || options->to != NULL)) {
     g_autofree char *films = sb_export_endings(1 << SB_FORMAT_FILM, 0, ", ", " or ");
-    sb_cli_fail("--fps, --duration, --speed, --from and --to are for films (%s) and sequences",
+    sb_cli_fail("--fps, --duration, --speed, --from and --to are for movies (%s) and sequences",
                 films);
     return false;
   }
@@ -181,7 +181,7 @@ static bool parse_output(Request *request, const Options *options, int files) {
 static bool parse(Request *request, const Options *options, int files) {
   SbRenderOptions *how = &request->how;
   if (options->output == NULL) {
-    sb_cli_fail("-o is missing: the picture or film to write");
+    sb_cli_fail("-o is missing: the picture or movie to write");
     return false;
   }
   how->view = options->view != NULL ? options->view : "section";
@@ -542,7 +542,7 @@ int sb_command_render(int argc, char **argv) {
   Options options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output,
-       "Picture (.png, .svg, .pdf), film (.mp4), animation (.webp, .apng, .gif) or sequence "
+       "Picture (.png, .svg, .pdf), movie (.mp4), animation (.webp, .apng, .gif) or sequence "
        "(frames/%04d.png or a folder); of several files a folder, for SCENE-NAME/VIEW.png in it",
        "OUT"},
       {"format", 0, 0, G_OPTION_ARG_FILENAME, &options.format,
@@ -558,13 +558,13 @@ int sb_command_render(int argc, char **argv) {
        "Size in pixels, or 720p, 1080p, 4k, report (1600x1200)", "WxH"},
       {"at", 0, 0, G_OPTION_ARG_FILENAME, &options.at,
        "Stage (A to F) or time (\"7.3 s\") of a picture", "STAGE|TIME"},
-      {"fps", 0, 0, G_OPTION_ARG_FILENAME, &options.fps, "Pictures per second of a film, 30", "N"},
+      {"fps", 0, 0, G_OPTION_ARG_FILENAME, &options.fps, "Pictures per second of a movie, 30", "N"},
       {"duration", 0, 0, G_OPTION_ARG_FILENAME, &options.duration,
        "Duration of a movie of the full cycle, 10 s", "S"},
       {"speed", 0, 0, G_OPTION_ARG_FILENAME, &options.speed,
        "In place of the duration: how many times faster than real", "FACTOR"},
-      {"from", 0, 0, G_OPTION_ARG_FILENAME, &options.from, "Where a film starts", "STAGE|TIME"},
-      {"to", 0, 0, G_OPTION_ARG_FILENAME, &options.to, "Where a film ends", "STAGE|TIME"},
+      {"from", 0, 0, G_OPTION_ARG_FILENAME, &options.from, "Where a movie starts", "STAGE|TIME"},
+      {"to", 0, 0, G_OPTION_ARG_FILENAME, &options.to, "Where a movie ends", "STAGE|TIME"},
       {"backend", 0, 0, G_OPTION_ARG_FILENAME, &options.backend,
        "Renderer of the section: osmesa or egl; default the first that works", "NAME"},
       {"field", 0, 0, G_OPTION_ARG_FILENAME, &options.field,

@@ -7,13 +7,14 @@
 #include <math.h>
 #include <string.h>
 
-// Those of files come first.
+// Those of files come first, by SbFileKey.
 static const SbTextKey text_keys[] = {
     [SB_FILE_DRIVE] = {"drive.file", "CSV file of the measured series (drive.kind = measured)"},
     [SB_FILE_SHELF] = {"shelf.file", "CSV file of temperatures over time (shelf.history = file)"},
     [SB_FILE_SECTION] = {"seal.profile_file", "Drawing of the free section (seal.profile = file)"},
     [SB_FILE_GROOVE] = {"gland.profile_file", "Drawing of the outline of the groove"},
-    {SB_RUBBER_KEY, "Rubber of the seals: a name of `list rubbers`, or a file NAME.rubber"},
+    [SB_FILE_COUNT] = {SB_RUBBER_KEY,
+                       "Rubber of the seals: a name of `list rubbers`, or a file NAME.rubber"},
     {0}};
 
 const SbTextKey *sb_document_text_keys(void) {

@@ -15,8 +15,7 @@ typedef enum {
   SB_PICTURES_ITERM,
   SB_PICTURES_BLOCKS, // half blocks
   SB_PICTURES_LINES,  // Braille
-  SB_PICTURES_NONE,
-  SB_PICTURES_COUNT
+  SB_PICTURES_NONE
 } SbPictures;
 
 // Returns the kind that the environment variables suggest: pixels for a terminal that is known to

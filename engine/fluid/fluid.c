@@ -109,7 +109,7 @@ static SbStatus pure(SbFluidState *out, SbWarnings *warnings, const SbFluid *flu
     const double zero = 273.15;
     out->figure[SB_FLUID_VISCOSITY].uncertainty = NAN;
     sb_warn(warnings, "viscosity-extrapolated", "canister.temperature",
-            "the viscosity of %s at %g °C is extrapolated: its correlation holds from %g °C",
+            "the viscosity of %s at %g °C is extrapolated: its correlation is valid from %g °C",
             fluid->name, temperature - zero, fluid->viscosity_min - zero);
   }
   return sb_succeed(report);

@@ -213,8 +213,8 @@ static void lay_rows(Table *table, const SbLimits *limits) {
   g_autoptr(GList) former = gtk_container_get_children(GTK_CONTAINER(table->grid));
   g_list_foreach(former, destroy, NULL);
   static const char *const heads[] = {NULL,
-                                      N_("least"),
-                                      N_("most"),
+                                      N_("minimum"),
+                                      N_("maximum"),
                                       NULL,
                                       N_("present"),
                                       N_("best found"),

@@ -257,7 +257,7 @@ static char *found_text(const SbDesignAnswer *answer) {
              ? g_strdup(
                    _("No start meets all limits: the valve with the smallest violation is shown."))
          : !found->found
-             ? g_strdup(_("Every start is infeasible."))
+             ? g_strdup(_("The figures could not be computed at any start (inconsistent values)."))
              : g_strdup_printf(_("%zu of %zu starts meet all limits, %zu evaluations."),
                                found->starts_feasible, found->starts, found->evaluations);
 }

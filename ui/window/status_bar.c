@@ -117,7 +117,7 @@ static void refresh_warnings(Bar *bar, const SbSummary *summary) {
   } else {
     gtk_style_context_remove_class(style, "sb-warn");
   }
-  sb_style_name(bar->warnings, text, _("Opens the list of warnings of the shown run"));
+  sb_style_name(bar->warnings, text, _("Opens the list of warnings of the displayed run"));
   gtk_widget_set_visible(bar->warnings, summary != NULL);
   gtk_widget_set_sensitive(bar->warnings, count > 0 || notes->len > 0);
 }

@@ -1,7 +1,7 @@
 // Derivatives of figures with respect to real parameters, at a model with overrides.
 //
-// Use: sb_gradient_create() with a question of evaluate.h, then read slopes or call
-// sb_gradient_predict(). The differentiated function is the answer to this question: closed forms,
+// Use: sb_gradient_create() with a question of evaluate.h, then read the
+// slopes. The differentiated function is the answer to this question: closed forms,
 // located events, and equations solved to rounding. Derivatives are central differences at two or
 // more steps with Richardson extrapolation, one-sided at an end of the parameter's range. Each has
 // an error estimate: the last change by extrapolation, and the rounding that the step amplifies.

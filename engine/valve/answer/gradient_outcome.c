@@ -39,15 +39,16 @@ bool sb_gradient_differ(char *text, size_t size, const SbGradientOutcome *a,
   }
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const char *what =
-        a->seal[i].touches != b->seal[i].touches           ? "touches the bore"
-        : a->seal[i].opened != b->seal[i].opened           ? "is opened by the fluid"
-        : a->seal[i].film_fitted != b->seal[i].film_fitted ? "has a film on its fitted body"
-        : a->seal[i].leak != b->seal[i].leak ? "leaks at rest in one of the two states"
+        a->seal[i].touches != b->seal[i].touches ? "has contact with the bore on one side only"
+        : a->seal[i].opened != b->seal[i].opened ? "is opened by the fluid on one side only"
+        : a->seal[i].film_fitted != b->seal[i].film_fitted
+            ? "has a film on its fitted body on one side only"
+        : a->seal[i].leak != b->seal[i].leak ? "leaks at rest differently on each side"
         : a->seal[i].in != b->seal[i].in || a->seal[i].out != b->seal[i].out
-            ? "slides, rolls or jams in one of the two states"
+            ? "slides, rolls or jams differently on each side"
             : NULL;
     if (what != NULL) {
-      sb_text(text, size, "the %s seal %s on one side only", sb_seal_name(i), what);
+      sb_text(text, size, "the %s seal %s", sb_seal_name(i), what);
       return true;
     }
   }

@@ -127,7 +127,7 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
     out.ok = SB_ANSWER_UNKNOWN;
     sb_message(out.reason, SB_TEXT,
                "uncertain: the %s ring overfills its groove (gland fill %.3g %%), whose walls "
-               "models.fit = %s does not know (ring does)",
+               "models.fit = %s does not include (ring does)",
                sb_seal_name(seal), 100 * fill, sb_fit_model_name(model->fit));
   }
   // A section that jams blocks the stem; one that rolls seals, and is reported.

@@ -286,10 +286,9 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
        states, film_off,
        gasket        ? "a gasket's edge lets little in: from the rise of its pressure there"
        : coupled     ? "models.asperities = coupled: film and asperities carry the load together"
-       : on_body > 0 ? "the fraction of boundary friction, viscous friction and leakage require "
-                       "it; on the half-plane and "
-                       "on the fitted ring"
-                     : "the fraction of boundary friction, viscous friction and leakage require it",
+       : on_body > 0 ? "boundary friction, viscous friction and leakage require it; on the "
+                       "half-plane and on the fitted ring"
+                     : "boundary friction, viscous friction and leakage require it",
        NULL},
       {plan->reynolds, "film over speed", coupled ? "reynolds with asperities" : law,
        (double)n->speed_nodes * at_speed, SB_SPEED_TOLERANCE,

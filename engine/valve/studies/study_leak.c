@@ -196,7 +196,7 @@ static void make(SbStudyWork *work) {
              own ? sb_fit_model_name(model->fit) : "", own ? ", " : "");
   sb_study_note(out,
                 "Roughness %.3g \xc2\xb5m; channels close at %.3g MPa of solid pressure. Stroke "
-                "%.3g mm at %.4g mm/s. Karaszkiewicz holds from 7 to 25 %%.",
+                "%.3g mm at %.4g mm/s. Karaszkiewicz is valid from 7 to 25 %%.",
                 model->sigma * 1e6, closing * 1e-6, model->stroke * 1e3, model->speed * 1e3);
 }
 

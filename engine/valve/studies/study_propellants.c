@@ -274,8 +274,10 @@ static void correct_all(SbStudyWork *work, const Ratios ratios[FLUIDS + 1]) {
             "is that of closed forms times the ratio at the nearest pressure");
   }
   if (held[1]) {
-    sb_study_note(work->out, "Some samples are outside the solved range of p/E: their friction "
-                             "uses the ratio of the nearest solved one.");
+    sb_study_note(work->out,
+                  "Some single effects (pressure, film, rubber or expansion alone) are "
+                  "outside the solved range of p/E: their friction uses the ratio of the "
+                  "nearest solved one.");
   }
 }
 

@@ -59,8 +59,9 @@ static void make(SbStudyWork *work) {
                 "No pressure, walls or friction. The bore moves, the groove floor stays: the "
                 "stretch is the scene's (%.1f %% inner).",
                 100 * model->seal[SB_OUTER].stretch_inner);
-  sb_study_note(out, "The closed forms know no stretch; compare them with the ring that is not "
-                     "stretched too.");
+  sb_study_note(out,
+                "The closed forms do not include stretch; compare them with the ring that is not "
+                "stretched too.");
 }
 
 const SbStudyDesign sb_study_squeeze = {

@@ -106,8 +106,8 @@ const SbStudyDesign sb_study_tolerance = {
     .x = "place in the size's tolerance band",
     .panel = {"load of the outer seal [N]", "break-away force [N]", "return margin [N]"},
     .row_heading = "figure",
-    .column = {"nominal [N]", "worst case, minimum [N]", "worst case, most [N]",
-               "root sum square, minimum [N]", "root sum square, most [N]", "by d, outer [N]",
+    .column = {"nominal [N]", "worst case, minimum [N]", "worst case, maximum [N]",
+               "root sum square, minimum [N]", "root sum square, maximum [N]", "by d, outer [N]",
                "by d, inner [N]", "by ID, outer [N]", "by ID, inner [N]", "by g [N]", "by bore [N]",
                "by stem [N]"},
     .validity = "worst case: where every figure rises or falls with every size; root sum of "
