@@ -1,25 +1,31 @@
 // Shared by output.c (one file) and output_folder.c (several files).
+//
+// Order of calls for a file: sb_output_begin_at(), write to out->stream, sb_output_seal() and
+// sb_output_commit_sealed(), or sb_output_abort() (output.h). All four leave *out empty (path NULL)
+// when the file is finished or the call failed; an empty *out owns nothing and may be aborted.
 #pragma once
 
 #include "app/base/output.h"
 
-// Sets an error with the path and `text`, or if that is NULL the text of errno. Always returns
-// false.
+// Sets an error of `kind` with the message "PATH: TEXT". Always returns false. `text` is not NULL.
 bool sb_output_fail(GError **error, SbAppError kind, const char *path, const char *text);
 
 // Returns whether existing files are refused as outputs (sb_output_keep_existing()).
 bool sb_output_keeps_existing(void);
 
 // As sb_output_begin(). `own_way`: existing files and inputs are not refused (a manifest). `sweep`:
-// first removes temporary files of killed processes from the folder.
+// first calls sb_output_sweep() for the file's folder.
 bool sb_output_begin_at(SbOutput *out, const char *path, bool own_way, bool sweep, GError **error);
 
-// Gives a sealed file its name: the second half of sb_output_commit(). Returns false with
-// SB_APP_ERROR_IO.
+// Gives a file its name that sb_output_seal() has flushed successfully: the second half of
+// sb_output_commit(). *out is then empty, also after a failure, which removes the unfinished file.
+// Returns false with SB_APP_ERROR_IO, or with SB_APP_ERROR_INPUT if the file has appeared meanwhile
+// and existing files are refused.
 bool sb_output_commit_sealed(SbOutput *out, GError **error);
 
-// Removes from the folder (a descriptor) temporary files whose process does not exist any more.
+// Removes from a folder the temporary files whose process has ended. `folder` is an open descriptor
+// of it, which stays open. Errors are ignored.
 void sb_output_sweep(int folder);
 
-// Returns a random hidden file name.
+// Returns a random hidden file name without a folder.
 char *sb_output_temporary_name(void);

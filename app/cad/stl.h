@@ -23,8 +23,10 @@ typedef struct {
   gboolean text;        // the file was in the text format
 } SbStl;
 
-// Reads the file `path`, whose numbers are in `unit` ("mm", "inch", ...). Returns FALSE with
-// SB_APP_ERROR_INPUT, whose message names the file and the place; `out` is then empty.
+// Reads the file `path`, whose numbers are in `unit`: any unit of length that udunits-2 knows
+// ("mm", "um", "inch", "m", ...). Returns FALSE with SB_APP_ERROR_IO (the file cannot be read) or
+// SB_APP_ERROR_INPUT (its contents, or the unit); the message names the file and the place. *out is
+// then empty. *out is overwritten: clear an earlier mesh first.
 gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **error);
 
 // As sb_stl_read(), from the `length` bytes of a file; `name` is used as its path in messages.

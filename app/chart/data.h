@@ -21,7 +21,7 @@ typedef struct {
   SbChartState state;
   const SbFrame *frames;       // [count], in the order of time
   size_t count;                // frames that are available
-  const SbTrace *trace;        // of the same frames; may contain fewer of them; NULL: no frames
+  const SbTrace *trace;        // of these frames, possibly not yet of all; NULL only if count is 0
   const SbModel *model;        // may be NULL
   const SbSummary *summary;    // NULL until the run has ended
   const SbLifeActuation *life; // [life_count] actuations; NULL until the run has ended
@@ -118,12 +118,12 @@ bool sb_chart_is_rig(const SbChartRun *run);
 // Returns whether the live run is complete and its trace contains all frames.
 bool sb_chart_complete(const SbChartData *data);
 
-// Returns what happens in a gasket valve after stage `stage` until the next one, translated:
-// "chamber fills past the neck". Static.
+// Returns what happens in a gasket valve after stage `stage` (SbStage) until the next one,
+// translated: "chamber fills past the neck"; "" for another number. Static.
 const char *sb_chart_gasket_phase(int stage);
 
-// Returns the name of a seal of a model (NULL: of the piston valve), translated: "Inner seal".
-// Static.
+// Returns the name of seal `seal` (SB_OUTER, SB_INNER) of a model (NULL: of the piston valve),
+// translated: "Inner seal". Static.
 const char *sb_chart_seal_name(const SbModel *model, int seal);
 
 // A force on the stem with its name and colour.
@@ -136,12 +136,13 @@ typedef struct {
 // Largest number of forces.
 enum { SB_CHART_FORCES_MAX = 5 };
 
-// Writes the drive and the forces against it, without the stops, to force[SB_CHART_FORCES_MAX]:
-// pressure, the spring of a valve that has one, friction of both seals. Returns their number.
+// Writes the drive and the forces against it in `frame`, without the stops, to
+// force[SB_CHART_FORCES_MAX], in this order: drive, pressure, the spring of a valve that has one,
+// friction of the inner and of the outer seal. Returns their number.
 size_t sb_chart_forces(SbChartForce *force, const SbModel *model, const SbFrame *frame);
 
-// Returns what happens in a run after stage `stage` until the next one, translated: "both seals
-// slide". Static.
+// Returns what happens in a run after stage `stage` (SbStage) until the next one, translated: "both
+// seals slide"; "" for another number. Static.
 const char *sb_chart_phase(const SbChartRun *run, int stage);
 
 // Writes "actuation 400" or "cycle 2" for cycle number `cycle` (from 0) of a run with several, and
@@ -152,15 +153,16 @@ const char *sb_chart_cycle_name(char *out, const SbChartRun *run, int cycle);
 // number. `run` NULL: a valve. Static.
 const char *sb_chart_span(const SbChartRun *run, int stage);
 
-// Returns the state of a run that has ended.
+// Returns the state of a run that has ended: DONE, PARTIAL or FAILED by summary->status.
 SbChartState sb_chart_state_of(const SbSummary *summary);
 
-// Sets the view of a run; `run` and `trace` are borrowed as long as it is used. The summary is set
-// only if `state` is that of a run that has ended.
+// Sets all fields of *out from a run; `run` and `trace` are borrowed as long as *out is used. The
+// summary is set only if `state` is that of a run that has ended.
 void sb_chart_run_init(SbChartRun *out, const SbRun *run, const SbTrace *trace, SbChartState state);
 
-// Writes the force of a stage [N] as text to out[SB_FORMAT_MAX] and returns `out`. Once the run has
-// ended, it is the figure "cycle.stages.X.force_N" as every other output prints it.
+// Writes the force of a stage as text to out[SB_FORMAT_MAX] and returns `out`: run->summary's
+// figure "cycle.stages.X.force_N", as every other output prints it, or before the run has ended (or
+// if this figure is NaN) `force` [N], the force of the event in the trace.
 char *sb_chart_stage_force(char *out, const SbChartRun *run, SbStage stage, double force);
 
 // Returns the run's estimate of the relative error of forces; 0: unknown.

@@ -1,6 +1,11 @@
 // Shared by the files of the workbench in a terminal: workbench.c (start, end, drawing),
 // workbench_valve.c and workbench_pages.c (content of the pages), workbench_params.c (list of
 // parameters), workbench_export.c and workbench_keys.c (keys and mouse). Main thread only.
+//
+// Drawing: sb_bench_draw_...() write to bench->cells, and workbench.c alone calls them when the
+// screen is to be drawn. All other functions that change what is displayed request a drawing
+// themselves, except sb_bench_list(). Code that changes a field of SbBench calls
+// sb_bench_changed().
 #pragma once
 
 #include "app/export/export_job.h"
@@ -75,12 +80,12 @@ typedef struct {
   SbDiskState disk;   // state for which the user was last asked to decide
   char *orphan;       // path of unsaved changes of a process that ended, offered to be restored
 
-  // The list.
+  // The list. After a change of list, search or of a value, call sb_bench_list() to renew `rows`.
   SbListKind list;
-  GString *search;                 // text that listed parameters must contain; empty: none
-  GArray *rows;                    // of SbListRow, by sb_bench_list()
-  int selected;                    // SbParamId of the selected parameter
-  int scroll;                      // rows above the first visible one
+  GString *search; // text that listed parameters must contain; not empty: `list` is ignored
+  GArray *rows;    // of SbListRow, filled by sb_bench_list()
+  int selected;    // SbParamId, always valid; one of `rows` unless these have no parameter
+  int scroll;      // rows above the first visible one
   SbCellRect list_at, timeline_at; // position in the last picture, for the mouse
 
   // The line that the user types.
@@ -105,7 +110,7 @@ typedef struct {
   SbStudyKind study_kind;      // chosen by the user
   SbStudyJob *job;             // being computed; NULL: none
   SbStudyKind job_kind;        // of `job`
-  SbStudy *study;              // displayed; NULL: none yet
+  SbStudy *study;              // last complete study, of any kind; NULL: none yet
   char *study_hash, *job_hash; // sb_document_sha256() of the values of `study` and `job`
 
   SbExportJob *export; // running; NULL: none
@@ -117,7 +122,8 @@ typedef struct {
 // Requests a new drawing from the main loop; several requests become one.
 void sb_bench_changed(SbBench *bench);
 
-// Shows a message in the status line; `fails`: as an error. Replaces the earlier one.
+// Shows a message (printf format) in the status line; `fails`: as an error. Replaces the earlier
+// one.
 void sb_bench_say(SbBench *bench, bool fails, const char *format, ...) G_GNUC_PRINTF(3, 4);
 
 // Ends the workbench: sb_workbench_run() returns.
@@ -128,22 +134,25 @@ SbPen sb_bench_pen(const SbBench *bench, SbRole role, uint8_t style);
 
 // ---- workbench_params.c ----
 
-// Fills bench->rows with the parameters that `list` and `search` select.
+// Fills bench->rows with the parameters that bench->list or bench->search selects. If the selected
+// parameter is not among them, the first one becomes selected. Does not request a drawing.
 void sb_bench_list(SbBench *bench);
 
-// Draws the list of parameters into `rect`.
+// Draws bench->rows into `rect`.
 void sb_bench_draw_list(SbBench *bench, SbCellRect rect);
 
-// Moves the selection by a number of parameters, down if positive; stops at the ends.
+// Moves the selection by a number of parameters, down if positive; stops at the ends. Headings are
+// not counted.
 void sb_bench_move(SbBench *bench, int rows);
 
-// Selects parameter `id` (SbParamId).
+// Selects parameter `id` (SbParamId). If it is not listed, clears the search and lists all.
 void sb_bench_select(SbBench *bench, int id);
 
 // ---- workbench_valve.c ----
 
-// Returns the answer to question `kind` (of SbVerdictKind) of the displayed run, the worst over all
-// cases once these are computed, and the case that gives it (name NULL: the scene itself).
+// Returns the answer to question `kind` (of SbVerdictKind) of the displayed run, which must have
+// ended (sb_session_summary() is not NULL): the worst over all cases once these are computed, and
+// the case that gives it (name NULL: the scene itself; else borrowed from bench->cases).
 SbCaseVerdict sb_bench_verdict(SbBench *bench, int kind);
 
 // Draws the title and the tabs into the first rows.
@@ -166,11 +175,13 @@ void sb_bench_draw_page(SbBench *bench, SbCellRect rect);
 // Draws the popup over the page if there is one.
 void sb_bench_draw_popup(SbBench *bench);
 
-// Starts to compute the chosen study with the present values; shows a message if they are
-// inconsistent.
+// Starts to compute the study bench->study_kind with the present values. The result appears in
+// bench->study later. Starts nothing and shows a message if a study is being computed, or if the
+// values are inconsistent.
 void sb_bench_study_start(SbBench *bench);
 
-// Cancels the study that is computed; does nothing if there is none.
+// Requests that the study being computed ends; bench->job becomes NULL later, from the main loop,
+// and bench->study stays. Does nothing if no study is being computed.
 void sb_bench_study_stop(SbBench *bench);
 
 // ---- workbench_export.c ----

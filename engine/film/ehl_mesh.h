@@ -97,11 +97,14 @@ typedef struct {
 } SbEhlLocal;
 
 // A mesh with its operators. Targets are points at which the gap is computed: the collocation
-// points (the first `rows`), then the finite ends of the elements; on a nodal mesh the nodes.
-// "Known" parts are independent of the nodal pressures.
+// points (the first `rows`), then the finite ends of the elements. On a nodal mesh the targets are
+// the nodes instead, in the order of the nodal pressures: rows = targets = dofs, and `weight`,
+// `local` and the elements' gap_target are not set, so sb_ehl_gap() must not be called. "Known"
+// parts are independent of the nodal pressures. All is set by sb_ehl_mesh_begin(), _add() and
+// _build(), except `tables`.
 typedef struct {
   SbEhlTables *tables; // borrowed
-  int count;           // elements
+  int count;           // elements, from left to right
   bool fits;           // while adding elements: they fit so far
   double end;          // while adding elements: end of the last one
   bool apart;          // while adding elements: a cavity follows
@@ -119,7 +122,7 @@ typedef struct {
   double gap[SB_EHL_TARGETS_MAX * SB_EHL_DOFS_MAX], gap_known[SB_EHL_TARGETS_MAX];
   // Change of the known parts per unit of pressure beyond the left and the right end.
   double gap_by_end[2][SB_EHL_TARGETS_MAX], load_by_end[2];
-  double weight[SB_EHL_DOFS_MAX];           // [rows] quadrature weights dX
+  double weight[SB_EHL_DOFS_MAX];           // [rows] quadrature weights dX; not on a nodal mesh
   SbEhlLocal local[SB_EHL_DOFS_MAX];        // [rows] not on a nodal mesh
   double load[SB_EHL_DOFS_MAX], load_known; // integrals of the basis functions and known pressures
 } SbEhlMesh;
@@ -154,9 +157,9 @@ void sb_ehl_mesh_add_far(SbEhlMesh *mesh, int side, double x, double B, int degr
 // up to a constant, with the tilt that keeps the dry contact at |X| < 1 (docs/verification.md).
 double sb_ehl_ambient_gap(double X, double left, double right, double inlet, double outlet);
 
-// Numbers the unknowns and computes all operators. `nodal`: the targets are the nodes; only for
-// affine elements without cavities. Returns false if the elements did
-// not fit.
+// Computes all operators of a mesh with at least one element. `nodal`: the targets are the nodes;
+// only for affine elements without cavities. Returns false if an element did not fit; the mesh must
+// then be begun again.
 SB_CHECKED bool sb_ehl_mesh_build(SbEhlMesh *mesh, bool nodal);
 
 // Sets other pressures beyond the ends of a built mesh.
@@ -197,7 +200,9 @@ void sb_ehl_local(SbEhlLocal *out, const SbEhlElement *e, const double *basis, c
 double sb_ehl_sum(double *slope, const SbEhlLocal *local, const SbEhlElement *e,
                   const double *nodal);
 
-// Computes the parts of an element's kernel integrals that are independent of the target.
+// Computes the parts of an element's kernel integrals that are independent of the target, and its
+// `integral`. sb_ehl_mesh_build() calls it for each element; call it for an element of a mesh that
+// is not built (sb_ehl_mesh_add() has set the element's other fields).
 void sb_ehl_kernel_prepare(SbEhlElement *e, const SbEhlTables *tables);
 
 // Adds to row[degree + 1] the integrals over X' of the element's basis functions times ln|X - X'|.

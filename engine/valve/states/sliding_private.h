@@ -4,14 +4,21 @@
 // step reads its input from the SbSealState and adds its results to it. For a sliding ring
 // sb_sliding_drag() repeats this, each time with the friction of the last film as the law that
 // drags the ring, until both agree. With a `start` and linearisation (sb_sliding_memory_start(),
-// tangent) sb_sliding_sum() first computes the results of the solvers as a linear function of their
-// inputs, with slopes stored in SbSlidingBeside; sb_sliding_solve_once() then copies them instead
-// of solving.
+// tangent) sb_sliding_solve_with() first calls sb_sliding_sum(), which computes the results of the
+// solvers as a linear function of their inputs, with slopes stored in SbSlidingBeside. Then
+// sb_sliding_solve_once() copies these results instead of solving, and at last
+// sb_sliding_solve_with() calls sb_sliding_sum_end(), also after an error.
 //
-// A "way" is an index below SB_RUN_MOTIONS: 0 (speed > 0) and 1 (speed < 0) if friction drags the
-// seal (sb_sliding_drags()), else 2. All functions have a task whose memory is not NULL, set *out
-// or the memory, and return SB_ERROR_NOT_CONVERGED with the last values set if a solver stops
-// early.
+// "beside" in names: linearised about, or solved next to, a stored state. A "way" is an index below
+// SB_RUN_MOTIONS: 0 (speed > 0) and 1 (speed < 0) if friction drags the seal (sb_sliding_drags()),
+// else 2.
+//
+// Every task has a memory that is not NULL and that this thread alone uses. Which functions need
+// which part of a state: `out` of sb_sliding_fit_contact(), _solve_once(), _solve_with() and
+// _drag() may be uninitialised, because they begin with sb_sliding_clear(). All others change a
+// state that sb_sliding_fit_contact() has begun and the steps before them have filled. After
+// SB_ERROR_NOT_CONVERGED (a solver stopped early) the state has its last values; after another
+// error it is unspecified.
 #pragma once
 
 #include "engine/valve/states/sliding.h"
@@ -62,7 +69,7 @@ typedef struct {
 // first needed, and has a lock: several threads may use it at the same time.
 typedef struct SbSlidingBeside SbSlidingBeside;
 
-// Returns an object without states; NULL: no memory.
+// Returns an object without states; NULL: no memory. Freed by sb_sliding_beside_destroy().
 SbSlidingBeside *sb_sliding_beside_create(void);
 
 // Frees the object. Takes NULL.
@@ -153,11 +160,12 @@ SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *l
 
 // Determines which part of the task is linearised about the stored state of `beside`, a ring
 // dragged by `law` (NULL: none), and computes its values: sets memory->sums and memory->sum.
-// Missing slopes are solved. SB_ERROR_CANCELLED.
+// Missing slopes are solved. May lock `beside` until sb_sliding_sum_end(), which the caller must
+// call in any case, before another sb_sliding_sum(). SB_ERROR_CANCELLED.
 SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
                         SbSlidingBeside *beside);
 
-// Resets memory->sums, after the state of sb_sliding_sum() is computed.
+// Resets memory->sums and unlocks what sb_sliding_sum() has locked. Does nothing without it.
 void sb_sliding_sum_end(SbSlidingMemory *memory);
 
 // Returns whether the film `which` (plane, fitted or rest of the memory), on the fitted body if
@@ -165,7 +173,8 @@ void sb_sliding_sum_end(SbSlidingMemory *memory);
 bool sb_sliding_film_summed(const SbSlidingMemory *memory, const SbSlidingSolved *which,
                             bool fitted);
 
-// Copies the film for *out (plane, fitted or rest of the memory) from memory->sum.
+// Copies to *out, which is plane, fitted or rest of the memory, its film from memory->sum;
+// required: sb_sliding_film_summed().
 void sb_sliding_take_film(SbSlidingSolved *out, SbSlidingMemory *memory);
 
 // Returns the state of memory->from from which the task's ring starts (sb_sliding_memory_start());
