@@ -184,11 +184,11 @@ void sb_document_take_pins(SbDocument *document, const SbDocument *other);
 // Sets the values and the rubber of the document to those of pin `index`, as one step for undo.
 void sb_document_use_pin(SbDocument *document, size_t index);
 
-// ---- Bookmarks and notes of a review: [bookmarks] NAME = TIME of the run, [notes] NAME = text
-// ----
+// ---- Bookmarks and notes of a review ----
 //
-// Each kind has its own names. Changes are saved with the document, but cannot be undone. Returned
-// strings are valid until the next change.
+// [bookmarks] has lines NAME = TIME of the run, [notes] lines NAME = text. Each kind has its own
+// names. Changes are saved with the document, but cannot be undone. Returned strings are valid
+// until the next change.
 
 typedef enum { SB_REMARK_BOOKMARK, SB_REMARK_NOTE, SB_REMARK_KINDS } SbRemarkKind;
 

@@ -18,10 +18,10 @@
 #include "app/base/error.h"
 #include "engine/contact/fit.h"
 
-// Returns whether sb_cae_text() can write `path` for `problem`. False with SB_APP_ERROR_INPUT if
-// the ending of `path` is not .vtu, .inp, .dxf, .stl or .free.stl; if the model is not
-// SB_FIT_RING; as .inp also with friction, for a groove with draft, rounded or chamfered edges or a
-// form of its own, and for a gasket.
+// Returns whether sb_cae_text() can write `path` for `problem`. Returns false with
+// SB_APP_ERROR_INPUT if the ending of `path` is not .vtu, .inp, .dxf, .stl or .free.stl; if the
+// model is not SB_FIT_RING; as .inp also with friction, for a groove with draft, rounded or
+// chamfered edges or a form of its own, and for a gasket.
 bool sb_cae_check(const char *path, const SbFitProblem *problem, GError **error);
 
 // Returns the content of the file `path` (only its ending is used; nothing is written) for `ring`,

@@ -1,5 +1,5 @@
-// One export of a finished run on a thread of its own: a picture, a film, a sequence of pictures, a
-// report, or the figures as JSON. All functions of this header run in the main thread.
+// One export of a finished run on a thread of its own: a picture, a movie, a sequence of pictures,
+// a report, or the figures as JSON. All functions of this header run in the main thread.
 #pragma once
 
 #include "app/chart/data.h"
@@ -21,14 +21,14 @@ typedef struct {
   gboolean dark;        // theme
   SbSectionStyle style; // of views that show the section
   char *at;             // instant of a picture: "C" or "7.27 s"; NULL: as sb_render_frame_at()
-  int fps;              // of a film: pictures per second; 0: 30
-  double duration;      // of a film: it shows the whole range in this time [s]; 0: 10
-  double speed;         // of a film: if above 0, seconds of the run per second of film
-  char *from, *to;      // of a film: "B" or "2 s"; NULL: the start and end of the run
+  int fps;              // of a movie: pictures per second; 0: 30
+  double duration;      // of a movie: it shows the whole range in this time [s]; 0: 10
+  double speed;         // of a movie: if above 0, seconds of the run per second of movie
+  char *from, *to;      // of a movie: "B" or "2 s"; NULL: the start and end of the run
   char *title, *subtitle, *hash, *scene; // as SbRenderOptions (render.h)
   SbData *measured;                      // drawn together with the run; NULL: none
   double drive_speed;                    // for `measured`, as sb_measured_load() [m/s]
-  SbRunHandle *pin[SB_CHART_PINS];       // kept designs, by their look; NULL: none
+  SbRunHandle *pin[SB_CHART_PINS];       // saved designs, by their look; NULL: none
   char *pin_name[SB_CHART_PINS];         // their names in pictures
   SbChartMarker *marker;                 // bookmarks, [marker_count], owned with their names
   size_t marker_count;
@@ -36,8 +36,8 @@ typedef struct {
   char *document; // and its text if it differs from the file; NULL: it does not
 } SbExportRequest;
 
-// Adds the kept designs that a session draws together with its run, and its bookmarks, to a request
-// that has none.
+// Adds the saved designs that a session draws together with its run, and its bookmarks, to a
+// request that has none.
 void sb_export_request_add_compared(SbExportRequest *request, SbSession *session);
 
 // Frees the content of a request that was not started, and sets its pointers to NULL.
@@ -63,7 +63,7 @@ double sb_export_job_left(SbExportJob *job);
 // reports and .json are not written.
 void sb_export_job_cancel(SbExportJob *job);
 
-// Only after `done`: returns a sentence about the result, translated; `*good` is set to whether the
+// Only after `done`: returns a sentence about the result, translated; *good is set to whether the
 // export succeeded. Borrowed from the job.
 const char *sb_export_job_result(SbExportJob *job, gboolean *good);
 

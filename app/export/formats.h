@@ -1,4 +1,4 @@
-// The file formats of pictures and films. `render`, the terminal and the export dialog use this
+// The file formats of pictures and movies. `render`, the terminal and the export dialog use this
 // table.
 #pragma once
 
@@ -19,7 +19,7 @@ typedef struct {
   SbMovieFormat film; // of SB_FORMAT_FILM only
 } SbExportFormat;
 
-// Returns the table; `*count` is set to the number of rows. Static.
+// Returns the table; *count is set to the number of rows. Static.
 const SbExportFormat *sb_export_formats(size_t *count);
 
 // Returns the row whose ending `path` has, regardless of upper and lower case; NULL: none has.

@@ -1,4 +1,4 @@
-// Films: H.264 in MP4, and animations in WebP, APNG and GIF, which repeat without end. They are
+// Movies: H.264 in MP4, and animations in WebP, APNG and GIF, which repeat without end. They are
 // encoded in this process while the next pictures are drawn.
 //
 // A caller's function draws picture after picture; a thread of the movie's own converts (for MP4 to
@@ -13,7 +13,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Smallest and largest side of a film [pixels].
+// Smallest and largest side of a movie [pixels].
 enum { SB_MOVIE_SIZE_MIN = 16, SB_MOVIE_SIZE_MAX = 8192 };
 
 // The formats.
@@ -25,7 +25,7 @@ typedef enum {
   SB_MOVIE_FORMATS
 } SbMovieFormat;
 
-// How a film is written. Strings are only read during sb_movie_write(). Options without a format's
+// How a movie is written. Strings are only read during sb_movie_write(). Options without a format's
 // name apply to every format.
 typedef struct {
   SbMovieFormat format;
@@ -42,7 +42,7 @@ typedef struct {
 
 // Draws picture `frame` (from 0) into `pixels` [height][stride]: rows from the top, cairo's ARGB32,
 // `stride` bytes each. Called in order in the thread of sb_movie_write(). Any status other than
-// SB_OK ends the film with that status.
+// SB_OK ends the movie with that status.
 typedef SbStatus (*SbMovieDraw)(void *data, size_t frame, uint8_t *pixels, size_t stride,
                                 SbReport *report);
 
@@ -61,16 +61,16 @@ typedef struct {
   double convert_s, encode_s; // the encoder's thread [s]
 } SbMovieResult;
 
-// Draws and writes the film `path`. Returns SB_OK; SB_ERROR_CANCELLED (a partial MP4 is there if
+// Draws and writes the movie `path`. Returns SB_OK; SB_ERROR_CANCELLED (a partial MP4 is there if
 // result->frames > 0); SB_ERROR_RANGE for an impossible size, rate or number of pictures;
-// SB_ERROR_IO for a full disk or a missing encoder (SB_ERROR_INPUT in a build without films); or
+// SB_ERROR_IO for a full disk or a missing encoder (SB_ERROR_INPUT in a build without movies); or
 // the status of `draw`. After an error other than cancellation nothing new is under `path` and an
 // earlier file is intact. `hooks` and `result` may be NULL.
 SbStatus sb_movie_write(const char *path, const SbMovieOptions *options, SbMovieDraw draw,
                         void *draw_data, const SbMovieHooks *hooks, SbMovieResult *result,
                         SbReport *report);
 
-// Returns NULL if this build can write films of `format`, else a sentence that states why not;
+// Returns NULL if this build can write movies of `format`, else a sentence that states why not;
 // static. May be called from any thread.
 const char *sb_movie_missing(SbMovieFormat format);
 

@@ -1,4 +1,4 @@
-// The encoder of a film and its file. For movie.c: open, add each picture, finish, destroy. One
+// The encoder of a movie and its file. For movie.c: open, add each picture, finish, destroy. One
 // thread at a time. A build without libav has movie_encoder_off.c instead, whose functions fail
 // with SB_ERROR_INPUT.
 #pragma once

@@ -30,8 +30,8 @@ typedef struct {
 void sb_pdf_begin(SbPdf *out, double width, double height, const SbPdfTexts *texts);
 
 // Writes the PDF into `stream` (NULL: discards it) and frees it; the caller has destroyed its cairo
-// contexts. False with SB_APP_ERROR_IO if
-// the drawing failed; errors of writing are left in the stream (ferror()).
+// contexts. Returns false with SB_APP_ERROR_IO if the drawing failed; errors of writing are left in
+// the stream (ferror()).
 bool sb_pdf_finish(SbPdf *pdf, FILE *stream, GError **error);
 
 // Returns the UTC time of SOURCE_DATE_EPOCH in the `format` of g_date_time_format(); "" if the

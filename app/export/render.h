@@ -1,5 +1,5 @@
 // Views by name: what `sealbench render` and the export dialog draw, as a still or as one frame of
-// a film.
+// a movie.
 #pragma once
 
 #include "app/base/unit.h"
@@ -13,10 +13,10 @@ typedef struct {
   const char *label;    // "Force and displacement"; translate it to show it
   double width, height; // size it is designed for [logical pixels]
   bool section;         // needs the function that draws the section
-  bool compares;        // draws kept designs together with the run
+  bool compares;        // draws saved designs together with the run
 } SbRenderView;
 
-// Returns the table; `*count` is set to the number of rows. Static.
+// Returns the table; *count is set to the number of rows. Static.
 const SbRenderView *sb_render_views(size_t *count);
 
 // Returns the row of a name; NULL: there is none. Static.
@@ -29,10 +29,10 @@ typedef struct {
   int width, height; // [pixels]
 } SbRenderSize;
 
-// Returns the table; `*count` is set to the number of rows. Static.
+// Returns the table; *count is set to the number of rows. Static.
 const SbRenderSize *sb_render_sizes(size_t *count);
 
-// The run of a kept design. Borrowed.
+// The run of a saved design. Borrowed.
 typedef struct {
   const SbRun *run;
   const char *name;
@@ -71,13 +71,13 @@ bool sb_render_view_fits(const SbRenderView *view, const SbRun *run, GError **er
 void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                     unsigned flags, const SbRenderView *view, SbSectionDraw section, void *user);
 
-// Memory for the kept designs in chart data; see sb_render_compared_begin().
+// Memory for the saved designs in chart data; see sb_render_compared_begin().
 typedef struct {
   SbTrace *trace[SB_CHART_PINS];
   SbChartRun run[SB_CHART_PINS];
 } SbRenderCompared;
 
-// Sets `*out` to an array of the bookmarks of a document, for SbRenderOptions, and returns their
+// Sets *out to an array of the bookmarks of a document, for SbRenderOptions, and returns their
 // number. The array is freed by g_free(); the names in it are borrowed from the document.
 size_t sb_render_markers(SbChartMarker **out, const SbDocument *document);
 
@@ -87,7 +87,7 @@ size_t sb_render_markers(SbChartMarker **out, const SbDocument *document);
 void sb_render_compared_begin(SbRenderCompared *compared, SbChartData *data,
                               const SbRenderOptions *options);
 
-// Sets the frame of each kept design to the position of data->playhead; to be called after `run`
+// Sets the frame of each saved design to the position of data->playhead; to be called after `run`
 // and `playhead` were set or changed.
 void sb_render_compared_place(SbChartData *data);
 
@@ -95,13 +95,13 @@ void sb_render_compared_place(SbChartData *data);
 void sb_render_compared_end(SbRenderCompared *compared);
 
 // Draws a finished run (done, cancelled or failed) into the file `path` as PNG, SVG or PDF by its
-// ending. False with SB_APP_ERROR_INPUT (unknown view, a view that the run has not, stage not
-// reached, size, ending) or SB_APP_ERROR_IO; an earlier file is intact then.
+// ending. Returns false with SB_APP_ERROR_INPUT (unknown view, a view that the run has not, stage
+// not reached, size, ending) or SB_APP_ERROR_IO; an earlier file is intact then.
 bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const char *path,
                      GError **error);
 
-// Sets `*frame` (from 0) to the frame that `at` names: "A" to "F" (just before the event) or a time
+// Sets *frame (from 0) to the frame that `at` names: "A" to "F" (just before the event) or a time
 // with its unit (nearest frame; s without a unit). NULL or "": the middle of B-C, where the run's
-// figures are defined, or the last frame of a run without B or C. False with SB_APP_ERROR_INPUT if
-// the run has no frame, the stage was not reached, or the text is neither.
+// figures are defined, or the last frame of a run without B or C. Returns false with
+// SB_APP_ERROR_INPUT if the run has no frame, the stage was not reached, or the text is neither.
 bool sb_render_frame_at(size_t *frame, const SbRun *run, const char *at, GError **error);

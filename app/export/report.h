@@ -27,8 +27,9 @@ typedef struct {
 // run (SbPlanWishes): a run computes only what is wished.
 unsigned sb_report_views(const SbModel *model);
 
-// Writes the report of a scene into `stream`. `hooks` may be NULL. False with SB_APP_ERROR_IO (not
-// drawn) or SB_APP_ERROR_CANCELLED; errors of writing are left in the stream (ferror()).
+// Writes the report of a scene into `stream`. `hooks` may be NULL. Returns false with
+// SB_APP_ERROR_IO (not drawn) or SB_APP_ERROR_CANCELLED; errors of writing are left in the stream
+// (ferror()).
 bool sb_report_scene(FILE *stream, const SbReportScene *scene, const SbReportHooks *hooks,
                      GError **error);
 

@@ -14,6 +14,6 @@ char **sb_results_folder_names(unsigned studies, bool life);
 // `count` studies (study-NAME.csv with the curves, study-NAME-table.csv). No file appears under its
 // final name before all are on the disk. Files of an earlier run that this one does not have are
 // deleted; the names (char *) of those that were changed since are appended to `kept` (may be NULL)
-// and they stay. False with SB_APP_ERROR_IO.
+// and they stay. Returns false with SB_APP_ERROR_IO.
 bool sb_results_folder_write(const char *path, const SbRun *run, const char *json,
                              const SbStudy *studies, size_t count, GPtrArray *kept, GError **error);

@@ -24,12 +24,12 @@ typedef struct {
 #define SB_STILL_MIN 16
 
 // Draws and writes into `stream` in the format of `ending`, a name that ends in .png, .svg or .pdf.
-// False with SB_APP_ERROR_INPUT for an unknown ending or an impossible size, SB_APP_ERROR_IO if it
-// could not be drawn. Errors of writing are left in the stream (ferror(), at the latest after a
-// flush), also if true is returned.
+// Returns false with SB_APP_ERROR_INPUT for an unknown ending or an impossible size,
+// SB_APP_ERROR_IO if it could not be drawn. Errors of writing are left in the stream (ferror(), at
+// the latest after a flush), also if true is returned.
 bool sb_still_put(FILE *stream, const SbStill *still, const char *ending, GError **error);
 
 // Draws and writes the file `path`, in the format of still->ending or of the ending of `path`
-// (.png, .svg, .pdf). False with SB_APP_ERROR_INPUT for an unknown ending or an impossible size,
-// SB_APP_ERROR_IO for a full disk and other failures; an earlier file is intact then.
+// (.png, .svg, .pdf). Returns false with SB_APP_ERROR_INPUT for an unknown ending or an impossible
+// size, SB_APP_ERROR_IO for a full disk and other failures; an earlier file is intact then.
 bool sb_still_write(const SbStill *still, const char *path, GError **error);

@@ -33,7 +33,7 @@ void sb_study_page_size(double *width, double *height, const SbStudy *study);
 void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const SbStudyPage *page);
 
 // Writes the page into the file `path`, in the format of page->ending or of the ending of `path`.
-// False with SB_APP_ERROR_INPUT (size, ending) or SB_APP_ERROR_IO.
+// Returns false with SB_APP_ERROR_INPUT (size, ending) or SB_APP_ERROR_IO.
 bool sb_study_still(const SbStudy *study, const SbStudyPage *page, const char *path,
                     GError **error);
 

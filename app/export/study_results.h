@@ -34,7 +34,7 @@ typedef struct {
   size_t count;
 } SbCodeCount;
 
-// Returns the validity warnings of all samples, sorted by code; `*count` is set to their number.
+// Returns the validity warnings of all samples, sorted by code; *count is set to their number.
 // Freed by g_free().
 SbCodeCount *sb_study_warnings(size_t *count, const SbAnswers *answers);
 

@@ -49,9 +49,9 @@ void sb_surface_choices_clear(SbSurfaceChoices *choices);
 
 // Sets one choice by the name of its command line option: "form", "missing", "channel", "outliers",
 // "cutoff-short", "cutoff-long", "spacing" (a number with unit; without: µm), "unit",
-// "lateral-unit" (a unit of length). `text` is the value. False with SB_APP_ERROR_INPUT whose
-// message does not contain the name ("a value above 0 is needed"); the choices are then not to be
-// used, but still to be cleared.
+// "lateral-unit" (a unit of length). `text` is the value. Returns false with SB_APP_ERROR_INPUT
+// whose message does not contain the name ("a value above 0 is needed"); the choices are then not
+// to be used, but still to be cleared.
 bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *text,
                        GError **error);
 
@@ -60,7 +60,7 @@ bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *
 char *sb_surface_choices_text(const SbSurface *surface);
 
 // Returns the settings of a scene for this surface, "surface.gt_product=0.1289" and so on, ends
-// with NULL; `*reason` is NULL then. If a scene cannot have it, returns NULL, and `*reason`
+// with NULL; *reason is NULL then. If a scene cannot have it, returns NULL, and *reason
 // (static) states why. Freed by g_strfreev().
 char **sb_surface_settings(const char **reason, const SbSurface *surface);
 

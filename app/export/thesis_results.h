@@ -36,7 +36,7 @@ char *sb_thesis_introduction(const char *text, SbThesisItem *const *items, size_
 void sb_markdown_thesis(FILE *stream, const SbThesisItem *item);
 
 // Draws the item's chart (not NULL) into `stream` in the format of `ending` (".svg", ".png",
-// ".pdf"). False as sb_still_put() (still.h).
+// ".pdf"). Returns false as sb_still_put() (still.h).
 bool sb_thesis_still(FILE *stream, const SbThesisItem *item, const char *ending, GError **error);
 
 // Returns a value of a row [row->si] in its display unit, with the unit and at most five

@@ -7,8 +7,7 @@
 
 // The worst answer to one question of the verdict.
 typedef struct {
-  SbVerdict
-      of; // the answer: figure, value and limit [SI of the figure], reason (copied, no pointer)
+  SbVerdict of; // the answer with figure, value, limit and reason; holds no pointers
   // Name of the case that gives the answer; NULL: the scene itself. Borrowed from the document
   // until it changes.
   const char *name;

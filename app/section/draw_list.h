@@ -48,8 +48,8 @@ typedef struct {
   SbDrawKind kind;
   SbColor color;
   int clip; // index into SbDrawList.clip
-  size_t first,
-      count; // its points in SbDrawList.point, or bytes in SbDrawList.text (without the 0)
+  // Its points in SbDrawList.point, or its bytes in SbDrawList.text (without the 0).
+  size_t first, count;
   // Stroke.
   double width;       // of the line [px]
   const SbDash *dash; // borrowed; NULL: solid
@@ -135,7 +135,7 @@ SbDrawItem *sb_draw_round_frame(SbDrawList *list, double x, double y, double wid
 SbDrawItem *sb_draw_mesh(SbDrawList *list, const SbPoint *points, const float *scalars,
                          size_t count, const SbDrawMap *map, double min, double max);
 
-// Adds one line of UTF-8 text (copied, at most SB_DRAW_TEXT_MAX bytes) at the anchor (x, y).
+// Adds one line of UTF-8 text (copied; cut off after SB_DRAW_TEXT_MAX bytes) at the anchor (x, y).
 SbDrawItem *sb_draw_text(SbDrawList *list, double x, double y, double size, int weight,
                          SbAlign align, SbColor color, const char *text);
 

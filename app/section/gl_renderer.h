@@ -27,9 +27,9 @@ SbStatus sb_gl_renderer_draw(SbGlRenderer *renderer, const SbDrawList *list, int
                              double scale, SbReport *report);
 
 // Copies the picture of the last sb_gl_renderer_draw(), which must have succeeded, to
-// pixels[height][stride] with the height given there: rows from the
-// top, 4 bytes a pixel in the order of CAIRO_FORMAT_ARGB32 (B, G, R, A on little-endian machines,
-// premultiplied). `stride` is the number of bytes of a row, a multiple of 4.
+// pixels[height][stride] with the height given there: rows from the top, 4 bytes a pixel in the
+// order of CAIRO_FORMAT_ARGB32 (B, G, R, A on little-endian machines, premultiplied). `stride` is
+// the number of bytes of a row, a multiple of 4 and at least 4 times the width.
 void sb_gl_renderer_read(SbGlRenderer *renderer, uint8_t *pixels, size_t stride);
 
 // Draws a list into the framebuffer that is bound now, of width x height device pixels with its

@@ -36,8 +36,7 @@ struct SbDisplayedRun {
   bool sought[SB_PARAM_COUNT];          // `tangent` was computed, perhaps without a result
   SbGradient *gradient[SB_PARAM_COUNT]; // of all figures by one parameter; owned; NULL: not known
   bool differentiated[SB_PARAM_COUNT];  // `gradient` was computed, perhaps without a result
-  SbDisplayedRun
-      *level; // run without a change with which `tangent` is computed; a reference or NULL
+  SbDisplayedRun *level; // run without a change, for computing `tangent`; a reference or NULL
 };
 
 // Returns a displayed run with one reference. It takes over the caller's reference `handle`, whose

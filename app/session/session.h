@@ -2,8 +2,8 @@
 // session and connect to its signals; they do not call each other.
 //
 // Signals, without arguments, emitted in the main thread:
-//   "params-changed"    a value, a field error, the name of the document or its edited state
-//   changed "run-changed"       the state of the run, or which run is displayed, changed
+//   "params-changed"    a value, a field error, the document's name or its edited state changed
+//   "run-changed"       the state of the run, or which run is displayed, changed
 //   "frames-changed"    the displayed run has more frames (at most once per drawn frame)
 //   "progress-changed"  a run that displays nothing new has progressed (once per drawn frame)
 //   "playhead-changed"  the displayed frame changed, or playing started or stopped

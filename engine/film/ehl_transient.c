@@ -107,7 +107,7 @@ static void lay_rest(SbFilmTransient *t, double rest, const SbFilm *standing) {
     for (int i = 0; i < t->nodes; i++) {
       s->m[i] = s->H[i] = fmax(s->H[i], rest);
     }
-    sb_transient_bear(t, s, true);
+    sb_transient_solids(t, s, true);
     for (int i = 0; i < t->nodes; i++) {
       s->P[i] = fmax(s->P[i], 0.0);
     }
@@ -121,7 +121,7 @@ static void lay_rest(SbFilmTransient *t, double rest, const SbFilm *standing) {
     s->cavity[i] = false;
   }
   s->H0 = 0.0;
-  sb_transient_bear(t, s, false);
+  sb_transient_solids(t, s, false);
   sb_transient_gap(s->H, t, s);
   s->H0 = rest - s->H[t->nodes / 2];
   for (int i = 0; i < t->nodes; i++) {
@@ -140,7 +140,7 @@ static void starve(SbFilmTransient *t) {
       s->P[i] = 0.0;
     }
   }
-  sb_transient_bear(t, s, false);
+  sb_transient_solids(t, s, false);
 }
 
 // Minimum film, by a parabola through the logarithms of the lowest node and its neighbours, and the
@@ -479,9 +479,9 @@ SbStatus sb_transient_advance(double *error, SbFilmTransient *t, double h, doubl
   t->c0 = rate[0];
   t->carried_rate = 0.0;
   for (int k = 1; k <= known; k++) {
-    const double way = carry ? s->travel - past[k]->travel : 0.0;
-    sb_transient_carry(t->work[0], t, past[k]->m, way);
-    t->carried_rate -= rate[k] * way;
+    const double travel = carry ? s->travel - past[k]->travel : 0.0;
+    sb_transient_transport(t->work[0], t, past[k]->m, travel);
+    t->carried_rate -= rate[k] * travel;
     cblas_daxpy(t->nodes, rate[k], t->work[0], 1, t->old, 1);
     cblas_daxpy(t->nodes, ahead[k - 1], t->work[0], 1, t->guess, 1);
   }
@@ -550,14 +550,14 @@ static SbStatus follow(SbFilmTransient *t, double end, double v1, SbReport *repo
 
 // Adds the minimum films at the present distance. At rest nothing moves: earlier films are no
 // longer compared.
-static void trace(SbFilmTransient *t, double way, double fine, double coarse) {
+static void trace(SbFilmTransient *t, double travel, double fine, double coarse) {
   enum { LAST = SB_TRANSIENT_TRACE - 1 };
-  if (t->traced > LAST || !(way > 0.0)) {
-    const int kept = way > 0.0 ? LAST : 0;
+  if (t->traced > LAST || !(travel > 0.0)) {
+    const int kept = travel > 0.0 ? LAST : 0;
     memmove(t->trace, t->trace + t->traced - kept, (size_t)kept * sizeof *t->trace);
     t->traced = kept;
   }
-  t->trace[t->traced++] = (SbTransientTrace){t->way, {fine, coarse}};
+  t->trace[t->traced++] = (SbTransientTrace){t->travel, {fine, coarse}};
 }
 
 // Returns the distance of the two histories of the minimum film at the present instant: the
@@ -569,7 +569,7 @@ static double trace_apart(const SbFilmTransient *t) {
   const SbTransientTrace *now = &t->trace[t->traced - 1];
   double best = fabs(now->film[1] / now->film[0] - 1.0);
   for (const SbTransientTrace *at = now - 1; at >= t->trace; at--) {
-    const double lag = 0.5 * (now->way - at->way), next = 0.5 * (now->way - at[1].way);
+    const double lag = 0.5 * (now->travel - at->travel), next = 0.5 * (now->travel - at[1].travel);
     for (int k = 0; k < 2; k++) {
       const double film = now->film[1 - k], a = at->film[k], b = at[1].film[k];
       best = fmin(best, fmax(lag, fabs((k == 1 ? a / film : film / a) - 1.0)));
@@ -581,11 +581,11 @@ static double trace_apart(const SbFilmTransient *t) {
   return best;
 }
 
-// Advances the companion to the end of a piece in which the fluid moved by `way`, and takes the
+// Advances the companion to the end of a piece in which the fluid moved by `travel`, and takes the
 // difference of the films, or what remains in the contact of the largest earlier one. For the
 // minimum film the full difference is the error of a first-order method: fronts and cavities are
 // between first and second order, for which it would be a third. For the central film it is half.
-static SbStatus compare(SbFilmTransient *t, double way) {
+static SbStatus compare(SbFilmTransient *t, double travel) {
   SbFilmTransient *other = t->companion;
   double *error[2] = {&t->result.error_film_min, &t->result.error_film_central};
   if (other == NULL) {
@@ -612,17 +612,17 @@ static SbStatus compare(SbFilmTransient *t, double way) {
   const bool unknown = !t->problem.resolve && t->face[at].carried > 0.0;
   const double share = 2.0 * fine[0] / (H[at - 2] + H[at + 1]);
   const double bend = unknown ? fabs(1.0 - share * share) : 0.0;
-  t->way += way;
-  trace(t, way, fine[0], coarse[0]);
+  t->travel += travel;
+  trace(t, travel, fine[0], coarse[0]);
   const double history = t->result.error_mesh + trace_apart(t);
   t->result.error_history =
       fmax(t->result.error_history, history + bend * fmax(0.0, 1.0 - history));
   for (int k = 0; k < 2; k++) {
     const double part = k == 0 ? 1.0 : 0.5;
     const double apart = part * fabs(coarse[k] / fine[k] - 1.0) + (k == 0 ? bend : 0.0);
-    if (apart > t->apart[k] || t->way - t->apart_way[k] > 2.0) {
+    if (apart > t->apart[k] || t->travel - t->apart_travel[k] > 2.0) {
       t->apart[k] = apart;
-      t->apart_way[k] = t->way;
+      t->apart_travel[k] = t->travel;
     }
     *error[k] = t->result.error_mesh + t->apart[k];
   }
@@ -638,13 +638,13 @@ SbStatus sb_film_transient_step(SbFilmTransient *t, double dt, double speed, SbR
   SbStatus status = SB_OK;
   const double begin = t->now.time;
   const double v0 = t->now.speed, v1 = 0.5 * speed / t->scale.half_width;
-  const double way = 0.5 * dt * (fabs(v0) + fabs(v1));
-  const int pieces = (int)ceil(fmin(fmax(way / 0.1, 1.0), PIECES_MAX));
+  const double travel = 0.5 * dt * (fabs(v0) + fabs(v1));
+  const int pieces = (int)ceil(fmin(fmax(travel / 0.1, 1.0), PIECES_MAX));
   for (int k = 1; k <= pieces && status == SB_OK; k++) {
     const double share = (double)k / pieces;
     status = follow(t, begin + share * dt, v0 + share * (v1 - v0), report);
     if (status == SB_OK) {
-      status = compare(t, way / pieces);
+      status = compare(t, travel / pieces);
     }
   }
   return status;
@@ -657,6 +657,6 @@ SbFilmTransientResult sb_film_transient_result(const SbFilmTransient *t) {
   result.film_min = film[0] * t->scale.film;
   result.film_central = film[1] * t->scale.film;
   result.half_width = t->scale.half_width;
-  sb_transient_rub(&result, t);
+  sb_transient_friction(&result, t);
   return result;
 }

@@ -59,7 +59,7 @@ enum { SB_TRANSIENT_TRACE = 64 };
 
 // Minimum films of the film and of its companion, at a distance that the fluid has moved.
 typedef struct {
-  double way;     // distance that the fluid has moved, divided by b
+  double travel;  // distance that the fluid has moved, divided by b
   double film[2]; // minimum films of the film and of its companion, scaled
 } SbTransientTrace;
 
@@ -118,12 +118,12 @@ struct SbFilmTransient {
   double old_X[SB_TRANSIENT_NODES_MAX];
   SbTransientState next, now, before, earlier; // state of the step, present and two earlier states
   int known_times;                             // valid states from `now` on, 1 to 3
-  double way, apart[2], apart_way[2]; // distance moved by the fluid; largest difference to the
-                                      // companion, and `way` then
-  SbTransientTrace trace[SB_TRANSIENT_TRACE]; // since the last rest
-  int traced;                                 // entries in use
-  double step;                                // next time step to try [s]
-  SbFilmTransientResult result;               // except films and friction
+  double travel, apart[2], apart_travel[2];    // distance moved by the fluid; largest difference to
+                                               // the companion, and `travel` then
+  SbTransientTrace trace[SB_TRANSIENT_TRACE];  // since the last rest
+  int traced;                                  // entries in use
+  double step;                                 // next time step to try [s]
+  SbFilmTransientResult result;                // except films and friction
 };
 
 // Builds mesh and kernel for initial gaps at rest up to `rest` and films that come to rest down to
@@ -145,17 +145,18 @@ bool sb_transient_front(const double *height, int count, double factor);
 
 // Computes t->solid at the gaps of `s`, then Q = P + solid at each node; with `split` P = Q - solid
 // at full nodes.
-void sb_transient_bear(SbFilmTransient *t, SbTransientState *s, bool split);
+void sb_transient_solids(SbFilmTransient *t, SbTransientState *s, bool split);
 
 // Computes friction, asperity load and real area of the present state.
-void sb_transient_rub(SbFilmTransientResult *out, const SbFilmTransient *t);
+void sb_transient_friction(SbFilmTransientResult *out, const SbFilmTransient *t);
 
 // Writes the elastic gap due to Q at all nodes to out[nodes].
 void sb_transient_gap(double *out, const SbFilmTransient *t, const SbTransientState *s);
 
-// Transports the liquid height[nodes] by the signed distance `way` (divided by b, times `carried`
-// at the faces) and writes its means over the cells to out[nodes]. Conserves mass. Uses t->cells.
-void sb_transient_carry(double *out, SbFilmTransient *t, const double *height, double way);
+// Transports the liquid height[nodes] by the signed distance `travel` (divided by b, times
+// `carried` at the faces) and writes its means over the cells to out[nodes]. Conserves mass. Uses
+// t->cells.
+void sb_transient_transport(double *out, SbFilmTransient *t, const double *height, double travel);
 
 // Solves the implicit step described in `t` (c0, carried_rate, old, guess) by Newton's method from
 // the guess `s`, in which H need not be the gap of P; s->time and speed are those of the end of the

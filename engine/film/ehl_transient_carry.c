@@ -53,21 +53,21 @@ static double integral_to(const SbTransientCells *cells, double X) {
   return cblas_ddot(FACES, basis, 1, &integral[k - SIDE + 1], 1);
 }
 
-void sb_transient_carry(double *out, SbFilmTransient *t, const double *height, double way) {
+void sb_transient_transport(double *out, SbFilmTransient *t, const double *height, double travel) {
   const int n = t->nodes;
   memcpy(out, height, (size_t)n * sizeof *out);
   int first = 0;
   while (first < n && t->face[first].carried == 0.0) {
     first++;
   }
-  if (first == n || way == 0.0) {
+  if (first == n || travel == 0.0) {
     return;
   }
   SbTransientCells *cells = &t->cells;
   integrate(cells, t->X, height, first - FACES, n - 2 - first + FACES);
   double before = cells->integral[first - 1];
   for (int i = first; i <= n - 1 - first; i++) {
-    const double value = integral_to(cells, t->face[i].X - t->face[i].carried * way);
+    const double value = integral_to(cells, t->face[i].X - t->face[i].carried * travel);
     out[i] = (value - before) / t->volume[i];
     before = value;
   }

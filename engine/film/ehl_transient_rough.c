@@ -14,7 +14,7 @@ static void touch(SbEhlRoughPoint *out, const SbFilmTransient *t, double H) {
   }
 }
 
-void sb_transient_bear(SbFilmTransient *t, SbTransientState *s, bool split) {
+void sb_transient_solids(SbFilmTransient *t, SbTransientState *s, bool split) {
   for (int i = 0; i < t->nodes; i++) {
     SbEhlRoughPoint at;
     touch(&at, t, s->H[i]);
@@ -31,7 +31,7 @@ void sb_transient_bear(SbFilmTransient *t, SbTransientState *s, bool split) {
 
 // Integrals as of a steady film (ehl.h): of the shear of u over the open gap, where a cavity's
 // fluid fills the share m/h in streamers; of h/2 dp/dx; of the asperities' pressure and real area.
-void sb_transient_rub(SbFilmTransientResult *out, const SbFilmTransient *t) {
+void sb_transient_friction(SbFilmTransientResult *out, const SbFilmTransient *t) {
   const SbTransientState *s = &t->now;
   const SbFilmScale *scale = &t->scale;
   const SbFilmProblem *film = &t->problem.film;
@@ -60,7 +60,7 @@ void sb_transient_rub(SbFilmTransientResult *out, const SbFilmTransient *t) {
   out->asperity_share = sb_ehl_asperity_share(
       out->asperity_load, solid * scale->half_width * scale->pressure, film->load);
   out->real_area = area * scale->half_width;
-  const double way = s->speed < 0.0 ? -1.0 : 1.0;
+  const double sign = s->speed < 0.0 ? -1.0 : 1.0;
   out->friction_boundary =
-      way * (film->shear_strength * out->real_area + film->load_coefficient * out->asperity_load);
+      sign * (film->shear_strength * out->real_area + film->load_coefficient * out->asperity_load);
 }

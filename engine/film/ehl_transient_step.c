@@ -311,7 +311,7 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
   SbFilmTransientResult *result = &t->result;
   set_end(t, s, 0, 1);
   set_end(t, s, n - 1, n - 2);
-  sb_transient_bear(t, s, false);
+  sb_transient_solids(t, s, false);
   bool fresh = false;
   bool settled = false;
   // H is the gap of P: a full step makes it so and shorter ones preserve it. It then has more
@@ -362,7 +362,7 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
     if (isnan(largest)) {
       break;
     }
-    sb_transient_bear(t, s, true);
+    sb_transient_solids(t, s, true);
     const int switched = switch_nodes(t, s);
     elastic_H = (elastic_H || factor == 1.0) && switched == 0;
     settled = factor == 1.0 && switched == 0 && largest < 1e-4;

@@ -14,8 +14,8 @@
 // With asperities the film approaches the gap at which p_a(h) = P; p_a is that of a rough law
 // (contact/rough). Sources: Reynolds (1886); with p_a Persson and Scaraggi, J. Phys.: Condens.
 // Matter 21 (2009) 185002, without flow factors. Adhesion of the law is subtracted from p_a. Valid
-// for an isoviscous fluid. Not modelled: the
-// fluid pocket in the middle of a soft body (its film closes later), fluid pressure at the ends.
+// for an isoviscous fluid. Not modelled: the fluid pocket in the middle of a soft body (its film
+// closes later), fluid pressure at the ends.
 #pragma once
 
 #include "engine/contact/rough/rough_law.h"

@@ -26,9 +26,10 @@ enum {
   EVENT_COUNT = EVENT_CONTACT_DOWN + SB_DYNAMICS_CONTACTS,
 };
 
-// Force on the stem, positive to +x, near a point of its motion where the stem is at x0: f0 + f1
-// tau
-// - k (x - x0) - c v, with tau the time since that point and v the speed.
+// Force on the stem, positive to +x, near a point of its motion where the stem is at x0, with tau
+// the time since that point and v the speed:
+//
+//   f0 + f1 tau - k (x - x0) - c v
 typedef struct {
   double f0, f1, k, c; // [N], [N/s], [N/m], [N s/m]
 } Force;

@@ -19,9 +19,9 @@ typedef struct {
 } SbProfilePoint;
 
 // A half-section in the (x, r) plane, counter-clockwise, so the material is on the left of the
-// direction of travel. The last
-// point is connected to the first one by a piece, which is not listed as a point. If first and last
-// point are on the axis, the axis closes the outline, and the last bulge must be 0.
+// direction of travel. If the first and the last point are on the axis, the axis closes the
+// outline, and the last bulge must be 0. Else `closed` must be true: the piece of the last point
+// leads to the first point, which is not repeated.
 typedef struct {
   const SbProfilePoint *point; // [count], borrowed
   size_t count;                // 2 to SB_PROFILE_MAX

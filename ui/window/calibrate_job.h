@@ -18,8 +18,8 @@ void sb_calibrate_job_cancel(SbCalibrateJob *job);
 
 // Once, after `done`: moves the result to the caller: `out`, freed by sb_calibration_release(), and
 // its study, freed by sb_study_file_free() after `out`. Returns true also if the fit has not
-// converged, or if it was cancelled and has estimates (out->partial); `*why` is then not changed.
-// Otherwise returns false, with `out` and `study` not changed, and sets `*why` to a sentence, freed
+// converged, or if it was cancelled and has estimates (out->partial); *why is then not changed.
+// Otherwise returns false, with `out` and `study` not changed, and sets *why to a sentence, freed
 // by g_free().
 bool sb_calibrate_job_take(SbCalibrateJob *job, SbCalibration *out, SbStudyFile **study,
                            char **why);

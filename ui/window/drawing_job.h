@@ -21,9 +21,8 @@ typedef struct {
 SbDrawingJob *sb_drawing_job_start(const char *path, const char *choices, void (*done)(void *data),
                                    void *user);
 
-// From the call of `done` on: returns the drawing, and sets `*why` to NULL; or returns NULL, and
-// sets
-// `*why` to a sentence. Both are borrowed from the job until it is freed.
+// From the call of `done` on: returns the drawing, and sets *why to NULL; or returns NULL, and sets
+// *why to a sentence. Both are borrowed from the job until it is freed.
 const SbDrawing *sb_drawing_job_drawing(const SbDrawingJob *job, const char **why);
 
 // Cancels, waits for the thread and frees.

@@ -1,4 +1,4 @@
-// The dialog that exports a picture, a drawing or a film of the displayed run.
+// The dialog that exports a picture, a drawing or a movie of the displayed run.
 #pragma once
 
 #include "app/session/session.h"

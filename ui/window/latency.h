@@ -22,5 +22,5 @@ typedef struct {
 void sb_latency_measured(SbLatency *out);
 
 // Writes {"samples", "p50_ms", "p99_ms", "max_ms", "own_p99_ms", "own_max_ms"} as JSON to the file
-// `path`. FALSE with an error of G_FILE_ERROR.
+// `path`. Returns FALSE with an error of G_FILE_ERROR.
 gboolean sb_latency_write(const char *path, GError **error);

@@ -13,8 +13,8 @@ typedef struct SbScanJob SbScanJob;
 SbScanJob *sb_scan_job_start(const char *path, const char *choices, void (*done)(void *data),
                              void *user);
 
-// From the call of `done` on: returns the scan with its figures, and sets `*why` to NULL; or
-// returns NULL, and sets `*why` to a sentence. Both are borrowed from the job until it is freed.
+// From the call of `done` on: returns the scan with its figures, and sets *why to NULL; or
+// returns NULL, and sets *why to a sentence. Both are borrowed from the job until it is freed.
 const SbSurface *sb_scan_job_surface(const SbScanJob *job, const char **why);
 
 // Waits for the thread and frees the job. The scan is read and computed to its end first.

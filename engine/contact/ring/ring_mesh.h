@@ -40,8 +40,8 @@ typedef struct {
 typedef struct {
   double centre; // r of the section's middle [L]
   double radius; // disc: its radius [L]; not used with an outline
-  const SbRingOutline
-      *outline;    // borrowed during the call, scaled to L = radial height; NULL: a disc
+  // Borrowed during the call, in units of L = the radial height; NULL: a disc.
+  const SbRingOutline *outline;
   double size_max; // largest element size [L]
   double growth;   // increase of the element size per length [1]
   int layers;      // disc: rows of elements from surface to centre, 3 to 20

@@ -1,10 +1,10 @@
 // Derivatives of figures with respect to real parameters, at a model with overrides.
 //
-// Use: sb_gradient_create() with a question of evaluate.h, then read the
-// slopes. The differentiated function is the answer to this question: closed forms,
-// located events, and equations solved to rounding. Derivatives are central differences at two or
-// more steps with Richardson extrapolation, one-sided at an end of the parameter's range. Each has
-// an error estimate: the last change by extrapolation, and the rounding that the step amplifies.
+// Use: sb_gradient_create() with a question of evaluate.h, then read the slopes. The differentiated
+// function is the answer to this question: closed forms, located events, and equations solved to
+// rounding. Derivatives are central differences at two or more steps with Richardson extrapolation,
+// one-sided at an end of the parameter's range. Each has an error estimate: the last change by
+// extrapolation, and the rounding that the step amplifies.
 //
 // Solved rings are linearised about the base (SbQuestion.tangent): two back-substitutions with a
 // constant active set, on a mesh that follows the contacts (ring_ends.c), and films linearised on

@@ -1,7 +1,6 @@
-// Consistency check of a run's summary: finds two results that exclude each other,
-// such as a finite return margin of a stem that never moved. Builds with SB_ASSERT_RUNS assert
-// after each run that there is none; tests/campaigns/contradictions.py applies the same rules to
-// JSON.
+// Consistency check of a run's summary: finds two results that exclude each other, such as a finite
+// return margin of a stem that never moved. Builds with SB_ASSERT_RUNS assert after each run that
+// there is none; tests/campaigns/contradictions.py applies the same rules to JSON.
 #pragma once
 
 #include "engine/valve/run/run.h"
