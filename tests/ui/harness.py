@@ -23,7 +23,7 @@ from gi.repository import Atspi, GLib  # noqa: E402
 PROGRAM = os.environ["SEALBENCH_GTK"]
 COMMAND = os.path.join(os.path.dirname(os.path.dirname(PROGRAM)), "sealbench")
 ASSETS = os.environ["SEALBENCH_ASSETS"]
-TIMEOUT = 40.0
+TIMEOUT = 120.0
 # By the names that AT-SPI has for them.
 ROLES = {Atspi.role_get_name(role): role
          for role in (Atspi.Role(number) for number in range(Atspi.Role.LAST_DEFINED))}

@@ -259,7 +259,7 @@ def unsaved_changes_survive_a_crash(folder):
         wait("the kept changes",
              lambda: any(name.endswith(".unsaved") for name in os.listdir(unsaved)))
         app.process.kill()
-        app.process.wait(40)
+        app.process.wait(120)
     with open(path) as file:
         assert file.read() == before
     # Later: asked again at the next start, nothing changed.
