@@ -60,9 +60,9 @@ int sb_figure_compared_decimals(int index, const SbFigureCompared *design, size_
 // Returns the unit of all values of a comparison whose first one is `value` [SI]. Static.
 const char *sb_figure_compared_unit(int index, double value);
 
-// Writes the value of design `at` of `count`, and its difference from the first design with a sign
-// ("" for the first design, for a question and where one of the two is not known), with the
-// decimals of sb_figure_compared_decimals(), in plain ASCII without the unit. Both texts have
-// SB_FORMAT_MAX bytes. Returns the unit, borrowed; "" where there is no number.
+// Writes the value of design `at` (from 0) of `count`, and its difference from the first design
+// with a sign ("" for the first design, for a figure that is yes or no, and where one of the two is
+// not known), with the decimals of sb_figure_compared_decimals(), in plain ASCII without the unit.
+// Both texts have SB_FORMAT_MAX bytes. Returns the unit, static; "" where there is no number.
 const char *sb_figure_compared(char *value, char *change, int index, const SbFigureCompared *design,
                                size_t count, size_t at);

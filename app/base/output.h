@@ -7,7 +7,9 @@
 // the complete new bytes are copied into the old file, the only case in which a crash can leave an
 // incomplete file. Devices, pipes and "-" (standard output) receive the complete bytes at the end.
 //
-// Functions that return bool return false with an error, mostly SB_APP_ERROR_IO.
+// Functions with a GError return false with an error: SB_APP_ERROR_INPUT if the path is refused (an
+// input, or an existing file with sb_output_keep_existing()), else SB_APP_ERROR_IO. Different files
+// may be written by several threads at the same time.
 #pragma once
 
 #include "app/base/error.h"
@@ -19,13 +21,15 @@ struct stat;
 
 // ---- Which files may be written; set once at the start of the program ----
 
-// Refuses from now on to write files that were read (sb_output_note_input()).
+// Refuses from now on to write files that sb_output_note_input() records. Without this call inputs
+// may be overwritten.
 void sb_output_protect_inputs(void);
 
-// Records a file that was read, by its device and inode.
+// Records a file that was read, by its device and inode; `info` is the result of fstat(). Does
+// nothing before sb_output_protect_inputs().
 void sb_output_note_input(const struct stat *info);
 
-// Sets whether existing files are refused as outputs.
+// Sets whether existing files are refused as outputs; initially they are replaced.
 void sb_output_keep_existing(bool keep);
 
 // Returns whether files are being given their names at the moment, which takes very little time.
@@ -89,16 +93,18 @@ bool sb_output_folder_open(SbOutputFolder **out, const char *path, const char *c
                            GError **error);
 
 // Begins the file `name` in the folder. *stream is borrowed; write to it before the next call of a
-// function of the folder.
+// function of the folder. After a failure the folder and its other files can still be used.
 bool sb_output_folder_add(FILE **stream, SbOutputFolder *folder, const char *name, GError **error);
 
 // Flushes and syncs all files that were added since the last commit, and then gives all their
-// names. After a failure the files without a name are removed. The streams are closed in any case.
+// names. After a failure the files without a name are removed; files of earlier commits stay. The
+// streams are closed in any case.
 bool sb_output_folder_commit(SbOutputFolder *folder, GError **error);
 
 // To be called once after the last commit, when the result is complete: removes the files of the
-// earlier result. The names of those that were changed and therefore not removed are appended to
-// `kept` (of char * with g_free() as its free function; NULL: not wanted).
+// earlier result and writes the manifest. Does nothing without a manifest, without committed files,
+// or if existing files are refused. The names of files that were changed and therefore not removed
+// are appended to `kept` (of char * with g_free() as its free function; NULL: not wanted).
 bool sb_output_folder_finish(SbOutputFolder *folder, GPtrArray *kept, GError **error);
 
 // Unlocks and frees the folder. Without sb_output_folder_finish() the earlier files stay and remain

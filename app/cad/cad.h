@@ -58,8 +58,9 @@ typedef struct {
 
 // What the caller states about a drawing. All zeros but the angle: as the file states.
 typedef struct {
-  // Unit of the coordinates of a DXF or STL ("mm", "inch"); NULL: the unit that a DXF states, or
-  // the only one in which an STL has the size of a valve's part. Not for STEP.
+  // Unit of the coordinates of a DXF or STL: any unit of length that udunits-2 knows ("mm",
+  // "inch"); NULL: the unit that a DXF states, or the only one of mm, inch, m and um in which an
+  // STL has the size of a valve's part. Not for STEP.
   const char *unit;
   // DXF: "x" or "y", the line of the drawing about which bodies are revolved; NULL: its centre
   // line, else x. STL: "x", "y" or "z"; NULL: the axis of rotational symmetry by the moments of

@@ -39,7 +39,8 @@ SbDxfBlocks *sb_dxf_blocks_new(void);
 void sb_dxf_blocks_free(SbDxfBlocks *blocks);
 
 // Begins the definition of a block with its base point [drawing units]; what is added up to
-// sb_dxf_blocks_end() belongs to it. A block of the same name is replaced.
+// sb_dxf_blocks_end() belongs to it. A definition that is open ends. An earlier block of the same
+// name is replaced.
 void sb_dxf_blocks_begin(SbDxfBlocks *blocks, const char *name, double base_x, double base_y);
 
 // Ends the definition of a block; does nothing outside of one.

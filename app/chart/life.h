@@ -4,5 +4,6 @@
 #include "app/base/canvas.h"
 #include "app/chart/data.h"
 
-// Draws the panels of data->run.life into `rect` [px], each with its own background.
+// Draws the panels of data->run.life into `rect`, each with its own background; nothing without
+// actuations.
 void sb_life_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data);

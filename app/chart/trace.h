@@ -66,16 +66,17 @@ enum { SB_TRACE_EVENTS_MAX = 600 };
 // Borrowed until the next sb_trace_extend().
 const SbTraceEvent *sb_trace_events(const SbTrace *trace, size_t *count);
 
-// Returns the event of a stage in a cycle (from 0); NULL: not read yet. Borrowed until the next
-// sb_trace_extend().
+// Returns the event of a stage in a cycle (from 0); NULL: not read yet, or not reached. Borrowed
+// until the next sb_trace_extend().
 const SbStageMark *sb_trace_mark(const SbTrace *trace, SbStage stage, int cycle);
 
-// Returns the frame at which a stage of a cycle ends: that of the next event, or the last of
-// `count` frames.
+// Returns the index of the frame at which a stage of a cycle (from 0) ends: that of the next event,
+// or the last of the run's `count` frames.
 size_t sb_trace_stage_end(const SbTrace *trace, SbStage stage, int cycle, size_t count);
 
-// Returns the index of the event whose stage contains a frame: the last event before it (the frame
-// of an event belongs to the stage before). -1: no events.
+// Returns the index in sb_trace_events() of the event whose stage contains frame number `frame` of
+// frames[]: the last event before it (the frame of an event belongs to the stage before). -1: no
+// event at or before it.
 int sb_trace_event_of(const SbTrace *trace, const SbFrame *frames, size_t frame);
 
 // Largest number of peaks.
@@ -85,5 +86,6 @@ enum { SB_TRACE_PEAKS_MAX = 20000 };
 // their number in *count. Borrowed until the next sb_trace_extend().
 const SbTracePoint *sb_trace_peaks(const SbTrace *trace, size_t *count);
 
-// Returns the index of the last point at or before a frame; 0: no points.
+// Returns the index in sb_trace_points() of the last point at or before frame number `frame`; 0 if
+// there is none.
 size_t sb_trace_find(const SbTrace *trace, size_t frame);

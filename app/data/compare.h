@@ -47,8 +47,9 @@ typedef struct {
   SbMeasuredBand band; // scatter of the measured cycles; `end` is 0 if only one cycle is used
 } SbComparison;
 
-// Compares `measured` with the loop of a run, for which sb_loop_take() returned true. `measured` is
-// borrowed: it must outlive the result. Freed by sb_comparison_free().
+// Compares `measured` with the loop of a run, for which sb_loop_take() returned true; the loop is
+// only read. `measured` is borrowed: it must outlive the result. Never NULL; without common
+// displacements all residuals are NaN. Freed by sb_comparison_free().
 SbComparison *sb_comparison_create(const SbMeasured *measured, const SbLoop *loop);
 
 // Frees a comparison, not the measured loop.

@@ -6,7 +6,7 @@
 #include "app/base/issue.h"
 #include "app/base/unit.h"
 
-// code, key
+// X(enumerator, key in the file): the keys of a group.
 #define SB_DATA_KEYS(X)                                                                            \
   X(SB_DATA_FILE, "file")                                                                          \
   X(SB_DATA_SIGNAL, "signal")                                                                      \
@@ -24,7 +24,7 @@
   X(SB_DATA_SET, "set")                                                                            \
   X(SB_DATA_OWN, "own")
 
-// The keys of a group.
+// A key of a group.
 typedef enum {
 #define SB_DATA_KEY_ENUM(code, name) code,
   SB_DATA_KEYS(SB_DATA_KEY_ENUM)

@@ -4,8 +4,8 @@
 // + - * / with their usual precedence, parentheses and functions, over names and numbers. A number
 // with a unit must have the dimension of the result; a number without a unit has no dimension.
 // Semicolons separate the arguments of functions:
-//   min(A; B) max(A; B) pow(A; B) sin cos tan asin atan exp ln round(A), single(A): A rounded to
-//   single precision; and closed forms of the engine:
+//   min(A; B) max(A; B) pow(A; B) sin cos tan asin atan (angles in rad) exp ln round(A),
+//   single(A): A rounded to single precision; and closed forms of the engine:
 //   column(pressure; height; modulus; poisson) half_space(x; half-width; radius)
 //   panel(distance; width) flamant(x; load; datum; modulus; poisson)
 //   disc(load; half-width; radius; modulus; poisson)           engine/contact/deflection.h

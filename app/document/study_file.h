@@ -21,7 +21,7 @@
 #include "engine/numeric/sampling.h"
 #include "engine/valve/answer/leakage_test.h"
 
-// code, name
+// X(enumerator, name in the file): the methods.
 #define SB_STUDY_METHODS(X)                                                                        \
   X(SB_METHOD_GRID, "grid")                                                                        \
   X(SB_METHOD_MONTE_CARLO, "monte-carlo")                                                          \

@@ -20,10 +20,10 @@ typedef enum {
 } SbDesignPart;
 
 // Starts the job. It owns `study`, which sb_design_ask_study() made from `ask` (copied). `store`
-// stores the evaluations of the map and of the valves; it is borrowed, and only one job may use it
-// at a time. Without `search`, only the map and the present design are computed. done(data) is
-// called once in the main thread at the end, unless the job was freed before. Freed by
-// sb_design_job_free().
+// stores the evaluations of the map and of the valves; it is borrowed until the job is freed, and
+// only one job may use it at a time (NULL: nothing is stored). Without `search`, only the map and
+// the present design are computed. done(data) is called once in the main thread at the end, unless
+// the job was freed before. Freed by sb_design_job_free().
 SbDesignJob *sb_design_job_start(SbStudyFile *study, const SbDesignAsk *ask, SbStore *store,
                                  bool search, void (*done)(void *data), void *data);
 

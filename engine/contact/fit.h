@@ -200,9 +200,10 @@ SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report)
 // sb_fit_solve().
 SbStatus sb_fit_again(SbFit *out, const SbFitProblem *problem, SbReport *report);
 
-// Sets *out and *problem->kept to the ring that slides in the opposite direction, by reflecting
-// `ring` and its result `fit`; nothing is solved. Only without fluid pressure. `problem` is that of
-// the new direction. SB_ERROR_NOT_CONVERGED: section or groove is not symmetric.
+// Sets *out and *problem->kept (a ring that it already has is freed) to the ring that slides in the
+// opposite direction, by reflecting `ring` and its result `fit`; nothing is solved. Only without
+// fluid pressure. `problem` is that of the new direction. SB_ERROR_NOT_CONVERGED: section or groove
+// is not symmetric.
 SbStatus sb_fit_mirror(SbFit *out, const SbFitProblem *problem, const SbFit *fit,
                        const SbRing *ring, SbReport *report);
 

@@ -95,15 +95,18 @@ gboolean sb_scan_text_read(SbScanText *out, SbScanBytes bytes, GError **error);
 // Frees what a split file owns.
 void sb_scan_text_clear(SbScanText *text);
 
-// Writes points with columns x, y, z to the grid that they form. `lateral` is the metres per unit
-// of x and y, `vertical` those of z. Returns FALSE with an error if the points form no grid.
+// Writes points with columns x, y, z to the grid that they form, for which sb_scan_is_grid()
+// returned TRUE: allocates the heights (positions without a point are NaN) and sets dx and dy.
+// `lateral` is the metres per unit of x and y, `vertical` those of z. Returns FALSE with an error
+// of sb_scan_allocate(), or if a position occurs twice.
 gboolean sb_scan_grid(SbScan *out, const SbScanText *text, double lateral, double vertical,
                       GError **error);
 
 // Returns whether the first two of three columns are the coordinates of a grid.
 gboolean sb_scan_is_grid(const SbScanText *text);
 
-// Writes columns x, z (or z alone, which leaves dx unset) to a profile. `lateral` is the metres per
-// unit of x, `vertical` those of z. Returns FALSE with an error if the steps of x are unequal.
+// Writes columns x, z (or z alone, which leaves dx unset) to a profile, whose heights it allocates.
+// `lateral` is the metres per unit of x, `vertical` those of z. Returns FALSE with an error of
+// sb_scan_allocate(), or if the steps of x are unequal.
 gboolean sb_scan_profile(SbScan *out, const SbScanText *text, double lateral, double vertical,
                          GError **error);

@@ -7,7 +7,8 @@
 // by contact; a node is released if the contact pushes less than the fluid would. So the fluid
 // extends to the first node in contact, where the contact pressure equals the fluid's. Vectors and
 // positions are (r, z), z = x of ring.h. Boundary nodes ("loop nodes") are those of
-// SbRingMesh.loop.
+// SbRingMesh.loop; boundary side k, 0 to count/2 - 1, has the loop nodes 2 k, 2 k + 1 (mid-side)
+// and 2 k + 2.
 //
 // One iteration: sb_ring_fem_assemble(), sb_ring_contact_apply(), sb_ring_fem_solve(),
 // sb_ring_fem_advance(), sb_ring_contact_update(); at convergence sb_ring_contact_forces().
@@ -167,9 +168,9 @@ typedef struct {
   bool fixed; // fixed in space (force per axial length is constant); else it follows the surface
 } SbRingSidePressure;
 
-// Computes the forces of a pressure on a side's three nodes, force[node][(r, z)], minus their
-// derivatives with respect to the nodes' positions, and the nodes' parts of the side's area. The
-// side begins at an even loop index.
+// Computes the forces of a pressure on the three nodes of side `side`, force[node][(r, z)]; minus
+// their derivatives with respect to the nodes' positions, tangent[node][component of the
+// force][node][component of the position]; and the nodes' parts of the side's area.
 void sb_ring_side_load(const SbRingContact *contact, int side, SbRingSidePressure pressure,
                        double force[3][2], double tangent[3][2][3][2], double area[3]);
 

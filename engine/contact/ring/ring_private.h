@@ -1,5 +1,10 @@
 // The ring object and the functions shared by its files. Private to engine/contact/ring. Lengths,
-// stresses and forces are in the units of the element solver unless a unit is stated.
+// stresses and forces are in the units of the element solver (SbRing.length, stress and force)
+// unless a unit is stated. A boundary side and its number are those of ring_contact.h.
+//
+// Order for a new ring: sb_ring_check(), sb_ring_set_body(), then a mesh with elements and contact
+// (sb_ring_build(), or ring->mesh and sb_ring_build_on_mesh()), then sb_ring_fit_and_press() or
+// sb_ring_advance(), which solve.
 #pragma once
 
 #include "engine/contact/ring/ring.h"
@@ -83,7 +88,8 @@ typedef struct {
 // Finds the contact with a surface. Returns false if there is none.
 SB_CHECKED bool sb_ring_patch(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch);
 
-// Returns the contact pressure at loop node i, from the nodal force.
+// Returns the contact pressure with a surface at loop node i, from the nodal force; 0 without
+// contact.
 double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface);
 
 // Returns the fraction of the bore's friction that is missing because friction develops gradually
@@ -156,7 +162,8 @@ SbStatus sb_ring_remesh(SbRing *fresh, const SbRing *ring, double element_size, 
                         SbReport *report);
 
 // Displacement of a mesh's nodes along the section's surface that follows the contacts
-// (ring_ends.c).
+// (ring_ends.c). Order: sb_ring_shift_create(), sb_ring_shift_begin(), then sb_ring_shift_follow()
+// or sb_ring_shift_like(), which may be repeated.
 typedef struct {
   bool held[SB_RING_SURFACES]; // there is a contact
   SbRingPatch patch[SB_RING_SURFACES];
@@ -179,17 +186,19 @@ bool sb_ring_shift_follow(SbRingShift *shift, const SbRing *other);
 // contacts differ.
 bool sb_ring_shift_like(SbRingShift *shift, const SbRingShift *other);
 
-// Returns a zero displacement for the mesh of `ring`, or NULL.
+// Returns a displacement for the mesh of `ring` with its deformation gradient, for
+// sb_ring_shift_begin() with the same ring; NULL: no memory. Freed by sb_ring_shift_destroy().
 SbRingShift *sb_ring_shift_create(const SbRing *ring);
 
 // Frees a displacement. Takes NULL.
 void sb_ring_shift_destroy(SbRingShift *shift);
 
-// Writes the changes of a node's reference position x and deformed position `place`.
+// Writes the changes of a node's reference position to x and of its deformed position to `place`,
+// both (r, z).
 void sb_ring_shift_node(const SbRingShift *shift, const SbRing *ring, int node, double x[2],
                         double place[2]);
 
-// Returns the change of the material angle of a boundary point.
+// Returns the change of the material angle of the boundary point at `angle` [rad].
 double sb_ring_shift_angle(const SbRingShift *shift, double angle);
 
 // Returns the element size that sb_ring_fit() uses for a tolerance.
@@ -221,8 +230,9 @@ typedef enum {
 // the state is the last iterate. SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED.
 SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report);
 
-// Solves at the present load, unless the section rotates too far in one step; after an error the
-// state of SB_RING_START is restored.
+// Solves at the present load by sb_ring_newton(). SB_ERROR_NOT_CONVERGED also if the section has
+// rotated too far for one step, or if a SEALED path loses the bore. After an error the state of
+// SB_RING_START is restored.
 SbStatus sb_ring_attempt(SbRing *ring, SbRingPath path, SbReport *report);
 
 // Changes the load to `target` in as many steps as needed. After an error the last converged load
@@ -239,9 +249,9 @@ void sb_ring_rest_on_wall(SbRing *ring);
 // Changes the load to `target`; first moves the ring to the wall if the fluid pushes it there.
 SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report);
 
-// Returns the rotation of the section since it was free (the equivalent value nearest to the last
-// known one). Writes its derivative with respect to a displacement du to *change and the mean axial
-// position to *place (each NULL: not wanted).
+// Returns the rotation of the section since it was free [rad] (the equivalent value nearest to the
+// last known one). If `du` is not NULL, writes its change by the displacement du[nodes][2], to
+// first order, to *change. Writes the mean axial position to *place (NULL: not wanted).
 double sb_ring_turn(const SbRingContact *contact, const double *du, double *change, double *place);
 
 // SbRingContact.onset on an easy path, and on one with friction on floor and walls.

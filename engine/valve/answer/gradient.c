@@ -49,7 +49,7 @@ static bool ends(SbStatus status) {
 }
 
 // Figures with the parameter at x; NaN where there are none.
-SbStatus sb_gradient_ask(Work *work, double *value, double x, bool tell) {
+SbStatus sb_gradient_ask(Work *work, double *value, double x, bool note) {
   work->override[work->question.override_count - 1].value = x;
   SbReport report;
   const bool own = sb_evaluator_has_solved(work->evaluator, &work->question);
@@ -70,14 +70,14 @@ SbStatus sb_gradient_ask(Work *work, double *value, double x, bool tell) {
     sb_gradient_contacts(&work->moved, summary);
   }
   sb_gradient_outcome(&now, summary);
-  if (tell && work->changed[0] == '\0') {
+  if (note && work->changed[0] == '\0') {
     (void)sb_gradient_differ(work->changed, sizeof work->changed, &work->outcome, &now);
   }
   return status;
 }
 
-static SbStatus ask(Work *work, double *value, double x, bool tell) {
-  return sb_gradient_ask(work, value, x, tell);
+static SbStatus ask(Work *work, double *value, double x, bool note) {
+  return sb_gradient_ask(work, value, x, note);
 }
 
 // ---- One figure

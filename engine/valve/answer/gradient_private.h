@@ -137,12 +137,14 @@ double *sb_gradient_values(const SbGradientWork *work, int level, int point);
 bool sb_gradient_ends(SbStatus status);
 
 // Computes value[figures] with the varied parameter at `x` [SI]; NaN where not available. Also sets
-// fault, moved and refused. `tell`: if the outcome differs from the base's, the difference is
-// written to work->changed. Returns the status of sb_evaluator_ask().
-SbStatus sb_gradient_ask(SbGradientWork *work, double *value, double x, bool tell);
+// fault, moved and refused of `work`. `note`: if the outcome differs from the base's, the
+// difference is written to work->changed. Returns the status of sb_evaluator_ask(), which is no
+// error of the gradient unless sb_gradient_ends().
+SbStatus sb_gradient_ask(SbGradientWork *work, double *value, double x, bool note);
 
 // Adds the errors of linearised rings to the slopes of parameter number `parameter`, compares them
-// with differences of full solves, and replaces those that disagree. `x` is the parameter's value
-// at the base, `scale` > 0 its magnitude [SI], to which steps are relative. Errors that
+// with differences of full solves, and replaces those that disagree. Call it after the slopes of
+// all figures were decided from the levels RINGS and RINGS_LARGE. `x` is the parameter's value at
+// the base, `scale` > 0 its magnitude [SI], to which steps are relative. Errors that
 // sb_gradient_ends() names.
 SbStatus sb_gradient_check_rings(SbGradientWork *work, size_t parameter, double x, double scale);
