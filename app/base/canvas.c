@@ -92,8 +92,10 @@ double sb_canvas_text_width(SbCanvas *canvas, const char *text, const SbTextStyl
   return advance(canvas);
 }
 
-SbRect sb_canvas_text_box(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
-                          double y, SbAlign align) {
+// Returns the ink rectangle of a text with its anchor on the baseline at (x, y); `align` states
+// which end of the text the anchor is.
+static SbRect text_box(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
+                       double y, SbAlign align) {
   double width = sb_canvas_text_width(canvas, text, style);
   // A box by the type size, not by the glyphs, so that neighbours line up.
   return (SbRect){x + align_offset(align, width), y - 0.80 * style->size, width,
@@ -148,7 +150,7 @@ double sb_canvas_text_halo(SbCanvas *canvas, const char *text, const SbTextStyle
 
 double sb_canvas_text_plate(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
                             double y, SbAlign align, SbColor ground) {
-  SbRect box = sb_canvas_text_box(canvas, text, style, x, y, align);
+  SbRect box = text_box(canvas, text, style, x, y, align);
   sb_canvas_rounded(canvas, (SbRect){box.x - 4, box.y - 1, box.width + 8, box.height + 3}, 2);
   sb_canvas_color(canvas, ground, 1);
   cairo_fill(canvas->cr);

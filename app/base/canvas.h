@@ -46,11 +46,6 @@ SbTextStyle sb_canvas_style(const SbCanvas *canvas, double size, int weight, SbR
 // Returns the advance width of one line of text [px].
 double sb_canvas_text_width(SbCanvas *canvas, const char *text, const SbTextStyle *style);
 
-// Returns the ink rectangle of a text with its anchor on the baseline at (x, y); `align` states
-// which end of the text the anchor is.
-SbRect sb_canvas_text_box(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
-                          double y, SbAlign align);
-
 // Draws one line of text with its anchor on the baseline at (x, y). Returns its advance width [px].
 // Digits have equal widths.
 double sb_canvas_text(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,

@@ -130,7 +130,8 @@ static bool names_descriptor(const char *path) {
          (g_str_has_prefix(path, "/proc/") && strstr(path, "/fd/") != NULL);
 }
 
-char *sb_output_temporary_name(void) {
+// Returns a random hidden file name without a folder.
+static char *temporary_name(void) {
   guint64 number = 0;
   if (getrandom(&number, sizeof number, 0) != (ssize_t)sizeof number) {
     number = (guint64)g_random_int() << 32 | g_random_int();
@@ -167,7 +168,7 @@ void sb_output_sweep(int folder) {
 // A file under a random name of its own. A sweep can take it before it is locked: then another.
 static int open_named(char **name, int folder) {
   for (;;) {
-    char *own = sb_output_temporary_name();
+    char *own = temporary_name();
     int fd = openat(folder, own, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (fd < 0 && errno != EEXIST) {
       g_free(own);
@@ -377,7 +378,7 @@ static int put_in_place(SbOutput *out) {
     }
   }
   while (out->temporary == NULL) {
-    char *name = sb_output_temporary_name();
+    char *name = temporary_name();
     int code = link_as(out, name);
     if (code == 0) {
       out->temporary = g_steal_pointer(&name);

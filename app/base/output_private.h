@@ -26,6 +26,3 @@ bool sb_output_commit_sealed(SbOutput *out, GError **error);
 // Removes from a folder the temporary files whose process has ended. `folder` is an open descriptor
 // of it, which stays open. Errors are ignored.
 void sb_output_sweep(int folder);
-
-// Returns a random hidden file name without a folder.
-char *sb_output_temporary_name(void);

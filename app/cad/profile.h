@@ -1,5 +1,6 @@
 // Half-profiles as text, the value of the key [part.NAME] profile, and their orientation. The text
-// is a unit and then x,r or x,r,bulge of each point:
+// is a unit of length (any that udunits-2 knows) and then x,r or x,r,bulge of each point, separated
+// by blanks or line ends:
 //
 //   mm 14,0 14,2.9 8,2.9 8,1.64
 //

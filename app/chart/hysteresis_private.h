@@ -5,6 +5,7 @@
 #include "app/base/label.h"
 #include "app/chart/hysteresis.h"
 
+// The chart; sb_hysteresis_draw() fills it before it calls the functions below.
 typedef struct {
   SbCanvas canvas;
   SbHysteresisLayout at;

@@ -100,7 +100,8 @@ typedef struct {
   SbReportCells cells;
 } SbReportColumn;
 
-// A table. The caller sets `column` and `columns` and zeroes the rest.
+// A table. The caller sets `column` and `columns` and zeroes the rest, in each of both passes. It
+// ends with its last row.
 typedef struct {
   const SbReportColumn *column; // [columns]
   size_t columns;               // at most SB_REPORT_COLUMNS

@@ -149,7 +149,8 @@ void sb_revolve_add(SbRevolve *revolve, SbRevolveBody solid, const SbValvePoint 
   }
 }
 
-double sb_revolve_angle(int k) {
+// Returns the angle of boundary k of the sectors, k = 0 to SB_REVOLVE_SECTORS [rad].
+static double boundary_angle(int k) {
   return G_PI / 4 + 1.5 * G_PI * k / SB_REVOLVE_SECTORS;
 }
 
@@ -407,7 +408,7 @@ void sb_revolve_build(SbRevolve *revolve) {
     build.light[n] = light[n][0];
   }
   for (int k = 0; k <= SB_REVOLVE_SECTORS; k++) {
-    double angle = sb_revolve_angle(k);
+    double angle = boundary_angle(k);
     Boundary *boundary = &build.boundary[k];
     boundary->x = along(orbit->right, 0, 1, angle);
     boundary->y = along(orbit->up, 0, 1, angle);
@@ -433,7 +434,7 @@ void sb_revolve_build(SbRevolve *revolve) {
   Key order[SB_REVOLVE_SECTORS + SB_REVOLVE_FACES];
   size_t count = 0;
   for (int k = 0; k < SB_REVOLVE_SECTORS; k++) {
-    double middle = (sb_revolve_angle(k) + sb_revolve_angle(k + 1)) / 2;
+    double middle = (boundary_angle(k) + boundary_angle(k + 1)) / 2;
     order[count++] = (Key){-apart(middle, build.camera), (size_t)k};
   }
   for (int face = 0; face < SB_REVOLVE_FACES; face++) {
@@ -462,7 +463,7 @@ double sb_revolve_volume(const SbRevolve *revolve, SbRevolveBody solid) {
       double p[4][3];
       static const int end[4] = {0, 1, 1, 0}, side[4] = {0, 0, 1, 1};
       for (int c = 0; c < 4; c++) {
-        double angle = sb_revolve_angle(k + side[c]);
+        double angle = boundary_angle(k + side[c]);
         p[c][0] = segment->z[end[c]];
         p[c][1] = segment->r[end[c]] * cos(angle);
         p[c][2] = segment->r[end[c]] * sin(angle);

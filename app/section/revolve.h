@@ -95,9 +95,6 @@ void sb_revolve_add(SbRevolve *revolve, SbRevolveBody solid, const SbValvePoint 
 // Computes cells, edges and steps of all bodies.
 void sb_revolve_build(SbRevolve *revolve);
 
-// Returns the angle of boundary k of the sectors, k = 0 to SB_REVOLVE_SECTORS [rad].
-double sb_revolve_angle(int k);
-
 // Returns the angle of a cut face, 0 or 1 [rad].
 double sb_revolve_face_angle(int face);
 

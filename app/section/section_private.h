@@ -1,4 +1,6 @@
-// Shared by the files of the section: the state of one picture, and helpers for labels.
+// Shared by the files of the section: the state of one picture, and helpers for labels. All
+// functions are called by sb_section_draw() and below it, after it has set the fields of the
+// picture and the rings' shapes. Those that draw append to section->list.
 #pragma once
 
 #include "app/section/palette.h"

@@ -145,9 +145,6 @@ SbDisplayedRun *sb_session_pinned_answer(SbSession *session, const SbParams *par
 
 // ---- Runs ----
 
-// Returns whether all values of two sets are equal.
-bool sb_session_same_values(const SbParams *a, const SbParams *b);
-
 // Returns sb_model_drawings() of the present model; 0: there is none.
 uint64_t sb_session_drawings(const SbSession *session);
 

@@ -49,7 +49,8 @@ static void cancel_source(guint *source) {
   }
 }
 
-bool sb_session_same_values(const SbParams *a, const SbParams *b) {
+// Returns whether all values of two sets are equal.
+static bool same_values(const SbParams *a, const SbParams *b) {
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     if (sb_params_get(a, (SbParamId)id) != sb_params_get(b, (SbParamId)id)) {
       return false;
@@ -63,8 +64,7 @@ uint64_t sb_session_drawings(const SbSession *session) {
 }
 
 bool sb_session_run_is_of(const SbDisplayedRun *run, const SbParams *params, uint64_t drawings) {
-  return sb_model_drawings(sb_run_model(run->run)) == drawings &&
-         sb_session_same_values(&run->params, params);
+  return sb_model_drawings(sb_run_model(run->run)) == drawings && same_values(&run->params, params);
 }
 
 // Whether a run is complete and of these values and drawings.
@@ -77,7 +77,7 @@ static bool answers(const SbDisplayedRun *run, const SbParams *params, uint64_t 
 static bool is_current(const SbSession *session) {
   const SbParams present = sb_document_params(session->document);
   return session->model != NULL && session->asked_drawings == sb_session_drawings(session) &&
-         sb_session_same_values(&session->asked, &present);
+         same_values(&session->asked, &present);
 }
 
 static void ask(SbSession *session) {

@@ -45,7 +45,8 @@ bool sb_store_fail(SbStore *store, SbAppError code, GError **error) {
   return false;
 }
 
-bool sb_store_run(SbStore *store, const char *statement, GError **error) {
+// Executes an SQL statement without results. Returns false with SB_APP_ERROR_IO.
+static bool run_sql(SbStore *store, const char *statement, GError **error) {
   return sqlite3_exec(store->file, statement, NULL, NULL, NULL) == SQLITE_OK ||
          sb_store_fail(store, SB_APP_ERROR_IO, error);
 }
@@ -78,7 +79,7 @@ static void add_text(GChecksum *sum, const char *text) {
 }
 
 // Against damage, not against intent: MD5 is fast.
-void sb_store_sum(guint8 out[SB_STORE_SUM], const SbStoreRecord *record) {
+static void write_sum(guint8 out[SB_STORE_SUM], const SbStoreRecord *record) {
   GChecksum *sum = g_checksum_new(G_CHECKSUM_MD5);
   gsize size = SB_STORE_SUM;
   add_bytes(sum, record->key, record->key_size);
@@ -94,7 +95,7 @@ void sb_store_sum(guint8 out[SB_STORE_SUM], const SbStoreRecord *record) {
 
 bool sb_store_is_sound(const SbStoreRecord *record) {
   guint8 sum[SB_STORE_SUM];
-  sb_store_sum(sum, record);
+  write_sum(sum, record);
   return record->sum != NULL && record->sum_size == SB_STORE_SUM &&
          memcmp(sum, record->sum, SB_STORE_SUM) == 0;
 }
@@ -127,7 +128,7 @@ static bool open_file(SbStore *store, int flags, GError **error) {
   sqlite3_db_config(store->file, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, NULL);
   sqlite3_db_config(store->file, SQLITE_DBCONFIG_ENABLE_VIEW, 0, NULL);
   sqlite3_limit(store->file, SQLITE_LIMIT_LENGTH, 1 << 24);
-  return sb_store_run(store, "PRAGMA cell_size_check = ON", error);
+  return run_sql(store, "PRAGMA cell_size_check = ON", error);
 }
 
 static bool make_tables(SbStore *store, GError **error) {
@@ -141,7 +142,7 @@ static bool make_tables(SbStore *store, GError **error) {
       "CREATE TABLE origin (source TEXT, version TEXT, commit_of TEXT, cpu TEXT, "
       "PRIMARY KEY (source, cpu))",
       APPLICATION, SB_STORE_FORMAT);
-  return sb_store_run(store, statement, error);
+  return run_sql(store, statement, error);
 }
 
 // Whether the file is a store of this format, or of the oldest one; *empty (not NULL): whether it
@@ -208,8 +209,8 @@ static bool open_writable(SbStore *store, GError **error) {
   store->writable = true;
   store->open_transaction =
       open_file(store, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, error) &&
-      sb_store_run(store, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = DELETE", error) &&
-      sb_store_run(store, "BEGIN IMMEDIATE", error);
+      run_sql(store, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = DELETE", error) &&
+      run_sql(store, "BEGIN IMMEDIATE", error);
   return store->open_transaction && check_format(store, &empty, SB_STORE_FORMAT, error) &&
          (!empty || make_tables(store, error)) && prepare(store, error);
 }
@@ -360,8 +361,7 @@ bool sb_store_begin(SbStore *store, GError **error) {
   if (!sb_store_open_for_writing(store, error)) {
     return false;
   }
-  store->open_transaction =
-      store->open_transaction || sb_store_run(store, "BEGIN IMMEDIATE", error);
+  store->open_transaction = store->open_transaction || run_sql(store, "BEGIN IMMEDIATE", error);
   return store->open_transaction;
 }
 
@@ -370,7 +370,7 @@ bool sb_store_commit(SbStore *store, GError **error) {
     return true;
   }
   store->open_transaction = false;
-  return sb_store_run(store, "COMMIT", error);
+  return run_sql(store, "COMMIT", error);
 }
 
 bool sb_store_close(SbStore *store, GError **error) {
@@ -385,7 +385,7 @@ bool sb_store_close(SbStore *store, GError **error) {
 void sb_store_discard(SbStore *store) {
   if (store != NULL) {
     if (store->open_transaction) {
-      (void)sb_store_run(store, "ROLLBACK", NULL);
+      (void)run_sql(store, "ROLLBACK", NULL);
     }
     destroy(store);
   }
@@ -453,7 +453,7 @@ bool sb_store_put(SbStore *store, const guint8 key[SB_STORE_KEY], const double *
                           .figures_size = (int)(store->figures * sizeof(double)),
                           .sum = sum,
                           .sum_size = SB_STORE_SUM};
-  sb_store_sum(sum, &record);
+  write_sum(sum, &record);
   return sb_store_put_record(store, &record, error);
 }
 

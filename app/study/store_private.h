@@ -36,9 +36,6 @@ typedef struct {
 // order, of the present row of a statement. Borrowed until its next step.
 void sb_store_record(SbStoreRecord *out, sqlite3_stmt *row);
 
-// Writes the checksum of a row's content, without its own.
-void sb_store_sum(guint8 sum[SB_STORE_SUM], const SbStoreRecord *record);
-
 // Returns whether the stored checksum matches the content.
 bool sb_store_is_sound(const SbStoreRecord *record);
 
@@ -49,9 +46,6 @@ gint64 sb_store_list_number(const char *parameters, const char *figures, const c
 // Sets *error from SQLite's last error; `code` is used if that does not determine the code. Always
 // returns false.
 bool sb_store_fail(SbStore *store, SbAppError code, GError **error);
-
-// Executes an SQL statement without results. Returns false with SB_APP_ERROR_IO.
-bool sb_store_run(SbStore *store, const char *statement, GError **error);
 
 // Opens the file in a transaction that locks it for other processes, and writes nothing. Returns
 // false with an error.

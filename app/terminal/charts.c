@@ -27,7 +27,8 @@ static SbPen pen_of(const SbCellTheme *theme, SbRole role, uint8_t style) {
   return (SbPen){theme->role[role], SB_CELL_OWN, style};
 }
 
-void sb_chart_drop_unit(char *text) {
+// Removes the unit at the end of a formatted number ("1.61 mm" becomes "1.61"), in place.
+static void drop_unit(char *text) {
   // Behind the last blank, a plain one or one that does not break (U+00A0, U+202F).
   static const char *const blanks[] = {" ", "\u00a0", "\u202f", "\u2009"};
   char *last = NULL;
@@ -91,7 +92,7 @@ static void draw_stages(SbPlot *plot, SbCellRect within, const SbCellTheme *them
     }
     char force[SB_FORMAT_MAX], text[2 * SB_FORMAT_MAX];
     sb_chart_stage_force(force, run, order[i], at->force);
-    sb_chart_drop_unit(force);
+    drop_unit(force);
     g_snprintf(text, sizeof text, "%s %s", sb_stage_name(order[i]), force);
     sb_plot_label(plot->cells, within, column, row, text, pen_of(theme, SB_ROLE_INK, SB_CELL_BOLD));
   }

@@ -18,9 +18,6 @@ typedef struct {
 // background then have the terminal's own colours.
 void sb_cell_theme(SbCellTheme *out, bool own);
 
-// Removes the unit at the end of a formatted number ("1.61 mm" becomes "1.61"), in place.
-void sb_chart_drop_unit(char *text);
-
 // Draws the loop with axes, force [N] against displacement [mm]: the live run; dimmed the earlier,
 // pinned and predicted ones; measured points; the line of the pressure force; stages with their
 // forces; and the playhead. A run of the sliding plate is drawn as force against time. `flags` is 0

@@ -131,7 +131,7 @@ static SbDrawList coarse(const SbDrawList *list) {
 
 // Cells -----------------------------------------------------------------------------------------
 
-void sb_picture_labels(SbCells *cells, SbCellRect rect, const SbDrawList *list) {
+static void draw_labels(SbCells *cells, SbCellRect rect, const SbDrawList *list) {
   g_autofree bool *taken = g_new0(bool, (size_t)rect.width *(size_t)rect.height);
   for (size_t i = 0; i < list->item_count; i++) {
     const SbDrawItem *item = &list->item[i];
@@ -184,7 +184,7 @@ void sb_picture_blocks(SbCells *cells, SbCellRect rect, const SbDrawList *list, 
   }
   cairo_surface_destroy(surface);
   g_free(bare.item);
-  sb_picture_labels(cells, rect, list);
+  draw_labels(cells, rect, list);
 }
 
 void sb_picture_lines(SbCells *cells, SbCellRect rect, const SbDrawList *list) {
@@ -216,5 +216,5 @@ void sb_picture_lines(SbCells *cells, SbCellRect rect, const SbDrawList *list) {
     sb_plot_curve(&plot, px, py, count, &look);
   }
   sb_plot_finish(&plot);
-  sb_picture_labels(cells, rect, list);
+  draw_labels(cells, rect, list);
 }

@@ -39,10 +39,6 @@ void sb_picture_blocks(SbCells *cells, SbCellRect rect, const SbDrawList *list, 
 // characters.
 void sb_picture_lines(SbCells *cells, SbCellRect rect, const SbDrawList *list);
 
-// Draws only the texts of the list into the cells of `rect` as characters; cells without text are
-// not changed.
-void sb_picture_labels(SbCells *cells, SbCellRect rect, const SbDrawList *list);
-
 // Returns the height [px] of a picture in `rows` cells that are `height` pixels high each: for
 // sixels a multiple of six, else rows * height.
 int sb_picture_height(SbPictures pictures, int rows, int height);

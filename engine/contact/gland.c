@@ -42,7 +42,22 @@ enum { SIZES = sizeof SIZE / sizeof SIZE[0], CORNERS = 1 << SIZES };
     }                                                                                              \
   }
 
-const SbGlandRow *sb_gland_row(double section_diameter) {
+// Customary bands of a standard section in one use: squeeze [1] and diametral clearance [m], with
+// their references (static strings).
+typedef struct {
+  double squeeze_low, squeeze_high, gap_low, gap_high;
+  const char *squeeze_source, *gap_source;
+} SbGlandBands;
+
+// A row of the standard gland tables.
+typedef struct {
+  double section; // nominal section diameter [m]
+  SbGlandBands use[SB_GLAND_USE_COUNT];
+} SbGlandRow;
+
+// Returns the row for a section diameter [m], static; NULL if no section of the tables is within
+// 12.5 %.
+static const SbGlandRow *gland_row(double section_diameter) {
   static const double NEAR = 0.125; // of the row's section
   static const SbGlandRow rows[] = {
       ROW(1.78, 15, 25, 22, 32, 0.05, 0.13), ROW(2.62, 10, 17, 17, 24, 0.05, 0.13),
@@ -66,7 +81,7 @@ static void set_band(SbGlandReadout *out, double low, double high, const char *s
 // Fills the bands that depend on the section, or states why there are none.
 static void take_row(SbGlandReadout out[SB_GLAND_COUNT], const SbGland *gland) {
   const bool round = gland->profile.kind == SB_SEAL_PROFILE_CIRCLE;
-  const SbGlandRow *row = round ? sb_gland_row(gland->section_diameter) : NULL;
+  const SbGlandRow *row = round ? gland_row(gland->section_diameter) : NULL;
   if (row == NULL) {
     out[SB_GLAND_SQUEEZE].why = out[SB_GLAND_EXTRUSION_GAP].why =
         round ? "the gland tables of Parker ORD 5700 have no section within an eighth of this one"

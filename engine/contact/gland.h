@@ -59,23 +59,6 @@ double sb_groove_area(double radial_space, double axial_width, double draft, dou
 // Use of the gland, for the bands of squeeze and clearance.
 typedef enum { SB_GLAND_RECIPROCATING, SB_GLAND_STATIC, SB_GLAND_USE_COUNT } SbGlandUse;
 
-// Customary bands of a standard section in one use: squeeze [1] and diametral clearance [m], with
-// their references (static strings).
-typedef struct {
-  double squeeze_low, squeeze_high, gap_low, gap_high;
-  const char *squeeze_source, *gap_source;
-} SbGlandBands;
-
-// A row of the standard gland tables.
-typedef struct {
-  double section; // nominal section diameter [m]
-  SbGlandBands use[SB_GLAND_USE_COUNT];
-} SbGlandRow;
-
-// Returns the row for a section diameter [m], static; NULL if no section of the tables is within
-// 12.5 %.
-const SbGlandRow *sb_gland_row(double section_diameter);
-
 // Sizes of ring and gland, each with the half-width of its tolerance band [m].
 typedef struct {
   SbGlandUse use;        // selects the bands; 0: reciprocating

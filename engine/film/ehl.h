@@ -244,10 +244,6 @@ double sb_ehl_layers_flux(const SbEhlLayers *layers);
 // Returns the scaled width of the inlet layer, about lambda^0.4.
 double sb_ehl_layers_width(const SbEhlLayers *layers);
 
-// Returns the length scale of a thick film: that of the rigid wedge between the end pressures, at
-// least 1. Returns 0 if the film is thin.
-double sb_ehl_layers_wedge(const SbEhlLayers *layers);
-
 // Returns the slope factor of the dry pressure at the inlet edge; 1 for Hertz's.
 double sb_ehl_layers_inlet_slope(const SbEhlLayers *layers);
 

@@ -108,7 +108,9 @@ static SbWedgePools wedge_of(const SbEhlLayers *l) {
   return sb_wedge_pools(l->lambda, l->inlet, l->end == SB_EHL_RUPTURE ? 0.0 : l->outlet);
 }
 
-double sb_ehl_layers_wedge(const SbEhlLayers *l) {
+// Returns the length scale of a thick film: that of the rigid wedge between the end pressures, at
+// least 1. Returns 0 if the film is thin.
+static double wedge_length(const SbEhlLayers *l) {
   if (!(sb_ehl_layers_width(l) > THICK)) {
     return 0.0;
   }
@@ -207,7 +209,7 @@ static void thick_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
   const double *step = full ? mirrored : broken;
   const size_t count = full ? sizeof mirrored / sizeof *step : sizeof broken / sizeof *step;
   const double origin = full ? 0.0 : rupture_guess(l);
-  const double unit = sb_ehl_layers_wedge(l);
+  const double unit = wedge_length(l);
   sb_ehl_mesh_add_far(mesh, -1, origin + unit * step[0], unit, l->degree);
   for (size_t i = 1; i < count; i++) {
     sb_ehl_mesh_add(mesh, SB_EHL_AFFINE, origin + unit * step[i], l->degree);
@@ -309,7 +311,7 @@ static void thin_mesh(SbEhlMesh *mesh, const SbEhlLayers *l) {
 bool sb_ehl_layers_mesh(SbEhlSolution *s) {
   SbEhlMesh *mesh = &s->mesh;
   const SbEhlLayers *l = &s->c.layers;
-  const double wedge = isfinite(l->meniscus) ? 0.0 : sb_ehl_layers_wedge(l);
+  const double wedge = isfinite(l->meniscus) ? 0.0 : wedge_length(l);
   sb_ehl_mesh_begin(mesh, l->meniscus, l->inlet, l->outlet);
   (wedge > 0.0 ? thick_mesh : thin_mesh)(mesh, l);
   if (l->end == SB_EHL_FULL && !(wedge > 0.0)) {

@@ -33,7 +33,8 @@ typedef struct {
 
 // Prepares `heights` in place (form, outliers, filters: `choices`) and computes all results.
 // Returns SB_OK or the status of sb_heights_prepare(), sb_height_figures() or sb_height_spectrum():
-// RANGE, INFEASIBLE, NOT_CONVERGED. Call sb_scan_figures_clear() in any case.
+// RANGE, INFEASIBLE, NOT_CONVERGED; the heights are then partly processed. Call
+// sb_scan_figures_clear() in any case.
 SbStatus sb_scan_figures(SbScanFigures *out, SbHeights *heights, const SbHeightsChoices *choices,
                          SbReport *report);
 

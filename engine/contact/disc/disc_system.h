@@ -1,12 +1,14 @@
 // Linear system of the disc for given contact edges, and the singularity of the pressure at the
 // edges. Private to engine/contact/disc.
 //
-// Dimensionless: lengths divided by the disc's radius, pressures times C (disc_kernel.h). The
-// contact with the bore, xi = sin theta in [left, right], is mapped to tau in [-1, 1]. The unknowns
-// are F_j at Chebyshev points, excess pressure = F/(h sqrt(1 - tau^2)) with h the half-width. If
-// there is fluid on the left, a known smooth step from its pressure p at the left edge to 0 at the
-// right edge is added. The groove wall on the right has its own F over [-wall, wall], and its depth
-// of flattening is an unknown.
+// Dimensionless: lengths divided by the disc's radius, pressures times C (disc_kernel.h). Angles
+// and vectors are those of disc_kernel.h: the bore is at the top. The contact with the bore, xi =
+// sin theta in [left, right], is mapped to tau in [-1, 1]. The unknowns are F_j at Chebyshev
+// points, excess pressure = F/(h sqrt(1 - tau^2)) with h the half-width. If there is fluid on the
+// left, a known smooth step from its pressure p at the left edge to 0 at the right edge is added.
+// The groove wall is at the right end of the horizontal diameter, symmetric to it. It has its own F
+// over xi in [-wall, wall], the sine of the angle from that end, and its depth of flattening is an
+// unknown.
 #pragma once
 
 #include "engine/base/status.h"
@@ -20,8 +22,8 @@ enum {
   SB_DISC_ROWS_MAX = 2 * SB_DISC_POINTS_MAX + 1,
 };
 
-// The system; used by one thread at a time. The caller sets the problem, then calls
-// sb_disc_system_points().
+// The system. The caller sets the fields of the problem and calls sb_disc_system_points(), in any
+// order; both may be repeated between solves.
 typedef struct {
   // Problem.
   SbDiscKernel kernel;
@@ -31,15 +33,14 @@ typedef struct {
   double hydrostatic; // inward radial displacement divided by R by a pressure on both sides
   // Quadrature with n points; weights of the logarithm and of the kink, [n][n] by rows.
   size_t n;
-  double tau[SB_DISC_POINTS_MAX]; // points in [-1, 1]
+  double tau[SB_DISC_POINTS_MAX]; // points in [-1, 1], decreasing
   double log_weight[SB_DISC_POINTS_MAX * SB_DISC_POINTS_MAX];
   double kink_weight[SB_DISC_POINTS_MAX * SB_DISC_POINTS_MAX];
   double gauss_x[SB_DISC_GAUSS]; // points in [0, 1]
   double gauss_w[SB_DISC_GAUSS]; // weights, sum 1
-  // Solution for the last edges; the bore's contact is at centre +- half (sines). n bore values, n
-  // wall values, depth of the wall.
+  // Solution for the last edges; the bore's contact is at centre +- half (sines).
   double centre, half;
-  double solution[SB_DISC_ROWS_MAX];
+  double solution[SB_DISC_ROWS_MAX]; // F at tau[] of the bore; with pressure F of the wall, depth
   double series[2][SB_DISC_POINTS_MAX]; // F of bore and wall = sum series[][k] T_k(-tau)
   double matrix[SB_DISC_ROWS_MAX * SB_DISC_ROWS_MAX]; // by columns, work memory
 } SbDiscSystem;
@@ -48,10 +49,10 @@ typedef struct {
 void sb_disc_system_points(SbDiscSystem *system, size_t n);
 
 // Solves the system for given sines of the edges; the parameters are those of an SbSystem (root.h),
-// `system` is an SbDiscSystem. edges[0] is the right edge; with pressure edges[1] is the left edge
-// and edges[2] the wall's; without, the left edge mirrors the right one. residual[i] is F at edge i
-// divided by the mean of |F|: 0 for a smooth edge. Returns false if the matrix is singular or an
-// edge is outside (-1, 1).
+// `system` is an SbDiscSystem. Without pressure edges[1] has the right edge, and the left edge
+// mirrors it. With pressure edges[3] has the right edge, the left edge, and the edge of the wall's
+// contact (> 0). residual[i] is F at edge i divided by the mean of |F|: 0 for a smooth edge.
+// Returns false if the matrix is singular, an edge is outside (-1, 1), or the contacts overlap.
 SB_CHECKED bool sb_disc_system_solve(double *residual, const double *edges, void *system);
 
 // Direction of a pressure on an arc: normal to it; horizontal, per length of arc; horizontal, per
@@ -60,12 +61,13 @@ typedef enum { SB_DISC_NORMAL, SB_DISC_HORIZONTAL, SB_DISC_HEIGHT } SbDiscAction
 
 // Returns the displacement (C = R = 1) at `to` in the direction m due to unit pressure on the arc
 // that begins at the angle `from` and has the signed `length` [rad] (negative: to the left), and on
-// its mirror image below the horizontal axis. Cubic grading resolves the logarithm at `from`.
+// its mirror image below the horizontal axis. Cubic grading resolves the logarithm at `from`. Needs
+// the kernel and sb_disc_system_points(), but no solution.
 double sb_disc_system_arc(const SbDiscSystem *system, SbDiscPoint to, SbDiscVector m, double from,
                           double length, SbDiscAction action);
 
-// Solves the thesis' disc (disc_thesis.c). `in` must be checked and have contact. Errors as for
-// sb_fit_solve().
+// Solves the thesis' disc (disc_thesis.c). Called by sb_fit_solve(), which has checked `in` and
+// that the squeeze is positive, and has set the sizes in *out. Errors as for sb_fit_solve().
 SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report);
 
 // Returns the smooth step of the known pressure: 1 at tau = -1, 0 at tau = 1.

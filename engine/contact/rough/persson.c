@@ -63,13 +63,15 @@ SbStatus sb_spectrum_from_asperities(SbSpectrum *out, double sigma, double sigma
   return sb_succeed(report);
 }
 
-double sb_spectrum_slope2(const SbSpectrum *s, double q) {
+// Returns h'(q)^2, the mean-square slope of the components up to the wave number q [1/m], which is
+// limited to the range from q0 to q1.
+static double slope_square(const SbSpectrum *s, double q) {
   q = fmin(fmax(q, s->q0), s->q1);
   return s->amplitude * moment(s->hurst, 2, s->q0, q);
 }
 
 double sb_persson_area_share(const SbSpectrum *s, double q, double modulus, double pressure) {
-  double slope2 = sb_spectrum_slope2(s, q);
+  double slope2 = slope_square(s, q);
   if (slope2 <= 0) {
     return 1;
   }
@@ -79,7 +81,7 @@ double sb_persson_area_share(const SbSpectrum *s, double q, double modulus, doub
 double sb_persson_pressure(const SbSpectrum *s, double q, double modulus, double share) {
   // erf(x) is the probability of a standard normal between -x sqrt 2 and x sqrt 2.
   double argument = -gsl_cdf_ugaussian_Pinv(0.5 * (1 - share)) / M_SQRT2;
-  return share < 1 ? argument * modulus / 2 * sqrt(sb_spectrum_slope2(s, q)) / M_SQRT2 : INFINITY;
+  return share < 1 ? argument * modulus / 2 * sqrt(slope_square(s, q)) / M_SQRT2 : INFINITY;
 }
 
 static double inner_integrand(double a) {
@@ -107,11 +109,11 @@ void sb_persson_gap_init(SbPerssonGap *gap, const SbSpectrum *s, double q) {
   // u = sqrt(pi) int q^2 C w G dq with w = (pi int_q k^3 C)^(-1/2) = (slope2/2)^(-1/2). The start
   // is an integrable singularity of w, removed by integrating over v^2.
   q = fmin(fmax(q, s->q0), s->q1);
-  double base = sb_spectrum_slope2(s, q), length = log(s->q1 / q);
+  double base = slope_square(s, q), length = log(s->q1 / q);
   for (int i = 0; i < PANELS; i++) {
     double v = (i + 0.5) / PANELS;
     double k = q * exp(length * v * v);
-    double w = sqrt(2 / fmax(sb_spectrum_slope2(s, k) - base, 1e-300));
+    double w = sqrt(2 / fmax(slope_square(s, k) - base, 1e-300));
     double spectrum = s->amplitude * pow(k, -2 * (s->hurst + 1));
     gap->log_w[i] = log(w);
     gap->weight[i] =

@@ -36,12 +36,9 @@ typedef struct {
 SbStatus sb_spectrum_from_asperities(SbSpectrum *out, double sigma, double sigma_over_beta,
                                      double product, SbReport *report);
 
-// Returns h'(q)^2, the mean-square slope of the components up to the wave number q [1/m]. Here and
-// below, q is limited to the range from q0 to q1.
-double sb_spectrum_slope2(const SbSpectrum *spectrum, double q);
-
-// Returns the fraction of real contact at the mean `pressure` p [Pa] at the wave number q;
-// `modulus` is E' with 2/E' = sum (1 - nu^2)/E [Pa].
+// Returns the fraction of real contact at the mean `pressure` p [Pa] at the wave number q [1/m],
+// which here and below is limited to the range from q0 to q1. `modulus` is E' with 2/E' = sum (1 -
+// nu^2)/E [Pa].
 double sb_persson_area_share(const SbSpectrum *spectrum, double q, double modulus, double pressure);
 
 // Returns the mean pressure [Pa] at which sb_persson_area_share() is `share`; INFINITY for 1.

@@ -444,11 +444,6 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
 void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled, int direction,
                           double speed);
 
-// Computes lambda, real area and friction of `state`, whose film the caller has changed, at |speed|
-// [m/s] by sb_sliding_refilm().
-void sb_run_refilm(SbSealState *state, SbRun *run, int seal, int chamber, int direction,
-                   double speed);
-
 // Sets *out to the problem of the film of the state in run->cycle at run->speed, and returns the
 // body of that film, borrowed from the run; NULL: half-plane.
 const SbSlidingBody *sb_run_film_of(SbFilmProblem *out, SbRun *run, int seal, int chamber,

@@ -182,7 +182,9 @@ void sb_run_take(SbSealState *state, SbRun *run, int seal, int chamber, int dire
   sb_sliding_take(state, &task, film, fitted, run->roughness);
 }
 
-void sb_run_refilm(SbSealState *state, SbRun *run, int seal, int chamber, int direction,
+// Computes lambda, real area and friction of `state`, whose film the caller has changed, at |speed|
+// [m/s] by sb_sliding_refilm().
+static void refilm(SbSealState *state, SbRun *run, int seal, int chamber, int direction,
                    double speed) {
   SbSlidingTask task = task_of(run, seal, chamber, direction, fmax(fabs(speed), SB_SPEED_LEAST));
   task.warnings = NULL;
@@ -225,7 +227,7 @@ void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled,
   }
   if (out->touches && full.touches) {
     sb_sliding_whole(out);
-    sb_run_refilm(out, run, seal, SB_CHAMBER_AT_REST, direction, speed);
+    refilm(out, run, seal, SB_CHAMBER_AT_REST, direction, speed);
   }
   out->touches = out->touches || full.touches;
 }

@@ -99,14 +99,6 @@ const char *sb_shelf_lacks_plastic(const SbModel *model);
 // the time lag [s].
 double sb_shelf_diffusivity(const SbModel *model);
 
-// Returns the temperature [K] of the history (shelf.history) at `time` [s] >= 0 from its start. A
-// file repeats after its last row.
-double sb_shelf_temperature(const SbModel *model, double time);
-
-// Sets *low and *high to the lowest and the highest temperature of the history [K]; both are the
-// canister's temperature if it is constant.
-void sb_shelf_range(double *low, double *high, const SbModel *model);
-
 // Integrates the flows over the history of shelf.time, and sets point[], points, loss, moisture,
 // mass_left and doses_left of *out. No other field is read or changed; the caller sets these from
 // SbShelfRest and SbShelfRates if needed. `seal` is sb_shelf_seal(model), and `now` the result of

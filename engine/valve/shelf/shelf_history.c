@@ -14,7 +14,9 @@ enum { AGES = 5, TEMPERATURES = 9, QUANTITIES = 4, HOURS = 24, DAYS = 4 };
 static const double AGE[AGES] = {0, 1.0 / 36, 1.0 / 9, 1.0 / 3, 1};
 static const double DAY = 86400, YEAR = 365 * 86400.0;
 
-double sb_shelf_temperature(const SbModel *model, double time) {
+// Returns the temperature [K] of the history (shelf.history) at `time` [s] >= 0 from its start. A
+// file repeats after its last row.
+static double temperature_at(const SbModel *model, double time) {
   const SbShelfInput *in = &model->shelf;
   if (in->history == SB_SHELF_WAREHOUSE) {
     return model->temperature + in->season * sin(2 * M_PI * time / YEAR) +
@@ -38,7 +40,9 @@ double sb_shelf_temperature(const SbModel *model, double time) {
   return series->value[low] + share * (series->value[high] - series->value[low]);
 }
 
-void sb_shelf_range(double *low, double *high, const SbModel *model) {
+// Sets *low and *high to the lowest and the highest temperature of the history [K]; both are the
+// canister's temperature if it is constant.
+static void temperature_range(double *low, double *high, const SbModel *model) {
   const SbShelfInput *in = &model->shelf;
   *low = *high = model->temperature;
   if (in->history == SB_SHELF_WAREHOUSE) {
@@ -105,7 +109,7 @@ static double kinetic(const SbModel *model) {
     return model->temperature;
   }
   for (int i = 0; i < SAMPLES; i++) {
-    sum += exp(-energy / sb_shelf_temperature(model, model->shelf.time * (i + 0.5) / SAMPLES));
+    sum += exp(-energy / temperature_at(model, model->shelf.time * (i + 0.5) / SAMPLES));
   }
   return energy / -log(sum / SAMPLES);
 }
@@ -131,7 +135,7 @@ static SbStatus fill_tables(Tables *t, SbModel *work, const SbModel *model, int 
                             SbReport *report) {
   double low, high;
   const double stored_at = kinetic(model);
-  sb_shelf_range(&low, &high, model);
+  temperature_range(&low, &high, model);
   t->temperatures = high > low ? TEMPERATURES : 1;
   t->low = 1 / low;
   t->high = 1 / high;
@@ -168,7 +172,7 @@ static double add_interval(double sum[QUANTITIES], const SbModel *model, const T
     if (samples > 1 && model->shelf.history == SB_SHELF_WAREHOUSE) {
       time = floor(time / DAY) * DAY + DAY * (i % HOURS + 0.5) / HOURS;
     }
-    const double temperature = sb_shelf_temperature(model, time);
+    const double temperature = temperature_at(model, time);
     mean += temperature / samples;
     for (int q = 0; q < QUANTITIES; q++) {
       sum[q] +=
@@ -191,8 +195,8 @@ static void sum_up(SbShelf *out, const SbModel *model, const Tables *t) {
   for (int i = 0; i < SB_SHELF_POINTS; i++) {
     const double step = model->shelf.time / (SB_SHELF_POINTS - 1);
     out->point[i].time = step * i;
-    out->point[i].temperature = i > 0 ? add_interval(sum, model, t, step * (i - 1), step * i)
-                                      : sb_shelf_temperature(model, 0);
+    out->point[i].temperature =
+        i > 0 ? add_interval(sum, model, t, step * (i - 1), step * i) : temperature_at(model, 0);
     out->point[i].permeated = sum[0];
     out->point[i].passed = sum[1];
     out->point[i].plastic = sb_shelf_lacks_plastic(model) == NULL ? sum[2] : NAN;

@@ -165,7 +165,8 @@ static SbStatus solve_rest(const SbSlidingTask *task, const SbSealState *out, Sb
   return status;
 }
 
-void sb_sliding_static_error(SbSealState *out) {
+// Sets static_error from the errors of real area at rest, width and load.
+static void set_static_error(SbSealState *out) {
   const double area = out->rest_area * (out->rest_error + out->width_error);
   const double level = out->rest_area + out->rest_load;
   out->static_error =
@@ -195,7 +196,7 @@ static SbStatus take_rest(SbSealState *out, const SbSlidingTask *task, SbReport 
   SbStatus status = set_static(out, task, report);
   // Real area is in proportion to the mean pressure of the solid at most.
   out->rest_error = rest->solver.error_contact + out->net_error + out->width_error;
-  sb_sliding_static_error(out);
+  set_static_error(out);
   out->static_error += rest->solver.error_contact * out->rest_load;
   return status;
 }
@@ -322,7 +323,7 @@ SbStatus sb_sliding_rough_contact(SbSealState *out, const SbSlidingTask *task, d
                    (out->contact_right - out->contact_left) * model->bore_circumference;
   out->rest_load = out->boundary_load;
   status = set_static(out, task, report);
-  sb_sliding_static_error(out);
+  set_static_error(out);
   return status;
 }
 
@@ -483,7 +484,7 @@ SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, dou
   if (state->touches && task->model->kind == SB_VALVE_GASKET) {
     status = sb_sliding_edge_contact(state, task, roughness, report);
     status = status == SB_OK ? set_static(state, task, report) : status;
-    sb_sliding_static_error(state);
+    set_static_error(state);
   } else if (state->touches) {
     status = sb_sliding_rough_contact(state, task, roughness, report);
   }
@@ -526,7 +527,7 @@ SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *la
     sb_sliding_edge_film(out, task);
     SbStatus edges = sb_sliding_edge_contact(out, task, 1, first);
     edges = edges == SB_OK ? set_static(out, task, first) : edges;
-    sb_sliding_static_error(out);
+    set_static_error(out);
     return edges != SB_OK ? edges : status;
   }
   if (task->model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0) {

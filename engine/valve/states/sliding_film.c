@@ -289,7 +289,8 @@ static void option_warnings(const SbSlidingTask *task, const SbFilmProblem *prob
   }
 }
 
-void sb_sliding_law_error(SbSealState *out) {
+// Sets film_error and central_error of a film by a law from load_error; NaN if the load is exact.
+static void set_law_error(SbSealState *out) {
   out->film_error = out->central_error =
       out->net_error > 0 ? SB_FILM_LAW_LOAD_POWER * out->net_error : NAN;
 }
@@ -324,7 +325,7 @@ SbStatus sb_sliding_solve_film(const SbSlidingTask *task, SbSealState *out, SbRe
   if (solved) {
     out->film_reynolds = out->film_central;
   } else {
-    sb_sliding_law_error(out);
+    set_law_error(out);
     sb_sliding_limit_law(out, task);
   }
   // End pressures that the fitted body carries may open the half-plane's contact or prevent its

@@ -219,12 +219,6 @@ bool sb_sliding_read_film(SbSealState *out, const SbSlidingSolved *solved, SbSta
 // supply's layer, and reduces film_min and film_central accordingly.
 void sb_sliding_limit_law(SbSealState *out, const SbSlidingTask *task);
 
-// Sets film_error and central_error of a film by a law from load_error; NaN if the load is exact.
-void sb_sliding_law_error(SbSealState *out);
-
-// Sets static_error from the errors of real area at rest, width and load.
-void sb_sliding_static_error(SbSealState *out);
-
 // Sets boundary_error, viscous_error and friction_error from the errors of real area, width, load
 // and film. `borne`: relative error of the asperities' fraction of the load, 0 if they carry all of
 // it.
