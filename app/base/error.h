@@ -6,6 +6,7 @@
 // Codes of errors; each has its exit code.
 typedef enum {
   SB_APP_ERROR_INPUT,         // the user's input is wrong
+  SB_APP_ERROR_RANGE,         // a value is outside its range, or not finite
   SB_APP_ERROR_IO,            // a file cannot be read or written, or memory is short
   SB_APP_ERROR_CANCELLED,     // the user interrupted the work
   SB_APP_ERROR_NOT_CONVERGED, // a solver did not converge

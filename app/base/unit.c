@@ -443,9 +443,8 @@ bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error)
     value = param->max;
   }
   if (value < param->min || value > param->max) {
-    char *shown = sb_param_format(id, value);
-    fail(error, "%s is out of range", shown);
-    g_free(shown);
+    g_autofree char *shown = sb_param_format(id, value);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_RANGE, "%s is out of range", shown);
     return false;
   }
   *out = value;

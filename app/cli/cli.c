@@ -252,6 +252,7 @@ int sb_cli_error(GError *error) {
   int code = SB_EXIT_IO;
   if (error->domain == SB_APP_ERROR) {
     code = error->code == SB_APP_ERROR_INPUT           ? SB_EXIT_INPUT
+           : error->code == SB_APP_ERROR_RANGE         ? SB_EXIT_INPUT
            : error->code == SB_APP_ERROR_CANCELLED     ? SB_EXIT_INTERRUPTED
            : error->code == SB_APP_ERROR_NOT_CONVERGED ? SB_EXIT_NOT_CONVERGED
                                                        : SB_EXIT_IO;

@@ -120,10 +120,8 @@ static void print_figure(const SbGradient *gradient, size_t figure, const SbMode
   }
   for (size_t i = 0, told = 0; i < parameters; i++) {
     const char *why = sb_gradient_reason(gradient, figure, i);
-    if (why != NULL && g_str_has_prefix(why, "there is no other value")) {
-      continue; // the model has no such parameter
-    }
-    if (why != NULL && told++ < ROWS) {
+    // A parameter without another value is one that the model does not have.
+    if (why != NULL && !sb_gradient_is_fixed(gradient, figure, i) && told++ < ROWS) {
       printf("  %-34s no derivative: %s\n", sb_param(sb_gradient_parameter(gradient, i))->key, why);
     }
   }

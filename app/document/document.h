@@ -232,7 +232,8 @@ char *sb_document_sha256(const SbDocument *document);
 // ---- Edits ----
 
 // Sets a parameter from text with unit ("1.63 mm", "reynolds", "400"); an edit that can be undone.
-// Returns false with SB_APP_ERROR_INPUT, without a change; the message ends with the allowed range.
+// Returns false with SB_APP_ERROR_RANGE (a number outside the range) or SB_APP_ERROR_INPUT, without
+// a change; the message ends with the allowed range.
 SB_CHECKED bool sb_document_set(SbDocument *document, SbParamId id, const char *text,
                                 GError **error);
 

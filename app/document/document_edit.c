@@ -144,10 +144,9 @@ void sb_document_edit_drawing(SbDocument *document, SbNamedDrawing *drawing) {
 }
 
 // Adds the allowed range to a message.
-static bool fail_with_range(GError **error, SbParamId id, const char *message) {
-  char *range = sb_param_range(id);
-  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s (allowed %s)", message, range);
-  g_free(range);
+static bool fail_with_range(GError **error, SbAppError code, SbParamId id, const char *message) {
+  g_autofree char *range = sb_param_range(id);
+  g_set_error(error, SB_APP_ERROR, (int)code, "%s (allowed %s)", message, range);
   return false;
 }
 
@@ -155,7 +154,7 @@ bool sb_document_set(SbDocument *document, SbParamId id, const char *text, GErro
   GError *inner = NULL;
   double value = 0;
   if (!sb_param_parse(&value, id, text, &inner)) {
-    fail_with_range(error, id, inner->message);
+    fail_with_range(error, (SbAppError)inner->code, id, inner->message);
     g_error_free(inner);
     return false;
   }
@@ -167,12 +166,11 @@ bool sb_document_set_value(SbDocument *document, SbParamId id, double value, boo
   SbParams trial = document->own;
   SbReport report = {0};
   if (sb_params_set(&trial, id, value, &report) != SB_OK) {
-    char *shown = sb_param_format(id, value);
-    char *message = g_strdup_printf("%s is out of range", shown);
-    fail_with_range(error, id, report.status == SB_ERROR_RANGE ? message : report.text);
-    g_free(message);
-    g_free(shown);
-    return false;
+    const bool beyond = report.status == SB_ERROR_RANGE;
+    g_autofree char *shown = sb_param_format(id, value);
+    g_autofree char *message = g_strdup_printf("%s is out of range", shown);
+    return fail_with_range(error, beyond ? SB_APP_ERROR_RANGE : SB_APP_ERROR_INPUT, id,
+                           beyond ? message : report.text);
   }
   edit_key(document, id, true, value, merge);
   return true;
@@ -206,7 +204,7 @@ bool sb_document_read_value(double *out, const SbDocument *document, SbParamId i
   }
   if (!(after >= param->min && after <= param->max)) {
     g_autofree char *shown = sb_param_format(id, after);
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s changes it to %s, out of range", text,
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_RANGE, "%s changes it to %s, out of range", text,
                 shown);
     return false;
   }

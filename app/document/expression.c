@@ -20,9 +20,13 @@ typedef struct {
   GError **error;
 } Reader;
 
-static bool fail(Reader *reader, const char *what) {
-  g_set_error(reader->error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s at \"%s\"", what, reader->at);
+static bool fail_by(Reader *reader, SbAppError code, const char *what) {
+  g_set_error(reader->error, SB_APP_ERROR, (int)code, "%s at \"%s\"", what, reader->at);
   return false;
+}
+
+static bool fail(Reader *reader, const char *what) {
+  return fail_by(reader, SB_APP_ERROR_INPUT, what);
 }
 
 // The next character that is no space.
@@ -247,7 +251,7 @@ bool sb_expression_value(double *out, const char *text, const char *si, const ch
     return fail(&reader, "an operator is missing");
   }
   if (!isfinite(value)) {
-    return fail(&reader, "the value is not finite");
+    return fail_by(&reader, SB_APP_ERROR_RANGE, "the value is not finite");
   }
   *out = value;
   return true;

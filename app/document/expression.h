@@ -22,7 +22,7 @@ typedef bool (*SbExpressionName)(double *out, const char *name, void *data);
 
 // Computes the expression `text` whose result has the SI unit `si` ("m", "1"); `shown` is the usual
 // unit, for messages. `name` is called with `data` for each name and writes its value. Returns
-// false with SB_APP_ERROR_INPUT and a sentence that names the place, also if the result is not
-// finite (a division by 0); *out is then not changed.
+// false with SB_APP_ERROR_INPUT, or SB_APP_ERROR_RANGE if the result is not finite (a division by
+// 0), and a sentence that names the place; *out is then not changed.
 bool sb_expression_value(double *out, const char *text, const char *si, const char *shown,
                          SbExpressionName name, void *data, GError **error);

@@ -29,6 +29,7 @@ static char *sentence(const char *text, const char *allowed) {
 static void forget_rejected(SbSession *session, int id) {
   g_clear_pointer(&session->rejected[id], g_free);
   g_clear_pointer(&session->error[id], g_free);
+  session->out_of_range[id] = FALSE;
 }
 
 // Compiles the values; what does not go together becomes errors of the fields named. Errors of
@@ -139,6 +140,7 @@ gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text) {
   if (!good) {
     session->rejected[id] = g_strdup(text);
     session->error[id] = sentence(error->message, NULL);
+    session->out_of_range[id] = g_error_matches(error, SB_APP_ERROR, SB_APP_ERROR_RANGE);
   }
   changed(session);
   return good;
@@ -220,6 +222,10 @@ const char *sb_session_error(SbSession *session, SbParamId id) {
 
 const char *sb_session_rejected(SbSession *session, SbParamId id) {
   return session->rejected[id];
+}
+
+gboolean sb_session_is_out_of_range(SbSession *session, SbParamId id) {
+  return session->out_of_range[id];
 }
 
 int sb_session_error_count(SbSession *session) {

@@ -173,6 +173,9 @@ const char *sb_session_error(SbSession *session, SbParamId id);
 // Returns the rejected text of a field; NULL: none. Borrowed until the next change.
 const char *sb_session_rejected(SbSession *session, SbParamId id);
 
+// Returns whether the rejected text of a field is a number outside the range of the parameter.
+gboolean sb_session_is_out_of_range(SbSession *session, SbParamId id);
+
 // Returns the number of fields with an error.
 int sb_session_error_count(SbSession *session);
 

@@ -30,12 +30,13 @@ struct _SbSession {
   GObject parent_instance;
 
   // The document and the errors of its fields.
-  SbDocument *document;           // owned
-  SbDiskState disk;               // as sb_session_check_disk() last found it
-  char *rejected[SB_PARAM_COUNT]; // text of a field that was rejected; NULL: none
-  char *error[SB_PARAM_COUNT];    // why; NULL: no error
-  int last_edited;                // SbParamId; -1: none
-  SbModel *model;                 // of the present values, owned; NULL: they are inconsistent
+  SbDocument *document;                  // owned
+  SbDiskState disk;                      // as sb_session_check_disk() last found it
+  char *rejected[SB_PARAM_COUNT];        // text of a field that was rejected; NULL: none
+  char *error[SB_PARAM_COUNT];           // why; NULL: no error
+  gboolean out_of_range[SB_PARAM_COUNT]; // the rejected text is a number outside the range
+  int last_edited;                       // SbParamId; -1: none
+  SbModel *model; // of the present values, owned; NULL: they are inconsistent
 
   // Runs. `fresh` is being computed by the runner; `shown` is displayed: `fresh` as soon as it has
   // enough frames, until then the run before. References; NULL: none.

@@ -153,7 +153,7 @@ bool sb_thesis_value(double *out, const SbThesisPlace *at, const char *text, con
   }
   // A quantity that has no value leaves the row without one.
   *out = NAN;
-  if (g_str_has_prefix(error->message, "the value is not finite")) {
+  if (g_error_matches(error, SB_APP_ERROR, SB_APP_ERROR_RANGE)) {
     return true;
   }
   sb_thesis_complain(at->work, group, key, "%s", error->message);

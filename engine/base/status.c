@@ -65,6 +65,7 @@ static void fail_v(SbReport *report, SbStatus status, const char *parameter, con
                    va_list arguments) {
   if (report != NULL) {
     report->status = status;
+    report->cause = SB_CAUSE_OTHER;
     sb_message_v(report->text, sizeof report->text, format, arguments);
     sb_text(report->parameter, sizeof report->parameter, "%s", parameter);
   }
@@ -84,6 +85,13 @@ SbStatus sb_fail_parameter(SbReport *report, SbStatus status, const char *parame
   va_start(arguments, format);
   fail_v(report, status, parameter, format, arguments);
   va_end(arguments);
+  return status;
+}
+
+SbStatus sb_fail_because(SbReport *report, SbStatus status, SbCause cause) {
+  if (report != NULL) {
+    report->cause = cause;
+  }
   return status;
 }
 

@@ -54,9 +54,17 @@ SB_EXTENSION typedef enum SB_CHECKED_TYPE {
 // Builds with SB_ASSERT_RUNS abort if a message does not fit.
 enum { SB_TEXT = 512 };
 
+// Cause of an error that some callers take as a result instead of a failure.
+typedef enum {
+  SB_CAUSE_OTHER,       // any other cause
+  SB_CAUSE_FLUID_OPENS, // the pressure of the fluid opens the contact: there is no film
+  SB_CAUSE_FLUID_PASSES // the fluid passes a clamped gasket
+} SbCause;
+
 // Description of an error, in memory of the caller. Defined after an error only.
 typedef struct {
   SbStatus status;
+  SbCause cause;
   char text[SB_TEXT]; // one sentence for the user, without a line break
   char parameter[64]; // catalogue key of the parameter at fault, "" if none
   double residual;    // last residual of the iteration; only iterative solvers set it
@@ -74,6 +82,11 @@ SbStatus sb_fail(SbReport *report, SbStatus status, const char *format, ...) SB_
 // Does the same as sb_fail() and also stores `parameter`, the catalogue key at fault ("": none).
 SbStatus sb_fail_parameter(SbReport *report, SbStatus status, const char *parameter,
                            const char *format, ...) SB_PRINTF(4, 5);
+
+// Stores `cause` in `report` (NULL: nothing is written) and returns `status`, which is the result
+// of the call that wrote the report: `return sb_fail_because(report, sb_fail(report, ...),
+// cause);`. Every other function that writes a report sets SB_CAUSE_OTHER.
+SbStatus sb_fail_because(SbReport *report, SbStatus status, SbCause cause);
 
 // Formats a message into out[size] (size > 3). A message that does not fit is truncated as by
 // sb_text(); builds with SB_ASSERT_RUNS abort then. All messages of the engine are formatted by

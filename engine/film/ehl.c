@@ -316,21 +316,23 @@ static SbStatus refuse_smooth(const SbEhlCase *c, const SbFilmScale *scale, doub
                               SbReport *report) {
   if (sb_ehl_layers_flux(&c->layers) < 1e-11) {
     return sb_fail(report, SB_ERROR_RANGE,
-                   "film: M = %.3g: the film is below 1e-11 of b^2/R and lost in rounding; use the "
+                   "M = %.3g: the film is below 1e-11 of b^2/R and lost in rounding; use the "
                    "asymptotic model",
                    scale->M);
   }
   if (scale->M < 0.1 && fabs(rigid_step(&c->layers)) > 4.0) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "canister.pressure",
-                             "film: M = %.3g: end pressures that differ by %.3g times the limit of "
-                             "a rigid wedge drive the fluid through so thick a film",
-                             scale->M, fabs(rigid_step(&c->layers)) / (M_PI / 16.0));
+    const SbStatus status =
+        sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "canister.pressure",
+                          "M = %.3g: end pressures that differ by %.3g times the limit of a rigid "
+                          "wedge drive the fluid through so thick a film",
+                          scale->M, fabs(rigid_step(&c->layers)) / (M_PI / 16.0));
+    return sb_fail_because(report, status, SB_CAUSE_FLUID_OPENS);
   }
   SbEhlLayers starved = c->layers;
   starved.starvation = fmin(1.0, supply / sb_ehl_layers_flux(&c->layers));
   if (isfinite(supply) && sb_ehl_layers_width(&starved) < 1e-7) {
     return sb_fail(report, SB_ERROR_RANGE,
-                   "film: M = %.3g: so little film is supplied that its inlet layer is %.2g of "
+                   "M = %.3g: so little film is supplied that its inlet layer is %.2g of "
                    "the half-width and lost in rounding",
                    scale->M, sb_ehl_layers_width(&starved));
   }
@@ -389,7 +391,7 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
   double supply = problem->inlet_film > 0.0 ? 2.0 * problem->inlet_film / scale->film : INFINITY;
   if (c.layers.inlet < 0.0) {
     return sb_fail(report, SB_ERROR_INFEASIBLE,
-                   "film: the inlet's pressure is below the rupture pressure: no liquid there");
+                   "the inlet's pressure is below the rupture pressure: no liquid there");
   }
   SbStatus status = rough ? sb_ehl_rough_case(&c, solver, scale, report)
                           : refuse_smooth(&c, scale, supply, report);
@@ -419,7 +421,7 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
       status = results->film_flux > supply ? SB_ERROR_NOT_CONVERGED : SB_OK; // it is starved
     }
     if (status != SB_OK) {
-      return sb_fail(report, status, "film: none next to the last one");
+      return sb_fail(report, status, "none next to the last one");
     }
     fill(out, problem, scale, &solver->now->c, results);
     info->unknowns = (size_t)solver->now->mesh.dofs + (rough ? 2 : 3);
@@ -443,14 +445,14 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
     }
   }
   if (status == SB_ERROR_CANCELLED) {
-    return sb_fail(report, status, "film: cancelled");
+    return sb_fail(report, status, "cancelled");
   }
   if (status == SB_ERROR_INFEASIBLE) {
     return sb_fail(report, status,
-                   "film: a starved inlet together with a cavity before a flooded outlet");
+                   "a starved inlet together with a cavity before a flooded outlet");
   }
   if (status != SB_OK) {
-    status = sb_fail(report, status, "film: Newton's method stopped at residual %.2g, degree %d",
+    status = sb_fail(report, status, "Newton's method stopped at residual %.2g, degree %d",
                      info->residual, solver->now->c.layers.degree);
     if (report != NULL) {
       report->residual = info->residual;
@@ -473,9 +475,9 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
     solver->last.tolerance = problem->tolerance;
     status = sb_succeed(report);
   } else if (status == SB_OK) {
-    status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
-                     "film: estimated error %.2g, above the tolerance, on the finest mesh",
-                     worst(solver));
+    status =
+        sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                "estimated error %.2g, above the tolerance, on the finest mesh", worst(solver));
   }
   return status;
 }

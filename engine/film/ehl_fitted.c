@@ -20,8 +20,8 @@ SbStatus sb_film_scale_fitted(SbFilmScale *scale, SbDryContact *dry, const SbFil
   const SbSurfaceCompliance *c = problem->compliance;
   if (!(fabs(c->modulus / problem->modulus - 1.0) < 1e-6)) {
     return sb_fail(report, SB_ERROR_INPUT,
-                   "film: reduced modulus %g Pa, but the fitted surface has %g Pa",
-                   problem->modulus, c->modulus);
+                   "reduced modulus %g Pa, but the fitted surface has %g Pa", problem->modulus,
+                   c->modulus);
   }
   SbStatus status = sb_dry_contact(dry, c, problem->load, problem->pressure_left,
                                    problem->pressure_right, report);

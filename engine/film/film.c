@@ -61,7 +61,7 @@ void sb_film_problem_init(SbFilmProblem *problem) {
 SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report) {
   *out = malloc(sizeof **out); // a solve uses few of its 20 MB
   if (*out == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
+    return sb_fail(report, SB_ERROR_MEMORY, "out of memory");
   }
   sb_ehl_init(*out);
   return sb_succeed(report);
@@ -208,9 +208,8 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
     double value = *(const double *)(const void *)((const char *)problem + r->offset);
     // The comparison is written so that a NaN fails it.
     if (!(value >= r->min && value <= r->max)) {
-      return sb_fail_parameter(report, SB_ERROR_RANGE, r->key,
-                               "film: %s %g %s is outside %g ... %g", r->name, value, r->unit,
-                               r->min, r->max);
+      return sb_fail_parameter(report, SB_ERROR_RANGE, r->key, "%s %g %s is outside %g ... %g",
+                               r->name, value, r->unit, r->min, r->max);
     }
   }
   if ((int)problem->surface < 0 || problem->surface >= SB_ROUGH_COUNT) {
@@ -220,12 +219,12 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
   if (problem->work_of_adhesion > 0 &&
       (problem->hamaker > 0 || problem->surface != SB_ROUGH_GREENWOOD_TRIPP)) {
     return sb_fail_parameter(report, SB_ERROR_INPUT, "surface.work_of_adhesion",
-                             "film: tips that stick are those of the surface greenwood-tripp, in "
+                             "tips that stick are those of the surface greenwood-tripp, in "
                              "place of van der Waals' pull");
   }
   if (sb_film_rough(problem) && problem->model != SB_FILM_REYNOLDS) {
     return sb_fail(report, SB_ERROR_INPUT,
-                   "film: asperities and adhesion need the model reynolds, not %s",
+                   "asperities and adhesion need the model reynolds, not %s",
                    sb_film_model_name(problem->model));
   }
   return SB_OK;
@@ -387,10 +386,11 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
     }
   }
   if (scale.kappa <= 0.02 || scale.kappa_outlet <= 0.02) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "canister.pressure",
-                             "film: the end pressures differ by %.3g of the Hertz pressure; near "
-                             "pi they open the contact",
-                             fabs(scale.inlet - scale.outlet));
+    status = sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "canister.pressure",
+                               "the end pressures differ by %.3g of the Hertz pressure; near "
+                               "pi they open the contact",
+                               fabs(scale.inlet - scale.outlet));
+    return sb_fail_because(report, status, SB_CAUSE_FLUID_OPENS);
   }
   if (scale.U <= 0.0 && problem->surface == SB_ROUGH_NONE) {
     if (fitted) {

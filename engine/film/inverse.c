@@ -75,14 +75,13 @@ static double root(const gsl_spline *t, double x, double unit, bool upstream) {
 static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
   if (problem->dry_count < TABLE_LEAST || problem->dry_x == NULL || problem->dry_pressure == NULL) {
     return sb_fail(report, SB_ERROR_INPUT,
-                   "film: the inverse model needs a dry pressure of at least %d points",
-                   TABLE_LEAST);
+                   "the inverse model needs a dry pressure of at least %d points", TABLE_LEAST);
   }
   for (size_t i = 0; i < problem->dry_count; i++) {
     if (!isfinite(problem->dry_x[i]) || !isfinite(problem->dry_pressure[i]) ||
         (i > 0 && !(problem->dry_x[i] > problem->dry_x[i - 1]))) {
       return sb_fail(report, SB_ERROR_INPUT,
-                     "film: dry pressure, point %zu: x must increase and numbers be finite", i + 1);
+                     "dry pressure, point %zu: x must increase and numbers be finite", i + 1);
     }
   }
   return SB_OK;
@@ -140,7 +139,7 @@ SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const 
   gsl_spline *fine = table(problem, 1);
   gsl_spline *coarse = table(problem, 2);
   if (fine == NULL || coarse == NULL) {
-    status = sb_fail(report, SB_ERROR_MEMORY, "film: out of memory");
+    status = sb_fail(report, SB_ERROR_MEMORY, "out of memory");
   } else {
     double place, coarse_place;
     double steep = steepest(&place, fine);
@@ -148,10 +147,10 @@ SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const 
     // A smooth slope does not care for every second point; a square-root edge gives sqrt(2).
     double change = coarse_steep > 0.0 ? fabs(sqrt(steep / coarse_steep) - 1.0) : 1.0;
     if (!(steep > 0.0)) {
-      status = sb_fail(report, SB_ERROR_INFEASIBLE, "film: the dry pressure never rises");
+      status = sb_fail(report, SB_ERROR_INFEASIBLE, "the dry pressure never rises");
     } else if (change > 0.1) {
       status = sb_fail(report, SB_ERROR_INFEASIBLE,
-                       "film: the steepest slope of the dry pressure changes by %.0f %% with every "
+                       "the steepest slope of the dry pressure changes by %.0f %% with every "
                        "second point left out: a square-root edge or too coarse a table",
                        200.0 * change);
     } else {

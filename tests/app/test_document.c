@@ -204,7 +204,7 @@ static void test_undo(void) {
   // A refused edit changes nothing and names the range.
   GError *error = NULL;
   g_assert_false(sb_document_set(document, d, "30 mm", &error));
-  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+  g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_RANGE);
   g_assert_cmpstr(error->message, ==, "30 mm is out of range (allowed 0.2 to 20 mm)");
   g_clear_error(&error);
   g_assert_false(sb_document_set_value(document, d, NAN, false, &error));

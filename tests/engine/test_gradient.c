@@ -292,6 +292,8 @@ static void test_kink(void) {
     g_assert_true(fabs(sb_gradient_slope(gradient, 1, 0) * coefficient + value[1]) <
                   1e-8 * value[1]);
     g_assert_nonnull(strstr(sb_gradient_reason(gradient, 0, 2), "needs models.motion = dynamic"));
+    g_assert_true(sb_gradient_is_fixed(gradient, 0, 2));
+    g_assert_false(sb_gradient_is_fixed(gradient, 0, 0));
     sb_gradient_destroy(gradient);
   }
   clear(&valve);

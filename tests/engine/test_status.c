@@ -15,6 +15,19 @@ static void test_report(void) {
   g_assert_cmpint(sb_fail(NULL, SB_ERROR_INPUT, "no report"), ==, SB_ERROR_INPUT);
 }
 
+// A cause is that of the last report alone.
+static void test_cause(void) {
+  SbReport report = {0};
+  SbStatus status = sb_fail(&report, SB_ERROR_INFEASIBLE, "open");
+  g_assert_cmpint(sb_fail_because(&report, status, SB_CAUSE_FLUID_OPENS), ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpint(report.cause, ==, SB_CAUSE_FLUID_OPENS);
+  g_assert_cmpstr(report.text, ==, "open");
+  status = sb_fail_parameter(&report, SB_ERROR_INFEASIBLE, "canister.pressure", "other");
+  g_assert_cmpint(status, ==, SB_ERROR_INFEASIBLE);
+  g_assert_cmpint(report.cause, ==, SB_CAUSE_OTHER);
+  g_assert_cmpint(sb_fail_because(NULL, status, SB_CAUSE_FLUID_PASSES), ==, status);
+}
+
 static void test_warnings(void) {
   SbWarnings list = {0};
   sb_warn(&list, "a", "k", "first");
@@ -95,6 +108,7 @@ static void test_serious(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/status/report", test_report);
+  g_test_add_func("/status/cause", test_cause);
   g_test_add_func("/status/warnings", test_warnings);
   g_test_add_func("/status/subjects", test_subjects);
   g_test_add_func("/status/cut", test_cut);

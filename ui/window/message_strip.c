@@ -123,7 +123,7 @@ static void refresh(Strip *strip) {
     g_autofree char *label = sb_translation_inside(param->label);
     const char *what = sb_session_rejected(session, (SbParamId)wrong) == NULL
                            ? _("is inconsistent with the other values")
-                       : strstr(sb_session_error(session, (SbParamId)wrong), "out of range") != NULL
+                       : sb_session_is_out_of_range(session, (SbParamId)wrong)
                            ? _("is out of range")
                            : _("cannot be read");
     g_autofree char *text =

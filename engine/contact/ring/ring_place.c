@@ -231,11 +231,13 @@ static SbStatus tell_passed(const SbRing *ring, const SbRingLoad *load, SbStatus
   if (!ring->body.inward || status != SB_ERROR_NOT_CONVERGED || most > NEAR * wanted) {
     return status;
   }
-  return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gasket.crimp",
-                           "the fluid passes the gasket along the %s: the contact there, %.3g MPa "
-                           "at most, was followed to %.3g of %.3g MPa",
-                           on_stem < on_plate ? "stem" : "plate", 1e-6 * most * ring->stress,
-                           1e-6 * reached * ring->stress, 1e-6 * wanted * ring->stress);
+  status =
+      sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gasket.crimp",
+                        "the fluid passes the gasket along the %s: the contact there, %.3g MPa "
+                        "at most, was followed to %.3g of %.3g MPa",
+                        on_stem < on_plate ? "stem" : "plate", 1e-6 * most * ring->stress,
+                        1e-6 * reached * ring->stress, 1e-6 * wanted * ring->stress);
+  return sb_fail_because(report, status, SB_CAUSE_FLUID_PASSES);
 }
 
 // Brings the fluid on a ring that has been fitted without.

@@ -207,6 +207,7 @@ static void settle(Work *work, size_t parameter, size_t figure) {
     refuse(work, parameter, figure, "%s: %s",
            work->refused ? "there is no other value" : "the figure has no value next to it",
            work->report.text[0] != '\0' ? work->report.text : work->changed);
+    work->out->fixed[figure * work->out->parameters + parameter] = work->refused;
     return;
   }
   // The smallest step determines how far a figure jumps or scatters.

@@ -89,5 +89,9 @@ const char *sb_gradient_reason(const SbGradient *gradient, size_t figure, size_t
 // (gradient_rings.c).
 bool sb_gradient_is_solved(const SbGradient *gradient, size_t figure, size_t parameter);
 
+// Returns whether a figure has no derivative with respect to a parameter because the model accepts
+// no other value of the parameter.
+bool sb_gradient_is_fixed(const SbGradient *gradient, size_t figure, size_t parameter);
+
 // Returns whether a parameter may be differentiated: it is real.
 bool sb_gradient_wants(SbParamId id);

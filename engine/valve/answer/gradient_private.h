@@ -22,6 +22,7 @@ struct SbGradient {
   double *slope, *error; // [figures][parameters] derivatives and their absolute errors [SI]
   unsigned char *why;    // [figures][parameters] number of the reason from 1; 0: none
   bool *solved;          // [figures][parameters] the slope is a difference of full solves
+  bool *fixed;           // [figures][parameters] the model accepts no other value of the parameter
   size_t text_count;     // number of reasons
   char text[SB_GRADIENT_TEXTS][SB_GRADIENT_TEXT];
 };

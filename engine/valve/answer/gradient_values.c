@@ -14,6 +14,7 @@ void sb_gradient_destroy(SbGradient *gradient) {
     free(gradient->error);
     free(gradient->why);
     free(gradient->solved);
+    free(gradient->fixed);
     free(gradient);
   }
 }
@@ -59,6 +60,10 @@ bool sb_gradient_is_solved(const SbGradient *gradient, size_t figure, size_t par
   return gradient->solved[figure * gradient->parameters + parameter];
 }
 
+bool sb_gradient_is_fixed(const SbGradient *gradient, size_t figure, size_t parameter) {
+  return gradient->fixed[figure * gradient->parameters + parameter];
+}
+
 bool sb_gradient_wants(SbParamId id) {
   return sb_param(id)->kind == SB_PARAM_REAL;
 }
@@ -80,8 +85,10 @@ SbGradient *sb_gradient_make(const SbQuestion *question, const SbParamId *parame
   out->error = calloc(cells + 1, sizeof *out->error);
   out->why = calloc(cells + 1, sizeof *out->why);
   out->solved = calloc(cells + 1, sizeof *out->solved);
+  out->fixed = calloc(cells + 1, sizeof *out->fixed);
   if (out->figure == NULL || out->parameter == NULL || out->at == NULL || out->value == NULL ||
-      out->slope == NULL || out->error == NULL || out->why == NULL || out->solved == NULL) {
+      out->slope == NULL || out->error == NULL || out->why == NULL || out->solved == NULL ||
+      out->fixed == NULL) {
     sb_gradient_destroy(out);
     return NULL;
   }

@@ -288,7 +288,8 @@ static bool from_rubber(SbParamDefault *out, const SbParams *params, SbParamId i
                               .giver = -1,
                               .name = rubber->name,
                               .source = rubber->figure[i].source,
-                              .tag = rubber->figure[i].typical ? "typical" : "published"};
+                              .tag = rubber->figure[i].typical ? "typical" : "published",
+                              .typical = rubber->figure[i].typical};
       return true;
     }
   }

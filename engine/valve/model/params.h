@@ -103,6 +103,7 @@ typedef struct {
   const char *name;   // value of `from` as text, if it is not a parameter; else NULL
   const char *source; // reference of the value
   const char *tag;    // as SbParam.tag
+  bool typical;       // typical of such rubbers, not measured on the named one
 } SbParamDefault;
 
 // Computes the default that `id` has for the values of `params`, whether it is given or not, from

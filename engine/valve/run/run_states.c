@@ -260,17 +260,16 @@ static void report_failure(const Task *task, SbReport *report) {
     snprintf(place, sizeof place, "%.4g MPa", 1e-6 * (task->pressure.left - task->pressure.right));
   }
   const SbReport cause = *report;
-  (void)sb_fail_parameter(report, cause.status, cause.parameter,
-                          "%s (%s), %s seal, stages %s, %s, %s: %s; available: %s",
-                          fitted ? "film" : "fitment",
-                          !fitted   ? sb_fit_model_name(model->fit)
-                          : coupled ? "with asperities"
-                                    : "reynolds",
-                          sb_seal_name(task->seal), stages[task->chamber], ways[task->motion],
-                          place, cause.text + (strncmp(cause.text, "film: ", 6) == 0 ? 6 : 0),
-                          complete ? "the last solution"
-                          : fitted ? "its fitment, the other states"
-                                   : "the other states");
+  (void)sb_fail_parameter(
+      report, cause.status, cause.parameter,
+      "%s (%s), %s seal, stages %s, %s, %s: %s; available: %s", fitted ? "film" : "fitment",
+      !fitted   ? sb_fit_model_name(model->fit)
+      : coupled ? "with asperities"
+                : "reynolds",
+      sb_seal_name(task->seal), stages[task->chamber], ways[task->motion], place, cause.text,
+      complete ? "the last solution"
+      : fitted ? "its fitment, the other states"
+               : "the other states");
   sb_warn(&task->lane->warnings, "not-converged", report->parameter, "%s", report->text);
   if (task->motion != SB_RUN_REST && !complete && task->lane->lacks.status == SB_OK) {
     task->lane->lacks = *report;

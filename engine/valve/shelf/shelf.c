@@ -10,7 +10,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const double GAS_CONSTANT = 8.314462618; // J/(mol K)
 static const double WATER = 0.018015;           // kg/mol
@@ -245,8 +244,7 @@ const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int 
   } figures[SB_SHELF_TYPICAL] = {{SB_P_RUBBER_PERMEABILITY, "loss by permeation"},
                                  {SB_P_RUBBER_WATER_PERMEABILITY, "moisture"}};
   SbParamDefault from;
-  if (!sb_model_default(&from, model, figures[which].id) || from.tag == NULL ||
-      strcmp(from.tag, "typical") != 0) {
+  if (!sb_model_default(&from, model, figures[which].id) || !from.typical) {
     return NULL;
   }
   sb_text(text, size, "the %s depends on a typical value of %s, not on a measurement: %s",

@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 double sb_sliding_friction(const SbSealState *state) {
   return state->boundary_area + state->boundary_load + state->friction_viscous;
@@ -380,7 +379,7 @@ static const char *about(int seal) {
 // passes on the report.
 static SbStatus opened_by_fluid(SbSealState *out, SbStatus status, const SbReport *own, int seal,
                                 SbWarnings *warnings, SbReport *report) {
-  if (status != SB_ERROR_INFEASIBLE || strcmp(own->parameter, "canister.pressure") != 0) {
+  if (status == SB_OK || own->cause != SB_CAUSE_FLUID_OPENS) {
     if (status != SB_OK && report != NULL) {
       *report = *own;
     }

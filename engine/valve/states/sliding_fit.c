@@ -273,7 +273,7 @@ SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *l
   // The fit takes the difference; the common part only shifts the fluid's level.
   SbReport own = {0};
   SbStatus status = solve_fit(task, law, &own);
-  const bool passed = status == SB_ERROR_INFEASIBLE && strcmp(own.parameter, "gasket.crimp") == 0;
+  const bool passed = status != SB_OK && own.cause == SB_CAUSE_FLUID_PASSES;
   if (passed) { // a result: the gasket is open
     sb_warn(task->warnings, "gasket-passed", own.parameter, "%s", own.text);
     memset(&task->memory->now->fit, 0, sizeof task->memory->now->fit);
