@@ -166,6 +166,52 @@ static void test_start(void) {
   near(fit[0].load, fit[1].load, 1e-3);
 }
 
+// A lip whose drag exceeds the friction of the floor before a wall carries it. The ring then slides
+// through its groove: no state of a higher drag is near the last one on the floor alone. The states
+// from the middle of the groove and from the wall are the same, and the wall carries the difference
+// of the two forces of friction; at the wall single nodes of the floor may not have slipped yet.
+static void test_crosses_groove(void) {
+  const SbRingBody body = {.profile = {.kind = SB_SEAL_PROFILE_LIP,
+                                       .axial_height = 0.7355e-3,
+                                       .corner_radius = 0.03693e-3,
+                                       .lip_thickness = 0.2575e-3,
+                                       .lip_depth = 0.275e-3,
+                                       .lip_flare = 0.1193e-3},
+                           .section_diameter = 0.9278e-3,
+                           .inner_diameter = 2.5929e-3,
+                           .modulus = 2.4016e6,
+                           .poisson_ratio = 0.48959};
+  SbRingLoad load = SB_RING_LOAD_INIT;
+  load.bore_radius = 2.26265e-3;
+  load.floor_radius = load.bore_radius - 0.86904e-3;
+  load.wall_right = 0.71337e-3;
+  load.wall_left = -load.wall_right;
+  load.friction_bore = 0.3;
+  load.friction_floor = 2e-4;
+  for (int way = -1; way <= 1; way += 2) {
+    double force[2];
+    load.bore_slides = way;
+    for (int i = 0; i < 2; i++) {
+      load.rests_on_wall = i == 1;
+      SbRing *ring = NULL;
+      SbRingResult r;
+      SbReport report = {0};
+      const SbStatus status = sb_ring_create(&ring, &body, &load, NULL, &report);
+      g_test_message("%s", report.text);
+      g_assert_cmpint(status, ==, SB_OK);
+      sb_ring_result(ring, &r);
+      sb_ring_destroy(ring);
+      const double wall = way > 0 ? r.wall_right_force : r.wall_left_force;
+      g_test_message("load %.6g N, drag %.6g N, floor %.4g N, wall %.6g N; %d iterations",
+                     r.bore_force, r.bore_drag, r.floor_force, wall, r.newton_iterations);
+      g_assert_cmpint(r.state, ==, SB_RING_SLIDES);
+      near(wall, fabs(r.bore_drag) - load.friction_floor * r.floor_force, 1e-4);
+      force[i] = r.bore_force;
+    }
+    near(force[0], force[1], 1e-4);
+  }
+}
+
 // A shear that saturates with the pressure, as a real area times its strength does.
 typedef struct {
   double shear, coefficient; // Pa, -
@@ -337,6 +383,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/ring-drag/table", test_table);
   g_test_add_func("/ring-drag/coarse", test_coarse);
   g_test_add_func("/ring-drag/start", test_start);
+  g_test_add_func("/ring-drag/crosses-groove", test_crosses_groove);
   g_test_add_func("/ring-drag/law", test_law);
   g_test_add_func("/ring-drag/law-coulomb", test_law_coulomb);
   g_test_add_func("/ring-drag/near-limit", test_near_limit);

@@ -45,7 +45,7 @@ static const double FALL = 0.97, EASY_FALL = 0.985, FALL_TURN = 0.1, FLAT_TURN =
 // found.
 static const double DETACHES = 0.5, DETACHED_LEAST = 0.01;
 
-void sb_ring_rest_on_wall(SbRing *ring) {
+bool sb_ring_rest_on_wall(SbRing *ring) {
   const SbRingContact *contact = ring->contact;
   const SbRingLoad *now = &contact->is.now;
   SbRingSurface wall = now->bore_slides > 0 ? SB_RING_WALL_RIGHT : SB_RING_WALL_LEFT;
@@ -56,9 +56,11 @@ void sb_ring_rest_on_wall(SbRing *ring) {
     holds = holds || sb_ring_touch(contact, i, SB_RING_WALL_RIGHT)->held ||
             sb_ring_touch(contact, i, SB_RING_WALL_LEFT)->held;
   }
-  for (int i = 0; i < ring->mesh->nodes && isfinite(least) && !holds; i++) {
+  const bool moves = isfinite(least) && !holds;
+  for (int i = 0; i < ring->mesh->nodes && moves; i++) {
     ring->fem->u[2 * i + 1] += now->bore_slides * least;
   }
+  return moves;
 }
 
 // Returns the bore's load on which friction acts. Writes the drag, and the drag of the full law,
@@ -166,6 +168,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   double unit, now, still = bore_load(ring->contact, &drag, &unit);
   double anchor[2] = {fitted, unit * ring->contact->is.now.friction_bore};
   int meshes = 0, first = ring->count.iterations; // meshes tried since the last step
+  bool crossed = false;                           // the groove, to the wall
   ring->state = SB_RING_SLIDES;
   ring->passing = true;
   while (ring->contact->is.now.friction_bore < aim) {
@@ -188,6 +191,14 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
       length *= 0.5;
       if (detaches && (length < DETACHED_LEAST || spent)) {
         return end_at_limit(ring, SB_RING_ROLLS, most, limit);
+      }
+      // The drag has reached the friction of the floor, and no wall carries the ring: a higher drag
+      // has no state here. The ring slides through its groove, with its shape unchanged, to the
+      // wall.
+      if (length < ARC_LEAST && !spent && !crossed && sb_ring_rest_on_wall(ring)) {
+        crossed = true;
+        length = ARC;
+        continue;
       }
       if (length < ARC_LEAST || spent) {
         // A path that stops at single nodes of one mesh continues on another.

@@ -243,8 +243,9 @@ SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path
 // the fluid last, on its present mesh. Errors as for sb_ring_create().
 SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport *report);
 
-// Moves a ring that has no contact with a wall to the wall to which the bore drags it.
-void sb_ring_rest_on_wall(SbRing *ring);
+// Moves a ring that has no contact with a wall to the wall to which the bore drags it. Returns
+// whether it moved the ring.
+bool sb_ring_rest_on_wall(SbRing *ring);
 
 // Changes the load to `target`; first moves the ring to the wall if the fluid pushes it there.
 SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report);
