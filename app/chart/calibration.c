@@ -4,8 +4,8 @@
 #include "app/chart/calibration.h"
 
 #include "app/base/format.h"
-#include "app/chart/axis.h"
 #include "app/chart/page.h"
+#include "app/draw/axis.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>

@@ -2,8 +2,8 @@
 // fitted parameters, what the data identify, and the posterior in pairs of parameters.
 #pragma once
 
-#include "app/base/canvas.h"
 #include "app/data/compare.h"
+#include "app/draw/canvas.h"
 
 #include "engine/numeric/sampling.h"
 

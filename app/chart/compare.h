@@ -2,8 +2,8 @@
 // live run) and with measured forces.
 #pragma once
 
-#include "app/base/canvas.h"
 #include "app/chart/data.h"
+#include "app/draw/canvas.h"
 
 // Draws the table into `rect` [px]. The first rows are the forces at the playhead's displacement on
 // the in-stroke and on the return; a pin's percentage is omitted if the live force is below 0.5 N.

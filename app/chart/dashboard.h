@@ -1,8 +1,8 @@
 // The page with all views of one frame: section, loop, profiles, timeline, key figures, footer.
 #pragma once
 
-#include "app/base/canvas.h"
 #include "app/chart/data.h"
+#include "app/draw/canvas.h"
 
 // Draws the section with its insets, legends and scale bars into the rectangle of its panel [px].
 // The caller has drawn the panel's background and border. `user` is passed unchanged.

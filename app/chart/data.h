@@ -2,9 +2,9 @@
 // program. A view is a function of this, a rectangle and a theme only, without state of its own.
 #pragma once
 
-#include "app/base/theme.h"
 #include "app/chart/trace.h"
 #include "app/data/compare.h"
+#include "app/draw/theme.h"
 #include "engine/valve/sealbench.h"
 
 // State of a run.

@@ -1,8 +1,8 @@
 // See half_sections.h.
 #include "app/chart/half_sections.h"
 
-#include "app/base/canvas.h"
 #include "app/base/number.h"
+#include "app/draw/canvas.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -2,9 +2,9 @@
 // and the diameters of lands, bores and grooves.
 #pragma once
 
-#include "app/base/geometry.h"
-#include "app/base/theme.h"
 #include "app/document/cad_parts.h"
+#include "app/draw/geometry.h"
+#include "app/draw/theme.h"
 
 #include <cairo.h>
 

@@ -3,9 +3,9 @@
 // the picture of sb_hysteresis_draw() the other functions take the same `rect`, `data` and `flags`.
 #pragma once
 
-#include "app/base/canvas.h"
-#include "app/chart/axis.h"
 #include "app/chart/data.h"
+#include "app/draw/axis.h"
+#include "app/draw/canvas.h"
 
 // Positions in the chart.
 typedef struct {

@@ -1,8 +1,8 @@
 // A read-out on the loop: a line at a displacement, a dot where it crosses either way, and the
 // forces there. Drawn over the finished chart, so that a pointer that moves costs little.
 #include "app/base/format.h"
-#include "app/chart/cursor.h"
 #include "app/chart/hysteresis_private.h"
+#include "app/draw/cursor.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>

@@ -2,8 +2,8 @@
 // hysteresis_measured.c.
 #pragma once
 
-#include "app/base/label.h"
 #include "app/chart/hysteresis.h"
+#include "app/draw/label.h"
 
 // The chart; sb_hysteresis_draw() fills it before it calls the functions below.
 typedef struct {

@@ -1,8 +1,8 @@
 // A life against its actuations: forces, film divided by roughness, leakage.
 #pragma once
 
-#include "app/base/canvas.h"
 #include "app/chart/data.h"
+#include "app/draw/canvas.h"
 
 // Draws the panels of data->run.life into `rect`, each with its own background; nothing without
 // actuations.

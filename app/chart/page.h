@@ -2,8 +2,8 @@
 // warnings below them.
 #pragma once
 
-#include "app/base/canvas.h"
 #include "app/chart/data.h"
+#include "app/draw/canvas.h"
 
 // Heights of the two strips [px].
 #define SB_PAGE_HEADER 88.0

@@ -6,9 +6,9 @@
 // pressure is drawn only if the profile has one.
 #include "app/chart/profiles.h"
 #include "app/base/figure_text.h"
-#include "app/base/label.h"
-#include "app/chart/axis.h"
 #include "app/chart/contact_curve.h"
+#include "app/draw/axis.h"
+#include "app/draw/label.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>

@@ -3,8 +3,8 @@
 // `flags` of SB_CHART_PANEL, ... (data.h).
 #pragma once
 
-#include "app/base/canvas.h"
 #include "app/chart/data.h"
+#include "app/draw/canvas.h"
 
 // Draws both panels: next to each other in a wide rectangle, one above the other in a tall one.
 void sb_profiles_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,

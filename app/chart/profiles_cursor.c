@@ -1,7 +1,7 @@
 // The read-out of the contacts' panels (profiles.h).
 #include "app/base/format.h"
-#include "app/chart/cursor.h"
 #include "app/chart/profiles.h"
+#include "app/draw/cursor.h"
 
 #include <glib.h>
 

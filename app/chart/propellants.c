@@ -1,10 +1,10 @@
 // The swap page; propellants.h says what it shows. Between the temperatures of the study values lie
 // on straight lines, as the curves are drawn.
 #include "app/base/figure_text.h"
-#include "app/base/label.h"
 #include "app/base/translation.h"
-#include "app/chart/axis.h"
 #include "app/chart/propellants_private.h"
+#include "app/draw/axis.h"
+#include "app/draw/label.h"
 #include "engine/fluid/fluid.h"
 
 #include <glib/gi18n.h>

@@ -5,7 +5,7 @@
 // Rectangles are in pixels.
 #pragma once
 
-#include "app/base/canvas.h"
+#include "app/draw/canvas.h"
 #include "engine/valve/studies/study.h"
 
 // Number of propellants, of charts, and index of the chart of the return force.

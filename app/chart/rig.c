@@ -4,8 +4,8 @@
 // only its displacement and the thread's stretch are to scale with each other.
 #include "app/chart/rig.h"
 #include "app/base/format.h"
-#include "app/chart/axis.h"
 #include "app/chart/signal.h"
+#include "app/draw/axis.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>

@@ -2,8 +2,8 @@
 // functions draw the live run of `data` into `rect` [px]; `flags` of SB_CHART_PANEL, ... (data.h).
 #pragma once
 
-#include "app/base/canvas.h"
 #include "app/chart/data.h"
+#include "app/draw/canvas.h"
 
 // Draws the coefficients on one scale, ours and those of thesis table 7.8, and the reasons for the
 // differences.

@@ -2,7 +2,7 @@
 // and the parameters on which it depends.
 #pragma once
 
-#include "app/base/canvas.h"
+#include "app/draw/canvas.h"
 
 #include <stddef.h>
 

@@ -2,8 +2,8 @@
 // remaining doses; below them a table of the paths' fractions.
 #pragma once
 
-#include "app/base/canvas.h"
 #include "app/chart/data.h"
+#include "app/draw/canvas.h"
 
 // Draws the panels into `rect` [px], each with its own background; nothing without a history.
 // Typical values of a rubber, which are not measured, are named at the foot.

@@ -4,7 +4,7 @@
 // a peak is known by what follows it.
 #include "app/chart/signal.h"
 #include "app/base/format.h"
-#include "app/base/label.h"
+#include "app/draw/label.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>

@@ -2,9 +2,9 @@
 // from which the coefficients are computed.
 #pragma once
 
-#include "app/base/canvas.h"
-#include "app/chart/axis.h"
 #include "app/chart/data.h"
+#include "app/draw/axis.h"
+#include "app/draw/canvas.h"
 
 // Draws the chart of the live run into `rect` [px]; `flags` of SB_CHART_PANEL, ... (data.h).
 void sb_signal_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,

@@ -5,10 +5,10 @@
 // dots. The range follows what was solved: a closed form that leaves it is clipped.
 #include "app/chart/study.h"
 #include "app/base/format.h"
-#include "app/base/label.h"
 #include "app/base/translation.h"
 #include "app/base/unit.h"
-#include "app/chart/axis.h"
+#include "app/draw/axis.h"
+#include "app/draw/label.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>

@@ -2,7 +2,7 @@
 // foot. Names, units and scales are those of the study. Rectangles are in pixels.
 #pragma once
 
-#include "app/base/canvas.h"
+#include "app/draw/canvas.h"
 #include "engine/valve/studies/study.h"
 
 // Draws the study into `rect`, each panel and the table with its own background. The picture

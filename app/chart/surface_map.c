@@ -4,7 +4,7 @@
 #include "app/chart/surface_map.h"
 
 #include "app/base/format.h"
-#include "app/chart/axis.h"
+#include "app/draw/axis.h"
 
 #include <glib.h>
 #include <math.h>

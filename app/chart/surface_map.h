@@ -1,7 +1,7 @@
 // The picture of a measured surface: its heights as a map with a scale, or of a profile as a line.
 #pragma once
 
-#include "app/base/canvas.h"
+#include "app/draw/canvas.h"
 #include "engine/contact/rough/heights.h"
 
 // Draws `heights` into `rect` [px] with its own background. `sq` is the standard deviation of the

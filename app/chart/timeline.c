@@ -4,7 +4,7 @@
 // yet is left blank, what a cancelled run lacks is hatched.
 #include "app/chart/timeline.h"
 #include "app/base/format.h"
-#include "app/base/label.h"
+#include "app/draw/label.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>

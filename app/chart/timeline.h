@@ -3,9 +3,9 @@
 // as sb_timeline_draw().
 #pragma once
 
-#include "app/base/canvas.h"
-#include "app/chart/axis.h"
 #include "app/chart/data.h"
+#include "app/draw/axis.h"
+#include "app/draw/canvas.h"
 
 // Draws the live run into `rect`. It is designed for a height of 104 px; in another one the strips
 // grow or shrink (below 62 px they exceed `rect`), texts do not. `flags`: 0 or SB_CHART_WHOLE of

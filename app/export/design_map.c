@@ -2,10 +2,10 @@
 #include "app/export/design_map.h"
 
 #include "app/base/figure_text.h"
-#include "app/base/label.h"
 #include "app/base/translation.h"
 #include "app/base/unit.h"
-#include "app/chart/axis.h"
+#include "app/draw/axis.h"
+#include "app/draw/label.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

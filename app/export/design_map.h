@@ -3,7 +3,7 @@
 // valves with the limits. Rectangles are in pixels of the drawing; texts are translated.
 #pragma once
 
-#include "app/base/canvas.h"
+#include "app/draw/canvas.h"
 #include "app/session/design_answer.h"
 
 // Number of styles of contour lines.

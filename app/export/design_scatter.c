@@ -5,7 +5,7 @@
 #include "app/base/format.h"
 #include "app/base/translation.h"
 #include "app/base/unit.h"
-#include "app/chart/axis.h"
+#include "app/draw/axis.h"
 
 #include <glib/gi18n.h>
 #include <math.h>

@@ -4,7 +4,7 @@
 // Lengths are in logical pixels (1/96 inch).
 #pragma once
 
-#include "app/base/canvas.h"
+#include "app/draw/canvas.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -2,8 +2,8 @@
 // part of JSON documents. In CSV errors of writing are left in the stream (ferror()).
 #pragma once
 
-#include "app/base/canvas.h"
 #include "app/base/unit.h"
+#include "app/draw/canvas.h"
 #include "app/export/json.h"
 #include "engine/valve/studies/study.h"
 

@@ -8,8 +8,8 @@
 // Coordinates are logical pixels: the origin is the top left corner, x to the right, y downwards.
 #pragma once
 
-#include "app/base/geometry.h"
-#include "app/base/theme.h"
+#include "app/draw/geometry.h"
+#include "app/draw/theme.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,9 +1,9 @@
 // Beside the section: its title, the legends of its colours, the balance of forces.
 #include "app/section/section_private.h"
 
-#include "app/base/theme.h"
 #include "app/base/translation.h"
 #include "app/chart/data.h"
+#include "app/draw/theme.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>

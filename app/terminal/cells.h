@@ -7,7 +7,7 @@
 // the functions that draw need not care. Drawing outside of the grid is clipped.
 #pragma once
 
-#include "app/base/theme.h"
+#include "app/draw/theme.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -5,7 +5,7 @@
 // and labels in the cells. A cell has one colour: that of its curve with the highest rank.
 #pragma once
 
-#include "app/chart/axis.h"
+#include "app/draw/axis.h"
 #include "app/terminal/cells.h"
 
 // A plot in progress. Its members are for plot.c; `x`, `y` and `rect` may be read.

@@ -1,6 +1,6 @@
 // Ticks and value formatting against tables, and against hostile ranges.
 #include "app/base/figure_text.h"
-#include "app/chart/axis.h"
+#include "app/draw/axis.h"
 
 #include <glib.h>
 #include <locale.h>

@@ -1,6 +1,6 @@
 // The collision rule: what is placed never overlaps, stays inside, prefers its first place, keeps
 // off curves, and gives way.
-#include "app/base/label.h"
+#include "app/draw/label.h"
 
 #include <glib.h>
 #include <math.h>

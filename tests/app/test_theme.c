@@ -1,5 +1,5 @@
 // The look's promises about colour: contrast, distance under colour blindness, even maps.
-#include "app/base/theme.h"
+#include "app/draw/theme.h"
 
 #include <glib.h>
 #include <math.h>

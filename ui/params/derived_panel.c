@@ -11,8 +11,8 @@
 #include "ui/params/derived_panel.h"
 
 #include "app/base/figure_text.h"
-#include "app/base/theme.h"
 #include "app/base/translation.h"
+#include "app/draw/theme.h"
 #include "app/session/verdict_text.h"
 #include "engine/valve/figures/figures.h"
 #include "ui/views/signals.h"

@@ -1,6 +1,6 @@
 #include "ui/params/param_sketch.h"
 
-#include "app/base/canvas.h"
+#include "app/draw/canvas.h"
 #include "app/section/valve.h"
 #include "ui/views/style.h"
 

@@ -1,8 +1,8 @@
 // The balance of forces on the stem, as a row of bars below the section.
 #pragma once
 
-#include "app/base/canvas.h"
 #include "app/chart/data.h"
+#include "app/draw/canvas.h"
 
 // Height for which the row is designed [px].
 #define SB_FORCE_BALANCE_HEIGHT 44.0

@@ -2,8 +2,8 @@
 // a button of theirs is being served.
 #include "ui/views/pin_bar.h"
 
-#include "app/base/canvas.h"
 #include "app/base/figure_text.h"
+#include "app/draw/canvas.h"
 #include "ui/views/later.h"
 #include "ui/views/signals.h"
 #include "ui/views/style.h"

@@ -4,9 +4,9 @@
 // the limit is felt, and told.
 #include "ui/views/section_handles.h"
 
-#include "app/base/canvas.h"
 #include "app/base/translation.h"
 #include "app/base/unit.h"
+#include "app/draw/canvas.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>

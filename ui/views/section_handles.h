@@ -5,7 +5,7 @@
 // events below; those that return gboolean return whether the event was used.
 #pragma once
 
-#include "app/base/geometry.h"
+#include "app/draw/geometry.h"
 #include "app/section/section.h"
 #include "app/session/session.h"
 

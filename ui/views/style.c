@@ -3,7 +3,7 @@
 // here.
 #include "ui/views/style.h"
 
-#include "app/base/theme.h"
+#include "app/draw/theme.h"
 
 #include "sealbench-resources.h"
 

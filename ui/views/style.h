@@ -1,7 +1,7 @@
 // Appearance of the widgets: the style sheet, light or dark, and small helpers.
 #pragma once
 
-#include "app/base/theme.h"
+#include "app/draw/theme.h"
 
 #include <gtk/gtk.h>
 

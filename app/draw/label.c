@@ -2,7 +2,7 @@
 // covers; taken boxes and the bounds are hard limits. Greedy, in order of importance, because the
 // order is part of the design (a label gives way to *now*), and stable: a playhead that moves does
 // not make far labels jump. Leaves out a global optimum.
-#include "app/base/label.h"
+#include "app/draw/label.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 // See the header.
-#include "app/chart/cursor.h"
+#include "app/draw/cursor.h"
 
 #include <math.h>
 

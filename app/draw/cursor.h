@@ -2,7 +2,7 @@
 // with the values.
 #pragma once
 
-#include "app/base/canvas.h"
+#include "app/draw/canvas.h"
 
 // Draws the line at pixel x in the rectangle `plot` of the curves, dots on it at the pixels
 // dot[dots] of y (NaN: none), and the one line `text` on a plate next to the line, inside of

@@ -2,7 +2,7 @@
 // maps. Lengths are logical pixels. Every renderer uses these. Constant data; any thread.
 #pragma once
 
-#include "app/base/color.h"
+#include "app/draw/color.h"
 
 #include <stdbool.h>
 

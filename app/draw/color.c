@@ -1,6 +1,6 @@
 // Colour arithmetic. OKLab after Ottosson (2020), contrast after WCAG 2.1. All values are
 // dimensionless. Leaves out chromatic adaptation: sRGB with D65 throughout.
-#include "app/base/color.h"
+#include "app/draw/color.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 // The look's table of roles and its maps, computed from their formulas in OKLCh. No state: both
 // themes are made once at compile time from hexadecimal codes and widened on first use.
-#include "app/base/theme.h"
+#include "app/draw/theme.h"
 
 #include <math.h>
 #include <pthread.h>

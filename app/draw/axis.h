@@ -1,7 +1,7 @@
 // Scales and ticks of charts: from data to pixels, and the positions of the tick marks.
 #pragma once
 
-#include "app/base/canvas.h"
+#include "app/draw/canvas.h"
 
 // Largest number of ticks.
 enum { SB_TICKS_MAX = 12 };

@@ -1,7 +1,7 @@
 // Ticks at 1-2-5 times powers of ten. Between two neighbouring steps of that series the ratio is at
 // most 2.5, so a range that shows nine marks at one step shows at least three at the next: three to
 // eight can always be had. Leaves out time axes and minor marks.
-#include "app/chart/axis.h"
+#include "app/draw/axis.h"
 #include "app/base/format.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 // place the most important ones first. Coordinates are logical pixels, y downwards.
 #pragma once
 
-#include "app/base/canvas.h"
+#include "app/draw/canvas.h"
 
 // Largest numbers of occupied boxes and of line pieces.
 enum { SB_LABELS_MAX = 96, SB_LABEL_LINES_MAX = 4096 };

@@ -1,7 +1,7 @@
 // Primitives on cairo and pango. Lengths in logical pixels of the context's user space; thinning
 // looks at device pixels, so that a picture at scale 2 keeps twice the points. Leaves out clipping:
 // callers clip to their plot.
-#include "app/base/canvas.h"
+#include "app/draw/canvas.h"
 #include "app/base/translation.h"
 
 #include <glib.h>

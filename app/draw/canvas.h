@@ -3,8 +3,8 @@
 // one drawing call.
 #pragma once
 
-#include "app/base/geometry.h"
-#include "app/base/theme.h"
+#include "app/draw/geometry.h"
+#include "app/draw/theme.h"
 
 #include <pango/pangocairo.h>
 #include <stddef.h>
