@@ -57,13 +57,13 @@ typedef struct {
   double seconds;       // time that they took [s]
 } SbAnswers;
 
-// Sets the list of the store of `questions` (sb_store_set_list()): the keys of their parameters,
-// none of them SB_QUESTION_NONE, and the paths of their figures. Returns false with
+// Sets the list of questions->store, which is not NULL (sb_store_set_list()): the keys of the
+// parameters, none of them SB_QUESTION_NONE, and the paths of the figures. Returns false with
 // SB_APP_ERROR_IO.
 bool sb_answers_set_list(const SbQuestions *questions, GError **error);
 
-// Computes or reads the results, and commits the store. The caller has set the list of the store to
-// these parameters and figures (sb_answers_set_list() or sb_store_set_list()). Call
+// Computes or reads the results, and commits the store. If there is a store, the caller has set its
+// list to these parameters and figures (sb_answers_set_list() or sb_store_set_list()). Call
 // sb_answers_release() in any case. Returns false with SB_APP_ERROR_IO (the store),
 // SB_APP_ERROR_CANCELLED (what was finished is in *out and in the store) or SB_APP_ERROR_INPUT (too
 // many samples for the memory). A sample that fails does not make the call fail: its status states

@@ -1,4 +1,9 @@
 // Transient film: mesh, state, and one implicit step. Private to engine/film.
+//
+// sb_film_transient_create() sets problem, scale and the solver, calls sb_transient_mesh(), and
+// computes the initial state t->now. A time step then is sb_transient_advance(), which computes
+// t->next; if its error is small, sb_transient_accept() and sb_transient_adapt(); else a shorter
+// step from the same t->now.
 #pragma once
 
 #include "engine/film/ehl.h"
@@ -131,8 +136,8 @@ struct SbFilmTransient {
 void sb_transient_mesh(SbFilmTransient *t, double rest, double least);
 
 // Builds a new mesh in the core and transfers the states, if the transported film needs another
-// spacing. The new spacing is chosen so that it suffices while the fluid moves by `ahead` (divided
-// by b). Returns whether the mesh changed.
+// spacing. The new spacing is chosen so that it suffices while the fluid moves by `ahead`, signed
+// and divided by b (0: it rests). Returns whether the mesh changed.
 bool sb_transient_adapt(SbFilmTransient *t, double ahead);
 
 // Transfers the states `now`, `before` and `earlier` from the nodes t->old_X[nodes] to the present

@@ -1,6 +1,12 @@
 // Shared by the files of dynamics.h: dynamics_check.c (input), dynamics_forces.c (forces, energies,
 // event functions), dynamics_path.c (motion between events), dynamics.c (effects of events),
 // dynamics_repeat.c (stick-slip cycles). Private to engine/mechanism.
+//
+// sb_dynamics_advance() works segment by segment: sb_motion_find_path() finds the motion from s->t
+// and s->at, the end s->t_end of the segment and the event s->event. The functions that take a time
+// or tau evaluate this segment. At its end dynamics.c sets s->t and s->at, applies the event to the
+// contact states, and calls sb_motion_repeat() after a break-away. Directions are +1 (to +x, into
+// the canister) or -1.
 #pragma once
 
 #include "engine/mechanism/dynamics.h"

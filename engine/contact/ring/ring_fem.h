@@ -5,6 +5,9 @@
 // discontinuous (Crouzeix-Raviart P2+/P1): no locking for any bulk modulus. Bubble and pressure are
 // condensed in each element. Any consistent units; the ring uses lengths in section diameters and
 // stresses in initial shear moduli.
+//
+// A Newton iteration: sb_ring_fem_assemble(), external forces (residual, sb_ring_fem_add()) and
+// conditions, sb_ring_fem_solve(), sb_ring_fem_advance(). Positions and forces are (r, z).
 #pragma once
 
 #include "engine/contact/ring/ring_factor.h"

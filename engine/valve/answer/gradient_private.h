@@ -101,7 +101,7 @@ typedef struct {
   double fault[SB_SEAL_COUNT + 1];
 } SbGradientLevel;
 
-// Work memory of sb_gradient_create().
+// Work memory of sb_gradient_create(), which sets all fields before it calls the functions below.
 typedef struct {
   SbGradient *out;        // the result
   SbEvaluator *evaluator; // the caller's; has the contacts of the base, solved or linearised

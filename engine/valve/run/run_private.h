@@ -1,11 +1,11 @@
 // Shared by the files of a run: its state, and the steps of sb_run_execute().
 //
-// sb_run_execute() clears the summary, then solves the steady states of both seals
-// (sb_run_solve_states()), moves the stem through the cycle with friction interpolated from these
-// states (sb_run_move(), which fills frames and stages), solves transient films, sets the figures
-// of the seals, computes the shelf and the actuations of a life, and at the end reasons, errors and
-// the verdict. Error estimates come from repeating the motion with states perturbed by their
-// errors.
+// sb_run_execute() clears the summary and begins the budget (sb_run_begin_work()), then solves the
+// steady states of both seals (sb_run_solve_states()), moves the stem through the cycle with
+// friction interpolated from these states (sb_run_move(), which fills frames and stages), solves
+// transient films, sets the figures of the seals, computes the shelf and the actuations of a life,
+// and at the end reasons, errors and the verdict. Error estimates come from repeating the motion
+// with states perturbed by their errors.
 //
 // "Way" and `direction` are SB_CYCLE_IN or SB_CYCLE_OUT; "motion" is a way, or SB_RUN_REST;
 // `chamber` is an SbChamber; `seal` SB_OUTER or SB_INNER. `hooks` are never NULL here. Functions
