@@ -56,7 +56,7 @@ static int word_of(const SbData *data, SbDataKey key, const char *words, GPtrArr
     }
   }
   g_autofree char *allowed = g_strjoinv(", ", list);
-  sb_data_complain(data, key, allowed, issues, "\"%s\" is not one of these", data->text[key]);
+  sb_data_add_issue(data, key, allowed, issues, "\"%s\" is not one of these", data->text[key]);
   return -1;
 }
 
@@ -112,8 +112,8 @@ static bool take_said(SbMeasured *m, SbTable *table, const SbData *data, GPtrArr
     }
     g_auto(GStrv) words = g_strsplit(data->text[keys[k]], ",", -1);
     if (g_strv_length(words) > sb_table_columns(table)) {
-      sb_data_complain(data, keys[k], NULL, issues, "names more than the %zu columns of the file",
-                       sb_table_columns(table));
+      sb_data_add_issue(data, keys[k], NULL, issues, "names more than the %zu columns of the file",
+                        sb_table_columns(table));
       return false;
     }
     for (size_t i = 0; words[i] != NULL; i++) {
@@ -127,8 +127,8 @@ static bool take_said(SbMeasured *m, SbTable *table, const SbData *data, GPtrArr
         channel++;
       }
       if (channel == SB_CHANNELS && strcmp(word, "-") != 0) {
-        sb_data_complain(data, keys[k], "time, displacement, force, -", issues,
-                         "\"%s\" is not a column that is read", word);
+        sb_data_add_issue(data, keys[k], "time, displacement, force, -", issues,
+                          "\"%s\" is not a column that is read", word);
         return false;
       }
       if (channel < SB_CHANNELS) {
@@ -157,11 +157,11 @@ static bool find_column(SbMeasured *m, const SbTable *table, const SbData *data,
         continue;
       }
       if (found >= 0 && channel != SB_CHANNEL_TIME) {
-        sb_data_complain(data, SB_DATA_COLUMNS, NULL, issues,
-                         "column %d \"%s\" and column %zu \"%s\" may both be the %s: specify it, "
-                         "as in columns = displacement, force, -",
-                         found + 1, sb_table_column(table, (size_t)found)->name, i + 1,
-                         column->name, channels[channel].name);
+        sb_data_add_issue(data, SB_DATA_COLUMNS, NULL, issues,
+                          "column %d \"%s\" and column %zu \"%s\" may both be the %s: specify it, "
+                          "as in columns = displacement, force, -",
+                          found + 1, sb_table_column(table, (size_t)found)->name, i + 1,
+                          column->name, channels[channel].name);
         return false;
       }
       found = found < 0 ? (int)i : found;
@@ -182,14 +182,14 @@ static bool settle_speed(SbMeasured *m, const SbTable *table, const SbData *data
   const bool column = m->column[SB_CHANNEL_DISPLACEMENT].index >= 0;
   if (said != NULL && (!sb_quantity_parse(&speed, said, "m/s", "mm/min", NULL) ||
                        !(speed > 0 && speed <= SPEED_MAX))) {
-    sb_data_complain(data, SB_DATA_SPEED, "as in 20 mm/min, up to 10 m/s", issues,
-                     "\"%s\" is not a speed of a machine", said);
+    sb_data_add_issue(data, SB_DATA_SPEED, "as in 20 mm/min, up to 10 m/s", issues,
+                      "\"%s\" is not a speed of a machine", said);
     return false;
   }
   if (said != NULL && (column || m->column[SB_CHANNEL_TIME].index < 0)) {
-    sb_data_complain(data, SB_DATA_SPEED, NULL, issues,
-                     column ? "the displacement has a column of its own: one of them only"
-                            : "there is no column of the time that it would need");
+    sb_data_add_issue(data, SB_DATA_SPEED, NULL, issues,
+                      column ? "the displacement has a column of its own: one of them only"
+                             : "there is no column of the time that it would need");
     return false;
   }
   // Another column of numbers may be the displacement, by a name that is not known.
@@ -232,7 +232,7 @@ static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, do
         g_string_append_printf(list, "%s\"%s\"", i > 0 ? ", " : "",
                                sb_table_column(table, i)->name);
       }
-      sb_data_complain(
+      sb_data_add_issue(
           data, SB_DATA_COLUMNS, NULL, issues,
           "no column of the %zu (%s) is known as the %s: name them, as in "
           "columns = time, displacement, force%s",
@@ -249,10 +249,10 @@ static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, do
     scale[c] = 1;
     if (!column->clock && !unit_scale(&scale[c], column->unit, channels[c].si)) {
       const bool none = *column->unit == '\0';
-      sb_data_complain(data, SB_DATA_UNITS, NULL, issues,
-                       "column %d \"%s\" (%s) has %s%s%s: specify it, as in units = mm, N", at + 1,
-                       column->name, channels[c].name, none ? "no unit" : "the unit \"",
-                       column->unit, none ? "" : "\", which is none of its kind");
+      sb_data_add_issue(data, SB_DATA_UNITS, NULL, issues,
+                        "column %d \"%s\" (%s) has %s%s%s: specify it, as in units = mm, N", at + 1,
+                        column->name, channels[c].name, none ? "no unit" : "the unit \"",
+                        column->unit, none ? "" : "\", which is none of its kind");
       return false;
     }
   }
@@ -280,9 +280,9 @@ static bool settle_rows(SbMeasured *m, const SbData *data, double *value[SB_CHAN
       const double si =
           inverse > 1 && inverse == round(inverse) ? value[c][i] / inverse : value[c][i] * scale[c];
       if (!(fabs(si) <= channels[c].most)) {
-        sb_data_complain(data, SB_DATA_UNITS, NULL, issues,
-                         "row %zu has a %s of %g %s, more than %g %s", i + 1, channels[c].name, si,
-                         channels[c].si, channels[c].most, channels[c].si);
+        sb_data_add_issue(data, SB_DATA_UNITS, NULL, issues,
+                          "row %zu has a %s of %g %s, more than %g %s", i + 1, channels[c].name, si,
+                          channels[c].si, channels[c].most, channels[c].si);
         return false;
       }
       value[c][kept] = si;
@@ -321,9 +321,9 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   for (size_t i = 0; i < m->count; i++) {
     mean += m->force[i] / (double)m->count;
     if (i > 0 && !(m->time[i] >= m->time[i - 1])) {
-      sb_data_complain(data, SB_DATA_FILE, NULL, issues,
-                       "its time decreases at row %zu, and nothing else gives the displacement",
-                       i + 1);
+      sb_data_add_issue(data, SB_DATA_FILE, NULL, issues,
+                        "its time decreases at row %zu, and nothing else gives the displacement",
+                        i + 1);
       return false;
     }
   }
@@ -351,10 +351,11 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     count++;
   }
   if (turn < LEAST || count < turn + LEAST) {
-    sb_data_complain(data, SB_DATA_FILE, NULL, issues,
-                     "its maximum force, where a machine of constant speed reverses, is at row %zu "
-                     "of %zu: that is not a stroke and return",
-                     turn + 1, m->count);
+    sb_data_add_issue(
+        data, SB_DATA_FILE, NULL, issues,
+        "its maximum force, where a machine of constant speed reverses, is at row %zu "
+        "of %zu: that is not a stroke and return",
+        turn + 1, m->count);
     return false;
   }
   for (size_t i = 0; i < count; i++) {
@@ -362,9 +363,9 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     m->displacement[i] = m->speed * time;
   }
   if (!(m->displacement[turn] <= channels[SB_CHANNEL_DISPLACEMENT].most)) {
-    sb_data_complain(data, SB_DATA_SPEED, NULL, issues,
-                     "the machine would travel %g m to the maximum force, more than %g m",
-                     m->displacement[turn], channels[SB_CHANNEL_DISPLACEMENT].most);
+    sb_data_add_issue(data, SB_DATA_SPEED, NULL, issues,
+                      "the machine would travel %g m to the maximum force, more than %g m",
+                      m->displacement[turn], channels[SB_CHANNEL_DISPLACEMENT].most);
     return false;
   }
   m->behind = m->count - count;

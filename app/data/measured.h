@@ -101,7 +101,7 @@ typedef struct {
 // without displacement (0: the drive has none, see sb_measured_speed()). Returns NULL with at least
 // one issue: the file cannot be read, its format, columns or units are ambiguous or missing, fewer
 // than 8 rows, no stroke, or a value out of range. `data` may be freed afterwards. Freed by
-// sb_measured_free(). A list of cycles is an issue: sb_data_part() divides such a group first.
+// sb_measured_free(). A list of cycles is an issue: sb_data_split() divides such a group first.
 SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues);
 
 // As sb_measured_load(), from the `length` bytes of a file; data->path is used for messages only.

@@ -120,8 +120,8 @@ static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues)
     m->turned_force = strcmp(said, "force") == 0 || strcmp(said, "both") == 0;
     m->turned_displacement = strcmp(said, "displacement") == 0 || strcmp(said, "both") == 0;
     if (!m->turned_force && !m->turned_displacement && strcmp(said, "as-is") != 0) {
-      sb_data_complain(data, SB_DATA_DIRECTION, "as-is, force, displacement, both", issues,
-                       "\"%s\" is not one of these", said);
+      sb_data_add_issue(data, SB_DATA_DIRECTION, "as-is, force, displacement, both", issues,
+                        "\"%s\" is not one of these", said);
     }
   } else {
     double low, high;
@@ -161,7 +161,7 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   }
   g_array_unref(turns);
   if (m->cycle->len == 0) {
-    sb_data_complain(data, SB_DATA_FILE, NULL, issues, "no stroke into the valve was found in it");
+    sb_data_add_issue(data, SB_DATA_FILE, NULL, issues, "no stroke into the valve was found in it");
     return false;
   }
   m->last = m->cycle->len - 1;
@@ -171,7 +171,7 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     if (!sb_number_parse(&number, said) || number != floor(number) || number < 1 ||
         number > m->cycle->len) {
       g_autofree char *allowed = g_strdup_printf("all, or 1 to %u", m->cycle->len);
-      sb_data_complain(data, SB_DATA_CYCLE, allowed, issues, "\"%s\" is not a cycle of it", said);
+      sb_data_add_issue(data, SB_DATA_CYCLE, allowed, issues, "\"%s\" is not a cycle of it", said);
       return false;
     }
     m->first = m->last = (size_t)number - 1;
@@ -261,8 +261,8 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   if (zero != NULL) {
     m->zero = m->force_zero = SB_HOW_SAID;
     if (strcmp(zero, "as-is") != 0 && !read_pair(&m->at_rest, &m->no_load, zero)) {
-      sb_data_complain(data, SB_DATA_ZERO, "as-is, or as in 0.31 mm, 0.2 N", issues,
-                       "\"%s\" is not such a pair", zero);
+      sb_data_add_issue(data, SB_DATA_ZERO, "as-is, or as in 0.31 mm, 0.2 N", issues,
+                        "\"%s\" is not such a pair", zero);
       return false;
     }
   } else if (rise.level > 0) {
@@ -277,8 +277,8 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     m->compliance = SB_HOW_SAID;
     if (strcmp(compliance, "none") != 0 &&
         (!sb_quantity_parse(&m->slope, compliance, "m/N", "mm/N", NULL) || m->slope < 0)) {
-      sb_data_complain(data, SB_DATA_COMPLIANCE, "none, or as in 0.01 mm/N", issues,
-                       "\"%s\" is not a compliance", compliance);
+      sb_data_add_issue(data, SB_DATA_COMPLIANCE, "none, or as in 0.01 mm/N", issues,
+                        "\"%s\" is not a compliance", compliance);
       return false;
     }
   } else if (rise.level > m->no_load) {
@@ -548,7 +548,7 @@ bool sb_measured_find(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   const guint before = issues->len;
   range_of(&low, &high, m->displacement, m->count);
   if (!(high > low)) {
-    sb_data_complain(data, SB_DATA_FILE, NULL, issues, "its displacement does not change");
+    sb_data_add_issue(data, SB_DATA_FILE, NULL, issues, "its displacement does not change");
     return false;
   }
   find_direction(m, data, issues);

@@ -41,8 +41,8 @@ SbData *sb_data_of_file(const char *path) {
   return data;
 }
 
-void sb_data_complain(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,
-                      const char *format, ...) {
+void sb_data_add_issue(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,
+                       const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
   g_autofree char *text = g_strdup_vprintf(format, arguments);
@@ -104,7 +104,7 @@ GPtrArray *sb_data_read(const GPtrArray *entries, const char *directory, const c
     SbData *data = list->pdata[i];
     const char *file = data->text[SB_DATA_FILE];
     if (file == NULL || *file == '\0') {
-      sb_data_complain(data, SB_DATA_FILE, "a file of numbers", issues, "is missing");
+      sb_data_add_issue(data, SB_DATA_FILE, "a file of numbers", issues, "is missing");
     } else {
       data->path = g_path_is_absolute(file) || directory == NULL
                        ? g_strdup(file)
@@ -135,7 +135,7 @@ bool sb_data_same(const SbData *a, const SbData *b) {
   return same;
 }
 
-void sb_data_take_keys(SbData *data, const char *text) {
+void sb_data_set_keys(SbData *data, const char *text) {
   g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
   for (char **line = lines; *line != NULL; line++) {
     char *equal = strchr(*line, '=');
@@ -158,7 +158,7 @@ static SbData *copy_with_cycle(const SbData *data, const char *cycle) {
   return copy;
 }
 
-void sb_data_part(GPtrArray *list, GPtrArray *issues) {
+void sb_data_split(GPtrArray *list, GPtrArray *issues) {
   for (guint i = 0; i < list->len; i++) {
     const SbData *data = list->pdata[i];
     const char *cycle = data->text[SB_DATA_CYCLE];
@@ -168,8 +168,8 @@ void sb_data_part(GPtrArray *list, GPtrArray *issues) {
     g_auto(GStrv) words = g_strsplit(cycle, ",", -1);
     const guint count = g_strv_length(words);
     if (list->len - 1 + count > SB_DATA_MAX) {
-      sb_data_complain(data, SB_DATA_CYCLE, NULL, issues,
-                       "exceeds the maximum of %d groups of data", SB_DATA_MAX);
+      sb_data_add_issue(data, SB_DATA_CYCLE, NULL, issues,
+                        "exceeds the maximum of %d groups of data", SB_DATA_MAX);
       return;
     }
     for (guint k = 0; k < count; k++) {

@@ -59,7 +59,7 @@ GPtrArray *sb_data_read(const GPtrArray *entries, const char *directory, const c
 // Replaces in `list` (of SbData) each group that names several cycles, `cycle = 1, 10, 40`, by one
 // group for each of them: "lot 1", "lot 10", "lot 40". A group whose division would exceed
 // SB_DATA_MAX groups stays undivided and becomes an issue.
-void sb_data_part(GPtrArray *list, GPtrArray *issues);
+void sb_data_split(GPtrArray *list, GPtrArray *issues);
 
 // Returns a group for the file `path` without any other key, as if a scene contained it. Freed by
 // sb_data_free().
@@ -76,9 +76,9 @@ bool sb_data_same(const SbData *a, const SbData *b);
 
 // Sets keys from `text`, lines "key = value" as sb_measured_keys() returns them. Keys that `text`
 // does not contain keep their values; unknown keys and `file` are ignored.
-void sb_data_take_keys(SbData *data, const char *text);
+void sb_data_set_keys(SbData *data, const char *text);
 
 // Appends an issue on a key of the group, "[data lot-2] columns: TEXT". `allowed` is the allowed
 // range or NULL.
-void sb_data_complain(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,
-                      const char *format, ...) G_GNUC_PRINTF(5, 6);
+void sb_data_add_issue(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,
+                       const char *format, ...) G_GNUC_PRINTF(5, 6);

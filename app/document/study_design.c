@@ -10,7 +10,7 @@ static void read_objective(SbStudyReader *reader, const SbEntry *entry) {
   const size_t length = strcspn(entry->value, " \t");
   design->maximise = length == 8 && strncmp(entry->value, "maximise", length) == 0;
   if (!design->maximise && (length != 8 || strncmp(entry->value, "minimise", length) != 0)) {
-    sb_study_complain(reader, entry, form, "is not an objective");
+    sb_study_add_issue(reader, entry, form, "is not an objective");
     design->figure = SB_FIGURE_REFUSED;
     return;
   }
@@ -18,7 +18,7 @@ static void read_objective(SbStudyReader *reader, const SbEntry *entry) {
   const int figure = sb_study_read_figure(reader, entry, path);
   design->figure = figure >= 0 ? figure : SB_FIGURE_REFUSED;
   if (design->figure >= 0 && sb_figure(design->figure)->digits == 0) {
-    sb_study_complain(reader, entry, NULL, "a yes or no is not an objective");
+    sb_study_add_issue(reader, entry, NULL, "a yes or no is not an objective");
   }
 }
 
@@ -31,17 +31,17 @@ void sb_study_read_design(SbStudyReader *reader, const SbEntry *entry) {
     if (sb_number_parse(&value, entry->value) && value >= 0.5 && value < 1) {
       design->robust = value;
     } else {
-      sb_study_complain(reader, entry, "0.5 to below 1",
-                        "is not a probability that all limits hold");
+      sb_study_add_issue(reader, entry, "0.5 to below 1",
+                         "is not a probability that all limits hold");
     }
   } else if (strcmp(entry->name, "starts") == 0) {
     if (sb_study_read_count(&value, entry->value, 1, 10000)) {
       design->starts = (size_t)value;
     } else {
-      sb_study_complain(reader, entry, "1 to 10000", "is not a number of starts");
+      sb_study_add_issue(reader, entry, "1 to 10000", "is not a number of starts");
     }
   } else {
-    sb_study_complain(reader, entry, "objective, robust, starts", "unknown key");
+    sb_study_add_issue(reader, entry, "objective, robust, starts", "unknown key");
   }
 }
 

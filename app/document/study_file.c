@@ -22,8 +22,8 @@ static char *full_key(const SbEntry *entry) {
   return g_strdup_printf("%s.%s", entry->group, entry->name);
 }
 
-void sb_study_complain(const SbStudyReader *reader, const SbEntry *entry, const char *allowed,
-                       const char *text) {
+void sb_study_add_issue(const SbStudyReader *reader, const SbEntry *entry, const char *allowed,
+                        const char *text) {
   g_autofree char *key = full_key(entry);
   sb_issues_add(reader->issues, reader->shown, entry->line, key, allowed, "%s", text);
 }
@@ -49,9 +49,10 @@ static void read_correlation(SbStudyReader *reader, const SbEntry *entry, double
   }
   double share = 0;
   if (at[0] < 0 || at[1] < 0 || at[0] == at[1]) {
-    sb_study_complain(reader, entry, "KEY, KEY = NUMBER", "does not name two parameters of [vary]");
+    sb_study_add_issue(reader, entry, "KEY, KEY = NUMBER",
+                       "does not name two parameters of [vary]");
   } else if (!sb_number_parse(&share, entry->value) || !(fabs(share) < 1)) {
-    sb_study_complain(reader, entry, "between -1 and 1", "is not a correlation");
+    sb_study_add_issue(reader, entry, "between -1 and 1", "is not a correlation");
   } else {
     const size_t n = study->vary->len;
     matrix[(size_t)at[0] * n + (size_t)at[1]] = matrix[(size_t)at[1] * n + (size_t)at[0]] = share;
@@ -127,7 +128,7 @@ int sb_study_read_figure(const SbStudyReader *reader, const SbEntry *entry, cons
     }
     g_autofree char *hint = sb_nearest_hint(&nearest);
     g_autofree char *text = g_strdup_printf("there is no figure \"%s\"%s", path, hint);
-    sb_study_complain(reader, entry, NULL, text);
+    sb_study_add_issue(reader, entry, NULL, text);
   }
   return figure;
 }
@@ -166,7 +167,7 @@ static void read_study(SbStudyReader *reader, const SbEntry *entry, bool *has_sa
         g_free(list);
         list = longer;
       }
-      sb_study_complain(reader, entry, list, "there is no such method");
+      sb_study_add_issue(reader, entry, list, "there is no such method");
     } else {
       study->method = (SbStudyMethod)method;
     }
@@ -175,18 +176,18 @@ static void read_study(SbStudyReader *reader, const SbEntry *entry, bool *has_sa
     if (sb_study_read_count(&count, entry->value, 1, SB_SAMPLES_MAX)) {
       study->samples = (size_t)count;
     } else {
-      sb_study_complain(reader, entry, "1 to 10000000", "is not a number of samples");
+      sb_study_add_issue(reader, entry, "1 to 10000000", "is not a number of samples");
     }
   } else if (strcmp(entry->name, "seed") == 0) {
     if (sb_study_read_count(&count, entry->value, 0, 9007199254740992.0)) {
       study->seed = (guint64)count;
     } else {
-      sb_study_complain(reader, entry, "0 to 2^53", "is not a seed");
+      sb_study_add_issue(reader, entry, "0 to 2^53", "is not a seed");
     }
   } else if (strcmp(entry->name, "figures") == 0) {
     read_figures(reader, entry);
   } else if (strcmp(entry->name, "hold") != 0) { // read before
-    sb_study_complain(reader, entry, "method, samples, seed, figures, hold", "unknown key");
+    sb_study_add_issue(reader, entry, "method, samples, seed, figures, hold", "unknown key");
   }
 }
 
@@ -283,7 +284,7 @@ static bool read_meta(SbStudyReader *reader, char **scene) {
       g_free(reader->study->title);
       reader->study->title = sb_printable(entry->value, strlen(entry->value));
     } else {
-      sb_study_complain(reader, entry, "format, kind, title, scene", "unknown key");
+      sb_study_add_issue(reader, entry, "format, kind, title, scene", "unknown key");
     }
   }
   if (format == NULL || strcmp(format, "1") != 0) {
@@ -423,10 +424,10 @@ static void hold_base(SbStudyReader *reader) {
       SbModel *held = NULL;
       SbReport report = {0};
       if (!sb_hold_from_name(&hold, g_strstrip(*word))) {
-        sb_study_complain(reader, entry, sb_hold_names(),
-                          "no group of parameters can be fixed by this name");
+        sb_study_add_issue(reader, entry, sb_hold_names(),
+                           "no group of parameters can be fixed by this name");
       } else if (sb_model_hold(&held, study->base, hold, &report) != SB_OK) {
-        sb_study_complain(reader, entry, NULL, report.text);
+        sb_study_add_issue(reader, entry, NULL, report.text);
       } else {
         sb_model_destroy(study->base);
         study->base = held;
@@ -465,7 +466,7 @@ static SbStudyFile *parse(const char *text, size_t length, const char *name, con
     }
     hold_base(&reader);
     study->data = sb_data_read(entries, directory, name, issues);
-    sb_data_part(study->data, issues);
+    sb_data_split(study->data, issues);
     read_groups(&reader);
   }
   if (issues->len > before) {

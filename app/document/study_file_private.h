@@ -29,8 +29,8 @@ typedef struct {
 
 // Appends an issue on the key of `entry` with the sentence `text`. `allowed` is the allowed range
 // or NULL.
-void sb_study_complain(const SbStudyReader *reader, const SbEntry *entry, const char *allowed,
-                       const char *text);
+void sb_study_add_issue(const SbStudyReader *reader, const SbEntry *entry, const char *allowed,
+                        const char *text);
 
 // Reads a line of [vary], or with `offset` of [tolerances], and appends it to `list` (of SbVary).
 // Appends an issue instead if the line is wrong.

@@ -43,7 +43,7 @@ static void refuse_range(SbStudyReader *reader, const SbEntry *entry, double lea
   g_autofree char *range =
       g_strdup_printf("%g to %g%s%s", least, most, *unit != '\0' ? " " : "", unit);
   g_autofree char *text = g_strdup_printf("\"%s\" is out of range or no such number", entry->value);
-  sb_study_complain(reader, entry, range, text);
+  sb_study_add_issue(reader, entry, range, text);
 }
 
 void sb_study_read_leakage(SbStudyReader *reader, const SbEntry *entry) {
@@ -86,11 +86,11 @@ void sb_study_read_leakage(SbStudyReader *reader, const SbEntry *entry) {
   } else if (strcmp(entry->name, "edition") == 0) {
     g_strlcpy(study->leakage.edition, entry->value, sizeof study->leakage.edition);
   } else {
-    sb_study_complain(reader, entry,
-                      "edition, tests, temperature, duration, containers, more, beyond, "
-                      "beyond_all, small_fill, mean, single, "
-                      "most, mean_share, single_share, most_share, balance",
-                      "unknown key");
+    sb_study_add_issue(reader, entry,
+                       "edition, tests, temperature, duration, containers, more, beyond, "
+                       "beyond_all, small_fill, mean, single, "
+                       "most, mean_share, single_share, most_share, balance",
+                       "unknown key");
   }
 }
 

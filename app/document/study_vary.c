@@ -215,18 +215,18 @@ void sb_study_read_vary(SbStudyReader *reader, const SbEntry *entry, GArray *lis
   if (id < 0 && !variable) {
     g_autofree char *hint = sb_document_key_hint(entry->name);
     g_autofree char *text = g_strdup_printf("there is no such parameter%s", hint);
-    sb_study_complain(reader, entry, NULL, text);
+    sb_study_add_issue(reader, entry, NULL, text);
   } else if (!variable && sb_param(vary.id)->kind == SB_PARAM_FLAGS) {
-    sb_study_complain(reader, entry, NULL, "a list of words does not vary");
+    sb_study_add_issue(reader, entry, NULL, "a list of words does not vary");
   } else if (list->len == SB_VARY_MAX) {
-    sb_study_complain(reader, entry, NULL, "is more than the 64 parameters that may vary");
+    sb_study_add_issue(reader, entry, NULL, "is more than the 64 parameters that may vary");
   } else if (!read_distribution(&vary, entry->value, &error)) {
     g_autofree char *range = variable ? g_strdup("numbers") : sb_param_range(vary.id);
-    sb_study_complain(reader, entry,
-                      error->code == BAD_FORM ? (offset ? tolerance_forms : sb_study_vary_forms)
-                      : offset                ? NULL
-                                              : range,
-                      error->message);
+    sb_study_add_issue(reader, entry,
+                       error->code == BAD_FORM ? (offset ? tolerance_forms : sb_study_vary_forms)
+                       : offset                ? NULL
+                                               : range,
+                       error->message);
     g_free(vary.levels);
     g_free(vary.by);
   } else {

@@ -24,11 +24,12 @@ typedef struct {
   double alpha; // opacity, 0 to 1; 0 counts as 1
 } SbTextStyle;
 
-// Starts drawing. Text is laid out without hinting, so that a picture has the same shape at every
-// scale and on every surface.
+// Starts drawing: saves the state of `cr` (cairo_save()) and sets caps and joins. `cr` and `theme`
+// are borrowed until sb_canvas_finish(). Text is laid out without hinting, so that a picture has
+// the same shape at every scale and on every surface.
 void sb_canvas_init(SbCanvas *canvas, cairo_t *cr, const SbTheme *theme);
 
-// Frees the layout.
+// Restores the state of the context (cairo_restore()) and frees the layout.
 void sb_canvas_finish(SbCanvas *canvas);
 
 // Returns the theme's colour for a role.

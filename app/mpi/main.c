@@ -189,7 +189,7 @@ static void hand_out(SbAnswerSink *sink, const SbQuestions *asked, const uint32_
       remaining.next += block;
     }
     const bool message = take_message(sink, asked, &remaining);
-    remaining.goes_on = remaining.goes_on && sb_answer_goes_on(sink);
+    remaining.goes_on = remaining.goes_on && sb_answer_poll(sink);
     if (stopped == processes - 1 && own.waiting == 0 && next_block(&remaining) == 0) {
       break;
     }

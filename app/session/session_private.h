@@ -162,7 +162,7 @@ void sb_session_dispose_runs(SbSession *session);
 void sb_session_clear_runs(SbSession *session);
 
 // Replaces the reference in *run by a new reference to `value` (NULL: none).
-void sb_session_hold(SbDisplayedRun **run, SbDisplayedRun *value);
+void sb_session_set_reference(SbDisplayedRun **run, SbDisplayedRun *value);
 
 // An SbRunnerNotify, called in the runners' threads; `data` is the session's inbox.
 void sb_session_notify(void *data);

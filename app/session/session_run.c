@@ -134,7 +134,7 @@ static void submit(SbSession *session, SbRunGrade grade) {
     g_clear_pointer(&coarse, sb_model_destroy);
     grade = SB_GRADE_WHOLE;
   }
-  sb_session_hold(&session->fresh, NULL);
+  sb_session_set_reference(&session->fresh, NULL);
   ask(session);
   session->grade = grade;
   session->started = g_get_monotonic_time();
@@ -212,8 +212,8 @@ static void display_fresh(SbSession *session) {
   if (session->shown != NULL) {
     remember_place(session);
   }
-  sb_session_hold(&session->earlier, session->shown);
-  sb_session_hold(&session->shown, session->fresh);
+  sb_session_set_reference(&session->earlier, session->shown);
+  sb_session_set_reference(&session->shown, session->fresh);
 }
 
 static void place_playhead(SbSession *session) {
@@ -292,7 +292,7 @@ static void finish(SbSession *session) {
       place_playhead(session);
     }
   }
-  sb_session_hold(&session->earlier, NULL);
+  sb_session_set_reference(&session->earlier, NULL);
   session->state = ended_state(session);
   if (status == SB_OK && current && session->shown == fresh) {
     keep(session, fresh);
@@ -379,11 +379,11 @@ static G_NO_INLINE gboolean begin(SbSession *session) {
     session->shown->chart.state = SB_CHART_PARTIAL;
     if (session->earlier != NULL) {
       remember_place(session);
-      sb_session_hold(&session->shown, session->earlier);
+      sb_session_set_reference(&session->shown, session->earlier);
       place_playhead(session);
     }
   }
-  sb_session_hold(&session->earlier, NULL);
+  sb_session_set_reference(&session->earlier, NULL);
   g_clear_pointer(&session->failure, g_free);
   ask(session);
   submit(session, first_grade(session));
@@ -418,12 +418,12 @@ static void adopt(SbSession *session, SbDisplayedRun *run) {
     session->ticket = 0;
   }
   if (run != session->shown) {
-    sb_session_hold(&session->fresh, run);
+    sb_session_set_reference(&session->fresh, run);
     display_fresh(session);
     place_playhead(session);
   }
-  sb_session_hold(&session->fresh, NULL);
-  sb_session_hold(&session->earlier, NULL);
+  sb_session_set_reference(&session->fresh, NULL);
+  sb_session_set_reference(&session->earlier, NULL);
   g_clear_pointer(&session->failure, g_free);
   session->state = sb_session_shown_state(session);
   sb_session_set_base(session, session->shown);
@@ -592,9 +592,9 @@ static void drop_runs(SbSession *session) {
   session->latency = (SbEditLatency){NAN, NAN};
   session->ticket = 0;
   session->state = SB_SESSION_EMPTY;
-  sb_session_hold(&session->fresh, NULL);
-  sb_session_hold(&session->shown, NULL);
-  sb_session_hold(&session->earlier, NULL);
+  sb_session_set_reference(&session->fresh, NULL);
+  sb_session_set_reference(&session->shown, NULL);
+  sb_session_set_reference(&session->earlier, NULL);
   sb_session_drop_base(session);
   session->slope_first = -1;
   sb_run_cache_clear(session->cache);

@@ -8,7 +8,7 @@
 #include <glib/gi18n.h>
 #include <string.h>
 
-void sb_session_hold(SbDisplayedRun **run, SbDisplayedRun *value) {
+void sb_session_set_reference(SbDisplayedRun **run, SbDisplayedRun *value) {
   SbDisplayedRun *old = *run;
   *run = sb_displayed_run_ref(value);
   sb_displayed_run_unref(old);

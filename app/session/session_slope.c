@@ -48,13 +48,13 @@ void sb_session_drop_base(SbSession *session) {
   g_clear_pointer(&session->slope_job, sb_slope_job_free);
   session->predicted = FALSE; // it is of that base
   session->chart.predicted = NULL;
-  sb_session_hold(&session->base, NULL);
+  sb_session_set_reference(&session->base, NULL);
 }
 
 void sb_session_set_base(SbSession *session, SbDisplayedRun *run) {
   if (run->grade == SB_GRADE_WHOLE && sb_run_plan(run->run)->ring && session->base != run) {
     sb_session_drop_base(session);
-    sb_session_hold(&session->base, run);
+    sb_session_set_reference(&session->base, run);
   }
 }
 

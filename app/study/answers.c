@@ -173,7 +173,7 @@ void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStoredAnswer answer) {
   }
 }
 
-bool sb_answer_goes_on(SbAnswerSink *sink) {
+bool sb_answer_poll(SbAnswerSink *sink) {
   const SbQuestions *asked = sink->asked;
   if (!sink->failed && asked->store != NULL && now() > sink->committed + 1) {
     sink->failed = !sb_store_commit(asked->store, sink->error);
@@ -264,7 +264,7 @@ static void collect(Threads *pool) {
     for (; taken < to; taken++) {
       sb_answer_take(pool->sink, pool->done[taken].sample, pool->done[taken].answer);
     }
-    if (!sb_answer_goes_on(pool->sink)) {
+    if (!sb_answer_poll(pool->sink)) {
       atomic_store(&pool->stop, true);
     }
     pthread_mutex_lock(&pool->lock);
@@ -274,7 +274,7 @@ static void collect(Threads *pool) {
 static void compute_on_threads(SbAnswerSink *sink, const SbQuestions *asked, const uint32_t *todo,
                                size_t count) {
   SbEvaluator *start = sb_answer_start(asked);
-  if (!sb_answer_goes_on(sink)) { // a base that was cancelled is no start: samples would differ
+  if (!sb_answer_poll(sink)) { // a base that was cancelled is no start: samples would differ
     sb_evaluator_destroy(start);
     return;
   }

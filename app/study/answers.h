@@ -103,12 +103,12 @@ void sb_answer_take(SbAnswerSink *sink, size_t sample, SbStoredAnswer answer);
 
 // Reports the progress and commits the store about once a second. Returns false if the pool must
 // stop: the store failed, or the request was cancelled.
-bool sb_answer_goes_on(SbAnswerSink *sink);
+bool sb_answer_poll(SbAnswerSink *sink);
 
 // A pool. Both functions belong to the process that calls sb_answers_get().
 struct SbAnswerPool {
   // Computes the samples todo[count], passes each to sb_answer_take(), and calls
-  // sb_answer_goes_on() regularly. Returns when all are done or it must stop.
+  // sb_answer_poll() regularly. Returns when all are done or it must stop.
   void (*compute)(SbAnswerSink *sink, const SbQuestions *asked, const uint32_t *todo, size_t count);
   // Not NULL: this process computes samples that the pool of another process requests, until that
   // one ends; it has no store.

@@ -264,12 +264,12 @@ static bool read_set(Curve *curve, GPtrArray *issues) {
     double value = 0;
     g_autoptr(GError) error = NULL;
     if (id < 0 || parts[1] == NULL || curve->sets == SB_VARY_MAX) {
-      sb_data_complain(curve->data, SB_DATA_SET, "KEY=VALUE; KEY=VALUE", issues,
-                       "\"%s\" sets no parameter", *word);
+      sb_data_add_issue(curve->data, SB_DATA_SET, "KEY=VALUE; KEY=VALUE", issues,
+                        "\"%s\" sets no parameter", *word);
       return false;
     }
     if (!sb_param_parse(&value, (SbParamId)id, g_strstrip(parts[1]), &error)) {
-      sb_data_complain(curve->data, SB_DATA_SET, NULL, issues, "%s: %s", parts[0], error->message);
+      sb_data_add_issue(curve->data, SB_DATA_SET, NULL, issues, "%s: %s", parts[0], error->message);
       return false;
     }
     curve->set[curve->sets++] = (SbOverride){(SbParamId)id, value};
@@ -298,20 +298,21 @@ static bool read_actuation(Curve *curve, GPtrArray *issues) {
   if (!sb_number_parse(&first, text) || first != floor(first) || first < 1 ||
       !(first + (double)m->first <= most)) {
     g_autofree char *allowed = g_strdup_printf("1 to %.0f", most);
-    sb_data_complain(curve->data, SB_DATA_ACTUATION, allowed, issues,
-                     "\"%s\" is not a number of an actuation since new", text);
+    sb_data_add_issue(curve->data, SB_DATA_ACTUATION, allowed, issues,
+                      "\"%s\" is not a number of an actuation since new", text);
     return false;
   }
   if (m->first != m->last) {
-    sb_data_complain(curve->data, SB_DATA_CYCLE, NULL, issues,
-                     "treats %zu cycles as one, but each is an actuation of its own: name some, as "
-                     "in cycle = 1, 10, %u",
-                     m->last - m->first + 1, m->cycle->len);
+    sb_data_add_issue(
+        curve->data, SB_DATA_CYCLE, NULL, issues,
+        "treats %zu cycles as one, but each is an actuation of its own: name some, as "
+        "in cycle = 1, 10, %u",
+        m->last - m->first + 1, m->cycle->len);
     return false;
   }
   if (curve->sets == SB_VARY_MAX) {
-    sb_data_complain(curve->data, SB_DATA_SET, NULL, issues, "sets more than %d parameters",
-                     SB_VARY_MAX - 1);
+    sb_data_add_issue(curve->data, SB_DATA_SET, NULL, issues, "sets more than %d parameters",
+                      SB_VARY_MAX - 1);
     return false;
   }
   curve->set[curve->sets++] = (SbOverride){SB_P_LIFE_FIRST_ACTUATION, first + (double)m->first};
@@ -335,14 +336,14 @@ static bool read_curve(Curve *curve, const Work *work, GPtrArray *issues) {
   curve->point = sb_measured_points(&curve->points, curve->measured, SB_CALIBRATION_POINTS);
   curve->breakaway = ratio && curve->measured->stage[SB_STAGE_B].found;
   if (curve->points < 10) {
-    sb_data_complain(curve->data, SB_DATA_FILE, "at least 10", issues,
-                     "has %zu rows of a sliding stem", curve->points);
+    sb_data_add_issue(curve->data, SB_DATA_FILE, "at least 10", issues,
+                      "has %zu rows of a sliding stem", curve->points);
     return false;
   }
   if (ratio && !curve->breakaway) {
-    sb_data_complain(curve->data, SB_DATA_FILE, NULL, issues,
-                     "has no break-away to fit friction.static_ratio to: %s",
-                     curve->measured->stage[SB_STAGE_B].reason);
+    sb_data_add_issue(curve->data, SB_DATA_FILE, NULL, issues,
+                      "has no break-away to fit friction.static_ratio to: %s",
+                      curve->measured->stage[SB_STAGE_B].reason);
     return false;
   }
   return true;
@@ -390,9 +391,9 @@ static bool lay_out(Work *work, GPtrArray *issues) {
       if (own || shared[k] == SIZE_MAX) {
         if (work->coordinates + (1 + SB_CALIBRATE_NUMERIC) * work->curves >=
             SB_INFERENCE_COORDINATES) {
-          sb_data_complain(curve->data, SB_DATA_OWN, NULL, issues,
-                           "there are more than the %d parameters that can be fitted",
-                           SB_INFERENCE_COORDINATES);
+          sb_data_add_issue(curve->data, SB_DATA_OWN, NULL, issues,
+                            "there are more than the %d parameters that can be fitted",
+                            SB_INFERENCE_COORDINATES);
           return false;
         }
         work->vary[work->coordinates] = k;

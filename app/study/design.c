@@ -332,7 +332,7 @@ SbStatus sb_design_run_starts(Start *best, SbDesign *out, const Problem *problem
   return status;
 }
 
-SbStatus sb_design_lay_starts(Start *start, const Problem *problem, SbReport *report) {
+SbStatus sb_design_make_starts(Start *start, const Problem *problem, SbReport *report) {
   const SbStudyFile *study = problem->study;
   const size_t count = study->design.starts, free_count = problem->free;
   double *point = malloc((count + 1) * free_count * sizeof *point);
@@ -545,7 +545,7 @@ SbStatus sb_design_search(SbDesign *out, const SbStudyFile *study, int jobs,
     problem->data = data;
     status = prepare(problem, study, report);
   }
-  status = status == SB_OK ? sb_design_lay_starts(start, problem, report) : status;
+  status = status == SB_OK ? sb_design_make_starts(start, problem, report) : status;
   status = status == SB_OK ? sb_design_run_starts(&best, out, problem, start, study->design.starts,
                                                   jobs, report)
                            : status;

@@ -52,7 +52,7 @@ typedef struct {
 
 // Writes the starts start[study->design.starts]: the present design if it is within the bounds,
 // then points of a Sobol sequence.
-SbStatus sb_design_lay_starts(Start *start, const Problem *problem, SbReport *report);
+SbStatus sb_design_make_starts(Start *start, const Problem *problem, SbReport *report);
 
 // Searches from start[count] on `jobs` threads. *best becomes the best result, and out->starts,
 // starts_feasible and evaluations are set. Returns SB_ERROR_CANCELLED or SB_ERROR_MEMORY.

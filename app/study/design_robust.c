@@ -113,7 +113,7 @@ static SbStatus make_robust(SbDesign *out, Problem *problem, Start *best, SbReli
     *beta = *beta > 0 ? fmax(*beta + goal - now, 0) : goal;
     shift_bounds(problem, about, *beta);
     Start *start = calloc(problem->study->design.starts + 1, sizeof *start);
-    status = start != NULL ? sb_design_lay_starts(start, problem, report)
+    status = start != NULL ? sb_design_make_starts(start, problem, report)
                            : sb_fail(report, SB_ERROR_MEMORY, "no memory for starts");
     if (status == SB_OK) {
       // From the last optimum; from everywhere where that is none any more.

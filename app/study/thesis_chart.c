@@ -70,7 +70,7 @@ static SbRun *compute_run(SbThesisWork *work, const SbThesisGrid *grid, const Sb
     sb_run_destroy(run);
     run = NULL;
     if (status != SB_ERROR_CANCELLED) {
-      sb_thesis_complain(work, "vary", grid->name, "%s", report.text);
+      sb_thesis_add_issue(work, "vary", grid->name, "%s", report.text);
     }
   }
   return run;
@@ -106,7 +106,7 @@ static const SbRun *run_of(SbThesisWork *work, const SbThesisGrid *grid) {
   g_mutex_unlock(&runs->lock);
   sb_model_destroy(model);
   if (shared->run == NULL && !own && !sb_thesis_stopped(work)) {
-    sb_thesis_complain(work, "vary", grid->name, "its run failed");
+    sb_thesis_add_issue(work, "vary", grid->name, "its run failed");
   }
   return shared->run;
 }
@@ -256,7 +256,7 @@ static void gather_points(Points *to, SbThesisWork *work, const char *group) {
   const char *profile = sb_thesis_key(work, group, "profile");
   int seal = SB_OUTER;
   if (x == NULL || y == NULL) {
-    sb_thesis_complain(work, group, x == NULL ? "x" : "y", "is missing");
+    sb_thesis_add_issue(work, group, x == NULL ? "x" : "y", "is missing");
   } else if (run != NULL || profile != NULL) {
     const SbRun *of =
         named_run(&seal, work, run != NULL ? run : profile, group, run != NULL ? "run" : "profile");
@@ -307,7 +307,7 @@ static void read_within(Points *to, SbThesisWork *work, const char *group, const
     g_autofree char *high = g_strstrip(g_strdup(dots + 2));
     if (!sb_quantity_parse(&to->low, low, x->si, x->unit, &error) ||
         !sb_quantity_parse(&to->high, high, x->si, x->unit, &error)) {
-      sb_thesis_complain(work, group, "within", "%s", error->message);
+      sb_thesis_add_issue(work, group, "within", "%s", error->message);
     }
   }
 }
@@ -319,7 +319,7 @@ static void add_series(SbStudy *chart, SbThesisWork *work, const char *group) {
   const gint64 at = panel != NULL ? g_ascii_strtoll(panel, NULL, 10) : 1;
   if (at < 1 || at > (gint64)chart->panel_count ||
       chart->panel[at - 1].series_count == SB_STUDY_SERIES) {
-    sb_thesis_complain(work, group, "panel", "there is no such panel, or it is full");
+    sb_thesis_add_issue(work, group, "panel", "there is no such panel, or it is full");
     return;
   }
   SbStudySeries *series =
@@ -334,7 +334,7 @@ static void add_series(SbStudy *chart, SbThesisWork *work, const char *group) {
   gather_points(&points, work, group);
   put_points(series, &points);
   if (points.x->len == 0) {
-    sb_thesis_complain(work, group, "y", "has no point with a value");
+    sb_thesis_add_issue(work, group, "y", "has no point with a value");
   }
   g_array_unref(points.x);
   g_array_unref(points.y);
@@ -361,7 +361,7 @@ void sb_thesis_chart(SbThesisItem *item, SbThesisWork *work) {
   item->chart = g_new0(SbStudy, 1);
   item->chart->complete = true;
   if (!read_axis(&item->chart->x, work, "x")) {
-    sb_thesis_complain(work, "chart", "x", "is missing");
+    sb_thesis_add_issue(work, "chart", "x", "is missing");
     return;
   }
   for (int k = 1; k <= SB_STUDY_PANELS; k++) {

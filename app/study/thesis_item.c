@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-void sb_thesis_complain(SbThesisWork *work, const char *group, const char *key, const char *format,
-                        ...) {
+void sb_thesis_add_issue(SbThesisWork *work, const char *group, const char *key, const char *format,
+                         ...) {
   va_list arguments;
   va_start(arguments, format);
   g_autofree char *text = g_strdup_vprintf(format, arguments);
@@ -156,7 +156,7 @@ bool sb_thesis_value(double *out, const SbThesisPlace *at, const char *text, con
   if (g_error_matches(error, SB_APP_ERROR, SB_APP_ERROR_RANGE)) {
     return true;
   }
-  sb_thesis_complain(at->work, group, key, "%s", error->message);
+  sb_thesis_add_issue(at->work, group, key, "%s", error->message);
   return false;
 }
 
@@ -177,7 +177,7 @@ bool sb_thesis_grid(SbThesisGrid **grid, const char **expression, SbThesisWork *
       return true;
     }
   }
-  sb_thesis_complain(work, group, key, "there is no grid [vary %s]", name);
+  sb_thesis_add_issue(work, group, key, "there is no grid [vary %s]", name);
   return false;
 }
 
@@ -362,7 +362,7 @@ static bool answer_grid(SbThesisWork *work, SbThesisGrid *grid) {
     }
     grid->done = true;
   } else if (!work->stopped) {
-    sb_thesis_complain(work, "vary", grid->name, "%s", error->message);
+    sb_thesis_add_issue(work, "vary", grid->name, "%s", error->message);
   }
   sb_answers_release(&answers);
   g_mutex_clear(&seen.lock);
@@ -400,7 +400,7 @@ SbModel *sb_thesis_model(SbThesisWork *work, const SbThesisGrid *grid, size_t sa
   SbModel *model = NULL;
   SbReport report = {0};
   if (sb_model_derive(&model, study->base, override, count, &report) != SB_OK) {
-    sb_thesis_complain(work, "vary", grid->name, "%s", report.text);
+    sb_thesis_add_issue(work, "vary", grid->name, "%s", report.text);
   }
   return model;
 }

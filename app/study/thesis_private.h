@@ -104,5 +104,5 @@ void sb_thesis_rows(SbThesisItem *item, SbThesisWork *work, const char *group);
 void sb_thesis_chart(SbThesisItem *item, SbThesisWork *work);
 
 // Reports an issue on a key of a group, with a formatted sentence.
-void sb_thesis_complain(SbThesisWork *work, const char *group, const char *key, const char *format,
-                        ...) G_GNUC_PRINTF(4, 5);
+void sb_thesis_add_issue(SbThesisWork *work, const char *group, const char *key, const char *format,
+                         ...) G_GNUC_PRINTF(4, 5);

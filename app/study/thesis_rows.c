@@ -43,8 +43,8 @@ static bool find_sample(SbThesisPlace *at, const char *matches, const char *grou
       return true;
     }
   }
-  sb_thesis_complain(at->work, group, key, "no sample of [vary %s] is the printed row %d",
-                     at->grid->name, at->row + 1);
+  sb_thesis_add_issue(at->work, group, key, "no sample of [vary %s] is the printed row %d",
+                      at->grid->name, at->row + 1);
   return false;
 }
 
@@ -116,10 +116,10 @@ static void read_parts(GArray *out, SbThesisPlace *at, const char *group, const 
     const bool rest =
         last_takes_rest && sb_thesis_key(at->work, group, next) == NULL && parts[1] != NULL;
     if (parts[1] == NULL || (parts[2] == NULL && !rest)) {
-      sb_thesis_complain(at->work, group, key,
-                         parts[1] == NULL ? "names no command or test: TEXT | COMMAND | EXPRESSION"
-                                          : "does not compute what it explains: TEXT | COMMAND | "
-                                            "EXPRESSION");
+      sb_thesis_add_issue(at->work, group, key,
+                          parts[1] == NULL ? "names no command or test: TEXT | COMMAND | EXPRESSION"
+                                           : "does not compute what it explains: TEXT | COMMAND | "
+                                             "EXPRESSION");
       return;
     }
     SbThesisPart part = {.becomes = NAN, .explains = NAN, .bound = NAN};
@@ -144,7 +144,7 @@ static double share_of(const SbThesisWork *work, const char *group, const char *
     return -1;
   }
   if (text != NULL && !sb_quantity_parse(&value, text, "1", "%", &error)) {
-    sb_thesis_complain((SbThesisWork *)work, group, key, "%s", error->message);
+    sb_thesis_add_issue((SbThesisWork *)work, group, key, "%s", error->message);
   }
   return value;
 }
@@ -332,6 +332,6 @@ void sb_thesis_rows(SbThesisItem *item, SbThesisWork *work, const char *group) {
     }
   }
   if (count == 0) {
-    sb_thesis_complain(work, group, "where", "means no printed row");
+    sb_thesis_add_issue(work, group, "where", "means no printed row");
   }
 }

@@ -20,7 +20,7 @@ SbPen sb_bench_pen(const SbBench *bench, SbRole role, uint8_t style) {
   return (SbPen){bench->theme.role[role], SB_CELL_OWN, style};
 }
 
-void sb_bench_say(SbBench *bench, bool fails, const char *format, ...) {
+void sb_bench_status(SbBench *bench, bool fails, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
   g_free(bench->message);

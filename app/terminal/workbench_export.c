@@ -13,7 +13,7 @@ static void on_export(void *data) {
   SbBench *bench = data;
   gboolean good = FALSE;
   const char *result = sb_export_job_result(bench->export, &good);
-  sb_bench_say(bench, !good, "%s", result);
+  sb_bench_status(bench, !good, "%s", result);
   g_clear_pointer(&bench->export, sb_export_job_free);
 }
 
@@ -21,9 +21,9 @@ static void write_screen(SbBench *bench, const char *path) {
   g_autoptr(GError) error = NULL;
   g_autofree char *text = sb_cells_to_text(&bench->cells);
   if (sb_output_write(path, text, strlen(text), &error)) {
-    sb_bench_say(bench, false, _("written: %s"), path);
+    sb_bench_status(bench, false, _("written: %s"), path);
   } else {
-    sb_bench_say(bench, true, "%s", error->message);
+    sb_bench_status(bench, true, "%s", error->message);
   }
 }
 
@@ -47,7 +47,7 @@ static void start(SbBench *bench, const char *path, const char *name, const SbRe
   const bool figures = strcmp(name, "report") == 0;
   if (handle == NULL || (figures && sb_session_is_stale(bench->session, NULL, NULL))) {
     sb_run_handle_unref(handle);
-    sb_bench_say(bench, true, _("No complete run is displayed yet."));
+    sb_bench_status(bench, true, _("No complete run is displayed yet."));
     return;
   }
   const SbDocument *document = sb_session_document(bench->session);
@@ -80,7 +80,7 @@ static void start(SbBench *bench, const char *path, const char *name, const SbRe
   request.style.field = bench->field;
   request.style.cutaway = strcmp(name, "cutaway") == 0;
   bench->export = sb_export_job_start(handle, &request, on_export, bench);
-  sb_bench_say(bench, false, _("exporting; c cancels"));
+  sb_bench_status(bench, false, _("exporting; c cancels"));
 }
 
 void sb_bench_export(SbBench *bench, const char *text) {
@@ -98,7 +98,7 @@ void sb_bench_export(SbBench *bench, const char *text) {
   }
   const bool picture = sb_export_format(path) != NULL;
   if (bench->export != NULL) {
-    sb_bench_say(bench, true, _("An export is running; c cancels it."));
+    sb_bench_status(bench, true, _("An export is running; c cancels it."));
   } else if (sb_output_ends_in(path, ".txt")) {
     write_screen(bench, path);
   } else if (sb_output_ends_in(path, ".json")) {
@@ -107,7 +107,8 @@ void sb_bench_export(SbBench *bench, const char *text) {
     start(bench, path, name, view);
   } else {
     g_autofree char *endings = sb_export_endings(SB_FORMAT_ALL, 0, " ", " ");
-    sb_bench_say(bench, true, _("%s: .json the figures, .txt this screen, %s a view, .pdf report"),
-                 path, endings);
+    sb_bench_status(bench, true,
+                    _("%s: .json the figures, .txt this screen, %s a view, .pdf report"), path,
+                    endings);
   }
 }

@@ -20,7 +20,7 @@ static void begin(SbBench *bench, SbInput input, const char *text) {
 static void say_issues(SbBench *bench, const GPtrArray *issues) {
   if (issues->len > 0) {
     g_autofree char *line = sb_issue_line(issues->pdata[0]);
-    sb_bench_say(bench, true, "%s", line);
+    sb_bench_status(bench, true, "%s", line);
   }
 }
 
@@ -41,10 +41,10 @@ static bool save(SbBench *bench, const char *path) {
       open_popup(bench, SB_POPUP_DISK);
       return false;
     }
-    sb_bench_say(bench, true, "%s", error->message);
+    sb_bench_status(bench, true, "%s", error->message);
     return false;
   }
-  sb_bench_say(bench, false, _("saved as %s"), sb_document_path(document));
+  sb_bench_status(bench, false, _("saved as %s"), sb_document_path(document));
   return true;
 }
 
@@ -140,8 +140,8 @@ static void type_key(SbBench *bench, const SbKey *key) {
 // What a merge could not decide by itself.
 static void say_conflicts(SbBench *bench, const GPtrArray *conflicts) {
   if (conflicts->len > 0) {
-    sb_bench_say(bench, false, _("both versions changed %u values, yours are in force: %s"),
-                 conflicts->len, (char *)conflicts->pdata[0]);
+    sb_bench_status(bench, false, _("both versions changed %u values, yours are in force: %s"),
+                    conflicts->len, (char *)conflicts->pdata[0]);
   }
 }
 
@@ -170,12 +170,12 @@ static void resolve_disk(SbBench *bench, uint32_t key) {
   }
   bench->disk = sb_session_disk_state(bench->session);
   if (error != NULL) {
-    sb_bench_say(bench, true, "%s", error->message);
+    sb_bench_status(bench, true, "%s", error->message);
   } else if (!good) {
     say_issues(bench, issues);
   } else {
-    sb_bench_say(bench, false, _("the document is %s"),
-                 sb_document_path(sb_session_document(bench->session)));
+    sb_bench_status(bench, false, _("the document is %s"),
+                    sb_document_path(sb_session_document(bench->session)));
     say_conflicts(bench, conflicts);
   }
   sb_bench_list(bench);
@@ -258,7 +258,7 @@ static void choose_page(SbBench *bench, SbBenchPage page) {
 static bool may_change(SbBench *bench) {
   const char *lock = sb_session_lock(bench->session, (SbParamId)bench->selected);
   if (bench->rows->len > 0 && lock != NULL) {
-    sb_bench_say(bench, true, "%s", lock);
+    sb_bench_status(bench, true, "%s", lock);
   }
   return bench->rows->len > 0 && lock == NULL;
 }
@@ -290,25 +290,26 @@ static void undo(SbBench *bench, bool redo) {
   if (id >= 0) {
     sb_bench_select(bench, id);
   } else if (!possible) {
-    sb_bench_say(bench, false, redo ? _("nothing to redo") : _("nothing to undo"));
+    sb_bench_status(bench, false, redo ? _("nothing to redo") : _("nothing to undo"));
   }
 }
 
 static void pin(SbBench *bench) {
   if (!sb_session_may_pin(bench->session)) {
-    sb_bench_say(bench, true, _("Only a complete run of the present values can be pinned."));
+    sb_bench_status(bench, true, _("Only a complete run of the present values can be pinned."));
   } else if (sb_session_pin(bench->session)) {
-    sb_bench_say(bench, false, _("pinned; P removes the last pin"));
+    sb_bench_status(bench, false, _("pinned; P removes the last pin"));
   }
 }
 
 static void unpin(SbBench *bench) {
   const size_t count = sb_session_pin_count(bench->session);
   if (count == 0) {
-    sb_bench_say(bench, false, _("nothing is pinned"));
+    sb_bench_status(bench, false, _("nothing is pinned"));
     return;
   }
-  sb_bench_say(bench, false, _("pin removed: %s"), sb_session_pin_name(bench->session, count - 1));
+  sb_bench_status(bench, false, _("pin removed: %s"),
+                  sb_session_pin_name(bench->session, count - 1));
   sb_session_unpin(bench->session, count - 1);
 }
 
@@ -317,12 +318,12 @@ static void cancel(SbBench *bench) {
     sb_bench_study_stop(bench);
   } else if (bench->export != NULL) {
     sb_export_job_cancel(bench->export);
-    sb_bench_say(bench, false, _("cancelling…"));
+    sb_bench_status(bench, false, _("cancelling…"));
   } else if (sb_session_state(bench->session) == SB_SESSION_RUNNING) {
     sb_session_stop(bench->session);
-    sb_bench_say(bench, false, _("cancelled"));
+    sb_bench_status(bench, false, _("cancelled"));
   } else {
-    sb_bench_say(bench, false, _("nothing is being computed; q quits"));
+    sb_bench_status(bench, false, _("nothing is being computed; q quits"));
   }
 }
 

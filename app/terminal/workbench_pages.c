@@ -22,9 +22,9 @@ static void on_study(void *data) {
     bench->study = study;
     g_free(bench->study_hash);
     bench->study_hash = g_steal_pointer(&bench->job_hash);
-    sb_bench_say(bench, false, "%s", sb_translation(sb_study_title(study->kind)));
+    sb_bench_status(bench, false, "%s", sb_translation(sb_study_title(study->kind)));
   } else {
-    sb_bench_say(bench, true, "%s", why);
+    sb_bench_status(bench, true, "%s", why);
   }
   g_clear_pointer(&bench->job, sb_study_job_free);
   g_clear_pointer(&bench->job_hash, g_free);
@@ -34,9 +34,9 @@ static void on_study(void *data) {
 void sb_bench_study_start(SbBench *bench) {
   const SbModel *model = sb_session_model(bench->session);
   if (bench->job != NULL) {
-    sb_bench_say(bench, true, _("A study is being computed; c cancels it."));
+    sb_bench_status(bench, true, _("A study is being computed; c cancels it."));
   } else if (model == NULL) {
-    sb_bench_say(bench, true, _("The values are inconsistent."));
+    sb_bench_status(bench, true, _("The values are inconsistent."));
   } else {
     bench->job_kind = bench->study_kind;
     bench->job_hash = sb_document_sha256(sb_session_document(bench->session));
@@ -48,7 +48,7 @@ void sb_bench_study_start(SbBench *bench) {
 void sb_bench_study_stop(SbBench *bench) {
   if (bench->job != NULL) {
     sb_study_job_cancel(bench->job);
-    sb_bench_say(bench, false, _("cancelling…"));
+    sb_bench_status(bench, false, _("cancelling…"));
   }
 }
 

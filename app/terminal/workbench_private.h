@@ -124,7 +124,7 @@ void sb_bench_changed(SbBench *bench);
 
 // Shows a message (printf format) in the status line; `fails`: as an error. Replaces the earlier
 // one.
-void sb_bench_say(SbBench *bench, bool fails, const char *format, ...) G_GNUC_PRINTF(3, 4);
+void sb_bench_status(SbBench *bench, bool fails, const char *format, ...) G_GNUC_PRINTF(3, 4);
 
 // Ends the workbench: sb_workbench_run() returns.
 void sb_bench_end(SbBench *bench);

@@ -415,7 +415,7 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
   if (problem->place != SB_FILM_ALONE) {
     solver->tolerance = RESIDUAL;
     status =
-        solver->base.solved ? sb_ehl_beside(solver, &c, problem->place) : SB_ERROR_NOT_CONVERGED;
+        solver->base.solved ? sb_ehl_from_base(solver, &c, problem->place) : SB_ERROR_NOT_CONVERGED;
     if (status == SB_OK) {
       sb_ehl_results(results, solver->now);
       status = results->film_flux > supply ? SB_ERROR_NOT_CONVERGED : SB_OK; // it is starved

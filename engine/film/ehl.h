@@ -282,7 +282,7 @@ SbStatus sb_ehl_factor(SbEhlSolution *s);
 // Solves the case `c` on the mesh of the base, with its factors for SB_FILM_BESIDE, as the solver's
 // last solution; the base is not changed. SB_ERROR_NOT_CONVERGED: the cases differ too much or in
 // kind.
-SbStatus sb_ehl_beside(SbFilmSolver *solver, const SbEhlCase *c, SbFilmPlace place);
+SbStatus sb_ehl_from_base(SbFilmSolver *solver, const SbEhlCase *c, SbFilmPlace place);
 
 // Returns the residual at which Newton's method of smooth rows ends: solver->tolerance, but not
 // below the rounding error of the deflection divided by the film.

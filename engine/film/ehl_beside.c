@@ -48,7 +48,7 @@ static SbStatus ready(SbFilmSolver *solver, const SbEhlCase *c) {
   return status;
 }
 
-SbStatus sb_ehl_beside(SbFilmSolver *solver, const SbEhlCase *c, SbFilmPlace place) {
+SbStatus sb_ehl_from_base(SbFilmSolver *solver, const SbEhlCase *c, SbFilmPlace place) {
   SbEhlSolution *s = solver->now;
   // Between asperities nodes of a film merely near change into the cavity, or out of it.
   const bool anew = place == SB_FILM_NEAR && c->rough.rows;

@@ -149,7 +149,7 @@ double sb_chamber_filling(double volume, double area, double drop, double densit
   return drop > 0.0 && area > 0.0 ? volume / (area * sqrt(2.0 * drop / density)) : NAN;
 }
 
-double sb_chamber_kept(const SbDoseSupply *s, double area, double drop, double time) {
+double sb_chamber_remaining(const SbDoseSupply *s, double area, double drop, double time) {
   if (isinf(time)) {
     return s->volume * s->gas;
   }

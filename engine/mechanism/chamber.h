@@ -120,4 +120,4 @@ double sb_chamber_filling(double volume, double area, double drop, double densit
 // V/(CdA sqrt(2 dp/rho)). Then the vapour flows out, choked and isothermal: rho decays as exp(-0.63
 // CdA sqrt(p/rho_v) t/V). 0.63 = sqrt(g) (2/(g + 1))^((g + 1)/(2(g - 1))) at g = 1.1. Not modelled:
 // boiling in the orifice (Fauske 1985), cooling.
-double sb_chamber_kept(const SbDoseSupply *supply, double area, double drop, double time);
+double sb_chamber_remaining(const SbDoseSupply *supply, double area, double drop, double time);

@@ -156,7 +156,7 @@ static void slopes(Slopes *out, const Base *base, int what, double h, bool follo
   SbRingTangent *own;
   g_assert_cmpint(sb_ring_tangent_create(&own, base->ring, base->load.law, NULL), ==, SB_OK);
   if (!follows) {
-    sb_ring_tangent_stay(own);
+    sb_ring_tangent_fix_meshes(own);
   }
   *out = (Slopes){.same = true};
   for (int side = 0; side < 2; side++) {
@@ -243,7 +243,7 @@ static void test_follows(void) {
   set_up(&base, &dragged);
   SbRingTangent *staying;
   g_assert_cmpint(sb_ring_tangent_create(&staying, base.ring, &dragged.law, NULL), ==, SB_OK);
-  sb_ring_tangent_stay(staying);
+  sb_ring_tangent_fix_meshes(staying);
   for (int side = 0; side < 2; side++) {
     const int sign = side == 0 ? 1 : -1;
     SbRingBody body;

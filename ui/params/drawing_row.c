@@ -58,7 +58,7 @@ static void on_read(GObject *widget, GAsyncResult *result, gpointer ignored) {
   GError *error = NULL;
   g_autofree Drawing *drawing = g_task_propagate_pointer(G_TASK(result), &error);
   gtk_widget_set_sensitive(row->button, TRUE);
-  sb_own_row_complain(GTK_WIDGET(widget), error != NULL ? error->message : NULL);
+  sb_own_row_show_error(GTK_WIDGET(widget), error != NULL ? error->message : NULL);
   const char *path = g_task_get_task_data(G_TASK(result));
   if (drawing != NULL && row->kind == SB_DRAWING_SECTION) {
     sb_session_set_section(row->session, path, &drawing->section, drawing->height);

@@ -26,7 +26,7 @@ GtkWidget *sb_own_row_new(const char *title, const char *tip, GtkWidget *chooser
   return box;
 }
 
-void sb_own_row_complain(GtkWidget *row, const char *text) {
+void sb_own_row_show_error(GtkWidget *row, const char *text) {
   GtkWidget *error = g_object_get_data(G_OBJECT(row), ERROR);
   gtk_label_set_text(GTK_LABEL(error), text != NULL ? text : "");
   gtk_widget_set_visible(error, text != NULL);

@@ -9,4 +9,4 @@
 GtkWidget *sb_own_row_new(const char *title, const char *tip, GtkWidget *chooser);
 
 // Shows `text`, a translated sentence, as the error of the choice; NULL removes it.
-void sb_own_row_complain(GtkWidget *row, const char *text);
+void sb_own_row_show_error(GtkWidget *row, const char *text);

@@ -45,7 +45,7 @@ static void on_choice(GtkComboBox *combo, Row *row) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autofree char *name = *id != '\0' ? g_strdup(id) : NULL;
   const gboolean good = sb_session_set_rubber(row->session, name, issues);
-  sb_own_row_complain(row->box, good ? NULL : ((const SbIssue *)issues->pdata[0])->text);
+  sb_own_row_show_error(row->box, good ? NULL : ((const SbIssue *)issues->pdata[0])->text);
 }
 
 void sb_rubber_row_refresh(GtkWidget *widget) {

@@ -33,7 +33,8 @@ void sb_style_class(GtkWidget *widget, const char *name);
 // empty) is translated; `align` is its horizontal alignment, 0 left to 1 right.
 GtkWidget *sb_style_label(const char *text, const char *name, float align);
 
-// Fills the clip region of `cr` with the colour of `role` and returns the theme in use. Static.
+// Fills the clip region of `cr` with the colour of `role`, which remains cairo's source, and
+// returns the theme in use. Static.
 const SbTheme *sb_style_ground(cairo_t *cr, SbRole role);
 
 // Sets the background of a window, and its font if the desktop names none.

@@ -182,7 +182,7 @@ static void start_measured(Dialog *dialog) {
   g_clear_pointer(&dialog->measuring, sb_measure_job_free);
   SbData *data = sb_data_of_file(dialog->path);
   g_autofree char *keys = said_keys(dialog);
-  sb_data_take_keys(data, keys);
+  sb_data_set_keys(data, keys);
   dialog->measuring =
       sb_measure_job_start(data, sb_session_drive_speed(dialog->session), on_read, dialog);
 }
@@ -223,7 +223,7 @@ static void draw_measured(cairo_t *cr, double width, double height, void *user) 
 static bool use_measured(Dialog *dialog) {
   SbData *data = sb_data_of_file(dialog->path);
   g_autofree char *keys = sb_measured_keys(dialog->measured);
-  sb_data_take_keys(data, keys);
+  sb_data_set_keys(data, keys);
   sb_session_set_data(dialog->session, data);
   return true;
 }

@@ -292,7 +292,7 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
   if (status == SB_OK && ring->options.fit_mesh) {
     status = sb_ring_refit(ring, ring->options.element_size, report);
   }
-  if (status == SB_OK && sb_ring_rubs(&target)) {
+  if (status == SB_OK && sb_ring_has_friction(&target)) {
     target.pressure_left = ring->contact->is.now.pressure_left; // none where it passes the ring
     target.pressure_right = ring->contact->is.now.pressure_right;
     if (target.bore_slides != 0) {
@@ -307,7 +307,7 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
         status = slide_at_once(ring, &target, report);
       }
       if (status == SB_OK && ring->state != SB_RING_SLIDES && !ring->body.inward) {
-        sb_ring_hold_turn(ring);
+        sb_ring_fix_turn(ring);
       }
       if (status == SB_OK && ring->options.fit_mesh) {
         status = sb_ring_refit(ring, ring->options.element_size, report);
@@ -448,7 +448,7 @@ bool sb_ring_outgrown(const SbRing *ring, double most) {
   return moved > most * ring->fitted_size;
 }
 
-void sb_ring_hand_over(SbRing *ring, const void *law, void *poll_data) {
+void sb_ring_set_data(SbRing *ring, const void *law, void *poll_data) {
   SbRingContact *contact = ring->contact;
   ring->load.law = contact->is.now.law = law;
   for (size_t i = 0; i < sizeof contact->saved / sizeof *contact->saved; i++) {
@@ -537,7 +537,7 @@ SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   return status;
 }
 
-SbStatus sb_ring_beside(SbRing **out, const SbRing *ring, SbReport *report) {
+SbStatus sb_ring_create_like(SbRing **out, const SbRing *ring, SbReport *report) {
   SbRing *other = malloc(sizeof *other);
   *out = NULL;
   if (other == NULL) {
@@ -560,7 +560,7 @@ SbStatus sb_ring_beside(SbRing **out, const SbRing *ring, SbReport *report) {
 
 SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *options,
                       SbReport *report) {
-  SbStatus status = sb_ring_beside(out, ring, report);
+  SbStatus status = sb_ring_create_like(out, ring, report);
   if (status != SB_OK) {
     return status;
   }
@@ -592,7 +592,7 @@ SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbRep
   if (ring->load.groove != NULL) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the groove may have another mirror image");
   }
-  SbStatus status = sb_ring_beside(&other, ring, report);
+  SbStatus status = sb_ring_create_like(&other, ring, report);
   *out = other;
   if (status != SB_OK) {
     return status;

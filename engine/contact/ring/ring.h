@@ -225,7 +225,7 @@ SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *opt
 
 // Replaces the borrowed data of the friction law and of `poll` of a ring, when another owner takes
 // it over.
-void sb_ring_hand_over(SbRing *ring, const void *law, void *poll_data);
+void sb_ring_set_data(SbRing *ring, const void *law, void *poll_data);
 
 // Returns the load of the present state; borrowed until the ring changes.
 const SbRingLoad *sb_ring_load(const SbRing *ring);

@@ -122,7 +122,7 @@ const char *sb_ring_surface_name(SbRingSurface surface);
 double sb_ring_friction(const SbRingLoad *load, SbRingSurface surface);
 
 // Returns whether any surface has friction or a prescribed traction.
-bool sb_ring_rubs(const SbRingLoad *load);
+bool sb_ring_has_friction(const SbRingLoad *load);
 
 // Returns the load with lengths divided by `length` and pressures by `pressure`.
 SbRingLoad sb_ring_load_in(const SbRingLoad *load, double length, double pressure);

@@ -85,7 +85,7 @@ static double bore_load(const SbRingContact *contact, double *drag, double *whol
   return sum;
 }
 
-void sb_ring_hold_turn(SbRing *ring) {
+void sb_ring_fix_turn(SbRing *ring) {
   const SbRingContactState *is = &ring->contact->is;
   ring->arc = (SbRingArc){true, {1.0, 0.0}, {is->turn, 0.0}, 0.0, 1.0};
 }
@@ -93,7 +93,7 @@ void sb_ring_hold_turn(SbRing *ring) {
 // Fits a mesh to the present contact at the same rotation: near a maximum it may have no state at
 // the same coefficient. If that fails the present mesh remains.
 static SbStatus fit_mesh(SbRing *ring, double size, double unit, SbReport *report) {
-  sb_ring_hold_turn(ring);
+  sb_ring_fix_turn(ring);
   ring->arc.unit = unit;
   SbStatus status = sb_ring_refit(ring, size, report);
   return status == SB_ERROR_NOT_CONVERGED ? SB_OK : status;
@@ -282,13 +282,13 @@ static SbStatus settle_limit(SbRing *ring, bool easy, SbReport *report) {
   (void)bore_load(ring->contact, &before, &whole);
   ring->easy = easy;
   for (size_t i = 0; easy && i < sizeof ONSET / sizeof ONSET[0]; i++) {
-    sb_ring_hold_turn(ring);
+    sb_ring_fix_turn(ring);
     sb_ring_save(ring->contact, SB_RING_START);
     ring->onset = ONSET[i];
     (void)sb_ring_attempt(ring, SB_RING_DIRECT, NULL);
   }
   ring->easy = false;
-  sb_ring_hold_turn(ring);
+  sb_ring_fix_turn(ring);
   sb_ring_save(ring->contact, SB_RING_START);
   SbStatus status = sb_ring_attempt(ring, SB_RING_DIRECT, report);
   if (status == SB_OK) {

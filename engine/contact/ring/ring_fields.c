@@ -143,7 +143,7 @@ static void move_vertex(const SbRing *ring, const SbRingSection *out, int vertex
 // A hollow between lobes that the fluid of the higher pressure has reached.
 static bool is_wetted_hollow(const SbRing *ring, SbRingSurface surface, int side) {
   const SbRingLoad *now = &ring->contact->is.now;
-  return !sb_ring_holds_some(ring, surface, side) && now->pressure_left != now->pressure_right &&
+  return !sb_ring_side_touches(ring, surface, side) && now->pressure_left != now->pressure_right &&
          sb_ring_contact_on_right(ring->contact, side) ==
              (now->pressure_right > now->pressure_left);
 }

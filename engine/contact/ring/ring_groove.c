@@ -175,7 +175,7 @@ double sb_ring_friction(const SbRingLoad *load, SbRingSurface surface) {
                                     : load->friction_wall;
 }
 
-bool sb_ring_rubs(const SbRingLoad *load) {
+bool sb_ring_has_friction(const SbRingLoad *load) {
   return load->use_bore_traction || load->friction_bore > 0.0 || load->friction_floor > 0.0 ||
          load->friction_wall > 0.0;
 }

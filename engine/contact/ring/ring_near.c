@@ -277,9 +277,9 @@ static bool same_outline(const SbRing *ring, const SbRingBody *body) {
   return same;
 }
 
-SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
-                     const SbRingLoad *load, const SbRingOptions *options, const SbRingShift *shift,
-                     SbReport *report) {
+SbStatus sb_ring_create_moved(SbRing **out, const SbRing *ring, const SbRingBody *body,
+                              const SbRingLoad *load, const SbRingOptions *options,
+                              const SbRingShift *shift, SbReport *report) {
   SbRing *other = NULL;
   *out = NULL;
   SbStatus status = sb_ring_check(body, load, report);
@@ -291,7 +291,7 @@ SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
     status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
                      "the ring that starts it slides in another direction");
   }
-  status = status == SB_OK ? sb_ring_beside(&other, ring, report) : status;
+  status = status == SB_OK ? sb_ring_create_like(&other, ring, report) : status;
   if (status != SB_OK) {
     return status;
   }
@@ -323,7 +323,7 @@ SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
 static void make_coarse(SbRingGuide *guide) {
   const SbRing *ring = guide->ring;
   guide->made = true;
-  if (!(ring->fitted_size > 0.0) || sb_ring_beside(&guide->coarse, ring, NULL) != SB_OK) {
+  if (!(ring->fitted_size > 0.0) || sb_ring_create_like(&guide->coarse, ring, NULL) != SB_OK) {
     return;
   }
   guide->coarse->options.poll = NULL;
@@ -393,8 +393,8 @@ static SbStatus follow(SbRing **out, SbRingGuide *guide, const SbRing *way, cons
   SbRingShift shift = *guide->shift, along = *guide->along;
   const bool follows = sb_ring_shift_follow(&along, way) && sb_ring_shift_like(&shift, &along);
   *out = NULL;
-  SbStatus status =
-      sb_ring_lay(&other, guide->ring, body, load, options, follows ? &shift : NULL, report);
+  SbStatus status = sb_ring_create_moved(&other, guide->ring, body, load, options,
+                                         follows ? &shift : NULL, report);
   if (status != SB_OK) {
     return status;
   }
@@ -434,7 +434,7 @@ static SbStatus near_copy(SbRing **out, const SbRing *copy, const SbRingBody *bo
                           const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
   SbRing *way;
   *out = NULL;
-  SbStatus status = sb_ring_lay(&way, copy, body, load, options, NULL, report);
+  SbStatus status = sb_ring_create_moved(&way, copy, body, load, options, NULL, report);
   if (status == SB_OK) {
     const SbRingLoad target = way->contact->is.now;
     status = go_near(way, &copy->contact->is.now, &target, PART_LARGER, report);
@@ -463,7 +463,7 @@ static SbStatus near_larger(SbRing **out, SbRingGuide *guide, const SbRingBody *
     return status;
   }
   SbRing *copy;
-  status = sb_ring_beside(&copy, guide->ring, report);
+  status = sb_ring_create_like(&copy, guide->ring, report);
   if (status == SB_OK) {
     copy->options.poll = options->poll;
     copy->options.poll_data = options->poll_data;
@@ -487,7 +487,7 @@ static SbStatus near_guided(SbRing **out, SbRing **kept, SbRingGuide *guide, con
   if (guide->coarse == NULL) {
     return sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring has no coarse copy");
   }
-  SbStatus status = sb_ring_lay(&way, guide->coarse, body, load, options, NULL, report);
+  SbStatus status = sb_ring_create_moved(&way, guide->coarse, body, load, options, NULL, report);
   if (status != SB_OK) {
     return status;
   }
@@ -511,7 +511,7 @@ static SbStatus near_alike(SbRing **out, const SbRing *ring, const SbRingBody *b
                            const SbRingLoad *load, const SbRingOptions *options, SbReport *report) {
   SbRing *other;
   *out = NULL;
-  SbStatus status = sb_ring_lay(&other, ring, body, load, options, NULL, report);
+  SbStatus status = sb_ring_create_moved(&other, ring, body, load, options, NULL, report);
   if (status != SB_OK) {
     return status;
   }

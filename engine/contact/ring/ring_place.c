@@ -63,7 +63,7 @@ static void guess_clamped(SbRing *ring, const SbRingLoad *s) {
 static SbStatus lean(SbRing *ring, const SbRingLoad *s, bool *leaned, SbReport *report) {
   SbRingContact *contact = ring->contact;
   double difference = s->pressure_left - s->pressure_right;
-  bool holds = sb_ring_rubs(s); // it leans already, or friction decides how far it goes
+  bool holds = sb_ring_has_friction(s); // it leans already, or friction decides how far it goes
   bool land = s->land_left > -INFINITY || s->land_right < INFINITY;
   *leaned = false;
   SbRingPatch patch;

@@ -97,7 +97,7 @@ double sb_ring_node_pressure(const SbRing *ring, int i, SbRingSurface surface);
 double sb_ring_friction_lack(const SbRing *ring);
 
 // Returns whether a surface has contact with a node of boundary side `side`.
-bool sb_ring_holds_some(const SbRing *ring, SbRingSurface surface, int side);
+bool sb_ring_side_touches(const SbRing *ring, SbRingSurface surface, int side);
 
 // Recovers a smooth pressure of a contact from its nodal forces, with their load, and replaces the
 // positions of its ends (`patch` is that of sb_ring_patch()). *pressure is a function of the
@@ -146,7 +146,7 @@ SbStatus sb_ring_check(const SbRingBody *body, const SbRingLoad *load, SbReport 
 void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *load);
 
 // Creates a ring with the body, load and options of another one, without a mesh.
-SbStatus sb_ring_beside(SbRing **out, const SbRing *ring, SbReport *report);
+SbStatus sb_ring_create_like(SbRing **out, const SbRing *ring, SbReport *report);
 
 // Builds elements and contact on the mesh that was set.
 SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report);
@@ -205,14 +205,14 @@ double sb_ring_shift_angle(const SbRingShift *shift, double angle);
 double sb_ring_fit_size(const SbRingBody *body, const SbRingLoad *load, double tolerance);
 
 // Makes the meshes of a linearisation's states fixed to the material, as sb_ring_near() uses them.
-void sb_ring_tangent_stay(SbRingTangent *tangent);
+void sb_ring_tangent_fix_meshes(SbRingTangent *tangent);
 
 // Creates a ring of another body and load that is not solved: on the moved mesh of `ring`, with the
 // displacement `shift` (NULL: none), at its position on the floor, with its contact.
 // SB_ERROR_NOT_CONVERGED: `ring` does not slide in the same direction.
-SbStatus sb_ring_lay(SbRing **out, const SbRing *ring, const SbRingBody *body,
-                     const SbRingLoad *load, const SbRingOptions *options, const SbRingShift *shift,
-                     SbReport *report);
+SbStatus sb_ring_create_moved(SbRing **out, const SbRing *ring, const SbRingBody *body,
+                              const SbRingLoad *load, const SbRingOptions *options,
+                              const SbRingShift *shift, SbReport *report);
 
 // Returns an estimate of the change of the floor's friction force if the load `target` (in the
 // units of the element solver) moves the wall to which friction has dragged the ring; 0 if the ring
@@ -268,7 +268,7 @@ SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report);
 void sb_ring_end_best(SbRing *ring, bool take);
 
 // Fixes the present rotation of the section, so that friction_bore becomes an unknown.
-void sb_ring_hold_turn(SbRing *ring);
+void sb_ring_fix_turn(SbRing *ring);
 
 // Factorises the tangent of the present state with free nodes at the bore; sb_ring_contact_settle()
 // must follow. SB_ERROR_NOT_CONVERGED: singular.

@@ -102,7 +102,7 @@ static SbStatus carry_turn(SbRing *fresh, const SbRing *ring, const SbRingPatch 
   SbRingContact *contact = fresh->contact;
   const double share = ring->contact->is.now.friction_bore;
   contact->is.turn = ring->contact->is.turn;
-  sb_ring_hold_turn(fresh);
+  sb_ring_fix_turn(fresh);
   SbStatus status = carry_over(fresh, ring, patch, touches, true, report);
   fresh->arc.free = false;
   if (status == SB_OK) {
@@ -143,7 +143,7 @@ SbStatus sb_ring_remesh(SbRing *fresh, const SbRing *ring, double element_size, 
     return status;
   }
   SbRingContact *contact = fresh->contact;
-  const bool rubs = sb_ring_rubs(&ring->contact->is.now);
+  const bool rubs = sb_ring_has_friction(&ring->contact->is.now);
   status = carry_over(fresh, ring, patch, touches, rubs && !fresh->arc.free, report);
   if (status == SB_ERROR_NOT_CONVERGED && rubs && !ring->at_once) {
     status = carry_over(fresh, ring, patch, touches, fresh->arc.free, report);

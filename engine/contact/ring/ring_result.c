@@ -119,7 +119,7 @@ int sb_ring_profile(const SbRing *ring, double *x, double *pressure, int capacit
   return SB_RING_PROFILE;
 }
 
-bool sb_ring_holds_some(const SbRing *ring, SbRingSurface surface, int side) {
+bool sb_ring_side_touches(const SbRing *ring, SbRingSurface surface, int side) {
   bool some = false;
   for (int i = 0; i < 3; i++) {
     some = some ||
@@ -143,7 +143,7 @@ static double end_share(const SbRing *ring, SbRingSurface surface, const SbRingP
          (4 * side + 2 > patch->first + patch->last) == (end == 1); side += way) {
       const bool within = 2 * side >= patch->first && 2 * side + 2 <= patch->last;
       if (contact->closed[sb_ring_wrap(contact, 2 * side) / 2] ||
-          (within && !sb_ring_holds_some(ring, surface, side))) {
+          (within && !sb_ring_side_touches(ring, surface, side))) {
         break;
       }
       double a[2], b[2];

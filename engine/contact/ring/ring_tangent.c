@@ -27,7 +27,7 @@ struct SbRingTangent {
   bool stays;           // the mesh stays with the material
 };
 
-void sb_ring_tangent_stay(SbRingTangent *tangent) {
+void sb_ring_tangent_fix_meshes(SbRingTangent *tangent) {
   tangent->stays = true;
 }
 
@@ -90,7 +90,7 @@ static SbStatus factorise(SbRingTangent *tangent, SbReport *report) {
   const SbRing *ring = tangent->ring;
   SbRing *base;
   SbStatus status =
-      sb_ring_lay(&base, ring, &ring->body, &ring->load, &ring->options, NULL, report);
+      sb_ring_create_moved(&base, ring, &ring->body, &ring->load, &ring->options, NULL, report);
   if (status != SB_OK) {
     return status;
   }
@@ -210,7 +210,7 @@ static SbStatus linear(SbRing **out, SbRingTangent *tangent, const SbRingBody *b
   SbRingFem *base = tangent->base->fem;
   SbRing *other;
   *out = NULL;
-  SbStatus status = sb_ring_lay(&other, ring, body, load, options, shift, report);
+  SbStatus status = sb_ring_create_moved(&other, ring, body, load, options, shift, report);
   if (status != SB_OK) {
     return status;
   }

@@ -98,7 +98,7 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
 
 void sb_run_keep_rings(SbRun *run) {
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    sb_sliding_memory_keep(run->memory[i]);
+    sb_sliding_memory_store(run->memory[i]);
   }
 }
 
@@ -132,7 +132,7 @@ void sb_run_predict_from(SbRun *run, const SbRun *base) {
 
 void sb_run_rings_beside(SbRun *run, SbRingsBeside how) {
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    sb_sliding_memory_beside(run->memory[i], how);
+    sb_sliding_memory_rings(run->memory[i], how);
   }
 }
 
@@ -267,7 +267,7 @@ static double weaker(double force, double mean, double deviation) {
   return isnan(force) ? NAN : sb_normal_share((force - mean) / deviation);
 }
 
-void sb_run_weigh_users(SbSummary *summary, const SbModel *model) {
+void sb_run_set_user_fractions(SbSummary *summary, const SbModel *model) {
   const double mean[] = {[SB_WOMEN] = model->women_strength, [SB_MEN] = model->men_strength};
   const double deviation[] = {[SB_WOMEN] = model->women_deviation, [SB_MEN] = model->men_deviation};
   for (int users = 0; users < SB_USERS; users++) {
@@ -317,7 +317,7 @@ static void conclude(SbRun *run, bool moved) {
     summary->force_breakaway = summary->stage[SB_STAGE_B].force;
   }
   if (moved) {
-    sb_run_weigh_users(summary, run->model);
+    sb_run_set_user_fractions(summary, run->model);
     warn_of_outcome(summary);
   }
 }
@@ -334,13 +334,13 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
     if (sb_run_cancelled(hooks, report)) {
       return SB_ERROR_CANCELLED;
     }
-    sb_run_take_states(run);
+    sb_run_restore_states(run);
   } else {
     status = sb_run_solve_states(run, hooks, report);
     if (!usable(status)) {
       return status;
     }
-    sb_run_keep_states(run, status);
+    sb_run_store_states(run, status);
   }
   run->hold = plan->film_history;
   if (plan->motion) {
@@ -423,9 +423,9 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     sb_sliding_memory_poll(run->memory[i], hooks->cancelled, hooks->data);
   }
   summary->work = run->work->done;
-  sb_run_give_reasons(run, status, report);
+  sb_run_set_reasons(run, status, report);
   sb_run_fill_errors(run);
-  status = sb_run_judge_errors(run, status, report);
+  status = sb_run_check_errors(run, status, report);
   sb_verdict_fill(summary, run->model);
   summary->frames = run->count;
   if (hooks->progress != NULL && status == SB_OK) {

@@ -83,7 +83,7 @@ void sb_run_ahead_work(SbRunAhead *ahead, bool (*cancelled)(void *), void *data)
       ring->work.cancelled = cancelled;
       ring->work.data = data;
       sb_sliding_memory_poll(memory, sb_work_step, &ring->work);
-      sb_sliding_solve_ahead(&task, ring->task.memory);
+      sb_sliding_prefetch(&task, ring->task.memory);
     }
     pthread_mutex_lock(&ahead->lock);
     ring->memory = memory;

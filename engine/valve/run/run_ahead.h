@@ -31,8 +31,8 @@ void sb_run_ahead_work(SbRunAhead *ahead, bool (*cancelled)(void *), void *data)
 
 // Takes the ring of a slot and adds its steps to `work`. Waits while another thread solves it; then
 // `cancelled` (not NULL) is called with `data` at least every 10 ms, to pass a cancel on; its
-// result is ignored. Returns a memory for sb_sliding_memory_ahead(), which the caller frees with
-// sb_sliding_memory_destroy(). NULL: no thread has begun the ring (and none will), there is no such
-// slot, or the budget is exhausted; the caller then solves the ring itself. Any thread.
+// result is ignored. Returns a memory for sb_sliding_memory_prefetched(), which the caller frees
+// with sb_sliding_memory_destroy(). NULL: no thread has begun the ring (and none will), there is no
+// such slot, or the budget is exhausted; the caller then solves the ring itself. Any thread.
 SbSlidingMemory *sb_run_ahead_take(SbRunAhead *ahead, int slot, SbWork *work,
                                    bool (*cancelled)(void *), void *data);

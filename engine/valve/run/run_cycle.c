@@ -131,7 +131,7 @@ static SbStatus compute_figures(SbSummary *out, SbRun *run, SbReport *report) {
   out->duration = 2 * cycle->platen_top / run->model->speed;
   out->force_breakaway = out->stage[SB_STAGE_B].reached ? out->stage[SB_STAGE_B].force : NAN;
   SbStatus status = take_figures(out, run, report);
-  sb_run_weigh_users(out, run->model);
+  sb_run_set_user_fractions(out, run->model);
   return status;
 }
 

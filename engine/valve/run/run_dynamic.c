@@ -363,7 +363,7 @@ static SbStatus compute_figures(SbSummary *out, const Recorder *r, SbReport *rep
     }
   }
   out->force_breakaway = out->stage[SB_STAGE_B].reached ? out->stage[SB_STAGE_B].force : NAN;
-  sb_run_weigh_users(out, r->run->model);
+  sb_run_set_user_fractions(out, r->run->model);
   return conclude_motion(out, r, report);
 }
 

@@ -383,7 +383,7 @@ static int largest(const SbSummary *summary, double *error, int *count) {
   return worst;
 }
 
-SbStatus sb_run_judge_errors(SbRun *run, SbStatus status, SbReport *report) {
+SbStatus sb_run_check_errors(SbRun *run, SbStatus status, SbReport *report) {
   SbSummary *summary = &run->summary;
   double error;
   int count;

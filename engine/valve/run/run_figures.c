@@ -48,7 +48,7 @@ static SbAnswer presses(const SbRun *run, int seal) {
   SbAnswer answer = SB_ANSWER_YES;
   for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
     bool needed = seal == SB_OUTER || chamber != SB_CHAMBER_OPEN;
-    int alike = sb_run_first_alike(run, seal, chamber);
+    int alike = sb_run_first_equal_chamber(run, seal, chamber);
     const SbSealState *state = &run->cycle.state[seal][alike][SB_CYCLE_IN];
     if (needed && isnan(state->load)) {
       answer = SB_ANSWER_UNKNOWN;
@@ -215,9 +215,9 @@ static double kept(const SbRun *run, size_t step) {
   }
   const double hole = gasket ? model->port_diameter : model->shape.vent_diameter;
   return model->canister_pressure > 0
-             ? sb_chamber_kept(&model->supply,
-                               model->discharge_coefficient * M_PI / 4 * hole * hole,
-                               model->canister_pressure, time)
+             ? sb_chamber_remaining(&model->supply,
+                                    model->discharge_coefficient * M_PI / 4 * hole * hole,
+                                    model->canister_pressure, time)
              : NAN;
 }
 
@@ -296,7 +296,7 @@ void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore
   summary->leakage_per_cycle = fabs(net) <= 1e-12 * bore->out ? 0 : circumference * net;
   if (summary->outcome == SB_OUTCOME_NEVER_MOVED) {
     summary->leakage_per_cycle = NAN;
-    return; // sb_run_give_reasons() has the reason
+    return; // sb_run_set_reasons() has the reason
   }
   if (!back) {
     summary->leakage_per_cycle = NAN;
@@ -360,7 +360,7 @@ static void give_reasons_of_outcome(SbRun *run) {
   }
 }
 
-void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report) {
+void sb_run_set_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   SbSummary *summary = &run->summary;
   const SbModel *model = run->model;
   const SbLife *life = &summary->life;

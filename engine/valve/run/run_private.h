@@ -187,17 +187,17 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
 
 // Stores the solved states in run->solved, if `status`, that of sb_run_solve_states(), is SB_OK and
 // the plan allows their reuse (run_states.c).
-void sb_run_keep_states(SbRun *run, SbStatus status);
+void sb_run_store_states(SbRun *run, SbStatus status);
 
 // Copies the states of run->solved to the run, instead of sb_run_solve_states() (run_states.c).
-void sb_run_take_states(SbRun *run);
+void sb_run_restore_states(SbRun *run);
 
 // Adds *more to *sum.
 void sb_run_add_counters(SbCounters *sum, const SbCounters *more);
 
 // Stores the section of the solved `ring` of a seal, for drawing, as the seal's shape `index`
 // (run_shapes.c).
-SbStatus sb_run_keep_shape(SbRun *run, int seal, int index, const SbRing *ring, SbReport *report);
+SbStatus sb_run_store_shape(SbRun *run, int seal, int index, const SbRing *ring, SbReport *report);
 
 // Solves and stores the shapes of the inner ring over the land's edge for a way, and its free
 // shape. `from` is the inner ring solved for this way; solves are added to *counts (run_shapes.c).
@@ -224,7 +224,7 @@ uint32_t sb_run_profile_slot(int seal, int chamber, int motion);
 
 // Returns the first chamber state in which the seal has contact and the same pressures as in
 // `chamber`; they share one solution (run_states.c).
-int sb_run_first_alike(const SbRun *run, int seal, int chamber);
+int sb_run_first_equal_chamber(const SbRun *run, int seal, int chamber);
 
 // Largest allowed closure of the energy balance; a larger one means that the motion is not solved.
 #define SB_RUN_CLOSURE 1e-6
@@ -309,7 +309,7 @@ void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore
 
 // Sets the reasons of all missing figures, by the chosen models, the outcome, and the `status` and
 // `report` of the run. All figures must be set before (run_figures.c).
-void sb_run_give_reasons(SbRun *run, SbStatus status, const SbReport *report);
+void sb_run_set_reasons(SbRun *run, SbStatus status, const SbReport *report);
 
 // Sets the figures of each seal in the middle of B-C (run_figures.c).
 void sb_run_summarise_seals(SbRun *run);
@@ -348,10 +348,10 @@ void sb_run_fill_errors(SbRun *run);
 
 // Warns of errors above SB_ERROR_LARGE. Returns SB_ERROR_NOT_CONVERGED instead of SB_OK for an
 // error above SB_ERROR_USELESS, else `status`.
-SbStatus sb_run_judge_errors(SbRun *run, SbStatus status, SbReport *report);
+SbStatus sb_run_check_errors(SbRun *run, SbStatus status, SbReport *report);
 
 // Sets the fractions of users who are weaker than the summary's forces (run.c).
-void sb_run_weigh_users(SbSummary *summary, const SbModel *model);
+void sb_run_set_user_fractions(SbSummary *summary, const SbModel *model);
 
 // Returns the mass that the last motion delivers [kg], >= 0: the `metered` mass [kg] multiplied by
 // sb_run_filled_share() (by 1 if that is NaN), minus the mass that remains in the vented chamber.
@@ -449,14 +449,14 @@ void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled,
 const SbSlidingBody *sb_run_film_of(SbFilmProblem *out, SbRun *run, int seal, int chamber,
                                     int direction);
 
-// Replaces the film of `state` at |speed| [m/s] by `film` with sb_sliding_take().
-void sb_run_take(SbSealState *state, SbRun *run, int seal, int chamber, int direction, double speed,
-                 const SbFilm *film, bool fitted);
+// Replaces the film of `state` at |speed| [m/s] by `film` with sb_sliding_set_film().
+void sb_run_set_film(SbSealState *state, SbRun *run, int seal, int chamber, int direction,
+                     double speed, const SbFilm *film, bool fitted);
 
 // Creates the states by speed of the state just solved in run->cycle, with a copy of `body`, that
 // of its film (NULL: half-plane). SB_ERROR_MEMORY is its only error.
-SbStatus sb_run_keep_body(SbRun *run, int seal, int chamber, int direction,
-                          const SbSlidingBody *body, SbReport *report);
+SbStatus sb_run_create_speeds(SbRun *run, int seal, int chamber, int direction,
+                              const SbSlidingBody *body, SbReport *report);
 
 // Copies the states by speed that `one` lacks from `run`, and sets roughness and reference state of
 // all of them to those of `one`. Solved films remain valid, because without coupled asperities they
@@ -465,13 +465,13 @@ SbStatus sb_run_copy_speeds(SbRun *one, const SbRun *run, SbReport *report);
 
 // Returns the chamber state (an SbChamber) whose pressures apply in the middle of a stroke in this
 // way.
-int sb_run_asked_chamber(int way);
+int sb_run_mid_stroke_chamber(int way);
 
 // Prefetch: solves the states at speeds near run->speed for a state just solved, in the thread of
 // its seal, because the film solver still has that film. Counts and warnings are added to *counters
 // and *warnings.
-void sb_run_ask_beside(SbRun *run, int seal, int chamber, int way, SbCounters *counters,
-                       SbWarnings *warnings);
+void sb_run_prefetch_speeds(SbRun *run, int seal, int chamber, int way, SbCounters *counters,
+                            SbWarnings *warnings);
 
 // Adds the errors of the interpolation by speed, and its counts, to the run. SB_ERROR_CANCELLED,
 // SB_ERROR_MEMORY, SB_ERROR_NOT_CONVERGED (budget): a solve of a state by speed was ended early.

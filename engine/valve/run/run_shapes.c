@@ -78,7 +78,7 @@ uint32_t sb_run_shape_index(const SbRun *run, int seal, SbChamber chamber, int m
   if (!run->plan.section_fields) {
     return UINT32_MAX;
   }
-  int alike = sb_run_first_alike(run, seal, (int)chamber);
+  int alike = sb_run_first_equal_chamber(run, seal, (int)chamber);
   uint32_t found = slot(seal, alike * SB_RUN_MOTIONS + motion);
   return run->shape[found].view.nodes > 0 ? found : UINT32_MAX;
 }
@@ -104,7 +104,7 @@ static void fill_permeation(float *out, const SbRun *run, int seal, const SbRing
   free(flux);
 }
 
-SbStatus sb_run_keep_shape(SbRun *run, int seal, int index, const SbRing *ring, SbReport *report) {
+SbStatus sb_run_store_shape(SbRun *run, int seal, int index, const SbRing *ring, SbReport *report) {
   SbRunShape *shape = &run->shape[slot(seal, index)];
   int nodes, triangles, outline;
   sb_ring_sizes(ring, &nodes, &triangles, &outline);
@@ -186,7 +186,7 @@ static SbStatus solve_free(SbRun *run, const SbRingBody *body, SbRingLoad load,
   load.friction_wall = body->inward ? load.friction_wall : 0;
   SbStatus status = sb_ring_create(&ring, body, &load, options, report);
   status =
-      status == SB_OK ? sb_run_keep_shape(run, SB_INNER, SB_RUN_SHAPE_FREE, ring, report) : status;
+      status == SB_OK ? sb_run_store_shape(run, SB_INNER, SB_RUN_SHAPE_FREE, ring, report) : status;
   sb_ring_destroy(ring);
   return status;
 }
@@ -237,7 +237,7 @@ SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *
     if (status == SB_ERROR_CANCELLED && budget.left < 0) {
       status = SB_ERROR_NOT_CONVERGED;
     }
-    status = status == SB_OK ? sb_run_keep_shape(run, SB_INNER, edge_shape(way, i), ring, report)
+    status = status == SB_OK ? sb_run_store_shape(run, SB_INNER, edge_shape(way, i), ring, report)
                              : status;
   }
   sb_ring_destroy(ring);

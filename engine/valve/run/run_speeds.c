@@ -53,8 +53,8 @@ static SbStatus make(SbRun *run, int seal, int chamber, int direction, const SbS
   return SB_OK;
 }
 
-SbStatus sb_run_keep_body(SbRun *run, int seal, int chamber, int direction,
-                          const SbSlidingBody *body, SbReport *report) {
+SbStatus sb_run_create_speeds(SbRun *run, int seal, int chamber, int direction,
+                              const SbSlidingBody *body, SbReport *report) {
   bool there = run->speeds[seal][chamber][direction] != NULL;
   return body != NULL || there ? make(run, seal, chamber, direction, body, report) : SB_OK;
 }
@@ -139,12 +139,12 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
   }
 }
 
-int sb_run_asked_chamber(int way) {
+int sb_run_mid_stroke_chamber(int way) {
   return way == SB_CYCLE_IN ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
 }
 
-void sb_run_ask_beside(SbRun *run, int seal, int chamber, int way, SbCounters *counters,
-                       SbWarnings *warnings) {
+void sb_run_prefetch_speeds(SbRun *run, int seal, int chamber, int way, SbCounters *counters,
+                            SbWarnings *warnings) {
   static const double FASTER = 1.03;
   const Place own = {seal, chamber, way};
   // The other seal's states may be in work.
@@ -162,7 +162,7 @@ void sb_run_ask_beside(SbRun *run, int seal, int chamber, int way, SbCounters *c
 
 SbStatus sb_run_sliding(SbSealState *out, SbRun *run, int seal, int way, double speed,
                         SbReport *report) {
-  sb_run_state_at(out, run, seal, sb_run_asked_chamber(way), way, speed);
+  sb_run_state_at(out, run, seal, sb_run_mid_stroke_chamber(way), way, speed);
   return sb_run_close_speeds(run, report);
 }
 
@@ -175,11 +175,11 @@ const SbSlidingBody *sb_run_film_of(SbFilmProblem *out, SbRun *run, int seal, in
   return body;
 }
 
-void sb_run_take(SbSealState *state, SbRun *run, int seal, int chamber, int direction, double speed,
-                 const SbFilm *film, bool fitted) {
+void sb_run_set_film(SbSealState *state, SbRun *run, int seal, int chamber, int direction,
+                     double speed, const SbFilm *film, bool fitted) {
   SbSlidingTask task = task_of(run, seal, chamber, direction, fmax(fabs(speed), SB_SPEED_LEAST));
   task.warnings = NULL;
-  sb_sliding_take(state, &task, film, fitted, run->roughness);
+  sb_sliding_set_film(state, &task, film, fitted, run->roughness);
 }
 
 // Computes lambda, real area and friction of `state`, whose film the caller has changed, at |speed|
@@ -226,7 +226,7 @@ void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled,
     out->edge_pressure[i] = between(out->edge_pressure[i], full.edge_pressure[i], filled);
   }
   if (out->touches && full.touches) {
-    sb_sliding_whole(out);
+    sb_sliding_full_friction(out);
     refilm(out, run, seal, SB_CHAMBER_AT_REST, direction, speed);
   }
   out->touches = out->touches || full.touches;

@@ -24,7 +24,7 @@
 
 enum { OUTSIDE_POINTS = 60, PROFILE_POINTS = SB_FIT_PROFILE_MAX + 2 * OUTSIDE_POINTS };
 
-int sb_run_first_alike(const SbRun *run, int seal, int chamber) {
+int sb_run_first_equal_chamber(const SbRun *run, int seal, int chamber) {
   SbSealPressure p = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber);
   for (int c = 0; c < chamber; c++) {
     SbSealPressure q = sb_model_seal_pressure(run->model, seal, (SbChamber)c);
@@ -234,7 +234,7 @@ static bool state_needed(const Task *task) {
   case SB_DEPTH_SLIDING:
     return chamber == (int)SB_CHAMBER_AT_REST && motion == SB_CYCLE_IN;
   case SB_DEPTH_LEAK:
-    return motion == SB_CYCLE_IN && sb_run_first_alike(run, seal, chamber) == chamber;
+    return motion == SB_CYCLE_IN && sb_run_first_equal_chamber(run, seal, chamber) == chamber;
   case SB_DEPTH_WHOLE:
     break;
   }
@@ -301,7 +301,7 @@ static SbStatus keep_shapes(const Task *of, const SbRing *ring, SbReport *report
   const bool out = of->chamber == (int)SB_CHAMBER_CLOSED && of->motion == SB_CYCLE_OUT;
   int index = of->chamber * SB_RUN_MOTIONS + of->motion;
   lane->counters.field_evaluations++;
-  SbStatus status = sb_run_keep_shape(of->run, of->seal, index, ring, report);
+  SbStatus status = sb_run_store_shape(of->run, of->seal, index, ring, report);
   if (status != SB_OK || !of->run->plan.over_edge || of->seal != SB_INNER || !(in || out)) {
     return status;
   }
@@ -323,7 +323,7 @@ static SbStatus keep_shapes(const Task *of, const SbRing *ring, SbReport *report
 // none.
 static int find_alike(const Task *of) {
   const SbRun *run = of->run;
-  const int first = sb_run_first_alike(run, of->seal, of->chamber);
+  const int first = sb_run_first_equal_chamber(run, of->seal, of->chamber);
   if (first == of->chamber || !of->lane->solved[first][of->motion]) {
     return -1;
   }
@@ -339,8 +339,9 @@ static SbStatus take_alike(const Task *of, int from, SbReport *report) {
   *of->state = run->cycle.state[of->seal][from][of->motion];
   if (of->motion != SB_RUN_REST) {
     const SbSpeedStates *table = run->speeds[of->seal][from][of->motion];
-    SbStatus kept = sb_run_keep_body(run, of->seal, of->chamber, of->motion,
-                                     table != NULL && table->on_body ? &table->body : NULL, report);
+    SbStatus kept =
+        sb_run_create_speeds(run, of->seal, of->chamber, of->motion,
+                             table != NULL && table->on_body ? &table->body : NULL, report);
     if (kept != SB_OK) {
       return kept;
     }
@@ -403,11 +404,11 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
   if (lane->ahead != NULL) {
     ahead = sb_run_ahead_take(lane->ahead, slot_of(of), &lane->work, cancelled, lane);
   }
-  sb_sliding_memory_ahead(memory, ahead);
+  sb_sliding_memory_prefetched(memory, ahead);
   SbStatus status =
       fitment ? sb_sliding_fitment(state, &task, report) : sb_sliding_solve(state, &task, report);
   status = sb_work_status(&lane->work, status, report);
-  sb_sliding_memory_ahead(memory, NULL);
+  sb_sliding_memory_prefetched(memory, NULL);
   sb_sliding_memory_destroy(ahead);
   if (status == SB_ERROR_NOT_CONVERGED) {
     report_failure(of, report);
@@ -421,8 +422,8 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
                   sb_seal_name(of->seal));
   }
   if (!fitment && of->motion != SB_RUN_REST && state->film_central > 0) {
-    SbStatus kept =
-        sb_run_keep_body(run, of->seal, of->chamber, of->motion, sb_sliding_body(memory), report);
+    SbStatus kept = sb_run_create_speeds(run, of->seal, of->chamber, of->motion,
+                                         sb_sliding_body(memory), report);
     if (kept != SB_OK) {
       return kept;
     }
@@ -458,11 +459,11 @@ static void ask_beside(const Task *of) {
   if (of->motion == SB_RUN_REST || !plan->motion || plan->inertia || !plan->frame_films) {
     return;
   }
-  const SbSealPressure asked =
-      sb_model_seal_pressure(run->model, of->seal, (SbChamber)sb_run_asked_chamber(of->motion));
+  const SbSealPressure asked = sb_model_seal_pressure(
+      run->model, of->seal, (SbChamber)sb_run_mid_stroke_chamber(of->motion));
   if (asked.left == of->pressure.left && asked.right == of->pressure.right) {
-    sb_run_ask_beside(of->run, of->seal, of->chamber, of->motion, &of->lane->counters,
-                      &of->lane->warnings);
+    sb_run_prefetch_speeds(of->run, of->seal, of->chamber, of->motion, &of->lane->counters,
+                           &of->lane->warnings);
   }
 }
 
@@ -750,7 +751,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
 }
 
 // A life changes them, and a stem that finds its own speed has them at another.
-void sb_run_keep_states(SbRun *run, SbStatus status) {
+void sb_run_store_states(SbRun *run, SbStatus status) {
   const SbPlan *plan = &run->plan;
   const bool own = plan->inertia && run->model->drive != SB_MODEL_DRIVE_MACHINE;
   SbRunSolved *out = &run->solved;
@@ -769,7 +770,7 @@ void sb_run_keep_states(SbRun *run, SbStatus status) {
   }
 }
 
-void sb_run_take_states(SbRun *run) {
+void sb_run_restore_states(SbRun *run) {
   const SbRunSolved *from = &run->solved;
   SbSummary *summary = &run->summary;
   run->cycle = from->cycle;

@@ -644,7 +644,7 @@ void sb_run_frame_film(SbFrame *frame, SbRun *run, int seal, const SbFilm *film,
   const bool slides = out->friction_viscous > 0 || out->friction_viscous < 0;
   SbSealState state;
   sb_run_state_at(&state, run, seal, frame->chamber, direction, speed);
-  sb_run_take(&state, run, seal, frame->chamber, direction, speed, film, fitted);
+  sb_run_set_film(&state, run, seal, frame->chamber, direction, speed, film, fitted);
   out->film_min = film->film_min;
   out->film_central = film->film_central;
   out->lambda = state.lambda;

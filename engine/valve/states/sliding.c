@@ -30,7 +30,7 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
       sb_ring_destroy(memory->fitment[i].ring);
     }
     for (int i = 0; i < memory->kept_count; i++) {
-      sb_sliding_beside_destroy(memory->kept[i].beside);
+      sb_sliding_slopes_destroy(memory->kept[i].beside);
       sb_ring_guide_destroy(memory->kept[i].guide);
       sb_ring_tangent_destroy(memory->kept[i].tangent);
       sb_ring_destroy(memory->kept[i].ring);
@@ -52,13 +52,13 @@ void sb_sliding_memory_forget(SbSlidingMemory *memory) {
   }
 }
 
-void sb_sliding_memory_keep(SbSlidingMemory *memory) {
+void sb_sliding_memory_store(SbSlidingMemory *memory) {
   memory->keeps = true;
 }
 
 void sb_sliding_memory_end(SbSlidingMemory *memory) {
   for (int way = 0; way < SB_RUN_MOTIONS; way++) {
-    sb_sliding_keep(memory, way);
+    sb_sliding_store(memory, way);
   }
   memory->keeps = false;
 }
@@ -70,11 +70,11 @@ void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *fro
   memory->summed = tangent && !drawn;
 }
 
-void sb_sliding_memory_ahead(SbSlidingMemory *memory, SbSlidingMemory *ahead) {
+void sb_sliding_memory_prefetched(SbSlidingMemory *memory, SbSlidingMemory *ahead) {
   memory->ahead = ahead;
 }
 
-void sb_sliding_memory_beside(SbSlidingMemory *memory, SbRingsBeside how) {
+void sb_sliding_memory_rings(SbSlidingMemory *memory, SbRingsBeside how) {
   memory->beside = how;
 }
 
@@ -343,7 +343,7 @@ static void share_kinetic(SbSealState *out) {
   }
 }
 
-void sb_sliding_whole(SbSealState *state) {
+void sb_sliding_full_friction(SbSealState *state) {
   const double slides = state->section == SB_RING_SLIDES ? state->borne_share : 1;
   if (state->borne_share > 0 && state->area_cut > 0) {
     state->real_area_share /= state->area_cut * slides;
@@ -405,8 +405,8 @@ SbStatus sb_sliding_rest(const SbSlidingTask *task, SbSealState *out, SbReport *
   return opened_by_fluid(out, status, &own, task->seal, task->warnings, report);
 }
 
-void sb_sliding_take(SbSealState *state, const SbSlidingTask *task, const SbFilm *film, bool fitted,
-                     double roughness) {
+void sb_sliding_set_film(SbSealState *state, const SbSlidingTask *task, const SbFilm *film,
+                         bool fitted, double roughness) {
   state->film_min = film->film_min;
   state->film_central = film->film_central;
   if (task->model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
@@ -521,7 +521,7 @@ SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *la
   SbReport own = {0};
   SbReport *first = status == SB_OK ? report : NULL; // the first failure is reported
   if (task->model->kind == SB_VALVE_GASKET && out->load_net > 0) {
-    sb_sliding_take_edges(out, &task->memory->now->fit);
+    sb_sliding_set_edges(out, &task->memory->now->fit);
     task->memory->last = &task->memory->plane; // which has none
     sb_sliding_edge_film(out, task);
     SbStatus edges = sb_sliding_edge_contact(out, task, 1, first);

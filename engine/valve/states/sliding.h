@@ -71,7 +71,7 @@ void sb_sliding_memory_forget(SbSlidingMemory *memory);
 
 // Starts storing: from now on the memory stores the states of the rings that it solves, in addition
 // to those stored before. After sb_sliding_memory_end() other memories can start from them.
-void sb_sliding_memory_keep(SbSlidingMemory *memory);
+void sb_sliding_memory_store(SbSlidingMemory *memory);
 
 // Stores the last solved ring of each direction too, and ends storing. The memory must not evaluate
 // tasks afterwards until sb_sliding_memory_forget(); it may be the `from` of other memories, in any
@@ -95,7 +95,7 @@ void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *fro
                              bool drawn);
 
 // Sets how rings are evaluated with `tangent`; SB_RINGS_FOLLOW by default.
-void sb_sliding_memory_beside(SbSlidingMemory *memory, SbRingsBeside how);
+void sb_sliding_memory_rings(SbSlidingMemory *memory, SbRingsBeside how);
 
 // Sets a function that is polled while a fit or film is solved, with `data`; true ends the solver
 // with SB_ERROR_CANCELLED. NULL: none.
@@ -172,11 +172,11 @@ SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport 
 // would depend on earlier solutions of `like`. Errors are not reported; task->memory then has no
 // ring. `like` is only read, so another thread may use it meanwhile if it does not change its
 // start.
-void sb_sliding_solve_ahead(const SbSlidingTask *task, const SbSlidingMemory *like);
+void sb_sliding_prefetch(const SbSlidingTask *task, const SbSlidingMemory *like);
 
 // Lets the next task of `memory` take its first ring from `ahead` (borrowed), the task->memory of
-// sb_sliding_solve_ahead(). NULL: it solves all rings itself.
-void sb_sliding_memory_ahead(SbSlidingMemory *memory, SbSlidingMemory *ahead);
+// sb_sliding_prefetch(). NULL: it solves all rings itself.
+void sb_sliding_memory_prefetched(SbSlidingMemory *memory, SbSlidingMemory *ahead);
 
 // Computes the fit only: ends of the contact, loads and peak pressure. They equal those of
 // sb_sliding_solve(), except for a sliding ring, which is computed without drag by friction. All
@@ -209,8 +209,8 @@ void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSl
 // Replaces the film of the solved `state` of `task` by `film`, and updates lambda, real area and
 // kinetic friction by sb_sliding_refilm() with `roughness`. `fitted`: the film was solved on the
 // fitted body.
-void sb_sliding_take(SbSealState *state, const SbSlidingTask *task, const SbFilm *film, bool fitted,
-                     double roughness);
+void sb_sliding_set_film(SbSealState *state, const SbSlidingTask *task, const SbFilm *film,
+                         bool fitted, double roughness);
 
 // Returns the speed [m/s], > 0, above which the supply alone determines the film of a solved state:
 // at higher speeds the film is that at this speed, and viscous friction is proportional to the
@@ -221,12 +221,12 @@ double sb_sliding_starved_speed(const SbSealState *state, const SbSlidingTask *t
 // Converts real_area_share, boundary_load and friction_viscous of a state from the part that the
 // section carries to the full friction, by dividing them by area_cut and borne_share. No effect
 // where these are 1 or NaN.
-void sb_sliding_whole(SbSealState *state);
+void sb_sliding_full_friction(SbSealState *state);
 
 // Computes lambda, real area and kinetic friction of a state from its film_central, which the
 // caller has set, for a surface `roughness` times as rough as the model's. With coupled asperities
 // `roughness` must be 1, and the caller sets real_area_share, boundary_load and friction_viscous
-// too, in the full form that sb_sliding_whole() gives. Values at rest are not changed.
+// too, in the full form that sb_sliding_full_friction() gives. Values at rest are not changed.
 SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double roughness,
                            SbReport *report);
 

@@ -226,14 +226,14 @@ typedef struct Anchor {
   Column *column[INPUTS];                 // NULL: not yet used
 } Anchor;
 
-struct SbSlidingBeside {
+struct SbSlidingSlopes {
   pthread_mutex_t lock; // of the lists, and one of the solvers; all else is constant
   pthread_mutex_t films;
   Anchor *first;
 };
 
-SbSlidingBeside *sb_sliding_beside_create(void) {
-  SbSlidingBeside *beside = calloc(1, sizeof *beside);
+SbSlidingSlopes *sb_sliding_slopes_create(void) {
+  SbSlidingSlopes *beside = calloc(1, sizeof *beside);
   const bool made = beside != NULL && pthread_mutex_init(&beside->lock, NULL) == 0;
   if (made && pthread_mutex_init(&beside->films, NULL) == 0) {
     return beside;
@@ -255,7 +255,7 @@ static void free_anchor(Anchor *anchor) {
   free(anchor);
 }
 
-void sb_sliding_beside_destroy(SbSlidingBeside *beside) {
+void sb_sliding_slopes_destroy(SbSlidingSlopes *beside) {
   if (beside == NULL) {
     return;
   }
@@ -272,7 +272,7 @@ void sb_sliding_beside_destroy(SbSlidingBeside *beside) {
 
 // Lets the films of a memory use an anchor's solvers: to leave their solutions there, or (`beside`)
 // to be solved next to these.
-static void lend(SbSlidingMemory *memory, SbSlidingBeside *beside, Anchor *anchor, bool next) {
+static void lend(SbSlidingMemory *memory, SbSlidingSlopes *beside, Anchor *anchor, bool next) {
   pthread_mutex_lock(&beside->films);
   memory->lender = beside;
   for (int i = 0; i < SB_SLIDING_FILMS; i++) {
@@ -300,7 +300,7 @@ typedef enum { WHOLE, BY_FITMENT, FITMENT_ALONE } Part;
 // films differ, or its fit alone, without a surface; or the anchor's own state, if `made`. Changes
 // the task's memory.
 static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, const SbSlidingLaw *law,
-                         const double *z, SbSlidingBeside *beside, Anchor *anchor, Part part) {
+                         const double *z, SbSlidingSlopes *beside, Anchor *anchor, Part part) {
   SbSlidingMemory *memory = task->memory;
   const bool made = out == &anchor->is;
   SbModel *model = malloc(sizeof *model);
@@ -368,7 +368,7 @@ static bool any_bends(const SbSlidingSolution *a, const SbSlidingSolution *middl
 
 // Finds a slope by steps of a part of the number. False: there is none, or *status.
 static bool find_slope(Column *out, SbSlidingSolution end[2], const SbSlidingTask *task,
-                       const SbSlidingLaw *law, SbSlidingBeside *beside, Anchor *anchor, int i,
+                       const SbSlidingLaw *law, SbSlidingSlopes *beside, Anchor *anchor, int i,
                        double part, SbStatus *status) {
   const double at = anchor->z[i], h = step_of(i, at, part);
   const double place[2] = {h, at != 0 ? -h : h / 2}; // upwards only from 0
@@ -408,7 +408,7 @@ static bool find_slope(Column *out, SbSlidingSolution end[2], const SbSlidingTas
 }
 
 // The column of a number, found if it is not known; NULL: *status.
-static const Column *column_of(SbSlidingBeside *beside, Anchor *anchor, int i,
+static const Column *column_of(SbSlidingSlopes *beside, Anchor *anchor, int i,
                                const SbSlidingTask *task, const SbSlidingLaw *law,
                                SbStatus *status) {
   pthread_mutex_lock(&beside->lock);
@@ -458,7 +458,7 @@ static bool is_near(const Anchor *anchor, int i, double z) {
 
 // The anchor of a task, made of the task itself where there is none near; NULL: *status, or there
 // are too many.
-static Anchor *anchor_of(SbSlidingBeside *beside, const SbSlidingTask *task,
+static Anchor *anchor_of(SbSlidingSlopes *beside, const SbSlidingTask *task,
                          const SbSlidingLaw *law, const double *z, int inputs, SbStatus *status) {
   enum { ANCHORS = 8 };
   int count = 0, choice[CHOICES];
@@ -498,7 +498,7 @@ static Anchor *anchor_of(SbSlidingBeside *beside, const SbSlidingTask *task,
 }
 
 SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
-                        SbSlidingBeside *beside) {
+                        SbSlidingSlopes *beside) {
   SbSlidingMemory *memory = task->memory;
   const bool coupled = task->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   const int inputs = coupled ? INPUTS : ROUGH;
@@ -548,7 +548,7 @@ SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
   return fatal ? status : SB_OK;
 }
 
-void sb_sliding_take_film(SbSlidingSolved *out, SbSlidingMemory *memory) {
+void sb_sliding_copy_film(SbSlidingSolved *out, SbSlidingMemory *memory) {
   for (int i = 0; i < SB_SLIDING_FILMS; i++) {
     if (slot(memory, i) == out) {
       out->film = memory->sum.on[i].film;

@@ -128,7 +128,7 @@ SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
   out->speed = problem->speed;
   out->fresh = true;
   if (sb_sliding_film_summed(memory, out, problem->compliance != NULL)) {
-    sb_sliding_take_film(out, memory);
+    sb_sliding_copy_film(out, memory);
     return sb_succeed(report);
   }
   SbFilmSolver **const usual = out == &memory->rest ? &memory->rest_solver : &memory->solver;

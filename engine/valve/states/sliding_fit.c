@@ -47,7 +47,7 @@ static bool cancelled(void *data) {
   return memory->cancelled != NULL && memory->cancelled(memory->cancelled_data);
 }
 
-void sb_sliding_keep(SbSlidingMemory *memory, int way) {
+void sb_sliding_store(SbSlidingMemory *memory, int way) {
   SbSlidingFitment *on = &memory->fitment[way];
   const SbFit *fit = &on->fit;
   const bool apart = fit->ring.state == SB_RING_NO_CONTACT;
@@ -66,18 +66,18 @@ void sb_sliding_keep(SbSlidingMemory *memory, int way) {
                            .law = on->law,
                            .found = on->found,
                            .guess = on->guess};
-  sb_ring_hand_over(kept->ring, &kept->law, memory);
+  sb_ring_set_data(kept->ring, &kept->law, memory);
   if (apart) { // there is nothing to start from
     kept->ring = NULL;
     kept->start.ring = NULL;
     memory->kept_count++;
     return;
   }
-  kept->beside = sb_sliding_beside_create();
+  kept->beside = sb_sliding_slopes_create();
   if (kept->beside == NULL || sb_ring_guide_create(&kept->guide, on->ring, NULL) != SB_OK ||
       sb_ring_tangent_create(&kept->tangent, on->ring, &kept->law, NULL) != SB_OK) {
     sb_ring_guide_destroy(kept->guide);
-    sb_sliding_beside_destroy(kept->beside);
+    sb_sliding_slopes_destroy(kept->beside);
     return;
   }
   kept->start.guide = kept->guide;
@@ -167,7 +167,7 @@ static bool take_ahead(const SbSlidingTask *task, SbSlidingFitment *now, const S
   if (law != NULL) {
     now->law = *law;
   }
-  sb_ring_hand_over(now->ring, law != NULL ? &now->law : NULL, memory);
+  sb_ring_set_data(now->ring, law != NULL ? &now->law : NULL, memory);
   now->why = (SbReport){0};
   now->known = true;
   task->counts->fit_solves++;
@@ -195,7 +195,7 @@ static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, Sb
     return SB_OK;
   }
   if (!known) {
-    sb_sliding_keep(memory, way_of(task));
+    sb_sliding_store(memory, way_of(task));
   }
   const SbSlidingStart *start = sb_sliding_start_of(task);
   SbFitProblem problem;
@@ -364,7 +364,7 @@ static SbSlidingLaw first_law(const SbSlidingTask *task, SbSlidingFitment *on,
                         .shear = start->law.shear * ratio(on->guess.shear, start->guess.shear)};
 }
 
-void sb_sliding_solve_ahead(const SbSlidingTask *task, const SbSlidingMemory *like) {
+void sb_sliding_prefetch(const SbSlidingTask *task, const SbSlidingMemory *like) {
   SbSlidingMemory *memory = task->memory;
   const bool drags = sb_sliding_drags(task);
   // Without fluid it may be the mirror image of a ring that slides in the opposite direction.
@@ -512,7 +512,7 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
   const bool first = !known;
   bool mirrored = false;
   if (!known) {
-    sb_sliding_keep(memory, way_of(task));
+    sb_sliding_store(memory, way_of(task));
     on->jump = 0;
     known = mirrored = mirror(task, on);
   }

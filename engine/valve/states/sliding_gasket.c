@@ -27,7 +27,7 @@ static double angle_of(int i) {
   return M_PI * i / LAST;
 }
 
-void sb_sliding_take_edges(SbSealState *out, const SbFit *fit) {
+void sb_sliding_set_edges(SbSealState *out, const SbFit *fit) {
   const double middle = (fit->contact_left + fit->contact_right) / 2, half = fit->contact_width / 2;
   size_t at = 0;
   for (int i = 0; i < POINTS; i++) {

@@ -5,7 +5,7 @@
 // sb_sliding_drag() repeats this, each time with the friction of the last film as the law that
 // drags the ring, until both agree. With a `start` and linearisation (sb_sliding_memory_start(),
 // tangent) sb_sliding_solve_with() first calls sb_sliding_sum(), which computes the results of the
-// solvers as a linear function of their inputs, with slopes stored in SbSlidingBeside. Then
+// solvers as a linear function of their inputs, with slopes stored in SbSlidingSlopes. Then
 // sb_sliding_solve_once() copies these results instead of solving, and at last
 // sb_sliding_solve_with() calls sb_sliding_sum_end(), also after an error.
 //
@@ -67,13 +67,13 @@ typedef struct {
 
 // Slopes of the solvers' results near the state of a stored ring. It is filled when slopes are
 // first needed, and has a lock: several threads may use it at the same time.
-typedef struct SbSlidingBeside SbSlidingBeside;
+typedef struct SbSlidingSlopes SbSlidingSlopes;
 
-// Returns an object without states; NULL: no memory. Freed by sb_sliding_beside_destroy().
-SbSlidingBeside *sb_sliding_beside_create(void);
+// Returns an object without states; NULL: no memory. Freed by sb_sliding_slopes_destroy().
+SbSlidingSlopes *sb_sliding_slopes_create(void);
 
 // Frees the object. Takes NULL.
-void sb_sliding_beside_destroy(SbSlidingBeside *beside);
+void sb_sliding_slopes_destroy(SbSlidingSlopes *beside);
 
 // Which part of a state is linearised instead of solved: nothing, the fit, or fit and films.
 typedef enum { SB_SUM_NOTHING, SB_SUM_FITMENT, SB_SUM_ALL } SbSumDepth;
@@ -84,7 +84,7 @@ typedef struct {
   SbRing *ring;            // owned; the ring of `start`; NULL: this state has no contact
   SbRingGuide *guide;      // owned; predictor of the ring
   SbRingTangent *tangent;  // owned; linearisation of the ring
-  SbSlidingBeside *beside; // owned; slopes near this state
+  SbSlidingSlopes *beside; // owned; slopes near this state
   int way;                 // index in SbSlidingMemory.fitment
   double strain;           // pressure difference (left minus right) divided by the modulus [1]
   SbSlidingLaw law, found; // as in SbSlidingFitment
@@ -114,8 +114,8 @@ struct SbSlidingMemory {
   bool bare;                          // surfaces of rings for films are not computed
   SbSumDepth sums;                    // part of the present state that is linearised
   SbSlidingSolution sum;              // values of this part
-  SbSlidingMemory *ahead;  // may have the next ring (sb_sliding_memory_ahead()), borrowed
-  SbSlidingBeside *lender; // object whose film solvers the films use; NULL: own solvers
+  SbSlidingMemory *ahead;  // may have the next ring (sb_sliding_memory_prefetched()), borrowed
+  SbSlidingSlopes *lender; // object whose film solvers the films use; NULL: own solvers
 
   SbSlidingFitment fitment[SB_RUN_MOTIONS]; // by way
   SbSlidingFitment *now;                    // fit of the last task, in `fitment`
@@ -139,7 +139,7 @@ struct SbSlidingMemory {
 
 // Moves the solved ring of `way` to memory->kept, if memory->keeps and there is one in contact and
 // sliding. Does nothing if there is no space or memory.
-void sb_sliding_keep(SbSlidingMemory *memory, int way);
+void sb_sliding_store(SbSlidingMemory *memory, int way);
 
 // Returns whether friction drags this seal's section: that of a ring while it slides.
 bool sb_sliding_drags(const SbSlidingTask *task);
@@ -163,7 +163,7 @@ SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *l
 // Missing slopes are solved. May lock `beside` until sb_sliding_sum_end(), which the caller must
 // call in any case, before another sb_sliding_sum(). SB_ERROR_CANCELLED.
 SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
-                        SbSlidingBeside *beside);
+                        SbSlidingSlopes *beside);
 
 // Resets memory->sums and unlocks what sb_sliding_sum() has locked. Does nothing without it.
 void sb_sliding_sum_end(SbSlidingMemory *memory);
@@ -175,7 +175,7 @@ bool sb_sliding_film_summed(const SbSlidingMemory *memory, const SbSlidingSolved
 
 // Copies to *out, which is plane, fitted or rest of the memory, its film from memory->sum;
 // required: sb_sliding_film_summed().
-void sb_sliding_take_film(SbSlidingSolved *out, SbSlidingMemory *memory);
+void sb_sliding_copy_film(SbSlidingSolved *out, SbSlidingMemory *memory);
 
 // Returns the state of memory->from from which the task's ring starts (sb_sliding_memory_start());
 // NULL: none. Borrowed from memory->from.
@@ -245,7 +245,7 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
 // ---- A gasket (sliding_gasket.c)
 
 // Sets edge_pressure of a state from its fit.
-void sb_sliding_take_edges(SbSealState *out, const SbFit *fit);
+void sb_sliding_set_edges(SbSealState *out, const SbFit *fit);
 
 // Computes the film of a gasket's state, whose edge_pressure is set, at the task's speed.
 void sb_sliding_edge_film(SbSealState *out, const SbSlidingTask *task);

@@ -31,7 +31,7 @@ static SbSlidingTask task_at(const SbSpeedStates *states, double speed) {
 
 static void take(double value[SB_SPEED_VALUES], const SbSealState *state) {
   SbSealState whole = *state;
-  sb_sliding_whole(&whole);
+  sb_sliding_full_friction(&whole);
   value[LEAST_FILM] = log(state->film_min);
   value[CENTRAL_FILM] = log(state->film_central);
   value[LAYER] = log(state->layer);
