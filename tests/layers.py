@@ -127,6 +127,11 @@ def sources_of_the_loop(source):
                       open(path, encoding='utf-8').read())]
 
 
+# A choice of params.def that code compares.
+CHOICE = re.compile(r'([!=<>]=|[<>]|\bcase) *SB_(FIT|FILM)_(KARASZKIEWICZ|HERTZ|LINDLEY|GREEN_ENGLISH|DISC|DISC_THESIS|RING|'
+                    r'THESIS|ASYMPTOTIC|REYNOLDS|INVERSE|MOES|RIGID)\b(?! *[,}])')
+CHOICES = ['if (model->fit == SB_FIT_RING) {', '  case SB_FILM_MOES:', 'fit < SB_FIT_DISC_THESIS && solved',
+           'film->model != SB_FILM_REYNOLDS ||']
 # Decisions by the text of a figure's columns: figures.def has enumerations for them.
 FIGURE_TEXT = re.compile(r'\bstr(?:n?cmp|str|n?casecmp)\([^;]*(?:->|\b)(?:path|si|shown|where)\b')
 
@@ -167,6 +172,9 @@ checks = [
                 ['engine/valve/figures/figures.c'])),
     ('that test finds such a line', [] if FIGURE_TEXT.search('if (strncmp(figure->path, "solver.", 7) == 0) {')
      and FIGURE_TEXT.search('strcmp(row->si, "J") == 0') else ['it does not']),
+    ('no code outside their rooms compares a choice of fit or film (sb_fit_kind(), sb_film_kind())',
+     lines_with(source, ['engine/fluid', 'engine/mechanism', 'engine/rubber', 'engine/valve', 'app', 'ui'], CHOICE)),
+    ('that test finds such a line', [line for line in CHOICES if not CHOICE.search(line)]),
     ('the result of every copy of a model is used',
      lines_with(source, ['engine', 'app', 'ui'], re.compile(r'\(void\) ?sb_model_copy\('))),
     ('the library shows what its header declares and nothing else', sorted(visible(library) ^ declared)),

@@ -413,7 +413,7 @@ bool sb_cli_has_memory(const SbModel *model) {
     int film = sb_model_number(model, SB_P_MODELS_FILM);
     dense = sb_model_number(model, SB_P_MODELS_MOTION) != SB_MODEL_MOTION_QUASI_STATIC ||
             sb_model_number(model, SB_P_MODELS_ASPERITIES) == SB_MODEL_ASPERITIES_COUPLED ||
-            (film != SB_FILM_THESIS && film != SB_FILM_KARASZKIEWICZ);
+            !sb_film_kind((SbFilmModel)film)->power_law;
   }
   if (dense && !sb_process_has_memory()) {
     sb_cli_fail(

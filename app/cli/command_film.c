@@ -15,7 +15,7 @@
 #include <string.h>
 
 static void print_table(const SbFilm *film, const SbFilmProblem *problem) {
-  printf("Film by %s\n", sb_film_model_name(film->model));
+  printf("Film by %s\n", sb_film_kind(film->model)->name);
   if (!film->solver.converged && film->film_central == 0) {
     sb_cli_line("Converged", "NO, nothing found");
     return;
@@ -103,11 +103,11 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem,
     same.profile = NULL;
     SbReport report = {0};
     if (sb_film_solve(other, &same, NULL, &report) == SB_OK) {
-      printf("  %-26s %9.4g nm %9.4g nm%s\n", sb_film_model_name(models[i]),
+      printf("  %-26s %9.4g nm %9.4g nm%s\n", sb_film_kind(models[i])->name,
              other->film_central * 1e9, other->film_min * 1e9,
              other->valid ? "" : "  outside its range");
     } else {
-      printf("  %-26s %s\n", sb_film_model_name(models[i]), report.text);
+      printf("  %-26s %s\n", sb_film_kind(models[i])->name, report.text);
     }
   }
   g_free(other);
@@ -129,7 +129,7 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem,
     sb_cli_figure("Van der Waals pull (5.17)", sb_vdw_attraction(hamaker, film->film_min), "Pa",
                   "MPa");
   }
-  if (film->model == SB_FILM_KARASZKIEWICZ || film->model == SB_FILM_THESIS) {
+  if (sb_film_kind(film->model)->power_law) {
     puts("Note: the laws take the entrainment speed, half the sliding speed. Tables 7.5 and 7.12 "
          "of the\n"
          "thesis are thicker: their Karaszkiewicz columns use the speed times 1000/60, their "
@@ -244,7 +244,7 @@ static bool read_quantities(SbFilmProblem *problem, char *const *texts) {
 }
 
 static const char *model_name(int i) {
-  return sb_film_model_name((SbFilmModel)i);
+  return sb_film_kind((SbFilmModel)i)->name;
 }
 
 static bool choose_model(SbFilmProblem *problem, const char *name) {
@@ -459,7 +459,7 @@ int sb_command_film(int argc, char **argv) {
       !choose_surface(&problem, surface, texts)) {
     goto done;
   }
-  if ((problem.model == SB_FILM_INVERSE) != (dry != NULL)) {
+  if (sb_film_kind(problem.model)->from_dry != (dry != NULL)) {
     sb_cli_fail(dry != NULL ? "--dry-pressure: only the model inverse uses it"
                             : "--dry-pressure is missing: the model inverse needs it");
     goto done;

@@ -11,13 +11,13 @@
 #include <string.h>
 
 static void print_table(const SbFit *fit, const char *seal, bool dragged) {
-  printf("%s seal by %s\n", seal, sb_fit_model_name(fit->model));
+  printf("%s seal by %s\n", seal, sb_fit_kind(fit->model)->name);
   sb_cli_rows(sb_fit_rows, fit);
   const bool found = sb_results_fit_found(fit);
   if (found) {
     sb_cli_rows(sb_fit_contact_rows, fit);
   }
-  if (found && fit->model == SB_FIT_RING) {
+  if (found && sb_fit_kind(fit->model)->section) {
     sb_cli_rows(sb_fit_ring_rows, fit);
     char text[96];
     snprintf(text, sizeof text, "%zu unknowns, %zu load steps (%zu halved), %zu Newton iterations",
@@ -91,7 +91,7 @@ static bool choose_model(SbFitProblem *problem, const char *name) {
   if (!good) {
     GString *names = g_string_new(NULL);
     for (int i = 0; i < SB_FIT_MODEL_COUNT; i++) {
-      const char *model = sb_fit_model_name((SbFitModel)i);
+      const char *model = sb_fit_kind((SbFitModel)i)->name;
       g_string_append_printf(names, "%s%s", i > 0 ? "|" : "", model);
       for (int k = 1; sb_fit_variant_name((SbFitModel)i, k) != NULL; k++) {
         g_string_append_printf(names, "|%s:%s", model, sb_fit_variant_name((SbFitModel)i, k));
@@ -116,9 +116,9 @@ static bool choose_drag(SbFitProblem *problem, bool *limit, const char *text, bo
                 SB_FIT_DRAG_MAX, SB_FIT_DRAG_MAX);
     return false;
   }
-  if (model_given && problem->model != SB_FIT_RING) {
+  if (model_given && !sb_fit_kind(problem->model)->section) {
     sb_cli_fail("--drag: only the ring model computes a dragged ring, not --model %s",
-                sb_fit_model_name(problem->model));
+                sb_fit_kind(problem->model)->name);
     return false;
   }
   problem->model = SB_FIT_RING;

@@ -71,7 +71,7 @@ static void list_models(void) {
   }
   printf("Of the command film (--model)\n");
   for (int i = 0; i < SB_FILM_MODEL_COUNT; i++) {
-    printf("%-16s %s\n", sb_film_model_name((SbFilmModel)i), sb_film_model_help((SbFilmModel)i));
+    printf("%-16s %s\n", sb_film_kind((SbFilmModel)i)->name, sb_film_kind((SbFilmModel)i)->help);
   }
 }
 

@@ -245,10 +245,10 @@ bool sb_cae_check(const char *path, const SbFitProblem *problem, GError **error)
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "--export: %s has no known ending (allowed .vtu, .inp, .dxf, .stl, .free.stl)",
                 path);
-  } else if (problem->model != SB_FIT_RING) {
+  } else if (!sb_fit_kind(problem->model)->section) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "--export: only the ring model has a mesh, not %s (--model ring)",
-                sb_fit_model_name(problem->model));
+                sb_fit_kind(problem->model)->name);
   } else if (KIND[kind].write == sb_cae_write_calculix && problem->dragged) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "%s: a ring with friction is not written for CalculiX: it depends on its path",

@@ -138,7 +138,7 @@ char *sb_results_models(void) {
   }
   // Film models that only the command `film` has.
   for (int k = 0; k < SB_FILM_MODEL_COUNT; k++) {
-    const char *name = sb_film_model_name((SbFilmModel)k);
+    const char *name = sb_film_kind((SbFilmModel)k)->name;
     if (sb_param_choice(sb_param(SB_P_MODELS_FILM), name, strlen(name)) < 0) {
       sb_json_object(&json, NULL);
       sb_json_string(&json, "key", "film");

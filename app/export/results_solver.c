@@ -137,7 +137,7 @@ char *sb_results_film(const SbFilm *film, const SbResultsHistory *history) {
   const bool none = !film->solver.converged && film->film_central == 0;
   SbJson json;
   sb_json_document(&json);
-  sb_json_string(&json, "model", sb_film_model_name(film->model));
+  sb_json_string(&json, "model", sb_film_kind(film->model)->name);
   sb_json_rows(&json, sb_film_rows, film, !none);
   sb_json_rows(&json, sb_film_contact_rows, film, true);
   sb_json_rows(&json, sb_film_rough_rows, film, !none);
@@ -252,7 +252,7 @@ char *sb_results_fit(const SbFit *fit, const SbFitProblem *problem, bool limit, 
   SbJson json;
   sb_json_document(&json);
   sb_json_string(&json, "file", file);
-  sb_json_string(&json, "model", sb_fit_model_name(fit->model));
+  sb_json_string(&json, "model", sb_fit_kind(fit->model)->name);
   sb_json_string(&json, "variant", sb_fit_variant_name(fit->model, fit->variant));
   sb_json_string(&json, "seal", seal);
   sb_json_number(&json, "pressure_Pa", problem->pressure);
@@ -275,7 +275,7 @@ char *sb_results_fit(const SbFit *fit, const SbFitProblem *problem, bool limit, 
   sb_json_object_end(&json);
   sb_json_number(&json, "wall_s", fit->solver.wall_s);
   sb_json_object_end(&json);
-  if (fit->model == SB_FIT_RING) {
+  if (sb_fit_kind(fit->model)->section) {
     sb_json_object(&json, "ring");
     sb_json_rows(&json, sb_fit_ring_rows, fit, found);
     sb_json_count(&json, "load_steps", fit->ring.load_steps);

@@ -267,8 +267,8 @@ const char *sb_session_lock(SbSession *session, SbParamId id) {
   if (id == SB_P_STEM_MASS && motion == SB_MODEL_MOTION_QUASI_STATIC) {
     return _("Locked: the quasi-static motion has no inertia");
   }
-  if (id == SB_P_OUTPUT_TOLERANCE && film != SB_FILM_REYNOLDS &&
-      sb_document_value(document, SB_P_MODELS_FIT) < 4) {
+  if (id == SB_P_OUTPUT_TOLERANCE && !sb_film_kind((SbFilmModel)film)->coupled &&
+      !sb_fit_kind((SbFitModel)sb_document_value(document, SB_P_MODELS_FIT))->points) {
     return _("Locked: closed forms have no discretisation error");
   }
   const char *shape = sb_document_shape_source(document, id);

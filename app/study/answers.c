@@ -35,8 +35,7 @@ static double now(void) {
 
 SbEvaluator *sb_answer_start(const SbQuestions *asked) {
   SbEvaluator *start = NULL;
-  if (asked->cold || asked->start != NULL ||
-      sb_model_number(asked->base, SB_P_MODELS_FIT) != SB_FIT_RING ||
+  if (asked->cold || asked->start != NULL || !sb_model_fit(asked->base)->section ||
       sb_evaluator_create(&start, NULL) != SB_OK) {
     return NULL;
   }

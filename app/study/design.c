@@ -76,8 +76,7 @@ static double objective_of(const View *view) {
 }
 
 static bool solved(const SbModel *model) {
-  return sb_model_number(model, SB_P_MODELS_FIT) == SB_FIT_RING ||
-         sb_model_number(model, SB_P_VALVE_KIND) == SB_VALVE_GASKET;
+  return sb_model_fit(model)->section || sb_model_number(model, SB_P_VALVE_KIND) == SB_VALVE_GASKET;
 }
 
 // The slope of a figure that has none here is that of a chord. A kink of a closed form is bridged

@@ -328,8 +328,10 @@ static void cancel(SbBench *bench) {
 }
 
 static void switch_model(SbBench *bench) {
-  const int fit = (int)sb_document_value(sb_session_document(bench->session), SB_P_MODELS_FIT);
-  sb_session_edit(bench->session, SB_P_MODELS_FIT, fit == SB_FIT_RING ? "karaszkiewicz" : "ring");
+  const bool solved = sb_fit_kind((SbFitModel)sb_document_value(sb_session_document(bench->session),
+                                                                SB_P_MODELS_FIT))
+                          ->section;
+  sb_session_edit(bench->session, SB_P_MODELS_FIT, solved ? "karaszkiewicz" : "ring");
 }
 
 static void next_field(SbBench *bench) {

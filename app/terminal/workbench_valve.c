@@ -12,10 +12,9 @@
 // Header -----------------------------------------------------------------------------------------
 
 static const char *model_text(const SbBench *bench) {
-  const int fit = (int)sb_document_value(sb_session_document(bench->session), SB_P_MODELS_FIT);
-  return fit == SB_FIT_RING            ? _("rings solved")
-         : fit == SB_FIT_KARASZKIEWICZ ? _("closed form")
-                                       : sb_fit_model_name((SbFitModel)fit);
+  const SbFitKind *fit = sb_fit_kind(
+      (SbFitModel)sb_document_value(sb_session_document(bench->session), SB_P_MODELS_FIT));
+  return fit->section ? _("rings solved") : fit->points ? fit->name : _("closed form");
 }
 
 void sb_bench_draw_header(SbBench *bench) {

@@ -170,9 +170,9 @@ SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report) {
                              "at a squeeze of %.3g %% Hertz's contact is wider than the disc",
                              100.0 * section.squeeze);
   }
-  if (in->pressure != 0.0 && in->model != SB_FIT_KARASZKIEWICZ) {
+  if (in->pressure != 0.0 && !sb_fit_kind(in->model)->fluid) {
     sb_warn(&out->warnings, "pressure-ignored", "canister.pressure",
-            "the model %s has no fluid pressure: %.3g MPa ignored", sb_fit_model_name(in->model),
+            "the model %s has no fluid pressure: %.3g MPa ignored", sb_fit_kind(in->model)->name,
             1e-6 * in->pressure);
   }
   out->load_per_length = c.load;

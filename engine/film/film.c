@@ -19,34 +19,34 @@
 typedef SbStatus Solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                        SbReport *report);
 
-// Name on the command line, one line of help, the closed form; NULL: the coupled solver.
 static const struct {
-  const char *name, *help;
-  Solve *closed;
+  SbFilmKind kind;
+  Solve *closed; // NULL: the coupled solver
 } models[SB_FILM_MODEL_COUNT] = {
-    [SB_FILM_THESIS] = {"thesis", "power law of the thesis, eq. 7.5", sb_film_solve_law},
-    [SB_FILM_KARASZKIEWICZ] = {"karaszkiewicz", "power law of Karaszkiewicz, thesis eq. 7.6",
+    [SB_FILM_THESIS] = {{"thesis", "power law of the thesis, eq. 7.5", .power_law = true},
+                        sb_film_solve_law},
+    [SB_FILM_KARASZKIEWICZ] = {{"karaszkiewicz", "power law of Karaszkiewicz, thesis eq. 7.6",
+                                .power_law = true},
                                sb_film_solve_law},
-    [SB_FILM_ASYMPTOTIC] = {"asymptotic", "exact limit of thin films on a half-plane",
+    [SB_FILM_ASYMPTOTIC] = {{"asymptotic", "exact limit of thin films on a half-plane"},
                             sb_film_solve_law},
-    [SB_FILM_REYNOLDS] = {"reynolds", "coupled elastohydrodynamic solution", NULL},
-    [SB_FILM_INVERSE] = {"inverse", "Blok's inverse film of a smooth dry pressure",
+    [SB_FILM_REYNOLDS] = {{"reynolds", "coupled elastohydrodynamic solution", .coupled = true},
+                          NULL},
+    [SB_FILM_INVERSE] = {{"inverse", "Blok's inverse film of a smooth dry pressure",
+                          .from_dry = true},
                          sb_film_solve_inverse},
-    [SB_FILM_MOES] = {"moes", "blend of the rigid and the elastic limit", sb_film_solve_law},
-    [SB_FILM_RIGID] = {"rigid", "rigid analytical wedge, thesis section 6.1", sb_film_solve_rigid},
+    [SB_FILM_MOES] = {{"moes", "blend of the rigid and the elastic limit"}, sb_film_solve_law},
+    [SB_FILM_RIGID] = {{"rigid", "rigid analytical wedge, thesis section 6.1"},
+                       sb_film_solve_rigid},
 };
 
-const char *sb_film_model_name(SbFilmModel model) {
-  return (int)model >= 0 && model < SB_FILM_MODEL_COUNT ? models[model].name : "unknown";
-}
-
-const char *sb_film_model_help(SbFilmModel model) {
-  return (int)model >= 0 && model < SB_FILM_MODEL_COUNT ? models[model].help : "";
+const SbFilmKind *sb_film_kind(SbFilmModel model) {
+  return (unsigned)model < SB_FILM_MODEL_COUNT ? &models[model].kind : NULL;
 }
 
 bool sb_film_model_from_name(SbFilmModel *out, const char *name) {
   for (int i = 0; name != NULL && i < SB_FILM_MODEL_COUNT; i++) {
-    if (strcmp(models[i].name, name) == 0) {
+    if (strcmp(models[i].kind.name, name) == 0) {
       *out = (SbFilmModel)i;
       return true;
     }
@@ -222,10 +222,10 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
                              "tips that stick are those of the surface greenwood-tripp, in "
                              "place of van der Waals' pull");
   }
-  if (sb_film_rough(problem) && problem->model != SB_FILM_REYNOLDS) {
+  if (sb_film_rough(problem) && !models[problem->model].kind.coupled) {
     return sb_fail(report, SB_ERROR_INPUT,
                    "asperities and adhesion need the model reynolds, not %s",
-                   sb_film_model_name(problem->model));
+                   models[problem->model].kind.name);
   }
   return SB_OK;
 }
@@ -242,7 +242,7 @@ SbFilmScale sb_film_scale(const SbFilmProblem *problem) {
   s.lambda = 0.75 * M_PI * M_PI * s.U / (s.W * s.W);
   bool forward = problem->speed >= 0.0;
   // Only the coupled solver knows a rupture pressure; it works with pressures above it.
-  bool coupled = problem->model == SB_FILM_REYNOLDS && problem->speed != 0.0;
+  bool coupled = models[problem->model].kind.coupled && problem->speed != 0.0;
   double rupture = coupled ? problem->rupture_pressure : 0.0;
   if (sb_film_rough(problem) && problem->speed == 0.0) {
     rupture = fmin(problem->rupture_pressure, 0.0); // no cavitation at rest, except below ambient

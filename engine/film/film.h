@@ -233,11 +233,17 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
 // b^2/R; 0 for |X| <= 1 (Johnson, Contact Mechanics, section 4.2).
 double sb_film_dry_gap(double X);
 
-// Returns the name of a model on the command line; "unknown" for an invalid one.
-const char *sb_film_model_name(SbFilmModel model);
+// What a model computes.
+typedef struct {
+  const char *name; // of the choice of models.film: "thesis"
+  const char *help; // one line
+  bool coupled;     // solves film, pressure and deformation together
+  bool power_law;   // a power law that was fitted to solutions
+  bool from_dry;    // computes the film from a dry pressure, which the problem must have
+} SbFilmKind;
 
-// Returns one line of help for a model; "" for an invalid one.
-const char *sb_film_model_help(SbFilmModel model);
+// Returns what a model computes; static. NULL for an invalid one.
+const SbFilmKind *sb_film_kind(SbFilmModel model);
 
 // Finds the model with this name, such as "reynolds". Returns false if there is none or `name` is
 // NULL; *out is unchanged then.

@@ -107,7 +107,7 @@ SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFi
   if (expected > 0.1) {
     out->valid = false;
     sb_warn(&out->warnings, "film-law-error", "models.film",
-            "model %s is about %.0f %% from the solved film here", sb_film_model_name(model),
+            "model %s is about %.0f %% from the solved film here", sb_film_kind(model)->name,
             100.0 * expected);
   }
   if ((model == SB_FILM_THESIS || model == SB_FILM_KARASZKIEWICZ) &&

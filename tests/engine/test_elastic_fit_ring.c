@@ -188,7 +188,7 @@ static void test_side_by_side(void) {
       g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
       load[m] = fit.load;
       g_test_message("%.2f MPa %-14s load %7.3f N, width %.3f mm, peak %.3f MPa%s",
-                     pressure ? 0.55 : 0.0, sb_fit_model_name((SbFitModel)m), fit.load,
+                     pressure ? 0.55 : 0.0, sb_fit_kind((SbFitModel)m)->name, fit.load,
                      1e3 * fit.contact_width, 1e-6 * fit.pressure_peak,
                      fit.valid ? "" : " (outside its range)");
     }

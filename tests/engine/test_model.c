@@ -62,9 +62,9 @@ static void test_model_names(void) {
         SB_OK);
     g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
     sb_param_choice_name(fit, i, name, sizeof name);
-    g_assert_cmpstr(sb_fit_model_name(model.fit), ==, name);
+    g_assert_cmpstr(sb_fit_kind(model.fit)->name, ==, name);
     sb_param_choice_name(film, (int)params.value[SB_P_MODELS_FILM], name, sizeof name);
-    g_assert_cmpstr(sb_film_model_name(model.film), ==, name);
+    g_assert_cmpstr(sb_film_kind(model.film)->name, ==, name);
     sb_param_choice_name(surface, (int)params.value[SB_P_MODELS_SURFACE], name, sizeof name);
     g_assert_cmpstr(sb_rough_model_name(model.surface), ==, name);
     // The plan names them so too.

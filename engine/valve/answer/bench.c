@@ -221,7 +221,7 @@ static SbStatus run_cycle(SbBenchCase *out, const Case *c, SbReport *report) {
     out->error_estimate = summary->error_energy;
     out->iterations = summary->steps;
     snprintf(out->name, sizeof out->name, "energy of the thesis cycle, %zu frames%s",
-             summary->frames, c->besides == SB_FILM_REYNOLDS ? ", films" : "");
+             summary->frames, sb_film_kind((SbFilmModel)c->besides)->coupled ? ", films" : "");
   }
   sb_run_destroy(run);
   return status;

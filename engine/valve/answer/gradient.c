@@ -467,7 +467,7 @@ static SbStatus find_start(Work *work, const SbQuestion *question, SbReport *rep
   SbQuestion base = *question;
   SbModel *model;
   SbStatus status = sb_model_derive(&model, base.base, base.override, base.override_count, report);
-  const bool rings = status == SB_OK && sb_model_number(model, SB_P_MODELS_FIT) == SB_FIT_RING;
+  const bool rings = status == SB_OK && sb_model_fit(model)->section;
   work->tolerance = status == SB_OK ? sb_model_value(model, SB_P_OUTPUT_TOLERANCE) : NAN;
   sb_model_destroy(model);
   if (status != SB_OK || !rings) {

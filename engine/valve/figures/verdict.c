@@ -114,21 +114,21 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
   SbFitProblem problem;
   sb_model_fit_problem(&problem, model, seal, 0);
   const double left = sb_interference_on_floor(&problem);
-  if (out.ok == SB_ANSWER_YES && model->fit != SB_FIT_RING && !(left > 0)) {
+  if (out.ok == SB_ANSWER_YES && !sb_fit_kind(model->fit)->section && !(left > 0)) {
     out.ok = SB_ANSWER_UNKNOWN;
     sb_message(out.reason, SB_TEXT,
                "uncertain: stretched onto its groove floor the %s ring stays an estimated %.2g mm "
                "short of the bore, which models.fit = %s cannot judge (ring can)",
-               sb_seal_name(seal), -1e3 * left, sb_fit_model_name(model->fit));
+               sb_seal_name(seal), -1e3 * left, sb_fit_kind(model->fit)->name);
   }
   // Nor does it know the groove's walls.
   const double fill = model->seal[seal].gland_fill;
-  if (out.ok == SB_ANSWER_YES && model->fit != SB_FIT_RING && fill >= 1) {
+  if (out.ok == SB_ANSWER_YES && !sb_fit_kind(model->fit)->section && fill >= 1) {
     out.ok = SB_ANSWER_UNKNOWN;
     sb_message(out.reason, SB_TEXT,
                "uncertain: the %s ring overfills its groove (gland fill %.3g %%), whose walls "
                "models.fit = %s does not include (ring does)",
-               sb_seal_name(seal), 100 * fill, sb_fit_model_name(model->fit));
+               sb_seal_name(seal), 100 * fill, sb_fit_kind(model->fit)->name);
   }
   // A section that jams blocks the stem; one that rolls seals, and is reported.
   const SbContacts *contact = &summary->contact[seal];

@@ -497,6 +497,10 @@ void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t
   sb_param_choice_name(sb_param(id), sb_model_number(model, id), name, size);
 }
 
+const SbFitKind *sb_model_fit(const SbModel *model) {
+  return sb_fit_kind(model->fit);
+}
+
 bool sb_model_is_rig(const SbModel *model) {
   return model != NULL && model->motion == SB_MODEL_MOTION_RIG;
 }

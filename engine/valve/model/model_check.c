@@ -60,7 +60,7 @@ static void check_variant(const SbModel *model, SbProblems *problems) {
   }
   sb_model_choice_name(model, SB_P_MODELS_FIT_VARIANT, variant, sizeof variant);
   sb_model_refuse(problems, "models.fit_variant", NAN, NAN,
-                  "models.fit = %s has no variant %s, but %s", sb_fit_model_name(model->fit),
+                  "models.fit = %s has no variant %s, but %s", sb_fit_kind(model->fit)->name,
                   variant, all);
 }
 
@@ -136,15 +136,15 @@ static void check_profile(const SbModel *model, SbProblems *problems) {
   if (model->profile == SB_SEAL_PROFILE_CIRCLE) {
     return;
   }
-  if (model->fit != SB_FIT_RING) {
+  if (!sb_fit_kind(model->fit)->section) {
     sb_model_refuse(problems, "models.fit", NAN, NAN,
                     "%s supports round sections only: %s = %s requires the ring",
-                    sb_fit_model_name(model->fit), key, name);
+                    sb_fit_kind(model->fit)->name, key, name);
   }
-  if (model->film != SB_FILM_REYNOLDS) {
+  if (!sb_film_kind(model->film)->coupled) {
     sb_model_refuse(problems, "models.film", NAN, NAN,
                     "%s is a closed form for a round section: %s = %s needs reynolds",
-                    sb_film_model_name(model->film), key, name);
+                    sb_film_kind(model->film)->name, key, name);
   }
   if (model->motion == SB_MODEL_MOTION_RIG) {
     sb_model_refuse(problems, "models.motion", NAN, NAN,
@@ -268,7 +268,7 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
   }
   const bool gasket = model->kind == SB_VALVE_GASKET;
   if (model->data != NULL && model->data->groove.count > 0 &&
-      (gasket || model->fit != SB_FIT_RING)) {
+      (gasket || !sb_fit_kind(model->fit)->section)) {
     sb_warn(warnings, "groove-unused", "gland.profile_file",
             "only solved rings (models.fit = ring) meet the walls of a drawn groove: %s",
             gasket ? "a gasket's valve has none" : "closed forms use gland.radial_space only");

@@ -314,6 +314,9 @@ uint64_t sb_model_methods(const SbModel *model);
 // Writes the name of the model's choice of parameter `id` to name[size].
 void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t size);
 
+// Returns what the model's fit (models.fit) computes; static.
+const SbFitKind *sb_model_fit(const SbModel *model);
+
 // Returns whether the model is the sliding plate instead of a valve; false for NULL.
 bool sb_model_is_rig(const SbModel *model);
 

@@ -29,9 +29,8 @@
 
 // Returns the time of one solve of a fit model [s].
 static inline double sb_cost_fit(SbFitModel model) {
-  return model == SB_FIT_RING                                  ? SB_COST_RING
-         : model == SB_FIT_DISC || model == SB_FIT_DISC_THESIS ? SB_COST_DISC
-                                                               : SB_COST_CLOSED;
+  const SbFitKind *kind = sb_fit_kind(model);
+  return kind->section ? SB_COST_RING : kind->points ? SB_COST_DISC : SB_COST_CLOSED;
 }
 
 // Returns the time of a ring's fit at the relative `tolerance` (output.tolerance) divided by its
@@ -42,14 +41,14 @@ static inline double sb_cost_ring_share(double tolerance) {
 
 // Returns the time of one film by a film model, on the half-plane [s].
 static inline double sb_cost_film(SbFilmModel model) {
-  return model == SB_FILM_REYNOLDS ? SB_COST_FILM : SB_COST_CLOSED;
+  return sb_film_kind(model)->coupled ? SB_COST_FILM : SB_COST_CLOSED;
 }
 
 // Returns the time of one film of a model's state at another speed [s].
 static inline double sb_cost_speed_state(const SbModel *model) {
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  const bool body = model->fit == SB_FIT_RING || model->fit == SB_FIT_DISC;
-  return coupled                                   ? SB_COST_FILM_MIXED
-         : model->film == SB_FILM_REYNOLDS && body ? SB_COST_FILM_FITTED
-                                                   : sb_cost_film(model->film);
+  const bool body = sb_fit_kind(model->fit)->body;
+  return coupled                                      ? SB_COST_FILM_MIXED
+         : sb_film_kind(model->film)->coupled && body ? SB_COST_FILM_FITTED
+                                                      : sb_cost_film(model->film);
 }

@@ -68,29 +68,21 @@ static void mask_names(SbParamId id, unsigned mask, char *text, size_t size) {
   }
 }
 
-// Typical error estimates of a fitment's load and of a film, relative, at the model's tolerance.
+// Typical error estimate of a fitment's load, relative, at the model's tolerance.
 static double fit_error(const SbModel *model) {
-  switch (model->fit) {
-  case SB_FIT_RING: // the place of the contact's ends does not fall with the mesh below that
-    return fmax(0.3 * fmin(model->tolerance, 3e-3), 2.7e-4);
-  case SB_FIT_DISC_THESIS: // its nodes are a degree apart
-    return 4e-3;
-  case SB_FIT_DISC:
-    return 0.01 * model->tolerance;
-  default:
-    return 0;
-  }
+  return sb_fit_load_error(model->fit, model->tolerance);
 }
 
+// Typical error estimate of a film, relative, at the model's tolerance.
 static double film_error(const SbModel *model) {
   if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
     return 0.03 * model->tolerance;
   }
-  if (model->film != SB_FILM_REYNOLDS) {
+  if (!sb_film_kind(model->film)->coupled) {
     return 0;
   }
   // The ring's film depends on its contact's ends.
-  return model->fit == SB_FIT_RING ? 6 * fit_error(model) : 0.01 * model->tolerance;
+  return sb_fit_kind(model->fit)->section ? 6 * fit_error(model) : 0.01 * model->tolerance;
 }
 
 // Returns whether a seal slides in this state of the chamber; the inner one has left the land in
@@ -160,12 +152,13 @@ typedef struct {
 // with its film until the friction that drags it is that of this film, and is at rest at each.
 static SbCounters expect(const SbPlan *plan, const SbModel *model) {
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  const bool disc = model->fit == SB_FIT_DISC || model->fit == SB_FIT_DISC_THESIS;
+  const SbFitKind *fit = sb_fit_kind(model->fit);
+  const bool disc = fit->points && !fit->section;
   const size_t rounds = finds_speed(model) && !plan->ring ? OWN_SPEED_ROUNDS : 1;
   const size_t fits = (size_t)count_fits(model), way = coupled ? 5 : 3; // rounds of both directions
   const size_t drags = plan->ring ? way * fits : 0;
   const size_t films = drags + (plan->ring ? 0 : 2 * fits);
-  const size_t each = plan->ring || (model->fit == SB_FIT_DISC && !coupled) ? 2 : 1;
+  const size_t each = plan->ring || (fit->body && !coupled) ? 2 : 1;
   // Rows over the land's edge and the free ring; of a gasket valve the free gasket alone.
   const size_t rows = model->kind == SB_VALVE_GASKET ? 0 : 2 * SB_RUN_EDGES; // drawn
   const size_t edges = plan->over_edge ? rows + 1 : 0;
@@ -215,8 +208,7 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED, finds = finds_speed(model);
   const bool gasket = model->kind == SB_VALVE_GASKET; // whose film is a closed form of its pressure
   const bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
-  const bool solved = model->film == SB_FILM_REYNOLDS,
-             body = plan->ring || model->fit == SB_FIT_DISC;
+  const bool solved = sb_film_kind(model->film)->coupled, body = sb_fit_kind(model->fit)->body;
   const unsigned views = wishes->views;
   const unsigned sections = views & (SB_VIEW_SECTION | SB_VIEW_DASHBOARD);
   const unsigned drawn = sections | (views & SB_VIEW_PROFILES);
@@ -229,7 +221,7 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
                      (model->look.field == SB_FIELD_PERMEATION || plan->shelf != SB_SHELF_NOTHING);
   plan->over_edge = plan->section_fields && !wishes->coarse;
 
-  const char *fit = sb_fit_model_name(model->fit);
+  const char *fit = sb_fit_kind(model->fit)->name;
   const double fit_off = fit_error(model), film_off = film_error(model);
   plan->expected = expect(plan, model);
   const SbCounters *n = &plan->expected;
@@ -334,8 +326,8 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
 static SbPlan basis(const SbModel *model, bool life) {
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   const bool gasket = model->kind == SB_VALVE_GASKET;
-  return (SbPlan){.ring = model->fit == SB_FIT_RING,
-                  .reynolds = (model->film == SB_FILM_REYNOLDS || coupled) && !gasket,
+  return (SbPlan){.ring = sb_fit_kind(model->fit)->section,
+                  .reynolds = (sb_film_kind(model->film)->coupled || coupled) && !gasket,
                   .life = life && model->life_actuations > 1,
                   .inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC,
                   .frames = model->frames,

@@ -23,16 +23,16 @@ static double film_by(SbRun *run, int seal, const SbSealState *state, SbFilmMode
                           sb_model_seal_pressure(run->model, seal, SB_CHAMBER_AT_REST),
                           state->load_net, run->mid_speed);
   problem.model = film_model;
-  run->summary.counters.reynolds_solves += film_model == SB_FILM_REYNOLDS;
+  run->summary.counters.reynolds_solves += sb_film_kind(film_model)->coupled;
   if (sb_film_solve(&run->film, &problem, NULL, &report) == SB_OK) {
-    if (film_model == SB_FILM_REYNOLDS) {
+    if (sb_film_kind(film_model)->coupled) {
       run->compared_error[seal] =
           run->film.solver.error_film_central + SB_FILM_LAW_LOAD_POWER * state->net_error;
     }
     return run->film.film_central;
   }
   char name[48];
-  snprintf(name, sizeof name, "film_by_model.%s", sb_film_model_name(film_model));
+  snprintf(name, sizeof name, "film_by_model.%s", sb_film_kind(film_model)->name);
   sb_seal_reason(&run->summary, seal, name, "%s", report.text);
   return NAN;
 }
@@ -366,7 +366,7 @@ void sb_run_set_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   const SbLife *life = &summary->life;
   const bool rig = model->motion == SB_MODEL_MOTION_RIG, well = status == SB_OK;
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  const bool closed = !coupled && model->film != SB_FILM_REYNOLDS;
+  const bool closed = !coupled && !sb_film_kind(model->film)->coupled;
   give_reasons_of_outcome(run);
   if (life->failure > 0) {
     sb_reason(summary, "life.*", "the life ends at actuation %ld: its stem does not return",
@@ -413,12 +413,13 @@ void sb_run_set_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   }
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     const bool done = !isnan(summary->seal[seal].load); // else the run ended before
+    const SbFitKind *fit = sb_fit_kind(model->fit);
     char still[96];
     snprintf(still, sizeof still, "models.fit = %s has no section that friction could turn",
-             sb_fit_model_name(model->fit));
+             fit->name);
     const Reason reasons[] = {
-        {model->fit != SB_FIT_RING, "contact.in_stroke.rotation_deg", still},
-        {model->fit != SB_FIT_RING, "contact.return.rotation_deg", still},
+        {!fit->section, "contact.in_stroke.rotation_deg", still},
+        {!fit->section, "contact.return.rotation_deg", still},
         {summary->seal[seal].load == 0, "*",
          "the seal has no contact with the bore under its pressures"},
         {model->kind == SB_VALVE_GASKET, "gland_fill",

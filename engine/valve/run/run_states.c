@@ -144,10 +144,9 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   bool coupled = run->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   const bool gasket = run->model->kind == SB_VALVE_GASKET; // its film is a closed form
   bool solved =
-      !gasket && (coupled || run->model->film == SB_FILM_REYNOLDS) && state->film_central > 0;
+      !gasket && (coupled || sb_film_kind(run->model->film)->coupled) && state->film_central > 0;
   bool fitted = state->touches && isfinite(state->load);
-  bool own_pressure = run->model->fit == SB_FIT_DISC || run->model->fit == SB_FIT_DISC_THESIS ||
-                      run->model->fit == SB_FIT_RING;
+  const bool own_pressure = sb_fit_kind(run->model->fit)->points;
   // No film on the fitted body: the half-plane's is scaled from its contact to the fitted one.
   const bool scaled = solved && own_pressure && !state->film_fitted;
   size_t capacity = solved ? film->points : (size_t)PROFILE_POINTS, n = 0;
@@ -214,7 +213,7 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   for (size_t row = 1; row < SB_PROFILE_ROWS && n < capacity; row++) {
     memmove(x + row * n, x + row * capacity, n * sizeof *x);
   }
-  profile->view = sb_run_profile_view(x, n, sb_fit_model_name(run->model->fit));
+  profile->view = sb_run_profile_view(x, n, sb_fit_kind(run->model->fit)->name);
   task->lane->counters.profile_evaluations++;
   return SB_OK;
 }
@@ -263,7 +262,7 @@ static void report_failure(const Task *task, SbReport *report) {
   (void)sb_fail_parameter(
       report, cause.status, cause.parameter,
       "%s (%s), %s seal, stages %s, %s, %s: %s; available: %s", fitted ? "film" : "fitment",
-      !fitted   ? sb_fit_model_name(model->fit)
+      !fitted   ? sb_fit_kind(model->fit)->name
       : coupled ? "with asperities"
                 : "reynolds",
       sb_seal_name(task->seal), stages[task->chamber], ways[task->motion], place, cause.text,

@@ -97,8 +97,7 @@ static SbStatus as_ring(SbShelfRest *out, const SbRing *ring, const SbFit *fit, 
 
 // Rubber's own share of the load, as films have it (sliding_fit.c).
 static void take_contact(SbShelfRest *out, const SbFit *fit, double difference) {
-  const bool holds_fluid = fit->model != SB_FIT_HERTZ && fit->model != SB_FIT_LINDLEY &&
-                           fit->model != SB_FIT_GREEN_ENGLISH;
+  const bool holds_fluid = sb_fit_kind(fit->model)->fluid;
   const double net =
       fit->load_per_length - (holds_fluid ? fabs(difference) * fit->contact_width / 2 : 0);
   out->touches = fit->touches && net > 0;

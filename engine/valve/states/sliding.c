@@ -88,7 +88,7 @@ const SbFit *sb_sliding_fit(const SbSlidingMemory *memory) {
 }
 
 const SbRing *sb_sliding_ring(const SbSlidingMemory *memory) {
-  return memory->now->fit.model == SB_FIT_RING ? memory->now->ring : NULL;
+  return sb_fit_kind(memory->now->fit.model)->section ? memory->now->ring : NULL;
 }
 
 const SbFilm *sb_sliding_film(const SbSlidingMemory *memory) {
@@ -427,7 +427,7 @@ SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
   }
   SbFilmProblem problem;
   sb_sliding_film_of(&problem, state, task, body);
-  const bool solved = problem.model == SB_FILM_REYNOLDS;
+  const bool solved = sb_film_kind(problem.model)->coupled;
   SbSlidingSolved *on = body != NULL ? &memory->fitted : &memory->plane;
   memory->last = on;
   memory->near = true;

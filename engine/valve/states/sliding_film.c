@@ -17,7 +17,7 @@
 static SbStatus solve_once(const SbSlidingTask *task, SbFilm *film, const SbFilmProblem *problem,
                            SbFilmSolver *solver, SbReport *report) {
   SbStatus status = sb_film_solve(film, problem, solver, report);
-  if (problem->model == SB_FILM_REYNOLDS) {
+  if (sb_film_kind(problem->model)->coupled) {
     const bool found = status == SB_OK || problem->place == SB_FILM_ALONE;
     task->counts->reynolds_solves += found ? 1 : 0;
     task->counts->newton_iterations += (size_t)film->solver.newton_iterations;
@@ -124,7 +124,7 @@ static bool is_near(const SbSlidingMemory *memory, const SbSlidingSolved *out,
 SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
                              const SbFilmProblem *problem, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
-  bool solved = problem->model == SB_FILM_REYNOLDS;
+  bool solved = sb_film_kind(problem->model)->coupled;
   out->speed = problem->speed;
   out->fresh = true;
   if (sb_sliding_film_summed(memory, out, problem->compliance != NULL)) {
@@ -196,7 +196,7 @@ static bool solve_fitted(const SbSlidingTask *task, SbSlidingSolved *out,
                          const SbFilmProblem *plane, SbReport *why) {
   *why = (SbReport){0};
   const SbFit *fit = &task->memory->now->fit;
-  if (fit->model != SB_FIT_DISC && fit->model != SB_FIT_RING) {
+  if (!sb_fit_kind(fit->model)->body) {
     return false;
   }
   SbSlidingBody *body = &task->memory->body;
@@ -240,7 +240,7 @@ bool sb_sliding_read_film(SbSealState *out, const SbSlidingSolved *solved, SbSta
   out->film_min = film->film_min;
   out->film_central = film->film_central;
   double ring = SB_FILM_LAW_LOAD_POWER * out->net_error; // on the half-plane: that of its load
-  if (solved->fitted && fit->model != SB_FIT_RING) {
+  if (solved->fitted && !sb_fit_kind(fit->model)->section) {
     // A thin film is proportional to the power -0.8 of the coefficient of the pressure's root at
     // its inlet, which is proportional to peak/sqrt(width). That of a disc, whose pressure is
     // tabulated, has an error of up to 20 times their relative errors (campaign estimates).
@@ -271,7 +271,7 @@ static void option_warnings(const SbSlidingTask *task, const SbFilmProblem *prob
   bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   bool asked =
       model->pressure_viscosity > 0 || model->eyring_stress > 0 || model->rupture_pressure != 0;
-  if (asked && problem->model != SB_FILM_REYNOLDS) {
+  if (asked && !sb_film_kind(problem->model)->coupled) {
     sb_warn(task->warnings, "film-options", "models.film",
             "pressure viscosity, Eyring stress and rupture pressure act on the solved film only "
             "(models.film = reynolds), not on a power law");
@@ -312,7 +312,7 @@ SbStatus sb_sliding_solve_film(const SbSlidingTask *task, SbSealState *out, SbRe
                           task->speed);
   problem.model = task->model->film;
   option_warnings(task, &problem);
-  bool solved = problem.model == SB_FILM_REYNOLDS;
+  bool solved = sb_film_kind(problem.model)->coupled;
   problem.inlet_film = task->supply.limited && solved ? task->supply.layer : 0;
   SbStatus status = sb_sliding_solve_on(task, &memory->plane, &problem, report);
   memory->last = &memory->plane;
@@ -400,7 +400,7 @@ void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSl
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   sb_sliding_film_problem(out, model, task->seal, task->pressure, state->load_net, task->speed);
   out->model = coupled ? SB_FILM_REYNOLDS : model->film;
-  const bool solved = out->model == SB_FILM_REYNOLDS;
+  const bool solved = sb_film_kind(out->model)->coupled;
   out->inlet_film = task->supply.limited && solved ? task->supply.layer : 0;
   if (coupled) {
     add_asperities(out, task);

@@ -8,7 +8,7 @@
 enum { IN, OUT, REST }; // directions of sliding, and at rest
 
 static bool is_ring(const SbSlidingTask *task) {
-  return task->model->fit == SB_FIT_RING;
+  return sb_fit_kind(task->model->fit)->section;
 }
 
 // Returns whether friction drags this seal's section: the ring's, while it slides.
@@ -51,7 +51,7 @@ void sb_sliding_store(SbSlidingMemory *memory, int way) {
   SbSlidingFitment *on = &memory->fitment[way];
   const SbFit *fit = &on->fit;
   const bool apart = fit->ring.state == SB_RING_NO_CONTACT;
-  if (!memory->keeps || !on->known || on->ring == NULL || fit->model != SB_FIT_RING ||
+  if (!memory->keeps || !on->known || on->ring == NULL || !sb_fit_kind(fit->model)->section ||
       (fit->ring.state != SB_RING_SLIDES && !apart) || memory->kept_count == SB_SLIDING_STARTS) {
     return;
   }
@@ -125,7 +125,7 @@ static void fit_problem(SbFitProblem *problem, const SbSlidingTask *task, SbSlid
   problem->cancel = cancelled; // a stored ring polls the memory that uses it then
   problem->cancel_data = memory;
   // A ring at rest has no film, except with coupled asperities.
-  const bool film = model->film == SB_FILM_REYNOLDS && (task->speed != 0 || !is_ring(task));
+  const bool film = sb_film_kind(model->film)->coupled && (task->speed != 0 || !is_ring(task));
   problem->surface_wanted =
       !memory->bare && (film || model->asperities == SB_MODEL_ASPERITIES_COUPLED);
   problem->kept = &on->ring;
@@ -231,8 +231,9 @@ static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, Sb
   }
   now->why = law == NULL ? own : (SbReport){0};
   task->counts->fit_solves++;
-  task->counts->disc_solves += problem.model == SB_FIT_DISC || problem.model == SB_FIT_DISC_THESIS;
-  task->counts->ring_solves += problem.model == SB_FIT_RING;
+  const SbFitKind *kind = sb_fit_kind(problem.model);
+  task->counts->disc_solves += kind->points && !kind->section;
+  task->counts->ring_solves += kind->section;
   task->counts->newton_iterations += now->fit.solver.newton_iterations;
   now->known = status == SB_OK;
   return status;
@@ -247,17 +248,15 @@ static void take_contact(SbSealState *out, const SbSlidingTask *task, const SbFi
   out->load_per_length = fit->load_per_length;
   out->pressure_peak = fit->pressure_peak;
   // Closed forms that know no pressure give the rubber's share alone: nothing to take off.
-  bool holds_fluid = fit->model != SB_FIT_HERTZ && fit->model != SB_FIT_LINDLEY &&
-                     fit->model != SB_FIT_GREEN_ENGLISH;
   double fluid = fabs(pressure.left - pressure.right) * fit->contact_width / 2;
-  out->load_net = fit->load_per_length - (holds_fluid ? fluid : 0);
+  out->load_net = fit->load_per_length - (sb_fit_kind(fit->model)->fluid ? fluid : 0);
   out->load_error = fit->solver.error_estimate.load;
   out->width_error = fit->solver.error_estimate.contact_width;
   out->peak_error = fit->solver.error_estimate.pressure_peak;
   // A difference: the errors of its terms add up.
   out->net_error = (fit->load_per_length * out->load_error + fluid * out->width_error) /
                    fmax(fabs(out->load_net), 1e-300);
-  if (fit->model == SB_FIT_RING) {
+  if (sb_fit_kind(fit->model)->section) {
     double way = task->speed < 0 ? -1 : 1;
     out->rotation = way * (pressure.left < pressure.right ? -1 : 1) * fit->ring.turn * 180 / M_PI;
     out->section = fit->ring.state;
@@ -314,7 +313,7 @@ const SbRing *sb_sliding_ring_of(const SbSlidingTask *task) {
   const SbSlidingFitment *on = &task->memory->fitment[way_of(task)];
   const bool same = on->known && on->seal == task->seal &&
                     on->pressure == task->pressure.left - task->pressure.right;
-  return same && on->fit.model == SB_FIT_RING ? on->ring : NULL;
+  return same && sb_fit_kind(on->fit.model)->section ? on->ring : NULL;
 }
 
 // The friction of a contact by closed forms, near that of a ring; none where they have none.

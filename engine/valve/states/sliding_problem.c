@@ -73,8 +73,8 @@ static SbStatus match_fit(SbSurfaceCompliance *surface, double load, const SbFit
 SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit *fit,
                             const SbModel *model, int seal, SbSealPressure pressure,
                             SbWarnings *warnings, SbReport *report) {
-  bool own = fit->model == SB_FIT_DISC || fit->model == SB_FIT_RING;
-  if (!own || fit->profile_count < 12) {
+  const SbFitKind *kind = sb_fit_kind(fit->model);
+  if (!kind->body || fit->profile_count < 12) {
     return sb_fail(report, SB_ERROR_INPUT, "the fitment model gives no pressure of a body");
   }
   const SbSealModel *ring = &model->seal[seal];
@@ -92,7 +92,7 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
       return SB_OK;
     }
   }
-  if (fit->model == SB_FIT_RING && warnings != NULL) {
+  if (kind->section && warnings != NULL) {
     sb_warn(warnings, "film-disc-surface", "models.fit",
             "the %s ring's surface next to its contact is too steep for a film on it: the film "
             "uses the ring's pressure, but the compliance of a linear disc",

@@ -68,7 +68,7 @@ void sb_speed_states_init(SbSpeedStates *out, const SbSlidingTask *task, const S
   if (body != NULL) {
     out->body = *body;
   }
-  if (!is_coupled(out) && task->model->film != SB_FILM_REYNOLDS && at->film_central > 0) {
+  if (!is_coupled(out) && !sb_film_kind(task->model->film)->coupled && at->film_central > 0) {
     SbSealState faster = *at;
     const SbSlidingTask other = task_at(out, 10 * fabs(task->speed));
     // With no more than a supply there is no power, but a law all the same.

@@ -349,7 +349,7 @@ static void account(SbStudyWork *work, const Seen *seen) {
     out->error = work->design->forces ? fmax(out->error, seen->force) : out->error;
     return;
   }
-  const char *what = seen->fit >= 0 ? sb_fit_model_name((SbFitModel)seen->fit) : "study";
+  const char *what = seen->fit >= 0 ? sb_fit_kind((SbFitModel)seen->fit)->name : "study";
   char code[48];
   sb_text(code, sizeof code, "study-gap-%s", what);
   sb_warn(&out->warnings, code, seen->report.parameter, "%s has no value at some points: %s", what,

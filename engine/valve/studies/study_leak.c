@@ -35,7 +35,7 @@ static int fit_of(int line) {
 
 static const char *name_of(const SbModel *scene, int line) {
   static const SbFitModel fits[] = {SB_FIT_RING, SB_FIT_DISC};
-  return sb_fit_model_name(fit_of(line) == OWN ? scene->fit : fits[fit_of(line)]);
+  return sb_fit_kind(fit_of(line) == OWN ? scene->fit : fits[fit_of(line)])->name;
 }
 
 // The fluid passes a ring without contact before any pressure could press it on.
@@ -126,8 +126,8 @@ static void draw(SbStudyWork *work, double closing) {
   SbStudy *out = work->out;
   SbStudyPanel *pressure = &out->panel[PRESSURE], *rest = &out->panel[LEAK];
   sb_text(rest->empty, sizeof rest->empty, "no leak: every contact is closed");
-  const SbFitModel fit = work->scene->fit;
-  const int own = fit == SB_FIT_RING ? RING : fit == SB_FIT_DISC ? DISC : OWN;
+  const SbFitKind *fit = sb_fit_kind(work->scene->fit);
+  const int own = fit->section ? RING : fit->body ? DISC : OWN;
   const int lines[LINES] = {line_of(own, 0), line_of(DISC, 0), line_of(RING, 0), line_of(own, 1),
                             line_of(RING, 1)};
   unsigned drawn = 0;
@@ -190,10 +190,10 @@ static void make(SbStudyWork *work) {
   table(work);
   double design = model->seal[SB_OUTER].squeeze;
   sb_study_mark(work, design, "as designed, %.1f %%", 100 * design);
-  bool own = model->fit != SB_FIT_DISC && model->fit != SB_FIT_RING;
+  bool own = !sb_fit_kind(model->fit)->body;
   sb_message(out->models, sizeof out->models,
              "fit %s%sdisc, ring; percolation by Persson's contact; film as the scene's",
-             own ? sb_fit_model_name(model->fit) : "", own ? ", " : "");
+             own ? sb_fit_kind(model->fit)->name : "", own ? ", " : "");
   sb_study_note(out,
                 "Roughness %.3g \xc2\xb5m; channels close at %.3g MPa of solid pressure. Stroke "
                 "%.3g mm at %.4g mm/s. Karaszkiewicz is valid from 7 to 25 %%.",

@@ -58,7 +58,7 @@ static double of_fluid(const SbModel *scene, SbParamId id, int fluid, double T) 
 
 // Returns whether cycles with solved rings are compared with closed forms.
 static bool interpolates(const SbModel *scene) {
-  return scene->fit == SB_FIT_RING;
+  return sb_fit_kind(scene->fit)->section;
 }
 
 // Data of a row of an effect, or of closed forms instead of rings, in addition to the grid's
@@ -314,7 +314,7 @@ static SbEvaluator *find_starts(SbStudyWork *work) {
 
 // Returns whether a cycle is so cheap that the full grid is computed.
 static bool is_closed(const SbModel *scene) {
-  return scene->fit < SB_FIT_DISC_THESIS && scene->film != SB_FILM_REYNOLDS &&
+  return !sb_fit_kind(scene->fit)->points && !sb_film_kind(scene->film)->coupled &&
          scene->asperities == SB_MODEL_ASPERITIES_BESIDE;
 }
 
@@ -454,7 +454,7 @@ static void make(SbStudyWork *work) {
   sb_study_mark(work, model->temperature, "this scene");
   if (out->models[0] == '\0') {
     sb_message(out->models, sizeof out->models, "fit %s, film %s, a cycle at each temperature",
-               sb_fit_model_name(model->fit), sb_film_model_name(model->film));
+               sb_fit_kind(model->fit)->name, sb_film_kind(model->film)->name);
   }
 }
 

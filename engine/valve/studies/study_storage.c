@@ -58,7 +58,7 @@ static void make(SbStudyWork *work) {
   sb_study_cells(scene->value, work, scene_time, 0);
   sb_study_mark(work, scene_time, "this scene");
   sb_message(out->models, sizeof out->models, "fit %s, film %s; rubber: %d Prony terms, %s",
-             sb_fit_model_name(model->fit), sb_film_model_name(model->film),
+             sb_fit_kind(model->fit)->name, sb_film_kind(model->film)->name,
              (int)model->rubber.terms, model->rubber.swell_mass > 0 ? "Fickian swell" : "no swell");
   sb_study_note(out,
                 "%.1f K. Sliding at %.4g mm/s, pressures of B to C; the ring of each time is "

@@ -93,7 +93,7 @@ static void make(SbStudyWork *work) {
   sb_text(dose->si, sizeof dose->si, "kg");
   sb_text(dose->unit, sizeof dose->unit, "mg");
   sb_message(out->models, sizeof out->models, "fit %s, film %s, quasi-static cycle of the machine",
-             sb_fit_model_name(model->fit), sb_film_model_name(model->film));
+             sb_fit_kind(model->fit)->name, sb_film_kind(model->film)->name);
   sb_study_note(out,
                 "Half-widths: d %.3g and %.3g mm, ID %.3g and %.3g mm (outer, inner), g %.3g mm, "
                 "D %.3g mm, stem %.3g mm. \"by\": half the difference between the band's ends.",
