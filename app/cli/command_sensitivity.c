@@ -76,7 +76,7 @@ static int read_options(Options *options) {
   }
   // What tells how well something was solved is no figure of a valve.
   for (int i = 0; i < SB_FIGURE_COUNT && options->figures == NULL; i++) {
-    if (!g_str_has_prefix(sb_figure(i)->path, "solver.")) {
+    if (!sb_figure_is_estimate(sb_figure(i))) {
       take(options->figure, i);
     }
   }

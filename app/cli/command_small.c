@@ -63,7 +63,7 @@ static void list_figures(void) {
 static void list_models(void) {
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
-    if (g_str_has_prefix(param->key, "models.")) {
+    if (sb_param_group((SbParamId)i) == SB_PARAMS_MODELS) {
       char *range = sb_param_range((SbParamId)i);
       printf("%-16s %s\n", param->key, range);
       g_free(range);

@@ -231,8 +231,8 @@ static int print_table(const SbStudyFile *study, const SbStudyDrawn *drawn,
   if (status == SB_OK && study->leakage_tests > 0) {
     status = print_leakage(study, answers, &report);
   }
-  for (int i = 0; i < SB_SHELF_TYPICAL; i++) {
-    g_autofree char *text = sb_study_typical(study, i);
+  for (int i = 0; i < SB_SHELF_SPECIES; i++) {
+    g_autofree char *text = sb_study_typical(study, (SbShelfSpecies)i);
     if (text != NULL) {
       printf("  %s\n", text);
     }

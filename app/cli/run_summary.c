@@ -116,7 +116,7 @@ static size_t list_figures(int index[SB_FIGURE_COUNT], const SbCliRunText *of) {
     index[count++] = sb_figure_find(key_figures[i]);
   }
   for (int i = 0; i < SB_FIGURE_COUNT && sb_model_is_rig(sb_run_model(of->run)); i++) {
-    if (sb_figure(i)->brief && g_str_has_prefix(sb_figure(i)->path, "rig.")) {
+    if (sb_figure(i)->brief && sb_figure(i)->group == SB_GROUP_RIG) {
       index[count++] = i;
     }
   }

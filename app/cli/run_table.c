@@ -16,11 +16,12 @@ static void print_figure(const SbSummary *summary, int index) {
   sb_cli_line(sb_figure(index)->label, reason != NULL ? why : text);
 }
 
-// The brief figures whose paths begin with `scope`; `known`: without those that were not computed.
-static void print_figures(const SbSummary *summary, const char *scope, bool known) {
+// The brief figures of a group; `seal`: of this seal (SB_SEAL_COUNT: of no seal); `known`: without
+// those that were not computed.
+static void print_figures(const SbSummary *summary, SbFigureGroup group, int seal, bool known) {
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     const SbFigure *figure = sb_figure(i);
-    if (figure->brief && g_str_has_prefix(figure->path, scope) &&
+    if (figure->brief && figure->group == group && figure->seal == seal &&
         !(known && isnan(sb_figure_value(summary, i)))) {
       print_figure(summary, i);
     }
@@ -29,23 +30,22 @@ static void print_figures(const SbSummary *summary, const char *scope, bool know
 
 // Time, displacement and force in a line.
 static void print_stage(const SbSummary *summary, SbStage stage) {
-  g_autofree char *scope = g_strdup_printf("cycle.stages.%s.", sb_stage_name(stage));
+  static const char *const names[] = {"time_s", "displacement_m", "force_N"};
   g_autofree char *label = g_strdup_printf("Stage %s", sb_stage_name(stage));
   g_autoptr(GString) text = g_string_new(NULL);
-  for (int i = 0; i < SB_FIGURE_COUNT && summary->stage[stage].reached; i++) {
-    if (g_str_has_prefix(sb_figure(i)->path, scope)) {
-      g_autofree char *one =
-          sb_figure_format(i, sb_figure_value(summary, i), sb_figure_error(summary, i));
-      g_string_append_printf(text, "%s%s", text->len > 0 ? ", " : "", one);
-    }
+  for (size_t k = 0; k < G_N_ELEMENTS(names) && summary->stage[stage].reached; k++) {
+    g_autofree char *path = g_strdup_printf("cycle.stages.%s.%s", sb_stage_name(stage), names[k]);
+    const int i = sb_figure_find(path);
+    g_autofree char *one =
+        sb_figure_format(i, sb_figure_value(summary, i), sb_figure_error(summary, i));
+    g_string_append_printf(text, "%s%s", k > 0 ? ", " : "", one);
   }
   sb_cli_line(label, text->len > 0 ? text->str : "not reached");
 }
 
 static void print_seal(const SbSummary *summary, int seal) {
-  g_autofree char *scope = g_strdup_printf("seals.%s.", sb_seal_name(seal));
   printf("%s seal, middle of B-C\n", seal == SB_OUTER ? "Outer" : "Inner");
-  print_figures(summary, scope, false);
+  print_figures(summary, SB_GROUP_SEAL, seal, false);
   sb_cli_line("Leak path", sb_leak_state_name(summary->seal[seal].leak_state));
 }
 
@@ -61,7 +61,7 @@ static void print_verdict(const SbSummary *summary, const SbCaseVerdict *verdict
 }
 
 static void print_rig(const SbSummary *summary) {
-  print_figures(summary, "rig.", false);
+  print_figures(summary, SB_GROUP_RIG, SB_SEAL_COUNT, false);
   sb_cli_figure("Dynamic, measured in the thesis", SB_RIG_MEASURED_DYNAMIC, "1", "");
   sb_cli_figure("Dynamic, predicted there", SB_RIG_PREDICTED_DYNAMIC, "1", "");
   g_autofree char *peaks = g_strdup_printf("%zu", summary->rig.of.peaks);
@@ -82,10 +82,10 @@ static void print_valve(const SbCliRunText *of, const SbSummary *summary) {
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
     print_stage(summary, (SbStage)i);
   }
-  print_figures(summary, "people.", false);
+  print_figures(summary, SB_GROUP_PEOPLE, SB_SEAL_COUNT, false);
   if (summary->life.done > 0) {
     printf("Life of %ld actuations\n", summary->life.done);
-    print_figures(summary, "life.", false);
+    print_figures(summary, SB_GROUP_LIFE, SB_SEAL_COUNT, false);
   }
   print_seal(summary, SB_OUTER);
   print_seal(summary, SB_INNER);
@@ -96,7 +96,7 @@ void sb_cli_run_table(const SbCliRunText *of) {
   const SbSummary *summary = sb_run_summary(of->run);
   printf("%s\n", of->title);
   bool rig = sb_model_is_rig(sb_run_model(of->run));
-  print_figures(summary, "cycle.", rig);
+  print_figures(summary, SB_GROUP_CYCLE, SB_SEAL_COUNT, rig);
   if (rig) {
     print_rig(summary);
   } else {

@@ -549,15 +549,19 @@ static void tell_stem_mass(const SbParams *params, const SbParams *base, const c
 void sb_parts_read(SbShapes *shapes, SbParams *params, const SbParams *base,
                    const GPtrArray *entries, const char *shown, const char *directory,
                    GPtrArray *issues, GPtrArray *notes) {
-  // Every part has a mass in the catalogue. The housing comes first: its bore measures the grooves.
-  int index = 0;
-  for (int id = 0; id < SB_PARAM_COUNT; id++) {
-    const char *key = sb_param((SbParamId)id)->key;
-    if (g_str_has_prefix(key, "part.") && g_str_has_suffix(key, ".mass")) {
-      g_autofree char *group = g_strndup(key, strlen(key) - strlen(".mass"));
-      Part part = {entries, group, shown, issues, notes, index++, shapes, params, base};
-      read_part(&part, (SbParamId)id, directory);
-    }
+  // The housing comes first: its bore measures the grooves.
+  static const SbParamId masses[] = {[SB_VALVE_HOUSING] = SB_P_PART_HOUSING_MASS,
+                                     [SB_VALVE_STEM_CENTRE] = SB_P_PART_STEM_CENTRE_MASS,
+                                     [SB_VALVE_STEM_TOP] = SB_P_PART_STEM_TOP_MASS,
+                                     [SB_VALVE_STEM_BOTTOM] = SB_P_PART_STEM_BOTTOM_MASS,
+                                     [SB_VALVE_INNER_SEAL] = SB_P_PART_INNER_SEAL_MASS,
+                                     [SB_VALVE_OUTER_SEAL] = SB_P_PART_OUTER_SEAL_MASS,
+                                     [SB_VALVE_BLOCK] = SB_P_PART_BLOCK_MASS};
+  for (size_t i = 0; i < G_N_ELEMENTS(masses); i++) {
+    const char *key = sb_param(masses[i])->key;
+    g_autofree char *group = g_strndup(key, (gsize)(strrchr(key, '.') - key));
+    Part part = {entries, group, shown, issues, notes, (int)i, shapes, params, base};
+    read_part(&part, masses[i], directory);
   }
   tell_stem_mass(params, base, shown, notes);
 }

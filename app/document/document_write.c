@@ -210,7 +210,7 @@ static void append_group(GString *text, const SbParams *params, const char *grou
     bool follows = i == SB_P_STEM_MASS || sb_param_follows((SbParamId)i);
     // A rubber's file may not be there when the text is read again: its figures become values.
     sb_params_default(&derived, params, (SbParamId)i);
-    bool needed = params->given[i] || !follows || g_strcmp0(derived.from, SB_RUBBER_KEY) == 0;
+    bool needed = params->given[i] || !follows || derived.name != NULL;
     const char *dot = strrchr(param->key, '.');
     if (needed && (size_t)(dot - param->key) == length && strncmp(param->key, group, length) == 0) {
       if (!heading) {

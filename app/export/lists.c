@@ -125,8 +125,8 @@ char *sb_results_models(void) {
   sb_json_array(&json, NULL);
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
-    for (int k = 0; g_str_has_prefix(param->key, "models.") && k < sb_param_choice_count(param);
-         k++) {
+    const bool is_model = sb_param_group((SbParamId)i) == SB_PARAMS_MODELS;
+    for (int k = 0; is_model && k < sb_param_choice_count(param); k++) {
       char name[64];
       sb_param_choice_name(param, k, name, sizeof name);
       sb_json_object(&json, NULL);

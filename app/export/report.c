@@ -200,8 +200,7 @@ static void draw_key_figures(SbReportPages *pages, const SbSummary *summary, boo
     const SbFigure *figure = sb_figure(i);
     if (figure->brief && (rig || figure->better != SB_BETTER_NONE) &&
         !isnan(sb_figure_value(summary, i)) &&
-        g_str_has_prefix(figure->path, rig ? "rig." : "cycle.") &&
-        strstr(figure->path, "closure") == NULL) {
+        figure->group == (rig ? SB_GROUP_RIG : SB_GROUP_CYCLE) && figure->error != SB_BY_RESIDUAL) {
       g_autofree char *value = sb_report_value(summary, i), *error = sb_report_error(summary, i);
       const char *const cell[] = {figure->label, value, error};
       sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
@@ -350,21 +349,19 @@ static void draw_cycle(SbReportPages *pages, const Scene *scene) {
 
 // ---- Figures ----
 
-// Those of the short table whose paths begin with `scope`, behind a line that names them.
+// Those of the short table that belong to a group, behind a line that names them.
 static void add_figures(SbReportPages *pages, SbReportTable *table, const SbSummary *summary,
-                        const char *scope, const char *name, bool known) {
+                        SbFigureGroup group, const char *name, bool known) {
   bool named = false;
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     const SbFigure *figure = sb_figure(i);
     const char *reason = sb_figure_reason(summary, i);
-    if (!figure->brief || !g_str_has_prefix(figure->path, scope) ||
-        g_str_has_prefix(figure->path, "cycle.stages.") ||
-        (known && isnan(sb_figure_value(summary, i)))) {
+    if (!figure->brief || figure->group != group || (known && isnan(sb_figure_value(summary, i)))) {
       continue;
     }
-    const char *const group[] = {name, NULL, NULL, NULL};
+    const char *const head[] = {name, NULL, NULL, NULL};
     if (!named) {
-      sb_report_row(pages, table, group, SB_REPORT_GROUP);
+      sb_report_row(pages, table, head, SB_REPORT_GROUP);
       named = true;
     }
     g_autofree char *value = sb_report_value(summary, i), *error = sb_report_error(summary, i);
@@ -418,7 +415,7 @@ static void draw_seals(SbReportPages *pages, const SbSummary *summary) {
   sb_report_heading(pages, "Seals", 160);
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     const SbFigure *figure = sb_figure(i);
-    if (!figure->brief || !g_str_has_prefix(figure->path, "seals.outer.")) {
+    if (!figure->brief || figure->group != SB_GROUP_SEAL || figure->seal != SB_OUTER) {
       continue;
     }
     g_autofree char *path =
@@ -449,12 +446,12 @@ static void draw_figures(SbReportPages *pages, const Scene *scene) {
   const SbSummary *summary = scene->summary;
   sb_report_page(pages, false);
   sb_report_heading(pages, "Figures", 100);
-  add_figures(pages, &table, summary, "cycle.", "Cycle", scene->rig);
-  add_figures(pages, &table, summary, "rig.", "Sliding plate", true);
-  add_figures(pages, &table, summary, "dose.", "Dose", true);
-  add_figures(pages, &table, summary, "shelf.", "On the shelf", true);
-  add_figures(pages, &table, summary, "people.", "Who can press it", true);
-  add_figures(pages, &table, summary, "life.", "Life", true);
+  add_figures(pages, &table, summary, SB_GROUP_CYCLE, "Cycle", scene->rig);
+  add_figures(pages, &table, summary, SB_GROUP_RIG, "Sliding plate", true);
+  add_figures(pages, &table, summary, SB_GROUP_DOSE, "Dose", true);
+  add_figures(pages, &table, summary, SB_GROUP_SHELF, "On the shelf", true);
+  add_figures(pages, &table, summary, SB_GROUP_PEOPLE, "Who can press it", true);
+  add_figures(pages, &table, summary, SB_GROUP_LIFE, "Life", true);
   sb_report_skip(pages, 6);
   sb_report_text(pages,
                  "Error estimates are relative and cover discretisation and iteration, not the "

@@ -26,16 +26,12 @@ static char *cite(Sources *sources, const char *tag, const char *source) {
   return g_strdup_printf("[%u]", at + 1);
 }
 
-// Whether it is the tolerance of another one, in whose row it stands.
-static bool is_tolerance(SbParamId id) {
-  return g_str_has_suffix(sb_param(id)->key, "_tolerance");
-}
-
 // How a scene is shown is no input of its figures.
 static bool is_input(SbParamId id) {
-  const char *key = sb_param(id)->key;
-  return !g_str_has_prefix(key, "output.") && !g_str_has_prefix(key, "models.") &&
-         !g_str_has_prefix(key, "study.") && !is_tolerance(id);
+  const SbParamGroup group = sb_param_group(id);
+  // A tolerance is in the row of its size.
+  return group != SB_PARAMS_OUTPUT && group != SB_PARAMS_MODELS && group != SB_PARAMS_STUDY &&
+         sb_param_toleranced(id) < 0;
 }
 
 // "Gland" of "gland.radial_space". Owned by the caller.
@@ -100,11 +96,9 @@ static void add_parameter(SbReportPages *pages, SbReportTable *table, Sources *s
                                ? value_of(model, (SbParamId)tolerance)
                                : NULL;
   g_autofree char *shown = range != NULL ? g_strdup_printf("\xc2\xb1 %s", range) : NULL;
-  g_autofree char *label =
-      param->parent >= 0
-          ? g_strdup_printf("%s, %s", param->label,
-                            strstr(param->key, ".outer.") != NULL ? "outer" : "inner")
-          : g_strdup(param->label);
+  g_autofree char *label = param->parent >= 0
+                               ? g_strdup_printf("%s, %s", param->label, sb_seal_name(param->seal))
+                               : g_strdup(param->label);
   const char *const cell[] = {label, param->symbol, value, shown, origin, source};
   sb_report_row(pages, table, cell, SB_REPORT_PLAIN);
 }
@@ -120,7 +114,7 @@ static void draw_models(SbReportPages *pages, Sources *sources, const SbDocument
   sb_report_heading(pages, "Models", 120);
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
-    if (g_str_has_prefix(param->key, "models.") && param->kind == SB_PARAM_CHOICE) {
+    if (sb_param_group((SbParamId)i) == SB_PARAMS_MODELS && param->kind == SB_PARAM_CHOICE) {
       g_autofree char *source = NULL;
       g_autofree char *origin = origin_of(&source, sources, document, model, params, (SbParamId)i);
       g_autofree char *value = value_of(model, (SbParamId)i);
@@ -133,9 +127,9 @@ static void draw_models(SbReportPages *pages, Sources *sources, const SbDocument
 // Whether a parameter stands in the table of inputs rather than among the defaults.
 static bool is_told(const SbModel *model, const SbParams *params, SbParamId id) {
   SbParamDefault follows;
-  const char *key = sb_param(id)->key;
+  const SbParamGroup group = sb_param_group(id);
   if (sb_model_number(model, SB_P_MODELS_MOTION) != SB_MODEL_MOTION_BODIES &&
-      (g_str_has_prefix(key, "part.") || g_str_has_prefix(key, "joint."))) {
+      (group == SB_PARAMS_PART || group == SB_PARAMS_JOINT)) {
     return false; // the motion has no parts
   }
   if (params->given[id]) {
@@ -191,18 +185,20 @@ void sb_report_inputs(SbReportPages *pages, const SbDocument *document, const Sb
   sb_report_heading(pages, "Inputs", 100);
   // By groups, which the catalogue comes back to.
   bool done[SB_PARAM_COUNT] = {false};
+  SbParamGroup group = SB_PARAMS_GROUP_COUNT;
   for (int first = 0; first < SB_PARAM_COUNT; first++) {
-    g_autofree char *group = NULL;
+    bool named = false;
     for (int i = first; i < SB_PARAM_COUNT; i++) {
-      g_autofree char *own = group_of((SbParamId)i);
       if (done[i] || !is_input((SbParamId)i) || !is_told(model, &params, (SbParamId)i) ||
-          (group != NULL && strcmp(own, group) != 0)) {
+          (named && sb_param_group((SbParamId)i) != group)) {
         continue;
       }
-      if (group == NULL) {
-        const char *const head[] = {own, NULL, NULL, NULL, NULL, NULL};
+      if (!named) {
+        group = sb_param_group((SbParamId)i);
+        g_autofree char *name = group_of((SbParamId)i);
+        const char *const head[] = {name, NULL, NULL, NULL, NULL, NULL};
         sb_report_row(pages, &table, head, SB_REPORT_GROUP);
-        group = g_strdup(own);
+        named = true;
       }
       done[i] = true;
       add_parameter(pages, &table, &sources, document, model, &params, (SbParamId)i);

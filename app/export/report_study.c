@@ -43,9 +43,7 @@ static char *vary_label(const SbVary *vary) {
     return g_strdup(sb_vary_name(vary));
   }
   const SbParam *param = sb_param(vary->id);
-  const char *of = param->parent < 0                            ? ""
-                   : g_str_has_prefix(param->key, "seal.outer") ? ", outer"
-                                                                : ", inner";
+  const char *of = param->seal == SB_OUTER ? ", outer" : param->seal == SB_INNER ? ", inner" : "";
   return g_strconcat(param->label, of, NULL);
 }
 
@@ -583,8 +581,8 @@ static void draw_pages(SbReportPages *pages, const void *of) {
                         failed, done);
     sb_report_notice(pages, text, false);
   }
-  for (int i = 0; i < SB_SHELF_TYPICAL; i++) {
-    g_autofree char *typical = sb_study_typical(file, i);
+  for (int i = 0; i < SB_SHELF_SPECIES; i++) {
+    g_autofree char *typical = sb_study_typical(file, (SbShelfSpecies)i);
     if (typical != NULL) {
       sb_report_notice(pages, typical, false);
     }

@@ -249,9 +249,11 @@ static void put_life(SbJson *json, const SbRun *run) {
 }
 
 // Whether a block that holds the figure is in the document.
-static bool is_there(const SbRun *run, const char *path) {
-  return !(g_str_has_prefix(path, "life.") && sb_run_summary(run)->life.done == 0) &&
-         !(g_str_has_prefix(path, "rig.") && !sb_model_is_rig(sb_run_model(run)));
+static bool is_there(const SbRun *run, int figure) {
+  const SbFigureGroup group = sb_figure(figure)->group;
+  return group == SB_GROUP_LIFE  ? sb_run_summary(run)->life.done > 0
+         : group == SB_GROUP_RIG ? sb_model_is_rig(sb_run_model(run))
+                                 : true;
 }
 
 // Relative errors by path.
@@ -259,12 +261,19 @@ static void put_errors(SbJson *json, const SbRun *run) {
   const SbSummary *summary = sb_run_summary(run);
   sb_json_object(json, "error_estimates");
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
-    if (is_there(run, sb_figure(i)->path)) {
+    if (is_there(run, i)) {
       const bool known = sb_figure_error_reason(summary, i) == NULL;
       sb_json_number(json, sb_figure(i)->path, known ? sb_figure_error(summary, i) : NAN);
     }
   }
   sb_json_object_end(json);
+}
+
+// Whether a figure is the lambda of a seal, which determines the regime.
+static bool is_film_parameter(const SbFigure *figure) {
+  return figure->group == SB_GROUP_SEAL &&
+         figure->offset == offsetof(SbSummary, seal[0].lambda) +
+                               (size_t)figure->seal * sizeof(((SbSummary *)NULL)->seal[0]);
 }
 
 // Why what is null above is so, by path; of blocks that are there.
@@ -279,15 +288,15 @@ static void put_reasons(SbJson *json, const SbRun *run, const SbResultsInfo *inf
     const char *reason = sb_figure_reason(summary, i);
     const char *path = sb_figure(i)->path;
     const char *error_reason = sb_figure_error_reason(summary, i);
-    if (error_reason != NULL && is_there(run, path)) {
+    if (error_reason != NULL && is_there(run, i)) {
       g_autofree char *error_path = g_strconcat("error_estimates.", path, NULL);
       sb_json_string(json, error_path, error_reason);
     }
-    if (reason == NULL || !is_there(run, path)) {
+    if (reason == NULL || !is_there(run, i)) {
       continue;
     }
     sb_json_string(json, path, reason);
-    if (g_str_has_suffix(path, ".lambda")) {
+    if (is_film_parameter(sb_figure(i))) {
       g_autofree char *regime =
           g_strdup_printf("%.*s.regime", (int)(strrchr(path, '.') - path), path);
       sb_json_string(json, regime, reason);

@@ -338,34 +338,33 @@ static SbStatus put_leakage(SbJson *json, const SbStudyFile *study, const SbAnsw
   return status;
 }
 
-char *sb_study_typical(const SbStudyFile *study, int which) {
+char *sb_study_typical(const SbStudyFile *study, SbShelfSpecies species) {
   char text[SB_TEXT];
-  const char *key = NULL;
-  for (guint k = 0; k < study->figures->len && key == NULL; k++) {
-    const char *path = sb_figure(g_array_index(study->figures, int, k))->path;
-    const bool water = strstr(path, "moisture") != NULL;
-    if (g_str_has_prefix(path, "shelf.") && water == (which == 1)) {
-      key = sb_shelf_typical(text, sizeof text, study->base, which);
+  int id = -1;
+  for (guint k = 0; k < study->figures->len && id < 0; k++) {
+    const int figure = g_array_index(study->figures, int, k);
+    if (sb_figure(figure)->group == SB_GROUP_SHELF && sb_shelf_species(figure) == species) {
+      id = sb_shelf_typical(text, sizeof text, study->base, species);
     }
   }
-  for (guint k = 0; k < study->vary->len && key != NULL; k++) {
-    const SbVary *vary = &g_array_index(study->vary, SbVary, k);
-    if (vary->id != SB_VARY_VARIABLE && strcmp(sb_param(vary->id)->key, key) == 0) {
+  for (guint k = 0; k < study->vary->len && id >= 0; k++) {
+    if ((int)g_array_index(study->vary, SbVary, k).id == id) {
       return NULL; // the samples have their own
     }
   }
-  return key != NULL ? g_strdup(text) : NULL;
+  return id >= 0 ? g_strdup(text) : NULL;
 }
 
 // What the figures rest on that nobody measured; nothing where there is none.
 static void put_typical(SbJson *json, const SbStudyFile *study) {
-  g_autofree char *loss = sb_study_typical(study, 0), *water = sb_study_typical(study, 1);
+  g_autofree char *loss = sb_study_typical(study, SB_SHELF_PROPELLANT);
+  g_autofree char *water = sb_study_typical(study, SB_SHELF_WATER);
   if (loss == NULL && water == NULL) {
     return;
   }
   sb_json_array(json, "typical");
-  for (int i = 0; i < SB_SHELF_TYPICAL; i++) {
-    const char *text = i == 0 ? loss : water;
+  for (int i = 0; i < SB_SHELF_SPECIES; i++) {
+    const char *text = i == SB_SHELF_PROPELLANT ? loss : water;
     if (text != NULL) {
       sb_json_string(json, NULL, text);
     }

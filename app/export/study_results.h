@@ -5,6 +5,7 @@
 #include "app/document/study_file.h"
 #include "app/export/json.h"
 #include "app/study/shares.h"
+#include "engine/valve/shelf/shelf.h"
 
 #include <stdio.h>
 
@@ -46,9 +47,8 @@ void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
                   const SbAnswers *answers);
 
 // Returns a sentence if the study's figures of storage use a typical value of permeation that was
-// not measured for this rubber; `which`: 0 of propellant, 1 of water. NULL: they do not, or the
-// study varies that parameter.
-char *sb_study_typical(const SbStudyFile *study, int which);
+// not measured for this rubber. NULL: they do not, or the study varies that parameter.
+char *sb_study_typical(const SbStudyFile *study, SbShelfSpecies species);
 
 // Writes the members "study" (title), "file" (full path of the study) and "scene" (full path of its
 // scene) of the open object; "-" is standard input.

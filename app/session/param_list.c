@@ -8,45 +8,43 @@
 #include <math.h>
 #include <string.h>
 
-// Headings by key prefix.
-static const SbParamHeading headings[] = {
-    {"seal.outer.", N_("Outer seal only"), NULL, FALSE},
-    {"seal.inner.", N_("Inner seal only"), NULL, FALSE},
-    {"seal.", N_("Seals"), N_("both"), TRUE},
-    {"gland.", N_("Gland"), NULL, TRUE},
-    {"canister.", N_("Canister"), NULL, TRUE},
-    {"fluid.name", N_("Canister"), NULL, TRUE}, // beside its temperature
-    {"fluid.ethanol", N_("Canister"), NULL, TRUE},
-    {"surface.", N_("Surface"), NULL, TRUE},
-    {"drive.", N_("Drive"), NULL, TRUE},
-    {"bore.", N_("Bore"), NULL, FALSE},
-    {"models.", N_("Models"), NULL, TRUE},
-    {"chamber.", N_("Chamber"), NULL, FALSE},
-    {"fluid.", N_("Fluid"), NULL, FALSE},
-    {"friction.", N_("Friction"), NULL, FALSE},
-    {"gasket.", N_("Gasket"), NULL, FALSE},
-    {"housing.", N_("Housing"), NULL, FALSE},
-    {"joint.", N_("Joint"), NULL, FALSE},
-    {"life.", N_("Life"), NULL, FALSE},
-    {"output.", N_("Output"), NULL, FALSE},
-    {"part.", N_("Part"), NULL, FALSE},
-    {"people.", N_("People"), NULL, FALSE},
-    {"rig.", N_("Rig"), NULL, FALSE},
-    {"rubber.", N_("Rubber"), NULL, FALSE},
-    {"shelf.", N_("Shelf"), NULL, FALSE},
-    {"stem.", N_("Stem"), NULL, FALSE},
-    {"storage.", N_("Storage"), NULL, FALSE},
-    {"study.", N_("Study"), NULL, FALSE},
-    {"valve.", N_("Valve"), NULL, FALSE},
-    {"", N_("Other"), NULL, FALSE},
+static const SbParamHeading headings[SB_PARAMS_GROUP_COUNT] = {
+    [SB_PARAMS_SEAL] = {N_("Seals"), N_("both"), TRUE},
+    [SB_PARAMS_GLAND] = {N_("Gland"), NULL, TRUE},
+    [SB_PARAMS_CANISTER] = {N_("Canister"), NULL, TRUE},
+    [SB_PARAMS_SURFACE] = {N_("Surface"), NULL, TRUE},
+    [SB_PARAMS_DRIVE] = {N_("Drive"), NULL, TRUE},
+    [SB_PARAMS_BORE] = {N_("Bore"), NULL, FALSE},
+    [SB_PARAMS_MODELS] = {N_("Models"), NULL, TRUE},
+    [SB_PARAMS_CHAMBER] = {N_("Chamber"), NULL, FALSE},
+    [SB_PARAMS_FLUID] = {N_("Fluid"), NULL, FALSE},
+    [SB_PARAMS_FRICTION] = {N_("Friction"), NULL, FALSE},
+    [SB_PARAMS_GASKET] = {N_("Gasket"), NULL, FALSE},
+    [SB_PARAMS_HOUSING] = {N_("Housing"), NULL, FALSE},
+    [SB_PARAMS_JOINT] = {N_("Joint"), NULL, FALSE},
+    [SB_PARAMS_LIFE] = {N_("Life"), NULL, FALSE},
+    [SB_PARAMS_OUTPUT] = {N_("Output"), NULL, FALSE},
+    [SB_PARAMS_PART] = {N_("Part"), NULL, FALSE},
+    [SB_PARAMS_PEOPLE] = {N_("People"), NULL, FALSE},
+    [SB_PARAMS_RIG] = {N_("Rig"), NULL, FALSE},
+    [SB_PARAMS_RUBBER] = {N_("Rubber"), NULL, FALSE},
+    [SB_PARAMS_SHELF] = {N_("Shelf"), NULL, FALSE},
+    [SB_PARAMS_STEM] = {N_("Stem"), NULL, FALSE},
+    [SB_PARAMS_STORAGE] = {N_("Storage"), NULL, FALSE},
+    [SB_PARAMS_STUDY] = {N_("Study"), NULL, FALSE},
+    [SB_PARAMS_VALVE] = {N_("Valve"), NULL, FALSE},
+};
+static const SbParamHeading seals[SB_SEAL_COUNT] = {
+    [SB_OUTER] = {N_("Outer seal only"), NULL, FALSE},
+    [SB_INNER] = {N_("Inner seal only"), NULL, FALSE},
 };
 
-const SbParamHeading *sb_param_heading(const char *key) {
-  const SbParamHeading *heading = headings;
-  while (!g_str_has_prefix(key, heading->prefix)) {
-    heading++;
-  }
-  return heading;
+const SbParamHeading *sb_param_heading(SbParamId id) {
+  const int seal = sb_param(id)->seal;
+  const bool of_canister =
+      id == SB_P_FLUID_NAME || id == SB_P_FLUID_ETHANOL; // like its temperature
+  return seal < SB_SEAL_COUNT ? &seals[seal]
+                              : &headings[of_canister ? SB_PARAMS_CANISTER : sb_param_group(id)];
 }
 
 gboolean sb_param_is_changed(const SbParams *params, SbParamId id) {
@@ -55,17 +53,12 @@ gboolean sb_param_is_changed(const SbParams *params, SbParamId id) {
   return params->given[id] && sb_params_get(params, id) != fallback.value;
 }
 
-const char *sb_param_owner(const SbParam *param) {
-  if (g_str_has_prefix(param->key, "seal.outer.")) {
-    return _("Outer seal: ");
-  }
-  if (g_str_has_prefix(param->key, "seal.inner.")) {
-    return _("Inner seal: ");
-  }
-  if (g_str_has_prefix(param->key, "housing.")) {
-    return _("Housing: ");
-  }
-  return "";
+const char *sb_param_owner(SbParamId id) {
+  const int seal = sb_param(id)->seal;
+  return seal == SB_OUTER                          ? _("Outer seal: ")
+         : seal == SB_INNER                        ? _("Inner seal: ")
+         : sb_param_group(id) == SB_PARAMS_HOUSING ? _("Housing: ")
+                                                   : "";
 }
 
 static gboolean contains(const char *text, const char *needle) {
@@ -77,7 +70,7 @@ gboolean sb_param_matches(SbParamId id, const char *needle) {
   const SbParam *param = sb_param(id);
   return contains(param->label, needle) || contains(sb_translation(param->label), needle) ||
          contains(param->key, needle) || contains(param->symbol, needle) ||
-         contains(param->help, needle) || contains(sb_param_owner(param), needle) ||
+         contains(param->help, needle) || contains(sb_param_owner(id), needle) ||
          strstr(sb_param_words(id), needle) != NULL ||
          (param->choices != NULL && contains(param->choices, needle));
 }

@@ -4,23 +4,22 @@
 
 #include "app/session/session.h"
 
-// A group of keys with a common prefix. Strings are static and untranslated (sb_translation()).
+// A group of parameters. Strings are static and untranslated (sb_translation()).
 typedef struct {
-  const char *prefix; // of the keys, "gland."
-  const char *title;  // heading
-  const char *note;   // sentence below the heading; NULL: none
-  gboolean unfolded;  // the group is open at first
+  const char *title; // heading
+  const char *note;  // sentence below the heading; NULL: none
+  gboolean unfolded; // the group is open at first
 } SbParamHeading;
 
-// Returns the group to which a key of the catalogue belongs. Static.
-const SbParamHeading *sb_param_heading(const char *key);
+// Returns the group to which a parameter belongs. Static.
+const SbParamHeading *sb_param_heading(SbParamId id);
 
 // Returns whether the value in force differs from the default, which may follow from other values.
 gboolean sb_param_is_changed(const SbParams *params, SbParamId id);
 
 // Returns a translated prefix for a parameter that several parts have, such as "Outer seal: "; ""
 // for others. Static.
-const char *sb_param_owner(const SbParam *param);
+const char *sb_param_owner(SbParamId id);
 
 // Returns the allowed range as sb_param_range(), translated.
 char *sb_param_range_shown(SbParamId id);

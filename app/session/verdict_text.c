@@ -70,7 +70,7 @@ static char *figure_text(const SbSummary *summary, int kind, const SbVerdict *ve
     return g_steal_pointer(&own);
   }
   g_autofree char *limit = sb_figure_given(figure, verdict->limit);
-  if (summary->shelf.typical && g_str_has_prefix(sb_figure(figure)->path, "shelf.")) {
+  if (summary->shelf.typical && sb_figure(figure)->group == SB_GROUP_SHELF) {
     return g_strdup_printf(_("%s (typical rubber) of %s"), own, limit);
   }
   return kind == SB_VERDICT_SEALS ? g_strdup_printf(_("%s over %s"), own, limit)

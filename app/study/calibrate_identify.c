@@ -70,17 +70,15 @@ static void find_moments(SbCalibration *out) {
   g_free(mean);
 }
 
-static bool begins(const SbCalibrated *of, const char *prefix) {
-  return g_str_has_prefix(of->name, prefix);
-}
-
 // The experiment that would part two.
 static const char *experiment(const SbCalibrated *a, const SbCalibrated *b) {
-  const bool friction = (begins(a, "friction.") || begins(a, "surface.")) &&
-                        (begins(b, "friction.") || begins(b, "surface."));
-  const bool size =
-      begins(a, "seal.") || begins(b, "seal.") || begins(a, "gland.") || begins(b, "gland.");
-  const bool life = begins(a, "life.") && begins(b, "life.");
+  const SbParamGroup of[] = {sb_param_group(a->id), sb_param_group(b->id)};
+  bool friction = true, size = false, life = true;
+  for (int i = 0; i < 2; i++) {
+    friction = friction && (of[i] == SB_PARAMS_FRICTION || of[i] == SB_PARAMS_SURFACE);
+    size = size || of[i] == SB_PARAMS_SEAL || of[i] == SB_PARAMS_GLAND;
+    life = life && of[i] == SB_PARAMS_LIFE;
+  }
   return life ? "loops of the first and of much later actuations would part them"
          : friction
              ? "a loop at another squeeze, or of a ring with another modulus, would part them"

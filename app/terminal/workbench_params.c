@@ -42,11 +42,11 @@ void sb_bench_list(SbBench *bench) {
     if (done[first] || !is_listed(bench, &params, needle, (SbParamId)first)) {
       continue;
     }
-    const char *title = sb_param_heading(sb_param((SbParamId)first)->key)->title;
-    g_array_append_val(bench->rows, ((SbListRow){SB_HEADING_ROW, title}));
+    const SbParamHeading *heading = sb_param_heading((SbParamId)first);
+    g_array_append_val(bench->rows, ((SbListRow){SB_HEADING_ROW, heading->title}));
     for (int id = first; id < SB_PARAM_COUNT; id++) {
       if (!done[id] && is_listed(bench, &params, needle, (SbParamId)id) &&
-          strcmp(sb_param_heading(sb_param((SbParamId)id)->key)->title, title) == 0) {
+          sb_param_heading((SbParamId)id) == heading) {
         done[id] = true;
         there |= id == bench->selected;
         g_array_append_val(bench->rows, ((SbListRow){id, NULL}));

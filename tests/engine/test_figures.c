@@ -3,6 +3,7 @@
 #include "engine/valve/run/contradiction.h"
 #include "engine/valve/run/run_private.h"
 #include "engine/valve/sealbench.h"
+#include "engine/valve/shelf/shelf.h"
 #include "tests/engine/models.h"
 #include "tests/engine/near.h"
 
@@ -90,6 +91,31 @@ static void test_paths(void) {
 
 // A ring that does not reach the bore under pressure: open, and no leak of 0. The shelf's error has
 // the reason of the shelf's loss.
+// The group is that of the path; error estimates of solvers are a group.
+static void test_groups(void) {
+  static const char *const beginnings[] = {
+      [SB_GROUP_CYCLE] = "cycle.",   [SB_GROUP_STAGE] = "cycle.stages.",
+      [SB_GROUP_SEAL] = "seals.",    [SB_GROUP_PEOPLE] = "people.",
+      [SB_GROUP_DOSE] = "dose.",     [SB_GROUP_RIG] = "rig.",
+      [SB_GROUP_LIFE] = "life.",     [SB_GROUP_SHELF] = "shelf.",
+      [SB_GROUP_SOLVER] = "solver.",
+  };
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    const SbFigure *figure = sb_figure(i);
+    g_assert_true(g_str_has_prefix(figure->path, beginnings[figure->group]));
+    g_assert_true((figure->group == SB_GROUP_STAGE) ==
+                  g_str_has_prefix(figure->path, beginnings[SB_GROUP_STAGE]));
+    g_assert_true((figure->group == SB_GROUP_SEAL) == (figure->seal < SB_SEAL_COUNT));
+    g_assert_true(sb_figure_is_estimate(figure) ==
+                  (figure->part == SB_PART_ESTIMATE || figure->part == SB_PART_ESTIMATE_HISTORY ||
+                   figure->part == SB_PART_ESTIMATE_SHELF));
+    if (figure->group == SB_GROUP_SHELF) {
+      g_assert_true((sb_shelf_species(i) == SB_SHELF_WATER) ==
+                    (strstr(figure->path, "moisture") != NULL));
+    }
+  }
+}
+
 static void test_open(void) {
   const Setting changes[] = {{SB_P_MODELS_FIT, SB_FIT_DISC},
                              {SB_P_GLAND_RADIAL_SPACE, 1.57e-3},
@@ -712,6 +738,7 @@ static void test_uncertain(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/figures/paths", test_paths);
+  g_test_add_func("/figures/groups", test_groups);
   g_test_add_func("/figures/open", test_open);
   g_test_add_func("/figures/stretch", test_stretch);
   g_test_add_func("/figures/overfilled", test_overfilled);

@@ -22,7 +22,15 @@ static void test_catalogue(void) {
     bool known = strcmp(param->tag, "thesis") == 0 || strcmp(param->tag, "inferred") == 0 ||
                  strcmp(param->tag, "ours") == 0;
     g_assert_true(known);
+    g_assert_cmpint(sb_param_group((SbParamId)i), <, SB_PARAMS_GROUP_COUNT);
+    g_assert_true((param->seal < SB_SEAL_COUNT) == (param->parent >= 0));
+    const int tolerance = sb_param_tolerance((SbParamId)i);
+    g_assert_true(tolerance < 0 || sb_param_toleranced((SbParamId)tolerance) == i);
   }
+  g_assert_cmpint(sb_param_group(SB_P_SEAL_INNER_MODULUS), ==, SB_PARAMS_SEAL);
+  g_assert_cmpint(sb_param(SB_P_SEAL_INNER_MODULUS)->seal, ==, SB_INNER);
+  g_assert_cmpint(sb_param_group(SB_P_STORAGE_TEMPERATURE), ==, SB_PARAMS_STORAGE);
+  g_assert_cmpint(sb_param_toleranced(SB_P_GLAND_RADIAL_SPACE), ==, -1);
   g_assert_cmpint(sb_param_find("seal.outer.modulus"), >=, 0);
   g_assert_cmpint(sb_param_find("no.such"), ==, -1);
 }

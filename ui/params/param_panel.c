@@ -18,6 +18,7 @@
 #include <string.h>
 
 typedef struct {
+  const SbParamHeading *heading;
   GtkWidget *expander, *note;
   GtkWidget *box;
   gboolean unfolded; // as the user left it, while something unfolds all
@@ -44,16 +45,20 @@ struct _SbParamPanel {
 
 G_DEFINE_TYPE(SbParamPanel, sb_param_panel, GTK_TYPE_BOX)
 
-// The group that a key belongs to, made on first use.
-static int group_for(SbParamPanel *panel, GHashTable *by_title, const char *key) {
-  const SbParamHeading *heading = sb_param_heading(key);
-  g_autofree char *title = g_strdup(_(heading->title));
-  gpointer found = NULL;
-  if (g_hash_table_lookup_extended(by_title, title, NULL, &found)) {
-    return GPOINTER_TO_INT(found);
-  }
+static Group *group_at(SbParamPanel *panel, int index) {
+  return &g_array_index(panel->groups, Group, (guint)index);
+}
 
-  Group group = {0};
+// The group that a parameter belongs to, made on first use.
+static int group_for(SbParamPanel *panel, SbParamId id) {
+  const SbParamHeading *heading = sb_param_heading(id);
+  for (guint g = 0; g < panel->groups->len; g++) {
+    if (group_at(panel, (int)g)->heading == heading) {
+      return (int)g;
+    }
+  }
+  const char *title = _(heading->title);
+  Group group = {.heading = heading};
   group.unfolded = heading->unfolded;
   GtkWidget *caption = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
   GtkWidget *name = gtk_label_new(title);
@@ -75,13 +80,7 @@ static int group_for(SbParamPanel *panel, GHashTable *by_title, const char *key)
   gtk_container_add(GTK_CONTAINER(group.expander), group.box);
   gtk_box_pack_start(GTK_BOX(panel->list), group.expander, FALSE, FALSE, 0);
   g_array_append_val(panel->groups, group);
-  int index = (int)panel->groups->len - 1;
-  g_hash_table_insert(by_title, g_steal_pointer(&title), GINT_TO_POINTER(index));
-  return index;
-}
-
-static Group *group_at(SbParamPanel *panel, int index) {
-  return &g_array_index(panel->groups, Group, (guint)index);
+  return (int)panel->groups->len - 1;
 }
 
 static gboolean is_listed(SbParamPanel *panel, const SbParams *params, const char *needle,
@@ -336,11 +335,10 @@ GtkWidget *sb_param_panel_new(SbSession *session) {
   SbParamPanel *panel =
       g_object_new(SB_TYPE_PARAM_PANEL, "orientation", GTK_ORIENTATION_VERTICAL, NULL);
   panel->session = session;
-  g_autoptr(GHashTable) by_title = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
   g_autoptr(GtkSizeGroup) fields = gtk_size_group_new(GTK_SIZE_GROUP_HORIZONTAL);
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
-    panel->group_of[id] = group_for(panel, by_title, sb_param((SbParamId)id)->key);
-    if (panel->rubber == NULL && g_str_has_prefix(sb_param((SbParamId)id)->key, "rubber.")) {
+    panel->group_of[id] = group_for(panel, (SbParamId)id);
+    if (panel->rubber == NULL && sb_param_group((SbParamId)id) == SB_PARAMS_RUBBER) {
       panel->rubber = sb_rubber_row_new(session);
       gtk_box_pack_start(GTK_BOX(group_at(panel, panel->group_of[id])->box), panel->rubber, FALSE,
                          FALSE, 0);

@@ -223,7 +223,7 @@ GtkWidget *sb_param_row_new(SbSession *session, SbParamId id, GtkSizeGroup *fiel
   const SbParam *param = sb_param(id);
   row->session = session;
   row->id = id;
-  g_autofree char *name = g_strconcat(sb_param_owner(param), sb_translation(param->label), NULL);
+  g_autofree char *name = g_strconcat(sb_param_owner(id), sb_translation(param->label), NULL);
   g_autofree char *range = sb_param_range_shown(id);
   sb_style_class(GTK_WIDGET(row), "sb-row");
 

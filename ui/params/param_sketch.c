@@ -26,51 +26,22 @@ typedef struct {
   Mark mark;
 } Sketch;
 
-// The size's name without its seal and tolerance; false: of no seal.
-static gboolean name_of(char name[64], int *seal, SbParamId id) {
-  const char *key = sb_param(id)->key;
-  *seal = g_str_has_prefix(key, "seal.inner.") ? SB_INNER : SB_OUTER;
-  const char *rest = strrchr(key, '.');
-  const gboolean of_seal = g_str_has_prefix(key, "seal.");
-  g_strlcpy(name, of_seal ? rest + 1 : key, 64);
-  char *tolerance = g_strrstr(name, "_tolerance");
-  if (tolerance != NULL) {
-    *tolerance = '\0';
-  }
-  return of_seal;
+// The size that a parameter is or is the tolerance of; of a size of one seal that of both.
+static SbParamId size_of(SbParamId id) {
+  const int toleranced = sb_param_toleranced(id);
+  const SbParamId size = toleranced >= 0 ? (SbParamId)toleranced : id;
+  return sb_param(size)->parent >= 0 ? (SbParamId)sb_param(size)->parent : size;
 }
 
-// The same of a gasket valve.
-static gboolean find_gasket_mark(Mark *mark, const SbValveOutline *v, const SbModel *model,
-                                 const char *name, gboolean of_seal) {
-  const double bore = 0.5 * sb_model_value(model, SB_P_GASKET_BORE_DIAMETER);
-  const double outer = 0.5 * sb_model_value(model, SB_P_GASKET_OUTER_DIAMETER);
-  const double left = v->groove_left[SB_OUTER], right = v->groove_right[SB_OUTER];
-  const double middle = v->origin[SB_OUTER], stroke = sb_model_value(model, SB_P_DRIVE_STROKE);
-  const double port = 0.5 * (v->port_left + v->port_right);
-  const double neck = v->shoulder - sb_model_value(model, SB_P_STEM_CHAMBER_LENGTH);
-  const struct {
-    const char *name;
-    Mark mark;
-  } all[] = {
-      {"gasket.bore_diameter", {DIAMETER, 0, bore, middle}},
-      {"gasket.outer_diameter", {DIAMETER, 0, outer, middle}},
-      {"gasket.thickness", {AXIAL, left, right, 0.5 * (v->bore + v->rim)}},
-      {"gasket.crimp", {AXIAL, left, right, 0.5 * (v->bore + v->rim)}},
-      {"bore.diameter", {DIAMETER, 0, v->chamber_roof, v->chamber}},
-      {"bore.land_edge", {AXIAL, v->groove_right[SB_INNER], v->shoulder, v->bore}},
-      {"stem.pressure_diameter", {DIAMETER, 0, v->bore, v->chamber}},
-      {"stem.seal_spacing", {AXIAL, v->origin[SB_INNER], middle, 0.5 * (v->bore + v->rim)}},
-      {"stem.chamber_depth",
-       {RADIAL, v->bore - sb_model_value(model, SB_P_STEM_CHAMBER_DEPTH), v->bore,
-        0.5 * (neck + v->shoulder)}},
-      {"stem.chamber_length", {AXIAL, neck, v->shoulder, v->bore}},
-      {"stem.port_travel", {AXIAL, left, port, 0.8 * v->bore}},
-      {"stem.port_diameter", {AXIAL, v->port_left, v->port_right, 0.8 * v->bore}},
-      {"drive.stroke", {AXIAL, v->nose - stroke, v->nose, 0.4 * v->bore}},
-  };
-  for (size_t i = 0; i < G_N_ELEMENTS(all); i++) {
-    if (!of_seal && strcmp(name, all[i].name) == 0 && fabs(all[i].mark.to - all[i].mark.from) > 0) {
+// Finds the dimension of a size, if there is one that is not 0.
+typedef struct {
+  SbParamId size;
+  Mark mark;
+} Dimension;
+
+static gboolean find(Mark *mark, SbParamId size, const Dimension *all, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    if (all[i].size == size && fabs(all[i].mark.to - all[i].mark.from) > 0) {
       *mark = all[i].mark;
       return TRUE;
     }
@@ -78,12 +49,40 @@ static gboolean find_gasket_mark(Mark *mark, const SbValveOutline *v, const SbMo
   return FALSE;
 }
 
+// The same of a gasket valve.
+static gboolean find_gasket_mark(Mark *mark, const SbValveOutline *v, const SbModel *model,
+                                 SbParamId size) {
+  const double bore = 0.5 * sb_model_value(model, SB_P_GASKET_BORE_DIAMETER);
+  const double outer = 0.5 * sb_model_value(model, SB_P_GASKET_OUTER_DIAMETER);
+  const double left = v->groove_left[SB_OUTER], right = v->groove_right[SB_OUTER];
+  const double middle = v->origin[SB_OUTER], stroke = sb_model_value(model, SB_P_DRIVE_STROKE);
+  const double port = 0.5 * (v->port_left + v->port_right);
+  const double neck = v->shoulder - sb_model_value(model, SB_P_STEM_CHAMBER_LENGTH);
+  const Dimension all[] = {
+      {SB_P_GASKET_BORE_DIAMETER, {DIAMETER, 0, bore, middle}},
+      {SB_P_GASKET_OUTER_DIAMETER, {DIAMETER, 0, outer, middle}},
+      {SB_P_GASKET_THICKNESS, {AXIAL, left, right, 0.5 * (v->bore + v->rim)}},
+      {SB_P_GASKET_CRIMP, {AXIAL, left, right, 0.5 * (v->bore + v->rim)}},
+      {SB_P_BORE_DIAMETER, {DIAMETER, 0, v->chamber_roof, v->chamber}},
+      {SB_P_BORE_LAND_EDGE, {AXIAL, v->groove_right[SB_INNER], v->shoulder, v->bore}},
+      {SB_P_STEM_PRESSURE_DIAMETER, {DIAMETER, 0, v->bore, v->chamber}},
+      {SB_P_STEM_SEAL_SPACING, {AXIAL, v->origin[SB_INNER], middle, 0.5 * (v->bore + v->rim)}},
+      {SB_P_STEM_CHAMBER_DEPTH,
+       {RADIAL, v->bore - sb_model_value(model, SB_P_STEM_CHAMBER_DEPTH), v->bore,
+        0.5 * (neck + v->shoulder)}},
+      {SB_P_STEM_CHAMBER_LENGTH, {AXIAL, neck, v->shoulder, v->bore}},
+      {SB_P_STEM_PORT_TRAVEL, {AXIAL, left, port, 0.8 * v->bore}},
+      {SB_P_STEM_PORT_DIAMETER, {AXIAL, v->port_left, v->port_right, 0.8 * v->bore}},
+      {SB_P_DRIVE_STROKE, {AXIAL, v->nose - stroke, v->nose, 0.4 * v->bore}},
+  };
+  return find(mark, size, all, G_N_ELEMENTS(all));
+}
+
 // Where the dimension lies; false: the parameter is no such size.
 static gboolean find_mark(Mark *mark, const SbValveOutline *v, const SbModel *model,
                           double contact_left, SbParamId id) {
-  int seal;
-  char name[64];
-  const gboolean of_seal = name_of(name, &seal, id);
+  const SbParamId size = size_of(id);
+  const int seal = sb_param(id)->seal == SB_INNER ? SB_INNER : SB_OUTER;
   const double ring = sb_model_seal(model, seal)->section_diameter;
   const double left = v->groove_left[SB_OUTER], right = v->groove_right[SB_OUTER];
   const double vent = 0.5 * (v->vent_left + v->vent_right), high = v->bore + 0.25 * ring;
@@ -91,46 +90,33 @@ static gboolean find_mark(Mark *mark, const SbValveOutline *v, const SbModel *mo
   const double shoulder = sb_model_value(model, SB_P_STEM_SHOULDER_LENGTH);
   const double chamber_right = 2 * v->chamber - v->chamber_left;
   if (v->gasket) {
-    return find_gasket_mark(mark, v, model, name, of_seal);
+    return find_gasket_mark(mark, v, model, size);
   }
-  const struct {
-    const char *name;
-    gboolean of_seal;
-    Mark mark;
-  } all[] = {
-      {"section_diameter", TRUE, {RADIAL, v->floor, v->floor + ring, v->origin[seal]}},
-      {"inner_diameter",
-       TRUE,
+  const Dimension all[] = {
+      {SB_P_SEAL_SECTION_DIAMETER, {RADIAL, v->floor, v->floor + ring, v->origin[seal]}},
+      {SB_P_SEAL_INNER_DIAMETER,
        {DIAMETER, 0, 0.5 * sb_model_seal(model, seal)->inner_diameter, v->origin[seal]}},
-      {"gland.radial_space", FALSE, {RADIAL, v->floor, v->bore, left + 0.12 * (right - left)}},
-      {"gland.axial_width", FALSE, {AXIAL, left, right, v->floor + 0.25 * (v->land - v->floor)}},
-      {"bore.diameter", FALSE, {DIAMETER, 0, v->bore, right + 0.35 * ring}},
-      {"bore.land_edge", FALSE, {AXIAL, 0, v->origin[SB_INNER] + contact_left, high}},
-      {"bore.entry_diameter", FALSE, {DIAMETER, 0, v->mouth, 0.5 * v->face}},
-      {"bore.entry_length", FALSE, {AXIAL, v->face, 0, v->mouth + 0.25 * ring}},
-      {"bore.land_length", FALSE, {AXIAL, 0, v->end, high}},
-      {"bore.vent_position", FALSE, {AXIAL, 0, vent, high}},
-      {"bore.vent_diameter", FALSE, {AXIAL, v->vent_left, v->vent_right, high}},
-      {"stem.pressure_diameter", FALSE, {DIAMETER, 0, v->land, left - 0.2 * ring}},
-      {"stem.seal_spacing",
-       FALSE,
+      {SB_P_GLAND_RADIAL_SPACE, {RADIAL, v->floor, v->bore, left + 0.12 * (right - left)}},
+      {SB_P_GLAND_AXIAL_WIDTH, {AXIAL, left, right, v->floor + 0.25 * (v->land - v->floor)}},
+      {SB_P_BORE_DIAMETER, {DIAMETER, 0, v->bore, right + 0.35 * ring}},
+      {SB_P_BORE_LAND_EDGE, {AXIAL, 0, v->origin[SB_INNER] + contact_left, high}},
+      {SB_P_BORE_ENTRY_DIAMETER, {DIAMETER, 0, v->mouth, 0.5 * v->face}},
+      {SB_P_BORE_ENTRY_LENGTH, {AXIAL, v->face, 0, v->mouth + 0.25 * ring}},
+      {SB_P_BORE_LAND_LENGTH, {AXIAL, 0, v->end, high}},
+      {SB_P_BORE_VENT_POSITION, {AXIAL, 0, vent, high}},
+      {SB_P_BORE_VENT_DIAMETER, {AXIAL, v->vent_left, v->vent_right, high}},
+      {SB_P_STEM_PRESSURE_DIAMETER, {DIAMETER, 0, v->land, left - 0.2 * ring}},
+      {SB_P_STEM_SEAL_SPACING,
        {AXIAL, 0.5 * (v->groove_left[SB_INNER] + v->groove_right[SB_INNER]), 0.5 * (left + right),
         0.6 * v->floor}},
-      {"stem.nose_length", FALSE, {AXIAL, v->nose, v->groove_left[SB_INNER], 0.6 * v->floor}},
-      {"stem.chamber_depth", FALSE, {RADIAL, v->chamber_floor, v->land, v->chamber}},
-      {"stem.chamber_length", FALSE, {AXIAL, v->chamber_left, chamber_right, v->land}},
-      {"stem.shoulder_length", FALSE, {AXIAL, right, right + shoulder, 0.6 * v->floor}},
-      {"stem.rod_diameter", FALSE, {DIAMETER, 0, v->rod, v->end - 0.3 * ring}},
-      {"drive.stroke", FALSE, {AXIAL, v->nose - stroke, v->nose, 0.4 * v->land}},
+      {SB_P_STEM_NOSE_LENGTH, {AXIAL, v->nose, v->groove_left[SB_INNER], 0.6 * v->floor}},
+      {SB_P_STEM_CHAMBER_DEPTH, {RADIAL, v->chamber_floor, v->land, v->chamber}},
+      {SB_P_STEM_CHAMBER_LENGTH, {AXIAL, v->chamber_left, chamber_right, v->land}},
+      {SB_P_STEM_SHOULDER_LENGTH, {AXIAL, right, right + shoulder, 0.6 * v->floor}},
+      {SB_P_STEM_ROD_DIAMETER, {DIAMETER, 0, v->rod, v->end - 0.3 * ring}},
+      {SB_P_DRIVE_STROKE, {AXIAL, v->nose - stroke, v->nose, 0.4 * v->land}},
   };
-  for (size_t i = 0; i < G_N_ELEMENTS(all); i++) {
-    if (all[i].of_seal == of_seal && strcmp(name, all[i].name) == 0 &&
-        fabs(all[i].mark.to - all[i].mark.from) > 0) {
-      *mark = all[i].mark;
-      return TRUE;
-    }
-  }
-  return FALSE;
+  return find(mark, size, all, G_N_ELEMENTS(all));
 }
 
 // A symbol with its index set lower: "D_p".

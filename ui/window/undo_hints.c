@@ -33,8 +33,8 @@ char *sb_undo_hints_text(const SbDocument *document, bool redo) {
   if (unit != NULL && g_str_has_suffix(after, unit)) {
     *unit = '\0';
   }
-  return g_strdup_printf("%s%s %s → %s", sb_param_owner(param), sb_translation(param->label),
-                         before, after);
+  return g_strdup_printf("%s%s %s → %s", sb_param_owner((SbParamId)id),
+                         sb_translation(param->label), before, after);
 }
 
 void sb_undo_hints_show(GtkWidget *button, const SbDocument *document, bool redo) {

@@ -21,13 +21,18 @@ SB_FIGURE_QUANTITY_LIST(SI_UNIT)
 #define CONTACT_COLUMNS(quantity, shown, digits, better, error, needs, ...)                        \
   COLUMNS(quantity, shown, digits, better, error, WHOLE, __VA_ARGS__)
 #define SEAL(name, index, path, member, ...)                                                       \
-  {"seals." name "." path, offsetof(SbSummary, seal[index].member),                                \
-   name " seal",           index,                                                                  \
-   SB_DIRECTION_NONE,      COLUMNS(__VA_ARGS__)},
+  {"seals." name "." path,                                                                         \
+   offsetof(SbSummary, seal[index].member),                                                        \
+   name " seal",                                                                                   \
+   SB_GROUP_SEAL,                                                                                  \
+   index,                                                                                          \
+   SB_DIRECTION_NONE,                                                                              \
+   COLUMNS(__VA_ARGS__)},
 #define CONTACT_IN(name, index, path, member, ...)                                                 \
   {"seals." name ".contact.in_stroke." path,                                                       \
    offsetof(SbSummary, contact[index].in_stroke.member),                                           \
    name " seal, in-stroke",                                                                        \
+   SB_GROUP_SEAL,                                                                                  \
    index,                                                                                          \
    SB_DIRECTION_IN,                                                                                \
    COLUMNS(__VA_ARGS__)},
@@ -35,14 +40,20 @@ SB_FIGURE_QUANTITY_LIST(SI_UNIT)
   {"seals." name ".contact.return." path,                                                          \
    offsetof(SbSummary, contact[index].back.member),                                                \
    name " seal, return",                                                                           \
+   SB_GROUP_SEAL,                                                                                  \
    index,                                                                                          \
    SB_DIRECTION_OUT,                                                                               \
    CONTACT_COLUMNS(__VA_ARGS__)},
 static const SbFigure figures[SB_FIGURE_COUNT] = {
-#define SB_FIGURE(path, member, ...)                                                               \
-  {path, offsetof(SbSummary, member), "", SB_SEAL_COUNT, SB_DIRECTION_NONE, COLUMNS(__VA_ARGS__)},
-#define SB_FIGURE_AT(path, place, where, ...)                                                      \
-  {path, offsetof(SbSummary, place), where, SB_SEAL_COUNT, SB_DIRECTION_NONE, COLUMNS(__VA_ARGS__)},
+#define SB_FIGURE(path, member, ...) SB_FIGURE_AT(path, member, "", __VA_ARGS__)
+#define SB_FIGURE_AT(path, place, where, group, ...)                                               \
+  {path,                                                                                           \
+   offsetof(SbSummary, place),                                                                     \
+   where,                                                                                          \
+   SB_GROUP_##group,                                                                               \
+   SB_SEAL_COUNT,                                                                                  \
+   SB_DIRECTION_NONE,                                                                              \
+   COLUMNS(__VA_ARGS__)},
 #include "engine/valve/figures/figures.def"
 #define SB_SEAL_FIGURE(...)    SEAL("outer", SB_OUTER, __VA_ARGS__)
 #define SB_CONTACT_FIGURE(...) CONTACT_IN("outer", SB_OUTER, __VA_ARGS__)

@@ -95,6 +95,19 @@ typedef enum {
   SB_PART_ESTIMATE_SHELF    // error estimates of the permeation
 } SbFigurePart;
 
+// What a figure describes.
+typedef enum {
+  SB_GROUP_CYCLE,  // the cycle of a valve
+  SB_GROUP_STAGE,  // one stage of the cycle
+  SB_GROUP_SEAL,   // one seal
+  SB_GROUP_PEOPLE, // who can press the valve
+  SB_GROUP_DOSE,   // the dose
+  SB_GROUP_RIG,    // the sliding plate
+  SB_GROUP_LIFE,   // a life of several actuations
+  SB_GROUP_SHELF,  // storage
+  SB_GROUP_SOLVER  // error estimates of solvers
+} SbFigureGroup;
+
 // Stroke that a figure describes.
 typedef enum {
   SB_DIRECTION_NONE, // not one stroke
@@ -105,10 +118,11 @@ typedef enum {
 // One row of the table. Rows of seals and contacts in figures.def give one row here for each seal
 // and way. Strings are static.
 typedef struct {
-  const char *path;  // "seals.outer.load_N"
-  size_t offset;     // byte offset of its value, a double, in SbSummary
-  const char *where; // "outer seal", "stage B": distinguishes figures with the same label; or ""
-  int seal;          // SB_OUTER, SB_INNER; SB_SEAL_COUNT: not one seal
+  const char *path;    // "seals.outer.load_N"
+  size_t offset;       // byte offset of its value, a double, in SbSummary
+  const char *where;   // "outer seal", "stage B": distinguishes figures with the same label; or ""
+  SbFigureGroup group; // what it describes
+  int seal;            // SB_OUTER, SB_INNER; SB_SEAL_COUNT: not one seal
   SbDirection direction;     // stroke that it describes
   SbFigureQuantity quantity; // its physical quantity
   const char *si, *shown;    // SI unit; display unit
@@ -128,7 +142,7 @@ const SbFigure *sb_figure(int index);
 
 // Returns whether a figure is an error estimate of a solver.
 static inline bool sb_figure_is_estimate(const SbFigure *figure) {
-  return figure->part >= SB_PART_ESTIMATE;
+  return figure->group == SB_GROUP_SOLVER;
 }
 
 // Returns the index of the figure with this path ("seals.outer.load_N"); -1 if there is none.

@@ -8,23 +8,26 @@
 #include <string.h>
 
 // All rows have the same form, except for what a kind omits.
-#define ROW(id, kind, key, symbol, si, unit, min, max, fallback, choices, parent, ...)             \
-  [SB_P_##id] = {key, kind, symbol, si, unit, min, max, fallback, choices, __VA_ARGS__, parent},
+#define ROW(id, kind, key, symbol, si, unit, min, max, value, choices, parent, seal, ...)          \
+  [SB_P_##id] = {key, kind, symbol, si, unit, min, max, value, choices, __VA_ARGS__, parent, seal},
 #define SB_REAL(id, where, place, key, symbol, si, unit, min, max, fallback, ...)                  \
-  ROW(id, SB_PARAM_REAL, key, symbol, si, unit, min, max, fallback, NULL, -1, __VA_ARGS__)
+  ROW(id, SB_PARAM_REAL, key, symbol, si, unit, min, max, fallback, NULL, -1, SB_SEAL_COUNT,       \
+      __VA_ARGS__)
 #define SB_INT(id, where, place, key, symbol, min, max, fallback, ...)                             \
-  ROW(id, SB_PARAM_INT, key, symbol, "1", "", min, max, fallback, NULL, -1, __VA_ARGS__)
+  ROW(id, SB_PARAM_INT, key, symbol, "1", "", min, max, fallback, NULL, -1, SB_SEAL_COUNT,         \
+      __VA_ARGS__)
 #define SB_CHOICE(id, type, where, place, key, choices, fallback, ...)                             \
-  ROW(id, SB_PARAM_CHOICE, key, "", "1", "", 0, 0, fallback, choices, -1, __VA_ARGS__)
+  ROW(id, SB_PARAM_CHOICE, key, "", "1", "", 0, 0, fallback, choices, -1, SB_SEAL_COUNT,           \
+      __VA_ARGS__)
 #define SB_FLAGS(id, where, place, key, choices, fallback, ...)                                    \
-  ROW(id, SB_PARAM_FLAGS, key, "", "1", "", 0, 0, fallback, choices, -1, __VA_ARGS__)
-#define SEAL_ROW(id, parent, key, symbol, si, unit, min, max, fallback, ...)                       \
-  ROW(SEAL_##id, SB_PARAM_REAL, key, symbol, si, unit, min, max, fallback, NULL, parent,           \
+  ROW(id, SB_PARAM_FLAGS, key, "", "1", "", 0, 0, fallback, choices, -1, SB_SEAL_COUNT, __VA_ARGS__)
+#define SEAL_ROW(id, parent, seal, key, symbol, si, unit, min, max, fallback, ...)                 \
+  ROW(SEAL_##id, SB_PARAM_REAL, key, symbol, si, unit, min, max, fallback, NULL, parent, seal,     \
       __VA_ARGS__)
 #define SB_SEAL(id, where, place, name, ...)                                                       \
-  SEAL_ROW(id, -1, "seal." name, __VA_ARGS__)                                                      \
-  SEAL_ROW(OUTER_##id, SB_P_SEAL_##id, "seal.outer." name, __VA_ARGS__)                            \
-  SEAL_ROW(INNER_##id, SB_P_SEAL_##id, "seal.inner." name, __VA_ARGS__)
+  SEAL_ROW(id, -1, SB_SEAL_COUNT, "seal." name, __VA_ARGS__)                                       \
+  SEAL_ROW(OUTER_##id, SB_P_SEAL_##id, SB_OUTER, "seal.outer." name, __VA_ARGS__)                  \
+  SEAL_ROW(INNER_##id, SB_P_SEAL_##id, SB_INNER, "seal.inner." name, __VA_ARGS__)
 static const SbParam table[SB_PARAM_COUNT] = {
 #include "engine/valve/model/params.def"
 };
@@ -79,6 +82,28 @@ int sb_param_tolerance(SbParamId id) {
   char key[96];
   snprintf(key, sizeof key, "%s_tolerance", table[id].key);
   return sb_param_find(key);
+}
+
+int sb_param_toleranced(SbParamId id) {
+  const char *key = table[id].key, *ending = strstr(key, "_tolerance");
+  char size[96];
+  snprintf(size, sizeof size, "%.*s", ending != NULL ? (int)(ending - key) : 0, key);
+  return sb_param_find(size);
+}
+
+SbParamGroup sb_param_group(SbParamId id) {
+  static const char *const names[] = {
+#define SB_PARAM_GROUP_NAME(group, name) name,
+      SB_PARAM_GROUP_LIST(SB_PARAM_GROUP_NAME)
+#undef SB_PARAM_GROUP_NAME
+  };
+  const size_t length = strcspn(table[id].key, ".");
+  int group = 0;
+  while (group < SB_PARAMS_GROUP_COUNT &&
+         (strncmp(table[id].key, names[group], length) != 0 || names[group][length] != '\0')) {
+    group++;
+  }
+  return (SbParamGroup)group;
 }
 
 const SbParam *sb_param(SbParamId id) {
@@ -215,7 +240,7 @@ static bool from_fluid(SbParamDefault *out, const SbParams *params, SbParamId id
 }
 
 bool sb_param_of_rubber(SbParamId id) {
-  return strncmp(table[id].key, "rubber.", 7) == 0 || id == SB_P_SEAL_MODULUS ||
+  return sb_param_group(id) == SB_PARAMS_RUBBER || id == SB_P_SEAL_MODULUS ||
          id == SB_P_SEAL_POISSON_RATIO || id == SB_P_SEAL_MOONEY_SHARE;
 }
 

@@ -29,6 +29,41 @@ typedef enum {
   SB_PARAM_COUNT
 } SbParamId;
 
+// X(group, name): all groups of keys, the part of a key before its first dot.
+#define SB_PARAM_GROUP_LIST(X)                                                                     \
+  X(BORE, "bore")                                                                                  \
+  X(CANISTER, "canister")                                                                          \
+  X(CHAMBER, "chamber")                                                                            \
+  X(DRIVE, "drive")                                                                                \
+  X(FLUID, "fluid")                                                                                \
+  X(FRICTION, "friction")                                                                          \
+  X(GASKET, "gasket")                                                                              \
+  X(GLAND, "gland")                                                                                \
+  X(HOUSING, "housing")                                                                            \
+  X(JOINT, "joint")                                                                                \
+  X(LIFE, "life")                                                                                  \
+  X(MODELS, "models")                                                                              \
+  X(OUTPUT, "output")                                                                              \
+  X(PART, "part")                                                                                  \
+  X(PEOPLE, "people")                                                                              \
+  X(RIG, "rig")                                                                                    \
+  X(RUBBER, "rubber")                                                                              \
+  X(SEAL, "seal")                                                                                  \
+  X(SHELF, "shelf")                                                                                \
+  X(STEM, "stem")                                                                                  \
+  X(STORAGE, "storage")                                                                            \
+  X(STUDY, "study")                                                                                \
+  X(SURFACE, "surface")                                                                            \
+  X(VALVE, "valve")
+
+// Group of a parameter, SB_PARAMS_BORE, ...
+typedef enum {
+#define SB_PARAM_GROUP_ENUM(group, name) SB_PARAMS_##group,
+  SB_PARAM_GROUP_LIST(SB_PARAM_GROUP_ENUM)
+#undef SB_PARAM_GROUP_ENUM
+      SB_PARAMS_GROUP_COUNT
+} SbParamGroup;
+
 // Kind of a parameter's value: a real number, an integer, the index of a choice, or a bit mask of
 // flags (bit i: choice i).
 typedef enum { SB_PARAM_REAL, SB_PARAM_INT, SB_PARAM_CHOICE, SB_PARAM_FLAGS } SbParamKind;
@@ -49,6 +84,7 @@ typedef struct {
   const char *tag;     // "thesis", "inferred", "ours", "published" or "typical"
   int parent; // of seal.outer.X and seal.inner.X: number of seal.X, whose value applies to a seal
               // without its own; of all other parameters -1
+  int seal;   // SB_OUTER of seal.outer.X, SB_INNER of seal.inner.X; else SB_SEAL_COUNT
 } SbParam;
 
 // Returns whether `id` is one of the few parameters with which a design of a valve of `kind` (an
@@ -61,6 +97,10 @@ const char *sb_param_words(SbParamId id);
 // Returns the SbParamId of the tolerance of size `id` (key with "_tolerance" appended); -1 if there
 // is none.
 int sb_param_tolerance(SbParamId id);
+
+// Returns the SbParamId of the size whose tolerance is `id`; -1 if `id` is not a tolerance of a
+// size.
+int sb_param_toleranced(SbParamId id);
 
 // Largest number of values of a rubber, and bytes of a source.
 enum { SB_RUBBER_FIGURES_MAX = 48, SB_SOURCE_MAX = 256 };
@@ -91,6 +131,9 @@ const SbParam *sb_param(SbParamId id);
 
 // Returns the number of a key, or -1.
 int sb_param_find(const char *key);
+
+// Returns the group of a parameter.
+SbParamGroup sb_param_group(SbParamId id);
 
 // Sets all parameters to not given, and `rubber` to NULL.
 void sb_params_init(SbParams *params);

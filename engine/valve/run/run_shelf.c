@@ -36,12 +36,12 @@ static void fill(SbShelf *out, const SbModel *model, int seal, const SbShelfRest
 
 // Reports inputs of the figures that were not measured on this rubber.
 static void warn_typical(SbShelf *out, SbWarnings *warnings, const SbModel *model) {
-  for (int i = 0; i < SB_SHELF_TYPICAL; i++) {
+  for (int i = 0; i < SB_SHELF_SPECIES; i++) {
     char text[SB_TEXT];
-    const char *key = sb_shelf_typical(text, sizeof text, model, i);
-    if (key != NULL) {
+    const int id = sb_shelf_typical(text, sizeof text, model, (SbShelfSpecies)i);
+    if (id >= 0) {
       out->typical = true;
-      sb_warn(warnings, "shelf-typical", key, "%s", text);
+      sb_warn(warnings, "shelf-typical", sb_param((SbParamId)id)->key, "%s", text);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include "engine/permeation/diffusion.h"
 #include "engine/permeation/slit.h"
 #include "engine/permeation/wetted_ring.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/model/model.h"
 
 #include <math.h>
@@ -236,17 +237,30 @@ void sb_shelf_rates(SbShelfRates *out, const SbModel *model, const SbShelfRest *
   }
 }
 
-const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int which) {
+SbShelfSpecies sb_shelf_species(int figure) {
+  static const size_t water[] = {offsetof(SbSummary, shelf.moisture),
+                                 offsetof(SbSummary, shelf.moisture_per_year),
+                                 offsetof(SbSummary, shelf.seal[SB_OUTER].moisture),
+                                 offsetof(SbSummary, shelf.seal[SB_INNER].moisture)};
+  for (size_t i = 0; i < sizeof water / sizeof *water; i++) {
+    if (sb_figure(figure)->offset == water[i]) {
+      return SB_SHELF_WATER;
+    }
+  }
+  return SB_SHELF_PROPELLANT;
+}
+
+int sb_shelf_typical(char *text, size_t size, const SbModel *model, SbShelfSpecies species) {
   static const struct {
     SbParamId id;
     const char *what;
-  } figures[SB_SHELF_TYPICAL] = {{SB_P_RUBBER_PERMEABILITY, "loss by permeation"},
+  } figures[SB_SHELF_SPECIES] = {{SB_P_RUBBER_PERMEABILITY, "loss by permeation"},
                                  {SB_P_RUBBER_WATER_PERMEABILITY, "moisture"}};
   SbParamDefault from;
-  if (!sb_model_default(&from, model, figures[which].id) || !from.typical) {
-    return NULL;
+  if (!sb_model_default(&from, model, figures[species].id) || !from.typical) {
+    return -1;
   }
   sb_text(text, size, "the %s depends on a typical value of %s, not on a measurement: %s",
-          figures[which].what, from.name != NULL ? from.name : "such rubbers", from.source);
-  return sb_param(figures[which].id)->key;
+          figures[species].what, from.name != NULL ? from.name : "such rubbers", from.source);
+  return (int)figures[species].id;
 }

@@ -28,13 +28,16 @@
 
 #include "engine/valve/figures/summary.h"
 
-// Number of species for sb_shelf_typical(): propellant (0), water (1).
-enum { SB_SHELF_TYPICAL = 2 };
+// Species that permeate the rubber.
+typedef enum { SB_SHELF_PROPELLANT, SB_SHELF_WATER, SB_SHELF_SPECIES } SbShelfSpecies;
 
-// If the permeability for species `which` (0: propellant, 1: water) is a typical value of such
-// rubbers, not a measurement on this one: returns its catalogue key (static), and writes a sentence
-// about it to text[size]. Else returns NULL and leaves `text` unchanged.
-const char *sb_shelf_typical(char *text, size_t size, const SbModel *model, int which);
+// Returns the species that figure `figure`, one of SB_GROUP_SHELF, describes.
+SbShelfSpecies sb_shelf_species(int figure);
+
+// If the permeability for a species is a typical value of such rubbers, not a measurement on this
+// one: returns its SbParamId, and writes a sentence about it to text[size]. Else returns -1 and
+// leaves `text` unchanged.
+int sb_shelf_typical(char *text, size_t size, const SbModel *model, SbShelfSpecies species);
 
 // A seal at rest after storage, computed by sb_shelf_rest().
 typedef struct {
