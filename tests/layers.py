@@ -88,6 +88,17 @@ def lines_of_rooms_that_pass():
             if sum(name.startswith(f'engine/valve/{room}/') for name in found) != 1]
 
 
+def keys_that_pass():
+    """Keys in a file of a room below the valve that keys_below() does not find."""
+    wrong = ['"gland.radial_space"', '"see models.fit = ring"', '"seal.outer.modulus"']
+    with tempfile.TemporaryDirectory() as source:
+        os.makedirs(f'{source}/engine/film')
+        with open(f'{source}/engine/film/film.c', 'w', encoding='utf-8') as file:
+            file.write('#include "engine/film/film.h" // models.film\n' + '\n'.join(wrong) + '\n"the seal. A ring"\n')
+        found = keys_below(source, {'gland.radial_space', 'models.fit', 'seal.outer.modulus'})
+    return [] if len(found) == len(wrong) else found or ['none']
+
+
 def readers_of_the_model(source):
     """Files that see, by whatever includes, what a model is made of, and are neither of engine/valve
     nor tests of the engine: to everybody else it is opaque, so that nobody can change one."""
@@ -136,6 +147,24 @@ CHOICES = ['if (model->fit == SB_FIT_RING) {', '  case SB_FILM_MOES:', 'fit < SB
 FIGURE_TEXT = re.compile(r'\bstr(?:n?cmp|str|n?casecmp)\([^;]*(?:->|\b)(?:path|si|shown|where)\b')
 
 
+def catalogue_keys(source):
+    """All keys of params.def."""
+    with open(f'{source}/engine/valve/model/params.def', encoding='utf-8') as file:
+        rows = re.findall(r'^SB_(REAL|SEAL|INT|CHOICE|FLAGS)\s*\(.*?"([^"]+)"', file.read(), re.M)
+    return {key for kind, name in rows for key in (
+        [f'seal.{name}', f'seal.outer.{name}', f'seal.inner.{name}'] if kind == 'SEAL' else [name])}
+
+
+def keys_below(source, keys):
+    """String literals of the rooms below the valve that have a key of the catalogue, or of a group of it."""
+    groups = '|'.join(sorted({key.split('.')[0] for key in keys}))
+    key = re.compile(rf'(?<![\w./])(?:{groups})\.[a-z_]+(?![\w/(]|\.[ch])')
+    return [f'{os.path.relpath(path, source)}: {literal}' for path, text in sources_below(f'{source}/engine')
+            if os.path.relpath(path, source).split('/')[1] != 'valve'
+            for literal in re.findall(r'"((?:[^"\\\n]|\\.)*)"', re.sub(r'//.*|#include.*', '', text))
+            if key.search(literal)]
+
+
 def lines_with(source, folders, pattern, allowed=()):
     """Places of lines in C files that match a pattern."""
     return [f'{os.path.relpath(path, source)}: {line.strip()}'
@@ -175,6 +204,8 @@ checks = [
     ('no code outside their rooms compares a choice of fit or film (sb_fit_kind(), sb_film_kind())',
      lines_with(source, ['engine/fluid', 'engine/mechanism', 'engine/rubber', 'engine/valve', 'app', 'ui'], CHOICE)),
     ('that test finds such a line', [line for line in CHOICES if not CHOICE.search(line)]),
+    ('no room below the valve names a key of the catalogue', keys_below(source, catalogue_keys(source))),
+    ('that test finds such a key', keys_that_pass()),
     ('the result of every copy of a model is used',
      lines_with(source, ['engine', 'app', 'ui'], re.compile(r'\(void\) ?sb_model_copy\('))),
     ('the library shows what its header declares and nothing else', sorted(visible(library) ^ declared)),

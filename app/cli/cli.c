@@ -267,11 +267,11 @@ int sb_cli_status(SbStatus status, const SbReport *report) {
     return SB_EXIT_DONE;
   }
   const char *text = report->text[0] != '\0' ? report->text : sb_status_text(status);
-  int id = sb_param_find(report->parameter);
+  const int id = sb_input_parameter(report->input);
   if (id >= 0) {
     char *range = sb_param_range((SbParamId)id);
     GPtrArray *issues = sb_issues_new();
-    sb_issues_add(issues, NULL, 0, report->parameter, range, "%s", text);
+    sb_issues_add(issues, NULL, 0, sb_input_key(report->input), range, "%s", text);
     sb_cli_issues(issues);
     g_ptr_array_unref(issues);
     g_free(range);
@@ -514,8 +514,8 @@ void sb_cli_warnings(const SbWarnings *warnings) {
   for (size_t i = 0; i < warnings->count; i++) {
     const SbWarning *warning = &warnings->item[i];
     printf("%s  %s: %s%s%s%s\n", i == 0 ? "Warnings\n" : "", warning->code, warning->text,
-           warning->parameter[0] != '\0' ? " (" : "", warning->parameter,
-           warning->parameter[0] != '\0' ? ")" : "");
+           warning->input != 0 ? " (" : "", sb_input_key(warning->input),
+           warning->input != 0 ? ")" : "");
   }
 }
 

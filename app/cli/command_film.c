@@ -371,7 +371,7 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
   double wall_s = 0;
   SbStatus status = sb_timing_median(&wall_s, solve, &job);
   film->solver.wall_s = wall_s;
-  job.report.parameter[0] = '\0'; // the catalogue's key and range are a seal's, not this command's
+  job.report.input = 0; // the catalogue's key and range are a seal's, not this command's
   int code = sb_cli_status(status, &job.report);
   const size_t rows = series != NULL ? series->count : 0;
   double *values = g_new(double, 4 * rows + 1);
@@ -384,7 +384,7 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
   if (status == SB_OK && series != NULL) {
     SbReport own = {0};
     status = follow(&history, problem, series, &own);
-    own.parameter[0] = '\0';
+    own.input = 0;
     code = sb_cli_status(status, &own);
   } else {
     series = NULL;

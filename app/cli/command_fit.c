@@ -255,7 +255,7 @@ int sb_command_fit(int argc, char **argv) {
   // A gasket lies in none.
   const SbGlandReadout *in_gland = problem.gasket ? NULL : readouts;
   if (in_gland != NULL && sb_gland_readouts(readouts, &gland, &gland_report) != SB_OK) {
-    sb_cli_fail("%s: %s", gland_report.parameter, gland_report.text);
+    sb_cli_fail("%s: %s", sb_input_key(gland_report.input), gland_report.text);
     code = SB_EXIT_INPUT;
     goto done;
   }

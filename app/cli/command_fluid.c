@@ -92,6 +92,9 @@ int sb_command_fluid(int argc, char **argv) {
   g_autofree SbWarnings *warnings = g_new0(SbWarnings, 1);
   SbReport report = {0};
   const SbStatus status = sb_fluid_state(&state, warnings, fluid, temperature, ethanol, &report);
+  if (report.input == SB_FLUID_IN_NAME) {
+    g_strlcat(report.text, ": set canister.pressure, fluid.viscosity and fluid.density", SB_TEXT);
+  }
   int code = sb_cli_status(status, &report);
   if (status == SB_OK && target != NULL) {
     g_autofree char *json = state_json(fluid, &state, ethanol, warnings);

@@ -159,7 +159,7 @@ void sb_json_warnings(SbJson *json, const SbWarnings *warnings) {
     sb_json_object(json, NULL);
     sb_json_string(json, "code", warning->code);
     sb_json_string(json, "text", warning->text);
-    sb_json_string(json, "parameter", warning->parameter[0] != '\0' ? warning->parameter : NULL);
+    sb_json_string(json, "parameter", warning->input != 0 ? sb_input_key(warning->input) : NULL);
     sb_json_object_end(json);
   }
   sb_json_array_end(json);

@@ -477,7 +477,7 @@ static void draw_warnings(SbReportPages *pages, const SbWarnings *warnings,
   }
   for (size_t i = 0; i < warnings->count; i++) {
     const SbWarning *warning = &warnings->item[i];
-    const char *const cell[] = {warning->text, warning->code, warning->parameter};
+    const char *const cell[] = {warning->text, warning->code, sb_input_key(warning->input)};
     sb_report_row(pages, &table, cell,
                   sb_warning_is_serious(warning->code) ? SB_REPORT_DOUBT : SB_REPORT_PLAIN);
   }

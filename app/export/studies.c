@@ -313,7 +313,7 @@ void sb_json_study_reasons(SbJson *json, const SbStudy *study, size_t index) {
     }
   }
   for (size_t i = 0; i < study->warnings.count; i++) {
-    if (study->warnings.item[i].parameter[0] == '\0') {
+    if (study->warnings.item[i].input == 0) {
       g_autofree char *path = g_strdup_printf("studies[%zu].warnings[%zu].parameter", index, i);
       sb_json_string(json, path, "the warning is not about one parameter");
     }

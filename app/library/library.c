@@ -178,7 +178,7 @@ static SbSceneStatus report(SbScene *scene, SbStatus status, const SbReport *fro
   if (status == SB_OK) {
     return SB_SCENE_OK;
   }
-  return fail(scene, (SbSceneStatus)status, from->parameter, "%s",
+  return fail(scene, (SbSceneStatus)status, sb_input_key(from->input), "%s",
               from->text[0] != '\0' ? from->text : sb_status_text(status));
 }
 

@@ -240,8 +240,8 @@ static void set_failure(SbSession *session, SbStatus status, const SbReport *rep
     g_string_append_printf(text, _(" Residual %.1e after %d iterations."), report->residual,
                            report->iteration);
   }
-  if (report->parameter[0] != '\0') {
-    g_string_append_printf(text, _(" Look at %s."), report->parameter);
+  if (report->input != 0) {
+    g_string_append_printf(text, _(" Look at %s."), sb_input_key(report->input));
   }
   if (count > 0) {
     g_string_append_printf(text,

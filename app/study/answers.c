@@ -101,9 +101,9 @@ SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestion
   const SbSummary *summary = sb_evaluator_summary(evaluator);
   out->warnings = summary != NULL ? sb_warning_codes(&summary->warnings, ";") : NULL;
   if (status != SB_OK) {
-    const bool unnamed =
-        report.parameter[0] != '\0' && strstr(report.text, report.parameter) == NULL;
-    out->reason = unnamed ? g_strdup_printf("%s: %s", report.parameter, report.text)
+    const char *key = sb_input_key(report.input);
+    const bool unnamed = strstr(report.text, key) == NULL;
+    out->reason = unnamed ? g_strdup_printf("%s: %s", key, report.text)
                           : g_strdup(report.text[0] != '\0' ? report.text : sb_status_text(status));
   }
   return status;

@@ -309,8 +309,8 @@ static char *popup_text(SbBench *bench, const char **title) {
         const SbWarning *warning = &summary->warnings.item[i];
         if (sb_warning_is_serious(warning->code) == (pass == 1)) {
           g_string_append_printf(text, "%s: %s%s%s%s\n\n", warning->code, warning->text,
-                                 warning->parameter[0] != '\0' ? " (" : "", warning->parameter,
-                                 warning->parameter[0] != '\0' ? ")" : "");
+                                 warning->input != 0 ? " (" : "", sb_input_key(warning->input),
+                                 warning->input != 0 ? ")" : "");
         }
       }
     }

@@ -15,8 +15,8 @@ SbStatus sb_check_bounds(const SbBound *bound, size_t count, SbReport *report) {
       sb_text(range, sizeof range, "be between %g and %g", b->low == DBL_MIN ? 0.0 : b->low,
               b->high);
     }
-    return sb_fail_parameter(report, SB_ERROR_RANGE, b->key, "%s must %s, not %g", b->what, range,
-                             b->value);
+    return sb_fail_input(report, SB_ERROR_RANGE, b->input, "%s must %s, not %g", b->what, range,
+                         b->value);
   }
   return SB_OK;
 }

@@ -61,29 +61,28 @@ void sb_text(char *out, size_t size, const char *format, ...) {
 }
 
 SB_PRINTF(4, 0)
-static void fail_v(SbReport *report, SbStatus status, const char *parameter, const char *format,
+static void fail_v(SbReport *report, SbStatus status, int input, const char *format,
                    va_list arguments) {
   if (report != NULL) {
     report->status = status;
     report->cause = SB_CAUSE_OTHER;
     sb_message_v(report->text, sizeof report->text, format, arguments);
-    sb_text(report->parameter, sizeof report->parameter, "%s", parameter);
+    report->input = input;
   }
 }
 
 SbStatus sb_fail(SbReport *report, SbStatus status, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  fail_v(report, status, "", format, arguments);
+  fail_v(report, status, 0, format, arguments);
   va_end(arguments);
   return status;
 }
 
-SbStatus sb_fail_parameter(SbReport *report, SbStatus status, const char *parameter,
-                           const char *format, ...) {
+SbStatus sb_fail_input(SbReport *report, SbStatus status, int input, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  fail_v(report, status, parameter, format, arguments);
+  fail_v(report, status, input, format, arguments);
   va_end(arguments);
   return status;
 }
@@ -108,11 +107,11 @@ void sb_warn_about(SbWarnings *list, const char *subject) {
   }
 }
 
-static void add(SbWarnings *list, const char *code, const char *parameter, const char *subject,
+static void add(SbWarnings *list, const char *code, int input, const char *subject,
                 const char *text) {
   for (size_t i = 0; i < list->count; i++) {
     const SbWarning *there = &list->item[i];
-    if (strcmp(there->code, code) == 0 && strcmp(there->parameter, parameter) == 0 &&
+    if (strcmp(there->code, code) == 0 && there->input == input &&
         strcmp(there->subject, subject) == 0) {
       return;
     }
@@ -124,20 +123,20 @@ static void add(SbWarnings *list, const char *code, const char *parameter, const
   SbWarning *warning = &list->item[list->count++];
   const bool named = strstr(text, subject) != NULL;
   sb_text(warning->code, sizeof warning->code, "%s", code);
-  sb_text(warning->parameter, sizeof warning->parameter, "%s", parameter);
+  warning->input = input;
   sb_text(warning->subject, sizeof warning->subject, "%s", subject);
   sb_message(warning->text, sizeof warning->text, "%s%s%s", named ? "" : subject, named ? "" : ": ",
              text);
 }
 
-void sb_warn(SbWarnings *list, const char *code, const char *parameter, const char *format, ...) {
+void sb_warn(SbWarnings *list, const char *code, int input, const char *format, ...) {
   if (list != NULL) {
     char text[SB_TEXT];
     va_list arguments;
     va_start(arguments, format);
     sb_message_v(text, sizeof text, format, arguments);
     va_end(arguments);
-    add(list, code, parameter, list->subject != NULL ? list->subject : "", text);
+    add(list, code, input, list->subject != NULL ? list->subject : "", text);
   }
 }
 
@@ -173,7 +172,7 @@ void sb_warnings_merge(SbWarnings *list, const SbWarnings *from) {
   for (size_t i = 0; list != NULL && i < from->count; i++) {
     const SbWarning *w = &from->item[i];
     bool own = w->subject[0] != '\0' || list->subject == NULL;
-    add(list, w->code, w->parameter, own ? w->subject : list->subject, w->text);
+    add(list, w->code, w->input, own ? w->subject : list->subject, w->text);
   }
   if (list != NULL) {
     list->dropped += from->dropped;

@@ -61,12 +61,25 @@ typedef enum {
   SB_CAUSE_FLUID_PASSES // the fluid passes a clamped gasket
 } SbCause;
 
+// First numbers of inputs. Each room below the valve numbers the inputs of its problems from its
+// own first number (enumerators SB_CONTACT_IN_X, SB_FILM_IN_X, ...) and knows no key of the
+// catalogue. engine/valve/model/params.h numbers the catalogue's inputs; inputs.c maps the rooms'
+// inputs to them.
+enum {
+  SB_CONTACT_INPUTS = 1000,
+  SB_FILM_INPUTS = 2000,
+  SB_RUBBER_INPUTS = 3000,
+  SB_FLUID_INPUTS = 4000,
+  SB_MECHANISM_INPUTS = 5000,
+  SB_VALVE_INPUTS = 10000
+};
+
 // Description of an error, in memory of the caller. Defined after an error only.
 typedef struct {
   SbStatus status;
   SbCause cause;
   char text[SB_TEXT]; // one sentence for the user, without a line break
-  char parameter[64]; // catalogue key of the parameter at fault, "" if none
+  int input;          // number of the input at fault, 0 if none; sb_input_key() returns its key
   double residual;    // last residual of the iteration; only iterative solvers set it
   int iteration;      // number of iterations done; only iterative solvers set it
 } SbReport;
@@ -79,9 +92,9 @@ const char *sb_status_text(SbStatus status);
 // `residual` and `iteration` are not changed.
 SbStatus sb_fail(SbReport *report, SbStatus status, const char *format, ...) SB_PRINTF(3, 4);
 
-// Does the same as sb_fail() and also stores `parameter`, the catalogue key at fault ("": none).
-SbStatus sb_fail_parameter(SbReport *report, SbStatus status, const char *parameter,
-                           const char *format, ...) SB_PRINTF(4, 5);
+// Does the same as sb_fail() and also stores the number of the input at fault (0: none).
+SbStatus sb_fail_input(SbReport *report, SbStatus status, int input, const char *format, ...)
+    SB_PRINTF(4, 5);
 
 // Stores `cause` in `report` (NULL: nothing is written) and returns `status`, which is the result
 // of the call that wrote the report: `return sb_fail_because(report, sb_fail(report, ...),
@@ -111,11 +124,11 @@ enum { SB_WARNINGS_MAX = 48 };
 typedef struct {
   char code[48];      // stable identifier of the kind of warning, "film-below-continuum"
   char text[SB_TEXT]; // one sentence, which names the subject
-  char parameter[64]; // catalogue key of the parameter to change, "" if none
+  int input;          // number of the input to change, 0 if none; sb_input_key() returns its key
   char subject[16];   // part that the warning is about, "inner seal"; "" if there is only one
 } SbWarning;
 
-// A list of warnings without duplicates (equal code, parameter and subject). It owns its texts.
+// A list of warnings without duplicates (equal code, input and subject). It owns its texts.
 // Initialise with {0}; nothing has to be freed.
 typedef struct {
   const char *subject; // subject of warnings that are added next, borrowed; NULL: none
@@ -125,9 +138,9 @@ typedef struct {
 } SbWarnings;
 
 // Adds a warning about the current subject of `list`, with a formatted sentence. Does nothing if
-// the list has a warning with equal code, parameter and subject. All strings are copied. `list` may
-// be NULL.
-void sb_warn(SbWarnings *list, const char *code, const char *parameter, const char *format, ...)
+// the list has a warning with equal code, input and subject. All strings are copied. `list` may be
+// NULL.
+void sb_warn(SbWarnings *list, const char *code, int input, const char *format, ...)
     SB_PRINTF(4, 5);
 
 // Formats a new text into each warning of `list` that has this code and this subject ("": no

@@ -70,7 +70,7 @@ typedef struct {
 static void check_squeeze(SbFit *out, const Section *section, const char *code, double low,
                           double high, const char *of) {
   if (section->squeeze < low || section->squeeze > high) {
-    sb_warn(&out->warnings, code, "seal.section_diameter",
+    sb_warn(&out->warnings, code, SB_CONTACT_IN_SECTION_DIAMETER,
             "squeeze %.3g %% is outside %.3g to %.3g %%, the range of %s", 100.0 * section->squeeze,
             100.0 * low, 100.0 * high, of);
   }
@@ -94,7 +94,7 @@ static Contact hertz(SbFit *out, const SbFitProblem *in, const Section *section)
                                               4.0 * in->modulus / (1.0 - nu * nu) / modulus);
   if (t > WIDTH_MOST) {
     sb_warn(
-        &out->warnings, "hertz-width", "gland.radial_space",
+        &out->warnings, "hertz-width", SB_CONTACT_IN_RADIAL_SPACE,
         "contact half-width is %.2g of the radius: Hertz theory requires a small value (below %g)",
         t, WIDTH_MOST);
   }
@@ -105,7 +105,7 @@ static Contact hertz(SbFit *out, const SbFitProblem *in, const Section *section)
 static Contact of_load_factor(SbFit *out, const SbFitProblem *in, const Section *section,
                               double factor) {
   if (in->poisson_ratio < 0.45) {
-    sb_warn(&out->warnings, "incompressible-assumed", "seal.poisson_ratio",
+    sb_warn(&out->warnings, "incompressible-assumed", SB_CONTACT_IN_POISSON_RATIO,
             "the formula is for incompressible rubber, not Poisson's ratio %.3g",
             in->poisson_ratio);
   }
@@ -159,19 +159,19 @@ SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report) {
   const double diameter = in->fitted_section ? out->section_diameter_fitted : in->section_diameter;
   const Section section = {diameter, (diameter - in->radial_space) / diameter};
   if (!(diameter > in->radial_space)) {
-    sb_warn(&out->warnings, "no-contact", "seal.section_diameter",
+    sb_warn(&out->warnings, "no-contact", SB_CONTACT_IN_SECTION_DIAMETER,
             "the ring has no contact with the bore (squeeze %.3g %%): load 0",
             100.0 * section.squeeze);
     return sb_succeed(report);
   }
   const Contact c = model[in->model](out, in, &section);
   if (c.width >= diameter && in->model == SB_FIT_HERTZ) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.radial_space",
-                             "at a squeeze of %.3g %% Hertz's contact is wider than the disc",
-                             100.0 * section.squeeze);
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_RADIAL_SPACE,
+                         "at a squeeze of %.3g %% Hertz's contact is wider than the disc",
+                         100.0 * section.squeeze);
   }
   if (in->pressure != 0.0 && !sb_fit_kind(in->model)->fluid) {
-    sb_warn(&out->warnings, "pressure-ignored", "canister.pressure",
+    sb_warn(&out->warnings, "pressure-ignored", SB_CONTACT_IN_PRESSURE,
             "the model %s has no fluid pressure: %.3g MPa ignored", sb_fit_kind(in->model)->name,
             1e-6 * in->pressure);
   }

@@ -107,47 +107,49 @@ int sb_fit_variant_find(SbFitModel model, const char *name) {
 static SbStatus check(const SbFitProblem *in, SbReport *report) {
   if ((unsigned)in->model >= SB_FIT_MODEL_COUNT ||
       sb_fit_variant_name(in->model, in->variant) == NULL) {
-    return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
-                             "there is no contact model %d, variant %d", (int)in->model,
-                             in->variant);
+    return sb_fail_input(report, SB_ERROR_INPUT, SB_CONTACT_IN_MODEL,
+                         "there is no contact model %d, variant %d", (int)in->model, in->variant);
   }
   SbStatus status = SB_CHECK(
       report,
-      {"seal.section_diameter", "the section diameter [m]", in->section_diameter, SB_ABOVE_ZERO},
-      {"seal.inner_diameter", "the inner diameter [m]", in->inner_diameter, SB_ABOVE_ZERO},
-      {"seal.modulus", "the rubber's modulus [Pa]", in->modulus, SB_ABOVE_ZERO},
-      {"gland.radial_space", "the radial space [m]", in->gasket ? 1.0 : in->radial_space,
+      {SB_CONTACT_IN_SECTION_DIAMETER, "the section diameter [m]", in->section_diameter,
        SB_ABOVE_ZERO},
-      {"gland.axial_width", "the gland's width [m]", in->gland_width, SB_ABOVE_ZERO},
-      {"bore.diameter", "the bore's diameter [m]", in->bore_diameter, SB_ABOVE_ZERO},
-      {"seal.poisson_ratio", "the rubber's Poisson's ratio", in->poisson_ratio, SB_POISSON},
-      {"seal.mooney_share", "the Mooney fraction", in->mooney_share, 0.0, 0.5},
-      {"housing.modulus", "the housing's modulus [Pa]", in->housing_modulus, 0.0, INFINITY},
-      {"housing.poisson_ratio", "the housing's Poisson's ratio", in->housing_poisson, 0.0, 0.5},
-      {"canister.pressure", "the pressure [Pa]", in->pressure, SB_FINITE},
-      {"friction.load_coefficient", "the friction of the drag", in->drag, -SB_FIT_DRAG_MAX,
-       SB_FIT_DRAG_MAX},
-      {"gland.floor_friction", "the floor's friction", in->floor_friction, 0.0, 1.0},
-      {"gland.wall_friction", "the walls' friction", in->wall_friction, 0.0, 1.0},
-      {"", "the tolerance", in->tolerance, 0.0, 1.0 - DBL_EPSILON});
+      {SB_CONTACT_IN_INNER_DIAMETER, "the inner diameter [m]", in->inner_diameter, SB_ABOVE_ZERO},
+      {SB_CONTACT_IN_MODULUS, "the rubber's modulus [Pa]", in->modulus, SB_ABOVE_ZERO},
+      {SB_CONTACT_IN_RADIAL_SPACE, "the radial space [m]", in->gasket ? 1.0 : in->radial_space,
+       SB_ABOVE_ZERO},
+      {SB_CONTACT_IN_GLAND_WIDTH, "the gland's width [m]", in->gland_width, SB_ABOVE_ZERO},
+      {SB_CONTACT_IN_BORE_DIAMETER, "the bore's diameter [m]", in->bore_diameter, SB_ABOVE_ZERO},
+      {SB_CONTACT_IN_POISSON_RATIO, "the rubber's Poisson's ratio", in->poisson_ratio, SB_POISSON},
+      {SB_CONTACT_IN_MOONEY_SHARE, "the Mooney fraction", in->mooney_share, 0.0, 0.5},
+      {SB_CONTACT_IN_HOUSING_MODULUS, "the housing's modulus [Pa]", in->housing_modulus, 0.0,
+       INFINITY},
+      {SB_CONTACT_IN_HOUSING_POISSON, "the housing's Poisson's ratio", in->housing_poisson, 0.0,
+       0.5},
+      {SB_CONTACT_IN_PRESSURE, "the pressure [Pa]", in->pressure, SB_FINITE},
+      {SB_CONTACT_IN_DRAG, "the friction of the drag", in->drag, -SB_FIT_DRAG_MAX, SB_FIT_DRAG_MAX},
+      {SB_CONTACT_IN_FLOOR_FRICTION, "the floor's friction", in->floor_friction, 0.0, 1.0},
+      {SB_CONTACT_IN_WALL_FRICTION, "the walls' friction", in->wall_friction, 0.0, 1.0},
+      {0, "the tolerance", in->tolerance, 0.0, 1.0 - DBL_EPSILON});
   if (status != SB_OK) {
     return status;
   }
   if (in->profile.kind != SB_SEAL_PROFILE_CIRCLE && !models[in->model].kind.section) {
-    return sb_fail_parameter(
-        report, SB_ERROR_INPUT, "models.fit",
-        "only the ring model supports a section that is not a circle (seal.profile = %s), not %s",
-        sb_seal_profile_name(in->profile.kind), models[in->model].kind.name);
+    return sb_fail_input(
+        report, SB_ERROR_INPUT, SB_CONTACT_IN_MODEL,
+        "only the ring model supports a section that is not a circle (%s%s), not %s",
+        in->names != NULL ? in->names->profile : "", sb_seal_profile_name(in->profile.kind),
+        models[in->model].kind.name);
   }
   if (in->dragged && !models[in->model].kind.section) {
-    return sb_fail_parameter(report, SB_ERROR_INPUT, "models.fit",
-                             "only the ring model computes a dragged ring, not %s",
-                             models[in->model].kind.name);
+    return sb_fail_input(report, SB_ERROR_INPUT, SB_CONTACT_IN_MODEL,
+                         "only the ring model computes a dragged ring, not %s",
+                         models[in->model].kind.name);
   }
   if (!in->gasket && !(in->bore_diameter > 2.0 * in->radial_space)) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "bore.diameter",
-                             "bore %.4g mm leaves no stem inside a radial space of %.4g mm",
-                             1e3 * in->bore_diameter, 1e3 * in->radial_space);
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_BORE_DIAMETER,
+                         "bore %.4g mm leaves no stem inside a radial space of %.4g mm",
+                         1e3 * in->bore_diameter, 1e3 * in->radial_space);
   }
   return SB_OK;
 }
@@ -208,12 +210,13 @@ static void judge_stretch(SbFit *out, const SbFitProblem *in) {
       !(fabs(moved) > SB_FIT_STRETCH_MAX * fabs(unstretched))) {
     return;
   }
-  sb_warn(&out->warnings, "stretch-interference", "seal.inner_diameter",
-          "stretch moves the interference from %.3g to %.3g mm (%+.3g %%): %s %s",
+  const bool round = kind->points || in->fitted_section;
+  sb_warn(&out->warnings, "stretch-interference", SB_CONTACT_IN_INNER_DIAMETER,
+          "stretch moves the interference from %.3g to %.3g mm (%+.3g %%): %s %s%s",
           1e3 * unstretched, 1e3 * out->interference, -100.0 * moved / fabs(unstretched),
           models[in->model].kind.name,
-          kind->points || in->fitted_section ? "requires a section that shrinks and remains round"
-                                             : "ignores it (models.section = fitted does not)");
+          round ? "requires a section that shrinks and remains round" : "ignores it",
+          round || in->names == NULL ? "" : in->names->fitted);
 }
 
 // Every warning except that of a ring without contact means that a model is outside its range.

@@ -67,6 +67,13 @@ double sb_fit_load_error(SbFitModel model, double tolerance);
 // Finds a model by name. Returns false if there is none; *out is unchanged then.
 SB_CHECKED bool sb_fit_model_from_name(SbFitModel *out, const char *name);
 
+// How messages name the caller's choices. All strings are borrowed.
+typedef struct {
+  const char *profile; // "section = ": comes before the name of a profile
+  const char *fitted;  // " (...)": how to choose fitted_section; comes at the end of a warning
+  const char *ring;    // " (...)": how to choose SB_FIT_RING; comes at the end of a warning
+} SbFitNames;
+
 // A problem. Initialise with {0}, then set at least model, the sizes of ring and gland, modulus and
 // poisson_ratio.
 typedef struct {
@@ -92,7 +99,8 @@ typedef struct {
   // Closed forms only: they squeeze section_diameter_fitted instead of the free section, as the
   // discs always do.
   bool fitted_section;
-  double pressure;  // fluid pressure difference [Pa]; > 0: higher on the left (x < 0)
+  const SbFitNames *names; // for messages, borrowed; NULL: they do not name the caller's choices
+  double pressure;         // fluid pressure difference [Pa]; > 0: higher on the left (x < 0)
   double tolerance; // relative error of load, peak and width; 0: 1e-3 (closed forms ignore it)
   // Ring model only: a flat gasket, clamped between plates at the distance gland_width with
   // wall_friction, on a stem of bore_diameter. Its free bore is inner_diameter, its thickness

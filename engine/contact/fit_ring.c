@@ -93,7 +93,7 @@ static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
   out->ring.drag_limit = slides ? NAN : result->drag_limit;
   if (!slides) {
     sb_warn(&out->warnings, result->state == SB_RING_ROLLS ? "ring-rolls" : "ring-jams",
-            "gland.floor_friction",
+            SB_CONTACT_IN_FLOOR_FRICTION,
             "the ring %s at a drag of %.4g of its load: the figures are those at this drag",
             result->state == SB_RING_ROLLS ? "rolls" : "jams", result->drag_limit);
   }
@@ -185,8 +185,8 @@ static SbStatus between_walls(SbRing **ring, SbRingResult *result, const SbRingB
   load->wall_left = -load->wall_right;
   const SbStatus status = sb_ring_fit(ring, result, body, load, options, &out->warnings, report);
   if (status == SB_ERROR_NOT_CONVERGED || status == SB_ERROR_INFEASIBLE) {
-    return sb_fail_parameter(
-        report, SB_ERROR_INFEASIBLE, "gland.axial_width",
+    return sb_fail_input(
+        report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_GLAND_WIDTH,
         "the groove is overfilled: without its second wall the ring is %.3g mm wide in a groove of "
         "%.3g mm (gland fill %.3g %%), and no state between both walls was found",
         1e3 * width, 1e3 * in->gland_width, 100.0 * out->gland_fill);
@@ -256,13 +256,13 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   }
   take_errors(out, in, large, &result);
   if (result.missed) {
-    sb_warn(&out->warnings, "ring-tolerance", "",
+    sb_warn(&out->warnings, "ring-tolerance", 0,
             "the ring's load is known to %.2g only, not to %.2g", out->solver.error_estimate.load,
             options.wanted);
   }
   take_result(out, in, ring, &result);
   if (bulk_error(in) > 0.0) {
-    sb_warn(&out->warnings, "gasket-bulk", "seal.poisson_ratio",
+    sb_warn(&out->warnings, "gasket-bulk", SB_CONTACT_IN_POISSON_RATIO,
             "the gasket is solved with a Poisson ratio of %.4g, not %.4g: its load may differ by "
             "%.2g %%",
             GASKET_POISSON_MOST, in->poisson_ratio, 100.0 * bulk_error(in));

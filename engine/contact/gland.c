@@ -5,17 +5,17 @@
 
 // The toleranced sizes: catalogue key, value and half-width of the tolerance band.
 static const struct {
-  const char *key;
+  int input;
   size_t value, tolerance;
 } SIZE[] = {
-#define SIZE_OF(key, field)                                                                        \
-  { key, offsetof(SbGland, field), offsetof(SbGland, field##_tolerance) }
-    SIZE_OF("seal.section_diameter", section_diameter),
-    SIZE_OF("seal.inner_diameter", inner_diameter),
-    SIZE_OF("gland.radial_space", radial_space),
-    SIZE_OF("gland.axial_width", axial_width),
-    SIZE_OF("bore.diameter", bore_diameter),
-    SIZE_OF("stem.land_diameter", land_diameter),
+#define SIZE_OF(input, field)                                                                      \
+  { input, offsetof(SbGland, field), offsetof(SbGland, field##_tolerance) }
+    SIZE_OF(SB_CONTACT_IN_SECTION_DIAMETER, section_diameter),
+    SIZE_OF(SB_CONTACT_IN_INNER_DIAMETER, inner_diameter),
+    SIZE_OF(SB_CONTACT_IN_RADIAL_SPACE, radial_space),
+    SIZE_OF(SB_CONTACT_IN_GLAND_WIDTH, axial_width),
+    SIZE_OF(SB_CONTACT_IN_BORE_DIAMETER, bore_diameter),
+    SIZE_OF(SB_CONTACT_IN_LAND_DIAMETER, land_diameter),
 #undef SIZE_OF
 };
 enum { SIZES = sizeof SIZE / sizeof SIZE[0], CORNERS = 1 << SIZES };
@@ -169,20 +169,20 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
   for (int i = 0; i < SIZES; i++) {
     const double size = number(gland, SIZE[i].value), wide = number(gland, SIZE[i].tolerance);
     if (!(size > 0.0 && isfinite(size) && wide >= 0.0 && wide < size)) {
-      return sb_fail_parameter(report, SB_ERROR_RANGE, SIZE[i].key,
-                               "size %g m with a tolerance of %g m is not possible", size, wide);
+      return sb_fail_input(report, SB_ERROR_RANGE, SIZE[i].input,
+                           "size %g m with a tolerance of %g m is not possible", size, wide);
     }
   }
   if (!(gland->poisson_ratio >= 0.0 && gland->poisson_ratio <= 0.5 && gland->volume_swell >= 0.0 &&
         isfinite(gland->volume_swell))) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "seal.poisson_ratio",
-                             "Poisson's ratio %g or swell %g is not possible", gland->poisson_ratio,
-                             gland->volume_swell);
+    return sb_fail_input(report, SB_ERROR_RANGE, SB_CONTACT_IN_POISSON_RATIO,
+                         "Poisson's ratio %g or swell %g is not possible", gland->poisson_ratio,
+                         gland->volume_swell);
   }
   if (!(gland->bore_diameter - gland->bore_diameter_tolerance >
         2.0 * (gland->radial_space + gland->radial_space_tolerance))) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "bore.diameter",
-                             "with its tolerances the bore leaves no stem inside the radial space");
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_BORE_DIAMETER,
+                         "with its tolerances the bore leaves no stem inside the radial space");
   }
 
   // Nominal, and each corner of the tolerances: the read-outs are monotonic in every size.

@@ -191,14 +191,14 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   if (c->rough.rows) {
     if (problem->surface == SB_ROUGH_GREENWOOD_TRIPP && out->real_area_share > 0.3) {
       out->valid = false;
-      sb_warn(&out->warnings, "real-area-large", "surface.gt_product",
+      sb_warn(&out->warnings, "real-area-large", SB_FILM_IN_ASPERITY_PRODUCT,
               "asperities touch on %.0f %% of the area: Greenwood and Tripp's asperities are no "
               "longer independent; compare Persson's",
               100 * out->real_area_share);
     }
     if (problem->speed != 0 && problem->surface != SB_ROUGH_NONE && out->film_ratio < 0.5 &&
         out->asperity_share < 0.99) {
-      sb_warn(&out->warnings, "film-flow-factors", "surface.sigma",
+      sb_warn(&out->warnings, "film-flow-factors", SB_FILM_IN_SIGMA,
               "the mean gap is %.2g of the roughness: the flow between touching asperities is "
               "computed without flow factors or percolation",
               out->film_ratio);
@@ -206,7 +206,7 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
     return;
   }
   if (c->layers.end == SB_EHL_REFORM) {
-    sb_warn(&out->warnings, "film-cavity", "canister.pressure",
+    sb_warn(&out->warnings, "film-cavity", SB_FILM_IN_PRESSURE,
             "the film breaks before the flooded outlet and forms again behind a cavity");
   }
 }
@@ -322,10 +322,10 @@ static SbStatus refuse_smooth(const SbEhlCase *c, const SbFilmScale *scale, doub
   }
   if (scale->M < 0.1 && fabs(rigid_step(&c->layers)) > 4.0) {
     const SbStatus status =
-        sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "canister.pressure",
-                          "M = %.3g: end pressures that differ by %.3g times the limit of a rigid "
-                          "wedge drive the fluid through so thick a film",
-                          scale->M, fabs(rigid_step(&c->layers)) / (M_PI / 16.0));
+        sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_FILM_IN_PRESSURE,
+                      "M = %.3g: end pressures that differ by %.3g times the limit of a rigid "
+                      "wedge drive the fluid through so thick a film",
+                      scale->M, fabs(rigid_step(&c->layers)) / (M_PI / 16.0));
     return sb_fail_because(report, status, SB_CAUSE_FLUID_OPENS);
   }
   SbEhlLayers starved = c->layers;
@@ -367,7 +367,7 @@ static SbStatus solve_cold(SbEhlResults *results, int *levels, SbFilmSolver *sol
       status = climb(results, levels, solver, c, INFINITY);
     }
     if (flows && c->rough.sealed) {
-      sb_warn(warnings, "film-rest-sealed", "surface.sigma",
+      sb_warn(warnings, "film-rest-sealed", SB_FILM_IN_SIGMA,
               "at rest the gap is closed: no flow passes, and the fluid's pressure between the "
               "ends is assumed to be that of the smooth dry contact");
     }
@@ -400,12 +400,12 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
   }
   if (scale->outlet < 0.0) {
     sb_warn(
-        &out->warnings, "film-outlet-vapour", "",
+        &out->warnings, "film-outlet-vapour", 0,
         "the outlet's pressure is below the rupture pressure, which is assumed after the contact");
   }
   if (problem->compliance == NULL && scale->half_width > problem->radius) {
     out->valid = false;
-    sb_warn(&out->warnings, "film-contact-wide", "seal.modulus",
+    sb_warn(&out->warnings, "film-contact-wide", SB_FILM_IN_MODULUS,
             "the contact's half-width is %.2g of the radius: no parabola on a half-plane",
             scale->half_width / problem->radius);
   }

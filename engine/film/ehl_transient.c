@@ -183,9 +183,9 @@ static SbStatus check(const SbFilmTransientProblem *problem, SbReport *report) {
     return sb_fail(report, SB_ERROR_INPUT, "transient film: only the isoviscous reynolds model");
   }
   if (!(problem->speed_scale >= fabs(film->speed) && problem->speed_scale > 0.0)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "drive.speed",
-                             "transient film: speed scale %g m/s is below the speed %g m/s",
-                             problem->speed_scale, film->speed);
+    return sb_fail_input(report, SB_ERROR_RANGE, SB_FILM_IN_SPEED,
+                         "transient film: speed scale %g m/s is below the speed %g m/s",
+                         problem->speed_scale, film->speed);
   }
   const double ends[] = {film->pressure_left, film->pressure_right};
   for (int k = 0; k < 2; k++) {
@@ -228,8 +228,8 @@ static SbStatus solve_steady(Steady *out, const SbFilmTransientProblem *problem,
     film.inlet_film = k > 0 && film.speed != 0.0 ? supply : 0.0;
     status = sb_film_solve(&out->film[k], &film, solver, report);
     if (status == SB_OK && k == 0 && out->film[0].moes_M < 1.0) {
-      status = sb_fail_parameter(report, SB_ERROR_RANGE, "drive.speed",
-                                 "transient film: M = %.3g is below 1", out->film[0].moes_M);
+      status = sb_fail_input(report, SB_ERROR_RANGE, SB_FILM_IN_SPEED,
+                             "transient film: M = %.3g is below 1", out->film[0].moes_M);
     }
   }
   return status;
@@ -267,13 +267,13 @@ static SbStatus refuse_closing(const SbFilmTransientProblem *problem, SbFilmSolv
                                  .width = 2.0 * scale.half_width,
                                  .viscosity = film->viscosity};
   const double closed = sb_rough_snap_in(law, &contact).high;
-  const char *key = tips ? "surface.work_of_adhesion" : "surface.hamaker_constant";
+  const int input = tips ? SB_FILM_IN_WORK_OF_ADHESION : SB_FILM_IN_HAMAKER;
   return !(closed > 0.0)
              ? SB_OK
-             : sb_fail_parameter(report, SB_ERROR_INFEASIBLE, key,
-                                 "transient film: at rest adhesion closes gaps below %.3g nm; "
-                                 "follow the film without it",
-                                 1e9 * closed);
+             : sb_fail_input(report, SB_ERROR_INFEASIBLE, input,
+                             "transient film: at rest adhesion closes gaps below %.3g nm; "
+                             "follow the film without it",
+                             1e9 * closed);
 }
 
 // The mesh's own error, by the present state and its spectral solution; the largest stays.

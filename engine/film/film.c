@@ -98,8 +98,7 @@ static void snap_in(SbFilm *out, const SbFilmProblem *problem, double closed) {
   strcpy(out->regime, "boundary");
   const bool tips = problem->work_of_adhesion > 0;
   sb_warn(
-      &out->warnings, "film-snap-in",
-      tips ? "surface.work_of_adhesion" : "surface.hamaker_constant",
+      &out->warnings, "film-snap-in", tips ? SB_FILM_IN_WORK_OF_ADHESION : SB_FILM_IN_HAMAKER,
       "adhesion closes gaps below %.3g nm (film without it %.3g nm): boundary lubrication, work "
       "of adhesion %.2g J/m2; the figures are those without adhesion",
       closed * 1e9, out->film_min * 1e9,
@@ -110,7 +109,7 @@ static void snap_in(SbFilm *out, const SbFilmProblem *problem, double closed) {
 static void stick_warnings(SbFilm *out, const SbAsperity *tip) {
   sb_asperity_warn(&out->warnings, tip);
   if (out->real_area_share > 0.3) {
-    sb_warn(&out->warnings, "adhesion-dense", "surface.work_of_adhesion",
+    sb_warn(&out->warnings, "adhesion-dense", SB_FILM_IN_WORK_OF_ADHESION,
             "sticking asperities touch on %.0f %% of the area: they are no longer independent",
             100 * out->real_area_share);
   }
@@ -171,26 +170,26 @@ static SbStatus solve_coupled(SbFilm *out, const SbFilmProblem *problem, const S
 #define RANGE(member) offsetof(SbFilmProblem, member)
 // Wide enough for every seal and narrow enough that nothing overflows.
 static const SbFilmRange ranges[] = {
-    {"load", "", "N/m", RANGE(load), 1e-6, 1e9},
-    {"speed", "drive.speed", "m/s", RANGE(speed), -1e4, 1e4},
-    {"radius", "seal.section_diameter", "m", RANGE(radius), 1e-7, 1e3},
-    {"reduced modulus", "seal.modulus", "Pa", RANGE(modulus), 1.0, 1e13},
-    {"viscosity", "fluid.viscosity", "Pa.s", RANGE(viscosity), 1e-9, 1e6},
-    {"pressure left", "canister.pressure", "Pa", RANGE(pressure_left), -1e6, 1e10},
-    {"pressure right", "canister.pressure", "Pa", RANGE(pressure_right), -1e6, 1e10},
-    {"tolerance", "", "", RANGE(tolerance), 1e-8, 0.1},
-    {"pressure viscosity", "fluid.pressure_viscosity", "1/Pa", RANGE(pressure_viscosity), 0.0,
+    {"load", 0, "N/m", RANGE(load), 1e-6, 1e9},
+    {"speed", SB_FILM_IN_SPEED, "m/s", RANGE(speed), -1e4, 1e4},
+    {"radius", SB_FILM_IN_RADIUS, "m", RANGE(radius), 1e-7, 1e3},
+    {"reduced modulus", SB_FILM_IN_MODULUS, "Pa", RANGE(modulus), 1.0, 1e13},
+    {"viscosity", SB_FILM_IN_VISCOSITY, "Pa.s", RANGE(viscosity), 1e-9, 1e6},
+    {"pressure left", SB_FILM_IN_PRESSURE, "Pa", RANGE(pressure_left), -1e6, 1e10},
+    {"pressure right", SB_FILM_IN_PRESSURE, "Pa", RANGE(pressure_right), -1e6, 1e10},
+    {"tolerance", 0, "", RANGE(tolerance), 1e-8, 0.1},
+    {"pressure viscosity", SB_FILM_IN_PRESSURE_VISCOSITY, "1/Pa", RANGE(pressure_viscosity), 0.0,
      1e-5},
-    {"Eyring stress", "fluid.eyring_stress", "Pa", RANGE(eyring_stress), 0.0, 1e12},
-    {"inlet film", "", "m", RANGE(inlet_film), 0.0, 1.0},
-    {"rupture pressure", "fluid.rupture_pressure", "Pa", RANGE(rupture_pressure), -1e6, 1e9},
-    {"asperity product", "surface.gt_product", "", RANGE(gt_product), 0.0, 100.0},
-    {"sigma", "surface.sigma", "m", RANGE(sigma), 0.0, 1.0},
-    {"sigma/beta", "surface.sigma_over_beta", "", RANGE(sigma_over_beta), 0.0, 1e3},
-    {"Hamaker constant", "surface.hamaker_constant", "J", RANGE(hamaker), 0.0, 1e-17},
-    {"work of adhesion", "surface.work_of_adhesion", "J/m2", RANGE(work_of_adhesion), 0.0, 100.0},
-    {"shear strength", "friction.shear_strength", "Pa", RANGE(shear_strength), 0.0, 1e12},
-    {"load coefficient", "friction.load_coefficient", "", RANGE(load_coefficient), 0.0, 100.0},
+    {"Eyring stress", SB_FILM_IN_EYRING_STRESS, "Pa", RANGE(eyring_stress), 0.0, 1e12},
+    {"inlet film", 0, "m", RANGE(inlet_film), 0.0, 1.0},
+    {"rupture pressure", SB_FILM_IN_RUPTURE_PRESSURE, "Pa", RANGE(rupture_pressure), -1e6, 1e9},
+    {"asperity product", SB_FILM_IN_ASPERITY_PRODUCT, "", RANGE(gt_product), 0.0, 100.0},
+    {"sigma", SB_FILM_IN_SIGMA, "m", RANGE(sigma), 0.0, 1.0},
+    {"sigma/beta", SB_FILM_IN_SIGMA_OVER_BETA, "", RANGE(sigma_over_beta), 0.0, 1e3},
+    {"Hamaker constant", SB_FILM_IN_HAMAKER, "J", RANGE(hamaker), 0.0, 1e-17},
+    {"work of adhesion", SB_FILM_IN_WORK_OF_ADHESION, "J/m2", RANGE(work_of_adhesion), 0.0, 100.0},
+    {"shear strength", SB_FILM_IN_SHEAR_STRENGTH, "Pa", RANGE(shear_strength), 0.0, 1e12},
+    {"load coefficient", SB_FILM_IN_LOAD_COEFFICIENT, "", RANGE(load_coefficient), 0.0, 100.0},
 };
 #undef RANGE
 
@@ -208,8 +207,8 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
     double value = *(const double *)(const void *)((const char *)problem + r->offset);
     // The comparison is written so that a NaN fails it.
     if (!(value >= r->min && value <= r->max)) {
-      return sb_fail_parameter(report, SB_ERROR_RANGE, r->key, "%s %g %s is outside %g ... %g",
-                               r->name, value, r->unit, r->min, r->max);
+      return sb_fail_input(report, SB_ERROR_RANGE, r->input, "%s %g %s is outside %g ... %g",
+                           r->name, value, r->unit, r->min, r->max);
     }
   }
   if ((int)problem->surface < 0 || problem->surface >= SB_ROUGH_COUNT) {
@@ -218,9 +217,9 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
   }
   if (problem->work_of_adhesion > 0 &&
       (problem->hamaker > 0 || problem->surface != SB_ROUGH_GREENWOOD_TRIPP)) {
-    return sb_fail_parameter(report, SB_ERROR_INPUT, "surface.work_of_adhesion",
-                             "tips that stick are those of the surface greenwood-tripp, in "
-                             "place of van der Waals' pull");
+    return sb_fail_input(report, SB_ERROR_INPUT, SB_FILM_IN_WORK_OF_ADHESION,
+                         "tips that stick are those of the surface greenwood-tripp, in "
+                         "place of van der Waals' pull");
   }
   if (sb_film_rough(problem) && !models[problem->model].kind.coupled) {
     return sb_fail(report, SB_ERROR_INPUT,
@@ -354,13 +353,13 @@ static void warn_common(SbFilm *out, const SbFilmProblem *problem) {
   if (problem->compliance == NULL && problem->speed != 0.0 &&
       out->film_min > SB_FILM_THICK * problem->radius) {
     out->valid = false;
-    sb_warn(&out->warnings, "film-thick", "fluid.viscosity",
+    sb_warn(&out->warnings, "film-thick", SB_FILM_IN_VISCOSITY,
             "minimum film %.3g mm is %.2g of the radius: a parabola does not approximate the "
             "cylinder at this distance",
             out->film_min * 1e3, out->film_min / problem->radius);
   }
   if (problem->speed != 0.0 && out->film_min < 2e-9) {
-    sb_warn(&out->warnings, "film-below-continuum", "drive.speed",
+    sb_warn(&out->warnings, "film-below-continuum", SB_FILM_IN_SPEED,
             "minimum film %.3g nm is thinner than the continuum limit of about 2 nm: formal result",
             out->film_min * 1e9);
   }
@@ -386,10 +385,10 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
     }
   }
   if (scale.kappa <= 0.02 || scale.kappa_outlet <= 0.02) {
-    status = sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "canister.pressure",
-                               "the end pressures differ by %.3g of the Hertz pressure; near "
-                               "pi they open the contact",
-                               fabs(scale.inlet - scale.outlet));
+    status = sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_FILM_IN_PRESSURE,
+                           "the end pressures differ by %.3g of the Hertz pressure; near "
+                           "pi they open the contact",
+                           fabs(scale.inlet - scale.outlet));
     return sb_fail_because(report, status, SB_CAUSE_FLUID_OPENS);
   }
   if (scale.U <= 0.0 && problem->surface == SB_ROUGH_NONE) {

@@ -202,10 +202,31 @@ void sb_film_solver_destroy(SbFilmSolver *solver);
 // Discards the last solution, so that the next solve is a cold start. The memory is reused.
 void sb_film_solver_forget(SbFilmSolver *solver);
 
+// Numbers of the inputs of a film, for SbReport.input and SbWarning.input.
+enum {
+  SB_FILM_IN_SPEED = SB_FILM_INPUTS,
+  SB_FILM_IN_RADIUS,
+  SB_FILM_IN_MODULUS,
+  SB_FILM_IN_VISCOSITY,
+  SB_FILM_IN_PRESSURE,
+  SB_FILM_IN_PRESSURE_VISCOSITY,
+  SB_FILM_IN_EYRING_STRESS,
+  SB_FILM_IN_RUPTURE_PRESSURE,
+  SB_FILM_IN_ASPERITY_PRODUCT,
+  SB_FILM_IN_SIGMA,
+  SB_FILM_IN_SIGMA_OVER_BETA,
+  SB_FILM_IN_HAMAKER,
+  SB_FILM_IN_WORK_OF_ADHESION,
+  SB_FILM_IN_SHEAR_STRENGTH,
+  SB_FILM_IN_LOAD_COEFFICIENT,
+  SB_FILM_IN_MODEL,
+  SB_FILM_IN_END
+};
+
 // Allowed range of one number of SbFilmProblem.
 typedef struct {
   const char *name; // "reduced modulus"
-  const char *key;  // key of the catalogue, "" if none
+  int input;        // number for reports, 0 if none
   const char *unit; // SI, "" if none
   size_t offset;    // of the double in SbFilmProblem
   double min, max;  // inclusive

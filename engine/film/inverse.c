@@ -125,7 +125,7 @@ static void evaluate(SbFilm *out, const SbFilmProblem *problem, const gsl_spline
   }
   double load = gsl_spline_eval_integ(t, begin, end, NULL);
   if (fabs(load / problem->load - 1.0) > 0.01) {
-    sb_warn(&out->warnings, "film-dry-load", "",
+    sb_warn(&out->warnings, "film-dry-load", 0,
             "the dry pressure carries %.4g N/m, the load is %.4g", load, problem->load);
   }
 }
@@ -162,7 +162,7 @@ SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const 
       out->solver.error_film_min = out->solver.error_film_central = out->solver.error_film_flux =
           estimate;
       if (estimate > problem->tolerance) {
-        sb_warn(&out->warnings, "film-dry-coarse", "",
+        sb_warn(&out->warnings, "film-dry-coarse", 0,
                 "the table of the dry pressure is coarse: films are uncertain by %.2g %%",
                 100.0 * estimate);
       }
@@ -171,7 +171,7 @@ SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const 
       out->expected_error = lambda < 1e-5 ? 0.01 : lambda < 1e-3 ? 0.04 : lambda < 1e-2 ? 0.1 : 1.0;
       if (lambda > 1e-2) {
         out->valid = false;
-        sb_warn(&out->warnings, "film-inverse-range", "models.film",
+        sb_warn(&out->warnings, "film-inverse-range", SB_FILM_IN_MODEL,
                 "the inverse film is valid for lambda below 1e-2, here %.2g: the film changes the "
                 "pressure",
                 lambda);

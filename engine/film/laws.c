@@ -52,7 +52,7 @@ SbStatus sb_film_solve_dry(SbFilm *out, const SbFilmScale *scale, SbReport *repo
   dry_profile(out, scale, 0.0);
   out->position_rupture = scale->half_width;
   out->solver.converged = true;
-  sb_warn(&out->warnings, "film-zero-speed", "drive.speed",
+  sb_warn(&out->warnings, "film-zero-speed", SB_FILM_IN_SPEED,
           "at zero speed there is no film: dry contact");
   return sb_succeed(report);
 }
@@ -96,7 +96,7 @@ SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFi
   // The data behind eq. 7.5: Tables 7.9 and 7.10.
   if (model == SB_FILM_THESIS && (U < 5.9e-10 || U > 1.6e-7 || W < 0.0566 || W > 0.1906)) {
     out->valid = false;
-    sb_warn(&out->warnings, "film-law-range", "models.film",
+    sb_warn(&out->warnings, "film-law-range", SB_FILM_IN_MODEL,
             "eq. 7.5 was fitted for U 5.9e-10 ... 1.6e-7, W 0.057 ... 0.191; here %.3g, %.3g", U,
             W);
   }
@@ -106,13 +106,13 @@ SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFi
   out->expected_error = expected;
   if (expected > 0.1) {
     out->valid = false;
-    sb_warn(&out->warnings, "film-law-error", "models.film",
+    sb_warn(&out->warnings, "film-law-error", SB_FILM_IN_MODEL,
             "model %s is about %.0f %% from the solved film here", sb_film_kind(model)->name,
             100.0 * expected);
   }
   if ((model == SB_FILM_THESIS || model == SB_FILM_KARASZKIEWICZ) &&
       (scale->inlet > 0.0 || scale->outlet > 0.0)) {
-    sb_warn(&out->warnings, "film-law-pressure", "models.film",
+    sb_warn(&out->warnings, "film-law-pressure", SB_FILM_IN_MODEL,
             "in the power law end pressures act only through the load");
   }
 

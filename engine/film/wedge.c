@@ -195,7 +195,7 @@ SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const Sb
   if (scale->M >= 0.5) {
     out->valid = false;
     sb_warn(
-        &out->warnings, "film-rigid", "models.film",
+        &out->warnings, "film-rigid", SB_FILM_IN_MODEL,
         "rigid surfaces need M below 0.5; here M = %.3g and the bodies deform more than the film",
         scale->M);
   }

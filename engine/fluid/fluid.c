@@ -108,7 +108,7 @@ static SbStatus pure(SbFluidState *out, SbWarnings *warnings, const SbFluid *flu
   if (temperature < fluid->viscosity_min) {
     const double zero = 273.15;
     out->figure[SB_FLUID_VISCOSITY].uncertainty = NAN;
-    sb_warn(warnings, "viscosity-extrapolated", "canister.temperature",
+    sb_warn(warnings, "viscosity-extrapolated", SB_FLUID_IN_TEMPERATURE,
             "the viscosity of %s at %g °C is extrapolated: its correlation is valid from %g °C",
             fluid->name, temperature - zero, fluid->viscosity_min - zero);
   }
@@ -144,7 +144,7 @@ static void mix(SbFluidState *out, SbWarnings *warnings, const SbFluidState *eth
   out->figure[SB_FLUID_GWP] =
       by_rule(w[0] * own.figure[SB_FLUID_GWP].value, "the propellant's mass fraction");
   out->estimate = true;
-  sb_warn(warnings, "mixture-estimate", "",
+  sb_warn(warnings, "mixture-estimate", 0,
           "mixtures with ethanol deviate from Raoult's law: the pressure is between this estimate "
           "and the propellant's own, %.4g kPa",
           1e-3 * own.figure[SB_FLUID_PRESSURE].value);
@@ -153,17 +153,15 @@ static void mix(SbFluidState *out, SbWarnings *warnings, const SbFluidState *eth
 SbStatus sb_fluid_state(SbFluidState *out, SbWarnings *warnings, const SbFluid *fluid,
                         double temperature, double ethanol, SbReport *report) {
   if (fluid->source[SB_FLUID_FROM_EQUATION] == NULL) {
-    return sb_fail_parameter(
-        report, SB_ERROR_INPUT, "fluid.name",
-        "%s has no properties of its own: set canister.pressure, fluid.viscosity and fluid.density",
-        fluid->name);
+    return sb_fail_input(report, SB_ERROR_INPUT, SB_FLUID_IN_NAME,
+                         "%s has no properties of its own", fluid->name);
   }
   if (ethanol != 0.0 && !fluid->propellant) {
     return sb_fail(report, SB_ERROR_INPUT, "ethanol is a cosolvent of propellants; %s is none",
                    fluid->name);
   }
   SbStatus status =
-      SB_CHECK(report, {"", "the mass fraction of ethanol", ethanol, 0.0, SB_FLUID_ETHANOL_MAX});
+      SB_CHECK(report, {0, "the mass fraction of ethanol", ethanol, 0.0, SB_FLUID_ETHANOL_MAX});
   if (status == SB_OK) {
     status = pure(out, warnings, fluid, temperature, report);
   }

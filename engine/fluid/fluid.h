@@ -24,6 +24,9 @@
 
 #include "engine/fluid/viscosity.h"
 
+// Numbers of the inputs of a state, for SbReport.input and SbWarning.input.
+enum { SB_FLUID_IN_TEMPERATURE = SB_FLUID_INPUTS, SB_FLUID_IN_NAME, SB_FLUID_IN_END };
+
 // X(constant, name, suffix of the JSON key, SI unit, display unit, label, origin): the properties.
 // PRESSURE is the absolute saturation pressure.
 #define SB_FLUID_PROPERTY_LIST(X)                                                                  \

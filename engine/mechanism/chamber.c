@@ -2,16 +2,17 @@
 #include "engine/mechanism/chamber.h"
 
 #include "engine/base/check.h"
+#include "engine/mechanism/inputs.h"
 #include "engine/numeric/root.h"
 
 #include <math.h>
 
 SbStatus sb_chamber_check(const SbChamberModel *m, SbReport *report) {
   SbStatus status =
-      SB_CHECK(report, {"canister.pressure", "the pressure [Pa]", m->canister, SB_FINITE},
-               {"", "the chamber's volume [m3]", m->volume, SB_ABOVE_ZERO},
-               {"", "the chamber's stiffness [Pa]", m->stiffness, SB_ABOVE_ZERO},
-               {"", "the liquid's density [kg/m3]", m->density, SB_ABOVE_ZERO});
+      SB_CHECK(report, {SB_MECHANISM_IN_PRESSURE, "the pressure [Pa]", m->canister, SB_FINITE},
+               {0, "the chamber's volume [m3]", m->volume, SB_ABOVE_ZERO},
+               {0, "the chamber's stiffness [Pa]", m->stiffness, SB_ABOVE_ZERO},
+               {0, "the liquid's density [kg/m3]", m->density, SB_ABOVE_ZERO});
   if (status != SB_OK) {
     return status;
   }

@@ -22,22 +22,22 @@ static SbStatus check_table(const SbDrive *d, SbReport *report) {
 }
 
 SbStatus sb_drive_check(const SbDrive *d, SbReport *report) {
-  SbStatus status = SB_CHECK(report, {"", "the drive's start", d->start, SB_FINITE});
+  SbStatus status = SB_CHECK(report, {0, "the drive's start", d->start, SB_FINITE});
   if (status != SB_OK || d->kind == SB_DRIVE_NONE) {
     return status;
   }
   switch (d->kind) {
   case SB_DRIVE_PRESS:
-    return SB_CHECK(report, {"", "the press's rise [s]", d->rise, SB_ABOVE_ZERO},
-                    {"", "the press's fall [s]", d->fall, SB_ABOVE_ZERO},
-                    {"", "the press's hold [s]", d->hold, 0.0, INFINITY},
-                    {"", "the pause between presses [s]", d->pause, SB_NOT_NEGATIVE},
-                    {"", "the press's end", d->end, SB_FINITE},
-                    {"", "the number of cycles", d->cycles, 1.0, DBL_MAX});
+    return SB_CHECK(report, {0, "the press's rise [s]", d->rise, SB_ABOVE_ZERO},
+                    {0, "the press's fall [s]", d->fall, SB_ABOVE_ZERO},
+                    {0, "the press's hold [s]", d->hold, 0.0, INFINITY},
+                    {0, "the pause between presses [s]", d->pause, SB_NOT_NEGATIVE},
+                    {0, "the press's end", d->end, SB_FINITE},
+                    {0, "the number of cycles", d->cycles, 1.0, DBL_MAX});
   case SB_DRIVE_SINE:
-    return SB_CHECK(report, {"", "the sinusoid's frequency [Hz]", d->frequency, SB_ABOVE_ZERO},
-                    {"", "its amplitude", d->amplitude, SB_FINITE},
-                    {"", "its phase [rad]", d->phase, SB_FINITE});
+    return SB_CHECK(report, {0, "the sinusoid's frequency [Hz]", d->frequency, SB_ABOVE_ZERO},
+                    {0, "its amplitude", d->amplitude, SB_FINITE},
+                    {0, "its phase [rad]", d->phase, SB_FINITE});
   default:
     return check_table(d, report);
   }

@@ -1,6 +1,7 @@
 // What dynamics.h refuses, by name.
 #include "engine/base/check.h"
 #include "engine/mechanism/dynamics_internal.h"
+#include "engine/mechanism/inputs.h"
 
 #include <math.h>
 
@@ -8,15 +9,15 @@ static SbStatus check_contact(const SbDynamicsModel *m, size_t i, SbReport *repo
   const SbDynamicsContact *c = &m->contact[i];
   SbStatus status = SB_CHECK(
       report,
-      {"friction.static_ratio", "static over sliding friction", c->static_ratio, 1.0, DBL_MAX},
-      {"", "a contact's gain by rest", c->dwell_gain, 0.0, INFINITY},
-      {"", "its time of rest [s]", c->dwell_time, c->dwell_gain > 0.0 ? DBL_MIN : -INFINITY,
+      {SB_MECHANISM_IN_STATIC_RATIO, "static over sliding friction", c->static_ratio, 1.0, DBL_MAX},
+      {0, "a contact's gain by rest", c->dwell_gain, 0.0, INFINITY},
+      {0, "its time of rest [s]", c->dwell_time, c->dwell_gain > 0.0 ? DBL_MIN : -INFINITY,
        INFINITY},
-      {"", "its Stribeck speed [m/s]", c->stribeck_speed, 0.0, INFINITY},
-      {"", "its Stribeck exponent", c->stribeck_exponent,
+      {0, "its Stribeck speed [m/s]", c->stribeck_speed, 0.0, INFINITY},
+      {0, "its Stribeck exponent", c->stribeck_exponent,
        c->stribeck_speed > 0.0 ? DBL_MIN : -INFINITY, INFINITY},
-      {"", "its tangential stiffness [N/m]", c->stiffness, DBL_MIN, INFINITY},
-      {"", "its tangential damping [N s/m]", c->damping, SB_NOT_NEGATIVE});
+      {0, "its tangential stiffness [N/m]", c->stiffness, DBL_MIN, INFINITY},
+      {0, "its tangential damping [N s/m]", c->damping, SB_NOT_NEGATIVE});
   if (status != SB_OK) {
     return status;
   }
@@ -33,26 +34,26 @@ static SbStatus check_stop(const SbDynamicsStop *p, size_t i, SbReport *report) 
   if (!isfinite(p->position) || (p->side != 1 && p->side != -1)) {
     return sb_fail(report, SB_ERROR_INPUT, "stop %zu needs a position and a side of +1 or -1", i);
   }
-  return SB_CHECK(report, {"", "a stop's stiffness [N/m]", p->stiffness, DBL_MIN, INFINITY},
-                  {"", "its restitution", p->restitution, rigid(p->stiffness) ? 0.0 : 0.01, 1.0});
+  return SB_CHECK(report, {0, "a stop's stiffness [N/m]", p->stiffness, DBL_MIN, INFINITY},
+                  {0, "its restitution", p->restitution, rigid(p->stiffness) ? 0.0 : 0.01, 1.0});
 }
 
 SbStatus sb_dynamics_check(const SbDynamicsModel *m, SbReport *report) {
   bool driven = m->drive.kind != SB_DRIVE_NONE;
   bool sprung = driven && m->drive.quantity == SB_DRIVE_OF_POSITION;
   SbStatus status =
-      SB_CHECK(report, {"", "the moving mass [kg]", m->mass, SB_ABOVE_ZERO},
-               {"", "the stem's damping [N s/m]", m->damping, SB_NOT_NEGATIVE},
-               {"", "the return spring's stiffness [N/m]", m->spring_stiffness, SB_NOT_NEGATIVE},
-               {"", "the return spring's preload [N]", m->spring_preload, SB_FINITE},
-               {"", "the start's position [m]", m->start_position, SB_FINITE},
-               {"", "the start's speed [m/s]", m->start_speed, SB_FINITE},
-               {"", "the rest before the start [s]", m->start_dwell, 0.0, INFINITY},
-               {"", "the tolerance", m->tolerance, 0.0, 1e-5},
-               {"drive.stiffness", "the drive's damping [N s/m]", driven ? m->drive_damping : 0.0,
-                SB_NOT_NEGATIVE},
-               {"drive.stiffness", "the drive's stiffness [N/m]", sprung ? m->drive_stiffness : 1.0,
-                DBL_MIN, 1e300});
+      SB_CHECK(report, {0, "the moving mass [kg]", m->mass, SB_ABOVE_ZERO},
+               {0, "the stem's damping [N s/m]", m->damping, SB_NOT_NEGATIVE},
+               {0, "the return spring's stiffness [N/m]", m->spring_stiffness, SB_NOT_NEGATIVE},
+               {0, "the return spring's preload [N]", m->spring_preload, SB_FINITE},
+               {0, "the start's position [m]", m->start_position, SB_FINITE},
+               {0, "the start's speed [m/s]", m->start_speed, SB_FINITE},
+               {0, "the rest before the start [s]", m->start_dwell, 0.0, INFINITY},
+               {0, "the tolerance", m->tolerance, 0.0, 1e-5},
+               {SB_MECHANISM_IN_DRIVE, "the drive's damping [N s/m]",
+                driven ? m->drive_damping : 0.0, SB_NOT_NEGATIVE},
+               {SB_MECHANISM_IN_DRIVE, "the drive's stiffness [N/m]",
+                sprung ? m->drive_stiffness : 1.0, DBL_MIN, 1e300});
   if (status != SB_OK) {
     return status;
   }

@@ -79,52 +79,52 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
   // Densities matter for a rubber that swells only.
   const double least = r->swell_mass > 0.0 ? DBL_MIN : 0.0;
   SbStatus status = SB_CHECK(
-      report,
-      {"seal.section_diameter", "the section diameter [m]", in->section_diameter, SB_ABOVE_ZERO},
-      {"seal.section_diameter", "the inner diameter [m]", in->inner_diameter, SB_ABOVE_ZERO},
-      {"seal.section_diameter", "the radial space [m]", in->radial_space, SB_ABOVE_ZERO},
-      {"seal.section_diameter", "the modulus [Pa]", in->modulus, SB_ABOVE_ZERO},
-      {"storage.time", "the storage time [s]", in->storage_time, SB_NOT_NEGATIVE},
-      {"storage.time", "the recovery time [s]", in->recovery_time, 0.0, INFINITY},
-      {"storage.temperature", "the temperature [K]", in->temperature, SB_ABOVE_ZERO},
-      {"storage.temperature", "the reference [K]", r->reference_temperature, SB_ABOVE_ZERO},
-      {"canister.temperature", "the temperature of use [K]", in->use_temperature, SB_ABOVE_ZERO},
-      {"rubber.glass_temperature", "the glass temperature [K]", r->glass_temperature, 0.0,
+      report, {SB_RUBBER_IN_RING, "the section diameter [m]", in->section_diameter, SB_ABOVE_ZERO},
+      {SB_RUBBER_IN_RING, "the inner diameter [m]", in->inner_diameter, SB_ABOVE_ZERO},
+      {SB_RUBBER_IN_RING, "the radial space [m]", in->radial_space, SB_ABOVE_ZERO},
+      {SB_RUBBER_IN_RING, "the modulus [Pa]", in->modulus, SB_ABOVE_ZERO},
+      {SB_RUBBER_IN_STORAGE_TIME, "the storage time [s]", in->storage_time, SB_NOT_NEGATIVE},
+      {SB_RUBBER_IN_STORAGE_TIME, "the recovery time [s]", in->recovery_time, 0.0, INFINITY},
+      {SB_RUBBER_IN_TEMPERATURE, "the temperature [K]", in->temperature, SB_ABOVE_ZERO},
+      {SB_RUBBER_IN_TEMPERATURE, "the reference [K]", r->reference_temperature, SB_ABOVE_ZERO},
+      {SB_RUBBER_IN_USE_TEMPERATURE, "the temperature of use [K]", in->use_temperature,
+       SB_ABOVE_ZERO},
+      {SB_RUBBER_IN_GLASS_TEMPERATURE, "the glass temperature [K]", r->glass_temperature, 0.0,
        SB_SIZES_TEMPERATURE},
-      {"rubber.modulus_slope", "the slope of the modulus [1/K]", r->modulus_slope, -5e-3, 5e-3},
-      {"rubber.network_rate", "the network's rate [1/s]", r->network_rate, 0.0, INFINITY},
-      {"rubber.network_rate", "the reformed fraction", r->network_reform, 0.0, 1.0},
-      {"rubber.swell_mass", "swell by mass", r->swell_mass, SB_NOT_NEGATIVE},
-      {"rubber.swell_mass", "diffusion [m2/s]", r->diffusion, SB_NOT_NEGATIVE},
-      {"rubber.swell_mass", "the swollen modulus over the dry", r->swell_modulus, SB_NOT_NEGATIVE},
-      {"rubber.swell_mass", "the rubber's density [kg/m3]", r->rubber_density, least, INFINITY},
-      {"rubber.swell_mass", "the fluid's density [kg/m3]", r->fluid_density, least, INFINITY});
+      {SB_RUBBER_IN_MODULUS_SLOPE, "the slope of the modulus [1/K]", r->modulus_slope, -5e-3, 5e-3},
+      {SB_RUBBER_IN_NETWORK, "the network's rate [1/s]", r->network_rate, 0.0, INFINITY},
+      {SB_RUBBER_IN_NETWORK, "the reformed fraction", r->network_reform, 0.0, 1.0},
+      {SB_RUBBER_IN_SWELL, "swell by mass", r->swell_mass, SB_NOT_NEGATIVE},
+      {SB_RUBBER_IN_SWELL, "diffusion [m2/s]", r->diffusion, SB_NOT_NEGATIVE},
+      {SB_RUBBER_IN_SWELL, "the swollen modulus over the dry", r->swell_modulus, SB_NOT_NEGATIVE},
+      {SB_RUBBER_IN_SWELL, "the rubber's density [kg/m3]", r->rubber_density, least, INFINITY},
+      {SB_RUBBER_IN_SWELL, "the fluid's density [kg/m3]", r->fluid_density, least, INFINITY});
   double sum = 0.0;
   for (size_t i = 0; i < r->terms && i < SB_RUBBER_TERMS && status == SB_OK; i++) {
-    status = SB_CHECK(
-        report, {"rubber.relaxation_share_1", "a Prony term's fraction", r->g[i], 0.0, INFINITY},
-        {"rubber.relaxation_share_1", "its time [s]", r->tau[i], SB_ABOVE_ZERO});
+    status = SB_CHECK(report,
+                      {SB_RUBBER_IN_RELAXATION, "a Prony term's fraction", r->g[i], 0.0, INFINITY},
+                      {SB_RUBBER_IN_RELAXATION, "its time [s]", r->tau[i], SB_ABOVE_ZERO});
     sum += r->g[i];
   }
   if (status != SB_OK) {
     return status;
   }
   if (r->terms > SB_RUBBER_TERMS || !(sum < 1.0)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "rubber.relaxation_share_1",
-                             "%zu Prony terms with fractions that sum to %g (at most %d, below 1)",
-                             r->terms, sum, SB_RUBBER_TERMS);
+    return sb_fail_input(report, SB_ERROR_RANGE, SB_RUBBER_IN_RELAXATION,
+                         "%zu Prony terms with fractions that sum to %g (at most %d, below 1)",
+                         r->terms, sum, SB_RUBBER_TERMS);
   }
   if (in->use_temperature < r->glass_temperature) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "canister.temperature",
-                             "%.4g °C is below the rubber's glass transition at %.4g °C: there it "
-                             "is glass, for which there is no model",
-                             in->use_temperature - 273.15, r->glass_temperature - 273.15);
+    return sb_fail_input(report, SB_ERROR_RANGE, SB_RUBBER_IN_USE_TEMPERATURE,
+                         "%.4g °C is below the rubber's glass transition at %.4g °C: there it "
+                         "is glass, for which there is no model",
+                         in->use_temperature - 273.15, r->glass_temperature - 273.15);
   }
   if (r->shift == SB_SHIFT_WLF &&
       !(r->wlf_c2 > 0.0 && in->temperature > r->reference_temperature - r->wlf_c2)) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, "storage.temperature",
-                             "%.4g K is at or below the pole of the WLF shift at %.4g K",
-                             in->temperature, r->reference_temperature - r->wlf_c2);
+    return sb_fail_input(report, SB_ERROR_RANGE, SB_RUBBER_IN_TEMPERATURE,
+                         "%.4g K is at or below the pole of the WLF shift at %.4g K",
+                         in->temperature, r->reference_temperature - r->wlf_c2);
   }
   return SB_OK;
 }
@@ -182,7 +182,7 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
     out->shift = 1.0 / arrhenius(r->relaxation_energy, temperature, reference);
   }
   if (r->shift != SB_SHIFT_NONE && fabs(away) > 100.0) {
-    sb_warn(warnings, "shift-range", "storage.temperature",
+    sb_warn(warnings, "shift-range", SB_RUBBER_IN_TEMPERATURE,
             "%.0f K from the reference: the temperature shift is valid to about 100 K", away);
   }
 
@@ -196,7 +196,7 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
     longest = r->g[i] > 0.0 ? fmax(longest, tau[i]) : longest;
   }
   if (longest > 0.0 && t > 10.0 * longest) {
-    sb_warn(warnings, "relaxation-extrapolated", "storage.time",
+    sb_warn(warnings, "relaxation-extrapolated", SB_RUBBER_IN_STORAGE_TIME,
             "storage is %.2g times the longest relaxation time: slower relaxation is unknown",
             t / longest);
   }
@@ -219,7 +219,7 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
   out->swell_modulus = r->swell_modulus > 0.0 ? pow(r->swell_modulus, out->uptake)
                                               : 1.0 / cbrt(1.0 + out->volume_swell);
   if (out->volume_swell > 0.5) {
-    sb_warn(warnings, "swell-large", "rubber.swell_mass",
+    sb_warn(warnings, "swell-large", SB_RUBBER_IN_SWELL,
             "swell of %.0f %% by volume: diffusion and elasticity are no longer linear",
             100.0 * out->volume_swell);
   }
@@ -230,12 +230,12 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
   if (!r->entropic && r->modulus_slope != 0.0 &&
       (use < fmin(r->slope_from, SB_SIZES_TEMPERATURE) ||
        use > fmax(r->slope_to, SB_SIZES_TEMPERATURE))) {
-    sb_warn(warnings, "modulus-extrapolated", "rubber.modulus_slope",
+    sb_warn(warnings, "modulus-extrapolated", SB_RUBBER_IN_MODULUS_SLOPE,
             "%.4g °C is outside %.4g to %.4g °C, where the slope of the modulus was measured",
             use - 273.15, r->slope_from - 273.15, r->slope_to - 273.15);
   }
   if (glassy(r, use) > storage->modulus * rubbery(r, use)) {
-    sb_warn(warnings, "glass-near", "canister.temperature",
+    sb_warn(warnings, "glass-near", SB_RUBBER_IN_USE_TEMPERATURE,
             "%.3g K above its glass transition the rubber is %.2g times as stiff as at 20 °C: "
             "stiffness depends on time there, and one modulus replaces all of it",
             use - r->glass_temperature, out->stiffening);
@@ -246,10 +246,10 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
   out->section_diameter = storage->section_diameter * growth;
   out->inner_diameter = storage->inner_diameter * growth;
   if (out->network < NETWORK_MIN) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "rubber.network_rate",
-                             "no network is left to carry a load after %.3g s of storage: bonds "
-                             "break at %.3g 1/s",
-                             storage->storage_time, r->network_rate);
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_RUBBER_IN_NETWORK,
+                         "no network is left to carry a load after %.3g s of storage: bonds "
+                         "break at %.3g 1/s",
+                         storage->storage_time, r->network_rate);
   }
   out->modulus =
       storage->modulus * out->stiffening * out->swell_modulus * out->relaxation * out->network;

@@ -32,6 +32,21 @@
 
 #include "engine/base/status.h"
 
+// Numbers of the inputs of a stored ring, for SbReport.input and SbWarning.input. RING: sizes and
+// modulus; NETWORK, SWELL, RELAXATION: the constants of that effect.
+enum {
+  SB_RUBBER_IN_RING = SB_RUBBER_INPUTS,
+  SB_RUBBER_IN_STORAGE_TIME,
+  SB_RUBBER_IN_TEMPERATURE,
+  SB_RUBBER_IN_USE_TEMPERATURE,
+  SB_RUBBER_IN_GLASS_TEMPERATURE,
+  SB_RUBBER_IN_MODULUS_SLOPE,
+  SB_RUBBER_IN_NETWORK,
+  SB_RUBBER_IN_SWELL,
+  SB_RUBBER_IN_RELAXATION,
+  SB_RUBBER_IN_END
+};
+
 // Largest number of Prony terms.
 enum { SB_RUBBER_TERMS = 12 };
 

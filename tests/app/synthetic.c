@@ -179,9 +179,9 @@ void synthetic_init(Synthetic *out, size_t frames, double scale) {
     s->seal[i].film_min = i == SB_OUTER ? 0.66e-9 : 0.79e-9;
     s->seal[i].lambda = 1e-3 * s->seal[i].film_central / 1e-9;
   }
-  sb_warn(&s->warnings, "film-below-continuum", "fluid.viscosity",
+  sb_warn(&s->warnings, "film-below-continuum", sb_input(SB_P_FLUID_VISCOSITY),
           "film 0.66 nm is below the continuum limit, about 2 nm: formal result");
-  sb_warn(&s->warnings, "boundary-regime", "", "\xce\xbb = 0.001, boundary regime");
+  sb_warn(&s->warnings, "boundary-regime", 0, "\xce\xbb = 0.001, boundary regime");
 }
 
 void synthetic_clear(Synthetic *run) {

@@ -67,7 +67,7 @@ static SbStudy *synthetic(double factor) {
   study->error = 1.2e-3;
   study->note_count = 1;
   g_strlcpy(study->note[0], "A note on what the numbers say.", sizeof study->note[0]);
-  sb_warn(&study->warnings, "test", "", "the law is used outside its range");
+  sb_warn(&study->warnings, "test", 0, "the law is used outside its range");
   return study;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/base/status.h"
+#include "engine/valve/model/params.h"
 
 #include <glib.h>
 #include <math.h>

@@ -3,6 +3,7 @@
 
 #include "engine/contact/fit.h"
 #include "engine/contact/ring/ring.h"
+#include "engine/valve/model/params.h"
 
 #include <glib.h>
 

@@ -374,7 +374,7 @@ static void test_limits(void) {
   // Contacts as wide as the disc: not even dry.
   in = disc_problem(SB_DISC_RADIAL, 0.42, 0.0);
   g_assert_cmpint(sb_fit_solve(&disc, &in, &report), ==, SB_ERROR_NOT_CONVERGED);
-  g_assert_cmpstr(report.parameter, ==, "gland.radial_space");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "gland.radial_space");
   g_assert_false(disc.touches);
   // A tolerance below what the radial kernel's kink allows.
   in = disc_problem(SB_DISC_RADIAL, 0.3, 0.0);
@@ -388,7 +388,7 @@ static void test_limits(void) {
     in.model = (SbFitModel)model;
     in.bore_diameter *= 4.0;
     g_assert_cmpint(sb_fit_solve(&disc, &in, &report), ==, SB_ERROR_RANGE);
-    g_assert_cmpstr(report.parameter, ==, "seal.section_diameter");
+    g_assert_cmpstr(sb_input_key(report.input), ==, "seal.section_diameter");
   }
 }
 
@@ -521,7 +521,7 @@ static void test_thesis_limits(void) {
   g_assert_true(warned(&disc.warnings, "disc-strain"));
   in.radial_space = 0.01e-3;
   g_assert_cmpint(sb_fit_solve(&disc, &in, &report), ==, SB_ERROR_NOT_CONVERGED);
-  g_assert_cmpstr(report.parameter, ==, "gland.radial_space");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "gland.radial_space");
   g_assert_false(disc.solver.converged);
 }
 

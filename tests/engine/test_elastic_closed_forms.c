@@ -330,7 +330,7 @@ static void test_refusals(void) {
     SbFit fit;
     SbReport report = {0};
     g_assert_cmpint(sb_fit_solve(&fit, &in, &report), ==, row[i].status);
-    g_assert_cmpstr(report.parameter, ==, row[i].key);
+    g_assert_cmpstr(sb_input_key(report.input), ==, row[i].key);
     g_assert_cmpfloat(fit.load, ==, 0.0);
   }
 

@@ -154,7 +154,7 @@ static void test_limits(void) {
     }
     in.gland_width = 1.38e-3; // gland fill 104 %
     g_assert_cmpint(sb_fit_solve(&fit, &in, &report), ==, SB_ERROR_INFEASIBLE);
-    g_assert_cmpstr(report.parameter, ==, "gland.axial_width");
+    g_assert_cmpstr(sb_input_key(report.input), ==, "gland.axial_width");
     g_assert_nonnull(strstr(report.text, "overfilled"));
     g_assert_false(fit.valid);
   }

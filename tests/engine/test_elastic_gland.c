@@ -184,11 +184,11 @@ static void test_refusals(void) {
   SbGland gland = thesis();
   gland.inner_diameter = 0.0;
   g_assert_cmpint(sb_gland_readouts(out, &gland, &report), ==, SB_ERROR_RANGE);
-  g_assert_cmpstr(report.parameter, ==, "seal.inner_diameter");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "seal.inner_diameter");
   gland = thesis();
   gland.axial_width_tolerance = 2.0e-3;
   g_assert_cmpint(sb_gland_readouts(out, &gland, &report), ==, SB_ERROR_RANGE);
-  g_assert_cmpstr(report.parameter, ==, "gland.axial_width");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "gland.axial_width");
   gland = thesis();
   gland.volume_swell = NAN;
   g_assert_cmpint(sb_gland_readouts(out, &gland, &report), ==, SB_ERROR_RANGE);

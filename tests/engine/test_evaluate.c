@@ -375,7 +375,7 @@ static void test_refused(void) {
                            .figure_count = 2};
     g_assert_cmpint(sb_evaluator_ask(value, evaluator, &question, &report), ==, bad[i].status);
     g_assert_cmpint(report.status, ==, bad[i].status);
-    g_assert_cmpstr(report.parameter, ==, bad[i].key);
+    g_assert_cmpstr(sb_input_key(report.input), ==, bad[i].key);
     g_assert_nonnull(strstr(report.text, bad[i].key));
     g_assert_nonnull(strstr(report.text, bad[i].says));
     g_assert_true(isnan(value[0]) && isnan(value[1]));

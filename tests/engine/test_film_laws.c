@@ -1,5 +1,6 @@
 // Closed-form films: the thesis' figures, the exact limit, ranges, and the dry contact at rest.
 #include "engine/film/film.h"
+#include "engine/valve/model/params.h"
 
 #include <glib.h>
 #include <math.h>
@@ -135,7 +136,7 @@ static void test_refusals(void) {
   g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_ERROR_RANGE);
   problem = inhaler(SB_FILM_THESIS, (double)NAN);
   g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_ERROR_RANGE);
-  g_assert_cmpstr(report.parameter, ==, "drive.speed");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "drive.speed");
   SbFilmModel model;
   g_assert_true(sb_film_model_from_name(&model, "inverse"));
   g_assert_cmpint(model, ==, SB_FILM_INVERSE);

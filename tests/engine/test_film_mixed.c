@@ -683,7 +683,7 @@ static void test_refusals(void) {
   SbFilmProblem problem = rough_seal(1e-3, SB_ROUGH_PERSSON);
   problem.gt_product = 0.01;
   g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_ERROR_INFEASIBLE);
-  g_assert_cmpstr(report.parameter, ==, "surface.gt_product");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "surface.gt_product");
   problem = rough_seal(1e-3, SB_ROUGH_GREENWOOD_TRIPP);
   problem.sigma = 0;
   g_assert_cmpint(sb_film_solve(&film, &problem, NULL, &report), ==, SB_ERROR_RANGE);

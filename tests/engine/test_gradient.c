@@ -370,7 +370,7 @@ static void test_refused(void) {
       sb_gradient_create(&gradient, valve.evaluator, &valve.question, &number, 1, NULL, &report),
       ==, SB_ERROR_INPUT);
   g_assert_null(gradient);
-  g_assert_cmpstr(report.parameter, ==, "output.frames");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "output.frames");
   int asked = 0;
   valve.question.cancelled = stop;
   valve.question.data = &asked;

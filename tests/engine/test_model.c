@@ -122,7 +122,7 @@ static void test_overrides(void) {
   g_assert_cmpfloat(sb_params_get(&params, SB_P_SEAL_INNER_MODULUS), ==, 3e6);
   g_assert_cmpint(sb_params_set(&params, SB_P_SEAL_MODULUS, NAN, &report), ==, SB_ERROR_INPUT);
   g_assert_cmpint(sb_params_set(&params, SB_P_SEAL_MODULUS, -1, &report), ==, SB_ERROR_RANGE);
-  g_assert_cmpstr(report.parameter, ==, "seal.modulus");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "seal.modulus");
 }
 
 // A set of models is a bundle of defaults: what is given wins, and what was not follows when the

@@ -196,13 +196,13 @@ static void test_refused(void) {
   SbRingLoad load = open_groove();
   load.bore_radius = 1.6e-3;
   g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
-  g_assert_cmpstr(report.parameter, ==, "bore.diameter");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "bore.diameter");
   g_assert_null(ring);
   load = open_groove();
   load.wall_left = -0.6e-3;
   load.wall_right = 0.6e-3;
   g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
-  g_assert_cmpstr(report.parameter, ==, "gland.axial_width");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "gland.axial_width");
   load = open_groove();
   load.pressure_left = 1e5;
   g_assert_cmpint(sb_ring_create(&ring, &BODY, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
@@ -213,7 +213,7 @@ static void test_refused(void) {
   body.poisson_ratio = 0.5;
   load = open_groove();
   g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, &report), ==, SB_ERROR_RANGE);
-  g_assert_cmpstr(report.parameter, ==, "seal.poisson_ratio");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "seal.poisson_ratio");
   sb_ring_destroy(NULL);
 }
 

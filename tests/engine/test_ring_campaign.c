@@ -178,7 +178,7 @@ static void follow(Kind kind, int index, Tally *tally) {
     // Refused beforehand with a parameter, or lost on the way with a reason.
     g_test_message("kind %d case %d: %s", kind, index, report.text);
     g_assert_cmpuint(strlen(report.text), >, 20);
-    g_assert_true(status == SB_ERROR_NOT_CONVERGED || report.parameter[0] != '\0');
+    g_assert_true(status == SB_ERROR_NOT_CONVERGED || report.input != 0);
     *(status == SB_ERROR_NOT_CONVERGED ? &tally->lost : &tally->refused) += 1;
     return;
   }

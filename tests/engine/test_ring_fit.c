@@ -166,7 +166,7 @@ static void test_open(void) {
   g_assert_cmpint(sb_ring_create(&ring, &body, &load, &options, &report), ==, SB_ERROR_INFEASIBLE);
   g_test_message("%s", report.text);
   g_assert_null(ring);
-  g_assert_cmpstr(report.parameter, ==, "gland.radial_space");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "gland.radial_space");
   const char *held = strstr(report.text, "up to a radial space of ");
   g_assert_nonnull(held);
   double space = g_ascii_strtod(held + strlen("up to a radial space of "), NULL);

@@ -197,11 +197,11 @@ static void refusals(void) {
   load.wall_right = 0.6e-3;
   load.wall_left = -0.6e-3;
   g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, &report), ==, SB_ERROR_RANGE);
-  g_assert_cmpstr(report.parameter, ==, "gasket.crimp");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "gasket.crimp");
   load = load_of(0, 0);
   load.bore_radius = -3e-3;
   g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, &report), ==, SB_ERROR_RANGE);
-  g_assert_cmpstr(report.parameter, ==, "gasket.bore_diameter");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "gasket.bore_diameter");
 }
 
 int main(int argc, char **argv) {

@@ -2,6 +2,7 @@
 #include "engine/contact/gland.h"
 #include "engine/contact/ring/ring_contact.h"
 #include "engine/contact/ring/ring_private.h"
+#include "engine/valve/model/params.h"
 
 #include <glib.h>
 
@@ -303,7 +304,7 @@ static void limits(void) {
   for (int i = 0; i < 3; i++) {
     SbReport report = {0};
     g_assert_cmpint(sb_ring_check(&body, &bad[i], &report), ==, SB_ERROR_RANGE);
-    g_assert_cmpstr(report.parameter, ==, key[i]);
+    g_assert_cmpstr(sb_input_key(report.input), ==, key[i]);
   }
 }
 

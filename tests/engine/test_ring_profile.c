@@ -339,7 +339,7 @@ static void refusals(void) {
   SbReport report;
   SbRingBody body = body_of(SB_SEAL_PROFILE_T, 1.2e-3, 0.2e-3);
   g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, &report), ==, SB_ERROR_INFEASIBLE);
-  g_assert_cmpstr(report.parameter, ==, "seal.corner_radius");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "seal.corner_radius");
   // The reported radius fits, to the digits that are printed.
   const char *most = strstr(report.text, "at most ");
   g_assert_nonnull(most);
@@ -349,12 +349,12 @@ static void refusals(void) {
                   ==, SB_OK);
   body = body_of(SB_SEAL_PROFILE_RECTANGLE, 12e-3, 0.2e-3);
   g_assert_cmpint(sb_ring_create(&ring, &body, &load, NULL, &report), ==, SB_ERROR_RANGE);
-  g_assert_cmpstr(report.parameter, ==, "seal.axial_height");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "seal.axial_height");
   SbFit fit;
   SbFitProblem problem = thesis(SB_FIT_HERTZ);
   problem.profile = body_of(SB_SEAL_PROFILE_D, 1.2e-3, 0.2e-3).profile;
   g_assert_cmpint(sb_fit_solve(&fit, &problem, &report), ==, SB_ERROR_INPUT);
-  g_assert_cmpstr(report.parameter, ==, "models.fit");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "models.fit");
 }
 
 // A number between two, from a sequence that is the same everywhere.

@@ -219,7 +219,7 @@ static void held(void) {
   g_assert_true(sb_model_has_spring(machine));
   sb_model_destroy(machine);
   g_assert_cmpint(sb_model_hold(&none, base, SB_HOLD_OUTER, &report), ==, SB_ERROR_INPUT);
-  g_assert_cmpstr(report.parameter, ==, "valve.kind");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "valve.kind");
   sb_model_destroy(base);
 }
 
@@ -241,7 +241,7 @@ static void refusals(void) {
     SbModel *model;
     SbReport report = {0};
     g_assert_cmpint(sb_model_derive(&model, base, &bad[i].over, 1, &report), ==, SB_ERROR_INPUT);
-    g_assert_cmpstr(report.parameter, ==, bad[i].key);
+    g_assert_cmpstr(sb_input_key(report.input), ==, bad[i].key);
     g_assert_null(model);
   }
   sb_model_destroy(base);

@@ -118,7 +118,7 @@ static void test_through_flow(void) {
   sb_plan_make(&plan, &model);
   g_assert_cmpint(sb_run_create(&run, &model, &plan, &report), ==, SB_OK);
   g_assert_cmpint(sb_run_execute(run, NULL, &report), ==, SB_ERROR_INFEASIBLE);
-  g_assert_cmpstr(report.parameter, ==, "chamber.flow");
+  g_assert_cmpstr(sb_input_key(report.input), ==, "chamber.flow");
   sb_run_destroy(run);
 }
 

@@ -67,7 +67,7 @@ static void ends(void) {
       g_assert_cmpint(cut.status, ==, SB_ERROR_NOT_CONVERGED);
       g_assert_false(summary->converged);
       g_assert_cmpuint(summary->work, <=, (size_t)limit);
-      g_assert_cmpstr(cut.report.parameter, ==, "output.work_limit");
+      g_assert_cmpstr(sb_input_key(cut.report.input), ==, "output.work_limit");
       g_assert_nonnull(strstr(cut.report.text, "work limit"));
       g_assert_nonnull(strstr(cut.report.text, "larger output.tolerance"));
       if (limit == 1) {

@@ -74,9 +74,9 @@ static void add_row(Bar *bar, const char *icon_name, const char *style, const ch
 
 static void add_warning(Bar *bar, const SbWarning *warning) {
   g_autofree char *text =
-      warning->parameter[0] != '\0'
+      warning->input != 0
           ? g_markup_printf_escaped("%s\n<small>%s, %s</small>", warning->text, warning->code,
-                                    warning->parameter)
+                                    sb_input_key(warning->input))
           : g_markup_printf_escaped("%s\n<small>%s</small>", warning->text, warning->code);
   add_row(bar, "dialog-warning-symbolic", "sb-warn", text);
 }

@@ -1,6 +1,8 @@
 // See scan_figures.h.
 #include "app/data/scan/scan_figures.h"
 
+#include "engine/valve/model/params.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -82,20 +84,20 @@ static void warn(SbScanFigures *out, const SbHeights *h, const SbHeightsChoices 
   const SbHeightsReport *done = &out->done;
   const double points = (double)done->points;
   if (choices->form <= SB_FORM_PLANE && done->curved_share > 0.5) {
-    sb_warn(list, "surface-form", "",
+    sb_warn(list, "surface-form", 0,
             "a quadratic form would take %.0f %% of the variance about the plane: is it the "
             "part's shape? (--form quadratic or cylinder)",
             100 * done->curved_share);
   }
   if (done->suspicious > 0) {
     sb_warn(
-        list, "surface-outliers", "",
+        list, "surface-outliers", 0,
         "%zu points are beyond %g robust deviations and are included (--outliers %g excludes them)",
         done->suspicious, SB_HEIGHTS_SUSPICIOUS, SB_HEIGHTS_SUSPICIOUS);
   }
   const double missing = (double)(done->missing + done->outliers) / points;
   if (missing > 0.05) {
-    sb_warn(list, "surface-missing", "",
+    sb_warn(list, "surface-missing", 0,
             "%.0f %% of the points are missing; the spectrum uses values interpolated between "
             "their neighbours",
             100 * missing);
@@ -103,25 +105,25 @@ static void warn(SbScanFigures *out, const SbHeights *h, const SbHeightsChoices 
   const double step = fmax(h->dx, h->rows > 1 ? h->dy : 0);
   const double fine = fine_share(&out->spectrum, step, 8);
   if (fine > 0.5) {
-    sb_warn(list, "surface-sampling", "surface.gt_product",
+    sb_warn(list, "surface-sampling", sb_input(SB_P_SURFACE_GT_PRODUCT),
             "%.0f %% of m4 is in waves of fewer than 8 points: density and radius of asperities "
             "are those of the sampling, or of noise (--cutoff-short)",
             100 * fine);
   }
   const double ratio = out->spectrum.moment[2] / f->moment[2];
   if (fabs(log(ratio)) > log(1.3)) {
-    sb_warn(list, "surface-moments", "surface.gt_product",
+    sb_warn(list, "surface-moments", sb_input(SB_P_SURFACE_GT_PRODUCT),
             "m4 by the spectrum is %.3g times that by differences: waves of few points, noise, "
             "missing points or parts unlike each other",
             ratio);
   }
   if (!(f->breadth > 1.5)) {
-    sb_warn(list, "surface-breadth", "surface.gt_product",
+    sb_warn(list, "surface-breadth", sb_input(SB_P_SURFACE_GT_PRODUCT),
             "m0 m4/m2^2 = %.3g: no random isotropic surface has these moments (above 1.5)",
             f->breadth);
   }
   if (fabs(f->ssk) > 1 || fabs(f->sku - 3) > 2) {
-    sb_warn(list, "surface-gaussian", "",
+    sb_warn(list, "surface-gaussian", 0,
             "skewness %.2g and kurtosis %.2g: the contact laws assume Gaussian heights (0 and 3)",
             f->ssk, f->sku);
   }

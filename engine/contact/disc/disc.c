@@ -364,7 +364,7 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
     sb_fit_errors(out, error[LOAD], error[PEAK], error[WIDTH]);
   } else {
     const double most = limit / compliance + both;
-    sb_warn(&out->warnings, "disc-opens", "canister.pressure",
+    sb_warn(&out->warnings, "disc-opens", SB_CONTACT_IN_PRESSURE,
             "the fluid penetrates under the disc: no contact resists more than %.3g MPa (linear, "
             "%.2g of "
             "the modulus)",
@@ -372,10 +372,11 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
   }
   if (lost && !opens) {
     sb_fit_errors(out, 1.0, 1.0, 1.0);
-    status = sb_fail_parameter(
-        report, SB_ERROR_NOT_CONVERGED, reached < 0.0 ? "gland.radial_space" : "canister.pressure",
-        "the linear disc found no contact state beyond %.3g MPa (edge residual %.2g)",
-        1e-6 * fmax(0.0, reached) / compliance, residual);
+    status =
+        sb_fail_input(report, SB_ERROR_NOT_CONVERGED,
+                      reached < 0.0 ? SB_CONTACT_IN_RADIAL_SPACE : SB_CONTACT_IN_PRESSURE,
+                      "the linear disc found no contact state beyond %.3g MPa (edge residual %.2g)",
+                      1e-6 * fmax(0.0, reached) / compliance, residual);
   } else if (!out->solver.converged) {
     status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
                      "the linear disc's error estimate %.2g stays above %.2g", worst, wanted);
@@ -395,17 +396,17 @@ static void judge_margin(SbFit *out, const SbFitProblem *in, double both) {
   static const double LEAST = 0.16; // of the modulus: rings part from discs up to 0.157 (measured)
   const double margin = out->pressure_peak - fmax(fabs(in->pressure), both);
   if (margin < LEAST * in->modulus) {
-    sb_warn(&out->warnings, "disc-ring-contact", "models.fit",
+    sb_warn(&out->warnings, "disc-ring-contact", SB_CONTACT_IN_MODEL,
             "the disc presses %.3g MPa more than the fluid, %.2g of the modulus: below %.2g a "
-            "solved ring may have no contact (models.fit = ring shows it)",
-            1e-6 * margin, margin / in->modulus, LEAST);
+            "solved ring may have no contact%s",
+            1e-6 * margin, margin / in->modulus, LEAST, in->names != NULL ? in->names->ring : "");
   }
 }
 
 SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report) {
   const double diameter = out->section_diameter_fitted;
   SbStatus status = SB_CHECK(
-      report, {"seal.section_diameter", "the fitted section [m]", diameter, SB_ABOVE_ZERO});
+      report, {SB_CONTACT_IN_SECTION_DIAMETER, "the fitted section [m]", diameter, SB_ABOVE_ZERO});
   if (status != SB_OK) {
     return status;
   }
@@ -417,17 +418,17 @@ SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report) {
   const double squeeze = 1.0 - in->radial_space / diameter;
   out->circumference = M_PI * (in->bore_diameter - in->radial_space);
   if (!(squeeze > hydrostatic_of(in, both))) {
-    sb_warn(&out->warnings, "no-contact", "seal.section_diameter",
+    sb_warn(&out->warnings, "no-contact", SB_CONTACT_IN_SECTION_DIAMETER,
             "the disc has no contact with the flats (squeeze %.3g %%): load 0", 100.0 * squeeze);
     out->solver.converged = true;
     return sb_succeed(report);
   }
   if (squeeze > 0.1) {
-    sb_warn(&out->warnings, "disc-strain", "seal.section_diameter",
+    sb_warn(&out->warnings, "disc-strain", SB_CONTACT_IN_SECTION_DIAMETER,
             "squeeze %.3g %% is beyond 10 %%: linear elasticity is an estimate", 100.0 * squeeze);
   }
   if (difference > 0.25 * in->modulus && !thesis) {
-    sb_warn(&out->warnings, "disc-pressure", "canister.pressure",
+    sb_warn(&out->warnings, "disc-pressure", SB_CONTACT_IN_PRESSURE,
             "pressure difference is %.2g of the modulus: linear elasticity is an estimate",
             difference / in->modulus);
   }

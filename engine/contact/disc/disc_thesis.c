@@ -174,8 +174,8 @@ SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report) {
   out->solver.converged = own.loaded > 0 && fine.loaded > 0;
   if (!out->solver.converged) {
     free(w);
-    return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "gland.radial_space",
-                             "no contact within 75 degrees satisfies the thesis' disc");
+    return sb_fail_input(report, SB_ERROR_NOT_CONVERGED, SB_CONTACT_IN_RADIAL_SPACE,
+                         "no contact within 75 degrees satisfies the thesis' disc");
   }
 
   out->load_per_length = own.load;

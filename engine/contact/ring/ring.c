@@ -23,12 +23,14 @@ static const double FOLDED = 0.02;
 static SbStatus check_body(const SbRingBody *body, SbReport *report) {
   return SB_CHECK(
       report,
-      {"seal.section_diameter", "the section diameter [m]", body->section_diameter, SB_ABOVE_ZERO},
-      {"seal.inner_diameter", "the inner diameter [m]",
+      {SB_CONTACT_IN_SECTION_DIAMETER, "the section diameter [m]", body->section_diameter,
+       SB_ABOVE_ZERO},
+      {SB_CONTACT_IN_INNER_DIAMETER, "the inner diameter [m]",
        body->plane_strain ? 1.0 : body->inner_diameter, SB_ABOVE_ZERO},
-      {"seal.modulus", "the modulus [Pa]", body->modulus, SB_ABOVE_ZERO},
-      {"seal.poisson_ratio", "the ring model's Poisson's ratio", body->poisson_ratio, 0.3, 0.49995},
-      {"seal.mooney_share", "the Mooney fraction", body->mooney_share, 0.0, 0.5});
+      {SB_CONTACT_IN_MODULUS, "the modulus [Pa]", body->modulus, SB_ABOVE_ZERO},
+      {SB_CONTACT_IN_POISSON_RATIO, "the ring model's Poisson's ratio", body->poisson_ratio, 0.3,
+       0.49995},
+      {SB_CONTACT_IN_MOONEY_SHARE, "the Mooney fraction", body->mooney_share, 0.0, 0.5});
 }
 
 // The stem in the bore of a ring that seals inwards, and the walls that clamp it.
@@ -38,32 +40,32 @@ static SbStatus check_clamped(const SbRingBody *body, const SbRingOutline *outli
   const double thick = 2.0 * outline->half * body->section_diameter;
   const double stem = -2.0 * load->bore_radius / body->inner_diameter;
   return SB_CHECK(report,
-                  {"gasket.crimp", "the gasket's crimp", 1.0 - width / thick, 0.0, CRIMP_MOST},
-                  {"gasket.bore_diameter", "the stem's diameter over the gasket's bore", stem, 0.5,
-                   1.0 + STRETCH_MOST});
+                  {SB_CONTACT_IN_CRIMP, "the gasket's crimp", 1.0 - width / thick, 0.0, CRIMP_MOST},
+                  {SB_CONTACT_IN_GASKET_BORE, "the stem's diameter over the gasket's bore", stem,
+                   0.5, 1.0 + STRETCH_MOST});
 }
 
 static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
                            const SbRingLoad *load, SbReport *report) {
-  const char *friction = "friction.load_coefficient", *fluid = "canister.pressure";
-  const char *edge = "bore.land_edge";
+  const int friction = SB_CONTACT_IN_DRAG, fluid = SB_CONTACT_IN_PRESSURE;
+  const int edge = SB_CONTACT_IN_LAND_EDGE;
   bool land = load->land_left > -HUGE_VAL || load->land_right < HUGE_VAL;
   const double width = load->wall_right - load->wall_left;
   SbStatus status = SB_CHECK(
       report,
-      {"", "the groove floor's radius [m]", body->inward ? 0.0 : load->floor_radius, SB_FINITE},
-      {"", "the bore's radius [m]", load->bore_radius, SB_FINITE},
-      {"", "the bore's position [m]", load->bore_position, SB_FINITE},
-      {"", "the bore's shear [Pa]", load->bore_traction, SB_FINITE},
-      {"", "the left wall's place [m]", load->wall_left, -INFINITY, INFINITY},
-      {"", "the right wall's place [m]", load->wall_right, -INFINITY, INFINITY},
-      {"gland.draft", "the walls' draft [rad]", load->wall_draft, 0.0, 0.35},
-      {"gland.corner_radius", "the radius of the groove's corners [m]", load->floor_corner, 0.0,
-       load->floor_corner > 0.0 ? 0.5 * width : 1.0},
-      {"gland.edge_chamfer", "the chamfer of the groove's edges [m]", load->wall_chamfer, 0.0,
-       load->wall_chamfer > 0.0 ? load->wall_top - load->floor_radius : 1.0},
-      {"", "the land's left end [m]", load->land_left, -INFINITY, INFINITY},
-      {"", "the land's right end [m]", load->land_right, -INFINITY, INFINITY},
+      {0, "the groove floor's radius [m]", body->inward ? 0.0 : load->floor_radius, SB_FINITE},
+      {0, "the bore's radius [m]", load->bore_radius, SB_FINITE},
+      {0, "the bore's position [m]", load->bore_position, SB_FINITE},
+      {0, "the bore's shear [Pa]", load->bore_traction, SB_FINITE},
+      {0, "the left wall's place [m]", load->wall_left, -INFINITY, INFINITY},
+      {0, "the right wall's place [m]", load->wall_right, -INFINITY, INFINITY},
+      {SB_CONTACT_IN_WALL_DRAFT, "the walls' draft [rad]", load->wall_draft, 0.0, 0.35},
+      {SB_CONTACT_IN_GROOVE_CORNER, "the radius of the groove's corners [m]", load->floor_corner,
+       0.0, load->floor_corner > 0.0 ? 0.5 * width : 1.0},
+      {SB_CONTACT_IN_GROOVE_CHAMFER, "the chamfer of the groove's edges [m]", load->wall_chamfer,
+       0.0, load->wall_chamfer > 0.0 ? load->wall_top - load->floor_radius : 1.0},
+      {0, "the land's left end [m]", load->land_left, -INFINITY, INFINITY},
+      {0, "the land's right end [m]", load->land_right, -INFINITY, INFINITY},
       {friction, "the friction on the bore, as a fraction of its law,", load->friction_bore, 0.0,
        2.0},
       {friction, "the coefficient of friction on the floor", load->friction_floor, 0.0, 2.0},
@@ -80,23 +82,24 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
   }
   double space = load->bore_radius - load->floor_radius;
   if (!(space > 0.0)) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "bore.diameter",
-                             "the bore (radius %.4g m) is not larger than the groove floor "
-                             "(radius %.4g m)",
-                             load->bore_radius, load->floor_radius);
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_BORE_DIAMETER,
+                         "the bore (radius %.4g m) is not larger than the groove floor "
+                         "(radius %.4g m)",
+                         load->bore_radius, load->floor_radius);
   }
   double floor = body->plane_strain ? 1.0 : load->floor_radius, d = body->section_diameter;
   double stretch = body->plane_strain ? 0.0 : 2.0 * load->floor_radius / body->inner_diameter - 1.0;
   status = SB_CHECK(
-      report, {"gland.radial_space", "the groove floor's radius [m]", floor, SB_ABOVE_ZERO},
-      {"seal.inner_diameter", "the ring's stretch on the floor", stretch, -DBL_MAX, STRETCH_MOST},
-      {"gland.radial_space", "the ring's squeeze", 1.0 - space / d, -DBL_MAX, SQUEEZE_MOST});
+      report, {SB_CONTACT_IN_RADIAL_SPACE, "the groove floor's radius [m]", floor, SB_ABOVE_ZERO},
+      {SB_CONTACT_IN_INNER_DIAMETER, "the ring's stretch on the floor", stretch, -DBL_MAX,
+       STRETCH_MOST},
+      {SB_CONTACT_IN_RADIAL_SPACE, "the ring's squeeze", 1.0 - space / d, -DBL_MAX, SQUEEZE_MOST});
   if (status != SB_OK) {
     return status;
   }
   if (!(width > 0.0)) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
-                             "the groove has no width");
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_GLAND_WIDTH,
+                         "the groove has no width");
   }
   // A nearly incompressible section cannot be larger than its groove; its volume is constant.
   double area = outline->area * d * d;
@@ -108,9 +111,9 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
                           ? sb_groove_drawn_area(load->groove, width, space)
                           : width * space;
   if (!land && isfinite(width) && area > 0.985 * room) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
-                             "the groove is overfilled: the section needs %.3g mm2 of %.3g mm2",
-                             1e6 * area, 1e6 * room);
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_GLAND_WIDTH,
+                         "the groove is overfilled: the section needs %.3g mm2 of %.3g mm2",
+                         1e6 * area, 1e6 * room);
   }
   return SB_OK;
 }
@@ -213,17 +216,17 @@ SbStatus sb_ring_check_apart(const SbRing *ring, SbReport *report) {
                    name);
   }
   if (ring->contact->folded > FOLDED) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile",
-                             "the %s section folds onto itself and would be pressed into itself by "
-                             "%.2g of its height",
-                             name, ring->contact->folded);
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_PROFILE,
+                         "the %s section folds onto itself and would be pressed into itself by "
+                         "%.2g of its height",
+                         name, ring->contact->folded);
   }
   if (!sb_ring_is_circle(ring) && sb_ring_crosses_itself(ring->contact)) {
     // If elements are larger than a corner's rounding they may be the cause: finer ones are tried.
-    return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "seal.profile",
-                             "the %s section folds onto itself next to its hollows: contact with "
-                             "itself is not modelled there",
-                             name);
+    return sb_fail_input(report, SB_ERROR_NOT_CONVERGED, SB_CONTACT_IN_PROFILE,
+                         "the %s section folds onto itself next to its hollows: contact with "
+                         "itself is not modelled there",
+                         name);
   }
   return SB_OK;
 }
@@ -328,11 +331,11 @@ static SbStatus tell_crease(const SbRing *ring, const SbRingLoad *target, double
     return status;
   }
   const SbReport reason = report != NULL ? *report : (SbReport){0};
-  return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile",
-                           "the %s section's surface creases where it is pressed to %.2f of its "
-                           "length (rubber's does from %.2f on): %s",
-                           sb_seal_profile_name(ring->body.profile.kind), 1.0 / sqrt(crease),
-                           1.0 / sqrt(SB_RING_CREASE), reason.text);
+  return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_PROFILE,
+                       "the %s section's surface creases where it is pressed to %.2f of its "
+                       "length (rubber's does from %.2f on): %s",
+                       sb_seal_profile_name(ring->body.profile.kind), 1.0 / sqrt(crease),
+                       1.0 / sqrt(SB_RING_CREASE), reason.text);
 }
 
 // An easy path comes first if floor and walls have no friction, so that a state does not depend on

@@ -142,7 +142,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   SbRingResult coarse;
   sb_ring_result(ring, result);
   if (!result->touching) {
-    sb_warn(warnings, "no-contact", "bore.diameter",
+    sb_warn(warnings, "no-contact", SB_CONTACT_IN_BORE_DIAMETER,
             "the fitted ring has no contact with the bore%s: radial thickness %.4g mm in %.4g mm",
             load->pressure_left != 0.0 || load->pressure_right != 0.0 ? " and lets the fluid past"
                                                                       : "",
@@ -178,7 +178,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
     }
     const double crease = status == SB_OK ? sb_ring_crease(ring->contact) : 1.0;
     if (crease > SB_RING_CREASE) {
-      sb_warn(warnings, "surface-creases", "seal.profile",
+      sb_warn(warnings, "surface-creases", SB_CONTACT_IN_PROFILE,
               "the free surface is pressed to %.2f of its length somewhere, where rubber creases "
               "(from %.2f on): the ring is solved with a smooth one",
               1.0 / sqrt(crease), 1.0 / sqrt(SB_RING_CREASE));
@@ -188,7 +188,7 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
     }
     const double turn = fabs(sb_ring_turn(ring->contact, NULL, NULL, NULL));
     if (load->bore_slides == 0 && !sb_ring_is_circle(ring) && turn > ROLLED) {
-      sb_warn(warnings, "section-rolled", "seal.profile",
+      sb_warn(warnings, "section-rolled", SB_CONTACT_IN_PROFILE,
               "the section has rolled by %.0f degrees as it was fitted: another state of another "
               "load, upright, may exist next to it",
               turn * 180.0 / M_PI);

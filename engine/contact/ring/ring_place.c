@@ -79,8 +79,8 @@ static SbStatus lean(SbRing *ring, const SbRingLoad *s, bool *leaned, SbReport *
   SbRingSurface wall = difference > 0.0 ? SB_RING_WALL_RIGHT : SB_RING_WALL_LEFT;
   double place = difference > 0.0 ? s->wall_right : s->wall_left;
   if (difference != 0.0 && !isfinite(place) && !holds && !land) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gland.axial_width",
-                             "no groove wall supports the ring against the pressure");
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_GLAND_WIDTH,
+                         "no groove wall supports the ring against the pressure");
   }
   double least = INFINITY;
   for (int i = 0; i < contact->count; i++) {
@@ -160,8 +160,8 @@ static SbStatus press_open(SbRing *ring, const SbRingLoad *target, SbReport *rep
   }
   double l = ring->length, p = fmax(target->pressure_left, target->pressure_right);
   const SbRingLoad *now = &ring->contact->is.now;
-  return sb_fail_parameter(
-      report, SB_ERROR_INFEASIBLE, "gland.radial_space",
+  return sb_fail_input(
+      report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_RADIAL_SPACE,
       "the fluid passes the ring: without pressure it has no contact with the bore, and %.3g MPa "
       "presses it against the bore up to a radial space of %.5g mm, not %.5g mm",
       1e-6 * p * ring->stress, 1e3 * l * (now->bore_radius - now->floor_radius),
@@ -231,12 +231,11 @@ static SbStatus tell_passed(const SbRing *ring, const SbRingLoad *load, SbStatus
   if (!ring->body.inward || status != SB_ERROR_NOT_CONVERGED || most > NEAR * wanted) {
     return status;
   }
-  status =
-      sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "gasket.crimp",
-                        "the fluid passes the gasket along the %s: the contact there, %.3g MPa "
-                        "at most, was followed to %.3g of %.3g MPa",
-                        on_stem < on_plate ? "stem" : "plate", 1e-6 * most * ring->stress,
-                        1e-6 * reached * ring->stress, 1e-6 * wanted * ring->stress);
+  status = sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_CRIMP,
+                         "the fluid passes the gasket along the %s: the contact there, %.3g MPa "
+                         "at most, was followed to %.3g of %.3g MPa",
+                         on_stem < on_plate ? "stem" : "plate", 1e-6 * most * ring->stress,
+                         1e-6 * reached * ring->stress, 1e-6 * wanted * ring->stress);
   return sb_fail_because(report, status, SB_CAUSE_FLUID_PASSES);
 }
 

@@ -130,10 +130,10 @@ static SbStatus drawn(SbRingOutline *out, const SbSealDrawing *on, double radius
     turn[i] = remainder(heading(&after, false) - heading(&before, true), 2.0 * M_PI);
     cut[i] = 0.0;
     if (fabs(turn[i]) > SMOOTH && (before.radius > 0.0 || after.radius > 0.0)) {
-      return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile_file",
-                               "point %d is a sharp corner of %.0f degrees at an arc: end the arc "
-                               "along its neighbour",
-                               i + 1, fabs(turn[i]) * 180.0 / M_PI);
+      return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_DRAWING,
+                           "point %d is a sharp corner of %.0f degrees at an arc: end the arc "
+                           "along its neighbour",
+                           i + 1, fabs(turn[i]) * 180.0 / M_PI);
     }
     if (fabs(turn[i]) > SMOOTH) {
       cut[i] = radius * fabs(tan(0.5 * turn[i]));
@@ -144,10 +144,10 @@ static SbStatus drawn(SbRingOutline *out, const SbSealDrawing *on, double radius
     SbRingOutlinePart piece = piece_of(&on->point[i], &on->point[(i + 1) % n]);
     const double ends[2] = {cut[i], cut[(i + 1) % n]};
     if (ends[0] + ends[1] > piece.length * (1.0 + 1e-9)) {
-      return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.corner_radius",
-                               "the side from point %d of the drawn section is too short for "
-                               "corners rounded by %.3g of its height",
-                               i + 1, radius);
+      return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_CORNER_RADIUS,
+                           "the side from point %d of the drawn section is too short for "
+                           "corners rounded by %.3g of its height",
+                           i + 1, radius);
     }
     if (cut[i] > 0.0) {
       const double u = heading(&before, true), side = copysign(1.0, turn[i]);
@@ -365,33 +365,36 @@ static SbStatus check(const SbSealProfile *p, double h, SbReport *report) {
   const bool wide = p->kind != SB_SEAL_PROFILE_X && p->kind != SB_SEAL_PROFILE_FILE;
   SbStatus status =
       SB_CHECK(report,
-               {"seal.axial_height", "the section's axial height over its radial one",
+               {SB_CONTACT_IN_AXIAL_HEIGHT, "the section's axial height over its radial one",
                 wide ? p->axial_height / h : 1.0, 0.2, 5.0},
-               {"seal.corner_radius", "the corners' radius over the section's radial height",
+               {SB_CONTACT_IN_CORNER_RADIUS, "the corners' radius over the section's radial height",
                 p->corner_radius / h, 0.005, 0.5});
   if (status == SB_OK && p->kind == SB_SEAL_PROFILE_X) {
     const double lobe = p->corner_radius / h;
-    status = SB_CHECK(report,
-                      {"seal.corner_radius", "the lobes' radius over the section's radial height",
-                       lobe, 0.05, 0.3},
-                      {"seal.valley_depth", "the hollows' depth over the section's radial height",
-                       p->valley_depth / h, 0.02, 0.25});
+    status =
+        SB_CHECK(report,
+                 {SB_CONTACT_IN_CORNER_RADIUS, "the lobes' radius over the section's radial height",
+                  lobe, 0.05, 0.3},
+                 {SB_CONTACT_IN_VALLEY_DEPTH, "the hollows' depth over the section's radial height",
+                  p->valley_depth / h, 0.02, 0.25});
   }
   if (status == SB_OK && p->kind == SB_SEAL_PROFILE_T) {
-    status = SB_CHECK(report,
-                      {"seal.web_width", "the web's width over the section's axial height",
-                       p->web_width / p->axial_height, 0.15, 0.95},
-                      {"seal.flange_height", "the flange's height over the section's radial one",
-                       p->flange_height / h, 0.15, 0.85});
+    status =
+        SB_CHECK(report,
+                 {SB_CONTACT_IN_WEB_WIDTH, "the web's width over the section's axial height",
+                  p->web_width / p->axial_height, 0.15, 0.95},
+                 {SB_CONTACT_IN_FLANGE_HEIGHT, "the flange's height over the section's radial one",
+                  p->flange_height / h, 0.15, 0.85});
   }
   if (status == SB_OK && p->kind == SB_SEAL_PROFILE_LIP) {
-    status = SB_CHECK(report,
-                      {"seal.lip_thickness", "the lips' thickness over the section's radial height",
-                       p->lip_thickness / h, 0.08, 0.4},
-                      {"seal.lip_depth", "the hollow's depth over the section's axial height",
-                       p->lip_depth / p->axial_height, 0.1, 0.8},
-                      {"seal.lip_flare", "the lips' reach over the section's radial height",
-                       p->lip_flare / h, 0.0, 0.25});
+    status = SB_CHECK(
+        report,
+        {SB_CONTACT_IN_LIP_THICKNESS, "the lips' thickness over the section's radial height",
+         p->lip_thickness / h, 0.08, 0.4},
+        {SB_CONTACT_IN_LIP_DEPTH, "the hollow's depth over the section's axial height",
+         p->lip_depth / p->axial_height, 0.1, 0.8},
+        {SB_CONTACT_IN_LIP_FLARE, "the lips' reach over the section's radial height",
+         p->lip_flare / h, 0.0, 0.25});
   }
   return status;
 }
@@ -435,8 +438,8 @@ SbStatus sb_ring_outline_of_profile(SbRingOutline *out, const SbSealProfile *p, 
     return sb_succeed(report);
   }
   if (p->kind == SB_SEAL_PROFILE_FILE && p->drawn.count == 0) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.profile_file",
-                             "seal.profile = file needs the file of a section");
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_DRAWING,
+                         "a drawn section needs its drawing");
   }
   SbStatus status = check(p, h, report);
   if (status == SB_OK && p->kind == SB_SEAL_PROFILE_FILE) {
@@ -453,14 +456,14 @@ SbStatus sb_ring_outline_of_profile(SbRingOutline *out, const SbSealProfile *p, 
   if (p->kind == SB_SEAL_PROFILE_X) {
     const double valley = p->valley_depth / h, lobe = p->corner_radius / h;
     if (valley * valley + (0.5 - lobe) * (0.5 - lobe) <= 2.1 * lobe * valley) {
-      return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "seal.valley_depth",
-                               "hollows %.3g mm deep do not fit between lobes of %.3g mm radius",
-                               1e3 * p->valley_depth, 1e3 * p->corner_radius);
+      return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_VALLEY_DEPTH,
+                           "hollows %.3g mm deep do not fit between lobes of %.3g mm radius",
+                           1e3 * p->valley_depth, 1e3 * p->corner_radius);
     }
     x_ring(out, lobe, valley);
   } else if (!rounded(out, p, h)) {
-    return sb_fail_parameter(
-        report, SB_ERROR_INFEASIBLE, "seal.corner_radius",
+    return sb_fail_input(
+        report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_CORNER_RADIUS,
         "corners of %.3g mm radius do not fit the %s profile; its sizes allow at most %.3g mm",
         1e3 * p->corner_radius, sb_seal_profile_name(p->kind), 1e3 * largest_radius(p, h));
   }

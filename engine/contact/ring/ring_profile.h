@@ -9,6 +9,7 @@
 #pragma once
 
 #include "engine/base/status.h"
+#include "engine/contact/inputs.h"
 
 #include <stdbool.h>
 

@@ -8,6 +8,7 @@
 // Hertz's limit to asperities that adhere at distances much larger than sigma.
 #include "engine/contact/rough/asperity.h"
 
+#include "engine/contact/inputs.h"
 #include "engine/numeric/legendre.h"
 #include "engine/numeric/root.h"
 
@@ -25,7 +26,7 @@ void sb_asperity_init(SbAsperity *out, double radius, double modulus, double wor
 void sb_asperity_warn(SbWarnings *warnings, const SbAsperity *asperity) {
   const double tabor = asperity->tabor;
   if (tabor > SB_TABOR_DMT && tabor < SB_TABOR_JKR) {
-    sb_warn(warnings, "adhesion-transition", "surface.work_of_adhesion",
+    sb_warn(warnings, "adhesion-transition", SB_CONTACT_IN_WORK_OF_ADHESION,
             "Tabor's parameter of the asperities is %.3g, between DMT (below %g) and JKR (above "
             "%g): %s is used, its pull-off is wrong by up to a third",
             tabor, SB_TABOR_DMT, SB_TABOR_JKR, asperity->jkr ? "JKR" : "DMT");

@@ -49,11 +49,11 @@ static SbStatus check(const SbHeights *h, const SbHeightsChoices *choices, SbRep
                    h->rows, SB_HEIGHTS_POINTS_MAX);
   }
   const SbStatus status =
-      SB_CHECK(report, {"", "the distance of columns [m]", h->dx, 1e-12, 1},
-               {"", "the distance of rows [m]", h->rows > 1 ? h->dy : 1, 1e-12, 1},
-               {"", "the limit of outliers", choices->outliers, 0, 1e6},
-               {"", "the short cut-off [m]", choices->cutoff_short, 0, 1e3},
-               {"", "the long cut-off [m]", choices->cutoff_long, 0, 1e3});
+      SB_CHECK(report, {0, "the distance of columns [m]", h->dx, 1e-12, 1},
+               {0, "the distance of rows [m]", h->rows > 1 ? h->dy : 1, 1e-12, 1},
+               {0, "the limit of outliers", choices->outliers, 0, 1e6},
+               {0, "the short cut-off [m]", choices->cutoff_short, 0, 1e3},
+               {0, "the long cut-off [m]", choices->cutoff_long, 0, 1e3});
   if (status == SB_OK && choices->cutoff_long > 0 &&
       choices->cutoff_short >= choices->cutoff_long) {
     return sb_fail(report, SB_ERROR_RANGE, "the short cut-off must be below the long one");

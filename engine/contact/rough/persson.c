@@ -6,6 +6,7 @@
 // exp(-x^2)/x dx.
 #include "engine/contact/rough/persson.h"
 
+#include "engine/contact/inputs.h"
 #include "engine/numeric/root.h"
 
 #include <gsl/gsl_cdf.h>
@@ -39,9 +40,9 @@ SbStatus sb_spectrum_from_asperities(SbSpectrum *out, double sigma, double sigma
   double root_alpha = product * 16 * sqrt(3 * M_PI);
   double alpha = root_alpha * root_alpha;
   if (alpha <= 1.5 * 1.0001) {
-    return sb_fail_parameter(
-        report, SB_ERROR_INFEASIBLE, "surface.gt_product",
-        "no random surface has an asperity product of %g; it must exceed 0.025", product);
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_ASPERITY_PRODUCT,
+                         "no random surface has an asperity product of %g; it must exceed 0.025",
+                         product);
   }
   double m0 = sigma * sigma;
   double curvature = 3.0 / 8 * sigma_over_beta / sigma;

@@ -3,6 +3,7 @@
 // Greenwood and Tripp's F_1 and F_3/2 are slopes: F_n' = -n F_(n-1), (F_1(-t))' = Phi(t).
 #include "engine/contact/rough/rough_law.h"
 
+#include "engine/contact/inputs.h"
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
 #include "engine/numeric/root.h"
@@ -69,12 +70,11 @@ static SbStatus table_greenwood_tripp(SbRoughLaw *law, SbReport *report) {
     sb_asperity_at(&torn, &law->tip, law->tip.least);
     const double stretch = -torn.approach / s->sigma;
     if (stretch > SB_ROUGH_STRETCH_MAX) {
-      return sb_fail_parameter(
-          report, SB_ERROR_RANGE, "surface.work_of_adhesion",
-          "a work of adhesion of %g J/m2 stretches the asperities' tips over "
-          "%.3g of the heights' deviation (at most %g): the surface sticks all "
-          "over",
-          s->work, stretch, SB_ROUGH_STRETCH_MAX);
+      return sb_fail_input(report, SB_ERROR_RANGE, SB_CONTACT_IN_WORK_OF_ADHESION,
+                           "a work of adhesion of %g J/m2 stretches the asperities' tips over "
+                           "%.3g of the heights' deviation (at most %g): the surface sticks all "
+                           "over",
+                           s->work, stretch, SB_ROUGH_STRETCH_MAX);
     }
     law->count = (int)fmin(201 + ceil(10 * stretch), SB_ROUGH_NODES_MAX);
     law->step = (20 + stretch) / (law->count - 1);
@@ -149,9 +149,9 @@ SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbRep
                    "sigma, sigma/beta, the asperity product and the modulus must be positive");
   }
   if (!(surface->work >= 0) || (surface->work > 0 && surface->model != SB_ROUGH_GREENWOOD_TRIPP)) {
-    return sb_fail_parameter(report, SB_ERROR_INPUT, "surface.work_of_adhesion",
-                             "tips that stick need a work of adhesion and the surface "
-                             "greenwood-tripp");
+    return sb_fail_input(report, SB_ERROR_INPUT, SB_CONTACT_IN_WORK_OF_ADHESION,
+                         "tips that stick need a work of adhesion and the surface "
+                         "greenwood-tripp");
   }
   static SbStatus (*const table[SB_ROUGH_COUNT])(SbRoughLaw *, SbReport *) = {
       [SB_ROUGH_GREENWOOD_TRIPP] = table_greenwood_tripp, [SB_ROUGH_PERSSON] = table_persson};

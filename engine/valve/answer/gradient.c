@@ -539,8 +539,8 @@ SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQu
   *out = NULL;
   for (size_t i = 0; i < count; i++) {
     if (!sb_gradient_wants(parameter[i])) {
-      return sb_fail_parameter(report, SB_ERROR_INPUT, sb_param(parameter[i])->key,
-                               "no real number: nothing can be differentiated by it");
+      return sb_fail_input(report, SB_ERROR_INPUT, sb_input(parameter[i]),
+                           "no real number: nothing can be differentiated by it");
     }
   }
   SbReport own = {0};

@@ -165,7 +165,7 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   seal->stored.radial_space = model->radial_space;
   SbReport report = {0};
   if (sb_rubber_state(&seal->storage, &model->rubber, &seal->stored, NULL, &report) != SB_OK) {
-    sb_model_refuse(problems, report.parameter, NAN, NAN, "%s", report.text);
+    sb_model_refuse(problems, sb_input_key(report.input), NAN, NAN, "%s", report.text);
     return;
   }
   seal->section_diameter = seal->storage.section_diameter;
@@ -193,8 +193,11 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   const SbSealProfile profile = sb_model_profile(model, index);
   SbRingOutline outline;
   double area, centroid;
-  if (sb_ring_outline_of_profile(&outline, &profile, d, &report) != SB_OK) {
-    sb_model_refuse(problems, report.parameter, NAN, NAN, "%s", report.text);
+  if (profile.kind == SB_SEAL_PROFILE_FILE && profile.drawn.count == 0) {
+    sb_model_refuse(problems, "seal.profile_file", NAN, NAN,
+                    "seal.profile = file needs the file of a section");
+  } else if (sb_ring_outline_of_profile(&outline, &profile, d, &report) != SB_OK) {
+    sb_model_refuse(problems, sb_input_key(report.input), NAN, NAN, "%s", report.text);
   }
   sb_seal_profile_area(&area, &centroid, &profile, d);
   const double groove = sb_groove_area(g, model->axial_width, model->groove_draft,
@@ -362,8 +365,8 @@ static SbStatus tell_problem(const SbProblems *problems, SbReport *report) {
   if (isfinite(problem->max)) {
     sb_text(high, sizeof high, "; at most %.6g %s", problem->max, si);
   }
-  return sb_fail_parameter(report, SB_ERROR_INPUT, problem->key, "%s: %s%s%s", problem->key,
-                           problem->text, low, high);
+  return sb_fail_input(report, SB_ERROR_INPUT, sb_input_find(problem->key), "%s: %s%s%s",
+                       problem->key, problem->text, low, high);
 }
 
 // With what documents bring besides.
@@ -399,14 +402,14 @@ SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *
     SbReport own = {0};
     SbStatus status = sb_params_set(&params, overrides[i].id, overrides[i].value, &own);
     if (status != SB_OK) {
-      return sb_fail_parameter(report, status, own.parameter, "%s: %s", own.parameter, own.text);
+      return sb_fail_input(report, status, own.input, "%s: %s", sb_input_key(own.input), own.text);
     }
   }
   sb_params_keep_fluid(&params, &base->params);
   if (sb_params_get(&params, SB_P_DRIVE_KIND) == SB_MODEL_DRIVE_MEASURED &&
       sb_model_measured(base) == NULL) {
-    return sb_fail_parameter(report, SB_ERROR_INPUT, "drive.kind",
-                             "drive.kind: measured needs a measured series");
+    return sb_fail_input(report, SB_ERROR_INPUT, sb_input(SB_P_DRIVE_KIND),
+                         "drive.kind: measured needs a measured series");
   }
   SbProblems *problems = malloc(sizeof *problems); // too large for a small stack
   SbStatus status = problems == NULL ? SB_ERROR_MEMORY

@@ -248,7 +248,7 @@ void sb_model_warn_modulus(const SbModel *model, double temperature, SbWarnings 
   sb_params_default(&slope, &model->params, id);
   if (!model->rubber.entropic && !model->params.given[id] && slope.from == NULL &&
       fabs(temperature - SB_SIZES_TEMPERATURE) > NEAR) {
-    sb_warn(warnings, "modulus-temperature", sb_param(id)->key,
+    sb_warn(warnings, "modulus-temperature", sb_input(id),
             "the modulus at %.4g °C is assumed equal to that at 20 °C (inferred: no measurement of "
             "this "
             "rubber is known); that of filled nitrile falls by 0.16 %% per kelvin",
@@ -264,12 +264,12 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
     (void)sb_rubber_state(&ignored, &model->rubber, &model->seal[i].stored, warnings, NULL);
   }
   if (stored_only(model)) {
-    sb_warn(warnings, "storage-only", "storage.temperature", "%s", stored_only_text);
+    sb_warn(warnings, "storage-only", sb_input(SB_P_STORAGE_TEMPERATURE), "%s", stored_only_text);
   }
   const bool gasket = model->kind == SB_VALVE_GASKET;
   if (model->data != NULL && model->data->groove.count > 0 &&
       (gasket || !sb_fit_kind(model->fit)->section)) {
-    sb_warn(warnings, "groove-unused", "gland.profile_file",
+    sb_warn(warnings, "groove-unused", SB_INPUT_GROOVE_FILE,
             "only solved rings (models.fit = ring) meet the walls of a drawn groove: %s",
             gasket ? "a gasket's valve has none" : "closed forms use gland.radial_space only");
   }
@@ -277,7 +277,7 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
   sb_params_default(&swell, &model->params, SB_P_RUBBER_SWELL_MASS);
   if (model->params.rubber != NULL && model->storage_time > 0 && swell.from == NULL &&
       !model->params.given[SB_P_RUBBER_SWELL_MASS]) {
-    sb_warn(warnings, "swell-unknown", "rubber.swell_mass",
+    sb_warn(warnings, "swell-unknown", sb_input(SB_P_RUBBER_SWELL_MASS),
             "%s has no value of its swell in this fluid: no swell is computed",
             model->params.rubber->name);
   }
@@ -288,7 +288,7 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
                       (id == SB_P_HOUSING_PERMEABILITY && !(model->shelf.plastic_length > 0));
     if (other >= 0 && !idle) {
       sb_warn(
-          warnings, "fluid-property", sb_param(id)->key,
+          warnings, "fluid-property", sb_input(id),
           "%s is that of %s, not of the valve's %s (fluid.figures): losses and swell are those of "
           "another fluid",
           sb_param(id)->key, sb_fluids[other].label, sb_fluids[model->fluid].label);
@@ -300,7 +300,7 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
                          model->ethanol, NULL);
   }
   if (model->canister_pressure < 0) {
-    sb_warn(warnings, "pressure-below-ambient", "canister.pressure",
+    sb_warn(warnings, "pressure-below-ambient", sb_input(SB_P_CANISTER_PRESSURE),
             "the canister is %.4g kPa below ambient: nothing is delivered, and air leaks in and "
             "flows through ports, computed with the liquid's density and viscosity",
             -1e-3 * model->canister_pressure);

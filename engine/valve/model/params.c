@@ -368,14 +368,14 @@ SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *r
     max = (double)((1u << sb_param_choice_count(param)) - 1u);
   }
   if (!isfinite(value)) {
-    return sb_fail_parameter(report, SB_ERROR_INPUT, param->key, "not a finite number");
+    return sb_fail_input(report, SB_ERROR_INPUT, sb_input(id), "not a finite number");
   }
   if (value < min || value > max) {
-    return sb_fail_parameter(report, SB_ERROR_RANGE, param->key, "%g is outside %g to %g (%s)",
-                             value, min, max, param->si);
+    return sb_fail_input(report, SB_ERROR_RANGE, sb_input(id), "%g is outside %g to %g (%s)", value,
+                         min, max, param->si);
   }
   if (param->kind != SB_PARAM_REAL && value != floor(value)) {
-    return sb_fail_parameter(report, SB_ERROR_INPUT, param->key, "%g is not a whole number", value);
+    return sb_fail_input(report, SB_ERROR_INPUT, sb_input(id), "%g is not a whole number", value);
   }
   params->value[id] = value;
   params->given[id] = true;

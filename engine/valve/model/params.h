@@ -102,6 +102,34 @@ int sb_param_tolerance(SbParamId id);
 // size.
 int sb_param_toleranced(SbParamId id);
 
+// Numbers of the valve's inputs in reports and warnings (SbReport.input): its parameters, then the
+// files that keys of documents name.
+enum {
+  SB_INPUT_SECTION_FILE = SB_VALVE_INPUTS + SB_PARAM_COUNT, // seal.profile_file
+  SB_INPUT_GROOVE_FILE,                                     // gland.profile_file
+  SB_INPUT_DRIVE_FILE,                                      // drive.file
+  SB_INPUT_SHELF_FILE,                                      // shelf.file
+  SB_INPUT_END
+};
+
+// Returns the number of a parameter in reports and warnings.
+static inline int sb_input(SbParamId id) {
+  return SB_VALVE_INPUTS + (int)id;
+}
+
+// Returns the number of the valve's input that gives the input of a room below the valve its value;
+// any other number unchanged.
+int sb_input_resolve(int input);
+
+// Returns the SbParamId of an input of the valve or of a room below it; -1 if it is none.
+int sb_input_parameter(int input);
+
+// Returns the key of an input of the valve or of a room below it; "" if there is none. Static.
+const char *sb_input_key(int input);
+
+// Returns the number of the valve's input with this key; 0 if there is none.
+int sb_input_find(const char *key);
+
 // Largest number of values of a rubber, and bytes of a source.
 enum { SB_RUBBER_FIGURES_MAX = 48, SB_SOURCE_MAX = 256 };
 

@@ -353,8 +353,8 @@ static SbStatus slip_platen(double *out, const Planner *p, int direction, double
       return SB_OK;
     }
   }
-  return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "drive.speed",
-                           "the contact ages as fast as the machine loads it: it never slips");
+  return sb_fail_input(report, SB_ERROR_NOT_CONVERGED, sb_input(SB_P_DRIVE_SPEED),
+                       "the contact ages as fast as the machine loads it: it never slips");
 }
 
 // Adds a segment; `event` ends one at which the stem does not move, else where it comes to decides.
@@ -581,8 +581,8 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   }
   cycle->stem_end = p.s;
   if (p.full) {
-    return sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "drive.stiffness",
-                             "the cycle does not end within %d events", SB_CYCLE_SEGMENTS_MAX);
+    return sb_fail_input(report, SB_ERROR_NOT_CONVERGED, sb_input(SB_P_DRIVE_STIFFNESS),
+                         "the cycle does not end within %d events", SB_CYCLE_SEGMENTS_MAX);
   }
   return sb_succeed(report);
 }

@@ -90,8 +90,8 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
   }
   run->life = plan->life ? calloc((size_t)kept->life_actuations, sizeof *run->life) : NULL;
   if (run->frames == NULL || (plan->life && run->life == NULL)) {
-    return sb_fail_parameter(report, SB_ERROR_MEMORY, "output.frames", "no memory for %d frames",
-                             plan->frames);
+    return sb_fail_input(report, SB_ERROR_MEMORY, sb_input(SB_P_OUTPUT_FRAMES),
+                         "no memory for %d frames", plan->frames);
   }
   return sb_succeed(report);
 }
@@ -241,11 +241,11 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   if (status == SB_ERROR_NOT_CONVERGED && run->count > 0) {
     const SbFrame *last = &run->frames[run->count - 1];
     SbReport cause = own;
-    (void)sb_fail_parameter(&own, status, cause.parameter,
-                            "motion (%s), both seals, stage %s, stem at %.4g mm, %.4g s: %s; "
-                            "available: the seals, the frames and stages before",
-                            names[run->model->motion], sb_stage_name((SbStage)last->stage),
-                            1e3 * last->displacement, last->time, cause.text);
+    (void)sb_fail_input(&own, status, cause.input,
+                        "motion (%s), both seals, stage %s, stem at %.4g mm, %.4g s: %s; "
+                        "available: the seals, the frames and stages before",
+                        names[run->model->motion], sb_stage_name((SbStage)last->stage),
+                        1e3 * last->displacement, last->time, cause.text);
   }
   if (status != SB_OK) {
     clear_motion(run, status == SB_ERROR_CANCELLED ? "the run was stopped before" : own.text);
@@ -282,17 +282,17 @@ static void warn_of_outcome(SbSummary *summary) {
   const double margin = summary->force_return_margin;
   switch (summary->outcome) {
   case SB_OUTCOME_NEVER_MOVED:
-    sb_warn(&summary->warnings, "no-slip", "friction.static_ratio",
+    sb_warn(&summary->warnings, "no-slip", sb_input(SB_P_FRICTION_STATIC_RATIO),
             "the stem never slips: the drive's %.3g N are not enough", summary->force_peak);
     break;
   case SB_OUTCOME_STUCK:
-    sb_warn(&summary->warnings, "no-return", "surface.gt_product",
+    sb_warn(&summary->warnings, "no-return", sb_input(SB_P_SURFACE_GT_PRODUCT),
             "the stem does not return: it is stuck at %.3g mm, return margin %.3g N",
             1e3 * summary->stuck_at, margin);
     break;
   case SB_OUTCOME_RETURNED:
     if (margin < 0) {
-      sb_warn(&summary->warnings, "static-hold", "friction.static_ratio",
+      sb_warn(&summary->warnings, "static-hold", sb_input(SB_P_FRICTION_STATIC_RATIO),
               "the stem returns without stopping; if it stops on the return path, static friction "
               "can exceed the pressure force by %.3g N",
               -margin);
@@ -390,12 +390,12 @@ static SbStatus name_spent(const SbRun *run, SbReport *report) {
   const SbStatus status = sb_work_status(run->work, SB_ERROR_CANCELLED, &cause);
   const SbFrame *last = run->count > 0 ? &run->frames[run->count - 1] : NULL;
   return last == NULL
-             ? sb_fail_parameter(report, status, cause.parameter, "%s", cause.text)
-             : sb_fail_parameter(report, status, cause.parameter,
-                                 "motion (its error estimate), both seals, stage %s, stem at %.4g "
-                                 "mm, %.4g s: %s; available: the seals and the motion",
-                                 sb_stage_name((SbStage)last->stage), 1e3 * last->displacement,
-                                 last->time, cause.text);
+             ? sb_fail_input(report, status, cause.input, "%s", cause.text)
+             : sb_fail_input(report, status, cause.input,
+                             "motion (its error estimate), both seals, stage %s, stem at %.4g "
+                             "mm, %.4g s: %s; available: the seals and the motion",
+                             sb_stage_name((SbStage)last->stage), 1e3 * last->displacement,
+                             last->time, cause.text);
 }
 
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
@@ -417,7 +417,7 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
                                                               : execute_valve(run, hooks, report);
   if (status == SB_OK && run->work->spent) {
     status = name_spent(run, report);
-    sb_warn(&summary->warnings, "work-limit", report->parameter, "%s", report->text);
+    sb_warn(&summary->warnings, "work-limit", report->input, "%s", report->text);
   }
   for (int i = 0; i < SB_SEAL_COUNT; i++) { // later users of the states have no budget
     sb_sliding_memory_poll(run->memory[i], hooks->cancelled, hooks->data);

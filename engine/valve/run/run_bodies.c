@@ -50,16 +50,16 @@ SbStatus sb_run_bodies_move(double *mass, SbRun *run, double x, double v, SbRepo
     double housing = load == DRIVE ? 0 : tangent->velocity[SB_VALVE_HOUSING][0];
     double travel = tangent->velocity[loaded[load]][0] - housing;
     if (fabs(travel - 1) > 1e-9) {
-      return sb_fail_parameter(
-          report, SB_ERROR_INFEASIBLE, "models.motion",
+      return sb_fail_input(
+          report, SB_ERROR_INFEASIBLE, sb_input(SB_P_MODELS_MOTION),
           "'%s' moves %.9g times as far as the stem: the parts must have one displacement",
           bodies->assembly.body[loaded[load]].name, travel);
     }
   }
   if (fabs(tangent->mass - bodies->mass) > 1e-9 * bodies->mass) {
-    return sb_fail_parameter(report, SB_ERROR_INFEASIBLE, "models.motion",
-                             "the mass that the stroke sees changes from %.9g to %.9g kg",
-                             bodies->mass, tangent->mass);
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, sb_input(SB_P_MODELS_MOTION),
+                         "the mass that the stroke sees changes from %.9g to %.9g kg", bodies->mass,
+                         tangent->mass);
   }
   *mass = tangent->mass;
   return SB_OK;
@@ -85,8 +85,8 @@ SbStatus sb_run_bodies_create(SbRun *run, SbReport *report) {
   }
   bodies->reaction = malloc(run->capacity * assembly->joints * sizeof *bodies->reaction);
   if (bodies->reaction == NULL) {
-    return sb_fail_parameter(report, SB_ERROR_MEMORY, "output.frames",
-                             "no memory for the joints' reactions of %d frames", run->plan.frames);
+    return sb_fail_input(report, SB_ERROR_MEMORY, sb_input(SB_P_OUTPUT_FRAMES),
+                         "no memory for the joints' reactions of %d frames", run->plan.frames);
   }
   bodies->mass = bodies->tangent.mass;
   summary->joint_error = 0;

@@ -404,7 +404,7 @@ static void lose_errors(SbRun *run, const SbReport *why) {
   sb_run_lose_errors(run);
   sb_reason(summary, "solver.error_estimate.*",
             "a second motion, which measures the error, failed: %s", why->text);
-  sb_warn(&summary->warnings, "motion-error-unknown", "output.motion_tolerance",
+  sb_warn(&summary->warnings, "motion-error-unknown", sb_input(SB_P_OUTPUT_MOTION_TOLERANCE),
           "the motion's error is not known: %s", why->text);
 }
 
@@ -651,7 +651,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   summary->counters.newton_iterations += (size_t)counters.newton_iterations;
   if (counters.grouped > 0) {
     sb_warn(
-        &summary->warnings, "stick-slip-groups", "drive.stiffness",
+        &summary->warnings, "stick-slip-groups", sb_input(SB_P_DRIVE_STIFFNESS),
         "%.2g slips that change slowly were followed by groups of them: forces and energies are "
         "theirs, but where in its slip a frame meets the stem is arbitrary",
         (double)counters.grouped);

@@ -37,9 +37,9 @@ static double film_by(SbRun *run, int seal, const SbSealState *state, SbFilmMode
   return NAN;
 }
 
-// Returns the parameter to change if a seal's contact pressure is too low.
-static const char *pressed_by(const SbModel *model) {
-  return model->kind == SB_VALVE_GASKET ? "gasket.crimp" : "gland.radial_space";
+// Returns the input to change if a seal's contact pressure is too low.
+static int pressed_by(const SbModel *model) {
+  return sb_input(model->kind == SB_VALVE_GASKET ? SB_P_GASKET_CRIMP : SB_P_GLAND_RADIAL_SPACE);
 }
 
 // Whether a seal presses the bore in every state in which the cycle needs it to: no before not
@@ -86,9 +86,9 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
   }
   SbStatus status = SB_OK;
   if (model->surface != SB_ROUGH_PERSSON) {
-    status = sb_fail_parameter(&report, SB_ERROR_INFEASIBLE, "models.surface",
-                               "Greenwood and Tripp's independent asperities are not valid near "
-                               "full contact (models.surface = persson does)");
+    status = sb_fail_input(&report, SB_ERROR_INFEASIBLE, sb_input(SB_P_MODELS_SURFACE),
+                           "Greenwood and Tripp's independent asperities are not valid near "
+                           "full contact (models.surface = persson does)");
   } else if (isnan(out->rest_area_share)) {
     status = sb_fail(&report, SB_ERROR_INFEASIBLE, "the real contact at rest is not known");
   }
@@ -119,7 +119,7 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
       sb_seal_reason(&run->summary, seal, figures[i], "leak at rest: %s", report.text);
     }
     if (model->surface == SB_ROUGH_PERSSON) { // else a choice of models, no surprise
-      sb_warn(&run->summary.warnings, "static-leak-unknown", report.parameter,
+      sb_warn(&run->summary.warnings, "static-leak-unknown", report.input,
               "the leak at rest is not computed: %s", report.text);
     }
     return;
@@ -283,7 +283,7 @@ void sb_run_summarise_seals(SbRun *run) {
   run->kept_error = isfinite(coarse) ? fabs(coarse) : 0;
   summary->dose_mass = sb_run_dose(run, model->supply.volume * model->density);
   if (summary->filled_share < 1) {
-    sb_warn(&summary->warnings, "chamber-not-filled", "drive.speed",
+    sb_warn(&summary->warnings, "chamber-not-filled", sb_input(SB_P_DRIVE_SPEED),
             "the chamber requires %.3g ms to fill and is open to the canister for %.0f %% of that",
             1e3 * model->filling_time, 100 * summary->filled_share);
   }
@@ -311,7 +311,7 @@ void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore
     sb_reason(summary, "cycle.leakage_net_all_actuations_m3",
               "the stem does not return: there is no second actuation");
   } else if (fabs(net) < summary->error_film * bore->out) {
-    sb_warn(&summary->warnings, "leakage-uncertain", "output.tolerance",
+    sb_warn(&summary->warnings, "leakage-uncertain", sb_input(SB_P_OUTPUT_TOLERANCE),
             "the leakage of a cycle, %.2g nl, is less than the error of the transport in each "
             "direction, %.2g nl",
             1e12 * circumference * net, 1e12 * summary->error_film * circumference * bore->out);

@@ -61,7 +61,7 @@ static SbStatus actuate(SbRun *one, SbRun *run, long n, double roughness, const 
     status = sb_run_move(one, &quiet, &own);
     run->work->done += one->work->done;
     if (status != SB_OK) {
-      return sb_fail_parameter(report, status, own.parameter, "actuation %ld: %s", n + 1, own.text);
+      return sb_fail_input(report, status, own.input, "actuation %ld: %s", n + 1, own.text);
     }
   }
   run->summary.energy.closure = fmax(run->summary.energy.closure, one->summary.energy.closure);
@@ -164,7 +164,7 @@ static SbStatus solve_one(Solved *s, long n, bool shown, SbReport *report) {
     return sb_fail(report, status, "cancelled after 1 actuation");
   }
   if (status != SB_OK) {
-    return sb_fail_parameter(report, status, own.parameter, "actuation %ld: %s", n + 1, own.text);
+    return sb_fail_input(report, status, own.input, "actuation %ld: %s", n + 1, own.text);
   }
   s->solved++;
   take(s, s->one, n);
@@ -383,7 +383,7 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     life->leakage = life->carried = NAN;
   }
   if (life->failure > 0) {
-    sb_warn(&run->summary.warnings, "life-no-return", "surface.gt_product",
+    sb_warn(&run->summary.warnings, "life-no-return", sb_input(SB_P_SURFACE_GT_PRODUCT),
             "the life ends at actuation %ld of %ld: its stem does not return", life->failure,
             count);
   }

@@ -48,11 +48,11 @@ static void take_coefficients(SbRun *run, const SbRigSignal *signal) {
   const SbRig *rig = &run->model->rig;
   out->found = sb_rig_coefficients(&out->of, signal, rig, NULL) == SB_OK;
   if (!out->found) {
-    sb_warn(&run->summary.warnings, "rig-no-peak", "rig.duration",
+    sb_warn(&run->summary.warnings, "rig-no-peak", sb_input(SB_P_RIG_DURATION),
             "the force has no peak within %.3g s: the plate did not break away, or slid smoothly",
             rig->duration);
   } else if (!out->of.stick_slip) {
-    sb_warn(&run->summary.warnings, "rig-smooth", "rig.speed",
+    sb_warn(&run->summary.warnings, "rig-smooth", sb_input(SB_P_RIG_SPEED),
             "the plate slides without sticking again: the dynamic coefficient is the mean force's");
   }
 }

@@ -41,7 +41,7 @@ static void warn_typical(SbShelf *out, SbWarnings *warnings, const SbModel *mode
     const int id = sb_shelf_typical(text, sizeof text, model, (SbShelfSpecies)i);
     if (id >= 0) {
       out->typical = true;
-      sb_warn(warnings, "shelf-typical", sb_param((SbParamId)id)->key, "%s", text);
+      sb_warn(warnings, "shelf-typical", sb_input((SbParamId)id), "%s", text);
     }
   }
 }
@@ -99,7 +99,7 @@ SbStatus sb_run_shelf(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     fill(&summary->shelf, model, seal, &rest, &rates);
     warn_typical(&summary->shelf, &summary->warnings, model);
     if (isnan(rest.error) && rest.touches) {
-      sb_warn(&summary->warnings, "shelf-slab", "models.fit",
+      sb_warn(&summary->warnings, "shelf-slab", sb_input(SB_P_MODELS_FIT),
               "the ring permeates as a slab of its height and volume: a solved ring (models.fit = "
               "ring) lets some 10 to 30 %% more through");
     }

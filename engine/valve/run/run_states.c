@@ -259,8 +259,8 @@ static void report_failure(const Task *task, SbReport *report) {
     snprintf(place, sizeof place, "%.4g MPa", 1e-6 * (task->pressure.left - task->pressure.right));
   }
   const SbReport cause = *report;
-  (void)sb_fail_parameter(
-      report, cause.status, cause.parameter,
+  (void)sb_fail_input(
+      report, cause.status, sb_input_resolve(cause.input),
       "%s (%s), %s seal, stages %s, %s, %s: %s; available: %s", fitted ? "film" : "fitment",
       !fitted   ? sb_fit_kind(model->fit)->name
       : coupled ? "with asperities"
@@ -269,7 +269,7 @@ static void report_failure(const Task *task, SbReport *report) {
       complete ? "the last solution"
       : fitted ? "its fitment, the other states"
                : "the other states");
-  sb_warn(&task->lane->warnings, "not-converged", report->parameter, "%s", report->text);
+  sb_warn(&task->lane->warnings, "not-converged", report->input, "%s", report->text);
   if (task->motion != SB_RUN_REST && !complete && task->lane->lacks.status == SB_OK) {
     task->lane->lacks = *report;
   }
@@ -313,7 +313,7 @@ static SbStatus keep_shapes(const Task *of, const SbRing *ring, SbReport *report
   if (status == SB_OK || status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     return status;
   }
-  sb_warn(&lane->warnings, "ring-shape", "models.fit",
+  sb_warn(&lane->warnings, "ring-shape", sb_input(SB_P_MODELS_FIT),
           "no solved shape of the inner ring over the land's edge: drawn schematically");
   return SB_OK;
 }
@@ -732,7 +732,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     return sb_fail(report, motion, "cancelled");
   }
   if (speed == 0 && slips) {
-    sb_warn(warnings, "film-speed", "drive.speed",
+    sb_warn(warnings, "film-speed", sb_input(SB_P_DRIVE_SPEED),
             "the stem does not pass two stages, so its speed is not defined: the seals' figures "
             "are those "
             "at drive.speed, %.3g mm/s",

@@ -248,7 +248,6 @@ static void take_summary(SbRun *run, Reader *reader) {
     SbWarning *warning = &summary->warnings.item[i];
     END(warning->code);
     END(warning->text);
-    END(warning->parameter);
     END(warning->subject);
   }
   for (int i = 0; i < SB_REASONS_MAX; i++) {

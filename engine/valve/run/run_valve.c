@@ -334,7 +334,7 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
   double low, high, hole = gasket ? model->port_diameter : shape->vent_diameter;
   const bool vents = sb_run_vent(&low, &high, valve->run);
   if (hole > 0 && !vents && !gasket) {
-    sb_warn(&valve->run->summary.warnings, "ports-no-vent", "bore.vent_position",
+    sb_warn(&valve->run->summary.warnings, "ports-no-vent", sb_input(SB_P_BORE_VENT_POSITION),
             "the dose chamber never reaches the vent: it would at a stem of %.3g to %.3g mm, which "
             "moves from 0 to %.3g mm",
             1e3 * low, 1e3 * high, 1e3 * model->stroke);
@@ -360,8 +360,8 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
       const SbChamberPort *a = &chamber->port[i];
       const SbChamberPort *b = &chamber->port[k];
       if (a->pressure != b->pressure && a->low < b->high && b->low < a->high) {
-        return sb_fail_parameter(
-            report, SB_ERROR_INFEASIBLE, "chamber.flow",
+        return sb_fail_input(
+            report, SB_ERROR_INFEASIBLE, sb_input(SB_P_CHAMBER_FLOW),
             "the chamber would be open to canister and vent simultaneously (stem at %.3g to %.3g "
             "mm): "
             "a pressure between them needs chamber.flow = orifice, or other places of the vent "
@@ -500,7 +500,7 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
     double jet = sqrt(2 * fabs(model->canister_pressure) / model->density);
     double reynolds = model->density * jet * model->shape.vent_diameter / model->viscosity;
     if (valve->chamber_model.ports > 1 && !model->chamber_at_once && reynolds < 1e3) {
-      sb_warn(&run->summary.warnings, "vent-laminar", "bore.vent_diameter",
+      sb_warn(&run->summary.warnings, "vent-laminar", sb_input(SB_P_BORE_VENT_DIAMETER),
               "the vent's jet has a Reynolds number of %.3g: the orifice law needs 1000 and more",
               reynolds);
     }

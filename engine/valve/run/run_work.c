@@ -1,5 +1,7 @@
 #include "engine/valve/run/run_work.h"
 
+#include "engine/valve/model/params.h"
+
 bool sb_work_step(void *data) {
   SbWork *work = data;
   if (work->done >= work->limit) {
@@ -22,8 +24,8 @@ void sb_work_add(SbWork *work, const SbWork *part) {
 
 SbStatus sb_work_status(const SbWork *work, SbStatus status, SbReport *report) {
   return status == SB_ERROR_CANCELLED && work->spent
-             ? sb_fail_parameter(report, SB_ERROR_NOT_CONVERGED, "output.work_limit",
-                                 "the run has used up its work limit (output.work_limit): raise "
-                                 "it, or reduce the work by a larger output.tolerance")
+             ? sb_fail_input(report, SB_ERROR_NOT_CONVERGED, sb_input(SB_P_OUTPUT_WORK_LIMIT),
+                             "the run has used up its work limit (output.work_limit): raise "
+                             "it, or reduce the work by a larger output.tolerance")
              : status;
 }

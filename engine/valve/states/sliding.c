@@ -124,7 +124,7 @@ static void strength_warning(const SbSlidingTask *task, double share) {
   if (model->surface == SB_ROUGH_PERSSON && thesis &&
       !model->params.given[SB_P_FRICTION_SHEAR_STRENGTH]) {
     sb_warn(
-        task->warnings, "persson-shear-strength", "friction.shear_strength",
+        task->warnings, "persson-shear-strength", sb_input(SB_P_FRICTION_SHEAR_STRENGTH),
         "Persson's real contact is %.0f %% here; the default shear strength was set with Greenwood "
         "and Tripp's few per cent",
         100 * share);
@@ -278,7 +278,7 @@ static SbStatus real_area(SbSealState *out, const SbSlidingTask *task, double ro
   }
   if (out->real_area_share > 0.3) {
     sb_warn(
-        task->warnings, "real-area-large", "surface.gt_product",
+        task->warnings, "real-area-large", SB_FILM_IN_ASPERITY_PRODUCT,
         "asperities of the %s seal touch on %.0f %% of the area: Greenwood and Tripp's asperities "
         "are no longer independent",
         sb_seal_name(task->seal), 100 * out->real_area_share);
@@ -386,7 +386,7 @@ static SbStatus opened_by_fluid(SbSealState *out, SbStatus status, const SbRepor
     return status;
   }
   out->opened = true;
-  sb_warn(warnings, "film-opened", "canister.pressure",
+  sb_warn(warnings, "film-opened", sb_input(SB_P_CANISTER_PRESSURE),
           "the fluid's pressure opens the contact of the %s seal: there is no film in it",
           sb_seal_name(seal));
   return SB_OK;
@@ -540,7 +540,7 @@ SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *la
     out->film_min = out->film_central = out->layer = 0;
   } else if (out->load_net <= 0) {
     out->opened = true;
-    sb_warn(warnings, "film-no-net-load", "canister.pressure",
+    sb_warn(warnings, "film-no-net-load", sb_input(SB_P_CANISTER_PRESSURE),
             "the fluid alone carries the %s seal: no film law applies", sb_seal_name(seal));
   } else {
     SbStatus film = sb_sliding_solve_film(task, out, &own);
@@ -558,7 +558,7 @@ SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *la
 
   // Regime and validity.
   if (task->speed != 0 && out->film_central > 0 && out->lambda < 1) {
-    sb_warn(warnings, "boundary-regime", "surface.sigma",
+    sb_warn(warnings, "boundary-regime", sb_input(SB_P_SURFACE_SIGMA),
             "λ = %.2g at the %s seal: boundary regime, the film is thinner than the roughness",
             out->lambda, sb_seal_name(seal));
   }

@@ -87,7 +87,7 @@ static SbStatus solve_supplied(const SbSlidingTask *task, SbSlidingSolved *out,
   film->solver.error_film_central += error;
   film->solver.error_contact += problem->surface != SB_ROUGH_NONE ? error : 0;
   if (error > task->model->tolerance) {
-    sb_warn(&film->warnings, "film-starved", "models.inlet",
+    sb_warn(&film->warnings, "film-starved", sb_input(SB_P_MODELS_INLET),
             "the bore supplies so little that the film at %.3g mm/s is used for %.3g mm/s",
             1e3 * fabs(share * speed), 1e3 * fabs(speed));
   }
@@ -184,7 +184,7 @@ static bool misses_by_little(const SbSlidingTask *task, const SbSlidingSolved *s
       !(film->solver.residual < SOLVED) || solved->share != 1) {
     return false;
   }
-  sb_warn(task->warnings, "film-tolerance", "output.tolerance",
+  sb_warn(task->warnings, "film-tolerance", sb_input(SB_P_OUTPUT_TOLERANCE),
           "the film on the fitted %s seal is known to %.2g only, not to %.2g",
           sb_seal_name(task->seal), error, task->model->tolerance);
   return true;
@@ -221,7 +221,7 @@ static bool solve_fitted(const SbSlidingTask *task, SbSlidingSolved *out,
 // Reports that a film is that of the half-plane, and why; not if the fluid opens the contact.
 static void tell_half_plane(const SbSlidingTask *task, SbStatus status, const SbReport *why) {
   if (sb_sliding_usable(status) && why->text[0] != '\0') {
-    sb_warn(task->warnings, "film-half-plane", "models.fit",
+    sb_warn(task->warnings, "film-half-plane", sb_input(SB_P_MODELS_FIT),
             "no film on the fitted %s seal (%s): it is the half-plane's", sb_seal_name(task->seal),
             why->text);
   }
@@ -272,18 +272,18 @@ static void option_warnings(const SbSlidingTask *task, const SbFilmProblem *prob
   bool asked =
       model->pressure_viscosity > 0 || model->eyring_stress > 0 || model->rupture_pressure != 0;
   if (asked && !sb_film_kind(problem->model)->coupled) {
-    sb_warn(task->warnings, "film-options", "models.film",
+    sb_warn(task->warnings, "film-options", sb_input(SB_P_MODELS_FILM),
             "pressure viscosity, Eyring stress and rupture pressure act on the solved film only "
             "(models.film = reynolds), not on a power law");
   } else if (problem->rupture_pressure < model->rupture_pressure) {
-    sb_warn(task->warnings, "rupture-ambient", "fluid.rupture_pressure",
+    sb_warn(task->warnings, "rupture-ambient", sb_input(SB_P_FLUID_RUPTURE_PRESSURE),
             "the film of the %s seal breaks at the %.3g MPa around it: the rupture pressure of "
             "%.3g MPa is higher",
             sb_seal_name(task->seal), 1e-6 * problem->rupture_pressure,
             1e-6 * model->rupture_pressure);
   }
   if (model->hamaker > 0 && !coupled) {
-    sb_warn(task->warnings, "adhesion-beside", "models.adhesion",
+    sb_warn(task->warnings, "adhesion-beside", sb_input(SB_P_MODELS_ADHESION),
             "adhesion acts in the solve of film and asperities together only (models.asperities = "
             "coupled): left out here");
   }

@@ -274,7 +274,7 @@ SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *l
   SbStatus status = solve_fit(task, law, &own);
   const bool passed = status != SB_OK && own.cause == SB_CAUSE_FLUID_PASSES;
   if (passed) { // a result: the gasket is open
-    sb_warn(task->warnings, "gasket-passed", own.parameter, "%s", own.text);
+    sb_warn(task->warnings, "gasket-passed", own.input, "%s", own.text);
     memset(&task->memory->now->fit, 0, sizeof task->memory->now->fit);
     task->memory->now->known = false;
     status = SB_OK;
@@ -471,12 +471,12 @@ static void warn_limit(SbWarnings *warnings, const SbSlidingTask *task, const Sb
   const bool rolls = state->section == SB_RING_ROLLS;
   if (task->model->kind == SB_VALVE_GASKET) {
     sb_warn(
-        warnings, "gasket-detaches", "friction.shear_strength",
+        warnings, "gasket-detaches", sb_input(SB_P_FRICTION_SHEAR_STRENGTH),
         "the friction of the %s gasket %s exceeds half of its pressure, where the surface of the "
         "rubber folds and no steady contact was found: the gasket carries %.0f %% of that friction",
         seal, way, 100 * state->borne_share);
   } else {
-    sb_warn(warnings, rolls ? "ring-rolls" : "ring-jams", "gland.floor_friction",
+    sb_warn(warnings, rolls ? "ring-rolls" : "ring-jams", SB_CONTACT_IN_FLOOR_FRICTION,
             "the %s ring %s %s: its section carries %.0f %% of its friction, turned by %.0f°", seal,
             rolls ? "rolls" : "jams", way, 100 * state->borne_share, state->rotation);
   }

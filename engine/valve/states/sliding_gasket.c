@@ -191,7 +191,7 @@ SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, do
   out->share_error = out->net_error;
   sb_sliding_kinetic_errors(out, coupled && slides ? out->net_error : 0);
   if (out->lambda > 0.1) {
-    sb_warn(task->warnings, "film-edge", "drive.speed",
+    sb_warn(task->warnings, "film-edge", sb_input(SB_P_DRIVE_SPEED),
             "%.3g nm of film under the %s gasket, a tenth of the roughness and more: it would "
             "round the edge that it is computed for",
             1e9 * film, sb_seal_name(task->seal));

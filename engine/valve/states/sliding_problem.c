@@ -4,8 +4,12 @@
 #include <math.h>
 
 void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, double pressure) {
+  static const SbFitNames names = {.profile = "seal.profile = ",
+                                   .fitted = " (models.section = fitted does not)",
+                                   .ring = " (models.fit = ring shows it)"};
   const SbSealModel *ring = &model->seal[seal];
   *out = (SbFitProblem){
+      .names = &names,
       .model = model->fit,
       .profile = sb_model_profile(model, seal),
       .variant = model->fit_variant,
@@ -93,7 +97,7 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
     }
   }
   if (kind->section && warnings != NULL) {
-    sb_warn(warnings, "film-disc-surface", "models.fit",
+    sb_warn(warnings, "film-disc-surface", sb_input(SB_P_MODELS_FIT),
             "the %s ring's surface next to its contact is too steep for a film on it: the film "
             "uses the ring's pressure, but the compliance of a linear disc",
             sb_seal_name(seal));

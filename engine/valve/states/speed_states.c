@@ -273,7 +273,7 @@ static const SbSpeedCell *cell_at(SbSpeedStates *states, double place) {
     states->error = fmax(states->error, miss);
     states->friction_error = fmax(states->friction_error, left(straight_rubs, rubs));
   } else if (states->status == SB_OK) {
-    sb_warn(states->task.warnings, "film-speed", "models.film",
+    sb_warn(states->task.warnings, "film-speed", sb_input(SB_P_MODELS_FILM),
             "no film of the %s seal about %.3g mm/s: it follows the power 0.6 of the speed from "
             "that at %.3g mm/s",
             sb_seal_name(states->task.seal), 1e3 * speed_of(cell.place + cell.width / 2),

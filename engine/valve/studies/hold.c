@@ -61,8 +61,8 @@ SbStatus sb_model_hold(SbModel **out, const SbModel *scene, SbHold hold, SbRepor
     return sb_model_derive(out, scene, machine, sizeof machine / sizeof machine[0], report);
   }
   if (hold == SB_HOLD_OUTER && scene->kind == SB_VALVE_GASKET) {
-    return sb_fail_parameter(report, SB_ERROR_INPUT, "valve.kind",
-                             "outer-seal is of rings in their grooves; a gasket valve has none");
+    return sb_fail_input(report, SB_ERROR_INPUT, sb_input(SB_P_VALVE_KIND),
+                         "outer-seal is of rings in their grooves; a gasket valve has none");
   }
   if (hold == SB_HOLD_OUTER) {
     return sb_model_derive(out, scene, outer, sizeof outer / sizeof outer[0], report);

@@ -352,8 +352,8 @@ static void account(SbStudyWork *work, const Seen *seen) {
   const char *what = seen->fit >= 0 ? sb_fit_kind((SbFitModel)seen->fit)->name : "study";
   char code[48];
   sb_text(code, sizeof code, "study-gap-%s", what);
-  sb_warn(&out->warnings, code, seen->report.parameter, "%s has no value at some points: %s", what,
-          seen->report.text);
+  sb_warn(&out->warnings, code, sb_input_resolve(seen->report.input),
+          "%s has no value at some points: %s", what, seen->report.text);
   out->complete = out->complete && seen->status != SB_ERROR_NOT_CONVERGED;
 }
 

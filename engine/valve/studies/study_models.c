@@ -108,7 +108,7 @@ static void fill_row(double *value, SbStudyWork *work, int size, int less, doubl
   sb_study_cells(other, work, pressure, line_of(0, less));
   const double disc = value[LOAD_DISC], ring = value[LOAD_RING];
   if (less == 0 && isfinite(disc) && isfinite(ring) && (disc > 0) != (ring > 0)) {
-    sb_warn(&work->out->warnings, "disc-ring-contact", "models.fit",
+    sb_warn(&work->out->warnings, "disc-ring-contact", SB_CONTACT_IN_MODEL,
             "at %.3g MPa the linear disc %s and the solved ring %s: the ring counts",
             1e-6 * pressure, disc > 0 ? "touches" : "does not touch",
             ring > 0 ? "touches" : "does not");

@@ -269,7 +269,7 @@ static void correct_all(SbStudyWork *work, const Ratios ratios[FLUIDS + 1]) {
     }
   }
   if (held[0]) {
-    sb_warn(&work->out->warnings, "friction-held", "study.rings",
+    sb_warn(&work->out->warnings, "friction-held", sb_input(SB_P_STUDY_RINGS),
             "some pressures are outside the range in which rings were solved: the friction there "
             "is that of closed forms times the ratio at the nearest pressure");
   }
@@ -404,8 +404,8 @@ static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
   if (model->motion == SB_MODEL_MOTION_RIG) {
-    work->status = sb_fail_parameter(work->report, SB_ERROR_INFEASIBLE, "models.motion",
-                                     "the rig has no valve and no propellant");
+    work->status = sb_fail_input(work->report, SB_ERROR_INFEASIBLE, sb_input(SB_P_MODELS_MOTION),
+                                 "the rig has no valve and no propellant");
     return;
   }
   const bool cheap = is_closed(model) || interpolates(model);

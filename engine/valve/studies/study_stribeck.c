@@ -75,7 +75,7 @@ static void account(SbStudyWork *work) {
     const SbWarning *warning = &summary->warnings.item[i];
     if (strcmp(warning->code, "film-speed") == 0) {
       out->complete = false;
-      sb_warn(&out->warnings, warning->code, warning->parameter, "%s", warning->text);
+      sb_warn(&out->warnings, warning->code, warning->input, "%s", warning->text);
     }
   }
 }
@@ -99,8 +99,9 @@ static void make(SbStudyWork *work) {
   sb_study_ask(work, friction, path, LINES, &once, 1);
   const SbSummary *summary = sb_evaluator_summary(work->evaluator);
   if (work->status == SB_OK && (summary == NULL || !(summary->seal[SB_OUTER].film_central > 0))) {
-    work->status = sb_fail_parameter(work->report, SB_ERROR_INFEASIBLE, "seal.section_diameter",
-                                     "the outer seal carries no load: there is no film");
+    work->status =
+        sb_fail_input(work->report, SB_ERROR_INFEASIBLE, sb_input(SB_P_SEAL_SECTION_DIAMETER),
+                      "the outer seal carries no load: there is no film");
   }
   if (work->status != SB_OK) {
     return;

@@ -73,8 +73,8 @@ static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
   if (model->motion == SB_MODEL_MOTION_RIG) {
-    work->status = sb_fail_parameter(work->report, SB_ERROR_INFEASIBLE, "models.motion",
-                                     "the rig has no valve whose sizes could vary");
+    work->status = sb_fail_input(work->report, SB_ERROR_INFEASIBLE, sb_input(SB_P_MODELS_MOTION),
+                                 "the rig has no valve whose sizes could vary");
     return;
   }
   work->lo = -1;
