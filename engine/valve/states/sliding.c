@@ -29,11 +29,11 @@ void sb_sliding_memory_destroy(SbSlidingMemory *memory) {
     for (int i = 0; i < SB_RUN_MOTIONS; i++) {
       sb_ring_destroy(memory->fitment[i].ring);
     }
-    for (int i = 0; i < memory->kept_count; i++) {
-      sb_sliding_slopes_destroy(memory->kept[i].beside);
-      sb_ring_guide_destroy(memory->kept[i].guide);
-      sb_ring_tangent_destroy(memory->kept[i].tangent);
-      sb_ring_destroy(memory->kept[i].ring);
+    for (int i = 0; i < memory->stored_count; i++) {
+      sb_sliding_slopes_destroy(memory->stored[i].slopes);
+      sb_ring_guide_destroy(memory->stored[i].guide);
+      sb_ring_tangent_destroy(memory->stored[i].tangent);
+      sb_ring_destroy(memory->stored[i].ring);
     }
     free(memory);
   }
@@ -53,14 +53,14 @@ void sb_sliding_memory_forget(SbSlidingMemory *memory) {
 }
 
 void sb_sliding_memory_store(SbSlidingMemory *memory) {
-  memory->keeps = true;
+  memory->stores = true;
 }
 
 void sb_sliding_memory_end(SbSlidingMemory *memory) {
   for (int way = 0; way < SB_RUN_MOTIONS; way++) {
     sb_sliding_store(memory, way);
   }
-  memory->keeps = false;
+  memory->stores = false;
 }
 
 void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *from, bool tangent,
@@ -71,11 +71,11 @@ void sb_sliding_memory_start(SbSlidingMemory *memory, const SbSlidingMemory *fro
 }
 
 void sb_sliding_memory_prefetched(SbSlidingMemory *memory, SbSlidingMemory *ahead) {
-  memory->ahead = ahead;
+  memory->prefetched = ahead;
 }
 
 void sb_sliding_memory_rings(SbSlidingMemory *memory, SbRingsBeside how) {
-  memory->beside = how;
+  memory->rings = how;
 }
 
 void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data) {
@@ -574,7 +574,7 @@ SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *la
     const SbSlidingLaw by = known         ? memory->fitment[task->speed > 0 ? 0 : 1].law
                             : law != NULL ? *law
                                           : (SbSlidingLaw){0};
-    SbStatus status = sb_sliding_sum(task, known || law != NULL ? &by : NULL, start->beside);
+    SbStatus status = sb_sliding_sum(task, known || law != NULL ? &by : NULL, start->slopes);
     if (status != SB_OK) {
       sb_sliding_sum_end(memory);
       sb_sliding_clear(out);

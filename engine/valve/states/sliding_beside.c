@@ -233,15 +233,15 @@ struct SbSlidingSlopes {
 };
 
 SbSlidingSlopes *sb_sliding_slopes_create(void) {
-  SbSlidingSlopes *beside = calloc(1, sizeof *beside);
-  const bool made = beside != NULL && pthread_mutex_init(&beside->lock, NULL) == 0;
-  if (made && pthread_mutex_init(&beside->films, NULL) == 0) {
-    return beside;
+  SbSlidingSlopes *slopes = calloc(1, sizeof *slopes);
+  const bool made = slopes != NULL && pthread_mutex_init(&slopes->lock, NULL) == 0;
+  if (made && pthread_mutex_init(&slopes->films, NULL) == 0) {
+    return slopes;
   }
   if (made) {
-    pthread_mutex_destroy(&beside->lock);
+    pthread_mutex_destroy(&slopes->lock);
   }
-  free(beside);
+  free(slopes);
   return NULL;
 }
 
@@ -255,29 +255,29 @@ static void free_anchor(Anchor *anchor) {
   free(anchor);
 }
 
-void sb_sliding_slopes_destroy(SbSlidingSlopes *beside) {
-  if (beside == NULL) {
+void sb_sliding_slopes_destroy(SbSlidingSlopes *slopes) {
+  if (slopes == NULL) {
     return;
   }
-  for (Anchor *next, *at = beside->first; at != NULL; at = next) {
+  for (Anchor *next, *at = slopes->first; at != NULL; at = next) {
     next = at->next;
     free_anchor(at);
   }
-  pthread_mutex_destroy(&beside->lock);
-  pthread_mutex_destroy(&beside->films);
-  free(beside);
+  pthread_mutex_destroy(&slopes->lock);
+  pthread_mutex_destroy(&slopes->films);
+  free(slopes);
 }
 
 // ---- Solving
 
-// Lets the films of a memory use an anchor's solvers: to leave their solutions there, or (`beside`)
+// Lets the films of a memory use an anchor's solvers: to leave their solutions there, or (`next`)
 // to be solved next to these.
-static void lend(SbSlidingMemory *memory, SbSlidingSlopes *beside, Anchor *anchor, bool next) {
-  pthread_mutex_lock(&beside->films);
-  memory->lender = beside;
+static void lend(SbSlidingMemory *memory, SbSlidingSlopes *slopes, Anchor *anchor, bool next) {
+  pthread_mutex_lock(&slopes->films);
+  memory->lender = slopes;
   for (int i = 0; i < SB_SLIDING_FILMS; i++) {
     slot(memory, i)->own = &anchor->solver[i];
-    slot(memory, i)->beside = next;
+    slot(memory, i)->on_base = next;
   }
 }
 
@@ -285,7 +285,7 @@ void sb_sliding_sum_end(SbSlidingMemory *memory) {
   memory->sums = SB_SUM_NOTHING;
   for (int i = 0; i < SB_SLIDING_FILMS; i++) {
     slot(memory, i)->own = NULL;
-    slot(memory, i)->beside = false;
+    slot(memory, i)->on_base = false;
   }
   if (memory->lender != NULL) {
     pthread_mutex_unlock(&memory->lender->films);
@@ -300,7 +300,7 @@ typedef enum { WHOLE, BY_FITMENT, FITMENT_ALONE } Part;
 // films differ, or its fit alone, without a surface; or the anchor's own state, if `made`. Changes
 // the task's memory.
 static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, const SbSlidingLaw *law,
-                         const double *z, SbSlidingSlopes *beside, Anchor *anchor, Part part) {
+                         const double *z, SbSlidingSlopes *slopes, Anchor *anchor, Part part) {
   SbSlidingMemory *memory = task->memory;
   const bool made = out == &anchor->is;
   SbModel *model = malloc(sizeof *model);
@@ -337,7 +337,7 @@ static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, cons
     out->fit = memory->now->fit;
     sb_sliding_forget_fitment(&other); // it has no surface
   } else {
-    lend(memory, beside, anchor, !made);
+    lend(memory, slopes, anchor, !made);
     status = sb_sliding_solve_once(&other, drags, &state, NULL);
     take(out, memory);
   }
@@ -368,7 +368,7 @@ static bool any_bends(const SbSlidingSolution *a, const SbSlidingSolution *middl
 
 // Finds a slope by steps of a part of the number. False: there is none, or *status.
 static bool find_slope(Column *out, SbSlidingSolution end[2], const SbSlidingTask *task,
-                       const SbSlidingLaw *law, SbSlidingSlopes *beside, Anchor *anchor, int i,
+                       const SbSlidingLaw *law, SbSlidingSlopes *slopes, Anchor *anchor, int i,
                        double part, SbStatus *status) {
   const double at = anchor->z[i], h = step_of(i, at, part);
   const double place[2] = {h, at != 0 ? -h : h / 2}; // upwards only from 0
@@ -379,7 +379,7 @@ static bool find_slope(Column *out, SbSlidingSolution end[2], const SbSlidingTas
     z[i] = at + place[k];
     const bool alone = bare && k == 1;
     const Part what = i >= FILMS ? BY_FITMENT : alone ? FITMENT_ALONE : WHOLE;
-    *status = solve_at(&end[k], task, law, z, beside, anchor, what);
+    *status = solve_at(&end[k], task, law, z, slopes, anchor, what);
     if (*status != SB_OK || !alike(&end[k], &anchor->is, alone)) {
       return false;
     }
@@ -408,12 +408,12 @@ static bool find_slope(Column *out, SbSlidingSolution end[2], const SbSlidingTas
 }
 
 // The column of a number, found if it is not known; NULL: *status.
-static const Column *column_of(SbSlidingSlopes *beside, Anchor *anchor, int i,
+static const Column *column_of(SbSlidingSlopes *slopes, Anchor *anchor, int i,
                                const SbSlidingTask *task, const SbSlidingLaw *law,
                                SbStatus *status) {
-  pthread_mutex_lock(&beside->lock);
+  pthread_mutex_lock(&slopes->lock);
   Column *known = anchor->column[i];
-  pthread_mutex_unlock(&beside->lock);
+  pthread_mutex_unlock(&slopes->lock);
   *status = SB_OK;
   if (known != NULL) {
     return known;
@@ -426,9 +426,9 @@ static const Column *column_of(SbSlidingSlopes *beside, Anchor *anchor, int i,
     *status = SB_ERROR_MEMORY;
     return NULL;
   }
-  column->bent = !find_slope(column, end, task, law, beside, anchor, i, STEP, status);
+  column->bent = !find_slope(column, end, task, law, slopes, anchor, i, STEP, status);
   if (column->bent && (*status == SB_OK || *status == SB_ERROR_NOT_CONVERGED)) {
-    column->bent = !find_slope(column, end, task, law, beside, anchor, i, FINER, status);
+    column->bent = !find_slope(column, end, task, law, slopes, anchor, i, FINER, status);
   }
   free(end);
   if (*status == SB_ERROR_CANCELLED || *status == SB_ERROR_MEMORY) {
@@ -436,14 +436,14 @@ static const Column *column_of(SbSlidingSlopes *beside, Anchor *anchor, int i,
     return NULL;
   }
   *status = SB_OK;
-  pthread_mutex_lock(&beside->lock);
+  pthread_mutex_lock(&slopes->lock);
   if (anchor->column[i] != NULL) { // another thread has stored it in the meantime
     free(column);
   } else {
     anchor->column[i] = column;
   }
   column = anchor->column[i];
-  pthread_mutex_unlock(&beside->lock);
+  pthread_mutex_unlock(&slopes->lock);
   return column;
 }
 
@@ -458,14 +458,14 @@ static bool is_near(const Anchor *anchor, int i, double z) {
 
 // The anchor of a task, made of the task itself where there is none near; NULL: *status, or there
 // are too many.
-static Anchor *anchor_of(SbSlidingSlopes *beside, const SbSlidingTask *task,
+static Anchor *anchor_of(SbSlidingSlopes *slopes, const SbSlidingTask *task,
                          const SbSlidingLaw *law, const double *z, int inputs, SbStatus *status) {
   enum { ANCHORS = 8 };
   int count = 0, choice[CHOICES];
   choose(choice, task);
-  pthread_mutex_lock(&beside->lock);
+  pthread_mutex_lock(&slopes->lock);
   Anchor *found = NULL;
-  for (Anchor *at = beside->first; at != NULL && found == NULL; at = at->next) {
+  for (Anchor *at = slopes->first; at != NULL && found == NULL; at = at->next) {
     bool near = memcmp(at->choice, choice, sizeof choice) == 0;
     for (int i = 0; i < inputs && near; i++) {
       near = is_near(at, i, z[i]);
@@ -473,7 +473,7 @@ static Anchor *anchor_of(SbSlidingSlopes *beside, const SbSlidingTask *task,
     found = near ? at : NULL;
     count++;
   }
-  pthread_mutex_unlock(&beside->lock);
+  pthread_mutex_unlock(&slopes->lock);
   *status = SB_OK;
   if (found != NULL || count >= ANCHORS) {
     return found;
@@ -485,20 +485,20 @@ static Anchor *anchor_of(SbSlidingSlopes *beside, const SbSlidingTask *task,
   }
   memcpy(made->choice, choice, sizeof choice);
   memcpy(made->z, z, sizeof made->z);
-  *status = solve_at(&made->is, task, law, z, beside, made, WHOLE);
+  *status = solve_at(&made->is, task, law, z, slopes, made, WHOLE);
   if (*status != SB_OK) {
     free_anchor(made);
     return NULL;
   }
-  pthread_mutex_lock(&beside->lock);
-  made->next = beside->first;
-  beside->first = made;
-  pthread_mutex_unlock(&beside->lock);
+  pthread_mutex_lock(&slopes->lock);
+  made->next = slopes->first;
+  slopes->first = made;
+  pthread_mutex_unlock(&slopes->lock);
   return made;
 }
 
 SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
-                        SbSlidingSlopes *beside) {
+                        SbSlidingSlopes *slopes) {
   SbSlidingMemory *memory = task->memory;
   const bool coupled = task->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   const int inputs = coupled ? INPUTS : ROUGH;
@@ -510,8 +510,8 @@ SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
   }
   z[DIFFERENCE] -= z[LEVEL];
   SbStatus status;
-  Anchor *anchor = anchor_of(beside, task, law, z, inputs, &status);
-  const bool solved = memory->beside == SB_RINGS_SOLVED;
+  Anchor *anchor = anchor_of(slopes, task, law, z, inputs, &status);
+  const bool solved = memory->rings == SB_RINGS_SOLVED;
   SbSumDepth depth = anchor != NULL && !solved ? SB_SUM_ALL : SB_SUM_NOTHING;
   SbSlidingSolution *sum = depth == SB_SUM_ALL ? malloc(sizeof *sum) : NULL;
   if (sum != NULL) {
@@ -521,11 +521,11 @@ SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
   }
   for (int i = 0; i < inputs && depth != SB_SUM_NOTHING; i++) {
     const double by_this = z[i] - anchor->z[i];
-    if (by_this == 0 || (memory->beside == SB_RINGS_STAY && i < FILMS)) {
+    if (by_this == 0 || (memory->rings == SB_RINGS_STAY && i < FILMS)) {
       continue;
     }
     const bool off = !(step_of(i, anchor->z[i], 1) > 0);
-    const Column *column = off ? NULL : column_of(beside, anchor, i, task, law, &status);
+    const Column *column = off ? NULL : column_of(slopes, anchor, i, task, law, &status);
     if (column == NULL || column->bent) {
       depth = i < FILMS || status != SB_OK ? SB_SUM_NOTHING : SB_SUM_FITMENT;
       continue;
@@ -538,7 +538,7 @@ SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
   }
   free(sum);
   if (depth == SB_SUM_FITMENT || (solved && anchor != NULL)) {
-    lend(memory, beside, anchor, true);
+    lend(memory, slopes, anchor, true);
   }
   memory->sums = depth;
   if (depth != SB_SUM_NOTHING) {

@@ -132,7 +132,7 @@ SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
     return sb_succeed(report);
   }
   SbFilmSolver **const usual = out == &memory->rest ? &memory->rest_solver : &memory->solver;
-  SbFilmSolver **solver = out->own != NULL && !out->beside ? out->own : usual;
+  SbFilmSolver **solver = out->own != NULL && !out->on_base ? out->own : usual;
   if (solved && *solver == NULL) {
     SbStatus status = sb_film_solver_create(solver, report);
     if (status != SB_OK) {
@@ -146,7 +146,7 @@ SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
   out->fitted = problem->compliance != NULL;
   // Films with adhesion or a limited supply take several solves.
   const bool plain = !(lent.hamaker > 0 || lent.work_of_adhesion > 0);
-  const bool next = out->beside && *out->own != NULL && !(lent.inlet_film > 0);
+  const bool next = out->on_base && *out->own != NULL && !(lent.inlet_film > 0);
   const bool near = out->own == NULL && is_near(memory, out, problem);
   if (solved && plain && (next || near)) {
     SbFilmProblem beside = lent;

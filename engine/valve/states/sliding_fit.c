@@ -51,46 +51,46 @@ void sb_sliding_store(SbSlidingMemory *memory, int way) {
   SbSlidingFitment *on = &memory->fitment[way];
   const SbFit *fit = &on->fit;
   const bool apart = fit->ring.state == SB_RING_NO_CONTACT;
-  if (!memory->keeps || !on->known || on->ring == NULL || !sb_fit_kind(fit->model)->section ||
-      (fit->ring.state != SB_RING_SLIDES && !apart) || memory->kept_count == SB_SLIDING_STARTS) {
+  if (!memory->stores || !on->known || on->ring == NULL || !sb_fit_kind(fit->model)->section ||
+      (fit->ring.state != SB_RING_SLIDES && !apart) || memory->stored_count == SB_SLIDING_STARTS) {
     return;
   }
-  SbSlidingStart *kept = &memory->kept[memory->kept_count];
-  *kept = (SbSlidingStart){.start = {.error_load = fit->solver.error_estimate.load,
-                                     .error_peak = fit->solver.error_estimate.pressure_peak,
-                                     .error_width = fit->solver.error_estimate.contact_width,
-                                     .ring = on->ring},
-                           .ring = on->ring,
-                           .way = way,
-                           .strain = on->pressure / on->modulus,
-                           .law = on->law,
-                           .found = on->found,
-                           .guess = on->guess};
-  sb_ring_set_data(kept->ring, &kept->law, memory);
+  SbSlidingStart *stored = &memory->stored[memory->stored_count];
+  *stored = (SbSlidingStart){.start = {.error_load = fit->solver.error_estimate.load,
+                                       .error_peak = fit->solver.error_estimate.pressure_peak,
+                                       .error_width = fit->solver.error_estimate.contact_width,
+                                       .ring = on->ring},
+                             .ring = on->ring,
+                             .way = way,
+                             .strain = on->pressure / on->modulus,
+                             .law = on->law,
+                             .found = on->found,
+                             .guess = on->guess};
+  sb_ring_set_data(stored->ring, &stored->law, memory);
   if (apart) { // there is nothing to start from
-    kept->ring = NULL;
-    kept->start.ring = NULL;
-    memory->kept_count++;
+    stored->ring = NULL;
+    stored->start.ring = NULL;
+    memory->stored_count++;
     return;
   }
-  kept->beside = sb_sliding_slopes_create();
-  if (kept->beside == NULL || sb_ring_guide_create(&kept->guide, on->ring, NULL) != SB_OK ||
-      sb_ring_tangent_create(&kept->tangent, on->ring, &kept->law, NULL) != SB_OK) {
-    sb_ring_guide_destroy(kept->guide);
-    sb_sliding_slopes_destroy(kept->beside);
+  stored->slopes = sb_sliding_slopes_create();
+  if (stored->slopes == NULL || sb_ring_guide_create(&stored->guide, on->ring, NULL) != SB_OK ||
+      sb_ring_tangent_create(&stored->tangent, on->ring, &stored->law, NULL) != SB_OK) {
+    sb_ring_guide_destroy(stored->guide);
+    sb_sliding_slopes_destroy(stored->slopes);
     return;
   }
-  kept->start.guide = kept->guide;
-  memory->kept_count++;
+  stored->start.guide = stored->guide;
+  memory->stored_count++;
   on->ring = NULL;
   on->known = false;
 }
 
 void sb_sliding_memory_prepare(const SbSlidingMemory *memory, bool (*stop)(void *), void *data) {
-  for (int i = 0; i < memory->kept_count && !stop(data); i++) {
-    const SbSlidingStart *kept = &memory->kept[i];
-    if (kept->guide != NULL && kept->way != REST) {
-      sb_ring_guide_make(kept->guide);
+  for (int i = 0; i < memory->stored_count && !stop(data); i++) {
+    const SbSlidingStart *stored = &memory->stored[i];
+    if (stored->guide != NULL && stored->way != REST) {
+      sb_ring_guide_make(stored->guide);
     }
   }
 }
@@ -104,8 +104,8 @@ const SbSlidingStart *sb_sliding_start_of(const SbSlidingTask *task) {
   const double strain =
       (task->pressure.left - task->pressure.right) / task->model->seal[task->seal].modulus;
   const SbSlidingStart *best = NULL;
-  for (int i = 0; from != NULL && is_ring(task) && i < from->kept_count; i++) {
-    const SbSlidingStart *one = &from->kept[i];
+  for (int i = 0; from != NULL && is_ring(task) && i < from->stored_count; i++) {
+    const SbSlidingStart *one = &from->stored[i];
     const bool alike = (one->ring != NULL || task->memory->tangent) && one->way == way_of(task) &&
                        (one->strain > 0) == (strain > 0) && (one->strain < 0) == (strain < 0);
     if (alike && (best == NULL || fabs(one->strain - strain) < fabs(best->strain - strain))) {
@@ -153,7 +153,8 @@ static SbStatus no_tangent(const SbSlidingTask *task, SbSlidingFitment *on, SbRe
 // Takes a ring that was solved ahead for this law.
 static bool take_ahead(const SbSlidingTask *task, SbSlidingFitment *now, const SbSlidingLaw *law) {
   SbSlidingMemory *memory = task->memory;
-  SbSlidingFitment *from = memory->ahead != NULL ? &memory->ahead->fitment[way_of(task)] : NULL;
+  SbSlidingFitment *from =
+      memory->prefetched != NULL ? &memory->prefetched->fitment[way_of(task)] : NULL;
   if (from == NULL || !from->known || from->seal != now->seal || from->pressure != now->pressure ||
       (law != NULL &&
        (law->coefficient != from->law.coefficient || law->shear != from->law.shear))) {
@@ -202,7 +203,7 @@ static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, Sb
   fit_problem(&problem, task, now, law);
   SbFitStart from = start != NULL ? start->start : (SbFitStart){0};
   from.tangent = memory->tangent && start != NULL ? start->tangent : NULL;
-  from.beside = memory->beside == SB_RINGS_SOLVED;
+  from.beside = memory->rings == SB_RINGS_SOLVED;
   problem.start = from.ring != NULL ? &from : NULL;
   memory->rested = false;
   if (memory->tangent && is_ring(task) && start == NULL) {

@@ -9,9 +9,8 @@
 // sb_sliding_solve_once() copies these results instead of solving, and at last
 // sb_sliding_solve_with() calls sb_sliding_sum_end(), also after an error.
 //
-// "beside" in names: linearised about, or solved next to, a stored state. A "way" is an index below
-// SB_RUN_MOTIONS: 0 (speed > 0) and 1 (speed < 0) if friction drags the seal (sb_sliding_drags()),
-// else 2.
+// A `way` is an index below SB_RUN_MOTIONS: 0 (speed > 0) and 1 (speed < 0) if friction drags the
+// seal (sb_sliding_drags()), else 2.
 //
 // Every task has a memory that is not NULL and that this thread alone uses. Which functions need
 // which part of a state: `out` of sb_sliding_fit_contact(), _solve_once(), _solve_with() and
@@ -32,7 +31,7 @@ typedef struct {
   double share;       // speed at which it was solved divided by `speed`, <= 1
   bool fresh;         // solved since this flag was last cleared
   SbFilmSolver **own; // borrowed: solver of this film only; NULL: the memory's solver
-  bool beside;        // solve it on the mesh of the last solution of `own` if possible
+  bool on_base;       // solve it on the mesh of the last solution of `own` if possible
 } SbSlidingSolved;
 
 // The last fit of one way, with its ring.
@@ -73,18 +72,18 @@ typedef struct SbSlidingSlopes SbSlidingSlopes;
 SbSlidingSlopes *sb_sliding_slopes_create(void);
 
 // Frees the object. Takes NULL.
-void sb_sliding_slopes_destroy(SbSlidingSlopes *beside);
+void sb_sliding_slopes_destroy(SbSlidingSlopes *slopes);
 
 // Which part of a state is linearised instead of solved: nothing, the fit, or fit and films.
 typedef enum { SB_SUM_NOTHING, SB_SUM_FITMENT, SB_SUM_ALL } SbSumDepth;
 
-// State of a ring that others start from (SbSlidingMemory.kept).
+// State of a ring that others start from (SbSlidingMemory.stored).
 typedef struct {
   SbFitStart start;        // for SbFitProblem.start
   SbRing *ring;            // owned; the ring of `start`; NULL: this state has no contact
   SbRingGuide *guide;      // owned; predictor of the ring
   SbRingTangent *tangent;  // owned; linearisation of the ring
-  SbSlidingSlopes *beside; // owned; slopes near this state
+  SbSlidingSlopes *slopes; // owned; slopes near this state
   int way;                 // index in SbSlidingMemory.fitment
   double strain;           // pressure difference (left minus right) divided by the modulus [1]
   SbSlidingLaw law, found; // as in SbSlidingFitment
@@ -104,18 +103,18 @@ enum { SB_SLIDING_STARTS = 64 };
 
 // The memory of sliding.h.
 struct SbSlidingMemory {
-  bool keeps;                             // solved states are stored for others
-  SbSlidingStart kept[SB_SLIDING_STARTS]; // the stored states
-  int kept_count;                         // number of stored states
+  bool stores; // solved states are stored for others
+  SbSlidingStart stored[SB_SLIDING_STARTS];
+  int stored_count;                   // number of stored states
   const struct SbSlidingMemory *from; // rings start from its stored states, borrowed; NULL: cold
   bool tangent;                       // rings are linearised about the states of `from`
   bool summed;                        // films are linearised too
-  SbRingsBeside beside;               // how linearised rings are evaluated
+  SbRingsBeside rings;                // how linearised rings are evaluated
   bool bare;                          // surfaces of rings for films are not computed
   SbSumDepth sums;                    // part of the present state that is linearised
   SbSlidingSolution sum;              // values of this part
-  SbSlidingMemory *ahead;  // may have the next ring (sb_sliding_memory_prefetched()), borrowed
-  SbSlidingSlopes *lender; // object whose film solvers the films use; NULL: own solvers
+  SbSlidingMemory *prefetched; // may have the next ring (sb_sliding_memory_prefetched()), borrowed
+  SbSlidingSlopes *lender;     // object whose film solvers the films use; NULL: own solvers
 
   SbSlidingFitment fitment[SB_RUN_MOTIONS]; // by way
   SbSlidingFitment *now;                    // fit of the last task, in `fitment`
@@ -137,8 +136,8 @@ struct SbSlidingMemory {
   void *cancelled_data;            // argument of `cancelled`
 };
 
-// Moves the solved ring of `way` to memory->kept, if memory->keeps and there is one in contact and
-// sliding. Does nothing if there is no space or memory.
+// Moves the solved ring of `way` to memory->stored, if memory->stores and there is one in contact
+// and sliding. Does nothing if there is no space or memory.
 void sb_sliding_store(SbSlidingMemory *memory, int way);
 
 // Returns whether friction drags this seal's section: that of a ring while it slides.
@@ -158,12 +157,12 @@ bool sb_sliding_usable(SbStatus status);
 SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *law,
                                 SbSealState *out, bool *known, SbReport *report);
 
-// Determines which part of the task is linearised about the stored state of `beside`, a ring
+// Determines which part of the task is linearised about the stored state of `slopes`, a ring
 // dragged by `law` (NULL: none), and computes its values: sets memory->sums and memory->sum.
-// Missing slopes are solved. May lock `beside` until sb_sliding_sum_end(), which the caller must
+// Missing slopes are solved. May lock `slopes` until sb_sliding_sum_end(), which the caller must
 // call in any case, before another sb_sliding_sum(). SB_ERROR_CANCELLED.
 SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
-                        SbSlidingSlopes *beside);
+                        SbSlidingSlopes *slopes);
 
 // Resets memory->sums and unlocks what sb_sliding_sum() has locked. Does nothing without it.
 void sb_sliding_sum_end(SbSlidingMemory *memory);
