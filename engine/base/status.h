@@ -79,17 +79,17 @@ typedef struct {
   SbStatus status;
   SbCause cause;
   char text[SB_TEXT]; // one sentence for the user, without a line break
-  int input;          // number of the input at fault, 0 if none; sb_input_key() returns its key
-  double residual;    // last residual of the iteration; only iterative solvers set it
-  int iteration;      // number of iterations done; only iterative solvers set it
+  int input;       // number of the input at fault, 0 if none; its key: sb_input_key() of params.h
+  double residual; // last residual of the iteration; only iterative solvers set it
+  int iteration;   // number of iterations done; only iterative solvers set it
 } SbReport;
 
 // Returns the fixed text of a status code; static, never NULL.
 const char *sb_status_text(SbStatus status);
 
-// Writes `status` and a formatted sentence to `report` (NULL: nothing is written) and returns
-// `status`. Use: `return sb_fail(report, SB_ERROR_RANGE, "speed %g m/s ...", u);`. The fields
-// `residual` and `iteration` are not changed.
+// Writes `status` and a formatted sentence to `report` (NULL: nothing is written), without an input
+// and with SB_CAUSE_OTHER, and returns `status`. Use: `return sb_fail(report, SB_ERROR_RANGE,
+// "speed %g m/s ...", u);`. The fields `residual` and `iteration` are not changed.
 SbStatus sb_fail(SbReport *report, SbStatus status, const char *format, ...) SB_PRINTF(3, 4);
 
 // Does the same as sb_fail() and also stores the number of the input at fault (0: none).
@@ -124,8 +124,8 @@ enum { SB_WARNINGS_MAX = 48 };
 typedef struct {
   char code[48];      // stable identifier of the kind of warning, "film-below-continuum"
   char text[SB_TEXT]; // one sentence, which names the subject
-  int input;          // number of the input to change, 0 if none; sb_input_key() returns its key
-  char subject[16];   // part that the warning is about, "inner seal"; "" if there is only one
+  int input;        // number of the input to change, 0 if none; its key: sb_input_key() of params.h
+  char subject[16]; // part that the warning is about, "inner seal"; "" if there is only one
 } SbWarning;
 
 // A list of warnings without duplicates (equal code, input and subject). It owns its texts.

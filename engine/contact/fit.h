@@ -207,7 +207,8 @@ typedef struct {
 #define SB_FIT_STRETCH_MAX 0.03
 
 // Solves the problem. Errors:
-// SB_ERROR_RANGE, SB_ERROR_INPUT: a value is out of range, with its catalogue key.
+// SB_ERROR_RANGE, SB_ERROR_INPUT: a value is out of range; the report has its input
+// (SB_CONTACT_IN_... of inputs.h).
 // SB_ERROR_INFEASIBLE: the groove floor has no diameter, or the model has no solution.
 // SB_ERROR_NOT_CONVERGED: solver.converged is false; only the sizes are set.
 // SB_ERROR_CANCELLED.

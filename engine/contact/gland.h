@@ -107,8 +107,8 @@ typedef struct {
   SbBand band_worst;            // of the worst cases: WITHIN only if both are inside
 } SbGlandReadout;
 
-// Computes out[SB_GLAND_COUNT], indexed by SbGlandQuantity. SB_ERROR_RANGE, with the key: a size is
-// not positive, a tolerance is negative or not below its size, or Poisson's ratio or swell is out
-// of range. SB_ERROR_INFEASIBLE: a corner of the tolerances leaves no groove floor. A land wider
-// than the bore gives a negative extrusion gap and is not an error.
+// Computes out[SB_GLAND_COUNT], indexed by SbGlandQuantity. SB_ERROR_RANGE, with the input: a size
+// is not positive, a tolerance is negative or not below its size, or Poisson's ratio or swell is
+// out of range. SB_ERROR_INFEASIBLE: a corner of the tolerances leaves no groove floor. A land
+// wider than the bore gives a negative extrusion gap and is not an error.
 SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *report);

@@ -4,6 +4,9 @@
 
 #include "engine/base/status.h"
 
+// Most are fields of SbFitProblem (fit.h), SbRingLoad (ring/ring.h), SbSealProfile
+// (ring/ring_profile.h) or SbRoughSurface (rough/rough_law.h). LAND_EDGE: the ends of the bore's
+// land; DRAWING: the drawn section; CRIMP, GASKET_BORE: compression and free bore of a gasket.
 enum {
   SB_CONTACT_IN_SECTION_DIAMETER = SB_CONTACT_INPUTS,
   SB_CONTACT_IN_INNER_DIAMETER,

@@ -4,6 +4,8 @@
 
 #include "engine/base/status.h"
 
+// PRESSURE: SbChamberModel.canister; STATIC_RATIO: SbDynamicsContact.static_ratio; DRIVE: spring
+// and damper of the drive.
 enum {
   SB_MECHANISM_IN_PRESSURE = SB_MECHANISM_INPUTS,
   SB_MECHANISM_IN_STATIC_RATIO,

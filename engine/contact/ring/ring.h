@@ -147,7 +147,7 @@ typedef struct {
 // by the fluid. Friction acts from then on. `options` may be NULL. With `bore_slides` the ring
 // slides steadily; if it rolls or jams at a smaller friction than friction_bore, the state is that
 // of the largest friction found, and the result's `state` reports it. Errors:
-// SB_ERROR_RANGE, SB_ERROR_INFEASIBLE: with the catalogue key (bore smaller than the groove floor,
+// SB_ERROR_RANGE, SB_ERROR_INFEASIBLE: with the input (bore smaller than the groove floor,
 //   overfilled groove, no wall against the pressure, the fluid passes the ring, creased surface).
 // SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED.
 SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *load,

@@ -139,7 +139,7 @@ SbStatus sb_ring_refit_once(SbRing *ring, double element_size, SbReport *report)
 enum { SB_RING_TRIES = 3 };
 extern const double sb_ring_try[SB_RING_TRIES];
 
-// Checks a body and a load. SB_ERROR_RANGE, SB_ERROR_INFEASIBLE, with the catalogue key.
+// Checks a body and a load. SB_ERROR_RANGE, SB_ERROR_INFEASIBLE, with the input.
 SbStatus sb_ring_check(const SbRingBody *body, const SbRingLoad *load, SbReport *report);
 
 // Sets body, load, units and outline of a ring; both must have passed sb_ring_check().

@@ -85,7 +85,7 @@ typedef struct {
 
 // Computes the outline of a section. `height` is the radial height in the unit of the lengths of
 // `profile` (1 if these are divided by the radial height). SB_ERROR_RANGE, SB_ERROR_INFEASIBLE: the
-// sizes are inconsistent, with the catalogue key.
+// sizes are inconsistent; the report has the input (SB_CONTACT_IN_...).
 SbStatus sb_ring_outline_of_profile(SbRingOutline *out, const SbSealProfile *profile, double height,
                                     SbReport *report);
 

@@ -50,7 +50,7 @@ void sb_evaluator_destroy(SbEvaluator *evaluator);
 // sb_evaluator_reason() returns the cause. `value` is defined after any status.
 //   SB_OK                     a NaN has a cause in the valve (a seal is open, a stage not reached)
 //   SB_ERROR_RANGE, _INPUT    an override is out of range, or the values are inconsistent: the
-//                             question is refused, all values are NaN, the report has key and range
+//                             question is refused, all values are NaN, the report has input, range
 //   SB_ERROR_NOT_CONVERGED    a solver failed, or output.work_limit is exhausted
 //   SB_ERROR_INFEASIBLE       the model has no solution
 //   SB_ERROR_CANCELLED        `cancelled` returned true

@@ -218,8 +218,8 @@ bool sb_params_brought(SbParamDefault *out, int *choice, SbParamId id, int index
 
 // Sets the value of `id` (SI, index of a choice, or bit mask) and marks it as given.
 // SB_ERROR_INPUT: not finite, or not an integer where one is required; SB_ERROR_RANGE: outside min
-// to max, or no such choice. *params is unchanged after an error, and the report has key and range
-// in SI.
+// to max, or no such choice. *params is unchanged after an error, and the report has the input, and
+// the range in SI in its text.
 SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *report);
 
 // Returns the index of the choice whose name equals the first `length` bytes of `name` (which needs

@@ -32,6 +32,6 @@ const char *sb_hold_names(void);
 SB_CHECKED bool sb_hold_from_name(SbHold *out, const char *name);
 
 // Creates the model of `scene` under the condition `hold`; free it with sb_model_destroy().
-// SB_ERROR_INPUT with the key valve.kind: SB_HOLD_OUTER of a gasket valve; other errors of
+// SB_ERROR_INPUT with the input valve.kind: SB_HOLD_OUTER of a gasket valve; other errors of
 // sb_model_derive().
 SbStatus sb_model_hold(SbModel **out, const SbModel *scene, SbHold hold, SbReport *report);
