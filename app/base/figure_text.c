@@ -14,11 +14,11 @@
 
 // Films and volumes span decades: their unit follows the size. Others have the unit of their row.
 static const char *unit_of(int index, double value) {
-  const char *shown = sb_figure(index)->shown;
-  const SbQuantity quantity = sb_quantity_of_unit(shown);
-  return quantity == SB_QUANTITY_FILM || quantity == SB_QUANTITY_VOLUME
-             ? sb_quantity_unit(quantity, isfinite(value) ? value : 0)
-             : shown;
+  const SbFigureQuantity quantity = sb_figure(index)->quantity;
+  const double size = isfinite(value) ? value : 0;
+  return quantity == SB_FIGURE_QUANTITY_FILM     ? sb_quantity_unit(SB_QUANTITY_FILM, size)
+         : quantity == SB_FIGURE_QUANTITY_VOLUME ? sb_quantity_unit(SB_QUANTITY_VOLUME, size)
+                                                 : sb_figure(index)->shown;
 }
 
 // The value in `unit`; *relative is the error relative to it. A point of a scale of temperature has
@@ -61,7 +61,7 @@ static void plain_parts(char number[SB_NUMBER_SIZE], const char **unit, int inde
     g_strlcpy(number, value > 0 ? "yes" : "no", SB_NUMBER_SIZE);
   } else {
     // A sum of forces that is below 1 nN is rounding noise.
-    const bool noise = strcmp(figure->si, "N") == 0 && fabs(value) < 1e-9;
+    const bool noise = figure->quantity == SB_FIGURE_QUANTITY_FORCE && fabs(value) < 1e-9;
     double relative;
     const double shown = to_unit(&relative, index, *unit, noise ? 0 : value, error);
     sb_number_with_error(number, shown, figure->digits, relative);

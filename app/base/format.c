@@ -119,17 +119,6 @@ const char *sb_quantity_unit(SbQuantity quantity, double value) {
   return choose_unit(quantity, value).unit;
 }
 
-SbQuantity sb_quantity_of_unit(const char *unit) {
-  for (int quantity = 0; quantity < SB_QUANTITY_COUNT; quantity++) {
-    if (strcmp(choose_unit((SbQuantity)quantity, 0).unit, unit) == 0) {
-      return (SbQuantity)quantity;
-    }
-  }
-  // A volume's smallest unit was asked for above.
-  return strcmp(unit, "nl") == 0 || strcmp(unit, "µl") == 0 ? SB_QUANTITY_VOLUME
-                                                            : SB_QUANTITY_NUMBER;
-}
-
 void sb_format(SbFormatted *out, SbQuantity quantity, double value, double relative_error) {
   Unit unit = choose_unit(quantity, isfinite(value) ? value : 0);
   g_strlcpy(out->unit, unit.unit, sizeof out->unit);

@@ -23,10 +23,6 @@ typedef enum {
   SB_QUANTITY_COUNT
 } SbQuantity;
 
-// Returns the quantity with the display unit `unit` ("nm": SB_QUANTITY_FILM); SB_QUANTITY_NUMBER if
-// there is none.
-SbQuantity sb_quantity_of_unit(const char *unit);
-
 // Returns the display unit of `value` [SI] of a quantity, "nm" or "µm" by its size. Static.
 const char *sb_quantity_unit(SbQuantity quantity, double value);
 

@@ -87,7 +87,7 @@ static void playhead_row(Row *row, const SbChartData *data, int way) {
 static void figure_row(Row *row, const SbChartData *data, size_t k) {
   const int index = sb_figure_find(figures[k].path);
   const SbFigure *figure = sb_figure(index);
-  *row = (Row){.force = strcmp(figure->si, "N") == 0, .measured = NAN};
+  *row = (Row){.force = figure->quantity == SB_FIGURE_QUANTITY_FORCE, .measured = NAN};
   g_strlcpy(row->label, _(figures[k].label), sizeof row->label);
   SbFigureCompared design[COLUMNS];
   for (size_t i = 0; i <= data->pin_count; i++) {

@@ -109,11 +109,9 @@ static Look series_look(const SbStudy *study, const SbStudySeries *series) {
   static const SbDash *const dashes[] = {&sb_dash_reference, &sb_dash_pinned, &sb_dash_dimension,
                                          &sb_dash_centre, &sb_dash_dose};
   // A seal has its own colour everywhere.
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    g_autofree char *name = g_strdup_printf("%s seal", sb_seal_name(seal));
-    if (strcmp(series->name, name) == 0) {
-      return (Look){seal == SB_OUTER ? SB_ROLE_OUTER : SB_ROLE_INNER, SB_LINE_SEAL, NULL};
-    }
+  if (series->seal > 0) {
+    const bool outer = series->seal == 1 + SB_OUTER;
+    return (Look){outer ? SB_ROLE_OUTER : SB_ROLE_INNER, SB_LINE_SEAL, NULL};
   }
   int index = style_index(study, series);
   if (series->style == SB_STUDY_REFERENCE) {

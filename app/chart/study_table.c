@@ -36,10 +36,9 @@ static void cell_text(char *out, const SbStudyColumn *column, const SbStudyRow *
     sb_format_fixed(out, shown, 0);
     return;
   }
-  bool difference = strstr(column->name, "against") != NULL;
   char digits[SB_FORMAT_MAX];
   sb_format_digits(digits, shown, column->digits);
-  g_snprintf(out, SB_FORMAT_MAX, "%s%s", difference && shown > 0 ? "+" : "", digits);
+  g_snprintf(out, SB_FORMAT_MAX, "%s%s", column->difference && shown > 0 ? "+" : "", digits);
 }
 
 // Breaks a heading into at most HEAD_LINES lines that fit `width`; returns their number.

@@ -279,14 +279,12 @@ static void on_picture(void *data, size_t done, size_t total) {
 }
 
 // Runs what the view needs. An engine's status; `*run` may hold a partial run.
-static SbStatus compute(SbRun **run, const SbModel *model, const char *view, SbReport *report) {
+static SbStatus compute(SbRun **run, const SbModel *model, const SbRenderView *view,
+                        SbReport *report) {
   // What is drawn decides what is computed, not what the scene would show by itself.
-  const char *needs = strcmp(view, "cutaway") == 0 ? "section" : view;
-  int index = sb_param_choice(sb_param(SB_P_OUTPUT_VIEWS), needs, strlen(needs));
-  const SbPlanWishes wishes = {
-      .views = index >= 0 ? 1u << index : (unsigned)sb_model_number(model, SB_P_OUTPUT_VIEWS),
-      .studies = (unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES),
-      .life = true};
+  const SbPlanWishes wishes = {.views = view->computes,
+                               .studies = (unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES),
+                               .life = true};
   SbPlan plan;
   sb_plan_wished(&plan, model, &wishes);
   SbProgress progress;
@@ -316,7 +314,7 @@ static int compute_pins(Pins *pins, const SbDocument *document, Request *request
       continue;
     }
     pins->name[i] = sb_pin_name(document, i);
-    const SbStatus status = compute(&pins->run[i], model, how->view, &report);
+    const SbStatus status = compute(&pins->run[i], model, sb_render_view(how->view), &report);
     code = MAX(code, sb_cli_status(status, &report));
     if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
       how->pin[how->pin_count++] = (SbRenderPin){pins->run[i], pins->name[i], (int)i};
@@ -437,7 +435,7 @@ static int render(const SbRun *run, const SbDocument *document, const SbMeasured
   }
   SbSectionStyle style = sb_section_style_of(sb_run_model(run));
   style.zoom = request->zoom;
-  style.cutaway = style.cutaway || strcmp(request->how.view, "cutaway") == 0;
+  style.cutaway = style.cutaway || sb_render_view(request->how.view)->cutaway;
   sb_section_painter_style(painter, &style);
   char *sha256 = sb_document_sha256(document);
   char *scene = sb_document_to_flat_text(document);
@@ -516,7 +514,7 @@ static int render_file(const SbCliFile *file, const Request *asked, const Option
     }
     SbRun *run = NULL;
     SbReport report = {0};
-    SbStatus status = compute(&run, model, request.how.view, &report);
+    SbStatus status = compute(&run, model, sb_render_view(request.how.view), &report);
     code = sb_cli_status(status, &report);
     Pins pins = {0};
     if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {

@@ -245,6 +245,7 @@ static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, do
     }
     const SbTableColumn *column = sb_table_column(table, (size_t)at);
     m->column[c].name = g_strdup(column->name);
+    m->column[c].clock = column->clock;
     m->column[c].unit = g_strdup(column->clock ? "clock" : column->unit);
     scale[c] = 1;
     if (!column->clock && !unit_scale(&scale[c], column->unit, channels[c].si)) {
@@ -484,8 +485,7 @@ char *sb_measured_keys(const SbMeasured *m) {
       const char *word = "-";
       for (int c = 0; c < SB_CHANNELS; c++) {
         if (m->column[c].index == i) {
-          const bool clock = strcmp(m->column[c].unit, "clock") == 0;
-          word = !units ? channels[c].name : clock ? "-" : m->column[c].unit;
+          word = !units ? channels[c].name : m->column[c].clock ? "-" : m->column[c].unit;
         }
       }
       g_string_append_printf(out, "%s%s", i > 0 ? ", " : "", word);

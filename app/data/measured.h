@@ -72,6 +72,7 @@ typedef struct {
     int index;  // of the file's column; -1: the file has no such column
     char *name; // as the file's header has it
     char *unit; // as the file has it or a key states it; "clock": time of day
+    bool clock; // the column has times of day
     SbHow how;  // origin of the assignment
   } column[SB_CHANNELS];
   // Rows, in the order of the file. Displacement and force are corrected as above.

@@ -546,22 +546,29 @@ static void tell_stem_mass(const SbParams *params, const SbParams *base, const c
   }
 }
 
+SbParamId sb_parts_mass(int part) {
+  static const SbParamId masses[SB_VALVE_PARTS] = {
+      [SB_VALVE_HOUSING] = SB_P_PART_HOUSING_MASS,
+      [SB_VALVE_STEM_CENTRE] = SB_P_PART_STEM_CENTRE_MASS,
+      [SB_VALVE_STEM_TOP] = SB_P_PART_STEM_TOP_MASS,
+      [SB_VALVE_STEM_BOTTOM] = SB_P_PART_STEM_BOTTOM_MASS,
+      [SB_VALVE_INNER_SEAL] = SB_P_PART_INNER_SEAL_MASS,
+      [SB_VALVE_OUTER_SEAL] = SB_P_PART_OUTER_SEAL_MASS,
+      [SB_VALVE_BLOCK] = SB_P_PART_BLOCK_MASS,
+  };
+  return masses[part];
+}
+
 void sb_parts_read(SbShapes *shapes, SbParams *params, const SbParams *base,
                    const GPtrArray *entries, const char *shown, const char *directory,
                    GPtrArray *issues, GPtrArray *notes) {
   // The housing comes first: its bore measures the grooves.
-  static const SbParamId masses[] = {[SB_VALVE_HOUSING] = SB_P_PART_HOUSING_MASS,
-                                     [SB_VALVE_STEM_CENTRE] = SB_P_PART_STEM_CENTRE_MASS,
-                                     [SB_VALVE_STEM_TOP] = SB_P_PART_STEM_TOP_MASS,
-                                     [SB_VALVE_STEM_BOTTOM] = SB_P_PART_STEM_BOTTOM_MASS,
-                                     [SB_VALVE_INNER_SEAL] = SB_P_PART_INNER_SEAL_MASS,
-                                     [SB_VALVE_OUTER_SEAL] = SB_P_PART_OUTER_SEAL_MASS,
-                                     [SB_VALVE_BLOCK] = SB_P_PART_BLOCK_MASS};
-  for (size_t i = 0; i < G_N_ELEMENTS(masses); i++) {
-    const char *key = sb_param(masses[i])->key;
+  for (int i = 0; i < SB_VALVE_PARTS; i++) {
+    const SbParamId mass = sb_parts_mass(i);
+    const char *key = sb_param(mass)->key;
     g_autofree char *group = g_strndup(key, (gsize)(strrchr(key, '.') - key));
-    Part part = {entries, group, shown, issues, notes, (int)i, shapes, params, base};
-    read_part(&part, masses[i], directory);
+    Part part = {entries, group, shown, issues, notes, i, shapes, params, base};
+    read_part(&part, mass, directory);
   }
   tell_stem_mass(params, base, shown, notes);
 }

@@ -13,6 +13,9 @@ bool sb_parts_is_shape_key(const char *group, const char *name);
 // "housing", "stem_centre", ...: names of the parts that may have a shape, indexed as in the valve.
 extern const char *const sb_shape_parts[SB_VALVE_STEM_BOTTOM + 1];
 
+// Returns the parameter of the mass of a part (SB_VALVE_HOUSING, ...), the first one of its group.
+SbParamId sb_parts_mass(int part);
+
 // Keys in the same file may differ from a shape by this fraction (rounding).
 #define SB_SHAPE_ROUNDING 1e-3
 

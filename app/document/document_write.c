@@ -224,11 +224,10 @@ static void append_group(GString *text, const SbParams *params, const char *grou
   }
 }
 
-// Appends a part's shape to its group, unless a size that is in force differs from it: beside a
-// shape in one file that would be an error, and the numbers are what counts.
-static void append_shape(GString *text, const SbDocument *document, const char *group,
-                         size_t length) {
-  const size_t prefix = strlen("part.");
+// Appends a part's shape to the group whose first parameter is `first`, unless a size that is in
+// force differs from it: beside a shape in one file that would be an error, and the numbers are
+// what counts.
+static void append_shape(GString *text, const SbDocument *document, SbParamId first) {
   const SbShapes *shapes = document->shapes;
   for (guint i = 0; i < shapes->sizes->len; i++) {
     SbParamId id = ((const SbShapeSize *)shapes->sizes->pdata[i])->id;
@@ -238,9 +237,7 @@ static void append_shape(GString *text, const SbDocument *document, const char *
     }
   }
   for (size_t i = 0; i < G_N_ELEMENTS(sb_shape_parts); i++) {
-    if (shapes->text[i] != NULL && strlen(sb_shape_parts[i]) + prefix == length &&
-        strncmp(group, "part.", prefix) == 0 &&
-        strncmp(group + prefix, sb_shape_parts[i], length - prefix) == 0) {
+    if (shapes->text[i] != NULL && first == sb_parts_mass((int)i)) {
       g_string_append(text, shapes->text[i]);
     }
   }
@@ -270,7 +267,7 @@ char *sb_document_to_flat_text(const SbDocument *document) {
     size_t length = (size_t)(strrchr(key, '.') - key);
     if (g_hash_table_add(seen, g_strndup(key, length))) {
       append_group(text, &params, key, length);
-      append_shape(text, document, key, length);
+      append_shape(text, document, (SbParamId)i);
       append_files(text, document, key, length);
     }
   }

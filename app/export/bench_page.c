@@ -24,9 +24,10 @@ static void add_series(SbStudyPanel *panel, const char *solver, const SbBenchCas
 }
 
 static void add_table(SbStudy *study, const SbBenchCase *cases, size_t count) {
-  static const SbStudyColumn columns[] = {{"unknowns", "1", "", 0}, {"iterations", "1", "", 0},
-                                          {"time", "s", "ms", 3},   {"error", "1", "", 2},
-                                          {"estimate", "1", "", 2}, {"observed order", "1", "", 2}};
+  static const SbStudyColumn columns[] = {
+      {"unknowns", "1", "", 0, false}, {"iterations", "1", "", 0, false},
+      {"time", "s", "ms", 3, false},   {"error", "1", "", 2, false},
+      {"estimate", "1", "", 2, false}, {"observed order", "1", "", 2, false}};
   g_strlcpy(study->row_heading, "solver and case", sizeof study->row_heading);
   study->column_count = G_N_ELEMENTS(columns);
   memcpy(study->column, columns, sizeof columns);

@@ -268,7 +268,7 @@ static void work(void *owner) {
   SbExportJob *job = owner;
   SbSectionPainter *painter = NULL;
   SbReport report = {0};
-  if (strcmp(job->request.view, "report") == 0) {
+  if (job->request.view == NULL) {
     make_results(job);
     return;
   }

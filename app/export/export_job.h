@@ -15,8 +15,8 @@
 typedef struct {
   char *stale;          // why the run no longer matches the values; NULL: it matches
   char *path;           // with an ending of formats.h, or of a sequence (render_movie.h)
-  char *view;           // name of sb_render_views(), or "report": .json has the figures, any other
-                        // ending the pages as PDF
+  char *view;           // name of sb_render_views(); NULL: the report, whose .json has the figures
+                        // and any other ending the pages as PDF
   double width, height; // [logical pixels]; 0: the size of the view
   gboolean dark;        // theme
   SbSectionStyle style; // of views that show the section

@@ -19,15 +19,64 @@
 #include <math.h>
 #include <string.h>
 
+static bool refuse(GError **error, const char *why) {
+  g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, why);
+  return false;
+}
+
+static bool is_rig(const SbRun *run, GError **error) {
+  return sb_model_is_rig(sb_run_model(run)) ||
+         refuse(error, "the view \"rig\" is for the sliding plate (models.motion = rig)");
+}
+
+static bool is_valve(const SbRun *run, GError **error) {
+  return !sb_model_is_rig(sb_run_model(run)) ||
+         refuse(error, "the view \"cutaway\" is for a valve, not for the sliding plate");
+}
+
+static bool has_life(const SbRun *run, GError **error) {
+  return sb_run_summary(run)->life.done > 0 ||
+         refuse(error, "the view \"life\" needs more than one actuation (life.actuations)");
+}
+
+static bool has_shelf(const SbRun *run, GError **error) {
+  const SbSummary *summary = sb_run_summary(run);
+  if (summary->shelf.points == 0) {
+    const char *why = sb_figure_reason(summary, sb_figure_find("shelf.loss_kg"));
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the view \"shelf\" has no history: %s",
+                why != NULL ? why : "it was not computed");
+    return false;
+  }
+  return true;
+}
+
+static void draw_life(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                      unsigned flags) {
+  sb_life_draw(cr, rect, theme, data);
+}
+
+static void draw_shelf(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                       unsigned flags) {
+  sb_shelf_draw(cr, rect, theme, data);
+}
+
 static const SbRenderView views[] = {
-    {"section", "Axial section", 1280, 720, true, false},
-    {"cutaway", "Cutaway in three dimensions", 1280, 720, true, false},
-    {"hysteresis", "Force and displacement", 960, 720, false, true},
-    {"profiles", "Contact pressure and film", 1440, 520, false, true},
-    {"dashboard", "Dashboard", 1920, 1080, true, true},
-    {"rig", "Thread force and coefficients", 1440, 720, false, false},
-    {"life", "Life over its actuations", 1440, 620, false, false},
-    {"shelf", "Loss on the shelf", 1440, 760, false, false},
+    {"section", "Axial section", 1280, 720, .computes = SB_VIEW_SECTION, .section = true,
+     .rig = sb_rig_plate_draw},
+    {"cutaway", "Cutaway in three dimensions", 1280, 720, .computes = SB_VIEW_SECTION,
+     .section = true, .cutaway = true, .fits = is_valve},
+    {"hysteresis", "Force and displacement", 960, 720, .computes = SB_VIEW_HYSTERESIS,
+     .compares = true, .whole = true, .valve = sb_hysteresis_draw, .rig = sb_signal_draw},
+    {"profiles", "Contact pressure and film", 1440, 520, .computes = SB_VIEW_PROFILES,
+     .compares = true, .valve = sb_profiles_draw, .rig = sb_rig_figures_draw},
+    {"dashboard", "Dashboard", 1920, 1080, .computes = SB_VIEW_DASHBOARD, .section = true,
+     .compares = true, .page = sb_dashboard_draw},
+    {"rig", "Thread force and coefficients", 1440, 720, .computes = SB_VIEW_RIG, .whole = true,
+     .valve = sb_rig_page_draw, .rig = sb_rig_page_draw, .fits = is_rig},
+    {"life", "Life over its actuations", 1440, 620, .computes = SB_VIEW_LIFE, .whole = true,
+     .valve = draw_life, .rig = draw_life, .fits = has_life},
+    {"shelf", "Loss on the shelf", 1440, 760, .computes = SB_VIEW_SHELF, .whole = true,
+     .valve = draw_shelf, .rig = draw_shelf, .fits = has_shelf},
 };
 
 const SbRenderView *sb_render_views(size_t *count) {
@@ -57,34 +106,13 @@ const SbRenderView *sb_render_view(const char *name) {
 }
 
 bool sb_render_view_fits(const SbRenderView *view, const SbRun *run, GError **error) {
-  if (strcmp(view->name, "rig") == 0 && !sb_model_is_rig(sb_run_model(run))) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "the view \"rig\" is for the sliding plate (models.motion = rig)");
-    return false;
-  }
-  if (strcmp(view->name, "cutaway") == 0 && sb_model_is_rig(sb_run_model(run))) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "the view \"cutaway\" is for a valve, not for the sliding plate");
-    return false;
-  }
-  if (strcmp(view->name, "life") == 0 && sb_run_summary(run)->life.done == 0) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "the view \"life\" needs more than one actuation (life.actuations)");
-    return false;
-  }
-  if (strcmp(view->name, "shelf") == 0 && sb_run_summary(run)->shelf.points == 0) {
-    const char *why = sb_figure_reason(sb_run_summary(run), sb_figure_find("shelf.loss_kg"));
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the view \"shelf\" has no history: %s",
-                why != NULL ? why : "it was not computed");
-    return false;
-  }
-  return true;
+  return view->fits == NULL || view->fits(run, error);
 }
 
 void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                     unsigned flags, const SbRenderView *view, SbSectionDraw section, void *user) {
-  if (strcmp(view->name, "dashboard") == 0) {
-    sb_dashboard_draw(cr, rect, theme, data, flags, section, user);
+  if (view->page != NULL) {
+    view->page(cr, rect, theme, data, flags, section, user);
     return;
   }
   SbPage frame = sb_page_begin(cr, rect, view->width, view->height, theme);
@@ -93,23 +121,9 @@ void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChar
   unsigned header = page.width < 1000 ? flags | SB_CHART_WHOLE : flags;
   sb_page_header_draw(cr, page, theme, data, header);
   flags |= SB_CHART_PANEL;
-  bool rig = sb_chart_is_rig(&data->run);
-  if (strcmp(view->name, "life") == 0) {
-    sb_life_draw(cr, body, theme, data);
-  } else if (strcmp(view->name, "shelf") == 0) {
-    sb_shelf_draw(cr, body, theme, data);
-  } else if (strcmp(view->name, "rig") == 0) {
-    sb_rig_page_draw(cr, body, theme, data, flags);
-  } else if (strcmp(view->name, "hysteresis") == 0 && rig) {
-    sb_signal_draw(cr, body, theme, data, flags);
-  } else if (strcmp(view->name, "profiles") == 0 && rig) {
-    sb_rig_figures_draw(cr, body, theme, data, flags);
-  } else if (strcmp(view->name, "section") == 0 && rig) {
-    sb_rig_plate_draw(cr, body, theme, data, flags);
-  } else if (strcmp(view->name, "hysteresis") == 0) {
-    sb_hysteresis_draw(cr, body, theme, data, flags);
-  } else if (strcmp(view->name, "profiles") == 0) {
-    sb_profiles_draw(cr, body, theme, data, flags);
+  SbViewDraw *draw = sb_chart_is_rig(&data->run) ? view->rig : view->valve;
+  if (draw != NULL) {
+    draw(cr, body, theme, data, flags);
   } else if (section) {
     SbCanvas canvas;
     sb_canvas_init(&canvas, cr, theme);
@@ -240,8 +254,7 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "there is no view \"%s\"", options->view);
     return false;
   }
-  bool cutaway = strcmp(view->name, "cutaway") == 0;
-  if ((cutaway || strcmp(view->name, "section") == 0) && !options->section) {
+  if (view->section && view->page == NULL && !options->section) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the section cannot be drawn here");
     return false;
   }
@@ -276,10 +289,8 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
   for (size_t i = 0; i < summary->warnings.count; i++) {
     g_string_append_printf(comment, "\nWarning: %s", summary->warnings.item[i].text);
   }
-  bool whole =
-      !options->at && (strcmp(view->name, "hysteresis") == 0 || strcmp(view->name, "rig") == 0 ||
-                       strcmp(view->name, "life") == 0 || strcmp(view->name, "shelf") == 0);
-  Page page = {view, options, sb_theme(options->dark), &data, whole ? SB_CHART_WHOLE : 0};
+  Page page = {view, options, sb_theme(options->dark), &data,
+               view->whole && !options->at ? SB_CHART_WHOLE : 0};
   SbStill still = {.width = options->width > 0 ? options->width : view->width,
                    .height = options->height > 0 ? options->height : view->height,
                    .scale = options->scale,

@@ -7,13 +7,26 @@
 #include "app/document/document.h"
 #include "engine/valve/run/run.h"
 
+// Draws a view into `rect`, below the header of its page; `flags` of SB_CHART_PANEL, ... (data.h).
+typedef void SbViewDraw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                        unsigned flags);
+
 // One view of the table; strings are static.
 typedef struct {
-  const char *name;     // "hysteresis"
-  const char *label;    // "Force and displacement"; translate it to show it
-  double width, height; // size it is designed for [logical pixels]
-  bool section;         // needs the function that draws the section
-  bool compares;        // draws saved designs together with the run
+  const char *name;        // "hysteresis"
+  const char *label;       // "Force and displacement"; translate it to show it
+  double width, height;    // size it is designed for [logical pixels]
+  unsigned computes;       // what a run must compute for it, SB_VIEW_...
+  bool section;            // needs the function that draws the section
+  bool cutaway;            // shows the section in three dimensions
+  bool compares;           // draws saved designs together with the run
+  bool whole;              // a still without a given instant shows the full run
+  SbViewDraw *valve, *rig; // draw a run of a valve, of the sliding plate; NULL: the section
+  // Draws the full page with its own header and footer; NULL: `valve` and `rig` draw its body.
+  void (*page)(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+               unsigned flags, SbSectionDraw section, void *user);
+  // As sb_render_view_fits(); NULL: fits every run.
+  bool (*fits)(const SbRun *run, GError **error);
 } SbRenderView;
 
 // Returns the table; *count is set to the number of rows. Static.

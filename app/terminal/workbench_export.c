@@ -27,25 +27,12 @@ static void write_screen(SbBench *bench, const char *path) {
   }
 }
 
-// The view that a picture shows, and its size; NULL if there is none of that name.
-static const SbRenderView *find_view(const char *name) {
-  size_t count;
-  const SbRenderView *view = sb_render_views(&count);
-  for (size_t i = 0; i < count; i++) {
-    if (strcmp(view[i].name, name) == 0) {
-      return &view[i];
-    }
-  }
-  return NULL;
-}
-
-// At the playhead, in the section's field that is chosen.
-static void start(SbBench *bench, const char *path, const char *name, const SbRenderView *view) {
+// At the playhead, in the section's field that is chosen; `view` NULL: the report.
+static void start(SbBench *bench, const char *path, const SbRenderView *view) {
   SbRunHandle *handle =
       sb_session_may_keep(bench->session) ? sb_session_handle(bench->session) : NULL;
   // A picture says that it is of earlier values; figures would stand beside the wrong ones.
-  const bool figures = strcmp(name, "report") == 0;
-  if (handle == NULL || (figures && sb_session_is_stale(bench->session, NULL, NULL))) {
+  if (handle == NULL || (view == NULL && sb_session_is_stale(bench->session, NULL, NULL))) {
     sb_run_handle_unref(handle);
     sb_bench_status(bench, true, _("No complete run is displayed yet."));
     return;
@@ -57,7 +44,7 @@ static void start(SbBench *bench, const char *path, const char *name, const SbRe
   g_ascii_dtostr(time, sizeof time, frame != NULL ? frame->time : 0);
   SbExportRequest request = {
       .path = g_strdup(path),
-      .view = g_strdup(name),
+      .view = view != NULL ? g_strdup(view->name) : NULL,
       .width = view != NULL ? view->width : 0,
       .height = view != NULL ? view->height : 0,
       .style = sb_section_style_of(sb_run_model(sb_session_run(bench->session))),
@@ -78,21 +65,19 @@ static void start(SbBench *bench, const char *path, const char *name, const SbRe
   };
   sb_export_request_add_compared(&request, bench->session);
   request.style.field = bench->field;
-  request.style.cutaway = strcmp(name, "cutaway") == 0;
+  request.style.cutaway = view != NULL && view->cutaway;
   bench->export = sb_export_job_start(handle, &request, on_export, bench);
   sb_bench_status(bench, false, _("exporting; c cancels"));
 }
 
 void sb_bench_export(SbBench *bench, const char *text) {
   g_autofree char *path = g_strstrip(g_strdup(text));
-  const char *name = "section";
-  const SbRenderView *view = find_view(name);
+  const SbRenderView *view = sb_render_view("section");
   // A last word that is a view's.
   char *last = strrchr(path, ' ');
-  const SbRenderView *named = last != NULL ? find_view(last + 1) : NULL;
+  const SbRenderView *named = last != NULL ? sb_render_view(last + 1) : NULL;
   if (named != NULL || (last != NULL && strcmp(last + 1, "report") == 0)) {
     view = named;
-    name = named != NULL ? named->name : "report";
     *last = '\0';
     g_strchomp(path);
   }
@@ -102,9 +87,9 @@ void sb_bench_export(SbBench *bench, const char *text) {
   } else if (sb_output_ends_in(path, ".txt")) {
     write_screen(bench, path);
   } else if (sb_output_ends_in(path, ".json")) {
-    start(bench, path, "report", NULL);
+    start(bench, path, NULL);
   } else if (view == NULL ? sb_output_ends_in(path, ".pdf") : picture) {
-    start(bench, path, name, view);
+    start(bench, path, view);
   } else {
     g_autofree char *endings = sb_export_endings(SB_FORMAT_ALL, 0, " ", " ");
     sb_bench_status(bench, true,

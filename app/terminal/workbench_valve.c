@@ -168,8 +168,9 @@ static void compare_row(SbBench *bench, int x, int y, const char *label, int fig
                                    run->model != NULL ? sb_model_methods(run->model) : 0};
   }
   const char *unit = sb_figure_compared_unit(figure, design[0].value);
-  g_autofree char *head =
-      strcmp(unit, "N") == 0 ? g_strdup(label) : g_strdup_printf("%s / %s", label, unit);
+  g_autofree char *head = sb_figure(figure)->quantity == SB_FIGURE_QUANTITY_FORCE
+                              ? g_strdup(label)
+                              : g_strdup_printf("%s / %s", label, unit);
   sb_cells_text(cells, x, y, LABEL, head, sb_bench_pen(bench, SB_ROLE_SECOND, 0));
   for (size_t i = 0; i < count; i++) {
     char number[SB_FORMAT_MAX], change[SB_FORMAT_MAX];

@@ -55,9 +55,9 @@ static SbStudy *synthetic(double factor) {
   study->mark[0] = (SbStudyMark){1e-3, "test"};
   g_strlcpy(study->row_heading, "case", sizeof study->row_heading);
   study->column_count = 3;
-  study->column[0] = (SbStudyColumn){"load", "N", "N", 3};
-  study->column[1] = (SbStudyColumn){"load against ring", "1", "%", 3};
-  study->column[2] = (SbStudyColumn){"contact width of the whole ring", "m", "mm", 3};
+  study->column[0] = (SbStudyColumn){"load", "N", "N", 3, false};
+  study->column[1] = (SbStudyColumn){"load against ring", "1", "%", 3, true};
+  study->column[2] = (SbStudyColumn){"contact width of the whole ring", "m", "mm", 3, false};
   study->row_count = 3;
   study->row[0] = (SbStudyRow){"first", "", "", {12.395, 0.0831, 0.8886e-3}};
   study->row[1] = (SbStudyRow){"second", "", "", {-4.37, -0.2, NAN}};

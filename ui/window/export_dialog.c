@@ -113,7 +113,7 @@ static void show_rows(Dialog *dialog) {
   gboolean film = is_film(dialog);
   const SbRenderView *view = view_of(dialog);
   gboolean section = view != NULL && view->section;
-  gboolean cutaway = view != NULL && strcmp(view->name, "cutaway") == 0;
+  gboolean cutaway = view != NULL && view->cutaway;
   const struct {
     GtkWidget *widget;
     gboolean shown;
@@ -281,8 +281,7 @@ static SbSectionStyle style_of(Dialog *dialog) {
   double azimuth, elevation; // as the window shows it
   sb_session_camera(dialog->session, &azimuth, &elevation);
   return (SbSectionStyle){
-      .cutaway =
-          g_strcmp0(halves, "cutaway") == 0 || g_strcmp0(view_of(dialog)->name, "cutaway") == 0,
+      .cutaway = g_strcmp0(halves, "cutaway") == 0 || view_of(dialog)->cutaway,
       .azimuth = azimuth,
       .elevation = elevation,
       .inset_seal = g_strcmp0(insets, "inner") == 0 ? SB_INNER : SB_OUTER,

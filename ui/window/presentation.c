@@ -141,16 +141,18 @@ static void draw_picture(Presentation *self, cairo_t *cr, SbRect rect, const SbT
     draw_table(cr, rect, theme, data);
     return;
   }
-  const gboolean cutaway = strcmp(name, "cutaway") == 0 && !sb_chart_is_rig(&data->run);
-  SbRenderView view = *sb_render_view(cutaway || strcmp(name, "cutaway") != 0 ? name : "section");
+  SbRenderView view = *sb_render_view(name);
+  if (view.cutaway && sb_chart_is_rig(&data->run)) { // of the plate there is none
+    view = *sb_render_view("section");
+  }
   view.width *= pictures[self->picture].share;
   view.height *= pictures[self->picture].share;
   const SbRun *run = sb_session_run(self->session);
   SbSectionPainter *painter =
-      self->painter[cutaway || (run != NULL && sb_run_plan(run)->section_fields)];
+      self->painter[view.cutaway || (run != NULL && sb_run_plan(run)->section_fields)];
   if (data->run.model != NULL) {
     SbSectionStyle style = sb_section_style_of(data->run.model);
-    style.cutaway = cutaway;
+    style.cutaway = view.cutaway;
     sb_session_camera(self->session, &style.azimuth, &style.elevation);
     sb_section_painter_style(painter, &style);
   }

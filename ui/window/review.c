@@ -64,7 +64,6 @@ static void write_report(Review *review, char *path) {
   const gboolean measured = sb_session_measured(session) != NULL;
   SbExportRequest request = {
       .path = path,
-      .view = g_strdup("report"),
       .measured = measured ? sb_data_copy(sb_document_data(document, 0)) : NULL,
       .drive_speed = sb_session_drive_speed(session),
       .file = g_strdup(sb_document_path(document)),

@@ -62,6 +62,7 @@ typedef enum {
   X(NUMBER, "1")                                                                                   \
   X(FRACTION, "1") /* a part of a total, 0 to 1 */                                                 \
   X(LENGTH, "m")                                                                                   \
+  X(FILM, "m") /* thickness, displayed in nm or µm */                                             \
   X(VOLUME, "m3")                                                                                  \
   X(TIME, "s")                                                                                     \
   X(SPEED, "m/s")                                                                                  \

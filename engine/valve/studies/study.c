@@ -78,6 +78,7 @@ static void put_design(SbStudyWork *work) {
   }
   for (int k = 0; k < SB_STUDY_COLUMNS && design->column[k] != NULL; k++) {
     sb_study_column(work, design->column[k], design->digits[k], design->line[k], design->value[k]);
+    out->column[k].difference = design->difference[k];
   }
   const char *const text[] = {design->row_heading, design->models, design->validity};
   sb_text(out->row_heading, sizeof out->row_heading, "%s", text[0] != NULL ? text[0] : "");

@@ -41,7 +41,8 @@ typedef enum {
 typedef struct {
   char name[40]; // for the legend; curves of one name in several panels show one subject
   SbStudyStyle style;
-  size_t count;                                  // number of points
+  int seal;     // 1 + SB_OUTER, 1 + SB_INNER: drawn in the colour of the seal; 0: not of one seal
+  size_t count; // number of points
   double x[SB_STUDY_POINTS], y[SB_STUDY_POINTS]; // in the axes' SI units
 } SbStudySeries;
 
@@ -65,6 +66,7 @@ typedef struct {
   char name[40];         // heading
   char si[16], unit[16]; // as in SbStudyAxis
   int digits;            // significant digits for display
+  bool difference;       // the values are differences: positive ones are shown with a plus
 } SbStudyColumn;
 
 // A row of the table.

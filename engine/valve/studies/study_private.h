@@ -30,6 +30,7 @@ typedef struct {
   const char *row_heading; // of the table; NULL: none, or make() sets it
   const char *column[SB_STUDY_COLUMNS];                // quantities of the columns; NULL: end
   int digits[SB_STUDY_COLUMNS];                        // significant digits; 0: three
+  bool difference[SB_STUDY_COLUMNS];                   // SbStudyColumn.difference
   int line[SB_STUDY_COLUMNS], value[SB_STUDY_COLUMNS]; // cells show this value of this line
   const char *models, *validity;                       // as in SbStudy; NULL: make() sets them
   bool grid;    // it has the grid of assets/studies/NAME.study (SbStudyGrid)

@@ -72,6 +72,8 @@ const SbStudyDesign sb_study_squeeze = {
                "width [mm]", "width against ring [%]", "load against ring at 10 % [%]",
                "load against ring at 20 % [%]", "load against ring at 30 % [%]",
                "load against ring at 40 % [%]"},
+    .difference =
+        {[1] = true, [3] = true, [5] = true, [6] = true, [7] = true, [8] = true, [9] = true},
     .models = "ring, disc, disc-thesis, Lindley (eq. 2.8, 2.10), Green & English (radial), Hertz, "
               "Karaszkiewicz",
     .validity = "Lindley to 25 %, Green & English to 32 %, Karaszkiewicz 7 to 25 %, discs: linear "

@@ -49,6 +49,11 @@ static void make(SbStudyWork *work) {
   const double scene_time = model->seal[SB_OUTER].stored.storage_time;
   sb_study_curves(work, SB_STUDY_CURVE, "outer seal", SB_OUTER, NULL, POINTS);
   sb_study_curves(work, SB_STUDY_CURVE, "inner seal", SB_INNER, NULL, POINTS);
+  for (size_t p = 0; p < out->panel_count; p++) {
+    for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+      out->panel[p].series[seal].seal = 1 + seal;
+    }
+  }
   for (int i = 0; i < TIMES; i++) {
     if (times[i].time <= work->hi) {
       sb_study_cells(sb_study_row(out, "%s", times[i].name)->value, work, times[i].time, 0);
