@@ -45,18 +45,15 @@ char *sb_cli_store_path(const char *given, const SbStudyFile *study) {
 }
 
 static bool set_list(SbStore *store, const SbStudyFile *study, GError **error) {
-  g_autoptr(GPtrArray) parameters = g_ptr_array_new(), figures = g_ptr_array_new();
+  const char *name[SB_VARY_MAX];
   for (guint i = 0; i < study->vary->len; i++) {
-    const SbVary *vary = &g_array_index(study->vary, SbVary, i);
-    g_ptr_array_add(parameters, (gpointer)sb_vary_name(vary));
+    name[i] = sb_vary_name(&g_array_index(study->vary, SbVary, i));
   }
-  for (guint i = 0; i < study->figures->len; i++) {
-    g_ptr_array_add(figures, (gpointer)sb_figure(g_array_index(study->figures, int, i))->path);
-  }
-  g_ptr_array_add(parameters, NULL);
-  g_ptr_array_add(figures, NULL);
-  return sb_store_set_list(store, (const char *const *)parameters->pdata,
-                           (const char *const *)figures->pdata, error);
+  const SbQuestions asked = {.store = store,
+                             .parameters = study->vary->len,
+                             .figure = (const int *)(const void *)study->figures->data,
+                             .figures = study->figures->len};
+  return sb_answers_set_list(&asked, name, error);
 }
 
 // Opens the store; what is damaged is reported, saved where it can be, and computed again.

@@ -25,7 +25,17 @@ typedef struct {
   const char *help; // sentence for the user
 } SbTextKey;
 
-// Returns the table of these keys; the last one has the key NULL. Static.
+// Keys that name a file. Those from SB_FILE_SECTION on are drawings, which edits can change.
+typedef enum {
+  SB_FILE_DRIVE,   // measured series of the drive
+  SB_FILE_SHELF,   // temperatures of a shelf
+  SB_FILE_SECTION, // drawing of the seals' section
+  SB_FILE_GROOVE,  // drawing of the groove
+  SB_FILE_COUNT
+} SbFileKey;
+
+// Returns the table of the keys with a text: those of the files by SbFileKey, then that of the
+// rubber (SB_FILE_COUNT); the last row has the key NULL. Static.
 const SbTextKey *sb_document_text_keys(void);
 
 // Kind of the file. A project is a scene (sb_document_is_project()).

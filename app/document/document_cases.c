@@ -67,14 +67,14 @@ const char *sb_document_case_name(const SbDocument *document, size_t index) {
 static void put_setting(SbParams *params, bool *set, SbNamedRubber **rubber,
                         const SbDocument *document, const SbCase *one, const char *path,
                         const char *setting, GPtrArray *issues) {
-  const char *equal = strchr(setting, '=');
-  if (equal == NULL || equal == setting) {
+  const char *text;
+  g_autofree char *key = sb_document_split(&text, setting);
+  if (key == NULL) {
     sb_issues_add(issues, one->shown, 0, path, "KEY=VALUE; KEY=VALUE", "\"%s\" is not KEY=VALUE",
                   setting);
     return;
   }
-  g_autofree char *key = g_strstrip(g_strndup(setting, (gsize)(equal - setting)));
-  g_autofree char *value_text = g_strstrip(g_strdup(equal + 1));
+  g_autofree char *value_text = g_strstrip(g_strdup(text));
   int id = sb_param_find(key);
   if (strcmp(key, SB_RUBBER_KEY) == 0) {
     g_autofree char *folder = document->path != NULL ? g_path_get_dirname(document->path) : NULL;

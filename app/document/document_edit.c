@@ -212,31 +212,40 @@ bool sb_document_read_value(double *out, const SbDocument *document, SbParamId i
   return true;
 }
 
+char *sb_document_split(const char **value, const char *setting) {
+  const char *equal = strchr(setting, '=');
+  if (equal == NULL || equal == setting) {
+    return NULL;
+  }
+  *value = equal + 1;
+  return g_strstrip(g_strndup(setting, (gsize)(equal - setting)));
+}
+
 bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray *issues) {
-  const char *equal = strchr(option, '=');
-  if (!g_utf8_validate(option, -1, NULL) || equal == NULL || equal == option) {
+  const char *text;
+  g_autofree char *key = sb_document_split(&text, option);
+  if (!g_utf8_validate(option, -1, NULL) || key == NULL) {
     sb_issues_add(issues, "--set", 0, NULL, NULL, "\"%s\" is not KEY=VALUE", option);
     return false;
   }
-  char *key = g_strstrip(g_strndup(option, (size_t)(equal - option)));
   int id = sb_param_find(key);
   double value = 0;
   GError *error = NULL;
   bool good = false;
   if (strcmp(key, SB_RUBBER_KEY) == 0) {
-    SbNamedRubber *rubber = sb_named_rubber_read(equal + 1, NULL, "--set", 0, issues);
+    SbNamedRubber *rubber = sb_named_rubber_read(text, NULL, "--set", 0, issues);
     good = rubber != NULL;
     if (good) {
       sb_document_put_rubber(document, &document->own_rubber, rubber);
     }
   } else if (sb_document_find_file(key) >= 0) {
-    g_autofree char *name = g_strstrip(g_strdup(equal + 1));
+    g_autofree char *name = g_strstrip(g_strdup(text));
     good = sb_document_read_file(document, (SbFileKey)sb_document_find_file(key), name, NULL, false,
                                  "--set", 0, issues);
   } else if (id < 0) {
     g_autofree char *hint = issues->len < SB_ISSUES_MAX ? sb_document_key_hint(key) : NULL;
     sb_issues_add(issues, "--set", 0, key, NULL, "unknown key%s", hint != NULL ? hint : "");
-  } else if (!sb_document_read_value(&value, document, (SbParamId)id, equal + 1, &error)) {
+  } else if (!sb_document_read_value(&value, document, (SbParamId)id, text, &error)) {
     char *range = sb_param_range((SbParamId)id);
     sb_issues_add(issues, "--set", 0, key, range, "%s", error->message);
     g_free(range);
@@ -245,10 +254,9 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
     good = sb_document_set_value(document, (SbParamId)id, value, false, NULL);
     sb_document_note_override(document, (SbParamId)id, "--set");
     if (good && sb_hardness_applies((SbParamId)id)) {
-      sb_document_note_hardness(document, key, equal + 1);
+      sb_document_note_hardness(document, key, text);
     }
   }
-  g_free(key);
   return good;
 }
 
@@ -268,8 +276,9 @@ void sb_document_set_options(SbDocument *document, char *const *settings, GPtrAr
   // Sizes of the document's own file that a changed size leaves as they are.
   bool set[SB_PARAM_COUNT] = {false};
   for (char *const *setting = settings; setting != NULL && *setting != NULL; setting++) {
-    g_autofree char *key = g_strndup(*setting, strcspn(*setting, "="));
-    const int id = sb_param_find(g_strstrip(key));
+    const char *value;
+    g_autofree char *key = sb_document_split(&value, *setting);
+    const int id = key != NULL ? sb_param_find(key) : -1;
     if (id >= 0) {
       set[id] = true;
     }

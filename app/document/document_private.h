@@ -17,14 +17,9 @@
 #define SB_CASES_GROUP  "cases"
 #define SB_PINS_GROUP   "pins"
 
-// Keys that name a file. Those from SB_FILE_SECTION on are drawings, which edits can change.
-typedef enum {
-  SB_FILE_DRIVE,   // measured series of the drive
-  SB_FILE_SHELF,   // temperatures of a shelf
-  SB_FILE_SECTION, // drawing of the seals' section
-  SB_FILE_GROOVE,  // drawing of the groove
-  SB_FILE_COUNT
-} SbFileKey;
+// Splits "KEY=VALUE". Returns the key, and sets *value to the text after the equals sign, in
+// `setting`; NULL: there is no equals sign or no key. Freed by g_free().
+char *sb_document_split(const char **value, const char *setting);
 
 // Returns the key of an SbFileKey ("drive.file"). Static.
 const char *sb_document_file_key(int key);

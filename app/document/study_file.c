@@ -2,6 +2,7 @@
 #include "app/document/study_file_private.h"
 
 #include "app/base/nearest.h"
+#include "app/base/own_model.h"
 #include "app/base/reader.h"
 
 #include <math.h>
@@ -461,8 +462,8 @@ static SbStudyFile *parse(const char *text, size_t length, const char *name, con
   if (read_meta(&reader, &scene_name)) {
     if (model == NULL) {
       open_scene(&reader, scene_name, settings, directory);
-    } else if (sb_model_copy(&study->base, model) != SB_OK) {
-      sb_issues_add(issues, name, 0, NULL, NULL, "no memory for a model");
+    } else {
+      study->base = sb_own_model(model);
     }
     hold_base(&reader);
     study->data = sb_data_read(entries, directory, name, issues);

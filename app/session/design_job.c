@@ -126,7 +126,8 @@ static bool ask_points(SbDesignJob *job, size_t step, GError **error) {
                              .cancelled = is_cancelled,
                              .data = job};
   SbAnswers answers = {0};
-  const bool good = sb_answers_set_list(&asked, error) && sb_answers_get(&answers, &asked, error);
+  const bool good =
+      sb_answers_set_list(&asked, NULL, error) && sb_answers_get(&answers, &asked, error);
   lock(job);
   for (size_t i = 0; good && i < answers.samples; i++) {
     if (answers.status[i] != SB_ANSWER_MISSING) {
@@ -232,7 +233,7 @@ static bool draw_valves(SbDesignPlace *at, SbDesignJob *job, GError **error) {
                              .cancelled = is_cancelled,
                              .data = job};
   SbAnswers answers = {0};
-  const bool good = status == SB_OK && sb_answers_set_list(&asked, error) &&
+  const bool good = status == SB_OK && sb_answers_set_list(&asked, NULL, error) &&
                     sb_answers_get(&answers, &asked, error);
   if (status != SB_OK) {
     g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, report.text);

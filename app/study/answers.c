@@ -382,11 +382,11 @@ static bool compute(SbAnswerSink *sink, const uint32_t *todo) {
   return sink->taken == sink->todo;
 }
 
-bool sb_answers_set_list(const SbQuestions *asked, GError **error) {
+bool sb_answers_set_list(const SbQuestions *asked, const char *const *name, GError **error) {
   g_autofree const char **parameter = g_new0(const char *, asked->parameters + 1);
   g_autofree const char **figure = g_new0(const char *, asked->figures + 1);
   for (size_t i = 0; i < asked->parameters; i++) {
-    parameter[i] = sb_param(asked->parameter[i])->key;
+    parameter[i] = name != NULL ? name[i] : sb_param(asked->parameter[i])->key;
   }
   for (size_t i = 0; i < asked->figures; i++) {
     figure[i] = sb_figure(asked->figure[i])->path;

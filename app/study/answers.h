@@ -57,10 +57,10 @@ typedef struct {
   double seconds;       // time that they took [s]
 } SbAnswers;
 
-// Sets the list of questions->store, which is not NULL (sb_store_set_list()): the keys of the
-// parameters, none of them SB_QUESTION_NONE, and the paths of the figures. Returns false with
-// SB_APP_ERROR_IO.
-bool sb_answers_set_list(const SbQuestions *questions, GError **error);
+// Sets the list of questions->store, which is not NULL (sb_store_set_list()): the names of the
+// parameters and the paths of the figures. `name`: [questions->parameters] names; NULL: the keys of
+// the parameters, none of which is SB_QUESTION_NONE. Returns false with SB_APP_ERROR_IO.
+bool sb_answers_set_list(const SbQuestions *questions, const char *const *name, GError **error);
 
 // Computes or reads the results, and commits the store. If there is a store, the caller has set its
 // list to these parameters and figures (sb_answers_set_list() or sb_store_set_list()). Call

@@ -92,25 +92,29 @@ static gboolean is_listed(SbParamPanel *panel, const SbParams *params, const cha
                                                     : TRUE;
 }
 
+// Whether a search finds the row of a key with a text (SbFileKey; SB_FILE_COUNT: the rubber).
+static gboolean is_found(int key, const char *words, const char *needle) {
+  return strstr(sb_document_text_keys()[key].key, needle) != NULL || strstr(words, needle) != NULL;
+}
+
 static gboolean is_rubber_listed(SbParamPanel *panel, const char *needle) {
   const SbDocument *document = sb_session_document(panel->session);
   return needle[0] != '\0'
-             ? strstr("rubber.name", needle) != NULL ||
-                   strstr(C_("search", "rubber"), needle) != NULL
+             ? is_found(SB_FILE_COUNT, C_("search", "rubber"), needle)
              : panel->filter == SB_PARAM_FILTER_ALL || (panel->filter == SB_PARAM_FILTER_CHANGED &&
                                                         sb_document_rubber(document) != NULL);
 }
 
 static gboolean is_section_listed(SbParamPanel *panel, const SbParams *params, const char *needle) {
-  return needle[0] != '\0' ? strstr("seal.profile_file", needle) != NULL ||
-                                 strstr(C_("search", "section drawn file dxf step"), needle) != NULL
+  const char *words = C_("search", "section drawn file dxf step");
+  return needle[0] != '\0' ? is_found(SB_FILE_SECTION, words, needle)
                            : is_listed(panel, params, needle, SB_P_SEAL_PROFILE);
 }
 
 static gboolean is_groove_listed(SbParamPanel *panel, const SbParams *params, const char *needle) {
   const SbDocument *document = sb_session_document(panel->session);
-  return needle[0] != '\0' ? strstr("gland.profile_file", needle) != NULL ||
-                                 strstr(C_("search", "groove drawn file dxf step"), needle) != NULL
+  const char *words = C_("search", "groove drawn file dxf step");
+  return needle[0] != '\0' ? is_found(SB_FILE_GROOVE, words, needle)
                            : is_listed(panel, params, needle, SB_P_GLAND_CORNER_RADIUS) ||
                                  (panel->filter == SB_PARAM_FILTER_CHANGED &&
                                   sb_document_groove(document) != NULL);

@@ -2,6 +2,7 @@
 // The temperature is the cursor's: it follows the valve's own until it is moved.
 #include "ui/window/propellants_page.h"
 
+#include "app/base/own_model.h"
 #include "app/base/translation.h"
 #include "app/base/unit.h"
 #include "app/chart/propellants.h"
@@ -146,13 +147,11 @@ static void compute(gpointer data) {
   end_job(page);
   if (model != NULL && !(page->study != NULL && !is_former(page))) {
     sb_model_destroy(page->asked);
-    page->asked = NULL;
-    if (sb_model_copy(&page->asked, model) == SB_OK) {
-      say(page, "");
-      gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), 0);
-      page->job = sb_study_job_start(SB_STUDY_PROPELLANTS, model, on_done, page);
-      sb_later_repeat(&page->poll, page->box, 50, on_poll, page);
-    }
+    page->asked = sb_own_model(model);
+    say(page, "");
+    gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), 0);
+    page->job = sb_study_job_start(SB_STUDY_PROPELLANTS, model, on_done, page);
+    sb_later_repeat(&page->poll, page->box, 50, on_poll, page);
   }
   refresh(page);
 }

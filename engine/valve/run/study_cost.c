@@ -14,18 +14,32 @@ typedef struct {
   int speeds;       // films of its states at other speeds
 } Solves;
 
-// Points of the curves, then rows of the table; a study that solves other numbers has a wrong
-// prediction, not a wrong answer.
+enum {
+  STORAGE = (SB_STORAGE_POINTS + SB_STORAGE_TIMES + 1) * SB_SEAL_COUNT,
+  MODELS = SB_MODELS_PRESSURES + SB_MODELS_SIZES,
+  CYCLES = 1 + 2 * (SB_TOLERANCE_SIZES * SB_TOLERANCE_STEPS + SB_TOLERANCE_FIGURES),
+  ANSWERS =
+      SB_PROPELLANTS_FLUIDS * (SB_PROPELLANTS_POINTS + SB_PROPELLANTS_TABLE * SB_PROPELLANTS_PARTS),
+  FILMS = 10 // films of a cycle
+};
+
+// Points of the curves, then rows of the table.
 static const Solves solves_of[SB_STUDY_COUNT] = {
-    [SB_STUDY_SQUEEZE] = {.rings = 2 * (20 + 1 + 4), .discs = 2 * (39 + 1 + 4)},
-    [SB_STUDY_MODELS] = {.rings = 5 + 5, .discs = 2 * (5 + 5)},
-    [SB_STUDY_FILM_LAW] = {.reynolds = 14 * 5 + 2},
-    [SB_STUDY_STORAGE] = {.fits = (33 + 7 + 1) * SB_SEAL_COUNT,
-                          .films = (33 + 7 + 1) * SB_SEAL_COUNT},
-    [SB_STUDY_LEAK] = {.rings = 2 * (2 * (20 + 9) + 11), .discs = 39, .films = 5 * 39},
-    [SB_STUDY_STRIBECK] = {.runs = 1, .speeds = 4 * 41},
-    [SB_STUDY_TOLERANCE] = {.fits = 2 * 39, .films = 10 * 39, .cycles = 39},
-    [SB_STUDY_PROPELLANTS] = {.fits = 2 * 216, .films = 10 * 216, .cycles = 216},
+    [SB_STUDY_SQUEEZE] = {.rings = 2 * (SB_SQUEEZE_RING_POINTS + 1 + SB_SQUEEZE_TABLE),
+                          .discs = 2 * (SB_SQUEEZE_DISC_POINTS + 1 + SB_SQUEEZE_TABLE)},
+    [SB_STUDY_MODELS] = {.rings = MODELS, .discs = 2 * MODELS},
+    [SB_STUDY_FILM_LAW] = {.reynolds = SB_FILM_LAW_SPEEDS * SB_FILM_LAW_LOADS + 2},
+    [SB_STUDY_STORAGE] = {.fits = STORAGE, .films = STORAGE},
+    [SB_STUDY_LEAK] = {.rings = 2 * (2 * (SB_LEAK_RING_POINTS + SB_LEAK_FINE) + SB_LEAK_ROWS),
+                       .discs = SB_LEAK_POINTS,
+                       .films = SB_LEAK_LINES * SB_LEAK_POINTS},
+    [SB_STUDY_STRIBECK] = {.runs = 1, .speeds = SB_STRIBECK_LINES * SB_STRIBECK_POINTS},
+    [SB_STUDY_TOLERANCE] = {.fits = SB_SEAL_COUNT * CYCLES,
+                            .films = FILMS * CYCLES,
+                            .cycles = CYCLES},
+    [SB_STUDY_PROPELLANTS] = {.fits = SB_SEAL_COUNT * ANSWERS,
+                              .films = FILMS * ANSWERS,
+                              .cycles = ANSWERS},
 };
 
 double sb_study_cost(SbStudyKind kind, const SbModel *model) {

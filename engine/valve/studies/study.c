@@ -1,7 +1,6 @@
 // The table of studies and the pieces that they are made of.
 #include "engine/valve/studies/study.h"
 
-#include "engine/valve/run/study_cost.h"
 #include "engine/valve/states/sliding.h"
 #include "engine/valve/studies/hold.h"
 #include "engine/valve/studies/study_private.h"

@@ -15,7 +15,7 @@
 #include <gsl/gsl_multifit.h>
 #include <math.h>
 
-enum { SPEEDS = 14, LOADS = 5, CURVE = 41, GRID = SPEEDS * LOADS };
+enum { SPEEDS = SB_FILM_LAW_SPEEDS, LOADS = SB_FILM_LAW_LOADS, CURVE = 41, GRID = SPEEDS * LOADS };
 enum { CENTRAL, LEAST, FILMS };
 enum { GIVEN = 4, LAWS = FILMS + GIVEN }; // ours first
 

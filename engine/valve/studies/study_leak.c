@@ -16,7 +16,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { POINTS = 39, RING_POINTS = 20, FINE = 9, ROWS = 11, LINES = 5 };
+enum {
+  POINTS = SB_LEAK_POINTS,
+  RING_POINTS = SB_LEAK_RING_POINTS,
+  FINE = SB_LEAK_FINE,
+  ROWS = SB_LEAK_ROWS,
+  LINES = SB_LEAK_LINES
+};
 enum { PRESSURE, LEAK, STROKE, WIDTH, FIGURES = 3 };
 
 // Lines of assets/studies/leak.study: the ring, the disc, the scene's own model, each without

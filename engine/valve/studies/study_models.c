@@ -32,8 +32,8 @@ static const struct {
     [KARASZKIEWICZ] = {"Karaszkiewicz", SB_STUDY_REFERENCE},
 };
 
-static const double pressures[] = {0, 0.13e6, 0.29e6, 0.55e6, 0.7e6};
-enum { PRESSURES = sizeof pressures / sizeof pressures[0], SIZES = 5 };
+enum { PRESSURES = SB_MODELS_PRESSURES, SIZES = SB_MODELS_SIZES };
+static const double pressures[PRESSURES] = {0, 0.13e6, 0.29e6, 0.55e6, 0.7e6};
 
 #define STEP 0.02e-3 // of d and ID [m]
 

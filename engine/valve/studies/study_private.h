@@ -13,6 +13,7 @@
 #include "engine/valve/answer/evaluate.h"
 #include "engine/valve/model/model.h"
 #include "engine/valve/run/cost.h"
+#include "engine/valve/run/study_cost.h"
 #include "engine/valve/studies/study.h"
 
 // Capacities: values of one place, stored places, points of a law.

@@ -29,8 +29,17 @@
 enum { FORCE, BREAKAWAY, RETURN, DOSE, FIGURES, MODULUS = FIGURES, STRAIN = FIGURES }; // or p/E
 // A line is a fluid, and what of it is at the temperature: all, or one of the parts.
 enum { ALL, PRESSURE, FILM, RUBBER, EXPANSION, PARTS, SOLVED = PARTS };
+_Static_assert((int)PARTS == (int)SB_PROPELLANTS_PARTS, "other parts");
 // A full cycle at 15 temperatures, every 5 degC of the default range; where it costs little 29.
-enum { POINTS = 29, CYCLES = 15, FLUIDS = 4, TABLE = 5, FIRST = 6, MORE = 2, MOST = 8 };
+enum {
+  POINTS = SB_PROPELLANTS_POINTS,
+  CYCLES = 15,
+  FLUIDS = SB_PROPELLANTS_FLUIDS,
+  TABLE = SB_PROPELLANTS_TABLE,
+  FIRST = 6,
+  MORE = 2,
+  MOST = 8
+};
 
 // Propellants come first behind the fluid without figures. The grid of
 // assets/studies/propellants.study has all of each.

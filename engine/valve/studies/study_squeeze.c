@@ -18,10 +18,10 @@ static const struct {
   SbStudyStyle style;
   int points; // over the range
 } models[MODELS] = {
-    [RING] = {"ring", SB_STUDY_CURVE, 20},
-    [RING_UNSTRETCHED] = {"ring, not stretched", SB_STUDY_CURVE, 20},
-    [DISC] = {"disc", SB_STUDY_CURVE, 39},
-    [DISC_THESIS] = {"disc-thesis", SB_STUDY_CURVE, 39},
+    [RING] = {"ring", SB_STUDY_CURVE, SB_SQUEEZE_RING_POINTS},
+    [RING_UNSTRETCHED] = {"ring, not stretched", SB_STUDY_CURVE, SB_SQUEEZE_RING_POINTS},
+    [DISC] = {"disc", SB_STUDY_CURVE, SB_SQUEEZE_DISC_POINTS},
+    [DISC_THESIS] = {"disc-thesis", SB_STUDY_CURVE, SB_SQUEEZE_DISC_POINTS},
     [LINDLEY] = {"Lindley", SB_STUDY_REFERENCE, 77},
     [GREEN] = {"Green & English", SB_STUDY_REFERENCE, 77},
     [HERTZ] = {"Hertz", SB_STUDY_REFERENCE, 77},
@@ -29,8 +29,8 @@ static const struct {
 };
 
 // Squeezes of the table in addition to the design's own.
-static const double table_squeeze[] = {0.10, 0.20, 0.30, 0.40};
-enum { TABLE = sizeof table_squeeze / sizeof table_squeeze[0] };
+enum { TABLE = SB_SQUEEZE_TABLE };
+static const double table_squeeze[TABLE] = {0.10, 0.20, 0.30, 0.40};
 
 static double against_ring(SbStudyWork *work, int line, double squeeze, int quantity) {
   const double value = sb_study_at(work, line, squeeze)[quantity];

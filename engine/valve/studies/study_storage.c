@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { POINTS = 33, TIMES = 7 };
+enum { POINTS = SB_STORAGE_POINTS, TIMES = SB_STORAGE_TIMES };
 enum { LOAD, FRICTION, SQUEEZE, MODULUS, SECTION, NETWORK, SET, UPTAKE };
 
 static const struct {

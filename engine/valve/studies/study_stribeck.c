@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { POINTS = 41, LINES = 4 };
+enum { POINTS = SB_STRIBECK_POINTS, LINES = SB_STRIBECK_LINES };
 enum { COEFFICIENT, AREA, RATIO, CENTRAL, LEAST, BOUNDARY, VISCOUS, SHARE };
 
 static const struct {

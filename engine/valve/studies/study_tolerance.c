@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-enum { SIZES = 7, STEPS = 2, FIGURES = 5 }; // STEPS on either side of the nominal size
+enum { SIZES = SB_TOLERANCE_SIZES, STEPS = SB_TOLERANCE_STEPS, FIGURES = SB_TOLERANCE_FIGURES };
 enum { LOAD_OUTER, BREAKAWAY, RETURN, LOAD_INNER, DOSE, TURNED };
 
 // A line of assets/studies/tolerance.study is a size. The corners follow: a bit for each size that
