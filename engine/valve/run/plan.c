@@ -202,13 +202,149 @@ static SbShelfDepth shelf_wished(const SbModel *model, unsigned views) {
   return depth;
 }
 
+// Predicted processor times [s] of the parts of a run of the valve.
+typedef struct {
+  double states; // films and friction of all states
+  double ring;   // solved rings
+  double motion; // motion of one actuation
+  double speeds; // films at other speeds
+  double life;   // actuations of a life
+} Costs;
+
+static void valve_costs(Costs *out, const SbPlan *plan, const SbModel *model) {
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED, finds = finds_speed(model);
+  const bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
+  const bool solved = sb_film_kind(model->film)->coupled, body = sb_fit_kind(model->fit)->body;
+  const SbCounters *n = &plan->expected;
+  const int fits = count_fits(model);
+  const double on_body = plan->reynolds && body ? SB_COST_FILM_FITTED : 0;
+  const double film = coupled ? SB_COST_FILM_MIXED : sb_cost_film(model->film);
+  const double films = solved || coupled ? (double)(n->reynolds_solves - n->speed_nodes)
+                                         : 2.0 * fits * (finds ? OWN_SPEED_ROUNDS : 1);
+  const double at_speed = sb_cost_speed_state(model);
+  // Each film on the half-plane has one on the fitted body in addition.
+  out->states = model->kind == SB_VALVE_GASKET ? 2.0 * fits * SB_COST_ROUGH
+                : on_body > 0 && !coupled      ? films / 2 * (film + on_body)
+                                               : films * at_speed;
+  const double rests = fits; // of rings
+  const double dragged = (double)n->fit_solves - rests;
+  out->ring = sb_cost_ring_share(model->tolerance) *
+              (rests * SB_COST_RING + dragged * SB_COST_RING_DRAGGED);
+  out->motion = !inertia ? 0
+                : finds  ? (1 + OWN_SPEED_ROUNDS) * SB_COST_DYNAMICS_OWN
+                         : SB_COST_DYNAMICS;
+  out->speeds = (double)n->speed_nodes * at_speed;
+  // Whole runs of a life with coupled asperities: some twenty (measured: 10 at a tolerance of 1 %,
+  // 56 at 0.1 %).
+  enum { LIVED = 20 };
+  const double lived = model->life_actuations < LIVED ? model->life_actuations : LIVED;
+  out->life = coupled ? lived * (out->states + out->speeds + out->ring + out->motion)
+                      : model->life_actuations * (inertia ? SB_COST_DYNAMICS : SB_COST_ACTUATION);
+}
+
+// Reasons of the rows that name choices and numbers of the model.
+typedef struct {
+  char law[32], motion[32]; // choices of models.film and models.motion
+  char fit[160], ring[160], film[160], life[160], profiles[160], sections[160];
+  char frames[48], joints[80];
+} Texts;
+
+static void valve_texts(Texts *out, const SbModel *model, unsigned drawn, unsigned sections,
+                        int shapes) {
+  char profiles_by[96], sections_by[96];
+  sb_model_choice_name(model, SB_P_MODELS_FILM, out->law, sizeof out->law);
+  sb_model_choice_name(model, SB_P_MODELS_MOTION, out->motion, sizeof out->motion);
+  mask_names(SB_P_OUTPUT_VIEWS, drawn, profiles_by, sizeof profiles_by);
+  mask_names(SB_P_OUTPUT_VIEWS, sections, sections_by, sizeof sections_by);
+  sb_message(out->fit, sizeof out->fit,
+             "friction and film need them; %d pressure differences over two seals",
+             count_fits(model));
+  sb_message(out->ring, sizeof out->ring, "models.fit = %s already gives load and width",
+             sb_fit_kind(model->fit)->name);
+  sb_message(out->film, sizeof out->film, "models.film = %s is sufficient for the friction",
+             out->law);
+  sb_message(out->life, sizeof out->life, "%d actuations while the roughness runs in; %s",
+             model->life_actuations,
+             model->asperities == SB_MODEL_ASPERITIES_COUPLED
+                 ? "films between coupled asperities are solved at some of them"
+                 : "fitment and film are the first's");
+  sb_message(out->profiles, sizeof out->profiles, "drawn by %s; each seal's states and at rest",
+             profiles_by);
+  sb_message(out->sections, sizeof out->sections,
+             "drawn by %s: %d shapes, those of the states and over the land's edge", sections_by,
+             shapes);
+  sb_text(out->frames, sizeof out->frames, "figures of the cycle, %d frames", model->frames);
+  sb_text(out->joints, sizeof out->joints, "models.motion = bodies requests them, %d joints",
+          SB_VALVE_JOINTS);
+}
+
+// Adds a row for each part of a run of the valve.
+static void add_valve_rows(SbPlan *plan, const SbModel *model, const Costs *costs,
+                           const Texts *texts, bool draws_section) {
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool gasket = model->kind == SB_VALVE_GASKET; // whose film is a closed form of its pressure
+  const bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
+  const bool on_body = plan->reynolds && sb_fit_kind(model->fit)->body;
+  const SbCounters *n = &plan->expected;
+  const char *fit = sb_fit_kind(model->fit)->name;
+  const double fit_off = fit_error(model), film_off = film_error(model);
+  const Row rows[] = {
+      {true, "contact load and width", fit,
+       plan->ring ? costs->ring : (double)n->fit_solves * sb_cost_fit(model->fit), fit_off,
+       texts->fit, NULL},
+      {plan->ring, "ring", "", 0, 0, NULL, texts->ring},
+      {true, "film",
+       gasket    ? "blok"
+       : coupled ? "reynolds with asperities"
+                 : texts->law,
+       costs->states, film_off,
+       gasket    ? "a gasket's edge lets little in: from the rise of its pressure there"
+       : coupled ? "models.asperities = coupled: film and asperities carry the load together"
+       : on_body ? "boundary friction, viscous friction and leakage require it; on the "
+                   "half-plane and on the fitted ring"
+                 : "boundary friction, viscous friction and leakage require it",
+       NULL},
+      {plan->reynolds, "film over speed", coupled ? "reynolds with asperities" : texts->law,
+       costs->speeds, SB_SPEED_TOLERANCE,
+       "film and friction of every frame are those of its own speed", NULL},
+      {plan->reynolds, "reynolds film", "", 0, 0, NULL, gasket ? NULL : texts->film},
+      {plan->film_history, "film history", "finite volumes",
+       (double)n->film_steps * SB_COST_FILM_STEP, 0.03,
+       "models.film_time = transient; the motion uses the friction of the steady film",
+       model->film_history ? "models.film has no history, only reynolds"
+                           : "models.film_time = steady: every frame has the film of its speed"},
+      {true, "real contact area", sb_rough_model_name(model->surface),
+       2.0 * count_fits(model) * SB_COST_ROUGH, 0, "boundary friction needs it", NULL},
+      {true, "leak at rest", "percolation", SB_SEAL_COUNT * SB_COST_LEAK, 0,
+       "part of each seal's figures", NULL},
+      {true, "force and displacement", texts->motion,
+       model->cycles * costs->motion + model->frames * SB_COST_FRAME,
+       fmax(fit_off, inertia ? model->motion_tolerance : 0), texts->frames, NULL},
+      {plan->life, "life", texts->motion, costs->life, 0, texts->life, "life.actuations = 1"},
+      {plan->shelf != SB_SHELF_NOTHING, "loss on the shelf", plan->ring ? "ring" : "slab",
+       plan->ring ? 5 * SB_COST_RING : SB_COST_CLOSED, plan->ring ? fit_off : 0,
+       "the view shelf or a limit needs it", "no view, limit or study needs it"},
+      {plan->bodies, "joint reactions", "constrained bodies", 0.1 + model->frames * 1e-4, 0,
+       texts->joints, "not requested: one coordinate gives the same motion"},
+      {plan->profiles, "contact profiles", plan->reynolds ? "reynolds" : fit,
+       (double)n->profile_evaluations * (plan->reynolds ? SB_COST_FILM_PROFILE : SB_COST_CLOSED),
+       fmax(fit_off, film_off), texts->profiles, "no view draws them"},
+      {plan->section_fields, "interior fields", "ring",
+       (int)n->field_evaluations * SB_COST_RING_SHAPE, fit_off, texts->sections,
+       !draws_section ? "no view draws a section"
+                      : "only models.fit = ring has them: the rings are drawn schematically"},
+  };
+  for (const Row *row = rows; row < rows + sizeof rows / sizeof rows[0]; row++) {
+    const char *reason = row->wanted ? row->why : row->why_not;
+    if (reason != NULL) {
+      add(plan, row->wanted, row->name, row->model, row->cost, row->error, "%s", reason);
+    }
+  }
+}
+
 // Plans what the valve's views and figures need: profiles over x if they are drawn, and section
 // fields only if the fit model has a section.
 static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *wishes) {
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED, finds = finds_speed(model);
-  const bool gasket = model->kind == SB_VALVE_GASKET; // whose film is a closed form of its pressure
-  const bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
-  const bool solved = sb_film_kind(model->film)->coupled, body = sb_fit_kind(model->fit)->body;
   const unsigned views = wishes->views;
   const unsigned sections = views & (SB_VIEW_SECTION | SB_VIEW_DASHBOARD);
   const unsigned drawn = sections | (views & SB_VIEW_PROFILES);
@@ -221,105 +357,12 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
                      (model->look.field == SB_FIELD_PERMEATION || plan->shelf != SB_SHELF_NOTHING);
   plan->over_edge = plan->section_fields && !wishes->coarse;
 
-  const char *fit = sb_fit_kind(model->fit)->name;
-  const double fit_off = fit_error(model), film_off = film_error(model);
   plan->expected = expect(plan, model);
-  const SbCounters *n = &plan->expected;
-  const int fits = count_fits(model), shapes = (int)n->field_evaluations;
-  const double on_body = plan->reynolds && body ? SB_COST_FILM_FITTED : 0;
-  const double film = coupled ? SB_COST_FILM_MIXED : sb_cost_film(model->film);
-  const double films = solved || coupled ? (double)(n->reynolds_solves - n->speed_nodes)
-                                         : 2.0 * fits * (finds ? OWN_SPEED_ROUNDS : 1);
-  const double at_speed = sb_cost_speed_state(model);
-  // Each film on the half-plane has one on the fitted body in addition.
-  const double states = gasket                    ? 2.0 * fits * SB_COST_ROUGH
-                        : on_body > 0 && !coupled ? films / 2 * (film + on_body)
-                                                  : films * at_speed;
-  const double rests = fits; // of rings
-  const double dragged = (double)n->fit_solves - rests;
-  const double ring = sb_cost_ring_share(model->tolerance) *
-                      (rests * SB_COST_RING + dragged * SB_COST_RING_DRAGGED);
-  const double once = !inertia ? 0
-                      : finds  ? (1 + OWN_SPEED_ROUNDS) * SB_COST_DYNAMICS_OWN
-                               : SB_COST_DYNAMICS;
-  // Whole runs of a life with coupled asperities: some twenty (measured: 10 at a tolerance of 1 %,
-  // 56 at 0.1 %).
-  enum { LIVED = 20 };
-  const double lived = model->life_actuations < LIVED ? model->life_actuations : LIVED;
-  char law[32], motion[32], profiles_by[96], sections_by[96], text[6][160];
-  sb_model_choice_name(model, SB_P_MODELS_FILM, law, sizeof law);
-  sb_model_choice_name(model, SB_P_MODELS_MOTION, motion, sizeof motion);
-  mask_names(SB_P_OUTPUT_VIEWS, drawn, profiles_by, sizeof profiles_by);
-  mask_names(SB_P_OUTPUT_VIEWS, sections, sections_by, sizeof sections_by);
-  sb_message(text[0], sizeof text[0],
-             "friction and film need them; %d pressure differences over two seals", fits);
-  sb_message(text[1], sizeof text[1], "models.fit = %s already gives load and width", fit);
-  sb_message(text[2], sizeof text[2], "models.film = %s is sufficient for the friction", law);
-  sb_message(text[3], sizeof text[3], "%d actuations while the roughness runs in; %s",
-             model->life_actuations,
-             coupled ? "films between coupled asperities are solved at some of them"
-                     : "fitment and film are the first's");
-  sb_message(text[4], sizeof text[4], "drawn by %s; each seal's states and at rest", profiles_by);
-  sb_message(text[5], sizeof text[5],
-             "drawn by %s: %d shapes, those of the states and over the land's edge", sections_by,
-             shapes);
-  char frames[48], joints[80];
-  sb_text(frames, sizeof frames, "figures of the cycle, %d frames", model->frames);
-  sb_text(joints, sizeof joints, "models.motion = bodies requests them, %d joints",
-          SB_VALVE_JOINTS);
-  const Row rows[] = {
-      {true, "contact load and width", fit,
-       plan->ring ? ring : (double)n->fit_solves * sb_cost_fit(model->fit), fit_off, text[0], NULL},
-      {plan->ring, "ring", "", 0, 0, NULL, text[1]},
-      {true, "film",
-       gasket    ? "blok"
-       : coupled ? "reynolds with asperities"
-                 : law,
-       states, film_off,
-       gasket        ? "a gasket's edge lets little in: from the rise of its pressure there"
-       : coupled     ? "models.asperities = coupled: film and asperities carry the load together"
-       : on_body > 0 ? "boundary friction, viscous friction and leakage require it; on the "
-                       "half-plane and on the fitted ring"
-                     : "boundary friction, viscous friction and leakage require it",
-       NULL},
-      {plan->reynolds, "film over speed", coupled ? "reynolds with asperities" : law,
-       (double)n->speed_nodes * at_speed, SB_SPEED_TOLERANCE,
-       "film and friction of every frame are those of its own speed", NULL},
-      {plan->reynolds, "reynolds film", "", 0, 0, NULL, gasket ? NULL : text[2]},
-      {plan->film_history, "film history", "finite volumes",
-       (double)n->film_steps * SB_COST_FILM_STEP, 0.03,
-       "models.film_time = transient; the motion uses the friction of the steady film",
-       model->film_history ? "models.film has no history, only reynolds"
-                           : "models.film_time = steady: every frame has the film of its speed"},
-      {true, "real contact area", sb_rough_model_name(model->surface), 2.0 * fits * SB_COST_ROUGH,
-       0, "boundary friction needs it", NULL},
-      {true, "leak at rest", "percolation", SB_SEAL_COUNT * SB_COST_LEAK, 0,
-       "part of each seal's figures", NULL},
-      {true, "force and displacement", motion, model->cycles * once + model->frames * SB_COST_FRAME,
-       fmax(fit_off, inertia ? model->motion_tolerance : 0), frames, NULL},
-      {plan->life, "life", motion,
-       coupled ? lived * (states + (double)n->speed_nodes * at_speed + ring + once)
-               : model->life_actuations * (inertia ? SB_COST_DYNAMICS : SB_COST_ACTUATION),
-       0, text[3], "life.actuations = 1"},
-      {plan->shelf != SB_SHELF_NOTHING, "loss on the shelf", plan->ring ? "ring" : "slab",
-       plan->ring ? 5 * SB_COST_RING : SB_COST_CLOSED, plan->ring ? fit_off : 0,
-       "the view shelf or a limit needs it", "no view, limit or study needs it"},
-      {plan->bodies, "joint reactions", "constrained bodies", 0.1 + model->frames * 1e-4, 0, joints,
-       "not requested: one coordinate gives the same motion"},
-      {plan->profiles, "contact profiles", plan->reynolds ? "reynolds" : fit,
-       (double)n->profile_evaluations * (plan->reynolds ? SB_COST_FILM_PROFILE : SB_COST_CLOSED),
-       fmax(fit_off, film_off), text[4], "no view draws them"},
-      {plan->section_fields, "interior fields", "ring", shapes * SB_COST_RING_SHAPE, fit_off,
-       text[5],
-       sections == 0 ? "no view draws a section"
-                     : "only models.fit = ring has them: the rings are drawn schematically"},
-  };
-  for (const Row *row = rows; row < rows + sizeof rows / sizeof rows[0]; row++) {
-    const char *reason = row->wanted ? row->why : row->why_not;
-    if (reason != NULL) {
-      add(plan, row->wanted, row->name, row->model, row->cost, row->error, "%s", reason);
-    }
-  }
+  Costs costs;
+  Texts texts;
+  valve_costs(&costs, plan, model);
+  valve_texts(&texts, model, drawn, sections, (int)plan->expected.field_evaluations);
+  add_valve_rows(plan, model, &costs, &texts, sections != 0);
 }
 
 // Returns the part of the plan that depends on the model only.

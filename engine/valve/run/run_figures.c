@@ -59,71 +59,90 @@ static SbAnswer presses(const SbRun *run, int seal) {
   return answer;
 }
 
-// Computes the leakage at rest through the real contact that static friction uses: its real area.
-static void static_leak(SbRun *run, int seal, SbSealState *out) {
+// Reports a seal that does not press the bore.
+static void report_open(SbRun *run, int seal, bool touches) {
+  sb_seal_reason(&run->summary, seal, "leak*", "%s",
+                 touches ? "the rubber presses the bore no more than the fluid does, or leaves "
+                           "it in a state of the cycle: the path is open"
+                         : "the seal has no contact with the bore under its pressures: the path is "
+                           "open");
+  sb_seal_reason(&run->summary, seal, "closing*", "the rubber does not press the bore");
+  sb_warn(&run->summary.warnings, "seal-open", pressed_by(run->model),
+          "the %s seal is open: it does not press the bore under its pressures",
+          sb_seal_name(seal));
+}
+
+// Solves the percolation of a contact with the real area out->rest_area_share. `problem` has the
+// contact pressure, which would cause this area if it were uniform.
+static SbStatus percolate(SbPercolation *leak, SbPercolationProblem *problem, const SbRun *run,
+                          int seal, const SbSealState *out, SbReport *report) {
   const SbModel *model = run->model;
-  const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-  SbSealPressure pressure = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
-  SbSpectrum spectrum;
-  SbPercolation leak;
-  SbReport report = {0};
-  bool open = presses(run, seal) == SB_ANSWER_NO;
-  out->leak_state = open ? SB_LEAK_OPEN : SB_LEAK_NOT_COMPUTED;
-  if (open) {
-    sb_seal_reason(&run->summary, seal, "leak*", "%s",
-                   state->touches
-                       ? "the rubber presses the bore no more than the fluid does, or leaves "
-                         "it in a state of the cycle: the path is open"
-                       : "the seal has no contact with the bore under its pressures: the path is "
-                         "open");
-    sb_seal_reason(&run->summary, seal, "closing*", "the rubber does not press the bore");
-    sb_warn(&run->summary.warnings, "seal-open", pressed_by(model),
-            "the %s seal is open: it does not press the bore under its pressures",
-            sb_seal_name(seal));
-  }
-  if (!state->touches || !(state->load_net > 0)) {
-    return;
-  }
-  SbStatus status = SB_OK;
-  if (model->surface != SB_ROUGH_PERSSON) {
-    status = sb_fail_input(&report, SB_ERROR_INFEASIBLE, sb_input(SB_P_MODELS_SURFACE),
-                           "Greenwood and Tripp's independent asperities are not valid near "
-                           "full contact (models.surface = persson does)");
-  } else if (isnan(out->rest_area_share)) {
-    status = sb_fail(&report, SB_ERROR_INFEASIBLE, "the real contact at rest is not known");
-  }
-  out->leak_area_share = status == SB_OK ? out->rest_area_share : NAN;
-  status = status != SB_OK
-               ? status
-               : sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
-                                             model->gt_product, &report);
+  const SbSealPressure pressure = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
   const double modulus = model->seal[seal].reduced_modulus;
-  SbPercolationProblem problem = {
+  if (model->surface != SB_ROUGH_PERSSON) {
+    return sb_fail_input(report, SB_ERROR_INFEASIBLE, sb_input(SB_P_MODELS_SURFACE),
+                         "Greenwood and Tripp's independent asperities are not valid near "
+                         "full contact (models.surface = persson does)");
+  }
+  if (isnan(out->rest_area_share)) {
+    return sb_fail(report, SB_ERROR_INFEASIBLE, "the real contact at rest is not known");
+  }
+  SbSpectrum spectrum;
+  SbStatus status = sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
+                                                model->gt_product, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  *problem = (SbPercolationProblem){
       .spectrum = &spectrum,
       .modulus = modulus,
-      // An even pressure with that real contact.
-      .contact_pressure = status == SB_OK ? sb_persson_pressure(&spectrum, spectrum.q1, modulus,
-                                                                out->leak_area_share)
-                                          : 0,
+      .contact_pressure =
+          sb_persson_pressure(&spectrum, spectrum.q1, modulus, out->rest_area_share),
       .viscosity = model->viscosity,
       .pressure_drop = fabs(pressure.left - pressure.right),
       .width = out->contact_width,
       .circumference = model->bore_circumference,
   };
-  status = status != SB_OK ? status : sb_percolation_solve(&leak, &problem, &report);
-  if (status != SB_OK) {
-    static const char *const figures[] = {"leakage_static*", "closing_pressure*",
-                                          "leak_sensitivity"};
-    out->leak_area_share = NAN;
-    for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
-      sb_seal_reason(&run->summary, seal, figures[i], "leak at rest: %s", report.text);
-    }
-    if (model->surface == SB_ROUGH_PERSSON) { // else a choice of models, no surprise
-      sb_warn(&run->summary.warnings, "static-leak-unknown", report.input,
-              "the leak at rest is not computed: %s", report.text);
-    }
+  status = sb_percolation_solve(leak, problem, report);
+  problem->spectrum = NULL;
+  return status;
+}
+
+// Reports why the leak at rest is not known.
+static void report_unknown_leak(SbRun *run, int seal, const SbReport *report) {
+  static const char *const figures[] = {"leakage_static*", "closing_pressure*", "leak_sensitivity"};
+  for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
+    sb_seal_reason(&run->summary, seal, figures[i], "leak at rest: %s", report->text);
+  }
+  if (run->model->surface == SB_ROUGH_PERSSON) { // else a choice of models, no surprise
+    sb_warn(&run->summary.warnings, "static-leak-unknown", report->input,
+            "the leak at rest is not computed: %s", report->text);
+  }
+}
+
+// Computes the leakage at rest through the real contact that static friction uses: its real area.
+static void static_leak(SbRun *run, int seal, SbSealState *out) {
+  const SbModel *model = run->model;
+  const SbSealState *state = &run->cycle.state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+  const SbSealPressure pressure = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
+  SbWarnings *warnings = &run->summary.warnings;
+  SbPercolationProblem problem;
+  SbPercolation leak;
+  SbReport report = {0};
+  bool open = presses(run, seal) == SB_ANSWER_NO;
+  out->leak_state = open ? SB_LEAK_OPEN : SB_LEAK_NOT_COMPUTED;
+  if (open) {
+    report_open(run, seal, state->touches);
+  }
+  if (!state->touches || !(state->load_net > 0)) {
     return;
   }
+  out->leak_area_share = NAN;
+  if (percolate(&leak, &problem, run, seal, out, &report) != SB_OK) {
+    report_unknown_leak(run, seal, &report);
+    return;
+  }
+  out->leak_area_share = out->rest_area_share;
   out->closing_pressure = leak.closing_pressure;
   if (!open && leak.constriction_gap >= SB_PERCOLATION_OPEN_GAP * model->sigma) {
     open = true;
@@ -141,12 +160,12 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
   out->leak_state = open ? SB_LEAK_OPEN : leak.percolates ? SB_LEAK_PERCOLATING : SB_LEAK_CLOSED;
   if (leak.percolates) {
     sb_warn(
-        &run->summary.warnings, "static-leak", pressed_by(model),
+        warnings, "static-leak", pressed_by(model),
         "the %s seal leaks at rest: %.3g MPa of contact pressure, open channels close at %.3g MPa",
         sb_seal_name(seal), problem.contact_pressure * 1e-6, leak.closing_pressure * 1e-6);
   } else if (problem.contact_pressure < 1.5 * leak.closing_pressure) {
     sb_warn(
-        &run->summary.warnings, "static-leak-near", pressed_by(model),
+        warnings, "static-leak-near", pressed_by(model),
         "the %s seal is near its leak at rest: %.3g MPa of contact pressure, channels open below "
         "%.3g MPa",
         sb_seal_name(seal), problem.contact_pressure * 1e-6, leak.closing_pressure * 1e-6);
@@ -360,20 +379,44 @@ static void give_reasons_of_outcome(SbRun *run) {
   }
 }
 
-void sb_run_set_reasons(SbRun *run, SbStatus status, const SbReport *report) {
+// Why figures of a seal are missing. `closed`: its film is a closed form.
+static void give_reasons_of_seal(SbSummary *summary, const SbModel *model, int seal, bool closed) {
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool done = !isnan(summary->seal[seal].load); // else the run ended before
+  const SbFitKind *fit = sb_fit_kind(model->fit);
+  char still[96];
+  snprintf(still, sizeof still, "models.fit = %s has no section that friction could turn",
+           fit->name);
+  const Reason reasons[] = {
+      {!fit->section, "contact.in_stroke.rotation_deg", still},
+      {!fit->section, "contact.return.rotation_deg", still},
+      {summary->seal[seal].load == 0, "*",
+       "the seal has no contact with the bore under its pressures"},
+      {model->kind == SB_VALVE_GASKET, "gland_fill",
+       "a gasket is clamped between plates, not in a gland"},
+      {model->profile != SB_SEAL_PROFILE_CIRCLE, "film_by_model*",
+       "seal.profile is not a circle: the film laws are those of cylinders"},
+      {closed, "film_by_model.reynolds", "models.film is a closed form: no film was solved"},
+      {!coupled, "asperity_load_share",
+       "models.asperities = beside: asperities and film do not share the load"},
+      {done, "film*", "the fluid opens the contact or carries it alone: no film law applies"},
+      {done, "lambda", "there is no film"},
+      {done, "asperity_load_share", "there is no film that could carry a part of the load"},
+      {done, "squeeze*", "there is no film to squeeze out"},
+      {done, "real_area_share", "there is no film"},
+      {done, "friction*", "there is no film"},
+      {done, "coefficient*", "there is no film, so no friction of the contact"},
+      {done, "leakage_per_stroke_m3", "there is no film that could transport it"},
+      {done, "contact.*", "the seal is not in contact there, or there is no film"},
+  };
+  give(summary, seal, reasons, sizeof reasons / sizeof reasons[0]);
+}
+
+// Why figures of the full run are missing; `well`: it did not fail.
+static void give_reasons_of_run(SbRun *run, bool well) {
   SbSummary *summary = &run->summary;
   const SbModel *model = run->model;
-  const SbLife *life = &summary->life;
-  const bool rig = model->motion == SB_MODEL_MOTION_RIG, well = status == SB_OK;
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  const bool closed = !coupled && !sb_film_kind(model->film)->coupled;
-  give_reasons_of_outcome(run);
-  if (life->failure > 0) {
-    sb_reason(summary, "life.*", "the life ends at actuation %ld: its stem does not return",
-              life->failure);
-  } else if (life->done > 0) {
-    sb_reason(summary, "life.*", "the life was not computed beyond actuation %ld", life->done);
-  }
+  const bool rig = model->motion == SB_MODEL_MOTION_RIG;
   const Reason before[] = {
       {!run->plan.life, "life.*", "life.actuations = 1: there is no life"},
       {rig, "shelf.*", "the sliding plate (models.motion = rig) has no can"},
@@ -406,40 +449,30 @@ void sb_run_set_reasons(SbRun *run, SbStatus status, const SbReport *report) {
       {well, "dose.prime_loss_per_day", "the outer seal's leak at rest is not known"},
   };
   give(summary, -1, before, sizeof before / sizeof before[0]);
+}
+
+void sb_run_set_reasons(SbRun *run, SbStatus status, const SbReport *report) {
+  SbSummary *summary = &run->summary;
+  const SbModel *model = run->model;
+  const SbLife *life = &summary->life;
+  const bool well = status == SB_OK;
+  const bool closed =
+      model->asperities != SB_MODEL_ASPERITIES_COUPLED && !sb_film_kind(model->film)->coupled;
+  give_reasons_of_outcome(run);
+  if (life->failure > 0) {
+    sb_reason(summary, "life.*", "the life ends at actuation %ld: its stem does not return",
+              life->failure);
+  } else if (life->done > 0) {
+    sb_reason(summary, "life.*", "the life was not computed beyond actuation %ld", life->done);
+  }
+  give_reasons_of_run(run, well);
   for (int i = 0; well && i < SB_STAGE_COUNT; i++) {
     char pattern[32];
     snprintf(pattern, sizeof pattern, "cycle.stages.%s.*", sb_stage_name((SbStage)i));
     sb_reason(summary, pattern, "the cycle does not reach stage %s", sb_stage_name((SbStage)i));
   }
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    const bool done = !isnan(summary->seal[seal].load); // else the run ended before
-    const SbFitKind *fit = sb_fit_kind(model->fit);
-    char still[96];
-    snprintf(still, sizeof still, "models.fit = %s has no section that friction could turn",
-             fit->name);
-    const Reason reasons[] = {
-        {!fit->section, "contact.in_stroke.rotation_deg", still},
-        {!fit->section, "contact.return.rotation_deg", still},
-        {summary->seal[seal].load == 0, "*",
-         "the seal has no contact with the bore under its pressures"},
-        {model->kind == SB_VALVE_GASKET, "gland_fill",
-         "a gasket is clamped between plates, not in a gland"},
-        {model->profile != SB_SEAL_PROFILE_CIRCLE, "film_by_model*",
-         "seal.profile is not a circle: the film laws are those of cylinders"},
-        {closed, "film_by_model.reynolds", "models.film is a closed form: no film was solved"},
-        {!coupled, "asperity_load_share",
-         "models.asperities = beside: asperities and film do not share the load"},
-        {done, "film*", "the fluid opens the contact or carries it alone: no film law applies"},
-        {done, "lambda", "there is no film"},
-        {done, "asperity_load_share", "there is no film that could carry a part of the load"},
-        {done, "squeeze*", "there is no film to squeeze out"},
-        {done, "real_area_share", "there is no film"},
-        {done, "friction*", "there is no film"},
-        {done, "coefficient*", "there is no film, so no friction of the contact"},
-        {done, "leakage_per_stroke_m3", "there is no film that could transport it"},
-        {done, "contact.*", "the seal is not in contact there, or there is no film"},
-    };
-    give(summary, seal, reasons, sizeof reasons / sizeof reasons[0]);
+    give_reasons_of_seal(summary, model, seal, closed);
   }
   if (well) {
     const char *outer = sb_figure_reason(summary, sb_figure_find("seals.outer.film_central_m"));

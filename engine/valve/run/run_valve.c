@@ -411,6 +411,106 @@ static SbStatus set_rest(SbRun *run, int seal, SbChamber chamber, SbReport *repo
   return status;
 }
 
+// Sets the contacts of both seals, and with contact ageing their states at rest.
+static SbStatus set_contacts(SbDynamicsModel *out, SbRun *run, SbReport *report) {
+  const SbModel *model = run->model;
+  const SbCycle *cycle = &run->cycle;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    const SbSealState *state = &cycle->state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
+    double level = state->rest_area + state->rest_load;
+    double ratio = state->section == SB_RING_ROLLS || state->section == SB_RING_JAMS
+                       ? state->friction_static / level
+                       : model->static_ratio;
+    out->contact[seal] = sb_model_contact(model, level > 0 ? fmax(ratio, 1) : 1, out->mass);
+    for (int chamber = 0; model->contact_ageing && chamber < SB_CYCLE_CHAMBERS; chamber++) {
+      SbStatus status = set_rest(run, seal, (SbChamber)chamber, report);
+      if (status != SB_OK) {
+        return status;
+      }
+    }
+  }
+  return SB_OK;
+}
+
+// Adds the edges where the inner contact meets the land's end, where it has left it and where it
+// returns. Writes the ends of the contact with the land to *near and *far [m]; without a contact
+// they are INFINITY and -INFINITY.
+static void set_edges(SbDynamicsModel *out, SbValve *valve, const SbRun *run, double *near,
+                      double *far) {
+  const SbModel *model = run->model;
+  const SbCycle *cycle = &run->cycle;
+  const bool gasket = model->kind == SB_VALVE_GASKET;
+  valve->touches = cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].touches;
+  *near = INFINITY;
+  *far = -INFINITY;
+  if (!valve->touches) {
+    return;
+  }
+  double closed = sb_cycle_edge_begin(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
+  *near = fmin(model->land_edge, closed);
+  add_edge(out, closed);
+  const double end_open = sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
+  const double end_closed = sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
+  *far = fmax(end_open, end_closed);
+  add_edge(out, end_open);
+  add_edge(out, end_closed);
+  valve->edge_open = gasket ? model->land_edge : end_open;
+  valve->edge_closed = gasket ? closed : end_closed;
+  if (valve->ports && gasket) {
+    valve->edge_open = valve->edge_closed = *near;
+  } else if (valve->ports) {
+    // The wider contact decides, whatever the pressure is when it leaves.
+    valve->edge_open = valve->edge_closed = *far;
+  }
+  // Where the seals' figures are taken.
+  valve->middle = model->land_edge / 2;
+  add_edge(out, valve->middle);
+  add_edge(out, model->land_edge);
+  add_edge(out, valve->edge_open);
+  add_edge(out, valve->edge_closed);
+}
+
+// Warns if the jet of the vent is not turbulent, for which the orifice law is valid.
+static void warn_laminar(SbRun *run, const SbValve *valve) {
+  const SbModel *model = run->model;
+  double jet = sqrt(2 * fabs(model->canister_pressure) / model->density);
+  double reynolds = model->density * jet * model->shape.vent_diameter / model->viscosity;
+  if (valve->chamber_model.ports > 1 && !model->chamber_at_once && reynolds < 1e3) {
+    sb_warn(&run->summary.warnings, "vent-laminar", sb_input(SB_P_BORE_VENT_DIAMETER),
+            "the vent's jet has a Reynolds number of %.3g: the orifice law needs 1000 and more",
+            reynolds);
+  }
+}
+
+// Sets in which regions between the edges the loads vary with the place, and whether they are equal
+// in both directions.
+static void set_regions(SbValve *valve, const SbDynamicsModel *out, const SbCycle *cycle,
+                        double near, double far) {
+  // Nothing varies with the place where the inner seal does not rub.
+  bool rubs = false;
+  valve->both_alike = true;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
+      const SbSealState *in = &cycle->state[seal][chamber][SB_CYCLE_IN];
+      const SbSealState *back = &cycle->state[seal][chamber][SB_CYCLE_OUT];
+      rubs = rubs || (seal == SB_INNER && chamber != SB_CHAMBER_OPEN &&
+                      (in->rest_area + in->rest_load > 0 || back->rest_area + back->rest_load > 0));
+      valve->both_alike = valve->both_alike && in->rest_area == back->rest_area &&
+                          in->rest_load == back->rest_load &&
+                          in->contact_left == back->contact_left &&
+                          in->contact_right == back->contact_right;
+    }
+  }
+  for (size_t region = 0; region <= out->edges; region++) {
+    double low = region > 0 ? out->edge[region - 1] : -INFINITY;
+    double high = region < out->edges ? out->edge[region] : INFINITY;
+    valve->varies[region] = valve->touches && rubs && low >= near && high <= far;
+    if (region < out->edges) {
+      valve->edge[region] = high;
+    }
+  }
+}
+
 SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbReport *report) {
   const SbModel *model = run->model;
   const SbCycle *cycle = &run->cycle;
@@ -435,53 +535,18 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
       .start_dwell = model->rest,
       .tolerance = model->motion_tolerance,
   };
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    const SbSealState *state = &cycle->state[seal][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-    double level = state->rest_area + state->rest_load;
-    double ratio = state->section == SB_RING_ROLLS || state->section == SB_RING_JAMS
-                       ? state->friction_static / level
-                       : model->static_ratio;
-    out->contact[seal] = sb_model_contact(model, level > 0 ? fmax(ratio, 1) : 1, out->mass);
-    for (int chamber = 0; model->contact_ageing && chamber < SB_CYCLE_CHAMBERS; chamber++) {
-      SbStatus status = set_rest(run, seal, (SbChamber)chamber, report);
-      if (status != SB_OK) {
-        return status;
-      }
-    }
+  SbStatus status = set_contacts(out, run, report);
+  if (status != SB_OK) {
+    return status;
   }
   out->stop[SB_REST_STOP] = (SbDynamicsStop){0, -1, INFINITY, 0};
   out->stop[SB_END_STOP] =
       (SbDynamicsStop){model->stroke, 1, model->stop_stiffness, model->stop_restitution};
   sb_valve_set_drive(out, &valve->times, run);
 
-  // Edges: where the contact meets the land's end, where it has left, where it comes back.
-  valve->touches = cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].touches;
+  double near, far;
+  set_edges(out, valve, run, &near, &far);
   const bool gasket = model->kind == SB_VALVE_GASKET;
-  double near = INFINITY, far = -INFINITY;
-  if (valve->touches) {
-    double closed = sb_cycle_edge_begin(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
-    near = fmin(model->land_edge, closed);
-    add_edge(out, closed);
-    const double end_open = sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
-    const double end_closed = sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
-    far = fmax(end_open, end_closed);
-    add_edge(out, end_open);
-    add_edge(out, end_closed);
-    valve->edge_open = gasket ? model->land_edge : end_open;
-    valve->edge_closed = gasket ? closed : end_closed;
-    if (valve->ports && gasket) {
-      valve->edge_open = valve->edge_closed = near;
-    } else if (valve->ports) {
-      // The wider contact decides, whatever the pressure is when it leaves.
-      valve->edge_open = valve->edge_closed = far;
-    }
-    // Where the seals' figures are taken.
-    valve->middle = model->land_edge / 2;
-    add_edge(out, valve->middle);
-    add_edge(out, model->land_edge);
-    add_edge(out, valve->edge_open);
-    add_edge(out, valve->edge_closed);
-  }
   bool behind = out->start_position >= valve->edge_open;
   valve->chamber = !valve->touches || behind ? SB_CHAMBER_OPEN : SB_CHAMBER_AT_REST;
   if (gasket) {
@@ -492,42 +557,13 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
                                                           : SB_CHAMBER_AT_REST;
   }
   if (valve->ports) {
-    SbStatus status = set_ports(out, valve, report);
+    status = set_ports(out, valve, report);
     if (status != SB_OK) {
       return status;
     }
-    // The orifice law is valid for turbulent jets of liquid.
-    double jet = sqrt(2 * fabs(model->canister_pressure) / model->density);
-    double reynolds = model->density * jet * model->shape.vent_diameter / model->viscosity;
-    if (valve->chamber_model.ports > 1 && !model->chamber_at_once && reynolds < 1e3) {
-      sb_warn(&run->summary.warnings, "vent-laminar", sb_input(SB_P_BORE_VENT_DIAMETER),
-              "the vent's jet has a Reynolds number of %.3g: the orifice law needs 1000 and more",
-              reynolds);
-    }
+    warn_laminar(run, valve);
   }
-  // Nothing varies with the place where the inner seal does not rub.
-  bool rubs = false;
-  valve->both_alike = true;
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
-      const SbSealState *in = &cycle->state[seal][chamber][SB_CYCLE_IN];
-      const SbSealState *back = &cycle->state[seal][chamber][SB_CYCLE_OUT];
-      rubs = rubs || (seal == SB_INNER && chamber != SB_CHAMBER_OPEN &&
-                      (in->rest_area + in->rest_load > 0 || back->rest_area + back->rest_load > 0));
-      valve->both_alike = valve->both_alike && in->rest_area == back->rest_area &&
-                          in->rest_load == back->rest_load &&
-                          in->contact_left == back->contact_left &&
-                          in->contact_right == back->contact_right;
-    }
-  }
-  for (size_t region = 0; region <= out->edges; region++) {
-    double low = region > 0 ? out->edge[region - 1] : -INFINITY;
-    double high = region < out->edges ? out->edge[region] : INFINITY;
-    valve->varies[region] = valve->touches && rubs && low >= near && high <= far;
-    if (region < out->edges) {
-      valve->edge[region] = high;
-    }
-  }
+  set_regions(valve, out, cycle, near, far);
   return SB_OK;
 }
 
