@@ -2,6 +2,7 @@
 """Every header compiles alone, twice, by the flags of its layer, and so does a variable of each type
 that it gives an initialiser for (SbRingLoad, SB_RING_LOAD_INIT); a dropped status does not pass.
 Each function, and each type of functions, has a comment of its own on the line above its declaration.
+No comment or declaration is broken where a formatter met a line that was too long.
 The build itself has compiled a header that comes first in its own source; it needs a guard alone.
 
 headers.py BUILD SOURCE LAYER..., TAP on standard output.
@@ -90,7 +91,19 @@ def uncommented(text):
     return found
 
 
-# The search itself: what it must find, and a header in which it must find nothing.
+# A comment's line that ends early although the first word of the next one has room, and a declaration
+# whose name is alone on the next line: what clang-format leaves of a line of more than 100 columns.
+RAGGED = re.compile(r'^// (?! ).{0,76}[^.:;\n]\n// (?=[a-z(`*+-]\S{0,11}(?:\s|$))', re.M)
+BROKEN = re.compile(r'^ +(?:const )?\w+(?: \w+,)?\n {6,}\*?\w+;', re.M)
+
+
+def damaged(text):
+    """Numbers of the lines that a formatter broke."""
+    return sorted(text.count('\n', 0, match.start()) + 1
+                  for pattern in (RAGGED, BROKEN) for match in pattern.finditer(text))
+
+
+# The searches themselves: what they must find, and a header in which they must find nothing.
 BARE = [('void f(void);', 'f'), ('// One.\nvoid f(void);\nvoid g(void);', 'g'), ('// One.\n\nint f(int a,\n      int b);', 'f'),
         ('int f(void) { // not its own\n  return 0;\n}', 'f'), ('typedef double (*F)(double x);', 'F'),
         ('// One.\nvoid f(void); // one\nvoid g(void);', 'g'), ('G_DECLARE_TYPE(A, a, B,\n  C)\nvoid f(void);', 'f'),
@@ -98,6 +111,11 @@ BARE = [('void f(void);', 'f'), ('// One.\nvoid f(void);\nvoid g(void);', 'g'), 
 FULL = ('// One.\ntypedef struct {\n  int (*call)(int a);\n} A;\n\n#define M(x) f(x)\n// Two.\nint f(int a,\n      int b);\n'
         'enum { B = sizeof(A) };\ntypedef struct C C;\nextern const int d[3];\nG_DECLARE_TYPE(A, a)\n// Three.\n'
         'static inline int g(void) {\n  return f(1, 2);\n}\nstatic_assert(1, "one");\n')
+
+DAMAGED = [('// Draws a chart with\n// the axes.\n', [1]), ('// One: a\n// b.\n// Two.\n//   list\n', [1]),
+           ('// One.\n// two\n', []), ('// A list:\n// a\n', []),
+           ('struct {\n  SbVerdict\n      of; // the answer\n};\n', [2]),
+           ('struct {\n  size_t first,\n      count; // bytes\n};\n', [2]), ('enum {\n  A,\n  B\n};\n', [])]
 
 headers = sorted(os.path.relpath(os.path.join(where, name), source)
                  for layer in commands for where, _, names in os.walk(os.path.join(source, layer))
@@ -109,10 +127,15 @@ with concurrent.futures.ThreadPoolExecutor(2) as pool:
 said = [f'{text!r}: {found}' for text, name in BARE + [(FULL, '')]
         for found in [[name for _, name in uncommented(text)]] if found != [name] * (name != '')]
 results.append(('functions without a comment are found', not said, '\n'.join(said)))
+said = [repr(text) for text, lines in DAMAGED + [(FULL, [])] if damaged(text) != lines]
+results.append(('broken lines are found', not said, '\n'.join(said)))
 for header in headers + ['include/sealbench.h']:
     if header.startswith(COMMENTED):
         with open(os.path.join(source, header), encoding='utf-8') as file:
-            bare = uncommented(file.read())
+            text = file.read()
+        bare, lines = uncommented(text), damaged(text)
+        results.append((f'{header} has no broken lines', not lines,
+                        '\n'.join(f'{header}:{line}: is broken after it' for line in lines)))
         results.append((f'{header} has a comment for each function', not bare,
                         '\n'.join(f'{header}:{line}: {name}() needs a comment of its own' for line, name in bare)))
 
