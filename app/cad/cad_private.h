@@ -28,7 +28,8 @@ SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double
 // one point, and pieces on the line y = 0 are ignored. Each closed chain, and each open one that
 // ends on that line, becomes a body about the line y = 0 with x as drawn and r = |y|: the part
 // at y >= 0, or below if nothing is above. Appends the bodies to cad->bodies, with the name `name`,
-// and a warning for pieces that close to no outline. The bodies are not settled.
+// and a warning for pieces that close to no outline. The caller then calls sb_cad_body_settle() for
+// each body.
 void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap);
 
 // Returns a body with a copy of `name` and empty arrays. Freed by sb_cad_body_free(), or owned by

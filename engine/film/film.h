@@ -196,7 +196,7 @@ typedef struct SbFilmSolver SbFilmSolver;
 // Creates a solver.
 SbStatus sb_film_solver_create(SbFilmSolver **out, SbReport *report);
 
-// Frees the solver. Takes NULL.
+// Frees the solver.
 void sb_film_solver_destroy(SbFilmSolver *solver);
 
 // Discards the last solution, so that the next solve is a cold start. The memory is reused.

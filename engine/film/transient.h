@@ -76,7 +76,7 @@ typedef struct SbFilmTransient SbFilmTransient;
 SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientProblem *problem,
                                   SbReport *report);
 
-// Frees the film. Takes NULL.
+// Frees the film.
 void sb_film_transient_destroy(SbFilmTransient *transient);
 
 // Advances by `dt` [s] > 0 while the speed changes linearly from its present value to `speed`

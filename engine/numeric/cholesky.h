@@ -17,7 +17,7 @@ typedef struct SbCholesky SbCholesky;
 // pattern is invalid.
 SbCholesky *sb_cholesky_create(int n, const int *start, const int *column);
 
-// Frees the solver. Takes NULL.
+// Frees the solver.
 void sb_cholesky_destroy(SbCholesky *factor);
 
 // Factorises A, whose entry in column[k] is value[k], k < start[n]. `value` is only read during the

@@ -42,7 +42,7 @@ typedef struct {
 // part of the section has no wetted face (the matrix is singular).
 SbStatus sb_diffusion_create(SbDiffusion **out, const SbWettedMesh *section, SbReport *report);
 
-// Frees the object. Takes NULL.
+// Frees the object.
 void sb_diffusion_destroy(SbDiffusion *diffusion);
 
 // Returns the steady results in *out.

@@ -34,7 +34,7 @@ typedef struct {
 SbStatus sb_wetted_mesh_create(SbWettedMesh **out, int nodes, int elements, bool axisymmetric,
                                SbReport *report);
 
-// Frees the mesh and its arrays. Takes NULL.
+// Frees the mesh and its arrays.
 void sb_wetted_mesh_destroy(SbWettedMesh *section);
 
 // Creates a copy of `section`; free it with sb_wetted_mesh_destroy().

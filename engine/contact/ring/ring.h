@@ -153,7 +153,7 @@ typedef struct {
 SbStatus sb_ring_create(SbRing **out, const SbRingBody *body, const SbRingLoad *load,
                         const SbRingOptions *options, SbReport *report);
 
-// Frees the ring. Takes NULL.
+// Frees the ring.
 void sb_ring_destroy(SbRing *ring);
 
 // Changes the load of a ring (warm start from its present equilibrium).
@@ -177,7 +177,7 @@ typedef struct SbRingGuide SbRingGuide;
 // Creates a predictor of `ring`; the coarse copy is solved later.
 SbStatus sb_ring_guide_create(SbRingGuide **out, const SbRing *ring, SbReport *report);
 
-// Frees the predictor. Takes NULL.
+// Frees the predictor.
 void sb_ring_guide_destroy(SbRingGuide *guide);
 
 // Solves the coarse copy now, so that the first sb_ring_near() does not wait for it. Any thread.
@@ -201,7 +201,7 @@ typedef struct SbRingTangent SbRingTangent;
 SbStatus sb_ring_tangent_create(SbRingTangent **out, const SbRing *ring, const void *law,
                                 SbReport *report);
 
-// Frees the linearisation. Takes NULL.
+// Frees the linearisation.
 void sb_ring_tangent_destroy(SbRingTangent *tangent);
 
 // Creates the linearised state of another body at another load with the same direction of sliding.

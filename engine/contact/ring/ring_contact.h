@@ -89,7 +89,7 @@ typedef struct {
 // Creates the contact of a model, without contact pairs in contact. `fem` is borrowed.
 SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report);
 
-// Frees the contact. Takes NULL.
+// Frees the contact.
 void sb_ring_contact_destroy(SbRingContact *contact);
 
 // Returns the loop index 0 to count - 1 of any integer i (periodic).

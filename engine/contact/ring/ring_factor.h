@@ -21,7 +21,7 @@ typedef struct SbRingFactor SbRingFactor;
 // no memory.
 SbRingFactor *sb_ring_factor_create(int nodes, const int *start, const int *column);
 
-// Frees the solver. Takes NULL.
+// Frees the solver.
 void sb_ring_factor_destroy(SbRingFactor *factor);
 
 // Creates another solver, without factors, for the pattern of `factor`, which both solvers share;

@@ -89,7 +89,7 @@ static inline void sb_ring_fem_place(const SbRingFem *fem, int node, double x[2]
 SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMaterial material,
                             double around, SbReport *report);
 
-// Frees the model. Takes NULL.
+// Frees the model.
 void sb_ring_fem_destroy(SbRingFem *fem);
 
 // Numbers the concavities of the free section: hollow[loop_count], 0 for nodes in none

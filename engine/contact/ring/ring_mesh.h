@@ -85,7 +85,7 @@ int sb_ring_mesh_add(SbRingMesh *mesh, int a, int b, int c);
 // Call it once, after all sb_ring_mesh_add().
 SbStatus sb_ring_mesh_add_midsides(SbRingMesh *mesh, SbReport *report);
 
-// Frees the mesh and its arrays. Takes NULL.
+// Frees the mesh and its arrays.
 void sb_ring_mesh_destroy(SbRingMesh *mesh);
 
 // Computes the shape functions n of a triangle's six nodes and their derivatives by l1 and l2 at

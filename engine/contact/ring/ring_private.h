@@ -190,7 +190,7 @@ bool sb_ring_shift_like(SbRingShift *shift, const SbRingShift *other);
 // sb_ring_shift_begin() with the same ring; NULL: no memory. Freed by sb_ring_shift_destroy().
 SbRingShift *sb_ring_shift_create(const SbRing *ring);
 
-// Frees a displacement. Takes NULL.
+// Frees a displacement.
 void sb_ring_shift_destroy(SbRingShift *shift);
 
 // Writes the changes of a node's reference position to x and of its deformed position to `place`,

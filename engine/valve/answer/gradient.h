@@ -52,7 +52,7 @@ SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQu
                             const SbParamId *parameter, size_t count, SbGradientProgress progress,
                             SbReport *report);
 
-// Frees the derivatives. Takes NULL.
+// Frees the derivatives.
 void sb_gradient_destroy(SbGradient *gradient);
 
 // Returns the number of figures.

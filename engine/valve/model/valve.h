@@ -288,7 +288,7 @@ SbStatus sb_model_derive(SbModel **out, const SbModel *base, const SbOverride *o
 // Creates a copy. SB_ERROR_MEMORY is its only error; there is no report.
 SbStatus sb_model_copy(SbModel **out, const SbModel *model);
 
-// Frees a model and its reference to the data. Takes NULL.
+// Frees a model and its reference to the data.
 void sb_model_destroy(const SbModel *model);
 
 // Returns whether two models have equal values and limits and share the same data object. Both may

@@ -42,7 +42,7 @@ SbStatus sb_run_renew(SbRun *run, const SbModel *model, const SbPlan *plan, SbRe
 // are none it does the same as sb_run_renew().
 SbStatus sb_run_renew_same(SbRun *run, const SbModel *model, SbReport *report);
 
-// Frees a run that no thread executes. Takes NULL.
+// Frees a run that no thread executes.
 void sb_run_destroy(SbRun *run);
 
 // Computes the whole cycle. `hooks` may be NULL. SB_ERROR_CANCELLED; SB_ERROR_NOT_CONVERGED or

@@ -16,7 +16,7 @@ typedef struct SbRunAhead SbRunAhead;
 // Creates an empty queue; NULL: no memory. Free it with sb_run_ahead_destroy().
 SbRunAhead *sb_run_ahead_create(void);
 
-// Frees the queue and the rings that were not taken. No thread may use it any more. Takes NULL.
+// Frees the queue and the rings that were not taken. No thread may use it any more.
 void sb_run_ahead_destroy(SbRunAhead *ahead);
 
 // Adds the first ring of a task. The task is copied, and its pointers are borrowed until the queue

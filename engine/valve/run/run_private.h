@@ -81,7 +81,7 @@ typedef struct {
 // The constrained parts of a run whose plan has `bodies` (run_bodies.c).
 typedef struct SbRunBodies SbRunBodies;
 
-// Frees them. Takes NULL.
+// Frees them.
 void sb_run_bodies_destroy(SbRunBodies *bodies);
 
 // Copies the reactions of the first `count` frames of `from` to the frames of `run` from index

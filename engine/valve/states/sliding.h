@@ -62,7 +62,7 @@ typedef struct SbSlidingMemory SbSlidingMemory;
 // Creates a memory without solutions.
 SbStatus sb_sliding_memory_create(SbSlidingMemory **out, SbReport *report);
 
-// Frees the memory. Takes NULL.
+// Frees the memory.
 void sb_sliding_memory_destroy(SbSlidingMemory *memory);
 
 // Discards the last solutions, so that later results do not depend on them. Required before a task

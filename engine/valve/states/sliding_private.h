@@ -71,7 +71,7 @@ typedef struct SbSlidingSlopes SbSlidingSlopes;
 // Returns an object without states; NULL: no memory. Freed by sb_sliding_slopes_destroy().
 SbSlidingSlopes *sb_sliding_slopes_create(void);
 
-// Frees the object. Takes NULL.
+// Frees the object.
 void sb_sliding_slopes_destroy(SbSlidingSlopes *slopes);
 
 // Which part of a state is linearised instead of solved: nothing, the fit, or fit and films.
