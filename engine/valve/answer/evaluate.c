@@ -33,10 +33,6 @@ void sb_evaluator_destroy(SbEvaluator *evaluator) {
   }
 }
 
-// Of a line of params.def: whether two have the same of a member that is declared there.
-#define SAME_OWN(type, place) same = same && a->place == b->place;
-#define SAME_IN(type, place)
-
 static bool same_rings(const SbSealModel *a, const SbSealModel *b) {
   return a->section_diameter == b->section_diameter && a->inner_diameter == b->inner_diameter &&
          a->modulus == b->modulus && a->reduced_modulus == b->reduced_modulus &&
@@ -45,32 +41,24 @@ static bool same_rings(const SbSealModel *a, const SbSealModel *b) {
          a->poisson_ratio == b->poisson_ratio && a->mooney_share == b->mooney_share;
 }
 
-// Returns whether the seals' steady states are the same for `b` and the model of which `a` is a
-// copy. Fields that these states do not depend on are ignored, out of all that the states' files
-// (sliding*.c, breakaway.c, run_states.c, run_speeds.c, run_supply.c) read of a model. Any other
-// row of params.def counts.
-static bool same_states(SbModel *a, const SbModel *b) {
-#define LIKE(member) a->member = b->member
-  LIKE(storage_time), LIKE(storage_temperature), LIKE(recovery_time);
-  LIKE(radial_space_tolerance), LIKE(axial_width_tolerance), LIKE(bore_diameter_tolerance);
-  LIKE(land_edge), LIKE(refill_travel), LIKE(refill_area), LIKE(housing_expansion);
-  LIKE(ethanol), LIKE(temperature), LIKE(ambient_pressure), LIKE(discharge_coefficient);
-  LIKE(chamber_stiffness), LIKE(stem_diameter_tolerance), LIKE(stem_mass);
-  LIKE(density), LIKE(stroke), LIKE(reversal_force), LIKE(stiffness), LIKE(peak_force);
-  LIKE(rise_time), LIKE(hold_time), LIKE(finger_damping), LIKE(damping_ratio), LIKE(amplitude);
-  LIKE(frequency), LIKE(stribeck_speed), LIKE(tangential_stiffness), LIKE(stop_stiffness);
-  LIKE(stop_restitution), LIKE(spring_stiffness), LIKE(spring_preload), LIKE(rig_prominence);
-  LIKE(motion_tolerance);
-  if (!(b->groove_chamfer > 0)) {
-    LIKE(stem_diameter); // where the chamfers of the grooves end
-  }
-#undef LIKE
+// Whether a parameter of this stage enters the seals' steady states as it is, not by values that
+// the model derives. Choices and numbers of things decide the plan and its memory too.
+#define ENTERS(stage, last)                                                                        \
+  (SB_ENTERS_##stage <= SB_ENTERS_##last && SB_ENTERS_##stage != SB_ENTERS_RUBBER &&               \
+   SB_ENTERS_##stage != SB_ENTERS_FLUID)
+
+// Returns whether the seals' steady states are the same for two models.
+static bool same_states(const SbModel *a, const SbModel *b) {
   bool same = a->bore_circumference == b->bore_circumference && a->surface == b->surface &&
               a->data == b->data;
-#define SB_REAL(id, where, place, ...)         SAME_##where(double, place)
-#define SB_INT(id, where, place, ...)          SAME_##where(int, place)
-#define SB_CHOICE(id, type, where, place, ...) SAME_##where(type, place)
-#define SB_FLAGS(id, where, place, ...)        SAME_##where(unsigned, place)
+  if (b->groove_chamfer > 0) { // the chamfers of the grooves end at the stem
+    same = same && a->stem_diameter == b->stem_diameter;
+  }
+#define SAME(last, stage, place)                      same = same && (!ENTERS(stage, last) || a->place == b->place);
+#define SB_REAL(id, stage, where, place, ...)         SAME(FRICTION, stage, place)
+#define SB_INT(id, stage, where, place, ...)          SAME(LIFE, stage, place)
+#define SB_CHOICE(id, stage, type, where, place, ...) SAME(LIFE, stage, place)
+#define SB_FLAGS(id, stage, where, place, ...)        SAME(LIFE, stage, place)
 #include "engine/valve/model/params.def"
   return same && same_rings(&a->seal[SB_OUTER], &b->seal[SB_OUTER]) &&
          same_rings(&a->seal[SB_INNER], &b->seal[SB_INNER]);
@@ -88,17 +76,8 @@ static bool same_plan(const SbPlan *a, const SbPlan *b) {
 
 // Returns whether the last question's run has solved all that a model and plan want solved.
 static bool has_solved(const SbEvaluator *evaluator, const SbModel *model, const SbPlan *plan) {
-  if (!evaluator->answered || !same_plan(plan, sb_run_plan(evaluator->run))) {
-    return false;
-  }
-  SbModel *work = malloc(sizeof *work);
-  bool same = false;
-  if (work != NULL) {
-    *work = *sb_run_model(evaluator->run);
-    same = same_states(work, model);
-  }
-  free(work);
-  return same;
+  return evaluator->answered && same_plan(plan, sb_run_plan(evaluator->run)) &&
+         same_states(sb_run_model(evaluator->run), model);
 }
 
 // A derived model has no limits: those of the base count.

@@ -42,12 +42,12 @@ static void take_values(SbModel *model, const SbParams *params) {
   SbParams effective;
   sb_params_resolve(&effective, params);
   model->params = *params;
-#define VALUE(id)                              effective.value[SB_P_##id]
-#define SB_REAL(id, where, place, ...)         model->place = VALUE(id);
-#define SB_INT(id, where, place, ...)          model->place = (int)VALUE(id);
-#define SB_CHOICE(id, type, where, place, ...) model->place = (type)VALUE(id);
-#define SB_FLAGS(id, where, place, ...)        model->place = (unsigned)VALUE(id);
-#define SB_SEAL(id, where, place, ...)                                                             \
+#define VALUE(id)                                     effective.value[SB_P_##id]
+#define SB_REAL(id, stage, where, place, ...)         model->place = VALUE(id);
+#define SB_INT(id, stage, where, place, ...)          model->place = (int)VALUE(id);
+#define SB_CHOICE(id, stage, type, where, place, ...) model->place = (type)VALUE(id);
+#define SB_FLAGS(id, stage, where, place, ...)        model->place = (unsigned)VALUE(id);
+#define SB_SEAL(id, stage, where, place, ...)                                                      \
   model->seal[SB_OUTER].place = VALUE(SEAL_OUTER_##id);                                            \
   model->seal[SB_INNER].place = VALUE(SEAL_INNER_##id);
 #include "engine/valve/model/params.def"

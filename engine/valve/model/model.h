@@ -48,16 +48,16 @@ typedef struct {
   double season, day; // amplitudes of the two sines [K]
 } SbShelfInput;
 
-// A model. Each row of params.def with OWN declares a member with the name in its third (SB_CHOICE:
-// fourth) column and the row's type, in SI: for example radial_space, bore_diameter [m],
+// A model. Each row of params.def with OWN declares a member with the name in its fourth
+// (SB_CHOICE: fifth) column and the row's type, in SI: for example radial_space, bore_diameter [m],
 // canister_pressure [Pa], viscosity [Pa s], shear_strength [Pa], fit (SbFitModel). After
 // compilation sizes are those at the temperature of use, and options that are switched off are 0.
 struct SbModel {
   SbParams params; // values from which the model was compiled
-#define SB_REAL(id, where, place, ...)         SB_DECLARE_##where(double, place)
-#define SB_INT(id, where, place, ...)          SB_DECLARE_##where(int, place)
-#define SB_CHOICE(id, type, where, place, ...) SB_DECLARE_##where(type, place)
-#define SB_FLAGS(id, where, place, ...)        SB_DECLARE_##where(unsigned, place)
+#define SB_REAL(id, stage, where, place, ...)         SB_DECLARE_##where(double, place)
+#define SB_INT(id, stage, where, place, ...)          SB_DECLARE_##where(int, place)
+#define SB_CHOICE(id, stage, type, where, place, ...) SB_DECLARE_##where(type, place)
+#define SB_FLAGS(id, stage, where, place, ...)        SB_DECLARE_##where(unsigned, place)
 #include "engine/valve/model/params.def"
   SbSealModel seal[SB_SEAL_COUNT]; // by SB_OUTER, SB_INNER
   SbRubber rubber;                 // law of the rubber's change in storage

@@ -8,26 +8,27 @@
 #include <string.h>
 
 // All rows have the same form, except for what a kind omits.
-#define ROW(id, kind, key, symbol, si, unit, min, max, value, choices, parent, seal, ...)          \
-  [SB_P_##id] = {key, kind, symbol, si, unit, min, max, value, choices, __VA_ARGS__, parent, seal},
-#define SB_REAL(id, where, place, key, symbol, si, unit, min, max, fallback, ...)                  \
-  ROW(id, SB_PARAM_REAL, key, symbol, si, unit, min, max, fallback, NULL, -1, SB_SEAL_COUNT,       \
+#define ROW(id, stage, kind, parent, seal, ...)                                                    \
+  [SB_P_##id] = {SB_ENTERS_##stage, kind, parent, seal, __VA_ARGS__},
+#define SB_REAL(id, stage, where, place, key, symbol, si, unit, min, max, fallback, ...)           \
+  ROW(id, stage, SB_PARAM_REAL, -1, SB_SEAL_COUNT, key, symbol, si, unit, min, max, fallback,      \
+      NULL, __VA_ARGS__)
+#define SB_INT(id, stage, where, place, key, symbol, min, max, fallback, ...)                      \
+  ROW(id, stage, SB_PARAM_INT, -1, SB_SEAL_COUNT, key, symbol, "1", "", min, max, fallback, NULL,  \
       __VA_ARGS__)
-#define SB_INT(id, where, place, key, symbol, min, max, fallback, ...)                             \
-  ROW(id, SB_PARAM_INT, key, symbol, "1", "", min, max, fallback, NULL, -1, SB_SEAL_COUNT,         \
+#define SB_CHOICE(id, stage, type, where, place, key, choices, fallback, ...)                      \
+  ROW(id, stage, SB_PARAM_CHOICE, -1, SB_SEAL_COUNT, key, "", "1", "", 0, 0, fallback, choices,    \
       __VA_ARGS__)
-#define SB_CHOICE(id, type, where, place, key, choices, fallback, ...)                             \
-  ROW(id, SB_PARAM_CHOICE, key, "", "1", "", 0, 0, fallback, choices, -1, SB_SEAL_COUNT,           \
+#define SB_FLAGS(id, stage, where, place, key, choices, fallback, ...)                             \
+  ROW(id, stage, SB_PARAM_FLAGS, -1, SB_SEAL_COUNT, key, "", "1", "", 0, 0, fallback, choices,     \
       __VA_ARGS__)
-#define SB_FLAGS(id, where, place, key, choices, fallback, ...)                                    \
-  ROW(id, SB_PARAM_FLAGS, key, "", "1", "", 0, 0, fallback, choices, -1, SB_SEAL_COUNT, __VA_ARGS__)
-#define SEAL_ROW(id, parent, seal, key, symbol, si, unit, min, max, fallback, ...)                 \
-  ROW(SEAL_##id, SB_PARAM_REAL, key, symbol, si, unit, min, max, fallback, NULL, parent, seal,     \
-      __VA_ARGS__)
-#define SB_SEAL(id, where, place, name, ...)                                                       \
-  SEAL_ROW(id, -1, SB_SEAL_COUNT, "seal." name, __VA_ARGS__)                                       \
-  SEAL_ROW(OUTER_##id, SB_P_SEAL_##id, SB_OUTER, "seal.outer." name, __VA_ARGS__)                  \
-  SEAL_ROW(INNER_##id, SB_P_SEAL_##id, SB_INNER, "seal.inner." name, __VA_ARGS__)
+#define SEAL_ROW(id, stage, parent, seal, key, symbol, si, unit, min, max, fallback, ...)          \
+  ROW(SEAL_##id, stage, SB_PARAM_REAL, parent, seal, key, symbol, si, unit, min, max, fallback,    \
+      NULL, __VA_ARGS__)
+#define SB_SEAL(id, stage, where, place, name, ...)                                                \
+  SEAL_ROW(id, stage, -1, SB_SEAL_COUNT, "seal." name, __VA_ARGS__)                                \
+  SEAL_ROW(OUTER_##id, stage, SB_P_SEAL_##id, SB_OUTER, "seal.outer." name, __VA_ARGS__)           \
+  SEAL_ROW(INNER_##id, stage, SB_P_SEAL_##id, SB_INNER, "seal.inner." name, __VA_ARGS__)
 static const SbParam table[SB_PARAM_COUNT] = {
 #include "engine/valve/model/params.def"
 };

@@ -68,10 +68,31 @@ typedef enum {
 // flags (bit i: choice i).
 typedef enum { SB_PARAM_REAL, SB_PARAM_INT, SB_PARAM_CHOICE, SB_PARAM_FLAGS } SbParamKind;
 
+// Stage at which an input enters. Results of an earlier stage do not depend on it. The model
+// derives sizes, moduli and properties of the fluid from the inputs of RUBBER and FLUID: these
+// inputs enter the later stages only by the derived values.
+typedef enum {
+  SB_ENTERS_GEOMETRY, // sizes of parts and gland
+  SB_ENTERS_RUBBER,   // the rubber and its storage, expansion of the parts
+  SB_ENTERS_FLUID,    // the fluid and its temperature
+  SB_ENTERS_FIT,      // contact of a ring at rest, pressures, tolerance of the solvers
+  SB_ENTERS_FILM,     // film of a sliding ring
+  SB_ENTERS_SURFACE,  // rough contact
+  SB_ENTERS_FRICTION, // friction, static friction
+  SB_ENTERS_MOTION,   // drive, masses, springs, chamber and ports, the rig
+  SB_ENTERS_LIFE,     // the actuations after the first, the contents of the canister
+  SB_ENTERS_SHELF,    // loss and moisture at rest
+  SB_ENTERS_VIEW      // pictures, studies, tolerances of sizes, people: no state
+} SbInputStage;
+
 // One row of the catalogue. All strings are static.
 typedef struct {
+  SbInputStage stage; // at which it enters
+  SbParamKind kind;   // number, choice or flags
+  int parent; // of seal.outer.X and seal.inner.X: number of seal.X, whose value applies to a seal
+              // without its own; of all other parameters -1
+  int seal;   // SB_OUTER of seal.outer.X, SB_INNER of seal.inner.X; else SB_SEAL_COUNT
   const char *key;     // "gland.radial_space": group, dot, name
-  SbParamKind kind;    // number, choice or flags
   const char *symbol;  // short symbol for panels, UTF-8; "" if none
   const char *si;      // SI unit in the notation of udunits, "1" if dimensionless
   const char *unit;    // preferred unit for display and files, "" if none
@@ -82,9 +103,6 @@ typedef struct {
   const char *help;    // one line
   const char *source;  // where the default is from
   const char *tag;     // "thesis", "inferred", "ours", "published" or "typical"
-  int parent; // of seal.outer.X and seal.inner.X: number of seal.X, whose value applies to a seal
-              // without its own; of all other parameters -1
-  int seal;   // SB_OUTER of seal.outer.X, SB_INNER of seal.inner.X; else SB_SEAL_COUNT
 } SbParam;
 
 // Returns whether `id` is one of the few parameters with which a design of a valve of `kind` (an

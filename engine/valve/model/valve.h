@@ -235,7 +235,7 @@ typedef enum {
 typedef struct {
   SbRubberStorage stored; // the new ring (section and inner diameter, modulus) and its history
   SbRubberState storage;  // result of the storage
-#define SB_SEAL(id, where, place, ...) SB_DECLARE_##where(double, place)
+#define SB_SEAL(id, stage, where, place, ...) SB_DECLARE_##where(double, place)
 #include "engine/valve/model/params.def"
   double section_diameter; // d, diameter of the free section [m]
   double inner_diameter;   // of the free ring [m]
