@@ -69,7 +69,7 @@ def catalogues_are_sound():
         # Each macro's label is where the keywords say.
         texts = open(template).read()
         for label in ("Section diameter", "Break-away force", "Contact width", "Closing pressure",
-                      "External work"):
+                      "External work", "Shelf temperature", "Women below the peak force"):
             assert 'msgid "%s"' % label in texts, label
         languages = [line.strip() for line in open("po/LINGUAS") if not line.startswith("#")]
         assert languages
