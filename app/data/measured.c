@@ -60,8 +60,8 @@ static int word_of(const SbData *data, SbDataKey key, const char *words, GPtrArr
   return -1;
 }
 
-static bool read_wish(SbTableDialect *wish, const SbData *data, GPtrArray *issues) {
-  *wish = (SbTableDialect){0};
+static bool read_wish(SbTextTableDialect *wish, const SbData *data, GPtrArray *issues) {
+  *wish = (SbTextTableDialect){0};
   if (data->text[SB_DATA_SEPARATOR] != NULL) {
     const int at = word_of(data, SB_DATA_SEPARATOR, "comma|semicolon|tab|blank", issues);
     wish->separator = at >= 0 ? ",;\t "[at] : '\0';
@@ -72,7 +72,7 @@ static bool read_wish(SbTableDialect *wish, const SbData *data, GPtrArray *issue
   }
   if (data->text[SB_DATA_ENCODING] != NULL) {
     const int at = word_of(data, SB_DATA_ENCODING, "utf-8|latin-1|utf-16le|utf-16be", issues);
-    wish->encoding = (SbTableEncoding)(at + 1);
+    wish->encoding = (SbTextTableEncoding)(at + 1);
   }
   if (data->text[SB_DATA_SIGNAL] != NULL) {
     (void)word_of(data, SB_DATA_SIGNAL, "force over displacement", issues);
@@ -104,22 +104,22 @@ static bool unit_scale(double *scale, const char *unit, const char *si) {
 }
 
 // Columns and units that keys name, into the table.
-static bool take_said(SbMeasured *m, SbTable *table, const SbData *data, GPtrArray *issues) {
+static bool take_said(SbMeasured *m, SbTextTable *table, const SbData *data, GPtrArray *issues) {
   const SbDataKey keys[] = {SB_DATA_COLUMNS, SB_DATA_UNITS};
   for (size_t k = 0; k < G_N_ELEMENTS(keys); k++) {
     if (data->text[keys[k]] == NULL) {
       continue;
     }
     g_auto(GStrv) words = g_strsplit(data->text[keys[k]], ",", -1);
-    if (g_strv_length(words) > sb_table_columns(table)) {
+    if (g_strv_length(words) > sb_text_table_columns(table)) {
       sb_data_add_issue(data, keys[k], NULL, issues, "names more than the %zu columns of the file",
-                        sb_table_columns(table));
+                        sb_text_table_columns(table));
       return false;
     }
     for (size_t i = 0; words[i] != NULL; i++) {
       const char *word = g_strstrip(words[i]);
       if (keys[k] == SB_DATA_UNITS) {
-        sb_table_rename(table, i, NULL, strcmp(word, "-") != 0 ? word : "");
+        sb_text_table_rename(table, i, NULL, strcmp(word, "-") != 0 ? word : "");
         continue;
       }
       int channel = 0;
@@ -142,12 +142,12 @@ static bool take_said(SbMeasured *m, SbTable *table, const SbData *data, GPtrArr
 
 // The column of a channel by its name, else by its unit where no name says more; false with an
 // issue where there are two.
-static bool find_column(SbMeasured *m, const SbTable *table, const SbData *data, SbChannel channel,
-                        GPtrArray *issues) {
+static bool find_column(SbMeasured *m, const SbTextTable *table, const SbData *data,
+                        SbChannel channel, GPtrArray *issues) {
   for (int by_unit = 0; by_unit < 2; by_unit++) {
     int found = -1;
-    for (size_t i = 0; i < sb_table_columns(table); i++) {
-      const SbTableColumn *column = sb_table_column(table, i);
+    for (size_t i = 0; i < sb_text_table_columns(table); i++) {
+      const SbTextTableColumn *column = sb_text_table_column(table, i);
       double scale;
       const bool numeric = column->numeric || (column->clock && channel == SB_CHANNEL_TIME);
       const bool fits = by_unit == 0 ? name_fits(column->name, channel)
@@ -160,7 +160,7 @@ static bool find_column(SbMeasured *m, const SbTable *table, const SbData *data,
         sb_data_add_issue(data, SB_DATA_COLUMNS, NULL, issues,
                           "column %d \"%s\" and column %zu \"%s\" may both be the %s: specify it, "
                           "as in columns = displacement, force, -",
-                          found + 1, sb_table_column(table, (size_t)found)->name, i + 1,
+                          found + 1, sb_text_table_column(table, (size_t)found)->name, i + 1,
                           column->name, channels[channel].name);
         return false;
       }
@@ -176,7 +176,7 @@ static bool find_column(SbMeasured *m, const SbTable *table, const SbData *data,
 }
 
 // Whether time is to make the displacement, at which speed; false with an issue.
-static bool settle_speed(SbMeasured *m, const SbTable *table, const SbData *data, double speed,
+static bool settle_speed(SbMeasured *m, const SbTextTable *table, const SbData *data, double speed,
                          GPtrArray *issues) {
   const char *said = data->text[SB_DATA_SPEED];
   const bool column = m->column[SB_CHANNEL_DISPLACEMENT].index >= 0;
@@ -194,8 +194,8 @@ static bool settle_speed(SbMeasured *m, const SbTable *table, const SbData *data
   }
   // Another column of numbers may be the displacement, by a name that is not known.
   size_t numbers = 0;
-  for (size_t i = 0; i < sb_table_columns(table); i++) {
-    numbers += sb_table_column(table, i)->numeric || sb_table_column(table, i)->clock;
+  for (size_t i = 0; i < sb_text_table_columns(table); i++) {
+    numbers += sb_text_table_column(table, i)->numeric || sb_text_table_column(table, i)->clock;
   }
   if (!column && m->column[SB_CHANNEL_TIME].index >= 0 && m->column[SB_CHANNEL_FORCE].index >= 0 &&
       (said != NULL || (speed > 0 && (numbers == 2 || data->text[SB_DATA_COLUMNS] != NULL)))) {
@@ -205,7 +205,7 @@ static bool settle_speed(SbMeasured *m, const SbTable *table, const SbData *data
   return true;
 }
 
-static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, double speed,
+static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data, double speed,
                            double *scale, GPtrArray *issues) {
   for (int c = 0; c < SB_CHANNELS; c++) {
     m->column[c].index = -1;
@@ -228,22 +228,22 @@ static bool settle_columns(SbMeasured *m, SbTable *table, const SbData *data, do
     }
     if (at < 0) {
       GString *list = g_string_new(NULL);
-      for (size_t i = 0; i < sb_table_columns(table) && i < 8; i++) {
+      for (size_t i = 0; i < sb_text_table_columns(table) && i < 8; i++) {
         g_string_append_printf(list, "%s\"%s\"", i > 0 ? ", " : "",
-                               sb_table_column(table, i)->name);
+                               sb_text_table_column(table, i)->name);
       }
       sb_data_add_issue(
           data, SB_DATA_COLUMNS, NULL, issues,
           "no column of the %zu (%s) is known as the %s: name them, as in "
           "columns = time, displacement, force%s",
-          sb_table_columns(table), list->str, channels[c].name,
+          sb_text_table_columns(table), list->str, channels[c].name,
           c == SB_CHANNEL_DISPLACEMENT && m->column[SB_CHANNEL_TIME].index >= 0
               ? ", or specify the constant speed of the machine, as in speed = 20 mm/min"
               : "");
       g_string_free(list, TRUE);
       return false;
     }
-    const SbTableColumn *column = sb_table_column(table, (size_t)at);
+    const SbTextTableColumn *column = sb_text_table_column(table, (size_t)at);
     m->column[c].name = g_strdup(column->name);
     m->column[c].clock = column->clock;
     m->column[c].unit = g_strdup(column->clock ? "clock" : column->unit);
@@ -378,12 +378,13 @@ double sb_measured_speed(double kind, double speed) {
   return (int)kind == SB_MODEL_DRIVE_MACHINE ? speed : 0;
 }
 
-static SbMeasured *read_table(SbTable *table, const SbData *data, double speed, GPtrArray *issues) {
+static SbMeasured *read_table(SbTextTable *table, const SbData *data, double speed,
+                              GPtrArray *issues) {
   g_autoptr(SbMeasured) m = g_new0(SbMeasured, 1);
   double scale[SB_CHANNELS] = {0};
   m->name = g_path_get_basename(data->path);
-  m->dialect = *sb_table_dialect(table);
-  m->header_lines = sb_table_header_lines(table);
+  m->dialect = *sb_text_table_dialect(table);
+  m->header_lines = sb_text_table_header_lines(table);
   if (!settle_columns(m, table, data, speed, scale, issues)) {
     return NULL;
   }
@@ -394,8 +395,8 @@ static SbMeasured *read_table(SbTable *table, const SbData *data, double speed, 
       column[count++] = (size_t)m->column[c].index;
     }
   }
-  SbTableRows rows;
-  if (!sb_table_read(&rows, read, table, column, count, issues)) {
+  SbTextTableRows rows;
+  if (!sb_text_table_read(&rows, read, table, column, count, issues)) {
     return NULL;
   }
   for (int c = 0, k = 0; c < SB_CHANNELS; c++) {
@@ -430,11 +431,11 @@ static SbMeasured *read_table(SbTable *table, const SbData *data, double speed, 
 }
 
 SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues) {
-  SbTableDialect wish;
+  SbTextTableDialect wish;
   g_autoptr(GPtrArray) own = sb_issues_new();
   SbMeasured *measured = NULL;
   if (read_wish(&wish, data, own)) {
-    g_autoptr(SbTable) table = sb_table_open(data->path, &wish, own);
+    g_autoptr(SbTextTable) table = sb_text_table_open(data->path, &wish, own);
     measured = table != NULL ? read_table(table, data, speed, own) : NULL;
   }
   for (guint i = 0; i < own->len; i++) {
@@ -446,11 +447,11 @@ SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues
 
 SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
                               GPtrArray *issues) {
-  SbTableDialect wish;
+  SbTextTableDialect wish;
   if (!read_wish(&wish, data, issues)) {
     return NULL;
   }
-  g_autoptr(SbTable) table = sb_table_parse(bytes, length, &wish, data->path, issues);
+  g_autoptr(SbTextTable) table = sb_text_table_parse(bytes, length, &wish, data->path, issues);
   return table != NULL ? read_table(table, data, speed, issues) : NULL;
 }
 
@@ -472,9 +473,10 @@ static const char *direction_name(const SbMeasured *m) {
 
 char *sb_measured_keys(const SbMeasured *m) {
   GString *out = g_string_new(NULL);
-  g_string_append_printf(
-      out, "separator = %s\ndecimal = %s\nencoding = %s\n", separator_name(m->dialect.separator),
-      m->dialect.decimal == ',' ? "comma" : "point", sb_table_encoding_name(m->dialect.encoding));
+  g_string_append_printf(out, "separator = %s\ndecimal = %s\nencoding = %s\n",
+                         separator_name(m->dialect.separator),
+                         m->dialect.decimal == ',' ? "comma" : "point",
+                         sb_text_table_encoding_name(m->dialect.encoding));
   int last = 0;
   for (int c = 0; c < SB_CHANNELS; c++) {
     last = MAX(last, m->column[c].index);
@@ -515,7 +517,7 @@ char *sb_measured_text(const SbMeasured *m) {
   g_string_append_printf(out, "separator %s, decimal %s, %s, %zu header lines\n",
                          separator_name(m->dialect.separator),
                          m->dialect.decimal == ',' ? "comma" : "point",
-                         sb_table_encoding_name(m->dialect.encoding), m->header_lines);
+                         sb_text_table_encoding_name(m->dialect.encoding), m->header_lines);
   for (int c = 0; c < SB_CHANNELS; c++) {
     if (m->column[c].index >= 0) {
       g_string_append_printf(out, "%s: column %d \"%s\" in %s (%s)\n", channels[c].name,

@@ -1,7 +1,8 @@
-// A measured loop of force against displacement, read from a table of numbers (app/base/table.h)
-// and made comparable with a run: SI units, compression positive, displacement increasing on the
-// in-stroke, and the stem's own displacement from its rest position. SbMeasured states what was
-// found in the data and how. Keys of the group [data NAME] replace what would be found:
+// A measured loop of force against displacement, read from a table of numbers
+// (app/base/text_table.h) and made comparable with a run: SI units, compression positive,
+// displacement increasing on the in-stroke, and the stem's own displacement from its rest position.
+// SbMeasured states what was found in the data and how. Keys of the group [data NAME] replace what
+// would be found:
 //
 //   signal = force over displacement
 //   separator = comma | semicolon | tab | blank     decimal = point | comma
@@ -23,7 +24,7 @@
 // the maximum force and back; then only the first cycle is used.
 #pragma once
 
-#include "app/base/table.h"
+#include "app/base/text_table.h"
 #include "app/document/data_keys.h"
 
 #include "engine/valve/run/frame.h"
@@ -63,7 +64,7 @@ typedef struct {
 typedef struct {
   char *name; // of the file, without its folder
   // Format of the file.
-  SbTableDialect dialect;
+  SbTextTableDialect dialect;
   // Numbers of lines before the first row, and of later lines that are not rows of the table.
   size_t header_lines, skipped;
   int skipped_line;   // number of the first skipped line in the file, from 1

@@ -2,7 +2,7 @@
 #include "app/document/series.h"
 
 #include "app/base/reader.h"
-#include "app/base/table.h"
+#include "app/base/text_table.h"
 #include "app/base/unit.h"
 
 #include <math.h>
@@ -25,8 +25,8 @@ static const double time_max = 1e6, displacement_max = 0.2, force_max = 1e5, spe
 static const double shelf_max = 3.2e9, cold = 173.15, hot = 423.15; // of a shelf's temperatures
 
 // "displacement [mm]" -> quantity, and the unit's size in SI.
-static bool read_heading(Reader *r, const SbTable *table, size_t column) {
-  const SbTableColumn *heading = sb_table_column(table, column);
+static bool read_heading(Reader *r, const SbTextTable *table, size_t column) {
+  const SbTextTableColumn *heading = sb_text_table_column(table, column);
   const char *si = NULL;
   r->scale[column] = 1;
   if (column == 0 && strcmp(heading->name, "time") == 0) {
@@ -47,7 +47,7 @@ static bool read_heading(Reader *r, const SbTable *table, size_t column) {
                         : r->temperature ? "temperature [degC] or [K]"
                         : r->speed       ? "speed [m/s]"
                                          : "displacement [mm] or force [N]";
-  const int line = (int)sb_table_header_lines(table);
+  const int line = (int)sb_text_table_header_lines(table);
   if (*heading->name == '\0') {
     sb_issues_add(r->issues, r->name, line, NULL, allowed, "column %zu has no heading", column + 1);
   } else if (si == NULL) {
@@ -110,11 +110,11 @@ static bool take_row(Reader *r, size_t row, double *const *value) {
   return true;
 }
 
-static bool read_rows(Reader *r, const SbTable *table) {
+static bool read_rows(Reader *r, const SbTextTable *table) {
   static const size_t column[COLUMNS] = {0, 1};
   double *value[COLUMNS];
-  SbTableRows rows;
-  if (!sb_table_read(&rows, value, table, column, COLUMNS, r->issues)) {
+  SbTextTableRows rows;
+  if (!sb_text_table_read(&rows, value, table, column, COLUMNS, r->issues)) {
     return false;
   }
   bool good = rows.left_text == NULL;
@@ -137,10 +137,11 @@ static bool parse(SbModelSeries *out, bool speed, bool temperature, const char *
   out->count = 0;
   Reader r = {
       .name = name, .issues = issues, .speed = speed, .temperature = temperature, .out = out};
-  g_autoptr(SbTable) table = sb_table_parse(text, length, NULL, name, issues);
+  g_autoptr(SbTextTable) table = sb_text_table_parse(text, length, NULL, name, issues);
   bool good = table != NULL;
-  if (good && sb_table_columns(table) != COLUMNS) {
-    sb_issues_add(issues, name, 0, NULL, "two columns", "has %zu columns", sb_table_columns(table));
+  if (good && sb_text_table_columns(table) != COLUMNS) {
+    sb_issues_add(issues, name, 0, NULL, "two columns", "has %zu columns",
+                  sb_text_table_columns(table));
     good = false;
   }
   for (size_t i = 0; i < COLUMNS && good; i++) {

@@ -388,12 +388,12 @@ static void test_numbers(void) {
     }
     g_string_append_printf(text, "%s;0,5\n", cells[i].cell);
     g_autoptr(GPtrArray) issues = sb_issues_new();
-    g_autoptr(SbTable) table = sb_table_parse(text->str, text->len, NULL, "x", issues);
+    g_autoptr(SbTextTable) table = sb_text_table_parse(text->str, text->len, NULL, "x", issues);
     g_assert_nonnull(table);
-    SbTableRows rows;
+    SbTextTableRows rows;
     double *value;
     const size_t first = 0;
-    g_assert_true(sb_table_read(&rows, &value, table, &first, 1, issues));
+    g_assert_true(sb_text_table_read(&rows, &value, table, &first, 1, issues));
     if (isnan(cells[i].value)) {
       g_assert_cmpuint(rows.rows, ==, 5);
       g_assert_cmpint(rows.left_line, ==, 7);
@@ -414,12 +414,13 @@ static void test_clocks(void) {
   const char *const texts[] = {text, bare};
   for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
     g_autoptr(GPtrArray) issues = sb_issues_new();
-    g_autoptr(SbTable) table = sb_table_parse(texts[i], strlen(texts[i]), NULL, "x", issues);
+    g_autoptr(SbTextTable) table =
+        sb_text_table_parse(texts[i], strlen(texts[i]), NULL, "x", issues);
     g_assert_nonnull(table);
-    SbTableRows rows;
+    SbTextTableRows rows;
     double *value;
     const size_t first = 0;
-    g_assert_true(sb_table_read(&rows, &value, table, &first, 1, issues));
+    g_assert_true(sb_text_table_read(&rows, &value, table, &first, 1, issues));
     g_assert_cmpfloat(value[1] - value[0], ==, 1.75);
     g_free(value);
   }
@@ -445,14 +446,14 @@ static void test_files(void) {
     g_string_free(text, TRUE);
     g_assert_true(g_file_set_contents(path, bytes, (gssize)length, NULL));
     g_autoptr(GPtrArray) issues = sb_issues_new();
-    g_autoptr(SbTable) file = sb_table_open(path, NULL, issues);
-    g_autoptr(SbTable) memory = sb_table_parse(bytes, length, NULL, "x", issues);
-    const SbTable *tables[] = {file, memory};
+    g_autoptr(SbTextTable) file = sb_text_table_open(path, NULL, issues);
+    g_autoptr(SbTextTable) memory = sb_text_table_parse(bytes, length, NULL, "x", issues);
+    const SbTextTable *tables[] = {file, memory};
     for (int k = 0; k < 2; k++) {
       g_assert_nonnull(tables[k]);
-      SbTableRows rows;
+      SbTextTableRows rows;
       double *value[2];
-      g_assert_true(sb_table_read(&rows, value, tables[k], (size_t[]){0, 2}, 2, issues));
+      g_assert_true(sb_text_table_read(&rows, value, tables[k], (size_t[]){0, 2}, 2, issues));
       g_assert_cmpuint(rows.rows, ==, LINES);
       for (int i = 0; i < LINES; i++) {
         g_assert_true(value[0][i] == i && value[1][i] == 7 * i % 911);
@@ -462,9 +463,9 @@ static void test_files(void) {
       g_free(rows.left_text);
     }
     g_assert_cmpint(truncate(path, (off_t)length / 3), ==, 0);
-    SbTableRows rows;
+    SbTextTableRows rows;
     double *value;
-    g_assert_false(sb_table_read(&rows, &value, file, (size_t[]){1}, 1, issues));
+    g_assert_false(sb_text_table_read(&rows, &value, file, (size_t[]){1}, 1, issues));
     g_assert_cmpuint(issues->len, ==, 1);
     g_autofree char *line = sb_issue_line(issues->pdata[0]);
     g_assert_nonnull(strstr(line, "cut short"));

@@ -4,7 +4,7 @@
 #include "app/data/scan/scan_private.h"
 
 #include "app/base/number.h"
-#include "app/base/table.h"
+#include "app/base/text_table.h"
 
 #include <math.h>
 
@@ -70,7 +70,8 @@ static gint64 take_row(GArray *numbers, gboolean *open, const guchar *p, const g
       stop++;
     }
     const gsize length = (gsize)(stop - p);
-    if (!is_missing(p, length) && !sb_table_number_of(&value, (const char *)p, length, decimal)) {
+    if (!is_missing(p, length) &&
+        !sb_text_table_number_of(&value, (const char *)p, length, decimal)) {
       g_array_set_size(numbers, before);
       return -1;
     }

@@ -1,11 +1,11 @@
 // What a table's file is: every dialect is tried on lines from its start, middle and end, the one
 // in which most lines are alike rows of numbers is taken, and two that do so with other values are
 // told. See table.h.
-#include "app/base/table.h"
+#include "app/base/text_table.h"
 
 #include "app/base/output.h"
 #include "app/base/reader.h"
-#include "app/base/table_private.h"
+#include "app/base/text_table_private.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -26,11 +26,11 @@ enum { PIPE_BYTES = 1 << 30 }; // largest table that is read from a pipe, into m
 
 enum { SAMPLE_LINES = 3000, SAMPLE_BYTES = 1 << 18, SAMPLE_TAIL = 300, LINE_BYTES = 1 << 16 };
 
-static const char *const encodings[SB_TABLE_ENCODING_COUNT] = {"", "utf-8", "latin-1", "utf-16le",
-                                                               "utf-16be"};
+static const char *const encodings[SB_TEXT_TABLE_ENCODING_COUNT] = {"", "utf-8", "latin-1",
+                                                                    "utf-16le", "utf-16be"};
 
-const char *sb_table_encoding_name(SbTableEncoding encoding) {
-  return (unsigned)encoding < SB_TABLE_ENCODING_COUNT ? encodings[encoding] : "";
+const char *sb_text_table_encoding_name(SbTextTableEncoding encoding) {
+  return (unsigned)encoding < SB_TEXT_TABLE_ENCODING_COUNT ? encodings[encoding] : "";
 }
 
 // ---- Bytes ----
@@ -38,10 +38,10 @@ const char *sb_table_encoding_name(SbTableEncoding encoding) {
 enum { ENCODING_BYTES = 1 << 16 };
 
 // From the first `looked` of `length` bytes.
-static SbTableEncoding find_encoding(const guint8 *bytes, size_t looked, size_t length) {
+static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, size_t length) {
   if (looked >= 2 &&
       ((bytes[0] == 0xff && bytes[1] == 0xfe) || (bytes[0] == 0xfe && bytes[1] == 0xff))) {
-    return bytes[0] == 0xff ? SB_TABLE_UTF16LE : SB_TABLE_UTF16BE;
+    return bytes[0] == 0xff ? SB_TEXT_TABLE_UTF16LE : SB_TEXT_TABLE_UTF16BE;
   }
   // Half of the bytes of digits in UTF-16 are zero, those of one side.
   size_t zero[2] = {0};
@@ -49,17 +49,17 @@ static SbTableEncoding find_encoding(const guint8 *bytes, size_t looked, size_t 
     zero[i % 2] += bytes[i] == 0;
   }
   if (zero[0] + zero[1] > looked / 4) {
-    return zero[1] > zero[0] ? SB_TABLE_UTF16LE : SB_TABLE_UTF16BE;
+    return zero[1] > zero[0] ? SB_TEXT_TABLE_UTF16LE : SB_TEXT_TABLE_UTF16BE;
   }
   // The look may end inside of a character.
   const char *bad = NULL;
   const bool good = g_utf8_validate((const char *)bytes, (gssize)looked, &bad) ||
                     (looked < length && (const char *)bytes + looked - bad < 4);
-  return good ? SB_TABLE_UTF8 : SB_TABLE_LATIN1;
+  return good ? SB_TEXT_TABLE_UTF8 : SB_TEXT_TABLE_LATIN1;
 }
 
-char *sb_table_utf8(const char *text, size_t length, SbTableEncoding encoding) {
-  if (encoding != SB_TABLE_LATIN1) {
+char *sb_text_table_utf8(const char *text, size_t length, SbTextTableEncoding encoding) {
+  if (encoding != SB_TEXT_TABLE_LATIN1) {
     return sb_printable(text, length);
   }
   GString *out = g_string_sized_new(length);
@@ -75,27 +75,27 @@ static void string_free(gpointer data) {
   g_string_free(data, TRUE);
 }
 
-static void take_lines(Sample *sample, const SbTable *table, size_t from, size_t lines_max) {
-  SbTableLines lines;
+static void take_lines(Sample *sample, const SbTextTable *table, size_t from, size_t lines_max) {
+  SbTextTableLines lines;
   const char *text;
   size_t length;
-  sb_table_lines_init(&lines, &table->bytes, from, table->dialect.encoding);
+  sb_text_table_lines_init(&lines, &table->bytes, from, table->dialect.encoding);
   if (from > 0) {
-    (void)sb_table_next(&lines, &text, &length); // the rest of a line
+    (void)sb_text_table_next(&lines, &text, &length); // the rest of a line
   }
-  const size_t end = sb_table_lines_place(&lines) + SAMPLE_BYTES;
-  for (size_t i = 0;
-       i < lines_max && sb_table_lines_place(&lines) < end && sb_table_next(&lines, &text, &length);
+  const size_t end = sb_text_table_lines_place(&lines) + SAMPLE_BYTES;
+  for (size_t i = 0; i < lines_max && sb_text_table_lines_place(&lines) < end &&
+                     sb_text_table_next(&lines, &text, &length);
        i++) {
     GString *line = g_string_new_len(text, (gssize)MIN(length, LINE_BYTES));
     g_ptr_array_add(sample->line, line);
     sample->head += from == 0;
   }
   sample->wrong = sample->wrong != NULL ? sample->wrong : lines.wrong;
-  sb_table_lines_clear(&lines);
+  sb_text_table_lines_clear(&lines);
 }
 
-static Sample take_sample(const SbTable *table) {
+static Sample take_sample(const SbTextTable *table) {
   Sample sample = {.line = g_ptr_array_new_with_free_func(string_free)};
   take_lines(&sample, table, 0, SAMPLE_LINES);
   for (size_t part = 1; part <= 3; part++) {
@@ -113,7 +113,7 @@ static Sample take_sample(const SbTable *table) {
 
 // How well a dialect fits: rows of the same number of cells and the same kinds in their columns.
 typedef struct {
-  SbTableDialect dialect;
+  SbTextTableDialect dialect;
   size_t cells, rows;
   guint64 numeric, clocks; // of the columns of most rows, a bit each
   unsigned saw;
@@ -126,19 +126,19 @@ typedef struct {
   unsigned saw;
 } Shape;
 
-static Shape shape_of(const GString *line, const SbTableDialect *dialect) {
-  SbTableCell cell[SB_TABLE_COLUMNS_MAX];
+static Shape shape_of(const GString *line, const SbTextTableDialect *dialect) {
+  SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
   Shape shape = {.rows = 1};
   if (line->len == 0 || line->str[0] == '#') {
     return shape;
   }
-  shape.cells = sb_table_split(cell, line->str, line->len, dialect->separator);
+  shape.cells = sb_text_table_split(cell, line->str, line->len, dialect->separator);
   for (size_t i = 0; i < shape.cells; i++) {
     double value;
-    SbTableClock clock;
-    if (sb_table_number(&value, &cell[i], dialect, &shape.saw)) {
+    SbTextTableClock clock;
+    if (sb_text_table_number(&value, &cell[i], dialect, &shape.saw)) {
       shape.numeric |= G_GUINT64_CONSTANT(1) << i;
-    } else if (sb_table_clock(&clock, &cell[i])) {
+    } else if (sb_text_table_clock(&clock, &cell[i])) {
       shape.clocks |= G_GUINT64_CONSTANT(1) << i;
     }
   }
@@ -157,7 +157,7 @@ static bool same_shape(const Shape *a, const Shape *b) {
   return a->cells == b->cells && a->numeric == b->numeric && a->clocks == b->clocks;
 }
 
-static Fit try_dialect(const Sample *sample, const SbTableDialect *dialect) {
+static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) {
   enum { SHAPES = 32 };
   Shape seen[SHAPES];
   size_t count = 0;
@@ -188,7 +188,7 @@ static Fit try_dialect(const Sample *sample, const SbTableDialect *dialect) {
     }
   }
   // Who sets marks between thousands mostly sets them everywhere.
-  const unsigned both = SB_TABLE_SAW_GROUPS | SB_TABLE_SAW_LONG;
+  const unsigned both = SB_TEXT_TABLE_SAW_GROUPS | SB_TEXT_TABLE_SAW_LONG;
   if ((fit.saw & both) == both) {
     fit.score *= 0.5;
   }
@@ -199,12 +199,12 @@ static Fit try_dialect(const Sample *sample, const SbTableDialect *dialect) {
 static char *find_two_ways(const Sample *sample, const Fit *one, const Fit *two) {
   for (guint i = 0; i < sample->line->len; i++) {
     const GString *line = sample->line->pdata[i];
-    SbTableCell cell[SB_TABLE_COLUMNS_MAX];
-    const size_t cells = sb_table_split(cell, line->str, line->len, one->dialect.separator);
+    SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
+    const size_t cells = sb_text_table_split(cell, line->str, line->len, one->dialect.separator);
     for (size_t k = 0; k < cells; k++) {
       double a, b;
-      if (sb_table_number(&a, &cell[k], &one->dialect, NULL) &&
-          sb_table_number(&b, &cell[k], &two->dialect, NULL) && a != b) {
+      if (sb_text_table_number(&a, &cell[k], &one->dialect, NULL) &&
+          sb_text_table_number(&b, &cell[k], &two->dialect, NULL) && a != b) {
         return sb_printable(cell[k].text, MIN(cell[k].length, 40));
       }
     }
@@ -213,8 +213,8 @@ static char *find_two_ways(const Sample *sample, const Fit *one, const Fit *two)
 }
 
 // The best fit of all that are wished for; false with an issue.
-static bool find_dialect(Fit *best, const SbTable *table, const Sample *sample,
-                         const SbTableDialect *wish, GPtrArray *issues) {
+static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *sample,
+                         const SbTextTableDialect *wish, GPtrArray *issues) {
   static const char separators[] = {'\t', ';', ',', ' '}, marks[] = {'.', ','};
   bool quoted = false;
   for (guint i = 0; i < sample->line->len; i++) {
@@ -225,10 +225,10 @@ static bool find_dialect(Fit *best, const SbTable *table, const Sample *sample,
   for (size_t s = 0; s < G_N_ELEMENTS(separators); s++) {
     for (size_t m = 0; m < G_N_ELEMENTS(marks); m++) {
       const char other = marks[1 - m];
-      const SbTableDialect dialect = {.encoding = table->dialect.encoding,
-                                      .separator = separators[s],
-                                      .decimal = marks[m],
-                                      .thousands = other != separators[s] ? other : '\0'};
+      const SbTextTableDialect dialect = {.encoding = table->dialect.encoding,
+                                          .separator = separators[s],
+                                          .decimal = marks[m],
+                                          .thousands = other != separators[s] ? other : '\0'};
       if ((wish->separator != '\0' && wish->separator != separators[s]) ||
           (wish->decimal != '\0' && wish->decimal != marks[m]) ||
           (separators[s] == marks[m] && !quoted)) {
@@ -250,14 +250,15 @@ static bool find_dialect(Fit *best, const SbTable *table, const Sample *sample,
         "has no rows of two numbers or more, separated by tab, semicolon, comma or blank");
     return false;
   }
-  g_autofree char *cell = rival.score > 0 && ((best->saw | rival.saw) & SB_TABLE_SAW_GROUPS) != 0
-                              ? find_two_ways(sample, best, &rival)
-                              : NULL;
+  g_autofree char *cell =
+      rival.score > 0 && ((best->saw | rival.saw) & SB_TEXT_TABLE_SAW_GROUPS) != 0
+          ? find_two_ways(sample, best, &rival)
+          : NULL;
   if (cell != NULL) {
-    const SbTableCell text = {cell, strlen(cell)};
+    const SbTextTableCell text = {cell, strlen(cell)};
     double value[2] = {0};
-    (void)sb_table_number(&value[0], &text, &best->dialect, NULL);
-    (void)sb_table_number(&value[1], &text, &rival.dialect, NULL);
+    (void)sb_text_table_number(&value[0], &text, &best->dialect, NULL);
+    (void)sb_text_table_number(&value[1], &text, &rival.dialect, NULL);
     sb_issues_add(issues, table->shown, 0, "decimal", "point, comma",
                   "is ambiguous: \"%s\" is %g with a decimal %s, %g with a decimal %s", cell,
                   value[0], best->dialect.decimal == '.' ? "point" : "comma", value[1],
@@ -317,14 +318,14 @@ static void split_name(char **name, char **unit, const char *text) {
 
 // A header line's cells as texts, NULL-terminated; with blanks as separators a unit goes to the
 // name before it.
-static char **header_cells(const GString *line, const SbTableDialect *dialect) {
-  SbTableCell cell[SB_TABLE_COLUMNS_MAX];
+static char **header_cells(const GString *line, const SbTextTableDialect *dialect) {
+  SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
   const bool comment = line->len > 0 && line->str[0] == '#';
   const size_t cells =
-      sb_table_split(cell, line->str + comment, line->len - comment, dialect->separator);
+      sb_text_table_split(cell, line->str + comment, line->len - comment, dialect->separator);
   GPtrArray *out = g_ptr_array_new();
   for (size_t i = 0; i < cells; i++) {
-    char *text = sb_table_utf8(cell[i].text, cell[i].length, dialect->encoding);
+    char *text = sb_text_table_utf8(cell[i].text, cell[i].length, dialect->encoding);
     if (dialect->separator == ' ' && out->len > 0 && *text != '\0' && strchr("[(", *text) != NULL) {
       char *before = out->pdata[out->len - 1];
       out->pdata[out->len - 1] = g_strconcat(before, " ", text, NULL);
@@ -353,7 +354,7 @@ static bool are_units(char **cells) {
   return any;
 }
 
-static void set_unit(SbTableColumn *column, const char *text) {
+static void set_unit(SbTextTableColumn *column, const char *text) {
   const size_t length = strlen(text);
   const bool bracketed = length >= 2 && strchr("[(", *text) != NULL;
   g_free(column->unit);
@@ -361,7 +362,7 @@ static void set_unit(SbTableColumn *column, const char *text) {
 }
 
 // Names and units from the last header lines that have as many cells as the rows.
-static void read_header(SbTable *table, const Sample *sample) {
+static void read_header(SbTextTable *table, const Sample *sample) {
   bool named = false, united = false;
   for (size_t i = table->header_lines, back = 0; i-- > 0 && back < 4 && !named; back++) {
     const GString *line = sample->line->pdata[i];
@@ -375,7 +376,7 @@ static void read_header(SbTable *table, const Sample *sample) {
     }
     const bool units = !united && are_units(cells);
     for (size_t k = 0; k < count; k++) {
-      SbTableColumn *column = &table->column[k];
+      SbTextTableColumn *column = &table->column[k];
       if (units) {
         set_unit(column, cells[k]);
         continue;
@@ -397,9 +398,9 @@ static void read_header(SbTable *table, const Sample *sample) {
 }
 
 // Half as many names as cells, and no point anywhere: the comma may be both.
-static bool refuse_double_comma(const SbTable *table, const Sample *sample, const Fit *fit,
-                                const SbTableDialect *wish, GPtrArray *issues) {
-  if (fit->dialect.separator != ',' || (fit->saw & SB_TABLE_SAW_DECIMAL) != 0 ||
+static bool refuse_double_comma(const SbTextTable *table, const Sample *sample, const Fit *fit,
+                                const SbTextTableDialect *wish, GPtrArray *issues) {
+  if (fit->dialect.separator != ',' || (fit->saw & SB_TEXT_TABLE_SAW_DECIMAL) != 0 ||
       table->header_lines == 0 || wish->separator != '\0') {
     return false;
   }
@@ -418,7 +419,7 @@ static bool refuse_double_comma(const SbTable *table, const Sample *sample, cons
 
 // ---- The file ----
 
-static SbTableEncoding encoding_of(const SbTableBytes *bytes) {
+static SbTextTableEncoding encoding_of(const SbTextTableBytes *bytes) {
   size_t looked = MIN(bytes->length, ENCODING_BYTES);
   if (bytes->file < 0) {
     return find_encoding(bytes->bytes, looked, bytes->length);
@@ -428,11 +429,11 @@ static SbTableEncoding encoding_of(const SbTableBytes *bytes) {
   return find_encoding(head, got > 0 ? (size_t)got : 0, bytes->length);
 }
 
-static bool recognise(SbTable *table, const SbTableDialect *wish, GPtrArray *issues) {
-  static const SbTableDialect nothing = {0};
+static bool recognise(SbTextTable *table, const SbTextTableDialect *wish, GPtrArray *issues) {
+  static const SbTextTableDialect nothing = {0};
   wish = wish != NULL ? wish : &nothing;
   table->dialect.encoding =
-      wish->encoding != SB_TABLE_ANY_ENCODING ? wish->encoding : encoding_of(&table->bytes);
+      wish->encoding != SB_TEXT_TABLE_ANY_ENCODING ? wish->encoding : encoding_of(&table->bytes);
   Sample sample = take_sample(table);
   if (sample.wrong != NULL) {
     sb_issues_add(issues, table->shown, 0, NULL, NULL, "%s", sample.wrong);
@@ -445,10 +446,10 @@ static bool recognise(SbTable *table, const SbTableDialect *wish, GPtrArray *iss
     table->dialect = fit.dialect;
     table->columns = fit.cells;
     for (size_t i = 0; i < fit.cells; i++) {
-      table->column[i] = (SbTableColumn){.name = g_strdup(""),
-                                         .unit = g_strdup(""),
-                                         .numeric = (fit.numeric >> i & 1) != 0,
-                                         .clock = (fit.clocks >> i & 1) != 0};
+      table->column[i] = (SbTextTableColumn){.name = g_strdup(""),
+                                             .unit = g_strdup(""),
+                                             .numeric = (fit.numeric >> i & 1) != 0,
+                                             .clock = (fit.clocks >> i & 1) != 0};
     }
     const Shape row = {.cells = fit.cells, .numeric = fit.numeric, .clocks = fit.clocks};
     for (size_t i = 0; i < sample.head; i++) {
@@ -463,8 +464,8 @@ static bool recognise(SbTable *table, const SbTableDialect *wish, GPtrArray *iss
     } else {
       read_header(table, &sample);
       // Marks between thousands are taken where a decimal mark tells them apart.
-      const bool grouped = (fit.saw & SB_TABLE_SAW_GROUPS) != 0;
-      if (!grouped && fit.saw != SB_TABLE_SAW_DECIMAL) {
+      const bool grouped = (fit.saw & SB_TEXT_TABLE_SAW_GROUPS) != 0;
+      if (!grouped && fit.saw != SB_TEXT_TABLE_SAW_DECIMAL) {
         table->dialect.thousands = '\0';
       }
     }
@@ -473,19 +474,20 @@ static bool recognise(SbTable *table, const SbTableDialect *wish, GPtrArray *iss
   return good;
 }
 
-SbTable *sb_table_parse(const void *bytes, size_t length, const SbTableDialect *wish,
-                        const char *name, GPtrArray *issues) {
-  g_autoptr(SbTable) table = g_new0(SbTable, 1);
+SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
+                                 const char *name, GPtrArray *issues) {
+  g_autoptr(SbTextTable) table = g_new0(SbTextTable, 1);
   table->shown = g_strdup(name);
-  table->bytes = (SbTableBytes){-1, g_malloc0(length + 1), length}; // never NULL
+  table->bytes = (SbTextTableBytes){-1, g_malloc0(length + 1), length}; // never NULL
   if (length > 0) {
     memcpy(table->bytes.bytes, bytes, length);
   }
   return recognise(table, wish, issues) ? g_steal_pointer(&table) : NULL;
 }
 
-SbTable *sb_table_open(const char *path, const SbTableDialect *wish, GPtrArray *issues) {
-  g_autoptr(SbTable) table = g_new0(SbTable, 1);
+SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish,
+                                GPtrArray *issues) {
+  g_autoptr(SbTextTable) table = g_new0(SbTextTable, 1);
   table->shown = g_strdup(path);
   table->bytes.file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   struct stat info;
@@ -495,7 +497,7 @@ SbTable *sb_table_open(const char *path, const SbTableDialect *wish, GPtrArray *
     size_t length = 0;
     g_autofree char *text =
         sb_reader_load_stream(&length, table->bytes.file, path, PIPE_BYTES, issues);
-    return text != NULL ? sb_table_parse(text, length, wish, path, issues) : NULL;
+    return text != NULL ? sb_text_table_parse(text, length, wish, path, issues) : NULL;
   } else if (!S_ISREG(info.st_mode)) {
     sb_issues_add(issues, path, 0, NULL, NULL, "is not a regular file");
   } else if (info.st_size == 0) {
@@ -508,7 +510,7 @@ SbTable *sb_table_open(const char *path, const SbTableDialect *wish, GPtrArray *
   return NULL;
 }
 
-void sb_table_free(SbTable *table) {
+void sb_text_table_free(SbTextTable *table) {
   if (table == NULL) {
     return;
   }
@@ -524,24 +526,24 @@ void sb_table_free(SbTable *table) {
   g_free(table);
 }
 
-const SbTableDialect *sb_table_dialect(const SbTable *table) {
+const SbTextTableDialect *sb_text_table_dialect(const SbTextTable *table) {
   return &table->dialect;
 }
 
-size_t sb_table_columns(const SbTable *table) {
+size_t sb_text_table_columns(const SbTextTable *table) {
   return table->columns;
 }
 
-const SbTableColumn *sb_table_column(const SbTable *table, size_t index) {
+const SbTextTableColumn *sb_text_table_column(const SbTextTable *table, size_t index) {
   return &table->column[index];
 }
 
-size_t sb_table_header_lines(const SbTable *table) {
+size_t sb_text_table_header_lines(const SbTextTable *table) {
   return table->header_lines;
 }
 
-void sb_table_rename(SbTable *table, size_t index, const char *name, const char *unit) {
-  SbTableColumn *column = &table->column[index];
+void sb_text_table_rename(SbTextTable *table, size_t index, const char *name, const char *unit) {
+  SbTextTableColumn *column = &table->column[index];
   if (name != NULL) {
     g_free(column->name);
     column->name = g_strdup(name);

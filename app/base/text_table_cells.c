@@ -2,7 +2,7 @@
 // up to 22 one multiplication or division of exact doubles rounds right (Clinger 1990), all others
 // go to the C library's conversion.
 #include "app/base/number.h"
-#include "app/base/table_private.h"
+#include "app/base/text_table_private.h"
 
 #include <string.h>
 
@@ -12,7 +12,7 @@ static bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-static SbTableCell trimmed(const char *text, const char *end) {
+static SbTextTableCell trimmed(const char *text, const char *end) {
   while (text < end && is_blank(*text)) {
     text++;
   }
@@ -22,14 +22,14 @@ static SbTableCell trimmed(const char *text, const char *end) {
   if (end - text >= 2 && *text == '"' && end[-1] == '"') {
     return trimmed(text + 1, end - 1);
   }
-  return (SbTableCell){text, (size_t)(end - text)};
+  return (SbTextTableCell){text, (size_t)(end - text)};
 }
 
-size_t sb_table_split(SbTableCell *cell, const char *line, size_t length, char separator) {
+size_t sb_text_table_split(SbTextTableCell *cell, const char *line, size_t length, char separator) {
   const char *c = line, *const end = line + length;
   size_t count = 0;
   if (separator == ' ') {
-    while (count < SB_TABLE_COLUMNS_MAX) {
+    while (count < SB_TEXT_TABLE_COLUMNS_MAX) {
       while (c < end && is_blank(*c)) {
         c++;
       }
@@ -44,7 +44,7 @@ size_t sb_table_split(SbTableCell *cell, const char *line, size_t length, char s
     }
     return count;
   }
-  while (count < SB_TABLE_COLUMNS_MAX) {
+  while (count < SB_TEXT_TABLE_COLUMNS_MAX) {
     const char *first = c;
     bool quoted = false;
     while (c < end && (quoted || *c != separator)) {
@@ -67,7 +67,8 @@ size_t sb_table_split(SbTableCell *cell, const char *line, size_t length, char s
 // ---- Numbers ----
 
 // The C library's conversion of what has too many digits, its marks replaced.
-static bool read_slowly(double *out, const SbTableCell *cell, const SbTableDialect *dialect) {
+static bool read_slowly(double *out, const SbTextTableCell *cell,
+                        const SbTextTableDialect *dialect) {
   char text[SB_NUMBER_LENGTH_MAX + 1];
   size_t count = 0;
   for (size_t i = 0; i < cell->length; i++) {
@@ -90,8 +91,8 @@ static bool is_group(const char *c, const char *end) {
          !(end - c > 4 && g_ascii_isdigit(c[4]));
 }
 
-bool sb_table_number(double *out, const SbTableCell *cell, const SbTableDialect *dialect,
-                     unsigned *saw) {
+bool sb_text_table_number(double *out, const SbTextTableCell *cell,
+                          const SbTextTableDialect *dialect, unsigned *saw) {
   static const double power[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                  1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                  1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
@@ -169,16 +170,16 @@ bool sb_table_number(double *out, const SbTableCell *cell, const SbTableDialect 
     }
   }
   if (saw != NULL) {
-    *saw |= (marked ? SB_TABLE_SAW_DECIMAL : 0) | (grouped ? SB_TABLE_SAW_GROUPS : 0) |
-            (whole_long ? SB_TABLE_SAW_LONG : 0);
+    *saw |= (marked ? SB_TEXT_TABLE_SAW_DECIMAL : 0) | (grouped ? SB_TEXT_TABLE_SAW_GROUPS : 0) |
+            (whole_long ? SB_TEXT_TABLE_SAW_LONG : 0);
   }
   return true;
 }
 
-bool sb_table_number_of(double *out, const char *text, size_t length, char decimal) {
-  const SbTableDialect dialect = {.decimal = decimal};
-  const SbTableCell cell = {text, length};
-  return sb_table_number(out, &cell, &dialect, NULL);
+bool sb_text_table_number_of(double *out, const char *text, size_t length, char decimal) {
+  const SbTextTableDialect dialect = {.decimal = decimal};
+  const SbTextTableCell cell = {text, length};
+  return sb_text_table_number(out, &cell, &dialect, NULL);
 }
 
 // ---- Clocks ----
@@ -194,9 +195,9 @@ static bool read_whole(int *out, const char **at, const char *end, int digits_ma
   return any;
 }
 
-bool sb_table_clock(SbTableClock *out, const SbTableCell *cell) {
+bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell) {
   const char *c = cell->text, *const end = c + cell->length;
-  SbTableClock clock = {0};
+  SbTextTableClock clock = {0};
   if (memchr(c, ':', cell->length) == NULL) {
     return false;
   }
@@ -239,7 +240,7 @@ bool sb_table_clock(SbTableClock *out, const SbTableCell *cell) {
   return true;
 }
 
-bool sb_table_days(long *days, const SbTableClock *clock) {
+bool sb_text_table_days(long *days, const SbTextTableClock *clock) {
   const int *date = clock->date;
   int year = date[2], month = date[1], day = date[0];
   if (date[0] > 31) {

@@ -1,5 +1,5 @@
 // Reads the rows of a table; see table.h.
-#include "app/base/table_private.h"
+#include "app/base/text_table_private.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,14 +8,14 @@
 // day or by a month is told.
 typedef struct {
   bool begun;
-  SbTableClock last;
+  SbTextTableClock last;
   double day; // seconds of whole days so far
 } Days;
 
-static bool add_days(double *out, Days *days, const SbTableClock *clock) {
+static bool add_days(double *out, Days *days, const SbTextTableClock *clock) {
   if (days->begun && memcmp(clock->date, days->last.date, sizeof clock->date) != 0) {
     long before, now;
-    if (!sb_table_days(&before, &days->last) || !sb_table_days(&now, clock)) {
+    if (!sb_text_table_days(&before, &days->last) || !sb_text_table_days(&now, clock)) {
       return false;
     }
     days->day += 86400.0 * (double)(now - before);
@@ -29,7 +29,7 @@ static bool add_days(double *out, Days *days, const SbTableClock *clock) {
 }
 
 static bool grow(double **value, size_t count, size_t *room, size_t wanted) {
-  const size_t next = MIN(wanted, SB_TABLE_ROWS_MAX);
+  const size_t next = MIN(wanted, SB_TEXT_TABLE_ROWS_MAX);
   for (size_t k = 0; k < count; k++) {
     double *more = g_try_realloc_n(value[k], next, sizeof(double));
     if (more == NULL) {
@@ -41,37 +41,37 @@ static bool grow(double **value, size_t count, size_t *room, size_t wanted) {
   return true;
 }
 
-bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const size_t *column,
-                   size_t count, GPtrArray *issues) {
-  *out = (SbTableRows){0};
+bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
+                        const size_t *column, size_t count, GPtrArray *issues) {
+  *out = (SbTextTableRows){0};
   for (size_t k = 0; k < count; k++) {
     value[k] = NULL;
   }
-  Days days[SB_TABLE_COLUMNS_MAX] = {0};
-  SbTableLines lines;
+  Days days[SB_TEXT_TABLE_COLUMNS_MAX] = {0};
+  SbTextTableLines lines;
   const char *text, *wrong = NULL;
   size_t length, room = 0;
-  sb_table_lines_init(&lines, &table->bytes, 0, table->dialect.encoding);
-  while (wrong == NULL && sb_table_next(&lines, &text, &length)) {
+  sb_text_table_lines_init(&lines, &table->bytes, 0, table->dialect.encoding);
+  while (wrong == NULL && sb_text_table_next(&lines, &text, &length)) {
     if ((size_t)lines.number <= table->header_lines || length == 0 || *text == '#') {
       continue;
     }
-    SbTableCell cell[SB_TABLE_COLUMNS_MAX];
-    const size_t cells = sb_table_split(cell, text, length, table->dialect.separator);
-    double row[SB_TABLE_COLUMNS_MAX];
+    SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
+    const size_t cells = sb_text_table_split(cell, text, length, table->dialect.separator);
+    double row[SB_TEXT_TABLE_COLUMNS_MAX];
     bool any = false, good = cells <= table->columns;
     size_t unreadable = 0;
     for (size_t k = 0; k < count && cells <= table->columns; k++) {
       const size_t at = column[k];
-      SbTableClock clock;
+      SbTextTableClock clock;
       row[k] = NAN;
       if (at >= cells || cell[at].length == 0) {
         continue;
       }
       bool read;
       if (!table->column[at].clock) {
-        read = sb_table_number(&row[k], &cell[at], &table->dialect, NULL);
-      } else if ((read = sb_table_clock(&clock, &cell[at])) && good &&
+        read = sb_text_table_number(&row[k], &cell[at], &table->dialect, NULL);
+      } else if ((read = sb_text_table_clock(&clock, &cell[at])) && good &&
                  !add_days(&row[k], &days[k], &clock)) {
         wrong = "is ambiguous: the date advances by a day or by a month, write it as "
                 "2026-02-03";
@@ -87,15 +87,16 @@ bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const
       out->skipped += cells > 0 && !damaged;
       if (cells > 0 && out->left_text == NULL) {
         out->left_line = lines.number;
-        out->left_text = sb_table_utf8(text, length, table->dialect.encoding);
+        out->left_text = sb_text_table_utf8(text, length, table->dialect.encoding);
       }
       continue;
     }
     if (out->rows == room) {
       // The bytes that are left, at the length of lines so far, are a good guess.
-      const double done = (double)sb_table_lines_place(&lines), all = (double)table->bytes.length;
+      const double done = (double)sb_text_table_lines_place(&lines),
+                   all = (double)table->bytes.length;
       const double guess = room == 0 ? 1024 : 1.05 * (double)out->rows * all / done + 16;
-      wrong = room == SB_TABLE_ROWS_MAX ? "has too many rows"
+      wrong = room == SB_TEXT_TABLE_ROWS_MAX ? "has too many rows"
               : grow(value, count, &room, (size_t)fmin(fmax(guess, (double)room + 1024), 1e15))
                   ? NULL
                   : "there is no memory for its rows";
@@ -113,6 +114,6 @@ bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const
     }
     g_clear_pointer(&out->left_text, g_free);
   }
-  sb_table_lines_clear(&lines);
+  sb_text_table_lines_clear(&lines);
   return wrong == NULL;
 }

@@ -1,7 +1,7 @@
 // Lines, cells and numbers of tables, shared by the files table*.c.
 #pragma once
 
-#include "app/base/table.h"
+#include "app/base/text_table.h"
 
 // The bytes of a table: in memory, or in a file that is read piece by piece. (A memory map would
 // crash if another program truncates the file.)
@@ -9,84 +9,84 @@ typedef struct {
   int file;      // descriptor; -1: in memory
   guint8 *bytes; // [length] in memory; NULL: a file
   size_t length;
-} SbTableBytes;
+} SbTextTableBytes;
 
 // Longest line [bytes].
-enum { SB_TABLE_LINE_MAX = 1 << 24 };
+enum { SB_TEXT_TABLE_LINE_MAX = 1 << 24 };
 
-// Reads a text in any of the encodings line by line. Initialised by sb_table_lines_init(), freed by
-// sb_table_lines_clear().
+// Reads a text in any of the encodings line by line. Initialised by sb_text_table_lines_init(),
+// freed by sb_text_table_lines_clear().
 typedef struct {
-  const SbTableBytes *bytes;
+  const SbTextTableBytes *bytes;
   const guint8 *at, *end; // bytes that are available
   size_t left;            // bytes of the file after those
   guint8 *piece;          // buffer for a file; NULL in memory
   size_t room;            // its size
-  SbTableEncoding encoding;
+  SbTextTableEncoding encoding;
   char line_end;     // '\n', or '\r' for files without newlines
   int number;        // of the line last read, from 1
   GString *wide;     // a line of UTF-16 converted to UTF-8; else NULL
   const char *wrong; // why reading ended before the end of the file; NULL: it did not; static
-} SbTableLines;
+} SbTextTableLines;
 
 // Starts to read at byte `from`. `bytes` is borrowed.
-void sb_table_lines_init(SbTableLines *lines, const SbTableBytes *bytes, size_t from,
-                         SbTableEncoding encoding);
+void sb_text_table_lines_init(SbTextTableLines *lines, const SbTextTableBytes *bytes, size_t from,
+                              SbTextTableEncoding encoding);
 
 // Frees the buffers.
-void sb_table_lines_clear(SbTableLines *lines);
+void sb_text_table_lines_clear(SbTextTableLines *lines);
 
 // Writes the next line without its end, borrowed until the next call: for UTF-16 converted to
 // UTF-8, else the bytes of the file. Returns false at the end, or with `wrong` set if the file
 // cannot be read.
-bool sb_table_next(SbTableLines *lines, const char **text, size_t *length);
+bool sb_text_table_next(SbTextTableLines *lines, const char **text, size_t *length);
 
 // Returns the offset of the next line [bytes].
-size_t sb_table_lines_place(const SbTableLines *lines);
+size_t sb_text_table_lines_place(const SbTextTableLines *lines);
 
 // A cell; borrowed from its line, not terminated by 0.
 typedef struct {
   const char *text;
   size_t length;
-} SbTableCell;
+} SbTextTableCell;
 
-// Splits a line into cell[SB_TABLE_COLUMNS_MAX] and returns their number; further cells are
+// Splits a line into cell[SB_TEXT_TABLE_COLUMNS_MAX] and returns their number; further cells are
 // ignored. Blanks and quotes around a cell are removed.
-size_t sb_table_split(SbTableCell *cell, const char *line, size_t length, char separator);
+size_t sb_text_table_split(SbTextTableCell *cell, const char *line, size_t length, char separator);
 
 // Bits that state which marks numbers have.
 enum {
-  SB_TABLE_SAW_DECIMAL = 1,
-  SB_TABLE_SAW_GROUPS = 2, // a mark between thousands
-  SB_TABLE_SAW_LONG = 4    // four digits or more and no mark between them
+  SB_TEXT_TABLE_SAW_DECIMAL = 1,
+  SB_TEXT_TABLE_SAW_GROUPS = 2, // a mark between thousands
+  SB_TEXT_TABLE_SAW_LONG = 4    // four digits or more and no mark between them
 };
 
 // Reads a cell as a number in this dialect. Returns false, with *out not changed, if it is none.
 // Sets bits of *saw (may be NULL).
-bool sb_table_number(double *out, const SbTableCell *cell, const SbTableDialect *dialect,
-                     unsigned *saw);
+bool sb_text_table_number(double *out, const SbTextTableCell *cell,
+                          const SbTextTableDialect *dialect, unsigned *saw);
 
 // A time of day, with a date.
 typedef struct {
   double seconds; // since midnight [s]
   int date[3];    // the three numbers of the date in their order; 0: no date
   char mark;      // character between them
-} SbTableClock;
+} SbTextTableClock;
 
 // Reads a cell as a time of day. Returns false if it is none.
-bool sb_table_clock(SbTableClock *out, const SbTableCell *cell);
+bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell);
 
 // Writes the number of days of a date since a fixed one. Returns false if it is ambiguous which
 // number is the day and which the month.
-bool sb_table_days(long *days, const SbTableClock *clock);
+bool sb_text_table_days(long *days, const SbTextTableClock *clock);
 
-struct SbTable {
+struct SbTextTable {
   char *shown; // the file, for messages
-  SbTableBytes bytes;
-  SbTableDialect dialect;
+  SbTextTableBytes bytes;
+  SbTextTableDialect dialect;
   size_t columns, header_lines;
-  SbTableColumn column[SB_TABLE_COLUMNS_MAX];
+  SbTextTableColumn column[SB_TEXT_TABLE_COLUMNS_MAX];
 };
 
 // Returns a piece of a line as printable UTF-8.
-char *sb_table_utf8(const char *text, size_t length, SbTableEncoding encoding);
+char *sb_text_table_utf8(const char *text, size_t length, SbTextTableEncoding encoding);

@@ -21,27 +21,27 @@
 
 // Encoding of the text.
 typedef enum {
-  SB_TABLE_ANY_ENCODING, // to be recognised
-  SB_TABLE_UTF8,
-  SB_TABLE_LATIN1, // also Windows-1252, for letters and µ
-  SB_TABLE_UTF16LE,
-  SB_TABLE_UTF16BE,
-  SB_TABLE_ENCODING_COUNT
-} SbTableEncoding;
+  SB_TEXT_TABLE_ANY_ENCODING, // to be recognised
+  SB_TEXT_TABLE_UTF8,
+  SB_TEXT_TABLE_LATIN1, // also Windows-1252, for letters and µ
+  SB_TEXT_TABLE_UTF16LE,
+  SB_TEXT_TABLE_UTF16BE,
+  SB_TEXT_TABLE_ENCODING_COUNT
+} SbTextTableEncoding;
 
 // Returns "utf-8", "latin-1", "utf-16le" or "utf-16be". Static.
-const char *sb_table_encoding_name(SbTableEncoding encoding);
+const char *sb_text_table_encoding_name(SbTextTableEncoding encoding);
 
 // Format of a table.
 typedef struct {
-  SbTableEncoding encoding;
+  SbTextTableEncoding encoding;
   char separator; // '\t', ';', ',', or ' ' for blanks; 0: to be recognised
   char decimal;   // '.' or ','; 0: to be recognised
   char thousands; // only recognised: '.', ',', '\''; 0: none
-} SbTableDialect;
+} SbTextTableDialect;
 
 // Largest number of columns.
-enum { SB_TABLE_COLUMNS_MAX = 64 };
+enum { SB_TEXT_TABLE_COLUMNS_MAX = 64 };
 
 // A column.
 typedef struct {
@@ -49,40 +49,42 @@ typedef struct {
   char *unit;   // as the file has it; empty: none
   bool numeric; // its cells are numbers
   bool clock;   // its cells are times of day
-} SbTableColumn;
+} SbTextTableColumn;
 
-typedef struct SbTable SbTable;
+typedef struct SbTextTable SbTextTable;
 
 // Opens the file `path` and recognises its format; `wish` (NULL: nothing) specifies what is known.
-// Returns NULL with one issue if it cannot be read or is not a table. Freed by sb_table_free().
-SbTable *sb_table_open(const char *path, const SbTableDialect *wish, GPtrArray *issues);
+// Returns NULL with one issue if it cannot be read or is not a table. Freed by
+// sb_text_table_free().
+SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish,
+                                GPtrArray *issues);
 
-// As sb_table_open(), from the `length` bytes of a file, which are copied; `name` is used as the
-// path in messages.
-SbTable *sb_table_parse(const void *bytes, size_t length, const SbTableDialect *wish,
-                        const char *name, GPtrArray *issues);
+// As sb_text_table_open(), from the `length` bytes of a file, which are copied; `name` is used as
+// the path in messages.
+SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
+                                 const char *name, GPtrArray *issues);
 
 // Frees a table and closes its file.
-void sb_table_free(SbTable *table);
-G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbTable, sb_table_free)
+void sb_text_table_free(SbTextTable *table);
+G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbTextTable, sb_text_table_free)
 
 // Returns the format.
-const SbTableDialect *sb_table_dialect(const SbTable *table);
+const SbTextTableDialect *sb_text_table_dialect(const SbTextTable *table);
 
 // Returns the number of columns.
-size_t sb_table_columns(const SbTable *table);
+size_t sb_text_table_columns(const SbTextTable *table);
 
 // Returns column `index`, from 0.
-const SbTableColumn *sb_table_column(const SbTable *table, size_t index);
+const SbTextTableColumn *sb_text_table_column(const SbTextTable *table, size_t index);
 
 // Returns the number of lines before the first row.
-size_t sb_table_header_lines(const SbTable *table);
+size_t sb_text_table_header_lines(const SbTextTable *table);
 
 // Replaces name and unit of a column (each copied; NULL: unchanged).
-void sb_table_rename(SbTable *table, size_t index, const char *name, const char *unit);
+void sb_text_table_rename(SbTextTable *table, size_t index, const char *name, const char *unit);
 
 // Largest number of rows.
-enum { SB_TABLE_ROWS_MAX = 50000000 };
+enum { SB_TEXT_TABLE_ROWS_MAX = 50000000 };
 
 // What was read.
 typedef struct {
@@ -91,15 +93,15 @@ typedef struct {
   size_t skipped;  // other lines between rows, left out
   int left_line;   // number of the first line that was left out, from 1
   char *left_text; // its text, freed by g_free(); NULL: no line was left out
-} SbTableRows;
+} SbTextTableRows;
 
 // Reads the columns column[count] (indices) of all rows: value[k] becomes an array [rows] of the
 // numbers of column[k], freed by g_free(); times of day in seconds from midnight of the first day;
 // NaN for an empty cell. Numbers are in the file's units. Returns false with one issue: no memory,
 // too many rows, or dates in which day and month are ambiguous.
-bool sb_table_read(SbTableRows *out, double **value, const SbTable *table, const size_t *column,
-                   size_t count, GPtrArray *issues);
+bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
+                        const size_t *column, size_t count, GPtrArray *issues);
 
 // Reads a text of `length` bytes that is one number with this decimal mark and no mark between
 // thousands. Returns false, with *out not changed, if it is not.
-bool sb_table_number_of(double *out, const char *text, size_t length, char decimal);
+bool sb_text_table_number_of(double *out, const char *text, size_t length, char decimal);

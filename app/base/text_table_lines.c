@@ -1,5 +1,5 @@
 // Lines of a table's bytes; see table_private.h.
-#include "app/base/table_private.h"
+#include "app/base/text_table_private.h"
 
 #include <errno.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 
 enum { PIECE = 1 << 18 };
 
-static bool refuse(SbTableLines *lines, const char *why) {
+static bool refuse(SbTextTableLines *lines, const char *why) {
   lines->wrong = why;
   lines->left = 0;
   return false;
@@ -15,12 +15,12 @@ static bool refuse(SbTableLines *lines, const char *why) {
 
 // Reads on behind what is at hand, which moves to the start of the piece; false where nothing is
 // left.
-static bool read_on(SbTableLines *lines) {
+static bool read_on(SbTextTableLines *lines) {
   const size_t kept = (size_t)(lines->end - lines->at);
   if (lines->left == 0) {
     return false;
   }
-  if (kept >= SB_TABLE_LINE_MAX) {
+  if (kept >= SB_TEXT_TABLE_LINE_MAX) {
     return refuse(lines, "has a line of more than 16 MiB");
   }
   if (lines->piece != NULL) {
@@ -41,13 +41,13 @@ static bool read_on(SbTableLines *lines) {
   return got > 0 || refuse(lines, got < 0 ? g_strerror(errno) : "was cut short while it was read");
 }
 
-void sb_table_lines_init(SbTableLines *lines, const SbTableBytes *bytes, size_t from,
-                         SbTableEncoding encoding) {
-  const bool wide = encoding == SB_TABLE_UTF16LE || encoding == SB_TABLE_UTF16BE;
-  *lines = (SbTableLines){.bytes = bytes,
-                          .encoding = encoding,
-                          .line_end = '\n',
-                          .wide = wide ? g_string_new(NULL) : NULL};
+void sb_text_table_lines_init(SbTextTableLines *lines, const SbTextTableBytes *bytes, size_t from,
+                              SbTextTableEncoding encoding) {
+  const bool wide = encoding == SB_TEXT_TABLE_UTF16LE || encoding == SB_TEXT_TABLE_UTF16BE;
+  *lines = (SbTextTableLines){.bytes = bytes,
+                              .encoding = encoding,
+                              .line_end = '\n',
+                              .wide = wide ? g_string_new(NULL) : NULL};
   if (bytes->file < 0) {
     lines->at = bytes->bytes + from;
     lines->end = bytes->bytes + bytes->length;
@@ -57,7 +57,7 @@ void sb_table_lines_init(SbTableLines *lines, const SbTableBytes *bytes, size_t 
   }
   const size_t length = (size_t)(lines->end - lines->at);
   if (wide && length >= 2) {
-    const int first = encoding == SB_TABLE_UTF16LE ? 0 : 1;
+    const int first = encoding == SB_TEXT_TABLE_UTF16LE ? 0 : 1;
     lines->at += lines->at[first] == 0xff && lines->at[1 - first] == 0xfe ? 2 : 0;
   } else if (length >= 3 && memcmp(lines->at, "\xef\xbb\xbf", 3) == 0) {
     lines->at += 3;
@@ -70,19 +70,19 @@ void sb_table_lines_init(SbTableLines *lines, const SbTableBytes *bytes, size_t 
   }
 }
 
-void sb_table_lines_clear(SbTableLines *lines) {
+void sb_text_table_lines_clear(SbTextTableLines *lines) {
   g_free(lines->piece);
   if (lines->wide != NULL) {
     g_string_free(lines->wide, TRUE);
   }
 }
 
-size_t sb_table_lines_place(const SbTableLines *lines) {
+size_t sb_text_table_lines_place(const SbTextTableLines *lines) {
   return lines->bytes->length - lines->left - (size_t)(lines->end - lines->at);
 }
 
-static void next_wide(SbTableLines *lines) {
-  const int low = lines->encoding == SB_TABLE_UTF16LE ? 0 : 1;
+static void next_wide(SbTextTableLines *lines) {
+  const int low = lines->encoding == SB_TEXT_TABLE_UTF16LE ? 0 : 1;
   GString *out = lines->wide;
   g_string_truncate(out, 0);
   while (lines->end - lines->at >= 2 || read_on(lines)) {
@@ -94,7 +94,7 @@ static void next_wide(SbTableLines *lines) {
     if (unit == '\n') {
       return;
     }
-    if (out->len >= SB_TABLE_LINE_MAX) {
+    if (out->len >= SB_TEXT_TABLE_LINE_MAX) {
       (void)refuse(lines, "has a line of more than 16 MiB");
       break;
     }
@@ -108,7 +108,7 @@ static void next_wide(SbTableLines *lines) {
 }
 
 // Up to the line's end, or the last byte's.
-static const guint8 *find_end(SbTableLines *lines) {
+static const guint8 *find_end(SbTextTableLines *lines) {
   for (size_t looked = 0;;) {
     const size_t known = (size_t)(lines->end - lines->at);
     const guint8 *stop =
@@ -120,7 +120,7 @@ static const guint8 *find_end(SbTableLines *lines) {
   }
 }
 
-bool sb_table_next(SbTableLines *lines, const char **text, size_t *length) {
+bool sb_text_table_next(SbTextTableLines *lines, const char **text, size_t *length) {
   if (lines->wrong != NULL || (lines->at >= lines->end && !read_on(lines))) {
     return false;
   }
