@@ -96,6 +96,10 @@ bool sb_output_folder_open(SbOutputFolder **out, const char *path, const char *c
 // function of the folder. After a failure the folder and its other files can still be used.
 bool sb_output_folder_add(FILE **stream, SbOutputFolder *folder, const char *name, GError **error);
 
+// Adds a file with a text (sb_output_folder_add()).
+bool sb_output_folder_add_text(SbOutputFolder *folder, const char *name, const char *text,
+                               GError **error);
+
 // Flushes and syncs all files that were added since the last commit, and then gives all their
 // names. After a failure the files without a name are removed; files of earlier commits stay. The
 // streams are closed in any case.
@@ -110,6 +114,14 @@ bool sb_output_folder_finish(SbOutputFolder *folder, GPtrArray *kept, GError **e
 // Unlocks and frees the folder. Without sb_output_folder_finish() the earlier files stay and remain
 // in the manifest. Takes NULL.
 void sb_output_folder_close(SbOutputFolder *folder);
+
+// Adds the files of a result to the folder. Returns false with an error.
+typedef bool (*SbOutputFill)(SbOutputFolder *folder, void *data, GError **error);
+
+// Writes a folder as one result: opens it, calls `fill` once with `data`, commits, finishes with
+// `kept`, and closes it.
+bool sb_output_folder_write(const char *path, const char *command, SbOutputFill fill, void *data,
+                            GPtrArray *kept, GError **error);
 
 // ---- Before the work ----
 

@@ -258,3 +258,19 @@ void sb_output_folder_close(SbOutputFolder *folder) {
   g_array_unref(folder->pending);
   g_free(folder);
 }
+
+bool sb_output_folder_add_text(SbOutputFolder *folder, const char *name, const char *text,
+                               GError **error) {
+  FILE *stream;
+  return sb_output_folder_add(&stream, folder, name, error) && (fputs(text, stream), true);
+}
+
+bool sb_output_folder_write(const char *path, const char *command, SbOutputFill fill, void *data,
+                            GPtrArray *kept, GError **error) {
+  SbOutputFolder *folder;
+  const bool good = sb_output_folder_open(&folder, path, command, error) &&
+                    fill(folder, data, error) && sb_output_folder_commit(folder, error) &&
+                    sb_output_folder_finish(folder, kept, error);
+  sb_output_folder_close(folder);
+  return good;
+}

@@ -349,6 +349,14 @@ char *sb_quantity_format(double value, const char *si, const char *shown) {
   return bare ? g_strdup(text) : g_strconcat(text, " ", shown, NULL);
 }
 
+char *sb_quantity_round(double value, const char *si, const char *shown, int digits) {
+  char text[SB_NUMBER_SIZE];
+  return isfinite(value)
+             ? g_strconcat(sb_number_round(text, sb_quantity_to_shown(value, si, shown), digits),
+                           *shown != '\0' ? " " : "", shown, NULL)
+             : g_strdup("-");
+}
+
 char *sb_param_format(SbParamId id, double value) {
   const SbParam *param = sb_param(id);
   char name[64];

@@ -29,6 +29,10 @@ bool sb_quantity_is_point(const char *shown);
 // double, and the unit. In the SI unit if `shown` cannot express the value exactly.
 char *sb_quantity_format(double value, const char *si, const char *shown);
 
+// Returns `value` [si] in the unit `shown` with at most `digits` significant digits, and the unit;
+// "-" if it is not finite.
+char *sb_quantity_round(double value, const char *si, const char *shown, int digits);
+
 // Returns the number that `value` [si] has in the unit `shown`.
 double sb_quantity_to_shown(double value, const char *si, const char *shown);
 

@@ -6,9 +6,9 @@
 #include "app/base/output.h"
 #include "app/cli/wrap.h"
 #include "app/document/shipped.h"
-#include "app/export/json.h"
 #include "app/lazy/lazy.h"
 #include "app/run/process.h"
+#include "app/table/json.h"
 
 #include <errno.h>
 #include <math.h>
@@ -465,9 +465,30 @@ void sb_cli_kept(const char *folder, const GPtrArray *kept) {
   }
 }
 
+int sb_cli_write_folder(const char *path, const char *command, SbOutputFill fill, void *data) {
+  GError *error = NULL;
+  g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
+  const bool good = sb_output_folder_write(path, command, fill, data, kept, &error);
+  sb_cli_kept(path, kept);
+  return good ? SB_EXIT_DONE : sb_cli_error(error);
+}
+
 int sb_cli_emit(const char *json, const char *target) {
   GError *error = NULL;
   return sb_output_write(target, json, strlen(json), &error) ? SB_EXIT_DONE : sb_cli_error(error);
+}
+
+int sb_cli_table(const SbTable *table, const char *target) {
+  if (target != NULL) {
+    SbJson json;
+    sb_json_init(&json);
+    sb_table_json(&json, NULL, table);
+    g_autofree char *text = sb_json_finish(&json);
+    return sb_cli_emit(text, target);
+  }
+  g_autofree char *text = sb_table_text(table);
+  fputs(text, stdout);
+  return SB_EXIT_DONE;
 }
 
 void sb_cli_line(const char *label, const char *text) {

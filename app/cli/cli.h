@@ -6,11 +6,12 @@
 // messages name are state of the process.
 #pragma once
 
+#include "app/base/output.h"
 #include "app/data/compare.h"
 #include "app/document/document.h"
 #include "app/document/study_file.h"
-#include "app/export/json.h"
 #include "app/study/shares.h"
+#include "app/table/table.h"
 
 #include "engine/valve/sealbench.h"
 #include "engine/valve/studies/study.h"
@@ -190,7 +191,14 @@ int sb_cli_check_targets(const char *const *targets, size_t count);
 // was not deleted because it was changed since.
 void sb_cli_kept(const char *folder, const GPtrArray *kept);
 
+// Writes a folder as one result of `command` (sb_output_folder_write()), with sb_cli_kept().
+// Returns an exit code.
+int sb_cli_write_folder(const char *path, const char *command, SbOutputFill fill, void *data);
+
 // ---- Output ----
+
+// Prints a table, or writes its rows as JSON if `target` is not NULL. Returns an exit code.
+int sb_cli_table(const SbTable *table, const char *target);
 
 // Writes the text `json` to standard output ("-") or atomically to the file `target`. Returns
 // SB_EXIT_DONE, or another exit code with a message.

@@ -1,9 +1,8 @@
 // sealbench bench: error against time for every solver, by the engine's cases with known answers.
-#include "app/base/output.h"
 #include "app/cli/cli.h"
 #include "app/cli/start_up.h"
 #include "app/export/bench_page.h"
-#include "app/export/json.h"
+#include "app/table/json.h"
 
 #include "engine/valve/answer/bench.h"
 
@@ -78,29 +77,23 @@ static int run_cases(SbBenchCase *cases, size_t count, size_t *done, int repeats
   return code;
 }
 
-// bench.json and its picture. Returns an exit code.
-static int write_folder(const char *folder, const char *json, const SbBenchCase *cases,
-                        size_t count) {
-  SbOutputFolder *out;
-  GError *error = NULL;
-  g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
+typedef struct {
+  const char *json;
+  const SbBenchCase *cases;
+  size_t count;
+} Files;
+
+// Adds bench.json and its picture.
+static bool fill_folder(SbOutputFolder *folder, void *data, GError **error) {
+  const Files *files = data;
   FILE *stream;
-  bool good = sb_output_folder_open(&out, folder, "bench", &error);
-  if (good && (good = sb_output_folder_add(&stream, out, "bench.json", &error))) {
-    fputs(json, stream);
-  }
-  if (good && (good = sb_output_folder_add(&stream, out, "bench.png", &error))) {
-    good = sb_bench_put(stream, cases, count, &error);
-  }
-  good = good && sb_output_folder_commit(out, &error) && sb_output_folder_finish(out, kept, &error);
-  sb_output_folder_close(out);
-  sb_cli_kept(folder, kept);
-  return good ? SB_EXIT_DONE : sb_cli_error(error);
+  return sb_output_folder_add_text(folder, "bench.json", files->json, error) &&
+         sb_output_folder_add(&stream, folder, "bench.png", error) &&
+         sb_bench_put(stream, files->cases, files->count, error);
 }
 
 int sb_command_bench(int argc, char **argv) {
-  char *folder = NULL;
-  char *target = NULL;
+  g_autofree char *folder = NULL, *target = NULL;
   gboolean quick = FALSE;
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &folder, "Folder for bench.json and bench.png",
@@ -123,14 +116,16 @@ int sb_command_bench(int argc, char **argv) {
   if (code == SB_EXIT_DONE) {
     const int repeats = quick ? 1 : 20;
     size_t count = sb_bench_count();
-    SbBenchCase *cases = g_new0(SbBenchCase, count);
+    g_autofree SbBenchCase *cases = g_new0(SbBenchCase, count);
     size_t done = 0;
     sb_cli_catch_interrupts();
     code = run_cases(cases, count, &done, repeats);
     SbStartUp start_up;
     const bool started = code != SB_EXIT_INTERRUPTED && sb_start_up_measure(&start_up, repeats);
-    char *json = to_json(cases, done, started ? &start_up : NULL);
-    int written = folder != NULL ? write_folder(folder, json, cases, done) : SB_EXIT_DONE;
+    g_autofree char *json = to_json(cases, done, started ? &start_up : NULL);
+    Files files = {json, cases, done};
+    int written =
+        folder != NULL ? sb_cli_write_folder(folder, "bench", fill_folder, &files) : SB_EXIT_DONE;
     if (written == SB_EXIT_DONE && target != NULL) {
       written = sb_cli_emit(json, target);
     } else if (written == SB_EXIT_DONE && !sb_cli_quiet()) {
@@ -140,10 +135,6 @@ int sb_command_bench(int argc, char **argv) {
       }
     }
     code = written != SB_EXIT_DONE ? written : code;
-    g_free(json);
-    g_free(cases);
   }
-  g_free(folder);
-  g_free(target);
   return code;
 }

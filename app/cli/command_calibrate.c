@@ -1,7 +1,6 @@
 // sealbench calibrate: a scene's parameters from measured loops.
 #include "app/cli/cli.h"
 
-#include "app/base/output.h"
 #include "app/export/calibrate_results.h"
 
 #include <math.h>
@@ -89,41 +88,31 @@ static void print_table(const SbStudyFile *study, const SbCalibration *of) {
   printf("  %s\n", of->sentence);
 }
 
-static bool add_text(SbOutputFolder *folder, const char *name, const char *text, GError **error) {
+typedef struct {
+  const char *path, *json;
+  const SbStudyFile *study;
+  const SbCalibration *calibration;
+} Files;
+
+static bool fill_folder(SbOutputFolder *folder, void *data, GError **error) {
+  const Files *files = data;
+  const SbCalibration *of = files->calibration;
   FILE *stream;
-  const bool good = sb_output_folder_add(&stream, folder, name, error);
-  if (good) {
-    fputs(text, stream);
+  if (!sb_output_folder_add_text(folder, result_name, files->json, error) ||
+      !sb_output_folder_add(&stream, folder, samples_name, error)) {
+    return false;
+  }
+  sb_calibration_csv(stream, of);
+  bool good = sb_output_folder_add(&stream, folder, picture_name, error) &&
+              sb_calibration_put(stream, of, files->study, ".svg", error);
+  for (size_t i = 0; i < of->curves * G_N_ELEMENTS(fitted_file) && good; i++) {
+    const size_t curve = i / G_N_ELEMENTS(fitted_file), file = i % G_N_ELEMENTS(fitted_file);
+    g_autofree char *name = fitted_name(files->study, curve, file);
+    g_autofree char *to = g_build_filename(files->path, name, NULL);
+    g_autofree char *text = fitted_file[file].text(of, files->study, curve, to, error);
+    good = text != NULL && sb_output_folder_add_text(folder, name, text, error);
   }
   return good;
-}
-
-static int write_folder(const char *path, const SbStudyFile *study, const SbCalibration *of,
-                        const char *json) {
-  SbOutputFolder *folder;
-  GError *error = NULL;
-  g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
-  bool good = sb_output_folder_open(&folder, path, "calibrate", &error);
-  if (good) {
-    g_autofree char *samples = sb_calibration_csv(of);
-    good = add_text(folder, result_name, json, &error) &&
-           add_text(folder, samples_name, samples, &error);
-    FILE *stream;
-    good = good && sb_output_folder_add(&stream, folder, picture_name, &error) &&
-           sb_calibration_put(stream, of, study, ".svg", &error);
-    for (size_t i = 0; i < of->curves * G_N_ELEMENTS(fitted_file) && good; i++) {
-      const size_t curve = i / G_N_ELEMENTS(fitted_file), file = i % G_N_ELEMENTS(fitted_file);
-      g_autofree char *name = fitted_name(study, curve, file);
-      g_autofree char *to = g_build_filename(path, name, NULL);
-      g_autofree char *text = fitted_file[file].text(of, study, curve, to, &error);
-      good = text != NULL && add_text(folder, name, text, &error);
-    }
-    good = good && sb_output_folder_commit(folder, &error) &&
-           sb_output_folder_finish(folder, kept, &error);
-    sb_output_folder_close(folder);
-    sb_cli_kept(path, kept);
-  }
-  return good ? SB_EXIT_DONE : sb_cli_error(error);
 }
 
 static void on_progress(void *data, double fraction) {
@@ -154,8 +143,10 @@ static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
     code = sb_cli_status(status, &report);
   } else {
     g_autofree char *json = sb_calibration_json(&calibration, study);
-    code = options->folder != NULL ? write_folder(options->folder, study, &calibration, json)
-                                   : SB_EXIT_DONE;
+    Files files = {options->folder, json, study, &calibration};
+    code = options->folder != NULL
+               ? sb_cli_write_folder(options->folder, "calibrate", fill_folder, &files)
+               : SB_EXIT_DONE;
     if (code == SB_EXIT_DONE && options->json != NULL) {
       code = sb_cli_emit(json, options->json);
     } else if (code == SB_EXIT_DONE && !sb_cli_quiet()) {

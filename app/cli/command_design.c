@@ -2,7 +2,6 @@
 #include "app/cli/cli.h"
 
 #include "app/base/figure_text.h"
-#include "app/base/output.h"
 #include "app/export/design_results.h"
 #include "app/export/study_results.h"
 
@@ -113,19 +112,8 @@ static int judge(const SbStudyFile *study, const SbDesign *design) {
   return SB_EXIT_DONE;
 }
 
-static int write_folder(const char *folder, const char *json) {
-  SbOutputFolder *out;
-  GError *error = NULL;
-  g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
-  FILE *stream;
-  bool good = sb_output_folder_open(&out, folder, "design", &error);
-  if (good && (good = sb_output_folder_add(&stream, out, result_name, &error))) {
-    fputs(json, stream);
-  }
-  good = good && sb_output_folder_commit(out, &error) && sb_output_folder_finish(out, kept, &error);
-  sb_output_folder_close(out);
-  sb_cli_kept(folder, kept);
-  return good ? SB_EXIT_DONE : sb_cli_error(error);
+static bool fill_folder(SbOutputFolder *folder, void *json, GError **error) {
+  return sb_output_folder_add_text(folder, result_name, json, error);
 }
 
 static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
@@ -142,7 +130,9 @@ static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
     code = sb_cli_status(status, &report);
   } else {
     g_autofree char *json = sb_design_json(study, &design);
-    code = options->folder != NULL ? write_folder(options->folder, json) : SB_EXIT_DONE;
+    code = options->folder != NULL
+               ? sb_cli_write_folder(options->folder, "design", fill_folder, json)
+               : SB_EXIT_DONE;
     if (code == SB_EXIT_DONE && options->json != NULL) {
       code = sb_cli_emit(json, options->json);
     } else if (code == SB_EXIT_DONE && !sb_cli_quiet()) {

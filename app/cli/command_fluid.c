@@ -1,41 +1,16 @@
 // sealbench fluid: the saturated state of a named fluid.
 #include "app/cli/cli.h"
-#include "app/export/json.h"
+#include "app/table/json.h"
 
 #include "engine/fluid/fluid.h"
 
 #include <math.h>
 #include <string.h>
 
-static void put_source(SbJson *json, const SbFluidProperty *property, const SbFluidFigure *figure) {
-  sb_json_string(json, property->name, figure->source);
-}
-
-static void put_uncertainty(SbJson *json, const SbFluidProperty *property,
-                            const SbFluidFigure *figure) {
-  sb_json_number(json, property->name, figure->uncertainty);
-}
-
-// Who states the uncertainty.
-static void put_by(SbJson *json, const SbFluidProperty *property, const SbFluidFigure *figure) {
-  const char *by = figure->estimated ? "estimated here" : "source";
-  sb_json_string(json, property->name, isfinite(figure->uncertainty) ? by : NULL);
-}
-
-static void put_reason(SbJson *json, const SbFluidProperty *property, const SbFluidFigure *figure) {
-  sb_json_string(json, property->key, figure->source);
-}
-
 static char *state_json(const SbFluid *fluid, const SbFluidState *state, double ethanol,
                         const SbWarnings *warnings) {
-  static const struct {
-    const char *name;
-    bool found; // of the figures that are there, else of those that are not
-    void (*put)(SbJson *json, const SbFluidProperty *property, const SbFluidFigure *figure);
-  } blocks[] = {{"sources", true, put_source},
-                {"uncertainty", true, put_uncertainty},
-                {"uncertainty_by", true, put_by},
-                {"reasons", false, put_reason}};
+  enum { SOURCES, UNCERTAINTY, UNCERTAINTY_BY, REASONS, BLOCKS };
+  static const char *const names[BLOCKS] = {"sources", "uncertainty", "uncertainty_by", "reasons"};
   SbJson json;
   sb_json_document(&json);
   sb_json_string(&json, "fluid", fluid->name);
@@ -47,12 +22,21 @@ static char *state_json(const SbFluid *fluid, const SbFluidState *state, double 
     sb_json_number(&json, sb_fluid_property[i].key, state->figure[i].value);
   }
   sb_json_bool(&json, "estimate", state->estimate);
-  for (size_t k = 0; k < G_N_ELEMENTS(blocks); k++) {
-    sb_json_object(&json, blocks[k].name);
+  for (int k = 0; k < BLOCKS; k++) {
+    sb_json_object(&json, names[k]);
     for (int i = 0; i < SB_FLUID_PROPERTY_COUNT; i++) {
-      const bool found = !isnan(state->figure[i].value);
-      if (found == blocks[k].found) {
-        blocks[k].put(&json, &sb_fluid_property[i], &state->figure[i]);
+      const SbFluidProperty *property = &sb_fluid_property[i];
+      const SbFluidFigure *figure = &state->figure[i];
+      // Who states the uncertainty.
+      const char *by = !isfinite(figure->uncertainty) ? NULL
+                       : figure->estimated            ? "estimated here"
+                                                      : "source";
+      const SbTableCell cell[BLOCKS] = {[SOURCES] = sb_cell_text(figure->source),
+                                        [UNCERTAINTY] = sb_cell_number(figure->uncertainty),
+                                        [UNCERTAINTY_BY] = sb_cell_text(by),
+                                        [REASONS] = sb_cell_text(figure->source)};
+      if (isnan(figure->value) == (k == REASONS)) {
+        sb_json_cell(&json, k == REASONS ? property->key : property->name, &cell[k]);
       }
     }
     sb_json_object_end(&json);

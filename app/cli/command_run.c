@@ -62,13 +62,13 @@ static int check_outputs(const SbCliFiles *files, const Options *options) {
 static int write_results(SbCliFiles *files, const SbCliFile *file, const Options *options,
                          const SbRun *run, const SbResultsInfo *info) {
   g_autofree char *json = sb_results_run(run, info);
-  g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
-  GError *error = NULL;
-  if (file->folder != NULL && !sb_results_folder_write(file->folder, run, json, info->studies,
-                                                       info->study_count, kept, &error)) {
-    return sb_cli_error(error);
+  SbResultsFiles all = {run, json, info->studies, info->study_count};
+  const int code = file->folder != NULL
+                       ? sb_cli_write_folder(file->folder, "run", sb_results_folder_fill, &all)
+                       : SB_EXIT_DONE;
+  if (code != SB_EXIT_DONE) {
+    return code;
   }
-  sb_cli_kept(file->folder, kept);
   if (options->json_target != NULL) {
     g_ptr_array_add(files->json, g_steal_pointer(&json));
   } else if (!sb_cli_quiet()) {

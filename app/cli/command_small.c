@@ -3,8 +3,6 @@
 #include "app/cli/cli.h"
 #include "app/document/rubber_sheet.h"
 #include "app/document/shipped.h"
-#include "app/export/json.h"
-#include "app/export/render.h"
 #include "app/export/results.h"
 #include "app/run/cases.h"
 
@@ -49,17 +47,6 @@ static void list_params(void) {
   printf("seal.outer.* and seal.inner.* override seal.* for one seal.\n");
 }
 
-static void list_figures(void) {
-  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
-    const SbFigure *figure = sb_figure(i);
-    g_autofree char *label = sb_figure_label(i);
-    printf("%-40s %s\n", figure->path, figure->help);
-    printf("    %s%s%s%s%s\n", label, *figure->shown != '\0' ? " in " : "", figure->shown,
-           figure->better != SB_BETTER_NONE ? "; better is " : "",
-           figure->better != SB_BETTER_NONE ? sb_better_name(figure->better) : "");
-  }
-}
-
 static void list_models(void) {
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
@@ -75,65 +62,13 @@ static void list_models(void) {
   }
 }
 
-static char *views_json(void) {
-  size_t count = 0;
-  const SbRenderView *views = sb_render_views(&count);
-  SbJson json;
-  sb_json_init(&json);
-  sb_json_array(&json, NULL);
-  for (size_t i = 0; i < count; i++) {
-    sb_json_object(&json, NULL);
-    sb_json_string(&json, "name", views[i].name);
-    sb_json_string(&json, "label", views[i].label);
-    sb_json_number(&json, "width_px", views[i].width);
-    sb_json_number(&json, "height_px", views[i].height);
-    sb_json_bool(&json, "film", true);
-    sb_json_object_end(&json);
-  }
-  for (int i = 0; i < SB_STUDY_COUNT; i++) {
-    sb_json_object(&json, NULL);
-    sb_json_string(&json, "name", sb_study_name((SbStudyKind)i));
-    sb_json_string(&json, "label", sb_study_title((SbStudyKind)i));
-    sb_json_bool(&json, "film", false);
-    sb_json_object_end(&json);
-  }
-  sb_json_array_end(&json);
-  return sb_json_finish(&json);
-}
-
-static void list_views(void) {
-  size_t count = 0;
-  const SbRenderView *views = sb_render_views(&count);
-  for (size_t i = 0; i < count; i++) {
-    printf("%-12s %s\n", views[i].name, views[i].label);
-  }
-  printf("Studies (pictures only; output.studies has run write them as tables)\n");
-  for (int i = 0; i < SB_STUDY_COUNT; i++) {
-    printf("%-12s %s\n", sb_study_name((SbStudyKind)i), sb_study_help((SbStudyKind)i));
-  }
-}
-
-static void list_fluids(void) {
-  for (int i = 0; i < sb_fluid_count; i++) {
-    const SbFluid *fluid = &sb_fluids[i];
-    printf("%-16s %s", fluid->name, fluid->help);
-    if (fluid->mass > 0) {
-      char low[SB_NUMBER_SIZE], high[SB_NUMBER_SIZE];
-      printf(" (%s to %s °C)",
-             sb_number_round(low, sb_quantity_to_shown(fluid->temperature_min, "K", "°C"), 4),
-             sb_number_round(high, sb_quantity_to_shown(fluid->temperature_max, "K", "°C"), 4));
-    }
-    printf("\n");
-  }
-}
-
 // ---- Files that ship, and the user's own rubbers ----
 
-// Calls `put` with the name, title and full path of each file of a kind, in order.
-static void each_file(SbShippedKind kind,
-                      void (*put)(void *data, const char *name, const char *title,
-                                  const char *path),
-                      void *data) {
+// Returns the files of a kind, in order.
+static SbTable *list_files(SbShippedKind kind) {
+  static const SbTableColumn columns[] = {
+      {.key = "name", .layout = "%-20s"}, {.key = "title", .layout = " %s"}, {.key = "file"}};
+  SbTable *table = sb_table_new(columns, G_N_ELEMENTS(columns));
   g_autoptr(GPtrArray) paths = sb_shipped_files(kind);
   if (kind == SB_SHIPPED_RUBBERS) {
     // Names of rubbers can also be files in the user's folder.
@@ -147,82 +82,60 @@ static void each_file(SbShippedKind kind,
     g_autofree char *path = g_canonicalize_filename(paths->pdata[i], NULL);
     g_autofree char *name = sb_shipped_name(path, kind);
     g_autofree char *title = sb_shipped_title(path);
-    put(data, name, title, path);
+    g_autofree char *shown = sb_printable(title, strlen(title));
+    sb_table_add(table,
+                 SB_CELLS(sb_cell_text(name), sb_cell_text_as(title, shown), sb_cell_text(path)));
   }
-}
-
-static void print_file(void *data, const char *name, const char *title, const char *path) {
-  g_autofree char *shown = sb_printable(title, strlen(title));
-  printf("%-20s %s\n", name, shown);
-}
-
-static void put_file(void *data, const char *name, const char *title, const char *path) {
-  SbJson *json = data;
-  sb_json_object(json, NULL);
-  sb_json_string(json, "name", name);
-  sb_json_string(json, "title", title);
-  sb_json_string(json, "file", path);
-  sb_json_object_end(json);
-}
-
-static char *files_json(SbShippedKind kind) {
-  SbJson json;
-  sb_json_init(&json);
-  sb_json_array(&json, NULL);
-  each_file(kind, put_file, &json);
-  sb_json_array_end(&json);
-  return sb_json_finish(&json);
+  return table;
 }
 
 int sb_command_list(int argc, char **argv) {
-  char *target = NULL;
+  g_autofree char *target = NULL;
   const GOptionEntry entries[] = {
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
       {0},
   };
-  int code = SB_EXIT_INPUT;
   if (!sb_cli_parse(
           &argc, &argv, entries, 1, 1,
           "JSON numbers are SI in \"unit\"; tables and the window use \"display_unit\".")) {
-    goto done;
+    return SB_EXIT_INPUT;
   }
-  const char *what = argv[1];
   static const struct {
     const char *name;
-    char *(*json)(void);
-    void (*print)(void);
-  } lists[] = {{"params", sb_results_params, list_params},
-               {"figures", sb_results_figures, list_figures},
-               {"models", sb_results_models, list_models},
-               {"views", views_json, list_views},
-               {"fluids", sb_results_fluids, list_fluids}};
+    SbTable *(*table)(void);
+    char *(*json)(void); // NULL: that of the table
+    void (*print)(void); // NULL: the text of the table
+  } lists[] = {{"params", NULL, sb_results_params, list_params},
+               {"figures", sb_list_figures, NULL, NULL},
+               {"models", sb_list_models, NULL, list_models},
+               {"views", sb_list_views, NULL, NULL},
+               {"fluids", sb_list_fluids, NULL, NULL}};
   size_t at = 0;
   int kind = 0;
-  while (at < G_N_ELEMENTS(lists) && strcmp(what, lists[at].name) != 0) {
+  while (at < G_N_ELEMENTS(lists) && strcmp(argv[1], lists[at].name) != 0) {
     at++;
   }
-  while (kind < SB_SHIPPED_KINDS && strcmp(what, sb_shipped_kind_name((SbShippedKind)kind)) != 0) {
+  while (kind < SB_SHIPPED_KINDS &&
+         strcmp(argv[1], sb_shipped_kind_name((SbShippedKind)kind)) != 0) {
     kind++;
   }
-  const bool files = kind < SB_SHIPPED_KINDS;
-  if (at == G_N_ELEMENTS(lists) && !files) {
-    sb_cli_unknown("there is no list", what,
-                   "params|figures|models|views|fluids|scenes|studies|valves|rubbers|examples",
-                   NULL);
-    goto done;
+  if (at == G_N_ELEMENTS(lists) && kind == SB_SHIPPED_KINDS) {
+    return sb_cli_unknown(
+        "there is no list", argv[1],
+        "params|figures|models|views|fluids|scenes|studies|valves|rubbers|examples", NULL);
   }
-  code = SB_EXIT_DONE;
-  if (target != NULL) {
-    g_autofree char *json = files ? files_json((SbShippedKind)kind) : lists[at].json();
-    code = sb_cli_emit(json, target);
-  } else if (files) {
-    each_file((SbShippedKind)kind, print_file, NULL);
-  } else {
+  g_autoptr(SbTable) table = kind < SB_SHIPPED_KINDS   ? list_files((SbShippedKind)kind)
+                             : lists[at].table != NULL ? lists[at].table()
+                                                       : NULL;
+  if (table != NULL && (target != NULL || at == G_N_ELEMENTS(lists) || lists[at].print == NULL)) {
+    return sb_cli_table(table, target);
+  }
+  if (target == NULL) {
     lists[at].print();
+    return SB_EXIT_DONE;
   }
-done:
-  g_free(target);
-  return code;
+  g_autofree char *json = lists[at].json();
+  return sb_cli_emit(json, target);
 }
 
 // ---- plan ----

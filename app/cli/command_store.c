@@ -1,7 +1,6 @@
 // sealbench store: verifies the rows of a store, saves the sound ones, or writes them as a table.
 #include "app/base/output.h"
 #include "app/cli/cli.h"
-#include "app/export/csv.h"
 #include "app/export/study_results.h"
 
 #include "app/study/store.h"
@@ -172,29 +171,17 @@ static const SbParam *param_of(const Export *out, const GPtrArray *columns, cons
   return id >= 0 ? sb_param((SbParamId)id) : NULL;
 }
 
-static void put_choice(const Export *out, const SbParam *param, double value) {
-  char choice[64];
-  sb_param_choice_name(param, (int)value, choice, sizeof choice);
-  if (out->json != NULL) {
-    sb_json_string(out->json, param->key, choice);
-  } else {
-    fprintf(out->stream, ",%s", choice);
-  }
-}
-
 static void put_values(const Export *out, const GPtrArray *columns, char **names,
                        const double *value, size_t count) {
   for (guint i = 0; i < columns->len; i++) {
-    char digits[SB_NUMBER_SIZE];
+    char choice[64];
     const char *name = columns->pdata[i];
     const double of = value_of(names, value, count, name);
-    const SbParam *param = param_of(out, columns, name);
-    if (param != NULL && param->kind == SB_PARAM_CHOICE && isfinite(of)) {
-      put_choice(out, param, of);
-    } else if (out->json != NULL) {
-      sb_json_number(out->json, name, of);
+    const SbTableCell cell = sb_study_cell(choice, param_of(out, columns, name), of);
+    if (out->json != NULL) {
+      sb_json_cell(out->json, name, &cell);
     } else {
-      fprintf(out->stream, ",%s", isnan(of) ? "" : sb_number_format(digits, of));
+      sb_csv_put(out->stream, cell);
     }
   }
 }
@@ -207,8 +194,7 @@ static bool put_csv_row(void *data, const SbStoreRow *row) {
     put_values(out, out->parameter, row->list->parameter, row->parameter, row->parameters);
     put_values(out, out->figure, row->list->figure, row->figure, row->figures);
     fprintf(out->stream, ",%s", sb_study_status_name((uint8_t)row->status));
-    fputc(',', out->stream);
-    sb_csv_text(out->stream, row->reason);
+    sb_csv_put(out->stream, sb_cell_text(row->reason));
     fprintf(out->stream, ",%s,%s\n", row->list->engine, row->warnings != NULL ? row->warnings : "");
   }
   return true;
@@ -245,8 +231,7 @@ static bool put_csv(Export *out, SbStore *store, GError **error) {
     const SbParam *param = parameter ? param_of(out, out->parameter, name) : NULL;
     g_autofree char *heading =
         param != NULL ? g_strdup_printf("%s [%s]", name, param->si) : g_strdup(name);
-    fputc(',', out->stream);
-    sb_csv_text(out->stream, heading);
+    sb_csv_put(out->stream, sb_cell_text(heading));
   }
   fputs(",status,reason,engine,warnings\n", out->stream);
   return sb_store_visit(store, put_csv_row, out, error);

@@ -2,7 +2,6 @@
 // values.
 #include "app/cli/cli.h"
 
-#include "app/base/output.h"
 #include "app/document/shipped.h"
 #include "app/export/thesis_results.h"
 
@@ -16,52 +15,38 @@ static int list_items(const char *json) {
   if (items == NULL) {
     return sb_cli_fail("the folder of the thesis' tables and figures is missing");
   }
-  if (json != NULL) {
-    SbJson out;
-    sb_json_init(&out);
-    sb_json_array(&out, NULL);
-    for (char **item = items; *item != NULL; item += 2) {
-      sb_json_object(&out, NULL);
-      sb_json_string(&out, "item", item[0]);
-      sb_json_string(&out, "title", item[1]);
-      sb_json_object_end(&out);
-    }
-    sb_json_array_end(&out);
-    g_autofree char *text = sb_json_finish(&out);
-    return sb_cli_emit(text, json);
+  static const SbTableColumn columns[] = {{.key = "item", .layout = "%-14s"},
+                                          {.key = "title", .layout = " %s"}};
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
+  for (char **item = items; *item != NULL; item += 2) {
+    sb_table_add(table, SB_CELLS(sb_cell_text(item[0]), sb_cell_text(item[1])));
   }
-  for (char **item = items; *item != NULL && !sb_cli_quiet(); item += 2) {
-    printf("%-14s %s\n", item[0], item[1]);
-  }
-  return SB_EXIT_DONE;
+  return json == NULL && sb_cli_quiet() ? SB_EXIT_DONE : sb_cli_table(table, json);
 }
 
 // ---- Results ----
 
-static bool add_text(SbOutputFolder *out, const SbThesisItem *item, const char *ending,
-                     void (*write)(FILE *stream, const SbThesisItem *item), GError **error) {
-  g_autofree char *name = g_strconcat(item->name, ending, NULL);
-  FILE *stream;
-  const bool good = sb_output_folder_add(&stream, out, name, error);
-  if (good) {
-    write(stream, item);
-  }
-  return good;
-}
-
-static void write_json(FILE *stream, const SbThesisItem *item) {
-  SbJson json;
-  sb_json_init(&json);
-  sb_json_thesis(&json, item);
-  g_autofree char *text = sb_json_finish(&json);
-  fputs(text, stream);
-}
+typedef struct {
+  SbThesisItem *const *items;
+  size_t count;
+} Files;
 
 static bool add_item(SbOutputFolder *out, const SbThesisItem *item, GError **error) {
   FILE *stream;
+  SbJson json;
   g_autofree char *picture = g_strconcat(item->name, ".svg", NULL);
-  return (item->rows->len == 0 || add_text(out, item, ".csv", sb_csv_thesis, error)) &&
-         add_text(out, item, ".json", write_json, error) &&
+  g_autofree char *rows = g_strconcat(item->name, ".csv", NULL);
+  g_autofree char *result = g_strconcat(item->name, ".json", NULL);
+  if (item->rows->len > 0) {
+    if (!sb_output_folder_add(&stream, out, rows, error)) {
+      return false;
+    }
+    sb_csv_thesis(stream, item);
+  }
+  sb_json_init(&json);
+  sb_json_thesis(&json, item);
+  g_autofree char *text = sb_json_finish(&json);
+  return sb_output_folder_add_text(out, result, text, error) &&
          (item->chart == NULL || (sb_output_folder_add(&stream, out, picture, error) &&
                                   sb_thesis_still(stream, item, ".svg", error)));
 }
@@ -96,19 +81,13 @@ static bool add_index(SbOutputFolder *out, SbThesisItem *const *items, size_t co
   return true;
 }
 
-static int write_folder(const char *folder, SbThesisItem *const *items, size_t count) {
-  SbOutputFolder *out;
-  GError *error = NULL;
-  g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
-  bool good = sb_output_folder_open(&out, folder, "thesis", &error);
-  for (size_t i = 0; good && i < count; i++) {
-    good = add_item(out, items[i], &error);
+static bool fill_folder(SbOutputFolder *folder, void *data, GError **error) {
+  const Files *files = data;
+  bool good = true;
+  for (size_t i = 0; good && i < files->count; i++) {
+    good = add_item(folder, files->items[i], error);
   }
-  good = good && add_index(out, items, count, &error) && sb_output_folder_commit(out, &error) &&
-         sb_output_folder_finish(out, kept, &error);
-  sb_output_folder_close(out);
-  sb_cli_kept(folder, kept);
-  return good ? SB_EXIT_DONE : sb_cli_error(error);
+  return good && add_index(folder, files->items, files->count, error);
 }
 
 static int emit(SbThesisItem *const *items, size_t count, bool array, const char *target) {
@@ -236,8 +215,10 @@ static int run(char **items, const char *name, int threads, const char *folder,
       }
     }
     code = judge(&work);
-    const int written =
-        folder != NULL && count > 0 ? write_folder(folder, done, count) : SB_EXIT_DONE;
+    Files files = {done, count};
+    const int written = folder != NULL && count > 0
+                            ? sb_cli_write_folder(folder, "thesis", fill_folder, &files)
+                            : SB_EXIT_DONE;
     code = written != SB_EXIT_DONE ? written : code;
     if (target != NULL && count > 0 && written == SB_EXIT_DONE) {
       const int emitted = emit(done, count, name == NULL, target);

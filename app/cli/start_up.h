@@ -1,7 +1,7 @@
 // Time that the program needs to start, compared with a program that does nothing.
 #pragma once
 
-#include "app/export/json.h"
+#include "app/table/json.h"
 
 // Number of commands that are measured: --version, --help, run --help and list params.
 enum { SB_START_UP_COMMANDS = 4 };

@@ -2,11 +2,10 @@
 #include "app/export/calibrate_results.h"
 
 #include "app/base/format.h"
-#include "app/export/csv.h"
-#include "app/export/json.h"
 #include "app/export/measured_results.h"
 #include "app/export/still.h"
 #include "app/export/study_results.h"
+#include "app/table/table.h"
 
 #include "engine/base/version.h"
 
@@ -145,25 +144,20 @@ char *sb_calibration_json(const SbCalibration *of, const SbStudyFile *study) {
   return sb_json_finish(&json);
 }
 
-char *sb_calibration_csv(const SbCalibration *of) {
-  GString *out = g_string_new("sample");
+void sb_calibration_csv(FILE *stream, const SbCalibration *of) {
+  fputs("sample", stream);
   for (size_t j = 0; j < of->parameters; j++) {
     const char *si = sb_param(of->parameter[j].id)->si;
     g_autofree char *name = g_strdup_printf("%s [%s]", of->parameter[j].name, si);
-    g_autofree char *cell = sb_csv_cell(name);
-    g_string_append_printf(out, ",%s", cell);
+    sb_csv_put(stream, sb_cell_text(name));
   }
-  g_string_append_c(out, '\n');
   for (size_t i = 0; i < of->samples; i++) {
-    g_string_append_printf(out, "%zu", i);
+    fprintf(stream, "\n%zu", i);
     for (size_t j = 0; j < of->parameters; j++) {
-      char digits[SB_NUMBER_SIZE];
-      g_string_append_printf(out, ",%s",
-                             sb_number_format(digits, of->sample[i * of->parameters + j]));
+      sb_csv_put(stream, sb_cell_number(of->sample[i * of->parameters + j]));
     }
-    g_string_append_c(out, '\n');
   }
-  return g_string_free(out, FALSE);
+  fputc('\n', stream);
 }
 
 // ---- The page ----

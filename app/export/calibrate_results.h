@@ -10,9 +10,10 @@
 // made from.
 char *sb_calibration_json(const SbCalibration *calibration, const SbStudyFile *study);
 
-// Returns the samples of the posterior as comma-separated values: `sample` (number from 0), then a
-// column "key [SI unit]" for each parameter. The heading alone if nothing was sampled.
-char *sb_calibration_csv(const SbCalibration *calibration);
+// Writes the samples of the posterior as comma-separated values: `sample` (number from 0), then a
+// column "key [SI unit]" for each parameter. The heading alone if nothing was sampled. Errors of
+// writing are left in the stream (ferror()).
+void sb_calibration_csv(FILE *stream, const SbCalibration *calibration);
 
 // Draws the page of a calibration into `rect` [pixels]; made for SB_CALIBRATION_WIDTH by
 // SB_CALIBRATION_HEIGHT. `dark`: theme. Texts are in the language of the calling thread.

@@ -2,7 +2,7 @@
 #include "app/export/csv.h"
 
 #include "app/base/figure_text.h"
-#include "app/base/unit.h"
+#include "app/table/table.h"
 
 #include "engine/valve/sealbench.h"
 
@@ -10,44 +10,21 @@
 #include <math.h>
 #include <string.h>
 
-// The next column of a row; what was not computed is empty.
-static void put(FILE *stream, double value) {
-  char digits[SB_NUMBER_SIZE];
-  fprintf(stream, ",%s", isnan(value) ? "" : sb_number_format(digits, value));
-}
-
-char *sb_csv_cell(const char *text) {
-  g_auto(GStrv) parts = g_strsplit(text != NULL ? text : "", "\"", -1);
-  g_autofree char *doubled = g_strjoinv("\"\"", parts);
-  const char *quote = strpbrk(doubled, ",;\"\r\n\t") != NULL ? "\"" : "";
-  const bool formula = text != NULL && text[0] != '\0' && strchr("=+-@\t\r", text[0]) != NULL;
-  return g_strdup_printf("%s%s%s%s", quote, formula ? "'" : "", doubled, quote);
-}
-
-void sb_csv_text(FILE *stream, const char *text) {
-  g_autofree char *cell = sb_csv_cell(text);
-  fputs(cell, stream);
-}
-
-static void put_text(FILE *stream, const char *text) {
-  fputc(',', stream);
-  sb_csv_text(stream, text);
-}
-
 void sb_csv_figures(FILE *stream, const SbRun *run) {
+  static const SbTableColumn columns[] = {{.key = "figure"}, {.key = "value"},
+                                          {.key = "unit"},   {.key = "error_estimate [1]"},
+                                          {.key = "label"},  {.key = "reason"}};
   const SbSummary *summary = sb_run_summary(run);
-  fputs("figure,value,unit,error_estimate [1],label,reason\n", stream);
-  for (int i = 0; i < SB_FIGURE_COUNT && ferror(stream) == 0; i++) {
-    const SbFigure *figure = sb_figure(i);
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     g_autofree char *label = sb_figure_label(i);
-    fputs(figure->path, stream);
-    put(stream, sb_figure_value(summary, i));
-    put_text(stream, figure->si);
-    put(stream, sb_figure_error(summary, i));
-    put_text(stream, label);
-    put_text(stream, sb_figure_reason(summary, i));
-    fputc('\n', stream);
+    sb_table_add(table, SB_CELLS(sb_cell_text(sb_figure(i)->path),
+                                 sb_cell_number(sb_figure_value(summary, i)),
+                                 sb_cell_text(sb_figure(i)->si),
+                                 sb_cell_number(sb_figure_error(summary, i)), sb_cell_text(label),
+                                 sb_cell_text(sb_figure_reason(summary, i))));
   }
+  sb_table_csv(stream, table);
 }
 
 // The columns of a frame behind its time, a heading and an expression each; stage and on_event
@@ -75,7 +52,7 @@ void sb_csv_figures(FILE *stream, const SbRun *run) {
   COLUMN("friction_viscous_inner [N]", frame->seal[SB_INNER].friction_viscous)                     \
   COLUMN("friction_viscous_outer [N]", frame->seal[SB_OUTER].friction_viscous)
 #define HEADING(name, value) "," name
-#define PUT(name, value)     put(stream, value);
+#define PUT(name, value)     sb_csv_put(stream, sb_cell_number(value));
 
 void sb_csv_cycle(FILE *stream, const SbRun *run) {
   fputs("time [s]" COLUMNS_BEFORE(HEADING) ",stage,on_event" COLUMNS_AFTER(HEADING), stream);
@@ -104,7 +81,7 @@ void sb_csv_cycle(FILE *stream, const SbRun *run) {
     COLUMNS_AFTER(PUT)
     const SbReaction *reaction = sb_run_reactions(run, i);
     for (size_t k = 0; k < bodies->joints; k++) {
-      put(stream, reaction[k].force[0]);
+      sb_csv_put(stream, sb_cell_number(reaction[k].force[0]));
     }
     fprintf(stream, rig ? ",%d\n" : "\n", frame->peak);
   }
@@ -141,10 +118,10 @@ void sb_csv_life(FILE *stream, const SbRun *run) {
     carried += each[i].carried;
     fprintf(stream, "%zu", i + 1);
     for (const SbLifeColumn *column = sb_life_columns; column->name != NULL; column++) {
-      put(stream, sb_life_value(&each[i], column));
+      sb_csv_put(stream, sb_cell_number(sb_life_value(&each[i], column)));
     }
-    put(stream, net);
-    put(stream, carried);
+    sb_csv_put(stream, sb_cell_number(net));
+    sb_csv_put(stream, sb_cell_number(carried));
     fputc('\n', stream);
   }
 }
@@ -164,13 +141,15 @@ void sb_csv_profiles(FILE *stream, const SbRun *run) {
       shown[seal] = index;
       const SbContactProfile *profile = index != UINT32_MAX ? sb_run_profile(run, index) : NULL;
       for (size_t k = 0; profile != NULL && k < profile->count && ferror(stream) == 0; k++) {
-        fprintf(stream, "%zu,%s", i, sb_seal_name(seal));
-        put(stream, profile->x[k]);
-        put(stream, profile->pressure[k]);
-        put(stream, profile->film[k]);
-        put(stream, profile->asperity_pressure[k]);
-        put(stream, profile->film_pressure != NULL ? profile->film_pressure[k] : NAN);
-        fputc('\n', stream);
+        const double film = profile->film_pressure != NULL ? profile->film_pressure[k] : NAN;
+        const SbTableCell row[] = {sb_cell_number((double)i),
+                                   sb_cell_text(sb_seal_name(seal)),
+                                   sb_cell_number(profile->x[k]),
+                                   sb_cell_number(profile->pressure[k]),
+                                   sb_cell_number(profile->film[k]),
+                                   sb_cell_number(profile->asperity_pressure[k]),
+                                   sb_cell_number(film)};
+        sb_csv_row(stream, row, G_N_ELEMENTS(row));
       }
     }
   }

@@ -7,13 +7,6 @@
 
 #include <stdio.h>
 
-// Returns a text as a cell: in quotes if it contains a separator, a quote or a line end, and with
-// an apostrophe in front if a spreadsheet would compute it as a formula. NULL: an empty cell.
-char *sb_csv_cell(const char *text);
-
-// Writes sb_csv_cell(text), without a separator.
-void sb_csv_text(FILE *stream, const char *text);
-
 // Writes one row per frame: time, displacement, velocity, forces, films, pressures, reactions [SI].
 void sb_csv_cycle(FILE *stream, const SbRun *run);
 

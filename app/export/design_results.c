@@ -1,8 +1,8 @@
 // Designs as JSON; see the header.
 #include "app/export/design_results.h"
 
-#include "app/export/json.h"
 #include "app/export/study_results.h"
+#include "app/table/json.h"
 
 #include <math.h>
 

@@ -5,12 +5,12 @@
 #include "app/base/output.h"
 #include "app/data/compare.h"
 #include "app/export/formats.h"
-#include "app/export/json.h"
 #include "app/export/render_movie.h"
 #include "app/export/report.h"
 #include "app/export/results.h"
 #include "app/session/worker.h"
 #include "app/study/view.h"
+#include "app/table/json.h"
 
 #include <glib/gi18n.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/data/compare.h"
-#include "app/export/json.h"
+#include "app/table/json.h"
 
 // Writes the object `key`: differences between measurement and run, how the file was read, stages.
 void sb_json_comparison(SbJson *json, const char *key, const SbComparison *comparison);

@@ -3,9 +3,9 @@
 
 #include "app/base/unit.h"
 #include "app/export/csv.h"
-#include "app/export/json.h"
 #include "app/export/measured_results.h"
 #include "app/export/studies.h"
+#include "app/table/json.h"
 #include "engine/film/laws.h"
 
 #include <math.h>

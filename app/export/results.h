@@ -3,8 +3,8 @@
 #pragma once
 
 #include "app/data/compare.h"
-#include "app/export/json.h"
 #include "app/run/cases.h"
+#include "app/table/table.h"
 #include "engine/contact/fit.h"
 #include "engine/contact/gland.h"
 #include "engine/film/film.h"
@@ -70,11 +70,9 @@ char *sb_results_plan(const SbPlan *plan, const char *scene);
 // Returns the catalogue of parameters, an array of objects.
 char *sb_results_params(void);
 
-// Returns the catalogue of figures, an array of objects.
-char *sb_results_figures(void);
-
-// Returns the choices of all parameters "models.*", an array of objects.
-char *sb_results_models(void);
-
-// Returns the table of propellants, an array of objects.
-char *sb_results_fluids(void);
+// Return the lists of `sealbench list`: figures, choices of the parameters "models.*" (for files
+// alone), views and drawn studies, fluids. Freed by sb_table_free().
+SbTable *sb_list_figures(void);
+SbTable *sb_list_models(void);
+SbTable *sb_list_views(void);
+SbTable *sb_list_fluids(void);

@@ -31,51 +31,39 @@ char **sb_results_folder_names(unsigned studies, bool life) {
   return (char **)g_ptr_array_free(names, FALSE);
 }
 
-static void put_file(FILE *stream, int index, const SbRun *run, const char *json,
-                     const SbStudy *studies) {
+static void put_file(FILE *stream, int index, const SbResultsFiles *of) {
+  const SbStudy *study = of->studies;
   if (index == 0) {
-    fputs(json, stream);
+    fputs(of->json, stream);
   } else if (index == 1) {
-    sb_csv_cycle(stream, run);
+    sb_csv_cycle(stream, of->run);
   } else if (index == 2) {
-    sb_csv_profiles(stream, run);
+    sb_csv_profiles(stream, of->run);
   } else if (index == 3) {
-    sb_csv_figures(stream, run);
+    sb_csv_figures(stream, of->run);
   } else if (index == LIFE) {
-    sb_csv_life(stream, run);
+    sb_csv_life(stream, of->run);
   } else {
-    while ((int)studies->kind != (index - RUN_FILES) / 2) {
-      studies++;
+    while ((int)study->kind != (index - RUN_FILES) / 2) {
+      study++;
     }
-    if ((index - RUN_FILES) % 2 == 0) {
-      sb_csv_study(stream, studies);
-    } else {
-      sb_csv_study_table(stream, studies);
-    }
+    ((index - RUN_FILES) % 2 == 0 ? sb_csv_study : sb_csv_study_table)(stream, study);
   }
 }
 
-bool sb_results_folder_write(const char *path, const SbRun *run, const char *json,
-                             const SbStudy *studies, size_t count, GPtrArray *kept,
-                             GError **error) {
-  SbOutputFolder *folder;
-  if (!sb_output_folder_open(&folder, path, "run", error)) {
-    return false;
-  }
+bool sb_results_folder_fill(SbOutputFolder *folder, void *files, GError **error) {
+  const SbResultsFiles *of = files;
   unsigned made = 0;
-  for (size_t i = 0; i < count; i++) {
-    made |= 1u << studies[i].kind;
+  for (size_t i = 0; i < of->count; i++) {
+    made |= 1u << of->studies[i].kind;
   }
   bool good = true;
   for (int i = 0; i < RUN_FILES + 2 * SB_STUDY_COUNT && good; i++) {
-    g_autofree char *name = file_name(i, made, sb_run_summary(run)->life.done > 0);
+    g_autofree char *name = file_name(i, made, sb_run_summary(of->run)->life.done > 0);
     FILE *stream;
     if (name != NULL && (good = sb_output_folder_add(&stream, folder, name, error))) {
-      put_file(stream, i, run, json, studies);
+      put_file(stream, i, of);
     }
   }
-  good = good && sb_output_folder_commit(folder, error) &&
-         sb_output_folder_finish(folder, kept, error);
-  sb_output_folder_close(folder);
   return good;
 }

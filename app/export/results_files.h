@@ -10,10 +10,13 @@
 // for each study; `life`: the run has a life. Freed by g_strfreev().
 char **sb_results_folder_names(unsigned studies, bool life);
 
-// Creates the folder `path` if needed and writes `json` (results.json), the tables of `run` and of
-// `count` studies (study-NAME.csv with the curves, study-NAME-table.csv). No file appears under its
-// final name before all are on the disk. Files of an earlier run that this one does not have are
-// deleted; the names (char *) of those that were changed since are appended to `kept` (may be NULL)
-// and they stay. Returns false with SB_APP_ERROR_IO.
-bool sb_results_folder_write(const char *path, const SbRun *run, const char *json,
-                             const SbStudy *studies, size_t count, GPtrArray *kept, GError **error);
+// The files of a run.
+typedef struct {
+  const SbRun *run;
+  const char *json;       // results.json
+  const SbStudy *studies; // [count]: study-NAME.csv with the curves, study-NAME-table.csv
+  size_t count;
+} SbResultsFiles;
+
+// Adds the files of a run to a folder: of sb_output_folder_write(), with SbResultsFiles as data.
+bool sb_results_folder_fill(SbOutputFolder *folder, void *files, GError **error);

@@ -1,7 +1,7 @@
 // See the header.
 #include "app/export/sensitivity.h"
 
-#include "app/export/json.h"
+#include "app/table/json.h"
 
 typedef enum { GRADIENTS, ERRORS, REASONS } Block;
 

@@ -6,6 +6,7 @@
 #include "app/chart/propellants.h"
 #include "app/chart/study.h"
 #include "app/export/still.h"
+#include "app/table/table.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>
@@ -138,77 +139,45 @@ bool sb_study_still(const SbStudy *study, const SbStudyPage *page, const char *p
 
 // ---- tables ----
 
-static void put_number(FILE *stream, double value) {
-  char digits[SB_NUMBER_SIZE];
-  if (isfinite(value)) {
-    fputs(sb_number_format(digits, value), stream);
-  }
-}
-
-// A text as one field; quoted if it needs to be.
-static void put_text(FILE *stream, const char *text) {
-  bool quote = strpbrk(text, ",\"\n") != NULL;
-  if (quote) {
-    fputc('"', stream);
-  }
-  for (const char *c = text; *c != '\0'; c++) {
-    if (*c == '"') {
-      fputc('"', stream);
-    }
-    fputc(*c, stream);
-  }
-  if (quote) {
-    fputc('"', stream);
-  }
-}
-
 void sb_csv_study(FILE *stream, const SbStudy *study) {
   g_autofree char *abscissa = g_strdup_printf("%s [%s]", study->x.quantity, study->x.si);
-  fputs("panel,unit,series,", stream);
-  put_text(stream, abscissa);
-  fputs(",value\n", stream);
+  const SbTableColumn columns[] = {
+      {.key = "panel"}, {.key = "unit"}, {.key = "series"}, {.key = abscissa}, {.key = "value"}};
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   for (size_t p = 0; p < study->panel_count; p++) {
     const SbStudyPanel *panel = &study->panel[p];
     for (size_t s = 0; s < panel->series_count; s++) {
       const SbStudySeries *series = &panel->series[s];
-      for (size_t i = 0; i < series->count && ferror(stream) == 0; i++) {
-        if (!isfinite(series->y[i])) {
-          continue;
+      for (size_t i = 0; i < series->count; i++) {
+        if (isfinite(series->y[i])) {
+          sb_table_add(table, SB_CELLS(sb_cell_text(panel->y.quantity), sb_cell_text(panel->y.si),
+                                       sb_cell_text(series->name), sb_cell_number(series->x[i]),
+                                       sb_cell_number(series->y[i])));
         }
-        put_text(stream, panel->y.quantity);
-        fputc(',', stream);
-        put_text(stream, panel->y.si);
-        fputc(',', stream);
-        put_text(stream, series->name);
-        fputc(',', stream);
-        put_number(stream, series->x[i]);
-        fputc(',', stream);
-        put_number(stream, series->y[i]);
-        fputc('\n', stream);
       }
     }
   }
+  sb_table_csv(stream, table);
 }
 
 void sb_csv_study_table(FILE *stream, const SbStudy *study) {
-  put_text(stream, study->row_heading);
-  fputs(",unit of the row", stream);
+  SbTableCell cell[SB_STUDY_COLUMNS + 2] = {sb_cell_text(study->row_heading),
+                                            sb_cell_text("unit of the row")};
+  char heading[SB_STUDY_COLUMNS][128];
   for (size_t k = 0; k < study->column_count; k++) {
-    g_autofree char *name = g_strdup_printf("%s [%s]", study->column[k].name, study->column[k].si);
-    fputc(',', stream);
-    put_text(stream, name);
+    g_snprintf(heading[k], sizeof heading[k], "%s [%s]", study->column[k].name,
+               study->column[k].si);
+    cell[k + 2] = sb_cell_text(heading[k]);
   }
-  fputc('\n', stream);
+  sb_csv_row(stream, cell, study->column_count + 2);
   for (size_t r = 0; r < study->row_count && ferror(stream) == 0; r++) {
     const SbStudyRow *row = &study->row[r];
-    put_text(stream, row->name);
-    fputc(',', stream);
-    put_text(stream, row->si);
+    cell[0] = sb_cell_text(row->name);
+    cell[1] = sb_cell_text(row->si);
     for (size_t k = 0; k < study->column_count; k++) {
-      fputc(',', stream);
-      put_number(stream, row->value[k]);
+      cell[k + 2] = sb_cell_number(row->value[k]);
     }
-    fputc('\n', stream);
+    sb_csv_row(stream, cell, study->column_count + 2);
   }
 }
 

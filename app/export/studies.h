@@ -4,7 +4,7 @@
 
 #include "app/base/unit.h"
 #include "app/draw/canvas.h"
-#include "app/export/json.h"
+#include "app/table/json.h"
 #include "engine/valve/studies/study.h"
 
 #include <stdio.h>

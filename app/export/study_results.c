@@ -1,9 +1,6 @@
 // Tables of a study; see the header.
 #include "app/export/study_results.h"
 
-#include "app/export/csv.h"
-#include "app/export/json.h"
-
 #include "engine/numeric/statistics.h"
 #include "engine/valve/shelf/shelf.h"
 
@@ -79,18 +76,12 @@ SbStatus sb_study_leakage(SbLeakageOdds *out, const SbStudyFile *study, const Sb
 
 // ---- CSV ----
 
-static void put_parameter(FILE *stream, SbParamId id, double value) {
-  const SbParam *param = id != SB_VARY_VARIABLE ? sb_param(id) : NULL;
-  char digits[SB_NUMBER_SIZE];
-  if (isnan(value)) { // as in the scene
-    fputc(',', stream);
-  } else if (param != NULL && param->kind == SB_PARAM_CHOICE) {
-    char name[64];
-    sb_param_choice_name(param, (int)value, name, sizeof name);
-    fprintf(stream, ",%s", name);
-  } else {
-    fprintf(stream, ",%s", sb_number_format(digits, value));
+SbTableCell sb_study_cell(char name[64], const SbParam *param, double value) {
+  if (param == NULL || param->kind != SB_PARAM_CHOICE || isnan(value)) {
+    return sb_cell_number(value);
   }
+  sb_param_choice_name(param, (int)value, name, 64);
+  return sb_cell_text(name);
 }
 
 void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
@@ -100,8 +91,7 @@ void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
   for (size_t k = 0; k < n; k++) {
     const SbVary *vary = &g_array_index(study->vary, SbVary, k);
     g_autofree char *name = g_strdup_printf("%s [%s]", sb_vary_name(vary), sb_vary_si(vary));
-    fputc(',', stream);
-    sb_csv_text(stream, name);
+    sb_csv_put(stream, sb_cell_text(name));
   }
   for (guint k = 0; k < study->figures->len; k++) {
     fprintf(stream, ",%s", sb_figure(g_array_index(study->figures, int, k))->path);
@@ -110,12 +100,13 @@ void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
   for (size_t i = 0; i < answers->samples && ferror(stream) == 0; i++) {
     fprintf(stream, "%zu", i + 1);
     for (size_t k = 0; k < n; k++) {
-      put_parameter(stream, g_array_index(study->vary, SbVary, k).id, value[i * n + k]);
+      char name[64];
+      const SbParamId id = g_array_index(study->vary, SbVary, k).id;
+      const SbParam *param = id != SB_VARY_VARIABLE ? sb_param(id) : NULL;
+      sb_csv_put(stream, sb_study_cell(name, param, value[i * n + k]));
     }
     for (size_t k = 0; k < answers->figures; k++) {
-      char digits[SB_NUMBER_SIZE];
-      const double figure = answers->value[i * answers->figures + k];
-      fprintf(stream, ",%s", isnan(figure) ? "" : sb_number_format(digits, figure));
+      sb_csv_put(stream, sb_cell_number(answers->value[i * answers->figures + k]));
     }
     const char *codes = g_hash_table_lookup(answers->warnings, GSIZE_TO_POINTER(i));
     fprintf(stream, ",%s,%s\n", sb_study_status_name(answers->status[i]),

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "app/document/study_file.h"
-#include "app/export/json.h"
 #include "app/study/shares.h"
+#include "app/table/table.h"
 #include "engine/valve/shelf/shelf.h"
 
 #include <stdio.h>
@@ -38,6 +38,10 @@ typedef struct {
 // Returns the validity warnings of all samples, sorted by code; *count is set to their number.
 // Freed by g_free().
 SbCodeCount *sb_study_warnings(size_t *count, const SbAnswers *answers);
+
+// Returns the value [SI] of a parameter as a cell: of a choice its name, written to `name`; NaN:
+// empty. `param` NULL: a variable of a study.
+SbTableCell sb_study_cell(char name[64], const SbParam *param, double value);
 
 // Writes comma-separated values, a row for each sample: number from 1, varied parameters [SI],
 // figures [SI] (empty: none), status, codes of validity warnings separated by ";". `value`:

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/data/scan/scan_figures.h"
-#include "app/export/json.h"
+#include "app/table/json.h"
 
 #include <cairo.h>
 

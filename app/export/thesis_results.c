@@ -5,6 +5,7 @@
 #include "app/chart/study.h"
 #include "app/export/still.h"
 #include "app/export/studies.h"
+#include "app/table/table.h"
 
 #include "engine/valve/sealbench.h"
 
@@ -13,14 +14,9 @@
 
 // ---- Words ----
 
-char *sb_thesis_text(const SbThesisRow *row, double value) {
-  char digits[SB_NUMBER_SIZE];
-  if (!isfinite(value)) {
-    return g_strdup("-");
-  }
-  const double shown = sb_quantity_to_shown(value, row->si, row->shown);
-  return g_strdup_printf("%s%s%s", sb_number_round(digits, shown, 5),
-                         *row->shown != '\0' ? " " : "", row->shown);
+// Returns a value of a row [row->si] with its unit and at most five significant digits.
+static char *row_text(const SbThesisRow *row, double value) {
+  return sb_quantity_round(value, row->si, row->shown, 5);
 }
 
 // What a step explains; rounding is nothing. Owned by the caller.
@@ -30,8 +26,8 @@ static char *part_text(const SbThesisRow *row, const SbThesisPart *part) {
   }
   const double scale = isfinite(row->printed) ? fabs(row->printed) : fabs(row->thesis);
   const double explains = fabs(part->explains) <= 1e-9 * scale ? 0 : part->explains;
-  g_autofree char *text = sb_thesis_text(row, explains);
-  g_autofree char *bound = isfinite(part->bound) ? sb_thesis_text(row, part->bound) : NULL;
+  g_autofree char *text = row_text(row, explains);
+  g_autofree char *bound = isfinite(part->bound) ? row_text(row, part->bound) : NULL;
   return g_strconcat(explains > 0 ? "+" : "", text, bound != NULL ? " of at most " : "",
                      bound != NULL ? bound : "", NULL);
 }
@@ -41,7 +37,7 @@ static char *rest_text(const SbThesisRow *row) {
   if (!isfinite(row->remains)) {
     return NULL;
   }
-  g_autofree char *left = sb_thesis_text(row, -row->remains);
+  g_autofree char *left = row_text(row, -row->remains);
   const bool rounding = fabs(row->remains) <= row->rounding + 1e-12 * fabs(row->printed);
   return g_strdup_printf("remains %s", rounding ? "rounding" : left);
 }
@@ -56,7 +52,9 @@ static void put_parts(GString *out, const SbThesisRow *row, const GArray *parts)
   }
 }
 
-char *sb_thesis_reason(const SbThesisRow *row) {
+// Returns the reasons of a row as one sentence, with the part of the difference that each explains
+// and what remains; NULL: it has no reasons.
+static char *reason_text(const SbThesisRow *row) {
   if (row->reasons->len == 0) {
     return NULL;
   }
@@ -90,7 +88,9 @@ static guint place_of(const GPtrArray *reasons, const SbThesisPart *part) {
   return 0;
 }
 
-GPtrArray *sb_thesis_reasons(const SbThesisItem *item) {
+// Returns all reasons of an item, each once: those of its rows, then those of the consistent set.
+// Elements are char *, "TEXT (COMMAND)".
+static GPtrArray *all_reasons(const SbThesisItem *item) {
   GPtrArray *out = g_ptr_array_new_with_free_func(g_free);
   for (int models = 0; models < 2; models++) {
     for (guint i = 0; i < item->rows->len; i++) {
@@ -107,7 +107,9 @@ GPtrArray *sb_thesis_reasons(const SbThesisItem *item) {
   return out;
 }
 
-char *sb_thesis_standing(const SbThesisRow *row, const GPtrArray *reasons, bool models) {
+// Returns the state of a row in terms of the numbers (from 1) of `reasons`: "agrees", or "1: +3 nm,
+// 2: -1 nm; remains 0.1 nm". `models`: the steps to the consistent set instead, "" without any.
+static char *standing_text(const SbThesisRow *row, const GPtrArray *reasons, bool models) {
   GString *out = g_string_new(NULL);
   const GArray *parts = models ? row->models : row->reasons;
   for (guint i = 0; i < parts->len; i++) {
@@ -130,27 +132,62 @@ char *sb_thesis_standing(const SbThesisRow *row, const GPtrArray *reasons, bool 
   return g_string_free(out, FALSE);
 }
 
-char *sb_thesis_table(const SbThesisItem *item) {
-  GString *out = g_string_new(NULL);
-  int width = 0;
-  g_autoptr(GPtrArray) reasons = sb_thesis_reasons(item);
-  for (guint i = 0; i < item->rows->len; i++) {
-    width = MAX(width, (int)strlen(((SbThesisRow *)item->rows->pdata[i])->label));
+// ---- The table ----
+
+// In per cent of the printed value, or with a unit where that is nothing.
+static char *difference_text(const SbThesisRow *row) {
+  char digits[SB_NUMBER_SIZE];
+  if (isfinite(row->difference) && row->printed != 0) {
+    const double share = row->difference / fabs(row->printed);
+    return g_strdup_printf("%s %%",
+                           sb_number_round(digits, fabs(share) > 1e-9 ? 100 * share : 0, 2));
   }
-  g_string_append_printf(out, "%s\n", item->title);
-  if (item->rows->len > 0) {
-    g_string_append_printf(out, "  %-*s %14s %14s %14s\n", width, "", "printed", "thesis' model",
-                           "consistent");
-  }
+  return row_text(row, row->difference);
+}
+
+static const SbTableColumn columns[] = {
+    {"label", "  %-*s", "", ""},
+    {"printed", " %14s", "printed", "printed"},
+    {"thesis_model", " %14s", "thesis' model", "thesis' model"},
+    {"consistent", " %14s", "consistent", "consistent"},
+    {.key = "unit"},
+    {.key = "difference", .label = "difference"},
+    {.key = "remains"},
+    {.key = "verdict"},
+    {.key = "reason", .layout = "  %s", .label = "reason"},
+    {.key = "model", .label = "to the consistent"},
+};
+
+// Returns the rows of an item, for people with the numbers of `reasons` (all_reasons()).
+static SbTable *make_table(const SbThesisItem *item, const GPtrArray *reasons) {
+  SbTable *table = sb_table_new(columns, G_N_ELEMENTS(columns));
   for (guint i = 0; i < item->rows->len; i++) {
     const SbThesisRow *row = item->rows->pdata[i];
-    g_autofree char *printed = sb_thesis_text(row, row->printed);
-    g_autofree char *thesis = sb_thesis_text(row, row->thesis);
-    g_autofree char *consistent = sb_thesis_text(row, row->consistent);
-    g_autofree char *standing = sb_thesis_standing(row, reasons, false);
-    g_string_append_printf(out, "  %-*s %14s %14s %14s  %s\n", width, row->label, printed, thesis,
-                           consistent, standing);
+    const char *si = row->si, *unit = row->shown;
+    g_autofree char *reason = reason_text(row), *numbered = standing_text(row, reasons, false);
+    g_autofree char *model = model_reason(row), *steps = standing_text(row, reasons, true);
+    g_autofree char *difference = difference_text(row);
+    sb_table_add(table,
+                 SB_CELLS(sb_cell_text(row->label), sb_cell_quantity(row->printed, si, unit, 5),
+                          sb_cell_quantity(row->thesis, si, unit, 5),
+                          sb_cell_quantity(row->consistent, si, unit, 5), sb_cell_text(si),
+                          sb_cell_number_as(row->difference, difference),
+                          sb_cell_number(row->remains),
+                          sb_cell_text(sb_thesis_verdict_name(row->verdict)),
+                          sb_cell_text_as(reason, numbered), sb_cell_text_as(model, steps)));
+    if (row->verdict == SB_THESIS_FAILS) {
+      sb_table_mark(table);
+    }
   }
+  return table;
+}
+
+char *sb_thesis_table(const SbThesisItem *item) {
+  g_autoptr(GPtrArray) reasons = all_reasons(item);
+  g_autoptr(SbTable) table = make_table(item, reasons);
+  g_autofree char *rows = sb_table_text(table);
+  GString *out = g_string_new(NULL);
+  g_string_append_printf(out, "%s\n%s", item->title, rows);
   for (guint i = 0; i < reasons->len; i++) {
     g_string_append_printf(out, "  %u. %s\n", i + 1, (const char *)reasons->pdata[i]);
   }
@@ -158,6 +195,12 @@ char *sb_thesis_table(const SbThesisItem *item) {
     g_string_append_printf(out, "  %s\n", (const char *)item->notes->pdata[i]);
   }
   return g_string_free(out, FALSE);
+}
+
+void sb_csv_thesis(FILE *stream, const SbThesisItem *item) {
+  g_autoptr(GPtrArray) reasons = all_reasons(item);
+  g_autoptr(SbTable) table = make_table(item, reasons);
+  sb_table_csv(stream, table);
 }
 
 // ---- Introduction ----
@@ -186,7 +229,7 @@ static char *value_text(const SbThesisRow *row, const char *what) {
   const double value = strcmp(what, "printed") == 0      ? row->printed
                        : strcmp(what, "consistent") == 0 ? row->consistent
                                                          : row->thesis;
-  return sb_thesis_text(row, value);
+  return row_text(row, value);
 }
 
 char *sb_thesis_introduction(const char *text, SbThesisItem *const *items, size_t count) {
@@ -227,7 +270,7 @@ static void put_json_parts(SbJson *json, const char *key, const GArray *parts) {
 }
 
 static void put_json_row(SbJson *json, const SbThesisRow *row) {
-  g_autofree char *reason = sb_thesis_reason(row);
+  g_autofree char *reason = reason_text(row);
   sb_json_object(json, NULL);
   sb_json_string(json, "label", row->label);
   sb_json_number(json, "printed", row->printed);
@@ -270,40 +313,6 @@ void sb_json_thesis(SbJson *json, const SbThesisItem *item) {
   sb_json_object_end(json);
 }
 
-// ---- CSV ----
-
-static void put_number(FILE *stream, double value) {
-  char digits[SB_NUMBER_SIZE];
-  fprintf(stream, ",%s", isfinite(value) ? sb_number_format(digits, value) : "");
-}
-
-static void put_text(FILE *stream, const char *text) {
-  g_auto(GStrv) parts = g_strsplit(text != NULL ? text : "", "\"", -1);
-  g_autofree char *doubled = g_strjoinv("\"\"", parts);
-  fprintf(stream, "\"%s\"", doubled);
-}
-
-void sb_csv_thesis(FILE *stream, const SbThesisItem *item) {
-  fputs("label,printed,thesis_model,consistent,unit,difference,remains,verdict,reason,model\n",
-        stream);
-  for (guint i = 0; i < item->rows->len && ferror(stream) == 0; i++) {
-    const SbThesisRow *row = item->rows->pdata[i];
-    g_autofree char *reason = sb_thesis_reason(row), *model = model_reason(row);
-    put_text(stream, row->label);
-    put_number(stream, row->printed);
-    put_number(stream, row->thesis);
-    put_number(stream, row->consistent);
-    fprintf(stream, ",%s", row->si);
-    put_number(stream, row->difference);
-    put_number(stream, row->remains);
-    fprintf(stream, ",%s,", sb_thesis_verdict_name(row->verdict));
-    put_text(stream, reason);
-    fputc(',', stream);
-    put_text(stream, model);
-    fputc('\n', stream);
-  }
-}
-
 // ---- Pages ----
 
 static const char style[] =
@@ -312,7 +321,8 @@ static const char style[] =
     ".6em;"
     "text-align:left;vertical-align:top}td.n{text-align:right;white-space:nowrap;"
     "font-variant-numeric:tabular-nums}h2{margin-top:2em;border-top:2px solid #888}"
-    ".fails{background:#fdd}.source,.model{color:#666;font-size:87%}img{max-width:100%}"
+    ".fails{background:#fdd}.source,td:nth-child(7),th:nth-child(7){color:#666;font-size:87%}img{"
+    "max-width:100%}"
     "nav table{width:auto}code{font-size:92%}th{position:sticky;top:0;background:#fff}";
 
 static void put_escaped(FILE *stream, const char *text) {
@@ -386,41 +396,6 @@ void sb_html_thesis_end(FILE *stream) {
   fputs("</body></html>\n", stream);
 }
 
-static void put_html_value(FILE *stream, const SbThesisRow *row, double value) {
-  g_autofree char *text = sb_thesis_text(row, value);
-  fputs("<td class=\"n\">", stream);
-  put_escaped(stream, text);
-  fputs("</td>", stream);
-}
-
-// In per cent of the printed value, or with a unit where that is nothing.
-static char *difference_text(const SbThesisRow *row) {
-  char digits[SB_NUMBER_SIZE];
-  if (isfinite(row->difference) && row->printed != 0) {
-    const double share = row->difference / fabs(row->printed);
-    return g_strdup_printf("%s %%",
-                           sb_number_round(digits, fabs(share) > 1e-9 ? 100 * share : 0, 2));
-  }
-  return sb_thesis_text(row, row->difference);
-}
-
-static void put_html_row(FILE *stream, const SbThesisRow *row, const GPtrArray *reasons) {
-  g_autofree char *standing = sb_thesis_standing(row, reasons, false);
-  g_autofree char *model = sb_thesis_standing(row, reasons, true);
-  g_autofree char *difference = difference_text(row);
-  fprintf(stream, "<tr%s><td>", row->verdict == SB_THESIS_FAILS ? " class=\"fails\"" : "");
-  put_escaped(stream, row->label);
-  fputs("</td>", stream);
-  put_html_value(stream, row, row->printed);
-  put_html_value(stream, row, row->thesis);
-  put_html_value(stream, row, row->consistent);
-  fprintf(stream, "<td class=\"n\">%s</td><td>", difference);
-  put_escaped(stream, standing);
-  fputs("</td><td class=\"model\">", stream);
-  put_escaped(stream, model);
-  fputs("</td></tr>\n", stream);
-}
-
 // "TEXT (COMMAND)", the command as such.
 static void put_html_reason(FILE *stream, const char *reason) {
   const char *open = strstr(reason, "(sealbench "), *test = strstr(reason, "(meson test ");
@@ -456,15 +431,11 @@ void sb_html_thesis(FILE *stream, const SbThesisItem *item, const char *picture)
     put_escaped(stream, item->title);
     fputs("\">\n", stream);
   }
-  g_autoptr(GPtrArray) reasons = sb_thesis_reasons(item);
+  g_autoptr(GPtrArray) reasons = all_reasons(item);
   if (item->rows->len > 0) {
-    fputs("<table><tr><th></th><th>printed</th><th>thesis' model</th><th>consistent</th>"
-          "<th>difference</th><th>reason</th><th class=\"model\">to the consistent</th></tr>\n",
-          stream);
-    for (guint i = 0; i < item->rows->len; i++) {
-      put_html_row(stream, item->rows->pdata[i], reasons);
-    }
-    fputs("</table>\n<ol>\n", stream);
+    g_autoptr(SbTable) table = make_table(item, reasons);
+    g_autofree char *rows = sb_table_html(table);
+    fprintf(stream, "%s<ol>\n", rows);
     for (guint i = 0; i < reasons->len; i++) {
       put_html_reason(stream, reasons->pdata[i]);
     }
@@ -481,29 +452,14 @@ void sb_html_thesis(FILE *stream, const SbThesisItem *item, const char *picture)
   fputs("</p>\n<p class=\"source\"><a href=\"#top\">All tables and figures</a></p>\n", stream);
 }
 
-static void put_markdown_row(FILE *stream, const SbThesisRow *row, const GPtrArray *reasons) {
-  g_autofree char *printed = sb_thesis_text(row, row->printed);
-  g_autofree char *thesis = sb_thesis_text(row, row->thesis);
-  g_autofree char *consistent = sb_thesis_text(row, row->consistent);
-  g_autofree char *difference = difference_text(row);
-  g_autofree char *standing = sb_thesis_standing(row, reasons, false);
-  g_autofree char *model = sb_thesis_standing(row, reasons, true);
-  fprintf(stream, "| %s | %s | %s | %s | %s | %s | %s |\n", row->label, printed, thesis, consistent,
-          difference, standing, model);
-}
-
 void sb_markdown_thesis(FILE *stream, const SbThesisItem *item) {
-  g_autoptr(GPtrArray) reasons = sb_thesis_reasons(item);
+  g_autoptr(GPtrArray) reasons = all_reasons(item);
   fprintf(stream, "### %s\n\n`sealbench thesis %s`\n\n", item->title, item->name);
   if (item->rows->len > 0) {
-    fputs("| | printed | thesis' model | consistent | difference | reason | to the consistent |\n"
-          "|---|---|---|---|---|---|---|\n",
-          stream);
+    g_autoptr(SbTable) table = make_table(item, reasons);
+    g_autofree char *rows = sb_table_markdown(table);
+    fprintf(stream, "%s\n", rows);
   }
-  for (guint i = 0; i < item->rows->len; i++) {
-    put_markdown_row(stream, item->rows->pdata[i], reasons);
-  }
-  fputs(item->rows->len > 0 ? "\n" : "", stream);
   for (guint i = 0; i < reasons->len; i++) {
     fprintf(stream, "%u. %s\n", i + 1, (const char *)reasons->pdata[i]);
   }

@@ -2,8 +2,8 @@
 // comma-separated values, HTML and Markdown. Errors of writing are left in the stream (ferror()).
 #pragma once
 
-#include "app/export/json.h"
 #include "app/study/thesis_item.h"
+#include "app/table/json.h"
 
 #include <stdio.h>
 
@@ -38,20 +38,3 @@ void sb_markdown_thesis(FILE *stream, const SbThesisItem *item);
 // Draws the item's chart (not NULL) into `stream` in the format of `ending` (".svg", ".png",
 // ".pdf"). Returns false as sb_still_put() (still.h).
 bool sb_thesis_still(FILE *stream, const SbThesisItem *item, const char *ending, GError **error);
-
-// Returns a value of a row [row->si] in its display unit, with the unit and at most five
-// significant digits; "-" for NaN.
-char *sb_thesis_text(const SbThesisRow *row, double value);
-
-// Returns the reasons of a row as one sentence, with the part of the difference that each explains
-// and what remains; NULL: it has no reasons.
-char *sb_thesis_reason(const SbThesisRow *row);
-
-// Returns all reasons of an item, each once: those of its rows, then those of the consistent set.
-// Elements are char *, "TEXT (COMMAND)".
-GPtrArray *sb_thesis_reasons(const SbThesisItem *item);
-
-// Returns the state of a row in terms of the numbers (from 1) of `reasons`, the list of
-// sb_thesis_reasons(): "agrees", or "1: +3 nm, 2: -1 nm; remains 0.1 nm". `models`: the steps to
-// the consistent set instead, "" without any.
-char *sb_thesis_standing(const SbThesisRow *row, const GPtrArray *reasons, bool models);

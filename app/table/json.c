@@ -1,5 +1,5 @@
 // The JSON writer.
-#include "app/export/json.h"
+#include "app/table/json.h"
 
 #include "app/base/number.h"
 

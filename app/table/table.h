@@ -1,0 +1,106 @@
+// One table of results and its outputs: text for a terminal, CSV, JSON, HTML and Markdown. A
+// command fills the rows once; each output has the columns that its field of SbTableColumn names.
+// Numbers of files are exact and in SI units; people read the text of a cell.
+#pragma once
+
+#include "app/table/json.h"
+
+#include <stdio.h>
+
+// A column. A field that is NULL leaves the column out of the outputs of that field.
+typedef struct {
+  const char *key;    // heading in CSV, name of the member in JSON
+  const char *layout; // in text: one "%12s" (right-aligned) or "%-12s" with the least number of
+                      // characters, "*" for the longest cell, between texts that an empty cell
+                      // without a width leaves out: " per %-10s"
+  const char *label;  // heading in HTML and Markdown
+  const char *head;   // heading in text; NULL: none
+} SbTableColumn;
+
+typedef enum { SB_CELL_ABSENT, SB_CELL_TEXT, SB_CELL_NUMBER, SB_CELL_ANSWER } SbTableCellKind;
+
+// A cell. `text` and `shown` are borrowed; a table copies them.
+typedef struct {
+  SbTableCellKind kind;  // ABSENT: an empty cell, and no member in JSON
+  double number;         // NaN: an empty cell, null in JSON; of an answer 0 no, 1 yes
+  const char *text;      // in files; NULL: an empty cell, null in JSON
+  const char *shown;     // for people; NULL: `text`, or the number
+  const char *si, *unit; // of a number in files and for people, static; NULL: as it is
+  int digits;            // of a number with a unit for people, at most
+} SbTableCell;
+
+// Return a cell with this value.
+static inline SbTableCell sb_cell_text(const char *text) {
+  return (SbTableCell){.kind = SB_CELL_TEXT, .text = text};
+}
+static inline SbTableCell sb_cell_number(double number) {
+  return (SbTableCell){.kind = SB_CELL_NUMBER, .number = number};
+}
+// `answer`: 0 no, 1 yes, NaN unknown.
+static inline SbTableCell sb_cell_answer(double answer) {
+  return (SbTableCell){.kind = SB_CELL_ANSWER, .number = answer};
+}
+// Returns a cell with the number `value` [si], for people as sb_quantity_round() writes it.
+static inline SbTableCell sb_cell_quantity(double value, const char *si, const char *unit,
+                                           int digits) {
+  return (SbTableCell){
+      .kind = SB_CELL_NUMBER, .number = value, .si = si, .unit = unit, .digits = digits};
+}
+// Return a cell with this value in files, and the text `shown` for people.
+static inline SbTableCell sb_cell_text_as(const char *text, const char *shown) {
+  return (SbTableCell){.kind = SB_CELL_TEXT, .text = text, .shown = shown};
+}
+static inline SbTableCell sb_cell_number_as(double number, const char *shown) {
+  return (SbTableCell){.kind = SB_CELL_NUMBER, .number = number, .shown = shown};
+}
+
+typedef struct SbTable SbTable;
+
+// Returns an empty table with columns[count], borrowed. Freed by sb_table_free().
+SbTable *sb_table_new(const SbTableColumn *columns, size_t count);
+
+// Frees a table. NULL: no effect.
+void sb_table_free(SbTable *table);
+G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbTable, sb_table_free)
+
+// Adds a row of one cell for each column.
+void sb_table_add(SbTable *table, const SbTableCell *cells);
+
+// The cells of a row for sb_table_add().
+#define SB_CELLS(...) ((const SbTableCell[]){__VA_ARGS__})
+
+// Marks the last row as wrong, in HTML by the class "fails".
+void sb_table_mark(SbTable *table);
+
+// Adds a line between the rows, in the text alone.
+void sb_table_note(SbTable *table, const char *text);
+
+// Returns the table for a terminal: headings, if a column has one, and a line for each row. Freed
+// by g_free().
+char *sb_table_text(const SbTable *table);
+
+// Writes a cell of CSV: in quotes if it contains a separator, a quote or a line end, and with an
+// apostrophe before a text that a spreadsheet would compute as a formula.
+void sb_csv_cell(FILE *stream, const SbTableCell *cell);
+
+// Writes a comma and a cell of CSV.
+static inline void sb_csv_put(FILE *stream, SbTableCell cell) {
+  fputc(',', stream);
+  sb_csv_cell(stream, &cell);
+}
+
+// Writes a row of CSV. Errors of writing remain in the stream (ferror()).
+void sb_csv_row(FILE *stream, const SbTableCell *cells, size_t count);
+
+// Writes the headings and the rows of CSV, in UTF-8 with a point in numbers in every locale.
+void sb_table_csv(FILE *stream, const SbTable *table);
+
+// Writes a member with the value of a cell; none for an ABSENT cell.
+void sb_json_cell(SbJson *json, const char *key, const SbTableCell *cell);
+
+// Writes an array of the rows as objects.
+void sb_table_json(SbJson *json, const char *key, const SbTable *table);
+
+// Return the table as HTML, numbers with the class "n", and as Markdown. Freed by g_free().
+char *sb_table_html(const SbTable *table);
+char *sb_table_markdown(const SbTable *table);
