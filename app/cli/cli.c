@@ -64,6 +64,19 @@ static bool take_common(const char *progress) {
   return true;
 }
 
+// Keeps the values of options until the program ends, so that no command frees them.
+static void keep_texts(const GOptionEntry *entry) {
+  static GPtrArray *kept;
+  if (kept == NULL) {
+    kept = g_ptr_array_new();
+  }
+  for (; entry != NULL && entry->long_name != NULL; entry++) {
+    if (entry->arg == G_OPTION_ARG_FILENAME || entry->arg == G_OPTION_ARG_FILENAME_ARRAY) {
+      g_ptr_array_add(kept, *(void **)entry->arg_data);
+    }
+  }
+}
+
 // Whether an option was given an empty value, which names no file and is no number: prints it.
 static bool has_empty_value(const GOptionEntry *entry) {
   for (; entry != NULL && entry->long_name != NULL; entry++) {
@@ -144,11 +157,14 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
     sb_cli_fail("%s%s (see sealbench %s --help)", error->message, hint, command->name);
     g_error_free(error);
   }
+  if (good) {
+    keep_texts(entries);
+    keep_texts(every);
+  }
   if (good && help) {
     char *text = g_option_context_get_help(context, TRUE, NULL);
     const int code = sb_cli_emit(text, "-");
     g_free(text);
-    g_free(progress);
     g_option_context_free(context);
     exit(code);
   }
@@ -165,7 +181,6 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
     good = false;
   }
   good = good && !has_empty_value(entries) && !has_empty_value(every) && take_common(progress);
-  g_free(progress);
   g_option_context_free(context);
   return good;
 }
@@ -498,15 +513,8 @@ void sb_cli_line(const char *label, const char *text) {
 }
 
 void sb_cli_figure(const char *label, double value, const char *si, const char *shown) {
-  char digits[SB_NUMBER_SIZE];
-  if (!isfinite(value)) {
-    sb_cli_line(label, "-");
-    return;
-  }
-  sb_number_round(digits, sb_quantity_to_shown(value, si, shown), 5);
-  char *text = g_strdup_printf("%s%s%s", digits, *shown != '\0' ? " " : "", shown);
+  g_autofree char *text = sb_quantity_round(value, si, shown, 5);
   sb_cli_line(label, text);
-  g_free(text);
 }
 
 // With the digits that the error estimate supports, where there is one.

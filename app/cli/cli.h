@@ -44,7 +44,8 @@ const SbCommand *sb_commands(void);
 // --quiet, --progress and, unless `entries` is NULL, --no-overwrite and --overwrite. (*argv)[0]
 // must be the name of a command and stays; the operands follow it. `notes` (NULL: none) are printed
 // at the end of --help. Returns false, with a message, for a wrong option or if the number of
-// operands is outside of [operands_min, operands_max]. --help prints and ends the program.
+// operands is outside of [operands_min, operands_max]. --help prints and ends the program. The
+// values of options live until the program ends and are not freed.
 bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int operands_min,
                   int operands_max, const char *notes);
 
@@ -391,7 +392,7 @@ int sb_cli_answer(const SbStudyFile *study, const SbCliAsk *ask, SbCliAnswered a
 
 // ---- Commands that write a folder for a study file: design, calibrate ----
 
-// Options of these commands. Initialised by sb_cli_study_parse(), freed by sb_cli_study_clear().
+// Options of these commands. Initialised by sb_cli_study_parse().
 typedef struct {
   char *folder, *jobs, *json; // values of -o, --jobs, --json; NULL: absent
   char **settings;            // values of --set, ends with NULL; NULL: none
@@ -401,9 +402,6 @@ typedef struct {
 // Parses -o, --jobs, --set, --json and one operand, as sb_cli_parse(); `folder_help` is the help of
 // -o. Returns false with a message. Clear the options in any case.
 bool sb_cli_study_parse(SbCliStudyOptions *out, int *argc, char ***argv, const char *folder_help);
-
-// Frees the texts of the options.
-void sb_cli_study_clear(SbCliStudyOptions *options);
 
 // The work of such a command.
 typedef struct {

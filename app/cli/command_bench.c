@@ -93,7 +93,7 @@ static bool fill_folder(SbOutputFolder *folder, void *data, GError **error) {
 }
 
 int sb_command_bench(int argc, char **argv) {
-  g_autofree char *folder = NULL, *target = NULL;
+  char *folder = NULL, *target = NULL;
   gboolean quick = FALSE;
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &folder, "Folder for bench.json and bench.png",

@@ -287,12 +287,6 @@ int sb_command_cad(int argc, char **argv) {
       code = compute(path, &options);
     }
   }
-  char *texts[] = {options.unit,  options.axis,   options.angle, options.shift, options.density,
-                   options.scene, options.output, options.json,  options.plot};
-  for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
-    g_free(texts[i]);
-  }
-  g_strfreev(options.parts);
   sb_cad_settings_clear(&options.settings);
   return code;
 }

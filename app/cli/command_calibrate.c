@@ -189,7 +189,5 @@ int sb_command_calibrate(int argc, char **argv) {
   const bool good = sb_cli_study_parse(
       &options, &argc, &argv,
       "Folder for results.json, posterior.csv, calibration.svg and the fitted scenes and valves");
-  const int code = good ? sb_cli_study_run(&options, argv[1], &work) : SB_EXIT_INPUT;
-  sb_cli_study_clear(&options);
-  return code;
+  return good ? sb_cli_study_run(&options, argv[1], &work) : SB_EXIT_INPUT;
 }

@@ -342,8 +342,8 @@ static int check_operand(SbJson *json, const char *operand, char **settings) {
 }
 
 int sb_command_check(int argc, char **argv) {
-  g_autofree char *target = NULL;
-  g_auto(GStrv) settings = NULL;
+  char *target = NULL;
+  char **settings = NULL;
   const GOptionEntry entries[] = {
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "All problems as JSON, to a file or -",

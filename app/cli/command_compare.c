@@ -208,8 +208,5 @@ int sb_command_compare(int argc, char **argv) {
     g_free(runs.comparison);
   }
   sb_cli_files_close(&files);
-  g_strfreev(options.settings);
-  g_free(options.measured);
-  g_free(options.json);
   return files.code;
 }

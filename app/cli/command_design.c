@@ -16,10 +16,7 @@ static void print_parameters(const SbStudyFile *study, const SbDesign *design) {
     if (vary->distribution.kind == SB_DISTRIBUTION_LEVELS) {
       continue;
     }
-    char digits[SB_NUMBER_SIZE];
-    const double shown = sb_quantity_to_shown(design->value[k], param->si, param->unit);
-    g_autofree char *text =
-        g_strdup_printf("%s %s", sb_number_round(digits, shown, 6), param->unit);
+    g_autofree char *text = sb_quantity_round(design->value[k], param->si, param->unit, 6);
     printf("  %-38s %-16s%s\n", param->key, text,
            design->bound_active[k] < 0   ? " at its lower bound"
            : design->bound_active[k] > 0 ? " at its upper bound"
@@ -161,7 +158,5 @@ int sb_command_design(int argc, char **argv) {
   static const SbCliStudyWork work = {asks, add_names, solve};
   SbCliStudyOptions options;
   const bool good = sb_cli_study_parse(&options, &argc, &argv, "Folder for results.json");
-  const int code = good ? sb_cli_study_run(&options, argv[1], &work) : SB_EXIT_INPUT;
-  sb_cli_study_clear(&options);
-  return code;
+  return good ? sb_cli_study_run(&options, argv[1], &work) : SB_EXIT_INPUT;
 }

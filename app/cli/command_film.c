@@ -42,14 +42,14 @@ static void print_table(const SbFilm *film, const SbFilmProblem *problem) {
 // Two columns x [m], p [Pa], separated by a comma, semicolon or blanks; '#' comments and one
 // heading line are allowed. False with a message.
 static bool read_dry_pressure(const char *path, GArray *x, GArray *p) {
-  GPtrArray *issues = sb_issues_new();
+  g_autoptr(GPtrArray) issues = sb_issues_new();
   size_t length = 0;
-  char *text = sb_reader_load(&length, path, path, SB_DOCUMENT_BYTES_MAX, issues);
+  g_autofree char *text = sb_reader_load(&length, path, path, SB_DOCUMENT_BYTES_MAX, issues);
   if (text != NULL && (memchr(text, '\0', length) != NULL || !g_utf8_validate(text, -1, NULL))) {
     sb_issues_add(issues, path, 0, NULL, NULL, "is not a text table");
     g_clear_pointer(&text, g_free);
   }
-  char **lines = g_strsplit(text != NULL ? text : "", "\n", -1);
+  g_auto(GStrv) lines = g_strsplit(text != NULL ? text : "", "\n", -1);
   for (int i = 0; lines[i] != NULL && issues->len == 0; i++) {
     const char *c = g_strstrip(lines[i]);
     if (*c == '\0' || *c == '#') {
@@ -80,9 +80,6 @@ static bool read_dry_pressure(const char *path, GArray *x, GArray *p) {
   }
   bool good = issues->len == 0;
   sb_cli_issues(issues);
-  g_ptr_array_unref(issues);
-  g_strfreev(lines);
-  g_free(text);
   return good;
 }
 
@@ -93,7 +90,7 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem,
                                double hamaker) {
   static const SbFilmModel models[] = {SB_FILM_REYNOLDS,      SB_FILM_ASYMPTOTIC, SB_FILM_MOES,
                                        SB_FILM_KARASZKIEWICZ, SB_FILM_THESIS,     SB_FILM_RIGID};
-  SbFilm *other = g_new0(SbFilm, 1);
+  g_autofree SbFilm *other = g_new0(SbFilm, 1);
   printf("By model                         central    minimum\n");
   for (size_t i = 0; i < G_N_ELEMENTS(models); i++) {
     SbFilmProblem same = *problem;
@@ -110,7 +107,6 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem,
       printf("  %-26s %s\n", sb_film_kind(models[i])->name, report.text);
     }
   }
-  g_free(other);
   double entrainment = fabs(problem->speed) / 2;
   if (entrainment > 0) {
     SbChartPoint chart = sb_regime_chart(problem->load, entrainment, problem->radius,
@@ -213,13 +209,10 @@ static bool in_range(const char *option, const Quantity *q, double value) {
   if (count == 0 || (value >= range->min && value <= range->max)) {
     return true;
   }
-  char *given = sb_quantity_format(value, q->si, q->shown);
-  char *min = sb_quantity_format(range->min, q->si, q->shown);
-  char *max = sb_quantity_format(range->max, q->si, q->shown);
+  g_autofree char *given = sb_quantity_format(value, q->si, q->shown);
+  g_autofree char *min = sb_quantity_format(range->min, q->si, q->shown);
+  g_autofree char *max = sb_quantity_format(range->max, q->si, q->shown);
   sb_cli_fail("%s: %s is out of range (allowed %s to %s)", option, given, min, max);
-  g_free(given);
-  g_free(min);
-  g_free(max);
   return false;
 }
 
@@ -228,11 +221,10 @@ static bool read_quantities(SbFilmProblem *problem, char *const *texts) {
   for (int i = 0; i < QUANTITIES; i++) {
     const Quantity *q = &quantities[i];
     double value = 0;
-    char *option = g_strconcat("--", q->name, NULL);
+    g_autofree char *option = g_strconcat("--", q->name, NULL);
     const bool known = q->offset == offsetof(SbFilmProblem, speed) && problem->speed != 0;
     bool good = sb_cli_quantity(&value, option, texts[i], q->required && !known, q->si, q->shown) &&
                 (texts[i] == NULL || in_range(option, q, value));
-    g_free(option);
     if (!good) {
       return false;
     }
@@ -308,14 +300,13 @@ static bool read_history(SbModelSeries *series, SbFilmProblem *problem, const ch
     sb_cli_fail("--speed: the speeds are those of --history");
     return false;
   }
-  GPtrArray *issues = sb_issues_new();
+  g_autoptr(GPtrArray) issues = sb_issues_new();
   bool good = sb_series_read_speed(series, path, issues);
   if (good && series->value[0] == 0) {
     sb_issues_add(issues, path, 0, "speed", NULL, "begins at rest, where no steady film is");
     good = false;
   }
   sb_cli_issues(issues);
-  g_ptr_array_unref(issues);
   problem->speed = good ? series->value[0] : 0;
   return good;
 }
@@ -363,7 +354,7 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
                           const SbModelSeries *series, const char *target,
                           const SbCliPlots *plots) {
   const bool plot = target == NULL && sb_cli_plots(plots);
-  SbFilm *film = g_new0(SbFilm, 1);
+  g_autofree SbFilm *film = g_new0(SbFilm, 1);
   SbFilmProblem lent = *problem;
   lent.profile = target != NULL || plot ? g_new(SbFilmProfile, 1) : NULL;
   Solve job = {film, &lent, {0}};
@@ -374,7 +365,7 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
   job.report.input = 0; // the catalogue's key and range are a seal's, not this command's
   int code = sb_cli_status(status, &job.report);
   const size_t rows = series != NULL ? series->count : 0;
-  double *values = g_new(double, 4 * rows + 1);
+  g_autofree double *values = g_new(double, 4 * rows + 1);
   SbResultsHistory history = {.count = rows,
                               .time = series != NULL ? series->time : NULL,
                               .film_min = values,
@@ -392,9 +383,8 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int written = SB_EXIT_DONE;
     if (target != NULL) {
-      char *json = sb_results_film(film, series != NULL ? &history : NULL);
+      g_autofree char *json = sb_results_film(film, series != NULL ? &history : NULL);
       written = sb_cli_emit(json, target);
-      g_free(json);
     } else if (!sb_cli_quiet()) {
       print_table(film, problem);
       if (series != NULL) {
@@ -411,19 +401,13 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
     }
     code = written != SB_EXIT_DONE ? written : code;
   }
-  g_free(values);
   g_free(lent.profile);
-  g_free(film);
   return code;
 }
 
 int sb_command_film(int argc, char **argv) {
   char *texts[QUANTITIES] = {NULL};
-  char *name = NULL;
-  char *surface = NULL;
-  char *dry = NULL;
-  char *path = NULL;
-  char *target = NULL;
+  char *name = NULL, *surface = NULL, *dry = NULL, *path = NULL, *target = NULL;
   SbCliPlots plots = {0};
   const GOptionEntry others[] = {
       {"model", 0, 0, G_OPTION_ARG_FILENAME, &name,
@@ -446,10 +430,9 @@ int sb_command_film(int argc, char **argv) {
                                 quantities[i].help, "VALUE"};
   }
   memcpy(&entries[QUANTITIES], others, sizeof others);
-  int code = SB_EXIT_INPUT;
-  GArray *x = g_array_new(FALSE, FALSE, sizeof(double));
-  GArray *p = g_array_new(FALSE, FALSE, sizeof(double));
-  SbModelSeries *series = g_new0(SbModelSeries, 1);
+  g_autoptr(GArray) x = g_array_new(FALSE, FALSE, sizeof(double));
+  g_autoptr(GArray) p = g_array_new(FALSE, FALSE, sizeof(double));
+  g_autofree SbModelSeries *series = g_new0(SbModelSeries, 1);
   SbFilmProblem problem;
   sb_film_problem_init(&problem);
   problem.cancelled = on_cancelled;
@@ -457,38 +440,23 @@ int sb_command_film(int argc, char **argv) {
       (path != NULL && !read_history(series, &problem, path, texts[1])) ||
       !read_quantities(&problem, texts) || (name != NULL && !choose_model(&problem, name)) ||
       !choose_surface(&problem, surface, texts)) {
-    goto done;
+    return SB_EXIT_INPUT;
   }
   if (sb_film_kind(problem.model)->from_dry != (dry != NULL)) {
-    sb_cli_fail(dry != NULL ? "--dry-pressure: only the model inverse uses it"
-                            : "--dry-pressure is missing: the model inverse needs it");
-    goto done;
+    return sb_cli_fail(dry != NULL ? "--dry-pressure: only the model inverse uses it"
+                                   : "--dry-pressure is missing: the model inverse needs it");
   }
   if (dry != NULL && !read_dry_pressure(dry, x, p)) {
-    goto done;
+    return SB_EXIT_INPUT;
   }
   if (!sb_cli_has_memory(NULL)) {
-    code = SB_EXIT_IO;
-    goto done;
+    return SB_EXIT_IO;
   }
   problem.dry_x = (const double *)(void *)x->data;
   problem.dry_pressure = (const double *)(void *)p->data;
   problem.dry_count = x->len;
-  code = sb_cli_check_outputs(NULL, NULL, target);
-  if (code == SB_EXIT_DONE) {
-    code = solve_and_show(&problem, texts, path != NULL ? series : NULL, target, &plots);
-  }
-done:
-  g_array_unref(x);
-  g_array_unref(p);
-  for (int i = 0; i < QUANTITIES; i++) {
-    g_free(texts[i]);
-  }
-  g_free(name);
-  g_free(surface);
-  g_free(dry);
-  g_free(path);
-  g_free(series);
-  g_free(target);
-  return code;
+  const int code = sb_cli_check_outputs(NULL, NULL, target);
+  return code == SB_EXIT_DONE
+             ? solve_and_show(&problem, texts, path != NULL ? series : NULL, target, &plots)
+             : code;
 }

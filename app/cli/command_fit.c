@@ -50,13 +50,12 @@ static void print_gland(const SbGlandReadout *gland) {
     const bool judged = r->band != SB_BAND_NONE;
     const bool length = strcmp(r->unit, "m") == 0;
     const double scale = length ? 1e3 : 1e2;
-    char *text =
+    g_autofree char *text =
         g_strdup_printf("%.4g %s (worst %.4g to %.4g, RSS %.4g to %.4g): %s; %s",
                         scale * r->nominal, length ? "mm" : "%", scale * r->worst_low,
                         scale * r->worst_high, scale * r->rss_low, scale * r->rss_high,
                         judged ? sb_band_text(r->band) : "not judged", judged ? r->source : r->why);
     sb_cli_line(r->name, text);
-    g_free(text);
   }
 }
 
@@ -81,15 +80,14 @@ static SbStatus solve(void *data, double *wall_s) {
 // --model NAME or NAME:VARIANT.
 static bool choose_model(SbFitProblem *problem, const char *name) {
   const char *colon = strchr(name, ':');
-  char *base = colon != NULL ? g_strndup(name, (size_t)(colon - name)) : g_strdup(name);
+  g_autofree char *base = colon != NULL ? g_strndup(name, (size_t)(colon - name)) : g_strdup(name);
   bool good = sb_fit_model_from_name(&problem->model, base);
-  g_free(base);
   if (good && colon != NULL) {
     problem->variant = sb_fit_variant_find(problem->model, colon + 1);
     good = problem->variant >= 0;
   }
   if (!good) {
-    GString *names = g_string_new(NULL);
+    g_autoptr(GString) names = g_string_new(NULL);
     for (int i = 0; i < SB_FIT_MODEL_COUNT; i++) {
       const char *model = sb_fit_kind((SbFitModel)i)->name;
       g_string_append_printf(names, "%s%s", i > 0 ? "|" : "", model);
@@ -98,7 +96,6 @@ static bool choose_model(SbFitProblem *problem, const char *name) {
       }
     }
     sb_cli_unknown("--model: there is no fitment model", name, names->str, NULL);
-    g_string_free(names, TRUE);
   }
   return good;
 }
@@ -143,24 +140,17 @@ static int write_exports(char **exports, const SbRing *ring, const SbFitProblem 
   int code = SB_EXIT_DONE;
   for (char **path = exports; path != NULL && *path != NULL && code == SB_EXIT_DONE; path++) {
     GError *error = NULL;
-    char *text = sb_cae_text(*path, ring, problem);
+    g_autofree char *text = sb_cae_text(*path, ring, problem);
     const bool good = sb_output_write(*path, text, strlen(text), &error);
     code = good ? SB_EXIT_DONE : sb_cli_error(error);
-    g_free(text);
   }
   return code;
 }
 
 int sb_command_fit(int argc, char **argv) {
-  char *seal = NULL;
-  char *pressure = NULL;
-  char *name = NULL;
-  char *tolerance = NULL;
-  char *drag = NULL;
-  char *target = NULL;
-  char **settings = NULL;
+  char *seal = NULL, *pressure = NULL, *name = NULL, *tolerance = NULL, *drag = NULL;
+  char *target = NULL, **settings = NULL, **exports = NULL;
   SbCliPlots plots = {0};
-  char **exports = NULL;
   SbRing *ring = NULL;
   const GOptionEntry entries[] = {
       {"seal", 0, 0, G_OPTION_ARG_FILENAME, &seal, "outer or inner", "NAME"},
@@ -181,16 +171,14 @@ int sb_command_fit(int argc, char **argv) {
       {"no-plot", 0, 0, G_OPTION_ARG_NONE, &plots.off, SB_CLI_NO_PLOT_HELP, NULL},
       {0},
   };
-  int code = SB_EXIT_INPUT;
   g_autoptr(SbModel) model = NULL;
-  SbDocument *document = NULL;
-  SbFit *fit = NULL;
+  g_autoptr(SbDocument) document = NULL;
   if (!sb_cli_parse(&argc, &argv, entries, 1, 1, SB_TIMING_NOTE)) {
-    goto done;
+    return SB_EXIT_INPUT;
   }
   document = sb_cli_open(&model, argv[1], settings);
   if (document == NULL) {
-    goto done;
+    return SB_EXIT_INPUT;
   }
   int index = 0;
   while (index < SB_SEAL_COUNT && g_strcmp0(sb_seal_name(index), seal) != 0) {
@@ -202,7 +190,7 @@ int sb_command_fit(int argc, char **argv) {
     } else {
       sb_cli_unknown("--seal: unknown seal", seal, "outer|inner", NULL);
     }
-    goto done;
+    return SB_EXIT_INPUT;
   }
   SbFitProblem problem;
   sb_model_fit_problem(&problem, model, index, 0);
@@ -211,34 +199,32 @@ int sb_command_fit(int argc, char **argv) {
   if (!sb_cli_quantity(&problem.pressure, "--pressure", pressure, false, "Pa", "MPa") ||
       !sb_cli_quantity(&problem.tolerance, "--tolerance", tolerance, false, "1", "") ||
       (name != NULL && !choose_model(&problem, name))) {
-    goto done;
+    return SB_EXIT_INPUT;
   }
   bool limit = false;
   if (drag != NULL && !choose_drag(&problem, &limit, drag, name != NULL)) {
-    goto done;
+    return SB_EXIT_INPUT;
   }
   const SbParam *allowed = sb_param(SB_P_CANISTER_PRESSURE);
   if (!(problem.pressure >= allowed->min && problem.pressure <= allowed->max)) {
-    char *given = sb_param_format(SB_P_CANISTER_PRESSURE, problem.pressure);
-    char *range = sb_param_range(SB_P_CANISTER_PRESSURE);
+    g_autofree char *given = sb_param_format(SB_P_CANISTER_PRESSURE, problem.pressure);
+    g_autofree char *range = sb_param_range(SB_P_CANISTER_PRESSURE);
     sb_cli_fail("--pressure: %s is out of range (allowed %s)", given, range);
-    g_free(given);
-    g_free(range);
-    goto done;
+    return SB_EXIT_INPUT;
   }
   if (!(problem.tolerance >= 1e-8 && problem.tolerance <= 0.1)) {
     sb_cli_fail("--tolerance: out of range (allowed 1e-8 to 0.1)");
-    goto done;
+    return SB_EXIT_INPUT;
   }
-  code = sb_cli_check_outputs(NULL, NULL, target);
+  int code = sb_cli_check_outputs(NULL, NULL, target);
   if (code == SB_EXIT_DONE) {
     code = check_exports(exports, &problem);
   }
   problem.kept = exports != NULL ? &ring : NULL;
   if (code != SB_EXIT_DONE) {
-    goto done;
+    return code;
   }
-  fit = g_new0(SbFit, 1);
+  g_autofree SbFit *fit = g_new0(SbFit, 1);
   Solve job = {fit, &problem, {0}};
   sb_cli_catch_interrupts();
   double wall_s = 0;
@@ -256,17 +242,16 @@ int sb_command_fit(int argc, char **argv) {
   const SbGlandReadout *in_gland = problem.gasket ? NULL : readouts;
   if (in_gland != NULL && sb_gland_readouts(readouts, &gland, &gland_report) != SB_OK) {
     sb_cli_fail("%s: %s", sb_input_key(gland_report.input), gland_report.text);
-    code = SB_EXIT_INPUT;
-    goto done;
+    sb_ring_destroy(ring);
+    return SB_EXIT_INPUT;
   }
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int written = SB_EXIT_DONE;
     if (target != NULL) {
       g_autofree char *file = sb_cli_full_path(argv[1], SB_SHIPPED_FOR_RUN);
-      char *json = sb_results_fit(fit, &problem, limit, seal, in_gland,
-                                  &sb_model_seal(model, index)->storage, file);
+      g_autofree char *json = sb_results_fit(fit, &problem, limit, seal, in_gland,
+                                             &sb_model_seal(model, index)->storage, file);
       written = sb_cli_emit(json, target);
-      g_free(json);
     } else if (!sb_cli_quiet()) {
       print_table(fit, seal, problem.dragged);
       if (in_gland != NULL) {
@@ -281,17 +266,6 @@ int sb_command_fit(int argc, char **argv) {
     }
     code = written != SB_EXIT_DONE ? written : code;
   }
-done:
-  g_free(fit);
-  sb_document_free(document);
-  g_strfreev(settings);
-  g_strfreev(exports);
   sb_ring_destroy(ring);
-  g_free(seal);
-  g_free(pressure);
-  g_free(name);
-  g_free(tolerance);
-  g_free(drag);
-  g_free(target);
   return code;
 }

@@ -51,7 +51,7 @@ static const char *fluid_name(int index) {
 }
 
 int sb_command_fluid(int argc, char **argv) {
-  g_autofree char *target = NULL, *temperature_text = NULL, *ethanol_text = NULL;
+  char *target = NULL, *temperature_text = NULL, *ethanol_text = NULL;
   const GOptionEntry entries[] = {
       {"temperature", 0, 0, G_OPTION_ARG_FILENAME, &temperature_text, "In °C, degC or K", "T"},
       {"ethanol", 0, 0, G_OPTION_ARG_FILENAME, &ethanol_text,

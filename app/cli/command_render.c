@@ -39,18 +39,6 @@ typedef struct {
   char *name[SB_CHART_PINS];
 } Pins;
 
-static void options_clear(Options *options) {
-  char *const texts[] = {options->output,    options->format,  options->view,    options->size,
-                         options->at,        options->fps,     options->speed,   options->from,
-                         options->duration,  options->to,      options->field,   options->zoom,
-                         options->field_max, options->insets,  options->backend, options->azimuth,
-                         options->elevation, options->measured};
-  for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
-    g_free(texts[i]);
-  }
-  g_strfreev(options->settings);
-}
-
 // "1280x720", or a size with a name.
 static bool parse_size(double *width, double *height, const char *text) {
   size_t count;
@@ -606,6 +594,5 @@ int sb_command_render(int argc, char **argv) {
   }
   sb_cli_files_close(&files);
   g_free(request.name);
-  options_clear(&options);
   return files.code;
 }

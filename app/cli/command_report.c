@@ -197,9 +197,5 @@ int sb_command_report(int argc, char **argv) {
                                                : report_scene(argv[1], &options);
     }
   }
-  g_free(options.output);
-  g_free(options.measured);
-  g_free(options.jobs);
-  g_strfreev(options.settings);
   return code;
 }

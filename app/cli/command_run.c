@@ -207,9 +207,5 @@ int sb_command_run(int argc, char **argv) {
     sb_cli_files_emit(&files, options.json_target);
   }
   sb_cli_files_close(&files);
-  g_strfreev(options.settings);
-  g_free(options.folder);
-  g_free(options.json_target);
-  g_free(options.measured);
   return files.code;
 }

@@ -86,11 +86,7 @@ static int read_options(Options *options) {
 // ---- What people read ----
 
 static char *figure_text(int figure, double value) {
-  const SbFigure *row = sb_figure(figure);
-  char digits[SB_NUMBER_SIZE];
-  return g_strdup_printf(
-      "%s%s%s", sb_number_round(digits, sb_quantity_to_shown(value, row->si, row->shown), 4),
-      *row->shown != '\0' ? " " : "", row->shown);
+  return sb_quantity_round(value, sb_figure(figure)->si, sb_figure(figure)->shown, 4);
 }
 
 static void print_figure(const SbGradient *gradient, size_t figure, const SbModel *model) {
@@ -207,9 +203,5 @@ int sb_command_sensitivity(int argc, char **argv) {
     g_array_unref(options.figure);
   }
   sb_cli_files_close(&files);
-  g_strfreev(options.settings);
-  g_free(options.parameters);
-  g_free(options.figures);
-  g_free(options.json);
   return files.code;
 }

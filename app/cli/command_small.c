@@ -90,7 +90,7 @@ static SbTable *list_files(SbShippedKind kind) {
 }
 
 int sb_command_list(int argc, char **argv) {
-  g_autofree char *target = NULL;
+  char *target = NULL;
   const GOptionEntry entries[] = {
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
       {0},
@@ -198,8 +198,6 @@ int sb_command_plan(int argc, char **argv) {
     sb_cli_files_emit(&files, target);
   }
   sb_cli_files_close(&files);
-  g_strfreev(settings);
-  g_free(target);
   return files.code;
 }
 
@@ -256,8 +254,6 @@ int sb_command_asperity(int argc, char **argv) {
       }
     }
   }
-  g_free(lambda_text);
-  g_free(target);
   return code;
 }
 

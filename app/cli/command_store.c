@@ -350,11 +350,6 @@ int sb_command_store(int argc, char **argv) {
        "FILE|-"},
       {0},
   };
-  const int code = sb_cli_parse(&argc, &argv, entries, 2, 2, NULL)
-                       ? run_action(&options, argv[1], argv[2])
-                       : SB_EXIT_INPUT;
-  g_free(options.output);
-  g_free(options.csv);
-  g_free(options.json);
-  return code;
+  return sb_cli_parse(&argc, &argv, entries, 2, 2, NULL) ? run_action(&options, argv[1], argv[2])
+                                                         : SB_EXIT_INPUT;
 }

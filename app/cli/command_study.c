@@ -120,12 +120,9 @@ static void print_modes(const SbStudyFile *study, const SbReliability *reliabili
     printf("      most probable (FORM: beta %.3f) at", mode->found.beta);
     for (guint k = 0; k < study->vary->len; k++) {
       const SbParam *param = sb_param(g_array_index(study->vary, SbVary, k).id);
-      char digits[SB_NUMBER_SIZE];
       if (param->kind == SB_PARAM_REAL) {
-        printf("%s %s %s %s", k > 0 ? "," : "", param->key,
-               sb_number_round(digits, sb_quantity_to_shown(mode->value[k], param->si, param->unit),
-                               5),
-               param->unit);
+        g_autofree char *value = sb_quantity_round(mode->value[k], param->si, param->unit, 5);
+        printf("%s %s %s", k > 0 ? "," : "", param->key, value);
       }
     }
     putchar('\n');
@@ -182,50 +179,60 @@ static SbStatus print_leakage(const SbStudyFile *study, const SbAnswers *answers
   return status;
 }
 
-static int print_table(const SbStudyFile *study, const SbStudyDrawn *drawn,
-                       const SbAnswers *answers) {
+// Prints the statistics of the figures. Returns an exit code.
+static int print_statistics(const SbStudyFile *study, const SbAnswers *answers) {
   enum { ROWS = 24 };
-  SbReport report = {0};
-  printf("%s: %s, %zu samples\n", study->title, sb_study_method_name(study->method),
-         study->samples);
-  if (drawn->reliability != NULL) {
-    return sb_cli_status(print_limits(study, drawn, answers, &report), &report);
-  }
-  printf("  %-38s %12s %12s %12s %12s %12s\n", "", "mean", "deviation", "5 %", "median", "95 %");
+  static const SbTableColumn columns[] = {
+      {.layout = "  %-38s"},
+      {.layout = " %12s", .head = "mean"},
+      {.layout = " %12s", .head = "deviation"},
+      {.layout = " %12s", .head = "5 %"},
+      {.layout = " %12s", .head = "median"},
+      {.layout = " %12s", .head = "95 %"},
+      {.layout = "  %s"},
+  };
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   size_t shown = 0, with = 0;
   for (size_t k = 0; k < answers->figures; k++) {
-    const int index = g_array_index(study->figures, int, k);
+    const SbFigure *figure = sb_figure(g_array_index(study->figures, int, k));
+    const char *si = figure->si, *unit = figure->shown;
     SbSummaryOfSamples of;
+    SbReport report = {0};
     const SbStatus status =
         sb_samples_summary(&of, answers->value + k, answers->samples, answers->figures, &report);
     if (status != SB_OK) {
       return sb_cli_status(status, &report);
     }
     with += of.count > 0;
-    if (of.count == 0 || shown == ROWS) {
-      continue;
+    if (of.count > 0 && shown < ROWS) {
+      shown++;
+      sb_table_add(table,
+                   SB_CELLS(sb_cell_text(figure->path), sb_cell_quantity(of.mean, si, unit, 4),
+                            sb_cell_quantity(of.deviation, si, unit, 4),
+                            sb_cell_quantity(of.quantile[1], si, unit, 4),
+                            sb_cell_quantity(of.quantile[2], si, unit, 4),
+                            sb_cell_quantity(of.quantile[3], si, unit, 4),
+                            sb_cell_text(of.count > 1 && !of.varies ? "does not vary" : NULL)));
     }
-    shown++;
-    const double cell[] = {of.mean, of.deviation, of.quantile[1], of.quantile[2], of.quantile[3]};
-    const SbFigure *figure = sb_figure(index);
-    printf("  %-38s", figure->path);
-    for (size_t i = 0; i < G_N_ELEMENTS(cell); i++) {
-      char digits[SB_NUMBER_SIZE];
-      g_autofree char *text =
-          isfinite(cell[i])
-              ? g_strdup_printf(
-                    "%s %s",
-                    sb_number_round(digits,
-                                    sb_quantity_to_shown(cell[i], figure->si, figure->shown), 4),
-                    figure->shown)
-              : g_strdup("-");
-      // Columns of characters, which units such as µl have fewer of than bytes.
-      printf(" %*s%s", MAX(12 - (int)g_utf8_strlen(text, -1), 0), "", text);
-    }
-    puts(of.count > 1 && !of.varies ? "  does not vary" : "");
   }
+  sb_cli_table(table, NULL);
   if (with > shown) {
     printf("  and %zu more figures: --csv, --json, or figures = in [study]\n", with - shown);
+  }
+  return SB_EXIT_DONE;
+}
+
+static int print_table(const SbStudyFile *study, const SbStudyDrawn *drawn,
+                       const SbAnswers *answers) {
+  SbReport report = {0};
+  printf("%s: %s, %zu samples\n", study->title, sb_study_method_name(study->method),
+         study->samples);
+  if (drawn->reliability != NULL) {
+    return sb_cli_status(print_limits(study, drawn, answers, &report), &report);
+  }
+  const int code = print_statistics(study, answers);
+  if (code != SB_EXIT_DONE) {
+    return code;
   }
   SbStatus status = print_limits(study, drawn, answers, &report);
   if (status == SB_OK && study->leakage_tests > 0) {
@@ -413,13 +420,6 @@ int sb_command_study(int argc, char **argv) {
            : options.slurm != NULL ? emit_slurm(&options, study)
                                    : study_file(&options, study);
   }
-  g_free(options.store);
-  g_free(options.jobs);
-  g_free(options.shard);
-  g_free(options.csv);
-  g_free(options.json);
-  g_free(options.slurm);
-  g_strfreev(options.settings);
   return code;
 }
 

@@ -155,37 +155,28 @@ static void print_scatter(const SbScanFigures *figures) {
   }
 }
 
-// Columns of a table by characters, not bytes.
-static void print_cells(const char *const *cell, int count) {
-  enum { WIDTH = 12 };
-  for (int i = 0; i < count; i++) {
-    const glong left = WIDTH - g_utf8_strlen(cell[i], -1);
-    printf("%s%s%*s", i == 0 ? "  " : "", cell[i], i + 1 < count ? (int)MAX(left, 1) : 0, "");
-  }
-  putchar('\n');
-}
-
 static void print_cutoffs(const SbScanFigures *figures) {
-  enum { CELLS = 7 };
-  printf("Cut-offs (by the spectrum)\n");
-  print_cells(
-      (const char *const[CELLS]){"short", "long", "σ / µm", "ζ / mm⁻²", "β / µm", "ζβσ", "σ/β"},
-      CELLS);
+  static const SbTableColumn columns[] = {
+      {.layout = "  %-12s", .head = "short"}, {.layout = "%-12s", .head = "long"},
+      {.layout = "%-12s", .head = "σ / µm"},  {.layout = "%-12s", .head = "ζ / mm⁻²"},
+      {.layout = "%-12s", .head = "β / µm"},  {.layout = "%-12s", .head = "ζβσ"},
+      {.layout = "%s", .head = "σ/β"},
+  };
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   for (int i = 0; i < figures->cutoff_count; i++) {
     const SbScanCutoff *row = &figures->cutoff[i];
     const SbAsperityFigures *a = &row->asperities;
-    char *cell[CELLS] = {length_text(row->cutoff_short, "none"),
-                         length_text(row->cutoff_long, "none"),
-                         shown(a->sigma, "m", "µm"),
-                         shown(a->density, "m-2", "mm-2"),
-                         shown(a->radius, "m", "µm"),
-                         shown(a->product, "1", ""),
-                         shown(a->sigma_over_beta, "1", "")};
-    print_cells((const char *const *)cell, CELLS);
-    for (int k = 0; k < CELLS; k++) {
-      g_free(cell[k]);
-    }
+    g_autofree char *low = length_text(row->cutoff_short, "none");
+    g_autofree char *high = length_text(row->cutoff_long, "none");
+    sb_table_add(table, SB_CELLS(sb_cell_text(low), sb_cell_text(high),
+                                 sb_cell_quantity(1e6 * a->sigma, "1", "", 4),
+                                 sb_cell_quantity(1e-6 * a->density, "1", "", 4),
+                                 sb_cell_quantity(1e6 * a->radius, "1", "", 4),
+                                 sb_cell_quantity(a->product, "1", "", 4),
+                                 sb_cell_quantity(a->sigma_over_beta, "1", "", 4)));
   }
+  printf("Cut-offs (by the spectrum)\n");
+  sb_cli_table(table, NULL);
 }
 
 static void print_table(const SbSurface *surface) {
@@ -323,13 +314,6 @@ int sb_command_surface(int argc, char **argv) {
       g_autofree char *path = sb_shipped_resolve(argv[1], SB_SHIPPED_FOR_IMPORT);
       code = compute(path, &options);
     }
-  }
-  char *owned[] = {options.form,         options.outliers, options.missing, options.cutoff_short,
-                   options.cutoff_long,  options.channel,  options.spacing, options.unit,
-                   options.lateral_unit, options.json,     options.scene,   options.output,
-                   options.plot};
-  for (size_t i = 0; i < G_N_ELEMENTS(owned); i++) {
-    g_free(owned[i]);
   }
   sb_surface_choices_clear(&options.choices);
   return code;

@@ -261,8 +261,5 @@ int sb_command_thesis(int argc, char **argv) {
       code = run(items, all ? NULL : argv[1], threads, folder, target);
     }
   }
-  g_free(folder);
-  g_free(target);
-  g_free(jobs);
   return code;
 }

@@ -56,7 +56,5 @@ int sb_command_tui(int argc, char **argv) {
     sb_cli_issues(issues);
     code = good ? SB_EXIT_DONE : error != NULL ? sb_cli_error(error) : SB_EXIT_INPUT;
   }
-  g_free(color);
-  g_free(picture);
   return code;
 }

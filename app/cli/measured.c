@@ -2,6 +2,7 @@
 #include "app/cli/cli.h"
 
 #include "app/document/shipped.h"
+#include "app/export/measured_results.h"
 
 #include <string.h>
 
@@ -53,32 +54,17 @@ void sb_cli_check_data(const SbDocument *document, bool print, GPtrArray *issues
   }
 }
 
-static char *force_text(double force, bool known) {
-  char digits[SB_NUMBER_SIZE];
-  return known && force == force ? g_strdup_printf("%s N", sb_number_round(digits, force, 4))
-                                 : g_strdup("-");
-}
-
 char *sb_cli_comparison_brief(const SbComparison *comparison) {
-  g_autofree char *rms = force_text(comparison->rms, true);
-  g_autofree char *most = force_text(comparison->most, true);
+  g_autofree char *rms = sb_quantity_round(comparison->rms, "N", "N", 4);
+  g_autofree char *most = sb_quantity_round(comparison->most, "N", "N", 4);
   return g_strdup_printf("Measured: %s, difference %s (root mean square), at most %s",
                          comparison->measured->name, rms, most);
 }
 
 void sb_cli_comparison(const SbComparison *comparison) {
-  const SbMeasured *m = comparison->measured;
-  sb_cli_recognised(m);
-  printf("  %-10s%12s%12s%12s\n", "", "measured", "model", "difference");
-  for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {
-    const SbMeasuredStage *stage = &m->stage[s];
-    const double model = comparison->model_force[s];
-    g_autofree char *first = force_text(stage->force, stage->found);
-    g_autofree char *second = force_text(model, true);
-    g_autofree char *third = force_text(stage->force - model, stage->found);
-    printf("  Stage %-4s%12s%12s%12s%s%s\n", sb_stage_name((SbStage)s), first, second, third,
-           stage->found ? "" : "  ", stage->found ? "" : stage->reason);
-  }
+  sb_cli_recognised(comparison->measured);
+  g_autoptr(SbTable) stages = sb_measured_stages(comparison);
+  sb_cli_table(stages, NULL);
   sb_cli_figure("Difference, root mean square", comparison->rms, "N", "N");
   sb_cli_figure("Difference, mean", comparison->mean, "N", "N");
   sb_cli_figure("Difference, maximum", comparison->most, "N", "N");

@@ -13,13 +13,6 @@ bool sb_cli_study_parse(SbCliStudyOptions *out, int *argc, char ***argv, const c
   return sb_cli_parse(argc, argv, entries, 1, 1, NULL) && sb_cli_jobs(&out->threads, out->jobs);
 }
 
-void sb_cli_study_clear(SbCliStudyOptions *options) {
-  g_free(options->folder);
-  g_free(options->jobs);
-  g_free(options->json);
-  g_strfreev(options->settings);
-}
-
 int sb_cli_study_run(const SbCliStudyOptions *options, const char *path,
                      const SbCliStudyWork *work) {
   g_autoptr(GPtrArray) issues = sb_issues_new();

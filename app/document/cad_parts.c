@@ -294,11 +294,9 @@ char *sb_cad_differences(const SbDocument *before, const SbDocument *after) {
     const SbParam *param = sb_param(id);
     const double old = sb_document_value(before, id), now = sb_document_value(after, id);
     if (fabs(old - now) > 1e-9 * fabs(old)) {
-      char one[SB_NUMBER_SIZE], other[SB_NUMBER_SIZE];
-      sb_number_round(one, sb_quantity_to_shown(old, param->si, param->unit), 6);
-      sb_number_round(other, sb_quantity_to_shown(now, param->si, param->unit), 6);
-      g_string_append_printf(lines, "%s: %s %s → %s %s\n", param->key, one, param->unit, other,
-                             param->unit);
+      g_autofree char *one = sb_quantity_round(old, param->si, param->unit, 6);
+      g_autofree char *other = sb_quantity_round(now, param->si, param->unit, 6);
+      g_string_append_printf(lines, "%s: %s → %s\n", param->key, one, other);
     }
   }
   return g_string_free(lines, FALSE);

@@ -479,13 +479,10 @@ char *sb_document_shape_note(const SbDocument *document, SbParamId id) {
     return NULL;
   }
   const SbParam *param = sb_param(id);
-  char *says = sb_quantity_format(value, param->si, param->unit);
-  char other[SB_NUMBER_SIZE];
-  sb_number_round(other, sb_quantity_to_shown(size->value, param->si, param->unit), 5);
-  char *note = g_strdup_printf("%s = %s applies; %s has %s %s, and the shape is scaled to it",
-                               param->key, says, size->source, other, param->unit);
-  g_free(says);
-  return note;
+  g_autofree char *says = sb_quantity_format(value, param->si, param->unit);
+  g_autofree char *other = sb_quantity_round(size->value, param->si, param->unit, 5);
+  return g_strdup_printf("%s = %s applies; %s has %s, and the shape is scaled to it", param->key,
+                         says, size->source, other);
 }
 
 SbDocumentKind sb_document_kind(const SbDocument *document) {

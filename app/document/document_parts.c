@@ -176,12 +176,10 @@ static void derive_mass(const Part *part, SbParamId id, double value, const char
     set(part, id, value, source);
   } else if (differs(part, id, value)) {
     g_autofree char *says = sb_quantity_format(part->params->value[id], param->si, param->unit);
-    char other[SB_NUMBER_SIZE];
-    sb_number_round(other, sb_quantity_to_shown(value, param->si, param->unit), 5);
+    g_autofree char *other = sb_quantity_round(value, param->si, param->unit, 5);
     g_ptr_array_add(part->notes,
-                    g_strdup_printf("%s: %s = %s applies; the %s of [%s] results in %s %s",
-                                    part->shown, param->key, says, source, part->group, other,
-                                    param->unit));
+                    g_strdup_printf("%s: %s = %s applies; the %s of [%s] results in %s",
+                                    part->shown, param->key, says, source, part->group, other));
   }
 }
 
@@ -201,12 +199,11 @@ static void derive_size(const Part *part, SbParamId id, double value, const char
       }
     }
     g_autofree char *says = sb_quantity_format(part->params->value[id], param->si, param->unit);
-    char other[SB_NUMBER_SIZE];
-    sb_number_round(other, sb_quantity_to_shown(value, param->si, param->unit), 5);
+    g_autofree char *other = sb_quantity_round(value, param->si, param->unit, 5);
     sb_issues_add(part->issues, part->shown, typed != NULL ? typed->line : 0, param->key, NULL,
-                  "is %s, but the %s of [%s] results in %s %s: the shape takes precedence, remove "
+                  "is %s, but the %s of [%s] results in %s: the shape takes precedence, remove "
                   "the key or correct one of them",
-                  says, source, part->group, other, param->unit);
+                  says, source, part->group, other);
     return;
   }
   const SbShapeSize *known = sb_shapes_size(part->shapes, id);

@@ -420,11 +420,8 @@ static void draw_limits(View *v, bool borders) {
       }
       if (borders) {
         const SbFigure *of = sb_figure(limits->item[i].figure);
-        char digits[SB_NUMBER_SIZE];
-        g_autofree char *value = g_strdup_printf(
-            "%s %s", sb_number_round(digits, sb_quantity_to_shown(level, of->si, of->shown), 4),
-            of->shown);
-        g_autofree char *name = sb_translation_inside(sb_figure(limits->item[i].figure)->label);
+        g_autofree char *value = sb_quantity_round(level, of->si, of->shown, 4);
+        g_autofree char *name = sb_translation_inside(of->label);
         g_autofree char *text = g_strdup_printf("%s %s", name, value);
         const LineLook look = look_of(v, (size_t)figure, true);
         draw_line(v, (size_t)figure, level, text, &look);

@@ -40,12 +40,8 @@ static void draw_title(SbCanvas *c, SbRect rect, const char *title, const char *
 
 static char *step_text(SbParamId id, double step, bool tolerance) {
   const SbParam *param = sb_param(id);
-  char digits[SB_NUMBER_SIZE];
-  if (!tolerance) {
-    return g_strdup("± 5 %");
-  }
-  sb_number_round(digits, sb_quantity_to_shown(step, param->si, param->unit), 3);
-  return g_strdup_printf("± %s %s", digits, param->unit);
+  g_autofree char *text = sb_quantity_round(step, param->si, param->unit, 3);
+  return tolerance ? g_strconcat("± ", text, NULL) : g_strdup("± 5 %");
 }
 
 void sb_design_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,

@@ -60,22 +60,38 @@ static void put_recognised(SbJson *json, const SbMeasured *m) {
   sb_json_object_end(json);
 }
 
-void sb_json_measured_stages(SbJson *json, const SbComparison *comparison) {
-  sb_json_object(json, "stages");
+SbTable *sb_measured_stages(const SbComparison *comparison) {
+  static const SbTableColumn columns[] = {
+      {.layout = "  %-10s"},
+      {.key = "measured_N", .layout = "%12s", .head = "measured"},
+      {.key = "model_N", .layout = "%12s", .head = "model"},
+      {.key = "difference_N", .layout = "%12s", .head = "difference"},
+      {.key = "measured_m"},
+      {.key = "model_m"},
+      {.key = "measured_deviation_N"},
+      {.key = "reason", .layout = "  %s"},
+  };
+  SbTable *table = sb_table_new(columns, G_N_ELEMENTS(columns));
   for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {
     const SbMeasuredStage *stage = &comparison->measured->stage[s];
-    sb_json_object(json, sb_stage_name((SbStage)s));
-    sb_json_number(json, "measured_N", stage->found ? stage->force : NAN);
-    sb_json_number(json, "model_N", comparison->model_force[s]);
-    sb_json_number(json, "difference_N",
-                   stage->found ? stage->force - comparison->model_force[s] : NAN);
-    sb_json_number(json, "measured_m", stage->found ? stage->displacement : NAN);
-    sb_json_number(json, "model_m", comparison->model_displacement[s]);
-    sb_json_number(json, "measured_deviation_N", stage->found ? stage->deviation : NAN);
-    sb_json_string(json, "reason", stage->reason);
-    sb_json_object_end(json);
+    const double none = stage->found ? 0 : NAN, model = comparison->model_force[s];
+    const char *name = sb_stage_name((SbStage)s);
+    g_autofree char *label = g_strdup_printf("Stage %s", name);
+    sb_table_add(table,
+                 SB_CELLS(sb_cell_text_as(name, label),
+                          sb_cell_quantity(none + stage->force, "N", "N", 4),
+                          sb_cell_quantity(model, "N", "N", 4),
+                          sb_cell_quantity(none + stage->force - model, "N", "N", 4),
+                          sb_cell_number(none + stage->displacement),
+                          sb_cell_number(comparison->model_displacement[s]),
+                          sb_cell_number(none + stage->deviation), sb_cell_text(stage->reason)));
   }
-  sb_json_object_end(json);
+  return table;
+}
+
+void sb_json_measured_stages(SbJson *json, const SbComparison *comparison) {
+  g_autoptr(SbTable) table = sb_measured_stages(comparison);
+  sb_table_json(json, "stages", table);
 }
 
 void sb_json_comparison(SbJson *json, const char *key, const SbComparison *comparison) {

@@ -2,10 +2,14 @@
 #pragma once
 
 #include "app/data/compare.h"
-#include "app/table/json.h"
+#include "app/table/table.h"
 
 // Writes the object `key`: differences between measurement and run, how the file was read, stages.
 void sb_json_comparison(SbJson *json, const char *key, const SbComparison *comparison);
+
+// Returns the stages B to F of the measured loop and of the model, for people and as members by
+// their names. Freed by sb_table_free().
+SbTable *sb_measured_stages(const SbComparison *comparison);
 
 // Writes the object "stages": for the stages B to F the measured and computed force and
 // displacement and their difference.

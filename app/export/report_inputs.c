@@ -72,9 +72,7 @@ static char *value_of(const SbModel *model, SbParamId id) {
   const SbParam *param = sb_param(id);
   const double value = sb_model_value(model, id);
   if (param->kind == SB_PARAM_REAL) {
-    char digits[SB_NUMBER_SIZE];
-    sb_number_round(digits, sb_quantity_to_shown(value, param->si, param->unit), 6);
-    return g_strdup_printf("%s%s%s", digits, *param->unit != '\0' ? " " : "", param->unit);
+    return sb_quantity_round(value, param->si, param->unit, 6);
   }
   char *text = sb_param_format(id, value);
   if (*text == '\0') {

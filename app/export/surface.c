@@ -124,11 +124,8 @@ char **sb_surface_settings(const char **reason, const SbSurface *surface) {
     } else if (value < param->min || value > param->max) {
       *reason = values[i].beyond;
     } else {
-      char digits[SB_NUMBER_SIZE];
-      const double shown = sb_quantity_to_shown(value, param->si, param->unit);
-      g_ptr_array_add(out,
-                      g_strdup_printf("%s=%s%s%s", param->key, sb_number_round(digits, shown, 6),
-                                      *param->unit != '\0' ? " " : "", param->unit));
+      g_autofree char *text = sb_quantity_round(value, param->si, param->unit, 6);
+      g_ptr_array_add(out, g_strconcat(param->key, "=", text, NULL));
     }
   }
   if (*reason != NULL) {

@@ -205,13 +205,14 @@ void sb_json_cell(SbJson *json, const char *key, const SbTableCell *cell) {
 }
 
 void sb_table_json(SbJson *json, const char *key, const SbTable *table) {
-  sb_json_array(json, key);
+  const bool named = table->column[0].key == NULL;
+  (named ? sb_json_object : sb_json_array)(json, key);
   for (guint i = 0; i < table->row->len; i++) {
     const Row *row = table->row->pdata[i];
     if (row->note != NULL) {
       continue;
     }
-    sb_json_object(json, NULL);
+    sb_json_object(json, named ? row->cell[0].text : NULL);
     for (size_t k = 0; k < table->columns; k++) {
       if (table->column[k].key != NULL) {
         sb_json_cell(json, table->column[k].key, &row->cell[k]);
@@ -219,7 +220,7 @@ void sb_table_json(SbJson *json, const char *key, const SbTable *table) {
     }
     sb_json_object_end(json);
   }
-  sb_json_array_end(json);
+  (named ? sb_json_object_end : sb_json_array_end)(json);
 }
 
 // ---- Pages ----

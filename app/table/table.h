@@ -98,7 +98,8 @@ void sb_table_csv(FILE *stream, const SbTable *table);
 // Writes a member with the value of a cell; none for an ABSENT cell.
 void sb_json_cell(SbJson *json, const char *key, const SbTableCell *cell);
 
-// Writes an array of the rows as objects.
+// Writes the rows as objects: elements of an array or, if the first column has no key, members of
+// an object that are named by its texts.
 void sb_table_json(SbJson *json, const char *key, const SbTable *table);
 
 // Return the table as HTML, numbers with the class "n", and as Markdown. Freed by g_free().
