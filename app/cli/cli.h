@@ -10,6 +10,7 @@
 #include "app/data/compare.h"
 #include "app/document/document.h"
 #include "app/document/study_file.h"
+#include "app/run/cases.h"
 #include "app/study/shares.h"
 #include "app/table/table.h"
 
@@ -253,6 +254,18 @@ void sb_progress_end(SbProgress *progress);
 // SB_EXIT_NOT_CONVERGED (points are missing); both leave a complete *out. With another exit code,
 // *out is not to be written. An SbStudy owns nothing; it is too large for a stack.
 int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model);
+
+// Computes the drawn studies of a bit mask in the order of SbStudyKind to out[*count]; an interrupt
+// ends them. Returns the last exit code other than SB_EXIT_DONE.
+int sb_cli_studies(SbStudy *out, size_t *count, const SbModel *model, unsigned mask);
+
+// Creates and executes a run, with the text `what` before its progress. Returns an engine's status;
+// *out may be a part of a run, and is freed by sb_run_destroy().
+SbStatus sb_cli_compute(SbRun **out, const SbModel *model, const SbPlan *plan, const char *what,
+                        SbReport *report);
+
+// Writes the worst answers of a scene and its cases (sb_cases_judge()) and prints the problems.
+SbStatus sb_cli_judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *document);
 
 // Help of --measured.
 #define SB_CLI_MEASURED_HELP "Force over displacement from a test machine, any table of numbers"

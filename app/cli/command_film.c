@@ -134,10 +134,6 @@ static void print_other_models(const SbFilm *film, const SbFilmProblem *problem,
   }
 }
 
-static bool on_cancelled(void *data) {
-  return sb_cli_interrupted(NULL);
-}
-
 typedef struct {
   SbFilm *film;
   const SbFilmProblem *problem;
@@ -435,7 +431,7 @@ int sb_command_film(int argc, char **argv) {
   g_autofree SbModelSeries *series = g_new0(SbModelSeries, 1);
   SbFilmProblem problem;
   sb_film_problem_init(&problem);
-  problem.cancelled = on_cancelled;
+  problem.cancelled = sb_cli_interrupted;
   if (!sb_cli_parse(&argc, &argv, entries, 0, 0, SB_TIMING_NOTE) ||
       (path != NULL && !read_history(series, &problem, path, texts[1])) ||
       !read_quantities(&problem, texts) || (name != NULL && !choose_model(&problem, name)) ||

@@ -59,10 +59,6 @@ static void print_gland(const SbGlandReadout *gland) {
   }
 }
 
-static bool on_cancel(void *data) {
-  return sb_cli_interrupted(NULL);
-}
-
 // What is to be timed.
 typedef struct {
   SbFit *fit;
@@ -194,7 +190,7 @@ int sb_command_fit(int argc, char **argv) {
   }
   SbFitProblem problem;
   sb_model_fit_problem(&problem, model, index, 0);
-  problem.cancel = on_cancel;
+  problem.cancel = sb_cli_interrupted;
   problem.tolerance = 1e-3;
   if (!sb_cli_quantity(&problem.pressure, "--pressure", pressure, false, "Pa", "MPa") ||
       !sb_cli_quantity(&problem.tolerance, "--tolerance", tolerance, false, "1", "") ||

@@ -254,14 +254,6 @@ static char **all_settings(const Options *options) {
   return (char **)g_ptr_array_free(all, FALSE);
 }
 
-static void on_progress(void *data, double fraction, size_t frames) {
-  sb_progress_update(data, fraction);
-}
-
-static bool on_cancelled(void *data) {
-  return sb_cli_interrupted(NULL);
-}
-
 static void on_picture(void *data, size_t done, size_t total) {
   sb_progress_update(data, (double)done / (double)total);
 }
@@ -275,16 +267,7 @@ static SbStatus compute(SbRun **run, const SbModel *model, const SbRenderView *v
                                .life = true};
   SbPlan plan;
   sb_plan_wished(&plan, model, &wishes);
-  SbProgress progress;
-  sb_progress_start(&progress, "computing ");
-  SbStatus status = sb_run_create(run, model, &plan, report);
-  if (status == SB_OK) {
-    sb_cli_catch_interrupts();
-    SbRunHooks hooks = {.progress = on_progress, .cancelled = on_cancelled, .data = &progress};
-    status = sb_run_execute(*run, &hooks, report);
-    sb_progress_end(&progress);
-  }
-  return status;
+  return sb_cli_compute(run, model, &plan, "computing ", report);
 }
 
 // Computes the first kept designs where the view shows them, and notes those that it leaves out. An
@@ -326,7 +309,7 @@ static void pins_clear(Pins *pins) {
 static int render_film(const SbRun *run, Request *request, const char *output) {
   SbProgress progress;
   sb_progress_start(&progress, "drawing ");
-  request->movie.hooks = (SbMovieHooks){on_picture, on_cancelled, &progress};
+  request->movie.hooks = (SbMovieHooks){on_picture, sb_cli_interrupted, &progress};
   SbMovieResult result = {0};
   g_autoptr(GPtrArray) kept = g_ptr_array_new_with_free_func(g_free);
   GError *error = NULL;

@@ -13,10 +13,6 @@ typedef struct {
   int threads;
 } Options;
 
-static void on_progress(void *data, double fraction, size_t frames) {
-  sb_progress_update(data, fraction);
-}
-
 static bool on_page(void *data, int done, int count) {
   sb_progress_update(data, (double)done / count);
   return sb_cli_interrupted(NULL);
@@ -43,37 +39,16 @@ static int write_pages(const char *output, const SbReportScene *scene, const SbR
 
 // ---- A scene ----
 
-// The studies that the scene asks for, as `run` makes them. An exit code.
-static int make_studies(SbStudy *out, size_t *count, const SbModel *model) {
-  const unsigned mask = (unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES);
-  int code = SB_EXIT_DONE;
-  for (int i = 0; i < SB_STUDY_COUNT && code != SB_EXIT_INTERRUPTED; i++) {
-    if ((mask & (1u << i)) != 0) {
-      const int made = sb_cli_study(&out[*count], (SbStudyKind)i, model);
-      *count += made == SB_EXIT_DONE || made == SB_EXIT_NOT_CONVERGED;
-      code = made != SB_EXIT_DONE ? made : code;
-    }
-  }
-  return code;
-}
-
 static int report_run(const SbRun *run, const SbDocument *document, const SbMeasured *measured,
                       const Options *options) {
   SbCaseVerdict verdict[SB_VERDICT_COUNT];
-  SbProgress progress;
-  sb_progress_start(&progress, "cases ");
-  const SbRunHooks hooks = {
-      .progress = on_progress, .cancelled = sb_cli_interrupted, .data = &progress};
-  g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
-  const SbStatus judged = sb_cases_judge(verdict, run, document, &hooks, problems);
-  sb_progress_end(&progress);
-  for (guint i = 0; i < problems->len; i++) {
-    sb_cli_fail("%s", (const char *)problems->pdata[i]);
-  }
+  const SbStatus judged = sb_cli_judge(verdict, run, document);
   g_autofree SbStudy *studies = g_new(SbStudy, SB_STUDY_COUNT);
   size_t count = 0;
-  const int studied = sb_cli_interrupted(NULL) ? SB_EXIT_INTERRUPTED
-                                               : make_studies(studies, &count, sb_run_model(run));
+  const SbModel *model = sb_run_model(run);
+  const unsigned mask = (unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES);
+  const int studied =
+      sb_cli_interrupted(NULL) ? SB_EXIT_INTERRUPTED : sb_cli_studies(studies, &count, model, mask);
   if (studied == SB_EXIT_INTERRUPTED || judged == SB_ERROR_CANCELLED) {
     sb_cli_fail("interrupted: nothing was written");
     return SB_EXIT_INTERRUPTED;
@@ -116,16 +91,7 @@ static int report_scene(const char *path, const Options *options) {
     SbReport report = {0};
     SbRun *run = NULL;
     sb_plan_wished(plan, model, &wishes);
-    SbStatus status = sb_run_create(&run, model, plan, &report);
-    if (status == SB_OK) {
-      SbProgress progress;
-      sb_progress_start(&progress, "computing ");
-      sb_cli_catch_interrupts();
-      const SbRunHooks hooks = {
-          .progress = on_progress, .cancelled = sb_cli_interrupted, .data = &progress};
-      status = sb_run_execute(run, &hooks, &report);
-      sb_progress_end(&progress);
-    }
+    const SbStatus status = sb_cli_compute(&run, model, plan, "computing ", &report);
     code = sb_cli_status(status, &report);
     if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
       const int reported = report_run(run, document, measured, options);

@@ -4,32 +4,6 @@
 #include "app/cli/run_text.h"
 #include "app/export/results_files.h"
 
-static void on_progress(void *data, double fraction, size_t frames) {
-  sb_progress_update(data, fraction);
-}
-
-static bool on_cancelled(void *data) {
-  return sb_cli_interrupted(NULL);
-}
-
-// The studies of a bit mask, in order; returns the worst exit code. An interrupt ends with those
-// that are done.
-static int make_studies(SbStudy *out, size_t *count, const SbModel *model, unsigned mask) {
-  int code = SB_EXIT_DONE;
-  for (int i = 0; i < SB_STUDY_COUNT; i++) {
-    if ((mask & (1u << i)) == 0) {
-      continue;
-    }
-    int made = sb_cli_study(&out[*count], (SbStudyKind)i, model);
-    *count += made == SB_EXIT_DONE || made == SB_EXIT_NOT_CONVERGED ? 1 : 0;
-    code = made != SB_EXIT_DONE ? made : code;
-    if (made == SB_EXIT_INTERRUPTED) {
-      break;
-    }
-  }
-  return code;
-}
-
 typedef struct {
   char *folder, *json_target, *measured;
   char **settings;
@@ -100,23 +74,6 @@ static bool has_memory(const SbCliFile *file, bool studies) {
   return good;
 }
 
-// The worst answers of the scene and its cases; an exit code.
-static int judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *document) {
-  g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
-  SbProgress progress;
-  sb_progress_start(&progress, "cases ");
-  SbRunHooks hooks = {.progress = on_progress, .cancelled = on_cancelled, .data = &progress};
-  SbStatus status = sb_cases_judge(verdict, run, document, &hooks, problems);
-  sb_progress_end(&progress);
-  for (guint i = 0; i < problems->len; i++) {
-    sb_cli_fail("%s", (const char *)problems->pdata[i]);
-  }
-  return status == SB_OK                ? SB_EXIT_DONE
-         : status == SB_ERROR_CANCELLED ? SB_EXIT_INTERRUPTED
-         : status == SB_ERROR_MEMORY    ? SB_EXIT_IO
-                                        : SB_EXIT_NOT_CONVERGED;
-}
-
 // Computes one file's run, cases and studies, and writes them. An exit code.
 static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *options) {
   const SbModel *model = file->model;
@@ -132,27 +89,22 @@ static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *opt
     return read;
   }
   SbRun *run = NULL;
-  SbStatus status = sb_run_create(&run, model, plan, &report);
-  if (status != SB_OK) {
-    return sb_cli_status(status, &report);
-  }
-  SbProgress progress;
-  sb_progress_start(&progress, "");
-  sb_cli_catch_interrupts();
-  SbRunHooks hooks = {.progress = on_progress, .cancelled = on_cancelled, .data = &progress};
-  status = sb_run_execute(run, &hooks, &report);
-  sb_progress_end(&progress);
+  const SbStatus status = sb_cli_compute(&run, model, plan, "", &report);
   int code = sb_cli_status(status, &report);
   g_autofree SbStudy *studies = NULL;
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED || status == SB_ERROR_CANCELLED) {
     g_autofree char *sha256 = sb_document_sha256(file->document);
     size_t study_count = 0;
     SbCaseVerdict verdict[SB_VERDICT_COUNT];
-    int judged = judge(verdict, run, file->document);
-    code = MAX(code, judged);
+    const SbStatus judged = sb_cli_judge(verdict, run, file->document);
+    const int judged_code = judged == SB_OK                ? SB_EXIT_DONE
+                            : judged == SB_ERROR_CANCELLED ? SB_EXIT_INTERRUPTED
+                            : judged == SB_ERROR_MEMORY    ? SB_EXIT_IO
+                                                           : SB_EXIT_NOT_CONVERGED;
+    code = MAX(code, judged_code);
     if (code != SB_EXIT_INTERRUPTED && plan->studies != 0) {
       studies = g_new(SbStudy, SB_STUDY_COUNT);
-      int studied = make_studies(studies, &study_count, model, plan->studies);
+      int studied = sb_cli_studies(studies, &study_count, model, plan->studies);
       code = studied != SB_EXIT_DONE ? studied : code;
     }
     SbLoop loop = {0};

@@ -1,7 +1,39 @@
-// A study on the command line: computed with progress, listed, refused where it does not go.
+// Runs, cases and drawn studies on the command line: computed with progress and interrupts.
 #include "app/cli/cli.h"
 
 #include "app/study/view.h"
+
+static void on_run(void *data, double fraction, size_t frames) {
+  sb_progress_update(data, fraction);
+}
+
+SbStatus sb_cli_compute(SbRun **out, const SbModel *model, const SbPlan *plan, const char *what,
+                        SbReport *report) {
+  const SbStatus status = sb_run_create(out, model, plan, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  SbProgress progress;
+  sb_progress_start(&progress, what);
+  sb_cli_catch_interrupts();
+  const SbRunHooks hooks = {.progress = on_run, .cancelled = sb_cli_interrupted, .data = &progress};
+  const SbStatus executed = sb_run_execute(*out, &hooks, report);
+  sb_progress_end(&progress);
+  return executed;
+}
+
+SbStatus sb_cli_judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *document) {
+  g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
+  SbProgress progress;
+  sb_progress_start(&progress, "cases ");
+  const SbRunHooks hooks = {.progress = on_run, .cancelled = sb_cli_interrupted, .data = &progress};
+  const SbStatus status = sb_cases_judge(verdict, run, document, &hooks, problems);
+  sb_progress_end(&progress);
+  for (guint i = 0; i < problems->len; i++) {
+    sb_cli_fail("%s", (const char *)problems->pdata[i]);
+  }
+  return status;
+}
 
 static void on_progress(void *data, double fraction) {
   sb_progress_update(data, fraction);
@@ -22,4 +54,16 @@ int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model) {
     return SB_EXIT_NOT_CONVERGED;
   }
   return sb_cli_status(status, &report);
+}
+
+int sb_cli_studies(SbStudy *out, size_t *count, const SbModel *model, unsigned mask) {
+  int code = SB_EXIT_DONE;
+  for (int i = 0; i < SB_STUDY_COUNT && code != SB_EXIT_INTERRUPTED; i++) {
+    if ((mask & (1u << i)) != 0) {
+      const int made = sb_cli_study(&out[*count], (SbStudyKind)i, model);
+      *count += made == SB_EXIT_DONE || made == SB_EXIT_NOT_CONVERGED;
+      code = made != SB_EXIT_DONE ? made : code;
+    }
+  }
+  return code;
 }

@@ -108,36 +108,34 @@ void sb_json_comparison(SbJson *json, const char *key, const SbComparison *compa
   sb_json_object_end(json);
 }
 
-char *sb_results_compare(size_t runs, const char *const *name, const char *const *scene,
-                         double *const *figure, SbComparison *const *comparison) {
+char *sb_results_compare(const SbComparedRun *const *run, size_t runs) {
   SbJson json;
   sb_json_document(&json);
   sb_json_array(&json, "runs");
   for (size_t i = 0; i < runs; i++) {
     sb_json_object(&json, NULL);
-    sb_json_string(&json, "name", name[i]);
-    sb_json_string(&json, "scene", scene[i]);
+    sb_json_string(&json, "name", run[i]->name);
+    sb_json_string(&json, "scene", run[i]->scene);
     sb_json_object(&json, "figures");
     for (int f = 0; f < SB_FIGURE_COUNT; f++) {
-      sb_json_number(&json, sb_figure(f)->path, figure[i][f]);
+      sb_json_number(&json, sb_figure(f)->path, run[i]->figure[f]);
     }
     sb_json_object_end(&json);
-    sb_json_number(&json, "rms_N", comparison[i] != NULL ? comparison[i]->rms : NAN);
+    sb_json_number(&json, "rms_N", run[i]->comparison != NULL ? run[i]->comparison->rms : NAN);
     sb_json_object_end(&json);
   }
   sb_json_array_end(&json);
   sb_json_object(&json, "differences");
-  double *difference = g_new(double, runs + 1);
+  g_autofree double *difference = g_new(double, runs + 1);
   for (int f = 0; f < SB_FIGURE_COUNT; f++) {
     for (size_t i = 0; i < runs; i++) {
-      difference[i] = figure[i][f] - figure[0][f];
+      difference[i] = run[i]->figure[f] - run[0]->figure[f];
     }
     sb_json_numbers(&json, sb_figure(f)->path, difference, runs);
   }
-  g_free(difference);
   sb_json_object_end(&json);
-  if (runs > 0 && comparison[0] != NULL) {
-    sb_json_comparison(&json, "measured", comparison[0]);
+  if (runs > 0 && run[0]->comparison != NULL) {
+    sb_json_comparison(&json, "measured", run[0]->comparison);
   }
   sb_json_object_end(&json);
   return sb_json_finish(&json);

@@ -4,6 +4,8 @@
 #include "app/data/compare.h"
 #include "app/table/table.h"
 
+#include "engine/valve/figures/figures.h"
+
 // Writes the object `key`: differences between measurement and run, how the file was read, stages.
 void sb_json_comparison(SbJson *json, const char *key, const SbComparison *comparison);
 
@@ -15,9 +17,13 @@ SbTable *sb_measured_stages(const SbComparison *comparison);
 // displacement and their difference.
 void sb_json_measured_stages(SbJson *json, const SbComparison *comparison);
 
-// Returns the JSON document of `sealbench compare`: the figures of each run, their differences from
-// the first run, and the comparison of the first run with its measurement. All arrays have `runs`
-// elements: `name` of the runs, `scene` the full paths of their files ("-": standard input),
-// `figure[i]` is [SB_FIGURE_COUNT] [SI], `comparison[i]` is NULL for a run without a measurement.
-char *sb_results_compare(size_t runs, const char *const *name, const char *const *scene,
-                         double *const *figure, SbComparison *const *comparison);
+// A run that is compared.
+typedef struct {
+  const char *name, *scene;       // title, and full path of the file ("-": standard input)
+  double figure[SB_FIGURE_COUNT]; // SI; NaN: none
+  const SbComparison *comparison; // with its measured loop; NULL: there is none
+} SbComparedRun;
+
+// Returns the JSON document of `sealbench compare` for run[runs]: the figures of each run, their
+// differences from the first run, and the comparison of the first run with its measurement.
+char *sb_results_compare(const SbComparedRun *const *run, size_t runs);
