@@ -107,16 +107,31 @@ bool sb_cli_quiet(void) {
   return common.quiet;
 }
 
+// Removes a "--" before the operands, and whether their number is in [least, most]: prints it.
+static bool has_operands(int *argc, char **argv, int least, int most, const SbCommand *command) {
+  // A "--" that separates operands stays in argv.
+  if (*argc > 1 && strcmp(argv[1], "--") == 0) {
+    memmove(argv + 1, argv + 2, (size_t)(*argc - 1) * sizeof *argv);
+    (*argc)--;
+  }
+  const int operands = *argc - 1;
+  if (operands < least || operands > most) {
+    sb_cli_fail("%s: usage: sealbench %s %s",
+                operands < least ? "too few operands" : "too many operands", command->name,
+                command->usage);
+  }
+  return operands >= least && operands <= most;
+}
+
 bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int operands_min,
                   int operands_max, const char *notes) {
   const SbCommand *command = sb_commands();
   while (strcmp(command->name, (*argv)[0]) != 0) {
     command++;
   }
-  char *name = g_strdup_printf("sealbench %s", command->name);
+  g_autofree char *name = g_strdup_printf("sealbench %s", command->name);
   g_set_prgname(name);
-  g_free(name);
-  GOptionContext *context = g_option_context_new(command->usage);
+  g_autoptr(GOptionContext) context = g_option_context_new(command->usage);
   g_option_context_set_summary(context, command->help);
   g_option_context_set_description(context, notes);
   // GLib's own --help prints by the locale, which the program never sets: "?" for "°".
@@ -147,42 +162,23 @@ bool sb_cli_parse(int *argc, char ***argv, const GOptionEntry *entries, int oper
     g_option_context_add_main_entries(context, writing, NULL);
   }
   g_option_context_add_main_entries(context, every, NULL);
-  GError *error = NULL;
-  bool good = g_option_context_parse(context, argc, argv, &error);
-  if (!good) {
-    bool unknown = g_error_matches(error, G_OPTION_ERROR, G_OPTION_ERROR_UNKNOWN_OPTION);
+  g_autoptr(GError) error = NULL;
+  if (!g_option_context_parse(context, argc, argv, &error)) {
+    const bool unknown = g_error_matches(error, G_OPTION_ERROR, G_OPTION_ERROR_UNKNOWN_OPTION);
     const GOptionEntry *groups[] = {own, every, entries, entries != NULL ? writing : NULL};
     g_autofree char *hint =
         unknown ? option_hint(error->message, groups, G_N_ELEMENTS(groups)) : g_strdup("");
     sb_cli_fail("%s%s (see sealbench %s --help)", error->message, hint, command->name);
-    g_error_free(error);
+    return false;
   }
-  if (good) {
-    keep_texts(entries);
-    keep_texts(every);
+  keep_texts(entries);
+  keep_texts(every);
+  if (help) {
+    g_autofree char *text = g_option_context_get_help(context, TRUE, NULL);
+    exit(sb_cli_emit(text, "-"));
   }
-  if (good && help) {
-    char *text = g_option_context_get_help(context, TRUE, NULL);
-    const int code = sb_cli_emit(text, "-");
-    g_free(text);
-    g_option_context_free(context);
-    exit(code);
-  }
-  // A "--" that separates operands stays in argv.
-  if (good && *argc > 1 && strcmp((*argv)[1], "--") == 0) {
-    memmove(*argv + 1, *argv + 2, (size_t)(*argc - 1) * sizeof **argv);
-    (*argc)--;
-  }
-  int operands = *argc - 1;
-  if (good && (operands < operands_min || operands > operands_max)) {
-    sb_cli_fail("%s: usage: sealbench %s %s",
-                operands < operands_min ? "too few operands" : "too many operands", command->name,
-                command->usage);
-    good = false;
-  }
-  good = good && !has_empty_value(entries) && !has_empty_value(every) && take_common(progress);
-  g_option_context_free(context);
-  return good;
+  return has_operands(argc, *argv, operands_min, operands_max, command) &&
+         !has_empty_value(entries) && !has_empty_value(every) && take_common(progress);
 }
 
 // One object on one line of standard error: the writer's line ends are all indentation.

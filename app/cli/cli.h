@@ -147,29 +147,26 @@ typedef struct {
 // Largest number of operands.
 enum { SB_CLI_FILES_MAX = 10000 };
 
-// Opens argv[1] to argv[argc - 1] as valves or scenes and prints all problems; `folder` is the
-// value of -o or NULL. Returns false if no file is sound, standard input is named twice, or two
-// files would write to one folder; files->code is then the exit code. Call sb_cli_files_close() in
-// any case.
-bool sb_cli_files_open(SbCliFiles *files, int argc, char **argv, char **settings,
-                       const char *folder);
+// What a command does with its files.
+typedef struct {
+  char **settings;    // of --set
+  const char *folder; // of -o; NULL: none
+  const char *json;   // where files->json is written: a path or "-"; NULL: not wanted
+  // Checks the outputs before the work; NULL: that of `json`. Returns an exit code.
+  int (*check)(const SbCliFiles *files, void *data);
+  // Works on a sound file, which progress and messages name if there are several. An exit code.
+  int (*work)(SbCliFiles *files, const SbCliFile *file, void *data);
+  void *data;
+} SbCliFilesWork;
 
-// Frees the documents, models and texts of the files.
-void sb_cli_files_close(SbCliFiles *files);
-
-// Returns the next sound file, borrowed; with several files, progress and messages name it from now
-// on. NULL after the last one and after an interrupt.
-SbCliFile *sb_cli_files_next(SbCliFiles *files);
+// Opens argv[1] to argv[argc - 1] as valves or scenes, prints all problems, works on the sound
+// files one after the other until an interrupt, and writes files->json: the document of the only
+// operand, or an array. Standard input named twice, or two files that would write to one folder,
+// are refused. Returns the highest exit code.
+int sb_cli_files_run(int argc, char **argv, const SbCliFilesWork *work);
 
 // Prints the name of the present file as a heading of its table if there are several files.
 void sb_cli_files_head(SbCliFiles *files);
-
-// Raises files->code to `code` if that is higher.
-void sb_cli_files_done(SbCliFiles *files, int code);
-
-// Writes files->json to `target` (path or "-"; NULL: not wanted): the document of the only operand,
-// or an array of them. Does nothing if there are none. Failures are printed and raise files->code.
-void sb_cli_files_emit(SbCliFiles *files, const char *target);
 
 // Sets the file that progress and messages name (NULL: none). Borrowed until the next call.
 void sb_cli_name_file(const char *path);

@@ -11,6 +11,7 @@ typedef struct {
   char *measured, *json;
   char **settings;
   SbCliPlots plots;
+  GPtrArray *runs; // of Run
 } Options;
 
 // A run that is compared.
@@ -28,6 +29,7 @@ static void clear_run(void *data) {
   sb_comparison_free((SbComparison *)run->of.comparison);
   sb_measured_free(run->measured);
   g_free((char *)run->of.name);
+  g_free((char *)run->of.scene);
   g_free(run);
 }
 
@@ -35,7 +37,7 @@ static void clear_run(void *data) {
 static void add_run(GPtrArray *runs, const SbCliFile *file, SbRun *run, const char *name,
                     SbMeasured *measured, const Options *options) {
   Run *kept = g_new0(Run, 1);
-  *kept = (Run){.of = {.name = g_strdup(name), .scene = file->full},
+  *kept = (Run){.of = {.name = g_strdup(name), .scene = g_strdup(file->full)},
                 .methods = sb_model_methods(sb_run_model(run)),
                 .measured = measured};
   for (int f = 0; f < SB_FIGURE_COUNT; f++) {
@@ -83,7 +85,9 @@ static int run_model(GPtrArray *runs, const SbCliFile *file, const SbModel *mode
 }
 
 // A file's document and its pins; an exit code.
-static int run_file(GPtrArray *runs, const SbCliFile *file, const Options *options) {
+static int run_file(SbCliFiles *files, const SbCliFile *file, void *data) {
+  const Options *options = data;
+  GPtrArray *runs = options->runs;
   const SbDocument *document = file->document;
   int code = run_model(runs, file, file->model, sb_document_title(document), options);
   g_autoptr(GPtrArray) issues = sb_issues_new();
@@ -162,24 +166,18 @@ int sb_command_compare(int argc, char **argv) {
       {"no-plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.off, SB_CLI_NO_PLOT_HELP, NULL},
       {0},
   };
-  SbCliFiles files = {.code = SB_EXIT_INPUT};
-  if (sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) &&
-      sb_cli_files_open(&files, argc, argv, options.settings, NULL)) {
-    g_autoptr(GPtrArray) runs = g_ptr_array_new_with_free_func(clear_run);
-    const int checked = sb_cli_check_outputs(NULL, NULL, options.json);
-    sb_cli_files_done(&files, checked);
-    for (const SbCliFile *file;
-         checked == SB_EXIT_DONE && (file = sb_cli_files_next(&files)) != NULL;) {
-      sb_cli_files_done(&files, run_file(runs, file, &options));
-    }
-    if (runs->len > 0 && options.json != NULL) {
-      g_autofree char *json =
-          sb_results_compare((const SbComparedRun *const *)runs->pdata, runs->len);
-      sb_cli_files_done(&files, sb_cli_emit(json, options.json));
-    } else if (runs->len > 0 && !sb_cli_quiet()) {
-      print_runs(runs);
-    }
+  if (!sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL)) {
+    return SB_EXIT_INPUT;
   }
-  sb_cli_files_close(&files);
-  return files.code;
+  g_autoptr(GPtrArray) runs = options.runs = g_ptr_array_new_with_free_func(clear_run);
+  const SbCliFilesWork work = {options.settings, NULL, options.json, NULL, run_file, &options};
+  int code = sb_cli_files_run(argc, argv, &work), written = SB_EXIT_DONE;
+  if (runs->len > 0 && options.json != NULL) {
+    g_autofree char *json =
+        sb_results_compare((const SbComparedRun *const *)runs->pdata, runs->len);
+    written = sb_cli_emit(json, options.json);
+  } else if (runs->len > 0 && !sb_cli_quiet()) {
+    print_runs(runs);
+  }
+  return MAX(code, written);
 }

@@ -143,125 +143,135 @@ static int write_exports(char **exports, const SbRing *ring, const SbFitProblem 
   return code;
 }
 
-int sb_command_fit(int argc, char **argv) {
-  char *seal = NULL, *pressure = NULL, *name = NULL, *tolerance = NULL, *drag = NULL;
-  char *target = NULL, **settings = NULL, **exports = NULL;
-  SbCliPlots plots = {0};
-  SbRing *ring = NULL;
-  const GOptionEntry entries[] = {
-      {"seal", 0, 0, G_OPTION_ARG_FILENAME, &seal, "outer or inner", "NAME"},
-      {"pressure", 0, 0, G_OPTION_ARG_FILENAME, &pressure,
-       "Pressure on the left (ambient on the right), default 0", "P"},
-      {"model", 0, 0, G_OPTION_ARG_FILENAME, &name, "Model, or MODEL:VARIANT; else the file's",
-       "NAME"},
-      {"drag", 0, 0, G_OPTION_ARG_FILENAME, &drag,
-       "Friction of the sliding bore, > 0 towards the wall; limit or -limit: the maximum", "MU"},
-      {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &tolerance, "Relative error wanted", "T"},
-      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
-      {"export", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &exports,
-       "The ring's mesh and fields (.vtu), as a CalculiX problem (.inp), its outlines (.dxf), its "
-       "body (.stl, free: .free.stl)",
-       "FILE"},
-      {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
-      {"plot", 0, 0, G_OPTION_ARG_NONE, &plots.on, SB_CLI_PLOT_HELP, NULL},
-      {"no-plot", 0, 0, G_OPTION_ARG_NONE, &plots.off, SB_CLI_NO_PLOT_HELP, NULL},
-      {0},
-  };
-  g_autoptr(SbModel) model = NULL;
-  g_autoptr(SbDocument) document = NULL;
-  if (!sb_cli_parse(&argc, &argv, entries, 1, 1, SB_TIMING_NOTE)) {
-    return SB_EXIT_INPUT;
-  }
-  document = sb_cli_open(&model, argv[1], settings);
-  if (document == NULL) {
-    return SB_EXIT_INPUT;
-  }
-  int index = 0;
-  while (index < SB_SEAL_COUNT && g_strcmp0(sb_seal_name(index), seal) != 0) {
-    index++;
-  }
-  if (index == SB_SEAL_COUNT) {
-    if (seal == NULL) {
-      sb_cli_fail("--seal: is missing (allowed outer, inner)");
-    } else {
-      sb_cli_unknown("--seal: unknown seal", seal, "outer|inner", NULL);
+typedef struct {
+  char *seal, *pressure, *model, *tolerance, *drag, *json;
+  char **settings, **exports;
+  SbCliPlots plots;
+  bool limit; // the maximum drag is requested
+} Options;
+
+// Reads the problem of the seal *index of a model from the options; false with a message.
+static bool read_problem(SbFitProblem *problem, int *index, Options *options,
+                         const SbModel *model) {
+  for (*index = 0; g_strcmp0(sb_seal_name(*index), options->seal) != 0;) {
+    if (++*index == SB_SEAL_COUNT) {
+      (void)(options->seal == NULL
+                 ? sb_cli_fail("--seal: is missing (allowed outer, inner)")
+                 : sb_cli_unknown("--seal: unknown seal", options->seal, "outer|inner", NULL));
+      return false;
     }
-    return SB_EXIT_INPUT;
   }
-  SbFitProblem problem;
-  sb_model_fit_problem(&problem, model, index, 0);
-  problem.cancel = sb_cli_interrupted;
-  problem.tolerance = 1e-3;
-  if (!sb_cli_quantity(&problem.pressure, "--pressure", pressure, false, "Pa", "MPa") ||
-      !sb_cli_quantity(&problem.tolerance, "--tolerance", tolerance, false, "1", "") ||
-      (name != NULL && !choose_model(&problem, name))) {
-    return SB_EXIT_INPUT;
-  }
-  bool limit = false;
-  if (drag != NULL && !choose_drag(&problem, &limit, drag, name != NULL)) {
-    return SB_EXIT_INPUT;
+  sb_model_fit_problem(problem, model, *index, 0);
+  problem->cancel = sb_cli_interrupted;
+  problem->tolerance = 1e-3;
+  if (!sb_cli_quantity(&problem->pressure, "--pressure", options->pressure, false, "Pa", "MPa") ||
+      !sb_cli_quantity(&problem->tolerance, "--tolerance", options->tolerance, false, "1", "") ||
+      (options->model != NULL && !choose_model(problem, options->model)) ||
+      (options->drag != NULL &&
+       !choose_drag(problem, &options->limit, options->drag, options->model != NULL))) {
+    return false;
   }
   const SbParam *allowed = sb_param(SB_P_CANISTER_PRESSURE);
-  if (!(problem.pressure >= allowed->min && problem.pressure <= allowed->max)) {
-    g_autofree char *given = sb_param_format(SB_P_CANISTER_PRESSURE, problem.pressure);
+  if (!(problem->pressure >= allowed->min && problem->pressure <= allowed->max)) {
+    g_autofree char *given = sb_param_format(SB_P_CANISTER_PRESSURE, problem->pressure);
     g_autofree char *range = sb_param_range(SB_P_CANISTER_PRESSURE);
     sb_cli_fail("--pressure: %s is out of range (allowed %s)", given, range);
-    return SB_EXIT_INPUT;
+    return false;
   }
-  if (!(problem.tolerance >= 1e-8 && problem.tolerance <= 0.1)) {
+  if (!(problem->tolerance >= 1e-8 && problem->tolerance <= 0.1)) {
     sb_cli_fail("--tolerance: out of range (allowed 1e-8 to 0.1)");
-    return SB_EXIT_INPUT;
+    return false;
   }
-  int code = sb_cli_check_outputs(NULL, NULL, target);
-  if (code == SB_EXIT_DONE) {
-    code = check_exports(exports, &problem);
+  return true;
+}
+
+// Writes or prints a fit; an exit code.
+static int show(const SbFit *fit, const SbFitProblem *problem, const Options *options,
+                const SbGlandReadout *gland, const SbRubberState *storage, const char *path) {
+  if (options->json != NULL) {
+    g_autofree char *file = sb_cli_full_path(path, SB_SHIPPED_FOR_RUN);
+    g_autofree char *json =
+        sb_results_fit(fit, problem, options->limit, options->seal, gland, storage, file);
+    return sb_cli_emit(json, options->json);
   }
-  problem.kept = exports != NULL ? &ring : NULL;
-  if (code != SB_EXIT_DONE) {
-    return code;
+  if (!sb_cli_quiet()) {
+    print_table(fit, options->seal, problem->dragged);
+    if (gland != NULL) {
+      print_gland(gland);
+    }
+    if (sb_cli_plots(&options->plots) && fit->profile_count > 1) {
+      sb_cli_plot_profile(fit->profile_x, fit->profile_p, NULL, fit->profile_count);
+    }
   }
+  return SB_EXIT_DONE;
+}
+
+// Solves, shows and exports the fit of the seal `index`; an exit code.
+static int solve_and_show(SbFitProblem *problem, int index, const Options *options,
+                          const SbModel *model, const char *path) {
+  SbRing *ring = NULL;
+  problem->kept = options->exports != NULL ? &ring : NULL;
   g_autofree SbFit *fit = g_new0(SbFit, 1);
-  Solve job = {fit, &problem, {0}};
+  Solve job = {fit, problem, {0}};
   sb_cli_catch_interrupts();
   double wall_s = 0;
-  SbStatus status = sb_timing_median(&wall_s, solve, &job);
+  const SbStatus status = sb_timing_median(&wall_s, solve, &job);
   fit->solver.wall_s = wall_s;
-  code = sb_cli_status(status, &job.report);
+  int code = sb_cli_status(status, &job.report);
   sb_model_warn(model, &fit->warnings);
 
-  // Design read-outs of the gland.
+  // Design read-outs of the gland; a gasket lies in none.
   SbGland gland;
   SbGlandReadout readouts[SB_GLAND_COUNT];
-  SbReport gland_report = {0};
+  SbReport report = {0};
   sb_model_gland(&gland, model, index);
-  // A gasket lies in none.
-  const SbGlandReadout *in_gland = problem.gasket ? NULL : readouts;
-  if (in_gland != NULL && sb_gland_readouts(readouts, &gland, &gland_report) != SB_OK) {
-    sb_cli_fail("%s: %s", sb_input_key(gland_report.input), gland_report.text);
-    sb_ring_destroy(ring);
-    return SB_EXIT_INPUT;
-  }
-  if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
-    int written = SB_EXIT_DONE;
-    if (target != NULL) {
-      g_autofree char *file = sb_cli_full_path(argv[1], SB_SHIPPED_FOR_RUN);
-      g_autofree char *json = sb_results_fit(fit, &problem, limit, seal, in_gland,
-                                             &sb_model_seal(model, index)->storage, file);
-      written = sb_cli_emit(json, target);
-    } else if (!sb_cli_quiet()) {
-      print_table(fit, seal, problem.dragged);
-      if (in_gland != NULL) {
-        print_gland(in_gland);
-      }
-      if (sb_cli_plots(&plots) && fit->profile_count > 1) {
-        sb_cli_plot_profile(fit->profile_x, fit->profile_p, NULL, fit->profile_count);
-      }
-    }
+  const SbGlandReadout *in_gland = problem->gasket ? NULL : readouts;
+  if (in_gland != NULL && sb_gland_readouts(readouts, &gland, &report) != SB_OK) {
+    code = sb_cli_fail("%s: %s", sb_input_key(report.input), report.text);
+  } else if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
+    int written =
+        show(fit, problem, options, in_gland, &sb_model_seal(model, index)->storage, path);
     if (written == SB_EXIT_DONE && ring != NULL) {
-      written = write_exports(exports, ring, &problem);
+      written = write_exports(options->exports, ring, problem);
     }
     code = written != SB_EXIT_DONE ? written : code;
   }
   sb_ring_destroy(ring);
   return code;
+}
+
+int sb_command_fit(int argc, char **argv) {
+  Options options = {0};
+  const GOptionEntry entries[] = {
+      {"seal", 0, 0, G_OPTION_ARG_FILENAME, &options.seal, "outer or inner", "NAME"},
+      {"pressure", 0, 0, G_OPTION_ARG_FILENAME, &options.pressure,
+       "Pressure on the left (ambient on the right), default 0", "P"},
+      {"model", 0, 0, G_OPTION_ARG_FILENAME, &options.model,
+       "Model, or MODEL:VARIANT; else the file's", "NAME"},
+      {"drag", 0, 0, G_OPTION_ARG_FILENAME, &options.drag,
+       "Friction of the sliding bore, > 0 towards the wall; limit or -limit: the maximum", "MU"},
+      {"tolerance", 0, 0, G_OPTION_ARG_FILENAME, &options.tolerance, "Relative error wanted", "T"},
+      {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},
+      {"export", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.exports,
+       "The ring's mesh and fields (.vtu), as a CalculiX problem (.inp), its outlines (.dxf), its "
+       "body (.stl, free: .free.stl)",
+       "FILE"},
+      {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, "JSON to a file or -", "FILE|-"},
+      {"plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.on, SB_CLI_PLOT_HELP, NULL},
+      {"no-plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.off, SB_CLI_NO_PLOT_HELP, NULL},
+      {0},
+  };
+  if (!sb_cli_parse(&argc, &argv, entries, 1, 1, SB_TIMING_NOTE)) {
+    return SB_EXIT_INPUT;
+  }
+  int index;
+  SbFitProblem problem;
+  g_autoptr(SbModel) model = NULL;
+  g_autoptr(SbDocument) document = sb_cli_open(&model, argv[1], options.settings);
+  if (document == NULL || !read_problem(&problem, &index, &options, model)) {
+    return SB_EXIT_INPUT;
+  }
+  int code = sb_cli_check_outputs(NULL, NULL, options.json);
+  code = code == SB_EXIT_DONE ? check_exports(options.exports, &problem) : code;
+  return code == SB_EXIT_DONE ? solve_and_show(&problem, index, &options, model, argv[1]) : code;
 }

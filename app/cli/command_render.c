@@ -28,6 +28,7 @@ typedef struct {
   SbSectionZoom zoom;
   SbGlBackend backend;
   const SbExportFormat *format; // NULL: a sequence
+  const Options *options;
   bool film, sequence, vector, is_study;
   SbStudyKind study;
   char *name; // of a picture in its file's folder: "section.png"; NULL: -o names it
@@ -166,6 +167,17 @@ static bool parse_output(Request *request, const Options *options, int files) {
   return true;
 }
 
+static void refuse_view(const char *view) {
+  size_t count;
+  const SbRenderView *views = sb_render_views(&count);
+  g_autoptr(GString) names = g_string_new(views[0].name);
+  for (size_t i = 1; i < count + SB_STUDY_COUNT; i++) {
+    g_string_append_printf(names, "|%s",
+                           i < count ? views[i].name : sb_study_name((SbStudyKind)(i - count)));
+  }
+  sb_cli_unknown("--view: there is no view", view, names->str, "see sealbench list views");
+}
+
 static bool parse(Request *request, const Options *options, int files) {
   SbRenderOptions *how = &request->how;
   if (options->output == NULL) {
@@ -177,15 +189,7 @@ static bool parse(Request *request, const Options *options, int files) {
   how->at = options->at;
   request->is_study = sb_study_from_name(&request->study, how->view);
   if (!request->is_study && sb_render_view(how->view) == NULL) {
-    size_t count;
-    const SbRenderView *views = sb_render_views(&count);
-    GString *names = g_string_new(views[0].name);
-    for (size_t i = 1; i < count + SB_STUDY_COUNT; i++) {
-      g_string_append_printf(names, "|%s",
-                             i < count ? views[i].name : sb_study_name((SbStudyKind)(i - count)));
-    }
-    sb_cli_unknown("--view: there is no view", how->view, names->str, "see sealbench list views");
-    g_string_free(names, TRUE);
+    refuse_view(how->view);
     return false;
   }
   if (options->size != NULL && !parse_size(&how->width, &how->height, options->size)) {
@@ -443,7 +447,9 @@ static int render(const SbRun *run, const SbDocument *document, const SbMeasured
 }
 
 // What cannot be written is told before the work.
-static int check_outputs(const SbCliFiles *files, const Request *request, const char *output) {
+static int check_outputs(const SbCliFiles *files, void *data) {
+  const Request *request = data;
+  const char *output = request->options->output;
   if (request->name != NULL) {
     g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
     for (int i = 0; i < files->count; i++) {
@@ -463,8 +469,9 @@ static int check_outputs(const SbCliFiles *files, const Request *request, const 
 }
 
 // Computes and draws one file; an exit code.
-static int render_file(const SbCliFile *file, const Request *asked, const Options *options) {
-  Request request = *asked;
+static int render_file(SbCliFiles *files, const SbCliFile *file, void *data) {
+  Request request = *(const Request *)data;
+  const Options *options = request.options;
   const SbModel *model = file->model;
   if (!sb_cli_has_memory(request.is_study ? NULL : model)) {
     return SB_EXIT_IO;
@@ -561,21 +568,15 @@ int sb_command_render(int argc, char **argv) {
       {"dark", 0, 0, G_OPTION_ARG_NONE, &options.dark, "Dark theme", NULL},
       {0},
   };
-  Request request = {0};
-  SbCliFiles files = {.code = SB_EXIT_INPUT};
-  if (sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) &&
-      parse(&request, &options, argc - 1)) {
-    g_auto(GStrv) settings = all_settings(&options);
-    if (sb_cli_files_open(&files, argc, argv, settings, options.output)) {
-      int checked = check_outputs(&files, &request, options.output);
-      sb_cli_files_done(&files, checked);
-      for (const SbCliFile *file;
-           checked == SB_EXIT_DONE && (file = sb_cli_files_next(&files)) != NULL;) {
-        sb_cli_files_done(&files, render_file(file, &request, &options));
-      }
-    }
+  Request request = {.options = &options};
+  if (!sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) ||
+      !parse(&request, &options, argc - 1)) {
+    return SB_EXIT_INPUT;
   }
-  sb_cli_files_close(&files);
+  g_auto(GStrv) settings = all_settings(&options);
+  const SbCliFilesWork work = {settings,      options.output, NULL,
+                               check_outputs, render_file,    &request};
+  const int code = sb_cli_files_run(argc, argv, &work);
   g_free(request.name);
-  return files.code;
+  return code;
 }

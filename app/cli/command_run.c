@@ -12,7 +12,8 @@ typedef struct {
 } Options;
 
 // Whether all that will be written can be: told before the work, not after it. An exit code.
-static int check_outputs(const SbCliFiles *files, const Options *options) {
+static int check_outputs(const SbCliFiles *files, void *data) {
+  const Options *options = data;
   g_autoptr(GPtrArray) all = g_ptr_array_new_with_free_func(g_free);
   for (int i = 0; i < files->count; i++) {
     const SbCliFile *file = &files->file[i];
@@ -75,8 +76,15 @@ static bool has_memory(const SbCliFile *file, bool studies) {
 }
 
 // Computes one file's run, cases and studies, and writes them. An exit code.
-static int run_file(SbCliFiles *files, const SbCliFile *file, const Options *options) {
+static int run_file(SbCliFiles *files, const SbCliFile *file, void *data) {
+  const Options *options = data;
   const SbModel *model = file->model;
+  if (!sb_cli_quiet() && sb_document_kind(file->document) == SB_DOCUMENT_VALVE &&
+      sb_document_path(file->document) != NULL) {
+    sb_cli_name_file(NULL);
+    sb_cli_fail("note: %s is a valve, no scene: its default cycle is run", file->path);
+    sb_cli_name_file(files->count > 1 ? file->path : NULL);
+  }
   g_autofree SbPlan *plan = g_new(SbPlan, 1);
   SbReport report = {0};
   sb_plan_make(plan, model);
@@ -141,23 +149,8 @@ int sb_command_run(int argc, char **argv) {
       {"no-plot", 0, 0, G_OPTION_ARG_NONE, &options.plots.off, "Draws no loop", NULL},
       {0},
   };
-  SbCliFiles files = {.code = SB_EXIT_INPUT};
-  if (sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) &&
-      sb_cli_files_open(&files, argc, argv, options.settings, options.folder)) {
-    int checked = check_outputs(&files, &options);
-    sb_cli_files_done(&files, checked);
-    for (const SbCliFile *file;
-         checked == SB_EXIT_DONE && (file = sb_cli_files_next(&files)) != NULL;) {
-      if (!sb_cli_quiet() && sb_document_kind(file->document) == SB_DOCUMENT_VALVE &&
-          sb_document_path(file->document) != NULL) {
-        sb_cli_name_file(NULL);
-        sb_cli_fail("note: %s is a valve, no scene: its default cycle is run", file->path);
-        sb_cli_name_file(files.count > 1 ? file->path : NULL);
-      }
-      sb_cli_files_done(&files, run_file(&files, file, &options));
-    }
-    sb_cli_files_emit(&files, options.json_target);
-  }
-  sb_cli_files_close(&files);
-  return files.code;
+  const bool good = sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL);
+  const SbCliFilesWork work = {options.settings, options.folder, options.json_target,
+                               check_outputs,    run_file,       &options};
+  return good ? sb_cli_files_run(argc, argv, &work) : SB_EXIT_INPUT;
 }

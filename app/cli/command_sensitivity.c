@@ -140,7 +140,8 @@ static void on_progress(void *data, size_t done, size_t count) {
   sb_progress_update(data, count > 0 ? (double)done / (double)count : 1);
 }
 
-static int differentiate(SbCliFiles *files, const SbCliFile *file, const Options *options) {
+static int differentiate(SbCliFiles *files, const SbCliFile *file, void *data) {
+  const Options *options = data;
   if (!sb_cli_has_memory(file->model)) {
     return SB_EXIT_IO;
   }
@@ -186,22 +187,13 @@ int sb_command_sensitivity(int argc, char **argv) {
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &options.json, SB_CLI_JSON_HELP, "FILE|-"},
       {0},
   };
-  SbCliFiles files = {.code = SB_EXIT_INPUT};
-  if (sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL)) {
-    files.code = read_options(&options);
-    if (files.code == SB_EXIT_DONE &&
-        sb_cli_files_open(&files, argc, argv, options.settings, NULL)) {
-      const int checked = sb_cli_check_outputs(NULL, NULL, options.json);
-      sb_cli_files_done(&files, checked);
-      for (const SbCliFile *file;
-           checked == SB_EXIT_DONE && (file = sb_cli_files_next(&files)) != NULL;) {
-        sb_cli_files_done(&files, differentiate(&files, file, &options));
-      }
-      sb_cli_files_emit(&files, options.json);
-    }
-    g_array_unref(options.parameter);
-    g_array_unref(options.figure);
+  if (!sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL)) {
+    return SB_EXIT_INPUT;
   }
-  sb_cli_files_close(&files);
-  return files.code;
+  int code = read_options(&options);
+  const SbCliFilesWork work = {options.settings, NULL, options.json, NULL, differentiate, &options};
+  code = code == SB_EXIT_DONE ? sb_cli_files_run(argc, argv, &work) : code;
+  g_array_unref(options.parameter);
+  g_array_unref(options.figure);
+  return code;
 }

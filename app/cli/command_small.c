@@ -173,32 +173,29 @@ static void print_plan(const SbPlan *plan) {
   }
 }
 
+static int plan_file(SbCliFiles *files, const SbCliFile *file, void *target) {
+  SbPlan plan;
+  sb_plan_make(&plan, file->model);
+  sb_cases_plan(&plan, file->document);
+  if (target != NULL) {
+    g_ptr_array_add(files->json, sb_results_plan(&plan, file->full));
+  } else if (!sb_cli_quiet()) {
+    sb_cli_files_head(files);
+    print_plan(&plan);
+  }
+  return SB_EXIT_DONE;
+}
+
 int sb_command_plan(int argc, char **argv) {
-  char *target = NULL;
-  char **settings = NULL;
+  char *target = NULL, **settings = NULL;
   const GOptionEntry entries[] = {
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &settings, SB_CLI_SET_HELP, "KEY=VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, SB_CLI_JSON_HELP, "FILE|-"},
       {0},
   };
-  SbCliFiles files = {.code = SB_EXIT_INPUT};
-  if (sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) &&
-      sb_cli_files_open(&files, argc, argv, settings, NULL)) {
-    for (const SbCliFile *file; (file = sb_cli_files_next(&files)) != NULL;) {
-      SbPlan plan;
-      sb_plan_make(&plan, file->model);
-      sb_cases_plan(&plan, file->document);
-      if (target != NULL) {
-        g_ptr_array_add(files.json, sb_results_plan(&plan, file->full));
-      } else if (!sb_cli_quiet()) {
-        sb_cli_files_head(&files);
-        print_plan(&plan);
-      }
-    }
-    sb_cli_files_emit(&files, target);
-  }
-  sb_cli_files_close(&files);
-  return files.code;
+  const bool good = sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL);
+  const SbCliFilesWork work = {settings, NULL, target, NULL, plan_file, target};
+  return good ? sb_cli_files_run(argc, argv, &work) : SB_EXIT_INPUT;
 }
 
 // ---- asperity ----

@@ -45,7 +45,9 @@ static int refuse_twins(const SbCliFiles *files, bool in_folders) {
   return SB_EXIT_DONE;
 }
 
-bool sb_cli_files_open(SbCliFiles *files, int argc, char **argv, char **settings,
+// Opens the operands; false if no file is sound, or they cannot be told apart: files->code is then
+// the exit code.
+static bool open_files(SbCliFiles *files, int argc, char **argv, char **settings,
                        const char *folder) {
   *files = (SbCliFiles){.count = argc - 1, .at = -1};
   files->file = g_new0(SbCliFile, files->count);
@@ -73,7 +75,7 @@ bool sb_cli_files_open(SbCliFiles *files, int argc, char **argv, char **settings
   return any;
 }
 
-void sb_cli_files_close(SbCliFiles *files) {
+static void close_files(SbCliFiles *files) {
   sb_cli_name_file(NULL);
   for (int i = 0; i < files->count; i++) {
     SbCliFile *file = &files->file[i];
@@ -84,12 +86,11 @@ void sb_cli_files_close(SbCliFiles *files) {
     g_free(file->folder);
   }
   g_free(files->file);
-  if (files->json != NULL) {
-    g_ptr_array_unref(files->json);
-  }
+  g_ptr_array_unref(files->json);
 }
 
-SbCliFile *sb_cli_files_next(SbCliFiles *files) {
+// Returns the next sound file; NULL after the last one and after an interrupt.
+static SbCliFile *next_file(SbCliFiles *files) {
   while (!sb_cli_interrupted(NULL) && ++files->at < files->count) {
     SbCliFile *file = &files->file[files->at];
     if (file->document != NULL) {
@@ -116,27 +117,38 @@ void sb_cli_files_head(SbCliFiles *files) {
   }
 }
 
-void sb_cli_files_done(SbCliFiles *files, int code) {
-  files->code = MAX(files->code, code);
-}
-
-void sb_cli_files_emit(SbCliFiles *files, const char *target) {
-  GPtrArray *json = files->json;
+// Writes the documents: that of the only operand, or an array of them. An exit code.
+static int emit(const GPtrArray *json, int count, const char *target) {
   if (target == NULL || json->len == 0) {
-    return;
+    return SB_EXIT_DONE;
   }
-  if (files->count == 1) {
-    sb_cli_files_done(files, sb_cli_emit(json->pdata[0], target));
-    return;
+  if (count == 1) {
+    return sb_cli_emit(json->pdata[0], target);
   }
   // Strings hold no line ends: each of those begins a line of the document.
-  GString *text = g_string_new("[");
+  g_autoptr(GString) text = g_string_new("[");
   for (guint i = 0; i < json->len; i++) {
     g_auto(GStrv) lines = g_strsplit(g_strchomp(json->pdata[i]), "\n", -1);
     g_autofree char *inside = g_strjoinv("\n  ", lines);
     g_string_append_printf(text, "%s\n  %s", i > 0 ? "," : "", inside);
   }
   g_string_append(text, "\n]\n");
-  sb_cli_files_done(files, sb_cli_emit(text->str, target));
-  g_string_free(text, TRUE);
+  return sb_cli_emit(text->str, target);
+}
+
+int sb_cli_files_run(int argc, char **argv, const SbCliFilesWork *work) {
+  SbCliFiles files;
+  if (open_files(&files, argc, argv, work->settings, work->folder)) {
+    const int checked = work->check != NULL ? work->check(&files, work->data)
+                                            : sb_cli_check_outputs(NULL, NULL, work->json);
+    files.code = MAX(files.code, checked);
+    for (const SbCliFile *file; checked == SB_EXIT_DONE && (file = next_file(&files)) != NULL;) {
+      const int code = work->work(&files, file, work->data);
+      files.code = MAX(files.code, code);
+    }
+    const int written = emit(files.json, files.count, work->json);
+    files.code = MAX(files.code, written);
+  }
+  close_files(&files);
+  return files.code;
 }

@@ -229,65 +229,98 @@ static void put_balance(GString *out, const SbCaeMesh *mesh, const Rigid rigid[]
   }
 }
 
-void sb_cae_write_calculix(GString *out, const SbCaeMesh *mesh) {
-  // A straight element of a rigid ring is a chord of the wedge: its middle stands at the radius.
-  const double chord = 1.0 / cos(M_PI / 180.0), mm = 1e3, d = mm * mesh->body.section_diameter;
-  const SbRingBody *body = &mesh->body;
-  const SbRingLoad *load = &mesh->load;
-  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, drift = 0.0;
+// What the parts of a file share.
+typedef struct {
+  const SbCaeMesh *mesh;
+  double low[2], high[2]; // ends of the free section, axial (moved by `drift`) and radial [mm]
+  double drift;           // mean axial displacement [mm]
+  double wall;            // place of the wall that fluid presses the ring against [mm]
+  bool pressed;
+  Rigid rigid[3]; // [count] floor, bore, and with fluid a wall
+  int count;
+} Problem;
+
+// Finds the ends of the free section. It is placed where the pressed ring will be: only its place
+// relative to the wall matters.
+static void find_ends(Problem *of) {
+  const double mm = 1e3;
+  const SbCaeMesh *mesh = of->mesh;
+  for (int k = 0; k < 2; k++) {
+    of->low[k] = HUGE_VAL;
+    of->high[k] = -HUGE_VAL;
+  }
   for (int i = 0; i < mesh->nodes; i++) {
-    drift += mm * mesh->fields.displacement[2 * i] / mesh->nodes;
+    of->drift += mm * mesh->fields.displacement[2 * i] / mesh->nodes;
     for (int k = 0; k < 2; k++) {
-      low[k] = fmin(low[k], mm * sb_cae_free_place(mesh, i, k));
-      high[k] = fmax(high[k], mm * sb_cae_free_place(mesh, i, k));
+      of->low[k] = fmin(of->low[k], mm * sb_cae_free_place(mesh, i, k));
+      of->high[k] = fmax(of->high[k], mm * sb_cae_free_place(mesh, i, k));
     }
   }
-  // The free ring stands where the pressed one will: only its place beside the wall counts.
-  low[0] += drift;
-  high[0] += drift;
-  const bool pressed = load->pressure_left != 0.0 || load->pressure_right != 0.0;
+  of->low[0] += of->drift;
+  of->high[0] += of->drift;
+}
+
+static void place_rigid(Problem *of) {
+  // A straight element of a rigid ring is a chord of the wedge: its middle stands at the radius.
+  const double chord = 1.0 / cos(M_PI / 180.0), mm = 1e3;
+  const SbCaeMesh *mesh = of->mesh;
+  const SbRingLoad *load = &mesh->load;
+  const double d = mm * mesh->body.section_diameter;
   const bool right = load->pressure_left > load->pressure_right;
-  const double wall = mm * (right ? load->wall_right : load->wall_left);
-  Rigid rigid[3] = {
-      {"FLOOR", 0, low[0] - d, high[0] + d, low[1] - 1e-3, low[1] - 0.3, {0, -1}, 0, 0, 0},
-      {"BORE",
-       0,
-       low[0] - d,
-       high[0] + d,
-       high[1] + 0.02 * d,
-       high[1] + 0.02 * d + 0.3,
-       {0, 1},
-       0,
-       0,
-       0},
-      {"WALL",
-       1,
-       0.2 * low[1],
-       high[1] + d,
-       right ? high[0] + 0.3 * d : low[0] - 0.3 * d,
-       0,
-       {right ? 1 : -1, 0},
-       0,
-       0,
-       0}};
-  const int count = pressed && isfinite(wall) ? 3 : 2;
-  rigid[0].move = chord * mm * load->floor_radius - rigid[0].face;
-  rigid[1].move = chord * mm * load->bore_radius - rigid[1].face;
-  rigid[2].move = wall - rigid[2].face;
-  rigid[2].back = rigid[2].face + (right ? 0.3 : -0.3);
-  for (int k = 0; k < count; k++) {
-    rigid[k].first = mesh->nodes + 1 + k * 2 * (PIECES + 1);
-    rigid[k].first_element = mesh->elements + 1 + k * PIECES;
+  const double *low = of->low, *high = of->high;
+  const double floor = low[1] - 1e-3, bore = high[1] + 0.02 * d;
+  const double side = right ? high[0] + 0.3 * d : low[0] - 0.3 * d;
+  of->pressed = load->pressure_left != 0.0 || load->pressure_right != 0.0;
+  of->wall = mm * (right ? load->wall_right : load->wall_left);
+  of->count = of->pressed && isfinite(of->wall) ? 3 : 2;
+  const double outer = low[0] - d, inner = high[0] + d;
+  const Rigid rigid[3] = {{"FLOOR",
+                           0,
+                           outer,
+                           inner,
+                           floor,
+                           low[1] - 0.3,
+                           {0, -1},
+                           chord * mm * load->floor_radius - floor,
+                           0,
+                           0},
+                          {"BORE",
+                           0,
+                           outer,
+                           inner,
+                           bore,
+                           bore + 0.3,
+                           {0, 1},
+                           chord * mm * load->bore_radius - bore,
+                           0,
+                           0},
+                          {"WALL",
+                           1,
+                           0.2 * low[1],
+                           high[1] + d,
+                           side,
+                           side + (right ? 0.3 : -0.3),
+                           {right ? 1 : -1, 0},
+                           of->wall - side,
+                           0,
+                           0}};
+  for (int k = 0; k < of->count; k++) {
+    of->rigid[k] = rigid[k];
+    of->rigid[k].first = mesh->nodes + 1 + k * 2 * (PIECES + 1);
+    of->rigid[k].first_element = mesh->elements + 1 + k * PIECES;
   }
-  g_string_append_printf(out, "** A seal ring by sealbench: mm, N, MPa; r = x, axial = y.\n"
-                              "** Forces are those of 2 degrees of the ring, its 180th part.\n");
-  sb_cae_put(out, "** Bore load by sealbench [N], whole ring: ", mesh->result.bore_force);
-  g_string_append(out, "\n*NODE, NSET=ALL\n");
+}
+
+// Returns the node in the middle of the section.
+static int put_nodes(GString *out, const Problem *of) {
+  const SbCaeMesh *mesh = of->mesh;
+  const double mm = 1e3, *low = of->low, *high = of->high;
   double nearest = HUGE_VAL;
-  int middle = 0; // holds the ring axially while nothing else does
+  int middle = 0;
+  g_string_append(out, "\n*NODE, NSET=ALL\n");
   for (int i = 0; i < mesh->nodes; i++) {
     const double r = mm * sb_cae_free_place(mesh, i, 1),
-                 z = mm * sb_cae_free_place(mesh, i, 0) + drift;
+                 z = mm * sb_cae_free_place(mesh, i, 0) + of->drift;
     g_string_append_printf(out, "%d", i + 1);
     sb_cae_put(out, ", ", r);
     sb_cae_put(out, ", ", z);
@@ -296,16 +329,14 @@ void sb_cae_write_calculix(GString *out, const SbCaeMesh *mesh) {
     middle = away < nearest ? i + 1 : middle;
     nearest = fmin(nearest, away);
   }
-  for (int k = 0; k < count; k++) {
-    put_rigid_nodes(out, &rigid[k]);
+  for (int k = 0; k < of->count; k++) {
+    put_rigid_nodes(out, &of->rigid[k]);
   }
-  const double squeeze = 1.0 - mesh->result.thickness / (1e-3 * (high[1] - low[1]));
-  const bool started = pressed || squeeze > FOLLOWED;
-  Start start = {0};
-  if (started) {
-    start = start_of(mesh, drift, wall, rigid[count - 1].first + 2 * (PIECES + 1),
-                     rigid[count - 1].first_element + PIECES);
-  }
+  return middle;
+}
+
+static void put_elements(GString *out, const Problem *of, int face_number[3]) {
+  const SbCaeMesh *mesh = of->mesh;
   g_string_append(out, "*ELEMENT, TYPE=CAX6, ELSET=RUBBER\n");
   for (int i = 0; i < 6 * mesh->elements; i++) {
     if (i % 6 == 0) {
@@ -313,26 +344,34 @@ void sb_cae_write_calculix(GString *out, const SbCaeMesh *mesh) {
     }
     g_string_append_printf(out, ", %d%s", mesh->section.triangle[i] + 1, i % 6 == 5 ? "\n" : "");
   }
-  int face_number[3];
-  for (int k = 0; k < count; k++) {
-    face_number[k] = put_rigid_elements(out, &rigid[k]);
-    g_string_append_printf(out, "*NSET, NSET=N%s, GENERATE\n%d, %d\n", rigid[k].name,
-                           rigid[k].first, rigid[k].first + 2 * PIECES + 1);
+  for (int k = 0; k < of->count; k++) {
+    const Rigid *rigid = &of->rigid[k];
+    face_number[k] = put_rigid_elements(out, rigid);
+    g_string_append_printf(out, "*NSET, NSET=N%s, GENERATE\n%d, %d\n", rigid->name, rigid->first,
+                           rigid->first + 2 * PIECES + 1);
   }
-  // A contact's faces look towards it, or lie in it.
-  Face *face = faces_of(mesh);
-  for (int k = 0; k < count; k++) {
-    g_string_append_printf(out, "*SURFACE, NAME=S%s, TYPE=ELEMENT\n", rigid[k].name);
-    for (int i = 0; i < mesh->sides; i++) {
-      if (rigid[k].out[0] * face[i].out[0] + rigid[k].out[1] * face[i].out[1] > 0.25) {
+}
+
+// The faces of each contact pair: those of the ring look towards the rigid one, or lie in it.
+static void put_surfaces(GString *out, const Problem *of, const Face *face,
+                         const int face_number[3]) {
+  for (int k = 0; k < of->count; k++) {
+    const Rigid *rigid = &of->rigid[k];
+    g_string_append_printf(out, "*SURFACE, NAME=S%s, TYPE=ELEMENT\n", rigid->name);
+    for (int i = 0; i < of->mesh->sides; i++) {
+      if (rigid->out[0] * face[i].out[0] + rigid->out[1] * face[i].out[1] > 0.25) {
         g_string_append_printf(out, "%d, S%d\n", face[i].element, face[i].face);
       }
     }
-    g_string_append_printf(out, "*SURFACE, NAME=M%s, TYPE=ELEMENT\n", rigid[k].name);
+    g_string_append_printf(out, "*SURFACE, NAME=M%s, TYPE=ELEMENT\n", rigid->name);
     for (int i = 0; i < PIECES; i++) {
-      g_string_append_printf(out, "%d, S%d\n", rigid[k].first_element + i, face_number[k]);
+      g_string_append_printf(out, "%d, S%d\n", rigid->first_element + i, face_number[k]);
     }
   }
+}
+
+static void put_materials(GString *out, const Problem *of) {
+  const SbRingBody *body = &of->mesh->body;
   const double shear = 1e-6 * body->modulus / (2.0 * (1.0 + body->poisson_ratio));
   const double bulk = 1e-6 * body->modulus / (3.0 * (1.0 - 2.0 * body->poisson_ratio));
   g_string_append_printf(out, "*MATERIAL, NAME=RUBBER\n*HYPERELASTIC, %s\n",
@@ -345,27 +384,53 @@ void sb_cae_write_calculix(GString *out, const SbCaeMesh *mesh) {
   g_string_append(out, "\n*SOLID SECTION, ELSET=RUBBER, MATERIAL=RUBBER\n"
                        "** So soft that its own stress does not count; all its nodes are moved.\n"
                        "*MATERIAL, NAME=RIGID\n*ELASTIC\n1e-6, 0\n");
-  for (int k = 0; k < count; k++) {
-    g_string_append_printf(out, "*SOLID SECTION, ELSET=%s, MATERIAL=RIGID\n", rigid[k].name);
+  for (int k = 0; k < of->count; k++) {
+    g_string_append_printf(out, "*SOLID SECTION, ELSET=%s, MATERIAL=RIGID\n", of->rigid[k].name);
   }
-  if (started) {
-    put_springs(out, mesh, &start, drift);
-  }
+}
+
+static void put_contacts(GString *out, const Problem *of) {
   g_string_append(out, "*SURFACE INTERACTION, NAME=SMOOTH\n"
                        "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n");
   sb_cae_put(out, "", STIFFNESS);
   g_string_append(out, ", 0.0025, 0.01\n");
-  for (int k = 0; k < count; k++) {
+  for (int k = 0; k < of->count; k++) {
     g_string_append_printf(out,
                            "*CONTACT PAIR, INTERACTION=SMOOTH, TYPE=SURFACE TO SURFACE\nS%s, "
                            "M%s\n",
-                           rigid[k].name, rigid[k].name);
+                           of->rigid[k].name, of->rigid[k].name);
   }
+}
+
+void sb_cae_write_calculix(GString *out, const SbCaeMesh *mesh) {
+  Problem of = {.mesh = mesh};
+  find_ends(&of);
+  place_rigid(&of);
+  g_string_append_printf(out, "** A seal ring by sealbench: mm, N, MPa; r = x, axial = y.\n"
+                              "** Forces are those of 2 degrees of the ring, its 180th part.\n");
+  sb_cae_put(out, "** Bore load by sealbench [N], whole ring: ", mesh->result.bore_force);
+  const int middle = put_nodes(out, &of); // holds the ring axially while nothing else does
+  const double squeeze = 1.0 - mesh->result.thickness / (1e-3 * (of.high[1] - of.low[1]));
+  const bool started = of.pressed || squeeze > FOLLOWED;
+  const Rigid *last = &of.rigid[of.count - 1];
+  Start start = {0};
   if (started) {
-    put_balance(out, mesh, rigid, count, middle, &start, face, pressed);
+    start = start_of(mesh, of.drift, of.wall, last->first + 2 * (PIECES + 1),
+                     last->first_element + PIECES);
+  }
+  int face_number[3];
+  g_autofree Face *face = faces_of(mesh);
+  put_elements(out, &of, face_number);
+  put_surfaces(out, &of, face, face_number);
+  put_materials(out, &of);
+  if (started) {
+    put_springs(out, mesh, &start, of.drift);
+  }
+  put_contacts(out, &of);
+  if (started) {
+    put_balance(out, mesh, of.rigid, of.count, middle, &start, face, of.pressed);
     g_free(start.move);
   } else {
-    put_path(out, rigid, count, middle);
+    put_path(out, of.rigid, of.count, middle);
   }
-  g_free(face);
 }

@@ -195,6 +195,33 @@ static char *told_text(const SbCalibration *of, size_t j) {
   return g_strdup_printf("only with %s", *symbol != '\0' ? symbol : of->parameter[most].name);
 }
 
+// Fills the row of a parameter, whose texts `texts` owns.
+static void fill_row(SbCalibrationRow *row, GPtrArray *texts, const SbCalibration *of, size_t j) {
+  const SbCalibrated *one = &of->parameter[j];
+  g_autofree char *low = value_text(one, one->interval[0], false);
+  g_autofree char *high = value_text(one, one->interval[1], false);
+  char *const own[] = {value_text(one, one->before, true), value_text(one, one->estimate, false),
+                       g_strdup_printf("%s to %s", low, high), told_text(of, j)};
+  for (size_t i = 0; i < G_N_ELEMENTS(own); i++) {
+    g_ptr_array_add(texts, own[i]);
+  }
+  *row = (SbCalibrationRow){.name = one->name,
+                            .symbol = sb_param(one->id)->symbol,
+                            .before = one->before,
+                            .estimate = one->estimate,
+                            .low = one->interval[0],
+                            .high = one->interval[1],
+                            .prior_low = one->prior[0],
+                            .prior_high = one->prior[1],
+                            .prior = &one->distribution,
+                            .texts = {own[0], own[1], own[2]},
+                            .identifiable = own[3],
+                            .role = one->identifiable == SB_IDENTIFIABLE_YES ? SB_ROLE_PASS
+                                    : one->identifiable == SB_IDENTIFIABLE_WITH_OTHER
+                                        ? SB_ROLE_WARN
+                                        : SB_ROLE_SECOND};
+}
+
 void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *of,
                               const SbStudyFile *study, bool dark) {
   g_autoptr(GPtrArray) texts = g_ptr_array_new_with_free_func(g_free);
@@ -202,33 +229,8 @@ void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *of,
   SbCalibrationLoop *loop = g_new0(SbCalibrationLoop, of->curves + 1);
   bool all_identifiable = true;
   for (size_t j = 0; j < of->parameters; j++) {
-    const SbCalibrated *one = &of->parameter[j];
-    const double values[] = {one->before, one->estimate};
-    row[j] = (SbCalibrationRow){.name = one->name,
-                                .symbol = sb_param(one->id)->symbol,
-                                .before = one->before,
-                                .estimate = one->estimate,
-                                .low = one->interval[0],
-                                .high = one->interval[1],
-                                .prior_low = one->prior[0],
-                                .prior_high = one->prior[1],
-                                .prior = &one->distribution,
-                                .role = one->identifiable == SB_IDENTIFIABLE_YES ? SB_ROLE_PASS
-                                        : one->identifiable == SB_IDENTIFIABLE_WITH_OTHER
-                                            ? SB_ROLE_WARN
-                                            : SB_ROLE_SECOND};
-    all_identifiable = all_identifiable && one->identifiable == SB_IDENTIFIABLE_YES;
-    for (int i = 0; i < 3; i++) {
-      g_autofree char *low = value_text(one, one->interval[0], false);
-      g_autofree char *high = value_text(one, one->interval[1], false);
-      char *text =
-          i < 2 ? value_text(one, values[i], i == 0) : g_strdup_printf("%s to %s", low, high);
-      g_ptr_array_add(texts, text);
-      row[j].texts[i] = text;
-    }
-    char *told = told_text(of, j);
-    g_ptr_array_add(texts, told);
-    row[j].identifiable = told;
+    fill_row(&row[j], texts, of, j);
+    all_identifiable = all_identifiable && of->parameter[j].identifiable == SB_IDENTIFIABLE_YES;
   }
   for (size_t c = 0; c < of->curves; c++) {
     const SbCalibratedCurve *curve = &of->curve[c];

@@ -387,6 +387,22 @@ static void put_follows(SbJson *json, const SbModel *model) {
   sb_json_object_end(json);
 }
 
+static void put_models(SbJson *json, const SbModel *model) {
+  static const struct {
+    const char *key;
+    SbParamId id;
+  } models[] = {{"set", SB_P_MODELS_SET},         {"fit", SB_P_MODELS_FIT},
+                {"film", SB_P_MODELS_FILM},       {"film_time", SB_P_MODELS_FILM_TIME},
+                {"surface", SB_P_MODELS_SURFACE}, {"asperities", SB_P_MODELS_ASPERITIES},
+                {"inlet", SB_P_MODELS_INLET},     {"friction", SB_P_MODELS_FRICTION},
+                {"motion", SB_P_MODELS_MOTION}};
+  sb_json_object(json, "models");
+  for (size_t i = 0; i < G_N_ELEMENTS(models); i++) {
+    put_choice(json, models[i].key, model, models[i].id);
+  }
+  sb_json_object_end(json);
+}
+
 char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   const SbSummary *summary = sb_run_summary(run);
   const SbModel *model = sb_run_model(run);
@@ -396,17 +412,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   sb_json_string(&json, "version", sb_version());
   sb_json_string(&json, "parameters_sha256", info->sha256);
   sb_json_bool(&json, "partial", info->partial);
-  sb_json_object(&json, "models");
-  put_choice(&json, "set", model, SB_P_MODELS_SET);
-  put_choice(&json, "fit", model, SB_P_MODELS_FIT);
-  put_choice(&json, "film", model, SB_P_MODELS_FILM);
-  put_choice(&json, "film_time", model, SB_P_MODELS_FILM_TIME);
-  put_choice(&json, "surface", model, SB_P_MODELS_SURFACE);
-  put_choice(&json, "asperities", model, SB_P_MODELS_ASPERITIES);
-  put_choice(&json, "inlet", model, SB_P_MODELS_INLET);
-  put_choice(&json, "friction", model, SB_P_MODELS_FRICTION);
-  put_choice(&json, "motion", model, SB_P_MODELS_MOTION);
-  sb_json_object_end(&json);
+  put_models(&json, model);
   put_follows(&json, model);
   sb_json_object(&json, "cycle");
   sb_json_string(&json, "outcome", sb_outcome_name(summary->outcome));
@@ -425,12 +431,12 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   }
   sb_json_object_end(&json);
   put_bodies(&json, run);
-  sb_json_object(&json, "people");
-  put_figures(&json, summary, "people.");
-  sb_json_object_end(&json);
-  sb_json_object(&json, "dose");
-  put_figures(&json, summary, "dose.");
-  sb_json_object_end(&json);
+  static const char *const scopes[][2] = {{"people", "people."}, {"dose", "dose."}};
+  for (size_t i = 0; i < G_N_ELEMENTS(scopes); i++) {
+    sb_json_object(&json, scopes[i][0]);
+    put_figures(&json, summary, scopes[i][1]);
+    sb_json_object_end(&json);
+  }
   put_shelf(&json, run);
   put_errors(&json, run);
   sb_json_warnings(&json, &summary->warnings);
